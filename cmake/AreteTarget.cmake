@@ -1,0 +1,46 @@
+# arete_layer(NAME SOURCES ... PUBLIC ... PRIVATE ...): one layer of the house.
+#
+# A layer may include the layers it links and nothing else: each layer's headers are reached through
+# an include folder of its own in the build tree (build/.../include/<layer>/<layer> -> source/<layer>),
+# so that an include of a layer that is not linked does not compile.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}")
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+endif()
+
+add_library(arete_options INTERFACE)
+target_compile_options(arete_options INTERFACE
+  -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wcast-qual -Woverloaded-virtual
+  # The same numbers on every machine: no contraction of a*b+c into a fused operation.
+  -ffp-contract=off)
+if(ARETE_WERROR)
+  target_compile_options(arete_options INTERFACE -Werror)
+endif()
+if(ARETE_SANITIZE)
+  target_compile_options(arete_options INTERFACE -fsanitize=${ARETE_SANITIZE} -fno-omit-frame-pointer -g)
+  target_link_options(arete_options INTERFACE -fsanitize=${ARETE_SANITIZE})
+endif()
+
+function(arete_include_root LAYER)
+  set(root "${CMAKE_BINARY_DIR}/include/${LAYER}")
+  file(MAKE_DIRECTORY "${root}")
+  file(CREATE_LINK "${CMAKE_SOURCE_DIR}/${LAYER}" "${root}/${LAYER}" SYMBOLIC)
+  set(ARETE_INCLUDE_ROOT "${root}" PARENT_SCOPE)
+endfunction()
+
+function(arete_layer NAME)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  arete_include_root(${NAME})
+  add_library(arete_${NAME} STATIC ${ARG_SOURCES})
+  add_library(arete::${NAME} ALIAS arete_${NAME})
+  target_include_directories(arete_${NAME} PUBLIC "${ARETE_INCLUDE_ROOT}")
+  target_link_libraries(arete_${NAME} PUBLIC ${ARG_PUBLIC} PRIVATE arete_options ${ARG_PRIVATE})
+endfunction()
