@@ -10,15 +10,15 @@ namespace arete {
 
 /// What kind of thing went wrong. The command line maps each to an exit code (README, "Exit codes").
 enum class ErrorCode {
-  usage,         ///< an argument that makes no sense
-  notFound,      ///< a file or layer that is not there
-  unreadable,    ///< a file that cannot be read or written: permissions, disk, truncated
-  unsupported,   ///< a format or feature this build does not know
-  corrupt,       ///< a file that is damaged, altered or hostile
-  invalidData,   ///< data that parses and makes no sense
-  degenerate,    ///< geometry without area: one row, all collinear, no valid sample
-  brokenPromise, ///< a stated bound or a law does not hold
-  interrupted,   ///< the caller asked to stop
+  usage,          ///< an argument that makes no sense
+  notFound,       ///< a file or layer that is not there
+  unreadable,     ///< a file that cannot be read or written: permissions, disk, truncated
+  unsupported,    ///< a format or feature this build does not know
+  corrupt,        ///< a file that is damaged, altered or hostile
+  invalidData,    ///< data that parses and makes no sense
+  degenerate,     ///< geometry without area: one row, all collinear, no valid sample
+  brokenPromise,  ///< a stated bound or a law does not hold
+  interrupted,    ///< the caller asked to stop
 };
 
 std::string_view toString(ErrorCode code);

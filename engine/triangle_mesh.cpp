@@ -16,7 +16,8 @@ Status TriangleMesh::validate() const {
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (const std::uint32_t v : triangles[t])
       if (v >= positions.size())
-        return failure(ErrorCode::invalidData, fmt::format("triangle {} names vertex {} of {}", t, v, positions.size()));
+        return failure(ErrorCode::invalidData,
+                       fmt::format("triangle {} names vertex {} of {}", t, v, positions.size()));
   return {};
 }
 

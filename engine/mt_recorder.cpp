@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// While recording, a node is a removal and a triangle is a birth; both are numbered bottom-up. Saturated
+// errors and spheres are complete the moment a removal is recorded, because its children (the removals that
+// bore its star) are of earlier batches: the saturated error is the largest of its floor's errors and its
+// children's, the sphere grows to enclose the children's.
+//
+// finish() renumbers. Nodes: by falling saturated error, and among equals the later removal first, so that
+// parents come before children (a parent is removed later and is at least as saturated). A counting sort over
+// the 16-bit codes does it in O(N). Vertices: the root's, then one per node. Triangles: the root's, then the
+// slots of the nodes in order. One pass copies the stars and notes where each birth went; a second pass lets
+// each node fill its floor and sign as the remover of its floor's triangles. Every element is written once,
+// by one node, so both passes are parallel.
+#include "engine/mt_recorder.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cassert>
+#include <cmath>
+#include <memory>
+
+namespace arete {
+namespace {
+
+// A parent's radius is widened a little beyond what rounding needs, so that "child touches => parent touches"
+// survives the arithmetic of any later distance test.
+constexpr double kWiden = 1 + 1e-6;
+
+Sphere rounded(double x, double y, double z, double radius) {
+  Sphere s{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), 0};
+  const double moved = std::sqrt((s.x - x) * (s.x - x) + (s.y - y) * (s.y - y) + (s.z - z) * (s.z - z));
+  s.radius = std::nextafter(static_cast<float>((radius + moved) * kWiden), INFINITY);
+  return s;
+}
+
+struct Ball {
+  double x, y, z, radius;
+
+  void enclose(double px, double py, double pz, double pRadius) {
+    const double dx = px - x, dy = py - y, dz = pz - z;
+    const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
+    if (distance + pRadius <= radius) return;
+    if (distance + radius <= pRadius) {
+      *this = {px, py, pz, pRadius};
+      return;
+    }
+    const double grown = (distance + radius + pRadius) / 2, shift = (grown - radius) / distance;
+    x += dx * shift;
+    y += dy * shift;
+    z += dz * shift;
+    radius = grown;
+  }
+};
+
+struct OwnedMt {
+  std::vector<std::array<std::uint32_t, 3>> rootTriangles;
+  std::unique_ptr<std::uint32_t[]> slotBegin, link, remover, floor, creatorHint;
+  std::unique_ptr<std::uint16_t[]> error, below, above, saturatedError;
+  std::unique_ptr<Sphere[]> sphere;
+};
+
+template <class T>
+std::span<const T> view(const std::unique_ptr<T[]>& array, std::size_t size) {
+  return {array.get(), size};
+}
+
+constexpr std::size_t kGrain = 1 << 13;
+
+template <class Body>
+void forRange(std::size_t size, const Body& body) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size, kGrain), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) body(static_cast<std::uint32_t>(i));
+  });
+}
+
+}  // namespace
+
+MtRecorder::MtRecorder(std::uint32_t finestTriangles, OutwardScale scale, MetricFrame metric)
+    : finestTriangles_(finestTriangles), scale_(scale), metric_(metric) {
+  slotBegin_.resize(1);
+  slotBegin_[0] = 0;
+}
+
+std::uint32_t MtRecorder::beginBatch(std::span<const std::uint8_t> linkSizes) {
+  const std::uint32_t first = removals_;
+  const std::size_t count = linkSizes.size();
+  slotBegin_.resize(removals_ + count + 1);
+  for (std::size_t i = 0; i < count; ++i) slotBegin_[first + i + 1] = slotBegin_[first + i] + linkSizes[i];
+  removals_ += static_cast<std::uint32_t>(count);
+  vertex_.resize(removals_);
+  saturated_.resize(removals_);
+  sphere_.resize(removals_);
+  const std::size_t slots = slotBegin_[removals_], births = slots - 2 * std::size_t(removals_);
+  link_.resize(slots);
+  ceiling_.resize(slots);
+  error_.resize(births);
+  below_.resize(births);
+  above_.resize(births);
+  return first;
+}
+
+void MtRecorder::record(std::uint32_t removal, const VertexRemoval& what) {
+  const std::uint32_t begin = slotBegin_[removal];
+  const std::size_t slots = what.link.size();
+  assert(slots == slotBegin_[removal + 1] - begin && slots >= 3);
+  assert(what.ceiling.size() == slots - (what.isOpen ? 1 : 0) && what.floorError.size() == slots - 2);
+
+  vertex_[removal] = what.vertex;
+  for (std::size_t i = 0; i < slots; ++i) {
+    link_[begin + i] = what.link[i];
+    ceiling_[begin + i] = i < what.ceiling.size() ? what.ceiling[i] : kNone;
+  }
+
+  std::uint16_t saturated = 0;
+  const std::size_t firstFloor = begin - 2 * std::size_t(removal);
+  for (std::size_t i = 0; i < slots - 2; ++i) {
+    error_[firstFloor + i] = what.floorError[i];
+    below_[firstFloor + i] = what.floorBelow[i];
+    above_[firstFloor + i] = what.floorAbove[i];
+    saturated = std::max(saturated, what.floorError[i]);
+  }
+
+  // Start from the box's centre: a better seed than any one vertex, and independent of where the link starts.
+  Vec3 low = what.metricPositions[0], high = low;
+  for (const Vec3& p : what.metricPositions) {
+    low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y), std::fmin(low.z, p.z)};
+    high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y), std::fmax(high.z, p.z)};
+  }
+  Ball ball{(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2, 0};
+  double squared = 0;
+  for (const Vec3& p : what.metricPositions)
+    squared = std::fmax(squared, (p.x - ball.x) * (p.x - ball.x) + (p.y - ball.y) * (p.y - ball.y) +
+                                     (p.z - ball.z) * (p.z - ball.z));
+  ball.radius = std::sqrt(squared);
+  for (const std::uint32_t child : what.ceilingBearer) {
+    if (child == kNone) continue;
+    saturated = std::max(saturated, saturated_[child]);
+    const Sphere& s = sphere_[child];
+    ball.enclose(s.x, s.y, s.z, s.radius * kWiden);
+  }
+  saturated_[removal] = saturated;
+  sphere_[removal] = rounded(ball.x, ball.y, ball.z, ball.radius);
+}
+
+MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertices,
+                                      std::span<const SurvivingTriangle> surviving,
+                                      std::uint32_t callerVertexCount,
+                                      std::vector<std::uint32_t>& vertexOrder) {
+  const std::uint32_t nodes = removals_;
+  const std::uint32_t slots = slotBegin_[removals_];
+  const std::uint32_t roots = static_cast<std::uint32_t>(surviving.size());
+  const std::uint32_t rootVertexCount = static_cast<std::uint32_t>(rootVertices.size());
+  const std::uint32_t births = finestTriangles_ + slots - 2 * nodes;
+
+  // removalOf[n]: falling code, later removals first.
+  std::vector<std::uint32_t> removalOf(nodes), nodeOf(nodes);
+  {
+    std::vector<std::uint32_t> begin(std::size_t(OutwardScale::kMaxCode) + 2, 0);
+    for (std::uint32_t r = 0; r < nodes; ++r)
+      ++begin[std::size_t(OutwardScale::kMaxCode - saturated_[r]) + 1];
+    for (std::size_t c = 1; c < begin.size(); ++c) begin[c] += begin[c - 1];
+    for (std::uint32_t r = nodes; r-- > 0;) {
+      const std::uint32_t n = begin[std::size_t(OutwardScale::kMaxCode - saturated_[r])]++;
+      removalOf[n] = r;
+      nodeOf[r] = n;
+    }
+  }
+  std::vector<std::uint32_t>().swap(nodeOf);
+
+  vertexOrder.resize(std::size_t(rootVertexCount) + nodes);
+  std::vector<std::uint32_t> newVertex(callerVertexCount, kNone);
+  for (std::uint32_t i = 0; i < rootVertexCount; ++i) {
+    vertexOrder[i] = rootVertices[i];
+    newVertex[rootVertices[i]] = i;
+  }
+  forRange(nodes, [&](std::uint32_t n) {
+    const std::uint32_t v = vertex_[removalOf[n]];
+    vertexOrder[rootVertexCount + n] = v;
+    newVertex[v] = rootVertexCount + n;
+  });
+  vertex_.clear();
+
+  auto owned = std::make_shared<OwnedMt>();
+  const std::size_t ids = std::size_t(roots) + slots;
+  owned->slotBegin = std::make_unique_for_overwrite<std::uint32_t[]>(std::size_t(nodes) + 1);
+  owned->saturatedError = std::make_unique_for_overwrite<std::uint16_t[]>(nodes);
+  owned->sphere = std::make_unique_for_overwrite<Sphere[]>(nodes);
+  owned->link = std::make_unique_for_overwrite<std::uint32_t[]>(slots);
+  owned->remover = std::make_unique_for_overwrite<std::uint32_t[]>(ids);
+  owned->error = std::make_unique_for_overwrite<std::uint16_t[]>(ids);
+  owned->below = std::make_unique_for_overwrite<std::uint16_t[]>(ids);
+  owned->above = std::make_unique_for_overwrite<std::uint16_t[]>(ids);
+
+  owned->slotBegin[0] = 0;
+  for (std::uint32_t n = 0; n < nodes; ++n) {
+    const std::uint32_t r = removalOf[n];
+    owned->slotBegin[n + 1] = owned->slotBegin[n] + slotBegin_[r + 1] - slotBegin_[r];
+  }
+
+  auto idOfBirth = std::make_unique_for_overwrite<std::uint32_t[]>(births);
+  const auto place = [&](std::uint32_t id, std::uint32_t birth) {
+    idOfBirth[birth] = id;
+    owned->remover[id] = kNone;
+    const bool isFinest = birth < finestTriangles_;
+    owned->error[id] = isFinest ? 0 : error_[birth - finestTriangles_];
+    owned->below[id] = isFinest ? 0 : below_[birth - finestTriangles_];
+    owned->above[id] = isFinest ? 0 : above_[birth - finestTriangles_];
+  };
+  owned->rootTriangles.resize(roots);
+  for (std::uint32_t i = 0; i < roots; ++i) {
+    const auto& c = surviving[i].corners;
+    owned->rootTriangles[i] = {newVertex[c[0]], newVertex[c[1]], newVertex[c[2]]};
+    place(i, surviving[i].birth);
+  }
+  forRange(nodes, [&](std::uint32_t n) {
+    const std::uint32_t r = removalOf[n];
+    owned->saturatedError[n] = saturated_[r];
+    owned->sphere[n] = sphere_[r];
+    const std::uint32_t from = slotBegin_[r], to = owned->slotBegin[n];
+    for (std::uint32_t i = 0; i < slotBegin_[r + 1] - from; ++i) {
+      owned->link[to + i] = newVertex[link_[from + i]];
+      const std::uint32_t birth = ceiling_[from + i], id = roots + to + i;
+      if (birth != kNone) {
+        place(id, birth);
+      } else {
+        owned->remover[id] = n;
+        owned->error[id] = owned->below[id] = owned->above[id] = 0;
+      }
+    }
+  });
+  saturated_.clear();
+  sphere_.clear();
+  link_.clear();
+  ceiling_.clear();
+  error_.clear();
+  below_.clear();
+  above_.clear();
+  std::vector<std::uint32_t>().swap(newVertex);
+
+  owned->floor = std::make_unique_for_overwrite<std::uint32_t[]>(slots - 2 * std::size_t(nodes));
+  forRange(nodes, [&](std::uint32_t n) {
+    const std::uint32_t r = removalOf[n], birth = firstBirth(r), to = owned->slotBegin[n] - 2 * n;
+    for (std::uint32_t i = 0; i + 2 < slotBegin_[r + 1] - slotBegin_[r]; ++i) {
+      const std::uint32_t id = idOfBirth[birth + i];
+      owned->floor[to + i] = id;
+      owned->remover[id] = n;
+    }
+  });
+
+  const std::size_t hints =
+      (std::size_t(slots) + MultiTriangulation::kSlotsPerHint - 1) / MultiTriangulation::kSlotsPerHint;
+  owned->creatorHint = std::make_unique_for_overwrite<std::uint32_t[]>(hints);
+  for (std::uint32_t n = 0; n < nodes; ++n) {
+    constexpr std::uint32_t k = MultiTriangulation::kSlotsPerHint;
+    for (std::uint32_t h = (owned->slotBegin[n] + k - 1) / k; h * k < owned->slotBegin[n + 1]; ++h)
+      owned->creatorHint[h] = n;
+  }
+
+  MtArrays a;
+  a.rootVertices = rootVertexCount;
+  a.rootTriangles = owned->rootTriangles;
+  a.slotBegin = view(owned->slotBegin, std::size_t(nodes) + 1);
+  a.link = view(owned->link, slots);
+  a.remover = view(owned->remover, ids);
+  a.error = view(owned->error, ids);
+  a.below = view(owned->below, ids);
+  a.above = view(owned->above, ids);
+  a.floor = view(owned->floor, slots - 2 * std::size_t(nodes));
+  a.saturatedError = view(owned->saturatedError, nodes);
+  a.sphere = view(owned->sphere, nodes);
+  a.creatorHint = view(owned->creatorHint, hints);
+  a.scale = scale_;
+  a.metric = metric_;
+  slotBegin_.clear();
+  removals_ = 0;
+  return MultiTriangulation(a, owned);
+}
+
+MultiTriangulation withVertices(const MultiTriangulation& mt, const VertexArrays& vertices,
+                                std::shared_ptr<const void> owner) {
+  MtArrays a = mt.arrays();
+  a.vertices = vertices;
+  struct Both {
+    MultiTriangulation mt;
+    std::shared_ptr<const void> vertices;
+  };
+  return MultiTriangulation(a, std::make_shared<const Both>(Both{mt, std::move(owner)}));
+}
+
+}  // namespace arete

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/chunked_array.h"
+#include "engine/multitriangulation.h"
+
+namespace arete {
+
+/// One vertex removal, read bottom-up: the star of a vertex (the node's ceiling) gives way to a triangulation
+/// of the hole (its floor). Ids are the caller's: vertices as it numbers them, triangles by birth.
+struct VertexRemoval {
+  std::uint32_t vertex = 0;
+  /// The star's link, counter-clockwise: k vertices of a closed star, k + 1 of an open one with k triangles.
+  std::span<const std::uint32_t> link;
+  bool isOpen = false;
+  /// Metric positions of the link's vertices, then of the vertex itself.
+  std::span<const Vec3> metricPositions;
+  /// Birth ids of the star's triangles (vertex, link[i], link[i + 1]).
+  std::span<const std::uint32_t> ceiling;
+  /// For each, the removal that bore it (kNone for triangles of the finest triangulation).
+  std::span<const std::uint32_t> ceilingBearer;
+  /// Per new triangle: error and bounds, coded. Their birth ids are consecutive, from firstBirth(i).
+  std::span<const std::uint16_t> floorError, floorBelow, floorAbove;
+};
+
+/// A triangle that no removal took away: it belongs to the root.
+struct SurvivingTriangle {
+  std::uint32_t birth = 0;
+  std::array<std::uint32_t, 3> corners{};
+};
+
+/// Records vertex removals from the finest triangulation down and turns them into a finished
+/// multitriangulation.
+///
+/// Removals come in batches (levels). The removals of a batch may be recorded in any order and by any
+/// threads; the result depends only on the order in which the batch lists them. Births: the finest
+/// triangulation's triangles are 0 .. F-1, each removal bears link.size() - 2 more.
+///
+/// Memory: about 95 bytes per removal while recording, and as much again plus 130 for the result while
+/// finishing.
+class MtRecorder {
+ public:
+  static constexpr std::uint32_t kNone = MultiTriangulation::kNone;
+
+  MtRecorder(std::uint32_t finestTriangles, OutwardScale scale, MetricFrame metric);
+
+  const OutwardScale& scale() const { return scale_; }
+  std::uint32_t removalCount() const { return removals_; }
+
+  /// Announces the next removals, by the sizes of their links, in order. Returns the index of the first.
+  std::uint32_t beginBatch(std::span<const std::uint8_t> linkSizes);
+  /// The birth id of the first floor triangle of a removal.
+  std::uint32_t firstBirth(std::uint32_t removal) const {
+    return finestTriangles_ + slotBegin_[removal] - 2 * removal;
+  }
+  /// Records an announced removal. Thread-safe for different removals of a batch; the removals that bore its
+  /// ceiling are of earlier batches. Precondition: link.size() as announced, 3 <= size.
+  void record(std::uint32_t removal, const VertexRemoval& what);
+
+  /// The finished MT. `vertexOrder`: on return, the caller's vertex of every MT vertex.
+  /// `rootVertices`: the surviving vertices, in the order they shall have; `surviving`: the surviving
+  /// triangles. The MT's vertices (MtArrays::vertices) are left to the caller: see withVertices(). Leaves the
+  /// recorder empty. O(triangles), parallel; deterministic.
+  MultiTriangulation finish(std::span<const std::uint32_t> rootVertices,
+                            std::span<const SurvivingTriangle> surviving, std::uint32_t callerVertexCount,
+                            std::vector<std::uint32_t>& vertexOrder);
+
+ private:
+  std::uint32_t finestTriangles_;
+  OutwardScale scale_;
+  MetricFrame metric_;
+  std::uint32_t removals_ = 0;
+
+  ChunkedArray<std::uint32_t> slotBegin_;              // per removal, and the end
+  ChunkedArray<std::uint32_t> vertex_;                 // per removal
+  ChunkedArray<std::uint16_t> saturated_;              // per removal
+  ChunkedArray<Sphere> sphere_;                        // per removal
+  ChunkedArray<std::uint32_t> link_;                   // per slot
+  ChunkedArray<std::uint32_t> ceiling_;                // per slot; kNone in the last slot of an open star
+  ChunkedArray<std::uint16_t> error_, below_, above_;  // per birth, from finestTriangles_ on
+};
+
+/// The same MT with the given vertices (and an owner for them beside its own).
+MultiTriangulation withVertices(const MultiTriangulation& mt, const VertexArrays& vertices,
+                                std::shared_ptr<const void> owner);
+
+}  // namespace arete

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "engine/result.h"
+#include "engine/run_context.h"
+#include "terrain/build_options.h"
+#include "terrain/heightfield.h"
+#include "terrain/terrain_model.h"
+
+namespace arete {
+
+/// Builds the multitriangulation of a heightfield: its finest triangulation (DESIGN section 8), taken down to
+/// the domain's corners and the fixed vertices by removing independent sets of vertices (de Berg and Dobrindt
+/// 1995).
+///
+/// The result depends on the heightfield and the options only: the same bytes for any number of threads.
+/// Errors: degenerate (no cell or triangle, all collinear, one plan position with two heights), invalidData,
+/// usage (options out of range), interrupted. O(n log n) expected. Peak memory about 300 bytes per sample.
+Result<TerrainModel> build(const RasterHeightfield& heightfield, const BuildOptions& options = {},
+                           const RunContext& context = {});
+Result<TerrainModel> build(const PointHeightfield& heightfield, const BuildOptions& options = {},
+                           const RunContext& context = {});
+
+}  // namespace arete

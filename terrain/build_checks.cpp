@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "terrain/build_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "terrain/hole.h"
+
+namespace arete {
+
+std::string_view toString(HoleShape shape) {
+  return shape == HoleShape::delaunay ? "delaunay" : "fidelity";
+}
+
+Status checkOptions(const BuildOptions& options, std::size_t sampleCount) {
+  const auto refuse = [](std::string what, const char* option) {
+    return failure(ErrorCode::usage, std::move(what), option);
+  };
+  if (options.maxDegree < 6 || options.maxDegree > kMaxHoleCorners - 1)
+    return refuse(
+        fmt::format("the degree bound must be 6 to {}, not {}", kMaxHoleCorners - 1, options.maxDegree),
+        "--max-degree");
+  if (!(options.thresholdRatio > 1 && options.thresholdRatio <= 1e6))
+    return refuse(fmt::format("the threshold ratio must be above 1, not {}", options.thresholdRatio),
+                  "--ratio");
+  if (!(options.minimumAspect >= 0 && options.minimumAspect < 0.5))
+    return refuse(fmt::format("the aspect bound must be from 0 to 0.5, not {}", options.minimumAspect),
+                  "--min-aspect");
+  if (!(options.rimTolerance >= 0 && std::isfinite(options.rimTolerance)))
+    return refuse(fmt::format("the rim tolerance must be 0 or more samples, not {}", options.rimTolerance),
+                  "--rim-tolerance");
+  for (const std::uint32_t v : options.fixedVertices)
+    if (v >= sampleCount)
+      return refuse(fmt::format("fixed vertex {} of {} samples", v, sampleCount), "fixed vertices");
+  return {};
+}
+
+std::string whyNoTriangle(const RasterHeightfield& heightfield) {
+  std::size_t valid = 0;
+  for (const double z : heightfield.heights) valid += std::isnan(z) ? 0 : 1;
+  if (valid == 0) return "there is no valid sample";
+  if (heightfield.columns < 2 || heightfield.rows < 2)
+    return fmt::format("{} column(s) and {} row(s) enclose no area", heightfield.columns, heightfield.rows);
+  return fmt::format("none of the {} valid samples has a cell with three valid corners", valid);
+}
+
+double roundingSlack(double low, double high) {
+  return 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(low), std::abs(high));
+}
+
+}  // namespace arete

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace arete {
+
+/// How the hole that a removed vertex leaves is triangulated.
+enum class HoleShape {
+  delaunay,  ///< well-shaped triangles; every front is (constrained) Delaunay
+  fidelity,  ///< the least vertical error; far fewer triangles at the same bound
+};
+
+/// Options of a build. The defaults are what the figures in docs/performance.md are measured with.
+struct BuildOptions {
+  HoleShape shape = HoleShape::delaunay;
+
+  /// A vertex with more neighbours waits until some of them are gone. 6 .. 32.
+  std::uint32_t maxDegree = 14;
+
+  /// A level admits removals whose error is under a threshold that grows by this ratio from level to level.
+  /// > 1.
+  double thresholdRatio = 1.1;
+
+  /// Fidelity only: triangles whose least altitude is below this part of their longest edge are rejected.
+  double minimumAspect = 0.02;
+
+  /// Rasters with NODATA: a reflex vertex of a rim may go when the domain then reaches at most this far, in
+  /// samples, over NODATA, measured from the original rim. 0 keeps the rims exactly.
+  double rimTolerance = 0;
+
+  /// Vertices (sample or point indices) that stay in the root, beside the domain's corners.
+  std::vector<std::uint32_t> fixedVertices;
+};
+
+std::string_view toString(HoleShape shape);
+
+}  // namespace arete

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A raster is built in lattice coordinates, with integer predicates, and its errors are scanned from the
+// raster itself: see simplify.h for the levels and raster_error.h for the scan.
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "terrain/build.h"
+#include "terrain/build_checks.h"
+#include "terrain/finest_raster.h"
+#include "terrain/height_encoding.h"
+#include "terrain/raster_error.h"
+#include "terrain/rim.h"
+#include "terrain/simplify.h"
+
+namespace arete {
+namespace {
+
+struct Ratio {
+  std::uint32_t p = 1, q = 1;
+};
+
+/// The best p / q with terms up to 16 (relative error below 4 %, far beyond what the shapes of triangles
+/// notice); very long pixels are met by 1 / 64 at most.
+Ratio nearestRatio(double aspect) {
+  if (!(aspect > 0) || !std::isfinite(aspect)) return {};
+  if (aspect >= 16) return {static_cast<std::uint32_t>(std::min(64.0, std::round(aspect))), 1};
+  if (aspect <= 1.0 / 16) return {1, static_cast<std::uint32_t>(std::min(64.0, std::round(1 / aspect)))};
+  Ratio best;
+  double bestError = std::numeric_limits<double>::infinity();
+  for (std::uint32_t q = 1; q <= 16; ++q) {
+    const auto p = static_cast<std::uint32_t>(std::lround(aspect * q));
+    if (p == 0 || p > 256) continue;
+    const double error = std::abs(std::log(aspect * q / p));
+    if (error < bestError * 0.999) {
+      bestError = error;
+      best = {p, q};
+    }
+  }
+  return best;
+}
+
+struct OwnedVertices {
+  std::vector<std::uint32_t> samples;
+  EncodedHeights heights;
+};
+
+Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOptions& options,
+                               const RunContext& context) {
+  if (const Status valid = field.validate(); !valid) return tl::unexpected(valid.error());
+  if (const Status valid = checkOptions(options, field.size()); !valid) return tl::unexpected(valid.error());
+  if (field.size() >= 0xFFFFFFF0u / 3)
+    return failure(ErrorCode::unsupported,
+                   fmt::format("{} samples are more than 32-bit triangle ids can name", field.size()),
+                   field.source);
+
+  context.report("triangulate", 0);
+  std::vector<std::array<std::uint32_t, 3>> triangles = finestTriangulation(field);
+  if (triangles.empty()) return failure(ErrorCode::degenerate, whyNoTriangle(field), field.source);
+  if (triangles.size() > 0xFFFFFFF0u / 3)
+    return failure(ErrorCode::unsupported, "more triangles than 32-bit half-edges can name", field.source);
+  const auto finestCount = static_cast<std::uint32_t>(triangles.size());
+  const auto sampleCount = static_cast<std::uint32_t>(field.size());
+
+  std::vector<std::uint32_t> pinched;
+  LiveMesh mesh = LiveMesh::fromTriangles(std::move(triangles), sampleCount, pinched);
+  context.report("triangulate", 1);
+
+  TerrainModel model;
+  model.georeference = field.georeference;
+  model.columns = field.columns;
+  model.rows = field.rows;
+  model.source = field.source;
+  model.sourceChecksum = field.sourceChecksum.empty() ? heightsChecksum(field) : field.sourceChecksum;
+  model.options = options;
+
+  std::vector<std::uint8_t> isFixed(sampleCount, 0);
+  for (const std::uint32_t v : pinched) isFixed[v] = 1;
+  for (const std::uint32_t v : options.fixedVertices) {
+    if (mesh.vertexHalfedge[v] == LiveMesh::kNone)
+      return failure(
+          ErrorCode::invalidData,
+          fmt::format(
+              "the fixed vertex at column {}, row {} is not in the domain: no data there, or isolated",
+              v % field.columns, v / field.columns),
+          field.source);
+    isFixed[v] = 1;
+  }
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::uint32_t v = 0; v < sampleCount; ++v) {
+    if (std::isnan(field.heights[v])) continue;
+    low = std::min(low, field.heights[v]);
+    high = std::max(high, field.heights[v]);
+    if (mesh.vertexHalfedge[v] == LiveMesh::kNone) model.isolated.push_back({v, field.heights[v]});
+  }
+  if (!(high - low < 1e30))
+    return failure(ErrorCode::invalidData, fmt::format("heights from {} to {} span too much", low, high),
+                   field.source);
+
+  const Vec2 step = groundStep(field.georeference, (field.columns - 1) / 2.0, (field.rows - 1) / 2.0);
+  const Ratio ratio = nearestRatio(step.x / step.y);
+  model.metricP = ratio.p;
+  model.metricQ = ratio.q;
+  MetricFrame metric;
+  metric.origin = {(field.columns - 1) / 2.0, (field.rows - 1) / 2.0, (low + high) / 2};
+  metric.scale = {step.x, step.y, field.georeference.verticalUnitMetres};
+
+  const LatticePlan plan(field.columns, ratio.p, ratio.q);
+  RasterError errors(plan, field.heights, options.rimTolerance > 0);
+  MtRecorder recorder(finestCount, OutwardScale(high - low), metric);
+  std::unique_ptr<Rim> rim;
+  if (options.rimTolerance > 0) rim = std::make_unique<Rim>(mesh, plan, options.rimTolerance);
+
+  SimplifiedRoot root;
+  {
+    Simplifier<LatticePlan, RasterError> simplifier(mesh, plan, errors, recorder, rim.get(), options,
+                                                    context);
+    simplifier.setRoundingSlack(roundingSlack(low, high));
+    Result<SimplifiedRoot> simplified = simplifier.run(isFixed, metric, 0);
+    if (!simplified) return tl::unexpected(simplified.error());
+    root = std::move(*simplified);
+  }
+  mesh = {};
+  model.levels = root.levels;
+
+  context.report("finish", 0);
+  auto owned = std::make_shared<OwnedVertices>();
+  const MultiTriangulation bare = recorder.finish(root.vertices, root.triangles, sampleCount, owned->samples);
+  owned->heights = encodeHeights(field.heights, owned->samples, field.rawScale, field.rawOffset);
+  VertexArrays vertices;
+  vertices.samples = owned->samples;
+  vertices.columns = field.columns;
+  vertices.encoding = owned->heights.encoding;
+  vertices.rawHeights = {owned->heights.bytes.get(), owned->heights.size};
+  model.mt = withVertices(bare, vertices, owned);
+  context.report("finish", 1);
+  return model;
+}
+
+}  // namespace
+
+Result<TerrainModel> build(const RasterHeightfield& heightfield, const BuildOptions& options,
+                           const RunContext& context) {
+  Result<TerrainModel> result = failure(ErrorCode::interrupted, "not run");
+  tbb::task_arena arena(context.threads > 0 ? context.threads : tbb::task_arena::automatic);
+  arena.execute([&] { result = buildHere(heightfield, options, context); });
+  return result;
+}
+
+}  // namespace arete

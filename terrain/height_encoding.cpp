@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "terrain/height_encoding.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace arete {
+namespace {
+
+bool isSameBits(double a, double b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+template <class Raw, class ToRaw>
+bool tryEncode(std::span<const double> heights, std::span<const std::uint32_t> order, HeightEncoding encoding,
+               const ToRaw& toRaw, EncodedHeights& out) {
+  out.encoding = encoding;
+  out.size = order.size() * sizeof(Raw);
+  out.bytes = std::make_unique_for_overwrite<std::byte[]>(out.size);
+  Raw* raw = reinterpret_cast<Raw*>(out.bytes.get());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const double z = heights[order[i]];
+    if (!toRaw(z, raw[i]) || !isSameBits(raw[i] * encoding.scale + encoding.offset, z)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+EncodedHeights encodeHeights(std::span<const double> heights, std::span<const std::uint32_t> order,
+                             double rawScale, double rawOffset) {
+  EncodedHeights out;
+  const auto toInteger = [&](double z, std::int16_t& raw) {
+    const double value = std::nearbyint((z - rawOffset) / rawScale);
+    if (!(value >= -32768 && value <= 32767)) return false;
+    raw = static_cast<std::int16_t>(value);
+    return true;
+  };
+  using Type = HeightEncoding::Type;
+  if (tryEncode<std::int16_t>(heights, order, {Type::int16, rawScale, rawOffset}, toInteger, out)) return out;
+  const auto toFloat = [](double z, float& raw) {
+    if (!(std::abs(z) < 3e38)) return false;
+    raw = static_cast<float>(z);
+    return true;
+  };
+  // A negative zero offset keeps the sign of a negative zero height.
+  if (tryEncode<float>(heights, order, {Type::float32, 1, -0.0}, toFloat, out)) return out;
+  const auto toDouble = [](double z, double& raw) {
+    raw = z;
+    return true;
+  };
+  tryEncode<double>(heights, order, {Type::float64, 1, -0.0}, toDouble, out);
+  return out;
+}
+
+}  // namespace arete

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cstdint>
+#include <span>
+
+namespace arete {
+
+/// The most corners a hole can have: the largest degree bound a build accepts, and one for an open star.
+inline constexpr int kMaxHoleCorners = 33;
+
+/// A triangulation of a star polygon, as corners of the polygon. Each triangle starts at its least corner;
+/// the list is in the order found, the same for the same polygon.
+struct HoleTriangulation {
+  std::array<std::array<std::uint8_t, 3>, kMaxHoleCorners - 2> triangles;
+  int size = 0;
+  std::span<const std::array<std::uint8_t, 3>> view() const {
+    return {triangles.data(), static_cast<std::size_t>(size)};
+  }
+};
+
+/// Ear clipping of a polygon that is star-shaped about its apex (in its closure).
+///
+/// Corner i is an ear when it turns left and the apex is not to the right of the edge that would cut it off:
+/// the ear then lies in the wedge seen from the apex between its neighbours, which holds no other corner, and
+/// what remains is star-shaped about the apex still (Devillers 2002, "On deletion in Delaunay
+/// triangulations", section 3). One exists: of the two ears that every triangulated polygon has, at least one
+/// does not hold the apex.
+///
+/// Then flips inside the polygon (Lawson) make it constrained Delaunay: the hole's rim is held, which is what
+/// a domain with borders needs, and where nothing beyond the rim interferes it is the Delaunay triangulation
+/// itself.
+///
+/// Polygon: orientation(i, j, m), orientationToApex(i, j), inCircle(i, j, m, n), all exact. O(corners^2).
+template <class Polygon>
+HoleTriangulation triangulateHoleDelaunay(const Polygon& polygon, int corners) {
+  assert(corners >= 3 && corners <= kMaxHoleCorners);
+  // third[i][j]: the corner across the directed edge i -> j. Only entries of present edges are read.
+  std::array<std::array<std::uint8_t, kMaxHoleCorners>, kMaxHoleCorners> third;
+  std::array<std::array<std::uint8_t, 2>, kMaxHoleCorners> diagonals;
+  int diagonalCount = 0;
+
+  std::array<std::uint8_t, kMaxHoleCorners> next{}, previous{};
+  for (int i = 0; i < corners; ++i) {
+    next[i] = static_cast<std::uint8_t>(i + 1 < corners ? i + 1 : 0);
+    previous[i] = static_cast<std::uint8_t>(i > 0 ? i - 1 : corners - 1);
+  }
+  const auto put = [&](std::uint8_t i, std::uint8_t j, std::uint8_t m) {
+    third[i][j] = m;
+    third[j][m] = i;
+    third[m][i] = j;
+  };
+  int remaining = corners, misses = 0;
+  std::uint8_t i = 0;
+  while (remaining > 3) {
+    const std::uint8_t h = previous[i], j = next[i];
+    if (polygon.orientation(h, i, j) > 0 && polygon.orientationToApex(h, j) >= 0) {
+      put(h, i, j);
+      diagonals[diagonalCount++] = {h, j};
+      next[h] = j;
+      previous[j] = h;
+      --remaining;
+      misses = 0;
+      i = j;  // alternate sides rather than fan out from one corner
+    } else {
+      i = j;
+      ++misses;
+      assert(misses <= remaining && "a star-shaped polygon has an ear");
+      if (misses > remaining) return {};
+    }
+  }
+  if (polygon.orientation(previous[i], i, next[i]) <= 0) return {};
+  put(previous[i], i, next[i]);
+
+  for (bool flipped = true; flipped;) {
+    flipped = false;
+    for (int d = 0; d < diagonalCount; ++d) {
+      const auto [a, b] = diagonals[d];
+      const std::uint8_t m = third[a][b], n = third[b][a];
+      if (polygon.inCircle(a, b, m, n) > 0) {
+        put(n, b, m);
+        put(m, a, n);
+        diagonals[d] = {n, m};
+        flipped = true;
+      }
+    }
+  }
+
+  HoleTriangulation result;
+  const auto emit = [&](std::uint8_t a, std::uint8_t b) {
+    const std::uint8_t c = third[a][b];
+    if (a < b && a < c) result.triangles[result.size++] = {a, b, c};
+  };
+  for (int a = 0; a < corners; ++a)
+    emit(static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(a + 1 < corners ? a + 1 : 0));
+  for (int d = 0; d < diagonalCount; ++d) {
+    emit(diagonals[d][0], diagonals[d][1]);
+    emit(diagonals[d][1], diagonals[d][0]);
+  }
+  assert(result.size == corners - 2);
+  return result;
+}
+
+}  // namespace arete

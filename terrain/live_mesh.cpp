@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Removals of a batch are independent: no two stars share a triangle. They may share an edge of their rims,
+// and then each is the other's neighbour while both are being rewritten. So a batch works in two steps with a
+// barrier between: refill() rewrites the slots of one star and notes where each rim half-edge went, in a
+// table at the old half-edge's place; sew() then joins each rim edge to its former twin, looking it up in the
+// table if that twin moved too. Both sides of an edge between two moved stars write their own twin only, and
+// an unmoved twin has one moved neighbour across that edge, so no location is written twice.
+#include "terrain/live_mesh.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+
+namespace arete {
+
+LiveMesh LiveMesh::fromTriangles(std::vector<Corners> triangles, std::uint32_t vertexCount,
+                                 std::vector<std::uint32_t>& pinched) {
+  LiveMesh mesh;
+  mesh.corners = std::move(triangles);
+  const std::size_t count = mesh.corners.size();
+  mesh.twin.assign(count, {kNone, kNone, kNone});
+  mesh.birth.resize(count);
+  mesh.bearer.assign(count, kNone);
+  mesh.vertexHalfedge.assign(vertexCount, kNone);
+
+  // Chains of outgoing half-edges per vertex find each twin among the few edges that leave its other end.
+  std::vector<std::uint32_t> nextOutgoing(count * 3);
+  std::vector<std::uint8_t> degree(vertexCount, 0);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    mesh.birth[t] = t;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const std::uint32_t v = mesh.corners[t][i];
+      nextOutgoing[3 * t + i] = mesh.vertexHalfedge[v];
+      mesh.vertexHalfedge[v] = 3 * t + i;
+      if (degree[v] < 255) ++degree[v];
+    }
+  }
+  for (std::uint32_t h = 0; h < 3 * count; ++h) {
+    if (mesh.twinOf(h) != kNone) continue;
+    const std::uint32_t from = mesh.origin(h), to = mesh.origin(nextInTriangle(h));
+    for (std::uint32_t g = mesh.vertexHalfedge[to]; g != kNone; g = nextOutgoing[g])
+      if (mesh.origin(nextInTriangle(g)) == from) {
+        mesh.setTwin(h, g);
+        mesh.setTwin(g, h);
+        break;
+      }
+  }
+  for (std::uint32_t v = 0; v < vertexCount; ++v) {
+    if (mesh.vertexHalfedge[v] == kNone) continue;
+    for (std::uint32_t g = mesh.vertexHalfedge[v]; g != kNone; g = nextOutgoing[g])
+      if (mesh.twinOf(g) == kNone) {
+        mesh.vertexHalfedge[v] = g;
+        break;
+      }
+    unsigned fan = 0;
+    std::uint32_t h = mesh.vertexHalfedge[v];
+    do {
+      ++fan;
+      h = mesh.twinOf(previousInTriangle(h));
+    } while (h != kNone && h != mesh.vertexHalfedge[v]);
+    if (std::min(fan, 255u) != degree[v]) pinched.push_back(v);
+  }
+  return mesh;
+}
+
+bool Star::gather(const LiveMesh& mesh, std::uint32_t v, int maxLink) {
+  const std::uint32_t first = mesh.vertexHalfedge[v];
+  if (first == LiveMesh::kNone) return false;
+  linkSize = triangleCount = 0;
+  isOpen = false;
+  std::uint32_t h = first;
+  do {
+    if (linkSize >= maxLink) return false;
+    link[linkSize++] = mesh.origin(LiveMesh::nextInTriangle(h));
+    outgoing[triangleCount++] = h;
+    const std::uint32_t last = LiveMesh::previousInTriangle(h);
+    const std::uint32_t across = mesh.twinOf(last);
+    if (across == LiveMesh::kNone) {
+      if (linkSize >= maxLink) return false;
+      link[linkSize++] = mesh.origin(last);
+      isOpen = true;
+      return true;
+    }
+    h = across;
+  } while (h != first);
+  return true;
+}
+
+void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, std::uint32_t firstBirth,
+            std::uint32_t removal, std::vector<LiveMesh::Corners>& movedHalfedge, PendingSeams& seams) {
+  const int corners = star.linkSize;
+  assert(floor.size == corners - 2);
+  seams.size = static_cast<std::uint8_t>(corners);
+  for (int i = 0; i < star.triangleCount; ++i) seams.beyond[i] = mesh.twinOf(star.rim(i));
+  seams.isOpen = star.isOpen;
+  if (star.isOpen) seams.beyond[corners - 1] = LiveMesh::kNone;
+
+  // Which link vertices keep a half-edge that is about to vanish.
+  std::array<bool, kMaxHoleCorners> mustPoint{};
+  for (int i = 0; i < corners; ++i) {
+    // Another star of the batch may be re-pointing this vertex within its own slots: either value is not of
+    // this star.
+    const std::uint32_t t =
+        std::atomic_ref(mesh.vertexHalfedge[star.link[i]]).load(std::memory_order_relaxed) / 3;
+    const int before = i > 0 ? i - 1 : corners - 1;
+    mustPoint[i] = (i < star.triangleCount && t == star.triangle(i)) ||
+                   (before < star.triangleCount && t == star.triangle(before));
+  }
+
+  // edge[i][j]: the new half-edge i -> j.
+  std::array<std::array<std::uint32_t, kMaxHoleCorners>, kMaxHoleCorners> edge;
+  for (int f = 0; f < floor.size; ++f) {
+    const std::uint32_t t = star.triangle(f);
+    for (std::uint32_t c = 0; c < 3; ++c)
+      edge[floor.triangles[f][c]][floor.triangles[f][(c + 1) % 3]] = 3 * t + c;
+  }
+  for (int i = 0; i < corners; ++i) seams.movedTo[i] = edge[i][i + 1 < corners ? i + 1 : 0];
+  for (int i = 0; i < star.triangleCount; ++i) {
+    const std::uint32_t old = star.rim(i);
+    movedHalfedge[old / 3][old % 3] = seams.movedTo[i];
+  }
+  for (int i = 0; i < corners; ++i)
+    if (mustPoint[i])
+      std::atomic_ref(mesh.vertexHalfedge[star.link[i]]).store(seams.movedTo[i], std::memory_order_relaxed);
+
+  std::array<std::uint32_t, kMaxHoleCorners> slots;
+  for (int i = 0; i < star.triangleCount; ++i) slots[i] = star.triangle(i);
+  for (int f = 0; f < floor.size; ++f) {
+    const std::uint32_t t = slots[f];
+    const auto& local = floor.triangles[f];
+    mesh.corners[t] = {star.link[local[0]], star.link[local[1]], star.link[local[2]]};
+    mesh.birth[t] = firstBirth + static_cast<std::uint32_t>(f);
+    mesh.bearer[t] = removal;
+    for (int c = 0; c < 3; ++c) {
+      const int a = local[c], b = local[(c + 1) % 3];
+      const bool onRim = b == (a + 1 < corners ? a + 1 : 0);
+      if (!onRim) mesh.twin[t][c] = edge[b][a];
+    }
+  }
+  for (int i = floor.size; i < star.triangleCount; ++i)
+    mesh.corners[slots[i]] = {LiveMesh::kNone, LiveMesh::kNone, LiveMesh::kNone};
+}
+
+}  // namespace arete

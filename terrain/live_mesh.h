@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/mt_recorder.h"
+#include "terrain/hole.h"
+
+namespace arete {
+
+/// The triangulation that a build shrinks: compact triangle arrays with half-edges.
+///
+/// Half-edge 3 t + i is the directed edge from corner i of triangle t to corner i + 1; its twin is the same
+/// edge of the neighbour, or kNone on a border. Triangles turn counter-clockwise. vertexHalfedge[v] is an
+/// outgoing half-edge of v, and the border one when v lies on a border, so that a walk around an open star
+/// starts at its first triangle.
+///
+/// A removal reuses the first slots of its star and leaves two dead (corner kNone).
+struct LiveMesh {
+  static constexpr std::uint32_t kNone = MtRecorder::kNone;
+  using Corners = std::array<std::uint32_t, 3>;
+
+  std::vector<Corners> corners;
+  std::vector<Corners> twin;
+  std::vector<std::uint32_t> birth;           ///< per triangle: birth id in the recorder
+  std::vector<std::uint32_t> bearer;          ///< per triangle: the removal that bore it, or kNone
+  std::vector<std::uint32_t> vertexHalfedge;  ///< per vertex, kNone for a vertex in no triangle
+
+  /// Half-edges and births for counter-clockwise triangles. `pinched` receives the vertices whose triangles
+  /// form more than one fan. O(triangles). Precondition: an edge has at most one triangle on either side.
+  static LiveMesh fromTriangles(std::vector<Corners> triangles, std::uint32_t vertexCount,
+                                std::vector<std::uint32_t>& pinched);
+
+  static std::uint32_t nextInTriangle(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
+  static std::uint32_t previousInTriangle(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
+  std::uint32_t origin(std::uint32_t h) const { return corners[h / 3][h % 3]; }
+  std::uint32_t twinOf(std::uint32_t h) const { return twin[h / 3][h % 3]; }
+  void setTwin(std::uint32_t h, std::uint32_t to) { twin[h / 3][h % 3] = to; }
+};
+
+/// The star of a vertex of a LiveMesh: link counter-clockwise, one triangle between consecutive link
+/// vertices.
+struct Star {
+  std::array<std::uint32_t, kMaxHoleCorners> link;
+  std::array<std::uint32_t, kMaxHoleCorners> outgoing;  ///< half-edge vertex -> link[i] of triangle i
+  int linkSize = 0;
+  int triangleCount = 0;
+  bool isOpen = false;
+
+  std::uint32_t triangle(int i) const { return outgoing[i] / 3; }
+  /// Half-edge link[i] -> link[i + 1].
+  std::uint32_t rim(int i) const { return LiveMesh::nextInTriangle(outgoing[i]); }
+  std::span<const std::uint32_t> linkView() const { return {link.data(), std::size_t(linkSize)}; }
+
+  /// Gathers the star of v; false when its link has more than maxLink vertices (or v has no triangle).
+  bool gather(const LiveMesh& mesh, std::uint32_t v, int maxLink);
+};
+
+/// What one removal must leave behind until the whole batch has rewritten its stars: where each rim edge went
+/// and what lay beyond it.
+struct PendingSeams {
+  std::array<std::uint32_t, kMaxHoleCorners>
+      movedTo;  ///< new half-edge of rim edge i (closing edge last, when open)
+  std::array<std::uint32_t, kMaxHoleCorners> beyond;  ///< its twin before the batch, kNone on a border
+  std::uint8_t size = 0;
+  bool isOpen = false;  ///< the last entry is the closing edge, a new border
+};
+
+/// Fills the star's hole with the floor: rewrites its triangle slots, inner twins and the half-edges of the
+/// link. Touches nothing outside the star but `movedTo` records for the seams; call sew() for every star of
+/// the batch after. `movedHalfedge`: receives, per old rim half-edge, where it moved: an array over
+/// half-edges, written at the old ids.
+void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, std::uint32_t firstBirth,
+            std::uint32_t removal, std::vector<LiveMesh::Corners>& movedHalfedge, PendingSeams& seams);
+
+/// Joins the floor's rim to what lies beyond it, whether that moved in the same batch or not.
+/// `isMoved(t)`: triangle slot t belongs to a star of this batch.
+template <class IsMoved>
+void sew(LiveMesh& mesh, const PendingSeams& seams, const std::vector<LiveMesh::Corners>& movedHalfedge,
+         const IsMoved& isMoved) {
+  for (int i = 0; i < seams.size; ++i) {
+    const std::uint32_t h = seams.movedTo[i], old = seams.beyond[i];
+    if (old == LiveMesh::kNone) {
+      mesh.setTwin(h, LiveMesh::kNone);
+    } else if (isMoved(old / 3)) {
+      mesh.setTwin(h, movedHalfedge[old / 3][old % 3]);
+    } else {
+      mesh.setTwin(h, old);
+      mesh.setTwin(old, h);
+    }
+  }
+}
+
+}  // namespace arete
