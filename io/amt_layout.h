@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace arete {
+
+/// The bytes of an .amt file (docs/topics/amt-format.md): a header, a directory of chunks, the chunks. All
+/// numbers are little-endian. The directory follows the header; every chunk begins at the first multiple of
+/// 64 behind the one before it (the first one, behind the directory), and the file ends at such a multiple.
+/// The bytes skipped are zero.
+
+inline constexpr std::uint32_t kAmtVersion = 1;
+inline constexpr std::uint64_t kAmtAlignment = 64;
+/// Directories and metadata beyond these are refused: opening a file reads both.
+inline constexpr std::uint32_t kAmtMaxChunks = 64;
+inline constexpr std::uint64_t kAmtMaxMetadataBytes = std::uint64_t{1} << 20;
+
+/// As PNG's: a byte beyond ASCII, the name, and line ends of every kind, so that a transfer as text shows.
+inline constexpr std::array<char, 8> kAmtMagic = {'\x89', 'A', 'M', 'T', '\r', '\n', '\x1a', '\n'};
+inline constexpr std::uint32_t kAmtByteOrder = 0x01020304;
+inline constexpr std::uint32_t kAmtByteOrderSwapped = 0x04030201;
+
+struct AmtHeader {
+  std::array<char, 8> magic = kAmtMagic;
+  std::uint32_t byteOrder = kAmtByteOrder;
+  std::uint32_t version = kAmtVersion;
+  std::uint32_t headerBytes = 64;
+  std::uint32_t chunkCount = 0;
+  std::uint64_t fileBytes = 0;
+  std::uint64_t directoryOffset = 64;
+  std::uint64_t directoryBytes = 0;  ///< 40 per chunk
+  std::uint64_t reserved = 0;
+  std::uint64_t checksum = 0;  ///< XXH3-64 of the header's first 56 bytes and the directory
+};
+static_assert(sizeof(AmtHeader) == 64 && offsetof(AmtHeader, checksum) == 56);
+
+/// What a chunk's elements are made of.
+enum class AmtScalar : std::uint32_t { u8 = 1, u16 = 2, u32 = 3, i16 = 4, f32 = 5, f64 = 6 };
+
+using AmtTag = std::array<char, 4>;
+
+/// One entry of the directory.
+struct AmtChunk {
+  AmtTag tag{};
+  AmtScalar scalar = AmtScalar::u8;
+  std::uint32_t elementBytes = 1;  ///< of one element: the scalar's size times the components
+  std::uint32_t reserved = 0;
+  std::uint64_t offset = 0;    ///< from the beginning of the file
+  std::uint64_t bytes = 0;     ///< without the padding behind it
+  std::uint64_t checksum = 0;  ///< XXH3-64 of the bytes
+
+  /// The tag as text, fit to be printed whatever its bytes are.
+  std::string name() const {
+    std::string text(tag.begin(), tag.end());
+    for (char& c : text)
+      if (c < ' ' || c > '~') c = '?';
+    return text;
+  }
+};
+static_assert(sizeof(AmtChunk) == 40);
+
+namespace amt_tag {
+inline constexpr AmtTag kMetadata = {'M', 'E', 'T', 'A'};
+inline constexpr AmtTag kRootTriangles = {'R', 'T', 'R', 'I'};
+inline constexpr AmtTag kSlotBegin = {'S', 'L', 'O', 'T'};
+inline constexpr AmtTag kLink = {'L', 'I', 'N', 'K'};
+inline constexpr AmtTag kRemover = {'R', 'M', 'V', 'R'};
+inline constexpr AmtTag kError = {'E', 'R', 'R', 'R'};
+inline constexpr AmtTag kBelow = {'B', 'L', 'O', 'W'};
+inline constexpr AmtTag kAbove = {'A', 'B', 'O', 'V'};
+inline constexpr AmtTag kFloor = {'F', 'L', 'O', 'R'};
+inline constexpr AmtTag kSaturatedError = {'S', 'E', 'R', 'R'};
+inline constexpr AmtTag kSphere = {'S', 'P', 'H', 'R'};
+inline constexpr AmtTag kCreatorHint = {'H', 'I', 'N', 'T'};
+inline constexpr AmtTag kSamples = {'S', 'A', 'M', 'P'};
+inline constexpr AmtTag kPlan = {'P', 'L', 'A', 'N'};
+inline constexpr AmtTag kHeights = {'H', 'G', 'H', 'T'};
+inline constexpr AmtTag kIsolatedSamples = {'I', 'S', 'A', 'M'};
+inline constexpr AmtTag kIsolatedHeights = {'I', 'H', 'G', 'T'};
+inline constexpr AmtTag kFixedVertices = {'F', 'I', 'X', 'V'};
+}  // namespace amt_tag
+
+/// The first multiple of the alignment at or behind `offset`. Precondition: it is not within 63 of 2^64.
+constexpr std::uint64_t amtAligned(std::uint64_t offset) {
+  return (offset + kAmtAlignment - 1) / kAmtAlignment * kAmtAlignment;
+}
+
+}  // namespace arete

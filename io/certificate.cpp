@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/certificate.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "io/crs_names.h"
+#include "io/file_writer.h"
+#include "io/report_json.h"
+
+namespace arete {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kSchemaVersion = 1;
+
+/// JSON has no infinity: null says that there is no limit.
+Json limit(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json criterionJson(const ExtractCriterion& criterion) {
+  Json json = Json::object();
+  if (criterion.maxError) json["maxError"] = limit(*criterion.maxError);
+  if (criterion.maxTriangles) json["maxTriangles"] = *criterion.maxTriangles;
+  if (!criterion.region.empty()) {
+    json["region"] = criterion.region;
+    json["outsideError"] = limit(criterion.outsideError);
+  }
+  json["method"] = criterion.method == CutMethod::minimal ? "minimal" : "saturated";
+  return json;
+}
+
+Json sourceJson(const TerrainModel& model) {
+  const Georeference& g = model.georeference;
+  Json json = {{"path", model.source},
+               {"checksum", model.sourceChecksum},
+               {"kind", model.isRaster ? "raster" : "points"},
+               {"crs", crsName(g.crsWkt)},
+               {"crsWkt", g.crsWkt},
+               {"verticalUnit", g.verticalUnit},
+               {"verticalDatum", g.verticalDatum}};
+  if (model.isRaster) {
+    json["columns"] = model.columns;
+    json["rows"] = model.rows;
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string certificateJson(const Certificate& certificate, const TerrainModel& model) {
+  Json json = {{"areteCertificate", kSchemaVersion},
+               {"program", "Arete " ARETE_VERSION},
+               {"file", certificate.file},
+               {"model",
+                {{"path", certificate.model},
+                 {"shape", toString(model.options.shape)},
+                 {"rimTolerance", model.options.rimTolerance}}},
+               {"source", sourceJson(model)},
+               {"criterion", criterionJson(certificate.criterion)},
+               {"promise",
+                {{"maxError", limit(certificate.promisedError)},
+                 {"storedError", certificate.storedError},
+                 {"kept", certificate.isKept}}},
+               {"measured", toJson(certificate.measured, model.isRaster)}};
+  if (certificate.measuredInside)
+    json["measuredInside"] = toJson(*certificate.measuredInside, model.isRaster);
+  json["check"] = certificate.checkCommand;
+  // A path need not be UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Status writeCertificate(const std::string& path, const Certificate& certificate, const TerrainModel& model) {
+  Result<FileWriter> writer = FileWriter::create(path);
+  if (!writer) return tl::unexpected(writer.error());
+  writer->write(certificateJson(certificate, model));
+  return writer->finish();
+}
+
+}  // namespace arete

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "engine/cut.h"
+#include "engine/result.h"
+#include "engine/run_context.h"
+#include "terrain/measure.h"
+#include "terrain/terrain_model.h"
+
+namespace arete {
+
+/// What was asked for.
+struct ExtractCriterion {
+  std::optional<double> maxError;             ///< everywhere, or inside the region
+  std::optional<std::uint32_t> maxTriangles;  ///< a budget; without a maxError the error is as small as it gets
+  std::string region;                         ///< as it was given; empty = none
+  double outsideError = std::numeric_limits<double>::infinity();  ///< with a region
+  CutMethod method = CutMethod::minimal;
+};
+
+/// What an export promises, and how a third party can check it.
+struct Certificate {
+  std::string file;
+  std::string model;  ///< the .amt it was taken from
+  ExtractCriterion criterion;
+  double storedError = 0;  ///< of the cut: the largest error stored with its triangles
+  MeasureReport measured;  ///< of the exported mesh, by terrain/measure.h, against every sample
+  std::optional<MeasureReport> measuredInside;  ///< against the samples in the region alone
+  double promisedError = 0;                     ///< inside the region, where there is one
+  bool isKept = false;                          ///< the measurement agrees
+  std::string checkCommand;                     ///< what anybody can run
+};
+
+/// The certificate as JSON, as docs/topics/certificate.md states it. O(1).
+std::string certificateJson(const Certificate& certificate, const TerrainModel& model);
+
+/// Writes it; the file appears whole or not at all. Errors: those of FileWriter.
+Status writeCertificate(const std::string& path, const Certificate& certificate, const TerrainModel& model);
+
+}  // namespace arete

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/result.h"
+#include "engine/run_context.h"
+#include "io/point_reader.h"
+#include "io/raster_reader.h"
+#include "terrain/heightfield.h"
+
+namespace arete {
+
+struct DemReadOptions {
+  std::optional<int> band;       ///< of a raster
+  std::string layer;             ///< of points
+  std::string zField;            ///< of points
+  std::string crs;               ///< of either
+  std::optional<double> nodata;  ///< of either
+};
+
+struct DemRead {
+  std::variant<RasterHeightfield, PointHeightfield> heightfield;
+  std::vector<std::string> warnings;
+};
+
+/// The one door for elevation data: reads a raster or scattered points, whichever the file is; see
+/// readRaster() and readPoints() for how and for the errors. Text whose points fill a regular grid, at least
+/// by half, is a raster (and its heights stay doubles). LAS, LAZ, COPC and E57 clouds are refused with what
+/// to do instead (unsupported).
+Result<DemRead> readDem(const std::string& path, const DemReadOptions& options = {},
+                        const RunContext& context = {});
+
+}  // namespace arete

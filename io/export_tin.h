@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "engine/cut.h"
+#include "engine/triangle_mesh.h"
+#include "terrain/terrain_model.h"
+
+namespace arete {
+
+/// A cut as others see it.
+struct TinExport {
+  /// Positions in source coordinates, heights in the DEM's vertical unit; triangles counter-clockwise seen
+  /// from above on the map, whichever way the raster's grid turns.
+  TriangleMesh mesh;
+  std::vector<float> errors;  ///< per triangle: as stored, rounded outwards
+};
+
+/// O(size of the cut). Precondition: the cut is one of the model's.
+TinExport exportTin(const TerrainModel& model, const Cut& cut);
+
+}  // namespace arete

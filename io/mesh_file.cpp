@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/mesh_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "io/mesh_obj.h"
+#include "io/mesh_ply.h"
+
+namespace arete {
+
+namespace {
+
+constexpr std::array kFormats = {
+    MeshFormat{"PLY", ".ply", &readPly, &writePly},
+    MeshFormat{"OBJ", ".obj", &readObj, &writeObj},
+};
+
+}  // namespace
+
+std::span<const MeshFormat> meshFormats() {
+  return kFormats;
+}
+
+Result<MeshFormat> meshFormatOf(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  for (const MeshFormat& format : kFormats)
+    if (extension == format.extension) return format;
+  std::string known;
+  for (const MeshFormat& format : kFormats)
+    known += fmt::format("{}{} ({})", known.empty() ? "" : ", ", format.name, format.extension);
+  return failure(ErrorCode::unsupported,
+                 extension.empty()
+                     ? fmt::format("a mesh file needs an extension that names its format: {}", known)
+                     : fmt::format("{} is no known mesh format; known are {}", extension, known),
+                 path.string());
+}
+
+Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& context) {
+  const Result<MeshFormat> format = meshFormatOf(path);
+  if (!format) return tl::unexpected(format.error());
+  if (!format->read)
+    return failure(ErrorCode::unsupported, fmt::format("{} files can be written, not read", format->name),
+                   path.string());
+  return format->read(path, context);
+}
+
+Status writeMesh(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
+                 const RunContext& context) {
+  const Result<MeshFormat> format = meshFormatOf(path);
+  if (!format) return tl::unexpected(format.error());
+  if (!format->write)
+    return failure(ErrorCode::unsupported, fmt::format("{} files can be read, not written", format->name),
+                   path.string());
+  return format->write(mesh, path, options, context);
+}
+
+}  // namespace arete

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/result.h"
+#include "engine/run_context.h"
+#include "engine/triangle_mesh.h"
+
+namespace arete {
+
+/// A mesh and what its file says of its frame. Polygons of the file are split into fans.
+struct MeshFile {
+  TriangleMesh mesh;         ///< positions as the file has them
+  std::string crsWkt;        ///< empty where the file does not say
+  std::string verticalUnit;  ///< empty where the file does not say
+};
+
+/// What a written mesh file says besides the triangles.
+struct MeshWriteOptions {
+  std::string crsWkt = {};
+  std::string verticalUnit = {};
+  /// One per triangle, when not empty. Formats without a place for it leave it out.
+  std::span<const float> triangleErrors = {};
+  /// More comment lines, for people.
+  std::vector<std::string> notes = {};
+};
+
+/// One mesh file format. A new one is its own pair of files and a line in the table of mesh_file.cpp.
+struct MeshFormat {
+  std::string_view name;       ///< "PLY"
+  std::string_view extension;  ///< lower case, with its dot: ".ply"
+  Result<MeshFile> (*read)(const std::filesystem::path& path, const RunContext& context);  ///< null: cannot
+  Status (*write)(const TriangleMesh& mesh, const std::filesystem::path& path,
+                  const MeshWriteOptions& options,
+                  const RunContext& context);  ///< null: cannot
+};
+
+/// The formats this build knows.
+std::span<const MeshFormat> meshFormats();
+
+/// By the extension of the path, in either case. Errors: unsupported, naming the known formats.
+Result<MeshFormat> meshFormatOf(const std::filesystem::path& path);
+
+/// Reads a mesh in the format its extension names. Errors, always naming the path and, where there is one,
+/// the line or element: notFound, unreadable, unsupported, corrupt (truncated, hostile or nonsense),
+/// interrupted. Every index of the result is valid and every coordinate finite. O(file size).
+Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& context = {});
+
+/// Writes a mesh in the format the extension of `path` names; the file appears whole or not at all.
+/// Errors: unsupported, invalidData for a mesh that does not validate(), unreadable for the disk,
+/// interrupted.
+Status writeMesh(const TriangleMesh& mesh, const std::filesystem::path& path,
+                 const MeshWriteOptions& options = {}, const RunContext& context = {});
+
+}  // namespace arete

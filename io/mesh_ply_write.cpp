@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <bit>
+#include <limits>
+
+#include "io/file_writer.h"
+#include "io/mesh_ply.h"
+#include "io/text_scan.h"
+
+namespace arete {
+
+// Records are copied to the file as they lie in memory.
+static_assert(std::endian::native == std::endian::little, "a big-endian machine needs a byte swap here");
+
+namespace {
+
+constexpr std::size_t kRecordsPerCancelCheck = 1 << 16;
+
+std::string headerOf(const TriangleMesh& mesh, const MeshWriteOptions& options) {
+  std::string header = "ply\nformat binary_little_endian 1.0\ncomment generator arete\n";
+  if (!options.crsWkt.empty()) header += fmt::format("comment crs {}\n", text::onOneLine(options.crsWkt));
+  if (!options.verticalUnit.empty())
+    header += fmt::format("comment vertical_unit {}\n", text::onOneLine(options.verticalUnit));
+  for (const std::string& note : options.notes) header += fmt::format("comment {}\n", text::onOneLine(note));
+  header += fmt::format("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
+                        mesh.positions.size());
+  header += fmt::format("element face {}\nproperty list uchar int vertex_indices\n", mesh.triangles.size());
+  if (!options.triangleErrors.empty()) header += "property float error\n";
+  return header + "end_header\n";
+}
+
+}  // namespace
+
+Status writePly(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
+                const RunContext& context) {
+  const auto refuse = [&](std::string message) {
+    return failure(ErrorCode::invalidData, std::move(message), path.string());
+  };
+  if (const Status ok = mesh.validate(); !ok) return refuse(ok.error().message);
+  if (mesh.positions.size() > std::size_t(std::numeric_limits<std::int32_t>::max()))
+    return refuse(
+        fmt::format("{} vertices are more than a PLY of int indices can name", mesh.positions.size()));
+  if (!options.triangleErrors.empty() && options.triangleErrors.size() != mesh.triangles.size())
+    return refuse(
+        fmt::format("{} errors for {} triangles", options.triangleErrors.size(), mesh.triangles.size()));
+  Result<FileWriter> file = FileWriter::create(path);
+  if (!file) return tl::unexpected(file.error());
+
+  file->write(headerOf(mesh, options));
+  const std::size_t records = mesh.positions.size() + mesh.triangles.size();
+  std::size_t done = 0;
+  const auto shouldStop = [&] {
+    if (done++ % kRecordsPerCancelCheck != 0) return false;
+    context.report("writing the mesh", static_cast<double>(done) / static_cast<double>(records));
+    return context.cancelled();
+  };
+  const auto interrupted = [&] {
+    return failure(ErrorCode::interrupted, "writing was interrupted", path.string());
+  };
+
+  for (const Vec3& p : mesh.positions) {
+    if (shouldStop()) return interrupted();
+    putBytes(putBytes(putBytes(file->reserve(3 * sizeof(double)), p.x), p.y), p.z);
+  }
+  const bool withErrors = !options.triangleErrors.empty();
+  const std::size_t faceSize = 1 + 3 * sizeof(std::int32_t) + (withErrors ? sizeof(float) : 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (shouldStop()) return interrupted();
+    char* to = putBytes(file->reserve(faceSize), std::uint8_t{3});
+    for (const std::uint32_t v : mesh.triangles[t]) to = putBytes(to, static_cast<std::int32_t>(v));
+    if (withErrors) putBytes(to, options.triangleErrors[t]);
+  }
+  return file->finish();
+}
+
+}  // namespace arete

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <charconv>
+#include <cstddef>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace arete::text {
+
+/// Small pieces that the readers of text formats share. None depends on the locale.
+
+inline bool isBlank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+inline bool isSpace(char c) {
+  return isBlank(c) || c == '\n';
+}
+
+/// The 1-based line of a place in a text. O(distance): for messages only.
+inline std::size_t lineOf(const char* begin, const char* at) {
+  std::size_t line = 1;
+  for (; begin < at; ++begin) line += *begin == '\n';
+  return line;
+}
+
+/// Reads a number that ends at white space or at `end`, and moves `at` behind it. False when there is none.
+inline bool scanNumber(const char*& at, const char* end, double& value) {
+  const char* from = at;
+  if (from < end && *from == '+') ++from;
+  const auto [behind, error] = std::from_chars(from, end, value);
+  if (error == std::errc::result_out_of_range)
+    value = std::strtod(std::string(from, behind).c_str(), nullptr);  // rounds to 0 or to infinity
+  else if (error != std::errc{})
+    return false;
+  if (behind < end && !isSpace(*behind)) return false;
+  at = behind;
+  return true;
+}
+
+/// A token for a message: short, and printable.
+inline std::string quotedToken(std::string_view token) {
+  constexpr std::size_t kLongest = 40;
+  std::string text = "\"";
+  for (const char c : token.substr(0, kLongest)) text += c >= 32 && c < 127 ? c : '?';
+  return text + (token.size() > kLongest ? "...\"" : "\"");
+}
+
+/// The text without line breaks: each run of them, with the blanks around it, becomes one space.
+inline std::string onOneLine(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '\n' && text[i] != '\r') {
+      result += text[i];
+      continue;
+    }
+    while (!result.empty() && isBlank(result.back())) result.pop_back();
+    while (i + 1 < text.size() && isSpace(text[i + 1])) ++i;
+    if (!result.empty() && i + 1 < text.size()) result += ' ';
+  }
+  return result;
+}
+
+}  // namespace arete::text
