@@ -103,13 +103,22 @@ Result<NodeSet> minimalWithBudget(const MultiTriangulation& mt, const Criterion&
   for (std::uint32_t t = 0; t < roots; ++t) offer(t, {});
 
   std::uint64_t triangles = roots;
-  std::vector<std::uint32_t> missing;
-  for (std::size_t steps = 0; !heap.empty(); ++steps) {
+  std::vector<std::uint32_t> missing, order;
+  // Errors are not monotone down the graph: a refinement can raise the largest error (white noise does it).
+  // The state kept is the last one with the least.
+  std::uint16_t least = OutwardScale::kMaxCode;
+  std::size_t best = 0;
+  for (std::size_t steps = 0;; ++steps) {
     if (steps % kCheckEvery == 0 && context.cancelled()) return interrupted();
-    const std::uint32_t id = ~heap.top().second;
+    while (!heap.empty() && in[a.remover[~heap.top().second]]) heap.pop();
+    const std::uint16_t largest = heap.empty() ? OutwardScale::Code(0) : heap.top().first;
+    if (largest <= least) {
+      least = largest;
+      best = order.size();
+    }
+    if (heap.empty()) break;
+    const std::uint32_t wanted = a.remover[~heap.top().second];
     heap.pop();
-    const std::uint32_t wanted = a.remover[id];
-    if (in[wanted]) continue;
     missing.assign(1, wanted);
     in[wanted] = 1;
     std::uint64_t added = 0;
@@ -129,9 +138,11 @@ Result<NodeSet> minimalWithBudget(const MultiTriangulation& mt, const Criterion&
       break;
     }
     triangles += added;
+    order.insert(order.end(), missing.begin(), missing.end());
     for (const std::uint32_t n : missing)
       for (std::uint32_t s = a.slotBegin[n]; s < a.slotBegin[n + 1]; ++s) offer(roots + s, NodeId(n));
   }
+  for (std::size_t i = best; i < order.size(); ++i) in[order[i]] = 0;
   return in;
 }
 
@@ -162,6 +173,7 @@ std::uint32_t closeUpwards(const MultiTriangulation& mt, NodeSet& set) {
 Result<NodeSet> minimalNodes(const MultiTriangulation& mt, const Criterion& criterion,
                              std::optional<std::uint32_t> maxTriangles, const RunContext& context) {
   if (const Status budget = checkBudget(mt, maxTriangles); !budget) return tl::unexpected(budget.error());
+  if (context.cancelled()) return interrupted();
   return maxTriangles ? minimalWithBudget(mt, criterion, *maxTriangles, context)
                       : minimalWithoutBudget(mt, criterion, context);
 }

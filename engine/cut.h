@@ -35,7 +35,7 @@ enum class CutMethod {
 struct CutOptions {
   CutMethod method = CutMethod::minimal;
   /// At most this many triangles, spent where the error is largest; the criterion may stay unmet.
-  std::optional<std::uint32_t> maxTriangles;
+  std::optional<std::uint32_t> maxTriangles{};
 };
 
 /// The front of the least cut (or of the saturated cut) whose triangles all satisfy the criterion, or have

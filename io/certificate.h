@@ -16,9 +16,10 @@ namespace arete {
 
 /// What was asked for.
 struct ExtractCriterion {
-  std::optional<double> maxError;             ///< everywhere, or inside the region
-  std::optional<std::uint32_t> maxTriangles;  ///< a budget; without a maxError the error is as small as it gets
-  std::string region;                         ///< as it was given; empty = none
+  std::optional<double> maxError;  ///< everywhere, or inside the region
+  std::optional<std::uint32_t>
+      maxTriangles;    ///< a budget; without a maxError the error is as small as it gets
+  std::string region;  ///< as it was given; empty = none
   double outsideError = std::numeric_limits<double>::infinity();  ///< with a region
   CutMethod method = CutMethod::minimal;
 };

@@ -17,7 +17,8 @@ TinExport exportTin(const TerrainModel& model, const Cut& cut) {
   if (model.isFlipped())
     for (auto& t : tin.mesh.triangles) std::swap(t[1], t[2]);
   tin.errors.reserve(cut.ids.size());
-  for (const std::uint32_t t : cut.ids) tin.errors.push_back(static_cast<float>(model.mt.error(TriangleId(t))));
+  for (const std::uint32_t t : cut.ids)
+    tin.errors.push_back(static_cast<float>(model.mt.error(TriangleId(t))));
   return tin;
 }
 

@@ -45,8 +45,8 @@ Result<TransformationPtr> transformation(const OGRSpatialReference* own, const s
   GdalErrors errors;
   TransformationPtr result(OGRCreateCoordinateTransformation(&source, &*target));
   if (!result)
-    return failure(ErrorCode::invalidData, fmt::format("there is no way from its CRS to that of the DEM: {}",
-                                                       errors.firstFailure()));
+    return failure(ErrorCode::invalidData,
+                   fmt::format("there is no way from its CRS to that of the DEM: {}", errors.firstFailure()));
   return result;
 }
 
@@ -54,8 +54,8 @@ Status addPoint(const OGRPoint& point, OGRCoordinateTransformation* toTarget, st
   if (point.IsEmpty()) return {};
   Vec2 p{point.getX(), point.getY()};
   if ((toTarget && !toTarget->Transform(1, &p.x, &p.y)) || !std::isfinite(p.x) || !std::isfinite(p.y))
-    return failure(ErrorCode::invalidData, fmt::format("the CRS of the DEM cannot tell the point {} {}",
-                                                       point.getX(), point.getY()));
+    return failure(ErrorCode::invalidData,
+                   fmt::format("the CRS of the DEM cannot tell the point {} {}", point.getX(), point.getY()));
   positions.push_back(p);
   return {};
 }
@@ -65,13 +65,15 @@ Status addGeometry(const OGRGeometry& geometry, OGRCoordinateTransformation* toT
   const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
   if (type == wkbPoint) return addPoint(*geometry.toPoint(), toTarget, positions);
   if (type != wkbMultiPoint)
-    return failure(ErrorCode::unsupported, fmt::format("holds a {}, not a point", geometry.getGeometryName()));
+    return failure(ErrorCode::unsupported,
+                   fmt::format("holds a {}, not a point", geometry.getGeometryName()));
   for (const OGRPoint* point : *geometry.toMultiPoint())
     if (Status added = addPoint(*point, toTarget, positions); !added) return added;
   return {};
 }
 
-Result<PlanPoints> readFrom(const std::string& path, const std::string& targetCrs, const RunContext& context) {
+Result<PlanPoints> readFrom(const std::string& path, const std::string& targetCrs,
+                            const RunContext& context) {
   registerGdal();
   GdalErrors errors;
   PlanPoints read;

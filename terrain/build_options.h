@@ -32,7 +32,7 @@ struct BuildOptions {
   double rimTolerance = 0;
 
   /// Vertices (sample or point indices) that stay in the root, beside the domain's corners.
-  std::vector<std::uint32_t> fixedVertices;
+  std::vector<std::uint32_t> fixedVertices{};
 };
 
 std::string_view toString(HoleShape shape);

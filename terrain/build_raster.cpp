@@ -121,8 +121,8 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   {
     Simplifier<LatticePlan, RasterError> simplifier(mesh, plan, errors, recorder, rim.get(), options,
                                                     context);
-    simplifier.setRoundingSlack(roundingSlack(low, high));
-    Result<SimplifiedRoot> simplified = simplifier.run(isFixed, metric, 0);
+    simplifier.setHeights(low, high);
+    Result<SimplifiedRoot> simplified = simplifier.run(isFixed, metric);
     if (!simplified) return tl::unexpected(simplified.error());
     root = std::move(*simplified);
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// On a geographic CRS a step of one column or one row is measured as a geodesic on the CRS's own ellipsoid between the
-// two sample positions: exact at the given place, and an ellipsoid of the Moon works as well as the Earth's.
+// On a geographic CRS a step of one column or one row is measured as a geodesic on the CRS's own ellipsoid
+// between the two sample positions: exact at the given place, and an ellipsoid of the Moon works as well as
+// the Earth's.
 #include "terrain/georeference.h"
 
 #include <GeographicLib/Geodesic.hpp>

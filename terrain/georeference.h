@@ -20,16 +20,16 @@ struct Georeference {
   /// False where the file has none and the identity stands in.
   bool hasGeoTransform = false;
 
-  std::string crsWkt;          ///< WKT 2 as GDAL exports it; empty = no CRS
-  bool isGeographic = false;   ///< x, y are longitude, latitude in angularUnitRadians
+  std::string crsWkt;         ///< WKT 2 as GDAL exports it; empty = no CRS
+  bool isGeographic = false;  ///< x, y are longitude, latitude in angularUnitRadians
   double angularUnitRadians = 0.017453292519943295;
-  double linearUnitMetres = 1; ///< of a projected CRS
+  double linearUnitMetres = 1;  ///< of a projected CRS
   double semiMajorAxisMetres = 6378137;
   double inverseFlattening = 298.257223563;  ///< 0 = sphere
 
-  std::string verticalUnit;         ///< as the file says it ("m", "metre", "ft", ...); may be empty
-  double verticalUnitMetres = 1;    ///< metres in one unit; 1 where the file does not say
-  std::string verticalDatum;        ///< as far as the file says it; may be empty
+  std::string verticalUnit;       ///< as the file says it ("m", "metre", "ft", ...); may be empty
+  double verticalUnitMetres = 1;  ///< metres in one unit; 1 where the file does not say
+  std::string verticalDatum;      ///< as far as the file says it; may be empty
 
   /// Source coordinates of a sample (real-valued column and row allowed): geotransform(col + 1/2, row + 1/2).
   Vec2 toSource(double column, double row) const {
@@ -49,8 +49,9 @@ struct Georeference {
   double determinant() const { return geoTransform[1] * geoTransform[5] - geoTransform[2] * geoTransform[4]; }
 };
 
-/// Ground size of one step along a row and one along a column, at the given grid position, in metres where the
-/// CRS is known and in source units otherwise. Geographic steps are measured on the ellipsoid (GeographicLib).
+/// Ground size of one step along a row and one along a column, at the given grid position, in metres where
+/// the CRS is known and in source units otherwise. Geographic steps are measured on the ellipsoid
+/// (GeographicLib).
 Vec2 groundStep(const Georeference& georeference, double column, double row);
 
 }  // namespace arete

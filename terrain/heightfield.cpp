@@ -14,11 +14,13 @@ namespace arete {
 Status RasterHeightfield::validate() const {
   if (heights.size() != std::size_t(columns) * rows)
     return failure(ErrorCode::invalidData,
-                   fmt::format("{} heights for {} columns and {} rows", heights.size(), columns, rows), source);
+                   fmt::format("{} heights for {} columns and {} rows", heights.size(), columns, rows),
+                   source);
   for (std::size_t i = 0; i < heights.size(); ++i)
     if (std::isinf(heights[i]))
       return failure(ErrorCode::invalidData,
-                     fmt::format("the height at column {}, row {} is infinite", i % columns, i / columns), source);
+                     fmt::format("the height at column {}, row {} is infinite", i % columns, i / columns),
+                     source);
   const double determinant = georeference.determinant();
   if (determinant == 0 || !std::isfinite(determinant))
     return failure(ErrorCode::invalidData, "the geotransform is not invertible", source);
@@ -31,7 +33,8 @@ Status PointHeightfield::validate() const {
                    fmt::format("{} heights for {} positions", heights.size(), positions.size()), source);
   for (std::size_t i = 0; i < heights.size(); ++i)
     if (!std::isfinite(heights[i]) || !std::isfinite(positions[i].x) || !std::isfinite(positions[i].y))
-      return failure(ErrorCode::invalidData, fmt::format("point {} has a coordinate that is not finite", i), source);
+      return failure(ErrorCode::invalidData, fmt::format("point {} has a coordinate that is not finite", i),
+                     source);
   return {};
 }
 

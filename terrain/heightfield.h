@@ -20,14 +20,16 @@ struct RasterHeightfield {
   std::vector<double> heights;
 
   Georeference georeference;
-  double rawScale = 1;   ///< height = raw * rawScale + rawOffset, as the band declares; 1, 0 where it does not
+  double rawScale = 1;  ///< height = raw * rawScale + rawOffset, as the band declares; 1, 0 where it does not
   double rawOffset = 0;
   std::string source;          ///< the path or name it was read from
   std::string sourceChecksum;  ///< "xxh3-128:<hex>" of the decoded heights; see heightsChecksum()
 
   std::size_t size() const { return heights.size(); }
   std::uint32_t index(std::uint32_t column, std::uint32_t row) const { return row * columns + column; }
-  double at(std::uint32_t column, std::uint32_t row) const { return heights[std::size_t(row) * columns + column]; }
+  double at(std::uint32_t column, std::uint32_t row) const {
+    return heights[std::size_t(row) * columns + column];
+  }
   bool isValid(std::uint32_t column, std::uint32_t row) const { return !std::isnan(at(column, row)); }
 
   /// heights.size() == columns * rows, no infinite height, an invertible geotransform. O(size).
@@ -49,8 +51,8 @@ struct PointHeightfield {
   Status validate() const;
 };
 
-/// "xxh3-128:<hex>" over size, grid shape and the bytes of the heights (NaN made canonical): the same samples give the
-/// same checksum whatever file they came in. O(size).
+/// "xxh3-128:<hex>" over size, grid shape and the bytes of the heights (NaN made canonical): the same samples
+/// give the same checksum whatever file they came in. O(size).
 std::string heightsChecksum(const RasterHeightfield& heightfield);
 std::string heightsChecksum(const PointHeightfield& heightfield);
 

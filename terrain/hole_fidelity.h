@@ -17,11 +17,13 @@ namespace arete {
 /// limit. Triangles that all turn the same way and share the polygon's rim tile it, so nothing else needs
 /// checking. Errors are found on demand and kept; a triangle beyond the best known filling is given up early.
 ///
-/// Hole: maximum(i, j, m, limit). Empty when no triangulation keeps the limit. O(corners^3), one error each
-/// at most.
+/// Hole: maximum(i, j, m, limit). Empty when no triangulation keeps the limit; `leastError` is then a bound
+/// from below of what any triangulation costs (infinite when the aspect bound alone leaves none), and the
+/// error itself otherwise. O(corners^3), one error each at most.
 template <class Polygon, class Hole>
 HoleTriangulation triangulateHoleFidelity(const Polygon& polygon, int corners, const Hole& hole, double limit,
-                                          double minimumAspect) {
+                                          double minimumAspect, double& leastError) {
+  // Beyond the limit `worst` is a bound from below: errors given up early, sides not pursued.
   struct Best {
     double worst, sum;
     std::uint8_t apex;
@@ -38,21 +40,24 @@ HoleTriangulation triangulateHoleFidelity(const Polygon& polygon, int corners, c
       for (int m = i + 1; m < j; ++m) {
         const Best &left = best[i][m], &right = best[m][j];
         const double sides = left.worst > right.worst ? left.worst : right.worst;
-        if (sides > limit || sides > b.worst) continue;
+        if (sides > b.worst) continue;
         const double sumOfSides = left.sum + right.sum;
         if (sides == b.worst && sumOfSides >= b.sum) continue;
         if (polygon.orientation(i, m, j) <= 0 || polygon.aspect(i, m, j) < minimumAspect) continue;
-        const double bound = b.worst < limit ? b.worst : limit;
-        const double error = hole.maximum(i, m, j, bound);
-        if (error > bound) continue;
-        const double worst = error > sides ? error : sides, sum = sumOfSides + error;
+        double worst = sides, sum = sumOfSides;
+        if (sides <= limit) {
+          const double error = hole.maximum(i, m, j, b.worst < limit ? b.worst : limit);
+          worst = error > sides ? error : sides;
+          sum += error;
+        }
         if (worst < b.worst || (worst == b.worst && sum < b.sum))
           b = {worst, sum, static_cast<std::uint8_t>(m)};
       }
     }
   }
   HoleTriangulation result;
-  if (!(best[0][corners - 1].worst <= limit)) return result;
+  leastError = best[0][corners - 1].worst;
+  if (!(leastError <= limit)) return result;
   std::array<std::array<std::uint8_t, 2>, kMaxHoleCorners> stack;
   int top = 0;
   stack[top++] = {0, static_cast<std::uint8_t>(corners - 1)};

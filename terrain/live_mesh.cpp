@@ -14,23 +14,21 @@
 
 namespace arete {
 
-LiveMesh LiveMesh::fromTriangles(std::vector<Corners> triangles, std::uint32_t vertexCount,
+LiveMesh LiveMesh::fromTriangles(std::vector<Corners> corners, std::uint32_t vertexCount,
                                  std::vector<std::uint32_t>& pinched) {
   LiveMesh mesh;
-  mesh.corners = std::move(triangles);
-  const std::size_t count = mesh.corners.size();
-  mesh.twin.assign(count, {kNone, kNone, kNone});
-  mesh.birth.resize(count);
-  mesh.bearer.assign(count, kNone);
+  const std::size_t count = corners.size();
+  mesh.triangles.resize(count);
+  for (std::uint32_t t = 0; t < count; ++t) mesh.triangles[t] = {corners[t], {kNone, kNone, kNone}, t, kNone};
+  std::vector<Corners>().swap(corners);
   mesh.vertexHalfedge.assign(vertexCount, kNone);
 
   // Chains of outgoing half-edges per vertex find each twin among the few edges that leave its other end.
   std::vector<std::uint32_t> nextOutgoing(count * 3);
   std::vector<std::uint8_t> degree(vertexCount, 0);
   for (std::uint32_t t = 0; t < count; ++t) {
-    mesh.birth[t] = t;
     for (std::uint32_t i = 0; i < 3; ++i) {
-      const std::uint32_t v = mesh.corners[t][i];
+      const std::uint32_t v = mesh.triangles[t].corners[i];
       nextOutgoing[3 * t + i] = mesh.vertexHalfedge[v];
       mesh.vertexHalfedge[v] = 3 * t + i;
       if (degree[v] < 255) ++degree[v];
@@ -129,17 +127,20 @@ void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, st
   for (int f = 0; f < floor.size; ++f) {
     const std::uint32_t t = slots[f];
     const auto& local = floor.triangles[f];
-    mesh.corners[t] = {star.link[local[0]], star.link[local[1]], star.link[local[2]]};
-    mesh.birth[t] = firstBirth + static_cast<std::uint32_t>(f);
-    mesh.bearer[t] = removal;
+    LiveMesh::Triangle& triangle = mesh.triangles[t];
+    triangle.corners = {star.link[local[0]], star.link[local[1]], star.link[local[2]]};
+    triangle.birth = firstBirth + static_cast<std::uint32_t>(f);
+    triangle.bearer = removal;
     for (int c = 0; c < 3; ++c) {
       const int a = local[c], b = local[(c + 1) % 3];
       const bool onRim = b == (a + 1 < corners ? a + 1 : 0);
-      if (!onRim) mesh.twin[t][c] = edge[b][a];
+      if (!onRim) triangle.twin[c] = edge[b][a];
     }
   }
-  for (int i = floor.size; i < star.triangleCount; ++i)
-    mesh.corners[slots[i]] = {LiveMesh::kNone, LiveMesh::kNone, LiveMesh::kNone};
+  for (int i = floor.size; i < star.triangleCount; ++i) {
+    mesh.triangles[slots[i]].corners[0] = LiveMesh::kNone;
+    mesh.triangles[slots[i]].bearer = removal;
+  }
 }
 
 }  // namespace arete

@@ -23,22 +23,27 @@ struct LiveMesh {
   static constexpr std::uint32_t kNone = MtRecorder::kNone;
   using Corners = std::array<std::uint32_t, 3>;
 
-  std::vector<Corners> corners;
-  std::vector<Corners> twin;
-  std::vector<std::uint32_t> birth;           ///< per triangle: birth id in the recorder
-  std::vector<std::uint32_t> bearer;          ///< per triangle: the removal that bore it, or kNone
+  /// One triangle in half a cache line: a walk around a star is bound by the lines it touches.
+  struct alignas(32) Triangle {
+    Corners corners;
+    Corners twin;
+    std::uint32_t birth;   ///< birth id in the recorder
+    std::uint32_t bearer;  ///< the removal that bore it, or kNone; of a dead slot: the removal that left it
+    bool isDead() const { return corners[0] == kNone; }
+  };
+  std::vector<Triangle> triangles;
   std::vector<std::uint32_t> vertexHalfedge;  ///< per vertex, kNone for a vertex in no triangle
 
   /// Half-edges and births for counter-clockwise triangles. `pinched` receives the vertices whose triangles
   /// form more than one fan. O(triangles). Precondition: an edge has at most one triangle on either side.
-  static LiveMesh fromTriangles(std::vector<Corners> triangles, std::uint32_t vertexCount,
+  static LiveMesh fromTriangles(std::vector<Corners> corners, std::uint32_t vertexCount,
                                 std::vector<std::uint32_t>& pinched);
 
   static std::uint32_t nextInTriangle(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
   static std::uint32_t previousInTriangle(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
-  std::uint32_t origin(std::uint32_t h) const { return corners[h / 3][h % 3]; }
-  std::uint32_t twinOf(std::uint32_t h) const { return twin[h / 3][h % 3]; }
-  void setTwin(std::uint32_t h, std::uint32_t to) { twin[h / 3][h % 3] = to; }
+  std::uint32_t origin(std::uint32_t h) const { return triangles[h / 3].corners[h % 3]; }
+  std::uint32_t twinOf(std::uint32_t h) const { return triangles[h / 3].twin[h % 3]; }
+  void setTwin(std::uint32_t h, std::uint32_t to) { triangles[h / 3].twin[h % 3] = to; }
 };
 
 /// The star of a vertex of a LiveMesh: link counter-clockwise, one triangle between consecutive link
@@ -77,10 +82,13 @@ void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, st
             std::uint32_t removal, std::vector<LiveMesh::Corners>& movedHalfedge, PendingSeams& seams);
 
 /// Joins the floor's rim to what lies beyond it, whether that moved in the same batch or not.
-/// `isMoved(t)`: triangle slot t belongs to a star of this batch.
-template <class IsMoved>
-void sew(LiveMesh& mesh, const PendingSeams& seams, const std::vector<LiveMesh::Corners>& movedHalfedge,
-         const IsMoved& isMoved) {
+/// `firstRemoval`: of this batch; slots that a removal from it on has rewritten have moved.
+inline void sew(LiveMesh& mesh, const PendingSeams& seams,
+                const std::vector<LiveMesh::Corners>& movedHalfedge, std::uint32_t firstRemoval) {
+  const auto isMoved = [&](std::uint32_t t) {
+    const std::uint32_t bearer = mesh.triangles[t].bearer;
+    return bearer != LiveMesh::kNone && bearer >= firstRemoval;
+  };
   for (int i = 0; i < seams.size; ++i) {
     const std::uint32_t h = seams.movedTo[i], old = seams.beyond[i];
     if (old == LiveMesh::kNone) {

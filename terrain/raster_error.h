@@ -6,23 +6,9 @@
 
 #include "terrain/lattice_plan.h"
 #include "terrain/live_mesh.h"
+#include "terrain/signed_bound.h"
 
 namespace arete {
-
-/// How far a surface lies from the reference: z_surface - z_reference stays within [-below, above].
-struct SignedBound {
-  double below = 0;
-  double above = 0;
-
-  void include(double difference) {
-    if (difference > above) above = difference;
-    if (-difference > below) below = -difference;
-  }
-  void include(const SignedBound& other) {
-    if (other.above > above) above = other.above;
-    if (other.below > below) below = other.below;
-  }
-};
 
 /// Vertical error of triangles over a raster, exactly: every sample a triangle covers, its edges included, is
 /// compared with the triangle's plane. Triangles are planar in (column, row). NODATA inside a triangle is
@@ -40,7 +26,7 @@ class RasterError {
       return errors_.maximum(star_.link[i], star_.link[j], star_.link[m], bound);
     }
     SignedBound alongEdge(int i, int j) const { return errors_.alongEdge(star_.link[i], star_.link[j]); }
-    void settle(RasterError&, const LiveMesh&, const Star&, const HoleTriangulation&) const {}
+    void settle(const HoleTriangulation&) const {}
 
    private:
     const RasterError& errors_;

@@ -21,10 +21,10 @@ Rim::Rim(const LiveMesh& mesh, const LatticePlan& plan, double tolerance)
       originalNext_(mesh.vertexHalfedge.size(), LiveMesh::kNone),
       originalPrevious_(mesh.vertexHalfedge.size(), LiveMesh::kNone),
       claimedAt_(mesh.vertexHalfedge.size(), 0) {
-  for (std::uint32_t t = 0; t < mesh.corners.size(); ++t)
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::uint32_t i = 0; i < 3; ++i)
-      if (mesh.twin[t][i] == LiveMesh::kNone) {
-        const std::uint32_t from = mesh.corners[t][i], to = mesh.corners[t][(i + 1) % 3];
+      if (mesh.triangles[t].twin[i] == LiveMesh::kNone) {
+        const std::uint32_t from = mesh.triangles[t].corners[i], to = mesh.triangles[t].corners[(i + 1) % 3];
         originalNext_[from] = to;
         originalPrevious_[to] = from;
       }

@@ -35,12 +35,13 @@
 #include "engine/mt_recorder.h"
 #include "engine/result.h"
 #include "engine/run_context.h"
+#include "terrain/build_checks.h"
 #include "terrain/build_options.h"
 #include "terrain/hole.h"
 #include "terrain/hole_fidelity.h"
 #include "terrain/live_mesh.h"
-#include "terrain/raster_error.h"
 #include "terrain/rim.h"
+#include "terrain/signed_bound.h"
 
 namespace arete {
 
@@ -56,7 +57,7 @@ struct SimplifiedRoot {
 ///   hole.maximum(i, j, m, limit)                 error of the triangle of three corners
 ///   hole.maximum(i, j, m, bound)                 the same, with the signed difference at the samples
 ///   hole.alongEdge(i, j)                         signed difference along an edge
-///   errors.moved(star, floor)                    after a refill: samples find their new triangles
+///   hole.settle(floor)                           after a refill: samples find their new triangles
 template <class Plan, class Errors>
 class Simplifier {
  public:
@@ -73,8 +74,7 @@ class Simplifier {
         context_(context) {}
 
   /// Removes what can be removed. `isFixed`: per vertex, not 0 = stays. Metric positions come from metric().
-  Result<SimplifiedRoot> run(const std::vector<std::uint8_t>& isFixed, const MetricFrame& metric,
-                             double firstThreshold) {
+  Result<SimplifiedRoot> run(const std::vector<std::uint8_t>& isFixed, const MetricFrame& metric) {
     const auto vertexCount = static_cast<std::uint32_t>(mesh_.vertexHalfedge.size());
     std::uint32_t inDomain = 0;
     for (std::uint32_t v = 0; v < vertexCount; ++v) {
@@ -85,11 +85,11 @@ class Simplifier {
     cost_.assign(vertexCount, 0);
     state_.assign(vertexCount, State::stale);
     blocked_.assign(vertexCount, 0);
-    movedHalfedge_.resize(mesh_.corners.size());
-    movedAt_.assign(mesh_.corners.size(), 0);
+    movedHalfedge_.resize(mesh_.triangles.size());
     metric_ = metric;
 
-    double threshold = firstThreshold;
+    // Below a ten-millionth of the relief all errors are alike: noise of the arithmetic must not make levels.
+    double threshold = heightRange_ * 1e-7;
     std::uint32_t level = 0;
     const auto removableAtStart = static_cast<double>(std::max<std::size_t>(live_.size(), 1));
     while (!live_.empty()) {
@@ -103,7 +103,7 @@ class Simplifier {
         threshold = std::max(threshold * options_.thresholdRatio, pending);
         continue;
       }
-      removeChosen(level);
+      removeChosen();
       // Most levels are late and short: progress by what is left, on the scale of vertices.
       context_.report("simplify", 1.0 - double(live_.size()) / removableAtStart);
       threshold *= options_.thresholdRatio;
@@ -112,10 +112,10 @@ class Simplifier {
     SimplifiedRoot root;
     root.levels = level;
     std::vector<std::uint8_t> seen(vertexCount, 0);
-    for (std::uint32_t t = 0; t < mesh_.corners.size(); ++t) {
-      if (mesh_.corners[t][0] == kNone) continue;
-      root.triangles.push_back({mesh_.birth[t], mesh_.corners[t]});
-      for (const std::uint32_t v : mesh_.corners[t]) seen[v] = 1;
+    for (const LiveMesh::Triangle& triangle : mesh_.triangles) {
+      if (triangle.isDead()) continue;
+      root.triangles.push_back({triangle.birth, triangle.corners});
+      for (const std::uint32_t v : triangle.corners) seen[v] = 1;
     }
     for (std::uint32_t v = 0; v < vertexCount; ++v)
       if (seen[v]) root.vertices.push_back(v);
@@ -134,11 +134,16 @@ class Simplifier {
     return x;
   }
 
-  HoleTriangulation fill(const Star& star, std::uint32_t v, const typename Errors::Hole& hole,
-                         double limit) const {
+  /// Empty when the fidelity shape finds nothing within the limit, unless any shape is welcome: then Delaunay
+  /// fills.
+  HoleTriangulation fill(const Star& star, std::uint32_t v, const typename Errors::Hole& hole, double limit,
+                         bool isAnyShapeWelcome, double& leastError) const {
     const typename Plan::Polygon polygon(plan_, v, star.linkView());
-    if (options_.shape == HoleShape::fidelity)
-      return triangulateHoleFidelity(polygon, star.linkSize, hole, limit, options_.minimumAspect);
+    if (options_.shape == HoleShape::fidelity) {
+      const HoleTriangulation floor =
+          triangulateHoleFidelity(polygon, star.linkSize, hole, limit, options_.minimumAspect, leastError);
+      if (floor.size > 0 || !isAnyShapeWelcome) return floor;
+    }
     return triangulateHoleDelaunay(polygon, star.linkSize);
   }
 
@@ -174,15 +179,14 @@ class Simplifier {
           continue;
         }
         const typename Errors::Hole hole(errors_, star, v);
-        const HoleTriangulation floor = fill(star, v, hole, limit);
+        // No error exceeds the range of the heights: a hole that the aspect bound alone leaves open takes any
+        // shape then.
+        double leastError = 0;
+        const HoleTriangulation floor = fill(star, v, hole, limit, limit >= heightRange_, leastError);
         if (floor.size == 0) {
-          // Fidelity: nothing within the limit. The Delaunay filling always exists.
-          if (options_.shape == HoleShape::fidelity) {
-            state_[v] = State::atLeast;
-            cost_[v] = std::nextafter(static_cast<float>(limit), INFINITY);
-          } else {
-            state_[v] = State::stuck;
-          }
+          state_[v] = limit >= heightRange_ ? State::stuck : State::atLeast;
+          cost_[v] = static_cast<float>(
+              std::clamp(leastError, limit * (1 + 1e-6), std::max(heightRange_, limit * 2)));
           continue;
         }
         double worst = 0;
@@ -212,45 +216,65 @@ class Simplifier {
       return a.cost != b.cost ? a.cost < b.cost : a.tie < b.tie;
     });
     chosen_.clear();
-    linkSizes_.clear();
     Star star;
-    for (const Candidate& candidate : candidates_) {
-      const std::uint32_t v = candidate.vertex;
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      prefetchAhead(i);
+      const std::uint32_t v = candidates_[i].vertex;
       if (blocked_[v] == level) continue;
       star.gather(mesh_, v, kMaxHoleCorners);
       if (rim_ != nullptr && isFill(star, v) &&
           !rim_->claim(star.link[star.linkSize - 1], star.link[0], level))
         continue;
-      for (int i = 0; i < star.linkSize; ++i) blocked_[star.link[i]] = level;
+      for (int k = 0; k < star.linkSize; ++k) blocked_[star.link[k]] = level;
       blocked_[v] = level;
-      chosen_.push_back(v);
-      linkSizes_.push_back(static_cast<std::uint8_t>(star.linkSize));
+      chosen_.push_back({v, static_cast<std::uint8_t>(star.linkSize)});
+    }
+    // Errors scatter the chosen all over the terrain; from here on their order is that of memory.
+    tbb::parallel_sort(chosen_.begin(), chosen_.end(),
+                       [](const Chosen& a, const Chosen& b) { return a.vertex < b.vertex; });
+    linkSizes_.resize(chosen_.size());
+    for (std::size_t i = 0; i < chosen_.size(); ++i) linkSizes_[i] = chosen_[i].linkSize;
+  }
+
+  /// The greedy pass visits vertices in order of error, so nearly every one is a cache miss: ask for the next
+  /// ones early, first the half-edge, then the triangle it names.
+  void prefetchAhead(std::size_t i) const {
+    constexpr std::size_t kFar = 24, kNear = 8;
+    if (i + kFar < candidates_.size()) {
+      const std::uint32_t v = candidates_[i + kFar].vertex;
+      __builtin_prefetch(&mesh_.vertexHalfedge[v]);
+      __builtin_prefetch(&blocked_[v]);
+    }
+    if (i + kNear < candidates_.size()) {
+      const std::uint32_t v = candidates_[i + kNear].vertex;
+      const std::uint32_t t = mesh_.vertexHalfedge[v] / 3;
+      __builtin_prefetch(&mesh_.triangles[t]);
     }
   }
 
-  void removeChosen(std::uint32_t level) {
+  void removeChosen() {
     const std::uint32_t first = recorder_.beginBatch(linkSizes_);
     seams_.resize(chosen_.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chosen_.size(), 64), [&](const auto& range) {
       for (std::size_t i = range.begin(); i != range.end(); ++i)
-        remove(chosen_[i], first + static_cast<std::uint32_t>(i), level, seams_[i]);
+        remove(chosen_[i].vertex, first + static_cast<std::uint32_t>(i), seams_[i]);
     });
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chosen_.size(), 256), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i != range.end(); ++i)
-        sew(mesh_, seams_[i], movedHalfedge_, [&](std::uint32_t t) { return movedAt_[t] == level; });
+      for (std::size_t i = range.begin(); i != range.end(); ++i) sew(mesh_, seams_[i], movedHalfedge_, first);
     });
     if (rim_ != nullptr)
       for (const PendingSeams& seams : seams_)
         if (seams.isOpen) Rim::closeVoid(mesh_, seams.movedTo[seams.size - 1]);
-    for (const std::uint32_t v : chosen_) mesh_.vertexHalfedge[v] = kNone;
+    for (const Chosen& gone : chosen_) mesh_.vertexHalfedge[gone.vertex] = kNone;
     std::erase_if(live_, [&](std::uint32_t v) { return mesh_.vertexHalfedge[v] == kNone; });
   }
 
-  void remove(std::uint32_t v, std::uint32_t removal, std::uint32_t level, PendingSeams& seams) {
+  void remove(std::uint32_t v, std::uint32_t removal, PendingSeams& seams) {
     Star star;
     star.gather(mesh_, v, kMaxHoleCorners);
-    const typename Errors::Hole hole(errors_, star, v);
-    const HoleTriangulation floor = fill(star, v, hole, std::nextafter(cost_[v], INFINITY));
+    typename Errors::Hole hole(errors_, star, v);
+    double leastError = 0;
+    const HoleTriangulation floor = fill(star, v, hole, std::nextafter(cost_[v], INFINITY), true, leastError);
     const int corners = star.linkSize;
 
     // Bounds: samples inside each triangle, and each edge once for the two triangles that share it.
@@ -275,15 +299,15 @@ class Simplifier {
     std::array<std::uint16_t, kMaxHoleCorners> errorCode, belowCode, aboveCode;
     const OutwardScale& scale = recorder_.scale();
     for (int f = 0; f < floor.size; ++f) {
-      errorCode[f] = scale.encode(outward(errors[f]));
+      errorCode[f] = scale.encode(withoutRounding(errors[f]));
       belowCode[f] = scale.encode(outward(bounds[f].below));
       aboveCode[f] = scale.encode(outward(bounds[f].above));
     }
     std::array<std::uint32_t, kMaxHoleCorners> ceiling, bearer;
     std::array<Vec3, kMaxHoleCorners + 1> positions;
     for (int i = 0; i < star.triangleCount; ++i) {
-      ceiling[i] = mesh_.birth[star.triangle(i)];
-      bearer[i] = mesh_.bearer[star.triangle(i)];
+      ceiling[i] = mesh_.triangles[star.triangle(i)].birth;
+      bearer[i] = mesh_.triangles[star.triangle(i)].bearer;
     }
     const auto metricPosition = [&](std::uint32_t u) {
       const Vec2 p = plan_.planPosition(u);
@@ -305,27 +329,37 @@ class Simplifier {
     what.floorAbove = {aboveCode.data(), size(floor.size)};
     recorder_.record(removal, what);
 
-    for (int i = 0; i < star.triangleCount; ++i) movedAt_[star.triangle(i)] = level;
     refill(mesh_, star, floor, recorder_.firstBirth(removal), removal, movedHalfedge_, seams);
-    hole.settle(errors_, mesh_, star, floor);
+    hole.settle(floor);
 
     // Two stars can share a link vertex: both write the same value.
     for (int i = 0; i < corners; ++i)
       std::atomic_ref(state_[star.link[i]]).store(State::stale, std::memory_order_relaxed);
   }
 
-  /// Beyond the rounding of the scan itself (a few ulp of the heights), still far below the code's own step.
+  /// Bounds go beyond the rounding of the scan itself: they prove things.
   double outward(double x) const { return x == 0 ? 0 : x * (1 + 1e-9) + roundingSlack_; }
+  /// An error that is a code but for the last bits of its arithmetic is that code: integer heights make
+  /// errors of exactly 1 common, and a tolerance of 1 must take them. The bits are far below what "equal to
+  /// the bound" allows.
+  double withoutRounding(double x) const { return std::fmax(0.0, x - roundingSlack_); }
 
  public:
-  /// A few ulp of the largest height: what the arithmetic of a plane can be off by.
-  void setRoundingSlack(double slack) { roundingSlack_ = slack; }
+  /// Heights span [low, high].
+  void setHeights(double low, double high) {
+    roundingSlack_ = roundingSlack(low, high);
+    heightRange_ = high - low;
+  }
 
  private:
   static constexpr double kLookAhead = 1.5;
 
   struct Candidate {
     std::uint32_t cost, tie, vertex;
+  };
+  struct Chosen {
+    std::uint32_t vertex;
+    std::uint8_t linkSize;
   };
 
   LiveMesh& mesh_;
@@ -336,16 +370,16 @@ class Simplifier {
   const BuildOptions& options_;
   const RunContext& context_;
   MetricFrame metric_;
-  double roundingSlack_ = 0;
+  double roundingSlack_ = 0;  // what the arithmetic of a plane can be off by
+  double heightRange_ = 0;
 
   std::vector<std::uint32_t> live_;
   std::vector<float> cost_;
   std::vector<State> state_;
   std::vector<std::uint32_t> blocked_;  // level at which a chosen neighbour blocked the vertex
   std::vector<LiveMesh::Corners> movedHalfedge_;
-  std::vector<std::uint32_t> movedAt_;  // per triangle slot: last level whose batch rewrote it
   std::vector<Candidate> candidates_;
-  std::vector<std::uint32_t> chosen_;
+  std::vector<Chosen> chosen_;
   std::vector<std::uint8_t> linkSizes_;
   std::vector<PendingSeams> seams_;
 };

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The cut comes from the engine; the proof does not: it is taken from the exported mesh, in source
+// coordinates, against the samples that the model was built from.
+#include "io/extract_tin.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "engine/criterion.h"
+#include "io/export_tin.h"
+#include "io/mesh_file.h"
+#include "io/raster_writer.h"
+#include "terrain/plan_region.h"
+
+namespace arete {
+namespace {
+
+/// Heights are written as float32 where that loses less than this, in their unit.
+constexpr double kNegligibleRounding = 1e-3;
+
+std::string lowerExtension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension;
+}
+
+/// As it would be typed in a shell.
+std::string shellQuoted(const std::string& text) {
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=./:,@%";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// The largest stored error of the triangles that meet the region.
+double storedErrorInside(const TerrainModel& model, const Cut& cut, const Region& region) {
+  const VertexArrays& v = model.mt.vertices();
+  double largest = 0;
+  for (std::size_t i = 0; i < cut.triangles.size(); ++i) {
+    const double error = model.mt.error(TriangleId(cut.ids[i]));
+    if (error <= largest) continue;
+    const auto position = [&](int k) { return v.planPosition(VertexId(cut.vertices[cut.triangles[i][k]])); };
+    if (region.meetsTriangle(position(0), position(1), position(2))) largest = error;
+  }
+  return largest;
+}
+
+std::string noteOf(const ExtractRequest& request, const TerrainModel& model, const ExtractedTin& tin) {
+  return fmt::format("arete: TIN of {} ({}), vertical error at most {}{}{}", model.source,
+                     model.sourceChecksum, tin.promisedError,
+                     model.georeference.verticalUnit.empty() ? "" : " " + model.georeference.verticalUnit,
+                     request.region ? " in the region " + request.criterion.region : "");
+}
+
+Status within(Status status, const std::string& path) {
+  if (!status && status.error().culprit.empty()) status.error().culprit = path;
+  return status;
+}
+
+}  // namespace
+
+bool isRasterOutput(const std::string& path) {
+  const std::string extension = lowerExtension(path);
+  return extension == ".tif" || extension == ".tiff";
+}
+
+Status checkExtractOutput(const std::string& path, const TerrainModel& model) {
+  if (isRasterOutput(path)) {
+    if (model.isRaster) return {};
+    return failure(ErrorCode::usage,
+                   "the model was built from scattered points: there is no source grid to sample the TIN on",
+                   path);
+  }
+  std::string known;
+  for (const MeshFormat& format : meshFormats())
+    if (format.write) known += fmt::format("{} ({}), ", format.extension, format.name);
+  const Result<MeshFormat> format = meshFormatOf(path);
+  if (format && format->write) return {};
+  const std::string extension = lowerExtension(path);
+  return failure(
+      ErrorCode::usage,
+      fmt::format("{}; known are {}.tif (GeoTIFF: the TIN sampled on the source grid)",
+                  extension.empty() ? "the extension that names a format is missing"
+                                    : fmt::format("'{}' is no format that can be written", extension),
+                  known),
+      path);
+}
+
+std::string checkCommand(const ExtractRequest& request, const TerrainModel& model,
+                         const std::string& modelPath, double promisedError) {
+  const ExtractCriterion& c = request.criterion;
+  std::string command, tin = request.output;
+  if (isRasterOutput(request.output)) {
+    tin = std::filesystem::path(request.output).replace_extension(".ply").string();
+    command = fmt::format("arete extract {} -o {}", shellQuoted(modelPath), shellQuoted(tin));
+    if (c.maxError) command += fmt::format(" --max-error {}", *c.maxError);
+    if (c.maxTriangles) command += fmt::format(" --max-triangles {}", *c.maxTriangles);
+    if (c.method == CutMethod::saturated) command += " --method saturated";
+    if (!c.region.empty()) {
+      command += fmt::format(" --region {}", shellQuoted(c.region));
+      if (std::isfinite(c.outsideError)) command += fmt::format(" --outside-error {}", c.outsideError);
+    }
+    command += " && ";
+  }
+  command += fmt::format("arete measure {} {} --expect {}", shellQuoted(tin), shellQuoted(model.source),
+                         promisedError);
+  if (!c.region.empty()) command += fmt::format(" --region {}", shellQuoted(c.region));
+  if (model.options.rimTolerance > 0) command += " --allow-covered-nodata";
+  return command;
+}
+
+const TinExtractor::Samples& TinExtractor::samples() {
+  if (!samples_) {
+    if (model_.isRaster)
+      samples_.emplace(model_.rasterSamples());
+    else
+      samples_.emplace(model_.pointSamples());
+  }
+  return *samples_;
+}
+
+Result<Cut> TinExtractor::cut(const ExtractRequest& request, const RunContext& context) const {
+  const ExtractCriterion& c = request.criterion;
+  const CutOptions options{.method = c.method, .maxTriangles = c.maxTriangles};
+  const double maxError = c.maxError.value_or(0);
+  if (!request.region) return takeCut(model_.mt, UniformError(maxError), options, context);
+  const RegionError criterion(*request.region, model_.mt.arrays().metric, maxError,
+                              std::max(maxError, c.outsideError));
+  return takeCut(model_.mt, criterion, options, context);
+}
+
+Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const RunContext& context) {
+  Result<Cut> taken = cut(request, context);
+  if (!taken) return tl::unexpected(taken.error());
+  ExtractedTin tin;
+  tin.triangles = taken->triangles.size();
+  tin.vertices = taken->vertices.size();
+  tin.storedError = taken->achievedError;
+  if (request.criterion.maxError && !request.criterion.maxTriangles)
+    tin.promisedError = *request.criterion.maxError;
+  else
+    tin.promisedError =
+        request.region ? storedErrorInside(model_, *taken, *request.region) : taken->achievedError;
+  const TinExport exported = exportTin(model_, *taken);
+  *taken = {};
+
+  if (!isRasterOutput(request.output)) {
+    const MeshWriteOptions options{.crsWkt = model_.georeference.crsWkt,
+                                   .verticalUnit = model_.georeference.verticalUnit,
+                                   .triangleErrors = exported.errors,
+                                   .notes = {noteOf(request, model_, tin)}};
+    if (Status written = writeMesh(exported.mesh, request.output, options, context); !written)
+      return tl::unexpected(within(written, request.output).error());
+  }
+  const bool needsMeasure =
+      isRasterOutput(request.output) || !request.certificate.empty() || !request.errorRaster.empty();
+  if (needsMeasure)
+    if (Status measured = measureAndWrite(request, exported.mesh, tin, context); !measured)
+      return tl::unexpected(measured.error());
+  return tin;
+}
+
+Status TinExtractor::measureAndWrite(const ExtractRequest& request, const TriangleMesh& mesh,
+                                     ExtractedTin& tin, const RunContext& context) {
+  const bool wantsRasters = isRasterOutput(request.output) || !request.errorRaster.empty();
+  MeasureRasters rasters;
+  const auto measureWith = [&](const MeasureOptions& options, MeasureRasters* into) {
+    return std::visit([&](const auto& field) { return measure(mesh, field, options, context, into); },
+                      samples());
+  };
+  Result<MeasureReport> all = measureWith({}, wantsRasters ? &rasters : nullptr);
+  if (!all) return tl::unexpected(all.error());
+  tin.measured = std::move(*all);
+  if (request.region) {
+    const auto mask =
+        std::visit([&](const auto& field) { return samplesInside(*request.region, field); }, samples());
+    MeasureOptions options;
+    options.mask = mask;
+    Result<MeasureReport> inside = measureWith(options, nullptr);
+    if (!inside) return tl::unexpected(inside.error());
+    tin.measuredInside = std::move(*inside);
+  }
+  const ExpectOptions expect{.allowCoveredNodata = model_.options.rimTolerance > 0};
+  tin.isKept =
+      keepsPromise(tin.measuredInside ? *tin.measuredInside : *tin.measured, tin.promisedError, expect);
+
+  if (Status written = writeRasters(request, rasters, context); !written) return written;
+  if (request.certificate.empty()) return {};
+  const Certificate certificate{.file = request.output,
+                                .model = modelPath_,
+                                .criterion = request.criterion,
+                                .storedError = tin.storedError,
+                                .measured = *tin.measured,
+                                .measuredInside = tin.measuredInside,
+                                .promisedError = tin.promisedError,
+                                .isKept = tin.isKept,
+                                .checkCommand = checkCommand(request, model_, modelPath_, tin.promisedError)};
+  return within(writeCertificate(request.certificate, certificate, model_), request.certificate);
+}
+
+Status TinExtractor::writeRasters(const ExtractRequest& request, const MeasureRasters& rasters,
+                                  const RunContext& context) const {
+  if (isRasterOutput(request.output)) {
+    double largest = 0;
+    for (const double z : rasters.tinHeights)
+      if (!std::isnan(z)) largest = std::max(largest, std::abs(z));
+    GeoTiffOptions options;
+    options.description = "TIN height";
+    if (largest * std::numeric_limits<float>::epsilon() / 2 > kNegligibleRounding)
+      options.sample = GeoTiffOptions::Sample::float64;
+    if (Status written = writeGeoTiff(request.output, model_.columns, model_.rows, rasters.tinHeights,
+                                      model_.georeference, options, context);
+        !written)
+      return within(written, request.output);
+  }
+  if (request.errorRaster.empty()) return {};
+  GeoTiffOptions options;
+  options.description = "TIN height minus DEM height";
+  return within(writeGeoTiff(request.errorRaster, model_.columns, model_.rows, rasters.errors,
+                             model_.georeference, options, context),
+                request.errorRaster);
+}
+
+}  // namespace arete

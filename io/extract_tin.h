@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "engine/region.h"
+#include "engine/result.h"
+#include "engine/run_context.h"
+#include "io/certificate.h"
+#include "terrain/heightfield.h"
+#include "terrain/measure.h"
+#include "terrain/terrain_model.h"
+
+namespace arete {
+
+/// One TIN to take from a model, and the files to write.
+struct ExtractRequest {
+  ExtractCriterion criterion;
+  std::optional<Region> region;  ///< criterion.region in plan coordinates
+  std::string output;       ///< a mesh by its extension, or .tif: the TIN sampled back on the source grid
+  std::string certificate;  ///< JSON; empty = none
+  std::string errorRaster;  ///< GeoTIFF of z_TIN - z_DEM; empty = none
+};
+
+struct ExtractedTin {
+  std::uint64_t triangles = 0, vertices = 0;
+  double storedError = 0;                 ///< largest error stored with the triangles of the cut
+  double promisedError = 0;               ///< the tolerance, or what a budget came to; inside the region
+  std::optional<MeasureReport> measured;  ///< where a certificate or a raster asked for it
+  std::optional<MeasureReport> measuredInside;  ///< with a region
+  bool isKept = true;                           ///< false when the measurement contradicts the promise
+};
+
+/// True for a name that is sampled back on the grid (.tif, .tiff).
+bool isRasterOutput(const std::string& path);
+
+/// The formats an output may have, and whether this is one; a .tif needs a model of a raster. Errors: usage,
+/// naming the known extensions.
+Status checkExtractOutput(const std::string& path, const TerrainModel& model);
+
+/// Takes TINs from one model. Keeps the model's samples once a measurement needed them.
+class TinExtractor {
+ public:
+  /// `modelPath` is named in certificates. Precondition: the model outlives the extractor.
+  TinExtractor(const TerrainModel& model, std::string modelPath)
+      : model_(model), modelPath_(std::move(modelPath)) {}
+
+  /// Cuts, exports, and where a raster or a certificate is wanted measures the exported mesh against the
+  /// source's samples and writes it; each file appears whole or not at all. A promise that the measurement
+  /// contradicts is told by isKept, the files are written all the same. Errors: those of takeCut(),
+  /// writeMesh(), writeGeoTiff(), writeCertificate(). O(cut), and O(samples) where it is measured.
+  Result<ExtractedTin> extract(const ExtractRequest& request, const RunContext& context = {});
+
+ private:
+  using Samples = std::variant<RasterHeightfield, PointHeightfield>;
+
+  const Samples& samples();
+  Result<Cut> cut(const ExtractRequest& request, const RunContext& context) const;
+  Status measureAndWrite(const ExtractRequest& request, const TriangleMesh& mesh, ExtractedTin& tin,
+                         const RunContext& context);
+  Status writeRasters(const ExtractRequest& request, const MeasureRasters& rasters,
+                      const RunContext& context) const;
+
+  const TerrainModel& model_;
+  std::string modelPath_;
+  std::optional<Samples> samples_;
+};
+
+/// The command that checks an export: `arete measure`, behind an `arete extract` where the export is no mesh.
+std::string checkCommand(const ExtractRequest& request, const TerrainModel& model,
+                         const std::string& modelPath, double promisedError);
+
+}  // namespace arete

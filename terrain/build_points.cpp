@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Scattered points are built with CGAL's exact predicates on their own coordinates; each triangle carries the
+// removed points it covers: see simplify.h for the levels and point_error.h for the error.
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "terrain/build.h"
+#include "terrain/build_checks.h"
+#include "terrain/finest_points.h"
+#include "terrain/height_encoding.h"
+#include "terrain/point_error.h"
+#include "terrain/point_plan.h"
+#include "terrain/simplify.h"
+
+namespace arete {
+namespace {
+
+struct OwnedPoints {
+  std::vector<Vec2> plan;
+  EncodedHeights heights;
+};
+
+Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions& options,
+                               const RunContext& context) {
+  if (const Status valid = field.validate(); !valid) return tl::unexpected(valid.error());
+  if (const Status valid = checkOptions(options, field.size()); !valid) return tl::unexpected(valid.error());
+  if (options.rimTolerance > 0)
+    return failure(ErrorCode::usage, "scattered points have no NODATA rims to simplify", "--rim-tolerance");
+  if (field.size() > 0xFFFFFFF0u / 6)
+    return failure(ErrorCode::unsupported,
+                   fmt::format("{} points are more than 32-bit ids can name", field.size()), field.source);
+
+  context.report("triangulate", 0);
+  const double stretch = pointMetricStretch(field);
+  auto triangles = finestTriangulation(field, stretch);
+  if (!triangles) return tl::unexpected(triangles.error());
+  const auto finestCount = static_cast<std::uint32_t>(triangles->size());
+  const auto pointCount = static_cast<std::uint32_t>(field.size());
+  std::vector<std::uint32_t> pinched;
+  LiveMesh mesh = LiveMesh::fromTriangles(std::move(*triangles), pointCount, pinched);
+  context.report("triangulate", 1);
+
+  TerrainModel model;
+  model.georeference = field.georeference;
+  model.isRaster = false;
+  model.source = field.source;
+  model.sourceChecksum = field.sourceChecksum.empty() ? heightsChecksum(field) : field.sourceChecksum;
+  model.options = options;
+
+  std::vector<std::uint8_t> isFixed(pointCount, 0);
+  for (const std::uint32_t v : pinched) isFixed[v] = 1;
+  for (const std::uint32_t v : options.fixedVertices) isFixed[v] = 1;
+
+  const auto [low, high] = std::minmax_element(field.heights.begin(), field.heights.end());
+  if (!(*high - *low < 1e30))
+    return failure(ErrorCode::invalidData, fmt::format("heights from {} to {} span too much", *low, *high),
+                   field.source);
+  Vec2 least = field.positions[0], most = least;
+  for (const Vec2& p : field.positions) {
+    least = {std::min(least.x, p.x), std::min(least.y, p.y)};
+    most = {std::max(most.x, p.x), std::max(most.y, p.y)};
+  }
+  const Vec2 centre{(least.x + most.x) / 2, (least.y + most.y) / 2};
+  const Vec2 grid = field.georeference.toGrid(centre.x, centre.y);
+  const Vec2 step = groundStep(field.georeference, grid.x, grid.y);
+  MetricFrame metric;
+  metric.origin = {centre.x, centre.y, (*low + *high) / 2};
+  metric.scale = {step.x, step.y, field.georeference.verticalUnitMetres};
+  model.metricP = stretch >= 1 ? static_cast<std::uint32_t>(stretch) : 1;
+  model.metricQ = stretch >= 1 ? 1 : static_cast<std::uint32_t>(1 / stretch);
+
+  const PointPlan plan(field.positions, stretch);
+  MtRecorder recorder(finestCount, OutwardScale(*high - *low), metric);
+  SimplifiedRoot root;
+  {
+    PointError errors(plan, field.heights, mesh);
+    Simplifier<PointPlan, PointError> simplifier(mesh, plan, errors, recorder, nullptr, options, context);
+    simplifier.setHeights(*low, *high);
+    Result<SimplifiedRoot> simplified = simplifier.run(isFixed, metric);
+    if (!simplified) return tl::unexpected(simplified.error());
+    root = std::move(*simplified);
+  }
+  mesh = {};
+  model.levels = root.levels;
+
+  context.report("finish", 0);
+  std::vector<std::uint32_t> order;
+  const MultiTriangulation bare = recorder.finish(root.vertices, root.triangles, pointCount, order);
+  auto owned = std::make_shared<OwnedPoints>();
+  owned->plan.reserve(order.size());
+  for (const std::uint32_t v : order) owned->plan.push_back(field.positions[v]);
+  owned->heights = encodeHeights(field.heights, order, 1, 0);
+  VertexArrays vertices;
+  vertices.plan = owned->plan;
+  vertices.encoding = owned->heights.encoding;
+  vertices.rawHeights = {owned->heights.bytes.get(), owned->heights.size};
+  model.mt = withVertices(bare, vertices, owned);
+  context.report("finish", 1);
+  return model;
+}
+
+}  // namespace
+
+Result<TerrainModel> build(const PointHeightfield& heightfield, const BuildOptions& options,
+                           const RunContext& context) {
+  Result<TerrainModel> result = failure(ErrorCode::interrupted, "not run");
+  tbb::task_arena arena(context.threads > 0 ? context.threads : tbb::task_arena::automatic);
+  arena.execute([&] { result = buildHere(heightfield, options, context); });
+  return result;
+}
+
+}  // namespace arete

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A node adds one triangle to a front on a border and two elsewhere, so counting needs no front.
+#include "terrain/error_curve.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/cut.h"
+
+namespace arete {
+namespace {
+
+constexpr std::array kMantissas = {1, 2, 5};
+
+/// 1, 2, 5, 10 ... for rung 0, 1, 2, 3 ...; 0.5, 0.2, ... for -1, -2, ...: the doubles nearest to them.
+double rungValue(int rung) {
+  const int decade = rung >= 0 ? rung / 3 : (rung - 2) / 3;
+  const double mantissa = kMantissas[static_cast<std::size_t>(rung - 3 * decade)];
+  return decade >= 0 ? mantissa * std::pow(10.0, decade) : mantissa / std::pow(10.0, -decade);
+}
+
+}  // namespace
+
+std::vector<double> toleranceLadder(const MultiTriangulation& mt, std::size_t most) {
+  const auto& saturated = mt.arrays().saturatedError;
+  const auto zeros =
+      std::partition_point(saturated.begin(), saturated.end(), [](auto code) { return code > 0; });
+  if (zeros == saturated.begin()) return {};
+  const double coarsest = mt.arrays().scale.decode(saturated.front());
+  const double finest = mt.arrays().scale.decode(*(zeros - 1));
+  std::vector<double> ladder;
+  int rung = 3 * (static_cast<int>(std::ceil(std::log10(coarsest))) + 1);
+  for (; ladder.size() < most && rungValue(rung) >= finest; --rung)
+    if (rungValue(rung) < coarsest) ladder.push_back(rungValue(rung));
+  std::reverse(ladder.begin(), ladder.end());
+  return ladder;
+}
+
+Result<std::vector<CurvePoint>> errorCurve(const MultiTriangulation& mt, std::span<const double> tolerances,
+                                           const RunContext& context) {
+  std::vector<CurvePoint> curve;
+  for (std::size_t i = 0; i < tolerances.size(); ++i) {
+    context.report("curve", static_cast<double>(i) / static_cast<double>(tolerances.size()));
+    CurvePoint point{.maxError = tolerances[i]};
+    point.saturatedTriangles = mt.prefixTriangleCount(uniformPrefix(mt, tolerances[i]));
+    const Result<NodeSet> nodes = minimalNodes(mt, UniformError(tolerances[i]), std::nullopt, context);
+    if (!nodes) return tl::unexpected(nodes.error());
+    point.minimalTriangles = mt.rootTriangleCount();
+    for (std::uint32_t n = 0; n < nodes->size(); ++n)
+      if ((*nodes)[n]) point.minimalTriangles += mt.isOpen(NodeId(n)) ? 1 : 2;
+    curve.push_back(point);
+  }
+  context.report("curve", 1);
+  return curve;
+}
+
+}  // namespace arete

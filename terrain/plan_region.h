@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/multitriangulation.h"
+#include "engine/region.h"
+#include "engine/vec.h"
+#include "terrain/heightfield.h"
+#include "terrain/terrain_model.h"
+
+namespace arete {
+
+/// A region that was drawn on the map, in source coordinates, where the triangles are: in plan coordinates. A
+/// box comes as a ring, so that it stays one on the map where the grid is rotated. O(vertices).
+Region planRegion(std::vector<std::vector<Vec2>> sourceRings, const TerrainModel& model);
+Region planRegion(std::vector<std::vector<Vec2>> sourceRings, const RasterHeightfield& heightfield);
+Region planRegion(std::vector<std::vector<Vec2>> sourceRings, const PointHeightfield& heightfield);
+
+/// Whether any of the domain lies in the region: whether it meets a triangle of the root. O(root triangles).
+bool meetsDomain(const Region& region, const MultiTriangulation& mt);
+
+/// One value per sample: whether it lies in the region, which is in plan coordinates. O(samples).
+std::vector<std::uint8_t> samplesInside(const Region& region, const RasterHeightfield& heightfield);
+std::vector<std::uint8_t> samplesInside(const Region& region, const PointHeightfield& heightfield);
+
+}  // namespace arete

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "terrain/live_mesh.h"
+#include "terrain/point_plan.h"
+#include "terrain/signed_bound.h"
+
+namespace arete {
+
+/// Vertical error of triangles over scattered points, exactly. Every triangle slot of the live mesh keeps the
+/// removed points that it covers; a removal shares the points of its star out among the triangles of the
+/// floor (exact predicates; a point on an edge goes to either side, whose planes agree there).
+class PointError {
+ public:
+  static constexpr std::uint32_t kNone = LiveMesh::kNone;
+
+  /// Keeps a copy of the finest triangulation, in which bounds along edges are found.
+  PointError(const PointPlan& plan, std::span<const double> heights, const LiveMesh& finest)
+      : plan_(plan),
+        heights_(heights),
+        finest_(finest),
+        head_(finest.triangles.size(), kNone),
+        next_(heights.size(), kNone) {}
+
+  double height(std::uint32_t point) const { return heights_[point]; }
+
+  /// The triangles of one hole, named by corners of its link, against the points of the star and its apex.
+  class Hole {
+   public:
+    Hole(PointError& errors, const Star& star, std::uint32_t apex);
+    double maximum(int i, int j, int m, double limit) const;
+    double maximum(int i, int j, int m, SignedBound& bound) const;
+    SignedBound alongEdge(int i, int j) const { return errors_.alongEdge(star_.link[i], star_.link[j]); }
+    void settle(const HoleTriangulation& floor);
+
+   private:
+    PointError& errors_;
+    const Star& star_;
+    std::vector<std::uint32_t>& points_;
+  };
+
+  /// Signed difference between the segment a-b and the finest triangulation where it crosses its edges. A
+  /// walk through the triangles it meets.
+  SignedBound alongEdge(std::uint32_t a, std::uint32_t b) const;
+
+ private:
+  bool covers(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t p) const;
+  double difference(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t p) const;
+
+  const PointPlan& plan_;
+  std::span<const double> heights_;
+  const LiveMesh finest_;
+  std::vector<std::uint32_t> head_;  // per triangle slot: its first point
+  std::vector<std::uint32_t> next_;  // per point
+};
+
+}  // namespace arete

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/vec.h"
+#include "terrain/hole.h"
+
+namespace arete {
+
+/// The plan geometry of scattered points: CGAL's exact predicates on the doubles themselves. The Delaunay
+/// metric stretches x by a power of two near the ground aspect of the CRS: exact, so that no orientation
+/// changes.
+class PointPlan {
+ public:
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using Point = Kernel::Point_2;
+
+  /// Precondition: xStretch is a power of two.
+  PointPlan(std::span<const Vec2> positions, double xStretch) : positions_(positions), xStretch_(xStretch) {}
+
+  Vec2 planPosition(std::uint32_t v) const { return positions_[v]; }
+  Point point(std::uint32_t v) const { return {positions_[v].x * xStretch_, positions_[v].y}; }
+
+  /// > 0 when a, b, c turn counter-clockwise; exact.
+  int orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    return static_cast<int>(CGAL::orientation(point(a), point(b), point(c)));
+  }
+
+  /// A star polygon and its apex; the same queries as LatticePlan::Polygon.
+  class Polygon {
+   public:
+    Polygon(const PointPlan& plan, std::uint32_t apex, std::span<const std::uint32_t> link)
+        : apex_(plan.point(apex)) {
+      for (std::size_t i = 0; i < link.size(); ++i) corners_[i] = plan.point(link[i]);
+    }
+    int orientation(int i, int j, int m) const {
+      return static_cast<int>(CGAL::orientation(corners_[i], corners_[j], corners_[m]));
+    }
+    int orientationToApex(int i, int j) const {
+      return static_cast<int>(CGAL::orientation(corners_[i], corners_[j], apex_));
+    }
+    int inCircle(int i, int j, int m, int n) const {
+      return static_cast<int>(
+          CGAL::side_of_oriented_circle(corners_[i], corners_[j], corners_[m], corners_[n]));
+    }
+    double aspect(int i, int j, int m) const {
+      const double longest = std::max({CGAL::squared_distance(corners_[i], corners_[j]),
+                                       CGAL::squared_distance(corners_[j], corners_[m]),
+                                       CGAL::squared_distance(corners_[m], corners_[i])});
+      return 2 * CGAL::area(corners_[i], corners_[j], corners_[m]) / longest;
+    }
+
+   private:
+    Point apex_;
+    std::array<Point, kMaxHoleCorners> corners_;
+  };
+
+ private:
+  std::span<const Vec2> positions_;
+  double xStretch_;
+};
+
+}  // namespace arete

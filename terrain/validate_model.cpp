@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "terrain/validate_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/validate.h"
+#include "terrain/finest_raster.h"
+
+namespace arete {
+namespace {
+
+tl::unexpected<Error> broken(std::string what) {
+  return failure(ErrorCode::brokenPromise, std::move(what));
+}
+
+std::uint64_t splitmix(std::uint64_t& state) {
+  std::uint64_t z = (state += 0x9E3779B97F4A7C15ull);
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
+  return z ^ (z >> 31);
+}
+
+Status law7(const TerrainModel& model) {
+  if (!model.isRaster) return {};  // points are renumbered; their fixed vertices are checked when built
+  std::vector<std::uint32_t> roots(model.mt.vertices().samples.begin(),
+                                   model.mt.vertices().samples.begin() + model.mt.rootVertexCount());
+  std::sort(roots.begin(), roots.end());
+  for (const std::uint32_t v : model.options.fixedVertices)
+    if (!std::binary_search(roots.begin(), roots.end(), v))
+      return broken(fmt::format("law 7: the fixed vertex at sample {} is not in the root", v));
+  return {};
+}
+
+Status law8(const TerrainModel& model) {
+  const Cut finest = frontOfPrefix(model.mt, model.mt.nodeCount());
+  if (!model.isRaster) return {};
+  std::vector<std::array<std::uint32_t, 3>> found, expected = finestTriangulation(model.rasterSamples());
+  found.reserve(finest.triangles.size());
+  const auto smallestFirst = [](std::array<std::uint32_t, 3>& t) {
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  };
+  for (const auto& c : finest.triangles) {
+    std::array<std::uint32_t, 3> t;
+    for (int i = 0; i < 3; ++i) t[i] = model.mt.vertices().samples[finest.vertices[c[i]]];
+    smallestFirst(t);
+    found.push_back(t);
+  }
+  for (auto& t : expected) smallestFirst(t);
+  std::sort(found.begin(), found.end());
+  std::sort(expected.begin(), expected.end());
+  if (found.size() != expected.size())
+    return broken(fmt::format("law 8: the finest front has {} triangles, the samples give {}", found.size(),
+                              expected.size()));
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (found[i] != expected[i])
+      return broken(fmt::format("law 8: the finest front lacks the triangle of samples {}, {}, {}",
+                                expected[i][0], expected[i][1], expected[i][2]));
+  return {};
+}
+
+}  // namespace
+
+NodeSet randomClosedSet(const MultiTriangulation& mt, std::uint64_t seed, double fraction) {
+  NodeSet set(mt.nodeCount(), 0);
+  std::uint64_t state = seed;
+  const auto wanted = static_cast<std::uint64_t>(std::ceil(fraction * mt.nodeCount()));
+  for (std::uint64_t i = 0; i < wanted && mt.nodeCount() > 0; ++i) set[splitmix(state) % mt.nodeCount()] = 1;
+  closeUpwards(mt, set);
+  return set;
+}
+
+Status validateModel(const TerrainModel& model, const ValidateModelOptions& options,
+                     const RunContext& context) {
+  const ValidateOptions engineOptions{.allowsFills = model.options.rimTolerance > 0};
+  const bool isDelaunay = model.options.shape == HoleShape::delaunay && !engineOptions.allowsFills;
+  context.report("validate", 0);
+  if (const Status s = validate(model.mt, engineOptions, context); !s) return s;
+  if (const Status s = law7(model); !s) return s;
+  if (const Status s = law8(model); !s) return s;
+
+  const MultiTriangulation& mt = model.mt;
+  const DomainExtent domain = domainExtent(mt);
+  const auto check = [&](const Cut& cut, const std::string& which) -> Status {
+    Status s = validateFront(mt, cut, domain, engineOptions);
+    if (s && isDelaunay) s = validateDelaunayFront(model, cut);
+    if (!s) s.error().message += fmt::format(" ({})", which);
+    return s;
+  };
+  // The root, the finest front and a ladder of uniform cuts between them.
+  const std::uint32_t ladder = 6;
+  for (std::uint32_t i = 0; i <= ladder; ++i) {
+    if (context.cancelled()) return failure(ErrorCode::interrupted, "the validation was interrupted");
+    const auto nodes = static_cast<std::uint32_t>(std::uint64_t(mt.nodeCount()) * i * i / (ladder * ladder));
+    if (const Status s = check(frontOfPrefix(mt, nodes), fmt::format("the first {} nodes", nodes)); !s)
+      return s;
+    context.report("validate", 0.3 + 0.3 * i / ladder);
+  }
+  std::uint64_t state = options.seed;
+  for (std::uint32_t i = 0; i < options.randomFronts; ++i) {
+    if (context.cancelled()) return failure(ErrorCode::interrupted, "the validation was interrupted");
+    const std::uint64_t seed = splitmix(state);
+    // From a handful of nodes to a tenth of them: ancestors make the sets much larger.
+    const double fraction = std::pow(0.1, 1 + double(seed % 5));
+    if (const Status s = check(front(mt, randomClosedSet(mt, seed, fraction)),
+                               fmt::format("random closed set, seed {}, fraction {}", seed, fraction));
+        !s)
+      return s;
+    context.report("validate", 0.6 + 0.4 * (i + 1) / options.randomFronts);
+  }
+  return {};
+}
+
+}  // namespace arete

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/multitriangulation.h"
+
+namespace arete {
+
+/// A multitriangulation's arrays by value, to be spoilt one element at a time.
+struct CopiedMt {
+  std::vector<std::array<std::uint32_t, 3>> rootTriangles;
+  std::vector<std::uint32_t> slotBegin, link, remover, floor, creatorHint;
+  std::vector<std::uint16_t> error, below, above, saturatedError;
+  std::vector<Sphere> sphere;
+  MultiTriangulation original;
+
+  explicit CopiedMt(const MultiTriangulation& mt) : original(mt) {
+    const MtArrays& a = mt.arrays();
+    const auto copy = [](auto& to, const auto& from) { to.assign(from.begin(), from.end()); };
+    copy(rootTriangles, a.rootTriangles);
+    copy(slotBegin, a.slotBegin);
+    copy(link, a.link);
+    copy(remover, a.remover);
+    copy(floor, a.floor);
+    copy(creatorHint, a.creatorHint);
+    copy(error, a.error);
+    copy(below, a.below);
+    copy(above, a.above);
+    copy(saturatedError, a.saturatedError);
+    copy(sphere, a.sphere);
+  }
+
+  MultiTriangulation mt() const {
+    MtArrays a = original.arrays();
+    a.rootTriangles = rootTriangles;
+    a.slotBegin = slotBegin;
+    a.link = link;
+    a.remover = remover;
+    a.floor = floor;
+    a.creatorHint = creatorHint;
+    a.error = error;
+    a.below = below;
+    a.above = above;
+    a.saturatedError = saturatedError;
+    a.sphere = sphere;
+    return MultiTriangulation(a, nullptr);
+  }
+};
+
+}  // namespace arete

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Cuts against an oracle: the least closed set by plain iteration to a fixed point over all triangles, and
+// the front by applying modifications one by one to a set of triangles.
+#include "engine/cut.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "datasets/families.h"
+#include "engine/validate.h"
+#include "terrain/build.h"
+
+namespace arete {
+namespace {
+
+struct Sample {
+  std::string name;
+  TerrainModel model;
+};
+
+const std::vector<Sample>& samples() {
+  static const std::vector<Sample> all = [] {
+    std::vector<Sample> made;
+    for (const RasterFamily& family : rasterFamilies())
+      for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity}) {
+        BuildOptions options;
+        options.shape = shape;
+        Result<TerrainModel> model = build(family.make(30, 25, 3), options);
+        if (!model) {
+          ADD_FAILURE() << family.name << ": " << model.error().describe();
+          continue;
+        }
+        made.push_back({std::string(family.name) + (shape == HoleShape::delaunay ? "" : " fidelity"),
+                        std::move(*model)});
+      }
+    return made;
+  }();
+  return all;
+}
+
+NodeSet leastClosedSet(const MultiTriangulation& mt, const Criterion& criterion) {
+  NodeSet in(mt.nodeCount(), 0);
+  for (bool changed = true; changed;) {
+    changed = false;
+    const auto include = [&](NodeId n) {
+      if (!n.isValid() || in[n.index()]) return;
+      in[n.index()] = 1;
+      changed = true;
+    };
+    for (std::uint32_t t = 0; t < mt.triangleIdCount(); ++t) {
+      const NodeId creator = mt.creator(TriangleId(t)), remover = mt.remover(TriangleId(t));
+      if (creator.isValid() && creator == remover) continue;  // no triangle
+      if (creator.isValid() && !in[creator.index()]) continue;
+      if (remover.isValid() && !criterion.isFineEnough(mt, TriangleId(t), mt.corners(TriangleId(t))))
+        include(remover);
+    }
+    for (std::uint32_t n = 0; n < mt.nodeCount(); ++n)
+      if (in[n])
+        for (const std::uint32_t t : mt.floor(NodeId(n))) include(mt.creator(TriangleId(t)));
+  }
+  return in;
+}
+
+double spanOfErrors(const MultiTriangulation& mt) {
+  return mt.nodeCount() ? mt.saturatedError(NodeId(0)) : 1;
+}
+
+TEST(MinimalCut, IsTheLeastClosedSetForUniformErrors) {
+  for (const Sample& s : samples())
+    for (const double part : {0.0, 0.001, 0.02, 0.1, 0.4, 1.0}) {
+      const UniformError criterion(part * spanOfErrors(s.model.mt));
+      const auto nodes = minimalNodes(s.model.mt, criterion, {});
+      ASSERT_TRUE(nodes);
+      EXPECT_EQ(*nodes, leastClosedSet(s.model.mt, criterion)) << s.name << " " << part;
+    }
+}
+
+TEST(MinimalCut, IsTheLeastClosedSetForRegions) {
+  for (const Sample& s : samples()) {
+    const Region region({{{5.5, 4}, {17, 6.25}, {12, 19}, {3, 12}}});
+    const double span = spanOfErrors(s.model.mt);
+    const RegionError criterion(region, s.model.mt.arrays().metric, 0.01 * span, 0.3 * span);
+    const auto nodes = minimalNodes(s.model.mt, criterion, {});
+    ASSERT_TRUE(nodes);
+    EXPECT_EQ(*nodes, leastClosedSet(s.model.mt, criterion)) << s.name;
+  }
+}
+
+TEST(MinimalCut, TakesAnyPredicateAndSaturatedRefusesIt) {
+  struct Odd final : Criterion {
+    bool isFineEnough(const MultiTriangulation&, TriangleId t,
+                      const std::array<std::uint32_t, 3>&) const override {
+      return t.index() % 3 != 0;
+    }
+  };
+  for (const Sample& s : samples()) {
+    const auto nodes = minimalNodes(s.model.mt, Odd{}, {});
+    ASSERT_TRUE(nodes);
+    EXPECT_EQ(*nodes, leastClosedSet(s.model.mt, Odd{})) << s.name;
+    const auto refused = takeCut(s.model.mt, Odd{}, {.method = CutMethod::saturated});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::usage);
+  }
+}
+
+TEST(SaturatedCut, HoldsTheMinimalOneAndMeetsTheSameBound) {
+  for (const Sample& s : samples())
+    for (const double part : {0.0, 0.005, 0.05, 0.3, 1.0}) {
+      const double bound = part * spanOfErrors(s.model.mt);
+      const auto minimal = takeCut(s.model.mt, UniformError(bound));
+      const auto saturated = takeCut(s.model.mt, UniformError(bound), {.method = CutMethod::saturated});
+      ASSERT_TRUE(minimal && saturated);
+      EXPECT_LE(minimal->triangles.size(), saturated->triangles.size()) << s.name;
+      EXPECT_LE(minimal->achievedError, bound) << s.name;
+      EXPECT_LE(saturated->achievedError, bound) << s.name;
+    }
+}
+
+TEST(SaturatedCut, IsClosedForRegionsToo) {
+  for (const Sample& s : samples()) {
+    const double span = spanOfErrors(s.model.mt);
+    const RegionError criterion(Region::box({4, 6, 13, 15}), s.model.mt.arrays().metric, 0.005 * span,
+                                0.5 * span);
+    auto nodes = saturatedNodes(s.model.mt, criterion, {});
+    ASSERT_TRUE(nodes);
+    NodeSet closed = *nodes;
+    closeUpwards(s.model.mt, closed);
+    EXPECT_EQ(closed, *nodes) << s.name;
+    const Cut cut = front(s.model.mt, *nodes);
+    for (std::size_t t = 0; t < cut.ids.size(); ++t)
+      EXPECT_TRUE(criterion.isFineEnough(s.model.mt, TriangleId(cut.ids[t]),
+                                         s.model.mt.corners(TriangleId(cut.ids[t]))))
+          << s.name;
+  }
+}
+
+TEST(Fronts, AreWhatApplyingTheModificationsOneByOneGives) {
+  std::mt19937_64 random(99);
+  for (const Sample& s : samples()) {
+    const MultiTriangulation& mt = s.model.mt;
+    NodeSet set(mt.nodeCount(), 0);
+    for (std::uint32_t i = 0; i < mt.nodeCount() / 20 + 1 && mt.nodeCount() > 0; ++i)
+      set[random() % mt.nodeCount()] = 1;
+    closeUpwards(mt, set);
+    std::set<std::uint32_t> current;
+    for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) current.insert(t);
+    for (std::uint32_t n = 0; n < mt.nodeCount(); ++n) {
+      if (!set[n]) continue;
+      for (const std::uint32_t t : mt.floor(NodeId(n))) ASSERT_EQ(current.erase(t), 1u) << s.name;
+      for (std::uint32_t i = 0; i < mt.ceilingSize(NodeId(n)); ++i)
+        current.insert(mt.slotTriangle(NodeId(n), i).index());
+    }
+    const Cut cut = front(mt, set);
+    EXPECT_EQ(std::set<std::uint32_t>(cut.ids.begin(), cut.ids.end()), current) << s.name;
+    for (std::size_t t = 0; t < cut.ids.size(); ++t) {
+      std::array<std::uint32_t, 3> corners;
+      for (int i = 0; i < 3; ++i) corners[i] = cut.vertices[cut.triangles[t][i]];
+      EXPECT_EQ(corners, mt.corners(TriangleId(cut.ids[t]))) << s.name;
+    }
+  }
+}
+
+TEST(Fronts, OfAPrefixAreThoseOfTheSameSet) {
+  for (const Sample& s : samples()) {
+    const std::uint32_t n = s.model.mt.nodeCount() / 2;
+    NodeSet set(s.model.mt.nodeCount(), 0);
+    std::fill(set.begin(), set.begin() + n, std::uint8_t(1));
+    const Cut a = frontOfPrefix(s.model.mt, n), b = front(s.model.mt, set);
+    EXPECT_EQ(a.ids, b.ids);
+    EXPECT_EQ(a.triangles, b.triangles);
+    EXPECT_EQ(a.vertices, b.vertices);
+    EXPECT_EQ(a.triangles.size(), s.model.mt.prefixTriangleCount(n));
+  }
+}
+
+TEST(Budget, IsNeverExceededAndNearlySpent) {
+  for (const Sample& s : samples()) {
+    const MultiTriangulation& mt = s.model.mt;
+    const std::uint32_t roots = mt.rootTriangleCount(), finest = mt.finestTriangleCount();
+    for (const double part : {0.0, 0.05, 0.3, 0.8, 1.0})
+      for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
+        const auto budget = static_cast<std::uint32_t>(roots + part * (finest - roots));
+        const auto cut = takeCut(mt, UniformError(0), {method, budget});
+        ASSERT_TRUE(cut) << s.name;
+        EXPECT_LE(cut->triangles.size(), budget) << s.name;
+        EXPECT_TRUE(validateFront(mt, *cut, domainExtent(mt))) << s.name;
+        // Of the uniform cuts of at most that size in the same MT, none is more than 10 % better.
+        for (double e = cut->achievedError * 0.89; e > 0; e *= 0.5) {
+          const auto better = takeCut(mt, UniformError(e), {method});
+          EXPECT_GT(better->triangles.size(), budget) << s.name << " budget " << budget << " error " << e;
+        }
+      }
+  }
+}
+
+TEST(Budget, BelowTheRootIsRefusedWithTheCount) {
+  const Sample& s = samples().front();
+  for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
+    const auto cut = takeCut(s.model.mt, UniformError(0), {method, s.model.mt.rootTriangleCount() - 1});
+    ASSERT_FALSE(cut);
+    EXPECT_EQ(cut.error().code, ErrorCode::usage);
+    EXPECT_NE(cut.error().message.find(std::to_string(s.model.mt.rootTriangleCount())), std::string::npos);
+  }
+}
+
+TEST(Cuts, StopWhenAskedTo) {
+  const std::atomic<bool> cancel = true;
+  RunContext context;
+  context.cancel = &cancel;
+  for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
+    const auto cut = takeCut(samples().front().model.mt, UniformError(0), {method, {}}, context);
+    ASSERT_FALSE(cut);
+    EXPECT_EQ(cut.error().code, ErrorCode::interrupted);
+  }
+}
+
+}  // namespace
+}  // namespace arete
