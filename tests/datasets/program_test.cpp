@@ -99,7 +99,7 @@ TEST_F(DatasetsProgram, FetchesABoxAcrossTilesAndLeavesTheSeaOut) {
 }
 
 TEST_F(DatasetsProgram, SaysWhenNothingCanBeFetchedAndLeavesNoFile) {
-  EXPECT_EQ(run("fetch matterhorn --mirror '" + path("nowhere") + "' -o '" + path("box.tif") + "'"), 1);
+  EXPECT_EQ(run("fetch matterhorn --mirror '" + path("nowhere") + "' -o '" + path("box.tif") + "'"), 3);
   EXPECT_NE(contentOf("err").find("matterhorn"), std::string::npos);
   EXPECT_FALSE(fs::exists(path("box.tif")));
 }
@@ -114,7 +114,7 @@ TEST_F(DatasetsProgram, RefusesCommandLinesThatMakeNoSense) {
 }
 
 TEST_F(DatasetsProgram, SaysWhenTheOutputCannotBeWritten) {
-  EXPECT_EQ(run("generate --size 32 -o '" + path("no/such/folder/dem.tif") + "'"), 1);
+  EXPECT_EQ(run("generate --size 32 -o '" + path("no/such/folder/dem.tif") + "'"), 3);
   EXPECT_NE(contentOf("err").find("no/such/folder"), std::string::npos) << contentOf("err");
 }
 

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What arete says to a command line that makes no sense, and to files that are not what they should be.
+#include <sys/stat.h>
+
+#include "cli/cli_fixture.h"
+
+namespace arete::cli_test {
+namespace {
+
+class Arguments : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    makeRaster("dem.tif", "fractal", 30, 30);
+    ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt", "-q"}).code, 0);
+    ASSERT_EQ(run({"extract", "dem.amt", "-o", "tin.ply", "--max-error", "5", "-q"}).code, 0);
+    before_ = files();
+  }
+
+  /// The code and a sentence, and no file more than before.
+  void expectRefusal(const std::vector<std::string>& arguments, int code, const std::string& sentence) const {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, code) << sentence << "\n" << outcome.err;
+    EXPECT_NE(outcome.err.find(sentence), std::string::npos) << sentence << "\n" << outcome.err;
+    EXPECT_EQ(outcome.err.rfind("arete: ", 0), 0u) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(files(), before_);
+  }
+
+  std::set<std::string> before_;
+};
+
+TEST_F(Arguments, HelpAndVersionAreAnswers) {
+  const Outcome help = run({"--help"});
+  EXPECT_EQ(help.code, 0);
+  for (const char* text :
+       {"build", "info", "extract", "measure", "validate", "Exit codes", "130", "Examples"})
+    EXPECT_NE(help.out.find(text), std::string::npos) << text;
+  for (const char* command : {"build", "info", "extract", "measure", "validate"}) {
+    const Outcome own = run({command, "--help"});
+    EXPECT_EQ(own.code, 0);
+    EXPECT_NE(own.out.find(std::string("  arete ") + command), std::string::npos) << own.out;
+    for (const char* option : {"--json", "--quiet", "--progress"})
+      EXPECT_NE(own.out.find(option), std::string::npos) << option;
+  }
+  EXPECT_EQ(run({"--version"}).out.rfind("arete ", 0), 0u);
+  EXPECT_EQ(run({}).code, 2);
+}
+
+TEST_F(Arguments, NamesTheCommandsItHas) {
+  expectRefusal({"biuld"}, 2, "no command 'biuld'; the commands are build, info");
+  expectRefusal({"build"}, 2, "DEM is required");
+  expectRefusal({"build", "dem.tif"}, 2, "--output is required");
+  expectRefusal({"build", "dem.tif", "-o", "x.amt", "--foo"}, 2, "--foo");
+}
+
+TEST_F(Arguments, RefusesTolerancesThatAreNone) {
+  const auto extract = [&](const std::string& option, const std::string& value, int code,
+                           const std::string& sentence) {
+    expectRefusal({"extract", "dem.amt", "-o", "x.ply", option, value}, code, sentence);
+  };
+  extract("--max-error", "-1", 2, "--max-error: an error cannot be below zero, as -1 is");
+  extract("--max-error", "nan", 2, "--max-error: 'nan' is not a number");
+  extract("--max-error", "5,much", 2, "--max-error: 'much' is not a number");
+  extract("--max-error", "5,", 2, "--max-error: '' is not a number");
+  extract("--max-error", "5,2,5", 2, "--max-error: names 5 twice");
+  extract("--max-triangles", "1", 2, "--max-triangles: 1 triangles are fewer than");
+  extract("--max-triangles", "-4", 2, "--max-triangles: must be from 1");
+  extract("--max-triangles", "many", 2, "--max-triangles: 'many' is not a whole number");
+  expectRefusal({"extract", "dem.amt", "-o", "x.ply"}, 2, "either --max-error or --max-triangles");
+  expectRefusal({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--max-triangles", "500"}, 2,
+                "--max-triangles");
+  expectRefusal({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--method", "best"}, 2,
+                "--method: 'best' is none of minimal, saturated");
+  expectRefusal({"measure", "tin.ply", "dem.tif", "--expect", "-2"}, 2, "--expect: an error cannot be below");
+}
+
+TEST_F(Arguments, RefusesBuildOptionsOutOfRange) {
+  const auto build = [&](const std::string& option, const std::string& value, int code,
+                         const std::string& sentence) {
+    expectRefusal({"build", "dem.tif", "-o", "x.amt", option, value}, code, sentence);
+  };
+  build("--ratio", "1", 2, "--ratio: must be above 1, not 1");
+  build("--ratio", "nan", 2, "--ratio: 'nan' is not a finite number");
+  build("--max-degree", "3", 2, "--max-degree: must be from 6");
+  build("--min-aspect", "0.9", 2, "--min-aspect");
+  build("--rim-tolerance", "-1", 2, "--rim-tolerance: must be 0 or more");
+  build("--shape", "pretty", 2, "--shape: 'pretty' is none of delaunay, fidelity");
+  build("--features", "-3", 2, "--features: must be from 0");
+  build("--crease-angle", "200", 2, "--crease-angle: must be from 0 to 180");
+  build("--band", "7", 2, "there is no band 7");
+  build("--crs", "nonsense", 2, "--crs nonsense: is not a CRS");
+  build("--nodata", "none", 2, "--nodata: 'none' is not a number");
+  build("--threads", "0", 2, "--threads: must be from 1");
+  build("--fixed", "nowhere.csv", 3, "nowhere.csv: there is no such file");
+  write("far.csv", "x,y\n1e9,1e9\n");
+  before_ = files();
+  build("--fixed", "far.csv", 4, "--fixed far.csv: none of the 1 points lies on the DEM's data");
+  expectRefusal({"build", "dem.tif", "-o", "x.amt", "--features", "3", "--no-features"}, 2, "--no-features");
+}
+
+TEST_F(Arguments, RefusesOutputsBeforeAnyWork) {
+  expectRefusal({"build", "dem.tif", "-o", "no/dem.amt"}, 3, "--output no/dem.amt: the folder");
+  expectRefusal({"build", "dem.tif", "-o", "dem.ply"}, 2, "is an .amt file, not a .ply");
+  expectRefusal({"build", "dem.amt", "-o", "./dem.amt"}, 2, "--output ./dem.amt: is the input");
+  expectRefusal({"extract", "dem.amt", "-o", "dem.tif", "--max-error", "1"}, 2,
+                "--output dem.tif: is the input");
+  expectRefusal(
+      {"extract", "dem.amt", "-o", "x.stl", "--max-error", "1"}, 2,
+      "--output x.stl: '.stl' is no format that can be written; known are .ply (PLY), .obj (OBJ), .tif");
+  expectRefusal({"extract", "dem.amt", "-o", "x", "--max-error", "1"}, 2,
+                "the extension that names a format");
+  expectRefusal({"extract", "dem.amt", "-o", "no/x.ply", "--max-error", "1"}, 3,
+                "--output no/x.ply: the folder");
+  expectRefusal({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--error-raster", "e.png"}, 2,
+                "--error-raster e.png: the error raster is a GeoTIFF");
+  expectRefusal({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--certificate", "no/c.json"}, 3,
+                "--certificate no/c.json: the folder");
+  expectRefusal({"extract", "dem.amt", "-o", "x.tif", "--max-error", "1", "--error-raster", "x.tif"}, 2,
+                "--error-raster x.tif");
+  expectRefusal({"extract", "--max-error", "1", "-o", "x.ply", "--certificate", "dem.amt"}, 2,
+                "put FILE.amt before --certificate");
+  expectRefusal({"measure", "tin.ply", "dem.tif", "--error-raster", "dem.tif"}, 2,
+                "--error-raster dem.tif: is the input");
+}
+
+TEST_F(Arguments, RefusesAFolderThatCannotBeWrittenTo) {
+  // Root may write anywhere but there.
+  const std::string folder = geteuid() == 0 ? "/proc" : path("locked");
+  if (geteuid() != 0) {
+    fs::create_directory(folder);
+    chmod(folder.c_str(), 0555);
+    before_ = files();
+  }
+  const Outcome outcome = run({"build", "dem.tif", "-o", folder + "/x.amt"});
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_NE(outcome.err.find(folder + "/x.amt"), std::string::npos) << outcome.err;
+  EXPECT_EQ(files(), before_);
+}
+
+TEST_F(Arguments, RefusesRegionsThatMeanNothing) {
+  const auto region = [&](const std::string& text, int code, const std::string& sentence) {
+    expectRefusal({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--region", text}, code,
+                  sentence);
+  };
+  region("1,2,3", 2, "--region 1,2,3: a box has four numbers");
+  region("5,0,1,9", 2, "--region 5,0,1,9: xmin must be below xmax");
+  region("-9e8,-9e8,-8e8,-8e8", 2, "does not meet the data of dem.amt");
+  region("park.gpkg", 3, "park.gpkg: there is no such file");
+  region("0,0,1,nan", 2, "finite numbers");
+  expectRefusal({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--outside-error", "5"}, 2,
+                "--outside-error: means something only with --region");
+  expectRefusal({"extract", "dem.amt", "-o", "x.ply", "--max-error", "9", "--region", "-1e9,-1e9,1e9,1e9",
+                 "--outside-error", "5"},
+                2, "--outside-error: 5 outside the region is below the 9 inside it");
+  expectRefusal({"measure", "tin.ply", "dem.tif", "--region", "-9e8,-9e8,-8e8,-8e8"}, 2,
+                "holds no sample of");
+}
+
+TEST_F(Arguments, NeverAssumesACrs) {
+  write("bare.xyz", "0 0 1\n1 0 2\n0.5 1 3\n3 1.5 4\n");
+  ASSERT_EQ(run({"build", "bare.xyz", "-o", "bare.amt"}).code, 0);
+  write("park.geojson", R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,0]]]})");
+  before_ = files();
+  expectRefusal({"extract", "bare.amt", "-o", "x.ply", "--max-error", "1", "--region", "park.geojson"}, 2,
+                "has a CRS and the DEM has none");
+  write("fixed.geojson", R"({"type":"Point","coordinates":[0.5,0.5]})");
+  before_ = files();
+  expectRefusal({"build", "bare.xyz", "-o", "x.amt", "--fixed", "fixed.geojson"}, 4,
+                "has a CRS and the DEM has none");
+}
+
+TEST_F(Arguments, TellsFilesThatAreNotWhatTheyShouldBe) {
+  expectRefusal({"build", "nowhere.tif", "-o", "x.amt"}, 3, "nowhere.tif: there is no such file");
+  expectRefusal({"info", "nowhere.amt"}, 3, "nowhere.amt");
+  expectRefusal({"info", "dem.tif"}, 4, "dem.tif: is not an .amt file");
+  expectRefusal({"measure", "tin.stl", "dem.tif"}, 3, ".stl is no known mesh format; known are PLY (.ply)");
+  expectRefusal({"measure", "tin.ply", "nowhere.tif"}, 3, "nowhere.tif");
+  write("bad.ply", "ply\nformat ascii 1.0\nelement vertex 9999999\n");
+  write("bad.tif", "this is no raster");
+  before_ = files();
+  expectRefusal({"measure", "bad.ply", "dem.tif"}, 4, "bad.ply");
+  EXPECT_NE(run({"build", "bad.tif", "-o", "x.amt"}).code, 0);
+}
+
+TEST_F(Arguments, NamesDegenerateData) {
+  for (const RasterFamily& family : degenerateFamilies()) {
+    SCOPED_TRACE(family.name);
+    makeRaster("bad.tif", family.name, 9, 9);
+    before_ = files();
+    expectRefusal({"build", "bad.tif", "-o", "x.amt"}, 4, "bad.tif: ");
+  }
+}
+
+TEST_F(Arguments, TellsABrokenPromise) {
+  const Outcome outcome = run({"measure", "tin.ply", "dem.tif", "--expect", "0.001"});
+  EXPECT_EQ(outcome.code, 5);
+  EXPECT_NE(outcome.err.find("tin.ply: the largest error is"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("maximum error"), std::string::npos) << outcome.out;
+  const Json json = run({"measure", "tin.ply", "dem.tif", "--expect", "0.001", "--json"}).json();
+  EXPECT_EQ(json["kept"], false);
+  EXPECT_EQ(run({"measure", "tin.ply", "dem.tif"}).code, 0);
+}
+
+TEST_F(Arguments, WarnsOfAnotherCrsAndOfATinElsewhere) {
+  makeRaster("other.tif", "geographic", 30, 30);
+  const Outcome outcome = run({"measure", "tin.ply", "other.tif"});
+  EXPECT_NE(outcome.err.find("as if they were in one"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_NE(outcome.err.find("covers no sample"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Arguments, QuietSaysNothingAndJsonOneObject) {
+  const std::vector<std::vector<std::string>> commands = {
+      {"build", "dem.tif", "-o", "x.amt"},
+      {"info", "dem.amt"},
+      {"extract", "dem.amt", "-o", "x.ply", "--max-error", "2"},
+      {"measure", "tin.ply", "dem.tif"},
+      {"validate", "dem.amt", "--fronts", "1"}};
+  for (std::vector<std::string> command : commands) {
+    SCOPED_TRACE(command.front());
+    command.push_back("--quiet");
+    const Outcome quiet = run(command);
+    EXPECT_EQ(quiet.code, 0);
+    EXPECT_EQ(quiet.out + quiet.err, "");
+    command.back() = "--json";
+    const Outcome json = run(command);
+    EXPECT_EQ(json.code, 0);
+    EXPECT_TRUE(json.json().is_object()) << json.out;
+    EXPECT_EQ(json.err, "");
+  }
+  const Outcome error = run({"info", "nowhere.amt", "--json", "--quiet"});
+  EXPECT_EQ(error.code, 3);
+  EXPECT_EQ(error.json()["error"]["exitCode"], 3);
+  EXPECT_NE(error.err, "");
+}
+
+TEST_F(Arguments, ProgressIsGdalsWhenAskedFor) {
+  const Outcome outcome = run({"build", "dem.tif", "-o", "x.amt", "--progress"});
+  ASSERT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find(" 0...10...20...30...40...50...60...70...80...90...100 - done.\n"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(outcome.out.find("..."), std::string::npos);
+}
+
+TEST_F(Arguments, TellsAStdoutThatIsFull) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+  const std::string command =
+      std::string("'" ARETE_PROGRAM "' info '") + path("dem.amt") + "' >/dev/full 2>/dev/null";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 3);
+}
+
+}  // namespace
+}  // namespace arete::cli_test

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The main job: a DEM in, one multitriangulation, any tolerance out, with proof.
+#include <cmath>
+
+#include "cli/cli_fixture.h"
+#include "io/raster_reader.h"
+
+namespace arete::cli_test {
+namespace {
+
+using MainJob = Cli;
+
+TEST_F(MainJob, BuildsExtractsAndKeepsThePromise) {
+  makeRaster("dem.tif", "fractal", 90, 70);
+  const Outcome built = run({"build", "dem.tif", "-o", "dem.amt"});
+  ASSERT_EQ(built.code, 0) << built.err;
+  EXPECT_NE(built.out.find("6 300"), std::string::npos) << built.out;
+  EXPECT_EQ(built.err, "");
+
+  const Outcome extracted = run({"extract", "dem.amt", "-o", "tin.ply", "--max-error", "5"});
+  ASSERT_EQ(extracted.code, 0) << extracted.err;
+  const Outcome measured = run({"measure", "tin.ply", "dem.tif", "--expect", "5"});
+  EXPECT_EQ(measured.code, 0) << measured.err;
+  EXPECT_NE(measured.out.find("kept"), std::string::npos) << measured.out;
+  EXPECT_EQ(files(), (std::set<std::string>{"dem.amt", "dem.tif", "tin.ply"}));
+}
+
+TEST_F(MainJob, HoldsOnEveryFamilyBothShapesAndBothMethods) {
+  const bool isFull = std::getenv("ARETE_FULL") != nullptr;
+  for (const RasterFamily& family : rasterFamilies()) {
+    SCOPED_TRACE(family.name);
+    makeRaster("dem.tif", family.name, isFull ? 150 : 31, isFull ? 120 : 27);
+    for (const std::string shape : {"delaunay", "fidelity"}) {
+      SCOPED_TRACE(shape);
+      const Outcome built = run({"build", "dem.tif", "-o", "dem.amt", "--shape", shape, "-q"});
+      ASSERT_EQ(built.code, 0) << built.err;
+      if (isFull) {
+        const Outcome valid = run({"validate", "dem.amt", "--fronts", "20"});
+        EXPECT_EQ(valid.code, 0) << valid.err;
+      }
+      for (const std::string method : {"minimal", "saturated"}) {
+        SCOPED_TRACE(method);
+        const Outcome extracted =
+            run({"extract", "dem.amt", "-o", "tin_{}.ply", "--max-error", "0,0.5,7", "--method", method});
+        ASSERT_EQ(extracted.code, 0) << extracted.err;
+        for (const std::string error : {"0", "0.5", "7"}) {
+          const Outcome measured = run({"measure", "tin_" + error + ".ply", "dem.tif", "--expect", error});
+          EXPECT_EQ(measured.code, 0) << error << ": " << measured.err;
+        }
+      }
+    }
+  }
+}
+
+TEST_F(MainJob, NamesTheOutputsOfSeveralTolerances) {
+  makeRaster("dem.tif", "fractal", 40, 40);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  const Outcome outcome = run({"extract", "dem.amt", "-o", "tin.ply", "--max-error", "1,2.5,20",
+                               "--certificate", "--error-raster", "e{}.tif", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* name : {"tin_1.ply", "tin_2.5.ply", "tin_20.ply", "tin_1.certificate.json", "e1.tif",
+                           "e2.5.tif", "tin_2.5.certificate.json"})
+    EXPECT_TRUE(exists(name)) << name;
+  const Json exports = outcome.json()["exports"];
+  ASSERT_EQ(exports.size(), 3u);
+  EXPECT_EQ(exports[1]["file"], "tin_2.5.ply");
+  EXPECT_GT(exports[0]["triangles"], exports[1]["triangles"]);
+  EXPECT_GE(exports[1]["triangles"], exports[2]["triangles"]);
+}
+
+TEST_F(MainJob, CertificateAgreesWithMeasure) {
+  makeRaster("dem.tif", "nodata holes", 60, 50);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  const Outcome extracted =
+      run({"extract", "dem.amt", "-o", "tin.obj", "--max-error", "3", "--certificate", "proof.json"});
+  ASSERT_EQ(extracted.code, 0) << extracted.err;
+  const Json certificate = readJson("proof.json");
+  ASSERT_FALSE(certificate.is_discarded()) << read("proof.json");
+  const Outcome measured = run({"measure", "tin.obj", "dem.tif", "--expect", "3", "--json"});
+  ASSERT_EQ(measured.code, 0) << measured.err;
+  const Json report = measured.json();
+  EXPECT_EQ(certificate["measured"]["error"], report["error"]);
+  EXPECT_EQ(certificate["measured"]["samples"], report["samples"]);
+  EXPECT_EQ(certificate["measured"]["triangles"], report["triangles"]);
+  EXPECT_EQ(certificate["source"]["checksum"], report["dem"]["checksum"]);
+  EXPECT_EQ(certificate["promise"]["kept"], true);
+  EXPECT_EQ(certificate["criterion"]["maxError"], 3.0);
+  EXPECT_EQ(certificate["check"], "arete measure tin.obj dem.tif --expect 3");
+  EXPECT_EQ(report["samples"]["nodataCovered"], 0);
+}
+
+TEST_F(MainJob, SpendsABudget) {
+  makeRaster("dem.tif", "fractal", 80, 80);
+  const Json built = run({"build", "dem.tif", "-o", "dem.amt", "--json"}).json();
+  const Outcome outcome =
+      run({"extract", "dem.amt", "-o", "tin.ply", "--max-triangles", "2000", "--certificate", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json tin = outcome.json()["exports"][0];
+  EXPECT_LE(tin["triangles"], 2000);
+  EXPECT_GE(tin["triangles"], 1990);
+  const Json promised = tin["promisedError"];
+  EXPECT_EQ(run({"measure", "tin.ply", "dem.tif", "--expect", promised.dump()}).code, 0);
+
+  const std::uint64_t root = built["rootTriangles"];
+  EXPECT_EQ(run({"extract", "dem.amt", "-o", "root.ply", "--max-triangles", std::to_string(root)}).code, 0);
+  const Outcome tooFew =
+      run({"extract", "dem.amt", "-o", "few.ply", "--max-triangles", std::to_string(root - 1)});
+  EXPECT_EQ(tooFew.code, 2);
+  EXPECT_NE(tooFew.err.find(std::to_string(root) + " of the root"), std::string::npos) << tooFew.err;
+  EXPECT_FALSE(exists("few.ply"));
+}
+
+TEST_F(MainJob, RefinesARegionOnRotatedSouthUpAndNorthUpGrids) {
+  for (const char* family : {"fractal", "rotated", "south up"}) {
+    SCOPED_TRACE(family);
+    makeRaster("dem.tif", family, 80, 80);
+    ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+    const auto raster = readRaster(path("dem.tif"));
+    ASSERT_TRUE(raster);
+    const Vec2 centre = raster->heightfield.georeference.toSource(40, 40);
+    const Vec2 step = groundStep(raster->heightfield.georeference, 40, 40);
+    const std::string box = fmt::format("{},{},{},{}", centre.x - 8 * step.x, centre.y - 8 * step.y,
+                                        centre.x + 8 * step.x, centre.y + 8 * step.y);
+    const Outcome outcome = run({"extract", "dem.amt", "-o", "tin.ply", "--max-error", "0.5", "--region", box,
+                                 "--outside-error", "30", "--certificate", "--json"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const Json tin = outcome.json()["exports"][0];
+    EXPECT_EQ(tin["kept"], true);
+    EXPECT_GT(tin["measuredInside"]["samples"]["valid"], 100);
+    EXPECT_LE(tin["measuredInside"]["error"]["maximum"], 0.5 + 1e-6);
+    EXPECT_LE(tin["measured"]["error"]["maximum"], 30 + 1e-6);
+    EXPECT_GT(tin["measured"]["error"]["maximum"], 0.5);
+    EXPECT_EQ(run({"measure", "tin.ply", "dem.tif", "--expect", "0.5", "--region", box}).code, 0);
+    EXPECT_EQ(run({"measure", "tin.ply", "dem.tif", "--expect", "0.5"}).code, 5);
+  }
+}
+
+TEST_F(MainJob, ReadsARegionFromAFile) {
+  makeRaster("dem.tif", "geographic", 60, 60);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  const auto raster = readRaster(path("dem.tif"));
+  ASSERT_TRUE(raster);
+  const auto corner = [&](double c, double r) {
+    const Vec2 p = raster->heightfield.georeference.toSource(c, r);
+    return fmt::format("[{},{}]", p.x, p.y);
+  };
+  write("park.geojson", R"({"type":"Polygon","coordinates":[[)" + corner(20, 20) + "," + corner(40, 22) +
+                            "," + corner(30, 40) + "," + corner(20, 20) + "]]}");
+  const Outcome outcome = run({"extract", "dem.amt", "-o", "tin.ply", "--max-error", "0.5", "--region",
+                               "park.geojson", "--certificate"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(run({"measure", "tin.ply", "dem.tif", "--expect", "0.5", "--region", "park.geojson"}).code, 0);
+}
+
+TEST_F(MainJob, SamplesTheTinBackOnTheSourceGrid) {
+  makeRaster("dem.tif", "nodata holes", 60, 50);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  const Outcome outcome =
+      run({"extract", "dem.amt", "-o", "smooth.tif", "--max-error", "2", "--error-raster", "error.tif"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto dem = readRaster(path("dem.tif")), smooth = readRaster(path("smooth.tif")),
+             error = readRaster(path("error.tif"));
+  ASSERT_TRUE(dem && smooth && error);
+  EXPECT_EQ(smooth->heightfield.georeference.geoTransform, dem->heightfield.georeference.geoTransform);
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < dem->heightfield.size(); ++i) {
+    const double z = dem->heightfield.heights[i], tin = smooth->heightfield.heights[i];
+    if (std::isnan(z) || std::isnan(tin)) continue;
+    ++compared;
+    EXPECT_LE(std::abs(tin - z), 2.001);
+    EXPECT_NEAR(error->heightfield.heights[i], tin - z, 2e-3);
+  }
+  EXPECT_GT(compared, 1000u);
+}
+
+TEST_F(MainJob, TakesScatteredPoints) {
+  std::string text = "x,y,z\n";
+  const PointHeightfield points = pointFamilies().front().make(400, 3);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    text += fmt::format("{},{},{}\n", points.positions[i].x, points.positions[i].y, points.heights[i]);
+  write("points.csv", text);
+  const Outcome built = run({"build", "points.csv", "-o", "p.amt", "--crs", "EPSG:32611"});
+  ASSERT_EQ(built.code, 0) << built.err;
+  ASSERT_EQ(run({"extract", "p.amt", "-o", "p.ply", "--max-error", "1", "--certificate"}).code, 0);
+  const Outcome measured =
+      run({"measure", "p.ply", "points.csv", "--crs", "EPSG:32611", "--expect", "1", "--json"});
+  ASSERT_EQ(measured.code, 0) << measured.err;
+  EXPECT_EQ(measured.json()["error"], readJson("p.certificate.json")["measured"]["error"]);
+  const Outcome noGrid = run({"extract", "p.amt", "-o", "p.tif", "--max-error", "1"});
+  EXPECT_EQ(noGrid.code, 2);
+  EXPECT_NE(noGrid.err.find("scattered points"), std::string::npos) << noGrid.err;
+}
+
+TEST_F(MainJob, KeepsFeaturesAndFixedPointsInTheRoot) {
+  makeRaster("dem.tif", "fractal", 60, 60);
+  const auto raster = readRaster(path("dem.tif"));
+  ASSERT_TRUE(raster);
+  const Vec2 p = raster->heightfield.georeference.toSource(17.3, 22.8);
+  write("fixed.csv", fmt::format("x,y\n{},{}\n{},{}\n", p.x, p.y, p.x + 1e7, p.y));
+  const Outcome built = run(
+      {"build", "dem.tif", "-o", "dem.amt", "--no-features", "--fixed", "fixed.csv", "--json", "--progress"});
+  ASSERT_EQ(built.code, 0) << built.err;
+  EXPECT_EQ(built.json()["features"], 0);
+  EXPECT_EQ(built.json()["given"], 1);
+  EXPECT_EQ(built.json()["fixedVertices"], 1);
+  EXPECT_NE(built.err.find("1 of 2 points lie beside"), std::string::npos) << built.err;
+  ASSERT_EQ(run({"extract", "dem.amt", "-o", "root.obj", "--max-error", "inf"}).code, 0);
+  const Vec2 snapped = raster->heightfield.georeference.toSource(17, 23);
+  EXPECT_NE(read("root.obj").find(fmt::format("v {} {} ", snapped.x, snapped.y)), std::string::npos);
+
+  EXPECT_EQ(run({"build", "dem.tif", "-o", "a.amt", "--features", "10", "--json"}).json()["features"], 10);
+  const Json creased = run({"build", "dem.tif", "-o", "a.amt", "--crease-angle", "10", "--json"}).json();
+  EXPECT_GT(creased["creaseVertices"], 0);
+  EXPECT_GE(creased["rootVertices"], creased["fixedVertices"]);
+}
+
+TEST_F(MainJob, TellsTheCurve) {
+  makeRaster("dem.tif", "fractal", 70, 70);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  const Json info = run({"info", "dem.amt", "--json"}).json();
+  ASSERT_FALSE(info.is_discarded());
+  EXPECT_EQ(info["samples"], 4900);
+  EXPECT_EQ(info["finestTriangles"], 2 * 69 * 69);
+  const Json curve = info["curve"];
+  ASSERT_GT(curve.size(), 3u);
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    EXPECT_LE(curve[i]["minimal"], curve[i]["saturated"]);
+    if (i > 0) EXPECT_LE(curve[i]["minimal"], curve[i - 1]["minimal"]);
+    if (i > 0) EXPECT_GT(curve[i]["maxError"], curve[i - 1]["maxError"]);
+  }
+  const Json at = run({"info", "dem.amt", "--json", "--at", "4"}).json()["curve"];
+  ASSERT_EQ(at.size(), 1u);
+  for (const std::string method : {"minimal", "saturated"}) {
+    const Json tin =
+        run({"extract", "dem.amt", "-o", "tin.ply", "--max-error", "4", "--method", method, "--json"})
+            .json()["exports"][0];
+    EXPECT_EQ(tin["triangles"], at[0][method]) << method;
+  }
+  EXPECT_NE(run({"info", "dem.amt"}).out.find("(finest)"), std::string::npos);
+}
+
+TEST_F(MainJob, ValidatesAndNamesWhatIsBroken) {
+  makeRaster("dem.tif", "fractal", 40, 40);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  const Outcome valid = run({"validate", "dem.amt"});
+  EXPECT_EQ(valid.code, 0) << valid.err;
+  EXPECT_NE(valid.out.find("law 9  holds"), std::string::npos) << valid.out;
+  EXPECT_EQ(run({"validate", "dem.amt", "--json"}).json()["holds"], true);
+
+  std::string bytes = read("dem.amt");
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x55);
+  write("altered.amt", bytes);
+  EXPECT_EQ(run({"validate", "altered.amt"}).code, 4);
+  write("short.amt", bytes.substr(0, bytes.size() / 2));
+  for (const char* command : {"validate", "info"}) {
+    const Outcome cut = run({command, "short.amt"});
+    EXPECT_TRUE(cut.code == 3 || cut.code == 4) << cut.code;
+    EXPECT_NE(cut.err.find("short.amt"), std::string::npos) << cut.err;
+  }
+}
+
+TEST_F(MainJob, GivesTheSameBytesForAnyNumberOfThreads) {
+  makeRaster("dem.tif", "nodata holes", 120, 100);
+  for (const std::string threads : {"1", "2", "4"})
+    ASSERT_EQ(run({"build", "dem.tif", "-o", threads + ".amt", "--threads", threads}).code, 0);
+  EXPECT_EQ(read("1.amt"), read("2.amt"));
+  EXPECT_EQ(read("1.amt"), read("4.amt"));
+}
+
+}  // namespace
+}  // namespace arete::cli_test
