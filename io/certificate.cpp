@@ -32,6 +32,13 @@ Json criterionJson(const ExtractCriterion& criterion) {
   return json;
 }
 
+/// A model numbers scattered points in its own way: the number would mislead.
+Json measuredJson(const MeasureReport& report, bool isRaster) {
+  Json json = toJson(report, isRaster);
+  if (!isRaster && report.worst) json["error"]["worst"].erase("point");
+  return json;
+}
+
 Json sourceJson(const TerrainModel& model) {
   const Georeference& g = model.georeference;
   Json json = {{"path", model.source},
@@ -64,9 +71,9 @@ std::string certificateJson(const Certificate& certificate, const TerrainModel& 
                 {{"maxError", limit(certificate.promisedError)},
                  {"storedError", certificate.storedError},
                  {"kept", certificate.isKept}}},
-               {"measured", toJson(certificate.measured, model.isRaster)}};
+               {"measured", measuredJson(certificate.measured, model.isRaster)}};
   if (certificate.measuredInside)
-    json["measuredInside"] = toJson(*certificate.measuredInside, model.isRaster);
+    json["measuredInside"] = measuredJson(*certificate.measuredInside, model.isRaster);
   json["check"] = certificate.checkCommand;
   // A path need not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

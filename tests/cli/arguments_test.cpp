@@ -118,7 +118,7 @@ TEST_F(Arguments, RefusesOutputsBeforeAnyWork) {
                 "--certificate no/c.json: the folder");
   expectRefusal({"extract", "dem.amt", "-o", "x.tif", "--max-error", "1", "--error-raster", "x.tif"}, 2,
                 "--error-raster x.tif");
-  expectRefusal({"extract", "--max-error", "1", "-o", "x.ply", "--certificate", "dem.amt"}, 2,
+  expectRefusal({"extract", "--certificate", "dem.amt", "--max-error", "1", "-o", "x.ply"}, 2,
                 "put FILE.amt before --certificate");
   expectRefusal({"measure", "tin.ply", "dem.tif", "--error-raster", "dem.tif"}, 2,
                 "--error-raster dem.tif: is the input");
@@ -204,7 +204,9 @@ TEST_F(Arguments, TellsABrokenPromise) {
 
 TEST_F(Arguments, WarnsOfAnotherCrsAndOfATinElsewhere) {
   makeRaster("other.tif", "geographic", 30, 30);
-  const Outcome outcome = run({"measure", "tin.ply", "other.tif"});
+  ASSERT_EQ(run({"build", "other.tif", "-o", "other.amt"}).code, 0);
+  ASSERT_EQ(run({"extract", "other.amt", "-o", "other.ply", "--max-error", "5"}).code, 0);
+  const Outcome outcome = run({"measure", "other.ply", "dem.tif", "--crs", "EPSG:32611"});
   EXPECT_NE(outcome.err.find("as if they were in one"), std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.code, 4);
   EXPECT_NE(outcome.err.find("covers no sample"), std::string::npos) << outcome.err;

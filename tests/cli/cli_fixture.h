@@ -67,6 +67,8 @@ class Cli : public ::testing::Test {
   Outcome run(const std::vector<std::string>& arguments,
               const std::function<void(pid_t)>& meanwhile = {}) const {
     const std::string out = (folder_ / "out").string(), err = (folder_ / "err").string();
+    fs::remove(out);  // what an earlier run said is not what this one has said so far
+    fs::remove(err);
     const pid_t child = fork();
     if (child == 0) {
       redirect(out, STDOUT_FILENO);

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bench/sources.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "bench/figure.h"
+#include "datasets/terrain_generator.h"
+#include "io/raster_writer.h"
+
+namespace arete::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RealDem {
+  const char* name;
+  const char* file;
+  std::vector<double> tolerances;
+};
+
+/// Mountains at two scales, mountains with voids, lidar of the ground and of roofs and trees.
+const std::vector<RealDem>& knownDems() {
+  static const std::vector<RealDem> known = {
+      {"bigtujunga", "dem/srtm1_bigtujunga_utm11.tif", {1, 5, 20}},
+      {"aconcagua", "dem/srtm3_S33W071_aconcagua.tif", {5, 20, 100}},
+      {"bernese-alps", "dem/srtm3_N46E008_bernese_alps.tif", {5, 20, 100}},
+      {"maungawhau", "dem/lidar2m_maungawhau_nztm.tif", {0.1, 0.5, 2}},
+      {"edinburgh", "dem/lidar_dsm2.5m_edinburgh_bng.tif", {0.5, 2, 10}},
+  };
+  return known;
+}
+
+}  // namespace
+
+Result<std::vector<GreedyBaseline>> readBaselines(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) return failure(ErrorCode::notFound, "the baselines cannot be opened", path);
+  try {
+    std::vector<GreedyBaseline> baselines;
+    const Json json = Json::parse(file);
+    for (const auto& dem : json.at("dems")) {
+      for (const auto& point : dem.at("greedy"))
+        baselines.push_back({dem.at("name").get<std::string>(), point.at("tolerance").get<double>(),
+                             point.at("triangles").get<std::uint32_t>()});
+    }
+    return baselines;
+  } catch (const Json::exception& error) {
+    return failure(ErrorCode::corrupt, error.what(), path);
+  }
+}
+
+std::string dataFolder() {
+  if (const char* stated = std::getenv("ARETE_DATA")) return stated;
+  const fs::path beside = fs::path(ARETE_SOURCE_FOLDER).parent_path() / "shared" / "data";
+  std::error_code ignored;
+  return fs::exists(beside, ignored) ? beside.string() : std::string();
+}
+
+std::vector<DemSource> realDems(const std::string& folder) {
+  std::vector<DemSource> sources;
+  std::error_code ignored;
+  for (const RealDem& dem : knownDems()) {
+    const fs::path path = fs::path(folder) / dem.file;
+    if (!folder.empty() && fs::exists(path, ignored))
+      sources.push_back({dem.name, path.string(), dem.tolerances, 0});
+  }
+  return sources;
+}
+
+DemSource generatedDem(double millions, const std::string& scratch) {
+  DemSource source;
+  source.name = fmt::format("generated-{:g}M", millions);
+  source.side = static_cast<std::uint32_t>(std::lround(1024 * std::sqrt(millions))) + 1;
+  source.path = (fs::path(scratch) / fmt::format("generated-{}.tif", source.side)).string();
+  source.tolerances = {1, 5, 20};
+  return source;
+}
+
+Status generateDem(const DemSource& source) {
+  std::error_code ignored;
+  if (source.side == 0 || fs::exists(source.path, ignored)) return {};
+  TerrainOptions options;
+  options.columns = options.rows = source.side;
+  const Result<RasterHeightfield> field = generateTerrain(options);
+  if (!field) return tl::unexpected(field.error());
+  return writeGeoTiff(source.path, field->columns, field->rows, field->heights, field->georeference);
+}
+
+}  // namespace arete::bench

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/figure.h"
+#include "bench/sources.h"
+#include "bench/timing.h"
+#include "engine/result.h"
+#include "terrain/build_options.h"
+
+namespace arete::bench {
+
+/// What is to be measured and how.
+struct Plan {
+  std::vector<std::string> only;  ///< stages; empty = all
+  std::string scratch;            ///< folder for generated DEMs and models
+  std::string baselines;          ///< bench/baselines.json
+  Repetition repetition;
+
+  bool wants(const std::string& stage) const;
+};
+
+/// The stages there are, in the order in which they are run: read, build, file, cut, export, measure,
+/// triangles.
+const std::vector<std::string>& stageNames();
+
+/// Every stage that the plan wants, on one DEM. Each runs in processes of its own; models are built as needed
+/// and left in the scratch folder until the last stage. Errors: those of the stages, naming the DEM.
+Result<Figures> measureDem(const DemSource& source, const Plan& plan);
+
+/// Ratios to the greedy insertion of the baselines, from the figures of stage "triangles": geometric means.
+Figures geometricMeans(const Figures& figures);
+
+/// The stages, each in the process that calls it; paths and variants as measureDem() hands them in.
+Result<Figures> readStage(const DemSource& source, const Plan& plan);
+/// One build, written to `model`: figures named "time", "triangulate", "finish", "features", "peak", "write".
+Result<Figures> buildOnce(const DemSource& source, HoleShape shape, int threads, const std::string& model);
+Result<Figures> fileStage(const DemSource& source, HoleShape shape, const std::string& model,
+                          const Plan& plan);
+Result<Figures> cutStage(const DemSource& source, const std::string& model, const Plan& plan);
+Result<Figures> exportStage(const DemSource& source, const std::string& model, const Plan& plan);
+Result<Figures> measureStage(const DemSource& source, const std::string& model, const Plan& plan);
+Result<Figures> trianglesStage(const DemSource& source, const std::string& delaunay,
+                               const std::string& fidelity, const std::vector<GreedyBaseline>& baselines);
+
+}  // namespace arete::bench

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/session.h"
+#include "engine/result.h"
+#include "io/dem_reader.h"
+
+namespace arete {
+
+/// Checks of an option's text; what is wrong is said in a sentence behind the option's name. None takes NaN.
+CLI::Validator wholeNumber(std::int64_t least, std::int64_t most);
+CLI::Validator realNumber();
+CLI::Validator finiteAtLeast(double least);
+CLI::Validator finiteAbove(double bound);
+CLI::Validator finiteBetween(double least, double most);
+CLI::Validator oneOf(std::vector<std::string> words);
+/// An error in the unit of the heights: 0 or more, "inf" allowed.
+CLI::Validator tolerance();
+/// One or more tolerances with commas between.
+CLI::Validator tolerances();
+
+/// The numbers of a text with commas between. Errors: usage, naming the option and what is no number.
+Result<std::vector<double>> parseNumbers(const std::string& option, const std::string& text);
+
+/// How to read a DEM; the options of all commands that do.
+struct DemArguments {
+  std::string path;
+  std::int64_t band = 0;
+  std::string layer, zField, crs;
+  double nodata = std::numeric_limits<double>::quiet_NaN();  ///< NaN = not stated
+
+  void addTo(CLI::App& command);
+  DemReadOptions options() const;
+  /// readDem(), its warnings said; an error names the option where one is to blame.
+  Result<DemRead> read(const Session& session) const;
+};
+
+/// That a file can be written under that name: it has a folder that can be written to and is none of the
+/// inputs. Errors name the option. Nothing is created.
+Status checkOutput(const std::string& option, const std::string& path,
+                   const std::vector<std::string>& inputs);
+
+/// 769671 as "769 671".
+std::string grouped(std::uint64_t count);
+/// "5 m", or "5" where the unit is not known.
+std::string withUnit(double value, const std::string& unit);
+/// "140.3 MB".
+std::string byteCount(std::uint64_t bytes);
+
+}  // namespace arete

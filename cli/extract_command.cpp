@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/extract_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments.h"
+#include "io/amt_file.h"
+#include "io/extract_tin.h"
+#include "io/region_argument.h"
+#include "io/report_json.h"
+#include "terrain/plan_region.h"
+
+namespace arete {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPlaceholder = "{}";
+
+/// An option with an optional value takes what follows it: FILE.amt, when that comes last.
+CLI::Validator notTheModel() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        if (fs::path(text).extension() != ".amt") return {};
+        return fmt::format("'{}' cannot be its name; put FILE.amt before --certificate", text);
+      },
+      "");
+}
+
+struct ExtractArguments {
+  std::string model, output;
+  std::string maxErrors;
+  std::int64_t maxTriangles = -1;  // < 0: not stated
+  std::string method = "minimal";
+  std::string region;
+  double outsideError = std::numeric_limits<double>::quiet_NaN();  // NaN: not stated
+  std::string certificate, errorRaster;
+  CLI::Option* certificateOption = nullptr;
+};
+
+/// The name for one tolerance: where the placeholder is, or, where there are several, "_5" before the
+/// extension.
+std::string named(const std::string& pattern, const std::string& tag, bool several) {
+  if (const std::size_t at = pattern.find(kPlaceholder); at != std::string::npos)
+    return pattern.substr(0, at) + tag + pattern.substr(at + 2);
+  if (!several) return pattern;
+  const fs::path path = pattern;
+  return (path.parent_path() / fmt::format("{}_{}{}", path.stem().string(), tag, path.extension().string()))
+      .string();
+}
+
+std::string certificateBeside(const std::string& output) {
+  return fs::path(output).replace_extension(".certificate.json").string();
+}
+
+Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments, const TerrainModel& model) {
+  std::vector<ExtractRequest> requests;
+  std::vector<double> errors;
+  if (!arguments.maxErrors.empty()) {
+    auto parsed = parseNumbers("--max-error", arguments.maxErrors);
+    if (!parsed) return tl::unexpected(parsed.error());
+    errors = std::move(*parsed);
+  }
+  const bool wantsCertificate = arguments.certificateOption->count() > 0;
+  const bool hasOutside = !std::isnan(arguments.outsideError);
+  const bool isBudget = errors.empty();
+  for (std::size_t i = 0; i < (isBudget ? 1 : errors.size()); ++i) {
+    ExtractRequest request;
+    ExtractCriterion& c = request.criterion;
+    if (isBudget) {
+      c.maxTriangles = static_cast<std::uint32_t>(arguments.maxTriangles);
+    } else {
+      c.maxError = errors[i];
+      if (std::count(errors.begin(), errors.end(), errors[i]) > 1)
+        return failure(ErrorCode::usage, fmt::format("names {} twice", errors[i]), "--max-error");
+    }
+    c.method = arguments.method == "saturated" ? CutMethod::saturated : CutMethod::minimal;
+    c.region = arguments.region;
+    if (hasOutside) c.outsideError = arguments.outsideError;
+    if (hasOutside && c.maxError && arguments.outsideError < *c.maxError)
+      return failure(ErrorCode::usage,
+                     fmt::format("{} outside the region is below the {} inside it; it may only be coarser",
+                                 arguments.outsideError, *c.maxError),
+                     "--outside-error");
+    const std::string tag = isBudget ? std::to_string(arguments.maxTriangles) : fmt::format("{}", errors[i]);
+    const bool several = errors.size() > 1;
+    request.output = named(arguments.output, tag, several);
+    if (wantsCertificate)
+      request.certificate = arguments.certificate.empty() ? certificateBeside(request.output)
+                                                          : named(arguments.certificate, tag, several);
+    if (!arguments.errorRaster.empty()) request.errorRaster = named(arguments.errorRaster, tag, several);
+    requests.push_back(std::move(request));
+  }
+  for (const ExtractRequest& request : requests) {
+    if (Status known = checkExtractOutput(request.output, model); !known)
+      return failure(known.error().code, known.error().message, fmt::format("--output {}", request.output));
+    if (request.errorRaster.empty()) continue;
+    if (!isRasterOutput(request.errorRaster))
+      return failure(ErrorCode::usage, "the error raster is a GeoTIFF: its name ends in .tif",
+                     fmt::format("--error-raster {}", request.errorRaster));
+    if (Status known = checkExtractOutput(request.errorRaster, model); !known)
+      return failure(known.error().code, known.error().message,
+                     fmt::format("--error-raster {}", request.errorRaster));
+  }
+  return requests;
+}
+
+Status checkOutputs(const std::vector<ExtractRequest>& requests, const ExtractArguments& arguments,
+                    const TerrainModel& model) {
+  std::vector<std::string> taken = {arguments.model, model.source};
+  if (fs::exists(arguments.region)) taken.push_back(arguments.region);
+  const auto check = [&](const char* option, const std::string& path) -> Status {
+    if (path.empty()) return {};
+    if (Status output = checkOutput(option, path, taken); !output) return output;
+    taken.push_back(path);
+    return {};
+  };
+  for (const ExtractRequest& request : requests) {
+    if (Status status = check("--output", request.output); !status) return status;
+    if (Status status = check("--certificate", request.certificate); !status) return status;
+    if (Status status = check("--error-raster", request.errorRaster); !status) return status;
+  }
+  return {};
+}
+
+Result<std::optional<Region>> regionOf(const ExtractArguments& arguments, const TerrainModel& model,
+                                       Session& session) {
+  if (arguments.region.empty()) return std::nullopt;
+  auto read = readRegionArgument(arguments.region, model.georeference.crsWkt, session.context());
+  if (!read) return tl::unexpected(read.error());
+  session.warn(read->warnings, arguments.region);
+  Region region = planRegion(std::move(read->rings), model);
+  if (region.isEmpty() || !meetsDomain(region, model.mt))
+    return failure(ErrorCode::usage, fmt::format("does not meet the data of {}", arguments.model),
+                   fmt::format("--region {}", arguments.region));
+  return std::optional<Region>(std::move(region));
+}
+
+Json jsonOf(const ExtractRequest& request, const ExtractedTin& tin, bool isRaster) {
+  Json json = {{"file", request.output}};
+  if (request.criterion.maxError)
+    json["maxError"] =
+        std::isfinite(*request.criterion.maxError) ? Json(*request.criterion.maxError) : Json();
+  if (request.criterion.maxTriangles) json["maxTriangles"] = *request.criterion.maxTriangles;
+  json["triangles"] = tin.triangles;
+  json["vertices"] = tin.vertices;
+  json["storedError"] = tin.storedError;
+  json["promisedError"] = std::isfinite(tin.promisedError) ? Json(tin.promisedError) : Json();
+  if (!request.certificate.empty()) json["certificate"] = request.certificate;
+  if (!request.errorRaster.empty()) json["errorRaster"] = request.errorRaster;
+  if (tin.measured) json["measured"] = toJson(*tin.measured, isRaster);
+  if (tin.measuredInside) json["measuredInside"] = toJson(*tin.measuredInside, isRaster);
+  if (tin.measured) json["kept"] = tin.isKept;
+  return json;
+}
+
+std::string textOf(const ExtractRequest& request, const ExtractedTin& tin, const std::string& unit) {
+  std::string text =
+      fmt::format("{}: {} triangles, {} vertices, error at most {}", request.output, grouped(tin.triangles),
+                  grouped(tin.vertices), withUnit(tin.storedError, unit));
+  if (!request.criterion.region.empty())
+    text += fmt::format(" (in the region {})", withUnit(tin.promisedError, unit));
+  if (tin.measured) text += fmt::format("; measured {}", withUnit(tin.measured->maxAbsError, unit));
+  if (tin.measuredInside) text += fmt::format(", {} inside", withUnit(tin.measuredInside->maxAbsError, unit));
+  if (!request.certificate.empty()) text += fmt::format("\n  certificate {}", request.certificate);
+  if (!request.errorRaster.empty()) text += fmt::format("\n  error raster {}", request.errorRaster);
+  return text + "\n";
+}
+
+Status runExtract(const ExtractArguments& arguments, Session& session) {
+  if (arguments.maxErrors.empty() && arguments.maxTriangles < 0)
+    return failure(ErrorCode::usage, "either --max-error or --max-triangles says how fine the TIN shall be");
+  if (!std::isnan(arguments.outsideError) && arguments.region.empty())
+    return failure(ErrorCode::usage, "means something only with --region", "--outside-error");
+  const Result<TerrainModel> model = loadAmt(arguments.model, {}, session.context());
+  if (!model) return tl::unexpected(model.error());
+  auto requests = requestsOf(arguments, *model);
+  if (!requests) return tl::unexpected(requests.error());
+  if (Status outputs = checkOutputs(*requests, arguments, *model); !outputs) return outputs;
+  const auto region = regionOf(arguments, *model, session);
+  if (!region) return tl::unexpected(region.error());
+
+  TinExtractor extractor(*model, arguments.model);
+  Json exports = Json::array();
+  Status promise;
+  for (ExtractRequest& request : *requests) {
+    request.region = *region;
+    const Result<ExtractedTin> tin = extractor.extract(request, session.context());
+    if (!tin) return tl::unexpected(tin.error());
+    session.say(textOf(request, *tin, model->georeference.verticalUnit));
+    exports.push_back(jsonOf(request, *tin, model->isRaster));
+    if (!tin->isKept && promise)
+      promise = failure(ErrorCode::brokenPromise,
+                        fmt::format("the measurement of the exported TIN contradicts the promised error {}",
+                                    tin->promisedError),
+                        request.output);
+  }
+  session.answer({{"model", arguments.model},
+                  {"verticalUnit", model->georeference.verticalUnit},
+                  {"exports", std::move(exports)}});
+  return promise;
+}
+
+}  // namespace
+
+void addExtractCommand(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<ExtractArguments>();
+  CLI::App* command = session.addCommand(
+      app, "extract", "Take TINs from a multitriangulation: by tolerance, budget or region",
+      "  arete extract dem.amt -o tin.ply --max-error 5\n"
+      "  arete extract dem.amt -o tin.ply --max-error 1,5,20      tin_1.ply, tin_5.ply, tin_20.ply\n"
+      "  arete extract dem.amt -o 'out/{}m.obj' --max-error 5     out/5m.obj\n"
+      "  arete extract dem.amt -o tin.ply --max-triangles 50000 --certificate\n"
+      "  arete extract dem.amt -o tin.ply --max-error 1 --region park.gpkg --outside-error 20\n"
+      "  arete extract dem.amt -o smooth.tif --max-error 5 --error-raster error.tif",
+      [arguments](Session& s) { return runExtract(*arguments, s); });
+  command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "File to write: .ply, .obj, or .tif (the TIN sampled on the source grid). {} in the name "
+                   "is the tolerance; with several and no {}, _E goes before the extension")
+      ->required()
+      ->type_name("FILE");
+  CLI::Option* errors =
+      command
+          ->add_option(
+              "--max-error", arguments->maxErrors,
+              "Largest vertical error, in the DEM's unit of height; several with commas, one TIN each")
+          ->check(tolerances())
+          ->type_name("E[,E...]");
+  command
+      ->add_option("--max-triangles", arguments->maxTriangles,
+                   "At most so many triangles, spent where the error is largest")
+      ->check(wholeNumber(1, 0xFFFFFFFE))
+      ->type_name("N")
+      ->excludes(errors);
+  command
+      ->add_option("--method", arguments->method,
+                   "minimal: the fewest triangles (default); saturated: a little more, sooner")
+      ->check(oneOf({"minimal", "saturated"}))
+      ->type_name("NAME");
+  command
+      ->add_option("--region", arguments->region,
+                   "Where the criterion holds: polygons (any vector file), or xmin,ymin,xmax,ymax in the "
+                   "DEM's CRS")
+      ->type_name("FILE|BOX");
+  command
+      ->add_option("--outside-error", arguments->outsideError,
+                   "Largest error outside the region (default: none, the coarsest)")
+      ->check(tolerance())
+      ->type_name("E");
+  arguments->certificateOption =
+      command
+          ->add_option("--certificate", arguments->certificate,
+                       "Measure the TIN and write what is promised, found, and how to check it as JSON "
+                       "(default name: the output's, .certificate.json)")
+          ->expected(0, 1)
+          ->check(notTheModel())
+          ->type_name("[FILE]");
+  command
+      ->add_option("--error-raster", arguments->errorRaster,
+                   "Also write TIN height minus DEM height, a GeoTIFF on the source grid")
+      ->type_name("FILE");
+}
+
+}  // namespace arete

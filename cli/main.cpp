@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// arete: declares the commands, parses, dispatches. What a command does lives in io/ and below.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "cli/build_command.h"
+#include "cli/demo_command.h"
+#include "cli/exit_code.h"
+#include "cli/extract_command.h"
+#include "cli/info_command.h"
+#include "cli/interrupt.h"
+#include "cli/measure_command.h"
+#include "cli/session.h"
+#include "cli/validate_command.h"
+
+namespace arete {
+namespace {
+
+ExitCode refuse(const std::string& sentence, const std::string& help) {
+  fmt::print(stderr, "arete: {}\nSee {} --help.\n", sentence, help);
+  return ExitCode::usage;
+}
+
+/// CLI11 says that a command is missing where it does not know the one that is there.
+std::string unknownCommand(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  std::string known;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == argv[1]) return {};
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  return fmt::format("there is no command '{}'; the commands are {}", argv[1], known);
+}
+
+ExitCode run(int argc, char** argv) {
+  Session session;
+  CLI::App app{
+      "Arete turns a digital elevation model into one multitriangulation and takes TINs of any\n"
+      "tolerance from it, with an error that anybody can measure again."};
+  app.name("arete");
+  app.set_version_flag("--version", "arete " ARETE_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Examples:\n"
+      "  arete build dem.tif -o dem.amt                     once\n"
+      "  arete extract dem.amt -o tin.ply --max-error 5     as often as wanted, any tolerance\n"
+      "  arete measure tin.ply dem.tif --expect 5           the promise, checked independently\n"
+      "\n" +
+      std::string(exitCodeTable()) + "\n\nCOMMAND --help tells the options of a command.");
+  addBuildCommand(app, session);
+  addInfoCommand(app, session);
+  addExtractCommand(app, session);
+  addMeasureCommand(app, session);
+  addValidateCommand(app, session);
+  addDemoCommand(app, session);
+
+  if (argc < 2) {
+    fmt::print(stderr, "{}", app.help());
+    return ExitCode::usage;
+  }
+  if (const std::string sentence = unknownCommand(app, argc, argv); !sentence.empty())
+    return refuse(sentence, "arete");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {  // --help, --version
+      app.exit(error);
+      return std::fflush(stdout) == 0 ? ExitCode::ok : ExitCode::file;
+    }
+    const auto parsed = app.get_subcommands();
+    return refuse(error.what(), parsed.empty() ? "arete" : "arete " + parsed.front()->get_name());
+  }
+  return session.runParsed();
+}
+
+}  // namespace
+}  // namespace arete
+
+int main(int argc, char** argv) {
+  try {
+    arete::catchInterrupts();
+    return static_cast<int>(arete::run(argc, argv));
+  } catch (const std::bad_alloc&) {
+    std::fputs("arete: there is not enough memory for this\n", stderr);
+  } catch (const std::exception& error) {
+    std::fputs("arete: an unexpected failure, which is a bug: ", stderr);
+    std::fputs(error.what(), stderr);
+    std::fputc('\n', stderr);
+  } catch (...) {
+    std::fputs("arete: an unexpected failure, which is a bug\n", stderr);
+  }
+  return static_cast<int>(arete::ExitCode::internal);
+}

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/measure_command.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "cli/arguments.h"
+#include "cli/measure_report_text.h"
+#include "io/crs_names.h"
+#include "io/dem_reader.h"
+#include "io/extract_tin.h"
+#include "io/mesh_file.h"
+#include "io/raster_writer.h"
+#include "io/region_argument.h"
+#include "io/report_json.h"
+#include "terrain/measure.h"
+#include "terrain/plan_region.h"
+
+namespace arete {
+namespace {
+
+struct MeasureArguments {
+  std::string tin;
+  DemArguments dem;
+  double expect = std::numeric_limits<double>::quiet_NaN();  // NaN: not stated
+  std::string region, errorRaster;
+  bool allowCoveredNodata = false;
+};
+
+void compareFrames(const MeshFile& tin, const Georeference& georeference, const Session& session) {
+  if (compareCrs(tin.crsWkt, georeference.crsWkt) == CrsAgreement::different)
+    session.warn(fmt::format("the TIN is in {}, the DEM in {}: they are compared as if they were in one",
+                             crsName(tin.crsWkt), crsName(georeference.crsWkt)));
+  if (!tin.verticalUnit.empty() && !georeference.verticalUnit.empty() &&
+      tin.verticalUnit != georeference.verticalUnit)
+    session.warn(
+        fmt::format("the TIN's heights are in '{}', the DEM's in '{}': they are compared as they are",
+                    tin.verticalUnit, georeference.verticalUnit));
+}
+
+template <class Heightfield>
+Result<std::vector<std::uint8_t>> maskOf(const MeasureArguments& arguments, const Heightfield& field,
+                                         Session& session) {
+  if (arguments.region.empty()) return std::vector<std::uint8_t>();
+  auto read = readRegionArgument(arguments.region, field.georeference.crsWkt, session.context());
+  if (!read) return tl::unexpected(read.error());
+  session.warn(read->warnings, arguments.region);
+  std::vector<std::uint8_t> mask = samplesInside(planRegion(std::move(read->rings), field), field);
+  bool any = false;
+  for (std::size_t i = 0; i < mask.size() && !any; ++i) any = mask[i] != 0 && !std::isnan(field.heights[i]);
+  if (!any)
+    return failure(ErrorCode::usage, fmt::format("holds no sample of {}", arguments.dem.path),
+                   fmt::format("--region {}", arguments.region));
+  return mask;
+}
+
+Status writeErrors(const MeasureArguments& arguments, const RasterHeightfield& field,
+                   const MeasureRasters& rasters, Session& session) {
+  GeoTiffOptions options;
+  options.description = "TIN height minus DEM height";
+  return writeGeoTiff(arguments.errorRaster, field.columns, field.rows, rasters.errors, field.georeference,
+                      options, session.context());
+}
+
+Status writeErrors(const MeasureArguments& arguments, const PointHeightfield&, const MeasureRasters&,
+                   Session&) {
+  return failure(ErrorCode::usage, "the DEM is a set of scattered points, which have no grid",
+                 fmt::format("--error-raster {}", arguments.errorRaster));
+}
+
+template <class Heightfield>
+Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Heightfield& field,
+               Session& session) {
+  constexpr bool isRaster = std::is_same_v<Heightfield, RasterHeightfield>;
+  const Georeference& georeference = field.georeference;
+  compareFrames(tin, georeference, session);
+  const auto mask = maskOf(arguments, field, session);
+  if (!mask) return tl::unexpected(mask.error());
+  MeasureOptions options;
+  options.mask = *mask;
+  MeasureRasters rasters;
+  const Result<MeasureReport> report = measure(tin.mesh, field, options, session.context(),
+                                               arguments.errorRaster.empty() ? nullptr : &rasters);
+  if (!report) return tl::unexpected(report.error());
+  if (!arguments.errorRaster.empty())
+    if (Status written = writeErrors(arguments, field, rasters, session); !written) return written;
+
+  const bool expects = !std::isnan(arguments.expect);
+  const Status promise =
+      expects ? checkPromise(*report, arguments.expect, {.allowCoveredNodata = arguments.allowCoveredNodata})
+              : Status();
+  session.say(fmt::format("{} against {}{}\n{}", arguments.tin, arguments.dem.path,
+                          arguments.region.empty() ? "" : fmt::format(" in {}", arguments.region),
+                          measureReportText(*report, georeference.verticalUnit, isRaster)));
+  if (expects && promise)
+    session.say(
+        fmt::format("kept: nowhere more than {}\n", withUnit(arguments.expect, georeference.verticalUnit)));
+  Json json = {{"tin", {{"path", arguments.tin}, {"crs", crsName(tin.crsWkt)}}},
+               {"dem",
+                {{"path", arguments.dem.path},
+                 {"checksum", field.sourceChecksum},
+                 {"crs", crsName(georeference.crsWkt)},
+                 {"verticalUnit", georeference.verticalUnit}}}};
+  if (!arguments.region.empty()) json["region"] = arguments.region;
+  json.update(toJson(*report, isRaster));
+  if (expects) {
+    json["expect"] = std::isfinite(arguments.expect) ? Json(arguments.expect) : Json();
+    json["kept"] = promise.has_value();
+    if (!promise) json["broken"] = promise.error().message;
+  }
+  session.answer(json);
+  if (!promise) return failure(promise.error().code, promise.error().message, arguments.tin);
+  if (report->covered == 0 && report->valid > 0)
+    return failure(ErrorCode::invalidData,
+                   fmt::format("covers no sample of {}, so there is nothing to compare", arguments.dem.path),
+                   arguments.tin);
+  return {};
+}
+
+Status runMeasure(const MeasureArguments& arguments, Session& session) {
+  if (!arguments.errorRaster.empty()) {
+    if (!isRasterOutput(arguments.errorRaster))
+      return failure(ErrorCode::usage, "the error raster is a GeoTIFF: its name ends in .tif",
+                     fmt::format("--error-raster {}", arguments.errorRaster));
+    if (Status output =
+            checkOutput("--error-raster", arguments.errorRaster, {arguments.tin, arguments.dem.path});
+        !output)
+      return output;
+  }
+  const Result<MeshFile> tin = readMesh(arguments.tin, session.context());
+  if (!tin) return tl::unexpected(tin.error());
+  const Result<DemRead> dem = arguments.dem.read(session);
+  if (!dem) return tl::unexpected(dem.error());
+  return std::visit([&](const auto& field) { return compare(arguments, *tin, field, session); },
+                    dem->heightfield);
+}
+
+}  // namespace
+
+void addMeasureCommand(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<MeasureArguments>();
+  CLI::App* command = session.addCommand(
+      app, "measure", "Measure any TIN against any DEM, independently of how it was made",
+      "  arete measure tin.ply dem.tif\n"
+      "  arete measure tin.ply dem.tif --expect 5         exit code 5 when the promise is broken\n"
+      "  arete measure tin.obj dem.tif --json --error-raster error.tif\n"
+      "  arete measure tin.ply dem.tif --expect 1 --region park.gpkg",
+      [arguments](Session& s) { return runMeasure(*arguments, s); });
+  command->add_option("TIN", arguments->tin, "A triangle mesh: .ply, .obj")->required()->type_name("");
+  command->add_option("DEM", arguments->dem.path, "What it shall be near to")->required()->type_name("");
+  command
+      ->add_option("--expect", arguments->expect,
+                   "The promise: every sample covered once, no NODATA covered, no error above this")
+      ->check(tolerance())
+      ->type_name("E");
+  command->add_flag("--allow-covered-nodata", arguments->allowCoveredNodata,
+                    "Covered NODATA breaks no promise (a build with --rim-tolerance)");
+  command
+      ->add_option("--region", arguments->region,
+                   "Only the samples in there: polygons, or xmin,ymin,xmax,ymax in the DEM's CRS")
+      ->type_name("FILE|BOX");
+  command
+      ->add_option("--error-raster", arguments->errorRaster,
+                   "Write TIN height minus DEM height, a GeoTIFF on the DEM's grid")
+      ->type_name("FILE");
+  arguments->dem.addTo(*command);
+}
+
+}  // namespace arete
