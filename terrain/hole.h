@@ -74,17 +74,17 @@ HoleTriangulation triangulateHoleDelaunay(const Polygon& polygon, int corners) {
   if (polygon.orientation(previous[i], i, next[i]) <= 0) return {};
   put(previous[i], i, next[i]);
 
-  for (bool flipped = true; flipped;) {
-    flipped = false;
-    for (int d = 0; d < diagonalCount; ++d) {
-      const auto [a, b] = diagonals[d];
-      const std::uint8_t m = third[a][b], n = third[b][a];
-      if (polygon.inCircle(a, b, m, n) > 0) {
-        put(n, b, m);
-        put(m, a, n);
-        diagonals[d] = {n, m};
-        flipped = true;
-      }
+  // Round and round over the diagonals until each has been looked at since the last flip.
+  for (int d = 0, unchanged = 0; unchanged < diagonalCount; d = d + 1 < diagonalCount ? d + 1 : 0) {
+    const auto [a, b] = diagonals[d];
+    const std::uint8_t m = third[a][b], n = third[b][a];
+    if (polygon.inCircle(a, b, m, n) > 0) {
+      put(n, b, m);
+      put(m, a, n);
+      diagonals[d] = {n, m};
+      unchanged = 1;
+    } else {
+      ++unchanged;
     }
   }
 

@@ -60,6 +60,7 @@ void RasterError::forRows(std::uint32_t a, std::uint32_t b, std::uint32_t c, con
   };
   Corner p = corner(a), q = corner(b), r = corner(c);
   const std::int64_t area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+  if (area == 1) return;  // by Pick's theorem it covers its corners and nothing else
   const double inverse = 1.0 / double(area);
   const double stepX = ((q.z - p.z) * double(r.y - p.y) - (r.z - p.z) * double(q.y - p.y)) * inverse;
   const double stepY = ((r.z - p.z) * double(q.x - p.x) - (q.z - p.z) * double(r.x - p.x)) * inverse;
