@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/extract_tin.h"
+
+#include <gtest/gtest.h>
+
+#include "datasets/families.h"
+#include "engine/criterion.h"
+#include "io/crs_names.h"
+#include "io/export_tin.h"
+#include "io/io_fixture.h"
+#include "io/plan_point_reader.h"
+#include "io/region_argument.h"
+#include "terrain/build.h"
+
+namespace arete {
+namespace {
+
+using test::TemporaryFolder;
+
+Result<TerrainModel> modelOf(std::string_view name) {
+  for (const RasterFamily& family : rasterFamilies())
+    if (family.name == name) return build(family.make(30, 25, 2));
+  return failure(ErrorCode::usage, "no such family");
+}
+
+TEST(ExportTin, IsCounterClockwiseOnTheMapWhicheverWayTheGridTurns) {
+  for (const char* name : {"fractal", "rotated", "south up", "geographic", "nodata holes"}) {
+    SCOPED_TRACE(name);
+    const auto model = modelOf(name);
+    ASSERT_TRUE(model) << model.error().describe();
+    const auto cut = takeCut(model->mt, UniformError(2));
+    ASSERT_TRUE(cut);
+    const TinExport tin = exportTin(*model, *cut);
+    ASSERT_EQ(tin.errors.size(), tin.mesh.triangles.size());
+    ASSERT_TRUE(tin.mesh.validate());
+    for (std::size_t t = 0; t < tin.errors.size(); ++t) {
+      const auto& c = tin.mesh.triangles[t];
+      const Vec3 a = tin.mesh.positions[c[0]], b = tin.mesh.positions[c[1]], d = tin.mesh.positions[c[2]];
+      EXPECT_GT((b.x - a.x) * (d.y - a.y) - (b.y - a.y) * (d.x - a.x), 0);
+      EXPECT_LE(tin.errors[t], 2);
+    }
+  }
+}
+
+TEST(ExtractTin, QuotesTheCheckForAShell) {
+  TerrainModel model;
+  model.source = "my dem.tif";
+  ExtractRequest request;
+  request.criterion.maxError = 5;
+  request.output = "it's.ply";
+  EXPECT_EQ(checkCommand(request, model, "m.amt", 5),
+            R"(arete measure 'it'\''s.ply' 'my dem.tif' --expect 5)");
+  request.output = "smooth.tif";
+  request.criterion.region = "1,2,3,4";
+  request.criterion.outsideError = 50;
+  model.options.rimTolerance = 2;
+  EXPECT_EQ(checkCommand(request, model, "m.amt", 5),
+            "arete extract m.amt -o smooth.ply --max-error 5 --region 1,2,3,4 --outside-error 50 && "
+            "arete measure smooth.ply 'my dem.tif' --expect 5 --region 1,2,3,4 --allow-covered-nodata");
+}
+
+TEST(CrsNames, AreShortAndCompareByPlace) {
+  EXPECT_EQ(crsName(""), "none");
+  EXPECT_EQ(crsName("EPSG:32611"), "WGS 84 / UTM zone 11N (EPSG:32611)");
+  EXPECT_EQ(crsName("gibberish"), "unknown");
+  EXPECT_EQ(compareCrs("EPSG:32611", "EPSG:32611"), CrsAgreement::same);
+  EXPECT_EQ(compareCrs("EPSG:4326", "EPSG:4326+5773"), CrsAgreement::same);
+  EXPECT_EQ(compareCrs("EPSG:32611", "EPSG:4326"), CrsAgreement::different);
+  EXPECT_EQ(compareCrs("EPSG:32611", ""), CrsAgreement::unknown);
+}
+
+TEST(PlanPointReader, TakesTwoColumnsOrThree) {
+  const TemporaryFolder folder;
+  for (const char* text :
+       {"x,y\n1,2\n3,4\n", "1 2\n3 4\n", "name;lon;lat\na;1;2\nb;3;4\n", "1,2,9\n3,4,9\n"}) {
+    SCOPED_TRACE(text);
+    const auto read = readPlanPoints(folder.write("p.csv", text), "EPSG:32611");
+    ASSERT_TRUE(read) << read.error().describe();
+    EXPECT_EQ(read->positions, (std::vector<Vec2>{{1, 2}, {3, 4}}));
+  }
+  EXPECT_EQ(readPlanPoints(folder.write("e.csv", "x,y\n"), "").error().code, ErrorCode::invalidData);
+  EXPECT_EQ(readPlanPoints(folder.file("none.csv"), "").error().code, ErrorCode::notFound);
+}
+
+TEST(PlanPointReader, ReprojectsLayers) {
+  const TemporaryFolder folder;
+  const std::string path =
+      folder.write("p.geojson", R"({"type":"MultiPoint","coordinates":[[-117,34],[-117,0]]})");
+  const auto read = readPlanPoints(path, "EPSG:32611");
+  ASSERT_TRUE(read) << read.error().describe();
+  ASSERT_EQ(read->positions.size(), 2u);
+  EXPECT_NEAR(read->positions[0].x, 500000, 1e-3);
+  EXPECT_NEAR(read->positions[0].y, 3762155.85, 1);
+  EXPECT_NEAR(read->positions[1].y, 0, 1e-3);
+  EXPECT_EQ(readPlanPoints(path, "").error().code, ErrorCode::invalidData);
+  EXPECT_EQ(readPlanPoints(path, "EPSG:4326")->positions[0], (Vec2{-117, 34}));
+}
+
+TEST(RegionArgument, IsABoxOrAFile) {
+  const auto box = readRegionArgument("1, -2,3,4e1", "");
+  ASSERT_TRUE(box);
+  EXPECT_EQ(box->rings, (std::vector<std::vector<Vec2>>{{{1, -2}, {3, -2}, {3, 40}, {1, 40}}}));
+  for (const char* text : {"1,2,3", "1,2,3,4,5", "3,0,1,9", "0,5,1,5", "0,0,inf,1", "0,0,nan,1"})
+    EXPECT_EQ(readRegionArgument(text, "").error().code, ErrorCode::usage) << text;
+  EXPECT_EQ(readRegionArgument("no,such,file", "").error().code, ErrorCode::notFound);
+
+  const TemporaryFolder folder;
+  const std::string file = folder.write(
+      "r.geojson", R"({"type":"Polygon","coordinates":[[[-117,34],[-116,34],[-116,35],[-117,34]]]})");
+  EXPECT_TRUE(readRegionArgument(file, "EPSG:32611"));
+  EXPECT_EQ(readRegionArgument(file, "").error().code, ErrorCode::usage);
+}
+
+}  // namespace
+}  // namespace arete
