@@ -62,6 +62,24 @@ LiveMesh LiveMesh::fromTriangles(std::vector<Corners> corners, std::uint32_t ver
   return mesh;
 }
 
+std::vector<std::uint32_t> LiveMesh::compact() {
+  std::vector<std::uint32_t> newSlot(triangles.size(), kNone);
+  std::uint32_t live = 0;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    if (!triangles[t].isDead()) newSlot[t] = live++;
+  const auto moved = [&](std::uint32_t h) { return h == kNone ? kNone : 3 * newSlot[h / 3] + h % 3; };
+  std::vector<Triangle> kept(live);
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    if (newSlot[t] == kNone) continue;
+    Triangle& to = kept[newSlot[t]];
+    to = triangles[t];
+    for (std::uint32_t& h : to.twin) h = moved(h);
+  }
+  triangles = std::move(kept);
+  for (std::uint32_t& h : vertexHalfedge) h = moved(h);
+  return newSlot;
+}
+
 bool Star::gather(const LiveMesh& mesh, std::uint32_t v, int maxLink) {
   const std::uint32_t first = mesh.vertexHalfedge[v];
   if (first == LiveMesh::kNone) return false;

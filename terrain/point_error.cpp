@@ -84,6 +84,13 @@ void PointError::Hole::settle(const HoleTriangulation& floor) {
     }
 }
 
+void PointError::compact(std::span<const std::uint32_t> newSlot, std::size_t liveSlots) {
+  std::vector<std::uint32_t> moved(liveSlots, kNone);
+  for (std::size_t t = 0; t < newSlot.size(); ++t)
+    if (newSlot[t] != kNone) moved[newSlot[t]] = head_[t];
+  head_ = std::move(moved);
+}
+
 SignedBound PointError::alongEdge(std::uint32_t a, std::uint32_t b) const {
   SignedBound bound;
   const Vec2 pa = plan_.planPosition(a), pb = plan_.planPosition(b);

@@ -41,6 +41,15 @@ class RasterError {
         reachesBeyondRims_(reachesBeyondRims) {}
 
   double height(std::uint32_t sample) const { return heights_[sample]; }
+  /// Asks for the heights around a vertex that is soon to be evaluated.
+  void prefetch(std::uint32_t sample) const {
+    const std::size_t columns = plan_.columns();
+    __builtin_prefetch(heights_.data() + sample);
+    if (sample >= columns) __builtin_prefetch(heights_.data() + sample - columns);
+    if (sample + columns < heights_.size()) __builtin_prefetch(heights_.data() + sample + columns);
+  }
+  /// The live mesh has moved its triangles: nothing here hangs on them.
+  void compact(std::span<const std::uint32_t>, std::size_t) {}
 
   /// max |z - plane| over the samples covered; gives up at the first row beyond the limit and returns a value
   /// > limit. Precondition: a, b, c counter-clockwise. O(samples covered + rows).

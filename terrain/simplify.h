@@ -82,10 +82,9 @@ class Simplifier {
       ++inDomain;
       if (!isFixed[v]) live_.push_back(v);
     }
-    cost_.assign(vertexCount, 0);
-    state_.assign(vertexCount, State::stale);
-    blocked_.assign(vertexCount, 0);
+    notes_.assign(vertexCount, {});
     movedHalfedge_.resize(mesh_.triangles.size());
+    liveTriangles_ = mesh_.triangles.size();
     metric_ = metric;
 
     // Below a ten-millionth of the relief all errors are alike: noise of the arithmetic must not make levels.
@@ -124,6 +123,12 @@ class Simplifier {
 
  private:
   enum class State : std::uint8_t { stale, atLeast, exact, stuck };
+  /// What is known of a vertex, together: one cache line touched, not three.
+  struct Note {
+    float cost = 0;
+    std::uint32_t blockedAt = 0;  ///< level at which a chosen neighbour blocked it
+    State state = State::stale;
+  };
 
   static std::uint32_t scatter(std::uint32_t x) {  // murmur3's finaliser: a bijection
     x ^= x >> 16;
@@ -163,19 +168,22 @@ class Simplifier {
   }
 
   void evaluate(double threshold) {
+    pending_.clear();
+    for (const std::uint32_t v : live_) {
+      const Note& note = notes_[v];
+      if (note.state == State::stale || (note.state == State::atLeast && note.cost <= threshold))
+        pending_.push_back(v);
+    }
     // Worth knowing exactly a little beyond the threshold: the next levels will ask.
     const double limit = threshold * kLookAhead;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, live_.size(), 256), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pending_.size(), 128), [&](const auto& range) {
       Star star;
       for (std::size_t i = range.begin(); i != range.end(); ++i) {
-        const std::uint32_t v = live_[i];
-        const State state = state_[v];
-        if (state == State::exact || state == State::stuck ||
-            (state == State::atLeast && cost_[v] > threshold))
-          continue;
+        prefetchStars(i, pending_.size(), [&](std::size_t k) { return pending_[k]; });
+        const std::uint32_t v = pending_[i];
         if (!star.gather(mesh_, v, static_cast<int>(options_.maxDegree) + 1) ||
             star.triangleCount > static_cast<int>(options_.maxDegree) || !isRemovable(star, v)) {
-          state_[v] = State::stuck;
+          notes_[v].state = State::stuck;
           continue;
         }
         const typename Errors::Hole hole(errors_, star, v);
@@ -184,8 +192,8 @@ class Simplifier {
         double leastError = 0;
         const HoleTriangulation floor = fill(star, v, hole, limit, limit >= heightRange_, leastError);
         if (floor.size == 0) {
-          state_[v] = limit >= heightRange_ ? State::stuck : State::atLeast;
-          cost_[v] = static_cast<float>(
+          notes_[v].state = limit >= heightRange_ ? State::stuck : State::atLeast;
+          notes_[v].cost = static_cast<float>(
               std::clamp(leastError, limit * (1 + 1e-6), std::max(heightRange_, limit * 2)));
           continue;
         }
@@ -194,8 +202,8 @@ class Simplifier {
           worst = std::max(worst, hole.maximum(t[0], t[1], t[2], limit));
           if (worst > limit) break;
         }
-        cost_[v] = static_cast<float>(worst);
-        state_[v] = worst > limit ? State::atLeast : State::exact;
+        notes_[v].cost = static_cast<float>(worst);
+        notes_[v].state = worst > limit ? State::atLeast : State::exact;
       }
     });
   }
@@ -203,30 +211,31 @@ class Simplifier {
   double leastPending() const {
     float least = std::numeric_limits<float>::infinity();
     for (const std::uint32_t v : live_)
-      if (state_[v] == State::exact || state_[v] == State::atLeast) least = std::min(least, cost_[v]);
+      if (notes_[v].state == State::exact || notes_[v].state == State::atLeast)
+        least = std::min(least, notes_[v].cost);
     return least;
   }
 
   void choose(double threshold, std::uint32_t level) {
     candidates_.clear();
     for (const std::uint32_t v : live_)
-      if (state_[v] == State::exact && cost_[v] <= threshold)
-        candidates_.push_back({std::bit_cast<std::uint32_t>(cost_[v]), scatter(v), v});
+      if (notes_[v].state == State::exact && notes_[v].cost <= threshold)
+        candidates_.push_back({std::bit_cast<std::uint32_t>(notes_[v].cost), scatter(v), v});
     tbb::parallel_sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
       return a.cost != b.cost ? a.cost < b.cost : a.tie < b.tie;
     });
     chosen_.clear();
     Star star;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
-      prefetchAhead(i);
+      prefetchStars(i, candidates_.size(), [&](std::size_t k) { return candidates_[k].vertex; });
       const std::uint32_t v = candidates_[i].vertex;
-      if (blocked_[v] == level) continue;
+      if (notes_[v].blockedAt == level) continue;
       star.gather(mesh_, v, kMaxHoleCorners);
       if (rim_ != nullptr && isFill(star, v) &&
           !rim_->claim(star.link[star.linkSize - 1], star.link[0], level))
         continue;
-      for (int k = 0; k < star.linkSize; ++k) blocked_[star.link[k]] = level;
-      blocked_[v] = level;
+      for (int k = 0; k < star.linkSize; ++k) notes_[star.link[k]].blockedAt = level;
+      notes_[v].blockedAt = level;
       chosen_.push_back({v, static_cast<std::uint8_t>(star.linkSize)});
     }
     // Errors scatter the chosen all over the terrain; from here on their order is that of memory.
@@ -236,28 +245,32 @@ class Simplifier {
     for (std::size_t i = 0; i < chosen_.size(); ++i) linkSizes_[i] = chosen_[i].linkSize;
   }
 
-  /// The greedy pass visits vertices in order of error, so nearly every one is a cache miss: ask for the next
-  /// ones early, first the half-edge, then the triangle it names.
-  void prefetchAhead(std::size_t i) const {
-    constexpr std::size_t kFar = 24, kNear = 8;
-    if (i + kFar < candidates_.size()) {
-      const std::uint32_t v = candidates_[i + kFar].vertex;
-      __builtin_prefetch(&mesh_.vertexHalfedge[v]);
-      __builtin_prefetch(&blocked_[v]);
+  /// A walk around a star follows one pointer after the other. Asking early for what the stars of the next
+  /// vertices of a list start with hides most of the waiting: first the half-edge, then its triangle, then
+  /// that one's neighbours.
+  template <class VertexAt>
+  void prefetchStars(std::size_t i, std::size_t size, const VertexAt& vertexAt) const {
+    constexpr std::size_t kFirst = 16, kSecond = 8, kThird = 4;
+    if (i + kFirst < size) __builtin_prefetch(&mesh_.vertexHalfedge[vertexAt(i + kFirst)]);
+    if (i + kSecond < size) {
+      const std::uint32_t v = vertexAt(i + kSecond);
+      __builtin_prefetch(&mesh_.triangles[mesh_.vertexHalfedge[v] / 3]);
+      errors_.prefetch(v);
     }
-    if (i + kNear < candidates_.size()) {
-      const std::uint32_t v = candidates_[i + kNear].vertex;
-      const std::uint32_t t = mesh_.vertexHalfedge[v] / 3;
-      __builtin_prefetch(&mesh_.triangles[t]);
-    }
+    if (i + kThird < size)
+      for (const std::uint32_t h : mesh_.triangles[mesh_.vertexHalfedge[vertexAt(i + kThird)] / 3].twin)
+        if (h != kNone) __builtin_prefetch(&mesh_.triangles[h / 3]);
   }
 
   void removeChosen() {
     const std::uint32_t first = recorder_.beginBatch(linkSizes_);
     seams_.resize(chosen_.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chosen_.size(), 64), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i != range.end(); ++i)
+      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+        // Not beyond the range: the stars there are being rewritten.
+        prefetchStars(i, range.end(), [&](std::size_t k) { return chosen_[k].vertex; });
         remove(chosen_[i].vertex, first + static_cast<std::uint32_t>(i), seams_[i]);
+      }
     });
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chosen_.size(), 256), [&](const auto& range) {
       for (std::size_t i = range.begin(); i != range.end(); ++i) sew(mesh_, seams_[i], movedHalfedge_, first);
@@ -267,6 +280,20 @@ class Simplifier {
         if (seams.isOpen) Rim::closeVoid(mesh_, seams.movedTo[seams.size - 1]);
     for (const Chosen& gone : chosen_) mesh_.vertexHalfedge[gone.vertex] = kNone;
     std::erase_if(live_, [&](std::uint32_t v) { return mesh_.vertexHalfedge[v] == kNone; });
+    liveTriangles_ -= liveTrianglesRemoved();
+    if (liveTriangles_ < mesh_.triangles.size() / 2) {
+      const std::vector<std::uint32_t> newSlot = mesh_.compact();
+      errors_.compact(newSlot, mesh_.triangles.size());
+      movedHalfedge_.resize(mesh_.triangles.size());
+      movedHalfedge_.shrink_to_fit();
+    }
+  }
+
+  /// A removal leaves two slots dead, one on a border.
+  std::size_t liveTrianglesRemoved() const {
+    std::size_t count = 0;
+    for (const PendingSeams& seams : seams_) count += seams.isOpen ? 1 : 2;
+    return count;
   }
 
   void remove(std::uint32_t v, std::uint32_t removal, PendingSeams& seams) {
@@ -274,7 +301,8 @@ class Simplifier {
     star.gather(mesh_, v, kMaxHoleCorners);
     typename Errors::Hole hole(errors_, star, v);
     double leastError = 0;
-    const HoleTriangulation floor = fill(star, v, hole, std::nextafter(cost_[v], INFINITY), true, leastError);
+    const HoleTriangulation floor =
+        fill(star, v, hole, std::nextafter(notes_[v].cost, INFINITY), true, leastError);
     const int corners = star.linkSize;
 
     // Bounds: samples inside each triangle, and each edge once for the two triangles that share it.
@@ -334,7 +362,7 @@ class Simplifier {
 
     // Two stars can share a link vertex: both write the same value.
     for (int i = 0; i < corners; ++i)
-      std::atomic_ref(state_[star.link[i]]).store(State::stale, std::memory_order_relaxed);
+      std::atomic_ref(notes_[star.link[i]].state).store(State::stale, std::memory_order_relaxed);
   }
 
   /// Bounds go beyond the rounding of the scan itself: they prove things.
@@ -374,10 +402,10 @@ class Simplifier {
   double heightRange_ = 0;
 
   std::vector<std::uint32_t> live_;
-  std::vector<float> cost_;
-  std::vector<State> state_;
-  std::vector<std::uint32_t> blocked_;  // level at which a chosen neighbour blocked the vertex
+  std::vector<Note> notes_;             // per vertex
+  std::vector<std::uint32_t> pending_;  // of a level: vertices to evaluate
   std::vector<LiveMesh::Corners> movedHalfedge_;
+  std::size_t liveTriangles_ = 0;
   std::vector<Candidate> candidates_;
   std::vector<Chosen> chosen_;
   std::vector<std::uint8_t> linkSizes_;

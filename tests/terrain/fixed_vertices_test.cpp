@@ -112,7 +112,9 @@ TEST(FixedVertices, LeaveDegenerateRastersToTheBuildAndStopWhenAsked) {
     EXPECT_TRUE(chosen->vertices.empty()) << family.name;
   }
   const std::atomic<bool> cancel = true;
-  const auto stopped = chooseFixedVertices(roof(9), FixedVertexOptions{}, {.cancel = &cancel});
+  RunContext context;
+  context.cancel = &cancel;
+  const auto stopped = chooseFixedVertices(roof(9), FixedVertexOptions{}, context);
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, ErrorCode::interrupted);
 }
