@@ -39,8 +39,9 @@ struct LiveMesh {
   static LiveMesh fromTriangles(std::vector<Corners> corners, std::uint32_t vertexCount,
                                 std::vector<std::uint32_t>& pinched);
 
-  /// Drops dead slots; the others keep their order and move up. Returns the new slot of every old one (kNone: dropped).
-  /// Levels that remove a few vertices from a mesh long thinned out would otherwise wander through all of its memory.
+  /// Drops dead slots; the others keep their order and move up. Returns the new slot of every old one (kNone:
+  /// dropped). Levels that remove a few vertices from a mesh long thinned out would otherwise wander through
+  /// all of its memory.
   std::vector<std::uint32_t> compact();
 
   static std::uint32_t nextInTriangle(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }

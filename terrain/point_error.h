@@ -27,7 +27,9 @@ class PointError {
         next_(heights.size(), kNone) {}
 
   double height(std::uint32_t point) const { return heights_[point]; }
-  void prefetch(std::uint32_t point) const { __builtin_prefetch(heights_.data() + point); }
+  [[gnu::always_inline]] void prefetch(std::uint32_t point) const {
+    __builtin_prefetch(heights_.data() + point);
+  }
   /// The live mesh has moved its triangles (LiveMesh::compact): their points move with them.
   void compact(std::span<const std::uint32_t> newSlot, std::size_t liveSlots);
 

@@ -42,7 +42,7 @@ class RasterError {
 
   double height(std::uint32_t sample) const { return heights_[sample]; }
   /// Asks for the heights around a vertex that is soon to be evaluated.
-  void prefetch(std::uint32_t sample) const {
+  [[gnu::always_inline]] void prefetch(std::uint32_t sample) const {
     const std::size_t columns = plan_.columns();
     __builtin_prefetch(heights_.data() + sample);
     if (sample >= columns) __builtin_prefetch(heights_.data() + sample - columns);
