@@ -283,13 +283,11 @@ class IndexCheck {
     if (const auto bad =
             firstBad(heights.size(), [&](std::uint32_t i) { return !std::isfinite(heights[i]); }))
       return refuse(amt_tag::kIsolatedHeights, fmt::format("entry {} is not finite", *bad));
-    // Points are numbered as in their source, which may have had more of them (repetitions): no bound is
-    // known.
     const auto fixed = file_.fixedVertices();
-    if (!file_.model().isRaster) return {};
-    if (const auto bad = firstBad(fixed.size(), [&](std::uint32_t i) { return fixed[i] >= gridSamples(); }))
+    const std::uint64_t bound = file_.model().isRaster ? gridSamples() : a_.rootVertices;
+    if (const auto bad = firstBad(fixed.size(), [&](std::uint32_t i) { return fixed[i] >= bound; }))
       return refuse(amt_tag::kFixedVertices,
-                    fmt::format("entry {} is sample {} of {}", *bad, fixed[*bad], gridSamples()));
+                    fmt::format("entry {} is {}, not below {}", *bad, fixed[*bad], bound));
     return {};
   }
 

@@ -90,6 +90,11 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
   context.report("finish", 0);
   std::vector<std::uint32_t> order;
   const MultiTriangulation bare = recorder.finish(root.vertices, root.triangles, pointCount, order);
+  // Points are renumbered: from here on the fixed ones go by their MT vertices.
+  std::vector<std::uint32_t> fixed;
+  for (std::uint32_t v = 0; v < order.size(); ++v)
+    if (isFixed[order[v]]) fixed.push_back(v);
+  model.options.fixedVertices = std::move(fixed);
   auto owned = std::make_shared<OwnedPoints>();
   owned->plan.reserve(order.size());
   for (const std::uint32_t v : order) owned->plan.push_back(field.positions[v]);

@@ -30,7 +30,7 @@ struct TerrainModel {
   std::string source;
   std::string sourceChecksum;
 
-  BuildOptions options;                    ///< as built; fixedVertices in the heightfield's numbering
+  BuildOptions options;  ///< as built; fixedVertices are samples of a raster, MT vertices of points
   std::uint32_t metricP = 1, metricQ = 1;  ///< raster: the Delaunay metric is (p column, q row)
   std::uint32_t levels = 0;
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/validate.h"
+#include "terrain/finest_points.h"
 #include "terrain/finest_raster.h"
 
 namespace arete {
@@ -24,9 +25,14 @@ std::uint64_t splitmix(std::uint64_t& state) {
 }
 
 Status law7(const TerrainModel& model) {
-  if (!model.isRaster) return {};  // points are renumbered; their fixed vertices are checked when built
+  const std::uint32_t rootVertices = model.mt.rootVertexCount();
+  if (!model.isRaster) {
+    for (const std::uint32_t v : model.options.fixedVertices)
+      if (v >= rootVertices) return broken(fmt::format("law 7: the fixed vertex {} is not in the root", v));
+    return {};
+  }
   std::vector<std::uint32_t> roots(model.mt.vertices().samples.begin(),
-                                   model.mt.vertices().samples.begin() + model.mt.rootVertexCount());
+                                   model.mt.vertices().samples.begin() + rootVertices);
   std::sort(roots.begin(), roots.end());
   for (const std::uint32_t v : model.options.fixedVertices)
     if (!std::binary_search(roots.begin(), roots.end(), v))
@@ -34,9 +40,27 @@ Status law7(const TerrainModel& model) {
   return {};
 }
 
+/// Points: the finest front is the Delaunay triangulation of all of them, found anew. Cocircular ties leave
+/// its triangles open but not their number, and law 9 is checked on the same front where the shape promises
+/// it.
+Status law8OfPoints(const TerrainModel& model, const Cut& finest) {
+  const double stretch = double(model.metricP) / model.metricQ;
+  const auto expected = finestTriangulation(model.pointSamples(), stretch);
+  if (!expected) return tl::unexpected(expected.error());
+  if (finest.triangles.size() != expected->size())
+    return broken(fmt::format("law 8: the finest front has {} triangles, the points give {}",
+                              finest.triangles.size(), expected->size()));
+  std::vector<std::uint8_t> seen(model.mt.vertexCount(), 0);
+  for (const auto& t : finest.triangles)
+    for (const std::uint32_t v : t) seen[finest.vertices[v]] = 1;
+  for (std::uint32_t v = 0; v < seen.size(); ++v)
+    if (!seen[v]) return broken(fmt::format("law 8: no triangle of the finest front has vertex {}", v));
+  return {};
+}
+
 Status law8(const TerrainModel& model) {
   const Cut finest = frontOfPrefix(model.mt, model.mt.nodeCount());
-  if (!model.isRaster) return {};
+  if (!model.isRaster) return law8OfPoints(model, finest);
   std::vector<std::array<std::uint32_t, 3>> found, expected = finestTriangulation(model.rasterSamples());
   found.reserve(finest.triangles.size());
   const auto smallestFirst = [](std::array<std::uint32_t, 3>& t) {

@@ -62,12 +62,16 @@ const std::vector<RealDem>& realDems() {
   return all;
 }
 
-constexpr std::size_t kLarge = 4'000'000, kSmall = 400'000;
+constexpr std::size_t kLarge = 4'000'000, kMedium = 1'100'000;
 
 struct Case {
   RealDem dem;
   HoleShape shape;
 };
+
+void PrintTo(const Case& made, std::ostream* out) {
+  *out << made.dem.path << ", " << toString(made.shape);
+}
 
 class Promise : public testing::TestWithParam<Case> {
  protected:
@@ -86,10 +90,6 @@ class Promise : public testing::TestWithParam<Case> {
     RasterHeightfield field = std::get<RasterHeightfield>(dem->heightfield);
     if (!isFull() && field.size() > kLarge) {
       skip_ = "a DEM of more than 4 million samples runs with ./dev test --full";
-      return {};
-    }
-    if (!isFull() && GetParam().shape == HoleShape::fidelity && field.size() > kSmall) {
-      skip_ = "the fidelity shape on a DEM of more than 400 000 samples runs with ./dev test --full";
       return {};
     }
     return field;
@@ -148,8 +148,8 @@ TEST_P(Promise, RestsOnAModelThatKeepsEveryLawAndIsTheSameForAnyThreads) {
     if (!skip_.empty()) GTEST_SKIP() << skip_;
     return;
   }
-  if (!isFull() && field->size() > kSmall)
-    GTEST_SKIP() << "laws and threads on a DEM of more than 400 000 samples run with ./dev test --full";
+  if (!isFull() && field->size() > kMedium)
+    GTEST_SKIP() << "laws and threads on a DEM of more than 1.1 million samples run with ./dev test --full";
   BuildOptions options;
   options.shape = GetParam().shape;
   const test::TemporaryFolder folder;
