@@ -73,13 +73,11 @@ class Simplifier {
         options_(options),
         context_(context) {}
 
-  /// Removes what can be removed. `isFixed`: per vertex, not 0 = stays. Metric positions come from metric().
+  /// Removes what can be removed. `isFixed`: per vertex, not 0 = stays.
   Result<SimplifiedRoot> run(const std::vector<std::uint8_t>& isFixed, const MetricFrame& metric) {
     const auto vertexCount = static_cast<std::uint32_t>(mesh_.vertexHalfedge.size());
-    std::uint32_t inDomain = 0;
     for (std::uint32_t v = 0; v < vertexCount; ++v) {
       if (mesh_.vertexHalfedge[v] == kNone) continue;
-      ++inDomain;
       if (!isFixed[v]) live_.push_back(v);
     }
     // From here on vertices are visited in the order of their triangles in memory, which is that of the
@@ -113,6 +111,7 @@ class Simplifier {
       threshold *= options_.thresholdRatio;
     }
 
+    context_.report("simplify", 1);
     SimplifiedRoot root;
     root.levels = level;
     std::vector<std::uint8_t> seen(vertexCount, 0);
@@ -184,7 +183,7 @@ class Simplifier {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pending_.size(), 128), [&](const auto& range) {
       Star star;
       for (std::size_t i = range.begin(); i != range.end(); ++i) {
-        prefetchStars(i, pending_.size(), [&](std::size_t k) { return pending_[k]; });
+        prefetchStars<Reach::neighbours>(i, pending_.size(), [&](std::size_t k) { return pending_[k]; });
         const std::uint32_t v = pending_[i];
         if (!star.gather(mesh_, v, static_cast<int>(options_.maxDegree) + 1) ||
             star.triangleCount > static_cast<int>(options_.maxDegree) || !isRemovable(star, v)) {
@@ -232,7 +231,8 @@ class Simplifier {
     chosen_.clear();
     Star star;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
-      prefetchStars(i, candidates_.size(), [&](std::size_t k) { return candidates_[k].vertex; });
+      prefetchStars<Reach::neighbours>(i, candidates_.size(),
+                                       [&](std::size_t k) { return candidates_[k].vertex; });
       const std::uint32_t v = candidates_[i].vertex;
       if (notes_[v].blockedAt == level) continue;
       star.gather(mesh_, v, kMaxHoleCorners);
@@ -255,7 +255,9 @@ class Simplifier {
   /// that one's neighbours.
   /// (Always inlined: GCC 12 takes a function of nothing but prefetches for one without effect and drops its
   /// calls.)
-  template <class VertexAt>
+  /// Reach::own looks no further than each star's first triangle, which nobody else rewrites.
+  enum class Reach { own, neighbours };
+  template <Reach reach, class VertexAt>
   [[gnu::always_inline]] void prefetchStars(std::size_t i, std::size_t size, const VertexAt& vertexAt) const {
     constexpr std::size_t kFirst = 16, kSecond = 12, kThird = 8, kFourth = 4;
     if (i + kFirst < size) __builtin_prefetch(&mesh_.vertexHalfedge[vertexAt(i + kFirst)]);
@@ -267,7 +269,7 @@ class Simplifier {
     if (i + kThird < size)
       for (const std::uint32_t h : mesh_.triangles[mesh_.vertexHalfedge[vertexAt(i + kThird)] / 3].twin)
         if (h != kNone) __builtin_prefetch(&mesh_.triangles[h / 3]);
-    if (i + kFourth < size)
+    if (reach == Reach::neighbours && i + kFourth < size)
       for (const std::uint32_t h : mesh_.triangles[mesh_.vertexHalfedge[vertexAt(i + kFourth)] / 3].twin)
         if (h != kNone)
           for (const std::uint32_t g : mesh_.triangles[h / 3].twin)
@@ -280,7 +282,7 @@ class Simplifier {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chosen_.size(), 64), [&](const auto& range) {
       for (std::size_t i = range.begin(); i != range.end(); ++i) {
         // Not beyond the range: the stars there are being rewritten.
-        prefetchStars(i, range.end(), [&](std::size_t k) { return chosen_[k].vertex; });
+        prefetchStars<Reach::own>(i, range.end(), [&](std::size_t k) { return chosen_[k].vertex; });
         remove(chosen_[i].vertex, first + static_cast<std::uint32_t>(i), seams_[i]);
       }
     });
