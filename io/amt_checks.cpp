@@ -287,7 +287,9 @@ class IndexCheck {
     const std::uint64_t bound = file_.model().isRaster ? gridSamples() : a_.rootVertices;
     if (const auto bad = firstBad(fixed.size(), [&](std::uint32_t i) { return fixed[i] >= bound; }))
       return refuse(amt_tag::kFixedVertices,
-                    fmt::format("entry {} is {}, not below {}", *bad, fixed[*bad], bound));
+                    file_.model().isRaster
+                        ? fmt::format("entry {} is sample {} of {}", *bad, fixed[*bad], bound)
+                        : fmt::format("entry {} is vertex {}, the root has {}", *bad, fixed[*bad], bound));
     return {};
   }
 
