@@ -20,6 +20,8 @@
 #include <cmath>
 #include <queue>
 
+#include "engine/with_threads.h"
+
 namespace arete {
 namespace {
 
@@ -205,8 +207,10 @@ Result<NodeSet> saturatedNodes(const MultiTriangulation& mt, const Criterion& cr
   return in;
 }
 
-Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options,
-                    const RunContext& context) {
+namespace {
+
+Result<Cut> takeCutHere(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options,
+                        const RunContext& context) {
   if (options.method == CutMethod::saturated && !std::isnan(criterion.uniformError())) {
     if (const Status budget = checkBudget(mt, options.maxTriangles); !budget)
       return tl::unexpected(budget.error());
@@ -226,6 +230,13 @@ Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, co
                                     : minimalNodes(mt, criterion, options.maxTriangles, context);
   if (!nodes) return tl::unexpected(nodes.error());
   return front(mt, *nodes);
+}
+
+}  // namespace
+
+Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options,
+                    const RunContext& context) {
+  return withThreads(context, [&] { return takeCutHere(mt, criterion, options, context); });
 }
 
 }  // namespace arete

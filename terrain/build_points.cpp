@@ -3,11 +3,11 @@
 // Scattered points are built with CGAL's exact predicates on their own coordinates; each triangle carries the
 // removed points it covers: see simplify.h for the levels and point_error.h for the error.
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <memory>
 
+#include "engine/with_threads.h"
 #include "terrain/build.h"
 #include "terrain/build_checks.h"
 #include "terrain/finest_points.h"
@@ -112,10 +112,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
 
 Result<TerrainModel> build(const PointHeightfield& heightfield, const BuildOptions& options,
                            const RunContext& context) {
-  Result<TerrainModel> result = failure(ErrorCode::interrupted, "not run");
-  tbb::task_arena arena(context.threads > 0 ? context.threads : tbb::task_arena::automatic);
-  arena.execute([&] { result = buildHere(heightfield, options, context); });
-  return result;
+  return withThreads(context, [&] { return buildHere(heightfield, options, context); });
 }
 
 }  // namespace arete

@@ -3,14 +3,13 @@
 // A raster is built in lattice coordinates, with integer predicates, and its errors are scanned from the
 // raster itself: see simplify.h for the levels and raster_error.h for the scan.
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 
+#include "engine/with_threads.h"
 #include "terrain/build.h"
 #include "terrain/build_checks.h"
 #include "terrain/finest_raster.h"
@@ -147,10 +146,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
 
 Result<TerrainModel> build(const RasterHeightfield& heightfield, const BuildOptions& options,
                            const RunContext& context) {
-  Result<TerrainModel> result = failure(ErrorCode::interrupted, "not run");
-  tbb::task_arena arena(context.threads > 0 ? context.threads : tbb::task_arena::automatic);
-  arena.execute([&] { result = buildHere(heightfield, options, context); });
-  return result;
+  return withThreads(context, [&] { return buildHere(heightfield, options, context); });
 }
 
 }  // namespace arete

@@ -234,7 +234,7 @@ class Demo {
     certificate.isKept = keepsPromise(*measured, maxError);
     certificate.checkCommand = fmt::format("arete measure {} {} --expect {}", shellArgument(file),
                                            shellArgument(report_.dem), maxError);
-    if (const Status status = writeCertificate(written(name + ".json"), certificate, model_); !status)
+    if (const Status status = writeCertificate(written(name + ".certificate.json"), certificate, model_); !status)
       return status;
 
     DemoResult row;
