@@ -101,9 +101,9 @@ Status validateModel(const TerrainModel& model, const ValidateModelOptions& opti
   const ValidateOptions engineOptions{.allowsFills = model.options.rimTolerance > 0};
   const bool isDelaunay = model.options.shape == HoleShape::delaunay && !engineOptions.allowsFills;
   context.report("validate", 0);
-  if (const Status s = validate(model.mt, engineOptions, context); !s) return s;
-  if (const Status s = law7(model); !s) return s;
-  if (const Status s = law8(model); !s) return s;
+  if (Status s = validate(model.mt, engineOptions, context); !s) return s;
+  if (Status s = law7(model); !s) return s;
+  if (Status s = law8(model); !s) return s;
 
   const MultiTriangulation& mt = model.mt;
   const DomainExtent domain = domainExtent(mt);
@@ -118,8 +118,7 @@ Status validateModel(const TerrainModel& model, const ValidateModelOptions& opti
   for (std::uint32_t i = 0; i <= ladder; ++i) {
     if (context.cancelled()) return failure(ErrorCode::interrupted, "the validation was interrupted");
     const auto nodes = static_cast<std::uint32_t>(std::uint64_t(mt.nodeCount()) * i * i / (ladder * ladder));
-    if (const Status s = check(frontOfPrefix(mt, nodes), fmt::format("the first {} nodes", nodes)); !s)
-      return s;
+    if (Status s = check(frontOfPrefix(mt, nodes), fmt::format("the first {} nodes", nodes)); !s) return s;
     context.report("validate", 0.3 + 0.3 * i / ladder);
   }
   std::uint64_t state = options.seed;
@@ -128,8 +127,8 @@ Status validateModel(const TerrainModel& model, const ValidateModelOptions& opti
     const std::uint64_t seed = splitmix(state);
     // From a handful of nodes to a tenth of them: ancestors make the sets much larger.
     const double fraction = std::pow(0.1, 1 + double(seed % 5));
-    if (const Status s = check(front(mt, randomClosedSet(mt, seed, fraction)),
-                               fmt::format("random closed set, seed {}, fraction {}", seed, fraction));
+    if (Status s = check(front(mt, randomClosedSet(mt, seed, fraction)),
+                         fmt::format("random closed set, seed {}, fraction {}", seed, fraction));
         !s)
       return s;
     context.report("validate", 0.6 + 0.4 * (i + 1) / options.randomFronts);
