@@ -153,7 +153,7 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   const std::uint32_t births = finestTriangles_ + slots - 2 * nodes;
 
   // removalOf[n]: falling code, later removals first.
-  std::vector<std::uint32_t> removalOf(nodes), nodeOf(nodes);
+  std::vector<std::uint32_t> removalOf(nodes);
   {
     std::vector<std::uint32_t> begin(std::size_t(OutwardScale::kMaxCode) + 2, 0);
     for (std::uint32_t r = 0; r < nodes; ++r)
@@ -162,10 +162,8 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
     for (std::uint32_t r = nodes; r-- > 0;) {
       const std::uint32_t n = begin[std::size_t(OutwardScale::kMaxCode - saturated_[r])]++;
       removalOf[n] = r;
-      nodeOf[r] = n;
     }
   }
-  std::vector<std::uint32_t>().swap(nodeOf);
 
   vertexOrder.resize(std::size_t(rootVertexCount) + nodes);
   std::vector<std::uint32_t> newVertex(callerVertexCount, kNone);

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -23,6 +22,8 @@
 #include <vector>
 
 #include "io/amt_checksum.h"
+
+#include "engine/with_threads.h"
 #include "io/amt_file.h"
 #include "terrain/hole.h"
 
@@ -315,10 +316,7 @@ class IndexCheck {
 }  // namespace
 
 Status checkAmtIndices(const AmtFile& file, const RunContext& context) {
-  Status status;
-  tbb::task_arena arena(context.threads > 0 ? context.threads : tbb::task_arena::automatic);
-  arena.execute([&] { status = IndexCheck(file, context).run(); });
-  return status;
+  return withThreads(context, [&] { return IndexCheck(file, context).run(); });
 }
 
 Status checkAmtChecksums(const AmtFile& file, const RunContext& context) {

@@ -4,8 +4,9 @@
 // result is that of hashing it at once.
 #include "io/amt_checksum.h"
 
+#include "engine/with_threads.h"
+
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -50,8 +51,7 @@ std::optional<std::vector<std::uint64_t>> amtChecksums(std::span<const std::span
     }
     sums[i] = XXH3_64bits_digest(state.get());
   };
-  tbb::task_arena arena(context.threads > 0 ? context.threads : tbb::task_arena::automatic);
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, blocks.size(), hash); });
+  withThreads(context, [&] { tbb::parallel_for(std::size_t{0}, blocks.size(), hash); });
   if (stopped || context.cancelled()) return std::nullopt;
   context.report(stage, 1);
   return sums;

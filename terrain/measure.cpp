@@ -14,10 +14,11 @@
 // What the triangles left at each sample is turned into counts when the band is scanned.
 #include "terrain/measure.h"
 
+#include "engine/with_threads.h"
+
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -76,8 +77,7 @@ class RasterMeasurement {
   Status toGrid() {
     grid_.resize(mesh_.positions.size());
     std::atomic<bool> finite = true;
-    tbb::task_arena arena(context_.threads > 0 ? context_.threads : tbb::task_arena::automatic);
-    arena.execute([&] {
+    withThreads(context_, [&] {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid_.size(), 65536), [&](const auto& range) {
         for (std::size_t v = range.begin(); v != range.end(); ++v) {
           Vec2 p = dem_.georeference.toGrid(mesh_.positions[v].x, mesh_.positions[v].y);

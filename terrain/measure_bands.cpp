@@ -6,9 +6,10 @@
 // for any number of threads.
 #include "terrain/measure_bands.h"
 
+#include "engine/with_threads.h"
+
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
-#include <tbb/task_arena.h>
 
 #include <fmt/format.h>
 
@@ -145,8 +146,7 @@ Status forEachBand(std::size_t bands, const RunContext& context, const char* sta
                    const std::function<void(std::size_t band)>& task) {
   std::mutex telling;
   std::size_t done = 0;
-  tbb::task_arena arena(context.threads > 0 ? context.threads : tbb::task_arena::automatic);
-  arena.execute([&] {
+  withThreads(context, [&] {
     tbb::parallel_for(
         std::size_t{0}, bands,
         [&](std::size_t band) {
