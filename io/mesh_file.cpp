@@ -8,20 +8,43 @@
 
 #include "io/mesh_obj.h"
 #include "io/mesh_ply.h"
+#include "io/mesh_stl.h"
 
 namespace arete {
 
 namespace {
 
 constexpr std::array kFormats = {
-    MeshFormat{"PLY", ".ply", &readPly, &writePly},
-    MeshFormat{"OBJ", ".obj", &readObj, &writeObj},
+    MeshFormat{"PLY",
+               ".ply",
+               &readPly,
+               &writePly,
+               {.isExact = true, .holdsCrs = true, .holdsVerticalUnit = true, .holdsErrors = true}},
+    MeshFormat{
+        "OBJ", ".obj", &readObj, &writeObj, {.isExact = true, .holdsCrs = true, .holdsVerticalUnit = true}},
+    MeshFormat{"STL", ".stl", &readStl, &writeStl},
 };
+
+template <class Wanted>
+std::string extensionsOf(Wanted wanted) {
+  std::string list;
+  for (const MeshFormat& format : kFormats)
+    if (wanted(format)) list += fmt::format("{}{}", list.empty() ? "" : ", ", format.extension);
+  return list;
+}
 
 }  // namespace
 
 std::span<const MeshFormat> meshFormats() {
   return kFormats;
+}
+
+std::string readableMeshExtensions() {
+  return extensionsOf([](const MeshFormat& format) { return format.read != nullptr; });
+}
+
+std::string writableMeshExtensions() {
+  return extensionsOf([](const MeshFormat& format) { return format.write != nullptr; });
 }
 
 Result<MeshFormat> meshFormatOf(const std::filesystem::path& path) {

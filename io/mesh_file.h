@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,21 +14,42 @@
 
 namespace arete {
 
+/// How the coordinates of a file relate to source coordinates.
+struct MeshFrame {
+  std::string coordinates = "float64";  ///< what one is, for people: "float32 relative to the origin"
+  /// Where the file's own zero is, in source coordinates; none where they are the same or nothing is said.
+  std::optional<Vec3> origin = {};
+  /// How far a position that was read may be from the one that was written, axis by axis, in source units:
+  /// the rounding of the file's numbers. 0 where they are doubles.
+  Vec3 rounding = {};
+};
+
 /// A mesh and what its file says of its frame. Polygons of the file are split into fans.
 struct MeshFile {
-  TriangleMesh mesh;         ///< positions as the file has them
+  TriangleMesh mesh;         ///< in source coordinates wherever the file says how to come back to them
   std::string crsWkt;        ///< empty where the file does not say
   std::string verticalUnit;  ///< empty where the file does not say
+  std::vector<float> triangleErrors;  ///< one per triangle, or empty where the file does not say
+  MeshFrame frame;
 };
 
 /// What a written mesh file says besides the triangles.
 struct MeshWriteOptions {
   std::string crsWkt = {};
   std::string verticalUnit = {};
+  double verticalUnitMetres = 0;  ///< 0: what the unit's name says, or the CRS, or else 1
   /// One per triangle, when not empty. Formats without a place for it leave it out.
   std::span<const float> triangleErrors = {};
   /// More comment lines, for people.
   std::vector<std::string> notes = {};
+};
+
+/// What a format has a place for.
+struct MeshFormatTraits {
+  bool isExact = false;  ///< doubles come back to the bit; otherwise float32 about a recorded origin
+  bool holdsCrs = false;
+  bool holdsVerticalUnit = false;
+  bool holdsErrors = false;  ///< one per triangle
 };
 
 /// One mesh file format. A new one is its own pair of files and a line in the table of mesh_file.cpp.
@@ -38,10 +60,15 @@ struct MeshFormat {
   Status (*write)(const TriangleMesh& mesh, const std::filesystem::path& path,
                   const MeshWriteOptions& options,
                   const RunContext& context);  ///< null: cannot
+  MeshFormatTraits holds = {};
 };
 
 /// The formats this build knows.
 std::span<const MeshFormat> meshFormats();
+
+/// The extensions of the formats that can be read or written: ".ply, .obj, .stl".
+std::string readableMeshExtensions();
+std::string writableMeshExtensions();
 
 /// By the extension of the path, in either case. Errors: unsupported, naming the known formats.
 Result<MeshFormat> meshFormatOf(const std::filesystem::path& path);
