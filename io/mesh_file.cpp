@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "io/mesh_2dm.h"
 #include "io/mesh_obj.h"
 #include "io/mesh_ply.h"
 #include "io/mesh_stl.h"
@@ -23,6 +24,8 @@ constexpr std::array kFormats = {
     MeshFormat{
         "OBJ", ".obj", &readObj, &writeObj, {.isExact = true, .holdsCrs = true, .holdsVerticalUnit = true}},
     MeshFormat{"STL", ".stl", &readStl, &writeStl},
+    MeshFormat{
+        "2DM", ".2dm", &read2dm, &write2dm, {.isExact = true, .holdsCrs = true, .holdsVerticalUnit = true}},
 };
 
 template <class Wanted>

@@ -182,6 +182,15 @@ TEST(MeshStl, SurvivesAnyDamagedByte) {
       }
 }
 
+TEST(MeshStl, ReadsTheMeshOfAnother) {
+  const std::string path = realData("meshes/featuretype.STL");
+  if (path.empty()) GTEST_SKIP() << "the meshes of others are not here; ARETE_DATA names their folder";
+  const Result<MeshFile> file = readMesh(path);
+  ASSERT_TRUE(file) << file.error().describe();
+  EXPECT_EQ(file->mesh.triangles.size(), 3476u);
+  EXPECT_EQ(file->mesh.positions.size(), 2010u);
+}
+
 TEST(MeshStl, RefusesToWriteWhatFloatsCannotHoldAndLeavesNothing) {
   const TemporaryFolder folder;
   const TriangleMesh mesh = {{{0, 0, 0}, {1e39, 0, 0}, {0, 1e39, 0}}, {{0, 1, 2}}};
