@@ -7,6 +7,7 @@
 #include <array>
 
 #include "io/mesh_2dm.h"
+#include "io/mesh_gpkg.h"
 #include "io/mesh_obj.h"
 #include "io/mesh_ply.h"
 #include "io/mesh_stl.h"
@@ -15,17 +16,16 @@ namespace arete {
 
 namespace {
 
+constexpr MeshFormatTraits kSaysAll = {
+    .isExact = true, .holdsCrs = true, .holdsVerticalUnit = true, .holdsErrors = true};
+constexpr MeshFormatTraits kSaysNoErrors = {.isExact = true, .holdsCrs = true, .holdsVerticalUnit = true};
+
 constexpr std::array kFormats = {
-    MeshFormat{"PLY",
-               ".ply",
-               &readPly,
-               &writePly,
-               {.isExact = true, .holdsCrs = true, .holdsVerticalUnit = true, .holdsErrors = true}},
-    MeshFormat{
-        "OBJ", ".obj", &readObj, &writeObj, {.isExact = true, .holdsCrs = true, .holdsVerticalUnit = true}},
-    MeshFormat{"STL", ".stl", &readStl, &writeStl},
-    MeshFormat{
-        "2DM", ".2dm", &read2dm, &write2dm, {.isExact = true, .holdsCrs = true, .holdsVerticalUnit = true}},
+    MeshFormat{"PLY", ".ply", &readPly, &writePly, kSaysAll},
+    MeshFormat{"OBJ", ".obj", &readObj, &writeObj, kSaysNoErrors},
+    MeshFormat{"STL", ".stl", &readStl, &writeStl, {}},
+    MeshFormat{"2DM", ".2dm", &read2dm, &write2dm, kSaysNoErrors},
+    MeshFormat{"GeoPackage", ".gpkg", &readGpkg, &writeGpkg, kSaysAll},
 };
 
 template <class Wanted>

@@ -10,7 +10,11 @@
 
 namespace arete {
 
-enum class LayerKind { points, polygons };
+enum class LayerKind {
+  points,
+  polygons,
+  surfaces,  ///< polygons, TINs and polyhedral surfaces
+};
 
 /// The layer of that name, or, for an empty name, the only layer that may hold geometries of that kind.
 /// Errors: notFound (no layer of that name), unsupported (no such layer, or several); both list what there
