@@ -23,11 +23,26 @@ double nearestToMiddle(const TriangleMesh& mesh, double Vec3::*axis) {
   return nearest;
 }
 
+/// 0 keeps the heights of most DEMs, which are float32 or integers, to the bit.
+double heightOrigin(const TriangleMesh& mesh) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  bool areExact = true;
+  for (const Vec3& p : mesh.positions) {
+    low = std::min(low, p.z);
+    high = std::max(high, p.z);
+    areExact = areExact && std::abs(p.z) <= double{std::numeric_limits<float>::max()} &&
+               static_cast<double>(static_cast<float>(p.z)) == p.z;
+  }
+  constexpr double kWorthwhile = 8;
+  const bool areFar = std::max(std::abs(low), std::abs(high)) > kWorthwhile * (high - low);
+  return areFar && !areExact ? nearestToMiddle(mesh, &Vec3::z) : 0;
+}
+
 }  // namespace
 
 Vec3 localOrigin(const TriangleMesh& mesh) {
   if (mesh.positions.empty()) return {};
-  return {nearestToMiddle(mesh, &Vec3::x), nearestToMiddle(mesh, &Vec3::y), 0};
+  return {nearestToMiddle(mesh, &Vec3::x), nearestToMiddle(mesh, &Vec3::y), heightOrigin(mesh)};
 }
 
 double float32Rounding(double largestAbsolute, double origin) {

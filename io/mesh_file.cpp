@@ -7,6 +7,7 @@
 #include <array>
 
 #include "io/mesh_2dm.h"
+#include "io/mesh_glb.h"
 #include "io/mesh_gpkg.h"
 #include "io/mesh_obj.h"
 #include "io/mesh_ply.h"
@@ -20,10 +21,13 @@ constexpr MeshFormatTraits kSaysAll = {
     .isExact = true, .holdsCrs = true, .holdsVerticalUnit = true, .holdsErrors = true};
 constexpr MeshFormatTraits kSaysNoErrors = {.isExact = true, .holdsCrs = true, .holdsVerticalUnit = true};
 
+constexpr MeshFormatTraits kSaysFrame = {.holdsCrs = true, .holdsVerticalUnit = true};
+
 constexpr std::array kFormats = {
     MeshFormat{"PLY", ".ply", &readPly, &writePly, kSaysAll},
     MeshFormat{"OBJ", ".obj", &readObj, &writeObj, kSaysNoErrors},
     MeshFormat{"STL", ".stl", &readStl, &writeStl, {}},
+    MeshFormat{"GLB", ".glb", &readGlb, &writeGlb, kSaysFrame},
     MeshFormat{"2DM", ".2dm", &read2dm, &write2dm, kSaysNoErrors},
     MeshFormat{"GeoPackage", ".gpkg", &readGpkg, &writeGpkg, kSaysAll},
 };

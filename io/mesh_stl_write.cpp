@@ -24,6 +24,10 @@ namespace {
 constexpr std::size_t kHeaderSize = 80, kRecordSize = 50;
 constexpr std::size_t kTrianglesPerCancelCheck = 1 << 16;
 
+std::string headerOf(const Vec3& origin) {
+  return fmt::format("arete origin {} {} {}", origin.x, origin.y, origin.z);
+}
+
 /// The unit normal of the triangle as it is written; 0, 0, 0 without an area, as the format has it.
 std::array<float, 3> normalOf(const std::array<Vec3, 3>& c) {
   const Vec3 a{c[1].x - c[0].x, c[1].y - c[0].y, c[1].z - c[0].z};
@@ -45,7 +49,13 @@ Status writeStl(const TriangleMesh& mesh, const std::filesystem::path& path, con
   if (const Status ok = mesh.validate(); !ok) return refuse(ok.error().message);
   if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max())
     return refuse(fmt::format("{} triangles are more than an STL can count", mesh.triangles.size()));
-  const Vec3 origin = localOrigin(mesh);
+  Vec3 origin = localOrigin(mesh);
+  std::string header = headerOf(origin);
+  if (header.size() > kHeaderSize) {
+    origin = {std::round(origin.x), std::round(origin.y), std::round(origin.z)};
+    header = headerOf(origin);
+  }
+  header.resize(kHeaderSize, ' ');
   constexpr double kLargest = std::numeric_limits<float>::max();
   for (const Vec3& p : mesh.positions)
     if (!(std::abs(p.x - origin.x) <= kLargest && std::abs(p.y - origin.y) <= kLargest &&
@@ -54,8 +64,6 @@ Status writeStl(const TriangleMesh& mesh, const std::filesystem::path& path, con
   Result<FileWriter> file = FileWriter::create(path);
   if (!file) return tl::unexpected(file.error());
 
-  std::string header = fmt::format("arete origin {} {} {}", origin.x, origin.y, origin.z);
-  header.resize(kHeaderSize, ' ');
   file->write(header);
   putBytes(file->reserve(sizeof(std::uint32_t)), static_cast<std::uint32_t>(mesh.triangles.size()));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
