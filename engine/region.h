@@ -1,25 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
+#include "engine/multitriangulation.h"
+#include "engine/segment_tree.h"
 #include "engine/vec.h"
 
 namespace arete {
 
-struct MetricFrame;
+/// What a region is drawn with.
+struct RegionShape {
+  std::vector<std::vector<Vec2>> rings =
+      {};  ///< the inside is theirs, by the even-odd rule; closed by themselves
+  std::vector<std::vector<Vec2>> lines = {};  ///< open chains: a road, a flight path
+  double distance = 0;                        ///< this near to them is in the region too; in metric units
+};
 
-/// A closed region of the plan: the inside of rings by the even-odd rule, their edges included.
-/// Queries look only at the edges in the query's band of y: O(edges of those bands).
+/// A closed region of the plan: the inside of rings, lines, and all that is within a distance of either.
+/// Queries are in plan coordinates and cost O(log n + edges near the query).
 class Region {
  public:
-  /// Rings are closed by themselves (the last point need not repeat the first); fewer than 3 points are
-  /// ignored.
-  explicit Region(std::vector<std::vector<Vec2>> rings);
+  /// The shape is in plan coordinates. Rings of fewer than 3 points and lines of fewer than 2 are ignored.
+  /// `metric` says what a distance is; without a distance it does not matter.
+  explicit Region(RegionShape shape, const MetricFrame& metric = {});
+  explicit Region(std::vector<std::vector<Vec2>> rings) : Region(RegionShape{std::move(rings)}) {}
   static Region box(const Box2& box);
 
-  bool isEmpty() const { return edges_.empty(); }
+  bool isEmpty() const { return tree_.isEmpty(); }
+  /// In plan coordinates.
   Box2 bounds() const { return bounds_; }
 
   bool contains(Vec2 p) const;
@@ -27,22 +36,22 @@ class Region {
   /// Errs, if at all, towards true: rounding is covered by widening the disc by one part in 1e9.
   bool meetsDisc(Vec2 centre, double radius) const;
 
-  /// The same region in metric space.
+  /// The same region for queries in metric space. Precondition: the metric frame of the constructor, where
+  /// there is a distance.
   Region scaled(const MetricFrame& metric) const;
 
  private:
-  struct Edge {
-    Vec2 a, b;
-  };
-  template <class Visit>
-  void forEdgesBetween(double yLow, double yHigh, const Visit& visit) const;
+  bool meetsInner(Vec2 a, Vec2 b, Vec2 c) const;
+  bool isInRings(Vec2 p) const;
+  Vec2 toInner(Vec2 p) const {
+    const Vec3 q = frame_.toMetric({p.x, p.y, 0});
+    return {q.x, q.y};
+  }
 
-  std::vector<std::vector<Vec2>> rings_;
-  std::vector<Edge> edges_;
+  RegionShape shape_;  // in inner coordinates: metric with a distance, else those of the queries
+  MetricFrame frame_;  // from the queries' coordinates to the inner ones
+  SegmentTree tree_, ringTree_;
   Box2 bounds_;
-  // Bands of equal height; band i lists the edges that touch it.
-  std::vector<std::uint32_t> bandBegin_, bandEdges_;
-  double bandHeight_ = 1;
 };
 
 }  // namespace arete
