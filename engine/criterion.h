@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "engine/multitriangulation.h"
 #include "engine/region.h"
@@ -19,11 +22,18 @@ namespace arete {
 /// steers the minimal cut.
 class Criterion {
  public:
+  using Corners = std::array<std::uint32_t, 3>;  ///< MT vertices
+
   virtual ~Criterion() = default;
 
   /// Whether the triangle may stay in the front.
-  virtual bool isFineEnough(const MultiTriangulation& mt, TriangleId t,
-                            const std::array<std::uint32_t, 3>& corners) const = 0;
+  virtual bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const = 0;
+
+  /// How much a triangle that is not fine enough weighs when a budget is spent, the worst first: its error,
+  /// or what the criterion makes of it (pixels).
+  virtual double severity(const MultiTriangulation& mt, TriangleId t, const Corners&) const {
+    return mt.error(t);
+  }
 
   /// Whether allowedError() is a bound: for every ball inside another it is at least the other's.
   virtual bool isMonotone() const { return false; }
@@ -38,8 +48,7 @@ class Criterion {
 class UniformError final : public Criterion {
  public:
   explicit UniformError(double maxError) : maxError_(maxError) {}
-  bool isFineEnough(const MultiTriangulation& mt, TriangleId t,
-                    const std::array<std::uint32_t, 3>&) const override {
+  bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners&) const override {
     return mt.error(t) <= maxError_;
   }
   bool isMonotone() const override { return true; }
@@ -60,15 +69,7 @@ class RegionError final : public Criterion {
         insideError_(insideError),
         outsideError_(outsideError) {}
 
-  bool isFineEnough(const MultiTriangulation& mt, TriangleId t,
-                    const std::array<std::uint32_t, 3>& corners) const override {
-    const double error = mt.error(t);
-    if (error <= insideError_) return true;
-    if (error > outsideError_) return false;
-    const auto& v = mt.vertices();
-    return !region_.meetsTriangle(v.planPosition(VertexId(corners[0])), v.planPosition(VertexId(corners[1])),
-                                  v.planPosition(VertexId(corners[2])));
-  }
+  bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
   bool isMonotone() const override { return true; }
   double allowedError(const Sphere& s) const override {
     return metricRegion_.meetsDisc({s.x, s.y}, s.radius) ? insideError_ : outsideError_;
@@ -78,6 +79,79 @@ class RegionError final : public Criterion {
  private:
   Region region_, metricRegion_;
   double insideError_, outsideError_;
+};
+
+/// An error that grows with the distance from a place: nearError + growth * distance, at most farError.
+/// Distances are in metric space, between the place and the nearest point of a triangle.
+class DistanceError final : public Criterion {
+ public:
+  struct Options {
+    Vec3 place;            ///< metric space
+    bool inPlan = false;   ///< distances in the plan alone: place.z does not count
+    double nearError = 0;  ///< allowed at the place
+    double growth = 0;     ///< error per metric unit, >= 0
+    double farError = std::numeric_limits<double>::infinity();  ///< allowed at most
+  };
+  explicit DistanceError(const Options& options) : o_(options) {}
+
+  bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override {
+    return mt.error(t) <= allowedFor(mt, corners);
+  }
+  /// The error in units of the one allowed, where one is.
+  double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
+  bool isMonotone() const override { return true; }
+  double allowedError(const Sphere& s) const override;
+
+ private:
+  double allowedFor(const MultiTriangulation& mt, const Corners& corners) const;
+  double allowedAt(double distance) const;
+
+  Options o_;
+};
+
+/// Whatever a caller makes of a triangle.
+class Predicate final : public Criterion {
+ public:
+  using Test = std::function<bool(const MultiTriangulation&, TriangleId, const Corners&)>;
+  explicit Predicate(Test isFineEnough) : test_(std::move(isFineEnough)) {}
+  bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override {
+    return test_(mt, t, corners);
+  }
+
+ private:
+  Test test_;
+};
+
+/// Fine enough for every part. Monotone when all parts are.
+class AllOf final : public Criterion {
+ public:
+  using Parts = std::vector<std::shared_ptr<const Criterion>>;
+  /// Precondition: at least one part, none null.
+  explicit AllOf(Parts parts) : parts_(std::move(parts)) {}
+  bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
+  /// The largest of the parts that are not satisfied: parts of one unit make sense.
+  double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
+  bool isMonotone() const override;
+  double allowedError(const Sphere& s) const override;
+
+ private:
+  Parts parts_;
+};
+
+/// Fine enough for one part at least. Monotone when all parts are.
+class AnyOf final : public Criterion {
+ public:
+  using Parts = AllOf::Parts;
+  /// Precondition: at least one part, none null.
+  explicit AnyOf(Parts parts) : parts_(std::move(parts)) {}
+  bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
+  /// The smallest of the parts': what is left to the nearest of them.
+  double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
+  bool isMonotone() const override;
+  double allowedError(const Sphere& s) const override;
+
+ private:
+  Parts parts_;
 };
 
 }  // namespace arete

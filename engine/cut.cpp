@@ -3,23 +3,25 @@
 // Minimal. The least closed set C such that every triangle whose creator is in C (or that is in the root) and
 // that fails c(t) has its remover in C. It is unique, so the order of the walk does not matter: a stack of
 // nodes to include; each asks for the creators of its floor (its parents) and for the removers of those of
-// its ceiling that fail. With a budget the order does matter: triangles of the growing front wait in a heap,
-// the largest error on top; its remover enters with the ancestors still missing, as long as the budget holds
-// them.
+// its ceiling that fail. With a budget or a deadline the order does matter: refine.cpp.
 //
 // Saturated. Node n is in iff its saturated error exceeds what the criterion allows over its sphere. A
 // parent's saturated error and sphere contain its child's (law 6), so the set is closed as it comes. For a
-// uniform error it is a prefix of the nodes. With a budget: the longest prefix whose members keep it (the
-// members of a prefix are closed too).
+// uniform error it is a prefix of the nodes. With a budget the members are taken by falling ratio of the two,
+// parents first: what of that order fits is closed too.
 #include "engine/cut.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
+#include <limits>
+#include <numeric>
 
+#include "engine/refine.h"
 #include "engine/with_threads.h"
 
 namespace arete {
@@ -53,7 +55,7 @@ class Test {
 
   bool passes(std::uint32_t id, NodeId creator) const {
     if (isUniform_) return mt_.arrays().error[id] <= code_;
-    return criterion_.isFineEnough(mt_, TriangleId(id), mt_.corners(TriangleId(id), creator));
+    return isSatisfied(mt_, criterion_, TriangleId(id), mt_.corners(TriangleId(id), creator));
   }
 
  private:
@@ -63,8 +65,8 @@ class Test {
   OutwardScale::Code code_;
 };
 
-Result<NodeSet> minimalWithoutBudget(const MultiTriangulation& mt, const Criterion& criterion,
-                                     const RunContext& context) {
+Result<NodeSet> leastNodes(const MultiTriangulation& mt, const Criterion& criterion,
+                           const RunContext& context) {
   const MtArrays& a = mt.arrays();
   const Test test(mt, criterion);
   const std::uint32_t roots = mt.rootTriangleCount();
@@ -87,64 +89,6 @@ Result<NodeSet> minimalWithoutBudget(const MultiTriangulation& mt, const Criteri
       if (r != kNone && !in[r] && !test.passes(roots + s, NodeId(n))) include(r);
     }
   }
-  return in;
-}
-
-Result<NodeSet> minimalWithBudget(const MultiTriangulation& mt, const Criterion& criterion,
-                                  std::uint32_t maxTriangles, const RunContext& context) {
-  const MtArrays& a = mt.arrays();
-  const Test test(mt, criterion);
-  const std::uint32_t roots = mt.rootTriangleCount();
-  NodeSet in(mt.nodeCount(), 0);
-  // Largest error first, then the smaller id: (error, ~id).
-  std::priority_queue<std::pair<std::uint16_t, std::uint32_t>> heap;
-  const auto offer = [&](std::uint32_t id, NodeId creator) {
-    const std::uint32_t r = a.remover[id];
-    if (r != kNone && !in[r] && !test.passes(id, creator)) heap.emplace(a.error[id], ~id);
-  };
-  for (std::uint32_t t = 0; t < roots; ++t) offer(t, {});
-
-  std::uint64_t triangles = roots;
-  std::vector<std::uint32_t> missing, order;
-  // Errors are not monotone down the graph: a refinement can raise the largest error (white noise does it).
-  // The state kept is the last one with the least.
-  std::uint16_t least = OutwardScale::kMaxCode;
-  std::size_t best = 0;
-  for (std::size_t steps = 0;; ++steps) {
-    if (steps % kCheckEvery == 0 && context.cancelled()) return interrupted();
-    while (!heap.empty() && in[a.remover[~heap.top().second]]) heap.pop();
-    const std::uint16_t largest = heap.empty() ? OutwardScale::Code(0) : heap.top().first;
-    if (largest <= least) {
-      least = largest;
-      best = order.size();
-    }
-    if (heap.empty()) break;
-    const std::uint32_t wanted = a.remover[~heap.top().second];
-    heap.pop();
-    missing.assign(1, wanted);
-    in[wanted] = 1;
-    std::uint64_t added = 0;
-    for (std::size_t i = 0; i < missing.size(); ++i) {
-      const NodeId n(missing[i]);
-      added += mt.isOpen(n) ? 1 : 2;
-      for (const std::uint32_t t : mt.floor(n)) {
-        const NodeId parent = mt.creator(TriangleId(t));
-        if (!parent.isValid() || in[parent.index()]) continue;
-        in[parent.index()] = 1;
-        missing.push_back(parent.index());
-      }
-    }
-    if (triangles + added > maxTriangles) {
-      // The largest error left cannot be bettered within the budget; what is left of it would only hide that.
-      for (const std::uint32_t n : missing) in[n] = 0;
-      break;
-    }
-    triangles += added;
-    order.insert(order.end(), missing.begin(), missing.end());
-    for (const std::uint32_t n : missing)
-      for (std::uint32_t s = a.slotBegin[n]; s < a.slotBegin[n + 1]; ++s) offer(roots + s, NodeId(n));
-  }
-  for (std::size_t i = best; i < order.size(); ++i) in[order[i]] = 0;
   return in;
 }
 
@@ -172,71 +116,124 @@ std::uint32_t closeUpwards(const MultiTriangulation& mt, NodeSet& set) {
   return members;
 }
 
-Result<NodeSet> minimalNodes(const MultiTriangulation& mt, const Criterion& criterion,
-                             std::optional<std::uint32_t> maxTriangles, const RunContext& context) {
-  if (const Status budget = checkBudget(mt, maxTriangles); !budget) return tl::unexpected(budget.error());
-  if (context.cancelled()) return interrupted();
-  return maxTriangles ? minimalWithBudget(mt, criterion, *maxTriangles, context)
-                      : minimalWithoutBudget(mt, criterion, context);
+bool isSatisfied(const MultiTriangulation& mt, const Criterion& criterion, TriangleId t,
+                 const Criterion::Corners& corners) {
+  if (criterion.isFineEnough(mt, t, corners)) return true;
+  const NodeId remover = mt.remover(t);
+  return remover.isValid() && criterion.isMonotone() &&
+         mt.error(t) <= criterion.allowedError(mt.arrays().sphere[remover.index()]);
 }
 
-Result<NodeSet> saturatedNodes(const MultiTriangulation& mt, const Criterion& criterion,
-                               std::optional<std::uint32_t> maxTriangles, const RunContext& context) {
-  if (const Status budget = checkBudget(mt, maxTriangles); !budget) return tl::unexpected(budget.error());
-  if (!criterion.isMonotone())
-    return failure(
-        ErrorCode::usage,
-        "this criterion has no bound over a sphere, so a saturated cut cannot take it; use the minimal cut");
-  if (context.cancelled()) return interrupted();
-  const MtArrays& a = mt.arrays();
-  NodeSet in(mt.nodeCount(), 0);
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, mt.nodeCount(), 4096), [&](const auto& range) {
-    for (std::uint32_t n = range.begin(); n != range.end(); ++n)
-      in[n] = a.scale.decode(a.saturatedError[n]) > criterion.allowedError(a.sphere[n]) ? 1 : 0;
-  });
-  if (maxTriangles) {
-    std::uint64_t triangles = mt.rootTriangleCount();
-    std::uint32_t n = 0;
-    for (; n < mt.nodeCount(); ++n) {
-      if (!in[n]) continue;
-      triangles += mt.isOpen(NodeId(n)) ? 1 : 2;
-      if (triangles > *maxTriangles) break;
-    }
-    std::fill(in.begin() + n, in.end(), std::uint8_t(0));
-  }
-  return in;
+double worstSeverity(const MultiTriangulation& mt, const Criterion& criterion, const Cut& cut) {
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, cut.ids.size(), 4096), 0.0,
+      [&](const auto& range, double worst) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+          Criterion::Corners corners = cut.triangles[i];
+          for (std::uint32_t& corner : corners) corner = cut.vertices[corner];
+          worst = std::max(worst, criterion.severity(mt, TriangleId(cut.ids[i]), corners));
+        }
+        return worst;
+      },
+      [](double a, double b) { return std::max(a, b); });
 }
 
 namespace {
 
-Result<Cut> takeCutHere(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options,
-                        const RunContext& context) {
-  if (options.method == CutMethod::saturated && !std::isnan(criterion.uniformError())) {
-    if (const Status budget = checkBudget(mt, options.maxTriangles); !budget)
-      return tl::unexpected(budget.error());
-    if (context.cancelled()) return interrupted();
-    std::uint32_t nodes = uniformPrefix(mt, criterion.uniformError());
-    if (options.maxTriangles) {
-      std::uint64_t triangles = mt.rootTriangleCount();
-      for (std::uint32_t n = 0; n < nodes; ++n) {
-        triangles += mt.isOpen(NodeId(n)) ? 1 : 2;
-        if (triangles > *options.maxTriangles) nodes = n;
-      }
-    }
-    return frontOfPrefix(mt, nodes);
+Status checkOptions(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options) {
+  if (Status budget = checkBudget(mt, options.maxTriangles); !budget) return budget;
+  if (options.method == CutMethod::minimal) return {};
+  if (!criterion.isMonotone())
+    return failure(
+        ErrorCode::usage,
+        "this criterion has no bound over a sphere, so a saturated cut cannot take it; use the minimal cut");
+  if (options.deadline || options.order)
+    return failure(ErrorCode::usage,
+                   "a saturated cut is one test per node, in no order and with no time to stop at; use the "
+                   "minimal cut for a deadline or an order");
+  return {};
+}
+
+/// As many members as the budget holds, by falling saturated error in units of the error allowed; equal ones,
+/// and so parents, by index.
+void keepWorst(const MultiTriangulation& mt, const Criterion& criterion, std::uint32_t maxTriangles,
+               NodeCut& cut) {
+  const MtArrays& a = mt.arrays();
+  std::vector<std::pair<double, std::uint32_t>> members;
+  for (std::uint32_t n = 0; n < mt.nodeCount(); ++n) {
+    if (!cut.nodes[n]) continue;
+    const double allowed = criterion.allowedError(a.sphere[n]);
+    members.emplace_back(allowed > 0 ? -a.scale.decode(a.saturatedError[n]) / allowed
+                                     : -std::numeric_limits<double>::infinity(),
+                         n);
   }
-  const Result<NodeSet> nodes = options.method == CutMethod::saturated
-                                    ? saturatedNodes(mt, criterion, options.maxTriangles, context)
-                                    : minimalNodes(mt, criterion, options.maxTriangles, context);
-  if (!nodes) return tl::unexpected(nodes.error());
-  return front(mt, *nodes);
+  tbb::parallel_sort(members.begin(), members.end());
+  std::uint64_t triangles = mt.rootTriangleCount();
+  std::size_t kept = 0;
+  for (; kept < members.size(); ++kept) {
+    triangles += mt.isOpen(NodeId(members[kept].second)) ? 1 : 2;
+    if (triangles > maxTriangles) break;
+  }
+  cut.isComplete = kept == members.size();
+  for (; kept < members.size(); ++kept) cut.nodes[members[kept].second] = 0;
+}
+
+Result<NodeCut> saturatedNodes(const MultiTriangulation& mt, const Criterion& criterion,
+                               const CutOptions& options) {
+  const MtArrays& a = mt.arrays();
+  NodeCut cut{NodeSet(mt.nodeCount(), 0), true};
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, mt.nodeCount(), 4096), [&](const auto& range) {
+    for (std::uint32_t n = range.begin(); n != range.end(); ++n)
+      cut.nodes[n] = a.scale.decode(a.saturatedError[n]) > criterion.allowedError(a.sphere[n]) ? 1 : 0;
+  });
+  if (options.maxTriangles) keepWorst(mt, criterion, *options.maxTriangles, cut);
+  return cut;
+}
+
+/// A uniform saturated cut needs no set: its nodes are a prefix.
+Cut uniformSaturatedCut(const MultiTriangulation& mt, double maxError, const CutOptions& options) {
+  std::uint32_t nodes = uniformPrefix(mt, maxError);
+  const std::uint32_t wanted = nodes;
+  if (options.maxTriangles) {
+    std::uint64_t triangles = mt.rootTriangleCount();
+    for (std::uint32_t n = 0; n < nodes; ++n) {
+      triangles += mt.isOpen(NodeId(n)) ? 1 : 2;
+      if (triangles > *options.maxTriangles) nodes = n;
+    }
+  }
+  Cut cut = frontOfPrefix(mt, nodes);
+  cut.isComplete = nodes == wanted;
+  return cut;
 }
 
 }  // namespace
 
+Result<NodeCut> takeNodes(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options,
+                          const RunContext& context) {
+  if (const Status ok = checkOptions(mt, criterion, options); !ok) return tl::unexpected(ok.error());
+  if (context.cancelled()) return interrupted();
+  return withThreads(context, [&]() -> Result<NodeCut> {
+    if (options.method == CutMethod::saturated) return saturatedNodes(mt, criterion, options);
+    if (options.maxTriangles || options.deadline) return refineWithin(mt, criterion, options, context);
+    return leastNodes(mt, criterion, context).map([](NodeSet nodes) {
+      return NodeCut{std::move(nodes), true};
+    });
+  });
+}
+
 Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options,
                     const RunContext& context) {
-  return withThreads(context, [&] { return takeCutHere(mt, criterion, options, context); });
+  if (const Status ok = checkOptions(mt, criterion, options); !ok) return tl::unexpected(ok.error());
+  if (context.cancelled()) return interrupted();
+  return withThreads(context, [&]() -> Result<Cut> {
+    if (options.method == CutMethod::saturated && !std::isnan(criterion.uniformError()))
+      return uniformSaturatedCut(mt, criterion.uniformError(), options);
+    const Result<NodeCut> nodes = takeNodes(mt, criterion, options, context);
+    if (!nodes) return tl::unexpected(nodes.error());
+    Cut cut = front(mt, nodes->nodes);
+    cut.isComplete = nodes->isComplete;
+    return cut;
+  });
 }
 
 }  // namespace arete

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "engine/criterion.h"
+#include "engine/deadline.h"
 #include "engine/multitriangulation.h"
+#include "engine/refine_order.h"
 #include "engine/result.h"
 #include "engine/run_context.h"
 
@@ -24,6 +26,8 @@ struct Cut {
   std::vector<std::uint32_t> ids;  ///< MT triangle of each triangle
   double achievedError = 0;        ///< largest error of its triangles, as stored (outwards)
   std::uint32_t nodes = 0;         ///< nodes in the cut
+  /// False when a budget or a deadline ended the walk before the criterion was met wherever it can be.
+  bool isComplete = true;
 };
 
 /// Two ways to take a cut, both exact (DESIGN, "Two ways to take a cut").
@@ -34,23 +38,39 @@ enum class CutMethod {
 
 struct CutOptions {
   CutMethod method = CutMethod::minimal;
-  /// At most this many triangles, spent where the error is largest; the criterion may stay unmet.
+  /// At most this many triangles, spent where the criterion's severity is worst; the criterion may stay
+  /// unmet.
   std::optional<std::uint32_t> maxTriangles{};
+  /// Of a minimal cut: the walk ends here, between two modifications, and the criterion may stay unmet.
+  std::optional<Deadline> deadline{};
+  /// Of a minimal cut under a budget or a deadline: what is refined first. Worst first when null.
+  std::shared_ptr<const RefineOrder> order{};
 };
 
 /// The front of the least cut (or of the saturated cut) whose triangles all satisfy the criterion, or have
-/// nothing finer. Errors: usage when the budget is below the root's count, when the saturated cut is asked
-/// for a criterion without a bound over a sphere; interrupted. Minimal: O(triangles visited), visiting the
-/// cut and its ancestors; with a budget times log. Saturated: O(N) at most in general, O(size of the cut) for
-/// a uniform error.
+/// nothing finer. A budget spent worst first leaves the least cut of the severity that it reached: no cut of
+/// as many triangles has a smaller one. Errors: usage when the budget is below the root's count, when the
+/// saturated cut is asked for a criterion without a bound over a sphere, or given a deadline or an order;
+/// interrupted. Minimal: O(triangles visited), visiting the cut and its ancestors; with a budget or a
+/// deadline times log. Saturated: O(N) at most in general, O(size of the cut) for a uniform error.
 Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options = {},
                     const RunContext& context = {});
 
-/// The nodes of the cuts above, without their fronts.
-Result<NodeSet> minimalNodes(const MultiTriangulation& mt, const Criterion& criterion,
-                             std::optional<std::uint32_t> maxTriangles, const RunContext& context = {});
-Result<NodeSet> saturatedNodes(const MultiTriangulation& mt, const Criterion& criterion,
-                               std::optional<std::uint32_t> maxTriangles, const RunContext& context = {});
+/// The nodes of a cut, without its front.
+struct NodeCut {
+  NodeSet nodes;
+  bool isComplete = true;  ///< as of a Cut
+};
+Result<NodeCut> takeNodes(const MultiTriangulation& mt, const Criterion& criterion,
+                          const CutOptions& options = {}, const RunContext& context = {});
+
+/// Whether t may stay in a front of the minimal cut: it satisfies the criterion, or all of its remover's
+/// region does by the criterion's own bound (so that the minimal cut is never larger than the saturated one).
+bool isSatisfied(const MultiTriangulation& mt, const Criterion& criterion, TriangleId t,
+                 const Criterion::Corners& corners);
+
+/// The worst severity among the triangles of a front. O(front), parallel.
+double worstSeverity(const MultiTriangulation& mt, const Criterion& criterion, const Cut& cut);
 
 /// Number of nodes whose saturated error exceeds E: the nodes of the uniform saturated cut are 0 .. n-1.
 /// O(log N).

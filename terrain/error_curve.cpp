@@ -45,11 +45,11 @@ Result<std::vector<CurvePoint>> errorCurve(const MultiTriangulation& mt, std::sp
     context.report("curve", static_cast<double>(i) / static_cast<double>(tolerances.size()));
     CurvePoint point{.maxError = tolerances[i]};
     point.saturatedTriangles = mt.prefixTriangleCount(uniformPrefix(mt, tolerances[i]));
-    const Result<NodeSet> nodes = minimalNodes(mt, UniformError(tolerances[i]), std::nullopt, context);
-    if (!nodes) return tl::unexpected(nodes.error());
+    const Result<NodeCut> cut = takeNodes(mt, UniformError(tolerances[i]), {}, context);
+    if (!cut) return tl::unexpected(cut.error());
     point.minimalTriangles = mt.rootTriangleCount();
-    for (std::uint32_t n = 0; n < nodes->size(); ++n)
-      if ((*nodes)[n]) point.minimalTriangles += mt.isOpen(NodeId(n)) ? 1 : 2;
+    for (std::uint32_t n = 0; n < cut->nodes.size(); ++n)
+      if (cut->nodes[n]) point.minimalTriangles += mt.isOpen(NodeId(n)) ? 1 : 2;
     curve.push_back(point);
   }
   context.report("curve", 1);

@@ -73,9 +73,9 @@ TEST(MinimalCut, IsTheLeastClosedSetForUniformErrors) {
   for (const Sample& s : samples())
     for (const double part : {0.0, 0.001, 0.02, 0.1, 0.4, 1.0}) {
       const UniformError criterion(part * spanOfErrors(s.model.mt));
-      const auto nodes = minimalNodes(s.model.mt, criterion, {});
+      const auto nodes = takeNodes(s.model.mt, criterion);
       ASSERT_TRUE(nodes);
-      EXPECT_EQ(*nodes, leastClosedSet(s.model.mt, criterion)) << s.name << " " << part;
+      EXPECT_EQ(nodes->nodes, leastClosedSet(s.model.mt, criterion)) << s.name << " " << part;
     }
 }
 
@@ -84,9 +84,9 @@ TEST(MinimalCut, IsTheLeastClosedSetForRegions) {
     const Region region({{{5.5, 4}, {17, 6.25}, {12, 19}, {3, 12}}});
     const double span = spanOfErrors(s.model.mt);
     const RegionError criterion(region, s.model.mt.arrays().metric, 0.01 * span, 0.3 * span);
-    const auto nodes = minimalNodes(s.model.mt, criterion, {});
+    const auto nodes = takeNodes(s.model.mt, criterion);
     ASSERT_TRUE(nodes);
-    EXPECT_EQ(*nodes, leastClosedSet(s.model.mt, criterion)) << s.name;
+    EXPECT_EQ(nodes->nodes, leastClosedSet(s.model.mt, criterion)) << s.name;
   }
 }
 
@@ -98,9 +98,9 @@ TEST(MinimalCut, TakesAnyPredicateAndSaturatedRefusesIt) {
     }
   };
   for (const Sample& s : samples()) {
-    const auto nodes = minimalNodes(s.model.mt, Odd{}, {});
+    const auto nodes = takeNodes(s.model.mt, Odd{});
     ASSERT_TRUE(nodes);
-    EXPECT_EQ(*nodes, leastClosedSet(s.model.mt, Odd{})) << s.name;
+    EXPECT_EQ(nodes->nodes, leastClosedSet(s.model.mt, Odd{})) << s.name;
     const auto refused = takeCut(s.model.mt, Odd{}, {.method = CutMethod::saturated});
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::usage);
@@ -125,12 +125,12 @@ TEST(SaturatedCut, IsClosedForRegionsToo) {
     const double span = spanOfErrors(s.model.mt);
     const RegionError criterion(Region::box({4, 6, 13, 15}), s.model.mt.arrays().metric, 0.005 * span,
                                 0.5 * span);
-    auto nodes = saturatedNodes(s.model.mt, criterion, {});
+    auto nodes = takeNodes(s.model.mt, criterion, {.method = CutMethod::saturated});
     ASSERT_TRUE(nodes);
-    NodeSet closed = *nodes;
+    NodeSet closed = nodes->nodes;
     closeUpwards(s.model.mt, closed);
-    EXPECT_EQ(closed, *nodes) << s.name;
-    const Cut cut = front(s.model.mt, *nodes);
+    EXPECT_EQ(closed, nodes->nodes) << s.name;
+    const Cut cut = front(s.model.mt, nodes->nodes);
     for (std::size_t t = 0; t < cut.ids.size(); ++t)
       EXPECT_TRUE(criterion.isFineEnough(s.model.mt, TriangleId(cut.ids[t]),
                                          s.model.mt.corners(TriangleId(cut.ids[t]))))
@@ -184,13 +184,13 @@ TEST(Budget, IsNeverExceededAndNearlySpent) {
     for (const double part : {0.0, 0.05, 0.3, 0.8, 1.0})
       for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
         const auto budget = static_cast<std::uint32_t>(roots + part * (finest - roots));
-        const auto cut = takeCut(mt, UniformError(0), {method, budget});
+        const auto cut = takeCut(mt, UniformError(0), {.method = method, .maxTriangles = budget});
         ASSERT_TRUE(cut) << s.name;
         EXPECT_LE(cut->triangles.size(), budget) << s.name;
         EXPECT_TRUE(validateFront(mt, *cut, domainExtent(mt))) << s.name;
         // Of the uniform cuts of at most that size in the same MT, none is more than 10 % better.
         for (double e = cut->achievedError * 0.89; e > 0; e *= 0.5) {
-          const auto better = takeCut(mt, UniformError(e), {method});
+          const auto better = takeCut(mt, UniformError(e), {.method = method});
           EXPECT_GT(better->triangles.size(), budget) << s.name << " budget " << budget << " error " << e;
         }
       }
@@ -200,7 +200,8 @@ TEST(Budget, IsNeverExceededAndNearlySpent) {
 TEST(Budget, BelowTheRootIsRefusedWithTheCount) {
   const Sample& s = samples().front();
   for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
-    const auto cut = takeCut(s.model.mt, UniformError(0), {method, s.model.mt.rootTriangleCount() - 1});
+    const auto cut = takeCut(s.model.mt, UniformError(0),
+                             {.method = method, .maxTriangles = s.model.mt.rootTriangleCount() - 1});
     ASSERT_FALSE(cut);
     EXPECT_EQ(cut.error().code, ErrorCode::usage);
     EXPECT_NE(cut.error().message.find(std::to_string(s.model.mt.rootTriangleCount())), std::string::npos);
@@ -212,7 +213,7 @@ TEST(Cuts, StopWhenAskedTo) {
   RunContext context;
   context.cancel = &cancel;
   for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
-    const auto cut = takeCut(samples().front().model.mt, UniformError(0), {method, {}}, context);
+    const auto cut = takeCut(samples().front().model.mt, UniformError(0), {.method = method}, context);
     ASSERT_FALSE(cut);
     EXPECT_EQ(cut.error().code, ErrorCode::interrupted);
   }

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/criterion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/triangle_distance.h"
+
+namespace arete {
+
+bool RegionError::isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
+  const double error = mt.error(t);
+  if (error <= insideError_) return true;
+  if (error > outsideError_) return false;
+  const auto& v = mt.vertices();
+  return !region_.meetsTriangle(v.planPosition(VertexId(corners[0])), v.planPosition(VertexId(corners[1])),
+                                v.planPosition(VertexId(corners[2])));
+}
+
+double DistanceError::allowedAt(double distance) const {
+  return std::min(o_.nearError + o_.growth * distance, o_.farError);
+}
+
+double DistanceError::allowedFor(const MultiTriangulation& mt, const Corners& corners) const {
+  std::array<Vec3, 3> p;
+  for (int i = 0; i < 3; ++i) {
+    p[i] = mt.arrays().metric.toMetric(mt.position(VertexId(corners[i])));
+    if (o_.inPlan) p[i].z = o_.place.z;
+  }
+  return allowedAt(distanceToTriangle(o_.place, p[0], p[1], p[2]));
+}
+
+double DistanceError::severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
+  const double allowed = allowedFor(mt, corners);
+  return allowed > 0 ? mt.error(t) / allowed : std::numeric_limits<double>::infinity();
+}
+
+double DistanceError::allowedError(const Sphere& s) const {
+  const double dx = s.x - o_.place.x, dy = s.y - o_.place.y, dz = o_.inPlan ? 0 : s.z - o_.place.z;
+  return allowedAt(std::max(0.0, std::sqrt(dx * dx + dy * dy + dz * dz) - s.radius));
+}
+
+bool AllOf::isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
+  return std::ranges::all_of(parts_, [&](const auto& part) { return part->isFineEnough(mt, t, corners); });
+}
+
+double AllOf::severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
+  double worst = 0;
+  for (const auto& part : parts_)
+    if (!part->isFineEnough(mt, t, corners)) worst = std::max(worst, part->severity(mt, t, corners));
+  return worst;
+}
+
+bool AllOf::isMonotone() const {
+  return std::ranges::all_of(parts_, [](const auto& part) { return part->isMonotone(); });
+}
+
+double AllOf::allowedError(const Sphere& s) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& part : parts_) least = std::min(least, part->allowedError(s));
+  return least;
+}
+
+bool AnyOf::isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
+  return std::ranges::any_of(parts_, [&](const auto& part) { return part->isFineEnough(mt, t, corners); });
+}
+
+double AnyOf::severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& part : parts_) least = std::min(least, part->severity(mt, t, corners));
+  return least;
+}
+
+bool AnyOf::isMonotone() const {
+  return std::ranges::all_of(parts_, [](const auto& part) { return part->isMonotone(); });
+}
+
+double AnyOf::allowedError(const Sphere& s) const {
+  double largest = 0;
+  for (const auto& part : parts_) largest = std::max(largest, part->allowedError(s));
+  return largest;
+}
+
+}  // namespace arete

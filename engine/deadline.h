@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <utility>
+
+namespace arete {
+
+/// When to stop refining. Asked before every modification, so that it is overrun by one at most.
+class Deadline {
+ public:
+  /// So long from now on.
+  static Deadline in(std::chrono::duration<double, std::milli> time) {
+    const auto end = std::chrono::steady_clock::now() + time;
+    return Deadline([end] {
+      return std::chrono::duration<double, std::milli>(end - std::chrono::steady_clock::now()).count();
+    });
+  }
+  /// By a clock of the caller's: milliseconds left, never growing.
+  explicit Deadline(std::function<double()> millisecondsLeft) : left_(std::move(millisecondsLeft)) {}
+
+  double millisecondsLeft() const { return left_(); }
+  bool isOver() const { return left_() <= 0; }
+
+ private:
+  std::function<double()> left_;
+};
+
+}  // namespace arete
