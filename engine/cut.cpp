@@ -28,19 +28,10 @@ namespace arete {
 namespace {
 
 constexpr std::uint32_t kNone = MultiTriangulation::kNone;
-constexpr std::size_t kCheckEvery = 1 << 16;
+constexpr std::size_t kCheckEvery = 1 << 12;
 
 tl::unexpected<Error> interrupted() {
   return failure(ErrorCode::interrupted, "the cut was interrupted");
-}
-
-Status checkBudget(const MultiTriangulation& mt, std::optional<std::uint32_t> maxTriangles) {
-  if (maxTriangles && *maxTriangles < mt.rootTriangleCount())
-    return failure(ErrorCode::usage,
-                   fmt::format("{} triangles are fewer than the {} of the root, the coarsest there is",
-                               *maxTriangles, mt.rootTriangleCount()),
-                   "--max-triangles");
-  return {};
 }
 
 /// Whether a triangle satisfies the criterion; a uniform error is compared as a code, without the virtual
@@ -65,8 +56,24 @@ class Test {
   OutwardScale::Code code_;
 };
 
-Result<NodeSet> leastNodes(const MultiTriangulation& mt, const Criterion& criterion,
-                           const RunContext& context) {
+}  // namespace
+
+Status checkCut(const MultiTriangulation& mt, const Criterion& criterion, CutMethod method,
+                std::optional<std::uint32_t> maxTriangles) {
+  if (maxTriangles && *maxTriangles < mt.rootTriangleCount())
+    return failure(ErrorCode::usage,
+                   fmt::format("{} triangles are fewer than the {} of the root, the coarsest there is",
+                               *maxTriangles, mt.rootTriangleCount()),
+                   "--max-triangles");
+  if (method == CutMethod::saturated && !criterion.isMonotone())
+    return failure(
+        ErrorCode::usage,
+        "this criterion has no bound over a sphere, so a saturated cut cannot take it; use the minimal cut");
+  return {};
+}
+
+std::optional<NodeSet> leastNodes(const MultiTriangulation& mt, const Criterion& criterion,
+                                  const std::function<bool()>& stop) {
   const MtArrays& a = mt.arrays();
   const Test test(mt, criterion);
   const std::uint32_t roots = mt.rootTriangleCount();
@@ -80,7 +87,7 @@ Result<NodeSet> leastNodes(const MultiTriangulation& mt, const Criterion& criter
   for (std::uint32_t t = 0; t < roots; ++t)
     if (a.remover[t] != kNone && !test.passes(t, {})) include(a.remover[t]);
   for (std::size_t steps = 0; !stack.empty(); ++steps) {
-    if (steps % kCheckEvery == 0 && context.cancelled()) return interrupted();
+    if (steps % kCheckEvery == 0 && stop()) return std::nullopt;
     const std::uint32_t n = stack.back();
     stack.pop_back();
     for (const std::uint32_t t : mt.floor(NodeId(n))) include(mt.creator(TriangleId(t)).index());
@@ -91,8 +98,6 @@ Result<NodeSet> leastNodes(const MultiTriangulation& mt, const Criterion& criter
   }
   return in;
 }
-
-}  // namespace
 
 std::uint32_t uniformPrefix(const MultiTriangulation& mt, double maxError) {
   const auto& saturated = mt.arrays().saturatedError;
@@ -118,10 +123,12 @@ std::uint32_t closeUpwards(const MultiTriangulation& mt, NodeSet& set) {
 
 bool isSatisfied(const MultiTriangulation& mt, const Criterion& criterion, TriangleId t,
                  const Criterion::Corners& corners) {
-  if (criterion.isFineEnough(mt, t, corners)) return true;
-  const NodeId remover = mt.remover(t);
-  return remover.isValid() && criterion.isMonotone() &&
-         mt.error(t) <= criterion.allowedError(mt.arrays().sphere[remover.index()]);
+  // The bound is the cheaper test, and passes most.
+  if (const NodeId remover = mt.remover(t); remover.isValid() && criterion.isMonotone()) {
+    const double allowed = criterion.allowedError(mt.arrays().sphere[remover.index()]);
+    if (mt.error(t) <= allowed) return true;
+  }
+  return criterion.isFineEnough(mt, t, corners);
 }
 
 double worstSeverity(const MultiTriangulation& mt, const Criterion& criterion, const Cut& cut) {
@@ -141,12 +148,8 @@ double worstSeverity(const MultiTriangulation& mt, const Criterion& criterion, c
 namespace {
 
 Status checkOptions(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options) {
-  if (Status budget = checkBudget(mt, options.maxTriangles); !budget) return budget;
+  if (Status ok = checkCut(mt, criterion, options.method, options.maxTriangles); !ok) return ok;
   if (options.method == CutMethod::minimal) return {};
-  if (!criterion.isMonotone())
-    return failure(
-        ErrorCode::usage,
-        "this criterion has no bound over a sphere, so a saturated cut cannot take it; use the minimal cut");
   if (options.deadline || options.order)
     return failure(ErrorCode::usage,
                    "a saturated cut is one test per node, in no order and with no time to stop at; use the "
@@ -215,9 +218,9 @@ Result<NodeCut> takeNodes(const MultiTriangulation& mt, const Criterion& criteri
   return withThreads(context, [&]() -> Result<NodeCut> {
     if (options.method == CutMethod::saturated) return saturatedNodes(mt, criterion, options);
     if (options.maxTriangles || options.deadline) return refineWithin(mt, criterion, options, context);
-    return leastNodes(mt, criterion, context).map([](NodeSet nodes) {
-      return NodeCut{std::move(nodes), true};
-    });
+    std::optional<NodeSet> least = leastNodes(mt, criterion, [&] { return context.cancelled(); });
+    if (!least) return interrupted();
+    return NodeCut{std::move(*least), true};
   });
 }
 

@@ -3,11 +3,22 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "engine/cut.h"
 
 namespace arete {
+
+/// What a cut cannot be asked: a budget below the root, a saturated cut of a criterion without a bound.
+/// Errors: usage.
+Status checkCut(const MultiTriangulation& mt, const Criterion& criterion, CutMethod method,
+                std::optional<std::uint32_t> maxTriangles);
+
+/// The least closed set for a criterion; nothing when stop(), asked now and then, said true.
+std::optional<NodeSet> leastNodes(const MultiTriangulation& mt, const Criterion& criterion,
+                                  const std::function<bool()>& stop);
 
 /// The nodes of a minimal cut that a budget or a deadline may end early, refined in the order of the options.
 /// With a budget or a deadline spent worst first, the state handed out is the last one whose worst triangle

@@ -10,67 +10,19 @@
 #include <random>
 #include <set>
 
-#include "datasets/families.h"
+#include "engine/cut_promises.h"
+#include "engine/family_models.h"
 #include "engine/validate.h"
-#include "terrain/build.h"
 
 namespace arete {
 namespace {
-
-struct Sample {
-  std::string name;
-  TerrainModel model;
-};
-
-const std::vector<Sample>& samples() {
-  static const std::vector<Sample> all = [] {
-    std::vector<Sample> made;
-    for (const RasterFamily& family : rasterFamilies())
-      for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity}) {
-        BuildOptions options;
-        options.shape = shape;
-        Result<TerrainModel> model = build(family.make(30, 25, 3), options);
-        if (!model) {
-          ADD_FAILURE() << family.name << ": " << model.error().describe();
-          continue;
-        }
-        made.push_back({std::string(family.name) + (shape == HoleShape::delaunay ? "" : " fidelity"),
-                        std::move(*model)});
-      }
-    return made;
-  }();
-  return all;
-}
-
-NodeSet leastClosedSet(const MultiTriangulation& mt, const Criterion& criterion) {
-  NodeSet in(mt.nodeCount(), 0);
-  for (bool changed = true; changed;) {
-    changed = false;
-    const auto include = [&](NodeId n) {
-      if (!n.isValid() || in[n.index()]) return;
-      in[n.index()] = 1;
-      changed = true;
-    };
-    for (std::uint32_t t = 0; t < mt.triangleIdCount(); ++t) {
-      const NodeId creator = mt.creator(TriangleId(t)), remover = mt.remover(TriangleId(t));
-      if (creator.isValid() && creator == remover) continue;  // no triangle
-      if (creator.isValid() && !in[creator.index()]) continue;
-      if (remover.isValid() && !criterion.isFineEnough(mt, TriangleId(t), mt.corners(TriangleId(t))))
-        include(remover);
-    }
-    for (std::uint32_t n = 0; n < mt.nodeCount(); ++n)
-      if (in[n])
-        for (const std::uint32_t t : mt.floor(NodeId(n))) include(mt.creator(TriangleId(t)));
-  }
-  return in;
-}
 
 double spanOfErrors(const MultiTriangulation& mt) {
   return mt.nodeCount() ? mt.saturatedError(NodeId(0)) : 1;
 }
 
 TEST(MinimalCut, IsTheLeastClosedSetForUniformErrors) {
-  for (const Sample& s : samples())
+  for (const FamilyModel& s : familyModels())
     for (const double part : {0.0, 0.001, 0.02, 0.1, 0.4, 1.0}) {
       const UniformError criterion(part * spanOfErrors(s.model.mt));
       const auto nodes = takeNodes(s.model.mt, criterion);
@@ -80,7 +32,7 @@ TEST(MinimalCut, IsTheLeastClosedSetForUniformErrors) {
 }
 
 TEST(MinimalCut, IsTheLeastClosedSetForRegions) {
-  for (const Sample& s : samples()) {
+  for (const FamilyModel& s : familyModels()) {
     const Region region({{{5.5, 4}, {17, 6.25}, {12, 19}, {3, 12}}});
     const double span = spanOfErrors(s.model.mt);
     const RegionError criterion(region, s.model.mt.arrays().metric, 0.01 * span, 0.3 * span);
@@ -90,6 +42,39 @@ TEST(MinimalCut, IsTheLeastClosedSetForRegions) {
   }
 }
 
+TEST(MinimalCut, IsTheLeastClosedSetForEveryCriterion) {
+  std::mt19937_64 random(5);
+  for (const FamilyModel& s : familyModels())
+    for (const auto& [name, criterion] : criteriaFor(s.model.mt, random)) {
+      const auto nodes = takeNodes(s.model.mt, *criterion);
+      ASSERT_TRUE(nodes);
+      EXPECT_EQ(nodes->nodes, leastClosedSet(s.model.mt, *criterion)) << s.name << " " << name;
+    }
+}
+
+TEST(SaturatedCut, IsClosedForEveryCriterionThatItTakes) {
+  std::mt19937_64 random(6);
+  for (const FamilyModel& s : familyModels())
+    for (int round = 0; round < 5; ++round)
+      for (const auto& [name, criterion] : criteriaFor(s.model.mt, random)) {
+        if (!criterion->isMonotone()) continue;
+        const auto cut = takeNodes(s.model.mt, *criterion, {.method = CutMethod::saturated});
+        ASSERT_TRUE(cut);
+        NodeSet closed = cut->nodes;
+        closeUpwards(s.model.mt, closed);
+        EXPECT_EQ(closed, cut->nodes) << s.name << " " << name;
+      }
+}
+
+TEST(Cuts, KeepWhatEveryCriterionAsks) {
+  std::mt19937_64 random(7);
+  for (const FamilyModel& s : familyModels())
+    for (const auto& [name, criterion] : criteriaFor(s.model.mt, random)) {
+      SCOPED_TRACE(s.name + " " + name);
+      expectCutsKept(s.model.mt, *criterion);
+    }
+}
+
 TEST(MinimalCut, TakesAnyPredicateAndSaturatedRefusesIt) {
   struct Odd final : Criterion {
     bool isFineEnough(const MultiTriangulation&, TriangleId t,
@@ -97,7 +82,7 @@ TEST(MinimalCut, TakesAnyPredicateAndSaturatedRefusesIt) {
       return t.index() % 3 != 0;
     }
   };
-  for (const Sample& s : samples()) {
+  for (const FamilyModel& s : familyModels()) {
     const auto nodes = takeNodes(s.model.mt, Odd{});
     ASSERT_TRUE(nodes);
     EXPECT_EQ(nodes->nodes, leastClosedSet(s.model.mt, Odd{})) << s.name;
@@ -108,7 +93,7 @@ TEST(MinimalCut, TakesAnyPredicateAndSaturatedRefusesIt) {
 }
 
 TEST(SaturatedCut, HoldsTheMinimalOneAndMeetsTheSameBound) {
-  for (const Sample& s : samples())
+  for (const FamilyModel& s : familyModels())
     for (const double part : {0.0, 0.005, 0.05, 0.3, 1.0}) {
       const double bound = part * spanOfErrors(s.model.mt);
       const auto minimal = takeCut(s.model.mt, UniformError(bound));
@@ -121,7 +106,7 @@ TEST(SaturatedCut, HoldsTheMinimalOneAndMeetsTheSameBound) {
 }
 
 TEST(SaturatedCut, IsClosedForRegionsToo) {
-  for (const Sample& s : samples()) {
+  for (const FamilyModel& s : familyModels()) {
     const double span = spanOfErrors(s.model.mt);
     const RegionError criterion(Region::box({4, 6, 13, 15}), s.model.mt.arrays().metric, 0.005 * span,
                                 0.5 * span);
@@ -140,7 +125,7 @@ TEST(SaturatedCut, IsClosedForRegionsToo) {
 
 TEST(Fronts, AreWhatApplyingTheModificationsOneByOneGives) {
   std::mt19937_64 random(99);
-  for (const Sample& s : samples()) {
+  for (const FamilyModel& s : familyModels()) {
     const MultiTriangulation& mt = s.model.mt;
     NodeSet set(mt.nodeCount(), 0);
     for (std::uint32_t i = 0; i < mt.nodeCount() / 20 + 1 && mt.nodeCount() > 0; ++i)
@@ -165,7 +150,7 @@ TEST(Fronts, AreWhatApplyingTheModificationsOneByOneGives) {
 }
 
 TEST(Fronts, OfAPrefixAreThoseOfTheSameSet) {
-  for (const Sample& s : samples()) {
+  for (const FamilyModel& s : familyModels()) {
     const std::uint32_t n = s.model.mt.nodeCount() / 2;
     NodeSet set(s.model.mt.nodeCount(), 0);
     std::fill(set.begin(), set.begin() + n, std::uint8_t(1));
@@ -178,7 +163,7 @@ TEST(Fronts, OfAPrefixAreThoseOfTheSameSet) {
 }
 
 TEST(Budget, IsNeverExceededAndNearlySpent) {
-  for (const Sample& s : samples()) {
+  for (const FamilyModel& s : familyModels()) {
     const MultiTriangulation& mt = s.model.mt;
     const std::uint32_t roots = mt.rootTriangleCount(), finest = mt.finestTriangleCount();
     for (const double part : {0.0, 0.05, 0.3, 0.8, 1.0})
@@ -198,7 +183,7 @@ TEST(Budget, IsNeverExceededAndNearlySpent) {
 }
 
 TEST(Budget, BelowTheRootIsRefusedWithTheCount) {
-  const Sample& s = samples().front();
+  const FamilyModel& s = familyModels().front();
   for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
     const auto cut = takeCut(s.model.mt, UniformError(0),
                              {.method = method, .maxTriangles = s.model.mt.rootTriangleCount() - 1});
@@ -213,7 +198,7 @@ TEST(Cuts, StopWhenAskedTo) {
   RunContext context;
   context.cancel = &cancel;
   for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
-    const auto cut = takeCut(samples().front().model.mt, UniformError(0), {.method = method}, context);
+    const auto cut = takeCut(familyModels().front().model.mt, UniformError(0), {.method = method}, context);
     ASSERT_FALSE(cut);
     EXPECT_EQ(cut.error().code, ErrorCode::interrupted);
   }
