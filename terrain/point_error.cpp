@@ -103,6 +103,14 @@ SignedBound PointError::alongEdge(std::uint32_t a, std::uint32_t b) const {
     const Vec2 p = plan_.planPosition(v), o = plan_.planPosition(from);
     return (p.x - o.x) * dx + (p.y - o.y) * dy > 0;
   };
+  // A point on the segment travels with one of the two triangles at the edge; the bound of the other needs
+  // it.
+  const auto pass = [&](std::uint32_t v) {
+    if (v == b) return;
+    const Vec2 p = plan_.planPosition(v);
+    const double t = std::clamp(((p.x - pa.x) * dx + (p.y - pa.y) * dy) / squared, 0.0, 1.0);
+    bound.include(heights_[a] + t * (heights_[b] - heights_[a]) - heights_[v]);
+  };
   const auto cross = [&](std::uint32_t u, std::uint32_t w) {
     const double su = std::abs(side(u)), sw = std::abs(side(w));
     if (su + sw == 0) return;
@@ -133,6 +141,7 @@ SignedBound PointError::alongEdge(std::uint32_t a, std::uint32_t b) const {
     } while (h != kNone && h != first);
     if (onward != kNone) {
       at = onward;
+      pass(at);
       continue;
     }
     if (through == kNone) return bound;  // along the hull, within rounding of it: nothing is crossed
@@ -144,6 +153,7 @@ SignedBound PointError::alongEdge(std::uint32_t a, std::uint32_t b) const {
       const int o = plan_.orientation(a, b, apex);
       if (o == 0) {
         at = apex;
+        pass(at);
         break;
       }
       // `across` runs from the left end of the crossed edge to its right end; the apex replaces the end on
