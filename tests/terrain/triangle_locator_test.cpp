@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The parts of a descent: the sign that decides, the lists of root triangles, the chain of triangles.
+#include "terrain/triangle_locator.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "datasets/families.h"
+#include "datasets/random.h"
+#include "terrain/build.h"
+#include "terrain/plan_orientation.h"
+
+namespace arete {
+namespace {
+
+TEST(PlanOrientation, IsExactWherePointsAreAlmostOnALine) {
+  __extension__ using Wide = __int128;
+  Random random(3);
+  const auto whole = [&](std::int64_t most) {
+    return static_cast<std::int64_t>(random.unit() * double(most));
+  };
+  int zeros = 0;
+  for (int i = 0; i < 20000; ++i) {
+    // Multiples of 2^-20, all of 50 bits: a and b far apart, c one step or none off a point of their line.
+    const std::int64_t ax = whole(1LL << 24), ay = whole(1LL << 24), dx = whole(1LL << 22) + 1,
+                       dy = whole(1LL << 22);
+    const std::int64_t at = whole(1 << 20);
+    const std::int64_t bx = ax + (dx << 20), by = ay + (dy << 20);
+    const std::int64_t cx = ax + dx * at + whole(3) - 1, cy = ay + dy * at + whole(3) - 1;
+    const Wide turn = Wide(bx - ax) * (cy - ay) - Wide(by - ay) * (cx - ax);
+    const int expected = (turn > 0) - (turn < 0);
+    const auto point = [](std::int64_t x, std::int64_t y) {
+      return Vec2{std::ldexp(double(x), -20), std::ldexp(double(y), -20)};
+    };
+    const Vec2 a = point(ax, ay), b = point(bx, by), c = point(cx, cy);
+    ASSERT_EQ(planOrientation(a, b, c), expected) << i;
+    ASSERT_EQ(planOrientation(b, c, a), expected) << i;
+    ASSERT_EQ(planOrientation(b, a, c), -expected) << i;
+    zeros += expected == 0;
+  }
+  EXPECT_GT(zeros, 100);
+}
+
+TEST(PlanOrientation, SurvivesTheSmallestAndTheLargestNumbers) {
+  const double tiny = std::numeric_limits<double>::denorm_min(), large = 1e300;
+  EXPECT_EQ(planOrientation({0, 0}, {tiny, 0}, {0, tiny}), 1);
+  EXPECT_EQ(planOrientation({0, 0}, {tiny, tiny}, {2 * tiny, 2 * tiny}), 0);
+  EXPECT_EQ(planOrientation({0, 0}, {large, 0}, {0, large}), 1);
+  EXPECT_EQ(planOrientation({-large, -large}, {large, large}, {0, -large}), -1);
+}
+
+/// Distance of a point to a closed triangle, the plain way.
+double plainDistance(const std::array<Vec2, 3>& t, Vec2 p) {
+  bool isInside = true;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const Vec2 a = t[i], b = t[(i + 1) % 3];
+    isInside = isInside && (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) >= 0;
+    for (int k = 0; k <= 1000; ++k)
+      least =
+          std::min(least, std::hypot(a.x + (b.x - a.x) * k / 1000 - p.x, a.y + (b.y - a.y) * k / 1000 - p.y));
+  }
+  return isInside ? 0 : least;
+}
+
+TEST(RootGrid, ListsEveryTriangleWithinTheMargin) {
+  std::size_t largestRoot = 0;
+  for (const RasterFamily& family : rasterFamilies()) {
+    const auto model = build(family.make(70, 40, 5));
+    ASSERT_TRUE(model) << family.name;
+    const MultiTriangulation& mt = model->mt;
+    largestRoot = std::max<std::size_t>(largestRoot, mt.rootTriangleCount());
+    const double margin = 0.3;
+    const RootGrid grid(mt, margin);
+    Random random(1);
+    for (int i = 0; i < 100; ++i) {
+      const Vec2 p = {random.unit() * 72 - 1, random.unit() * 42 - 1};
+      const auto listed = grid.near(p);
+      EXPECT_TRUE(std::is_sorted(listed.begin(), listed.end()));
+      for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) {
+        std::array<Vec2, 3> corners;
+        for (int k = 0; k < 3; ++k)
+          corners[k] = mt.vertices().planPosition(VertexId(mt.arrays().rootTriangles[t][k]));
+        if (plainDistance(corners, p) < margin) {
+          ASSERT_TRUE(std::binary_search(listed.begin(), listed.end(), t))
+              << family.name << " triangle " << t << " at " << p.x << ", " << p.y;
+        }
+      }
+    }
+  }
+  EXPECT_GT(largestRoot, 100u) << "no family has a root that needs a grid";
+}
+
+TEST(TriangleLocator, WalksThroughTrianglesThatEachHoldThePlace) {
+  for (const RasterFamily& family : rasterFamilies()) {
+    const auto model = build(family.make(50, 45, 9));
+    ASSERT_TRUE(model) << family.name;
+    const TriangleLocator locator(model->mt);
+    Random random(2);
+    for (int i = 0; i < 400; ++i) {
+      // Quarters: many places on edges and vertices.
+      const Vec2 p = {std::floor(random.unit() * 200) / 4, std::floor(random.unit() * 180) / 4};
+      NodeId last;
+      for (auto t = locator.inRoot(p); t; t = locator.finer(*t, p)) {
+        const auto corners = model->mt.corners(t->triangle);
+        ASSERT_EQ(corners, t->corners);
+        for (int k = 0; k < 3; ++k) {
+          const Vec2 a = locator.planPosition(corners[k]), b = locator.planPosition(corners[(k + 1) % 3]);
+          ASSERT_GE((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x), 0) << family.name;
+        }
+        const NodeId creator = model->mt.creator(t->triangle);
+        if (last.isValid()) {
+          ASSERT_TRUE(creator.isValid());
+          ASSERT_GT(creator, last) << "steps go to younger nodes";
+        }
+        if (creator.isValid()) last = creator;
+        if (locator.isFinest(*t)) break;
+        ASSERT_TRUE(locator.finer(*t, p)) << family.name << ": lost on the way";
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace arete
