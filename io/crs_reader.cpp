@@ -67,15 +67,6 @@ std::string nameOf(const OGRSpatialReference& crs) {
   return crs.GetName() ? crs.GetName() : "unnamed";
 }
 
-std::string toWkt2(const OGRSpatialReference& crs) {
-  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
-  char* text = nullptr;
-  std::string wkt;
-  if (crs.exportToWkt(&text, options) == OGRERR_NONE && text) wkt = text;
-  CPLFree(text);
-  return wkt;
-}
-
 void describeVertical(const OGRSpatialReference& crs, Georeference& georeference) {
   if (crs.IsCompound()) {
     if (const char* name = crs.GetAttrValue("VERT_CS")) georeference.verticalDatum = name;
@@ -97,6 +88,15 @@ void describeVertical(const OGRSpatialReference& crs, Georeference& georeference
 }
 
 }  // namespace
+
+std::string wktOf(const OGRSpatialReference& crs) {
+  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+  char* text = nullptr;
+  std::string wkt;
+  if (crs.exportToWkt(&text, options) == OGRERR_NONE && text) wkt = text;
+  CPLFree(text);
+  return wkt;
+}
 
 std::optional<double> metresPerUnit(std::string_view name) {
   std::string lower(name);
@@ -145,7 +145,7 @@ Status describeCrs(const OGRSpatialReference& crs, Georeference& georeference) {
   if (crs.IsGeocentric())
     return failure(ErrorCode::unsupported,
                    fmt::format("the CRS {} is geocentric: its x, y are no plan positions", nameOf(crs)));
-  georeference.crsWkt = toWkt2(crs);
+  georeference.crsWkt = wktOf(crs);
 
   OGRSpatialReference horizontal = crs;
   horizontal.StripVertical();

@@ -17,6 +17,9 @@ namespace arete {
 /// PROJJSON, a PROJ string, a .prj file). Errors: usage, naming the text; a vertical CRS alone is one too.
 Result<OGRSpatialReference> crsFromText(const std::string& text);
 
+/// WKT 2 of a CRS; empty for one that has none.
+std::string wktOf(const OGRSpatialReference& crs);
+
 /// The CRS to use: the stated one where `text` names one (with a warning where it replaces another), else the
 /// file's own, which may be null. An empty CRS = none.
 Result<OGRSpatialReference> chooseCrs(const OGRSpatialReference* own, const std::string& text,

@@ -6,10 +6,10 @@
 #include <ogr_spatialref.h>
 
 #include <cmath>
-#include <memory>
 #include <utility>
 
 #include "io/crs_reader.h"
+#include "io/crs_transform.h"
 #include "io/gdal_support.h"
 #include "io/point_text.h"
 #include "io/vector_layer.h"
@@ -17,51 +17,30 @@
 namespace arete {
 namespace {
 
-struct TransformationCloser {
-  void operator()(OGRCoordinateTransformation* t) const { OGRCoordinateTransformation::DestroyCT(t); }
-};
-using TransformationPtr = std::unique_ptr<OGRCoordinateTransformation, TransformationCloser>;
-
-/// Null where coordinates stay as they are.
-Result<TransformationPtr> transformation(const OGRSpatialReference* own, const std::string& targetCrs,
-                                         std::vector<std::string>& warnings) {
-  const bool hasOwn = own && !own->IsEmpty();
-  if (!hasOwn && targetCrs.empty()) return TransformationPtr();
-  if (!hasOwn) {
-    warnings.push_back("has no CRS; its coordinates are taken as the DEM's");
-    return TransformationPtr();
+Result<CrsTransform> transformation(const OGRSpatialReference* own, const std::string& targetCrs,
+                                    std::vector<std::string>& warnings) {
+  if (!own || own->IsEmpty()) {
+    if (!targetCrs.empty()) warnings.push_back("has no CRS; its coordinates are taken as the DEM's");
+    return CrsTransform();
   }
   if (targetCrs.empty())
     return failure(ErrorCode::invalidData,
                    "has a CRS and the DEM has none, so they cannot be brought together; --crs states the "
                    "DEM's");
-  auto target = crsFromText(targetCrs);
-  if (!target) return tl::unexpected(target.error());
-  OGRSpatialReference source = *own;
-  source.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  source.StripVertical();
-  target->StripVertical();
-  if (source.IsSame(&*target)) return TransformationPtr();
-  GdalErrors errors;
-  TransformationPtr result(OGRCreateCoordinateTransformation(&source, &*target));
-  if (!result)
-    return failure(ErrorCode::invalidData,
-                   fmt::format("there is no way from its CRS to that of the DEM: {}", errors.firstFailure()));
-  return result;
+  return CrsTransform::between(wktOf(*own), targetCrs);
 }
 
-Status addPoint(const OGRPoint& point, OGRCoordinateTransformation* toTarget, std::vector<Vec2>& positions) {
+Status addPoint(const OGRPoint& point, const CrsTransform& toTarget, std::vector<Vec2>& positions) {
   if (point.IsEmpty()) return {};
-  Vec2 p{point.getX(), point.getY()};
-  if ((toTarget && !toTarget->Transform(1, &p.x, &p.y)) || !std::isfinite(p.x) || !std::isfinite(p.y))
+  const auto p = toTarget({point.getX(), point.getY()});
+  if (!p || !std::isfinite(p->x) || !std::isfinite(p->y))
     return failure(ErrorCode::invalidData,
                    fmt::format("the CRS of the DEM cannot tell the point {} {}", point.getX(), point.getY()));
-  positions.push_back(p);
+  positions.push_back(*p);
   return {};
 }
 
-Status addGeometry(const OGRGeometry& geometry, OGRCoordinateTransformation* toTarget,
-                   std::vector<Vec2>& positions) {
+Status addGeometry(const OGRGeometry& geometry, const CrsTransform& toTarget, std::vector<Vec2>& positions) {
   const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
   if (type == wkbPoint) return addPoint(*geometry.toPoint(), toTarget, positions);
   if (type != wkbMultiPoint)
@@ -93,7 +72,7 @@ Result<PlanPoints> readFrom(const std::string& path, const std::string& targetCr
     while (const OGRFeatureUniquePtr feature{(*layer)->GetNextFeature()}) {
       if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
       if (const OGRGeometry* geometry = feature->GetGeometryRef())
-        if (Status added = addGeometry(*geometry, toTarget->get(), read.positions); !added)
+        if (Status added = addGeometry(*geometry, *toTarget, read.positions); !added)
           return tl::unexpected(added.error());
     }
     if (errors.anyFailure())

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "engine/result.h"
+#include "engine/vec.h"
+#include "io/crs_transform.h"
+#include "terrain/surface_height.h"
+
+namespace arete {
+
+/// What the height of a position is counted from.
+enum class HeightKind {
+  aboveGround,  ///< agl: the terrain at full resolution
+  seaLevel,     ///< msl: the geoid, as the heights of most DEMs
+  ellipsoidal,  ///< ell
+};
+std::string_view toString(HeightKind kind);
+
+/// A position in space as a person states it.
+struct PositionArgument {
+  Vec2 xy;            ///< in the DEM's CRS
+  double height = 0;  ///< in the DEM's vertical unit
+  HeightKind kind = HeightKind::aboveGround;
+};
+
+/// The place "X,Y". `toDem` brings what was typed into the DEM's CRS: CrsTransform::fromLonLat() for
+/// longitude and latitude, CrsTransform() for the DEM's own coordinates. `option` is named in errors. Errors:
+/// usage.
+Result<Vec2> readPlaceArgument(const std::string& option, const std::string& text, const CrsTransform& toDem);
+
+/// The position "X,Y,H", "X,Y,Hagl", "X,Y,Hmsl" or "X,Y,Hell"; without a word H is above ground. Errors:
+/// usage.
+Result<PositionArgument> readPositionArgument(const std::string& option, const std::string& text,
+                                              const CrsTransform& toDem);
+
+/// The height of a position in the terms of the DEM's own heights. Above ground needs terrain below it; msl
+/// is the DEM's own unless the DEM says that its heights are ellipsoidal, ell if it says so. Errors:
+/// invalidData (no terrain below a height above ground), usage (msl and ell where the DEM has the other one).
+Result<double> demHeight(const PositionArgument& position, const SurfaceHeights& heights);
+
+}  // namespace arete
