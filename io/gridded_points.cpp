@@ -29,6 +29,8 @@ std::optional<Axis> regularAxis(std::vector<double> values, std::size_t largestC
   if (values.size() < 2 || values.size() > largestCount) return std::nullopt;
   const Axis axis{values.front(), (values.back() - values.front()) / double(values.size() - 1),
                   values.size()};
+  // Coordinates at the ends of what doubles hold have no step between them.
+  if (!std::isnormal(axis.step) || !std::isfinite(axis.step * double(axis.count))) return std::nullopt;
   for (std::size_t i = 0; i < values.size(); ++i)
     if (std::abs(values[i] - (axis.first + double(i) * axis.step)) > kStepTolerance * axis.step)
       return std::nullopt;
@@ -50,7 +52,7 @@ std::optional<RasterHeightfield> asRaster(const PointHeightfield& points) {
   const auto x = axisOf(points, &Vec2::x);
   if (!x) return std::nullopt;
   const auto y = axisOf(points, &Vec2::y);
-  if (!y || x->count * y->count > 2 * points.size()) return std::nullopt;
+  if (!y || x->count * y->count > 2 * points.size() || !std::isnormal(x->step * y->step)) return std::nullopt;
 
   RasterHeightfield raster;
   raster.columns = std::uint32_t(x->count);
