@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -21,13 +20,15 @@
 #include <string_view>
 
 #include "io/gdal_support.h"
+#include "io/text_scan.h"
 
 namespace arete {
 namespace {
 
-constexpr std::size_t kChunkBytes = std::size_t(1) << 22;
+constexpr std::size_t kMostChunkBytes = std::size_t(1) << 22;
 constexpr std::size_t kLongestLine = std::size_t(1) << 20;
 constexpr std::size_t kQuotedCharacters = 60;
+constexpr std::size_t kColumnsNamed = 20, kCharactersOfColumn = 30;
 constexpr char kSpaces = ' ';
 
 struct FileCloser {
@@ -51,8 +52,7 @@ std::string_view unquoted(std::string_view text) {
 }
 
 std::string quoted(std::string_view text) {
-  return fmt::format("'{}{}'", text.substr(0, kQuotedCharacters),
-                     text.size() > kQuotedCharacters ? "..." : "");
+  return fmt::format("'{}'", text::printable(text, kQuotedCharacters));
 }
 
 std::string lower(std::string_view text) {
@@ -95,15 +95,21 @@ std::vector<std::string_view> fieldsOf(std::string_view line, char separator) {
   return fields;
 }
 
-std::optional<double> parseNumber(std::string_view text) {
-  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
+/// The first columns by name, for a message.
+std::string columnNames(std::span<const std::string_view> fields) {
+  std::string names;
+  for (std::size_t i = 0; i < std::min(fields.size(), kColumnsNamed); ++i)
+    names += (i > 0 ? ", " : "") + text::printable(fields[i], kCharactersOfColumn);
+  if (fields.size() > kColumnsNamed) names += fmt::format(" and {} more", fields.size() - kColumnsNamed);
+  return names;
+}
+
+std::optional<double> parseNumber(std::string_view field) {
+  if (field.starts_with("+-")) return std::nullopt;
+  const char* at = field.data();
+  const char* const end = at + field.size();
   double value = 0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end != text.data() + text.size()) return std::nullopt;
-  // Out of range is a number all the same; which way it left the range is seen from its exponent.
-  if (status == std::errc::result_out_of_range)
-    return lower(text).find("e-") != std::string::npos ? 0 : HUGE_VAL;
-  return status == std::errc() ? std::optional(value) : std::nullopt;
+  return text::scanNumber(at, end, value) && at == end ? std::optional(value) : std::nullopt;
 }
 
 /// Which fields of a line are x, y, z.
@@ -138,12 +144,12 @@ Result<Columns> columnsByName(std::span<const std::string_view> fields, const st
                               : findColumn(fields, std::array<std::string_view, 1>{wanted});
     if (!z)
       return failure(ErrorCode::usage,
-                     fmt::format("has no column '{}'; its columns: {}", zColumn, fmt::join(fields, ", ")));
+                     fmt::format("has no column '{}'; its columns: {}", zColumn, columnNames(fields)));
   }
   if (x && y && z) return Columns{{*x, *y, *z}};
   if (!x && !y && (!z || zColumn.empty()) && !z && fields.size() >= 3) {
-    warnings.push_back(fmt::format("no column is named x, y or z; the first three are taken: {}, {}, {}",
-                                   fields[0], fields[1], fields[2]));
+    warnings.push_back(fmt::format("no column is named x, y or z; the first three are taken: {}",
+                                   columnNames(fields.first(3))));
     return Columns{};
   }
   return failure(ErrorCode::invalidData,
@@ -151,7 +157,7 @@ Result<Columns> columnsByName(std::span<const std::string_view> fields, const st
                              !x   ? "x"
                              : !y ? "y"
                                   : "the height",
-                             x && y ? " (--z-field names one)" : "", fmt::join(fields, ", ")));
+                             x && y ? " (--z-field names one)" : "", columnNames(fields)));
 }
 
 class TextParser {
@@ -259,6 +265,8 @@ Result<PointRows> readPointText(const std::string& path, const std::string& zCol
   VSIStatBufL status;
   const double size = VSIStatL(path.c_str(), &status) == 0 ? double(status.st_size) : 0;
 
+  // One more than a small file has, so that its end is seen at once.
+  const std::size_t chunkBytes = size > 0 && size < kMostChunkBytes ? std::size_t(size) + 1 : kMostChunkBytes;
   TextParser parser(path, zColumn, columns, warnings);
   std::string buffer;
   double bytesRead = 0;
@@ -266,11 +274,11 @@ Result<PointRows> readPointText(const std::string& path, const std::string& zCol
     if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped", path);
     context.report("reading", size > 0 ? std::min(1.0, bytesRead / size) : 0);
     const std::size_t kept = buffer.size();
-    buffer.resize(kept + kChunkBytes);
-    const std::size_t got = VSIFReadL(buffer.data() + kept, 1, kChunkBytes, file.get());
+    buffer.resize(kept + chunkBytes);
+    const std::size_t got = VSIFReadL(buffer.data() + kept, 1, chunkBytes, file.get());
     buffer.resize(kept + got);
     bytesRead += double(got);
-    more = got == kChunkBytes;
+    more = got == chunkBytes;
     std::string_view text = buffer;
     if (first && text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
     while (!text.empty()) {

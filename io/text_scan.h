@@ -40,6 +40,15 @@ inline bool scanNumber(const char*& at, const char* end, double& value) {
   return true;
 }
 
+/// Text of a file for a message: cut to `longest` bytes, control characters replaced, so that no file can
+/// talk to a terminal.
+inline std::string printable(std::string_view text, std::size_t longest) {
+  std::string result(text.substr(0, longest));
+  for (char& c : result)
+    if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
+  return text.size() > longest ? result + "..." : result;
+}
+
 /// A token for a message: short, and printable.
 inline std::string quotedToken(std::string_view token) {
   constexpr std::size_t kLongest = 40;

@@ -111,9 +111,30 @@ TEST(PointText, NamesFileLineAndTextOfAnError) {
     EXPECT_EQ(error.culprit, fmt::format("{}:{}", path, c.line));
     EXPECT_TRUE(contains(error.message, c.offending)) << error.describe();
   }
+  EXPECT_TRUE(contains(errorOf(folder.write("bad.csv", "1,2,\x1b[2J3\n")).message, "'?[2J3'"))
+      << "no file talks to a terminal";
   const Error noHeight = errorOf(folder.write("bad.csv", "x,y,colour\n1,2,3\n"));
   EXPECT_TRUE(contains(noHeight.message, "x, y, colour")) << noHeight.describe();
   EXPECT_EQ(errorOf(folder.write("none.csv", "x,y,z\n")).code, ErrorCode::invalidData);
+}
+
+TEST(PointText, RoundsNumbersThatLeaveTheRangeOfDoubles) {
+  TemporaryFolder folder;
+  const std::string zeros(400, '0');
+  const std::string text = "1e-400,0." + zeros + "1,1" + zeros + "e-399\n2,-1e-999,3\n7,8,9\n";
+  const PointRead read = readOrFail(folder.write("points.csv", text));
+  EXPECT_EQ(read.heightfield.positions, (std::vector<Vec2>{{0, 0}, {2, 0}, {7, 8}}));
+  EXPECT_EQ(read.heightfield.heights, (std::vector<double>{10, 3, 9}));
+  const Error error = errorOf(folder.write("points.csv", "1,2,1" + zeros + "e-50\n"));
+  EXPECT_TRUE(contains(error.message, "is not a finite number")) << error.describe();
+}
+
+TEST(PointText, NamesAFewOfManyColumns) {
+  TemporaryFolder folder;
+  std::string text = "x,y";
+  for (int i = 0; i < 5000; ++i) text += fmt::format(",column {}", i);
+  const Error error = errorOf(folder.write("points.csv", text + "\n1,2\n"));
+  EXPECT_TRUE(contains(error.message, "column 17 and 4982 more")) << error.describe();
 }
 
 TEST(PointText, ReadsLinesAcrossChunks) {
@@ -332,7 +353,14 @@ TEST(DemReader, ReadsTextOnARegularGridAsARasterOfDoubles) {
   EXPECT_TRUE(raster.validate());
   EXPECT_TRUE(contains(joined(read.warnings), "5 columns and 4 rows")) << joined(read.warnings);
 
-  // A few points that happen to stand on a lattice are points.
+  // Points whose steps no double can hold are points.
+  for (const char* wide : {"-1.7e308 0 1\n1.7e308 0 2\n-1.7e308 1 3\n1.7e308 1 4\n",
+                           "0 0 1\n5e-324 0 2\n0 5e-324 3\n5e-324 5e-324 4\n",
+                           "0 0 1\n1e-200 0 2\n0 1e-200 3\n1e-200 1e-200 4\n"})
+    EXPECT_TRUE(
+        std::holds_alternative<PointHeightfield>(demOrFail(folder.write("wide.csv", wide)).heightfield));
+
+  // So are a few points that happen to stand on a lattice.
   EXPECT_TRUE(std::holds_alternative<PointHeightfield>(
       demOrFail(folder.write("few.csv", "0,0,1\n1,3,1\n2,1,5\n3,2,4\n4,4,4\n")).heightfield));
 }
