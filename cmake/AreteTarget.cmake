@@ -28,6 +28,13 @@ if(ARETE_SANITIZE)
   target_compile_options(arete_options INTERFACE -fsanitize=${ARETE_SANITIZE} -fno-omit-frame-pointer -g)
   target_link_options(arete_options INTERFACE -fsanitize=${ARETE_SANITIZE})
 endif()
+if(ARETE_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR "ARETE_FUZZ needs clang, whose libFuzzer it uses: cmake --preset fuzz")
+  endif()
+  # fuzzer-no-link: every layer tells the fuzzer which of its branches an input took.
+  target_compile_options(arete_options INTERFACE -fsanitize=fuzzer-no-link -fno-sanitize-recover=all)
+endif()
 
 function(arete_include_root LAYER)
   set(root "${CMAKE_BINARY_DIR}/include/${LAYER}")

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A file is opened; then its checksums and its indices are checked, each whatever the other says; and where
+// the indices are in range, everything is asked of the model that the commands ask. What a wrong file answers
+// does not matter; that it answers within its arrays does.
+#include <cmath>
+
+#include "engine/criterion.h"
+#include "engine/cut.h"
+#include "fuzz/harness.h"
+#include "io/amt_file.h"
+#include "io/export_tin.h"
+#include "terrain/error_curve.h"
+#include "terrain/validate_model.h"
+
+namespace {
+
+using namespace arete;
+
+/// The source's samples are as many as the file says: a few bytes may stand for a large raster without data.
+constexpr std::uint64_t kMostSamples = 1 << 14;
+
+void requireSound(const MultiTriangulation& mt, const Result<Cut>& cut) {
+  if (!cut) return fuzz::requireClear(cut.error());
+  bool isSound = cut->ids.size() == cut->triangles.size();
+  for (const std::uint32_t v : cut->vertices) isSound = isSound && v < mt.vertexCount();
+  for (const std::uint32_t t : cut->ids) isSound = isSound && t < mt.triangleIdCount();
+  for (const auto& corners : cut->triangles)
+    for (const std::uint32_t v : corners) isSound = isSound && v < cut->vertices.size();
+  fuzz::require(isSound, "a cut names nothing that is not there");
+}
+
+void takeCuts(const TerrainModel& model, const RunContext& context) {
+  const MultiTriangulation& mt = model.mt;
+  const double rootError = mt.nodeCount() > 0 ? mt.saturatedError(NodeId(0)) : 0;
+  for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated})
+    for (const double error : {0.0, rootError / 4, HUGE_VAL}) {
+      const RegionError corner(Region::box({0, 0, 3, 2}), mt.arrays().metric, error, 2 * error + 1);
+      requireSound(mt, takeCut(mt, corner, {method, {}}, context));
+      requireSound(mt, takeCut(mt, corner, {method, mt.rootTriangleCount() + 7}, context));
+      requireSound(mt, takeCut(mt, UniformError(error), {method, mt.rootTriangleCount() + 20}, context));
+      const auto cut = takeCut(mt, UniformError(error), {method, {}}, context);
+      requireSound(mt, cut);
+      if (cut) exportTin(model, *cut);
+    }
+}
+
+void describe(const TerrainModel& model, const RunContext& context) {
+  const MultiTriangulation& mt = model.mt;
+  const auto ladder = toleranceLadder(mt, 12);
+  const auto curve = errorCurve(mt, ladder, context);
+  fuzz::require(curve && curve->size() == ladder.size(), "the curve has a point for each tolerance");
+  fuzz::require(mt.triangleCount() >= mt.finestTriangleCount(), "no front has more than all triangles");
+}
+
+void use(const TerrainModel& model, const RunContext& context) {
+  describe(model, context);
+  takeCuts(model, context);
+  if (model.isRaster && std::uint64_t{model.columns} * model.rows > kMostSamples) return;
+  const Status valid = validateModel(model, {.randomFronts = 2, .seed = 1}, context);
+  fuzz::require(valid || !valid.error().message.empty(), "a broken law is named");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const fuzz::MemoryFile memory;
+  memory.set({data, size});
+  const RunContext context = fuzz::oneThread();
+  const auto file = openAmt(memory.path());
+  if (!file) {
+    fuzz::requireClear(file.error());
+    return 0;
+  }
+  if (const Status same = checkAmtChecksums(*file, context); !same) fuzz::requireClear(same.error());
+  const Status inRange = checkAmtIndices(*file, context);
+  if (!inRange) {
+    fuzz::requireClear(inRange.error());
+    return 0;
+  }
+  const auto model = loadAmt(memory.path(), {AmtVerify::indices, {}}, context);
+  fuzz::require(model.has_value(), "a file whose indices are in range loads");
+  use(*model, context);
+  return 0;
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Text of points: read as points with heights, as a grid where they fill one, by a named column of heights,
+// and as plan positions. Other files of points are read by GDAL, which has fuzzers of its own.
+#include <cpl_vsi.h>
+
+#include <cmath>
+
+#include "fuzz/harness.h"
+#include "io/gridded_points.h"
+#include "io/point_reader.h"
+#include "io/point_text.h"
+
+namespace {
+
+using namespace arete;
+
+/// Bytes under a name of GDAL's own file system in memory, through which texts are read.
+class VirtualFile {
+ public:
+  VirtualFile(const char* path, const std::uint8_t* data, std::size_t size) : path_(path) {
+    // Not written to: the readers open it for reading.
+    VSIFCloseL(VSIFileFromMemBuffer(path, const_cast<GByte*>(data), size, FALSE));
+  }
+  ~VirtualFile() { VSIUnlink(path_); }
+  VirtualFile(const VirtualFile&) = delete;
+  VirtualFile& operator=(const VirtualFile&) = delete;
+
+ private:
+  const char* path_;
+};
+
+void usePoints(const Result<PointRead>& read) {
+  if (!read) return fuzz::requireClear(read.error());
+  fuzz::requireClear(read->warnings);
+  const PointHeightfield& points = read->heightfield;
+  fuzz::require(points.validate().has_value() && points.size() > 0, "points that were read are finite");
+  if (const auto raster = asRaster(points)) {
+    fuzz::require(raster->validate().has_value(), "a grid of points is a valid raster");
+    std::size_t valid = 0;
+    for (const double height : raster->heights) valid += std::isnan(height) ? 0 : 1;
+    fuzz::require(valid == points.size(), "a grid of points has each of them once");
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  constexpr const char* kPath = "/vsimem/fuzz/points.csv";
+  constexpr const char* kNameless = "/vsimem/fuzz/points";
+  const RunContext context = fuzz::oneThread();
+  {
+    const VirtualFile file(kPath, data, size);
+    usePoints(readPoints(kPath, {}, context));
+    PointReadOptions options;
+    options.zField = "depth";
+    options.nodata = -9999;
+    usePoints(readPoints(kPath, options, context));
+    std::vector<std::string> warnings;
+    const auto plan = readPointText(kPath, {}, warnings, context, PointTextColumns::plan);
+    fuzz::requireClear(warnings);
+    if (!plan) fuzz::requireClear(plan.error());
+  }
+  const VirtualFile file(kNameless, data, size);
+  looksLikePointText(kNameless);
+  return 0;
+}

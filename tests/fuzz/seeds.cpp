@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// fuzz_seeds FOLDER: what Arete's own writers make, one folder per fuzz program, for the fuzzers to start
+// from. What no writer of ours makes is kept in tests/fuzz/corpus.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "datasets/families.h"
+#include "engine/cut.h"
+#include "io/amt_file.h"
+#include "io/export_tin.h"
+#include "io/mesh_file.h"
+#include "terrain/build.h"
+
+namespace {
+
+using namespace arete;
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t kSide = 6, kPoints = 24;
+
+std::string fileName(std::string_view family) {
+  std::string name(family);
+  std::replace(name.begin(), name.end(), ' ', '-');
+  return name;
+}
+
+void check(const Status& status) {
+  if (status) return;
+  fmt::print(stderr, "fuzz_seeds: {}\n", status.error().describe());
+  std::exit(1);
+}
+
+void writeModel(const fs::path& folder, const std::string& name, const Result<TerrainModel>& model) {
+  if (!model) return;  // a family that is degenerate at this size
+  check(writeAmt(folder / "amt" / (name + ".amt"), *model, {}, {.writer = "Arete"}));
+  const MultiTriangulation& mt = model->mt;
+  const TinExport tin = exportTin(*model, frontOfPrefix(mt, mt.nodeCount() / 2));
+  const MeshWriteOptions options{.crsWkt = "LOCAL_CS[\"seed\"]",
+                                 .verticalUnit = "metre",
+                                 .triangleErrors = tin.errors,
+                                 .notes = {"a seed"}};
+  for (const MeshFormat& format : meshFormats()) {
+    if (!format.write || !format.read) continue;
+    const fs::path kind = folder / format.extension.substr(1);
+    fs::create_directories(kind);
+    check(writeMesh(tin.mesh, kind / (name + std::string(format.extension)), options));
+  }
+}
+
+void writePoints(const fs::path& folder, const std::string& name, const PointHeightfield& points) {
+  std::ofstream csv(folder / "points" / (name + ".csv"));
+  csv << "x,y,z\n";
+  for (std::size_t i = 0; i < points.size(); ++i)
+    csv << fmt::format("{},{},{}\n", points.positions[i].x, points.positions[i].y, points.heights[i]);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fputs("usage: fuzz_seeds FOLDER\n", stderr);
+    return 2;
+  }
+  const fs::path folder = argv[1];
+  for (const char* const kind : {"amt", "points"}) fs::create_directories(folder / kind);
+  for (const RasterFamily& family : rasterFamilies()) {
+    const RasterHeightfield raster = family.make(kSide, kSide, 1);
+    const std::string name = fileName(family.name);
+    writeModel(folder, name, build(raster));
+    writeModel(folder, name + "-fidelity", build(raster, {.shape = HoleShape::fidelity}));
+    writeModel(folder, name + "-rims", build(raster, {.rimTolerance = 1}));
+  }
+  for (const PointFamily& family : pointFamilies()) {
+    const PointHeightfield points = family.make(kPoints, 1);
+    writeModel(folder, "points-" + fileName(family.name), build(points));
+    writePoints(folder, fileName(family.name), points);
+  }
+  return 0;
+}
