@@ -14,6 +14,7 @@
 #include "cli/arguments.h"
 #include "io/amt_file.h"
 #include "io/extract_tin.h"
+#include "io/mesh_file.h"
 #include "io/region_argument.h"
 #include "io/report_json.h"
 #include "terrain/plan_region.h"
@@ -175,6 +176,25 @@ std::string textOf(const ExtractRequest& request, const ExtractedTin& tin, const
   return text + "\n";
 }
 
+/// A promise below what the numbers of the format can hold is not kept to the last digit.
+void warnOfRounding(const ExtractedTin& tin, const std::string& output, const std::string& unit,
+                    const Session& session) {
+  const double rounding = tin.format.heightRounding;
+  constexpr double kForgiven = 1e-6;
+  if (!tin.measured && rounding > kForgiven && tin.storedError + rounding > tin.promisedError + kForgiven)
+    session.warn(fmt::format("{}: {} rounds heights by up to {}, which a promise of {} does not allow for",
+                             output, tin.format.name, withUnit(rounding, unit),
+                             withUnit(tin.promisedError, unit)));
+}
+
+std::string brokenPromise(const ExtractedTin& tin) {
+  std::string sentence =
+      fmt::format("the measurement of the exported TIN contradicts the promised error {}", tin.promisedError);
+  if (tin.format.heightRounding > 0)
+    sentence += fmt::format("; {} rounds heights by up to {}", tin.format.name, tin.format.heightRounding);
+  return sentence;
+}
+
 Status runExtract(const ExtractArguments& arguments, Session& session) {
   if (arguments.maxErrors.empty() && arguments.maxTriangles < 0)
     return failure(ErrorCode::usage, "either --max-error or --max-triangles says how fine the TIN shall be");
@@ -195,13 +215,11 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
     request.region = *region;
     const Result<ExtractedTin> tin = extractor.extract(request, session.context());
     if (!tin) return tl::unexpected(tin.error());
+    warnOfRounding(*tin, request.output, model->georeference.verticalUnit, session);
     session.say(textOf(request, *tin, model->georeference.verticalUnit));
     exports.push_back(jsonOf(request, *tin, model->isRaster));
     if (!tin->isKept && promise)
-      promise = failure(ErrorCode::brokenPromise,
-                        fmt::format("the measurement of the exported TIN contradicts the promised error {}",
-                                    tin->promisedError),
-                        request.output);
+      promise = failure(ErrorCode::brokenPromise, brokenPromise(*tin), request.output);
   }
   session.answer({{"model", arguments.model},
                   {"verticalUnit", model->georeference.verticalUnit},
@@ -225,8 +243,9 @@ void addExtractCommand(CLI::App& app, Session& session) {
   command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
   command
       ->add_option("-o,--output", arguments->output,
-                   "File to write: .ply, .obj, or .tif (the TIN sampled on the source grid). {} in the name "
-                   "is the tolerance; with several and no {}, _E goes before the extension")
+                   "File to write: " + writableMeshExtensions() +
+                       ", or .tif (the TIN sampled on the source grid). {} in the name is the tolerance; "
+                       "with several and no {}, _E goes before the extension")
       ->required()
       ->type_name("FILE");
   CLI::Option* errors =

@@ -84,6 +84,7 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
   if (!mask) return tl::unexpected(mask.error());
   MeasureOptions options;
   options.mask = *mask;
+  options.planRounding = {tin.frame.rounding.x, tin.frame.rounding.y};
   MeasureRasters rasters;
   const Result<MeasureReport> report = measure(tin.mesh, field, options, session.context(),
                                                arguments.errorRaster.empty() ? nullptr : &rasters);
@@ -152,7 +153,9 @@ void addMeasureCommand(CLI::App& app, Session& session) {
       "  arete measure tin.obj dem.tif --json --error-raster error.tif\n"
       "  arete measure tin.ply dem.tif --expect 1 --region park.gpkg",
       [arguments](Session& s) { return runMeasure(*arguments, s); });
-  command->add_option("TIN", arguments->tin, "A triangle mesh: .ply, .obj")->required()->type_name("");
+  command->add_option("TIN", arguments->tin, "A triangle mesh: " + readableMeshExtensions())
+      ->required()
+      ->type_name("");
   command->add_option("DEM", arguments->dem.path, "What it shall be near to")->required()->type_name("");
   command
       ->add_option("--expect", arguments->expect,

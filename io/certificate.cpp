@@ -55,12 +55,38 @@ Json sourceJson(const TerrainModel& model) {
   return json;
 }
 
+Json vectorJson(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Json formatJson(const ExportFormat& format, const Georeference& georeference) {
+  Json json = {{"name", format.name}, {"coordinates", format.frame.coordinates}};
+  if (format.frame.origin) json["origin"] = vectorJson(*format.frame.origin);
+  json["rounding"] = vectorJson(format.frame.rounding);
+  json["heightRounding"] = format.heightRounding;
+  if (format.planTolerancePixels > 0) json["planTolerancePixels"] = format.planTolerancePixels;
+  Json says = Json::array(), missing = Json::object();
+  const auto tell = [&](const char* what, bool isSaid, const std::string& value) {
+    if (isSaid)
+      says.push_back(what);
+    else if (!value.empty())
+      missing[what] = value;
+  };
+  tell("crs", format.saysCrs, georeference.crsWkt.empty() ? "" : crsName(georeference.crsWkt));
+  tell("verticalUnit", format.saysVerticalUnit, georeference.verticalUnit);
+  tell("errors", format.saysErrors, "of each triangle");
+  json["says"] = std::move(says);
+  json["doesNotSay"] = std::move(missing);
+  return json;
+}
+
 }  // namespace
 
 std::string certificateJson(const Certificate& certificate, const TerrainModel& model) {
   Json json = {{"areteCertificate", kSchemaVersion},
                {"program", "Arete " ARETE_VERSION},
                {"file", certificate.file},
+               {"format", formatJson(certificate.format, model.georeference)},
                {"model",
                 {{"path", certificate.model},
                  {"shape", toString(model.options.shape)},

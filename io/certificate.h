@@ -9,6 +9,7 @@
 #include "engine/cut.h"
 #include "engine/result.h"
 #include "engine/run_context.h"
+#include "io/mesh_file.h"
 #include "terrain/measure.h"
 #include "terrain/terrain_model.h"
 
@@ -24,10 +25,20 @@ struct ExtractCriterion {
   CutMethod method = CutMethod::minimal;
 };
 
+/// What the format of an export holds, and what it has no place for.
+struct ExportFormat {
+  std::string name;                ///< "STL"
+  MeshFrame frame = {};            ///< how its coordinates are meant
+  double heightRounding = 0;       ///< by how much its numbers change the surface at most
+  double planTolerancePixels = 0;  ///< within which a sample counts as covered; 0 = a raster, not a mesh
+  bool saysCrs = false, saysVerticalUnit = false, saysErrors = false;
+};
+
 /// What an export promises, and how a third party can check it.
 struct Certificate {
   std::string file;
   std::string model;  ///< the .amt it was taken from
+  ExportFormat format;
   ExtractCriterion criterion;
   double storedError = 0;  ///< of the cut: the largest error stored with its triangles
   MeasureReport measured;  ///< of the exported mesh, by terrain/measure.h, against every sample

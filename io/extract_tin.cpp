@@ -17,6 +17,7 @@
 #include "io/export_tin.h"
 #include "io/mesh_file.h"
 #include "io/raster_writer.h"
+#include "io/written_mesh.h"
 #include "terrain/plan_region.h"
 
 namespace arete {
@@ -24,6 +25,8 @@ namespace {
 
 /// Heights are written as float32 where that loses less than this, in their unit.
 constexpr double kNegligibleRounding = 1e-3;
+/// No promise is broken by less, in the unit of the heights: acceptedError() of measure.h.
+constexpr double kForgivenRounding = 1e-6;
 
 std::string lowerExtension(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
@@ -65,6 +68,17 @@ std::string noteOf(const ExtractRequest& request, const TerrainModel& model, con
 Status within(Status status, const std::string& path) {
   if (!status && status.error().culprit.empty()) status.error().culprit = path;
   return status;
+}
+
+ExportFormat formatOf(const std::string& path, const WrittenMesh& written, const MeshWriteOptions& options) {
+  const Result<MeshFormat> format = meshFormatOf(path);
+  if (!format) return {};
+  return {.name = std::string(format->name),
+          .frame = written.frame,
+          .heightRounding = written.heightRounding,
+          .saysCrs = format->holds.holdsCrs && !options.crsWkt.empty(),
+          .saysVerticalUnit = format->holds.holdsVerticalUnit && !options.verticalUnit.empty(),
+          .saysErrors = format->holds.holdsErrors};
 }
 
 }  // namespace
@@ -129,43 +143,65 @@ const TinExtractor::Samples& TinExtractor::samples() {
   return *samples_;
 }
 
-Result<Cut> TinExtractor::cut(const ExtractRequest& request, const RunContext& context) const {
+Result<Cut> TinExtractor::cut(const ExtractRequest& request, double reserve,
+                              const RunContext& context) const {
   const ExtractCriterion& c = request.criterion;
   const CutOptions options{.method = c.method, .maxTriangles = c.maxTriangles};
-  const double maxError = c.maxError.value_or(0);
+  const double maxError = std::max(0.0, c.maxError.value_or(0) - reserve);
   if (!request.region) return takeCut(model_.mt, UniformError(maxError), options, context);
   const RegionError criterion(*request.region, model_.mt.arrays().metric, maxError,
                               std::max(maxError, c.outsideError));
   return takeCut(model_.mt, criterion, options, context);
 }
 
-Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const RunContext& context) {
-  Result<Cut> taken = cut(request, context);
+Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, double reserve,
+                                               ExtractedTin& tin, const RunContext& context) const {
+  Result<Cut> taken = cut(request, reserve, context);
   if (!taken) return tl::unexpected(taken.error());
-  ExtractedTin tin;
   tin.triangles = taken->triangles.size();
   tin.vertices = taken->vertices.size();
   tin.storedError = taken->achievedError;
-  if (request.criterion.maxError && !request.criterion.maxTriangles)
-    tin.promisedError = *request.criterion.maxError;
-  else
+  const bool isBudget = !request.criterion.maxError || request.criterion.maxTriangles;
+  if (isBudget)
     tin.promisedError =
         request.region ? storedErrorInside(model_, *taken, *request.region) : taken->achievedError;
-  const TinExport exported = exportTin(model_, *taken);
+  else
+    tin.promisedError = *request.criterion.maxError;
+  TinExport exported = exportTin(model_, *taken);
+  if (isRasterOutput(request.output)) {
+    tin.format = {.name = "GeoTIFF", .saysCrs = true, .saysVerticalUnit = true};
+    return std::move(exported.mesh);
+  }
   *taken = {};
+  const MeshWriteOptions options{.crsWkt = model_.georeference.crsWkt,
+                                 .verticalUnit = model_.georeference.verticalUnit,
+                                 .verticalUnitMetres = model_.georeference.verticalUnitMetres,
+                                 .triangleErrors = exported.errors,
+                                 .notes = {noteOf(request, model_, tin)}};
+  Result<WrittenMesh> written =
+      writeAndReadBack(std::move(exported.mesh), request.output, options, model_.isRaster, context);
+  if (!written) return tl::unexpected(within(tl::unexpected(written.error()), request.output).error());
+  tin.format = formatOf(request.output, *written, options);
+  if (isBudget) tin.promisedError += tin.format.heightRounding;
+  return std::move(written->mesh);
+}
 
-  if (!isRasterOutput(request.output)) {
-    const MeshWriteOptions options{.crsWkt = model_.georeference.crsWkt,
-                                   .verticalUnit = model_.georeference.verticalUnit,
-                                   .triangleErrors = exported.errors,
-                                   .notes = {noteOf(request, model_, tin)}};
-    if (Status written = writeMesh(exported.mesh, request.output, options, context); !written)
-      return tl::unexpected(within(written, request.output).error());
+Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const RunContext& context) {
+  ExtractedTin tin;
+  Result<TriangleMesh> mesh = cutAndWrite(request, 0, tin, context);
+  if (!mesh) return tl::unexpected(mesh.error());
+  // Twice: another cut is rounded a little differently. measure() itself forgives a millionth.
+  const double reserve = 2 * tin.format.heightRounding;
+  const double promised = tin.promisedError;
+  if (reserve > kForgivenRounding && request.criterion.maxError && !request.criterion.maxTriangles &&
+      reserve < promised && tin.storedError + reserve > promised) {
+    mesh = cutAndWrite(request, reserve, tin, context);
+    if (!mesh) return tl::unexpected(mesh.error());
   }
   const bool needsMeasure =
       isRasterOutput(request.output) || !request.certificate.empty() || !request.errorRaster.empty();
   if (needsMeasure)
-    if (Status measured = measureAndWrite(request, exported.mesh, tin, context); !measured)
+    if (Status measured = measureAndWrite(request, *mesh, tin, context); !measured)
       return tl::unexpected(measured.error());
   return tin;
 }
@@ -174,7 +210,9 @@ Status TinExtractor::measureAndWrite(const ExtractRequest& request, const Triang
                                      ExtractedTin& tin, const RunContext& context) {
   const bool wantsRasters = isRasterOutput(request.output) || !request.errorRaster.empty();
   MeasureRasters rasters;
-  const auto measureWith = [&](const MeasureOptions& options, MeasureRasters* into) {
+  const Vec3& rounding = tin.format.frame.rounding;
+  const auto measureWith = [&](MeasureOptions options, MeasureRasters* into) {
+    options.planRounding = {rounding.x, rounding.y};
     return std::visit([&](const auto& field) { return measure(mesh, field, options, context, into); },
                       samples());
   };
@@ -194,10 +232,14 @@ Status TinExtractor::measureAndWrite(const ExtractRequest& request, const Triang
   tin.isKept =
       keepsPromise(tin.measuredInside ? *tin.measuredInside : *tin.measured, tin.promisedError, expect);
 
-  if (Status written = writeRasters(request, rasters, context); !written) return written;
+  if (!isRasterOutput(request.output))
+    tin.format.planTolerancePixels =
+        planTolerancePixels({.planRounding = {rounding.x, rounding.y}}, model_.georeference);
+  if (Status written = writeRasters(request, rasters, tin, context); !written) return written;
   if (request.certificate.empty()) return {};
   const Certificate certificate{.file = request.output,
                                 .model = modelPath_,
+                                .format = tin.format,
                                 .criterion = request.criterion,
                                 .storedError = tin.storedError,
                                 .measured = *tin.measured,
@@ -209,7 +251,7 @@ Status TinExtractor::measureAndWrite(const ExtractRequest& request, const Triang
 }
 
 Status TinExtractor::writeRasters(const ExtractRequest& request, const MeasureRasters& rasters,
-                                  const RunContext& context) const {
+                                  ExtractedTin& tin, const RunContext& context) const {
   if (isRasterOutput(request.output)) {
     double largest = 0;
     for (const double z : rasters.tinHeights)
@@ -218,6 +260,9 @@ Status TinExtractor::writeRasters(const ExtractRequest& request, const MeasureRa
     options.description = "TIN height";
     if (largest * std::numeric_limits<float>::epsilon() / 2 > kNegligibleRounding)
       options.sample = GeoTiffOptions::Sample::float64;
+    tin.format.frame.coordinates = options.sample == GeoTiffOptions::Sample::float64
+                                       ? "float64 heights on the source grid"
+                                       : "float32 heights on the source grid";
     if (Status written = writeGeoTiff(request.output, model_.columns, model_.rows, rasters.tinHeights,
                                       model_.georeference, options, context);
         !written)

@@ -30,6 +30,7 @@ struct ExtractedTin {
   std::uint64_t triangles = 0, vertices = 0;
   double storedError = 0;                 ///< largest error stored with the triangles of the cut
   double promisedError = 0;               ///< the tolerance, or what a budget came to; inside the region
+  ExportFormat format;                    ///< what the file holds
   std::optional<MeasureReport> measured;  ///< where a certificate or a raster asked for it
   std::optional<MeasureReport> measuredInside;  ///< with a region
   bool isKept = true;                           ///< false when the measurement contradicts the promise
@@ -49,20 +50,24 @@ class TinExtractor {
   TinExtractor(const TerrainModel& model, std::string modelPath)
       : model_(model), modelPath_(std::move(modelPath)) {}
 
-  /// Cuts, exports, and where a raster or a certificate is wanted measures the exported mesh against the
-  /// source's samples and writes it; each file appears whole or not at all. A promise that the measurement
-  /// contradicts is told by isKept, the files are written all the same. Errors: those of takeCut(),
-  /// writeMesh(), writeGeoTiff(), writeCertificate(). O(cut), and O(samples) where it is measured.
+  /// Cuts, exports (with a tolerance that is smaller by what the format rounds away, so that the promise
+  /// holds for what the file says), and where a raster or a certificate is wanted measures the exported mesh
+  /// against the source's samples and writes it; each file appears whole or not at all. A promise that the
+  /// measurement contradicts is told by isKept, the files are written all the same. Errors: those of
+  /// takeCut(), writeMesh(), writeGeoTiff(), writeCertificate(). O(cut), and O(samples) where it is measured.
   Result<ExtractedTin> extract(const ExtractRequest& request, const RunContext& context = {});
 
  private:
   using Samples = std::variant<RasterHeightfield, PointHeightfield>;
 
   const Samples& samples();
-  Result<Cut> cut(const ExtractRequest& request, const RunContext& context) const;
+  /// With a tolerance smaller than asked for by `reserve`, for what the format will round away.
+  Result<Cut> cut(const ExtractRequest& request, double reserve, const RunContext& context) const;
+  Result<TriangleMesh> cutAndWrite(const ExtractRequest& request, double reserve, ExtractedTin& tin,
+                                   const RunContext& context) const;
   Status measureAndWrite(const ExtractRequest& request, const TriangleMesh& mesh, ExtractedTin& tin,
                          const RunContext& context);
-  Status writeRasters(const ExtractRequest& request, const MeasureRasters& rasters,
+  Status writeRasters(const ExtractRequest& request, const MeasureRasters& rasters, ExtractedTin& tin,
                       const RunContext& context) const;
 
   const TerrainModel& model_;

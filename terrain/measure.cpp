@@ -47,7 +47,7 @@ class RasterMeasurement {
         options_(options),
         context_(context),
         rasters_(rasters),
-        tolerance_(options.planTolerancePixels) {}
+        tolerance_(planTolerancePixels(options, dem.georeference)) {}
 
   Result<MeasureReport> run() {
     if (const Status ok = toGrid(); !ok) return tl::unexpected(ok.error());

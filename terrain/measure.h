@@ -68,12 +68,20 @@ struct MeasureReport {
 
 struct MeasureOptions {
   /// How far outside a triangle a sample still counts as covered by it, and how deep inside it must be to be
-  /// strictly inside, in pixels. Vertices this near a raster sample are taken to stand on it. Raise it for
-  /// float32 meshes.
+  /// strictly inside, in pixels. Vertices this near a raster sample are taken to stand on it.
   double planTolerancePixels = 1e-6;
+  /// How far the mesh's own x and y may be rounded, in source units (float32 files; 0 = not): raises the plan
+  /// tolerance to twice as much, at most kMostPlanTolerance, so that a border stays where it was meant to be.
+  Vec2 planRounding = {};
   /// When not empty: one value per sample, 0 = leave this sample out (a region of interest).
   std::span<const std::uint8_t> mask = {};
 };
+
+/// The largest plan tolerance that rounding can bring about, in pixels.
+inline constexpr double kMostPlanTolerance = 0.1;
+
+/// The plan tolerance that options come to on a grid, in pixels.
+double planTolerancePixels(const MeasureOptions& options, const Georeference& georeference);
 
 /// Rasters that the measurement can hand back besides the report: one value per sample, in sample order.
 struct MeasureRasters {

@@ -42,6 +42,12 @@ Status checkInputs(const TriangleMesh& mesh, std::size_t samples, const MeasureO
   return {};
 }
 
+double raisedTolerance(const MeasureOptions& options, Vec2 roundingPixels) {
+  const double rounding = 2 * std::max(std::abs(roundingPixels.x), std::abs(roundingPixels.y));
+  if (!(rounding > options.planTolerancePixels)) return options.planTolerancePixels;
+  return std::max(options.planTolerancePixels, std::min(rounding, kMostPlanTolerance));
+}
+
 TriangleBands sortIntoBands(const TriangleMesh& mesh, std::span<const Vec2> plan, std::int64_t rows,
                             double rowHeight, std::int64_t rowsPerBand, double tolerance) {
   const std::int64_t bands = (rows + rowsPerBand - 1) / rowsPerBand;
@@ -162,3 +168,16 @@ Status forEachBand(std::size_t bands, const RunContext& context, const char* sta
 }
 
 }  // namespace arete::measuring
+
+namespace arete {
+
+double planTolerancePixels(const MeasureOptions& options, const Georeference& georeference) {
+  const auto& g = georeference.geoTransform;
+  const double area = std::abs(georeference.determinant());
+  const double x = std::abs(options.planRounding.x), y = std::abs(options.planRounding.y);
+  if (!(area > 0)) return options.planTolerancePixels;
+  return measuring::raisedTolerance(options, {(x * std::abs(g[5]) + y * std::abs(g[2])) / area,
+                                              (x * std::abs(g[4]) + y * std::abs(g[1])) / area});
+}
+
+}  // namespace arete

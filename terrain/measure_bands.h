@@ -21,6 +21,9 @@ namespace arete::measuring {
 /// The mesh and the options make sense, for that many samples.
 Status checkInputs(const TriangleMesh& mesh, std::size_t samples, const MeasureOptions& options);
 
+/// options.planTolerancePixels, or twice the rounding where that is more, at most kMostPlanTolerance.
+double raisedTolerance(const MeasureOptions& options, Vec2 roundingPixels);
+
 /// Which triangles reach each band, in the mesh's order. Band b holds the rows floor(y / rowHeight) of
 /// [b * rowsPerBand, (b + 1) * rowsPerBand).
 struct TriangleBands {

@@ -61,8 +61,9 @@ class PointMeasurement {
         options_(options),
         context_(context),
         rasters_(rasters),
-        tolerance_(options.planTolerancePixels),
-        scale_(points.positions) {}
+        scale_(points.positions),
+        tolerance_(measuring::raisedTolerance(
+            options, {options.planRounding.x / scale_.spacing, options.planRounding.y / scale_.spacing})) {}
 
   Result<MeasureReport> run() {
     if (!(scale_.width < 1e18 && scale_.height < 1e18))
@@ -209,8 +210,8 @@ class PointMeasurement {
   const MeasureOptions& options_;
   const RunContext& context_;
   MeasureRasters* rasters_;
-  double tolerance_;
   PlanScale scale_;
+  double tolerance_;
   std::int64_t bucketColumns_ = 1, bucketRows_ = 1, bucketRowsPerBand_ = 1;
   std::vector<std::uint64_t> bucketBegin_;
   std::vector<std::uint64_t> order_;  // slot -> point

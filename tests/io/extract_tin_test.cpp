@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/extract_tin.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
 
 #include "datasets/families.h"
 #include "engine/criterion.h"
 #include "io/crs_names.h"
 #include "io/export_tin.h"
 #include "io/io_fixture.h"
+#include "io/mesh_file.h"
+#include "io/mesh_fixture.h"
 #include "io/plan_point_reader.h"
 #include "io/region_argument.h"
 #include "terrain/build.h"
@@ -57,6 +62,63 @@ TEST(ExtractTin, QuotesTheCheckForAShell) {
   EXPECT_EQ(checkCommand(request, model, "m.amt", 5),
             "arete extract m.amt -o smooth.ply --max-error 5 --region 1,2,3,4 --outside-error 50 && "
             "arete measure smooth.ply 'my dem.tif' --expect 5 --region 1,2,3,4 --allow-covered-nodata");
+}
+
+/// Extracts with a certificate; what `arete measure` would find in the file must agree with it.
+void expectKept(const TerrainModel& model, const std::string& extension, double maxError) {
+  const TemporaryFolder folder;
+  TinExtractor extractor(model, "m.amt");
+  ExtractRequest request;
+  request.criterion.maxError = maxError;
+  request.output = folder.file("tin" + extension);
+  request.certificate = folder.file("c.json");
+  const Result<ExtractedTin> tin = extractor.extract(request);
+  ASSERT_TRUE(tin) << tin.error().describe();
+  const Result<MeshFile> file = readMesh(request.output);
+  ASSERT_TRUE(file) << file.error().describe();
+  const MeasureOptions options{.planRounding = {file->frame.rounding.x, file->frame.rounding.y}};
+  const auto report = model.isRaster ? measure(file->mesh, model.rasterSamples(), options)
+                                     : measure(file->mesh, model.pointSamples(), options);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(keepsPromise(*report, maxError), tin->isKept);
+  EXPECT_EQ(report->maxAbsError, tin->measured->maxAbsError);
+  // Where rounding is small beside the tolerance the promise holds for what the file says.
+  if (2 * tin->format.heightRounding < maxError || tin->format.heightRounding == 0) {
+    EXPECT_TRUE(tin->isKept) << extension << " " << maxError << " " << tin->format.heightRounding;
+  }
+  const auto json = nlohmann::json::parse(test::bytesOf(request.certificate));
+  const auto& format = json["format"];
+  EXPECT_EQ(format["name"], meshFormatOf(request.output)->name);
+  EXPECT_EQ(format.contains("origin"), file->frame.origin.has_value());
+  EXPECT_EQ(format["rounding"][0], file->frame.rounding.x);
+  EXPECT_EQ(format["heightRounding"], tin->format.heightRounding);
+  const bool hasCrs = !model.georeference.crsWkt.empty();
+  EXPECT_EQ(format["doesNotSay"].contains("crs"), hasCrs && file->crsWkt.empty());
+  EXPECT_EQ(json["promise"]["kept"], tin->isKept);
+}
+
+TEST(ExtractTin, KeepsThePromiseInEveryFormatOnEveryFamily) {
+  for (const RasterFamily& family : rasterFamilies()) {
+    const auto model = build(family.make(40, 33, 2));
+    ASSERT_TRUE(model) << family.name;
+    for (const MeshFormat& format : meshFormats())
+      for (const double maxError : {0.0, 0.5, 7.0}) {
+        SCOPED_TRACE(fmt::format("{} {} {}", family.name, format.name, maxError));
+        expectKept(*model, std::string(format.extension), maxError);
+      }
+  }
+}
+
+TEST(ExtractTin, KeepsThePromiseInEveryFormatOnPoints) {
+  for (const PointFamily& family : pointFamilies()) {
+    const auto model = build(family.make(400, 2));
+    ASSERT_TRUE(model) << family.name;
+    for (const MeshFormat& format : meshFormats())
+      for (const double maxError : {0.5, 7.0}) {
+        SCOPED_TRACE(fmt::format("{} {} {}", family.name, format.name, maxError));
+        expectKept(*model, std::string(format.extension), maxError);
+      }
+  }
 }
 
 TEST(CrsNames, AreShortAndCompareByPlace) {
