@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "cli/arguments.h"
+#include "cli/measure_meshes.h"
 #include "cli/measure_report_text.h"
 #include "io/crs_names.h"
 #include "io/dem_reader.h"
@@ -31,7 +32,38 @@ struct MeasureArguments {
   double expect = std::numeric_limits<double>::quiet_NaN();  // NaN: not stated
   std::string region, errorRaster;
   bool allowCoveredNodata = false;
+  std::int64_t samples = 0, seed = -1;  // of another mesh; not stated
+  std::string errorMesh;
+
+  bool isAgainstMesh() const {
+    const auto format = meshFormatOf(dem.path);
+    return format && format->read != nullptr;
+  }
 };
+
+/// Options that make sense against a DEM only, or against a mesh only, and were given with the other.
+Status checkKind(const MeasureArguments& arguments) {
+  const DemArguments& dem = arguments.dem;
+  const bool isMesh = arguments.isAgainstMesh();
+  const auto check = [&](const char* option, bool isGiven, bool isForMesh) -> Status {
+    if (!isGiven || isForMesh == isMesh) return {};
+    return failure(ErrorCode::usage,
+                   isMesh ? fmt::format("is about a DEM, and {} is a mesh", dem.path)
+                          : fmt::format("is about another mesh, and {} is a DEM", dem.path),
+                   option);
+  };
+  for (const Status& ok :
+       {check("--region", !arguments.region.empty(), false),
+        check("--error-raster", !arguments.errorRaster.empty(), false),
+        check("--allow-covered-nodata", arguments.allowCoveredNodata, false),
+        check("--band", dem.band != 0, false), check("--layer", !dem.layer.empty(), false),
+        check("--z-field", !dem.zField.empty(), false), check("--nodata", !std::isnan(dem.nodata), false),
+        check("--crs", !dem.crs.empty(), false), check("--samples", arguments.samples != 0, true),
+        check("--seed", arguments.seed >= 0, true),
+        check("--error-mesh", !arguments.errorMesh.empty(), true)})
+    if (!ok) return ok;
+  return {};
+}
 
 void compareFrames(const MeshFile& tin, const Georeference& georeference, const Session& session) {
   if (compareCrs(tin.crsWkt, georeference.crsWkt) == CrsAgreement::different)
@@ -125,6 +157,17 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
 }
 
 Status runMeasure(const MeasureArguments& arguments, Session& session) {
+  if (Status kind = checkKind(arguments); !kind) return kind;
+  if (arguments.isAgainstMesh()) {
+    MeasureMeshesArguments meshes;
+    meshes.first = arguments.tin;
+    meshes.second = arguments.dem.path;
+    meshes.expect = arguments.expect;
+    meshes.samples = arguments.samples;
+    if (arguments.seed >= 0) meshes.seed = arguments.seed;
+    meshes.errorMesh = arguments.errorMesh;
+    return measureMeshes(meshes, session);
+  }
   if (!arguments.errorRaster.empty()) {
     if (!isRasterOutput(arguments.errorRaster))
       return failure(ErrorCode::usage, "the error raster is a GeoTIFF: its name ends in .tif",
@@ -147,19 +190,25 @@ Status runMeasure(const MeasureArguments& arguments, Session& session) {
 void addMeasureCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<MeasureArguments>();
   CLI::App* command = session.addCommand(
-      app, "measure", "Measure any TIN against any DEM, independently of how it was made",
+      app, "measure", "Measure any TIN against any DEM, or any mesh against another",
       "  arete measure tin.ply dem.tif\n"
       "  arete measure tin.ply dem.tif --expect 5         exit code 5 when the promise is broken\n"
       "  arete measure tin.obj dem.tif --json --error-raster error.tif\n"
-      "  arete measure tin.ply dem.tif --expect 1 --region park.gpkg",
+      "  arete measure tin.ply dem.tif --expect 1 --region park.gpkg\n"
+      "  arete measure small.ply original.obj             distances in space: Hausdorff, mean, RMS, both "
+      "ways\n"
+      "  arete measure small.ply original.obj --error-mesh distances.ply",
       [arguments](Session& s) { return runMeasure(*arguments, s); });
   command->add_option("TIN", arguments->tin, "A triangle mesh: " + readableMeshExtensions())
       ->required()
       ->type_name("");
-  command->add_option("DEM", arguments->dem.path, "What it shall be near to")->required()->type_name("");
+  command->add_option("DEM", arguments->dem.path, "What it shall be near to: a DEM, or another mesh")
+      ->required()
+      ->type_name("");
   command
       ->add_option("--expect", arguments->expect,
-                   "The promise: every sample covered once, no NODATA covered, no error above this")
+                   "The promise: every sample covered once, no NODATA covered, no error above this; between "
+                   "meshes, no distance above this, both ways")
       ->check(tolerance())
       ->type_name("E");
   command->add_flag("--allow-covered-nodata", arguments->allowCoveredNodata,
@@ -172,6 +221,22 @@ void addMeasureCommand(CLI::App& app, Session& session) {
       ->add_option("--error-raster", arguments->errorRaster,
                    "Write TIN height minus DEM height, a GeoTIFF on the DEM's grid")
       ->type_name("FILE");
+  const std::string group = "Against another mesh";
+  command
+      ->add_option("--samples", arguments->samples,
+                   "Samples on each mesh (default: 10 for each triangle of the larger, at least 1 000 000)")
+      ->check(wholeNumber(1, 100'000'000'000))
+      ->type_name("N")
+      ->group(group);
+  command->add_option("--seed", arguments->seed, "Where the samples fall (default 1)")
+      ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()))
+      ->type_name("S")
+      ->group(group);
+  command
+      ->add_option("--error-mesh", arguments->errorMesh,
+                   "Write the first mesh as a PLY whose vertices have their distance as 'quality' and colour")
+      ->type_name("FILE")
+      ->group(group);
   arguments->dem.addTo(*command);
 }
 

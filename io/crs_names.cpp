@@ -21,6 +21,14 @@ std::string crsName(const std::string& crs) {
   return authority && code ? fmt::format("{} ({}:{})", name, authority, code) : name;
 }
 
+bool isGeographicCrs(const std::string& crs) {
+  if (crs.empty()) return false;
+  registerGdal();
+  GdalErrors quiet;
+  const auto parsed = crsFromText(crs);
+  return parsed && parsed->IsGeographic() != 0;
+}
+
 CrsAgreement compareCrs(const std::string& a, const std::string& b) {
   if (a.empty() || b.empty()) return CrsAgreement::unknown;
   if (a == b) return CrsAgreement::same;

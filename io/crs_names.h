@@ -9,6 +9,9 @@ namespace arete {
 /// that GDAL does not understand. `crs`: WKT or any text GDAL takes.
 std::string crsName(const std::string& crs);
 
+/// Whether its x and y are longitude and latitude; false where it is empty or not understood.
+bool isGeographicCrs(const std::string& crs);
+
 enum class CrsAgreement {
   same,
   different,

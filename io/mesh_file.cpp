@@ -19,12 +19,17 @@ namespace {
 
 constexpr MeshFormatTraits kSaysAll = {
     .isExact = true, .holdsCrs = true, .holdsVerticalUnit = true, .holdsErrors = true};
+constexpr MeshFormatTraits kSaysDistances = {.isExact = true,
+                                             .holdsCrs = true,
+                                             .holdsVerticalUnit = true,
+                                             .holdsErrors = true,
+                                             .holdsQualities = true};
 constexpr MeshFormatTraits kSaysNoErrors = {.isExact = true, .holdsCrs = true, .holdsVerticalUnit = true};
 
 constexpr MeshFormatTraits kSaysFrame = {.holdsCrs = true, .holdsVerticalUnit = true};
 
 constexpr std::array kFormats = {
-    MeshFormat{"PLY", ".ply", &readPly, &writePly, kSaysAll},
+    MeshFormat{"PLY", ".ply", &readPly, &writePly, kSaysDistances},
     MeshFormat{"OBJ", ".obj", &readObj, &writeObj, kSaysNoErrors},
     MeshFormat{"STL", ".stl", &readStl, &writeStl, {}},
     MeshFormat{"GLB", ".glb", &readGlb, &writeGlb, kSaysFrame},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -40,6 +42,9 @@ struct MeshWriteOptions {
   double verticalUnitMetres = 0;  ///< 0: what the unit's name says, or the CRS, or else 1
   /// One per triangle, when not empty. Formats without a place for it leave it out.
   std::span<const float> triangleErrors = {};
+  /// One per vertex each, when not empty, with the same rule. Programs show a PLY's "quality" in colours.
+  std::span<const float> vertexQualities = {};
+  std::span<const std::array<std::uint8_t, 3>> vertexColors = {};
   /// More comment lines, for people.
   std::vector<std::string> notes = {};
 };
@@ -49,7 +54,8 @@ struct MeshFormatTraits {
   bool isExact = false;  ///< doubles come back to the bit; otherwise float32 about a recorded origin
   bool holdsCrs = false;
   bool holdsVerticalUnit = false;
-  bool holdsErrors = false;  ///< one per triangle
+  bool holdsErrors = false;     ///< one per triangle
+  bool holdsQualities = false;  ///< one per vertex, and colours
 };
 
 /// One mesh file format. A new one is its own pair of files and a line in the table of mesh_file.cpp.

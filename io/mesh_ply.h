@@ -14,7 +14,9 @@ namespace arete {
 Result<MeshFile> readPly(const std::filesystem::path& path, const RunContext& context = {});
 
 /// Writes binary little-endian PLY: vertices as doubles, faces as list uchar int vertex_indices, with a float
-/// property "error" per face when options.triangleErrors is given. Exact to the bit. Errors as writeMesh().
+/// property "error" per face when options.triangleErrors is given, and per vertex a float "quality" and uchar
+/// red, green, blue when options.vertexQualities and vertexColors are. Exact to the bit. Errors as
+/// writeMesh().
 Status writePly(const TriangleMesh& mesh, const std::filesystem::path& path,
                 const MeshWriteOptions& options = {}, const RunContext& context = {});
 

@@ -25,6 +25,9 @@ std::string headerOf(const TriangleMesh& mesh, const MeshWriteOptions& options) 
   for (const std::string& note : options.notes) header += fmt::format("comment {}\n", text::onOneLine(note));
   header += fmt::format("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
                         mesh.positions.size());
+  if (!options.vertexQualities.empty()) header += "property float quality\n";
+  if (!options.vertexColors.empty())
+    header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   header += fmt::format("element face {}\nproperty list uchar int vertex_indices\n", mesh.triangles.size());
   if (!options.triangleErrors.empty()) header += "property float error\n";
   return header + "end_header\n";
@@ -44,6 +47,9 @@ Status writePly(const TriangleMesh& mesh, const std::filesystem::path& path, con
   if (!options.triangleErrors.empty() && options.triangleErrors.size() != mesh.triangles.size())
     return refuse(
         fmt::format("{} errors for {} triangles", options.triangleErrors.size(), mesh.triangles.size()));
+  for (const std::size_t values : {options.vertexQualities.size(), options.vertexColors.size()})
+    if (values != 0 && values != mesh.positions.size())
+      return refuse(fmt::format("{} values for {} vertices", values, mesh.positions.size()));
   Result<FileWriter> file = FileWriter::create(path);
   if (!file) return tl::unexpected(file.error());
 
@@ -59,9 +65,15 @@ Status writePly(const TriangleMesh& mesh, const std::filesystem::path& path, con
     return failure(ErrorCode::interrupted, "writing was interrupted", path.string());
   };
 
-  for (const Vec3& p : mesh.positions) {
+  const bool withQualities = !options.vertexQualities.empty(), withColors = !options.vertexColors.empty();
+  const std::size_t vertexSize =
+      3 * sizeof(double) + (withQualities ? sizeof(float) : 0) + (withColors ? 3 : 0);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     if (shouldStop()) return interrupted();
-    putBytes(putBytes(putBytes(file->reserve(3 * sizeof(double)), p.x), p.y), p.z);
+    const Vec3& p = mesh.positions[v];
+    char* to = putBytes(putBytes(putBytes(file->reserve(vertexSize), p.x), p.y), p.z);
+    if (withQualities) to = putBytes(to, options.vertexQualities[v]);
+    if (withColors) putBytes(to, options.vertexColors[v]);
   }
   const bool withErrors = !options.triangleErrors.empty();
   const std::size_t faceSize = 1 + 3 * sizeof(std::int32_t) + (withErrors ? sizeof(float) : 0);

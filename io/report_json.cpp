@@ -4,9 +4,34 @@
 #include <nlohmann/json.hpp>
 
 namespace arete {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json toJson(const Vec3& p) {
+  return {p.x, p.y, p.z};
+}
+
+Json toJson(const MeshSummary& mesh) {
+  return {{"triangles", mesh.triangles}, {"degenerateTriangles", mesh.degenerateTriangles},
+          {"vertices", mesh.vertices},   {"unusedVertices", mesh.unusedVertices},
+          {"area", mesh.area},           {"diagonal", mesh.diagonal}};
+}
+
+Json toJson(const DistanceOneWay& way) {
+  return {{"maximum", way.maximum},
+          {"mean", way.mean},
+          {"rms", way.rms},
+          {"maximumAtVertices", way.maximumAtVertices},
+          {"worst", toJson(way.worst)},
+          {"nearestToWorst", toJson(way.worstNearest)},
+          {"samples", way.samples},
+          {"vertices", way.vertices}};
+}
+
+}  // namespace
 
 nlohmann::ordered_json toJson(const MeasureReport& report, bool isRaster) {
-  using Json = nlohmann::ordered_json;
   Json worst = nullptr;
   if (report.worst) {
     const MeasuredSample& w = *report.worst;
@@ -42,6 +67,21 @@ nlohmann::ordered_json toJson(const MeasureReport& report, bool isRaster) {
             {"overlapped", report.overlapped},
             {"nodataCovered", report.nodataCovered}}},
           {"areaPixels", std::move(area)}};
+}
+
+nlohmann::ordered_json toJson(const MeshDistanceReport& report) {
+  const double diagonal = report.second.diagonal;
+  return {{"first", toJson(report.first)},
+          {"second", toJson(report.second)},
+          {"fromFirst", toJson(report.forward)},
+          {"fromSecond", toJson(report.backward)},
+          {"bothWays", {{"maximum", report.hausdorff()}, {"mean", report.mean()}, {"rms", report.rms()}}},
+          {"ofDiagonal",
+           {{"diagonal", diagonal},
+            {"maximum", report.hausdorff() / diagonal},
+            {"mean", report.mean() / diagonal},
+            {"rms", report.rms() / diagonal}}},
+          {"seed", report.seed}};
 }
 
 }  // namespace arete

@@ -6,6 +6,8 @@
 // their sums are added in the order of the blocks, so that no rounding depends on the threads.
 #include "terrain/mesh_distance.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -232,9 +234,17 @@ Result<MeshDistanceReport> measureDistance(const TriangleMesh& first, const Tria
   return report;
 }
 
-double acceptedDistance(const MeshDistanceReport& report, double expectedDistance) {
+Status checkDistance(const MeshDistanceReport& report, double expectedDistance) {
   const double c = report.largestCoordinate;
-  return expectedDistance + 16 * (std::nextafter(c, std::numeric_limits<double>::infinity()) - c);
+  const double rounding = 16 * (std::nextafter(c, std::numeric_limits<double>::infinity()) - c);
+  // Written so that a NaN fails.
+  if (report.hausdorff() <= expectedDistance + rounding) return {};
+  const bool isForward = report.forward.maximum >= report.backward.maximum;
+  const DistanceOneWay& way = isForward ? report.forward : report.backward;
+  return failure(
+      ErrorCode::brokenPromise,
+      fmt::format("the largest distance is {}, more than {}: from {} {} {} of the {} mesh", way.maximum,
+                  expectedDistance, way.worst.x, way.worst.y, way.worst.z, isForward ? "first" : "second"));
 }
 
 }  // namespace arete

@@ -73,7 +73,8 @@ Result<MeshDistanceReport> measureDistance(const TriangleMesh& first, const Tria
                                            const RunContext& context = {},
                                            std::vector<double>* vertexDistances = nullptr);
 
-/// What "within E" means in doubles: E + 16 ulp of the largest coordinate.
-double acceptedDistance(const MeshDistanceReport& report, double expectedDistance);
+/// Ok when hausdorff() is within E + 16 ulp of the largest coordinate; else a brokenPromise error that says
+/// where it is not.
+Status checkDistance(const MeshDistanceReport& report, double expectedDistance);
 
 }  // namespace arete

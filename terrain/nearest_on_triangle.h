@@ -70,7 +70,9 @@ inline Vec3 nearestOnTriangle(const Vec3& p, const Corners& t) {
     }
   }
   if (least < std::numeric_limits<double>::infinity()) return nearest;
-  return along(p, normal, -dot(normal, minus(p, t[0])) / squared);
+  // Reckoned from the nearest corner, a corner is exactly on its own triangle, however thin that is.
+  const Vec3& corner = *std::ranges::min_element(t, {}, [&](const Vec3& c) { return squaredDistance(p, c); });
+  return along(p, normal, -dot(normal, minus(p, corner)) / squared);
 }
 
 }  // namespace arete

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/measure_meshes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "cli/arguments.h"
+#include "cli/mesh_distance_text.h"
+#include "io/crs_names.h"
+#include "io/mesh_file.h"
+#include "io/report_json.h"
+#include "terrain/mesh_distance.h"
+#include "viewer/color_ramp.h"
+
+namespace arete {
+namespace {
+
+void compareFrames(const MeshFile& first, const MeshFile& second, const Session& session) {
+  if (compareCrs(first.crsWkt, second.crsWkt) == CrsAgreement::different)
+    session.warn(
+        fmt::format("the first mesh is in {}, the second in {}: they are compared as if they were in one",
+                    crsName(first.crsWkt), crsName(second.crsWkt)));
+  if (isGeographicCrs(first.crsWkt) || isGeographicCrs(second.crsWkt))
+    session.warn(
+        "x and y are degrees and heights are not: a distance in space mixes the two. Compare with the DEM, "
+        "or "
+        "meshes in a projected CRS");
+}
+
+/// The unit of the distances, where both files say one and the same and x and y may be in it.
+std::string unitOf(const MeshFile& first, const MeshFile& second) {
+  const bool isSure = first.verticalUnit == second.verticalUnit && !isGeographicCrs(first.crsWkt) &&
+                      !isGeographicCrs(second.crsWkt);
+  return isSure ? first.verticalUnit : "";
+}
+
+Status writeDistances(const std::string& path, const MeshFile& mesh, const std::string& reference,
+                      const std::vector<double>& distances, const Session& session) {
+  const double largest = *std::ranges::max_element(distances);
+  std::vector<float> qualities;
+  std::vector<std::array<std::uint8_t, 3>> colors;
+  qualities.reserve(distances.size());
+  colors.reserve(distances.size());
+  for (const double distance : distances) {
+    qualities.push_back(static_cast<float>(distance));
+    const double fraction = largest > 0 ? distance / largest : 0;
+    const Rgb color = rampColor(divergingRamp(), 0.5 + 0.5 * fraction);  // its upper half: zero is near-white
+    colors.push_back({color.r, color.g, color.b});
+  }
+  MeshWriteOptions options;
+  options.crsWkt = mesh.crsWkt;
+  options.verticalUnit = mesh.verticalUnit;
+  options.vertexQualities = qualities;
+  options.vertexColors = colors;
+  options.notes = {
+      fmt::format("quality is the distance to {}, colours are from 0 to {}", reference, largest)};
+  return writeMesh(mesh.mesh, path, options, session.context());
+}
+
+/// The library knows the meshes as the first and the second.
+Error named(Error error, const MeasureMeshesArguments& arguments) {
+  if (error.culprit == "first") error.culprit = arguments.first;
+  if (error.culprit == "second") error.culprit = arguments.second;
+  return error;
+}
+
+}  // namespace
+
+Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) {
+  if (!arguments.errorMesh.empty()) {
+    const auto format = meshFormatOf(arguments.errorMesh);
+    if (!format || !format->holds.holdsQualities)
+      return failure(ErrorCode::usage, "the mesh of distances is a PLY: its name ends in .ply",
+                     fmt::format("--error-mesh {}", arguments.errorMesh));
+    if (Status output = checkOutput("--error-mesh", arguments.errorMesh, {arguments.first, arguments.second});
+        !output)
+      return output;
+  }
+  const Result<MeshFile> first = readMesh(arguments.first, session.context());
+  if (!first) return tl::unexpected(first.error());
+  const Result<MeshFile> second = readMesh(arguments.second, session.context());
+  if (!second) return tl::unexpected(second.error());
+  compareFrames(*first, *second, session);
+
+  MeshDistanceOptions options;
+  options.samples = static_cast<std::uint64_t>(arguments.samples);
+  options.seed = static_cast<std::uint64_t>(arguments.seed);
+  std::vector<double> distances;
+  const Result<MeshDistanceReport> report =
+      measureDistance(first->mesh, second->mesh, options, session.context(),
+                      arguments.errorMesh.empty() ? nullptr : &distances);
+  if (!report) return tl::unexpected(named(report.error(), arguments));
+  if (!arguments.errorMesh.empty())
+    if (Status written = writeDistances(arguments.errorMesh, *first, arguments.second, distances, session);
+        !written)
+      return written;
+
+  const std::string unit = unitOf(*first, *second);
+  const bool expects = !std::isnan(arguments.expect);
+  const Status promise = expects ? checkDistance(*report, arguments.expect) : Status();
+  session.say(
+      fmt::format("{} against {}\n{}", arguments.first, arguments.second, meshDistanceText(*report, unit)));
+  if (expects && promise)
+    session.say(
+        fmt::format("kept: no vertex and no sample is farther than {}\n", withUnit(arguments.expect, unit)));
+  Json json = {{"first", {{"path", arguments.first}, {"crs", crsName(first->crsWkt)}}},
+               {"second", {{"path", arguments.second}, {"crs", crsName(second->crsWkt)}}},
+               {"unit", unit}};
+  const Json found = toJson(*report);
+  for (const char* which : {"first", "second"}) json[which].update(found[which]);
+  for (const auto& [key, value] : found.items())
+    if (!json.contains(key)) json[key] = value;
+  if (expects) {
+    json["expect"] = std::isfinite(arguments.expect) ? Json(arguments.expect) : Json();
+    json["kept"] = promise.has_value();
+    if (!promise) json["broken"] = promise.error().message;
+  }
+  session.answer(json);
+  if (!promise) return failure(promise.error().code, promise.error().message, arguments.first);
+  return {};
+}
+
+}  // namespace arete
