@@ -14,6 +14,7 @@
 #include "cli/demo_command.h"
 #include "cli/exit_code.h"
 #include "cli/extract_command.h"
+#include "cli/height_command.h"
 #include "cli/info_command.h"
 #include "cli/interrupt.h"
 #include "cli/measure_command.h"
@@ -51,12 +52,14 @@ ExitCode run(int argc, char** argv) {
       "Examples:\n"
       "  arete build dem.tif -o dem.amt                     once\n"
       "  arete extract dem.amt -o tin.ply --max-error 5     as often as wanted, any tolerance\n"
+      "  arete height dem.amt --at X,Y                      how high the terrain is there\n"
       "  arete measure tin.ply dem.tif --expect 5           the promise, checked independently\n"
       "\n" +
       std::string(exitCodeTable()) + "\n\nCOMMAND --help tells the options of a command.");
   addBuildCommand(app, session);
   addInfoCommand(app, session);
   addExtractCommand(app, session);
+  addHeightCommand(app, session);
   addMeasureCommand(app, session);
   addValidateCommand(app, session);
   addDemoCommand(app, session);

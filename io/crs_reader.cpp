@@ -107,6 +107,10 @@ std::optional<double> metresPerUnit(std::string_view name) {
   return std::nullopt;
 }
 
+bool isKnownCrs(const OGRSpatialReference* crs) {
+  return crs && !crs->IsEmpty() && nameOf(*crs).rfind("Undefined ", 0) != 0;
+}
+
 Result<OGRSpatialReference> crsFromText(const std::string& text) {
   GdalErrors errors;
   OGRSpatialReference crs;

@@ -17,6 +17,9 @@ namespace arete {
 /// PROJJSON, a PROJ string, a .prj file). Errors: usage, naming the text; a vertical CRS alone is one too.
 Result<OGRSpatialReference> crsFromText(const std::string& text);
 
+/// Whether a layer has a CRS: a GeoPackage says "Undefined ... SRS" where it has none.
+bool isKnownCrs(const OGRSpatialReference* crs);
+
 /// WKT 2 of a CRS; empty for one that has none.
 std::string wktOf(const OGRSpatialReference& crs);
 

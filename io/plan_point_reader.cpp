@@ -19,7 +19,7 @@ namespace {
 
 Result<CrsTransform> transformation(const OGRSpatialReference* own, const std::string& targetCrs,
                                     std::vector<std::string>& warnings) {
-  if (!own || own->IsEmpty()) {
+  if (!isKnownCrs(own)) {
     if (!targetCrs.empty()) warnings.push_back("has no CRS; its coordinates are taken as the DEM's");
     return CrsTransform();
   }

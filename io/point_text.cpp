@@ -163,8 +163,8 @@ Result<Columns> columnsByName(std::span<const std::string_view> fields, const st
 class TextParser {
  public:
   TextParser(const std::string& path, const std::string& zColumn, PointTextColumns kind,
-             std::vector<std::string>& warnings)
-      : path_(path), zColumn_(zColumn), kind_(kind), warnings_(warnings) {
+             std::vector<std::string>& warnings, PointAttributes* attributes)
+      : path_(path), zColumn_(zColumn), kind_(kind), warnings_(warnings), attributes_(attributes) {
     if (kind == PointTextColumns::plan) columns_.at = {0, 1, 1};
   }
 
@@ -182,8 +182,10 @@ class TextParser {
         auto columns = columnsByName(fields, zColumn_, kind_, warnings_);
         if (!columns) return failure(columns.error().code, columns.error().message, path_);
         columns_ = *columns;
+        nameAttributes(fields, true);
         return {};
       }
+      nameAttributes(fields, false);
       if (!zColumn_.empty())
         return failure(ErrorCode::usage,
                        fmt::format("has no line of column names in which to find '{}'", zColumn_), path_);
@@ -191,7 +193,12 @@ class TextParser {
     return addPoint(line);
   }
 
-  PointRows takeRows() { return std::move(rows_); }
+  PointRows takeRows() {
+    if (surplusFields_ > 0)
+      warnings_.push_back(
+          fmt::format("{} fields stand beyond the last column and are left out", surplusFields_));
+    return std::move(rows_);
+  }
   std::uint64_t lineNumber() const { return lineNumber_; }
 
  private:
@@ -216,7 +223,42 @@ class TextParser {
       }
     }
     rows_.add(values[0], values[1], values[2], lineNumber_);
+    if (attributes_) addAttributes(line);
     return {};
+  }
+
+  bool isAttribute(std::size_t field) const {
+    return std::find(columns_.at.begin(), columns_.at.end(), field) == columns_.at.end();
+  }
+
+  void nameAttributes(std::span<const std::string_view> fields, bool areNames) {
+    if (!attributes_) return;
+    fieldCount_ = fields.size();
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      if (!isAttribute(i)) continue;
+      std::string name(areNames ? fields[i] : std::string_view());
+      if (name.empty()) name = fmt::format("field_{}", i + 1);
+      attributes_->columns.push_back({std::move(name)});
+    }
+  }
+
+  void addAttributes(std::string_view line) {
+    std::string_view rest = line, field;
+    for (std::size_t i = 0; i < fieldCount_; ++i) {
+      if (!nextField(rest, separator_, field)) field = {};
+      if (isAttribute(i)) attributes_->add(withSingleQuotes(field));
+    }
+    while (nextField(rest, separator_, field)) surplusFields_ += !field.empty();
+  }
+
+  /// What stands in quotes has its own quotes doubled.
+  static std::string withSingleQuotes(std::string_view field) {
+    std::string text;
+    for (std::size_t i = 0; i < field.size(); ++i) {
+      text += field[i];
+      if (field[i] == '"' && i + 1 < field.size() && field[i + 1] == '"') ++i;
+    }
+    return text;
   }
 
   std::string where() const { return fmt::format("{}:{}", path_, lineNumber_); }
@@ -225,6 +267,8 @@ class TextParser {
   const std::string& zColumn_;
   PointTextColumns kind_;
   std::vector<std::string>& warnings_;
+  PointAttributes* attributes_;
+  std::size_t fieldCount_ = 0, surplusFields_ = 0;
   PointRows rows_;
   Columns columns_;
   char separator_ = kSpaces;
@@ -256,7 +300,7 @@ bool looksLikePointText(const std::string& path) {
 
 Result<PointRows> readPointText(const std::string& path, const std::string& zColumn,
                                 std::vector<std::string>& warnings, const RunContext& context,
-                                PointTextColumns columns) {
+                                PointTextColumns columns, PointAttributes* attributes) {
   registerGdal();
   GdalErrors errors;
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
@@ -267,7 +311,7 @@ Result<PointRows> readPointText(const std::string& path, const std::string& zCol
 
   // One more than a small file has, so that its end is seen at once.
   const std::size_t chunkBytes = size > 0 && size < kMostChunkBytes ? std::size_t(size) + 1 : kMostChunkBytes;
-  TextParser parser(path, zColumn, columns, warnings);
+  TextParser parser(path, zColumn, columns, warnings, attributes);
   std::string buffer;
   double bytesRead = 0;
   for (bool first = true, more = true; more; first = false) {

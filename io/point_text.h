@@ -6,6 +6,7 @@
 
 #include "engine/result.h"
 #include "engine/run_context.h"
+#include "io/point_attributes.h"
 #include "io/point_rows.h"
 
 namespace arete {
@@ -17,13 +18,16 @@ bool looksLikePointText(const std::string& path);
 /// What the lines of a text hold.
 enum class PointTextColumns {
   spatial,  ///< x, y and a height
-  plan,     ///< x, y; what follows is not looked at, and the heights read are meaningless
+  plan,     ///< x, y; the heights read are meaningless
 };
 
 /// The points of a text file; the format is described at readPoints(). `zColumn` names the column of heights;
-/// empty = by the usual names. Origins are line numbers, counted from 1.
+/// empty = by the usual names. Origins are line numbers, counted from 1. `attributes` takes the fields that
+/// are none of these, under the names of the first line, or "field_3", "field_4", ... by their place; it has
+/// a row per point. Fields beyond the columns are left out, with a warning.
 Result<PointRows> readPointText(const std::string& path, const std::string& zColumn,
                                 std::vector<std::string>& warnings, const RunContext& context,
-                                PointTextColumns columns = PointTextColumns::spatial);
+                                PointTextColumns columns = PointTextColumns::spatial,
+                                PointAttributes* attributes = nullptr);
 
 }  // namespace arete

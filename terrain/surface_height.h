@@ -18,7 +18,7 @@ namespace arete {
 struct SurfaceHeight {
   double height = 0;               ///< in the DEM's vertical unit
   double below = 0, above = 0;     ///< the bound of the triangle: z_triangle - z_finest is in [-below, above]
-  TriangleId triangle;             ///< the triangle of the multitriangulation that decided
+  TriangleId triangle{};           ///< the triangle of the multitriangulation that decided
   std::uint32_t nodesVisited = 0;  ///< steps down from the root
 };
 

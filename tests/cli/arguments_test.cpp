@@ -34,9 +34,9 @@ TEST_F(Arguments, HelpAndVersionAreAnswers) {
   const Outcome help = run({"--help"});
   EXPECT_EQ(help.code, 0);
   for (const char* text :
-       {"build", "info", "extract", "measure", "validate", "Exit codes", "130", "Examples"})
+       {"build", "info", "extract", "height", "measure", "validate", "Exit codes", "130", "Examples"})
     EXPECT_NE(help.out.find(text), std::string::npos) << text;
-  for (const char* command : {"build", "info", "extract", "measure", "validate"}) {
+  for (const char* command : {"build", "info", "extract", "height", "measure", "validate"}) {
     const Outcome own = run({command, "--help"});
     EXPECT_EQ(own.code, 0);
     EXPECT_NE(own.out.find(std::string("  arete ") + command), std::string::npos) << own.out;

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace arete {
+
+/// What a file says of its points beside their places: named columns of values, kept as their texts in one
+/// block of memory.
+class PointAttributes {
+ public:
+  enum class Kind { text, integer, real };
+  struct Column {
+    std::string name;
+    Kind kind = Kind::text;
+  };
+  std::vector<Column> columns;
+
+  /// Adds the next value, row by row; an empty one is none.
+  void add(std::string_view value) {
+    text_ += value;
+    end_.push_back(text_.size());
+  }
+  std::string_view at(std::size_t row, std::size_t column) const {
+    const std::size_t i = row * columns.size() + column;
+    const std::size_t begin = i == 0 ? 0 : end_[i - 1];
+    return std::string_view(text_).substr(begin, end_[i] - begin);
+  }
+  std::size_t rows() const { return columns.empty() ? 0 : end_.size() / columns.size(); }
+
+  /// Makes columns of texts that are numbers throughout columns of numbers; "007" is none. O(values).
+  void findKinds();
+
+ private:
+  std::string text_;
+  std::vector<std::size_t> end_;
+};
+
+}  // namespace arete
