@@ -66,6 +66,10 @@ void useMesh(const Result<MeshFile>& file) {
   if (!file) return requireClear(file.error());
   const TriangleMesh& mesh = file->mesh;
   require(mesh.validate().has_value(), "a mesh that was read has valid indices and finite coordinates");
+  require(file->triangleErrors.empty() || file->triangleErrors.size() == mesh.triangles.size(),
+          "a mesh has an error for each triangle or for none");
+  for (const double rounding : {file->frame.rounding.x, file->frame.rounding.y, file->frame.rounding.z})
+    require(rounding >= 0, "a rounding is a distance");
   static const RasterHeightfield dem = smallDem();
   static const PointHeightfield points = fewPoints();
   const auto requireSound = [](const Result<MeasureReport>& report) {
