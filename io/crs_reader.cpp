@@ -87,16 +87,24 @@ void describeVertical(const OGRSpatialReference& crs, Georeference& georeference
   }
 }
 
-}  // namespace
-
-std::string wktOf(const OGRSpatialReference& crs) {
-  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
-  char* text = nullptr;
-  std::string wkt;
-  if (crs.exportToWkt(&text, options) == OGRERR_NONE && text) wkt = text;
-  CPLFree(text);
-  return wkt;
+Result<OGRSpatialReference> parsedCrs(const std::string& text, CSLConstList limitations) {
+  GdalErrors errors;
+  OGRSpatialReference crs;
+  if (crs.SetFromUserInput(text.c_str(), limitations) != OGRERR_NONE || crs.IsEmpty()) {
+    const std::string said = errors.firstFailure();
+    return failure(ErrorCode::usage,
+                   said.empty() ? "is not a CRS that GDAL understands"
+                                : fmt::format("is not a CRS that GDAL understands: {}", said),
+                   text);
+  }
+  if (crs.IsVertical() && !crs.IsCompound())
+    return failure(ErrorCode::usage,
+                   "is a vertical CRS alone; name a compound one, for instance EPSG:4326+5773", text);
+  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return crs;
 }
+
+}  // namespace
 
 std::optional<double> metresPerUnit(std::string_view name) {
   std::string lower(name);
@@ -111,21 +119,21 @@ bool isKnownCrs(const OGRSpatialReference* crs) {
   return crs && !crs->IsEmpty() && nameOf(*crs).rfind("Undefined ", 0) != 0;
 }
 
+std::string wktOf(const OGRSpatialReference& crs) {
+  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+  char* text = nullptr;
+  std::string wkt;
+  if (crs.exportToWkt(&text, options) == OGRERR_NONE && text) wkt = text;
+  CPLFree(text);
+  return wkt;
+}
+
 Result<OGRSpatialReference> crsFromText(const std::string& text) {
-  GdalErrors errors;
-  OGRSpatialReference crs;
-  if (crs.SetFromUserInput(text.c_str()) != OGRERR_NONE || crs.IsEmpty()) {
-    const std::string said = errors.firstFailure();
-    return failure(ErrorCode::usage,
-                   said.empty() ? "is not a CRS that GDAL understands"
-                                : fmt::format("is not a CRS that GDAL understands: {}", said),
-                   text);
-  }
-  if (crs.IsVertical() && !crs.IsCompound())
-    return failure(ErrorCode::usage,
-                   "is a vertical CRS alone; name a compound one, for instance EPSG:4326+5773", text);
-  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  return crs;
+  return parsedCrs(text, OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get());
+}
+
+Result<OGRSpatialReference> crsFromUser(const std::string& text) {
+  return parsedCrs(text, nullptr);
 }
 
 Result<OGRSpatialReference> chooseCrs(const OGRSpatialReference* own, const std::string& text,
@@ -133,7 +141,7 @@ Result<OGRSpatialReference> chooseCrs(const OGRSpatialReference* own, const std:
   OGRSpatialReference chosen;
   if (own) chosen = *own;
   if (!text.empty()) {
-    auto stated = crsFromText(text);
+    auto stated = crsFromUser(text);
     if (!stated) return tl::unexpected(stated.error());
     if (own && !own->IsEmpty() && !own->IsSame(&*stated))
       warnings.push_back(fmt::format("the CRS of the file, {}, is replaced by the one stated, {}",

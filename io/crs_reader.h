@@ -13,9 +13,13 @@
 
 namespace arete {
 
-/// The CRS a person names: anything GDAL's SetFromUserInput takes ("EPSG:32611", "EPSG:4326+5773", WKT,
-/// PROJJSON, a PROJ string, a .prj file). Errors: usage, naming the text; a vertical CRS alone is one too.
+/// The CRS of a text that stands in a file: WKT, PROJJSON, a PROJ string, a code ("EPSG:32611",
+/// "EPSG:4326+5773"). A text that names a file or an address is none: what a file says opens nothing. Errors:
+/// usage, naming the text; a vertical CRS alone is one too.
 Result<OGRSpatialReference> crsFromText(const std::string& text);
+
+/// The CRS a person names: all of that, a .prj file and an address.
+Result<OGRSpatialReference> crsFromUser(const std::string& text);
 
 /// Whether a layer has a CRS: a GeoPackage says "Undefined ... SRS" where it has none.
 bool isKnownCrs(const OGRSpatialReference* crs);
@@ -23,8 +27,8 @@ bool isKnownCrs(const OGRSpatialReference* crs);
 /// WKT 2 of a CRS; empty for one that has none.
 std::string wktOf(const OGRSpatialReference& crs);
 
-/// The CRS to use: the stated one where `text` names one (with a warning where it replaces another), else the
-/// file's own, which may be null. An empty CRS = none.
+/// The CRS to use: the one a person stated where `text` names one (with a warning where it replaces another),
+/// else the file's own, which may be null. An empty CRS = none.
 Result<OGRSpatialReference> chooseCrs(const OGRSpatialReference* own, const std::string& text,
                                       std::vector<std::string>& warnings);
 

@@ -169,7 +169,7 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
 
   auto source = chooseCrs((*layer)->GetSpatialRef(), options.crs, read.warnings);
   if (!source) return tl::unexpected(source.error());
-  auto target = chooseCrs(nullptr, targetCrs, read.warnings);
+  auto target = targetCrs.empty() ? OGRSpatialReference() : crsFromText(targetCrs);
   if (!target) return tl::unexpected(target.error());
   Reprojection reproject;
   if (!source->IsEmpty() && !target->IsEmpty()) {

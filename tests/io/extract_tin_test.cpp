@@ -121,6 +121,13 @@ TEST(ExtractTin, KeepsThePromiseInEveryFormatOnPoints) {
   }
 }
 
+TEST(CrsNames, OpenNoFileThatAFileNames) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("crs.prj", "EPSG:32611");
+  EXPECT_EQ(crsName(path), "unknown");
+  EXPECT_EQ(compareCrs(path, "EPSG:32611"), CrsAgreement::unknown);
+}
+
 TEST(CrsNames, AreShortAndCompareByPlace) {
   EXPECT_EQ(crsName(""), "none");
   EXPECT_EQ(crsName("EPSG:32611"), "WGS 84 / UTM zone 11N (EPSG:32611)");
