@@ -23,6 +23,13 @@ ProgressBar& progressBar() {
   return bar;
 }
 
+/// Names and texts come out of files: none of them may move the cursor of a terminal or name its window.
+std::string withoutControls(std::string text) {
+  for (char& c : text)
+    if ((static_cast<unsigned char>(c) < 32 && c != '\n' && c != '\t') || c == 127) c = '?';
+  return text;
+}
+
 }  // namespace
 
 CLI::App* Session::addCommand(CLI::App& app, const std::string& name, const std::string& summary,
@@ -77,7 +84,7 @@ RunContext Session::context() const {
 void Session::say(const std::string& text) const {
   if (json_ || quiet_) return;
   progressBar().finishLine();
-  fmt::print("{}", text);
+  fmt::print("{}", withoutControls(text));
   std::fflush(stdout);
 }
 
@@ -92,7 +99,7 @@ void Session::answer(const Json& object) {
 void Session::warn(const std::string& sentence) const {
   if (quiet_) return;
   progressBar().endLine();
-  fmt::print(stderr, "arete: warning: {}\n", sentence);
+  fmt::print(stderr, "arete: warning: {}\n", withoutControls(sentence));
 }
 
 void Session::warn(const std::vector<std::string>& sentences, const std::string& culprit) const {
@@ -102,7 +109,7 @@ void Session::warn(const std::vector<std::string>& sentences, const std::string&
 ExitCode Session::fail(const Error& error) {
   progressBar().endLine();
   const ExitCode code = exitCodeOf(error.code);
-  fmt::print(stderr, "arete: {}\n", error.describe());
+  fmt::print(stderr, "arete: {}\n", withoutControls(error.describe()));
   if (!answered_)
     answer({{"error",
              {{"code", toString(error.code)},

@@ -54,6 +54,18 @@ TEST_F(MainJob, HoldsOnEveryFamilyBothShapesAndBothMethods) {
   }
 }
 
+TEST_F(MainJob, LetsNoFileTalkToTheTerminal) {
+  makeRaster("dem.tif", "fractal", 8, 8);
+  write("tin.ply",
+        "ply\nformat ascii 1.0\ncomment vertical_unit \x1b]0;title\x07\nelement vertex 3\nproperty double x\n"
+        "property double y\nproperty double z\nelement face 1\nproperty list uchar uint vertex_indices\n"
+        "end_header\n-900 -900 0\n900 -900 0\n0 900 0\n3 0 1 2\n");
+  const Outcome measured = run({"measure", "tin.ply", "dem.tif"});
+  const Outcome missing = run({"measure", "\x1b[2J.ply", "dem.tif"});
+  EXPECT_EQ((measured.out + measured.err + missing.err).find('\x1b'), std::string::npos);
+  EXPECT_NE(missing.err.find("?[2J.ply"), std::string::npos) << missing.err;
+}
+
 TEST_F(MainJob, NamesTheOutputsOfSeveralTolerances) {
   makeRaster("dem.tif", "fractal", 40, 40);
   ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
