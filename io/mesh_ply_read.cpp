@@ -27,6 +27,7 @@ namespace arete {
 namespace {
 
 constexpr std::uint64_t kRecordsPerCancelCheck = 1 << 16;
+constexpr std::size_t kLongestName = 40;
 
 template <class T, bool kSwap>
 double scalarAt(const char* at) {
@@ -121,7 +122,8 @@ class PlyBody {
   }
   tl::unexpected<Error> corruptRecord(const PlyElement& element, std::uint64_t record,
                                       std::string_view what) const {
-    return corrupt(fmt::format("{} {} of {} {}", element.name, record, element.count, what));
+    return corrupt(fmt::format("{} {} of {} {}", text::printable(element.name, kLongestName), record,
+                               element.count, what));
   }
   std::size_t left() const { return static_cast<std::size_t>(scalars_.end - scalars_.at); }
 
