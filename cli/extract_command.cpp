@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cli/arguments.h"
+#include "cli/criterion_arguments.h"
 #include "io/amt_file.h"
 #include "io/extract_tin.h"
 #include "io/mesh_file.h"
@@ -38,11 +39,7 @@ CLI::Validator notTheModel() {
 
 struct ExtractArguments {
   std::string model, output;
-  std::string maxErrors;
-  std::int64_t maxTriangles = -1;  // < 0: not stated
-  std::string method = "minimal";
-  std::string region;
-  double outsideError = std::numeric_limits<double>::quiet_NaN();  // NaN: not stated
+  CriterionArguments criterion;
   std::string certificate, errorRaster;
   CLI::Option* certificateOption = nullptr;
 };
@@ -62,37 +59,24 @@ std::string certificateBeside(const std::string& output) {
   return fs::path(output).replace_extension(".certificate.json").string();
 }
 
+/// What stands for a criterion in the name of its file.
+std::string tagOf(const ExtractCriterion& criterion) {
+  if (criterion.maxError) return fmt::format("{}", *criterion.maxError);
+  if (criterion.maxTriangles) return std::to_string(*criterion.maxTriangles);
+  if (criterion.pixelError) return fmt::format("{}px", *criterion.pixelError);
+  return fmt::format("{}ms", criterion.deadlineMilliseconds.value_or(0));
+}
+
 Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments, const TerrainModel& model) {
+  auto criteria = arguments.criterion.criteria(model);
+  if (!criteria) return tl::unexpected(criteria.error());
   std::vector<ExtractRequest> requests;
-  std::vector<double> errors;
-  if (!arguments.maxErrors.empty()) {
-    auto parsed = parseNumbers("--max-error", arguments.maxErrors);
-    if (!parsed) return tl::unexpected(parsed.error());
-    errors = std::move(*parsed);
-  }
   const bool wantsCertificate = arguments.certificateOption->count() > 0;
-  const bool hasOutside = !std::isnan(arguments.outsideError);
-  const bool isBudget = errors.empty();
-  for (std::size_t i = 0; i < (isBudget ? 1 : errors.size()); ++i) {
+  const bool several = criteria->size() > 1;
+  for (ExtractCriterion& criterion : *criteria) {
     ExtractRequest request;
-    ExtractCriterion& c = request.criterion;
-    if (isBudget) {
-      c.maxTriangles = static_cast<std::uint32_t>(arguments.maxTriangles);
-    } else {
-      c.maxError = errors[i];
-      if (std::count(errors.begin(), errors.end(), errors[i]) > 1)
-        return failure(ErrorCode::usage, fmt::format("names {} twice", errors[i]), "--max-error");
-    }
-    c.method = arguments.method == "saturated" ? CutMethod::saturated : CutMethod::minimal;
-    c.region = arguments.region;
-    if (hasOutside) c.outsideError = arguments.outsideError;
-    if (hasOutside && c.maxError && arguments.outsideError < *c.maxError)
-      return failure(ErrorCode::usage,
-                     fmt::format("{} outside the region is below the {} inside it; it may only be coarser",
-                                 arguments.outsideError, *c.maxError),
-                     "--outside-error");
-    const std::string tag = isBudget ? std::to_string(arguments.maxTriangles) : fmt::format("{}", errors[i]);
-    const bool several = errors.size() > 1;
+    request.criterion = std::move(criterion);
+    const std::string tag = tagOf(request.criterion);
     request.output = named(arguments.output, tag, several);
     if (wantsCertificate)
       request.certificate = arguments.certificate.empty() ? certificateBeside(request.output)
@@ -103,6 +87,11 @@ Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments
   for (const ExtractRequest& request : requests) {
     if (Status known = checkExtractOutput(request.output, model); !known)
       return failure(known.error().code, known.error().message, fmt::format("--output {}", request.output));
+    if (arguments.criterion.hasDeadline() && isRasterOutput(request.output))
+      return failure(
+          ErrorCode::usage,
+          "a TIN that a deadline ended cannot be taken a second time to check the raster; write a mesh",
+          fmt::format("--output {}", request.output));
     if (request.errorRaster.empty()) continue;
     if (!isRasterOutput(request.errorRaster))
       return failure(ErrorCode::usage, "the error raster is a GeoTIFF: its name ends in .tif",
@@ -117,7 +106,7 @@ Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments
 Status checkOutputs(const std::vector<ExtractRequest>& requests, const ExtractArguments& arguments,
                     const TerrainModel& model) {
   std::vector<std::string> taken = {arguments.model, model.source};
-  if (fs::exists(arguments.region)) taken.push_back(arguments.region);
+  if (fs::exists(arguments.criterion.region())) taken.push_back(arguments.criterion.region());
   const auto check = [&](const char* option, const std::string& path) -> Status {
     if (path.empty()) return {};
     if (Status output = checkOutput(option, path, taken); !output) return output;
@@ -134,14 +123,16 @@ Status checkOutputs(const std::vector<ExtractRequest>& requests, const ExtractAr
 
 Result<std::optional<Region>> regionOf(const ExtractArguments& arguments, const TerrainModel& model,
                                        Session& session) {
-  if (arguments.region.empty()) return std::nullopt;
-  auto read = readRegionArgument(arguments.region, model.georeference.crsWkt, session.context());
+  const std::string& text = arguments.criterion.region();
+  if (text.empty()) return std::nullopt;
+  auto read =
+      readRegionArgument(text, model.georeference.crsWkt, arguments.criterion.distance(), session.context());
   if (!read) return tl::unexpected(read.error());
-  session.warn(read->warnings, arguments.region);
-  Region region = planRegion(std::move(read->rings), model);
+  session.warn(read->warnings, text);
+  Region region = planRegion(std::move(read->shape), model);
   if (region.isEmpty() || !meetsDomain(region, model.mt))
     return failure(ErrorCode::usage, fmt::format("does not meet the data of {}", arguments.model),
-                   fmt::format("--region {}", arguments.region));
+                   fmt::format("--region {}", text));
   return std::optional<Region>(std::move(region));
 }
 
@@ -151,9 +142,13 @@ Json jsonOf(const ExtractRequest& request, const ExtractedTin& tin, bool isRaste
     json["maxError"] =
         std::isfinite(*request.criterion.maxError) ? Json(*request.criterion.maxError) : Json();
   if (request.criterion.maxTriangles) json["maxTriangles"] = *request.criterion.maxTriangles;
+  if (request.criterion.pixelError) json["pixelError"] = *request.criterion.pixelError;
+  if (request.criterion.deadlineMilliseconds) json["deadline"] = *request.criterion.deadlineMilliseconds;
+  json["complete"] = tin.isComplete;
   json["triangles"] = tin.triangles;
   json["vertices"] = tin.vertices;
   json["storedError"] = tin.storedError;
+  if (tin.pixels) json["pixels"] = std::isfinite(*tin.pixels) ? Json(*tin.pixels) : Json();
   json["promisedError"] = std::isfinite(tin.promisedError) ? Json(tin.promisedError) : Json();
   if (!request.certificate.empty()) json["certificate"] = request.certificate;
   if (!request.errorRaster.empty()) json["errorRaster"] = request.errorRaster;
@@ -169,6 +164,8 @@ std::string textOf(const ExtractRequest& request, const ExtractedTin& tin, const
                   grouped(tin.vertices), withUnit(tin.storedError, unit));
   if (!request.criterion.region.empty())
     text += fmt::format(" (in the region {})", withUnit(tin.promisedError, unit));
+  if (tin.pixels) text += fmt::format(", {:.3g} pixels in the camera's picture", *tin.pixels);
+  if (!tin.isComplete && request.criterion.deadlineMilliseconds) text += "; ended by the deadline";
   if (tin.measured) text += fmt::format("; measured {}", withUnit(tin.measured->maxAbsError, unit));
   if (tin.measuredInside) text += fmt::format(", {} inside", withUnit(tin.measuredInside->maxAbsError, unit));
   if (!request.certificate.empty()) text += fmt::format("\n  certificate {}", request.certificate);
@@ -196,10 +193,7 @@ std::string brokenPromise(const ExtractedTin& tin) {
 }
 
 Status runExtract(const ExtractArguments& arguments, Session& session) {
-  if (arguments.maxErrors.empty() && arguments.maxTriangles < 0)
-    return failure(ErrorCode::usage, "either --max-error or --max-triangles says how fine the TIN shall be");
-  if (!std::isnan(arguments.outsideError) && arguments.region.empty())
-    return failure(ErrorCode::usage, "means something only with --region", "--outside-error");
+  if (Status ok = arguments.criterion.check(); !ok) return ok;
   const Result<TerrainModel> model = loadAmt(arguments.model, {}, session.context());
   if (!model) return tl::unexpected(model.error());
   auto requests = requestsOf(arguments, *model);
@@ -232,12 +226,14 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
 void addExtractCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<ExtractArguments>();
   CLI::App* command = session.addCommand(
-      app, "extract", "Take TINs from a multitriangulation: by tolerance, budget or region",
+      app, "extract", "Take TINs from a multitriangulation: by tolerance, budget, region or view",
       "  arete extract dem.amt -o tin.ply --max-error 5\n"
       "  arete extract dem.amt -o tin.ply --max-error 1,5,20      tin_1.ply, tin_5.ply, tin_20.ply\n"
       "  arete extract dem.amt -o 'out/{}m.obj' --max-error 5     out/5m.obj\n"
       "  arete extract dem.amt -o tin.ply --max-triangles 50000 --certificate\n"
       "  arete extract dem.amt -o tin.ply --max-error 1 --region park.gpkg --outside-error 20\n"
+      "  arete extract dem.amt -o tin.ply --max-error 1 --region road.gpkg --distance 500\n"
+      "  arete extract dem.amt -o tin.ply --camera 384000,3800000,50 --look 120,-10 --pixel-error 2\n"
       "  arete extract dem.amt -o smooth.tif --max-error 5 --error-raster error.tif",
       [arguments](Session& s) { return runExtract(*arguments, s); });
   command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
@@ -248,34 +244,7 @@ void addExtractCommand(CLI::App& app, Session& session) {
                        "with several and no {}, _E goes before the extension")
       ->required()
       ->type_name("FILE");
-  CLI::Option* errors =
-      command
-          ->add_option(
-              "--max-error", arguments->maxErrors,
-              "Largest vertical error, in the DEM's unit of height; several with commas, one TIN each")
-          ->check(tolerances())
-          ->type_name("E[,E...]");
-  command
-      ->add_option("--max-triangles", arguments->maxTriangles,
-                   "At most so many triangles, spent where the error is largest")
-      ->check(wholeNumber(1, 0xFFFFFFFE))
-      ->type_name("N")
-      ->excludes(errors);
-  command
-      ->add_option("--method", arguments->method,
-                   "minimal: the fewest triangles (default); saturated: a little more, sooner")
-      ->check(oneOf({"minimal", "saturated"}))
-      ->type_name("NAME");
-  command
-      ->add_option("--region", arguments->region,
-                   "Where the criterion holds: polygons (any vector file), or xmin,ymin,xmax,ymax in the "
-                   "DEM's CRS")
-      ->type_name("FILE|BOX");
-  command
-      ->add_option("--outside-error", arguments->outsideError,
-                   "Largest error outside the region (default: none, the coarsest)")
-      ->check(tolerance())
-      ->type_name("E");
+  arguments->criterion.addTo(*command);
   arguments->certificateOption =
       command
           ->add_option("--certificate", arguments->certificate,

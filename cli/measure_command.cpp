@@ -31,6 +31,7 @@ struct MeasureArguments {
   DemArguments dem;
   double expect = std::numeric_limits<double>::quiet_NaN();  // NaN: not stated
   std::string region, errorRaster;
+  double distance = 0;
   bool allowCoveredNodata = false;
   std::int64_t samples = 0, seed = -1;  // of another mesh; not stated
   std::string errorMesh;
@@ -80,10 +81,11 @@ template <class Heightfield>
 Result<std::vector<std::uint8_t>> maskOf(const MeasureArguments& arguments, const Heightfield& field,
                                          Session& session) {
   if (arguments.region.empty()) return std::vector<std::uint8_t>();
-  auto read = readRegionArgument(arguments.region, field.georeference.crsWkt, session.context());
+  auto read =
+      readRegionArgument(arguments.region, field.georeference.crsWkt, arguments.distance, session.context());
   if (!read) return tl::unexpected(read.error());
   session.warn(read->warnings, arguments.region);
-  std::vector<std::uint8_t> mask = samplesInside(planRegion(std::move(read->rings), field), field);
+  std::vector<std::uint8_t> mask = samplesInside(planRegion(std::move(read->shape), field), field);
   bool any = false;
   for (std::size_t i = 0; i < mask.size() && !any; ++i) any = mask[i] != 0 && !std::isnan(field.heights[i]);
   if (!any)
@@ -213,10 +215,17 @@ void addMeasureCommand(CLI::App& app, Session& session) {
       ->type_name("E");
   command->add_flag("--allow-covered-nodata", arguments->allowCoveredNodata,
                     "Covered NODATA breaks no promise (a build with --rim-tolerance)");
+  CLI::Option* region = command
+                            ->add_option("--region", arguments->region,
+                                         "Only the samples in there: polygons, with --distance lines too, or "
+                                         "xmin,ymin,xmax,ymax in the DEM's CRS")
+                            ->type_name("FILE|BOX");
   command
-      ->add_option("--region", arguments->region,
-                   "Only the samples in there: polygons, or xmin,ymin,xmax,ymax in the DEM's CRS")
-      ->type_name("FILE|BOX");
+      ->add_option("--distance", arguments->distance,
+                   "And all samples within so many metres of it (without a CRS: the DEM's units)")
+      ->check(finiteAbove(0))
+      ->needs(region)
+      ->type_name("D");
   command
       ->add_option("--error-raster", arguments->errorRaster,
                    "Write TIN height minus DEM height, a GeoTIFF on the DEM's grid")

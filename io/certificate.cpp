@@ -24,10 +24,25 @@ Json criterionJson(const ExtractCriterion& criterion) {
   Json json = Json::object();
   if (criterion.maxError) json["maxError"] = limit(*criterion.maxError);
   if (criterion.maxTriangles) json["maxTriangles"] = *criterion.maxTriangles;
-  if (!criterion.region.empty()) {
-    json["region"] = criterion.region;
-    json["outsideError"] = limit(criterion.outsideError);
+  if (!criterion.region.empty()) json["region"] = criterion.region;
+  if (criterion.distance > 0) json["distance"] = criterion.distance;
+  if (criterion.focus)
+    json["focus"] = {
+        {"x", criterion.focus->xy.x}, {"y", criterion.focus->xy.y}, {"errorGrowth", criterion.focus->growth}};
+  if (criterion.camera) {
+    const Camera& camera = *criterion.camera;
+    json["camera"] = {{"x", camera.xy.x},
+                      {"y", camera.xy.y},
+                      {"height", camera.height},
+                      {"azimuth", camera.azimuthDegrees},
+                      {"pitch", camera.pitchDegrees},
+                      {"fieldOfView", camera.verticalFieldOfViewDegrees},
+                      {"viewport", {camera.widthPixels, camera.heightPixels}}};
+    json["pixelError"] = criterion.pixelError ? Json(*criterion.pixelError) : Json();
   }
+  if (!criterion.region.empty() || criterion.focus || criterion.camera)
+    json["outsideError"] = limit(criterion.outsideError);
+  if (criterion.deadlineMilliseconds) json["deadlineMilliseconds"] = *criterion.deadlineMilliseconds;
   json["method"] = criterion.method == CutMethod::minimal ? "minimal" : "saturated";
   return json;
 }
@@ -93,6 +108,7 @@ std::string certificateJson(const Certificate& certificate, const TerrainModel& 
                  {"rimTolerance", model.options.rimTolerance}}},
                {"source", sourceJson(model)},
                {"criterion", criterionJson(certificate.criterion)},
+               {"complete", certificate.isComplete},
                {"promise",
                 {{"maxError", limit(certificate.promisedError)},
                  {"storedError", certificate.storedError},

@@ -2,28 +2,18 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 
 #include "engine/cut.h"
 #include "engine/result.h"
 #include "engine/run_context.h"
+#include "io/extract_criterion.h"
 #include "io/mesh_file.h"
 #include "terrain/measure.h"
 #include "terrain/terrain_model.h"
 
 namespace arete {
-
-/// What was asked for.
-struct ExtractCriterion {
-  std::optional<double> maxError;  ///< everywhere, or inside the region
-  std::optional<std::uint32_t>
-      maxTriangles;    ///< a budget; without a maxError the error is as small as it gets
-  std::string region;  ///< as it was given; empty = none
-  double outsideError = std::numeric_limits<double>::infinity();  ///< with a region
-  CutMethod method = CutMethod::minimal;
-};
 
 /// What the format of an export holds, and what it has no place for.
 struct ExportFormat {
@@ -40,6 +30,7 @@ struct Certificate {
   std::string model;  ///< the .amt it was taken from
   ExportFormat format;
   ExtractCriterion criterion;
+  bool isComplete = true;  ///< the criterion is met; false: a budget or a deadline came first
   double storedError = 0;  ///< of the cut: the largest error stored with its triangles
   MeasureReport measured;  ///< of the exported mesh, by terrain/measure.h, against every sample
   std::optional<MeasureReport> measuredInside;  ///< against the samples in the region alone

@@ -13,10 +13,12 @@
 #include <string_view>
 #include <utility>
 
-#include "engine/criterion.h"
+#include "engine/cut.h"
 #include "io/export_tin.h"
+#include "io/extract_criterion.h"
 #include "io/mesh_file.h"
 #include "io/raster_writer.h"
+#include "io/shell_text.h"
 #include "io/written_mesh.h"
 #include "terrain/plan_region.h"
 
@@ -33,16 +35,6 @@ std::string lowerExtension(const std::string& path) {
   std::ranges::transform(extension, extension.begin(),
                          [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return extension;
-}
-
-/// As it would be typed in a shell.
-std::string shellQuoted(const std::string& text) {
-  constexpr std::string_view kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=./:,@%";
-  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 /// The largest stored error of the triangles that meet the region.
@@ -117,18 +109,13 @@ std::string checkCommand(const ExtractRequest& request, const TerrainModel& mode
   if (isRasterOutput(request.output)) {
     tin = std::filesystem::path(request.output).replace_extension(".ply").string();
     command = fmt::format("arete extract {} -o {}", shellQuoted(modelPath), shellQuoted(tin));
-    if (c.maxError) command += fmt::format(" --max-error {}", *c.maxError);
-    if (c.maxTriangles) command += fmt::format(" --max-triangles {}", *c.maxTriangles);
-    if (c.method == CutMethod::saturated) command += " --method saturated";
-    if (!c.region.empty()) {
-      command += fmt::format(" --region {}", shellQuoted(c.region));
-      if (std::isfinite(c.outsideError)) command += fmt::format(" --outside-error {}", c.outsideError);
-    }
+    command += optionsOf(c);
     command += " && ";
   }
   command += fmt::format("arete measure {} {} --expect {}", shellQuoted(tin), shellQuoted(model.source),
                          promisedError);
   if (!c.region.empty()) command += fmt::format(" --region {}", shellQuoted(c.region));
+  if (c.distance > 0) command += fmt::format(" --distance {}", c.distance);
   if (model.options.rimTolerance > 0) command += " --allow-covered-nodata";
   return command;
 }
@@ -143,46 +130,41 @@ const TinExtractor::Samples& TinExtractor::samples() {
   return *samples_;
 }
 
-Result<Cut> TinExtractor::cut(const ExtractRequest& request, double reserve,
-                              const RunContext& context) const {
-  const ExtractCriterion& c = request.criterion;
-  const CutOptions options{.method = c.method, .maxTriangles = c.maxTriangles};
-  const double maxError = std::max(0.0, c.maxError.value_or(0) - reserve);
-  if (!request.region) return takeCut(model_.mt, UniformError(maxError), options, context);
-  const RegionError criterion(*request.region, model_.mt.arrays().metric, maxError,
-                              std::max(maxError, c.outsideError));
-  return takeCut(model_.mt, criterion, options, context);
-}
-
 Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, double reserve,
                                                ExtractedTin& tin, const RunContext& context) const {
-  Result<Cut> taken = cut(request, reserve, context);
+  const auto criterion = engineCriterion(request.criterion, request.region, reserve, model_);
+  if (!criterion) return tl::unexpected(criterion.error());
+  const auto options = engineOptions(request.criterion, model_);
+  if (!options) return tl::unexpected(options.error());
+  Result<Cut> taken = takeCut(model_.mt, **criterion, *options, context);
   if (!taken) return tl::unexpected(taken.error());
+  tin.isComplete = taken->isComplete;
+  if (request.criterion.camera) tin.pixels = worstSeverity(model_.mt, **criterion, *taken);
   tin.triangles = taken->triangles.size();
   tin.vertices = taken->vertices.size();
   tin.storedError = taken->achievedError;
-  const bool isBudget = !request.criterion.maxError || request.criterion.maxTriangles;
-  if (isBudget)
+  const bool promisesMaxError = request.criterion.promisesMaxError();
+  if (promisesMaxError)
+    tin.promisedError = *request.criterion.maxError;
+  else
     tin.promisedError =
         request.region ? storedErrorInside(model_, *taken, *request.region) : taken->achievedError;
-  else
-    tin.promisedError = *request.criterion.maxError;
   TinExport exported = exportTin(model_, *taken);
   if (isRasterOutput(request.output)) {
     tin.format = {.name = "GeoTIFF", .saysCrs = true, .saysVerticalUnit = true};
     return std::move(exported.mesh);
   }
   *taken = {};
-  const MeshWriteOptions options{.crsWkt = model_.georeference.crsWkt,
-                                 .verticalUnit = model_.georeference.verticalUnit,
-                                 .verticalUnitMetres = model_.georeference.verticalUnitMetres,
-                                 .triangleErrors = exported.errors,
-                                 .notes = {noteOf(request, model_, tin)}};
+  const MeshWriteOptions write{.crsWkt = model_.georeference.crsWkt,
+                               .verticalUnit = model_.georeference.verticalUnit,
+                               .verticalUnitMetres = model_.georeference.verticalUnitMetres,
+                               .triangleErrors = exported.errors,
+                               .notes = {noteOf(request, model_, tin)}};
   Result<WrittenMesh> written =
-      writeAndReadBack(std::move(exported.mesh), request.output, options, model_.isRaster, context);
+      writeAndReadBack(std::move(exported.mesh), request.output, write, model_.isRaster, context);
   if (!written) return tl::unexpected(within(tl::unexpected(written.error()), request.output).error());
-  tin.format = formatOf(request.output, *written, options);
-  if (isBudget) tin.promisedError += tin.format.heightRounding;
+  tin.format = formatOf(request.output, *written, write);
+  if (!promisesMaxError) tin.promisedError += tin.format.heightRounding;
   return std::move(written->mesh);
 }
 
@@ -193,8 +175,8 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
   // Twice: another cut is rounded a little differently. measure() itself forgives a millionth.
   const double reserve = 2 * tin.format.heightRounding;
   const double promised = tin.promisedError;
-  if (reserve > kForgivenRounding && request.criterion.maxError && !request.criterion.maxTriangles &&
-      reserve < promised && tin.storedError + reserve > promised) {
+  if (reserve > kForgivenRounding && request.criterion.promisesMaxError() && reserve < promised &&
+      tin.storedError + reserve > promised) {
     mesh = cutAndWrite(request, reserve, tin, context);
     if (!mesh) return tl::unexpected(mesh.error());
   }
@@ -241,6 +223,7 @@ Status TinExtractor::measureAndWrite(const ExtractRequest& request, const Triang
                                 .model = modelPath_,
                                 .format = tin.format,
                                 .criterion = request.criterion,
+                                .isComplete = tin.isComplete,
                                 .storedError = tin.storedError,
                                 .measured = *tin.measured,
                                 .measuredInside = tin.measuredInside,

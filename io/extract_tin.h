@@ -28,6 +28,8 @@ struct ExtractRequest {
 
 struct ExtractedTin {
   std::uint64_t triangles = 0, vertices = 0;
+  bool isComplete = true;                 ///< false: a budget or a deadline came before the criterion was met
+  std::optional<double> pixels;           ///< with a camera: the worst error in its picture
   double storedError = 0;                 ///< largest error stored with the triangles of the cut
   double promisedError = 0;               ///< the tolerance, or what a budget came to; inside the region
   ExportFormat format;                    ///< what the file holds
@@ -62,7 +64,6 @@ class TinExtractor {
 
   const Samples& samples();
   /// With a tolerance smaller than asked for by `reserve`, for what the format will round away.
-  Result<Cut> cut(const ExtractRequest& request, double reserve, const RunContext& context) const;
   Result<TriangleMesh> cutAndWrite(const ExtractRequest& request, double reserve, ExtractedTin& tin,
                                    const RunContext& context) const;
   Status measureAndWrite(const ExtractRequest& request, const TriangleMesh& mesh, ExtractedTin& tin,

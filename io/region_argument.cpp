@@ -35,7 +35,7 @@ std::optional<std::vector<double>> numbersOf(std::string_view text) {
 
 }  // namespace
 
-Result<RegionArgument> readRegionArgument(const std::string& text, const std::string& demCrs,
+Result<RegionArgument> readRegionArgument(const std::string& text, const std::string& demCrs, double distance,
                                           const RunContext& context) {
   const std::string culprit = fmt::format("--region {}", text);
   if (const auto box = numbersOf(text); box && text.find(',') != std::string::npos) {
@@ -48,11 +48,19 @@ Result<RegionArgument> readRegionArgument(const std::string& text, const std::st
       if (!std::isfinite(value)) return failure(ErrorCode::usage, "a box needs finite numbers", culprit);
     if (!(xMin < xMax && yMin < yMax))
       return failure(ErrorCode::usage, "xmin must be below xmax, and ymin below ymax", culprit);
-    return RegionArgument{{{{xMin, yMin}, {xMax, yMin}, {xMax, yMax}, {xMin, yMax}}}, {}};
+    return RegionArgument{
+        {.rings = {{{xMin, yMin}, {xMax, yMin}, {xMax, yMax}, {xMin, yMax}}}, .distance = distance}, {}};
   }
-  auto read = readRegion(text, demCrs, {}, context);
+  auto read = readRegion(text, demCrs, {.takesLines = distance > 0}, context);
   if (!read) {
     Error error = read.error();
+    if (distance == 0 && (error.code == ErrorCode::unsupported || error.code == ErrorCode::invalidData))
+      if (const auto lines = readRegion(text, demCrs, {.takesLines = true}, context);
+          lines && lines->rings.empty())
+        return failure(ErrorCode::usage,
+                       "holds lines, and a line has no inside; say how far around them with "
+                       "--distance",
+                       culprit);
     if (error.code == ErrorCode::notFound && text.find(',') != std::string::npos)
       error.message += ", nor are these the four numbers xmin,ymin,xmax,ymax";
     return tl::unexpected(error);
@@ -63,7 +71,9 @@ Result<RegionArgument> readRegionArgument(const std::string& text, const std::st
                                     "state the DEM's with --crs when it is read"
                                   : "has no CRS and the DEM has one, so the two cannot be brought together",
                    culprit);
-  return RegionArgument{std::move(read->rings), std::move(read->warnings)};
+  return RegionArgument{
+      {.rings = std::move(read->rings), .lines = std::move(read->lines), .distance = distance},
+      std::move(read->warnings)};
 }
 
 }  // namespace arete

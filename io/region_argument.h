@@ -4,22 +4,23 @@
 #include <string>
 #include <vector>
 
+#include "engine/region.h"
 #include "engine/result.h"
 #include "engine/run_context.h"
-#include "engine/vec.h"
 
 namespace arete {
 
 struct RegionArgument {
-  std::vector<std::vector<Vec2>> rings;  ///< in source coordinates; inside by the even-odd rule
+  RegionShape shape;  ///< in source coordinates; the distance is the argument's
   std::vector<std::string> warnings;
 };
 
 /// A region as a person states it: "xmin,ymin,xmax,ymax" in the DEM's CRS, or a file of polygons, which are
-/// reprojected into it. `demCrs`: WKT; empty where the DEM has none. A CRS is never assumed: a file with one
-/// and a DEM without, or the other way round, is an error. Errors: usage (a box that is none, a missing CRS),
-/// and those of readRegion().
+/// reprojected into it. With a distance, all that is as near belongs to it, and the file's lines count, too.
+/// `demCrs`: WKT; empty where the DEM has none. `distance` in metres on the ground, or in the DEM's units
+/// without a CRS. A CRS is never assumed: a file with one and a DEM without, or the other way round, is an
+/// error. Errors: usage (a box that is none, a missing CRS), and those of readRegion().
 Result<RegionArgument> readRegionArgument(const std::string& text, const std::string& demCrs,
-                                          const RunContext& context = {});
+                                          double distance = 0, const RunContext& context = {});
 
 }  // namespace arete

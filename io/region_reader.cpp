@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// All polygons go into one multipolygon, which GEOS makes a union of where there are several; the union is
-// taken before the reprojection, where shared borders are still the same numbers. Its rings are then
-// reprojected vertex by vertex; an edge, straight in the file, is bisected as long as its bend is more than
-// the tolerance.
+// Lines keep apart. All polygons go into one multipolygon, which GEOS makes a union of where there are
+// several; the union is taken before the reprojection, where shared borders are still the same numbers. Its
+// rings are then reprojected vertex by vertex; an edge, straight in the file, is bisected as long as its bend
+// is more than the tolerance.
 #include "io/region_reader.h"
 
 #include <fmt/format.h>
@@ -27,31 +27,41 @@ constexpr double kBendTolerance = 1e-4;
 constexpr int kMostBisections = 12;
 constexpr std::size_t kFeaturesPerReport = 256;
 
-using Ring = std::vector<Vec2>;
+using Chain = std::vector<Vec2>;
 
 struct TransformationCloser {
   void operator()(OGRCoordinateTransformation* t) const { OGRCoordinateTransformation::DestroyCT(t); }
 };
 using TransformationPtr = std::unique_ptr<OGRCoordinateTransformation, TransformationCloser>;
 
-/// Adds the polygons in a geometry to `all`; counts what is none.
-void collectPolygons(const OGRGeometry& geometry, OGRMultiPolygon& all, std::size_t& others) {
+/// What a layer holds; lines only where they are asked for.
+struct Shapes {
+  bool takesLines = false;
+  OGRMultiPolygon polygons = {};
+  OGRMultiLineString lines = {};
+  std::size_t others = 0;  // geometries that are neither
+};
+
+void collect(const OGRGeometry& geometry, Shapes& all) {
   const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
   if (type == wkbPolygon || type == wkbTriangle) {
     OGRPolygon polygon(*geometry.toPolygon());
     polygon.flattenTo2D();
-    if (!polygon.IsEmpty()) all.addGeometry(&polygon);
+    if (!polygon.IsEmpty()) all.polygons.addGeometry(&polygon);
+  } else if (type == wkbLineString && all.takesLines) {
+    OGRLineString line(*geometry.toLineString());
+    line.flattenTo2D();
+    if (line.getNumPoints() > 1) all.lines.addGeometry(&line);
   } else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
-    for (const OGRGeometry* part : *geometry.toGeometryCollection()) collectPolygons(*part, all, others);
+    for (const OGRGeometry* part : *geometry.toGeometryCollection()) collect(*part, all);
   } else {
-    ++others;
+    ++all.others;
   }
 }
 
-Status collectLayer(OGRLayer& layer, OGRMultiPolygon& all, std::vector<std::string>& warnings,
+Status collectLayer(OGRLayer& layer, Shapes& all, std::vector<std::string>& warnings,
                     const RunContext& context) {
   GdalErrors errors;
-  std::size_t others = 0;
   layer.ResetReading();
   for (std::size_t n = 0;; ++n) {
     if (n % kFeaturesPerReport == 0 && context.cancelled())
@@ -61,15 +71,18 @@ Status collectLayer(OGRLayer& layer, OGRMultiPolygon& all, std::vector<std::stri
     const OGRGeometry* geometry = feature->GetGeometryRef();
     if (!geometry) continue;
     const std::unique_ptr<OGRGeometry> linear(geometry->getLinearGeometry());
-    if (linear) collectPolygons(*linear, all, others);
+    if (linear) collect(*linear, all);
   }
   if (errors.anyFailure())
     return failure(ErrorCode::unreadable,
                    fmt::format("the layer '{}' cannot be read: {}", layer.GetName(), errors.firstFailure()));
   errors.moveTo(warnings);
-  if (all.IsEmpty())
-    return failure(ErrorCode::invalidData, fmt::format("the layer '{}' has no polygon", layer.GetName()));
-  if (others > 0) warnings.push_back(fmt::format("{} geometries that are no polygons are left out", others));
+  if (all.polygons.IsEmpty() && all.lines.IsEmpty())
+    return failure(ErrorCode::invalidData, fmt::format("the layer '{}' has no polygon{}", layer.GetName(),
+                                                       all.takesLines ? " and no line" : ""));
+  if (all.others > 0)
+    warnings.push_back(fmt::format("{} geometries that are no polygons{} are left out", all.others,
+                                   all.takesLines ? " or lines" : ""));
   return {};
 }
 
@@ -78,10 +91,9 @@ OGRMultiPolygon unite(OGRMultiPolygon all, std::vector<std::string>& warnings) {
   if (all.getNumGeometries() < 2) return all;
   GdalErrors quiet;
   const std::unique_ptr<OGRGeometry> united(OGRGeometryFactory::haveGEOS() ? all.UnionCascaded() : nullptr);
-  OGRMultiPolygon result;
-  std::size_t others = 0;
-  if (united) collectPolygons(*united, result, others);
-  if (!result.IsEmpty()) return result;
+  Shapes result;
+  if (united) collect(*united, result);
+  if (!result.polygons.IsEmpty()) return result.polygons;
   warnings.push_back("the polygons cannot be united; where two of them overlap counts as outside");
   return all;
 }
@@ -111,7 +123,7 @@ class Reprojection {
 
 /// Appends the reprojected vertices of the edge a -> b that lie strictly inside it.
 bool bendEdge(const Reprojection& reproject, Vec2 a, Vec2 b, Vec2 projectedA, Vec2 projectedB, int bisections,
-              Ring& ring) {
+              Chain& ring) {
   const Vec2 middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
   Vec2 projected = middle;
   if (!reproject(projected)) return false;
@@ -124,31 +136,34 @@ bool bendEdge(const Reprojection& reproject, Vec2 a, Vec2 b, Vec2 projectedA, Ve
   return bendEdge(reproject, middle, b, projected, projectedB, bisections - 1, ring);
 }
 
-Status addRing(const OGRLinearRing& source, const Reprojection& reproject, std::vector<Ring>& rings) {
-  Ring original;
+/// Appends a ring, or a line, reprojected; nothing where too few vertices differ.
+Status addChain(const OGRSimpleCurve& source, bool isRing, const Reprojection& reproject,
+                std::vector<Chain>& chains) {
+  Chain original;
   for (int i = 0; i < source.getNumPoints(); ++i) {
     const Vec2 p{source.getX(i), source.getY(i)};
     if (!std::isfinite(p.x) || !std::isfinite(p.y))
       return failure(ErrorCode::invalidData, "has a vertex that is not finite");
     if (original.empty() || !(original.back() == p)) original.push_back(p);
   }
-  while (original.size() > 1 && original.front() == original.back()) original.pop_back();
-  if (original.size() < 3) return {};
+  while (isRing && original.size() > 1 && original.front() == original.back()) original.pop_back();
+  if (original.size() < (isRing ? 3 : 2)) return {};
   if (reproject.isIdentity()) {
-    rings.push_back(std::move(original));
+    chains.push_back(std::move(original));
     return {};
   }
-  Ring ring, projected = original;
+  Chain chain, projected = original;
   bool inside = true;
   for (Vec2& p : projected) inside = inside && reproject(p);
   for (std::size_t i = 0; inside && i < original.size(); ++i) {
+    chain.push_back(projected[i]);
     const std::size_t next = (i + 1) % original.size();
-    ring.push_back(projected[i]);
+    if (next == 0 && !isRing) break;
     inside = bendEdge(reproject, original[i], original[next], projected[i], projected[next], kMostBisections,
-                      ring);
+                      chain);
   }
   if (!inside) return failure(ErrorCode::invalidData, "has a vertex that the CRS of the DEM cannot tell");
-  rings.push_back(std::move(ring));
+  chains.push_back(std::move(chain));
   return {};
 }
 
@@ -160,12 +175,13 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
   const GdalDatasetPtr dataset = openGdal(path, GDAL_OF_VECTOR);
   if (!dataset) return tl::unexpected(explainOpenFailure(path, "set of polygons", errors));
-  auto layer = chooseLayer(*dataset, options.layer, LayerKind::polygons);
+  auto layer = chooseLayer(*dataset, options.layer,
+                           options.takesLines ? LayerKind::polygonsAndLines : LayerKind::polygons);
   if (!layer) return tl::unexpected(layer.error());
-  OGRMultiPolygon polygons;
-  if (Status status = collectLayer(**layer, polygons, read.warnings, context); !status)
+  Shapes shapes{.takesLines = options.takesLines};
+  if (Status status = collectLayer(**layer, shapes, read.warnings, context); !status)
     return tl::unexpected(status.error());
-  polygons = unite(std::move(polygons), read.warnings);
+  const OGRMultiPolygon polygons = unite(std::move(shapes.polygons), read.warnings);
 
   auto source = chooseCrs((*layer)->GetSpatialRef(), options.crs, read.warnings);
   if (!source) return tl::unexpected(source.error());
@@ -181,9 +197,15 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
   }
   for (const OGRPolygon* polygon : polygons)
     for (const OGRLinearRing* ring : *polygon)
-      if (Status status = addRing(*ring, reproject, read.rings); !status)
+      if (Status status = addChain(*ring, true, reproject, read.rings); !status)
         return tl::unexpected(status.error());
-  if (read.rings.empty()) return failure(ErrorCode::invalidData, "has no polygon with an area");
+  for (const OGRLineString* line : shapes.lines)
+    if (Status status = addChain(*line, false, reproject, read.lines); !status)
+      return tl::unexpected(status.error());
+  if (read.rings.empty() && read.lines.empty())
+    return failure(ErrorCode::invalidData, options.takesLines
+                                               ? "has no polygon with an area and no line with a length"
+                                               : "has no polygon with an area");
   return read;
 }
 

@@ -12,6 +12,9 @@ bool mayHold(OGRwkbGeometryType declared, LayerKind kind) {
   const OGRwkbGeometryType type = wkbFlatten(declared);
   if (type == wkbUnknown || type == wkbGeometryCollection) return true;
   if (kind == LayerKind::points) return type == wkbPoint || type == wkbMultiPoint;
+  if (kind == LayerKind::polygonsAndLines &&
+      (OGR_GT_IsSubClassOf(type, wkbCurve) || OGR_GT_IsSubClassOf(type, wkbMultiCurve)))
+    return true;
   if (kind == LayerKind::surfaces && OGR_GT_IsSubClassOf(type, wkbPolyhedralSurface)) return true;
   return OGR_GT_IsSubClassOf(type, wkbCurvePolygon) || OGR_GT_IsSubClassOf(type, wkbMultiSurface);
 }
@@ -30,9 +33,10 @@ Result<OGRLayer*> chooseLayer(GDALDataset& dataset, const std::string& name, Lay
     found = layer;
   }
   if (all.empty()) return failure(ErrorCode::unsupported, "holds no vector layer");
-  const char* what = kind == LayerKind::points     ? "points"
-                     : kind == LayerKind::polygons ? "polygons"
-                                                   : "surfaces";
+  const char* what = kind == LayerKind::points             ? "points"
+                     : kind == LayerKind::polygons         ? "polygons"
+                     : kind == LayerKind::polygonsAndLines ? "polygons or lines"
+                                                           : "surfaces";
   if (!name.empty())
     return failure(ErrorCode::notFound,
                    fmt::format("has no layer '{}'; its layers: {}", name, fmt::join(all, ", ")));

@@ -13,6 +13,7 @@ namespace arete {
 enum class LayerKind {
   points,
   polygons,
+  polygonsAndLines,
   surfaces,  ///< polygons, TINs and polyhedral surfaces
 };
 

@@ -3,32 +3,51 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
+
+#include "terrain/georeference.h"
 
 namespace arete {
 namespace {
 
-using Rings = std::vector<std::vector<Vec2>>;
-
 template <class ToPlan>
-Region mapped(Rings rings, const ToPlan& toPlan) {
-  for (std::vector<Vec2>& ring : rings)
-    for (Vec2& p : ring) p = toPlan(p);
-  return Region(std::move(rings));
+Region mapped(RegionShape shape, const MetricFrame& metric, const ToPlan& toPlan) {
+  for (auto* chains : {&shape.rings, &shape.lines})
+    for (std::vector<Vec2>& chain : *chains)
+      for (Vec2& p : chain) p = toPlan(p);
+  return Region(std::move(shape), metric);
+}
+
+MetricFrame metricAt(const Georeference& georeference, Vec2 grid) {
+  MetricFrame metric;
+  const Vec2 step = groundStep(georeference, grid.x, grid.y);
+  metric.scale = {step.x, step.y, georeference.verticalUnitMetres};
+  return metric;
 }
 
 }  // namespace
 
-Region planRegion(Rings sourceRings, const TerrainModel& model) {
-  return mapped(std::move(sourceRings), [&](Vec2 p) { return model.toPlan(p); });
+Region planRegion(RegionShape sourceShape, const TerrainModel& model) {
+  return mapped(std::move(sourceShape), model.mt.arrays().metric, [&](Vec2 p) { return model.toPlan(p); });
 }
 
-Region planRegion(Rings sourceRings, const RasterHeightfield& heightfield) {
-  return mapped(std::move(sourceRings), [&](Vec2 p) { return heightfield.georeference.toGrid(p.x, p.y); });
+Region planRegion(RegionShape sourceShape, const RasterHeightfield& heightfield) {
+  const MetricFrame metric =
+      metricAt(heightfield.georeference, {(heightfield.columns - 1) / 2.0, (heightfield.rows - 1) / 2.0});
+  return mapped(std::move(sourceShape), metric,
+                [&](Vec2 p) { return heightfield.georeference.toGrid(p.x, p.y); });
 }
 
-Region planRegion(Rings sourceRings, const PointHeightfield&) {
-  return Region(std::move(sourceRings));
+Region planRegion(RegionShape sourceShape, const PointHeightfield& heightfield) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vec2 low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
+  for (const Vec2 p : heightfield.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  const Vec2 grid = heightfield.georeference.toGrid((low.x + high.x) / 2, (low.y + high.y) / 2);
+  return mapped(std::move(sourceShape), metricAt(heightfield.georeference, grid), [](Vec2 p) { return p; });
 }
 
 bool meetsDomain(const Region& region, const MultiTriangulation& mt) {

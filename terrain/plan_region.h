@@ -13,10 +13,13 @@
 namespace arete {
 
 /// A region that was drawn on the map, in source coordinates, where the triangles are: in plan coordinates. A
-/// box comes as a ring, so that it stays one on the map where the grid is rotated. O(vertices).
-Region planRegion(std::vector<std::vector<Vec2>> sourceRings, const TerrainModel& model);
-Region planRegion(std::vector<std::vector<Vec2>> sourceRings, const RasterHeightfield& heightfield);
-Region planRegion(std::vector<std::vector<Vec2>> sourceRings, const PointHeightfield& heightfield);
+/// box comes as a ring, so that it stays one on the map where the grid is rotated. Its distance is in metres
+/// on the ground (in source units without a CRS), as the metric of the model has them: on a geographic CRS
+/// that is true in the middle of the DEM and off by the change of a degree's length towards its edges.
+/// O(vertices).
+Region planRegion(RegionShape sourceShape, const TerrainModel& model);
+Region planRegion(RegionShape sourceShape, const RasterHeightfield& heightfield);
+Region planRegion(RegionShape sourceShape, const PointHeightfield& heightfield);
 
 /// Whether any of the domain lies in the region: whether it meets a triangle of the root. O(root triangles).
 bool meetsDomain(const Region& region, const MultiTriangulation& mt);

@@ -168,7 +168,7 @@ TEST(PlanPointReader, ReprojectsLayers) {
 TEST(RegionArgument, IsABoxOrAFile) {
   const auto box = readRegionArgument("1, -2,3,4e1", "");
   ASSERT_TRUE(box);
-  EXPECT_EQ(box->rings, (std::vector<std::vector<Vec2>>{{{1, -2}, {3, -2}, {3, 40}, {1, 40}}}));
+  EXPECT_EQ(box->shape.rings, (std::vector<std::vector<Vec2>>{{{1, -2}, {3, -2}, {3, 40}, {1, 40}}}));
   for (const char* text : {"1,2,3", "1,2,3,4,5", "3,0,1,9", "0,5,1,5", "0,0,inf,1", "0,0,nan,1"})
     EXPECT_EQ(readRegionArgument(text, "").error().code, ErrorCode::usage) << text;
   EXPECT_EQ(readRegionArgument("no,such,file", "").error().code, ErrorCode::notFound);

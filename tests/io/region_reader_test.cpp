@@ -8,6 +8,7 @@
 
 #include "io/io_fixture.h"
 #include "io/raster_reader.h"
+#include "io/region_argument.h"
 
 namespace arete {
 namespace {
@@ -181,6 +182,39 @@ TEST(RegionReader, PlacesTheRealParkOnTheRealDem) {
   }
   EXPECT_TRUE(isInside(region, -112.95, 37.27)) << "Angels Landing";
   EXPECT_FALSE(isInside(region, -112.53, 37.05)) << "Kanab";
+}
+
+TEST(RegionReader, TakesLinesWhereTheyAreAskedFor) {
+  const TemporaryFolder folder;
+  const std::string line = R"({"type":"LineString","coordinates":[[0,0],[5,0],[5,0],[5,7]]})";
+  const std::string two = R"({"type":"MultiLineString","coordinates":[[[9,9],[8,9]],[[1,1],[1,2]]]})";
+  const std::string path = folder.write("lines.geojson", geoJson({line, two}));
+  const auto read = readRegion(path, "", {.takesLines = true});
+  ASSERT_TRUE(read) << read.error().describe();
+  EXPECT_TRUE(read->rings.empty());
+  ASSERT_EQ(read->lines.size(), 3u);
+  EXPECT_EQ(read->lines[0], (std::vector<Vec2>{{0, 0}, {5, 0}, {5, 7}})) << "repeated vertices count once";
+  EXPECT_FALSE(readRegion(path, ""));
+  const auto asked = readRegionArgument(path, "EPSG:4326", 0);
+  ASSERT_FALSE(asked);
+  EXPECT_TRUE(contains(asked.error().message, "--distance")) << asked.error().describe();
+  const auto corridor = readRegionArgument(path, "EPSG:4326", 25);
+  ASSERT_TRUE(corridor) << corridor.error().describe();
+  EXPECT_EQ(corridor->shape.lines.size(), 3u);
+  EXPECT_EQ(corridor->shape.distance, 25);
+}
+
+TEST(RegionReader, BendsLinesAsItReprojectsThemAndLeavesThemOpen) {
+  const TemporaryFolder folder;
+  const std::string line = R"({"type":"LineString","coordinates":[[-118,34],[-112,34],[-112,38]]})";
+  const auto read = readRegion(folder.write("line.geojson", geoJson({line})), "EPSG:32611",
+                               {.crs = "EPSG:4326", .takesLines = true});
+  ASSERT_TRUE(read) << read.error().describe();
+  ASSERT_EQ(read->lines.size(), 1u);
+  EXPECT_GT(read->lines[0].size(), 8u);
+  EXPECT_GT(std::hypot(read->lines[0].back().x - read->lines[0].front().x,
+                       read->lines[0].back().y - read->lines[0].front().y),
+            4e5);
 }
 
 }  // namespace

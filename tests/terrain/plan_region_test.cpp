@@ -32,7 +32,7 @@ TEST(PlanRegion, HoldsTheSamplesItWasDrawnAround) {
   for (const char* name : {"fractal", "rotated", "south up", "geographic"}) {
     SCOPED_TRACE(name);
     const RasterHeightfield field = made(name, 20, 16);
-    const Region region = planRegion({gridBox(field, 3.5, 2.5, 9.5, 7.5)}, field);
+    const Region region = planRegion({.rings = {gridBox(field, 3.5, 2.5, 9.5, 7.5)}}, field);
     const auto inside = samplesInside(region, field);
     EXPECT_EQ(std::accumulate(inside.begin(), inside.end(), 0), 6 * 5);
     EXPECT_EQ(inside[field.index(4, 3)], 1);
@@ -49,7 +49,7 @@ TEST(PlanRegion, ABoxOfTheMapStaysOneOnARotatedGrid) {
                                  {centre.x + half, centre.y - half},
                                  {centre.x + half, centre.y + half},
                                  {centre.x - half, centre.y + half}};
-  const auto inside = samplesInside(planRegion({box}, field), field);
+  const auto inside = samplesInside(planRegion({.rings = {box}}, field), field);
   for (std::uint32_t row = 0; row < field.rows; ++row)
     for (std::uint32_t column = 0; column < field.columns; ++column) {
       const Vec2 p = field.georeference.toSource(column, row);
@@ -63,8 +63,8 @@ TEST(PlanRegion, KnowsWhetherItMeetsTheDomain) {
   const RasterHeightfield field = made("rotated", 24, 24);
   const auto model = build(field);
   ASSERT_TRUE(model) << model.error().describe();
-  EXPECT_TRUE(meetsDomain(planRegion({gridBox(field, 5.1, 5.1, 5.2, 5.2)}, *model), model->mt));
-  EXPECT_FALSE(meetsDomain(planRegion({gridBox(field, 24, 0, 30, 24)}, *model), model->mt));
+  EXPECT_TRUE(meetsDomain(planRegion({.rings = {gridBox(field, 5.1, 5.1, 5.2, 5.2)}}, *model), model->mt));
+  EXPECT_FALSE(meetsDomain(planRegion({.rings = {gridBox(field, 24, 0, 30, 24)}}, *model), model->mt));
 }
 
 TEST(ErrorCurve, CountsWhatTheCutsHave) {
