@@ -11,6 +11,7 @@
 #include <string>
 
 #include "cli/build_command.h"
+#include "cli/convert_command.h"
 #include "cli/demo_command.h"
 #include "cli/exit_code.h"
 #include "cli/extract_command.h"
@@ -62,6 +63,7 @@ ExitCode run(int argc, char** argv) {
   addHeightCommand(app, session);
   addMeasureCommand(app, session);
   addValidateCommand(app, session);
+  addConvertCommand(app, session);
   addDemoCommand(app, session);
 
   if (argc < 2) {

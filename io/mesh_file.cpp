@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "io/mesh_2dm.h"
 #include "io/mesh_glb.h"
@@ -65,6 +66,10 @@ Result<MeshFormat> meshFormatOf(const std::filesystem::path& path) {
                          [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   for (const MeshFormat& format : kFormats)
     if (extension == format.extension) return format;
+  if (extension == ".amt")
+    return failure(ErrorCode::unsupported,
+                   "is a multitriangulation, which is many meshes in one: take one with arete extract",
+                   path.string());
   std::string known;
   for (const MeshFormat& format : kFormats)
     known += fmt::format("{}{} ({})", known.empty() ? "" : ", ", format.name, format.extension);
@@ -81,7 +86,11 @@ Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& c
   if (!format->read)
     return failure(ErrorCode::unsupported, fmt::format("{} files can be written, not read", format->name),
                    path.string());
-  return format->read(path, context);
+  Result<MeshFile> file = format->read(path, context);
+  // Nobody's triangles are wrong by "not a number": such errors are as good as none.
+  if (file && !std::ranges::all_of(file->triangleErrors, [](float e) { return e >= 0 && std::isfinite(e); }))
+    file->triangleErrors.clear();
+  return file;
 }
 
 Status writeMesh(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,

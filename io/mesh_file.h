@@ -31,7 +31,8 @@ struct MeshFile {
   TriangleMesh mesh;         ///< in source coordinates wherever the file says how to come back to them
   std::string crsWkt;        ///< empty where the file does not say
   std::string verticalUnit;  ///< empty where the file does not say
-  std::vector<float> triangleErrors;  ///< one per triangle, or empty where the file does not say
+  /// One per triangle, finite and not negative, or empty where the file does not say.
+  std::vector<float> triangleErrors;
   MeshFrame frame;
 };
 

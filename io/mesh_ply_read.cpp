@@ -104,16 +104,19 @@ class PlyBody {
         context_(context),
         scalars_{file.begin() + header.dataBegin, file.end()} {}
 
-  Result<TriangleMesh> read() {
+  /// Fills the mesh and, where every face has one, the errors of `file`.
+  Status readInto(MeshFile& file) {
     for (const PlyElement& element : header_.elements)
       if (element.name == "vertex") vertexCount_ = element.count;
     for (const PlyElement& element : header_.elements)
-      if (const Status ok = readElement(element); !ok) return tl::unexpected(ok.error());
-    return std::move(mesh_);
+      if (const Status ok = readElement(element); !ok) return ok;
+    file.mesh = std::move(mesh_);
+    file.triangleErrors = std::move(errors_);
+    return {};
   }
 
  private:
-  enum class Role : std::uint8_t { skip, x, y, z, indices };
+  enum class Role : std::uint8_t { skip, x, y, z, indices, error };
 
   tl::unexpected<Error> corrupt(std::string message) const {
     if constexpr (std::is_same_v<Scalars, TextScalars>)
@@ -135,6 +138,7 @@ class PlyBody {
         role = p.name == "x" ? Role::x : p.name == "y" ? Role::y : p.name == "z" ? Role::z : Role::skip;
       if (element.name == "face" && p.isList && (p.name == "vertex_indices" || p.name == "vertex_index"))
         role = Role::indices;
+      if (element.name == "face" && !p.isList && p.name == "error") role = Role::error;
       roles.push_back(role);
     }
     return roles;
@@ -180,6 +184,7 @@ class PlyBody {
   Status readRecord(const PlyElement& element, const std::vector<Role>& roles, bool isVertex,
                     std::uint64_t record) {
     Vec3 position;
+    std::optional<double> error;
     for (std::size_t p = 0; p < roles.size(); ++p) {
       const PlyProperty& property = element.properties[p];
       if (property.isList) {
@@ -198,10 +203,15 @@ class PlyBody {
         case Role::z:
           position.z = value;
           break;
+        case Role::error:
+          error = value;
+          break;
         default:
           break;
       }
     }
+    // A polygon's error is that of each of its triangles.
+    if (error) errors_.resize(mesh_.triangles.size(), static_cast<float>(*error));
     if (isVertex) {
       if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z))
         return corruptRecord(element, record, "has a coordinate that is not finite");
@@ -249,6 +259,7 @@ class PlyBody {
   Scalars scalars_;
   std::uint64_t vertexCount_ = 0;
   TriangleMesh mesh_;
+  std::vector<float> errors_;
 };
 
 Status checkElements(const PlyHeader& header, const std::string& path) {
@@ -294,20 +305,19 @@ Result<MeshFile> readPly(const std::filesystem::path& path, const RunContext& co
     takeComment(comment, "crs", result.crsWkt);
     takeComment(comment, "vertical_unit", result.verticalUnit);
   }
-  Result<TriangleMesh> mesh = failure(ErrorCode::unsupported, "unknown encoding", name);
+  Status read = failure(ErrorCode::unsupported, "unknown encoding", name);
   switch (header->format) {
     case PlyFormat::ascii:
-      mesh = PlyBody<TextScalars>(*file, *header, name, context).read();
+      read = PlyBody<TextScalars>(*file, *header, name, context).readInto(result);
       break;
     case PlyFormat::littleEndian:
-      mesh = PlyBody<BinaryScalars<std::endian::little>>(*file, *header, name, context).read();
+      read = PlyBody<BinaryScalars<std::endian::little>>(*file, *header, name, context).readInto(result);
       break;
     case PlyFormat::bigEndian:
-      mesh = PlyBody<BinaryScalars<std::endian::big>>(*file, *header, name, context).read();
+      read = PlyBody<BinaryScalars<std::endian::big>>(*file, *header, name, context).readInto(result);
       break;
   }
-  if (!mesh) return tl::unexpected(mesh.error());
-  result.mesh = std::move(*mesh);
+  if (!read) return tl::unexpected(read.error());
   return result;
 }
 

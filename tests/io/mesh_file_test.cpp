@@ -121,6 +121,7 @@ TEST_F(MeshFileTest, WritesTheErrorOfEachFace) {
   const Result<MeshFile> file = readMesh(folder_ / "a.ply");
   ASSERT_TRUE(file);
   expectSameBits(mesh, file->mesh);
+  EXPECT_EQ(file->triangleErrors, errors);
   EXPECT_FALSE(writeMesh(mesh, folder_ / "b.ply", {.triangleErrors = std::span(errors).first(1)}));
   EXPECT_FALSE(fs::exists(folder_ / "b.ply"));
 }
@@ -139,6 +140,7 @@ TEST_F(MeshFileTest, NamesTheFormatsItKnows) {
     EXPECT_EQ(error.culprit, "model.dxf");
   }
   EXPECT_EQ(readMesh("model").error().code, ErrorCode::unsupported);
+  EXPECT_NE(readMesh("dem.amt").error().message.find("arete extract"), std::string::npos);
 }
 
 TEST_F(MeshFileTest, RefusesWhatIsNotThere) {

@@ -254,6 +254,30 @@ TEST(Measure, DrawsTheLineAtAMillionthOfAPixel) {
   EXPECT_EQ(uncoveredWithGap(-1e-3), 0u);
 }
 
+TEST(Measure, TakesVerticesOfARoundedMeshToTheirSamples) {
+  // Longitudes and latitudes that float32 cannot hold, on a slope that rounding would tilt.
+  const double step = 1.0 / 1200;
+  const auto dem = raster(200, 150, [](double c, double r) { return 40 * c - 25 * r; },
+                          {8 - step / 2, step, 0, 47 + step / 2, 0, -step});
+  TriangleMesh mesh = twoTriangles(dem);
+  for (Vec3& p : mesh.positions) {
+    p.x = 8.01 + static_cast<double>(static_cast<float>(p.x - 8.01));
+    p.y = 46.9 + static_cast<double>(static_cast<float>(p.y - 46.9));
+  }
+  const auto plain = measure(mesh, dem);
+  ASSERT_TRUE(plain);
+  EXPECT_FALSE(keepsPromise(*plain, 0));
+  const MeasureOptions options{.planRounding = {1e-8, 1e-8}};
+  EXPECT_NEAR(planTolerancePixels(options, dem.georeference), 2.4e-5, 1e-9);
+  const auto told = measure(mesh, dem, options);
+  ASSERT_TRUE(told);
+  EXPECT_EQ(told->uncovered, 0u);
+  EXPECT_TRUE(keepsPromise(*told, 0));
+  // However coarse the numbers, a pixel stays a pixel.
+  EXPECT_EQ(planTolerancePixels({.planRounding = {1, 1}}, dem.georeference), kMostPlanTolerance);
+  EXPECT_EQ(planTolerancePixels({}, dem.georeference), MeasureOptions().planTolerancePixels);
+}
+
 TEST(Measure, DoesNotStretchTheToleranceBeyondASharpCorner) {
   // The frame's mitre of this needle reaches 0.2 pixels past its tip; the sample there is not covered.
   const RasterHeightfield dem = raster(12, 3, [](double, double) { return 7.0; });

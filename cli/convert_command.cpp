@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/convert_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "cli/arguments.h"
+#include "io/convert_mesh.h"
+#include "io/crs_names.h"
+#include "io/mesh_file.h"
+
+namespace arete {
+namespace {
+
+struct ConvertArguments {
+  std::string input, output, crs;
+};
+
+Json roundingJson(const Vec3& rounding) {
+  return {rounding.x, rounding.y, rounding.z};
+}
+
+Status runConvert(const ConvertArguments& arguments, Session& session) {
+  const Result<MeshFormat> format = meshFormatOf(arguments.output);
+  if (!format)
+    return failure(ErrorCode::usage, format.error().message, fmt::format("--output {}", arguments.output));
+  if (Status output = checkOutput("--output", arguments.output, {arguments.input}); !output) return output;
+  Result<MeshFile> mesh = readMesh(arguments.input, session.context());
+  if (!mesh) return tl::unexpected(mesh.error());
+  const std::uint64_t triangles = mesh->mesh.triangles.size(), vertices = mesh->mesh.positions.size();
+  const Result<ConvertedMesh> converted =
+      convertMesh(std::move(*mesh), arguments.output, {.crs = arguments.crs}, session.context());
+  if (!converted) {
+    Error error = converted.error();
+    if (error.code == ErrorCode::usage) error.culprit = fmt::format("--crs {}", arguments.crs);
+    return tl::unexpected(std::move(error));
+  }
+  session.warn(converted->warnings, arguments.input);
+  if (!converted->lost.empty())
+    session.warn(fmt::format("{} cannot hold {}", format->name, fmt::join(converted->lost, ", or ")));
+  session.say(fmt::format("{}: {} triangles, {} vertices\n", arguments.output, grouped(triangles),
+                          grouped(vertices)));
+  session.answer({{"input", arguments.input},
+                  {"output", arguments.output},
+                  {"format", format->name},
+                  {"triangles", triangles},
+                  {"vertices", vertices},
+                  {"crs", crsName(converted->crsWkt)},
+                  {"verticalUnit", converted->verticalUnit},
+                  {"rounding", roundingJson(converted->frame.rounding)},
+                  {"lost", converted->lost}});
+  return {};
+}
+
+}  // namespace
+
+void addConvertCommand(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<ConvertArguments>();
+  CLI::App* command = session.addCommand(
+      app, "convert",
+      "Write a mesh in another format, with its CRS, unit and errors where that can hold them",
+      "  arete convert tin.ply -o tin.glb\n"
+      "  arete convert tin.stl -o tin.gpkg --crs EPSG:32611\n"
+      "  arete convert tin.gpkg -o tin.2dm --json",
+      [arguments](Session& s) { return runConvert(*arguments, s); });
+  command->add_option("MESH", arguments->input, "A triangle mesh: " + readableMeshExtensions())
+      ->required()
+      ->type_name("");
+  command->add_option("-o,--output", arguments->output, "File to write: " + writableMeshExtensions())
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("--crs", arguments->crs,
+                   "The CRS of the coordinates, where the file does not say it (nothing is reprojected)")
+      ->type_name("CRS");
+}
+
+}  // namespace arete
