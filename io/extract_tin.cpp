@@ -151,7 +151,9 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
         request.region ? storedErrorInside(model_, *taken, *request.region) : taken->achievedError;
   TinExport exported = exportTin(model_, *taken);
   if (isRasterOutput(request.output)) {
-    tin.format = {.name = "GeoTIFF", .saysCrs = true, .saysVerticalUnit = true};
+    tin.format = {.name = "GeoTIFF",
+                  .saysCrs = !model_.georeference.crsWkt.empty(),
+                  .saysVerticalUnit = !model_.georeference.verticalUnit.empty()};
     return std::move(exported.mesh);
   }
   *taken = {};

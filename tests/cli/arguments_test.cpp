@@ -106,8 +106,8 @@ TEST_F(Arguments, RefusesOutputsBeforeAnyWork) {
   expectRefusal({"extract", "dem.amt", "-o", "dem.tif", "--max-error", "1"}, 2,
                 "--output dem.tif: is the input");
   expectRefusal(
-      {"extract", "dem.amt", "-o", "x.stl", "--max-error", "1"}, 2,
-      "--output x.stl: '.stl' is no format that can be written; known are .ply (PLY), .obj (OBJ), .tif");
+      {"extract", "dem.amt", "-o", "x.dxf", "--max-error", "1"}, 2,
+      "--output x.dxf: '.dxf' is no format that can be written; known are .ply (PLY), .obj (OBJ), ");
   expectRefusal({"extract", "dem.amt", "-o", "x", "--max-error", "1"}, 2,
                 "the extension that names a format");
   expectRefusal({"extract", "dem.amt", "-o", "no/x.ply", "--max-error", "1"}, 3,
@@ -174,7 +174,7 @@ TEST_F(Arguments, TellsFilesThatAreNotWhatTheyShouldBe) {
   expectRefusal({"build", "nowhere.tif", "-o", "x.amt"}, 3, "nowhere.tif: there is no such file");
   expectRefusal({"info", "nowhere.amt"}, 3, "nowhere.amt");
   expectRefusal({"info", "dem.tif"}, 4, "dem.tif: is not an .amt file");
-  expectRefusal({"measure", "tin.stl", "dem.tif"}, 3, ".stl is no known mesh format; known are PLY (.ply)");
+  expectRefusal({"measure", "tin.dxf", "dem.tif"}, 3, ".dxf is no known mesh format; known are PLY (.ply)");
   expectRefusal({"measure", "tin.ply", "nowhere.tif"}, 3, "nowhere.tif");
   write("bad.ply", "ply\nformat ascii 1.0\nelement vertex 9999999\n");
   write("bad.tif", "this is no raster");
