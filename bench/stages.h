@@ -22,8 +22,8 @@ struct Plan {
   bool wants(const std::string& stage) const;
 };
 
-/// The stages there are, in the order in which they are run: read, build, file, cut, export, measure,
-/// triangles.
+/// The stages there are, in the order in which they are run: read, build, file, cut, height, export,
+/// measure, triangles.
 const std::vector<std::string>& stageNames();
 
 /// Every stage that the plan wants, on one DEM. Each runs in processes of its own; models are built as needed
@@ -40,6 +40,7 @@ Result<Figures> buildOnce(const DemSource& source, HoleShape shape, int threads,
 Result<Figures> fileStage(const DemSource& source, HoleShape shape, const std::string& model,
                           const Plan& plan);
 Result<Figures> cutStage(const DemSource& source, const std::string& model, const Plan& plan);
+Result<Figures> heightStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> exportStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> measureStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> trianglesStage(const DemSource& source, const std::string& delaunay,
