@@ -45,7 +45,7 @@ double distanceToSegment(Vec2 p, Vec2 a, Vec2 b) {
 TriangleLocator::TriangleLocator(MultiTriangulation mt, const LocatorOptions& options)
     : mt_(std::move(mt)),
       options_(options),
-      lattice_(std::max(1u, mt_.vertices().columns), 1, 1),
+      perColumn_(1.0 / std::max(1u, mt_.vertices().columns)),
       roots_(mt_, options.margin) {}
 
 double TriangleLocator::distance(const std::array<std::uint32_t, 3>& corners, Vec2 p) const {

@@ -96,6 +96,24 @@ TEST(RootGrid, ListsEveryTriangleWithinTheMargin) {
   EXPECT_GT(largestRoot, 100u) << "no family has a root that needs a grid";
 }
 
+TEST(TriangleLocator, FindsTheColumnAndRowOfEverySample) {
+  // Few vertices of a raster with as many samples as 32 bits can number: the first and last ones of rows.
+  for (const std::uint32_t columns : {1u, 2u, 3u, 7u, 65535u, 65537u, 99991u, 2147483647u, 4294967294u}) {
+    std::vector<std::uint32_t> samples;
+    const std::uint64_t rows = 4294967295ull / columns;
+    for (const std::uint64_t row : {std::uint64_t{0}, rows / 3, rows - 1})
+      for (const std::uint64_t column :
+           {std::uint64_t{0}, std::uint64_t{columns / 2}, std::uint64_t{columns - 1}})
+        samples.push_back(static_cast<std::uint32_t>(row * columns + column));
+    MtArrays arrays;
+    arrays.vertices.columns = columns;
+    arrays.vertices.samples = samples;
+    const TriangleLocator locator(MultiTriangulation(arrays, nullptr));
+    for (std::uint32_t v = 0; v < samples.size(); ++v)
+      EXPECT_EQ(locator.planPosition(v), (Vec2{double(samples[v] % columns), double(samples[v] / columns)}));
+  }
+}
+
 TEST(TriangleLocator, WalksThroughTrianglesThatEachHoldThePlace) {
   for (const RasterFamily& family : rasterFamilies()) {
     const auto model = build(family.make(50, 45, 9));
