@@ -1,8 +1,11 @@
-# arete_layer(NAME SOURCES ... PUBLIC ... PRIVATE ...): one layer of the house.
+# arete_layer(NAME [HEADERS ...] SOURCES ... PUBLIC ... PRIVATE ...): one layer of the house.
 #
 # A layer may include the layers it links and nothing else: each layer's headers are reached through
 # an include folder of its own in the build tree (build/.../include/<layer>/<layer> -> source/<layer>),
 # so that an include of a layer that is not linked does not compile.
+#
+# A layer with HEADERS is part of the library that others install (cmake/AreteInstall.cmake): HEADERS are its public
+# headers, and what they include must be public too. A header that is not listed may change any day.
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -44,10 +47,14 @@ function(arete_include_root LAYER)
 endfunction()
 
 function(arete_layer NAME)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
   arete_include_root(${NAME})
   add_library(arete_${NAME} STATIC ${ARG_SOURCES})
   add_library(arete::${NAME} ALIAS arete_${NAME})
-  target_include_directories(arete_${NAME} PUBLIC "${ARETE_INCLUDE_ROOT}")
-  target_link_libraries(arete_${NAME} PUBLIC ${ARG_PUBLIC} PRIVATE arete_options ${ARG_PRIVATE})
+  target_include_directories(arete_${NAME} PUBLIC "$<BUILD_INTERFACE:${ARETE_INCLUDE_ROOT}>")
+  target_compile_features(arete_${NAME} PUBLIC cxx_std_20)
+  target_link_libraries(arete_${NAME} PUBLIC ${ARG_PUBLIC} PRIVATE $<BUILD_INTERFACE:arete_options> ${ARG_PRIVATE})
+  if(ARG_HEADERS)
+    arete_install_layer(${NAME} ${ARG_HEADERS})
+  endif()
 endfunction()

@@ -58,8 +58,8 @@ class TriangleLocator {
   Vec2 planPosition(std::uint32_t v) const {
     const VertexArrays& vertices = mt_.vertices();
     if (!vertices.isLattice()) return vertices.plan[v];
-    // A descent asks for some hundred positions, and divisions would take a fifth of its time. Half a sample
-    // is far more than the rounding of the product, and far less than what is left to the next row.
+    // A descent asks for some hundred positions: no division. Half a sample is far more than the rounding of
+    // the product, and far less than what is left to the next row.
     const std::uint32_t sample = vertices.samples[v];
     const auto row = static_cast<std::uint32_t>((sample + 0.5) * perColumn_);
     return {static_cast<double>(sample - row * vertices.columns), static_cast<double>(row)};
