@@ -37,7 +37,9 @@ Result<Figures> heightStage(const DemSource& source, const std::string& path, co
   const SurfaceHeights heights(*model);
   const std::vector<Vec2> places = placesOn(*model);
   Figures figures;
-  for (const double tolerance : {0.0, source.tolerances.front(), source.tolerances.back()})
+  std::vector<double> tolerances = {0};
+  tolerances.insert(tolerances.end(), source.tolerances.begin(), source.tolerances.end());
+  for (const double tolerance : tolerances)
     for (const int threads : {1, 0}) {
       const auto limit = limitTo(threads);
       const auto answers = heights.at(places, tolerance, onThreads(threads));
