@@ -35,17 +35,11 @@ struct MeasureArguments {
   bool allowCoveredNodata = false;
   std::int64_t samples = 0, seed = -1;  // of another mesh; not stated
   std::string errorMesh;
-
-  bool isAgainstMesh() const {
-    const auto format = meshFormatOf(dem.path);
-    return format && format->read != nullptr;
-  }
 };
 
 /// Options that make sense against a DEM only, or against a mesh only, and were given with the other.
-Status checkKind(const MeasureArguments& arguments) {
+Status checkKind(const MeasureArguments& arguments, bool isMesh) {
   const DemArguments& dem = arguments.dem;
-  const bool isMesh = arguments.isAgainstMesh();
   const auto check = [&](const char* option, bool isGiven, bool isForMesh) -> Status {
     if (!isGiven || isForMesh == isMesh) return {};
     return failure(ErrorCode::usage,
@@ -159,8 +153,9 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
 }
 
 Status runMeasure(const MeasureArguments& arguments, Session& session) {
-  if (Status kind = checkKind(arguments); !kind) return kind;
-  if (arguments.isAgainstMesh()) {
+  const bool isAgainstMesh = isMeshFile(arguments.dem.path);
+  if (Status kind = checkKind(arguments, isAgainstMesh); !kind) return kind;
+  if (isAgainstMesh) {
     MeasureMeshesArguments meshes;
     meshes.first = arguments.tin;
     meshes.second = arguments.dem.path;

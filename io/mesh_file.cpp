@@ -80,6 +80,11 @@ Result<MeshFormat> meshFormatOf(const std::filesystem::path& path) {
                  path.string());
 }
 
+bool isMeshFile(const std::filesystem::path& path) {
+  const Result<MeshFormat> format = meshFormatOf(path);
+  return format && format->read && (format->read != &readGpkg || holdsSurfaces(path));
+}
+
 Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& context) {
   const Result<MeshFormat> format = meshFormatOf(path);
   if (!format) return tl::unexpected(format.error());

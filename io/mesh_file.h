@@ -80,6 +80,10 @@ std::string writableMeshExtensions();
 /// By the extension of the path, in either case. Errors: unsupported, naming the known formats.
 Result<MeshFormat> meshFormatOf(const std::filesystem::path& path);
 
+/// Whether readMesh() is the way to read a path: its extension says so, and a GeoPackage, which may as well
+/// hold points or a raster, has surfaces.
+bool isMeshFile(const std::filesystem::path& path);
+
 /// Reads a mesh in the format its extension names. Errors, always naming the path and, where there is one,
 /// the line or element: notFound, unreadable, unsupported, corrupt (truncated, hostile or nonsense),
 /// interrupted. Every index of the result is valid and every coordinate finite. O(file size).

@@ -14,6 +14,9 @@ namespace arete {
 /// or have no heights, and for files with several such layers.
 Result<MeshFile> readGpkg(const std::filesystem::path& path, const RunContext& context = {});
 
+/// Whether a GeoPackage holds surfaces rather than points or rasters. False for what cannot be opened.
+bool holdsSurfaces(const std::filesystem::path& path);
+
 /// Writes a GeoPackage with one layer, "triangles", in options.crsWkt, with a spatial index: a PolygonZ for
 /// each triangle, counter-clockwise, its number from 0 in the field "triangle" and its error, where there is
 /// one, in "error". The unit of the heights is metadata of the layer. Coordinates are doubles. The same mesh

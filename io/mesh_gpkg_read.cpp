@@ -25,6 +25,7 @@ namespace {
 
 constexpr std::size_t kFeaturesPerCancelCheck = 1 << 12;
 constexpr std::uint64_t kMostTriangles = std::numeric_limits<std::uint32_t>::max() / 3;
+constexpr std::array<const char*, 2> kDrivers = {"GPKG", nullptr};
 constexpr const char* kUnitKey = "VERTICAL_UNIT";
 
 class SurfaceLayer {
@@ -122,7 +123,6 @@ Result<MeshFile> readFrom(const std::string& path, const RunContext& context) {
   registerGdal();
   GdalErrors errors;
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
-  constexpr std::array<const char*, 2> kDrivers = {"GPKG", nullptr};
   const GdalDatasetPtr dataset(GDALDataset::Open(
       path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kDrivers.data()));
   if (!dataset) {
@@ -161,6 +161,15 @@ Result<MeshFile> readGpkg(const std::filesystem::path& path, const RunContext& c
   } catch (const std::bad_alloc&) {
     return failure(ErrorCode::unsupported, "is larger than the memory that is free", path.string());
   }
+}
+
+bool holdsSurfaces(const std::filesystem::path& path) {
+  registerGdal();
+  GdalErrors quiet;
+  const GdalDatasetPtr dataset(
+      GDALDataset::Open(path.string().c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, kDrivers.data()));
+  return dataset && chooseLayer(*dataset, {}, LayerKind::surfaces) &&
+         !chooseLayer(*dataset, {}, LayerKind::points);
 }
 
 }  // namespace arete

@@ -116,6 +116,24 @@ TEST_F(MeasureMeshes, WarnsAboutFramesThatDoNotCompare) {
   EXPECT_EQ(run({"measure", "utm.obj", "utm.obj", "--samples", "10"}).err, "");
 }
 
+TEST_F(MeasureMeshes, TakesEveryFormat) {
+  makeRaster("dem.tif", "fractal", 40, 40);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  for (const MeshFormat& format : meshFormats()) {
+    SCOPED_TRACE(format.name);
+    const std::string name = "tin" + std::string(format.extension);
+    if (!format.read || !format.write) continue;
+    ASSERT_EQ(run({"extract", "dem.amt", "-o", name, "--max-error", "5"}).code, 0);
+    const Outcome outcome = run({"measure", name, "tin.ply", "--samples", "500", "--json"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_LT(outcome.json()["bothWays"]["maximum"], format.holds.isExact ? 1e-6 : 0.1);
+    EXPECT_EQ(run({"measure", "tin.ply", name, "--samples", "500"}).code, 0);
+  }
+  write("points.csv", "x,y,z\n0,0,1\n1,0,2\n0,1,3\n");
+  const Outcome points = run({"measure", "tin.ply", "points.csv", "--samples", "5"});
+  EXPECT_NE(points.err.find("points.csv is a DEM"), std::string::npos) << points.err;
+}
+
 TEST_F(MeasureMeshes, GivesTheSameTextForAnyNumberOfThreads) {
   makeRaster("dem.tif", "fractal", 60, 60);
   ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
