@@ -8,8 +8,9 @@
 namespace arete {
 
 /// Reads a PLY: ascii, binary little or big endian; any property types and order; elements and properties
-/// beside x, y, z and vertex_indices (or vertex_index) are skipped. "comment crs <WKT>" and "comment
-/// vertical_unit <unit>" are understood, and a property "error" of the faces. Errors as readMesh(). No count
+/// beside x, y, z and vertex_indices (or vertex_index) are skipped. "comment crs <WKT>", continued in lines
+/// "comment crs+ <more>", and "comment vertical_unit <unit>" are understood, and a property "error" of the
+/// faces. Errors as readMesh(). No count
 /// of the header is believed before the size of the file allows it.
 Result<MeshFile> readPly(const std::filesystem::path& path, const RunContext& context = {});
 

@@ -284,10 +284,14 @@ Status checkElements(const PlyHeader& header, const std::string& path) {
   return {};
 }
 
-/// "crs X" -> X into `value`.
+/// "crs X" -> X into `value`, and "crs+ Y" -> Y behind it.
 void takeComment(std::string_view comment, std::string_view key, std::string& value) {
-  if (comment.size() > key.size() && comment.starts_with(key) && comment[key.size()] == ' ')
-    value = comment.substr(key.size() + 1);
+  if (!comment.starts_with(key)) return;
+  comment.remove_prefix(key.size());
+  if (comment.starts_with(' '))
+    value = comment.substr(1);
+  else if (comment.starts_with("+ "))
+    value += comment.substr(2);
 }
 
 }  // namespace

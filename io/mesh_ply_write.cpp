@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 
@@ -17,12 +18,28 @@ namespace {
 
 constexpr std::size_t kRecordsPerCancelCheck = 1 << 16;
 
+/// MeshLab refuses a PLY with a line of 511 bytes or more, and a CRS takes a thousand.
+constexpr std::size_t kLongestPiece = 240;
+
+/// "comment <key> <text>", a long text in pieces on lines of their own that begin with `more` instead of
+/// `key`; no character of UTF-8 is cut.
+std::string commentLines(std::string_view key, std::string_view more, std::string_view text) {
+  std::string lines;
+  do {
+    std::size_t size = std::min(text.size(), kLongestPiece);
+    while (size > 1 && size < text.size() && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80) --size;
+    lines += fmt::format("comment {}{}\n", lines.empty() ? key : more, text.substr(0, size));
+    text.remove_prefix(size);
+  } while (!text.empty());
+  return lines;
+}
+
 std::string headerOf(const TriangleMesh& mesh, const MeshWriteOptions& options) {
   std::string header = "ply\nformat binary_little_endian 1.0\ncomment generator arete\n";
-  if (!options.crsWkt.empty()) header += fmt::format("comment crs {}\n", text::onOneLine(options.crsWkt));
+  if (!options.crsWkt.empty()) header += commentLines("crs ", "crs+ ", text::onOneLine(options.crsWkt));
   if (!options.verticalUnit.empty())
     header += fmt::format("comment vertical_unit {}\n", text::onOneLine(options.verticalUnit));
-  for (const std::string& note : options.notes) header += fmt::format("comment {}\n", text::onOneLine(note));
+  for (const std::string& note : options.notes) header += commentLines("", "", text::onOneLine(note));
   header += fmt::format("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
                         mesh.positions.size());
   if (!options.vertexQualities.empty()) header += "property float quality\n";
