@@ -19,7 +19,7 @@ namespace {
 Status stateCrs(MeshFile& mesh, const std::string& text, std::vector<std::string>& warnings) {
   if (text.empty()) return {};
   registerGdal();
-  const auto crs = crsFromText(text);
+  const auto crs = crsFromUser(text);
   if (!crs) return tl::unexpected(crs.error());
   Georeference described;
   if (Status ok = describeCrs(*crs, described); !ok) {

@@ -135,15 +135,11 @@ Result<MeshFile> readFrom(const std::string& path, const RunContext& context) {
   if (!layer) return tl::unexpected(layer.error());
   Result<MeshFile> file = SurfaceLayer(**layer, context).read();
   if (!file) return file;
-  if (const OGRSpatialReference* crs = (*layer)->GetSpatialRef(); crs && !crs->IsEmpty()) {
-    // What the format says for "none".
-    const std::string_view name = crs->GetName() ? crs->GetName() : "";
+  if (const OGRSpatialReference* crs = (*layer)->GetSpatialRef(); isKnownCrs(crs)) {
+    OGRSpatialReference copy(*crs);
+    copy.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     Georeference described;
-    if (!name.starts_with("Undefined")) {
-      OGRSpatialReference copy(*crs);
-      copy.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-      if (const Status ok = describeCrs(copy, described); !ok) return tl::unexpected(ok.error());
-    }
+    if (const Status ok = describeCrs(copy, described); !ok) return tl::unexpected(ok.error());
     file->crsWkt = described.crsWkt;
     file->verticalUnit = described.verticalUnit;
   }
