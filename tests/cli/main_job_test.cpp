@@ -286,5 +286,89 @@ TEST_F(MainJob, GivesTheSameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(read("1.amt"), read("4.amt"));
 }
 
+/// Where the terrain of makeRaster() lies.
+std::string place(const RasterHeightfield& field, double column, double row, const std::string& height) {
+  const Vec2 p = field.georeference.toSource(column, row);
+  return fmt::format("{},{}{}", p.x, p.y, height);
+}
+
+TEST_F(MainJob, IsFineAlongALineAndSaysSo) {
+  makeRaster("dem.tif", "fractal", 90, 70);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  const RasterHeightfield field = readRaster(path("dem.tif"))->heightfield;
+  const Vec2 a = field.georeference.toSource(10, 60), b = field.georeference.toSource(80, 5);
+  // GeoJSON would say longitude and latitude; CSV says nothing, as the raster does.
+  write("road.csv", fmt::format("id,WKT\n1,\"LINESTRING ({} {},{} {})\"\n", a.x, a.y, b.x, b.y));
+  const double step = std::abs(field.georeference.geoTransform[1]);
+  const std::string distance = fmt::format("{}", 3 * step);
+  const Outcome without =
+      run({"extract", "dem.amt", "-o", "r.ply", "--max-error", "0.5", "--region", "road.csv"});
+  EXPECT_EQ(without.code, 2);
+  EXPECT_NE(without.err.find("--distance"), std::string::npos) << without.err;
+  const Outcome extracted = run({"extract", "dem.amt", "-o", "r.ply", "--max-error", "0.5", "--region",
+                                 "road.csv", "--distance", distance, "--certificate", "c.json"});
+  ASSERT_EQ(extracted.code, 0) << extracted.err;
+  const Outcome measured =
+      run({"measure", "r.ply", "dem.tif", "--region", "road.csv", "--distance", distance, "--expect", "0.5"});
+  EXPECT_EQ(measured.code, 0) << measured.err;
+  EXPECT_EQ(run({"measure", "r.ply", "dem.tif", "--expect", "0.5"}).code, 5) << "coarse elsewhere";
+  EXPECT_TRUE(readJson("c.json")["promise"]["kept"]);
+  EXPECT_EQ(readJson("c.json")["criterion"]["distance"], 3 * step);
+}
+
+TEST_F(MainJob, ServesACameraAPlaceABudgetAndADeadline) {
+  makeRaster("dem.tif", "fractal", 90, 70);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  const RasterHeightfield field = readRaster(path("dem.tif"))->heightfield;
+  const std::string camera = "--camera=" + place(field, 5, 60, ",20agl");
+  const auto triangles = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments = {"extract", "dem.amt", "-o", "t.ply", "--json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.json()["exports"][0];
+  };
+  const Json fine = triangles({camera, "--look", "45,-10", "--pixel-error", "0.5"});
+  const Json coarse = triangles({camera, "--look", "45,-10", "--pixel-error", "20"});
+  EXPECT_GT(fine["triangles"], coarse["triangles"]);
+  EXPECT_LE(fine["pixels"], 0.5);
+  EXPECT_LE(coarse["pixels"], 20);
+  const Json budget = triangles({camera, "--max-triangles", "1500", "--order", "two-queues"});
+  EXPECT_LE(budget["triangles"], 1500);
+  EXPECT_EQ(budget["complete"], false);
+  const Json focus =
+      triangles({"--max-error", "0.1", "--focus=" + place(field, 30, 30, ""), "--error-growth", "1"});
+  EXPECT_LT(focus["triangles"], triangles({"--max-error", "0.1"})["triangles"]);
+  const Json soon = triangles({"--max-error", "0", "--deadline", "1e6", "--order", "depth"});
+  EXPECT_EQ(soon["triangles"], triangles({"--max-error", "0"})["triangles"]);
+  EXPECT_EQ(soon["complete"], true);
+}
+
+TEST_F(MainJob, RefusesCriteriaThatContradictEachOther) {
+  makeRaster("dem.tif", "fractal", 20, 20);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  const auto refused = [&](const std::vector<std::string>& options, const std::string& names) {
+    std::vector<std::string> arguments = {"extract", "dem.amt", "-o", "t.ply"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find(names), std::string::npos) << outcome.err;
+    EXPECT_FALSE(exists("t.ply"));
+  };
+  refused({}, "--deadline");
+  refused({"--max-error", "1", "--camera", "1,2,3"}, "--camera");
+  refused({"--max-error", "1", "--focus", "1,2"}, "--error-growth");
+  refused({"--max-error", "1", "--distance", "4"}, "--region");
+  refused({"--max-error", "1", "--order", "depth"}, "--order");
+  refused({"--max-error", "1", "--deadline", "5", "--method", "saturated"}, "--deadline");
+  refused({"--max-triangles", "500", "--order", "two-queues"}, "--camera");
+  refused({"--max-error", "1", "--outside-error", "5"}, "--outside-error");
+  refused({"--max-error", "1", "--lonlat"}, "--lonlat");
+  refused({"--pixel-error", "1", "--max-error", "1"}, "--camera");
+  EXPECT_EQ(run({"extract", "dem.amt", "-o", "t.ply", "--camera=-99999999,2,3"}).code, 4)
+      << "above no terrain";
+  EXPECT_EQ(run({"extract", "dem.amt", "-o", "t.tif", "--deadline", "5"}).code, 2) << "cannot be repeated";
+}
+
 }  // namespace
 }  // namespace arete::cli_test

@@ -110,6 +110,10 @@ TEST_F(Library, IsInstalledFoundBuiltAgainstAndAnswers) {
   }
   run(fmt::format("echo '{}' -1 -1 | examples/heights dem.amt 0", places));
   EXPECT_EQ(out_, expected + "-1 -1 no terrain\n");
+
+  run("examples/follow_camera dem.amt 5");
+  EXPECT_EQ(std::count(out_.begin(), out_.end(), '\n'), 5) << out_;
+  EXPECT_EQ(out_.rfind("frame 0: ", 0), 0u) << out_;
 }
 
 }  // namespace
