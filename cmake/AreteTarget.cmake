@@ -5,7 +5,7 @@
 # so that an include of a layer that is not linked does not compile.
 #
 # A layer with HEADERS is part of the library that others install (cmake/AreteInstall.cmake): HEADERS are its public
-# headers, and what they include must be public too. A header that is not listed may change any day.
+# headers. What they include is installed with them; a header that is not listed may change any day all the same.
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
