@@ -99,12 +99,14 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
     const std::string culprit = fmt::format("--output {}", arguments.output);
     if (!isHeightTable(arguments.output))
       return failure(ErrorCode::usage, "a table of heights ends in .csv or .gpkg", culprit);
-    if (Status output = checkOutput("--output", arguments.output, {arguments.model, arguments.points});
-        !output)
-      return output;
   }
   const Result<TerrainModel> model = loadAmt(arguments.model, {}, session.context());
   if (!model) return tl::unexpected(model.error());
+  if (!arguments.output.empty())
+    if (Status output =
+            checkOutput("--output", arguments.output, {arguments.model, arguments.points, model->source});
+        !output)
+      return output;
   const auto table = readPlaces(arguments, model->georeference, session);
   if (!table) return tl::unexpected(table.error());
   const auto heights = SurfaceHeights(*model).at(table->positions, arguments.maxError, session.context());

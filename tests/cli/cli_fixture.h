@@ -127,7 +127,7 @@ inline std::string realData(const std::string& name) {
   const char* stated = std::getenv("ARETE_DATA");
   const fs::path repository = fs::path(__FILE__).parent_path().parent_path().parent_path();
   const fs::path file = (stated ? fs::path(stated) : repository.parent_path() / "shared" / "data") / name;
-  return fs::exists(file) ? file.string() : std::string();
+  return fs::exists(file) ? fs::absolute(file).string() : std::string();
 }
 
 }  // namespace arete::cli_test

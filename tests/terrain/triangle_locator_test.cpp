@@ -96,6 +96,18 @@ TEST(RootGrid, ListsEveryTriangleWithinTheMargin) {
   EXPECT_GT(largestRoot, 100u) << "no family has a root that needs a grid";
 }
 
+TEST(RootGrid, StaysSmallWhereTrianglesOverlap) {
+  // What no build makes and a hostile file may hold: every triangle covers everything.
+  const std::vector<Vec2> plan = {{0, 0}, {100, 0}, {0, 100}};
+  const std::vector<std::array<std::uint32_t, 3>> triangles(20000, {0, 1, 2});
+  MtArrays arrays;
+  arrays.rootTriangles = triangles;
+  arrays.vertices.plan = plan;
+  const RootGrid grid(MultiTriangulation(arrays, nullptr), 0);
+  EXPECT_EQ(grid.near({10, 10}).size(), triangles.size());
+  EXPECT_TRUE(grid.near({-10, 10}).empty());
+}
+
 TEST(TriangleLocator, FindsTheColumnAndRowOfEverySample) {
   // Few vertices of a raster with as many samples as 32 bits can number: the first and last ones of rows.
   for (const std::uint32_t columns : {1u, 2u, 3u, 7u, 65535u, 65537u, 99991u, 2147483647u, 4294967294u}) {
