@@ -4,13 +4,16 @@
 // the indices are in range, everything is asked of the model that the commands ask. What a wrong file answers
 // does not matter; that it answers within its arrays does.
 #include <cmath>
+#include <vector>
 
 #include "engine/criterion.h"
 #include "engine/cut.h"
+#include "engine/incremental_cut.h"
 #include "fuzz/harness.h"
 #include "io/amt_file.h"
 #include "io/export_tin.h"
 #include "terrain/error_curve.h"
+#include "terrain/surface_height.h"
 #include "terrain/validate_model.h"
 
 namespace {
@@ -53,9 +56,44 @@ void describe(const TerrainModel& model, const RunContext& context) {
   fuzz::require(mt.triangleCount() >= mt.finestTriangleCount(), "no front has more than all triangles");
 }
 
+/// A cut that follows: fine, then coarse, then a corner; and back.
+void followCuts(const TerrainModel& model, const RunContext& context) {
+  const MultiTriangulation& mt = model.mt;
+  for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
+    IncrementalCut cut(mt);
+    IncrementalOptions options;
+    options.method = method;
+    for (const double error : {1.0, 0.0, 50.0, 2.0}) {
+      const RegionError corner(Region::box({0, 0, 3, 2}), mt.arrays().metric, error, 2 * error + 1);
+      const auto update = cut.update(corner, options, context);
+      fuzz::require(update.has_value() && cut.validate().has_value(), "an update leaves a cut");
+      requireSound(mt, cut.front());
+    }
+  }
+}
+
+void askHeights(const TerrainModel& model, const RunContext& context) {
+  const SurfaceHeights heights(model);
+  std::vector<Vec2> places = {{NAN, 0}, {HUGE_VAL, 0}, {1e300, -1e300}};
+  for (std::uint32_t v = 0; v < model.mt.vertexCount(); v += 3) {
+    const Vec3 p = model.mt.position(VertexId(v));
+    places.push_back(model.toSource({p.x, p.y}));
+    places.push_back(model.toSource({p.x + 0.3, p.y + 0.4}));
+  }
+  for (const double error : {0.0, 2.0}) {
+    const auto found = heights.at(places, error, context);
+    fuzz::require(found.has_value() && found->size() == places.size(), "every place has an answer or none");
+    for (const auto& height : *found)
+      fuzz::require(!height || height->triangle.index() < model.mt.triangleIdCount(),
+                    "a height comes from a triangle that is there");
+  }
+}
+
 void use(const TerrainModel& model, const RunContext& context) {
   describe(model, context);
   takeCuts(model, context);
+  followCuts(model, context);
+  askHeights(model, context);
   if (model.isRaster && std::uint64_t{model.columns} * model.rows > kMostSamples) return;
   const Status valid = validateModel(model, {.randomFronts = 2, .seed = 1}, context);
   fuzz::require(valid || !valid.error().message.empty(), "a broken law is named");

@@ -10,11 +10,13 @@
 #include <limits>
 
 #include "terrain/measure.h"
+#include "terrain/mesh_distance.h"
 
 namespace arete::fuzz {
 namespace {
 
 constexpr std::size_t kLongestMessage = 1000;
+constexpr std::size_t kMostTrianglesCompared = 300;
 
 bool isPrintable(const std::string& text) {
   for (const char c : text)
@@ -79,6 +81,13 @@ void useMesh(const Result<MeshFile>& file) {
   };
   requireSound(measure(mesh, dem, {}, oneThread()));
   requireSound(measure(mesh, points, {}, oneThread()));
+  if (mesh.triangles.size() > kMostTrianglesCompared) return;
+  static const TriangleMesh other{{{0, 0, 1}, {8, 0, 2}, {8, 8, 3}, {0, 8, 4}}, {{0, 1, 2}, {0, 2, 3}}};
+  const auto distance = measureDistance(mesh, other, {.samples = 32, .seed = 1}, oneThread());
+  if (distance)
+    require(distance->hausdorff() >= 0, "a distance is none that is less than nothing");
+  else
+    requireClear(distance.error());
 }
 
 RunContext oneThread() {

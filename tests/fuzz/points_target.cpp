@@ -8,12 +8,15 @@
 
 #include "fuzz/harness.h"
 #include "io/gridded_points.h"
+#include "io/point_attributes.h"
 #include "io/point_reader.h"
 #include "io/point_text.h"
 
 namespace {
 
 using namespace arete;
+
+constexpr std::size_t kMostBytes = std::size_t(1) << 30;
 
 /// Bytes under a name of GDAL's own file system in memory, through which texts are read.
 class VirtualFile {
@@ -43,6 +46,23 @@ void usePoints(const Result<PointRead>& read) {
   }
 }
 
+/// Places with what else their lines say.
+void usePlaces(const char* path, const RunContext& context) {
+  std::vector<std::string> warnings;
+  PointAttributes attributes;
+  const auto plan = readPointText(path, {}, warnings, context, PointTextColumns::plan, &attributes);
+  fuzz::requireClear(warnings);
+  if (!plan) return fuzz::requireClear(plan.error());
+  attributes.findKinds();
+  const std::size_t columns = attributes.columns.size();
+  fuzz::require(columns == 0 || attributes.rows() == plan->positions.size(),
+                "every place has its attributes");
+  std::size_t characters = 0;
+  for (std::size_t row = 0; row < attributes.rows(); ++row)
+    for (std::size_t column = 0; column < columns; ++column) characters += attributes.at(row, column).size();
+  fuzz::require(characters <= kMostBytes, "attributes are parts of the file");
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -56,10 +76,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     options.zField = "depth";
     options.nodata = -9999;
     usePoints(readPoints(kPath, options, context));
-    std::vector<std::string> warnings;
-    const auto plan = readPointText(kPath, {}, warnings, context, PointTextColumns::plan);
-    fuzz::requireClear(warnings);
-    if (!plan) fuzz::requireClear(plan.error());
+    usePlaces(kPath, context);
   }
   const VirtualFile file(kNameless, data, size);
   looksLikePointText(kNameless);
