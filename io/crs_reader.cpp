@@ -154,6 +154,7 @@ Result<OGRSpatialReference> chooseCrs(const OGRSpatialReference* own, const std:
 
 Status describeCrs(const OGRSpatialReference& crs, Georeference& georeference) {
   if (crs.IsEmpty()) return {};
+  const GdalErrors quiet;  // a CRS of a building site has no ellipsoid, of which PROJ would tell the terminal
   if (crs.IsGeocentric())
     return failure(ErrorCode::unsupported,
                    fmt::format("the CRS {} is geocentric: its x, y are no plan positions", nameOf(crs)));
