@@ -100,7 +100,8 @@ class DemRun {
     const bool isMeasured = plan_.wants("build");
     const bool isCompared = plan_.wants("triangles") && !baselines.empty();
     const bool needsDelaunay = isCompared || plan_.wants("file") || plan_.wants("cut") ||
-                               plan_.wants("height") || plan_.wants("export") || plan_.wants("measure");
+                               plan_.wants("follow") || plan_.wants("height") || plan_.wants("export") ||
+                               plan_.wants("measure");
     std::vector<BuildVariant> variants;
     if (isMeasured) variants.push_back({HoleShape::delaunay, 1});
     if (isMeasured || needsDelaunay) variants.push_back({HoleShape::delaunay, 0});
@@ -132,6 +133,7 @@ class DemRun {
     if (status && plan_.wants("file") && hasFidelity())
       status = add([&] { return fileStage(source_, HoleShape::fidelity, fidelity, plan_); });
     if (status && plan_.wants("cut")) status = add([&] { return cutStage(source_, delaunay, plan_); });
+    if (status && plan_.wants("follow")) status = add([&] { return followStage(source_, delaunay, plan_); });
     if (status && plan_.wants("height")) status = add([&] { return heightStage(source_, delaunay, plan_); });
     if (status && plan_.wants("export")) status = add([&] { return exportStage(source_, delaunay, plan_); });
     if (status && plan_.wants("measure"))
@@ -155,7 +157,7 @@ bool Plan::wants(const std::string& stage) const {
 }
 
 const std::vector<std::string>& stageNames() {
-  static const std::vector<std::string> names = {"read",   "build",  "file",    "cut",
+  static const std::vector<std::string> names = {"read",   "build",  "file",    "cut",      "follow",
                                                  "height", "export", "measure", "triangles"};
   return names;
 }

@@ -22,7 +22,7 @@ struct Plan {
   bool wants(const std::string& stage) const;
 };
 
-/// The stages there are, in the order in which they are run: read, build, file, cut, height, export,
+/// The stages there are, in the order in which they are run: read, build, file, cut, follow, height, export,
 /// measure, triangles.
 const std::vector<std::string>& stageNames();
 
@@ -40,6 +40,7 @@ Result<Figures> buildOnce(const DemSource& source, HoleShape shape, int threads,
 Result<Figures> fileStage(const DemSource& source, HoleShape shape, const std::string& model,
                           const Plan& plan);
 Result<Figures> cutStage(const DemSource& source, const std::string& model, const Plan& plan);
+Result<Figures> followStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> heightStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> exportStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> measureStage(const DemSource& source, const std::string& model, const Plan& plan);
