@@ -10,7 +10,8 @@ namespace arete {
 
 RefineKey TwoQueues::key(const MultiTriangulation& mt, const Criterion&, TriangleId t,
                          const Criterion::Corners& corners, std::uint64_t) const {
-  const std::array<Vec3, 6> prism = prismOf(mt, t, corners);
+  std::array<Vec3, 6> prism = prismOf(mt, t, corners);
+  for (Vec3& p : prism) p = frustum_.toView(p);
   if (frustum_.mayMeet(prism)) {
     const MetricFrame& metric = mt.arrays().metric;
     const auto corner = [&](int i) { return metric.toMetric(mt.position(VertexId(corners[i]))); };

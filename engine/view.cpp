@@ -70,10 +70,9 @@ Vec3 Frustum::toView(const Vec3& p) const {
   return {dot(d, right_), dot(d, up_), dot(d, forward_)};
 }
 
-bool Frustum::mayMeet(std::span<const Vec3> points) const {
+bool Frustum::mayMeet(std::span<const Vec3> inView) const {
   unsigned beyondAll = 0x3F;
-  for (const Vec3& point : points) {
-    const Vec3 p = toView(point);
+  for (const Vec3& p : inView) {
     unsigned beyond = 0;
     beyond |= p.x > slopeX_ * p.z ? 1u : 0u;
     beyond |= -p.x > slopeX_ * p.z ? 2u : 0u;
@@ -93,8 +92,7 @@ bool Frustum::mayMeet(const Sphere& ball) const {
          p.z + r >= near_ && p.z - r <= far_;
 }
 
-double Frustum::reach(const Vec3& centre, double radius, double leastDepth) const {
-  const Vec3 p = toView(centre);
+double Frustum::reach(const Vec3& p, double radius, double leastDepth) const {
   const double distance = std::sqrt(dot(p, p)), nearest = distance - radius;
   const double byDepth = std::max(leastDepth, near_) * leastCosine_;
   if (nearest <= 0) return byDepth;

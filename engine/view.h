@@ -35,8 +35,9 @@ class Frustum {
 
   /// Right, up and forward of the eye.
   Vec3 toView(const Vec3& p) const;
-  /// False when all of the points are beyond one of the planes, as then is everything between them.
-  bool mayMeet(std::span<const Vec3> points) const;
+  /// False when all of the points, given by toView(), are beyond one of the planes, as then is everything
+  /// between them.
+  bool mayMeet(std::span<const Vec3> inView) const;
   /// False when the ball lies beyond one of the planes.
   bool mayMeet(const Sphere& ball) const;
 

@@ -25,21 +25,20 @@ ViewError::ViewError(const Options& options, const MetricFrame& metric)
       errorPerReach_(options.pixels / frustum_.pixelsPerUnit() / std::abs(metric.scale.z)) {}
 
 double ViewError::allowedFor(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
-  const std::array<Vec3, 6> prism = prismOf(mt, t, corners);
+  std::array<Vec3, 6> prism = prismOf(mt, t, corners);
+  for (Vec3& p : prism) p = frustum_.toView(p);
   if (!frustum_.mayMeet(prism)) return o_.outsideError;
   Vec3 low = prism[0], high = prism[0];
-  double leastDepth = std::numeric_limits<double>::infinity();
   for (const Vec3& p : prism) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    leastDepth = std::min(leastDepth, frustum_.toView(p).z);
   }
   const Vec3 centre{(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
   double squared = 0;
   for (const Vec3& p : prism)
     squared = std::max(squared, (p.x - centre.x) * (p.x - centre.x) + (p.y - centre.y) * (p.y - centre.y) +
                                     (p.z - centre.z) * (p.z - centre.z));
-  return std::min(errorPerReach_ * frustum_.reach(centre, std::sqrt(squared), leastDepth), o_.outsideError);
+  return std::min(errorPerReach_ * frustum_.reach(centre, std::sqrt(squared), low.z), o_.outsideError);
 }
 
 bool ViewError::isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
@@ -54,8 +53,8 @@ double ViewError::severity(const MultiTriangulation& mt, TriangleId t, const Cor
 
 double ViewError::allowedError(const Sphere& s) const {
   if (!frustum_.mayMeet(s)) return o_.outsideError;
-  const Vec3 centre{s.x, s.y, s.z};
-  const double reach = frustum_.reach(centre, s.radius, frustum_.toView(centre).z - s.radius);
+  const Vec3 centre = frustum_.toView({s.x, s.y, s.z});
+  const double reach = frustum_.reach(centre, s.radius, centre.z - s.radius);
   return std::min(errorPerReach_ * reach, o_.outsideError);
 }
 
