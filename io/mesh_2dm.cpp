@@ -23,7 +23,9 @@
 
 #include "io/file_bytes.h"
 #include "io/file_writer.h"
+#include "io/mesh_text.h"
 #include "io/text_scan.h"
+#include "io/write_progress.h"
 
 namespace arete {
 
@@ -211,33 +213,21 @@ Status write2dm(const TriangleMesh& mesh, const std::filesystem::path& path, con
   if (!file) return tl::unexpected(file.error());
 
   file->write(fmt::format("MESH2D\n# {}\n", kGenerator));
-  if (!options.crsWkt.empty()) file->write(fmt::format("# crs {}\n", text::onOneLine(options.crsWkt)));
-  if (!options.verticalUnit.empty())
-    file->write(fmt::format("# vertical_unit {}\n", text::onOneLine(options.verticalUnit)));
-  for (const std::string& note : options.notes) file->write(fmt::format("# {}\n", text::onOneLine(note)));
+  file->write(meshComments(options));
 
-  const std::size_t lines = mesh.positions.size() + mesh.triangles.size();
-  std::size_t done = 0;
-  const auto shouldStop = [&] {
-    if (done++ % kLinesPerCancelCheck != 0) return false;
-    context.report("writing the mesh", static_cast<double>(done) / static_cast<double>(lines));
-    return context.cancelled();
-  };
-  const auto interrupted = [&] {
-    return failure(ErrorCode::interrupted, "writing was interrupted", path.string());
-  };
+  WriteProgress progress(mesh.positions.size() + mesh.triangles.size(), path.string(), context);
   char line[160];  // three doubles of at most 24 characters each and a number
   const auto writeUpTo = [&](const char* end) { file->write({line, static_cast<std::size_t>(end - line)}); };
   std::uint64_t number = 0;
   for (const auto& t : mesh.triangles) {
-    if (shouldStop()) return interrupted();
+    if (progress.shouldStop()) return progress.interrupted();
     // The last column is the material.
     writeUpTo(fmt::format_to(line, FMT_COMPILE("E3T {} {} {} {} 1\n"), ++number, std::uint64_t{t[0]} + 1,
                              std::uint64_t{t[1]} + 1, std::uint64_t{t[2]} + 1));
   }
   number = 0;
   for (const Vec3& p : mesh.positions) {
-    if (shouldStop()) return interrupted();
+    if (progress.shouldStop()) return progress.interrupted();
     writeUpTo(fmt::format_to(line, FMT_COMPILE("ND {} {} {} {}\n"), ++number, p.x, p.y, p.z));
   }
   file->write(fmt::format("# {}\n", kEnd));

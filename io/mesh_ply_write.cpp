@@ -8,6 +8,7 @@
 #include "io/file_writer.h"
 #include "io/mesh_ply.h"
 #include "io/text_scan.h"
+#include "io/write_progress.h"
 
 namespace arete {
 
@@ -15,8 +16,6 @@ namespace arete {
 static_assert(std::endian::native == std::endian::little, "a big-endian machine needs a byte swap here");
 
 namespace {
-
-constexpr std::size_t kRecordsPerCancelCheck = 1 << 16;
 
 /// MeshLab refuses a PLY with a line of 511 bytes or more, and a CRS takes a thousand.
 constexpr std::size_t kLongestPiece = 240;
@@ -71,22 +70,13 @@ Status writePly(const TriangleMesh& mesh, const std::filesystem::path& path, con
   if (!file) return tl::unexpected(file.error());
 
   file->write(headerOf(mesh, options));
-  const std::size_t records = mesh.positions.size() + mesh.triangles.size();
-  std::size_t done = 0;
-  const auto shouldStop = [&] {
-    if (done++ % kRecordsPerCancelCheck != 0) return false;
-    context.report("writing the mesh", static_cast<double>(done) / static_cast<double>(records));
-    return context.cancelled();
-  };
-  const auto interrupted = [&] {
-    return failure(ErrorCode::interrupted, "writing was interrupted", path.string());
-  };
+  WriteProgress progress(mesh.positions.size() + mesh.triangles.size(), path.string(), context);
 
   const bool withQualities = !options.vertexQualities.empty(), withColors = !options.vertexColors.empty();
   const std::size_t vertexSize =
       3 * sizeof(double) + (withQualities ? sizeof(float) : 0) + (withColors ? 3 : 0);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    if (shouldStop()) return interrupted();
+    if (progress.shouldStop()) return progress.interrupted();
     const Vec3& p = mesh.positions[v];
     char* to = putBytes(putBytes(putBytes(file->reserve(vertexSize), p.x), p.y), p.z);
     if (withQualities) to = putBytes(to, options.vertexQualities[v]);
@@ -95,7 +85,7 @@ Status writePly(const TriangleMesh& mesh, const std::filesystem::path& path, con
   const bool withErrors = !options.triangleErrors.empty();
   const std::size_t faceSize = 1 + 3 * sizeof(std::int32_t) + (withErrors ? sizeof(float) : 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (shouldStop()) return interrupted();
+    if (progress.shouldStop()) return progress.interrupted();
     char* to = putBytes(file->reserve(faceSize), std::uint8_t{3});
     for (const std::uint32_t v : mesh.triangles[t]) to = putBytes(to, static_cast<std::int32_t>(v));
     if (withErrors) putBytes(to, options.triangleErrors[t]);
