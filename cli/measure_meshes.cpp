@@ -105,8 +105,10 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
   session.say(
       fmt::format("{} against {}\n{}", arguments.first, arguments.second, meshDistanceText(*report, unit)));
   if (expects && promise)
-    session.say(
-        fmt::format("kept: no vertex and no sample is farther than {}\n", withUnit(arguments.expect, unit)));
+    session.say(isProven(*report, arguments.expect)
+                    ? fmt::format("kept: nowhere farther than {}\n", withUnit(arguments.expect, unit))
+                    : fmt::format("kept as far as found: nothing is known to be farther than {}\n",
+                                  withUnit(arguments.expect, unit)));
   Json json = {{"first", {{"path", arguments.first}, {"crs", crsName(first->crsWkt)}}},
                {"second", {{"path", arguments.second}, {"crs", crsName(second->crsWkt)}}},
                {"unit", unit}};
@@ -117,6 +119,7 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
   if (expects) {
     json["expect"] = std::isfinite(arguments.expect) ? Json(arguments.expect) : Json();
     json["kept"] = promise.has_value();
+    json["proven"] = !promise || isProven(*report, arguments.expect);
     if (!promise) json["broken"] = promise.error().message;
   }
   session.answer(json);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "cli/arguments.h"
 
 namespace arete {
@@ -38,6 +40,8 @@ std::string meshDistanceText(const MeshDistanceReport& report, const std::string
   row(unit.empty() ? "distance" : fmt::format("distance in {}", unit), "from the first", "from the second",
       "both ways");
   distances("", 1);
+  if (std::isfinite(report.hausdorffAtMost()))
+    lengths("certainly at most", there.atMost, back.atMost, report.hausdorffAtMost());
   distances(" / diagonal", second.diagonal);
   row("maximum at vertices", sixDigits(there.maximumAtVertices), sixDigits(back.maximumAtVertices));
   counts("samples", there.samples, back.samples);

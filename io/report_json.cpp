@@ -20,6 +20,7 @@ Json toJson(const MeshSummary& mesh) {
 
 Json toJson(const DistanceOneWay& way) {
   return {{"maximum", way.maximum},
+          {"atMost", way.atMost},
           {"mean", way.mean},
           {"rms", way.rms},
           {"maximumAtVertices", way.maximumAtVertices},
@@ -75,7 +76,11 @@ nlohmann::ordered_json toJson(const MeshDistanceReport& report) {
           {"second", toJson(report.second)},
           {"fromFirst", toJson(report.forward)},
           {"fromSecond", toJson(report.backward)},
-          {"bothWays", {{"maximum", report.hausdorff()}, {"mean", report.mean()}, {"rms", report.rms()}}},
+          {"bothWays",
+           {{"maximum", report.hausdorff()},
+            {"atMost", report.hausdorffAtMost()},
+            {"mean", report.mean()},
+            {"rms", report.rms()}}},
           {"ofDiagonal",
            {{"diagonal", diagonal},
             {"maximum", report.hausdorff() / diagonal},

@@ -30,11 +30,12 @@ struct MeshSummary {
 };
 
 /// The distance from one mesh to the other. Mean and RMS are over the samples, which are spread evenly over
-/// the area; the maximum is over samples and vertices.
+/// the area; the maximum is over samples, vertices and the points of the search.
 struct DistanceOneWay {
   std::uint64_t samples = 0;
   std::uint64_t vertices = 0;
-  double maximum = 0;
+  double maximum = 0;  ///< the largest found: at `worst`
+  double atMost = 0;   ///< no point is farther, but for the rounding of doubles
   double mean = 0;
   double rms = 0;
   double maximumAtVertices = 0;
@@ -50,6 +51,7 @@ struct MeshDistanceReport {
 
   /// Both ways as one: the larger maximum; mean and RMS over both surfaces, an area counting alike in either.
   double hausdorff() const;
+  double hausdorffAtMost() const;
   double mean() const;
   double rms() const;
   /// Largest |coordinate|: what rounding is relative to.
@@ -61,6 +63,10 @@ struct MeshDistanceOptions {
   std::uint64_t samples = 0;
   /// Where the samples fall.
   std::uint64_t seed = 1;
+  /// The search for the farthest point ends when it cannot be farther by more than this fraction, or than a
+  /// hundred-thousandth of the diagonal, or when it has asked for four points for each sample. Infinity: no
+  /// search, and no bound.
+  double accuracy = 0.001;
 };
 
 /// Measures both ways. `vertexDistances`, when given, is filled with the distance from each vertex of `first`
@@ -76,5 +82,8 @@ Result<MeshDistanceReport> measureDistance(const TriangleMesh& first, const Tria
 /// Ok when hausdorff() is within E + 16 ulp of the largest coordinate; else a brokenPromise error that says
 /// where it is not.
 Status checkDistance(const MeshDistanceReport& report, double expectedDistance);
+
+/// Whether hausdorffAtMost() is within that too: then no point of either mesh is farther than E.
+bool isProven(const MeshDistanceReport& report, double expectedDistance);
 
 }  // namespace arete

@@ -20,6 +20,7 @@ class SurfaceSamples {
   SurfaceSamples(const TriangleMesh& mesh, std::uint64_t count, std::uint64_t seed);
 
   std::uint64_t count() const { return begin_.back(); }
+  std::uint64_t countOf(std::uint32_t triangle) const { return begin_[triangle + 1] - begin_[triangle]; }
   /// The triangle that sample i is on. O(log triangles).
   std::uint32_t triangleOf(std::uint64_t i) const;
   /// Sample i, which is on `triangle` = triangleOf(j) for a j <= i: moves `triangle` on to its own.

@@ -15,6 +15,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "terrain/nearest_on_mesh.h"
@@ -129,6 +130,7 @@ MeshDistanceReport measured(const TriangleMesh& a, const TriangleMesh& b, const 
 
 void expectSame(const DistanceOneWay& a, const DistanceOneWay& b) {
   EXPECT_EQ(a.maximum, b.maximum);
+  EXPECT_EQ(a.atMost, b.atMost);
   EXPECT_EQ(a.mean, b.mean);
   EXPECT_EQ(a.rms, b.rms);
   EXPECT_EQ(a.maximumAtVertices, b.maximumAtVertices);
@@ -294,9 +296,67 @@ TEST(MeshDistance, AgreesWithTheOracleOnEverySample) {
     EXPECT_NEAR(report.forward.mean, double(sum / 2000), 1e-9);
     EXPECT_NEAR(report.forward.rms, double(std::sqrt(squares / 2000)), 1e-9);
     EXPECT_NEAR(report.forward.maximumAtVertices, double(atVertices), 1e-9);
-    EXPECT_NEAR(report.forward.maximum, double(std::max(most, atVertices)), 1e-9);
+    EXPECT_GE(report.forward.maximum, double(std::max(most, atVertices)) - 1e-9);
     EXPECT_NEAR(double(distanceTo(report.forward.worst, b)), report.forward.maximum, 1e-9);
+    Real offSurface = std::numeric_limits<Real>::infinity();
+    for (const auto& t : a.triangles)
+      offSurface = std::min(offSurface, distanceTo(report.forward.worst, a.positions[t[0]], a.positions[t[1]],
+                                                   a.positions[t[2]]));
+    EXPECT_NEAR(double(offSurface), 0, 1e-9);
+    const MeshDistanceReport sampled = measured(a, b, {.samples = 2000, .seed = seed, .accuracy = kInfinity});
+    EXPECT_NEAR(sampled.forward.maximum, double(std::max(most, atVertices)), 1e-9);
+    EXPECT_EQ(sampled.forward.mean, report.forward.mean);
+    EXPECT_EQ(sampled.hausdorffAtMost(), kInfinity);
   }
+}
+
+TEST(MeshDistance, FindsTheFarthestPointInsideATriangle) {
+  // A square of two triangles over a frame without an inside: its centre, which no few samples hit, is 1/2
+  // away.
+  TriangleMesh frame = plane(1, 1, 0);
+  frame.positions = {{0, 0, 0},   {1, 0, 0},  {0, 1, 0},  {1, 1, 0},
+                     {-1, -1, 0}, {2, -1, 0}, {-1, 2, 0}, {2, 2, 0}};
+  frame.triangles = {{4, 5, 1}, {4, 1, 0}, {5, 7, 3}, {5, 3, 1}, {7, 6, 2}, {7, 2, 3}, {6, 4, 0}, {6, 0, 2}};
+  for (const double turn : {0.0, 0.3}) {
+    // Moved a little, so that no corner or middle of a side falls on the centre.
+    const TriangleMesh square = sheet(1, [&](double u, double v) {
+      return Vec3{u + turn * (v - 0.4), v, 0};
+    });
+    const MeshDistanceReport report = measured(square, frame, {.samples = 50});
+    EXPECT_NEAR(report.forward.maximum, 0.5, 5e-4);
+    EXPECT_GE(report.forward.atMost, 0.5 - 1e-12);
+    EXPECT_LE(report.forward.atMost, 1.001 * report.forward.maximum + 1e-12);
+    EXPECT_NEAR(report.forward.worst.x, 0.5, 2e-3);
+    EXPECT_NEAR(report.forward.worst.y, 0.5, 2e-3);
+  }
+}
+
+TEST(MeshDistance, BoundsTheMaximumFromBothSides) {
+  const auto hill = [](double u, double v) { return Vec3{u, v, 0.3 * std::sin(5 * u) * std::sin(4 * v)}; };
+  for (const auto& [name, a, b] :
+       {std::tuple("soups", soup(40, 8), soup(30, 9)), std::tuple("hills", sheet(5, hill), sheet(40, hill)),
+        std::tuple("spheres", sphere(20, 1), moved(sphere(30, 1), {0.2, 0, 0})),
+        std::tuple("planes", plane(1, 1, 0), plane(3, 1, 0.1))}) {
+    SCOPED_TRACE(name);
+    const MeshDistanceReport report = measured(a, b, {.samples = 3000});
+    const MeshDistanceReport dense = measured(a, b, {.samples = 300000, .seed = 7, .accuracy = kInfinity});
+    for (const auto& [way, sampled] :
+         {std::pair(report.forward, dense.forward), std::pair(report.backward, dense.backward)}) {
+      EXPECT_LE(sampled.maximum, way.atMost + 1e-12);
+      EXPECT_GE(way.maximum, sampled.maximum * (1 - 1e-3) - 1e-12);
+      EXPECT_LE(way.maximum, way.atMost);
+      EXPECT_LE(way.atMost, 1.001 * way.maximum + 1e-5 * report.second.diagonal);
+    }
+  }
+}
+
+TEST(MeshDistance, IsHonestWhereTheBudgetIsSpent) {
+  // Two shifted grids in one plane: every distance is zero, but no triangle of one lies in one of the other.
+  const MeshDistanceReport report =
+      measured(plane(7, 1, 0), moved(plane(11, 3, 0), {-1, -1.05, 0}), {.samples = 10});
+  EXPECT_LT(report.forward.maximum, 1e-12);
+  EXPECT_LT(report.forward.atMost, 0.1);
+  EXPECT_GE(report.forward.atMost, report.forward.maximum);
 }
 
 TEST(MeshDistance, BarelyDependsOnTheSeedAndTheCount) {
