@@ -91,10 +91,9 @@ void useMesh(const Result<MeshFile>& file) {
 }
 
 RunContext oneThread() {
+  // For the whole program: a context that asks for one thread makes an arena each time it is used.
   static const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
-  RunContext context;
-  context.threads = 1;
-  return context;
+  return {};
 }
 
 MemoryFile::MemoryFile() : descriptor_(memfd_create("arete-fuzz", MFD_CLOEXEC)) {
