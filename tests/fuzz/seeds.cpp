@@ -79,6 +79,9 @@ int main(int argc, char** argv) {
     writeModel(folder, name + "-fidelity", build(raster, {.shape = HoleShape::fidelity}));
     writeModel(folder, name + "-rims", build(raster, {.rimTolerance = 1}));
   }
+  RasterHeightfield odd = rasterFamilies().front().make(kSide, kSide, 1);
+  odd.source = "a name that is not UTF-8: \xff";
+  writeModel(folder, "odd-name", build(odd));
   for (const PointFamily& family : pointFamilies()) {
     const PointHeightfield points = family.make(kPoints, 1);
     writeModel(folder, "points-" + fileName(family.name), build(points));
