@@ -15,7 +15,8 @@ class RealData : public Cli {
     for (const std::string& tolerance : tolerances) all += (all.empty() ? "" : ",") + tolerance;
     const Outcome extracted = run({"extract", "dem.amt", "-o", "tin.ply", "--max-error", all, "--json"});
     ASSERT_EQ(extracted.code, 0) << extracted.err;
-    for (const Json& tin : extracted.json()["exports"]) {
+    const Json answer = extracted.json();  // outlives the loop over a part of it
+    for (const Json& tin : answer["exports"]) {
       const std::string file = tin["file"], tolerance = tin["maxError"].dump();
       const Outcome measured = run({"measure", file, dem, "--expect", tolerance, "--json", "--quiet"});
       EXPECT_EQ(measured.code, 0) << file << ": " << measured.err;
