@@ -8,6 +8,7 @@
 #include "terrain/farthest_point.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <queue>
@@ -26,6 +27,19 @@ struct Piece {
   bool operator<(const Piece& other) const { return atMost < other.atMost; }
 };
 
+/// By its first corner.
+int longestSide(const Corners& corners) {
+  int longest = 0;
+  double most = -1;
+  for (int i = 0; i < 3; ++i) {
+    const double length = space::squaredDistance(corners[i], corners[(i + 1) % 3]);
+    if (length <= most) continue;
+    most = length;
+    longest = i;
+  }
+  return longest;
+}
+
 double distanceTo(const TriangleMesh& target, std::uint32_t triangle, const Vec3& p) {
   const auto& v = target.triangles[triangle];
   const Corners corners{target.positions[v[0]], target.positions[v[1]], target.positions[v[2]]};
@@ -33,12 +47,12 @@ double distanceTo(const TriangleMesh& target, std::uint32_t triangle, const Vec3
 }
 
 void bound(Piece& piece, const TriangleMesh& target) {
-  double farthest = 0, longest = 0;
-  for (int i = 0; i < 3; ++i) {
-    farthest = std::max(farthest, piece.answers[i].distance);
-    longest = std::max(longest, space::squaredDistance(piece.corners[i], piece.corners[(i + 1) % 3]));
-  }
-  piece.atMost = farthest + std::sqrt(longest) * std::numbers::inv_sqrt3;
+  const int side = longestSide(piece.corners);
+  const double longest =
+      std::sqrt(space::squaredDistance(piece.corners[side], piece.corners[(side + 1) % 3]));
+  const double farthest =
+      std::max({piece.answers[0].distance, piece.answers[1].distance, piece.answers[2].distance});
+  piece.atMost = farthest + longest * std::numbers::inv_sqrt3;
   const std::array candidates = {piece.guide, piece.answers[0].triangle, piece.answers[1].triangle,
                                  piece.answers[2].triangle};
   for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -87,20 +101,18 @@ FarthestPoint farthestPoint(const Corners& triangle, std::span<const NearestOnMe
   }
 
   std::priority_queue<Piece> open;
-  open.push(whole);
-  for (std::uint64_t asked = 1; asked < options.budget && !isSettled(open.top()); ++asked) {
+  const auto keep = [&](const Piece& piece) {
+    if (isSettled(piece))
+      found.atMost = std::max(found.atMost, piece.atMost);
+    else
+      open.push(piece);
+  };
+  keep(whole);
+  for (std::uint64_t asked = 1; asked < options.budget && !open.empty(); ++asked) {
     if (asked % kPointsPerStopCheck == 0 && options.shouldStop && options.shouldStop()) break;
     const Piece piece = open.top();
     open.pop();
-    int side = 0;
-    double longest = -1;
-    for (int i = 0; i < 3; ++i)
-      if (const double length = space::squaredDistance(piece.corners[i], piece.corners[(i + 1) % 3]);
-          length > longest) {
-        longest = length;
-        side = i;
-      }
-    const int other = (side + 1) % 3;
+    const int side = longestSide(piece.corners), other = (side + 1) % 3;
     const Vec3 half =
         space::along(piece.corners[side], space::minus(piece.corners[other], piece.corners[side]), 0.5);
     const NearestOnMesh::Answer answer = to.nearest(half);
@@ -111,10 +123,11 @@ FarthestPoint farthestPoint(const Corners& triangle, std::span<const NearestOnMe
       part.answers[replaced] = answer;
       bound(part, target);
       part.atMost = std::min(part.atMost, piece.atMost);
-      open.push(part);
+      keep(part);
     }
   }
-  found.atMost = std::max(open.top().atMost, found.distance);
+  found.atMost = std::max(found.atMost, found.distance);
+  if (!open.empty()) found.atMost = std::max(found.atMost, open.top().atMost);
   return found;
 }
 

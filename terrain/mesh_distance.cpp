@@ -32,7 +32,7 @@ namespace {
 
 constexpr std::uint64_t kPerBlock = 4096;
 constexpr std::size_t kTrianglesPerBlock = 256;
-constexpr std::uint64_t kSearchedPerSample = 4, kLeastSearched = 64;
+constexpr std::uint64_t kSearchedPerSample = 4, kLeastSearched = 64, kMostSearched = 1 << 17;
 constexpr double kSearchSlack = 1e-5;  // of the diagonal
 constexpr std::uint64_t kSamplesPerTriangle = 10, kLeastSamples = 1'000'000;
 
@@ -93,12 +93,8 @@ Status check(const TriangleMesh& mesh, const char* which) {
 }
 
 Status check(const Surface& surface, const char* which) {
-  // The fourth power is what the area of a triangle is compared in.
-  if (!std::isfinite(std::pow(surface.summary.diagonal, 4)))
-    return failure(ErrorCode::invalidData, "has coordinates too large to measure between", which);
-  if (!(surface.summary.area > 0))
-    return failure(ErrorCode::degenerate, "holds no triangle that has area", which);
-  return {};
+  if (surface.summary.area > 0) return {};
+  return failure(ErrorCode::degenerate, "holds no triangle that has area", which);
 }
 
 /// What one block found, or several in a row.
@@ -221,7 +217,9 @@ class OneWay {
       const auto& v = from_.mesh.triangles[t];
       const std::array answers = {answers_[v[0]], answers_[v[1]], answers_[v[2]]};
       // As many points as the triangle's share of the area has samples, four times over.
-      options.budget = kLeastSearched + kSearchedPerSample * samples_.countOf(static_cast<std::uint32_t>(t));
+      options.budget =
+          std::min(kMostSearched,
+                   kLeastSearched + kSearchedPerSample * samples_.countOf(static_cast<std::uint32_t>(t)));
       const auto& p = from_.mesh.positions;
       const FarthestPoint here =
           farthestPoint({p[v[0]], p[v[1]], p[v[2]]}, answers, target_.mesh, to_, options);
@@ -270,6 +268,10 @@ Result<MeshDistanceReport> measureDistance(const TriangleMesh& first, const Tria
   const Box3 other = boxOf(second);
   box.include(other.low);
   box.include(other.high);
+  // The fourth power is what the areas of triangles are compared in.
+  if (!std::isfinite(std::pow(box.diagonal(), 4)))
+    return failure(ErrorCode::invalidData,
+                   "the coordinates are too large, or too far apart, to measure between");
   const Vec3 origin = box.middle();
   const std::array<Surface, 2> surfaces = {surfaceOf(first, origin), surfaceOf(second, origin)};
   for (const auto& [surface, which] : {std::pair(&surfaces[0], "first"), std::pair(&surfaces[1], "second")})

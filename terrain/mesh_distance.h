@@ -64,15 +64,16 @@ struct MeshDistanceOptions {
   /// Where the samples fall.
   std::uint64_t seed = 1;
   /// The search for the farthest point ends when it cannot be farther by more than this fraction, or than a
-  /// hundred-thousandth of the diagonal, or when it has asked for four points for each sample. Infinity: no
-  /// search, and no bound.
+  /// hundred-thousandth of the diagonal, or when it has asked for four points for each sample of a triangle.
+  /// Infinity: no search, and no bound.
   double accuracy = 0.001;
 };
 
 /// Measures both ways. `vertexDistances`, when given, is filled with the distance from each vertex of `first`
 /// to `second`, unused vertices too.
-/// Errors: invalidData for a mesh that does not validate() or whose extent squared is no double, degenerate
-/// for one without a triangle that has area, with "first" or "second" as the culprit; interrupted. The result
+/// Errors: invalidData for a mesh that does not validate(), degenerate for one without a triangle that has
+/// area, with "first" or "second" as the culprit; invalidData where no double holds the fourth power of the
+/// diagonal of both; interrupted. The result
 /// is the same, to the bit, for any number of threads. O((n + samples) log n); about 250 bytes per triangle.
 Result<MeshDistanceReport> measureDistance(const TriangleMesh& first, const TriangleMesh& second,
                                            const MeshDistanceOptions& options = {},

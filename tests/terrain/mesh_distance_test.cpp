@@ -443,6 +443,7 @@ TEST(MeshDistance, RefusesMeshesThatMakeNoSense) {
   index.triangles[0][1] = 99;
   EXPECT_NE(refused(good, index).message.find("names vertex 99"), std::string::npos);
   EXPECT_EQ(refused(plane(2, 1e200, 0), good).code, ErrorCode::invalidData);
+  EXPECT_EQ(refused(good, moved(good, {0, 0, 1e100})).code, ErrorCode::invalidData);
 }
 
 TEST(MeshDistance, TellsItsProgressAndStopsWhenAsked) {
