@@ -46,6 +46,7 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   const MeshWriteOptions writing{.crsWkt = mesh.crsWkt,
                                  .verticalUnit = mesh.verticalUnit,
                                  .triangleErrors = mesh.triangleErrors,
+                                 .origin = mesh.frame.origin,
                                  .notes = {}};
   const Result<WrittenMesh> written = writeAndReadBack(std::move(mesh.mesh), path, writing, true, context);
   if (!written) return tl::unexpected(written.error());

@@ -15,6 +15,7 @@ struct TinExport {
   /// from above on the map, whichever way the raster's grid turns.
   TriangleMesh mesh;
   std::vector<float> errors;  ///< per triangle: as stored, rounded outwards
+  Vec3 origin;  ///< for formats of 32-bit floats: the same for all cuts of a model, in source coordinates
 };
 
 /// O(size of the cut). Precondition: the cut is one of the model's.

@@ -161,6 +161,7 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
                                .verticalUnit = model_.georeference.verticalUnit,
                                .verticalUnitMetres = model_.georeference.verticalUnitMetres,
                                .triangleErrors = exported.errors,
+                               .origin = exported.origin,
                                .notes = {noteOf(request, model_, tin)}};
   Result<WrittenMesh> written =
       writeAndReadBack(std::move(exported.mesh), request.output, write, model_.isRaster, context);

@@ -10,24 +10,24 @@ namespace arete {
 namespace {
 
 /// The coordinate of a vertex that is nearest to the middle of all.
-double nearestToMiddle(const TriangleMesh& mesh, double Vec3::*axis) {
+double nearestToMiddle(std::span<const Vec3> positions, double Vec3::*axis) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Vec3& p : mesh.positions) {
+  for (const Vec3& p : positions) {
     low = std::min(low, p.*axis);
     high = std::max(high, p.*axis);
   }
   const double middle = low / 2 + high / 2;
   double nearest = low;
-  for (const Vec3& p : mesh.positions)
+  for (const Vec3& p : positions)
     if (std::abs(p.*axis - middle) < std::abs(nearest - middle)) nearest = p.*axis;
   return nearest;
 }
 
 /// 0 keeps the heights of most DEMs, which are float32 or integers, to the bit.
-double heightOrigin(const TriangleMesh& mesh) {
+double heightOrigin(std::span<const Vec3> positions) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   bool areExact = true;
-  for (const Vec3& p : mesh.positions) {
+  for (const Vec3& p : positions) {
     low = std::min(low, p.z);
     high = std::max(high, p.z);
     areExact = areExact && std::abs(p.z) <= double{std::numeric_limits<float>::max()} &&
@@ -35,14 +35,15 @@ double heightOrigin(const TriangleMesh& mesh) {
   }
   constexpr double kWorthwhile = 8;
   const bool areFar = std::max(std::abs(low), std::abs(high)) > kWorthwhile * (high - low);
-  return areFar && !areExact ? nearestToMiddle(mesh, &Vec3::z) : 0;
+  return areFar && !areExact ? nearestToMiddle(positions, &Vec3::z) : 0;
 }
 
 }  // namespace
 
-Vec3 localOrigin(const TriangleMesh& mesh) {
-  if (mesh.positions.empty()) return {};
-  return {nearestToMiddle(mesh, &Vec3::x), nearestToMiddle(mesh, &Vec3::y), heightOrigin(mesh)};
+Vec3 localOrigin(std::span<const Vec3> positions) {
+  if (positions.empty()) return {};
+  return {nearestToMiddle(positions, &Vec3::x), nearestToMiddle(positions, &Vec3::y),
+          heightOrigin(positions)};
 }
 
 double float32Rounding(double largestAbsolute, double origin) {

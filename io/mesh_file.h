@@ -46,6 +46,9 @@ struct MeshWriteOptions {
   /// One per vertex each, when not empty, with the same rule. Programs show a PLY's "quality" in colours.
   std::span<const float> vertexQualities = {};
   std::span<const std::array<std::uint8_t, 3>> vertexColors = {};
+  /// Where a format of 32-bit floats puts its zero (io/local_origin.h), in the coordinates of the positions;
+  /// a vertex near the middle of the mesh without one. Meshes of one origin lie on each other in any program.
+  std::optional<Vec3> origin = {};
   /// More comment lines, for people.
   std::vector<std::string> notes = {};
 };

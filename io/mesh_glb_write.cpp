@@ -48,7 +48,7 @@ Result<GlbFrame> frameOf(const TriangleMesh& mesh, const MeshWriteOptions& optio
         metresPerUnit(options.verticalUnit).value_or(georeference.verticalUnitMetres);
   if (options.verticalUnitMetres > 0) georeference.verticalUnitMetres = options.verticalUnitMetres;
   GlbFrame frame{
-      .local = localFrameSpec(georeference, localOrigin(mesh)),
+      .local = localFrameSpec(georeference, options.origin.value_or(localOrigin(mesh.positions))),
       .crsWkt = options.crsWkt,
       .verticalUnit = options.verticalUnit.empty() ? georeference.verticalUnit : options.verticalUnit,
       .notes = options.notes};

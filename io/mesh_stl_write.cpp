@@ -41,7 +41,7 @@ std::array<float, 3> normalOf(const std::array<Vec3, 3>& c) {
 
 }  // namespace
 
-Status writeStl(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions&,
+Status writeStl(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
                 const RunContext& context) {
   const auto refuse = [&](std::string message) {
     return failure(ErrorCode::invalidData, std::move(message), path.string());
@@ -49,7 +49,7 @@ Status writeStl(const TriangleMesh& mesh, const std::filesystem::path& path, con
   if (const Status ok = mesh.validate(); !ok) return refuse(ok.error().message);
   if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max())
     return refuse(fmt::format("{} triangles are more than an STL can count", mesh.triangles.size()));
-  Vec3 origin = localOrigin(mesh);
+  Vec3 origin = options.origin.value_or(localOrigin(mesh.positions));
   std::string header = headerOf(origin);
   if (header.size() > kHeaderSize) {
     origin = {std::round(origin.x), std::round(origin.y), std::round(origin.z)};

@@ -97,6 +97,27 @@ void expectKept(const TerrainModel& model, const std::string& extension, double 
   EXPECT_EQ(json["promise"]["kept"], tin->isKept);
 }
 
+TEST(ExtractTin, PutsEveryCutOfAModelAboutOneOrigin) {
+  const auto model = build(rasterFamilies()[2].make(60, 50, 4));
+  ASSERT_TRUE(model);
+  const TemporaryFolder folder;
+  for (const char* extension : {".stl", ".glb"}) {
+    std::vector<Vec3> origins;
+    for (const double maxError : {0.0, 3.0, 40.0}) {
+      TinExtractor extractor(*model, "m.amt");
+      ExtractRequest request;
+      request.criterion.maxError = maxError;
+      request.output = folder.file(std::string("tin") + extension);
+      ASSERT_TRUE(extractor.extract(request));
+      const auto file = readMesh(request.output);
+      ASSERT_TRUE(file && file->frame.origin) << extension;
+      origins.push_back(*file->frame.origin);
+    }
+    EXPECT_EQ(origins[0], origins[1]) << extension;
+    EXPECT_EQ(origins[0], origins[2]) << extension;
+  }
+}
+
 TEST(ExtractTin, KeepsThePromiseInEveryFormatOnEveryFamily) {
   for (const RasterFamily& family : rasterFamilies()) {
     const auto model = build(family.make(40, 33, 2));

@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 #include <tuple>
+#include <vector>
 
 #include "io/vertex_welder.h"
 
@@ -13,18 +14,18 @@ namespace arete {
 namespace {
 
 TEST(LocalOrigin, IsAVertexNearTheMiddleAndHeightZeroForHeightsThatFloatsHold) {
-  TriangleMesh mesh;
-  EXPECT_EQ(localOrigin(mesh), Vec3{});
-  for (int i = 0; i <= 10; ++i) mesh.positions.push_back({1e6 + i / 3.0, -5e6 + i, 9000.5 + i});
-  EXPECT_EQ(localOrigin(mesh), (Vec3{1e6 + 5 / 3.0, -5e6 + 5, 0}));
+  std::vector<Vec3> vertices;
+  EXPECT_EQ(localOrigin(vertices), Vec3{});
+  for (int i = 0; i <= 10; ++i) vertices.push_back({1e6 + i / 3.0, -5e6 + i, 9000.5 + i});
+  EXPECT_EQ(localOrigin(vertices), (Vec3{1e6 + 5 / 3.0, -5e6 + 5, 0}));
 }
 
 TEST(LocalOrigin, LeavesZeroForHeightsThatFloatsWouldRound) {
-  TriangleMesh mesh;
-  for (int i = 0; i <= 10; ++i) mesh.positions.push_back({0, 0, 1e7 + i / 7.0});
-  EXPECT_EQ(localOrigin(mesh).z, 1e7 + 5 / 7.0);
-  mesh.positions.push_back({0, 0, -1e7});
-  EXPECT_EQ(localOrigin(mesh).z, 0);
+  std::vector<Vec3> vertices;
+  for (int i = 0; i <= 10; ++i) vertices.push_back({0, 0, 1e7 + i / 7.0});
+  EXPECT_EQ(localOrigin(vertices).z, 1e7 + 5 / 7.0);
+  vertices.push_back({0, 0, -1e7});
+  EXPECT_EQ(localOrigin(vertices).z, 0);
 }
 
 TEST(Float32Rounding, BoundsTheWayToFloatAndBack) {

@@ -32,6 +32,10 @@ struct RealDem {
   std::optional<int> band;
 };
 
+void PrintTo(const RealDem& dem, std::ostream* out) {
+  *out << dem.name;
+}
+
 class RealDems : public ::testing::TestWithParam<RealDem> {};
 
 TEST_P(RealDems, HaveTheSizeRangeAndHolesOnRecord) {
