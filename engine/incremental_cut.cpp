@@ -60,6 +60,10 @@ class IncrementalCut::Pass {
 
   Update run() {
     s_.steps.clear();
+    if (!o_.maxTriangles && !o_.deadline && o_.exact && !isSaturated_) {
+      goToLeast();
+      return counted();
+    }
     scan();
     if (o_.maxTriangles) {
       coarsen();
@@ -72,13 +76,17 @@ class IncrementalCut::Pass {
       coarsen();
       if (isComplete_ && o_.exact && !isSaturated_) leaveWhatIsNotLeast();
     }
+    return counted();
+  }
+
+ private:
+  Update counted() const {
     Update update;
     for (const CutStep& step : s_.steps) ++(step.isRefinement ? update.refined : update.coarsened);
     update.isComplete = isComplete_;
     return update;
   }
 
- private:
   struct Found {
     std::vector<Waiting> refinable;
     std::vector<Waiting> leaves;  // key: the severity of what they would leave behind
@@ -285,6 +293,23 @@ class IncrementalCut::Pass {
     }
   }
 
+  /// Nothing hurries: the least cut is found first, and what differs changes.
+  void goToLeast() {
+    const std::optional<NodeSet> least = leastNodes(mt_, criterion_, [&] { return mustStop(); });
+    if (!least) return;
+    // Children have larger indices.
+    for (std::uint32_t n = mt_.nodeCount(); n-- > 0;) {
+      if (!s_.isIn(n) || (*least)[n]) continue;
+      if (mustStop()) return;
+      s_.leave(n);
+    }
+    for (std::uint32_t n = 0; n < mt_.nodeCount(); ++n) {
+      if (s_.isIn(n) || !(*least)[n]) continue;
+      if (mustStop()) return;
+      s_.enter(n);
+    }
+  }
+
   void leaveWhatIsNotLeast() {
     const std::optional<NodeSet> least = leastNodes(mt_, criterion_, [&] { return mustStop(); });
     if (!least) return;
@@ -318,8 +343,8 @@ class IncrementalCut::Pass {
   std::vector<std::uint32_t> spare_;
   Found fresh_;
   std::uint64_t arrivals_ = 0;
-  tsl::robin_set<std::uint32_t> entered_, left_;  // under a budget: in this update
-  tsl::robin_set<std::uint32_t> claimed_;
+  tsl::robin_set<std::uint32_t, ScatteredId> entered_, left_;  // under a budget: in this update
+  tsl::robin_set<std::uint32_t, ScatteredId> claimed_;
 };
 
 IncrementalCut::IncrementalCut(MultiTriangulation mt) : state_(std::make_unique<State>(std::move(mt))) {}

@@ -19,7 +19,8 @@ struct IncrementalOptions {
   /// What is refined first where not all can be. Worst first when null.
   std::shared_ptr<const RefineOrder> order{};
   /// Minimal, without a budget, time permitting: undo also what no leaf alone gives away, so that the result
-  /// is the least cut, as from scratch. Costs a walk of the whole cut.
+  /// is the least cut, as from scratch. Costs a walk of the whole cut; without a deadline that walk is all
+  /// there is.
   bool exact = true;
 };
 
