@@ -50,8 +50,8 @@ class CutStage {
     for (const int threads : {1, 0}) {
       const auto limit = limitTo(threads);
       for (const double e : source_.tolerances)
-        saturated(fmt::format("saturated, {:g}, {}", e, threadsText(threads)), uniformPrefix(model_.mt, e));
-      saturated(fmt::format("saturated, finest, {}", threadsText(threads)), model_.mt.nodeCount());
+        saturated(fmt::format("saturated, {:g}, {}", e, threadsText(threads)), e);
+      saturated(fmt::format("saturated, finest, {}", threadsText(threads)), 0);
     }
     for (const double e : source_.tolerances)
       if (const Status s = general(fmt::format("minimal, {:g}", e), UniformError(e), {}); !s)
@@ -81,11 +81,16 @@ class CutStage {
     figures_.push_back({source_.name, "cut", variant, name, value, unit, better});
   }
 
-  void saturated(const std::string& variant, std::uint32_t nodes) {
+  void saturated(const std::string& variant, double maxError) {
     const MultiTriangulation& mt = model_.mt;
-    const double tested = double(mt.rootTriangleCount()) + mt.arrays().slotBegin[nodes];
-    const double seconds = medianSeconds(kShort, [&] { return frontOfPrefix(mt, nodes); });
-    add(variant, "triangles", mt.prefixTriangleCount(nodes), "", Better::neither);
+    const UniformError criterion(maxError);
+    const CutOptions options{.method = CutMethod::saturated};
+    const Result<Cut> cut = takeCut(mt, criterion, options);
+    double tested = mt.rootTriangleCount();
+    for (std::size_t v = mt.rootVertexCount(); v < cut->vertices.size(); ++v)
+      tested += mt.slotCount(NodeId(cut->vertices[v] - mt.rootVertexCount()));
+    const double seconds = medianSeconds(kShort, [&] { return takeCut(mt, criterion, options); });
+    add(variant, "triangles", double(cut->triangles.size()), "", Better::neither);
     add(variant, "time", seconds * 1e3, "ms", Better::lower);
     add(variant, "tested", tested / seconds / 1e6, "million/s", Better::higher);
   }
@@ -199,8 +204,7 @@ Result<Figures> trianglesStage(const DemSource& source, const std::string& delau
       add(names[i], count, Better::lower);
       add(fmt::format("ratio, {}", names[i]), count / baseline.triangles, Better::lower);
     }
-    const std::uint32_t prefix = uniformPrefix(models[0]->mt, baseline.tolerance);
-    add("Delaunay, saturated", models[0]->mt.prefixTriangleCount(prefix), Better::lower);
+    add("Delaunay, saturated", uniformTriangleCount(models[0]->mt, baseline.tolerance), Better::lower);
   }
   return figures;
 }

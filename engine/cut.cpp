@@ -5,23 +5,19 @@
 // nodes to include; each asks for the creators of its floor (its parents) and for the removers of those of
 // its ceiling that fail. With a budget or a deadline the order does matter: refine.cpp.
 //
-// Saturated. Node n is in iff its saturated error exceeds what the criterion allows over its sphere. A
-// parent's saturated error and sphere contain its child's (law 6), so the set is closed as it comes. For a
-// uniform error it is a prefix of the nodes. With a budget the members are taken by falling ratio of the two,
-// parents first: what of that order fits is closed too.
+// Saturated: saturated_cut.cpp.
 #include "engine/cut.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
+#include "engine/front.h"
 #include "engine/refine.h"
+#include "engine/saturated_cut.h"
 #include "engine/with_threads.h"
 
 namespace arete {
@@ -99,14 +95,6 @@ std::optional<NodeSet> leastNodes(const MultiTriangulation& mt, const Criterion&
   return in;
 }
 
-std::uint32_t uniformPrefix(const MultiTriangulation& mt, double maxError) {
-  const auto& saturated = mt.arrays().saturatedError;
-  const OutwardScale::Code code = mt.arrays().scale.floorCode(maxError);
-  return static_cast<std::uint32_t>(
-      std::partition_point(saturated.begin(), saturated.end(), [&](std::uint16_t s) { return s > code; }) -
-      saturated.begin());
-}
-
 std::uint32_t closeUpwards(const MultiTriangulation& mt, NodeSet& set) {
   // Parents have smaller indices: one backward sweep reaches every ancestor.
   std::uint32_t members = 0;
@@ -157,58 +145,6 @@ Status checkOptions(const MultiTriangulation& mt, const Criterion& criterion, co
   return {};
 }
 
-/// As many members as the budget holds, by falling saturated error in units of the error allowed; equal ones,
-/// and so parents, by index.
-void keepWorst(const MultiTriangulation& mt, const Criterion& criterion, std::uint32_t maxTriangles,
-               NodeCut& cut) {
-  const MtArrays& a = mt.arrays();
-  std::vector<std::pair<double, std::uint32_t>> members;
-  for (std::uint32_t n = 0; n < mt.nodeCount(); ++n) {
-    if (!cut.nodes[n]) continue;
-    const double allowed = criterion.allowedError(a.sphere[n]);
-    members.emplace_back(allowed > 0 ? -a.scale.decode(a.saturatedError[n]) / allowed
-                                     : -std::numeric_limits<double>::infinity(),
-                         n);
-  }
-  tbb::parallel_sort(members.begin(), members.end());
-  std::uint64_t triangles = mt.rootTriangleCount();
-  std::size_t kept = 0;
-  for (; kept < members.size(); ++kept) {
-    triangles += mt.isOpen(NodeId(members[kept].second)) ? 1 : 2;
-    if (triangles > maxTriangles) break;
-  }
-  cut.isComplete = kept == members.size();
-  for (; kept < members.size(); ++kept) cut.nodes[members[kept].second] = 0;
-}
-
-Result<NodeCut> saturatedNodes(const MultiTriangulation& mt, const Criterion& criterion,
-                               const CutOptions& options) {
-  const MtArrays& a = mt.arrays();
-  NodeCut cut{NodeSet(mt.nodeCount(), 0), true};
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, mt.nodeCount(), 4096), [&](const auto& range) {
-    for (std::uint32_t n = range.begin(); n != range.end(); ++n)
-      cut.nodes[n] = a.scale.decode(a.saturatedError[n]) > criterion.allowedError(a.sphere[n]) ? 1 : 0;
-  });
-  if (options.maxTriangles) keepWorst(mt, criterion, *options.maxTriangles, cut);
-  return cut;
-}
-
-/// A uniform saturated cut needs no set: its nodes are a prefix.
-Cut uniformSaturatedCut(const MultiTriangulation& mt, double maxError, const CutOptions& options) {
-  std::uint32_t nodes = uniformPrefix(mt, maxError);
-  const std::uint32_t wanted = nodes;
-  if (options.maxTriangles) {
-    std::uint64_t triangles = mt.rootTriangleCount();
-    for (std::uint32_t n = 0; n < nodes; ++n) {
-      triangles += mt.isOpen(NodeId(n)) ? 1 : 2;
-      if (triangles > *options.maxTriangles) nodes = n;
-    }
-  }
-  Cut cut = frontOfPrefix(mt, nodes);
-  cut.isComplete = nodes == wanted;
-  return cut;
-}
-
 }  // namespace
 
 Result<NodeCut> takeNodes(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options,
@@ -216,7 +152,10 @@ Result<NodeCut> takeNodes(const MultiTriangulation& mt, const Criterion& criteri
   if (const Status ok = checkOptions(mt, criterion, options); !ok) return tl::unexpected(ok.error());
   if (context.cancelled()) return interrupted();
   return withThreads(context, [&]() -> Result<NodeCut> {
-    if (options.method == CutMethod::saturated) return saturatedNodes(mt, criterion, options);
+    if (options.method == CutMethod::saturated) {
+      const SaturatedMembers cut = saturatedMembers(mt, criterion, options.maxTriangles);
+      return NodeCut{cut.members.toNodeSet(mt.nodeCount()), cut.isComplete};
+    }
     if (options.maxTriangles || options.deadline) return refineWithin(mt, criterion, options, context);
     std::optional<NodeSet> least = leastNodes(mt, criterion, [&] { return context.cancelled(); });
     if (!least) return interrupted();
@@ -229,8 +168,12 @@ Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, co
   if (const Status ok = checkOptions(mt, criterion, options); !ok) return tl::unexpected(ok.error());
   if (context.cancelled()) return interrupted();
   return withThreads(context, [&]() -> Result<Cut> {
-    if (options.method == CutMethod::saturated && !std::isnan(criterion.uniformError()))
-      return uniformSaturatedCut(mt, criterion.uniformError(), options);
+    if (options.method == CutMethod::saturated) {
+      const SaturatedMembers taken = saturatedMembers(mt, criterion, options.maxTriangles);
+      Cut cut = frontOf(mt, taken.members);
+      cut.isComplete = taken.isComplete;
+      return cut;
+    }
     const Result<NodeCut> nodes = takeNodes(mt, criterion, options, context);
     if (!nodes) return tl::unexpected(nodes.error());
     Cut cut = front(mt, nodes->nodes);

@@ -72,9 +72,8 @@ bool isSatisfied(const MultiTriangulation& mt, const Criterion& criterion, Trian
 /// The worst severity among the triangles of a front. O(front), parallel.
 double worstSeverity(const MultiTriangulation& mt, const Criterion& criterion, const Cut& cut);
 
-/// Number of nodes whose saturated error exceeds E: the nodes of the uniform saturated cut are 0 .. n-1.
-/// O(log N).
-std::uint32_t uniformPrefix(const MultiTriangulation& mt, double maxError);
+/// Triangles of the saturated cut for an error of E everywhere, without taking it. O(nodes in it).
+std::uint32_t uniformTriangleCount(const MultiTriangulation& mt, double maxError);
 
 /// The front of a closed set; of the first n nodes (closed by their order). Parallel, the same for any thread
 /// count. Precondition: the set is closed.

@@ -5,12 +5,13 @@
 // bore its star) are of earlier batches: the saturated error is the largest of its floor's errors and its
 // children's, the sphere grows to enclose the children's.
 //
-// finish() renumbers. Nodes: by falling saturated error, and among equals the later removal first, so that
-// parents come before children (a parent is removed later and is at least as saturated). A counting sort over
-// the 16-bit codes does it in O(N). Vertices: the root's, then one per node. Triangles: the root's, then the
-// slots of the nodes in order. One pass copies the stars and notes where each birth went; a second pass lets
-// each node fill its floor and sign as the remover of its floor's triangles. Every element is written once,
-// by one node, so both passes are parallel.
+// finish() renumbers. Nodes: by falling band of saturated error, and within a band the later removal first,
+// so that parents come before children (a parent is removed later and is at least as saturated). The removals
+// of a batch are listed in the order of memory, which follows the ground; so do the nodes of one batch and
+// band. A counting sort over the bands does it in O(N). Vertices: the root's, then one per node. Triangles:
+// the root's, then the slots of the nodes in order. One pass copies the stars and notes where each birth
+// went; a second pass lets each node fill its floor and sign as the remover of its floor's triangles. Every
+// element is written once, by one node, so both passes are parallel.
 #include "engine/mt_recorder.h"
 
 #include <tbb/parallel_for.h>
@@ -18,6 +19,7 @@
 #include <cassert>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 namespace arete {
 namespace {
@@ -152,17 +154,16 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   const std::uint32_t rootVertexCount = static_cast<std::uint32_t>(rootVertices.size());
   const std::uint32_t births = finestTriangles_ + slots - 2 * nodes;
 
-  // removalOf[n]: falling code, later removals first.
+  // removalOf[n]: falling band, later removals first.
   std::vector<std::uint32_t> removalOf(nodes);
   {
-    std::vector<std::uint32_t> begin(std::size_t(OutwardScale::kMaxCode) + 2, 0);
-    for (std::uint32_t r = 0; r < nodes; ++r)
-      ++begin[std::size_t(OutwardScale::kMaxCode - saturated_[r]) + 1];
-    for (std::size_t c = 1; c < begin.size(); ++c) begin[c] += begin[c - 1];
-    for (std::uint32_t r = nodes; r-- > 0;) {
-      const std::uint32_t n = begin[std::size_t(OutwardScale::kMaxCode - saturated_[r])]++;
-      removalOf[n] = r;
-    }
+    const auto place = [&](std::uint32_t removal) {
+      return MultiTriangulation::kBands - 1 - MultiTriangulation::bandOf(saturated_[removal]);
+    };
+    std::array<std::uint32_t, MultiTriangulation::kBands + 1> begin{};
+    for (std::uint32_t r = 0; r < nodes; ++r) ++begin[place(r) + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    for (std::uint32_t r = nodes; r-- > 0;) removalOf[begin[place(r)]++] = r;
   }
 
   vertexOrder.resize(std::size_t(rootVertexCount) + nodes);

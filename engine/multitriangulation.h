@@ -49,8 +49,10 @@ struct MetricFrame {
 ///
 ///     t is in the front of a cut  <=>  creator(t) in cut (or root)  and  remover(t) not in cut
 ///
-/// Nodes are sorted by falling saturated error, parents first. A uniform cut is therefore a prefix of the
-/// nodes and its vertices are a prefix of the vertices. A link names older vertices only: link[i] < apex.
+/// Nodes come in bands of saturated error, falling, and parents first. A uniform cut is therefore a prefix of
+/// the nodes and some of one band, and every prefix of the nodes is a cut whose vertices are a prefix of the
+/// vertices. Within a band the nodes follow the ground (docs/decisions/0008), so that what a place needs lies
+/// together. A link names older vertices only: link[i] < apex.
 struct MtArrays {
   std::uint32_t rootVertices = 0;
   std::span<const std::array<std::uint32_t, 3>> rootTriangles;  ///< R
@@ -62,7 +64,7 @@ struct MtArrays {
   std::span<const std::uint16_t> below;  ///< R + S: z_TIN - z_reference >= -below over the whole triangle
   std::span<const std::uint16_t> above;  ///< R + S: z_TIN - z_reference <= above
   std::span<const std::uint32_t> floor;  ///< S - 2N triangle ids; node n's begin at slotBegin[n] - 2n
-  std::span<const std::uint16_t> saturatedError;  ///< N, falling
+  std::span<const std::uint16_t> saturatedError;  ///< N, in falling bands
   std::span<const Sphere> sphere;  ///< N, saturated: encloses the node's region and its children's spheres
   std::span<const std::uint32_t> creatorHint;  ///< ceil(S / 64): the node that owns slot 64 i
 
@@ -77,6 +79,13 @@ class MultiTriangulation {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
   static constexpr std::uint32_t kSlotsPerHint = 64;
+
+  /// Nodes are sorted by falling band: a quarter of an octave of saturated errors.
+  static constexpr int kBandShift = 9;
+  static constexpr std::uint32_t bandOf(OutwardScale::Code saturatedError) {
+    return saturatedError >> kBandShift;
+  }
+  static constexpr std::uint32_t kBands = (OutwardScale::kMaxCode >> kBandShift) + 1;
 
   MultiTriangulation() = default;
   /// Precondition: the arrays have the sizes stated in MtArrays (checkSizes) and live as long as the owner.
@@ -98,6 +107,12 @@ class MultiTriangulation {
   std::uint32_t finestTriangleCount() const { return prefixTriangleCount(nodeCount()); }
   /// Triangles in the front of the first n nodes. O(n).
   std::uint32_t prefixTriangleCount(std::uint32_t n) const;
+  /// The nodes of a band: from bandBegin() to before bandEnd(). O(log N).
+  std::uint32_t bandBegin(std::uint32_t band) const;
+  std::uint32_t bandEnd(std::uint32_t band) const { return band == 0 ? nodeCount() : bandBegin(band - 1); }
+  /// The largest saturated error: at least the error of every triangle that a node removes. 0 without nodes.
+  /// O(its band).
+  double largestError() const;
 
   VertexId apex(NodeId n) const { return VertexId(a_.rootVertices + n.index()); }
   std::uint32_t slotCount(NodeId n) const { return a_.slotBegin[n.index() + 1] - a_.slotBegin[n.index()]; }

@@ -188,8 +188,9 @@ Status validate(const MultiTriangulation& mt, const ValidateOptions& options, co
   const MtArrays& a = mt.arrays();
   const std::uint32_t nodes = mt.nodeCount();
   for (std::uint32_t n = 0; n + 1 < nodes; ++n)
-    if (a.saturatedError[n] < a.saturatedError[n + 1])
-      return broken(fmt::format("order: node {} has a smaller saturated error than node {}", n, n + 1));
+    if (MultiTriangulation::bandOf(a.saturatedError[n]) < MultiTriangulation::bandOf(a.saturatedError[n + 1]))
+      return broken(
+          fmt::format("order: node {} is in a lower band of saturated errors than node {}", n, n + 1));
   for (std::size_t i = 0; i < a.creatorHint.size(); ++i) {
     const std::uint32_t n = a.creatorHint[i];
     const std::size_t slot = i * MultiTriangulation::kSlotsPerHint;

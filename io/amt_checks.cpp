@@ -194,7 +194,7 @@ class IndexCheck {
   }
 
   /// What makes every cut's front whole: a link's vertices are corners of the floor, so a closed set of nodes
-  /// has inserted all that its stars lean on; spheres hold their children's (errors fall anyway), so
+  /// has inserted all that its stars lean on; saturated errors and spheres hold their children's, so
   /// saturated cuts are closed.
   Status parents() const {
     const auto bad = firstBad(nodes_, [&](std::uint32_t n) { return findParentProblem(n).has_value(); });
@@ -211,6 +211,9 @@ class IndexCheck {
       const NodeId parent = mt_.creator(TriangleId(t));
       for (const std::uint32_t corner : mt_.corners(TriangleId(t), parent)) *end++ = corner;
       if (!parent.isValid()) continue;
+      if (a_.saturatedError[parent.index()] < a_.saturatedError[n])
+        return std::pair{amt_tag::kSaturatedError,
+                         fmt::format("node {} has a smaller error than its child {}", parent.index(), n)};
       const Sphere& p = a_.sphere[parent.index()];
       const double dx = double(s.x) - p.x, dy = double(s.y) - p.y, dz = double(s.z) - p.z;
       if (std::sqrt(dx * dx + dy * dy + dz * dz) + s.radius > p.radius)
@@ -240,10 +243,11 @@ class IndexCheck {
 
   Status nodeValues() const {
     if (const auto bad = firstBad(nodes_, [&](std::uint32_t n) {
-          return n > 0 && a_.saturatedError[n] > a_.saturatedError[n - 1];
+          return n > 0 && MultiTriangulation::bandOf(a_.saturatedError[n]) >
+                              MultiTriangulation::bandOf(a_.saturatedError[n - 1]);
         }))
       return refuse(amt_tag::kSaturatedError,
-                    fmt::format("node {} has a larger error than the node before it", *bad));
+                    fmt::format("node {} is in a higher band of errors than the node before it", *bad));
     if (const auto bad = firstBad(nodes_, [&](std::uint32_t n) {
           const Sphere& s = a_.sphere[n];
           return !std::isfinite(s.x) || !std::isfinite(s.y) || !std::isfinite(s.z) ||

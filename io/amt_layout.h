@@ -13,7 +13,7 @@ namespace arete {
 /// 64 behind the one before it (the first one, behind the directory), and the file ends at such a multiple.
 /// The bytes skipped are zero.
 
-inline constexpr std::uint32_t kAmtVersion = 1;
+inline constexpr std::uint32_t kAmtVersion = 2;
 inline constexpr std::uint64_t kAmtAlignment = 64;
 /// Directories and metadata beyond these are refused: opening a file reads both.
 inline constexpr std::uint32_t kAmtMaxChunks = 64;

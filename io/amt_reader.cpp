@@ -76,6 +76,12 @@ Status AmtOpener::readHeader() {
                    fmt::format("was made by a newer Arete: format version {}, and this one reads {}",
                                header_.version, kAmtVersion),
                    file_.path_);
+  if (header_.version != 0 && header_.version < kAmtVersion)
+    return failure(ErrorCode::unsupported,
+                   fmt::format("was made by an older Arete: format version {}, and this one reads {}; build "
+                               "it again from the terrain",
+                               header_.version, kAmtVersion),
+                   file_.path_);
   if (header_.version != kAmtVersion)
     return corrupt(fmt::format("has format version {}, which does not exist", header_.version));
   return {};

@@ -25,11 +25,14 @@ double rungValue(int rung) {
 
 std::vector<double> toleranceLadder(const MultiTriangulation& mt, std::size_t most) {
   const auto& saturated = mt.arrays().saturatedError;
-  const auto zeros =
-      std::partition_point(saturated.begin(), saturated.end(), [](auto code) { return code > 0; });
-  if (zeros == saturated.begin()) return {};
-  const double coarsest = mt.arrays().scale.decode(saturated.front());
-  const double finest = mt.arrays().scale.decode(*(zeros - 1));
+  OutwardScale::Code least = 0;  // but for 0
+  for (std::uint32_t n = mt.nodeCount(); n-- > 0;) {
+    if (least != 0 && MultiTriangulation::bandOf(saturated[n]) > MultiTriangulation::bandOf(least)) break;
+    if (saturated[n] != 0 && (least == 0 || saturated[n] < least)) least = saturated[n];
+  }
+  if (least == 0) return {};
+  const double coarsest = mt.largestError();
+  const double finest = mt.arrays().scale.decode(least);
   std::vector<double> ladder;
   int rung = 3 * (static_cast<int>(std::ceil(std::log10(coarsest))) + 1);
   for (; ladder.size() < most && rungValue(rung) >= finest; --rung)
@@ -44,7 +47,7 @@ Result<std::vector<CurvePoint>> errorCurve(const MultiTriangulation& mt, std::sp
   for (std::size_t i = 0; i < tolerances.size(); ++i) {
     context.report("curve", static_cast<double>(i) / static_cast<double>(tolerances.size()));
     CurvePoint point{.maxError = tolerances[i]};
-    point.saturatedTriangles = mt.prefixTriangleCount(uniformPrefix(mt, tolerances[i]));
+    point.saturatedTriangles = uniformTriangleCount(mt, tolerances[i]);
     const Result<NodeCut> cut = takeNodes(mt, UniformError(tolerances[i]), {}, context);
     if (!cut) return tl::unexpected(cut.error());
     point.minimalTriangles = mt.rootTriangleCount();

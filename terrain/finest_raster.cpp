@@ -2,8 +2,20 @@
 #include "terrain/finest_raster.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 namespace arete {
+namespace {
+
+/// Bits 0, 2, 4, ... of x, moved together.
+std::uint32_t everyOtherBit(std::uint64_t x) {
+  std::uint32_t bits = 0;
+  for (int i = 0; i < 32; ++i) bits |= static_cast<std::uint32_t>(x >> (2 * i) & 1) << i;
+  return bits;
+}
+
+}  // namespace
 
 std::vector<std::array<std::uint32_t, 3>> finestTriangulation(const RasterHeightfield& heightfield) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -24,13 +36,21 @@ std::vector<std::array<std::uint32_t, 3>> finestTriangulation(const RasterHeight
       if (lr) triangles.push_back({upperRight, lowerRight, lowerLeft});
     }
   };
-  // Tile by tile, so that triangles near each other on the ground are near each other in memory.
+  // Tile by tile, so that triangles near each other on the ground are near each other in memory, at every
+  // scale: in Morton's order within squares, the squares side by side.
   constexpr std::uint32_t kTile = 32;
-  for (std::uint32_t top = 0; top + 1 < heightfield.rows; top += kTile)
-    for (std::uint32_t left = 0; left + 1 < heightfield.columns; left += kTile)
-      for (std::uint32_t row = top; row < std::min(top + kTile, heightfield.rows - 1); ++row)
-        for (std::uint32_t column = left; column < std::min(left + kTile, heightfield.columns - 1); ++column)
-          addCell(column, row);
+  const std::uint32_t across = (heightfield.columns + kTile - 2) / kTile,
+                      down = (heightfield.rows + kTile - 2) / kTile;
+  const std::uint32_t side = std::bit_ceil(std::min(across, down));
+  const auto addTile = [&](std::uint32_t left, std::uint32_t top) {
+    for (std::uint32_t row = top; row < std::min(top + kTile, heightfield.rows - 1); ++row)
+      for (std::uint32_t column = left; column < std::min(left + kTile, heightfield.columns - 1); ++column)
+        addCell(column, row);
+  };
+  for (std::uint32_t y = 0; y < down; y += side)
+    for (std::uint32_t x = 0; x < across; x += side)
+      for (std::uint64_t code = 0; code < std::uint64_t(side) * side; ++code)
+        addTile((x + everyOtherBit(code)) * kTile, (y + everyOtherBit(code >> 1)) * kTile);
   return triangles;
 }
 

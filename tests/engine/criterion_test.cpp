@@ -42,7 +42,7 @@ void forSamples(const TerrainModel& model, const Cut& cut, const std::function<v
 }
 
 double spanOf(const TerrainModel& model) {
-  return model.mt.nodeCount() ? model.mt.saturatedError(NodeId(0)) : 1;
+  return model.mt.nodeCount() ? model.mt.largestError() : 1;
 }
 
 /// Both cuts, and no sample with more error than `allowed` says of its place (metric), but for rounding.

@@ -62,7 +62,7 @@ struct NamedCriterion {
 inline std::vector<NamedCriterion> criteriaFor(const MultiTriangulation& mt, std::mt19937_64& random) {
   const Extent e(mt);
   const MetricFrame& metric = mt.arrays().metric;
-  const double span = mt.nodeCount() ? mt.saturatedError(NodeId(0)) : 1;
+  const double span = mt.nodeCount() ? mt.largestError() : 1;
   const auto at = [&](double x, double y) {
     return Vec2{e.plan.xMin + x * (e.plan.xMax - e.plan.xMin), e.plan.yMin + y * (e.plan.yMax - e.plan.yMin)};
   };

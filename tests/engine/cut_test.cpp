@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -18,7 +20,7 @@ namespace arete {
 namespace {
 
 double spanOfErrors(const MultiTriangulation& mt) {
-  return mt.nodeCount() ? mt.saturatedError(NodeId(0)) : 1;
+  return mt.nodeCount() ? mt.largestError() : 1;
 }
 
 TEST(MinimalCut, IsTheLeastClosedSetForUniformErrors) {
@@ -89,6 +91,63 @@ TEST(MinimalCut, TakesAnyPredicateAndSaturatedRefusesIt) {
     const auto refused = takeCut(s.model.mt, Odd{}, {.method = CutMethod::saturated});
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::usage);
+  }
+}
+
+TEST(SaturatedCut, IsEveryNodeWhoseErrorExceedsWhatItsSphereAllows) {
+  std::mt19937_64 random(8);
+  for (const FamilyModel& s : familyModels())
+    for (int round = 0; round < 5; ++round)
+      for (const auto& [name, criterion] : criteriaFor(s.model.mt, random)) {
+        if (!criterion->isMonotone()) continue;
+        const MultiTriangulation& mt = s.model.mt;
+        NodeSet expected(mt.nodeCount(), 0);
+        std::uint32_t triangles = mt.rootTriangleCount();
+        for (std::uint32_t n = 0; n < mt.nodeCount(); ++n) {
+          if (mt.saturatedError(NodeId(n)) <= criterion->allowedError(mt.arrays().sphere[n])) continue;
+          expected[n] = 1;
+          triangles += mt.isOpen(NodeId(n)) ? 1 : 2;
+        }
+        SCOPED_TRACE(s.name + " " + name);
+        const auto nodes = takeNodes(mt, *criterion, {.method = CutMethod::saturated});
+        ASSERT_TRUE(nodes);
+        EXPECT_EQ(nodes->nodes, expected);
+        const auto cut = takeCut(mt, *criterion, {.method = CutMethod::saturated});
+        ASSERT_TRUE(cut);
+        EXPECT_EQ(cut->ids, front(mt, expected).ids);
+        EXPECT_EQ(cut->triangles.size(), triangles);
+        if (std::isnan(criterion->uniformError())) continue;
+        EXPECT_EQ(uniformTriangleCount(mt, criterion->uniformError()), triangles);
+      }
+}
+
+TEST(SaturatedCut, UnderABudgetIsTheWorstNodesThatFit) {
+  for (const FamilyModel& s : familyModels()) {
+    const MultiTriangulation& mt = s.model.mt;
+    std::vector<std::uint32_t> order(mt.nodeCount());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
+      return mt.arrays().saturatedError[a] > mt.arrays().saturatedError[b];
+    });
+    const std::uint32_t roots = mt.rootTriangleCount(), finest = mt.finestTriangleCount();
+    for (const double part : {0.0, 0.03, 0.2, 0.71, 1.0})
+      for (const double allowed : {0.0, 0.02 * spanOfErrors(mt)}) {
+        const auto budget = static_cast<std::uint32_t>(roots + part * (finest - roots));
+        NodeSet expected(mt.nodeCount(), 0);
+        std::uint32_t triangles = roots;
+        bool fits = true;
+        for (const std::uint32_t n : order) {
+          if (mt.saturatedError(NodeId(n)) <= allowed) break;
+          triangles += mt.isOpen(NodeId(n)) ? 1 : 2;
+          fits = fits && triangles <= budget;
+          if (fits) expected[n] = 1;
+        }
+        const auto nodes =
+            takeNodes(mt, UniformError(allowed), {.method = CutMethod::saturated, .maxTriangles = budget});
+        ASSERT_TRUE(nodes) << s.name;
+        EXPECT_EQ(nodes->nodes, expected) << s.name << " " << part << " " << allowed;
+        EXPECT_EQ(nodes->isComplete, fits) << s.name;
+      }
   }
 }
 

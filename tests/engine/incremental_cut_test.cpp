@@ -104,7 +104,7 @@ TEST(IncrementalCut, KeepsABudgetThatShrinksAndGrows) {
   for (const FamilyModel& m : familyModels()) {
     const MultiTriangulation& mt = m.model.mt;
     const std::uint32_t roots = mt.rootTriangleCount(), finest = mt.finestTriangleCount();
-    const double span = mt.nodeCount() ? mt.saturatedError(NodeId(0)) : 1;
+    const double span = mt.nodeCount() ? mt.largestError() : 1;
     for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
       IncrementalCut cut(mt);
       const Extent extent(mt);

@@ -57,7 +57,7 @@ TEST(Validate, NamesLaw2WhenAStarLosesItsShape) {
 TEST(Validate, NamesLaw3WhenATriangleHasTheWrongRemover) {
   CopiedMt copy(sample());
   const std::uint32_t n = middleNode(copy.original);
-  copy.remover[copy.floor[copy.slotBegin[n] - 2 * n]] = n + 1;
+  copy.remover[copy.floor[copy.slotBegin[n] - 2 * n]] = MultiTriangulation::kNone;
   EXPECT_EQ(firstViolation(copy).substr(0, 5), "law 3");
 }
 
@@ -82,7 +82,7 @@ TEST(Validate, NamesLaw6WhenASphereIsTooSmall) {
   EXPECT_EQ(firstViolation(copy).substr(0, 5), "law 6");
 }
 
-TEST(Validate, NamesTheOrderWhenSaturatedErrorsRise) {
+TEST(Validate, NamesTheOrderWhenABandOfSaturatedErrorsRises) {
   CopiedMt copy(sample());
   copy.saturatedError.back() = OutwardScale::kMaxCode;
   EXPECT_EQ(firstViolation(copy).substr(0, 5), "order");

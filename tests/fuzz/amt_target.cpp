@@ -35,7 +35,7 @@ void requireSound(const MultiTriangulation& mt, const Result<Cut>& cut) {
 
 void takeCuts(const TerrainModel& model, const RunContext& context) {
   const MultiTriangulation& mt = model.mt;
-  const double rootError = mt.nodeCount() > 0 ? mt.saturatedError(NodeId(0)) : 0;
+  const double rootError = mt.largestError();
   for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated})
     for (const double error : {0.0, rootError / 4, HUGE_VAL}) {
       const RegionError corner(Region::box({0, 0, 3, 2}), mt.arrays().metric, error, 2 * error + 1);

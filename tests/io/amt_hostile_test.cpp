@@ -102,8 +102,10 @@ TEST(HostileAmt, IsToldFromOtherFilesAndOtherVersions) {
   EXPECT_EQ(refusalOf(folder, "\x89PNG\r\n\x1a\n and so on"), "is not an .amt file");
 
   AmtBytes bytes(tinyBytes());
-  bytes.header().version = 2;
-  expectRefused(bytes, "was made by a newer Arete: format version 2, and this one reads 1");
+  bytes.header().version = 3;
+  expectRefused(bytes, "was made by a newer Arete: format version 3, and this one reads 2");
+  bytes.header().version = 1;
+  expectRefused(bytes, "was made by an older Arete: format version 1, and this one reads 2; build it again");
   bytes.header().version = 0;
   expectRefused(bytes, "format version 0, which does not exist");
   bytes = AmtBytes(tinyBytes());
@@ -261,7 +263,13 @@ TEST(HostileAmt, CannotNameWhatDoesNotExist) {
   word(amt_tag::kIsolatedSamples, 0, 9, "chunk ISAM: entry 0 is sample 9 of 9");
   word(amt_tag::kFixedVertices, 1, 9, "chunk FIXV: entry 1 is sample 9 of 9");
   with([](AmtBytes& b) { b.array<std::uint16_t>(amt_tag::kSaturatedError)[1] = 0xFFFF; },
-       "chunk SERR: node 1");
+       "chunk SERR: node 1 is in a higher band of errors than the node before it");
+  with(
+      [](AmtBytes& b) {
+        const auto saturated = b.array<std::uint16_t>(amt_tag::kSaturatedError);
+        saturated[1] = static_cast<std::uint16_t>(saturated[0] + 1);
+      },
+      "chunk SERR: node 0 has a smaller error than its child 1");
   with([](AmtBytes& b) { b.array<float>(amt_tag::kSphere)[5] = std::numeric_limits<float>::infinity(); },
        "chunk SPHR: node 1");
   with([](AmtBytes& b) { b.array<float>(amt_tag::kSphere)[3] = -1; }, "chunk SPHR: node 0");
