@@ -20,6 +20,7 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 namespace arete {
 namespace {
@@ -147,7 +148,8 @@ void MtRecorder::record(std::uint32_t removal, const VertexRemoval& what) {
 MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertices,
                                       std::span<const SurvivingTriangle> surviving,
                                       std::uint32_t callerVertexCount,
-                                      std::vector<std::uint32_t>& vertexOrder) {
+                                      std::vector<std::uint32_t>& vertexOrder, StageClock* clock) {
+  std::optional<StageClock::Scope> stage(std::in_place, clock, "finish: order");
   const std::uint32_t nodes = removals_;
   const std::uint32_t slots = slotBegin_[removals_];
   const std::uint32_t roots = static_cast<std::uint32_t>(surviving.size());
@@ -196,6 +198,7 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
     owned->slotBegin[n + 1] = owned->slotBegin[n] + slotBegin_[r + 1] - slotBegin_[r];
   }
 
+  stage.emplace(clock, "finish: stars");
   auto idOfBirth = std::make_unique_for_overwrite<std::uint32_t[]>(births);
   const auto place = [&](std::uint32_t id, std::uint32_t birth) {
     idOfBirth[birth] = id;
@@ -236,6 +239,7 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   above_.clear();
   std::vector<std::uint32_t>().swap(newVertex);
 
+  stage.emplace(clock, "finish: floors");
   owned->floor = std::make_unique_for_overwrite<std::uint32_t[]>(slots - 2 * std::size_t(nodes));
   forRange(nodes, [&](std::uint32_t n) {
     const std::uint32_t r = removalOf[n], birth = firstBirth(r), to = owned->slotBegin[n] - 2 * n;

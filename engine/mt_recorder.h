@@ -8,6 +8,7 @@
 
 #include "engine/chunked_array.h"
 #include "engine/multitriangulation.h"
+#include "engine/stage_clock.h"
 
 namespace arete {
 
@@ -65,10 +66,10 @@ class MtRecorder {
   /// The finished MT. `vertexOrder`: on return, the caller's vertex of every MT vertex.
   /// `rootVertices`: the surviving vertices, in the order they shall have; `surviving`: the surviving
   /// triangles. The MT's vertices (MtArrays::vertices) are left to the caller: see withVertices(). Leaves the
-  /// recorder empty. O(triangles), parallel; deterministic.
+  /// recorder empty. O(triangles), parallel; deterministic. `clock` may be null: see RunContext.
   MultiTriangulation finish(std::span<const std::uint32_t> rootVertices,
                             std::span<const SurvivingTriangle> surviving, std::uint32_t callerVertexCount,
-                            std::vector<std::uint32_t>& vertexOrder);
+                            std::vector<std::uint32_t>& vertexOrder, StageClock* clock = nullptr);
 
  private:
   std::uint32_t finestTriangles_;

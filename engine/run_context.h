@@ -5,6 +5,8 @@
 #include <functional>
 #include <string_view>
 
+#include "engine/stage_clock.h"
+
 namespace arete {
 
 /// How a long operation is run: what it may use, whom it tells, when it stops. Cheap to copy.
@@ -15,6 +17,8 @@ struct RunContext {
   const std::atomic<bool>* cancel = nullptr;
   /// Threads to use; 0 means all of them. No result depends on it.
   int threads = 0;
+  /// Told how long each stage takes. May be null; where it is not, one operation at a time uses it.
+  StageClock* clock = nullptr;
 
   bool cancelled() const { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
   void report(std::string_view stage, double fraction) const {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "engine/with_threads.h"
 #include "terrain/build.h"
@@ -35,6 +36,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
                    fmt::format("{} points are more than 32-bit ids can name", field.size()), field.source);
 
   context.report("triangulate", 0);
+  std::optional<StageClock::Scope> stage(std::in_place, context.clock, "triangulate");
   const double stretch = pointMetricStretch(field);
   auto triangles = finestTriangulation(field, stretch);
   if (!triangles) return tl::unexpected(triangles.error());
@@ -43,6 +45,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
   std::vector<std::uint32_t> pinched;
   LiveMesh mesh = LiveMesh::fromTriangles(std::move(*triangles), pointCount, pinched);
   context.report("triangulate", 1);
+  stage.emplace(context.clock, "prepare");
 
   TerrainModel model;
   model.georeference = field.georeference;
@@ -76,6 +79,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
   const PointPlan plan(field.positions, stretch);
   MtRecorder recorder(finestCount, OutwardScale(*high - *low), metric);
   SimplifiedRoot root;
+  stage.emplace(context.clock, "simplify");
   {
     PointError errors(plan, field.heights, mesh);
     Simplifier<PointPlan, PointError> simplifier(mesh, plan, errors, recorder, nullptr, options, context);
@@ -88,8 +92,10 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
   model.levels = root.levels;
 
   context.report("finish", 0);
+  stage.emplace(context.clock, "finish");
   std::vector<std::uint32_t> order;
-  const MultiTriangulation bare = recorder.finish(root.vertices, root.triangles, pointCount, order);
+  const MultiTriangulation bare =
+      recorder.finish(root.vertices, root.triangles, pointCount, order, context.clock);
   // Points are renumbered: from here on the fixed ones go by their MT vertices.
   std::vector<std::uint32_t> fixed;
   for (std::uint32_t v = 0; v < order.size(); ++v)

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "engine/with_threads.h"
 #include "terrain/build.h"
@@ -60,6 +61,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
                    field.source);
 
   context.report("triangulate", 0);
+  std::optional<StageClock::Scope> stage(std::in_place, context.clock, "triangulate");
   std::vector<std::array<std::uint32_t, 3>> triangles = finestTriangulation(field);
   if (triangles.empty()) return failure(ErrorCode::degenerate, whyNoTriangle(field), field.source);
   if (triangles.size() > 0xFFFFFFF0u / 3)
@@ -70,6 +72,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   std::vector<std::uint32_t> pinched;
   LiveMesh mesh = LiveMesh::fromTriangles(std::move(triangles), sampleCount, pinched);
   context.report("triangulate", 1);
+  stage.emplace(context.clock, "prepare");
 
   TerrainModel model;
   model.georeference = field.georeference;
@@ -117,6 +120,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   if (options.rimTolerance > 0) rim = std::make_unique<Rim>(mesh, plan, options.rimTolerance);
 
   SimplifiedRoot root;
+  stage.emplace(context.clock, "simplify");
   {
     Simplifier<LatticePlan, RasterError> simplifier(mesh, plan, errors, recorder, rim.get(), options,
                                                     context);
@@ -129,8 +133,10 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   model.levels = root.levels;
 
   context.report("finish", 0);
+  stage.emplace(context.clock, "finish");
   auto owned = std::make_shared<OwnedVertices>();
-  const MultiTriangulation bare = recorder.finish(root.vertices, root.triangles, sampleCount, owned->samples);
+  const MultiTriangulation bare =
+      recorder.finish(root.vertices, root.triangles, sampleCount, owned->samples, context.clock);
   owned->heights = encodeHeights(field.heights, owned->samples, field.rawScale, field.rawOffset);
   VertexArrays vertices;
   vertices.samples = owned->samples;
