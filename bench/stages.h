@@ -35,7 +35,9 @@ Figures geometricMeans(const Figures& figures);
 
 /// The stages, each in the process that calls it; paths and variants as measureDem() hands them in.
 Result<Figures> readStage(const DemSource& source, const Plan& plan);
-/// One build, written to `model`: figures named "time", "triangulate", "finish", "features", "peak", "write".
+/// One build, written to `model`. Figures of three stages: "build"; "build parts", what the stage clock
+/// credits each part with (the file's reading and writing beside them); "build cores", how many were busy in
+/// it.
 Result<Figures> buildOnce(const DemSource& source, HoleShape shape, int threads, const std::string& model);
 Result<Figures> fileStage(const DemSource& source, HoleShape shape, const std::string& model,
                           const Plan& plan);
