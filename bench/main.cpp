@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 struct Arguments {
   std::vector<std::string> only, dems;
   std::vector<double> sizes = {1, 4, 16};
-  std::string json, data, scratch, baselines;
+  std::string json, data, scratch, baselines, hmm;
   int repeats = 3;
   bool markdown = false, quiet = false;
 };
@@ -47,6 +47,9 @@ int measureAll(const Arguments& arguments) {
   plan.only = arguments.only;
   plan.scratch = arguments.scratch;
   plan.baselines = arguments.baselines;
+  plan.hmm = arguments.hmm;
+  if (plan.hmm.empty() && !plan.only.empty() && plan.wants("rival"))
+    return fail({ErrorCode::usage, "the stage \"rival\" needs the rival's program", "--hmm"});
   plan.repetition.most = arguments.repeats;
   std::error_code error;
   fs::create_directories(plan.scratch, error);
@@ -110,6 +113,7 @@ int run(int argc, char** argv) {
       "Examples:\n"
       "  arete-bench --json head.json --markdown\n"
       "  arete-bench --only build,cut --sizes 1 --dem generated\n"
+      "  arete-bench --only rival --hmm ~/hmm/hmm --dem bigtujunga,aconcagua,generated\n"
       "  arete-bench compare base.json head.json\n"
       "  arete-bench tables head.json");
   app.add_option("--only", arguments.only,
@@ -127,6 +131,9 @@ int run(int argc, char** argv) {
   app.add_flag("-q,--quiet", arguments.quiet, "Do not say which DEM is being measured");
   app.add_option("--data", arguments.data, "Folder of the real DEMs (default: $ARETE_DATA)");
   app.add_option("--scratch", arguments.scratch, "Folder for generated DEMs, which are kept, and models");
+  app.add_option("--hmm", arguments.hmm,
+                 "The program hmm (github.com/fogleman/hmm), to build beside: stage \"rival\"")
+      ->check(CLI::ExistingFile);
   app.add_option("--baselines", arguments.baselines, "Counts to compare triangles with");
 
   std::string base, head;

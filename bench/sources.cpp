@@ -81,11 +81,20 @@ DemSource generatedDem(double millions, const std::string& scratch) {
   return source;
 }
 
+DemSource withoutLake(const DemSource& source) {
+  DemSource dry = source;
+  if (source.side == 0 || !source.hasLake) return dry;
+  dry.hasLake = false;
+  dry.path = fs::path(source.path).replace_extension().string() + "-dry.tif";
+  return dry;
+}
+
 Status generateDem(const DemSource& source) {
   std::error_code ignored;
   if (source.side == 0 || fs::exists(source.path, ignored)) return {};
   TerrainOptions options;
   options.columns = options.rows = source.side;
+  options.lake = source.hasLake;
   const Result<RasterHeightfield> field = generateTerrain(options);
   if (!field) return tl::unexpected(field.error());
   return writeGeoTiff(source.path, field->columns, field->rows, field->heights, field->georeference);

@@ -15,6 +15,7 @@ struct DemSource {
   std::string path;                ///< as readDem() takes it
   std::vector<double> tolerances;  ///< in its vertical unit, rising: what the cuts are taken at
   std::uint32_t side = 0;          ///< generated: samples along a side; 0 = real
+  bool hasLake = true;             ///< generated: a lake of NODATA
 };
 
 /// Triangles that the best greedy insertion leaves at a tolerance, and the DEM they were counted on.
@@ -36,6 +37,9 @@ std::vector<DemSource> realDems(const std::string& folder);
 /// Generated terrain of about `millions` of samples, a power of two and one along a side where it can be:
 /// 1, 4 and 16 give 1025, 2049 and 4097. Its file, in `scratch`, is made by generateDem().
 DemSource generatedDem(double millions, const std::string& scratch);
+
+/// The same terrain without its lake: no voids. A real DEM stays as it is.
+DemSource withoutLake(const DemSource& source);
 
 /// Makes the file of a generated source where it is not there. Errors: those of the generator and the writer.
 Status generateDem(const DemSource& source);

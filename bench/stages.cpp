@@ -140,6 +140,11 @@ class DemRun {
       status = add([&] { return measureStage(source_, delaunay, plan_); });
     if (status && !baselines.empty())
       status = add([&] { return trianglesStage(source_, delaunay, fidelity, baselines); });
+    if (status && plan_.wants("rival") && !plan_.hmm.empty()) {
+      const Result<Figures> figures = rivalStage(source_, plan_);
+      if (!figures) return tl::unexpected(figures.error());
+      figures_.insert(figures_.end(), figures->begin(), figures->end());
+    }
     if (!status) return tl::unexpected(status.error());
     return std::move(figures_);
   }
@@ -157,8 +162,8 @@ bool Plan::wants(const std::string& stage) const {
 }
 
 const std::vector<std::string>& stageNames() {
-  static const std::vector<std::string> names = {"read",   "build",  "file",    "cut",      "follow",
-                                                 "height", "export", "measure", "triangles"};
+  static const std::vector<std::string> names = {"read",   "build",  "file",    "cut",       "follow",
+                                                 "height", "export", "measure", "triangles", "rival"};
   return names;
 }
 

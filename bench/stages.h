@@ -17,13 +17,14 @@ struct Plan {
   std::vector<std::string> only;  ///< stages; empty = all
   std::string scratch;            ///< folder for generated DEMs and models
   std::string baselines;          ///< bench/baselines.json
+  std::string hmm;                ///< the rival's program; empty = no stage "rival"
   Repetition repetition;
 
   bool wants(const std::string& stage) const;
 };
 
 /// The stages there are, in the order in which they are run: read, build, file, cut, follow, height, export,
-/// measure, triangles.
+/// measure, triangles, rival.
 const std::vector<std::string>& stageNames();
 
 /// Every stage that the plan wants, on one DEM. Each runs in processes of its own; models are built as needed
@@ -48,5 +49,7 @@ Result<Figures> exportStage(const DemSource& source, const std::string& model, c
 Result<Figures> measureStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> trianglesStage(const DemSource& source, const std::string& delaunay,
                                const std::string& fidelity, const std::vector<GreedyBaseline>& baselines);
+/// Starts processes of its own: the calling one has no threads. Nothing for a DEM with voids.
+Result<Figures> rivalStage(const DemSource& source, const Plan& plan);
 
 }  // namespace arete::bench
