@@ -42,6 +42,28 @@ bool isWanted(const std::string& name, const std::vector<std::string>& wanted) {
          });
 }
 
+/// Every wanted stage on every wanted DEM, into the report. Returns what the program shall end with.
+int measureDems(const Arguments& arguments, const Plan& plan, Report& report) {
+  std::vector<DemSource> sources = realDems(arguments.data);
+  if (sources.empty())
+    fmt::print(stderr, "arete-bench: no real DEMs here (ARETE_DATA or --data names their folder)\n");
+  for (const double millions : arguments.sizes) sources.push_back(generatedDem(millions, plan.scratch));
+  std::erase_if(sources, [&](const DemSource& s) { return !isWanted(s.name, arguments.dems); });
+  if (sources.empty()) return fail({ErrorCode::usage, "no DEM has that name", "--dem"});
+
+  int exitCode = 0;
+  for (const DemSource& source : sources) {
+    if (!arguments.quiet) fmt::print(stderr, "arete-bench: {} ...\n", source.name);
+    Result<Figures> figures = measureDem(source, plan);
+    if (!figures) {
+      exitCode = fail(figures.error());
+      continue;
+    }
+    report.figures.insert(report.figures.end(), figures->begin(), figures->end());
+  }
+  return exitCode;
+}
+
 int measureAll(const Arguments& arguments) {
   Plan plan;
   plan.only = arguments.only;
@@ -56,25 +78,19 @@ int measureAll(const Arguments& arguments) {
   if (error)
     return fail({ErrorCode::unreadable, "the folder cannot be made: " + error.message(), plan.scratch});
 
-  std::vector<DemSource> sources = realDems(arguments.data);
-  if (sources.empty())
-    fmt::print(stderr, "arete-bench: no real DEMs here (ARETE_DATA or --data names their folder)\n");
-  for (const double millions : arguments.sizes) sources.push_back(generatedDem(millions, plan.scratch));
-  std::erase_if(sources, [&](const DemSource& s) { return !isWanted(s.name, arguments.dems); });
-  if (sources.empty()) return fail({ErrorCode::usage, "no DEM has that name", "--dem"});
-
   Report report = emptyReport();
   report.repeats = arguments.repeats;
   int exitCode = 0;
-  for (const DemSource& source : sources) {
-    if (!arguments.quiet) fmt::print(stderr, "arete-bench: {} ...\n", source.name);
-    Result<Figures> figures = measureDem(source, plan);
-    if (!figures) {
+  if (plan.wants("machine")) {
+    if (!arguments.quiet) fmt::print(stderr, "arete-bench: this machine ...\n");
+    const Result<Figures> figures = measureMachine(plan);
+    if (figures)
+      report.figures = *figures;
+    else
       exitCode = fail(figures.error());
-      continue;
-    }
-    report.figures.insert(report.figures.end(), figures->begin(), figures->end());
   }
+  if (plan.only != std::vector<std::string>{"machine"})
+    if (const int failed = measureDems(arguments, plan, report); failed != 0) exitCode = failed;
   const Figures means = geometricMeans(report.figures);
   report.figures.insert(report.figures.end(), means.begin(), means.end());
 

@@ -162,13 +162,18 @@ bool Plan::wants(const std::string& stage) const {
 }
 
 const std::vector<std::string>& stageNames() {
-  static const std::vector<std::string> names = {"read",   "build",  "file",    "cut",       "follow",
-                                                 "height", "export", "measure", "triangles", "rival"};
+  static const std::vector<std::string> names = {"read",      "build",  "file",   "cut",
+                                                 "follow",    "height", "export", "measure",
+                                                 "triangles", "rival",  "machine"};
   return names;
 }
 
 Result<Figures> measureDem(const DemSource& source, const Plan& plan) {
   return DemRun(source, plan).run();
+}
+
+Result<Figures> measureMachine(const Plan& plan) {
+  return inProcess("this machine", [&]() -> Result<Figures> { return machineStage(plan); });
 }
 
 Figures geometricMeans(const Figures& figures) {

@@ -24,12 +24,16 @@ struct Plan {
 };
 
 /// The stages there are, in the order in which they are run: read, build, file, cut, follow, height, export,
-/// measure, triangles, rival.
+/// measure, triangles, rival, machine.
 const std::vector<std::string>& stageNames();
 
 /// Every stage that the plan wants, on one DEM. Each runs in processes of its own; models are built as needed
 /// and left in the scratch folder until the last stage. Errors: those of the stages, naming the DEM.
 Result<Figures> measureDem(const DemSource& source, const Plan& plan);
+
+/// What the machine can do at best, in a process of its own. Errors: unreadable (it ended, for want of
+/// memory).
+Result<Figures> measureMachine(const Plan& plan);
 
 /// Ratios to the greedy insertion of the baselines, from the figures of stage "triangles": geometric means.
 Figures geometricMeans(const Figures& figures);
@@ -49,6 +53,8 @@ Result<Figures> exportStage(const DemSource& source, const std::string& model, c
 Result<Figures> measureStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> trianglesStage(const DemSource& source, const std::string& delaunay,
                                const std::string& fidelity, const std::vector<GreedyBaseline>& baselines);
+/// Memory: 1.5 GiB.
+Figures machineStage(const Plan& plan);
 /// Starts processes of its own: the calling one has no threads. Nothing for a DEM with voids.
 Result<Figures> rivalStage(const DemSource& source, const Plan& plan);
 
