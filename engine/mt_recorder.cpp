@@ -16,6 +16,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <memory>
@@ -126,14 +127,14 @@ void MtRecorder::record(std::uint32_t removal, const VertexRemoval& what) {
   // Start from the box's centre: a better seed than any one vertex, and independent of where the link starts.
   Vec3 low = what.metricPositions[0], high = low;
   for (const Vec3& p : what.metricPositions) {
-    low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y), std::fmin(low.z, p.z)};
-    high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y), std::fmax(high.z, p.z)};
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   Ball ball{(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2, 0};
   double squared = 0;
   for (const Vec3& p : what.metricPositions)
-    squared = std::fmax(squared, (p.x - ball.x) * (p.x - ball.x) + (p.y - ball.y) * (p.y - ball.y) +
-                                     (p.z - ball.z) * (p.z - ball.z));
+    squared = std::max(squared, (p.x - ball.x) * (p.x - ball.x) + (p.y - ball.y) * (p.y - ball.y) +
+                                    (p.z - ball.z) * (p.z - ball.z));
   ball.radius = std::sqrt(squared);
   for (const std::uint32_t child : what.ceilingBearer) {
     if (child == kNone) continue;

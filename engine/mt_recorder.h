@@ -63,6 +63,13 @@ class MtRecorder {
   /// ceiling are of earlier batches. Precondition: link.size() as announced, 3 <= size.
   void record(std::uint32_t removal, const VertexRemoval& what);
 
+  /// Asks for what record() reads of a removal that bore a part of the ceiling.
+  [[gnu::always_inline]] void prefetch(std::uint32_t bearer) const {
+    if (bearer == kNone) return;
+    __builtin_prefetch(&saturated_[bearer]);
+    __builtin_prefetch(&sphere_[bearer]);
+  }
+
   /// The finished MT. `vertexOrder`: on return, the caller's vertex of every MT vertex.
   /// `rootVertices`: the surviving vertices, in the order they shall have; `surviving`: the surviving
   /// triangles. The MT's vertices (MtArrays::vertices) are left to the caller: see withVertices(). Leaves the

@@ -62,9 +62,10 @@ class OutwardScale {
   static constexpr int kDroppedBits = 12;
 
   static std::uint32_t roundedUpBits(double x) {
-    float f = static_cast<float>(x);
-    if (static_cast<double>(f) < x) f = std::nextafter(f, std::numeric_limits<float>::infinity());
-    return (std::bit_cast<std::uint32_t>(f) + ((1u << kDroppedBits) - 1)) >> kDroppedBits;
+    const auto f = static_cast<float>(x);
+    // The next float up is the next integer up.
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(f) + (static_cast<double>(f) < x ? 1 : 0);
+    return (bits + ((1u << kDroppedBits) - 1)) >> kDroppedBits;
   }
 
   std::uint32_t base_ = 0;

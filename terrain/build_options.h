@@ -22,7 +22,7 @@ struct BuildOptions {
 
   /// A level admits removals whose error is under a threshold that grows by this ratio from level to level.
   /// > 1.
-  double thresholdRatio = 1.1;
+  double thresholdRatio = 1.07;
 
   /// Fidelity only: triangles whose least altitude is below this part of their longest edge are rejected.
   double minimumAspect = 0.02;

@@ -83,7 +83,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
   {
     PointError errors(plan, field.heights, mesh);
     Simplifier<PointPlan, PointError> simplifier(mesh, plan, errors, recorder, nullptr, options, context);
-    simplifier.setHeights(*low, *high);
+    simplifier.setDomain(*low, *high, true);
     Result<SimplifiedRoot> simplified = simplifier.run(isFixed, metric);
     if (!simplified) return tl::unexpected(simplified.error());
     root = std::move(*simplified);

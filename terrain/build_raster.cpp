@@ -64,7 +64,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   std::optional<StageClock::Scope> stage(std::in_place, context.clock, "triangulate");
   std::vector<std::array<std::uint32_t, 3>> triangles = finestTriangulation(field);
   if (triangles.empty()) return failure(ErrorCode::degenerate, whyNoTriangle(field), field.source);
-  if (triangles.size() > 0xFFFFFFF0u / 3)
+  if (triangles.size() > LiveMesh::kMostTriangles)
     return failure(ErrorCode::unsupported, "more triangles than 32-bit half-edges can name", field.source);
   const auto finestCount = static_cast<std::uint32_t>(triangles.size());
   const auto sampleCount = static_cast<std::uint32_t>(field.size());
@@ -95,8 +95,12 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
     isFixed[v] = 1;
   }
   double low = std::numeric_limits<double>::infinity(), high = -low;
+  bool hasNodata = false;
   for (std::uint32_t v = 0; v < sampleCount; ++v) {
-    if (std::isnan(field.heights[v])) continue;
+    if (std::isnan(field.heights[v])) {
+      hasNodata = true;
+      continue;
+    }
     low = std::min(low, field.heights[v]);
     high = std::max(high, field.heights[v]);
     if (mesh.vertexHalfedge[v] == LiveMesh::kNone) model.isolated.push_back({v, field.heights[v]});
@@ -124,7 +128,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   {
     Simplifier<LatticePlan, RasterError> simplifier(mesh, plan, errors, recorder, rim.get(), options,
                                                     context);
-    simplifier.setHeights(low, high);
+    simplifier.setDomain(low, high, !hasNodata);
     Result<SimplifiedRoot> simplified = simplifier.run(isFixed, metric);
     if (!simplified) return tl::unexpected(simplified.error());
     root = std::move(*simplified);

@@ -18,24 +18,18 @@ namespace arete {
 class LatticePlan {
  public:
   LatticePlan(std::uint32_t columns, std::uint32_t p, std::uint32_t q)
-      : columns_(columns), reciprocal_(1.0 / columns), p_(p), q_(q) {}
+      : columns_(columns), reciprocal_(~std::uint64_t(0) / columns + 1), p_(p), q_(q) {}
 
   struct Cell {
     std::uint32_t column, row;
   };
 
-  /// Division by multiplication: a vertex is turned into column and row millions of times.
+  /// Division by multiplication: a vertex is turned into column and row millions of times. Exact: the factor,
+  /// 2^64 / columns rounded up, errs by less than one, so 2^32 samples by less than 2^-32 of a row.
+  /// Precondition: columns > 1.
   Cell cell(std::uint32_t sample) const {
-    auto row = static_cast<std::uint32_t>(sample * reciprocal_);
-    std::int64_t column = std::int64_t(sample) - std::int64_t(row) * columns_;
-    if (column < 0) {
-      --row;
-      column += columns_;
-    } else if (column >= columns_) {
-      ++row;
-      column -= columns_;
-    }
-    return {static_cast<std::uint32_t>(column), row};
+    const auto row = static_cast<std::uint32_t>((UnsignedWide(sample) * reciprocal_) >> 64);
+    return {sample - row * columns_, row};
   }
 
   std::uint32_t columns() const { return columns_; }
@@ -59,16 +53,16 @@ class LatticePlan {
   /// A star polygon with the apex at the origin.
   class Polygon {
    public:
-    Polygon(const LatticePlan& plan, std::uint32_t apex, std::span<const std::uint32_t> link) {
-      const Cell o = plan.cell(apex);
-      std::int64_t largest = 0;
-      for (std::size_t i = 0; i < link.size(); ++i) {
-        const Cell c = plan.cell(link[i]);
-        x_[i] = (std::int64_t(c.column) - o.column) * plan.p_;
-        y_[i] = (std::int64_t(c.row) - o.row) * plan.q_;
-        largest = std::max({largest, std::abs(x_[i]), std::abs(y_[i])});
+    /// Corners (and the apex) by column x and row y.
+    template <class Corner>
+    Polygon(const LatticePlan& plan, const Corner& apex, std::span<const Corner> corners) {
+      std::int64_t spread = 0;
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        x_[i] = (std::int64_t(corners[i].x) - apex.x) * plan.p_;
+        y_[i] = (std::int64_t(corners[i].y) - apex.y) * plan.q_;
+        spread |= std::abs(x_[i]) | std::abs(y_[i]);
       }
-      isSmall_ = largest < kSmall;
+      isSmall_ = spread < kSmall;
     }
 
     /// Sign of the area of corners i, j, m; exact.
@@ -117,8 +111,10 @@ class LatticePlan {
   };
 
  private:
+  __extension__ using UnsignedWide = unsigned __int128;
+
   std::uint32_t columns_;
-  double reciprocal_;
+  std::uint64_t reciprocal_;
   std::uint32_t p_, q_;
 };
 

@@ -24,18 +24,18 @@ LiveMesh LiveMesh::fromTriangles(std::vector<Corners> corners, std::uint32_t ver
   mesh.vertexHalfedge.assign(vertexCount, kNone);
 
   // Chains of outgoing half-edges per vertex find each twin among the few edges that leave its other end.
-  std::vector<std::uint32_t> nextOutgoing(count * 3);
+  std::vector<std::uint32_t> nextOutgoing(count * 4);
   std::vector<std::uint8_t> degree(vertexCount, 0);
   for (std::uint32_t t = 0; t < count; ++t) {
     for (std::uint32_t i = 0; i < 3; ++i) {
       const std::uint32_t v = mesh.triangles[t].corners[i];
-      nextOutgoing[3 * t + i] = mesh.vertexHalfedge[v];
-      mesh.vertexHalfedge[v] = 3 * t + i;
+      nextOutgoing[halfedge(t, i)] = mesh.vertexHalfedge[v];
+      mesh.vertexHalfedge[v] = halfedge(t, i);
       if (degree[v] < 255) ++degree[v];
     }
   }
-  for (std::uint32_t h = 0; h < 3 * count; ++h) {
-    if (mesh.twinOf(h) != kNone) continue;
+  for (std::uint32_t h = 0; h < 4 * count; ++h) {
+    if (sideOf(h) == 3 || mesh.twinOf(h) != kNone) continue;
     const std::uint32_t from = mesh.origin(h), to = mesh.origin(nextInTriangle(h));
     for (std::uint32_t g = mesh.vertexHalfedge[to]; g != kNone; g = nextOutgoing[g])
       if (mesh.origin(nextInTriangle(g)) == from) {
@@ -67,7 +67,9 @@ std::vector<std::uint32_t> LiveMesh::compact() {
   std::uint32_t live = 0;
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
     if (!triangles[t].isDead()) newSlot[t] = live++;
-  const auto moved = [&](std::uint32_t h) { return h == kNone ? kNone : 3 * newSlot[h / 3] + h % 3; };
+  const auto moved = [&](std::uint32_t h) {
+    return h == kNone ? kNone : halfedge(newSlot[triangleOf(h)], sideOf(h));
+  };
   std::vector<Triangle> kept(live);
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     if (newSlot[t] == kNone) continue;
@@ -117,8 +119,8 @@ void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, st
   for (int i = 0; i < corners; ++i) {
     // Another star of the batch may be re-pointing this vertex within its own slots: either value is not of
     // this star.
-    const std::uint32_t t =
-        std::atomic_ref(mesh.vertexHalfedge[star.link[i]]).load(std::memory_order_relaxed) / 3;
+    const std::uint32_t t = LiveMesh::triangleOf(
+        std::atomic_ref(mesh.vertexHalfedge[star.link[i]]).load(std::memory_order_relaxed));
     const int before = i > 0 ? i - 1 : corners - 1;
     mustPoint[i] = (i < star.triangleCount && t == star.triangle(i)) ||
                    (before < star.triangleCount && t == star.triangle(before));
@@ -129,12 +131,12 @@ void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, st
   for (int f = 0; f < floor.size; ++f) {
     const std::uint32_t t = star.triangle(f);
     for (std::uint32_t c = 0; c < 3; ++c)
-      edge[floor.triangles[f][c]][floor.triangles[f][(c + 1) % 3]] = 3 * t + c;
+      edge[floor.triangles[f][c]][floor.triangles[f][(c + 1) % 3]] = LiveMesh::halfedge(t, c);
   }
   for (int i = 0; i < corners; ++i) seams.movedTo[i] = edge[i][i + 1 < corners ? i + 1 : 0];
   for (int i = 0; i < star.triangleCount; ++i) {
     const std::uint32_t old = star.rim(i);
-    movedHalfedge[old / 3][old % 3] = seams.movedTo[i];
+    movedHalfedge[LiveMesh::triangleOf(old)][LiveMesh::sideOf(old)] = seams.movedTo[i];
   }
   for (int i = 0; i < corners; ++i)
     if (mustPoint[i])

@@ -13,7 +13,7 @@ namespace arete {
 
 /// The triangulation that a build shrinks: compact triangle arrays with half-edges.
 ///
-/// Half-edge 3 t + i is the directed edge from corner i of triangle t to corner i + 1; its twin is the same
+/// Half-edge 4 t + i is the directed edge from corner i of triangle t to corner i + 1; its twin is the same
 /// edge of the neighbour, or kNone on a border. Triangles turn counter-clockwise. vertexHalfedge[v] is an
 /// outgoing half-edge of v, and the border one when v lies on a border, so that a walk around an open star
 /// starts at its first triangle.
@@ -44,11 +44,16 @@ struct LiveMesh {
   /// all of its memory.
   std::vector<std::uint32_t> compact();
 
-  static std::uint32_t nextInTriangle(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
-  static std::uint32_t previousInTriangle(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
-  std::uint32_t origin(std::uint32_t h) const { return triangles[h / 3].corners[h % 3]; }
-  std::uint32_t twinOf(std::uint32_t h) const { return triangles[h / 3].twin[h % 3]; }
-  void setTwin(std::uint32_t h, std::uint32_t to) { triangles[h / 3].twin[h % 3] = to; }
+  static constexpr std::uint32_t kMostTriangles = (kNone >> 2) - 1;  ///< that half-edges can name
+
+  static std::uint32_t halfedge(std::uint32_t triangle, std::uint32_t side) { return 4 * triangle + side; }
+  static std::uint32_t triangleOf(std::uint32_t h) { return h >> 2; }
+  static std::uint32_t sideOf(std::uint32_t h) { return h & 3; }
+  static std::uint32_t nextInTriangle(std::uint32_t h) { return (h & 3) == 2 ? h - 2 : h + 1; }
+  static std::uint32_t previousInTriangle(std::uint32_t h) { return (h & 3) == 0 ? h + 2 : h - 1; }
+  std::uint32_t origin(std::uint32_t h) const { return triangles[triangleOf(h)].corners[sideOf(h)]; }
+  std::uint32_t twinOf(std::uint32_t h) const { return triangles[triangleOf(h)].twin[sideOf(h)]; }
+  void setTwin(std::uint32_t h, std::uint32_t to) { triangles[triangleOf(h)].twin[sideOf(h)] = to; }
 };
 
 /// The star of a vertex of a LiveMesh: link counter-clockwise, one triangle between consecutive link
@@ -60,7 +65,7 @@ struct Star {
   int triangleCount = 0;
   bool isOpen = false;
 
-  std::uint32_t triangle(int i) const { return outgoing[i] / 3; }
+  std::uint32_t triangle(int i) const { return LiveMesh::triangleOf(outgoing[i]); }
   /// Half-edge link[i] -> link[i + 1].
   std::uint32_t rim(int i) const { return LiveMesh::nextInTriangle(outgoing[i]); }
   std::span<const std::uint32_t> linkView() const { return {link.data(), std::size_t(linkSize)}; }
@@ -68,6 +73,23 @@ struct Star {
   /// Gathers the star of v; false when its link has more than maxLink vertices (or v has no triangle).
   bool gather(const LiveMesh& mesh, std::uint32_t v, int maxLink);
 };
+
+/// Calls visit(u) for each link vertex of v, counter-clockwise, until it returns false. Precondition: v is in
+/// a triangle.
+template <class Visit>
+void forLink(const LiveMesh& mesh, std::uint32_t v, const Visit& visit) {
+  const std::uint32_t first = mesh.vertexHalfedge[v];
+  for (std::uint32_t h = first;;) {
+    if (!visit(mesh.origin(LiveMesh::nextInTriangle(h)))) return;
+    const std::uint32_t last = LiveMesh::previousInTriangle(h);
+    h = mesh.twinOf(last);
+    if (h == first) return;
+    if (h == LiveMesh::kNone) {
+      visit(mesh.origin(last));
+      return;
+    }
+  }
+}
 
 /// What one removal must leave behind until the whole batch has rewritten its stars: where each rim edge went
 /// and what lay beyond it.
@@ -98,8 +120,8 @@ inline void sew(LiveMesh& mesh, const PendingSeams& seams,
     const std::uint32_t h = seams.movedTo[i], old = seams.beyond[i];
     if (old == LiveMesh::kNone) {
       mesh.setTwin(h, LiveMesh::kNone);
-    } else if (isMoved(old / 3)) {
-      mesh.setTwin(h, movedHalfedge[old / 3][old % 3]);
+    } else if (isMoved(LiveMesh::triangleOf(old))) {
+      mesh.setTwin(h, movedHalfedge[LiveMesh::triangleOf(old)][LiveMesh::sideOf(old)]);
     } else {
       mesh.setTwin(h, old);
       mesh.setTwin(old, h);

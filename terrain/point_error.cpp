@@ -39,11 +39,15 @@ thread_local std::vector<std::uint32_t> holePoints;
 }  // namespace
 
 PointError::Hole::Hole(PointError& errors, const Star& star, std::uint32_t apex)
-    : errors_(errors), star_(star), points_(holePoints) {
+    : errors_(errors), star_(star), polygon_(errors.plan_, apex, star.linkView()), points_(holePoints) {
   points_.assign(1, apex);
   for (int i = 0; i < star.triangleCount; ++i)
     for (std::uint32_t p = errors.head_[star.triangle(i)]; p != kNone; p = errors.next_[p])
       points_.push_back(p);
+}
+
+double PointError::Hole::apexError(int i, int j, int m) const {
+  return std::abs(errors_.difference(star_.link[i], star_.link[j], star_.link[m], points_.front()));
 }
 
 double PointError::Hole::maximum(int i, int j, int m, double limit) const {

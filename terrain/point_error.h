@@ -39,12 +39,21 @@ class PointError {
     Hole(PointError& errors, const Star& star, std::uint32_t apex);
     double maximum(int i, int j, int m, double limit) const;
     double maximum(int i, int j, int m, SignedBound& bound) const;
+    const PointPlan::Polygon& polygon() const { return polygon_; }
+    int orientationToApex(int i, int j) const { return polygon_.orientationToApex(i, j); }
+    template <class PrefersLater>
+    int third(int i, int j, const PrefersLater& prefersLater) const {
+      return polygon_.third(i, j, prefersLater);
+    }
+    /// |z - plane| at the apex, of a triangle over it.
+    double apexError(int i, int j, int m) const;
     SignedBound alongEdge(int i, int j) const { return errors_.alongEdge(star_.link[i], star_.link[j]); }
     void settle(const HoleTriangulation& floor);
 
    private:
     PointError& errors_;
     const Star& star_;
+    const PointPlan::Polygon polygon_;
     std::vector<std::uint32_t>& points_;
   };
 

@@ -50,6 +50,16 @@ class PointPlan {
       return static_cast<int>(
           CGAL::side_of_oriented_circle(corners_[i], corners_[j], corners_[m], corners_[n]));
     }
+    template <class PrefersLater>
+    int third(int i, int j, const PrefersLater& prefersLater) const {
+      int best = -1;
+      for (int m = i + 1; m < j; ++m) {
+        if (orientation(i, m, j) <= 0) continue;
+        const int inside = best < 0 ? 1 : inCircle(i, best, j, m);
+        if (inside > 0 || (inside == 0 && prefersLater(best, m))) best = m;
+      }
+      return best;
+    }
     double aspect(int i, int j, int m) const {
       const double longest = std::max({CGAL::squared_distance(corners_[i], corners_[j]),
                                        CGAL::squared_distance(corners_[j], corners_[m]),

@@ -19,18 +19,23 @@
 namespace arete {
 namespace {
 
-/// Steps floor(numerator / denominator) of a line by rows: x = x0 + (y - y0) dx / dy.
+/// Where a line by rows, x = x0 + (y - y0) dx / dy, stands: rounded down, or up. Starts one row below y0.
 class EdgeStepper {
  public:
-  EdgeStepper(std::int64_t x0, std::int64_t dx, std::int64_t dy, bool roundUp) {
+  EdgeStepper(std::int32_t x0, std::int32_t dx, std::int32_t dy, bool roundUp) {
     // ceil(a / b) = floor((a + b - 1) / b) for b > 0.
     denominator_ = dy;
+    step_ = dx / dy;
+    rest_ = dx - step_ * dy;
+    if (rest_ < 0) {
+      --step_;
+      rest_ += dy;
+    }
     x_ = x0;
     remainder_ = roundUp ? dy - 1 : 0;
-    step_ = dx >= 0 ? dx / dy : -((-dx + dy - 1) / dy);
-    rest_ = dx - step_ * dy;
+    advance();
   }
-  std::int64_t x() const { return x_; }
+  std::int32_t x() const { return x_; }
   void advance() {
     x_ += step_;
     remainder_ += rest_;
@@ -41,68 +46,93 @@ class EdgeStepper {
   }
 
  private:
-  std::int64_t x_, step_, rest_, remainder_, denominator_;
+  std::int32_t x_, step_, rest_, remainder_, denominator_;
 };
 
 }  // namespace
 
-/// Calls row(first sample, count, plane at the first sample, plane step per column); stops when it returns
-/// false.
-template <class Row>
-void RasterError::forRows(std::uint32_t a, std::uint32_t b, std::uint32_t c, const Row& row) const {
-  struct Corner {
-    std::int64_t x, y;
-    double z;
-  };
-  const auto corner = [&](std::uint32_t v) {
-    const LatticePlan::Cell cell = plan_.cell(v);
-    return Corner{cell.column, cell.row, heights_[v]};
-  };
-  Corner p = corner(a), q = corner(b), r = corner(c);
-  const std::int64_t area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
-  if (area == 1) return;  // by Pick's theorem it covers its corners and nothing else
-  const double inverse = 1.0 / double(area);
-  const double stepX = ((q.z - p.z) * double(r.y - p.y) - (r.z - p.z) * double(q.y - p.y)) * inverse;
-  const double stepY = ((r.z - p.z) * double(q.x - p.x) - (q.z - p.z) * double(r.x - p.x)) * inverse;
-  // Corner p of the caller anchors the plane, whatever the sorting below does.
-  const double z0 = p.z;
-  const std::int64_t x0 = p.x, y0 = p.y;
-
-  if (q.y < p.y) std::swap(p, q);
-  if (r.y < q.y) std::swap(q, r);
-  if (q.y < p.y) std::swap(p, q);
-
-  const std::uint32_t columns = plan_.columns();
-  const auto emit = [&](std::int64_t y, std::int64_t left, std::int64_t right) {
-    if (left > right) return true;
-    const double z = z0 + stepX * double(left - x0) + stepY * double(y - y0);
-    return row(std::size_t(y) * columns + std::size_t(left), std::size_t(right - left + 1), z, stepX);
-  };
-  if (p.y == r.y) return;  // no area
-
-  // The long edge p-r on one side, p-q and q-r on the other.
-  const bool middleIsRight = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x) > 0;
-  EdgeStepper along(p.x, r.x - p.x, r.y - p.y, !middleIsRight ? false : true);
-  std::int64_t y = p.y;
-  if (p.y < q.y) {
-    EdgeStepper upper(p.x, q.x - p.x, q.y - p.y, !middleIsRight);
-    for (; y < q.y; ++y, along.advance(), upper.advance())
-      if (!(middleIsRight ? emit(y, along.x(), upper.x()) : emit(y, upper.x(), along.x()))) return;
+/// Half of the triangles a build asks about cover one sample beside their corners, or none: by Pick's theorem
+/// those of twice the area 1 none, of 2 the middle of an edge, of 3 their centroid, unless an edge has two.
+/// Then `difference` is z_plane - z there. Over NODATA, 0.
+[[gnu::always_inline]] inline bool RasterError::isSmall(const Corner& a, const Corner& b, const Corner& c,
+                                                        double& difference) const {
+  const std::int64_t area = std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(b.y - a.y) * (c.x - a.x);
+  if (area > 3) return false;
+  std::int64_t x, y;
+  double z;
+  if (area == 2) {
+    const bool isAB = (((b.x - a.x) | (b.y - a.y)) & 1) == 0, isBC = (((c.x - b.x) | (c.y - b.y)) & 1) == 0;
+    const Corner &u = isAB ? a : c, &v = isAB || isBC ? b : a;
+    x = (u.x + v.x) / 2;
+    y = (u.y + v.y) / 2;
+    z = (u.z + v.z) / 2;
+  } else if (area == 3) {
+    x = std::int64_t(a.x) + b.x + c.x;
+    y = std::int64_t(a.y) + b.y + c.y;
+    if (x % 3 != 0 || y % 3 != 0) return false;
+    x /= 3;
+    y /= 3;
+    z = (a.z + b.z + c.z) / 3;
+  } else {
+    difference = 0;
+    return true;
   }
-  if (q.y == r.y) {
-    if (middleIsRight)
-      emit(y, along.x(), q.x);
-    else
-      emit(y, q.x, along.x());
-    return;
-  }
-  EdgeStepper lower(q.x, r.x - q.x, r.y - q.y, !middleIsRight);
-  for (; y <= r.y; ++y, along.advance(), lower.advance())
-    if (!(middleIsRight ? emit(y, along.x(), lower.x()) : emit(y, lower.x(), along.x()))) return;
+  const double height = heights_[std::size_t(y) * plan_.columns() + std::size_t(x)];
+  difference = height == height ? z - height : 0;
+  return true;
 }
 
-double RasterError::maximum(std::uint32_t a, std::uint32_t b, std::uint32_t c, double limit) const {
+/// Calls row(first sample, count, plane at the first sample, plane step per column); stops when it returns
+/// false. The corners are left out: there the plane is the sample.
+template <class Row>
+void RasterError::forRows(const Corner& a, const Corner& b, const Corner& c, const Row& row) const {
+  const std::int64_t area = std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(b.y - a.y) * (c.x - a.x);
+
+  const Corner *p = &a, *q = &b, *r = &c;
+  if (q->y < p->y) std::swap(p, q);
+  if (r->y < q->y) std::swap(q, r);
+  if (q->y < p->y) std::swap(p, q);
+  const std::int32_t top = p->y, middle = q->y, bottom = r->y;
+
+  // Corner a anchors the plane.
+  const double inverse = 1.0 / double(area);
+  const double stepX = ((b.z - a.z) * double(c.y - a.y) - (c.z - a.z) * double(b.y - a.y)) * inverse;
+  const double stepY = ((c.z - a.z) * double(b.x - a.x) - (b.z - a.z) * double(c.x - a.x)) * inverse;
+  const std::size_t columns = plan_.columns();
+  const auto emit = [&](std::int32_t y, std::int32_t left, std::int32_t right) {
+    if (left > right) return true;
+    const double z = a.z + stepX * double(left - a.x) + stepY * double(y - a.y);
+    return row(std::size_t(y) * columns + std::size_t(left), std::size_t(right - left + 1), z, stepX);
+  };
+  const auto emitBetween = [&](const Corner& u, const Corner& v) {  // the inside of a horizontal edge
+    return emit(u.y, std::min(u.x, v.x) + 1, std::max(u.x, v.x) - 1);
+  };
+
+  if (top == middle && !emitBetween(*p, *q)) return;
+  if (bottom - top > 1) {
+    // The long edge p-r on one side, p-q and then q-r on the other.
+    const bool middleIsRight =
+        std::int64_t(q->x - p->x) * (bottom - top) > std::int64_t(middle - top) * (r->x - p->x);
+    EdgeStepper along(p->x, r->x - p->x, bottom - top, middleIsRight);
+    EdgeStepper bent = middle > top ? EdgeStepper(p->x, q->x - p->x, middle - top, !middleIsRight)
+                                    : EdgeStepper(q->x, r->x - q->x, bottom - middle, !middleIsRight);
+    const std::int32_t beside = middleIsRight ? -1 : 1;
+    for (std::int32_t y = top + 1; y < bottom; ++y) {
+      const std::int32_t other = y == middle ? q->x + beside : bent.x();
+      if (!emit(y, middleIsRight ? along.x() : other, middleIsRight ? other : along.x())) return;
+      along.advance();
+      if (y == middle)
+        bent = EdgeStepper(q->x, r->x - q->x, bottom - middle, !middleIsRight);
+      else
+        bent.advance();
+    }
+  }
+  if (middle == bottom) emitBetween(*q, *r);
+}
+
+double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, double limit) const {
   double worst = 0;
+  if (isSmall(a, b, c, worst)) return std::abs(worst);
   forRows(a, b, c, [&](std::size_t first, std::size_t count, double z, double step) {
     const double* height = heights_.data() + first;
     double rowWorst = 0;
@@ -116,8 +146,12 @@ double RasterError::maximum(std::uint32_t a, std::uint32_t b, std::uint32_t c, d
   return worst;
 }
 
-double RasterError::maximum(std::uint32_t a, std::uint32_t b, std::uint32_t c, SignedBound& bound) const {
-  double high = 0, low = 0;
+double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, SignedBound& bound) const {
+  double high = 0, low = 0, only = 0;
+  if (isSmall(a, b, c, only)) {
+    bound.include(only);
+    return std::abs(only);
+  }
   forRows(a, b, c, [&](std::size_t first, std::size_t count, double z, double step) {
     const double* height = heights_.data() + first;
     for (std::size_t i = 0; i < count; ++i) {
@@ -132,11 +166,11 @@ double RasterError::maximum(std::uint32_t a, std::uint32_t b, std::uint32_t c, S
   return std::max(high, -low);
 }
 
-SignedBound RasterError::alongEdge(std::uint32_t a, std::uint32_t b) const {
-  const LatticePlan::Cell ca = plan_.cell(a), cb = plan_.cell(b);
-  const std::int64_t x0 = ca.column, y0 = ca.row, dx = std::int64_t(cb.column) - x0,
-                     dy = std::int64_t(cb.row) - y0;
-  const double z0 = heights_[a], dz = heights_[b] - heights_[a];
+SignedBound RasterError::alongEdge(const Corner& a, const Corner& b) const {
+  const std::int64_t x0 = a.x, y0 = a.y, dx = b.x - a.x, dy = b.y - a.y;
+  // Edges of the finest triangulation cross none of it.
+  if (std::abs(dx) + std::abs(dy) <= 1 || (dx == dy && std::abs(dx) == 1 && !reachesBeyondRims_)) return {};
+  const double z0 = a.z, dz = b.z - a.z;
   const std::size_t columns = plan_.columns();
   double high = 0, low = 0;
   const auto compare = [&](double difference) {
@@ -149,7 +183,7 @@ SignedBound RasterError::alongEdge(std::uint32_t a, std::uint32_t b) const {
     const std::int64_t stepX = dx > 0 ? 1 : -1;
     for (std::int64_t k = 1; k < std::abs(dx); ++k) {  // grid columns
       const double t = double(k * stepX) * inverseX, y = double(y0) + slope * double(k * stepX);
-      const double base = std::floor(y), f = y - base;
+      const double base = double(std::int64_t(y)), f = y - base;
       const double* h = heights_.data() + std::size_t(base) * columns + std::size_t(x0 + k * stepX);
       if (f == 0) continue;  // a sample: the scan has it
       compare(z0 + dz * t - (h[0] + f * (h[columns] - h[0])));
@@ -158,7 +192,7 @@ SignedBound RasterError::alongEdge(std::uint32_t a, std::uint32_t b) const {
     const std::int64_t stepY = dy > 0 ? 1 : -1;
     for (std::int64_t k = 1; k < std::abs(dy); ++k) {  // grid rows
       const double t = double(k * stepY) * inverseY, x = double(x0) + run * double(k * stepY);
-      const double base = std::floor(x), f = x - base;
+      const double base = double(std::int64_t(x)), f = x - base;
       const double* h = heights_.data() + std::size_t(y0 + k * stepY) * columns + std::size_t(base);
       if (f == 0) continue;
       compare(z0 + dz * t - (h[0] + f * (h[1] - h[0])));
@@ -172,9 +206,9 @@ SignedBound RasterError::alongEdge(std::uint32_t a, std::uint32_t b) const {
       const double t = double(k * step) * inverse;
       const double x = double(x0) + double(dx) * t, y = double(y0) + double(dy) * t;
       // On the diagonal both fractions are the same; take the one that is exact more often.
-      const double base = std::floor(x), f = x - base;
+      const double base = double(std::int64_t(x)), f = x - base;
       if (f == 0) continue;
-      const auto row = static_cast<std::int64_t>(std::llround(y - f));
+      const auto row = static_cast<std::int64_t>(y - f + 0.5);
       if (row < 0 || row + 1 >= std::int64_t(rows_) || std::size_t(base) + 1 >= columns) continue;
       const double* h = heights_.data() + std::size_t(row) * columns + std::size_t(base);
       compare(z0 + dz * t - (h[0] + f * (h[columns + 1] - h[0])));
@@ -187,9 +221,9 @@ SignedBound RasterError::alongEdge(std::uint32_t a, std::uint32_t b) const {
     for (std::int64_t k = 1; k < std::abs(along); ++k) {
       const double t = double(k * step) * inverse;
       const double x = double(x0) + double(dx) * t, y = double(y0) + double(dy) * t;
-      const double base = std::floor(x), f = x - base;
+      const double base = double(std::int64_t(x)), f = x - base;
       if (f == 0) continue;
-      const auto row = static_cast<std::int64_t>(std::llround(y - (1 - f)));
+      const auto row = static_cast<std::int64_t>(y - (1 - f) + 0.5);
       if (row < 0 || row + 1 >= std::int64_t(rows_) || std::size_t(base) + 1 >= columns) continue;
       const double* h = heights_.data() + std::size_t(row) * columns + std::size_t(base);
       // From the lower-left to the upper-right sample; an edge of the finest triangulation in half cells

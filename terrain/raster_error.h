@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -15,22 +18,98 @@ namespace arete {
 /// passed over.
 class RasterError {
  public:
-  /// The triangles of one hole, named by corners of its link.
+  /// A sample by column and row, with its height.
+  struct Corner {
+    std::int32_t x, y;
+    double z;
+  };
+  Corner corner(std::uint32_t sample) const {
+    const LatticePlan::Cell cell = plan_.cell(sample);
+    return {static_cast<std::int32_t>(cell.column), static_cast<std::int32_t>(cell.row), heights_[sample]};
+  }
+
+  /// The hole that a vertex leaves: the geometry and the errors of triangles named by corners of its link.
   class Hole {
    public:
-    Hole(const RasterError& errors, const Star& star, std::uint32_t) : errors_(errors), star_(star) {}
+    Hole(const RasterError& errors, const Star& star, std::uint32_t apex)
+        : errors_(errors), apex_(errors.corner(apex)), size_(star.linkSize) {
+      std::uint32_t spread = 0;
+      for (int i = 0; i < size_; ++i) {
+        corners_[i] = errors.corner(star.link[i]);
+        x_[i] = corners_[i].x - apex_.x;
+        y_[i] = corners_[i].y - apex_.y;
+        spread |= static_cast<std::uint32_t>(std::abs(x_[i])) | static_cast<std::uint32_t>(std::abs(y_[i]));
+      }
+      isSmall_ = spread < errors.smallSpread_;
+    }
+
+    /// For the slower queries.
+    LatticePlan::Polygon polygon() const {
+      return {errors_.plan_, apex_, std::span(corners_.data(), static_cast<std::size_t>(size_))};
+    }
+
+    /// Of whether corners i, j and the apex turn left (> 0), right, or not at all; exact.
+    std::int64_t orientationToApex(int i, int j) const {
+      return std::int64_t(x_[i]) * y_[j] - std::int64_t(y_[i]) * x_[j];
+    }
+
+    /// The corner between i and j with the largest angle over the edge j -> i, among those that turn left, or
+    /// -1. Of two with the same angle `prefersLater(first, later)` decides. Exact.
+    template <class PrefersLater>
+    int third(int i, int j, const PrefersLater& prefersLater) const {
+      return isSmall_ ? thirdIn<std::int64_t>(i, j, prefersLater) : thirdIn<Wide>(i, j, prefersLater);
+    }
+
+    /// |z - plane| at the apex, of a triangle over it.
+    double apexError(int i, int j, int m) const {
+      const Corner &a = corners_[i], &b = corners_[j], &c = corners_[m];
+      const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y, x = apex_.x - a.x,
+                   y = apex_.y - a.y, area = bx * cy - by * cx;
+      return std::abs((b.z - a.z) * (x * cy - y * cx) + (c.z - a.z) * (bx * y - by * x) -
+                      (apex_.z - a.z) * area) /
+             area;
+    }
     double maximum(int i, int j, int m, double limit) const {
-      return errors_.maximum(star_.link[i], star_.link[j], star_.link[m], limit);
+      return errors_.maximum(corners_[i], corners_[j], corners_[m], limit);
     }
     double maximum(int i, int j, int m, SignedBound& bound) const {
-      return errors_.maximum(star_.link[i], star_.link[j], star_.link[m], bound);
+      return errors_.maximum(corners_[i], corners_[j], corners_[m], bound);
     }
-    SignedBound alongEdge(int i, int j) const { return errors_.alongEdge(star_.link[i], star_.link[j]); }
+    SignedBound alongEdge(int i, int j) const { return errors_.alongEdge(corners_[i], corners_[j]); }
     void settle(const HoleTriangulation&) const {}
 
    private:
+    __extension__ using Wide = __int128;
+
+    /// The larger angle has the smaller cotangent, dot / cross, and all crosses are positive. (A cross lacks
+    /// the factor p q that all have in common.)
+    template <class T, class PrefersLater>
+    int thirdIn(int i, int j, const PrefersLater& prefersLater) const {
+      const T p = errors_.plan_.p(), q = errors_.plan_.q(), pp = p * p, qq = q * q;
+      const T ax = x_[i], ay = y_[i], bx = x_[j], by = y_[j];
+      int best = -1;
+      T bestDot = 1, bestCross = 0;
+      for (int m = i + 1; m < j; ++m) {
+        const T ux = ax - x_[m], uy = ay - y_[m], vx = bx - x_[m], vy = by - y_[m];
+        const T cross = vx * uy - vy * ux;
+        if (cross <= 0) continue;
+        const T dot = ux * vx * pp + uy * vy * qq;
+        const T mine = dot * bestCross, theirs = bestDot * cross;
+        if (mine < theirs || (mine == theirs && prefersLater(best, m))) {
+          best = m;
+          bestDot = dot;
+          bestCross = cross;
+        }
+      }
+      return best;
+    }
+
     const RasterError& errors_;
-    const Star& star_;
+    Corner apex_;
+    int size_;
+    bool isSmall_;
+    std::array<std::int32_t, kMaxHoleCorners> x_, y_;  // from the apex
+    std::array<Corner, kMaxHoleCorners> corners_;
   };
 
   /// `reachesBeyondRims`: triangles may reach beyond the rim of the domain (a rim tolerance is in use).
@@ -38,7 +117,14 @@ class RasterError {
       : plan_(plan),
         heights_(heights),
         rows_(static_cast<std::uint32_t>(heights.size() / plan.columns())),
-        reachesBeyondRims_(reachesBeyondRims) {}
+        reachesBeyondRims_(reachesBeyondRims) {
+    // Differences below 2 s make a dot below 8 s^2 f, f the larger square of p and q, and a cross below 8
+    // s^2: the product of the two must stay below 2^63.
+    const std::uint64_t f = std::uint64_t(std::max(plan.p(), plan.q())) * std::max(plan.p(), plan.q());
+    while (std::uint64_t(64) * f * smallSpread_ * smallSpread_ <
+           (std::uint64_t(1) << 62) / smallSpread_ / smallSpread_ / 4)
+      smallSpread_ *= 2;
+  }
 
   double height(std::uint32_t sample) const { return heights_[sample]; }
   /// Asks for the heights around a vertex that is soon to be evaluated.
@@ -53,24 +139,26 @@ class RasterError {
 
   /// max |z - plane| over the samples covered; gives up at the first row beyond the limit and returns a value
   /// > limit. Precondition: a, b, c counter-clockwise. O(samples covered + rows).
-  double maximum(std::uint32_t a, std::uint32_t b, std::uint32_t c, double limit) const;
+  double maximum(const Corner& a, const Corner& b, const Corner& c, double limit) const;
 
   /// The same error without a limit, and the signed difference over the covered samples.
-  double maximum(std::uint32_t a, std::uint32_t b, std::uint32_t c, SignedBound& bound) const;
+  double maximum(const Corner& a, const Corner& b, const Corner& c, SignedBound& bound) const;
 
   /// Signed difference between the segment a-b and the finest triangulation where the segment crosses its
   /// edges: with the samples inside, these hold the extremes of the difference over a triangle. O(length in
   /// samples).
-  SignedBound alongEdge(std::uint32_t a, std::uint32_t b) const;
+  SignedBound alongEdge(const Corner& a, const Corner& b) const;
 
  private:
+  bool isSmall(const Corner& a, const Corner& b, const Corner& c, double& difference) const;
   template <class Row>
-  void forRows(std::uint32_t a, std::uint32_t b, std::uint32_t c, const Row& row) const;
+  void forRows(const Corner& a, const Corner& b, const Corner& c, const Row& row) const;
 
   const LatticePlan& plan_;
   std::span<const double> heights_;
   std::uint32_t rows_;
   bool reachesBeyondRims_;
+  std::uint32_t smallSpread_ = 1;  // a power of two: spreads below it keep Hole::third() in 64 bits
 };
 
 }  // namespace arete

@@ -2,32 +2,34 @@
 //
 // The build of de Berg and Dobrindt (1995): repeat { choose an independent set of removable vertices; remove
 // each; retriangulate its hole; record the modification } until nothing is removable. A level goes through
-// four steps:
+// these steps:
 //
-//   evaluate  For every vertex whose star has changed, triangulate the hole it would leave and find the
-//   error; give up
-//             as soon as the error is known to be well beyond the threshold and keep what was found as a
-//             lower bound.
+//   collect   Look through the living for whom the level concerns: those of whom too little is known, and
+//             those under the threshold.
+//   evaluate  Triangulate the hole that such a vertex would leave and find the error; give up as soon as it
+//   is
+//             known to be well beyond the threshold and keep what was found as a lower bound. The triangle
+//             that costs most is remembered: while its corners stay, so does the bound (vertex_note.h).
 //   choose    The vertices under the threshold, in order of their error, each unless a neighbour was chosen
-//   before it. refill    Rewrite each chosen star, record the modification, mark its link for evaluation. sew
-//   Join the new triangles to their neighbours.
+//             before it (independent_set.h).
+//   remove    Rewrite each chosen star, record the modification, tell the link.
+//   sew       Join the new triangles to their neighbours.
 //
 // Then the threshold grows by a constant ratio: cheap removals go first everywhere, which is what keeps the
 // cuts at any error small (DESIGN: without thresholds the same bound takes 1.9 times as many triangles).
 //
-// Evaluate, refill and sew are parallel over vertices: stars of chosen vertices share no triangle. Choosing
-// is a greedy pass in a total order (error, then a bijective hash of the vertex), so every level, and hence
-// the whole MT, is the same for any number of threads.
+// Every step is parallel over vertices: stars of chosen vertices share no triangle. What is chosen depends on
+// the errors alone (then on a bijective hash of the vertex), so every level, and hence the whole MT, is the
+// same for any number of threads.
 #pragma once
 
 #include <tbb/blocked_range.h>
-#include <tbb/combinable.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -39,9 +41,12 @@
 #include "terrain/build_options.h"
 #include "terrain/hole.h"
 #include "terrain/hole_fidelity.h"
+#include "terrain/independent_set.h"
 #include "terrain/live_mesh.h"
 #include "terrain/rim.h"
 #include "terrain/signed_bound.h"
+#include "terrain/star_prefetch.h"
+#include "terrain/vertex_note.h"
 
 namespace arete {
 
@@ -71,7 +76,8 @@ class Simplifier {
         recorder_(recorder),
         rim_(rim),
         options_(options),
-        context_(context) {}
+        context_(context),
+        set_(mesh, notes_) {}
 
   /// Removes what can be removed. `isFixed`: per vertex, not 0 = stays.
   Result<SimplifiedRoot> run(const std::vector<std::uint8_t>& isFixed, const MetricFrame& metric) {
@@ -97,8 +103,9 @@ class Simplifier {
     while (!live_.empty()) {
       if (context_.cancelled()) return failure(ErrorCode::interrupted, "the build was interrupted");
       ++level;
-      evaluate(threshold);
-      choose(threshold, level);
+      collectDue(threshold);
+      evaluate(threshold, level);
+      choose(level);
       if (chosen_.empty()) {
         const double pending = leastPending();
         if (!(pending < std::numeric_limits<double>::infinity())) break;
@@ -126,34 +133,18 @@ class Simplifier {
   }
 
  private:
-  enum class State : std::uint8_t { stale, atLeast, exact, stuck };
-  /// What is known of a vertex, together: one cache line touched, not three.
-  struct Note {
-    float cost = 0;
-    std::uint32_t blockedAt = 0;  ///< level at which a chosen neighbour blocked it
-    State state = State::stale;
-  };
-
-  static std::uint32_t scatter(std::uint32_t x) {  // murmur3's finaliser: a bijection
-    x ^= x >> 16;
-    x *= 0x85ebca6bu;
-    x ^= x >> 13;
-    x *= 0xc2b2ae35u;
-    x ^= x >> 16;
-    return x;
-  }
+  using State = VertexNote::State;
 
   /// Empty when the fidelity shape finds nothing within the limit, unless any shape is welcome: then Delaunay
   /// fills.
-  HoleTriangulation fill(const Star& star, std::uint32_t v, const typename Errors::Hole& hole, double limit,
+  HoleTriangulation fill(const Star& star, const typename Errors::Hole& hole, double limit,
                          bool isAnyShapeWelcome, double& leastError) const {
-    const typename Plan::Polygon polygon(plan_, v, star.linkView());
     if (options_.shape == HoleShape::fidelity) {
-      const HoleTriangulation floor =
-          triangulateHoleFidelity(polygon, star.linkSize, hole, limit, options_.minimumAspect, leastError);
+      const HoleTriangulation floor = triangulateHoleFidelity(hole.polygon(), star.linkSize, hole, limit,
+                                                              options_.minimumAspect, leastError);
       if (floor.size > 0 || !isAnyShapeWelcome) return floor;
     }
-    return triangulateHoleDelaunay(polygon, star.linkSize);
+    return triangulateHoleDelaunay(star.linkSize, hole, isDomainConvex_);
   }
 
   /// Whether v may go at all, as its star stands. On a border: only from a straight one, or as the rim
@@ -171,45 +162,87 @@ class Simplifier {
     return star.isOpen && plan_.orientation(star.link[star.linkSize - 1], v, star.link[0]) != 0;
   }
 
-  void evaluate(double threshold) {
-    pending_.clear();
-    for (const std::uint32_t v : live_) {
-      const Note& note = notes_[v];
-      if (note.state == State::stale || (note.state == State::atLeast && note.cost <= threshold))
-        pending_.push_back(v);
-    }
-    // Worth knowing exactly a little beyond the threshold: the next levels will ask.
-    const double limit = threshold * kLookAhead;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pending_.size(), 128), [&](const auto& range) {
-      Star star;
-      for (std::size_t i = range.begin(); i != range.end(); ++i) {
-        prefetchStars<Reach::neighbours>(i, pending_.size(), [&](std::size_t k) { return pending_[k]; });
-        const std::uint32_t v = pending_[i];
-        if (!star.gather(mesh_, v, static_cast<int>(options_.maxDegree) + 1) ||
-            star.triangleCount > static_cast<int>(options_.maxDegree) || !isRemovable(star, v)) {
-          notes_[v].state = State::stuck;
-          continue;
-        }
-        const typename Errors::Hole hole(errors_, star, v);
-        // No error exceeds the range of the heights: a hole that the aspect bound alone leaves open takes any
-        // shape then.
-        double leastError = 0;
-        const HoleTriangulation floor = fill(star, v, hole, limit, limit >= heightRange_, leastError);
-        if (floor.size == 0) {
-          notes_[v].state = limit >= heightRange_ ? State::stuck : State::atLeast;
-          notes_[v].cost = static_cast<float>(
-              std::clamp(leastError, limit * (1 + 1e-6), std::max(heightRange_, limit * 2)));
-          continue;
-        }
-        double worst = 0;
-        for (const auto& t : floor.view()) {
-          worst = std::max(worst, hole.maximum(t[0], t[1], t[2], limit));
-          if (worst > limit) break;
-        }
-        notes_[v].cost = static_cast<float>(worst);
-        notes_[v].state = worst > limit ? State::atLeast : State::exact;
+  /// Takes what has gone off the list of the living and finds whom the level concerns: vertices of whom too
+  /// little is known, and those under the threshold. In the order of memory.
+  void collectDue(double threshold) {
+    const StageClock::Scope stage(context_.clock, "simplify: collect");
+    const std::size_t chunks = (live_.size() + kChunk - 1) / kChunk;
+    if (chunks_.size() < chunks) chunks_.resize(chunks);
+    tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t c) {
+      Chunk& chunk = chunks_[c];
+      chunk.due.clear();
+      chunk.begin = chunk.end = c * kChunk;
+      for (std::size_t i = chunk.begin; i < std::min(chunk.begin + kChunk, live_.size()); ++i) {
+        const std::uint32_t v = live_[i];
+        VertexNote& note = notes_[v];
+        if (note.state == State::gone) continue;
+        live_[chunk.end++] = v;
+        note.settle();
+        if (note.state == State::stale || (note.state != State::stuck && note.cost <= threshold))
+          chunk.due.push_back(v);
       }
     });
+    due_.clear();
+    std::size_t kept = 0;
+    for (std::size_t c = 0; c < chunks; ++c) {
+      const Chunk& chunk = chunks_[c];
+      due_.insert(due_.end(), chunk.due.begin(), chunk.due.end());
+      if (kept != chunk.begin)
+        std::copy(live_.begin() + chunk.begin, live_.begin() + chunk.end, live_.begin() + kept);
+      kept += chunk.end - chunk.begin;
+    }
+    live_.resize(kept);
+  }
+
+  /// Leaves in `due_` the candidates: vertices whose removal costs no more than the threshold.
+  void evaluate(double threshold, std::uint32_t level) {
+    const StageClock::Scope stage(context_.clock, "simplify: evaluate");
+    // Worth knowing exactly a little beyond the threshold: the next levels will ask.
+    const double limit = threshold * kLookAhead;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, due_.size(), 128), [&](const auto& range) {
+      Star star;
+      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+        prefetchStars<StarReach::neighbours>(mesh_, i, due_.size(), [&](std::size_t k) { return due_[k]; });
+        if (i + kHeightsAhead < due_.size()) errors_.prefetch(due_[i + kHeightsAhead]);
+        const std::uint32_t v = due_[i];
+        VertexNote& note = notes_[v];
+        if (note.state != State::exact) evaluate(v, note, star, limit);
+        if (note.state == State::exact && note.cost <= threshold) set_.enter(v, level);
+      }
+    });
+    std::erase_if(due_, [&](std::uint32_t v) {
+      return !(notes_[v].state == State::exact && notes_[v].cost <= threshold);
+    });
+  }
+
+  void evaluate(std::uint32_t v, VertexNote& note, Star& star, double limit) const {
+    if (!star.gather(mesh_, v, static_cast<int>(options_.maxDegree) + 1) ||
+        star.triangleCount > static_cast<int>(options_.maxDegree) || !isRemovable(star, v)) {
+      note.state = State::stuck;
+      return;
+    }
+    note.linkSize = static_cast<std::uint8_t>(star.linkSize);
+    const typename Errors::Hole hole(errors_, star, v);
+    // No error exceeds the range of the heights: a hole that the aspect bound alone leaves open takes any
+    // shape then.
+    double leastError = 0;
+    const HoleTriangulation floor = fill(star, hole, limit, limit >= heightRange_, leastError);
+    if (floor.size == 0) {
+      note.state = limit >= heightRange_ ? State::stuck : State::atLeast;
+      note.cost =
+          static_cast<float>(std::clamp(leastError, limit * (1 + 1e-6), std::max(heightRange_, limit * 2)));
+      return;
+    }
+    double worst = -1;
+    for (const auto& t : floor.view()) {
+      const double error = hole.maximum(t[0], t[1], t[2], limit);
+      if (error <= worst) continue;
+      worst = error;
+      note.setWitness(star.link[t[0]], star.link[t[1]], star.link[t[2]]);
+      if (worst > limit) break;
+    }
+    note.cost = static_cast<float>(worst);
+    note.state = worst > limit ? State::atLeast : State::exact;
   }
 
   double leastPending() const {
@@ -220,80 +253,54 @@ class Simplifier {
     return least;
   }
 
-  void choose(double threshold, std::uint32_t level) {
-    candidates_.clear();
-    for (const std::uint32_t v : live_)
-      if (notes_[v].state == State::exact && notes_[v].cost <= threshold)
-        candidates_.push_back({std::bit_cast<std::uint32_t>(notes_[v].cost), scatter(v), v});
-    tbb::parallel_sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-      return a.cost != b.cost ? a.cost < b.cost : a.tie < b.tie;
-    });
-    chosen_.clear();
-    Star star;
-    for (std::size_t i = 0; i < candidates_.size(); ++i) {
-      prefetchStars<Reach::neighbours>(i, candidates_.size(),
-                                       [&](std::size_t k) { return candidates_[k].vertex; });
-      const std::uint32_t v = candidates_[i].vertex;
-      if (notes_[v].blockedAt == level) continue;
-      star.gather(mesh_, v, kMaxHoleCorners);
-      if (rim_ != nullptr && isFill(star, v) &&
-          !rim_->claim(star.link[star.linkSize - 1], star.link[0], level))
-        continue;
-      for (int k = 0; k < star.linkSize; ++k) notes_[star.link[k]].blockedAt = level;
-      notes_[v].blockedAt = level;
-      chosen_.push_back({v, mesh_.vertexHalfedge[v], static_cast<std::uint8_t>(star.linkSize)});
+  void choose(std::uint32_t level) {
+    const StageClock::Scope stage(context_.clock, "simplify: choose");
+    if (rim_ == nullptr) {
+      set_.choose(due_, level, chosen_);
+    } else {
+      Star star;
+      set_.chooseInTurn(due_, level, chosen_, [&](std::uint32_t v) {
+        star.gather(mesh_, v, kMaxHoleCorners);
+        return !isFill(star, v) || rim_->claim(star.link[star.linkSize - 1], star.link[0], level);
+      });
     }
-    // Errors scatter the chosen all over the terrain; from here on their order is that of memory.
-    tbb::parallel_sort(chosen_.begin(), chosen_.end(),
-                       [](const Chosen& a, const Chosen& b) { return a.halfedge < b.halfedge; });
     linkSizes_.resize(chosen_.size());
-    for (std::size_t i = 0; i < chosen_.size(); ++i) linkSizes_[i] = chosen_[i].linkSize;
-  }
-
-  /// A walk around a star follows one pointer after the other. Asking early for what the stars of the next
-  /// vertices of a list start with hides most of the waiting: first the half-edge, then its triangle, then
-  /// that one's neighbours.
-  /// (Always inlined: GCC 12 takes a function of nothing but prefetches for one without effect and drops its
-  /// calls.)
-  /// Reach::own looks no further than each star's first triangle, which nobody else rewrites.
-  enum class Reach { own, neighbours };
-  template <Reach reach, class VertexAt>
-  [[gnu::always_inline]] void prefetchStars(std::size_t i, std::size_t size, const VertexAt& vertexAt) const {
-    constexpr std::size_t kFirst = 16, kSecond = 12, kThird = 8, kFourth = 4;
-    if (i + kFirst < size) __builtin_prefetch(&mesh_.vertexHalfedge[vertexAt(i + kFirst)]);
-    if (i + kSecond < size) {
-      const std::uint32_t v = vertexAt(i + kSecond);
-      __builtin_prefetch(&mesh_.triangles[mesh_.vertexHalfedge[v] / 3]);
-      errors_.prefetch(v);
-    }
-    if (i + kThird < size)
-      for (const std::uint32_t h : mesh_.triangles[mesh_.vertexHalfedge[vertexAt(i + kThird)] / 3].twin)
-        if (h != kNone) __builtin_prefetch(&mesh_.triangles[h / 3]);
-    if (reach == Reach::neighbours && i + kFourth < size)
-      for (const std::uint32_t h : mesh_.triangles[mesh_.vertexHalfedge[vertexAt(i + kFourth)] / 3].twin)
-        if (h != kNone)
-          for (const std::uint32_t g : mesh_.triangles[h / 3].twin)
-            if (g != kNone) __builtin_prefetch(&mesh_.triangles[g / 3]);
+    for (std::size_t i = 0; i < chosen_.size(); ++i) linkSizes_[i] = notes_[chosen_[i]].linkSize;
   }
 
   void removeChosen() {
     const std::uint32_t first = recorder_.beginBatch(linkSizes_);
     seams_.resize(chosen_.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chosen_.size(), 64), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i != range.end(); ++i) {
-        // Not beyond the range: the stars there are being rewritten.
-        prefetchStars<Reach::own>(i, range.end(), [&](std::size_t k) { return chosen_[k].vertex; });
-        remove(chosen_[i].vertex, first + static_cast<std::uint32_t>(i), seams_[i]);
-      }
-    });
+    {
+      const StageClock::Scope stage(context_.clock, "simplify: remove");
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chosen_.size(), 64), [&](const auto& range) {
+        // The stars of a batch share no triangle, so the next ones can be gathered while others are
+        // rewritten, and what the recorder will ask of their children can be on its way.
+        std::array<Star, kStarsAhead> ahead;
+        const auto gather = [&](std::size_t i) {
+          if (i >= range.end()) return;
+          Star& star = ahead[i % kStarsAhead];
+          star.gather(mesh_, chosen_[i], kMaxHoleCorners);
+          for (int k = 0; k < star.triangleCount; ++k)
+            recorder_.prefetch(mesh_.triangles[star.triangle(k)].bearer);
+        };
+        for (std::size_t i = range.begin(); i < range.begin() + kStarsAhead - 1; ++i) gather(i);
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+          // Not beyond the range: the stars there are being rewritten.
+          prefetchStars<StarReach::own>(mesh_, i, range.end(), [&](std::size_t k) { return chosen_[k]; });
+          if (i + kHeightsAhead < range.end()) errors_.prefetch(chosen_[i + kHeightsAhead]);
+          gather(i + kStarsAhead - 1);
+          remove(chosen_[i], ahead[i % kStarsAhead], first + static_cast<std::uint32_t>(i), seams_[i]);
+        }
+      });
+    }
+    const StageClock::Scope stage(context_.clock, "simplify: sew");
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chosen_.size(), 256), [&](const auto& range) {
       for (std::size_t i = range.begin(); i != range.end(); ++i) sew(mesh_, seams_[i], movedHalfedge_, first);
     });
     if (rim_ != nullptr)
       for (const PendingSeams& seams : seams_)
         if (seams.isOpen) Rim::closeVoid(mesh_, seams.movedTo[seams.size - 1]);
-    for (const Chosen& gone : chosen_) mesh_.vertexHalfedge[gone.vertex] = kNone;
-    std::erase_if(live_, [&](std::uint32_t v) { return mesh_.vertexHalfedge[v] == kNone; });
     liveTriangles_ -= liveTrianglesRemoved();
     if (liveTriangles_ < mesh_.triangles.size() / 2) {
       const std::vector<std::uint32_t> newSlot = mesh_.compact();
@@ -310,13 +317,11 @@ class Simplifier {
     return count;
   }
 
-  void remove(std::uint32_t v, std::uint32_t removal, PendingSeams& seams) {
-    Star star;
-    star.gather(mesh_, v, kMaxHoleCorners);
+  void remove(std::uint32_t v, const Star& star, std::uint32_t removal, PendingSeams& seams) {
     typename Errors::Hole hole(errors_, star, v);
     double leastError = 0;
     const HoleTriangulation floor =
-        fill(star, v, hole, std::nextafter(notes_[v].cost, INFINITY), true, leastError);
+        fill(star, hole, std::nextafter(notes_[v].cost, INFINITY), true, leastError);
     const int corners = star.linkSize;
 
     // Bounds: samples inside each triangle, and each edge once for the two triangles that share it.
@@ -375,8 +380,14 @@ class Simplifier {
     hole.settle(floor);
 
     // Two stars can share a link vertex: both write the same value.
-    for (int i = 0; i < corners; ++i)
-      std::atomic_ref(notes_[star.link[i]].state).store(State::stale, std::memory_order_relaxed);
+    for (int i = 0; i < corners; ++i) {
+      VertexNote& note = notes_[star.link[i]];
+      std::atomic_ref(note.isTouched).store(1, std::memory_order_relaxed);
+      if (options_.shape != HoleShape::delaunay || star.isOpen || note.isWitnessedBy(v))
+        std::atomic_ref(note.isWitnessGone).store(1, std::memory_order_relaxed);
+    }
+    notes_[v].state = State::gone;
+    mesh_.vertexHalfedge[v] = kNone;
   }
 
   /// Bounds go beyond the rounding of the scan itself: they prove things.
@@ -387,8 +398,9 @@ class Simplifier {
   double withoutRounding(double x) const { return std::fmax(0.0, x - roundingSlack_); }
 
  public:
-  /// Heights span [low, high].
-  void setHeights(double low, double high) {
+  /// Heights span [low, high]; the domain has no rims but its convex border.
+  void setDomain(double low, double high, bool isConvex) {
+    isDomainConvex_ = isConvex;
     roundingSlack_ = roundingSlack(low, high);
     heightRange_ = high - low;
   }
@@ -396,13 +408,13 @@ class Simplifier {
  private:
   static constexpr double kLookAhead = 1.5;
 
-  struct Candidate {
-    std::uint32_t cost, tie, vertex;
-  };
-  struct Chosen {
-    std::uint32_t vertex;
-    std::uint32_t halfedge;  ///< where its star stands in memory
-    std::uint8_t linkSize;
+  static constexpr std::size_t kChunk = 1 << 15;
+  static constexpr std::size_t kStarsAhead = 4, kHeightsAhead = 12;
+
+  /// A piece of the living, looked through by one thread.
+  struct Chunk {
+    std::size_t begin = 0, end = 0;  ///< of `live_`: what stays
+    std::vector<std::uint32_t> due;
   };
 
   LiveMesh& mesh_;
@@ -415,14 +427,16 @@ class Simplifier {
   MetricFrame metric_;
   double roundingSlack_ = 0;  // what the arithmetic of a plane can be off by
   double heightRange_ = 0;
+  bool isDomainConvex_ = false;
 
   std::vector<std::uint32_t> live_;
-  std::vector<Note> notes_;             // per vertex
-  std::vector<std::uint32_t> pending_;  // of a level: vertices to evaluate
+  std::vector<VertexNote> notes_;  // per vertex
+  IndependentSet set_;
+  std::vector<Chunk> chunks_;
+  std::vector<std::uint32_t> due_;  // of a level: vertices to look at, then the candidates
   std::vector<LiveMesh::Corners> movedHalfedge_;
   std::size_t liveTriangles_ = 0;
-  std::vector<Candidate> candidates_;
-  std::vector<Chosen> chosen_;
+  std::vector<std::uint32_t> chosen_;
   std::vector<std::uint8_t> linkSizes_;
   std::vector<PendingSeams> seams_;
 };

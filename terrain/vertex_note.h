@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace arete {
+
+/// What a build knows of a vertex that may go: 16 bytes, so that one cache line tells of four neighbours.
+struct VertexNote {
+  enum class State : std::uint8_t {
+    stale,    ///< nothing is known of its star
+    atLeast,  ///< removing it costs at least `cost`
+    exact,    ///< removing it costs `cost`
+    stuck,    ///< it cannot go, whatever it costs
+    gone,
+  };
+
+  float cost = 0;
+  /// Marks of the corners of the triangle that costs that much: see isWitnessedBy().
+  std::uint32_t witness = 0;
+  /// 4 * level + choice: whether it was a candidate of that level, and what became of it.
+  std::uint32_t candidacy = 0;
+  State state = State::stale;
+  std::uint8_t isTouched = 0;      ///< a neighbour went
+  std::uint8_t isWitnessGone = 0;  ///< one of the witness's corners
+  std::uint8_t linkSize = 0;       ///< of its star, when exact
+
+  /// What the removal of neighbours left of what was known. A hole that a removal enlarges keeps every
+  /// Delaunay triangle whose corners remain: its circle stays empty. So while the corners of the worst
+  /// triangle are there the cost can only have grown (but for ties between cocircular corners, where another
+  /// diagonal may be taken), and no look at the star is needed before the threshold reaches it.
+  void settle() {
+    if (!isTouched) return;
+    state = isWitnessGone || state == State::stuck ? State::stale : State::atLeast;
+    isTouched = isWitnessGone = 0;
+  }
+
+  /// Ten bits of a hash for each corner: a false match makes a look at a star that was not needed.
+  void setWitness(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    witness = mark(a) | mark(b) << 10 | mark(c) << 20;
+  }
+  bool isWitnessedBy(std::uint32_t v) const {
+    const std::uint32_t m = mark(v);
+    return (witness & 1023) == m || ((witness >> 10) & 1023) == m || ((witness >> 20) & 1023) == m;
+  }
+
+ private:
+  static std::uint32_t mark(std::uint32_t v) { return (v * 0x9E3779B1u) >> 22; }
+};
+static_assert(sizeof(VertexNote) == 16);
+
+}  // namespace arete
