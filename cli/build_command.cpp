@@ -191,7 +191,7 @@ void addBuildCommand(CLI::App& app, Session& session) {
       ->type_name("NAME");
   command
       ->add_option("--ratio", arguments->options.thresholdRatio,
-                   "Growth of the error threshold from level to level (default 1.1)")
+                   "Growth of the error threshold from level to level (default 1.07)")
       ->check(finiteAbove(1))
       ->type_name("R");
   command

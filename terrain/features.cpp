@@ -1,30 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Persistence of dimension 0, twice: the components of the sublevel sets (pits, upwards) and those of the
-// superlevel sets (peaks, downwards). Vertices are swept in height order; each opens a component of its own
-// and unites those of its neighbours swept before. Where two components meet, the one with the younger
-// extremum dies (the elder rule), and the vertex that joined them is the pass (Edelsbrunner, Letscher,
-// Zomorodian 2002; Edelsbrunner, Harer, "Computational Topology", 2010, chapter VII).
+// superlevel sets (peaks, downwards). Told upwards: a sweep by height opens a component at every vertex
+// without a lower neighbour; where two components meet, the one with the younger extremum dies (the elder
+// rule), and the vertex that joined them is the pass (Edelsbrunner, Letscher, Zomorodian 2002; Edelsbrunner,
+// Harer, "Computational Topology", 2010, chapter VII).
 //
-// The sweep needs not all edges: in a triangle swept in the order a, b, c the edge ab already unites a and b
-// when c comes, so that c need only be joined with a. Two links per triangle, filed under the later vertex,
-// replace an adjacency of six neighbours each way: 16 bytes per raster sample and sweep. The union-find keeps
-// the extremum as the root of its component and halves paths: O(log n) amortised per operation without a
-// second array.
+// Most of the sweep decides nothing: a vertex joins the component of its lowest neighbour. So each vertex is
+// hung under that neighbour at once, which makes trees, one for each extremum, and only edges between two
+// trees are swept, in the order of their later ends. They are few, and nothing else needs sorting.
+//
+// Not all edges need be looked at: in a triangle with the order a, b, c the edge ab already unites a and b
+// when c comes, so that c need only be joined with a: two links per triangle. The trees serve as union-find,
+// with the extremum as the root and paths halved: O(log n) amortised per operation without a second array.
 #include "terrain/features.h"
 
-#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_invoke.h>
 #include <oneapi/tbb/parallel_sort.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <unordered_set>
 #include <utility>
+
+#include "engine/with_threads.h"
 
 namespace arete {
 namespace {
@@ -32,46 +36,26 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr std::string_view kStage = "ranking features";
-constexpr std::size_t kVerticesPerReport = std::size_t(1) << 18;
-
-/// Links of the later vertices of the triangles to the first, in the order of one sweep.
-struct Links {
-  std::vector<std::uint32_t> begin;  ///< per vertex, and the end
-  std::vector<std::uint32_t> first;
-
-  std::span<const std::uint32_t> of(std::uint32_t vertex) const {
-    return std::span(first).subspan(begin[vertex], begin[vertex + 1] - begin[vertex]);
-  }
-};
 
 template <class Before>
-Links linkTriangles(std::size_t vertexCount, std::span<const Triangle> triangles, const Before& before) {
-  const auto firstOf = [&](const Triangle& t) { return std::min({t[0], t[1], t[2]}, before); };
-  Links links;
-  links.begin.assign(vertexCount + 2, 0);
-  // Counted two places on and summed, begin[v + 1] is where v's links start; filling moves it to where they
-  // end.
-  for (const Triangle& t : triangles) {
-    const std::uint32_t first = firstOf(t);
-    for (const std::uint32_t v : t) {
-      if (v != first) ++links.begin[v + 2];
-    }
-  }
-  std::partial_sum(links.begin.begin(), links.begin.end(), links.begin.begin());
-  links.first.resize(triangles.size() * 2);
-  for (const Triangle& t : triangles) {
-    const std::uint32_t first = firstOf(t);
-    for (const std::uint32_t v : t) {
-      if (v != first) links.first[links.begin[v + 1]++] = first;
-    }
-  }
-  links.begin.pop_back();
-  return links;
+std::uint32_t firstOf(const Triangle& t, const Before& before) {
+  const std::uint32_t first = before(t[1], t[0]) ? t[1] : t[0];
+  return before(t[2], first) ? t[2] : first;
 }
 
 class Components {
  public:
-  explicit Components(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  /// Every vertex under its first neighbour in the order, itself included.
+  template <class Before>
+  Components(std::size_t count, std::span<const Triangle> triangles, const Before& before) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+    for (const Triangle& t : triangles) {
+      const std::uint32_t first = firstOf(t, before);
+      for (const std::uint32_t v : t)
+        if (before(first, parent_[v])) parent_[v] = first;
+    }
+    for (std::uint32_t v = 0; v < count; ++v) parent_[v] = find(v);
+  }
 
   std::uint32_t find(std::uint32_t v) {
     while (parent_[v] != v) {
@@ -81,39 +65,46 @@ class Components {
     return v;
   }
 
+  /// The root of its tree, until trees are hung under each other.
+  std::uint32_t parent(std::uint32_t v) const { return parent_[v]; }
+
   void hang(std::uint32_t root, std::uint32_t under) { parent_[root] = under; }
 
  private:
   std::vector<std::uint32_t> parent_;
 };
 
-/// One sweep over `order`. `before` is the order as a comparison; `kind` is what its extrema are.
-/// Appends the pairs to `found`; leaves the surviving extremum of each component as its root.
-template <class Order, class Before>
-bool sweep(const Order& order, const Before& before, Feature::Kind kind, std::span<const double> heights,
+/// One sweep. `before` is its order as a comparison; `kind` is what its extrema are. Appends the pairs to
+/// `found`; leaves the surviving extremum of each component as its root.
+template <class Before>
+void sweep(Components& components, const Before& before, Feature::Kind kind, std::span<const double> heights,
            std::span<const Triangle> triangles, const FeatureOptions& options, const RunContext& context,
-           double fractionDone, Components& components, std::vector<Feature>& found) {
-  const Links links = linkTriangles(heights.size(), triangles, before);
-  std::size_t swept = 0;
-  for (const std::uint32_t v : order) {
-    if (swept++ % kVerticesPerReport == 0) {
-      if (context.cancelled()) return false;
-      context.report(kStage, fractionDone + 0.4 * double(swept) / double(heights.size()));
-    }
-    std::uint32_t own = components.find(v);
-    for (const std::uint32_t earlier : links.of(v)) {
-      std::uint32_t dying = components.find(earlier);
-      if (dying == own) continue;
-      if (before(dying, own)) std::swap(dying, own);
-      components.hang(dying, own);
-      const double persistence = std::abs(heights[v] - heights[dying]);
-      if (persistence > 0 && persistence >= options.minimumPersistence) {
-        found.push_back({kind, dying, heights[dying], persistence});
-        found.push_back({Feature::Kind::pass, v, heights[v], persistence});
-      }
+           std::vector<Feature>& found) {
+  struct Link {
+    std::uint32_t later, first;
+  };
+  std::vector<Link> links;
+  for (const Triangle& t : triangles) {
+    const std::uint32_t tree = components.parent(t[0]);
+    if (components.parent(t[1]) == tree && components.parent(t[2]) == tree) continue;
+    const std::uint32_t first = firstOf(t, before);
+    for (const std::uint32_t v : t)
+      if (components.parent(v) != components.parent(first)) links.push_back({v, first});
+  }
+  if (context.cancelled()) return;
+  tbb::parallel_sort(links.begin(), links.end(),
+                     [&](const Link& a, const Link& b) { return before(a.later, b.later); });
+  for (const Link& link : links) {
+    std::uint32_t staying = components.find(link.later), dying = components.find(link.first);
+    if (dying == staying) continue;
+    if (before(dying, staying)) std::swap(dying, staying);
+    components.hang(dying, staying);
+    const double persistence = std::abs(heights[link.later] - heights[dying]);
+    if (persistence > 0 && persistence >= options.minimumPersistence) {
+      found.push_back({kind, dying, heights[dying], persistence});
+      found.push_back({Feature::Kind::pass, link.later, heights[link.later], persistence});
     }
   }
-  return true;
 }
 
 }  // namespace
@@ -140,33 +131,24 @@ std::vector<Feature> rankFeatures(std::span<const double> heights, std::span<con
   const auto higher = [&](std::uint32_t a, std::uint32_t b) { return lower(b, a); };
 
   context.report(kStage, 0);
-  std::vector<std::uint32_t> order;
-  order.reserve(heights.size());
-  for (std::uint32_t v = 0; v < heights.size(); ++v) {
-    if (!std::isnan(heights[v])) order.push_back(v);
-  }
-  const int available = tbb::info::default_concurrency();
-  const int threads = context.threads > 0 ? std::min(context.threads, available) : available;
-  tbb::task_arena(threads).execute([&] { tbb::parallel_sort(order.begin(), order.end(), lower); });
-
-  std::vector<Feature> found;
-  std::vector<std::uint32_t> lowest;  // of each component, isolated samples among them
-  {
-    Components components(heights.size());
-    if (!sweep(order, lower, Feature::Kind::pit, heights, triangles, options, context, 0.2, components,
-               found))
-      return {};
-    for (const std::uint32_t v : order) {
-      if (components.find(v) == v) lowest.push_back(v);
-    }
-  }
-  std::reverse(order.begin(), order.end());
-  Components components(heights.size());
-  if (!sweep(order, higher, Feature::Kind::peak, heights, triangles, options, context, 0.6, components,
-             found))
-    return {};
-  for (const std::uint32_t low : lowest) {
-    const std::uint32_t high = components.find(low);
+  std::optional<Components> upwards, downwards;
+  std::vector<Feature> found, peaks;
+  withThreads(context, [&] {
+    tbb::parallel_invoke(
+        [&] {
+          upwards.emplace(heights.size(), triangles, lower);
+          sweep(*upwards, lower, Feature::Kind::pit, heights, triangles, options, context, found);
+        },
+        [&] {
+          downwards.emplace(heights.size(), triangles, higher);
+          sweep(*downwards, higher, Feature::Kind::peak, heights, triangles, options, context, peaks);
+        });
+  });
+  if (context.cancelled()) return {};
+  found.insert(found.end(), peaks.begin(), peaks.end());
+  for (std::uint32_t low = 0; low < heights.size(); ++low) {
+    if (std::isnan(heights[low]) || upwards->find(low) != low) continue;
+    const std::uint32_t high = downwards->find(low);
     const double range = heights[high] - heights[low];
     if (range > 0 && range >= options.minimumPersistence) {
       found.push_back({Feature::Kind::pit, low, heights[low], range});

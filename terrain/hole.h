@@ -132,9 +132,10 @@ HoleTriangulation triangulateHoleDelaunay(int corners, const Hole& hole, bool is
     if (inside == 0) {
       std::array<int, 4> sorted{a, b, m, n};
       std::sort(sorted.begin(), sorted.end());
-      const auto [i, j, k, l] = sorted;
-      const bool isFromLeast = a == i || b == i;  // the diagonal stands between i and k
-      flip = isFromLeast ? isOtherDiagonalCloser(hole, j, k, l, i) : isOtherDiagonalCloser(hole, i, j, k, l);
+      const auto [s0, s1, s2, s3] = sorted;
+      const bool isFromLeast = a == s0 || b == s0;  // the diagonal stands between the first and the third
+      flip = isFromLeast ? isOtherDiagonalCloser(hole, s1, s2, s3, s0)
+                         : isOtherDiagonalCloser(hole, s0, s1, s2, s3);
     }
     if (flip) {
       put(n, b, m);

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "terrain/hole.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "terrain/lattice_plan.h"
+#include "terrain/raster_error.h"
+
+namespace arete {
+namespace {
+
+constexpr std::uint32_t kColumns = 64, kRows = 64;
+
+/// A star polygon on a lattice about the middle of a raster, convex or not, with random heights.
+struct SomeHole {
+  std::vector<double> heights;
+  Star star;
+  std::uint32_t apex = 32 * kColumns + 32;
+};
+
+SomeHole someHole(std::mt19937_64& random, int reach) {
+  SomeHole hole;
+  hole.heights.resize(std::size_t(kColumns) * kRows);
+  for (double& z : hole.heights) z = static_cast<double>(random() % 100);
+  // The vertices of a convex polygon: the hull of random lattice points around the apex.
+  std::vector<std::array<int, 2>> points;
+  const int count = 5 + static_cast<int>(random() % 8);
+  const auto coordinate = [&] {
+    return static_cast<int>(random() % static_cast<unsigned>(2 * reach + 1)) - reach;
+  };
+  for (int i = 0; i < count; ++i) points.push_back({coordinate(), coordinate()});
+  for (const auto& p : {std::array{-reach, -reach}, {reach, -reach}, {reach, reach}, {-reach, reach}})
+    points.push_back(p);
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  std::vector<std::array<int, 2>> hull;
+  const auto half = [&](auto begin, auto end) {
+    const std::size_t start = hull.size();
+    for (auto p = begin; p != end; ++p) {
+      while (hull.size() >= start + 2) {
+        const auto &a = hull[hull.size() - 2], &b = hull.back();
+        if ((b[0] - a[0]) * ((*p)[1] - a[1]) - (b[1] - a[1]) * ((*p)[0] - a[0]) > 0) break;
+        hull.pop_back();
+      }
+      hull.push_back(*p);
+    }
+    hull.pop_back();
+  };
+  half(points.begin(), points.end());
+  half(points.rbegin(), points.rend());
+  hole.star.linkSize = hole.star.triangleCount = static_cast<int>(hull.size());
+  for (std::size_t i = 0; i < hull.size(); ++i)
+    hole.star.link[i] = static_cast<std::uint32_t>((32 + hull[i][1]) * int(kColumns) + 32 + hull[i][0]);
+  return hole;
+}
+
+double signedArea(const LatticePlan& plan, const Star& star, const std::array<std::uint8_t, 3>& t) {
+  const Vec2 a = plan.planPosition(star.link[t[0]]), b = plan.planPosition(star.link[t[1]]),
+             c = plan.planPosition(star.link[t[2]]);
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+TEST(HoleTriangulation, BothWaysTileTheHoleWithDelaunayTriangles) {
+  std::mt19937_64 random(20261121);
+  for (int run = 0; run < 3000; ++run) {
+    const SomeHole some = someHole(random, 1 + run % 12);
+    const LatticePlan plan(kColumns, 1 + run % 3, 1 + run % 2);
+    const RasterError errors(plan, some.heights, false);
+    const RasterError::Hole hole(errors, some.star, some.apex);
+    const auto polygon = hole.polygon();
+    double whole = 0;
+    for (int i = 1; i + 1 < some.star.linkSize; ++i)
+      whole +=
+          signedArea(plan, some.star, {0, static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i + 1)});
+    for (const bool isDomainConvex : {true, false}) {
+      const HoleTriangulation result = triangulateHoleDelaunay(some.star.linkSize, hole, isDomainConvex);
+      ASSERT_EQ(result.size, some.star.linkSize - 2) << "run " << run;
+      double sum = 0;
+      for (const auto& t : result.view()) {
+        EXPECT_TRUE(t[0] < t[1] && t[0] < t[2]) << "run " << run;
+        const double area = signedArea(plan, some.star, t);
+        EXPECT_GT(area, 0) << "run " << run;
+        sum += area;
+        for (int n = 0; n < some.star.linkSize; ++n) {
+          if (n == t[0] || n == t[1] || n == t[2]) continue;
+          EXPECT_LE(polygon.inCircle(t[0], t[1], t[2], n), 0) << "run " << run;
+        }
+      }
+      EXPECT_EQ(sum, whole) << "run " << run;
+    }
+  }
+}
+
+TEST(HoleTriangulation, OfASquareTakesTheDiagonalCloserToTheApex) {
+  std::vector<double> heights(9, 0);
+  const LatticePlan plan(3, 1, 1);
+  Star star;
+  star.linkSize = star.triangleCount = 4;
+  star.link = {0, 2, 8, 6};
+  heights[0] = heights[8] = 10;  // the apex, 4, lies at 0 and so does the diagonal from 2 to 6
+  const RasterError errors(plan, heights, false);
+  const RasterError::Hole hole(errors, star, 4);
+  for (const bool isDomainConvex : {true, false}) {
+    const HoleTriangulation result = triangulateHoleDelaunay(4, hole, isDomainConvex);
+    double worst = 0;
+    for (const auto& t : result.view()) worst = std::max(worst, hole.maximum(t[0], t[1], t[2], 1e9));
+    EXPECT_LE(worst, 5) << "the middle of an edge of the square";
+    for (const auto& t : result.view())
+      EXPECT_TRUE(std::count(t.begin(), t.end(), 1) == 1 && std::count(t.begin(), t.end(), 3) == 1);
+  }
+}
+
+TEST(HoleTriangulation, MeasuresATriangleAsALookAtEverySampleDoes) {
+  std::mt19937_64 random(7);
+  for (int run = 0; run < 4000; ++run) {
+    std::vector<double> heights(std::size_t(kColumns) * kRows);
+    for (double& z : heights)
+      z = random() % 50 == 0 ? std::nan("") : static_cast<double>(random() % 1000) / 8;
+    const LatticePlan plan(kColumns, 1, 1);
+    const RasterError errors(plan, heights, false);
+    const int reach = 2 + run % 9;
+    std::array<std::array<int, 2>, 3> c;
+    for (auto& p : c)
+      for (int& x : p) x = 20 + static_cast<int>(random() % static_cast<unsigned>(reach));
+    const int area = (c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) - (c[1][1] - c[0][1]) * (c[2][0] - c[0][0]);
+    if (area <= 0) continue;
+    Star star;
+    star.linkSize = star.triangleCount = 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+      star.link[i] = static_cast<std::uint32_t>(c[i][1] * int(kColumns) + c[i][0]);
+      if (std::isnan(heights[star.link[i]])) heights[star.link[i]] = 1;
+    }
+    double above = 0, below = 0;
+    for (int y = 0; y < int(kRows); ++y)
+      for (int x = 0; x < int(kColumns); ++x) {
+        std::array<double, 3> weight;
+        for (std::size_t i = 0; i < 3; ++i) {
+          const auto &a = c[(i + 1) % 3], &b = c[(i + 2) % 3];
+          weight[i] = double((b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])) / area;
+        }
+        const double z = heights[std::size_t(y) * kColumns + std::size_t(x)];
+        if (std::min({weight[0], weight[1], weight[2]}) < 0 || std::isnan(z)) continue;
+        double plane = 0;
+        for (std::size_t i = 0; i < 3; ++i) plane += weight[i] * heights[star.link[i]];
+        above = std::max(above, plane - z);
+        below = std::max(below, z - plane);
+      }
+    const RasterError::Hole hole(errors, star, star.link[0]);
+    SignedBound bound;
+    EXPECT_NEAR(hole.maximum(0, 1, 2, bound), std::max(above, below), 1e-9) << "run " << run;
+    EXPECT_NEAR(bound.above, above, 1e-9) << "run " << run;
+    EXPECT_NEAR(bound.below, below, 1e-9) << "run " << run;
+    EXPECT_NEAR(hole.maximum(0, 1, 2, 1e9), std::max(above, below), 1e-9) << "run " << run;
+    const double limit = std::max(above, below) / 2;
+    if (limit > 0) {
+      EXPECT_GT(hole.maximum(0, 1, 2, limit), limit) << "run " << run;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace arete
