@@ -55,22 +55,19 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
                                const RunContext& context) {
   if (const Status valid = field.validate(); !valid) return tl::unexpected(valid.error());
   if (const Status valid = checkOptions(options, field.size()); !valid) return tl::unexpected(valid.error());
-  if (field.size() >= 0xFFFFFFF0u / 3)
-    return failure(ErrorCode::unsupported,
-                   fmt::format("{} samples are more than 32-bit triangle ids can name", field.size()),
-                   field.source);
+  if (field.size() > LiveMesh::kMostTriangles / 2)
+    return failure(
+        ErrorCode::unsupported,
+        fmt::format("{} samples have more triangles than 32-bit half-edges can name", field.size()),
+        field.source);
 
   context.report("triangulate", 0);
   std::optional<StageClock::Scope> stage(std::in_place, context.clock, "triangulate");
-  std::vector<std::array<std::uint32_t, 3>> triangles = finestTriangulation(field);
-  if (triangles.empty()) return failure(ErrorCode::degenerate, whyNoTriangle(field), field.source);
-  if (triangles.size() > LiveMesh::kMostTriangles)
-    return failure(ErrorCode::unsupported, "more triangles than 32-bit half-edges can name", field.source);
-  const auto finestCount = static_cast<std::uint32_t>(triangles.size());
-  const auto sampleCount = static_cast<std::uint32_t>(field.size());
-
   std::vector<std::uint32_t> pinched;
-  LiveMesh mesh = LiveMesh::fromTriangles(std::move(triangles), sampleCount, pinched);
+  LiveMesh mesh = finestMesh(field, pinched);
+  if (mesh.triangles.empty()) return failure(ErrorCode::degenerate, whyNoTriangle(field), field.source);
+  const auto finestCount = static_cast<std::uint32_t>(mesh.triangles.size());
+  const auto sampleCount = static_cast<std::uint32_t>(field.size());
   context.report("triangulate", 1);
   stage.emplace(context.clock, "prepare");
 

@@ -1,57 +1,178 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Triangles are laid out tile by tile, so that those near each other on the ground are near each other in
+// memory.
+//
+// The mesh needs no search for neighbours: what a cell holds follows from which of its corners are valid, and
+// across an edge lies the cell above, below, left or right. One pass counts the triangles of each tile, the
+// next numbers the cells, the last writes triangles and twins; all are parallel over tiles. An outgoing
+// half-edge without a twin begins a fan of its vertex; a vertex with two of them is pinched.
 #include "terrain/finest_raster.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
-#include <bit>
-#include <cstdint>
+#include <cmath>
 
 namespace arete {
 namespace {
 
-/// Bits 0, 2, 4, ... of x, moved together.
-std::uint32_t everyOtherBit(std::uint64_t x) {
-  std::uint32_t bits = 0;
-  for (int i = 0; i < 32; ++i) bits |= static_cast<std::uint32_t>(x >> (2 * i) & 1) << i;
-  return bits;
+constexpr std::uint32_t kTile = 32;
+constexpr std::uint32_t kNone = LiveMesh::kNone;
+
+/// The cells of a raster by their upper left sample, and which of their corners are valid.
+class Cells {
+ public:
+  explicit Cells(const RasterHeightfield& field)
+      : field_(field),
+        tileColumns_((field.columns - 1 + kTile - 1) / kTile),
+        tileRows_((field.rows - 1 + kTile - 1) / kTile) {}
+
+  enum Corner : unsigned { upperLeft = 1, upperRight = 2, lowerLeft = 4, lowerRight = 8, all = 15 };
+
+  unsigned valid(std::uint32_t column, std::uint32_t row) const {
+    const double* above = &field_.heights[field_.index(column, row)];
+    const double* under = above + field_.columns;
+    return unsigned(above[0] == above[0]) * upperLeft | unsigned(above[1] == above[1]) * upperRight |
+           unsigned(under[0] == under[0]) * lowerLeft | unsigned(under[1] == under[1]) * lowerRight;
+  }
+
+  static std::uint32_t triangleCount(unsigned valid) {
+    return valid == all ? 2 : valid == 7 || valid == 11 || valid == 13 || valid == 14 ? 1 : 0;
+  }
+
+  std::size_t tileCount() const { return std::size_t(tileColumns_) * tileRows_; }
+
+  /// visit(column, row) for the cells of a tile, row by row.
+  template <class Visit>
+  void forTile(std::size_t tile, const Visit& visit) const {
+    const auto left = static_cast<std::uint32_t>(tile % tileColumns_) * kTile,
+               top = static_cast<std::uint32_t>(tile / tileColumns_) * kTile;
+    for (std::uint32_t row = top; row < std::min(top + kTile, field_.rows - 1); ++row)
+      for (std::uint32_t column = left; column < std::min(left + kTile, field_.columns - 1); ++column)
+        visit(column, row);
+  }
+
+  /// visit(corners) for the triangles of a cell, counter-clockwise.
+  template <class Visit>
+  void forTriangles(std::uint32_t column, std::uint32_t row, unsigned valid, const Visit& visit) const {
+    const std::uint32_t ul = field_.index(column, row), ur = ul + 1, ll = ul + field_.columns, lr = ll + 1;
+    const auto has = [&](unsigned corners) { return (valid & corners) == corners; };
+    if (has(upperLeft | lowerRight)) {
+      if (has(upperRight)) visit(LiveMesh::Corners{ul, ur, lr});
+      if (has(lowerLeft)) visit(LiveMesh::Corners{ul, lr, ll});
+    } else if (has(upperRight | lowerLeft)) {
+      if (has(upperLeft)) visit(LiveMesh::Corners{ul, ur, ll});
+      if (has(lowerRight)) visit(LiveMesh::Corners{ur, lr, ll});
+    }
+  }
+
+  // The half-edges of the triangles that forTriangles() gives, by what they are to the cell, whose first
+  // triangle is `first`; kNone where it has no such edge.
+  static std::uint32_t topEdge(unsigned valid, std::uint32_t first) {
+    return (valid & 3) == 3 && triangleCount(valid) > 0 ? LiveMesh::halfedge(first, 0) : kNone;
+  }
+  static std::uint32_t rightEdge(unsigned valid, std::uint32_t first) {
+    if ((valid & 10) != 10 || triangleCount(valid) == 0) return kNone;
+    return LiveMesh::halfedge(first, (valid & upperLeft) != 0 ? 1 : 0);
+  }
+  static std::uint32_t bottomEdge(unsigned valid, std::uint32_t first) {
+    if ((valid & 12) != 12 || triangleCount(valid) == 0) return kNone;
+    return LiveMesh::halfedge(first + (valid == all ? 1 : 0), 1);
+  }
+  static std::uint32_t leftEdge(unsigned valid, std::uint32_t first) {
+    if ((valid & 5) != 5 || triangleCount(valid) == 0) return kNone;
+    return LiveMesh::halfedge(first + (valid == all ? 1 : 0), 2);
+  }
+
+ private:
+  const RasterHeightfield& field_;
+  std::uint32_t tileColumns_, tileRows_;
+};
+
+bool hasCells(const RasterHeightfield& field) {
+  return field.columns >= 2 && field.rows >= 2;
 }
 
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 3>> finestTriangulation(const RasterHeightfield& heightfield) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  if (heightfield.columns < 2 || heightfield.rows < 2) return triangles;
+  if (!hasCells(heightfield)) return triangles;
   triangles.reserve(std::size_t(heightfield.columns - 1) * (heightfield.rows - 1) * 2);
-  const auto addCell = [&](std::uint32_t column, std::uint32_t row) {
-    const std::uint32_t upperLeft = heightfield.index(column, row), upperRight = upperLeft + 1,
-                        lowerLeft = upperLeft + heightfield.columns, lowerRight = lowerLeft + 1;
-    const bool ul = !std::isnan(heightfield.heights[upperLeft]),
-               ur = !std::isnan(heightfield.heights[upperRight]),
-               ll = !std::isnan(heightfield.heights[lowerLeft]),
-               lr = !std::isnan(heightfield.heights[lowerRight]);
-    if (ul && lr) {
-      if (ur) triangles.push_back({upperLeft, upperRight, lowerRight});
-      if (ll) triangles.push_back({upperLeft, lowerRight, lowerLeft});
-    } else if (ur && ll) {
-      if (ul) triangles.push_back({upperLeft, upperRight, lowerLeft});
-      if (lr) triangles.push_back({upperRight, lowerRight, lowerLeft});
-    }
-  };
-  // Tile by tile, so that triangles near each other on the ground are near each other in memory, at every
-  // scale: in Morton's order within squares, the squares side by side.
-  constexpr std::uint32_t kTile = 32;
-  const std::uint32_t across = (heightfield.columns + kTile - 2) / kTile,
-                      down = (heightfield.rows + kTile - 2) / kTile;
-  const std::uint32_t side = std::bit_ceil(std::min(across, down));
-  const auto addTile = [&](std::uint32_t left, std::uint32_t top) {
-    for (std::uint32_t row = top; row < std::min(top + kTile, heightfield.rows - 1); ++row)
-      for (std::uint32_t column = left; column < std::min(left + kTile, heightfield.columns - 1); ++column)
-        addCell(column, row);
-  };
-  for (std::uint32_t y = 0; y < down; y += side)
-    for (std::uint32_t x = 0; x < across; x += side)
-      for (std::uint64_t code = 0; code < std::uint64_t(side) * side; ++code)
-        addTile((x + everyOtherBit(code)) * kTile, (y + everyOtherBit(code >> 1)) * kTile);
+  const Cells cells(heightfield);
+  for (std::size_t tile = 0; tile < cells.tileCount(); ++tile)
+    cells.forTile(tile, [&](std::uint32_t column, std::uint32_t row) {
+      cells.forTriangles(column, row, cells.valid(column, row),
+                         [&](const LiveMesh::Corners& corners) { triangles.push_back(corners); });
+    });
   return triangles;
+}
+
+LiveMesh finestMesh(const RasterHeightfield& heightfield, std::vector<std::uint32_t>& pinched) {
+  LiveMesh mesh;
+  if (!hasCells(heightfield)) return mesh;
+  const Cells cells(heightfield);
+  const std::size_t tiles = cells.tileCount();
+  std::vector<std::uint32_t> tileFirst(tiles + 1, 0);
+  tbb::parallel_for(std::size_t(0), tiles, [&](std::size_t tile) {
+    cells.forTile(tile, [&](std::uint32_t column, std::uint32_t row) {
+      tileFirst[tile + 1] += Cells::triangleCount(cells.valid(column, row));
+    });
+  });
+  for (std::size_t tile = 0; tile < tiles; ++tile) tileFirst[tile + 1] += tileFirst[tile];
+
+  std::vector<std::uint32_t> first(heightfield.size());
+  tbb::parallel_for(std::size_t(0), tiles, [&](std::size_t tile) {
+    std::uint32_t next = tileFirst[tile];
+    cells.forTile(tile, [&](std::uint32_t column, std::uint32_t row) {
+      first[heightfield.index(column, row)] = next;
+      next += Cells::triangleCount(cells.valid(column, row));
+    });
+  });
+
+  mesh.triangles.resize(tileFirst[tiles]);
+  tbb::parallel_for(std::size_t(0), tiles, [&](std::size_t tile) {
+    cells.forTile(tile, [&](std::uint32_t column, std::uint32_t row) {
+      const unsigned valid = cells.valid(column, row);
+      const std::uint32_t begin = first[heightfield.index(column, row)];
+      std::uint32_t t = begin;
+      cells.forTriangles(column, row, valid, [&](const LiveMesh::Corners& corners) {
+        mesh.triangles[t] = {corners, {kNone, kNone, kNone}, t, kNone};
+        ++t;
+      });
+      if (t == begin) return;
+      if (valid == Cells::all) {
+        mesh.setTwin(LiveMesh::halfedge(begin, 2), LiveMesh::halfedge(begin + 1, 0));
+        mesh.setTwin(LiveMesh::halfedge(begin + 1, 0), LiveMesh::halfedge(begin, 2));
+      }
+      const auto join = [&](std::uint32_t own, std::uint32_t besideColumn, std::uint32_t besideRow,
+                            auto edge) {
+        if (own == kNone || besideColumn >= heightfield.columns - 1 || besideRow >= heightfield.rows - 1)
+          return;
+        mesh.setTwin(own, edge(cells.valid(besideColumn, besideRow),
+                               first[heightfield.index(besideColumn, besideRow)]));
+      };
+      // A column or row of -1 is a large one, and beyond the raster like any other.
+      join(Cells::topEdge(valid, begin), column, row - 1, Cells::bottomEdge);
+      join(Cells::rightEdge(valid, begin), column + 1, row, Cells::leftEdge);
+      join(Cells::bottomEdge(valid, begin), column, row + 1, Cells::topEdge);
+      join(Cells::leftEdge(valid, begin), column - 1, row, Cells::rightEdge);
+    });
+  });
+
+  mesh.vertexHalfedge.assign(heightfield.size(), kNone);
+  std::vector<std::uint32_t> border;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::uint32_t side = 0; side < 3; ++side) {
+      const std::uint32_t h = LiveMesh::halfedge(t, side);
+      mesh.vertexHalfedge[mesh.triangles[t].corners[side]] = h;
+      if (mesh.triangles[t].twin[side] == kNone) border.push_back(h);
+    }
+  for (const std::uint32_t h : border) mesh.vertexHalfedge[mesh.origin(h)] = h;
+  for (const std::uint32_t h : border)
+    if (mesh.vertexHalfedge[mesh.origin(h)] != h) pinched.push_back(mesh.origin(h));
+  return mesh;
 }
 
 }  // namespace arete

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "terrain/heightfield.h"
+#include "terrain/live_mesh.h"
 
 namespace arete {
 
@@ -14,5 +15,9 @@ namespace arete {
 /// corners gives one. Corners are sample indices, counter-clockwise in (column, row). It is (constrained)
 /// Delaunay up to cocircular ties. O(samples).
 std::vector<std::array<std::uint32_t, 3>> finestTriangulation(const RasterHeightfield& heightfield);
+
+/// The same triangles in the same order as a mesh; `pinched` receives the vertices with more than one fan.
+/// O(samples), parallel.
+LiveMesh finestMesh(const RasterHeightfield& heightfield, std::vector<std::uint32_t>& pinched);
 
 }  // namespace arete

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "datasets/families.h"
@@ -30,6 +31,34 @@ TEST(FinestRaster, SplitsWholeCellsFromUpperLeftToLowerRightAndKeepsHalfCells) {
   EXPECT_EQ(finestTriangulation(field), (Triangles{{0, 1, 2}}));
   field.heights = {1, none, none, 4};
   EXPECT_TRUE(finestTriangulation(field).empty());
+}
+
+TEST(FinestRaster, IsTheSameAsAMeshThatLooksForItsNeighbours) {
+  for (const RasterFamily& family : rasterFamilies())
+    for (const auto& [columns, rows] : {std::pair{2u, 2u}, {37u, 29u}, {33u, 70u}}) {
+      const RasterHeightfield field = family.make(columns, rows, 5);
+      std::vector<std::uint32_t> pinched, pinchedOfSearch;
+      const LiveMesh mesh = finestMesh(field, pinched);
+      const LiveMesh searched = LiveMesh::fromTriangles(
+          finestTriangulation(field), static_cast<std::uint32_t>(field.size()), pinchedOfSearch);
+      ASSERT_EQ(mesh.triangles.size(), searched.triangles.size()) << family.name;
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        EXPECT_EQ(mesh.triangles[t].corners, searched.triangles[t].corners) << family.name;
+        EXPECT_EQ(mesh.triangles[t].twin, searched.triangles[t].twin) << family.name;
+        EXPECT_EQ(mesh.triangles[t].birth, t);
+      }
+      std::sort(pinched.begin(), pinched.end());
+      std::sort(pinchedOfSearch.begin(), pinchedOfSearch.end());
+      EXPECT_EQ(pinched, pinchedOfSearch) << family.name;
+      for (std::uint32_t v = 0; v < field.size(); ++v) {
+        const std::uint32_t h = mesh.vertexHalfedge[v], other = searched.vertexHalfedge[v];
+        ASSERT_EQ(h == LiveMesh::kNone, other == LiveMesh::kNone) << family.name;
+        if (h == LiveMesh::kNone) continue;
+        EXPECT_EQ(mesh.origin(h), v);
+        EXPECT_EQ(mesh.twinOf(h) == LiveMesh::kNone, searched.twinOf(other) == LiveMesh::kNone)
+            << family.name;
+      }
+    }
 }
 
 TEST(FinestRaster, IsDelaunayUpToCocircularTiesByCgalsPredicates) {
