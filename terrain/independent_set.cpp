@@ -1,26 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The set is the one a greedy pass in the order of costs takes, but nothing is sorted and nobody waits: a
-// candidate is chosen when every neighbour that precedes it is a blocked candidate (or none at all), and
-// blocked as soon as one of them is chosen (Blelloch, Fineman, Shun 2012, "Greedy sequential maximal
-// independent set and matching are parallel on average"). Candidates are visited in the order of memory; one
-// that waits for a neighbour decides the neighbour first. Decisions are functions of the costs alone, so
-// threads may decide the same vertex twice and agree. Chains longer than a bounded depth are left for another
-// round.
+// The set is the one a greedy pass in the order of costs takes, but little is sorted and nobody waits: a
+// candidate is chosen when every neighbour that precedes it is blocked (or no candidate), and blocked as soon
+// as one of them is chosen (Blelloch, Fineman, Shun 2012, "Greedy sequential maximal independent set and
+// matching are parallel on average"). Candidates are visited in the order of memory; one that waits for a
+// neighbour decides the neighbour first, within a budget of such steps. Decisions are functions of the costs
+// alone, so threads may decide the same vertex twice and agree. What long chains leave open, costs that rise
+// steadily along the ground, is visited again the other way round, and what is open after a few rounds is
+// decided in the order of costs after all.
 #include "terrain/independent_set.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
+#include <algorithm>
 #include <atomic>
+#include <iterator>
 
 #include "terrain/star_prefetch.h"
 
 namespace arete {
 namespace {
 
-constexpr int kDeepest = 200;
+constexpr int kSteps = 64, kRounds = 4;
 
 std::uint32_t load(std::uint32_t& where) {
   return std::atomic_ref(where).load(std::memory_order_relaxed);
@@ -31,13 +34,13 @@ void store(std::uint32_t& where, std::uint32_t value) {
 
 }  // namespace
 
-IndependentSet::Choice IndependentSet::decide(std::uint32_t v, std::uint32_t level, int depth) {
+IndependentSet::Choice IndependentSet::decide(std::uint32_t v, std::uint32_t level, int& steps) {
   bool isBlocked = false, isWaiting = false;
   forLink(mesh_, v, [&](std::uint32_t u) {
     const std::uint32_t candidacy = load(notes_[u].candidacy);
     if (candidacy / 4 != level || candidacy % 4 == kBlocked || !precedes(u, v)) return true;
     auto choice = static_cast<Choice>(candidacy % 4);
-    if (choice == kOpen && depth < kDeepest) choice = decide(u, level, depth + 1);
+    if (choice == kOpen && --steps > 0) choice = decide(u, level, steps);
     if (choice == kChosen) isBlocked = true;
     if (choice == kOpen) isWaiting = true;
     return !isBlocked;
@@ -49,17 +52,27 @@ IndependentSet::Choice IndependentSet::decide(std::uint32_t v, std::uint32_t lev
 
 void IndependentSet::choose(std::span<const std::uint32_t> candidates, std::uint32_t level,
                             std::vector<std::uint32_t>& chosen) {
-  for (bool isOpen = true; isOpen;) {
-    std::atomic<bool> isLeft = false;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), 256), [&](const auto& range) {
+  const auto isOpen = [&](std::uint32_t v) { return load(notes_[v].candidacy) % 4 == kOpen; };
+  std::span<const std::uint32_t> left = candidates;
+  for (int round = 0; round < kRounds && !left.empty(); ++round) {
+    const bool isBackwards = round % 2 == 1;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, left.size(), 256), [&](const auto& range) {
+      const auto candidate = [&](std::size_t i) { return left[isBackwards ? left.size() - 1 - i : i]; };
       for (std::size_t i = range.begin(); i != range.end(); ++i) {
-        prefetchStars<StarReach::neighbours>(mesh_, i, candidates.size(),
-                                             [&](std::size_t k) { return candidates[k]; });
-        if (load(notes_[candidates[i]].candidacy) % 4 == kOpen && decide(candidates[i], level, 0) == kOpen)
-          isLeft.store(true, std::memory_order_relaxed);
+        prefetchStars<StarReach::neighbours>(mesh_, i, left.size(), candidate);
+        int steps = kSteps;
+        if (isOpen(candidate(i))) decide(candidate(i), level, steps);
       }
     });
-    isOpen = isLeft;
+    std::vector<std::uint32_t> open;
+    std::copy_if(left.begin(), left.end(), std::back_inserter(open), isOpen);
+    ordered_.swap(open);
+    left = ordered_;
+  }
+  sortByCost(ordered_);
+  for (const std::uint32_t v : ordered_) {
+    int steps = 1;
+    decide(v, level, steps);
   }
   collectChosen(candidates, level, chosen);
 }

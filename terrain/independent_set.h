@@ -60,7 +60,7 @@ class IndependentSet {
     x ^= x >> 16;
     return x;
   }
-  Choice decide(std::uint32_t v, std::uint32_t level, int depth);
+  Choice decide(std::uint32_t v, std::uint32_t level, int& steps);
   void sortByCost(std::vector<std::uint32_t>& vertices) const;
   void collectChosen(std::span<const std::uint32_t> candidates, std::uint32_t level,
                      std::vector<std::uint32_t>& chosen) const;
