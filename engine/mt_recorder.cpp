@@ -23,38 +23,10 @@
 #include <numeric>
 #include <optional>
 
+#include "engine/enclosing_ball.h"
+
 namespace arete {
 namespace {
-
-// A parent's radius is widened a little beyond what rounding needs, so that "child touches => parent touches"
-// survives the arithmetic of any later distance test.
-constexpr double kWiden = 1 + 1e-6;
-
-Sphere rounded(double x, double y, double z, double radius) {
-  Sphere s{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), 0};
-  const double moved = std::sqrt((s.x - x) * (s.x - x) + (s.y - y) * (s.y - y) + (s.z - z) * (s.z - z));
-  s.radius = std::nextafter(static_cast<float>((radius + moved) * kWiden), INFINITY);
-  return s;
-}
-
-struct Ball {
-  double x, y, z, radius;
-
-  void enclose(double px, double py, double pz, double pRadius) {
-    const double dx = px - x, dy = py - y, dz = pz - z;
-    const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
-    if (distance + pRadius <= radius) return;
-    if (distance + radius <= pRadius) {
-      *this = {px, py, pz, pRadius};
-      return;
-    }
-    const double grown = (distance + radius + pRadius) / 2, shift = (grown - radius) / distance;
-    x += dx * shift;
-    y += dy * shift;
-    z += dz * shift;
-    radius = grown;
-  }
-};
 
 struct OwnedMt {
   std::vector<std::array<std::uint32_t, 3>> rootTriangles;
@@ -124,26 +96,14 @@ void MtRecorder::record(std::uint32_t removal, const VertexRemoval& what) {
     saturated = std::max(saturated, what.floorError[i]);
   }
 
-  // Start from the box's centre: a better seed than any one vertex, and independent of where the link starts.
-  Vec3 low = what.metricPositions[0], high = low;
-  for (const Vec3& p : what.metricPositions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  Ball ball{(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2, 0};
-  double squared = 0;
-  for (const Vec3& p : what.metricPositions)
-    squared = std::max(squared, (p.x - ball.x) * (p.x - ball.x) + (p.y - ball.y) * (p.y - ball.y) +
-                                    (p.z - ball.z) * (p.z - ball.z));
-  ball.radius = std::sqrt(squared);
+  EnclosingBall ball = EnclosingBall::around(what.metricPositions);
   for (const std::uint32_t child : what.ceilingBearer) {
     if (child == kNone) continue;
     saturated = std::max(saturated, saturated_[child]);
-    const Sphere& s = sphere_[child];
-    ball.enclose(s.x, s.y, s.z, s.radius * kWiden);
+    ball.encloseChild(sphere_[child]);
   }
   saturated_[removal] = saturated;
-  sphere_[removal] = rounded(ball.x, ball.y, ball.z, ball.radius);
+  sphere_[removal] = ball.rounded();
 }
 
 MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertices,
