@@ -29,6 +29,7 @@ struct BuildArguments {
   std::size_t featureCount = FeatureOptions{}.count;
   double featurePersistence = -1;  // < 0: not stated
   bool noFeatures = false;
+  bool isPacked = false;
   std::string fixedPath;
   double creaseAngleDegrees = -1;  // < 0: not stated
 };
@@ -157,7 +158,9 @@ Status runBuild(BuildArguments& arguments, Session& session) {
         seconds.build = building.seconds();
 
         Stopwatch writing;
-        if (Status written = writeAmt(arguments.output, *model, session.context()); !written) return written;
+        const AmtWriteOptions options{.isPacked = arguments.isPacked};
+        if (Status written = writeAmt(arguments.output, *model, session.context(), options); !written)
+          return written;
         seconds.write = writing.seconds();
         report(session, arguments, *model, *fixed, seconds);
         return {};
@@ -184,6 +187,9 @@ void addBuildCommand(CLI::App& app, Session& session) {
   command->add_option("-o,--output", arguments->output, "Multitriangulation to write (.amt)")
       ->required()
       ->type_name("FILE.amt");
+  command->add_flag(
+      "--packed", arguments->isPacked,
+      "Write the compressed form: a fifteenth of the size, unpacked into memory when it is read");
   command
       ->add_option("--shape", arguments->shape,
                    "delaunay: well-shaped triangles (default); fidelity: far fewer triangles at a bound")

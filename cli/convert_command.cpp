@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <utility>
 
 #include "cli/arguments.h"
+#include "io/amt_file.h"
 #include "io/convert_mesh.h"
 #include "io/crs_names.h"
 #include "io/mesh_file.h"
@@ -17,13 +19,50 @@ namespace {
 
 struct ConvertArguments {
   std::string input, output, crs;
+  bool isPacked = false;
 };
 
 Json roundingJson(const Vec3& rounding) {
   return {rounding.x, rounding.y, rounding.z};
 }
 
+bool isAmt(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".amt";
+}
+
+/// A multitriangulation into its packed form or out of it.
+Status convertAmt(const ConvertArguments& arguments, Session& session) {
+  if (!isAmt(arguments.output))
+    return failure(ErrorCode::usage,
+                   "a multitriangulation becomes another .amt here; arete extract makes meshes of it",
+                   fmt::format("--output {}", arguments.output));
+  if (!arguments.crs.empty())
+    return failure(ErrorCode::usage, "an .amt has the CRS of its DEM",
+                   fmt::format("--crs {}", arguments.crs));
+  if (Status output = checkOutput("--output", arguments.output, {}); !output) return output;
+  const Result<TerrainModel> model = loadAmt(arguments.input, {}, session.context());
+  if (!model) return tl::unexpected(model.error());
+  const AmtWriteOptions options{.isPacked = arguments.isPacked};
+  if (Status written = writeAmt(arguments.output, *model, session.context(), options); !written)
+    return written;
+  std::error_code error;
+  const auto size = std::filesystem::file_size(arguments.output, error);
+  const std::uint64_t bytes = error ? 0 : size, samples = model->mt.vertexCount() + model->isolated.size();
+  const double perSample = static_cast<double>(bytes) / static_cast<double>(samples);
+  session.say(fmt::format("{}: {}, {:.1f} bytes a sample\n", arguments.output, byteCount(bytes), perSample));
+  session.answer({{"input", arguments.input},
+                  {"output", arguments.output},
+                  {"format", "AMT"},
+                  {"isPacked", arguments.isPacked},
+                  {"bytes", bytes},
+                  {"bytesPerSample", perSample}});
+  return {};
+}
+
 Status runConvert(const ConvertArguments& arguments, Session& session) {
+  if (isAmt(arguments.input)) return convertAmt(arguments, session);
+  if (arguments.isPacked)
+    return failure(ErrorCode::usage, "is for multitriangulations (.amt), not for meshes", "--packed");
   const Result<MeshFormat> format = meshFormatOf(arguments.output);
   if (!format)
     return failure(ErrorCode::usage, format.error().message, fmt::format("--output {}", arguments.output));
@@ -64,14 +103,19 @@ void addConvertCommand(CLI::App& app, Session& session) {
       "Write a mesh in another format, with its CRS, unit and errors where that can hold them",
       "  arete convert tin.ply -o tin.glb\n"
       "  arete convert tin.stl -o tin.gpkg --crs EPSG:32611\n"
-      "  arete convert tin.gpkg -o tin.2dm --json",
+      "  arete convert tin.gpkg -o tin.2dm --json\n"
+      "  arete convert dem.amt -o small.amt --packed",
       [arguments](Session& s) { return runConvert(*arguments, s); });
-  command->add_option("MESH", arguments->input, "A triangle mesh: " + readableMeshExtensions())
+  command->add_option("MESH", arguments->input, "A triangle mesh: " + readableMeshExtensions() + "; or .amt")
       ->required()
       ->type_name("");
-  command->add_option("-o,--output", arguments->output, "File to write: " + writableMeshExtensions())
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "File to write: " + writableMeshExtensions() + "; .amt of .amt")
       ->required()
       ->type_name("FILE");
+  command->add_flag("--packed", arguments->isPacked,
+                    "Of an .amt: write the compressed form (without it, the plain one)");
   command
       ->add_option("--crs", arguments->crs,
                    "The CRS of the coordinates, where the file does not say it (nothing is reprojected)")

@@ -25,6 +25,7 @@ struct InfoArguments {
 
 struct Facts {
   std::uint64_t bytes = 0;
+  bool isPacked = false;
   std::string writer;
   double rootError = 0;
   std::vector<CurvePoint> curve;
@@ -56,8 +57,11 @@ void sayFacts(const InfoArguments& arguments, const TerrainModel& model, const F
               const Session& session) {
   const MultiTriangulation& mt = model.mt;
   const BuildOptions& o = model.options;
-  std::string text =
-      fmt::format("{}: {}, written by {}\n", arguments.model, byteCount(facts.bytes), facts.writer);
+  const double bytesPerSample = static_cast<double>(facts.bytes) /
+                                static_cast<double>(std::uint64_t{mt.vertexCount()} + model.isolated.size());
+  std::string text = fmt::format(
+      "{}: {}{}, written by {}\n", arguments.model, byteCount(facts.bytes),
+      facts.isPacked ? fmt::format(", packed ({:.1f} bytes a sample)", bytesPerSample) : "", facts.writer);
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<14} {}\n", what, value);
   };
@@ -110,6 +114,7 @@ Json factsJson(const InfoArguments& arguments, const TerrainModel& model, const 
                      {"saturated", point.saturatedTriangles}});
   return {{"file", arguments.model},
           {"bytes", facts.bytes},
+          {"isPacked", facts.isPacked},
           {"writer", facts.writer},
           {"source", {{"path", model.source}, {"checksum", model.sourceChecksum}}},
           {"crs", crsName(g.crsWkt)},
@@ -145,6 +150,7 @@ Status runInfo(const InfoArguments& arguments, Session& session) {
   Facts facts;
   facts.bytes = file->bytes().size();
   facts.writer = file->writer();
+  facts.isPacked = file->isPacked();
   facts.rootError = largestRootError(model->mt);
   std::vector<double> tolerances = toleranceLadder(model->mt, arguments.curvePoints);
   if (!arguments.at.empty()) {

@@ -50,7 +50,7 @@ class IndexCheck {
                               &IndexCheck::hints,      &IndexCheck::removers,      &IndexCheck::floors,
                               &IndexCheck::nodeValues, &IndexCheck::parents,       &IndexCheck::vertices,
                               &IndexCheck::extras};
-    for (std::size_t i = 0; i < std::size(steps); ++i) {
+    for (std::size_t i = file_.isPacked() ? std::size(steps) - 1 : 0; i < std::size(steps); ++i) {
       context_.report("check indices", static_cast<double>(i) / std::size(steps));
       const Status status = (this->*steps[i])();
       if (context_.cancelled())

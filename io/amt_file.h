@@ -11,6 +11,7 @@
 #include "engine/run_context.h"
 #include "io/amt_layout.h"
 #include "io/mapped_file.h"
+#include "io/packed_amt.h"
 #include "terrain/terrain_model.h"
 
 namespace arete {
@@ -20,7 +21,8 @@ namespace arete {
 /// only what a question touches is read from the disk.
 
 struct AmtWriteOptions {
-  std::string writer;  ///< names the program in the file; empty = "Arete" and its version
+  std::string writer = {};  ///< names the program in the file; empty = "Arete" and its version
+  bool isPacked = false;    ///< compressed: see io/packed_amt.h for what changes
 };
 
 /// Writes the model. The same model and writer give the same bytes. The file appears under its name whole or
@@ -50,6 +52,11 @@ class AmtFile {
     return file_->bytes().subspan(chunk.offset, chunk.bytes);
   }
 
+  /// Whether the MT is packed: then model() has no MT, loadAmt() unpacks it.
+  bool isPacked() const { return packedNodes_.data() != nullptr; }
+  /// Of a packed file.
+  Result<MultiTriangulation> unpack(const UnpackOptions& options = {}, const RunContext& context = {}) const;
+
   /// The model without its isolated samples and fixed vertices. Its arrays have the sizes stated in MtArrays;
   /// before checkAmtIndices() nothing else is known of them, so do not walk it.
   const TerrainModel& model() const { return model_; }
@@ -64,10 +71,12 @@ class AmtFile {
 
   std::string path_, writer_;
   std::shared_ptr<const MappedFile> file_;
+  std::shared_ptr<const AmtMetadata> metadata_;
   std::vector<AmtChunk> chunks_;
   TerrainModel model_;
   std::span<const std::uint32_t> isolatedSamples_, fixedVertices_;
   std::span<const double> isolatedHeights_;
+  std::span<const std::byte> packedDirectory_, packedTables_, packedNodes_;
 };
 
 /// Maps the file and reads its header, directory and metadata, which lie together at its beginning; nothing
@@ -78,9 +87,10 @@ Result<AmtFile> openAmt(const std::string& path, const AmtOpenOptions& options =
 
 /// Every index in range, every link, floor, remover and creator as MtArrays states them, spheres that hold
 /// their children's, every coordinate finite: after this every cut is closed and its front whole, and no
-/// algorithm of the engine reads outside the arrays, whatever the file says. Whether the geometry and the
-/// errors are right is for validate() to tell. The first culprit is named, the same for
-/// any number of threads. Errors: corrupt, interrupted. O(triangles), parallel.
+/// algorithm of the engine reads outside the arrays, whatever the file says. (Of a packed file only what is
+/// not packed is checked: unpacking checks the rest.) Whether the geometry and the errors are right is for
+/// validate() to tell. The first culprit is named, the same for any number of threads. Errors: corrupt,
+/// interrupted. O(triangles), parallel.
 Status checkAmtIndices(const AmtFile& file, const RunContext& context = {});
 
 /// The checksum of every chunk, and zeros between the chunks: with these and what openAmt() checks, no byte
@@ -94,10 +104,11 @@ enum class AmtVerify { none, indices, all };
 struct AmtLoadOptions {
   AmtVerify verify = AmtVerify::all;  ///< all = checksums and indices
   AmtOpenOptions open;
+  UnpackOptions unpack = {};  ///< of packed files
 };
 
 /// Opens, checks, and hands out the model; its multitriangulation points into the mapped file and keeps it
-/// mapped. Errors: those of openAmt() and of the checks.
+/// mapped, or is unpacked into memory. Errors: those of openAmt() and of the checks.
 Result<TerrainModel> loadAmt(const std::string& path, const AmtLoadOptions& options = {},
                              const RunContext& context = {});
 

@@ -79,6 +79,11 @@ inline constexpr AmtTag kCreatorHint = {'H', 'I', 'N', 'T'};
 inline constexpr AmtTag kSamples = {'S', 'A', 'M', 'P'};
 inline constexpr AmtTag kPlan = {'P', 'L', 'A', 'N'};
 inline constexpr AmtTag kHeights = {'H', 'G', 'H', 'T'};
+// Of a packed file, in place of all above but the metadata:
+inline constexpr AmtTag kPackedDirectory = {'P', 'D', 'I', 'R'};
+inline constexpr AmtTag kPackedTables = {'P', 'T', 'A', 'B'};
+inline constexpr AmtTag kPackedNodes = {'P', 'N', 'O', 'D'};
+// Of every file:
 inline constexpr AmtTag kIsolatedSamples = {'I', 'S', 'A', 'M'};
 inline constexpr AmtTag kIsolatedHeights = {'I', 'H', 'G', 'T'};
 inline constexpr AmtTag kFixedVertices = {'F', 'I', 'X', 'V'};

@@ -374,11 +374,17 @@ Result<AmtMetadata> fromAmtJson(std::string_view text) {
   return m;
 }
 
-std::vector<AmtShape> amtShapes(const AmtMetadata& m) {
+std::vector<AmtShape> amtShapes(const AmtMetadata& m, bool isPacked) {
   const AmtCounts& c = m.counts;
   const std::uint64_t triangles = c.rootTriangles + c.slots, vertices = c.rootVertices + c.nodes;
   constexpr std::uint64_t kSlotsPerHint = MultiTriangulation::kSlotsPerHint;
-  return {
+  const std::vector<AmtShape> extras = {
+      {amt_tag::kIsolatedSamples, AmtScalar::u32, 4, c.isolated},
+      {amt_tag::kIsolatedHeights, AmtScalar::f64, 8, c.isolated},
+      {amt_tag::kFixedVertices, AmtScalar::u32, 4, c.fixedVertices},
+  };
+  if (isPacked) return extras;
+  std::vector<AmtShape> shapes = {
       {amt_tag::kRootTriangles, AmtScalar::u32, 12, c.rootTriangles},
       {amt_tag::kSlotBegin, AmtScalar::u32, 4, c.nodes + 1},
       {amt_tag::kLink, AmtScalar::u32, 4, c.slots},
@@ -394,10 +400,9 @@ std::vector<AmtShape> amtShapes(const AmtMetadata& m) {
                        : AmtShape{amt_tag::kPlan, AmtScalar::f64, 16, vertices},
       {amt_tag::kHeights, nameOf(m.encoding.type).scalar,
        static_cast<std::uint32_t>(m.encoding.bytesPerHeight()), vertices},
-      {amt_tag::kIsolatedSamples, AmtScalar::u32, 4, c.isolated},
-      {amt_tag::kIsolatedHeights, AmtScalar::f64, 8, c.isolated},
-      {amt_tag::kFixedVertices, AmtScalar::u32, 4, c.fixedVertices},
   };
+  shapes.insert(shapes.end(), extras.begin(), extras.end());
+  return shapes;
 }
 
 }  // namespace arete

@@ -50,8 +50,8 @@ struct AmtShape {
   std::uint64_t count = 0;
 };
 
-/// Every chunk but the metadata, in the order in which they are written. Precondition: findAmtProblem() finds
-/// nothing.
-std::vector<AmtShape> amtShapes(const AmtMetadata& metadata);
+/// Every chunk but the metadata and the three of packed files, in the order in which they are written.
+/// Precondition: findAmtProblem() finds nothing.
+std::vector<AmtShape> amtShapes(const AmtMetadata& metadata, bool isPacked = false);
 
 }  // namespace arete

@@ -148,7 +148,12 @@ Status AmtOpener::readMetadata(AmtMetadata& metadata) const {
 }
 
 Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
-  for (const AmtShape& shape : amtShapes(metadata)) {
+  const bool isPacked = find(amt_tag::kPackedDirectory) != nullptr;
+  std::vector<AmtShape> shapes = amtShapes(metadata, isPacked);
+  if (isPacked)
+    for (const AmtTag tag : {amt_tag::kPackedDirectory, amt_tag::kPackedTables, amt_tag::kPackedNodes})
+      shapes.push_back({tag, AmtScalar::u8, 1, find(tag) == nullptr ? 0 : find(tag)->bytes});
+  for (const AmtShape& shape : shapes) {
     const AmtChunk* const chunk = find(shape.tag);
     if (chunk == nullptr)
       return corrupt(fmt::format("has no chunk {}", std::string_view(shape.tag.data(), shape.tag.size())));
@@ -164,6 +169,17 @@ Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
   file_.model_ = metadata.model;
   MtArrays a;
   a.rootVertices = static_cast<std::uint32_t>(metadata.counts.rootVertices);
+  place(amt_tag::kIsolatedSamples, file_.isolatedSamples_);
+  place(amt_tag::kIsolatedHeights, file_.isolatedHeights_);
+  place(amt_tag::kFixedVertices, file_.fixedVertices_);
+  if (isPacked) {
+    place(amt_tag::kPackedDirectory, file_.packedDirectory_);
+    place(amt_tag::kPackedTables, file_.packedTables_);
+    place(amt_tag::kPackedNodes, file_.packedNodes_);
+    file_.metadata_ = std::make_shared<const AmtMetadata>(metadata);
+    file_.model_.mt = MultiTriangulation(a, file_.file_);
+    return {};
+  }
   place(amt_tag::kRootTriangles, a.rootTriangles);
   place(amt_tag::kSlotBegin, a.slotBegin);
   place(amt_tag::kLink, a.link);
@@ -184,9 +200,6 @@ Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
   place(amt_tag::kHeights, a.vertices.rawHeights);
   a.scale = metadata.scale;
   a.metric = metadata.metric;
-  place(amt_tag::kIsolatedSamples, file_.isolatedSamples_);
-  place(amt_tag::kIsolatedHeights, file_.isolatedHeights_);
-  place(amt_tag::kFixedVertices, file_.fixedVertices_);
   file_.model_.mt = MultiTriangulation(a, file_.file_);
   return {};
 }
@@ -208,6 +221,13 @@ Result<AmtFile> AmtOpener::open(const std::string& path, const AmtOpenOptions& o
   return file;
 }
 
+Result<MultiTriangulation> AmtFile::unpack(const UnpackOptions& options, const RunContext& context) const {
+  Result<MultiTriangulation> mt =
+      unpackMt(*metadata_, packedDirectory_, packedTables_, packedNodes_, options, context);
+  if (mt) return mt;
+  return failure(mt.error().code, mt.error().message, path_);
+}
+
 Result<AmtFile> openAmt(const std::string& path, const AmtOpenOptions& options) {
   return AmtOpener::open(path, options);
 }
@@ -222,6 +242,11 @@ Result<TerrainModel> loadAmt(const std::string& path, const AmtLoadOptions& opti
   if (!status) return tl::unexpected(status.error());
 
   TerrainModel model = file->model();
+  if (file->isPacked()) {
+    Result<MultiTriangulation> mt = file->unpack(options.unpack, context);
+    if (!mt) return tl::unexpected(mt.error());
+    model.mt = std::move(*mt);
+  }
   model.options.fixedVertices.assign(file->fixedVertices().begin(), file->fixedVertices().end());
   model.isolated.reserve(file->isolatedSamples().size());
   for (std::size_t i = 0; i < file->isolatedSamples().size(); ++i)

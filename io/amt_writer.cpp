@@ -13,6 +13,7 @@
 #include "io/amt_file.h"
 #include "io/amt_metadata.h"
 #include "io/file_writer.h"
+#include "io/packed_amt.h"
 
 namespace arete {
 namespace {
@@ -68,28 +69,45 @@ Status writeAmt(const std::string& path, const TerrainModel& model, const RunCon
     isolatedSamples.push_back(sample.sample);
     isolatedHeights.push_back(sample.height);
   }
-  const std::vector<Source> sources = {
-      source(amt_tag::kMetadata, json),
-      source(amt_tag::kRootTriangles, a.rootTriangles),
-      source(amt_tag::kSlotBegin, a.slotBegin),
-      source(amt_tag::kLink, a.link),
-      source(amt_tag::kRemover, a.remover),
-      source(amt_tag::kError, a.error),
-      source(amt_tag::kBelow, a.below),
-      source(amt_tag::kAbove, a.above),
-      source(amt_tag::kFloor, a.floor),
-      source(amt_tag::kSaturatedError, a.saturatedError),
-      source(amt_tag::kSphere, a.sphere),
-      source(amt_tag::kCreatorHint, a.creatorHint),
-      model.isRaster ? source(amt_tag::kSamples, a.vertices.samples)
-                     : source(amt_tag::kPlan, a.vertices.plan),
-      source(amt_tag::kHeights, a.vertices.rawHeights),
-      source(amt_tag::kIsolatedSamples, isolatedSamples),
-      source(amt_tag::kIsolatedHeights, isolatedHeights),
-      source(amt_tag::kFixedVertices, model.options.fixedVertices),
-  };
+  std::vector<Source> sources = {source(amt_tag::kMetadata, json)};
   std::vector<AmtShape> shapes = {{amt_tag::kMetadata, AmtScalar::u8, 1, json.size()}};
-  for (const AmtShape& shape : amtShapes(metadata)) shapes.push_back(shape);
+  PackedMt packed;
+  if (options.isPacked) {
+    Result<PackedMt> result = packMt(model, context);
+    if (!result) {
+      if (result.error().code == ErrorCode::interrupted) return interrupted(path);
+      return failure(result.error().code, "the model cannot be packed: " + result.error().message, path);
+    }
+    packed = std::move(*result);
+    for (const Source& part :
+         {source(amt_tag::kPackedDirectory, packed.directory), source(amt_tag::kPackedTables, packed.tables),
+          source(amt_tag::kPackedNodes, packed.nodes)}) {
+      sources.push_back(part);
+      shapes.push_back({part.tag, AmtScalar::u8, 1, part.bytes.size()});
+    }
+  } else {
+    const Source arrays[] = {
+        source(amt_tag::kRootTriangles, a.rootTriangles),
+        source(amt_tag::kSlotBegin, a.slotBegin),
+        source(amt_tag::kLink, a.link),
+        source(amt_tag::kRemover, a.remover),
+        source(amt_tag::kError, a.error),
+        source(amt_tag::kBelow, a.below),
+        source(amt_tag::kAbove, a.above),
+        source(amt_tag::kFloor, a.floor),
+        source(amt_tag::kSaturatedError, a.saturatedError),
+        source(amt_tag::kSphere, a.sphere),
+        source(amt_tag::kCreatorHint, a.creatorHint),
+        model.isRaster ? source(amt_tag::kSamples, a.vertices.samples)
+                       : source(amt_tag::kPlan, a.vertices.plan),
+        source(amt_tag::kHeights, a.vertices.rawHeights),
+    };
+    sources.insert(sources.end(), std::begin(arrays), std::end(arrays));
+  }
+  sources.push_back(source(amt_tag::kIsolatedSamples, isolatedSamples));
+  sources.push_back(source(amt_tag::kIsolatedHeights, isolatedHeights));
+  sources.push_back(source(amt_tag::kFixedVertices, model.options.fixedVertices));
+  for (const AmtShape& shape : amtShapes(metadata, options.isPacked)) shapes.push_back(shape);
 
   AmtHeader header;
   header.chunkCount = static_cast<std::uint32_t>(sources.size());

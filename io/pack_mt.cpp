@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The writer walks as the reader will (packed_node_coder.h) and notes every symbol with its table. When all
+// chunks have been walked it knows how often each table saw each symbol; that makes the tables, and then
+// every chunk is coded. Chunks of one kind are walked in parallel, as they are read.
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <mutex>
+#include <tuple>
+
+#include "engine/with_threads.h"
+#include "io/amt_checksum.h"
+#include "io/pack_plan.h"
+#include "io/packed_amt.h"
+#include "io/packed_node_coder.h"
+
+namespace arete {
+namespace packed {
+namespace {
+
+constexpr std::uint32_t kNone = MultiTriangulation::kNone;
+
+/// What the chunks of a model share while they are walked.
+struct Walk {
+  const TerrainModel& model;
+  const Plan& plan;
+  Arrays& arrays;
+  std::vector<std::uint32_t> oldNode;      ///< per new node
+  std::vector<std::uint32_t> newNode;      ///< per node of the model
+  std::vector<std::uint32_t> oldTriangle;  ///< per new slot
+  std::vector<std::uint32_t> newSlot;      ///< per slot of the model
+  std::vector<std::uint8_t> ownParentsLeft;
+};
+
+class WriterIo {
+ public:
+  WriterIo(Walk& walk, std::uint32_t chunk)
+      : w_(walk), mt_(walk.model.mt), a_(mt_.arrays()), roots_(mt_.rootTriangleCount()), chunk_(chunk) {
+    for (const std::uint32_t n : w_.plan.listed[chunk]) listed_[bandOf(n)].push_back(n);
+  }
+
+  std::array<std::vector<RansSymbol>, kStreams> symbols;
+  BitWriter rawBits;
+
+  template <class Actual>
+  unsigned code(Stream stream, unsigned table, const Actual& actual) {
+    const unsigned symbol = actual();
+    symbols[stream].push_back({static_cast<std::uint16_t>(table), static_cast<std::uint8_t>(symbol)});
+    return symbol;
+  }
+  std::uint64_t raw(int bits, std::uint64_t actual) {
+    rawBits.write(actual, bits);
+    return actual;
+  }
+
+  bool listed(const Run& run, std::vector<Handle>& seeds) {
+    struct Entry {
+      std::uint32_t from, node, slot;
+      Handle seed;
+    };
+    std::vector<Entry> entries;
+    for (const std::uint32_t n : listed_[run.band])
+      entries.push_back(entryOf<Entry>(mt_.floor(NodeId(n))[0]));
+    std::sort(entries.begin(), entries.end(), [](const Entry& x, const Entry& y) {
+      return std::tie(x.from, x.node, x.slot) < std::tie(y.from, y.node, y.slot);
+    });
+    seeds.clear();
+    std::uint32_t from = 0, node = 0;
+    for (const Entry& e : entries) {
+      codeNumber(*this, kFloorStream, kListChunkTable, [&] { return e.from - from; });
+      if (e.from != from) node = 0;
+      codeNumber(*this, kFloorStream, kListNodeTable, [&] { return e.node - node; });
+      codeNumber(*this, kFloorStream, kListSlotTable, [&] { return e.slot; });
+      from = e.from;
+      node = e.node;
+      seeds.push_back(e.seed);
+    }
+    return seeds.size() == run.listed;
+  }
+
+  /// The node that removes the seed gets the number.
+  void begin(Handle seed, std::uint32_t number) {
+    number_ = number;
+    old_ = a_.remover[oldIdOf(seed)];
+    w_.oldNode[number] = old_;
+    w_.newNode[old_] = number;
+    const auto floor = mt_.floor(NodeId(old_));
+    floorSize_ = static_cast<int>(floor.size());
+    for (int i = 0; i < floorSize_; ++i) {
+      const std::uint32_t t = floor[static_cast<std::size_t>(i)];
+      const auto corners =
+          mt_.corners(TriangleId(t), NodeId(t < roots_ ? kNone : w_.plan.creator[t - roots_]));
+      for (std::size_t c = 0; c < 3; ++c) corners_[i][c] = newVertex(corners[c]);
+      isFound_[i] = t == oldIdOf(seed);
+    }
+  }
+
+  unsigned innerEdges(const Floor& floor, int firstEdge, int count) {
+    const auto& corners = floor.triangles[floor.size - 1].corners;
+    unsigned symbol = 0;
+    for (int i = 0; i < count; ++i) {
+      const int edge = (firstEdge + i) % 3;
+      const std::uint32_t from = corners[(edge + 1) % 3], to = corners[edge];
+      for (int j = 0; j < floorSize_; ++j)
+        for (int e = 0; e < 3 && !isFound_[j]; ++e)
+          if (corners_[j][e] == from && corners_[j][(e + 1) % 3] == to) {
+            isFound_[j] = true;
+            symbol |= 1u << i;
+          }
+    }
+    return symbol;
+  }
+
+  unsigned openEdge(const Floor& floor, std::span<const int> borders) const {
+    if (!mt_.isOpen(NodeId(old_))) return 0;
+    const auto link = mt_.link(NodeId(old_));
+    const std::uint32_t from = newVertex(link.back()), to = newVertex(link.front());
+    for (unsigned i = 0; i < borders.size(); ++i)
+      if (floor.link[borders[i]] == from && floor.link[(borders[i] + 1) % floor.corners] == to) return i + 1;
+    return 0;
+  }
+
+  /// The star's slots, wherever the model's link begins. False when the walk did not find the floor or its
+  /// rim.
+  bool star(const Floor& floor, std::uint32_t slot) {
+    if (floor.size != floorSize_ || floor.isOpen != mt_.isOpen(NodeId(old_))) return false;
+    for (int i = 0; i < floor.size; ++i)
+      if (a_.remover[oldIdOf(floor.triangles[i].handle)] != old_) return false;
+    const auto link = mt_.link(NodeId(old_));
+    const std::uint32_t size = static_cast<std::uint32_t>(link.size());
+    std::uint32_t turn = 0;
+    while (turn < size && newVertex(link[turn]) != floor.link[0]) ++turn;
+    if (turn == size || (floor.isOpen && turn != 0) || size != static_cast<std::uint32_t>(floor.corners))
+      return false;
+    for (std::uint32_t i = 0; i < size; ++i) {
+      const std::uint32_t j = (i + turn) % size;
+      if (newVertex(link[j]) != floor.link[i]) return false;
+      w_.oldTriangle[slot + i] = roots_ + a_.slotBegin[old_] + j;
+      w_.newSlot[a_.slotBegin[old_] + j] = slot + i;
+    }
+    for (int i = 0; i < floor.size; ++i) floorIds_[i] = oldIdOf(floor.triangles[i].handle);
+    return true;
+  }
+
+  Arrays::Place actualPlace() const {
+    const Vec2 p = a_.vertices.planPosition(mt_.apex(NodeId(old_)));
+    return {p.x, p.y};
+  }
+  std::int64_t actualHeightResidual(double predicted) const {
+    const HeightEncoding::Type type = a_.vertices.encoding.type;
+    return heightResidual(
+        type, rawHeight(type, a_.vertices.rawHeights.data(), mt_.apex(NodeId(old_)).index()), predicted);
+  }
+
+  std::uint16_t actualError(int i) const { return a_.error[floorIds_[i]]; }
+  std::optional<std::uint64_t> wholeError(double doubledArea, std::uint16_t code) const {
+    if (code == 0) return 0;
+    const double largest =
+        static_cast<double>(a_.scale.decode(code)) * doubledArea / std::fabs(w_.arrays.encoding.scale);
+    if (!(largest < 1 << 24)) return std::nullopt;
+    // Codes are rounded upwards by up to one part in 2048, so more than one whole number may be meant: the
+    // least one that has the code.
+    const auto most = static_cast<std::uint64_t>(largest + 1e-6);
+    for (std::uint64_t whole = most - std::min<std::uint64_t>(most, most / 2048 + 1); whole <= most; ++whole)
+      if (NodeCoder<WriterIo>::wholeErrorCode(w_.arrays, whole, doubledArea) == code) return whole;
+    return std::nullopt;
+  }
+  BoundSteps actualBounds(int i) const {
+    return roundedBounds(boundStep(a_.below[floorIds_[i]]), boundStep(a_.above[floorIds_[i]]));
+  }
+
+  /// 0, or 1 + how many bands lie between the node that has its seed here and this one.
+  unsigned seedSymbol(std::uint32_t slot, std::uint32_t band) {
+    const std::uint32_t remover = a_.remover[w_.oldTriangle[slot]];
+    if (remover == kNone || w_.plan.chunkOf[remover] != chunk_ || --w_.ownParentsLeft[remover] != 0) return 0;
+    return 1 + band - bandOf(remover);
+  }
+
+ private:
+  std::uint32_t bandOf(std::uint32_t oldNode) const {
+    return MultiTriangulation::bandOf(w_.plan.saturatedError[oldNode]);
+  }
+  std::uint32_t newVertex(std::uint32_t old) const {
+    return old < a_.rootVertices ? old : a_.rootVertices + w_.newNode[old - a_.rootVertices];
+  }
+  std::uint32_t oldIdOf(Handle h) const { return h.isRoot() ? h.slot : w_.oldTriangle[h.slot]; }
+
+  /// Where a triangle of another chunk is found: its chunk + 1 and its node's place among those of the chunk.
+  template <class Entry>
+  Entry entryOf(std::uint32_t triangle) const {
+    if (triangle < roots_) return {0, triangle, 0, {kNone, triangle}};
+    const std::uint32_t creator = w_.plan.creator[triangle - roots_], node = w_.newNode[creator];
+    const std::uint32_t c = w_.plan.chunkOf[creator], slot = w_.newSlot[triangle - roots_];
+    std::uint32_t before = 0;
+    for (const Run& run : w_.plan.directory.chunks[c].runs) {
+      if (node >= run.firstNode && node - run.firstNode < run.nodes)
+        return {c + 1, before + node - run.firstNode, slot - w_.arrays.slotBegin[node], {node, slot}};
+      before += run.nodes;
+    }
+    return {};
+  }
+
+  Walk& w_;
+  const MultiTriangulation& mt_;
+  const MtArrays& a_;
+  std::uint32_t roots_, chunk_;
+  std::array<std::vector<std::uint32_t>, MultiTriangulation::kBands> listed_;
+
+  // Of the node being told.
+  std::uint32_t number_ = 0, old_ = 0;
+  int floorSize_ = 0;
+  std::array<std::array<std::uint32_t, 3>, kMaxFloor> corners_;
+  std::array<bool, kMaxFloor> isFound_;
+  std::array<std::uint32_t, kMaxFloor> floorIds_;
+};
+
+struct Streams {
+  std::array<std::vector<RansSymbol>, kStreams> symbols;
+  std::vector<std::byte> rawBits;
+};
+
+class Packer {
+ public:
+  Packer(const TerrainModel& model, const RunContext& context)
+      : context_(context), plan_(planChunks(model)), walk_{model, plan_, arrays_, {}, {}, {}, {}, {}} {}
+
+  Result<PackedMt> run() {
+    if (!prepare()) return failure(ErrorCode::unreadable, "needs more memory than there is to be packed");
+    const auto& chunks = plan_.directory.chunks;
+    std::vector<Streams> streams(chunks.size());
+    for (std::size_t begin = 0; begin < chunks.size();) {
+      std::size_t end = begin;
+      while (end < chunks.size() && chunks[end].rank() == chunks[begin].rank()) ++end;
+      tbb::parallel_for(begin, end, [&](std::size_t i) { walkChunk(i, streams[i]); });
+      begin = end;
+      if (problem_) return failure(ErrorCode::invalidData, *problem_);
+      if (context_.cancelled()) return failure(ErrorCode::interrupted, "packing was interrupted");
+      context_.report("pack", 0.7 * static_cast<double>(end) / static_cast<double>(chunks.size()));
+    }
+    const std::vector<RansTable> tables = tablesFor(streams);
+    std::vector<std::vector<std::byte>> bytes(chunks.size());
+    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t i) {
+      if (!context_.cancelled()) bytes[i] = encode(plan_.directory.chunks[i], streams[i], tables, i == 0);
+    });
+    if (context_.cancelled()) return failure(ErrorCode::interrupted, "packing was interrupted");
+    PackedMt packed;
+    packed.directory = toBytes(plan_.directory);
+    packed.tables = toBytes(tables);
+    for (const auto& b : bytes) packed.nodes.insert(packed.nodes.end(), b.begin(), b.end());
+    context_.report("pack", 1);
+    return packed;
+  }
+
+ private:
+  bool prepare() {
+    const TerrainModel& model = walk_.model;
+    const MtArrays& from = model.mt.arrays();
+    arrays_.isLattice = model.isRaster;
+    arrays_.hasFills = model.options.rimTolerance > 0;
+    arrays_.columns = model.columns;
+    arrays_.rows = model.rows;
+    arrays_.encoding = from.vertices.encoding;
+    arrays_.scale = from.scale;
+    arrays_.metric = from.metric;
+    if (!arrays_.allocate(
+            {from.rootVertices, from.rootTriangles.size(), model.mt.nodeCount(), from.link.size(), 0, 0}))
+      return false;
+    std::fill_n(arrays_.remover.get(), arrays_.remover.size(), kNone);
+    std::copy(from.rootTriangles.begin(), from.rootTriangles.end(), arrays_.rootTriangles.get());
+    if (model.isRaster)
+      std::copy_n(from.vertices.samples.begin(), from.rootVertices, arrays_.samples.get());
+    else
+      std::copy_n(from.vertices.plan.begin(), from.rootVertices, arrays_.plan.get());
+    std::copy_n(from.vertices.rawHeights.begin(), from.rootVertices * from.vertices.encoding.bytesPerHeight(),
+                arrays_.rawHeights.get());
+    walk_.oldNode.resize(model.mt.nodeCount());
+    walk_.newNode.assign(model.mt.nodeCount(), kNone);
+    walk_.oldTriangle.resize(from.link.size());
+    walk_.newSlot.resize(from.link.size());
+    walk_.ownParentsLeft = plan_.ownParents;
+    return true;
+  }
+
+  void walkChunk(std::size_t i, Streams& streams) {
+    if (context_.cancelled()) return;
+    WriterIo io(walk_, static_cast<std::uint32_t>(i));
+    NodeCoder coder(arrays_, plan_.directory, plan_.directory.chunks[i], io);
+    std::optional<std::string> bad;
+    if (i == 0 && !codeRoot(arrays_, io))
+      bad = "the root makes no sense";
+    else if (!coder.run())
+      bad = fmt::format("chunk {} of its nodes {}", i, coder.problem());
+    streams.symbols = std::move(io.symbols);
+    streams.rawBits = io.rawBits.take();
+    if (!bad) return;
+    const std::lock_guard lock(mutex_);
+    problem_ = bad;
+  }
+
+  static std::vector<RansTable> tablesFor(const std::vector<Streams>& streams) {
+    std::vector<std::array<std::uint64_t, RansTable::kAlphabet>> counts(kTables);
+    for (const Streams& s : streams)
+      for (const auto& symbols : s.symbols)
+        for (const RansSymbol symbol : symbols) ++counts[symbol.table][symbol.symbol];
+    std::vector<RansTable> tables;
+    for (const auto& c : counts) tables.push_back(RansTable::ofCounts(c));
+    return tables;
+  }
+
+  std::vector<std::byte> encode(Chunk& chunk, Streams& streams, std::span<const RansTable> tables,
+                                bool isFirst) const {
+    std::vector<std::byte> bytes;
+    for (unsigned s = 0; s < kStreams; ++s) {
+      const auto coded = ransEncode(streams.symbols[s], tables);
+      chunk.streamBytes[s] = static_cast<std::uint32_t>(coded.size());
+      bytes.insert(bytes.end(), coded.begin(), coded.end());
+      streams.symbols[s] = {};
+    }
+    const std::uint64_t things =
+        chunk.nodes + (isFirst ? std::uint64_t{arrays_.rootVertices} + arrays_.roots : 0);
+    const std::uint64_t least = leastBytes(things);
+    if (bytes.size() + streams.rawBits.size() < least) streams.rawBits.resize(least - bytes.size());
+    chunk.streamBytes[kStreams] = static_cast<std::uint32_t>(streams.rawBits.size());
+    bytes.insert(bytes.end(), streams.rawBits.begin(), streams.rawBits.end());
+    chunk.checksum = amtChecksum(bytes);
+    return bytes;
+  }
+
+  const RunContext& context_;
+  Plan plan_;
+  Arrays arrays_;
+  Walk walk_;
+  std::mutex mutex_;
+  std::optional<std::string> problem_;
+};
+
+}  // namespace
+}  // namespace packed
+
+Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context) {
+  return withThreads(context, [&] { return packed::Packer(model, context).run(); });
+}
+
+}  // namespace arete

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/result.h"
+#include "engine/run_context.h"
+#include "engine/vec.h"
+#include "terrain/terrain_model.h"
+
+namespace arete {
+
+struct AmtMetadata;
+
+/// The packed form of a multitriangulation (docs/topics/amt-format.md, "Packed"): about a fifteenth of its
+/// arrays.
+struct PackedMt {
+  std::vector<std::byte> directory, tables, nodes;
+};
+
+/// Packs the MT of a model. What unpackMt() gives back has the same nodes, that is the same modifications:
+/// the same triangles with the same errors, numbered anew within each band. Bounds are rounded outwards to
+/// quarters of an octave (the lesser of the two to more where it is far below the greater one). Saturated
+/// errors are the least ones, which are those of a build; spheres are computed anew. Packing what was
+/// unpacked gives the same bytes, whatever the number of threads. Errors: invalidData (an MT that breaks the
+/// laws 1 to 4, or holds an error beyond its scale), interrupted. O(triangles) time, and about 350 bytes per
+/// node beside the model.
+Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context = {});
+
+struct UnpackOptions {
+  /// Read only what is needed inside of this box of plan coordinates: the nodes whose floors or stars may
+  /// reach into it, and their ancestors. The rest of the terrain is as coarse as these leave it.
+  std::optional<Box2> box;
+};
+
+/// Unpacks. `counts`, `model` and the rest of the metadata are believed only where the bytes bear them out:
+/// whatever the bytes are, the MT that comes back has its indices in range and its floors, removers, links
+/// and spheres in the relations that MtArrays states, or there is an error. Chunks are decoded in parallel;
+/// the result does not depend on it. Errors: corrupt (a checksum, or what makes no sense, named), unreadable
+/// (more than memory holds), interrupted; without a culprit. O(triangles), 65 bytes per node beside the MT.
+Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directory,
+                                    std::span<const std::byte> tables, std::span<const std::byte> nodes,
+                                    const UnpackOptions& options = {}, const RunContext& context = {});
+
+}  // namespace arete

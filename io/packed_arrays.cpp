@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The root's triangles are joined by sorting their edges. Saturation goes from the last node of a chunk to
+// the first, so children come before parents; chunks are taken in the reverse order of their kinds.
+#include "io/packed_arrays.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/enclosing_ball.h"
+
+namespace arete::packed {
+
+constexpr std::uint32_t kNone = MultiTriangulation::kNone;
+
+bool Arrays::allocate(const AmtCounts& counts) {
+  rootVertices = static_cast<std::uint32_t>(counts.rootVertices);
+  roots = static_cast<std::uint32_t>(counts.rootTriangles);
+  nodes = static_cast<std::uint32_t>(counts.nodes);
+  slots = static_cast<std::uint32_t>(counts.slots);
+  const std::size_t n = nodes, s = slots, ids = std::size_t{roots} + s, v = std::size_t{rootVertices} + n;
+  rootTriangles = ZeroArray<std::array<std::uint32_t, 3>>(roots);
+  slotBegin = ZeroArray<std::uint32_t>(n + 1);
+  link = ZeroArray<std::uint32_t>(s);
+  remover = ZeroArray<std::uint32_t>(ids);
+  floor = ZeroArray<std::uint32_t>(s - 2 * n);
+  constexpr std::size_t k = MultiTriangulation::kSlotsPerHint;
+  creatorHint = ZeroArray<std::uint32_t>((s + k - 1) / k);
+  error = ZeroArray<std::uint16_t>(ids);
+  below = ZeroArray<std::uint16_t>(ids);
+  above = ZeroArray<std::uint16_t>(ids);
+  saturatedError = ZeroArray<std::uint16_t>(n);
+  sphere = ZeroArray<Sphere>(n);
+  samples = ZeroArray<std::uint32_t>(isLattice ? v : 0);
+  plan = ZeroArray<Vec2>(isLattice ? 0 : v);
+  rawHeights = ZeroArray<std::byte>(v * encoding.bytesPerHeight());
+  place = ZeroArray<Place>(v);
+  star = ZeroArray<std::uint8_t>(n);
+  outer = ZeroArray<Handle>(s);
+  return rootTriangles.isThere() && slotBegin.isThere() && link.isThere() && remover.isThere() &&
+         floor.isThere() && creatorHint.isThere() && error.isThere() && below.isThere() && above.isThere() &&
+         saturatedError.isThere() && sphere.isThere() && samples.isThere() && plan.isThere() &&
+         rawHeights.isThere() && place.isThere() && star.isThere() && outer.isThere();
+}
+
+void Arrays::joinRoot() {
+  struct Side {
+    std::uint64_t edge;
+    std::uint32_t at;
+  };
+  std::vector<Side> sides;
+  sides.reserve(3 * std::size_t{roots});
+  for (std::uint32_t t = 0; t < roots; ++t)
+    for (std::uint32_t e = 0; e < 3; ++e) {
+      const std::uint64_t p = rootTriangles[t][e], q = rootTriangles[t][(e + 1) % 3];
+      sides.push_back({std::min(p, q) << 32 | std::max(p, q), 3 * t + e});
+    }
+  std::ranges::sort(
+      sides, [](const Side& a, const Side& b) { return a.edge != b.edge ? a.edge < b.edge : a.at < b.at; });
+  rootOuter.assign(sides.size(), Handle{});
+  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+    if (sides[i].edge != sides[i + 1].edge) continue;
+    rootOuter[sides[i].at] = {kNone, sides[i + 1].at / 3};
+    rootOuter[sides[i + 1].at] = {kNone, sides[i].at / 3};
+  }
+}
+
+void Arrays::finishHints() {
+  slotBegin[nodes] = slots;
+  constexpr std::uint32_t k = MultiTriangulation::kSlotsPerHint;
+  for (std::uint32_t n = 0; n < nodes; ++n)
+    for (std::uint32_t h = (slotBegin[n] + k - 1) / k; h * k < slotBegin[n + 1]; ++h) creatorHint[h] = n;
+}
+
+MultiTriangulation Arrays::model(std::shared_ptr<Arrays> arrays) {
+  Arrays& from = *arrays;
+  from.place = {};
+  from.star = {};
+  from.outer = {};
+  from.rootOuter = {};
+  MtArrays a;
+  a.rootVertices = from.rootVertices;
+  a.rootTriangles = from.rootTriangles.view();
+  a.slotBegin = from.slotBegin.view();
+  a.link = from.link.view();
+  a.remover = from.remover.view();
+  a.error = from.error.view();
+  a.below = from.below.view();
+  a.above = from.above.view();
+  a.floor = from.floor.view();
+  a.saturatedError = from.saturatedError.view();
+  a.sphere = from.sphere.view();
+  a.creatorHint = from.creatorHint.view();
+  a.scale = from.scale;
+  a.metric = from.metric;
+  a.vertices.samples = from.samples.view();
+  a.vertices.columns = from.isLattice ? from.columns : 0;
+  a.vertices.plan = from.plan.view();
+  a.vertices.encoding = from.encoding;
+  a.vertices.rawHeights = from.rawHeights.view();
+  return MultiTriangulation(a, std::move(arrays));
+}
+
+std::optional<std::string> saturate(Arrays& a, const Chunk& chunk, bool isPart) {
+  std::array<Vec3, 40> positions;
+  for (auto run = chunk.runs.rbegin(); run != chunk.runs.rend(); ++run) {
+    for (std::uint32_t n = run->firstNode + run->nodes; n-- > run->firstNode;) {
+      const std::uint32_t begin = a.slotBegin[n], size = a.starSize(n);
+      std::uint16_t saturated =
+          isPart ? static_cast<std::uint16_t>(run->band << MultiTriangulation::kBandShift) : std::uint16_t{0};
+      for (std::uint32_t i = begin - 2 * n; i < begin - 2 * n + size - 2; ++i) {
+        const std::uint32_t t = a.floor[i];
+        if (a.remover[t] != n)
+          return fmt::format("nodes {} and {} both remove triangle {}", a.remover[t], n, t);
+        saturated = std::max(saturated, a.error[t]);
+      }
+      const auto metricPosition = [&](std::uint32_t v) {
+        const double z = a.height(v) * a.encoding.scale + a.encoding.offset;
+        return a.metric.toMetric({a.place[v].x, a.place[v].y, z});
+      };
+      for (std::uint32_t i = 0; i < size; ++i) positions[i] = metricPosition(a.link[begin + i]);
+      positions[size] = metricPosition(a.rootVertices + n);
+      EnclosingBall ball = EnclosingBall::around({positions.data(), size + 1});
+      std::uint32_t previous = n;
+      for (std::uint32_t i = 0; i < size; ++i) {
+        const std::uint32_t child = a.remover[a.roots + begin + i];
+        if (child == kNone || child == previous || child == n) continue;
+        previous = child;
+        saturated = std::max(saturated, a.saturatedError[child]);
+        ball.encloseChild(a.sphere[child]);
+      }
+      a.saturatedError[n] = saturated;
+      a.sphere[n] = ball.rounded();
+      if (!std::isfinite(a.sphere[n].x + a.sphere[n].y + a.sphere[n].z + a.sphere[n].radius))
+        return fmt::format("node {} has a sphere that is none", n);
+      if (MultiTriangulation::bandOf(saturated) != run->band)
+        return fmt::format("node {} has a saturated error outside of its band", n);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace arete::packed

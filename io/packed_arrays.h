@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/multitriangulation.h"
+#include "io/amt_metadata.h"
+#include "io/packed_layout.h"
+#include "io/packed_symbols.h"
+
+namespace arete::packed {
+
+/// An array of zeros that the system hands out page by page as they are touched.
+template <class T>
+class ZeroArray {
+ public:
+  ZeroArray() = default;
+  /// Empty when there is not enough memory.
+  explicit ZeroArray(std::size_t size) : data_(static_cast<T*>(std::calloc(size + 1, sizeof(T)))) {
+    size_ = data_ == nullptr ? 0 : size;
+  }
+  T* get() const { return data_.get(); }
+  T& operator[](std::size_t i) const { return data_.get()[i]; }
+  std::size_t size() const { return size_; }
+  std::span<const T> view() const { return {data_.get(), size_}; }
+  bool isThere() const { return data_ != nullptr; }
+
+ private:
+  struct Free {
+    void operator()(T* p) const { std::free(p); }
+  };
+  std::unique_ptr<T, Free> data_;
+  std::size_t size_ = 0;
+};
+
+/// A triangle: the node that created it and its slot, or kNone and a triangle of the root. All ones: there is
+/// no triangle.
+struct Handle {
+  std::uint32_t node = MultiTriangulation::kNone;
+  std::uint32_t slot = MultiTriangulation::kNone;
+  bool isNothing() const { return slot == MultiTriangulation::kNone; }
+  bool isRoot() const { return node == MultiTriangulation::kNone; }
+};
+
+/// The MT that grows while a packed file is read, or while one is written: the arrays of MtArrays, and what
+/// is needed only on the way.
+struct Arrays {
+  std::uint32_t rootVertices = 0, roots = 0, nodes = 0, slots = 0;
+  bool isLattice = true;
+  bool hasFills = false;  ///< rims may reach over NODATA
+  std::uint32_t columns = 0, rows = 0;
+  HeightEncoding encoding;
+  OutwardScale scale;
+  MetricFrame metric;
+
+  ZeroArray<std::array<std::uint32_t, 3>> rootTriangles;
+  ZeroArray<std::uint32_t> slotBegin, link, remover, floor, creatorHint;
+  ZeroArray<std::uint16_t> error, below, above, saturatedError;
+  ZeroArray<Sphere> sphere;
+  ZeroArray<std::uint32_t> samples;
+  ZeroArray<Vec2> plan;
+  ZeroArray<std::byte> rawHeights;
+
+  struct Place {
+    double x, y;
+  };
+  ZeroArray<Place> place;         ///< plan coordinates of the vertices
+  ZeroArray<std::uint8_t> star;   ///< slots of a node, + kOpen; 0 = not there yet
+  ZeroArray<Handle> outer;        ///< per slot: what was across the link's edge when the star was made
+  std::vector<Handle> rootOuter;  ///< 3 per root triangle: across each edge
+  static constexpr std::uint8_t kOpen = 128;
+
+  /// All arrays, of the sizes stated in MtArrays. False when there is not enough memory.
+  bool allocate(const AmtCounts& counts);
+  /// Fills rootOuter from rootTriangles.
+  void joinRoot();
+  /// creatorHint and the end of slotBegin. Precondition: slotBegin is complete.
+  void finishHints();
+  /// What stays of them.
+  static MultiTriangulation model(std::shared_ptr<Arrays> arrays);
+
+  double height(std::uint32_t vertex) const { return rawHeight(encoding.type, rawHeights.get(), vertex); }
+  std::uint32_t idOf(Handle h) const { return h.isRoot() ? h.slot : roots + h.slot; }
+  std::uint32_t starSize(std::uint32_t node) const { return star[node] & (kOpen - 1u); }
+  bool isOpen(std::uint32_t node) const { return (star[node] & kOpen) != 0; }
+};
+
+/// Saturated errors and spheres of the nodes of a chunk, from those of their children, which are complete:
+/// see engine/mt_recorder.h. Nothing, or what is wrong: a saturated error outside of its band, or a triangle
+/// that two nodes remove. Of a part of an MT (`isPart`) some children are missing; its saturated errors are
+/// at least the lowest of their band.
+std::optional<std::string> saturate(Arrays& arrays, const Chunk& chunk, bool isPart);
+
+}  // namespace arete::packed

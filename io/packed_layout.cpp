@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Small numbers are written as in LEB128: seven bits a byte, the lowest first, the eighth says that more
+// follow.
+#include "io/packed_layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace arete::packed {
+namespace {
+
+class ByteSink {
+ public:
+  void number(std::uint64_t value) {
+    for (; value >= 128; value >>= 7) bytes_.push_back(static_cast<std::byte>(value | 128));
+    bytes_.push_back(static_cast<std::byte>(value));
+  }
+  template <class T>
+  void plain(const T& value) {
+    const std::size_t at = bytes_.size();
+    bytes_.resize(at + sizeof value);
+    std::memcpy(bytes_.data() + at, &value, sizeof value);
+  }
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+/// Beyond the end there are zeros, and isDone() is false.
+class ByteSource {
+ public:
+  explicit ByteSource(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+  std::uint64_t number() {
+    std::uint64_t value = 0;
+    for (int shift = 0; shift < 64; shift += 7) {
+      const auto byte = plain<std::uint8_t>();
+      value |= std::uint64_t{byte & 127u} << shift;
+      if (byte < 128) return value;
+    }
+    isBad_ = true;
+    return 0;
+  }
+  /// At most `limit`, or the source is bad.
+  std::uint32_t number(std::uint64_t limit) {
+    const std::uint64_t value = number();
+    if (value <= limit) return static_cast<std::uint32_t>(value);
+    isBad_ = true;
+    return 0;
+  }
+  template <class T>
+  T plain() {
+    T value{};
+    if (bytes_.size() - at_ < sizeof value) {
+      isBad_ = true;
+      at_ = bytes_.size();
+      return value;
+    }
+    std::memcpy(&value, bytes_.data() + at_, sizeof value);
+    at_ += sizeof value;
+    return value;
+  }
+  bool isBad() const { return isBad_; }
+  bool isDone() const { return !isBad_ && at_ == bytes_.size(); }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::size_t at_ = 0;
+  bool isBad_ = false;
+};
+
+constexpr std::uint32_t kMaxIds = MultiTriangulation::kNone - 1;
+constexpr std::uint32_t kMaxTiles = 1u << 26, kMaxLevel = 26;
+
+bool isRectangle(const Chunk& c) {
+  const std::uint32_t unit = 1u << c.level;
+  for (const std::uint32_t n : {c.row, c.column, c.rowEnd, c.columnEnd})
+    if (n % unit != 0) return false;
+  const std::uint32_t rows = (c.rowEnd - c.row) / unit, columns = (c.columnEnd - c.column) / unit;
+  switch (c.kind) {
+    case Chunk::Kind::one:
+      return rows == 1 && columns == 1;
+    case Chunk::Kind::two:
+      return (rows == 1 && columns == 2) || (rows == 2 && columns == 1);
+    case Chunk::Kind::four:
+      return rows == 2 && columns == 2;
+    default:
+      return rows == 0 && columns == 0 && c.row == 0 && c.column == 0 && c.level == 0;
+  }
+}
+
+}  // namespace
+
+bool Chunk::mayLeanOn(const Chunk& other) const {
+  if (kind == Kind::coarse) return false;
+  if (other.kind == Kind::coarse) return true;
+  return other.rank() < rank() && other.row >= row && other.column >= column && other.rowEnd <= rowEnd &&
+         other.columnEnd <= columnEnd;
+}
+
+void Directory::number() {
+  std::uint64_t offset = 0;
+  std::vector<Run*> runs;
+  for (Chunk& chunk : chunks) {
+    chunk.offset = offset;
+    offset += chunk.bytes();
+    chunk.nodes = 0;
+    for (Run& run : chunk.runs) {
+      chunk.nodes += run.nodes;
+      runs.push_back(&run);
+    }
+  }
+  std::ranges::stable_sort(runs, [](const Run* a, const Run* b) { return a->band > b->band; });
+  std::uint32_t node = 0, slot = 0;
+  for (Run* run : runs) {
+    run->firstNode = node;
+    run->firstSlot = slot;
+    node += run->nodes;
+    slot += run->slots;
+  }
+}
+
+std::uint64_t Directory::nodes() const {
+  std::uint64_t sum = 0;
+  for (const Chunk& chunk : chunks)
+    for (const Run& run : chunk.runs) sum += run.nodes;
+  return sum;
+}
+
+std::uint64_t Directory::slots() const {
+  std::uint64_t sum = 0;
+  for (const Chunk& chunk : chunks)
+    for (const Run& run : chunk.runs) sum += run.slots;
+  return sum;
+}
+
+std::vector<std::byte> toBytes(const Directory& directory) {
+  ByteSink out;
+  for (const std::uint8_t c : directory.bandClass) out.plain(c);
+  out.plain(directory.tileX);
+  out.plain(directory.tileY);
+  out.plain(directory.tileSize);
+  out.number(directory.chunks.size());
+  for (const Chunk& chunk : directory.chunks) {
+    out.number(static_cast<std::uint8_t>(chunk.kind));
+    out.number(chunk.level);
+    for (const std::uint32_t n :
+         {chunk.row, chunk.column, chunk.rowEnd - chunk.row, chunk.columnEnd - chunk.column})
+      out.number(n);
+    for (const double d : {chunk.xMin, chunk.yMin, chunk.xMax, chunk.yMax}) out.plain(d);
+    for (const std::uint32_t n : chunk.streamBytes) out.number(n);
+    out.plain(chunk.checksum);
+    out.number(chunk.runs.size());
+    for (const Run& run : chunk.runs) {
+      out.number(run.band);
+      out.number(run.nodes);
+      out.number(run.slots - 3 * run.nodes);
+      out.number(run.listed);
+    }
+  }
+  return out.take();
+}
+
+std::optional<Directory> directoryOf(std::span<const std::byte> bytes, std::string& problem) {
+  problem = "is cut short or damaged";
+  ByteSource in(bytes);
+  Directory directory;
+  for (std::uint8_t& c : directory.bandClass) {
+    c = in.plain<std::uint8_t>();
+    if (c >= kClasses) return std::nullopt;
+  }
+  directory.tileX = in.plain<double>();
+  directory.tileY = in.plain<double>();
+  directory.tileSize = in.plain<double>();
+  const std::uint64_t count = in.number();
+  // A chunk takes more than 50 bytes, so no count that the bytes cannot hold is believed.
+  if (in.isBad() || count == 0 || count > bytes.size() / 50) return std::nullopt;
+  std::uint64_t nodes = 0, slots = 0;
+  directory.chunks.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    Chunk& chunk = directory.chunks[i];
+    chunk.kind = static_cast<Chunk::Kind>(in.number(3));
+    chunk.level = static_cast<std::uint8_t>(in.number(kMaxLevel));
+    chunk.row = in.number(kMaxTiles);
+    chunk.column = in.number(kMaxTiles);
+    chunk.rowEnd = chunk.row + in.number(kMaxTiles);
+    chunk.columnEnd = chunk.column + in.number(kMaxTiles);
+    for (double* d : {&chunk.xMin, &chunk.yMin, &chunk.xMax, &chunk.yMax}) *d = in.plain<double>();
+    for (std::uint32_t& n : chunk.streamBytes) n = in.number(kMaxIds);
+    chunk.checksum = in.plain<std::uint64_t>();
+    const std::uint32_t runs = in.number(MultiTriangulation::kBands);
+    if (in.isBad()) return std::nullopt;
+    const bool isFirst = i == 0;
+    if ((chunk.kind == Chunk::Kind::coarse) != isFirst || !isRectangle(chunk) ||
+        (!isFirst && chunk.rank() < directory.chunks[i - 1].rank())) {
+      problem = fmt::format("chunk {} of the packed nodes has a place it cannot have", i);
+      return std::nullopt;
+    }
+    chunk.runs.resize(runs);
+    for (std::uint32_t r = 0; r < runs; ++r) {
+      Run& run = chunk.runs[r];
+      run.band = in.number(r == 0 ? MultiTriangulation::kBands - 1 : chunk.runs[r - 1].band - 1);
+      run.nodes = in.number(kMaxIds);
+      const std::uint64_t more = in.number();
+      run.listed = in.number(run.nodes);
+      if (in.isBad() || run.nodes == 0 || more > 30 * std::uint64_t{run.nodes} ||
+          (r + 1 < runs && run.band == 0))
+        return std::nullopt;
+      nodes += run.nodes;
+      slots += 3 * std::uint64_t{run.nodes} + more;
+      if (slots > kMaxIds) {
+        problem = "has more nodes than can be numbered";
+        return std::nullopt;
+      }
+      run.slots = static_cast<std::uint32_t>(3 * std::uint64_t{run.nodes} + more);
+    }
+  }
+  if (!in.isDone()) return std::nullopt;
+  (void)nodes;
+  directory.number();
+  return directory;
+}
+
+std::vector<std::byte> toBytes(std::span<const RansTable> tables) {
+  ByteSink out;
+  for (const RansTable& table : tables) {
+    unsigned symbols = 0;
+    for (unsigned s = 0; s < RansTable::kAlphabet; ++s) symbols += table.share(s) > 0 ? 1 : 0;
+    out.number(symbols);
+    if (symbols == 0) continue;
+    out.number(static_cast<std::uint64_t>(table.bits()));
+    unsigned next = 0;
+    for (unsigned s = 0; s < RansTable::kAlphabet; ++s) {
+      if (table.share(s) == 0) continue;
+      out.number(s - next);
+      out.number(table.share(s) - 1);
+      next = s + 1;
+    }
+  }
+  return out.take();
+}
+
+std::optional<std::vector<RansTable>> tablesOf(std::span<const std::byte> bytes) {
+  ByteSource in(bytes);
+  std::vector<RansTable> tables(kTables);
+  for (RansTable& table : tables) {
+    const std::uint32_t symbols = in.number(RansTable::kAlphabet);
+    if (symbols == 0) continue;
+    const int bits = static_cast<int>(in.number(RansTable::kMaxBits));
+    std::array<std::uint16_t, RansTable::kAlphabet> shares{};
+    std::uint32_t next = 0;
+    for (std::uint32_t i = 0; i < symbols; ++i) {
+      const std::uint32_t s = next + in.number(RansTable::kAlphabet);
+      const std::uint32_t share = in.number((1u << RansTable::kMaxBits) - 1) + 1;
+      if (in.isBad() || s >= RansTable::kAlphabet) return std::nullopt;
+      shares[s] = static_cast<std::uint16_t>(share);
+      next = s + 1;
+    }
+    const auto read = RansTable::ofShares(bits, shares);
+    if (!read) return std::nullopt;
+    table = *read;
+  }
+  if (!in.isDone()) return std::nullopt;
+  return tables;
+}
+
+}  // namespace arete::packed

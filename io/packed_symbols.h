@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "engine/multitriangulation.h"
+#include "engine/vertex_arrays.h"
+
+namespace arete::packed {
+
+/// How the numbers of a packed .amt become symbols of at most 256 kinds and raw bits, and which table each
+/// symbol is coded with (docs/topics/amt-format.md, "Packed").
+
+// Streams of a chunk: symbols of one stream follow each other, those of different streams are independent, so
+// that a processor works on several at once.
+enum Stream : unsigned { kSlotStream, kFloorStream, kPlaceStream, kHeightStream, kErrorStream, kBoundStream };
+inline constexpr unsigned kStreams = 6;
+
+// Tables, by what a symbol says and what is known when it is read.
+inline constexpr unsigned kClasses = 9;       ///< of bands: see Directory::bandClass
+inline constexpr unsigned kAreaClasses = 14;  ///< see areaClass()
+inline constexpr unsigned kPlaceClasses = 36;
+enum Table : unsigned {
+  kSlotTable = 0,                      // by class
+  kSeedTable = kSlotTable + kClasses,  // by whether the seed is listed
+  kFloodTable = kSeedTable + 2,        // by triangles found (6) and inner edges left (4)
+  kOpenTable = kFloodTable + 24,
+  kPlaceTable = kOpenTable + 1,                         // by place class
+  kPlaceFarTable = kPlaceTable + kPlaceClasses,         // by axis
+  kHeightTable = kPlaceFarTable + 2,                    // by class
+  kErrorTable = kHeightTable + kClasses,                // by area class and class
+  kBoundTable = kErrorTable + kAreaClasses * kClasses,  // by area class and whether the error is 0
+  kListChunkTable = kBoundTable + kAreaClasses * 2,
+  kListNodeTable,
+  kListSlotTable,
+  kRootCornerTable,
+  kRootPlaceTable,
+  kRootHeightTable,
+  kTables
+};
+
+// ---- numbers of any size: 256 kinds and raw bits --------------------------------------------------------
+
+/// Numbers below 16 are their own symbol; others are told by their length and their two bits behind the
+/// first.
+struct Bucket {
+  unsigned symbol;
+  int rawBits;
+};
+inline Bucket bucketOf(std::uint64_t value) {
+  if (value < 16) return {static_cast<unsigned>(value), 0};
+  const int width = std::bit_width(value);
+  return {static_cast<unsigned>(16 + (width - 5) * 4 + static_cast<int>((value >> (width - 3)) & 3)),
+          width - 3};
+}
+/// Bits that follow the symbol.
+inline int rawBitsOf(unsigned symbol) {
+  return symbol < 16 ? 0 : static_cast<int>(symbol - 16) / 4 + 2;
+}
+inline std::uint64_t bucketValue(unsigned symbol, std::uint64_t raw) {
+  if (symbol < 16) return symbol;
+  return (std::uint64_t{4 | ((symbol - 16) & 3)} << rawBitsOf(symbol)) | raw;
+}
+
+inline std::uint64_t zigzag(std::int64_t value) {
+  return (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63);
+}
+inline std::int64_t unzigzag(std::uint64_t value) {
+  return static_cast<std::int64_t>((value >> 1) ^ (~(value & 1) + 1));
+}
+
+// ---- heights and coordinates: integers that are ordered as the numbers are
+// ------------------------------------
+
+inline std::uint64_t ordinal(double x) {
+  const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
+  return bits >> 63 != 0 ? ~bits : bits | std::uint64_t{1} << 63;
+}
+inline double fromOrdinal(std::uint64_t o) {
+  return std::bit_cast<double>(o >> 63 != 0 ? o & ~(std::uint64_t{1} << 63) : ~o);
+}
+inline std::uint32_t ordinal(float x) {
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(x);
+  return bits >> 31 != 0 ? ~bits : bits | 1u << 31;
+}
+inline float fromOrdinal(std::uint32_t o) {
+  return std::bit_cast<float>(o >> 31 != 0 ? o & ~(1u << 31) : ~o);
+}
+
+inline double rawHeight(HeightEncoding::Type type, const std::byte* heights, std::size_t i) {
+  if (type == HeightEncoding::Type::int16) {
+    std::int16_t value;
+    std::memcpy(&value, heights + 2 * i, sizeof value);
+    return value;
+  }
+  if (type == HeightEncoding::Type::float32) {
+    float value;
+    std::memcpy(&value, heights + 4 * i, sizeof value);
+    return static_cast<double>(value);
+  }
+  double value;
+  std::memcpy(&value, heights + 8 * i, sizeof value);
+  return value;
+}
+
+/// How far a raw height is from what was predicted, in steps of its type.
+inline std::int64_t heightResidual(HeightEncoding::Type type, double raw, double predicted) {
+  if (type == HeightEncoding::Type::int16)
+    return static_cast<std::int64_t>(raw) - static_cast<std::int64_t>(std::floor(predicted + 0.5));
+  if (type == HeightEncoding::Type::float32)
+    return static_cast<std::int32_t>(ordinal(static_cast<float>(raw)) -
+                                     ordinal(static_cast<float>(predicted)));
+  return static_cast<std::int64_t>(ordinal(raw) - ordinal(predicted));
+}
+/// Writes the height into its array and returns it; a number that is not finite when there is no such height.
+inline double putHeight(HeightEncoding::Type type, std::byte* heights, std::size_t i, double predicted,
+                        std::int64_t residual) {
+  if (type == HeightEncoding::Type::int16) {
+    const std::int64_t wide = static_cast<std::int64_t>(
+        static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(predicted + 0.5))) +
+        static_cast<std::uint64_t>(residual));
+    const std::int16_t value = static_cast<std::int16_t>(wide);
+    std::memcpy(heights + 2 * i, &value, sizeof value);
+    return value == wide ? value : HUGE_VAL;
+  }
+  if (type == HeightEncoding::Type::float32) {
+    const float value = fromOrdinal(static_cast<std::uint32_t>(ordinal(static_cast<float>(predicted)) +
+                                                               static_cast<std::uint32_t>(residual)));
+    std::memcpy(heights + 4 * i, &value, sizeof value);
+    return static_cast<double>(value);
+  }
+  const double value = fromOrdinal(ordinal(predicted) + static_cast<std::uint64_t>(residual));
+  std::memcpy(heights + 8 * i, &value, sizeof value);
+  return value;
+}
+
+// ---- areas
+// --------------------------------------------------------------------------------------------------
+
+/// Twice the area of a triangle of a lattice is a whole number; few areas of it hold few possible errors.
+/// 13 for scattered points.
+inline unsigned areaClass(bool isLattice, double doubledArea) {
+  if (!isLattice) return 13;
+  if (doubledArea <= 8) return static_cast<unsigned>(doubledArea);
+  return doubledArea <= 16 ? 9 : doubledArea <= 32 ? 10 : doubledArea <= 64 ? 11 : 12;
+}
+/// Of a floor.
+inline unsigned placeClass(double doubledArea, bool isOpen) {
+  if (isOpen) return kPlaceClasses - 1;
+  if (doubledArea <= 12) return static_cast<unsigned>(doubledArea);
+  if (doubledArea <= 32) return 12 + static_cast<unsigned>((doubledArea - 12) / 4);
+  return std::min(17 + static_cast<unsigned>(std::ilogb(std::fmin(doubledArea, 1e6)) - 5), kPlaceClasses - 2);
+}
+
+// ---- errors
+// ---------------------------------------------------------------------------------------------------
+
+/// Up to this doubled area, an error of whole-numbered heights is told as the whole number
+/// error * doubled area / height step.
+inline constexpr double kLatticeErrorArea = 64;
+/// A symbol that no such number below 2^24 has: the code follows as 16 raw bits.
+inline constexpr unsigned kPlainError = 255;
+
+// ---- bounds
+// ---------------------------------------------------------------------------------------------------
+
+/// Bounds are rounded outwards to quarters of an octave: multiples of a band.
+inline std::uint32_t boundStep(std::uint32_t code) {
+  constexpr std::uint32_t step = 1u << MultiTriangulation::kBandShift;
+  return (code + step - 1) / step;
+}
+inline std::uint16_t boundCode(std::uint32_t step) {
+  return static_cast<std::uint16_t>(
+      std::min<std::uint32_t>(step << MultiTriangulation::kBandShift, OutwardScale::kMaxCode));
+}
+inline constexpr std::uint32_t kBoundSteps = 129;
+
+/// How far the lesser bound may lie below the greater one; what lies between is rounded outwards, and
+/// the last stands for a bound of 0.
+inline constexpr std::array<std::uint8_t, 13> kBoundDrops = {0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 255};
+inline constexpr unsigned kPlainBounds = 0, kNoBounds = 1;
+/// What the greater bound is told against; it has 9 steps, from the one returned.
+inline std::uint32_t boundReference(std::uint32_t errorCode, std::uint32_t band) {
+  if (errorCode != 0) return boundStep(errorCode);
+  return band > 4 ? band - 4 : 0;
+}
+
+struct BoundSteps {
+  std::uint32_t below, above;
+};
+/// The bounds as they can be told, outwards.
+inline BoundSteps roundedBounds(std::uint32_t below, std::uint32_t above) {
+  const std::uint32_t greater = std::max(below, above), lesser = std::min(below, above);
+  if (lesser == 0) return {below, above};
+  const auto drop = std::upper_bound(kBoundDrops.begin(), kBoundDrops.end() - 1, greater - lesser) - 1;
+  const std::uint32_t rounded = greater - *drop;
+  return below >= above ? BoundSteps{greater, rounded} : BoundSteps{rounded, greater};
+}
+/// Precondition: rounded.
+inline unsigned boundSymbol(BoundSteps b, std::uint32_t reference) {
+  const std::uint32_t greater = std::max(b.below, b.above), lesser = std::min(b.below, b.above);
+  if (greater == 0) return kNoBounds;
+  if (greater < reference || greater > reference + 8) return kPlainBounds;
+  const auto drop = lesser == 0 ? kBoundDrops.end() - 1
+                                : std::lower_bound(kBoundDrops.begin(), kBoundDrops.end(), greater - lesser);
+  const auto index = static_cast<std::uint32_t>(drop - kBoundDrops.begin());
+  return 2 + ((greater - reference) * static_cast<std::uint32_t>(kBoundDrops.size()) + index) * 2 +
+         (b.below >= b.above ? 0 : 1);
+}
+/// Precondition: the symbol is none of the two above. Steps beyond the last are possible in a hostile file.
+inline BoundSteps boundsOf(unsigned symbol, std::uint32_t reference) {
+  const unsigned side = symbol & 1, rest = (symbol - 2) >> 1;
+  const std::uint32_t greater = reference + rest / 13;
+  const std::uint32_t drop = kBoundDrops[rest % 13];
+  const std::uint32_t lesser = drop < greater ? greater - drop : 0;
+  return side == 0 ? BoundSteps{greater, lesser} : BoundSteps{lesser, greater};
+}
+
+}  // namespace arete::packed

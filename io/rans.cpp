@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A state x with low <= x < low * 2^16 stands for all symbols coded so far, the last one on top: coding a
+// symbol with the share f of 2^bits that begins at b makes x = (x / f << bits) + b + x % f, decoding undoes
+// it. Before a step that would carry x out of its range its low 16 bits go out, and come in again after the
+// decoder's step. So the coder runs from the last symbol to the first and its words are read backwards; the
+// decoder ends in the state that the coder began with.
+#include "io/rans.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace arete {
+
+RansTable RansTable::ofCounts(std::span<const std::uint64_t, kAlphabet> counts) {
+  std::uint64_t total = 0;
+  unsigned symbols = 0;
+  for (const std::uint64_t count : counts) {
+    total += count;
+    symbols += count > 0 ? 1 : 0;
+  }
+  RansTable table;
+  if (total == 0) return table;
+  // Fine shares only where there is much to win: a small table stays in the cache.
+  const int least = static_cast<int>(std::bit_width(symbols)) + 1;
+  const int wanted = std::min(static_cast<int>(std::bit_width(total)), symbols > 48 ? kMaxBits : 11);
+  table.bits_ = symbols == 1 ? 0 : std::clamp(wanted, std::min(least, kMaxBits), kMaxBits);
+
+  const std::uint64_t size = std::uint64_t{1} << table.bits_;
+  std::array<std::uint16_t, kAlphabet> shares{};
+  std::int64_t left = static_cast<std::int64_t>(size);
+  for (std::size_t s = 0; s < kAlphabet; ++s) {
+    if (counts[s] == 0) continue;
+    const double exact =
+        static_cast<double>(counts[s]) * static_cast<double>(size) / static_cast<double>(total);
+    shares[s] = static_cast<std::uint16_t>(std::max(1.0, exact + 0.5));
+    left -= shares[s];
+  }
+  // What rounding left over or took too much goes where it matters least: to the largest shares.
+  while (left != 0) {
+    const auto largest = std::ranges::max_element(shares);
+    const std::int64_t change = left > 0 ? left : -std::min<std::int64_t>(-left, *largest / 2);
+    *largest = static_cast<std::uint16_t>(*largest + change);
+    left -= change;
+  }
+  return *ofShares(table.bits_, shares);
+}
+
+std::optional<RansTable> RansTable::ofShares(int bits, const std::array<std::uint16_t, kAlphabet>& shares) {
+  if (bits < 0 || bits > kMaxBits) return std::nullopt;
+  RansTable table;
+  table.bits_ = bits;
+  table.shares_.assign(shares.begin(), shares.end());
+  table.begins_.resize(kAlphabet);
+  std::uint32_t begin = 0;
+  for (std::size_t s = 0; s < kAlphabet; ++s) {
+    table.begins_[s] = static_cast<std::uint16_t>(begin);
+    begin += shares[s];
+    if (begin > 1u << bits) return std::nullopt;
+  }
+  if (begin != 1u << bits) return std::nullopt;
+  return table;
+}
+
+std::vector<std::uint32_t> RansTable::decodingEntries() const {
+  std::vector<std::uint32_t> entries;
+  if (isEmpty()) return entries;
+  entries.reserve(std::size_t{1} << bits_);
+  for (unsigned s = 0; s < kAlphabet; ++s)
+    for (std::uint32_t place = 0; place < shares_[s]; ++place)
+      entries.push_back(s | place << 8 | (shares_[s] - 1u) << 20);
+  return entries;
+}
+
+std::vector<std::byte> ransEncode(std::span<const RansSymbol> symbols, std::span<const RansTable> tables) {
+  std::vector<std::uint16_t> words;
+  std::uint32_t state = RansDecoder::kLow;
+  for (std::size_t i = symbols.size(); i-- > 0;) {
+    const RansTable& table = tables[symbols[i].table];
+    const std::uint32_t share = table.share(symbols[i].symbol);
+    if (state >= std::uint64_t{share} << (32 - table.bits())) {
+      words.push_back(static_cast<std::uint16_t>(state & 0xFFFFu));
+      state >>= 16;
+    }
+    state = ((state / share) << table.bits()) + state % share + table.begin(symbols[i].symbol);
+  }
+  words.push_back(static_cast<std::uint16_t>(state & 0xFFFFu));
+  words.push_back(static_cast<std::uint16_t>(state >> 16));
+  std::ranges::reverse(words);
+  std::vector<std::byte> bytes(words.size() * sizeof(std::uint16_t));
+  std::memcpy(bytes.data(), words.data(), bytes.size());
+  return bytes;
+}
+
+}  // namespace arete

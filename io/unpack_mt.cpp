@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Chunks of one kind do not lean on each other, so they are decoded in parallel, kind after kind; then
+// saturated errors and spheres in the opposite direction. What the decoder cannot see while it decodes is
+// seen at the end: a triangle that two chunks both claim has one remover and stands in two floors.
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <mutex>
+
+#include "engine/with_threads.h"
+#include "io/amt_checksum.h"
+#include "io/amt_metadata.h"
+#include "io/packed_amt.h"
+#include "io/packed_node_coder.h"
+
+namespace arete {
+namespace packed {
+namespace {
+
+/// A table as the decoder wants it. An empty one yields zeros, and the stream will not end where it should.
+struct DecodingTable {
+  std::vector<std::uint32_t> entries{0};
+  int bits = 0;
+};
+
+class ReaderIo {
+ public:
+  ReaderIo(const Arrays& arrays, const Directory& directory, std::size_t chunk,
+           std::span<const DecodingTable> tables, std::span<const std::byte> bytes)
+      : a_(arrays), directory_(directory), chunk_(chunk) {
+    for (unsigned t = 0; t < kTables; ++t) entries_[t] = {tables[t].entries.data(), tables[t].bits};
+    std::size_t at = 0;
+    for (unsigned s = 0; s <= kStreams; ++s) {
+      const std::size_t size = directory.chunks[chunk].streamBytes[s];
+      if (s < kStreams)
+        streams_[s] = RansDecoder(bytes.subspan(at, size));
+      else
+        raw_ = BitReader(bytes.subspan(at, size));
+      at += size;
+    }
+  }
+
+  template <class Actual>
+  unsigned code(Stream stream, unsigned table, const Actual&) {
+    return streams_[stream].decode(entries_[table].first, entries_[table].second);
+  }
+  std::uint64_t raw(int bits, std::uint64_t) { return raw_.read(bits); }
+
+  bool listed(const Run& run, std::vector<Handle>& seeds) {
+    seeds.clear();
+    std::uint64_t from = 0, node = 0;
+    for (std::uint32_t i = 0; i < run.listed; ++i) {
+      const std::uint64_t later = codeNumber(*this, kFloorStream, kListChunkTable, [] { return 0; });
+      if (later > 0) node = 0;
+      from += later;
+      node += codeNumber(*this, kFloorStream, kListNodeTable, [] { return 0; });
+      const std::uint64_t slot = codeNumber(*this, kFloorStream, kListSlotTable, [] { return 0; });
+      const auto handle = seed(from, node, slot);
+      if (!handle) return false;
+      seeds.push_back(*handle);
+    }
+    return true;
+  }
+
+  bool isAtEnd() const {
+    return !raw_.isOver() && std::ranges::all_of(streams_, [](const RansDecoder& s) { return s.isAtEnd(); });
+  }
+
+  // What only the writer knows.
+  void begin(Handle, std::uint32_t) {}
+  unsigned innerEdges(const Floor&, int, int) { return 0; }
+  unsigned openEdge(const Floor&, std::span<const int>) { return 0; }
+  bool star(const Floor&, std::uint32_t) { return true; }
+  Arrays::Place actualPlace() const { return {0, 0}; }
+  std::int64_t actualHeightResidual(double) const { return 0; }
+  std::uint16_t actualError(int) const { return 0; }
+  std::optional<std::uint64_t> wholeError(double, std::uint16_t) const { return 0; }
+  BoundSteps actualBounds(int) const { return {0, 0}; }
+  unsigned seedSymbol(std::uint32_t, std::uint32_t) { return 0; }
+
+ private:
+  std::optional<Handle> seed(std::uint64_t from, std::uint64_t node, std::uint64_t slot) const {
+    if (from == 0) {
+      if (node >= a_.roots || slot != 0) return std::nullopt;
+      return Handle{MultiTriangulation::kNone, static_cast<std::uint32_t>(node)};
+    }
+    const Chunk& chunk = directory_.chunks[chunk_];
+    if (from - 1 >= chunk_) return std::nullopt;
+    const Chunk& other = directory_.chunks[from - 1];
+    if (!chunk.mayLeanOn(other) || node >= other.nodes) return std::nullopt;
+    for (const Run& run : other.runs) {
+      if (node >= run.nodes) {
+        node -= run.nodes;
+        continue;
+      }
+      const std::uint32_t n = run.firstNode + static_cast<std::uint32_t>(node);
+      if (slot >= a_.starSize(n)) return std::nullopt;
+      return Handle{n, a_.slotBegin[n] + static_cast<std::uint32_t>(slot)};
+    }
+    return std::nullopt;
+  }
+
+  const Arrays& a_;
+  const Directory& directory_;
+  std::size_t chunk_;
+  std::array<std::pair<const std::uint32_t*, int>, kTables> entries_;
+  std::array<RansDecoder, kStreams> streams_;
+  BitReader raw_;
+};
+
+/// Empties the chunks that nothing in the box needs.
+void keepWhatReaches(Directory& directory, const Box2& box) {
+  std::vector<char> isKept(directory.chunks.size(), 0);
+  for (std::size_t i = directory.chunks.size(); i-- > 0;) {
+    const Chunk& c = directory.chunks[i];
+    if (c.xMin <= box.xMax && c.xMax >= box.xMin && c.yMin <= box.yMax && c.yMax >= box.yMin) isKept[i] = 1;
+    if (isKept[i] == 0) continue;
+    for (std::size_t j = 0; j < i; ++j)
+      if (c.mayLeanOn(directory.chunks[j])) isKept[j] = 1;
+  }
+  isKept[0] = 1;
+  for (std::size_t i = 0; i < isKept.size(); ++i)
+    if (isKept[i] == 0) directory.chunks[i].runs.clear();
+  directory.number();
+}
+
+class Unpacker {
+ public:
+  Unpacker(Directory directory, std::span<const RansTable> tables, std::span<const std::byte> bytes,
+           const RunContext& context, bool isPart)
+      : directory_(std::move(directory)), bytes_(bytes), context_(context), isPart_(isPart) {
+    for (const RansTable& table : tables) {
+      DecodingTable& to = tables_.emplace_back();
+      if (table.isEmpty()) continue;
+      to.entries = table.decodingEntries();
+      to.bits = table.bits();
+    }
+  }
+
+  Result<MultiTriangulation> run(const AmtMetadata& metadata) {
+    const auto arrays = std::make_shared<Arrays>();
+    arrays->isLattice = metadata.model.isRaster;
+    arrays->hasFills = metadata.model.options.rimTolerance > 0;
+    arrays->columns = metadata.model.columns;
+    arrays->rows = metadata.model.rows;
+    arrays->encoding = metadata.encoding;
+    arrays->scale = metadata.scale;
+    arrays->metric = metadata.metric;
+    AmtCounts counts = metadata.counts;
+    counts.nodes = directory_.nodes();
+    counts.slots = directory_.slots();
+    if (!arrays->allocate(counts))
+      return failure(ErrorCode::unreadable, "needs more memory than there is to be unpacked");
+    arrays_ = arrays.get();
+    std::fill_n(arrays->remover.get(), arrays->remover.size(), MultiTriangulation::kNone);
+
+    const auto kinds = byKind();
+    for (const auto& [begin, end] : kinds) forChunks(begin, end, [this](std::size_t i) { return decode(i); });
+    for (auto kind = kinds.rbegin(); kind != kinds.rend(); ++kind)
+      forChunks(kind->first, kind->second,
+                [this](std::size_t i) { return saturate(*arrays_, directory_.chunks[i], isPart_); });
+    if (context_.cancelled()) return failure(ErrorCode::interrupted, "unpacking was interrupted");
+    if (problem_) return failure(ErrorCode::corrupt, *problem_);
+    arrays->finishHints();
+    context_.report("unpack", 1);
+    return Arrays::model(arrays);
+  }
+
+ private:
+  std::vector<std::pair<std::size_t, std::size_t>> byKind() const {
+    std::vector<std::pair<std::size_t, std::size_t>> kinds;
+    for (std::size_t i = 0; i < directory_.chunks.size(); ++i) {
+      if (i == 0 || directory_.chunks[i].rank() != directory_.chunks[i - 1].rank()) kinds.push_back({i, i});
+      kinds.back().second = i + 1;
+    }
+    return kinds;
+  }
+
+  /// Keeps the problem of the first chunk that has one; after that nothing more is done.
+  template <class Body>
+  void forChunks(std::size_t begin, std::size_t end, const Body& body) {
+    if (problem_ || context_.cancelled()) return;
+    std::size_t firstBad = end;
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(begin, end, 1),
+        [&](const auto& range) {
+          for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            if (context_.cancelled()) return;
+            if (directory_.chunks[i].runs.empty() && i != 0) continue;
+            const std::optional<std::string> bad = body(i);
+            const std::lock_guard lock(mutex_);
+            if (bad && i < firstBad) {
+              firstBad = i;
+              problem_ = fmt::format("chunk {} of the packed nodes: {}", i, *bad);
+            }
+            done_ += directory_.chunks[i].nodes;
+            context_.report("unpack",
+                            static_cast<double>(done_) / static_cast<double>(2 * arrays_->nodes + 1));
+          }
+        },
+        tbb::simple_partitioner());
+  }
+
+  std::optional<std::string> decode(std::size_t index) {
+    const Chunk& chunk = directory_.chunks[index];
+    const auto bytes = bytes_.subspan(chunk.offset, chunk.bytes());
+    if (amtChecksum(bytes) != chunk.checksum) return "has been altered: its checksum does not match";
+    ReaderIo io(*arrays_, directory_, index, tables_, bytes);
+    if (index == 0 && !codeRoot(*arrays_, io)) return "has a root that is none";
+    NodeCoder coder(*arrays_, directory_, chunk, io);
+    if (!coder.run()) return coder.problem();
+    if (!io.isAtEnd()) return "has symbols that do not end where they should";
+    return std::nullopt;
+  }
+
+  Directory directory_;
+  std::span<const std::byte> bytes_;
+  const RunContext& context_;
+  bool isPart_;
+  std::vector<DecodingTable> tables_;
+  Arrays* arrays_ = nullptr;
+  std::mutex mutex_;
+  std::uint64_t done_ = 0;
+  std::optional<std::string> problem_;
+};
+
+}  // namespace
+}  // namespace packed
+
+Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directoryBytes,
+                                    std::span<const std::byte> tableBytes, std::span<const std::byte> nodes,
+                                    const UnpackOptions& options, const RunContext& context) {
+  std::string problem;
+  auto directory = packed::directoryOf(directoryBytes, problem);
+  if (!directory) return failure(ErrorCode::corrupt, "the directory of the packed nodes " + problem);
+  if (directory->nodes() != metadata.counts.nodes || directory->slots() != metadata.counts.slots)
+    return failure(ErrorCode::corrupt, "the packed nodes are not as many as the metadata says");
+  std::uint64_t bytes = 0, things = metadata.counts.rootVertices + metadata.counts.rootTriangles;
+  for (const packed::Chunk& chunk : directory->chunks) {
+    bytes += chunk.bytes();
+    things += chunk.nodes;
+    if (chunk.bytes() < packed::leastBytes(things))
+      return failure(ErrorCode::corrupt, "the packed nodes are more than their bytes can tell");
+    things = 0;
+  }
+  if (bytes != nodes.size())
+    return failure(
+        ErrorCode::corrupt,
+        fmt::format("the packed nodes have {} bytes where their directory tells of {}", nodes.size(), bytes));
+  const auto tables = packed::tablesOf(tableBytes);
+  if (!tables) return failure(ErrorCode::corrupt, "the tables of the packed nodes are damaged");
+  if (options.box) packed::keepWhatReaches(*directory, *options.box);
+  return withThreads(context, [&] {
+    return packed::Unpacker(std::move(*directory), *tables, nodes, context, options.box.has_value())
+        .run(metadata);
+  });
+}
+
+}  // namespace arete
