@@ -52,6 +52,13 @@ void CriterionArguments::addTo(CLI::App& command) {
       ->check(oneOf({"minimal", "saturated"}))
       ->type_name("NAME");
 
+  command
+      .add_option("--fit", fit_,
+                  "Move the heights of the vertices: for a third fewer triangles within --max-error "
+                  "(triangles), or for a smaller error of the same triangles (error)")
+      ->check(oneOf({"triangles", "error"}))
+      ->type_name("WHAT");
+
   const std::string where = "Finer here, coarser there";
   CLI::Option* region =
       command
@@ -157,6 +164,20 @@ Status CriterionArguments::check() const {
   if (order_ == "two-queues" && camera_.empty())
     return failure(ErrorCode::usage, "two queues are filled by what a camera sees; state --camera",
                    "--order");
+  return checkFit();
+}
+
+Status CriterionArguments::checkFit() const {
+  if (fit_ == "none") return {};
+  const std::string option = "--fit " + fit_;
+  if (!camera_.empty() || !focus_.empty() || deadline_ > 0)
+    return failure(ErrorCode::usage, "cannot be had with --camera, --focus or --deadline", option);
+  if (fit_ == "triangles" && maxErrors_.empty())
+    return failure(ErrorCode::usage, "means fewer triangles within a tolerance; state --max-error", option);
+  if (fit_ == "triangles" && method_ == "saturated")
+    return failure(ErrorCode::usage, "begins with the minimal cut; leave --method out", option);
+  if (fit_ == "error" && !region_.empty())
+    return failure(ErrorCode::usage, "is for one tolerance everywhere; leave --region out", option);
   return {};
 }
 
@@ -215,6 +236,9 @@ Result<std::vector<ExtractCriterion>> CriterionArguments::criteria(const Terrain
                  : order_ == "depth"      ? ExtractOrder::depth
                  : order_ == "two-queues" ? ExtractOrder::twoQueues
                                           : ExtractOrder::worst;
+  common.fit = fit_ == "triangles" ? ExtractFit::triangles
+               : fit_ == "error"   ? ExtractFit::error
+                                   : ExtractFit::none;
   if (!camera_.empty())
     if (Status placed = placeCamera(model, common); !placed) return tl::unexpected(placed.error());
   if (!focus_.empty())

@@ -31,6 +31,7 @@ struct CriterionArguments {
  private:
   static constexpr double kUnstated = std::numeric_limits<double>::quiet_NaN();
 
+  Status checkFit() const;
   Status placeCamera(const TerrainModel& model, ExtractCriterion& criterion) const;
   Status placeFocus(const TerrainModel& model, ExtractCriterion& criterion) const;
 
@@ -45,6 +46,7 @@ struct CriterionArguments {
   double fieldOfView_ = kUnstated, pixelError_ = kUnstated;
   bool isLonLat_ = false;
   double deadline_ = 0;  // 0: none
+  std::string fit_ = "none";
 };
 
 }  // namespace arete

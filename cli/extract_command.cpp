@@ -152,6 +152,10 @@ Json jsonOf(const ExtractRequest& request, const ExtractedTin& tin, bool isRaste
   json["promisedError"] = std::isfinite(tin.promisedError) ? Json(tin.promisedError) : Json();
   if (!request.certificate.empty()) json["certificate"] = request.certificate;
   if (!request.errorRaster.empty()) json["errorRaster"] = request.errorRaster;
+  if (tin.fit)
+    json["fit"] = {{"for", fitName(request.criterion.fit)},
+                   {"trianglesBefore", tin.fit->trianglesBefore},
+                   {"errorBefore", tin.fit->errorBefore}};
   if (tin.measured) json["measured"] = toJson(*tin.measured, isRaster);
   if (tin.measuredInside) json["measuredInside"] = toJson(*tin.measuredInside, isRaster);
   if (tin.measured) json["kept"] = tin.isKept;
@@ -166,6 +170,10 @@ std::string textOf(const ExtractRequest& request, const ExtractedTin& tin, const
     text += fmt::format(" (in the region {})", withUnit(tin.promisedError, unit));
   if (tin.pixels) text += fmt::format(", {:.3g} pixels in the camera's picture", *tin.pixels);
   if (!tin.isComplete && request.criterion.deadlineMilliseconds) text += "; ended by the deadline";
+  if (tin.fit && request.criterion.fit == ExtractFit::triangles)
+    text += fmt::format("; {} triangles before the fit", grouped(tin.fit->trianglesBefore));
+  else if (tin.fit)
+    text += fmt::format("; {} before the fit", withUnit(tin.fit->errorBefore, unit));
   if (tin.measured) text += fmt::format("; measured {}", withUnit(tin.measured->maxAbsError, unit));
   if (tin.measuredInside) text += fmt::format(", {} inside", withUnit(tin.measuredInside->maxAbsError, unit));
   if (!request.certificate.empty()) text += fmt::format("\n  certificate {}", request.certificate);
@@ -230,6 +238,7 @@ void addExtractCommand(CLI::App& app, Session& session) {
       "  arete extract dem.amt -o tin.ply --max-error 5\n"
       "  arete extract dem.amt -o tin.ply --max-error 1,5,20      tin_1.ply, tin_5.ply, tin_20.ply\n"
       "  arete extract dem.amt -o 'out/{}m.obj' --max-error 5     out/5m.obj\n"
+      "  arete extract dem.amt -o tin.ply --max-error 5 --fit triangles\n"
       "  arete extract dem.amt -o tin.ply --max-triangles 50000 --certificate\n"
       "  arete extract dem.amt -o tin.ply --max-error 1 --region park.gpkg --outside-error 20\n"
       "  arete extract dem.amt -o tin.ply --max-error 1 --region road.gpkg --distance 500\n"

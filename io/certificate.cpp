@@ -44,6 +44,7 @@ Json criterionJson(const ExtractCriterion& criterion) {
     json["outsideError"] = limit(criterion.outsideError);
   if (criterion.deadlineMilliseconds) json["deadlineMilliseconds"] = *criterion.deadlineMilliseconds;
   json["method"] = criterion.method == CutMethod::minimal ? "minimal" : "saturated";
+  if (criterion.fit != ExtractFit::none) json["fit"] = fitName(criterion.fit);
   return json;
 }
 
@@ -114,6 +115,9 @@ std::string certificateJson(const Certificate& certificate, const TerrainModel& 
                  {"storedError", certificate.storedError},
                  {"kept", certificate.isKept}}},
                {"measured", measuredJson(certificate.measured, model.isRaster)}};
+  if (certificate.fit)
+    json["fit"] = {{"trianglesBefore", certificate.fit->trianglesBefore},
+                   {"errorBefore", certificate.fit->errorBefore}};
   if (certificate.measuredInside)
     json["measuredInside"] = measuredJson(*certificate.measuredInside, model.isRaster);
   json["check"] = certificate.checkCommand;

@@ -24,15 +24,22 @@ struct ExportFormat {
   bool saysCrs = false, saysVerticalUnit = false, saysErrors = false;
 };
 
+/// The cut that a fit began with.
+struct FitFigures {
+  std::uint64_t trianglesBefore = 0;
+  double errorBefore = 0;  ///< the largest error stored with its triangles
+};
+
 /// What an export promises, and how a third party can check it.
 struct Certificate {
   std::string file;
   std::string model;  ///< the .amt it was taken from
   ExportFormat format;
   ExtractCriterion criterion;
-  bool isComplete = true;  ///< the criterion is met; false: a budget or a deadline came first
-  double storedError = 0;  ///< of the cut: the largest error stored with its triangles
-  MeasureReport measured;  ///< of the exported mesh, by terrain/measure.h, against every sample
+  bool isComplete = true;         ///< the criterion is met; false: a budget or a deadline came first
+  double storedError = 0;         ///< of the cut: the largest error of its triangles, as stored or as fitted
+  std::optional<FitFigures> fit;  ///< where heights were fitted
+  MeasureReport measured;         ///< of the exported mesh, by terrain/measure.h, against every sample
   std::optional<MeasureReport> measuredInside;  ///< against the samples in the region alone
   double promisedError = 0;                     ///< inside the region, where there is one
   bool isKept = false;                          ///< the measurement agrees

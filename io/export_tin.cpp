@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/export_tin.h"
 
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "io/local_origin.h"
@@ -26,6 +28,17 @@ TinExport exportTin(const TerrainModel& model, const Cut& cut) {
   std::vector<Vec3> root(model.mt.rootVertexCount());
   for (std::uint32_t v = 0; v < root.size(); ++v) root[v] = toSource(v);
   tin.origin = localOrigin(root);
+  return tin;
+}
+
+TinExport exportTin(const TerrainModel& model, const FittedCut& fitted) {
+  TinExport tin = exportTin(model, fitted.cut);
+  for (std::size_t v = 0; v < fitted.heights.size(); ++v) tin.mesh.positions[v].z = fitted.heights[v];
+  for (std::size_t t = 0; t < fitted.errors.size(); ++t) {
+    tin.errors[t] = static_cast<float>(fitted.errors[t]);
+    if (tin.errors[t] < fitted.errors[t])
+      tin.errors[t] = std::nextafter(tin.errors[t], std::numeric_limits<float>::infinity());
+  }
   return tin;
 }
 

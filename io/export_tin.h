@@ -5,6 +5,7 @@
 
 #include "engine/cut.h"
 #include "engine/triangle_mesh.h"
+#include "terrain/fit.h"
 #include "terrain/terrain_model.h"
 
 namespace arete {
@@ -14,11 +15,13 @@ struct TinExport {
   /// Positions in source coordinates, heights in the DEM's vertical unit; triangles counter-clockwise seen
   /// from above on the map, whichever way the raster's grid turns.
   TriangleMesh mesh;
-  std::vector<float> errors;  ///< per triangle: as stored, rounded outwards
+  std::vector<float> errors;  ///< per triangle: as stored or as fitted, rounded outwards
   Vec3 origin;  ///< for formats of 32-bit floats: the same for all cuts of a model, in source coordinates
 };
 
 /// O(size of the cut). Precondition: the cut is one of the model's.
 TinExport exportTin(const TerrainModel& model, const Cut& cut);
+/// With the heights and the errors of the fit, the latter rounded outwards.
+TinExport exportTin(const TerrainModel& model, const FittedCut& fitted);
 
 }  // namespace arete

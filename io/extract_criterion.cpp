@@ -32,6 +32,17 @@ const char* orderName(ExtractOrder order) {
 
 }  // namespace
 
+std::string_view fitName(ExtractFit fit) {
+  switch (fit) {
+    case ExtractFit::triangles:
+      return "triangles";
+    case ExtractFit::error:
+      return "error";
+    default:
+      return "none";
+  }
+}
+
 std::string optionsOf(const ExtractCriterion& c) {
   std::string options;
   const auto add = [&](const char* name, const auto& value) {
@@ -58,6 +69,7 @@ std::string optionsOf(const ExtractCriterion& c) {
   if (c.method == CutMethod::saturated) add("method", "saturated");
   if (c.deadlineMilliseconds) add("deadline", *c.deadlineMilliseconds);
   if (c.order != ExtractOrder::worst) add("order", orderName(c.order));
+  if (c.fit != ExtractFit::none) add("fit", fitName(c.fit));
   return options;
 }
 

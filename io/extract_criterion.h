@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "engine/criterion.h"
 #include "engine/cut.h"
@@ -17,6 +18,13 @@ namespace arete {
 
 /// What is refined first under a budget or a deadline: the orders of engine/refine_order.h.
 enum class ExtractOrder { worst, breadth, depth, twoQueues };
+
+/// Whether vertices leave the samples, and what for (terrain/fit.h).
+enum class ExtractFit {
+  none,
+  triangles,  ///< fewer triangles within the tolerance
+  error,      ///< a smaller error of the same triangles
+};
 
 /// What was asked for, in the terms of the source.
 struct ExtractCriterion {
@@ -43,12 +51,16 @@ struct ExtractCriterion {
   CutMethod method = CutMethod::minimal;
   std::optional<double> deadlineMilliseconds;
   ExtractOrder order = ExtractOrder::worst;
+  ExtractFit fit = ExtractFit::none;
 
   /// Whether the tolerance alone says what is promised; otherwise it is what the cut came to.
   bool promisesMaxError() const {
     return maxError && !maxTriangles && !deadlineMilliseconds && !focus && !camera;
   }
 };
+
+/// As the option names it.
+std::string_view fitName(ExtractFit fit);
 
 /// The options of `arete extract` that ask for it, each with a space before it.
 std::string optionsOf(const ExtractCriterion& criterion);

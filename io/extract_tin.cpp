@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "engine/cut.h"
-#include "io/export_tin.h"
 #include "io/extract_criterion.h"
 #include "io/mesh_file.h"
 #include "io/raster_writer.h"
@@ -51,10 +50,10 @@ double storedErrorInside(const TerrainModel& model, const Cut& cut, const Region
 }
 
 std::string noteOf(const ExtractRequest& request, const TerrainModel& model, const ExtractedTin& tin) {
-  return fmt::format("arete: TIN of {} ({}), vertical error at most {}{}{}", model.source,
-                     model.sourceChecksum, tin.promisedError,
-                     model.georeference.verticalUnit.empty() ? "" : " " + model.georeference.verticalUnit,
-                     request.region ? " in the region " + request.criterion.region : "");
+  return fmt::format(
+      "arete: TIN of {} ({}), vertical error at most {}{}{}{}", model.source, model.sourceChecksum,
+      tin.promisedError, model.georeference.verticalUnit.empty() ? "" : " " + model.georeference.verticalUnit,
+      request.region ? " in the region " + request.criterion.region : "", tin.fit ? ", heights fitted" : "");
 }
 
 Status within(Status status, const std::string& path) {
@@ -130,33 +129,57 @@ const TinExtractor::Samples& TinExtractor::samples() {
   return *samples_;
 }
 
-Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, double reserve,
-                                               ExtractedTin& tin, const RunContext& context) const {
+Result<TinExport> TinExtractor::takeTin(const ExtractRequest& request, double reserve, ExtractedTin& tin,
+                                        const RunContext& context) const {
+  const ExtractCriterion& c = request.criterion;
+  const auto describe = [&](const Cut& cut) {
+    tin.isComplete = cut.isComplete;
+    tin.triangles = cut.triangles.size();
+    tin.vertices = cut.vertices.size();
+    tin.storedError = cut.achievedError;
+    if (c.promisesMaxError())
+      tin.promisedError = *c.maxError;
+    else
+      tin.promisedError =
+          request.region ? storedErrorInside(model_, cut, *request.region) : cut.achievedError;
+  };
+  const auto finish = [&](const Result<FittedCut>& fitted) -> Result<TinExport> {
+    if (!fitted) return tl::unexpected(fitted.error());
+    describe(fitted->cut);
+    tin.fit = FitFigures{fitted->trianglesBefore, fitted->errorBefore};
+    return exportTin(model_, *fitted);
+  };
+  if (c.fit == ExtractFit::triangles) {
+    const double maxError = std::max(0.0, c.maxError.value_or(0) - reserve);
+    return finish(fitFewestTriangles(model_,
+                                     {.maxError = maxError,
+                                      .region = request.region ? &*request.region : nullptr,
+                                      .outsideError = std::max(maxError, c.outsideError)},
+                                     {}, context));
+  }
   const auto criterion = engineCriterion(request.criterion, request.region, reserve, model_);
   if (!criterion) return tl::unexpected(criterion.error());
   const auto options = engineOptions(request.criterion, model_);
   if (!options) return tl::unexpected(options.error());
   Result<Cut> taken = takeCut(model_.mt, **criterion, *options, context);
   if (!taken) return tl::unexpected(taken.error());
-  tin.isComplete = taken->isComplete;
-  if (request.criterion.camera) tin.pixels = worstSeverity(model_.mt, **criterion, *taken);
-  tin.triangles = taken->triangles.size();
-  tin.vertices = taken->vertices.size();
-  tin.storedError = taken->achievedError;
-  const bool promisesMaxError = request.criterion.promisesMaxError();
-  if (promisesMaxError)
-    tin.promisedError = *request.criterion.maxError;
-  else
-    tin.promisedError =
-        request.region ? storedErrorInside(model_, *taken, *request.region) : taken->achievedError;
-  TinExport exported = exportTin(model_, *taken);
+  if (c.fit == ExtractFit::error) return finish(fitLeastError(model_, *taken, {}, context));
+  if (c.camera) tin.pixels = worstSeverity(model_.mt, **criterion, *taken);
+  describe(*taken);
+  return exportTin(model_, *taken);
+}
+
+Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, double reserve,
+                                               ExtractedTin& tin, const RunContext& context) const {
+  Result<TinExport> taken = takeTin(request, reserve, tin, context);
+  if (!taken) return tl::unexpected(taken.error());
+  TinExport& exported = *taken;
   if (isRasterOutput(request.output)) {
     tin.format = {.name = "GeoTIFF",
                   .saysCrs = !model_.georeference.crsWkt.empty(),
                   .saysVerticalUnit = !model_.georeference.verticalUnit.empty()};
     return std::move(exported.mesh);
   }
-  *taken = {};
   const MeshWriteOptions write{.crsWkt = model_.georeference.crsWkt,
                                .verticalUnit = model_.georeference.verticalUnit,
                                .verticalUnitMetres = model_.georeference.verticalUnitMetres,
@@ -167,7 +190,7 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
       writeAndReadBack(std::move(exported.mesh), request.output, write, model_.isRaster, context);
   if (!written) return tl::unexpected(within(tl::unexpected(written.error()), request.output).error());
   tin.format = formatOf(request.output, *written, write);
-  if (!promisesMaxError) tin.promisedError += tin.format.heightRounding;
+  if (!request.criterion.promisesMaxError()) tin.promisedError += tin.format.heightRounding;
   return std::move(written->mesh);
 }
 
@@ -183,8 +206,9 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
     mesh = cutAndWrite(request, reserve, tin, context);
     if (!mesh) return tl::unexpected(mesh.error());
   }
-  const bool needsMeasure =
-      isRasterOutput(request.output) || !request.certificate.empty() || !request.errorRaster.empty();
+  // A fit is not believed on its word.
+  const bool needsMeasure = tin.fit || isRasterOutput(request.output) || !request.certificate.empty() ||
+                            !request.errorRaster.empty();
   if (needsMeasure)
     if (Status measured = measureAndWrite(request, *mesh, tin, context); !measured)
       return tl::unexpected(measured.error());
@@ -228,6 +252,7 @@ Status TinExtractor::measureAndWrite(const ExtractRequest& request, const Triang
                                 .criterion = request.criterion,
                                 .isComplete = tin.isComplete,
                                 .storedError = tin.storedError,
+                                .fit = tin.fit,
                                 .measured = *tin.measured,
                                 .measuredInside = tin.measuredInside,
                                 .promisedError = tin.promisedError,

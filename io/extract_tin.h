@@ -11,6 +11,7 @@
 #include "engine/result.h"
 #include "engine/run_context.h"
 #include "io/certificate.h"
+#include "io/export_tin.h"
 #include "terrain/heightfield.h"
 #include "terrain/measure.h"
 #include "terrain/terrain_model.h"
@@ -28,12 +29,13 @@ struct ExtractRequest {
 
 struct ExtractedTin {
   std::uint64_t triangles = 0, vertices = 0;
-  bool isComplete = true;                 ///< false: a budget or a deadline came before the criterion was met
-  std::optional<double> pixels;           ///< with a camera: the worst error in its picture
-  double storedError = 0;                 ///< largest error stored with the triangles of the cut
-  double promisedError = 0;               ///< the tolerance, or what a budget came to; inside the region
-  ExportFormat format;                    ///< what the file holds
-  std::optional<MeasureReport> measured;  ///< where a certificate or a raster asked for it
+  bool isComplete = true;         ///< false: a budget or a deadline came before the criterion was met
+  std::optional<double> pixels;   ///< with a camera: the worst error in its picture
+  double storedError = 0;         ///< largest error of the triangles of the cut, as stored or as fitted
+  std::optional<FitFigures> fit;  ///< where heights were fitted
+  double promisedError = 0;       ///< the tolerance, or what a budget came to; inside the region
+  ExportFormat format;            ///< what the file holds
+  std::optional<MeasureReport> measured;        ///< where a certificate or a raster asked for it
   std::optional<MeasureReport> measuredInside;  ///< with a region
   bool isKept = true;                           ///< false when the measurement contradicts the promise
 };
@@ -53,17 +55,21 @@ class TinExtractor {
       : model_(model), modelPath_(std::move(modelPath)) {}
 
   /// Cuts, exports (with a tolerance that is smaller by what the format rounds away, so that the promise
-  /// holds for what the file says), and where a raster or a certificate is wanted measures the exported mesh
-  /// against the source's samples and writes it; each file appears whole or not at all. A promise that the
-  /// measurement contradicts is told by isKept, the files are written all the same. Errors: those of
-  /// takeCut(), writeMesh(), writeGeoTiff(), writeCertificate(). O(cut), and O(samples) where it is measured.
+  /// holds for what the file says), and where heights were fitted or a raster or a certificate is wanted
+  /// measures the exported mesh against the source's samples and writes it; each file appears whole or not at
+  /// all. A promise that the measurement contradicts is told by isKept, the files are written all the same.
+  /// Errors: those of takeCut(), writeMesh(), writeGeoTiff(), writeCertificate(). O(cut), and O(samples)
+  /// where it is measured.
   Result<ExtractedTin> extract(const ExtractRequest& request, const RunContext& context = {});
 
  private:
   using Samples = std::variant<RasterHeightfield, PointHeightfield>;
 
   const Samples& samples();
-  /// With a tolerance smaller than asked for by `reserve`, for what the format will round away.
+  /// Cut, or fitted, with a tolerance smaller than asked for by `reserve`.
+  Result<TinExport> takeTin(const ExtractRequest& request, double reserve, ExtractedTin& tin,
+                            const RunContext& context) const;
+  /// `reserve`: for what the format will round away.
   Result<TriangleMesh> cutAndWrite(const ExtractRequest& request, double reserve, ExtractedTin& tin,
                                    const RunContext& context) const;
   Status measureAndWrite(const ExtractRequest& request, const TriangleMesh& mesh, ExtractedTin& tin,

@@ -67,11 +67,25 @@ TEST_F(Arguments, RefusesTolerancesThatAreNone) {
   extract("--max-triangles", "1", 2, "--max-triangles: 1 triangles are fewer than");
   extract("--max-triangles", "-4", 2, "--max-triangles: must be from 1");
   extract("--max-triangles", "many", 2, "--max-triangles: 'many' is not a whole number");
-  expectRefusal({"extract", "dem.amt", "-o", "x.ply"}, 2, "--max-error, --max-triangles, --camera or --deadline says");
+  expectRefusal({"extract", "dem.amt", "-o", "x.ply"}, 2,
+                "--max-error, --max-triangles, --camera or --deadline says");
   expectRefusal({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--max-triangles", "500"}, 2,
                 "--max-triangles");
   expectRefusal({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--method", "best"}, 2,
                 "--method: 'best' is none of minimal, saturated");
+  const auto fit = [&](std::vector<std::string> options, const std::string& sentence) {
+    options.insert(options.begin(), {"extract", "dem.amt", "-o", "x.ply", "--fit"});
+    expectRefusal(options, 2, sentence);
+  };
+  fit({"heights", "--max-error", "1"}, "--fit: 'heights' is none of triangles, error");
+  fit({"triangles", "--max-triangles", "500"}, "--fit triangles: means fewer triangles within a tolerance");
+  fit({"triangles", "--max-error", "1", "--method", "saturated"},
+      "--fit triangles: begins with the minimal cut");
+  fit({"error", "--max-error", "1", "--region", "0,0,9,9"}, "--fit error: is for one tolerance everywhere");
+  fit({"error", "--max-error", "1", "--deadline", "9"},
+      "--fit error: cannot be had with --camera, --focus or");
+  fit({"triangles", "--max-error", "1", "--focus", "1,1", "--error-growth", "0"},
+      "--fit triangles: cannot be");
   expectRefusal({"measure", "tin.ply", "dem.tif", "--expect", "-2"}, 2, "--expect: an error cannot be below");
 }
 

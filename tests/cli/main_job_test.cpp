@@ -54,6 +54,57 @@ TEST_F(MainJob, HoldsOnEveryFamilyBothShapesAndBothMethods) {
   }
 }
 
+TEST_F(MainJob, FitsHeightsForFewerTrianglesOrASmallerError) {
+  for (const char* family : {"fractal", "nodata holes", "geographic"}) {
+    SCOPED_TRACE(family);
+    makeRaster("dem.tif", family, 90, 70);
+    ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+    const Json plain =
+        run({"extract", "dem.amt", "-o", "plain.ply", "--max-error", "3", "--json"}).json()["exports"][0];
+    const Outcome fewer = run({"extract", "dem.amt", "-o", "fewer.ply", "--max-error", "3", "--fit",
+                               "triangles", "--certificate", "--json"});
+    ASSERT_EQ(fewer.code, 0) << fewer.err;
+    const Json tin = fewer.json()["exports"][0];
+    EXPECT_EQ(tin["fit"]["for"], "triangles");
+    EXPECT_EQ(tin["fit"]["trianglesBefore"], plain["triangles"]);
+    EXPECT_LT(double(tin["triangles"]), 0.95 * double(plain["triangles"]));
+    EXPECT_EQ(tin["kept"], true);
+    EXPECT_EQ(run({"measure", "fewer.ply", "dem.tif", "--expect", "3"}).code, 0);
+    EXPECT_NE(read("fewer.ply").find("heights fitted"), std::string::npos);
+
+    const std::string budget = std::to_string(int(plain["triangles"]));
+    const Outcome closer = run(
+        {"extract", "dem.amt", "-o", "closer.ply", "--max-triangles", budget, "--fit", "error", "--json"});
+    ASSERT_EQ(closer.code, 0) << closer.err;
+    const Json same = closer.json()["exports"][0];
+    EXPECT_LT(same["promisedError"], same["fit"]["errorBefore"]);
+    const Json promised = same["promisedError"];
+    EXPECT_EQ(run({"measure", "closer.ply", "dem.tif", "--expect", promised.dump()}).code, 0);
+  }
+}
+
+TEST_F(MainJob, FitsHeightsInARegionAndOnTheGrid) {
+  makeRaster("dem.tif", "fractal", 80, 80);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  const auto raster = readRaster(path("dem.tif"));
+  ASSERT_TRUE(raster);
+  const Vec2 low = raster->heightfield.georeference.toSource(20, 55),
+             high = raster->heightfield.georeference.toSource(60, 25);
+  const std::string box = fmt::format("{},{},{},{}", low.x, low.y, high.x, high.y);
+  const Outcome region = run({"extract", "dem.amt", "-o", "tin.ply", "--max-error", "1", "--region", box,
+                              "--outside-error", "20", "--fit", "triangles", "--json"});
+  ASSERT_EQ(region.code, 0) << region.err;
+  EXPECT_EQ(run({"measure", "tin.ply", "dem.tif", "--expect", "1", "--region", box}).code, 0);
+  EXPECT_EQ(run({"measure", "tin.ply", "dem.tif", "--expect", "20"}).code, 0);
+
+  const Outcome grid = run({"extract", "dem.amt", "-o", "smooth.tif", "--max-error", "2", "--fit",
+                            "triangles", "--certificate", "--json"});
+  ASSERT_EQ(grid.code, 0) << grid.err;
+  EXPECT_EQ(grid.json()["exports"][0]["kept"], true);
+  const std::string check = readJson("smooth.certificate.json")["check"];
+  EXPECT_NE(check.find("--fit triangles"), std::string::npos) << check;
+}
+
 TEST_F(MainJob, LetsNoFileTalkToTheTerminal) {
   makeRaster("dem.tif", "fractal", 8, 8);
   write("tin.ply",

@@ -65,11 +65,13 @@ TEST(ExtractTin, QuotesTheCheckForAShell) {
 }
 
 /// Extracts with a certificate; what `arete measure` would find in the file must agree with it.
-void expectKept(const TerrainModel& model, const std::string& extension, double maxError) {
+void expectKept(const TerrainModel& model, const std::string& extension, double maxError,
+                ExtractFit fit = ExtractFit::none) {
   const TemporaryFolder folder;
   TinExtractor extractor(model, "m.amt");
   ExtractRequest request;
   request.criterion.maxError = maxError;
+  request.criterion.fit = fit;
   request.output = folder.file("tin" + extension);
   request.certificate = folder.file("c.json");
   const Result<ExtractedTin> tin = extractor.extract(request);
@@ -95,6 +97,14 @@ void expectKept(const TerrainModel& model, const std::string& extension, double 
   const bool hasCrs = !model.georeference.crsWkt.empty();
   EXPECT_EQ(format["doesNotSay"].contains("crs"), hasCrs && file->crsWkt.empty());
   EXPECT_EQ(json["promise"]["kept"], tin->isKept);
+  EXPECT_EQ(json.contains("fit"), fit != ExtractFit::none);
+  EXPECT_EQ(tin->fit.has_value(), fit != ExtractFit::none);
+  if (!tin->fit) return;
+  EXPECT_EQ(json["criterion"]["fit"], fitName(fit));
+  EXPECT_EQ(json["fit"]["trianglesBefore"], tin->fit->trianglesBefore);
+  EXPECT_EQ(json["fit"]["errorBefore"], tin->fit->errorBefore);
+  EXPECT_LE(tin->triangles, tin->fit->trianglesBefore);
+  EXPECT_LE(tin->storedError, maxError);
 }
 
 TEST(ExtractTin, PutsEveryCutOfAModelAboutOneOrigin) {
@@ -128,6 +138,41 @@ TEST(ExtractTin, KeepsThePromiseInEveryFormatOnEveryFamily) {
         expectKept(*model, std::string(format.extension), maxError);
       }
   }
+}
+
+TEST(ExtractTin, KeepsThePromiseInEveryFormatWithFittedHeights) {
+  for (const RasterFamily& family : rasterFamilies()) {
+    const auto model = build(family.make(40, 33, 2));
+    ASSERT_TRUE(model) << family.name;
+    for (const MeshFormat& format : meshFormats())
+      for (const ExtractFit fit : {ExtractFit::triangles, ExtractFit::error}) {
+        SCOPED_TRACE(fmt::format("{} {} {}", family.name, format.name, fitName(fit)));
+        expectKept(*model, std::string(format.extension), 3, fit);
+      }
+  }
+  for (const PointFamily& family : pointFamilies()) {
+    const auto model = build(family.make(400, 2));
+    ASSERT_TRUE(model) << family.name;
+    for (const ExtractFit fit : {ExtractFit::triangles, ExtractFit::error}) {
+      SCOPED_TRACE(fmt::format("{} {}", family.name, fitName(fit)));
+      expectKept(*model, ".ply", 7, fit);
+    }
+  }
+}
+
+TEST(ExtractTin, WritesTheErrorsOfTheFittedSurface) {
+  const auto model = build(rasterFamilies()[2].make(60, 50, 4));
+  ASSERT_TRUE(model);
+  const auto fitted = fitFewestTriangles(*model, {.maxError = 3});
+  ASSERT_TRUE(fitted);
+  const TinExport tin = exportTin(*model, *fitted);
+  ASSERT_EQ(tin.errors.size(), fitted->errors.size());
+  for (std::size_t t = 0; t < tin.errors.size(); ++t) {
+    EXPECT_GE(double(tin.errors[t]), fitted->errors[t]);
+    EXPECT_NEAR(tin.errors[t], fitted->errors[t], 1e-6 * fitted->errors[t]);
+  }
+  for (std::size_t v = 0; v < fitted->heights.size(); ++v)
+    EXPECT_EQ(tin.mesh.positions[v].z, fitted->heights[v]);
 }
 
 TEST(ExtractTin, KeepsThePromiseInEveryFormatOnPoints) {

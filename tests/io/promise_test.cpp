@@ -13,6 +13,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <string>
 
 #include "engine/cut.h"
 #include "io/amt_file.h"
@@ -21,6 +22,7 @@
 #include "io/io_fixture.h"
 #include "io/mesh_file.h"
 #include "terrain/build.h"
+#include "terrain/fit.h"
 #include "terrain/measure.h"
 #include "terrain/validate_model.h"
 
@@ -140,6 +142,32 @@ TEST_P(Promise, IsKeptAtEveryToleranceForBothCuts) {
           << "the stored error is a bound too";
       EXPECT_EQ(report->isolated, model->isolated.size());
     }
+}
+
+TEST_P(Promise, IsKeptByFittedHeights) {
+  const auto field = read();
+  if (!field) {
+    if (!skip_.empty()) GTEST_SKIP() << skip_;
+    return;
+  }
+  if (!isFull() && field->size() > kMedium)
+    GTEST_SKIP() << "fits on a DEM of more than 1.1 million samples run with ./dev test --full";
+  BuildOptions options;
+  options.shape = GetParam().shape;
+  const auto model = build(*field, options);
+  ASSERT_TRUE(model) << model.error().describe();
+  const double tolerance = tolerancesOf(GetParam().dem, *field)[1];
+  const auto fitted = fitFewestTriangles(*model, {.maxError = tolerance});
+  ASSERT_TRUE(fitted) << fitted.error().describe();
+  const auto report = measure(exportTin(*model, *fitted).mesh, *field);
+  ASSERT_TRUE(report) << report.error().describe();
+  const Status kept = checkPromise(*report, tolerance);
+  EXPECT_TRUE(kept) << "tolerance " << tolerance << ": " << kept.error().describe();
+  EXPECT_LE(report->maxAbsError, acceptedError(*report, fitted->cut.achievedError));
+  // What is flat, or has steps of whole units, leaves less to fit.
+  EXPECT_LE(fitted->cut.triangles.size(), fitted->trianglesBefore);
+  RecordProperty("triangles", std::to_string(fitted->cut.triangles.size()) + " of " +
+                                  std::to_string(fitted->trianglesBefore));
 }
 
 TEST_P(Promise, RestsOnAModelThatKeepsEveryLawAndIsTheSameForAnyThreads) {
