@@ -44,17 +44,17 @@ struct FittedCut {
 
 /// The fewest triangles that a fit finds within the tolerance: at every sample |z_TIN - z_sample| is within
 /// it. Begins with the least cut, and takes out every node that the vertices nearby can do without when they
-/// move; 17 to 39 % fewer triangles on real terrain. The same for any number of threads. Not the fewest that
+/// move; 17 to 41 % fewer triangles on real terrain. The same for any number of threads. Not the fewest that
 /// there are: that is a hard problem.
 ///
 /// Errors: usage, a tolerance below 0 or one outside that is finer; interrupted. O(cut) removals are tried,
-/// each O(samples of its patch); 30 bytes per sample of the model and 100 per vertex of the least cut.
+/// each O(samples of its patch); 8 bytes per sample of the model and some 100 per vertex of the least cut.
 Result<FittedCut> fitFewestTriangles(const TerrainModel& model, const FitTolerance& tolerance,
                                      const FitOptions& options = {}, const RunContext& context = {});
 
-/// The triangles of a cut with the smallest largest error that a fit finds: no patch of vertices around the
-/// worst sample can better it by more than about a hundredth. Errors: interrupted. Precondition: the cut is
-/// one of the model's.
+/// The triangles of a cut with the smallest largest error that a fit finds, patch by patch around the worst
+/// samples. Within 2 % of the least there is on small grids; on large ones it can stop earlier. Errors:
+/// interrupted. Precondition: the cut is one of the model's. O(samples) for each of some ten bounds.
 Result<FittedCut> fitLeastError(const TerrainModel& model, const Cut& cut, const FitOptions& options = {},
                                 const RunContext& context = {});
 
