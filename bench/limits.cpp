@@ -33,13 +33,13 @@ struct Need {
 constexpr Need kBuild[] = {
     // Heights out; what the file holds is in its own compression.
     {"read", 12, 0, 0},
-    // Triangles out, then for either sweep: triangles twice, links counted, summed, filed and read. Far:
-    // where
-    // the sweep goes by height, a vertex's links (2), component, height, and two rows of neighbours; sorting.
-    {"features", 320, 14, 390},
-    // Triangles out; chains of half-edges, twins, fans: three passes over triangles of 32 bytes, two a
-    // sample.
-    {"triangulate", 500, 0, 150},
+    // Triangles out, then for either sweep: triangles twice, parents four times, heights; what the sweeps
+    // leave.
+    // Far: the way to a root.
+    {"features", 216, 2, 220},
+    // Heights three times, the cells' first triangles, triangles of 32 bytes cleared, written and read, two a
+    // sample, half-edges of vertices.
+    {"triangulate", 236, 0, 80},
     // An id and a note at every look.
     {"simplify: collect", 96 * (4 + 4 + 16), 0, 96 * 6},
     // Of whoever is due: id, note, half-edge, height and its share of the star, two triangles; a corner's
