@@ -8,6 +8,25 @@
 
 namespace arete {
 
+std::uint64_t Criterion::exceeding(std::span<const Sphere> balls, std::span<const float> errors) const {
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < balls.size(); ++i)
+    bits |= std::uint64_t(errors[i] > allowedError(balls[i]) ? 1 : 0) << i;
+  return bits;
+}
+
+std::uint64_t RegionError::exceeding(std::span<const Sphere> balls, std::span<const float> errors) const {
+  // Most places need no look at the region.
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const bool exceeds =
+        errors[i] > outsideError_ ||
+        (errors[i] > insideError_ && metricRegion_.meetsDisc({balls[i].x, balls[i].y}, balls[i].radius));
+    bits |= std::uint64_t(exceeds ? 1 : 0) << i;
+  }
+  return bits;
+}
+
 bool RegionError::isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
   const double error = mt.error(t);
   if (error <= insideError_) return true;
@@ -61,6 +80,12 @@ double AllOf::allowedError(const Sphere& s) const {
   return least;
 }
 
+std::uint64_t AllOf::exceeding(std::span<const Sphere> balls, std::span<const float> errors) const {
+  std::uint64_t bits = 0;
+  for (const auto& part : parts_) bits |= part->exceeding(balls, errors);
+  return bits;
+}
+
 bool AnyOf::isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
   return std::ranges::any_of(parts_, [&](const auto& part) { return part->isFineEnough(mt, t, corners); });
 }
@@ -79,6 +104,12 @@ double AnyOf::allowedError(const Sphere& s) const {
   double largest = 0;
   for (const auto& part : parts_) largest = std::max(largest, part->allowedError(s));
   return largest;
+}
+
+std::uint64_t AnyOf::exceeding(std::span<const Sphere> balls, std::span<const float> errors) const {
+  std::uint64_t bits = ~std::uint64_t(0);
+  for (const auto& part : parts_) bits &= part->exceeding(balls, errors);
+  return bits;
 }
 
 }  // namespace arete

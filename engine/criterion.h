@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,11 @@ class Criterion {
   virtual bool isMonotone() const { return false; }
   /// The least error that the criterion allows to any triangle that meets the ball (metric space).
   virtual double allowedError(const Sphere&) const { return 0; }
+
+  /// Which of these balls, 64 at most, are allowed less than their error: bit i of the answer is
+  /// error[i] > allowedError(ball[i]). What decides about many balls at once may override it.
+  /// Precondition: isMonotone().
+  virtual std::uint64_t exceeding(std::span<const Sphere> balls, std::span<const float> errors) const;
 
   /// The same error allowed everywhere: the front is then found without looking at places. NaN otherwise.
   virtual double uniformError() const { return std::numeric_limits<double>::quiet_NaN(); }
@@ -74,6 +80,7 @@ class RegionError final : public Criterion {
   double allowedError(const Sphere& s) const override {
     return metricRegion_.meetsDisc({s.x, s.y}, s.radius) ? insideError_ : outsideError_;
   }
+  std::uint64_t exceeding(std::span<const Sphere> balls, std::span<const float> errors) const override;
   const Region& region() const { return region_; }
 
  private:
@@ -133,6 +140,7 @@ class AllOf final : public Criterion {
   double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
   bool isMonotone() const override;
   double allowedError(const Sphere& s) const override;
+  std::uint64_t exceeding(std::span<const Sphere> balls, std::span<const float> errors) const override;
 
  private:
   Parts parts_;
@@ -149,6 +157,7 @@ class AnyOf final : public Criterion {
   double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
   bool isMonotone() const override;
   double allowedError(const Sphere& s) const override;
+  std::uint64_t exceeding(std::span<const Sphere> balls, std::span<const float> errors) const override;
 
  private:
   Parts parts_;

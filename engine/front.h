@@ -7,6 +7,6 @@
 namespace arete {
 
 /// The front of a closed set. O(members), parallel, the same for any thread count.
-Cut frontOf(const MultiTriangulation& mt, const MemberSet& members);
+Cut frontOf(const MultiTriangulation& mt, const MemberSet& set);
 
 }  // namespace arete

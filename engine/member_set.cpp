@@ -2,13 +2,14 @@
 //
 // Runs of words are filled by different threads; each notes which words it used, and the notes are joined in
 // the order of the runs. Only used words are looked at again, so a small cut of a large MT pays for the
-// memory of its words, an eighth of a byte a node, and not for a walk over all nodes.
+// memory of its words, a bit a node, and not for a walk over all nodes.
 #include "engine/member_set.h"
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
+#include <array>
 #include <cstring>
+#include <numeric>
 
 namespace arete {
 namespace {
@@ -31,20 +32,22 @@ std::uint64_t bitsOf(const std::uint8_t* bytes, std::uint32_t count) {
 }  // namespace
 
 MemberSet::MemberSet(std::uint32_t certain, std::uint32_t end, std::uint32_t wordsPerRun, const Fill& fill)
-    : certain_(certain / kNodesPerWord * kNodesPerWord), end_(end), size_(certain_) {
-  const std::uint32_t first = certain_ / kNodesPerWord, last = (end_ + kNodesPerWord - 1) / kNodesPerWord;
-  if (first >= last) return;
-  words_.resize(last - first);
+    : bits_((end + kNodesPerWord - 1) / kNodesPerWord + 1, 0), before_(bits_.size()) {
+  const auto last = static_cast<std::uint32_t>(bits_.size() - 1),
+             first = std::min(certain / kNodesPerWord, last);
+  std::fill(bits_.begin(), bits_.begin() + first, ~std::uint64_t(0));
+  used_.resize(first);
+  std::iota(used_.begin(), used_.end(), 0u);
   std::vector<std::vector<std::uint32_t>> used((last - first + wordsPerRun - 1) / wordsPerRun);
   tbb::parallel_for(std::size_t(0), used.size(), [&](std::size_t run) {
     const std::uint32_t begin = first + static_cast<std::uint32_t>(run) * wordsPerRun;
-    Sink sink(words_.data(), first, used[run]);
+    Sink sink(bits_.data(), used[run]);
     fill(begin, std::min(last, begin + wordsPerRun), sink);
   });
   for (const auto& run : used) used_.insert(used_.end(), run.begin(), run.end());
   for (const std::uint32_t word : used_) {
-    words_[word].before = size_;
-    size_ += countBits(words_[word].bits);
+    before_[word] = size_;
+    size_ += static_cast<std::uint32_t>(std::popcount(bits_[word]));
   }
 }
 
@@ -76,14 +79,33 @@ MemberSet MemberSet::prefix(std::uint32_t nodes) {
   });
 }
 
+MemberSet::Lookup MemberSet::lookup() const {
+  Lookup lookup;
+  lookup.bits_ = bits_.data();
+  lookup.before_ = before_.data();
+  lookup.words_ = static_cast<std::uint32_t>(bits_.size() - 1);
+  return lookup;
+}
+
 std::uint32_t MemberSet::pieces() const {
-  return certainPieces() + static_cast<std::uint32_t>((used_.size() + kWordsPerPiece - 1) / kWordsPerPiece);
+  return static_cast<std::uint32_t>((used_.size() + kWordsPerPiece - 1) / kWordsPerPiece);
+}
+
+std::uint32_t MemberSet::list(std::uint32_t piece, std::uint32_t* members) const {
+  const std::size_t begin = std::size_t(piece) * kWordsPerPiece;
+  std::uint32_t count = 0;
+  for (std::size_t i = begin; i < std::min(used_.size(), begin + kWordsPerPiece); ++i)
+    for (std::uint64_t bits = bits_[used_[i]]; bits != 0; bits &= bits - 1)
+      members[count++] = used_[i] * kNodesPerWord + static_cast<std::uint32_t>(std::countr_zero(bits));
+  return count;
 }
 
 NodeSet MemberSet::toNodeSet(std::uint32_t nodeCount) const {
   NodeSet set(nodeCount, 0);
   tbb::parallel_for(std::uint32_t(0), pieces(), [&](std::uint32_t piece) {
-    visitPiece(piece, [&](std::uint32_t n, std::uint32_t) { set[n] = 1; });
+    std::array<std::uint32_t, kMostInPiece> members;
+    const std::uint32_t count = list(piece, members.data());
+    for (std::uint32_t i = 0; i < count; ++i) set[members[i]] = 1;
   });
   return set;
 }

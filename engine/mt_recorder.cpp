@@ -25,6 +25,8 @@
 
 #include "engine/enclosing_ball.h"
 
+#include "engine/node_blocks.h"
+
 namespace arete {
 namespace {
 
@@ -33,6 +35,7 @@ struct OwnedMt {
   std::unique_ptr<std::uint32_t[]> slotBegin, link, remover, floor, creatorHint;
   std::unique_ptr<std::uint16_t[]> error, below, above, saturatedError;
   std::unique_ptr<Sphere[]> sphere;
+  NodeBlocks blocks;
 };
 
 template <class T>
@@ -232,6 +235,9 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   a.floor = view(owned->floor, slots - 2 * std::size_t(nodes));
   a.saturatedError = view(owned->saturatedError, nodes);
   a.sphere = view(owned->sphere, nodes);
+  owned->blocks = makeNodeBlocks(a.saturatedError, a.sphere);
+  a.blockError = owned->blocks.error;
+  a.blockSphere = owned->blocks.sphere;
   a.creatorHint = view(owned->creatorHint, hints);
   a.scale = scale_;
   a.metric = metric_;

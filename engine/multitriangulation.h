@@ -66,6 +66,10 @@ struct MtArrays {
   std::span<const std::uint32_t> floor;  ///< S - 2N triangle ids; node n's begin at slotBegin[n] - 2n
   std::span<const std::uint16_t> saturatedError;  ///< N, in falling bands
   std::span<const Sphere> sphere;  ///< N, saturated: encloses the node's region and its children's spheres
+  /// Of every kNodesPerBlock nodes, and after all of these of every kNodesPerPage: the largest saturated
+  /// error and a ball that holds their spheres (engine/node_blocks.h).
+  std::span<const std::uint16_t> blockError;
+  std::span<const Sphere> blockSphere;
   std::span<const std::uint32_t> creatorHint;  ///< ceil(S / 64): the node that owns slot 64 i
 
   OutwardScale scale;  ///< of error, below, above and saturatedError
@@ -80,8 +84,10 @@ class MultiTriangulation {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
   static constexpr std::uint32_t kSlotsPerHint = 64;
 
-  /// Nodes are sorted by falling band: a quarter of an octave of saturated errors.
-  static constexpr int kBandShift = 9;
+  static constexpr std::uint32_t kNodesPerBlock = 64, kNodesPerPage = 1024;
+
+  /// Nodes are sorted by falling band: an octave of saturated errors.
+  static constexpr int kBandShift = 11;
   static constexpr std::uint32_t bandOf(OutwardScale::Code saturatedError) {
     return saturatedError >> kBandShift;
   }

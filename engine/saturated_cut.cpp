@@ -14,9 +14,13 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "engine/node_blocks.h"
 
 namespace arete {
 namespace {
@@ -73,6 +77,58 @@ SaturatedMembers uniformCut(const MultiTriangulation& mt, double maxError,
   return {uniformMembers(mt, last, n), false};
 }
 
+/// By pages, by the blocks of those pages that may have members, by the nodes of those blocks.
+class PlaceSearch {
+ public:
+  PlaceSearch(const MultiTriangulation& mt, const Criterion& criterion)
+      : a_(mt.arrays()),
+        criterion_(criterion),
+        blocks_(static_cast<std::uint32_t>(nodeBlockCount(mt.nodeCount()))) {}
+
+  MemberSet members() const {
+    const auto nodes = static_cast<std::uint32_t>(a_.sphere.size());
+    return MemberSet(0, nodes, kBlocksPerPage * kPagesPerRun,
+                     [&](std::uint32_t first, std::uint32_t last, MemberSet::Sink& sink) {
+                       const std::uint32_t from = first / kBlocksPerPage,
+                                           to = (last + kBlocksPerPage - 1) / kBlocksPerPage;
+                       const std::uint64_t pages =
+                           exceeding(a_.blockSphere, a_.blockError, blocks_ + from, to - from);
+                       forEachBit(pages, [&](std::uint32_t page) { searchPage(from + page, sink); });
+                     });
+  }
+
+ private:
+  static constexpr std::uint32_t kPerBlock = MultiTriangulation::kNodesPerBlock,
+                                 kBlocksPerPage = MultiTriangulation::kNodesPerPage / kPerBlock,
+                                 kPagesPerRun = 64;
+  static_assert(kPerBlock == kPerWord);
+
+  template <class Visit>
+  static void forEachBit(std::uint64_t bits, const Visit& visit) {
+    for (; bits != 0; bits &= bits - 1) visit(static_cast<std::uint32_t>(std::countr_zero(bits)));
+  }
+
+  std::uint64_t exceeding(std::span<const Sphere> spheres, std::span<const Code> codes, std::uint32_t begin,
+                          std::uint32_t count) const {
+    std::array<float, 64> errors;
+    for (std::uint32_t i = 0; i < count; ++i) errors[i] = a_.scale.decode(codes[begin + i]);
+    return criterion_.exceeding(spheres.subspan(begin, count), std::span(errors).first(count));
+  }
+
+  void searchPage(std::uint32_t page, MemberSet::Sink& sink) const {
+    const std::uint32_t first = page * kBlocksPerPage, count = std::min(kBlocksPerPage, blocks_ - first);
+    forEachBit(exceeding(a_.blockSphere, a_.blockError, first, count), [&](std::uint32_t i) {
+      const std::uint32_t block = first + i, begin = block * kPerBlock;
+      const auto nodes = static_cast<std::uint32_t>(a_.sphere.size());
+      sink.put(block, exceeding(a_.sphere, a_.saturatedError, begin, std::min(kPerBlock, nodes - begin)));
+    });
+  }
+
+  const MtArrays& a_;
+  const Criterion& criterion_;
+  const std::uint32_t blocks_;
+};
+
 }  // namespace
 
 SaturatedMembers saturatedMembers(const MultiTriangulation& mt, const Criterion& criterion,
@@ -80,18 +136,18 @@ SaturatedMembers saturatedMembers(const MultiTriangulation& mt, const Criterion&
   if (!std::isnan(criterion.uniformError())) return uniformCut(mt, criterion.uniformError(), maxTriangles);
   const MtArrays& a = mt.arrays();
   const auto error = [&](std::uint32_t n) { return double(a.scale.decode(a.saturatedError[n])); };
-  MemberSet members = membersFor(
-      0, mt.nodeCount(), [&](std::uint32_t n) { return error(n) > criterion.allowedError(a.sphere[n]); });
+  MemberSet members = PlaceSearch(mt, criterion).members();
   if (!maxTriangles) return {std::move(members), true};
 
   // By falling error in units of the error allowed; equal ones by index.
   std::vector<std::pair<double, std::uint32_t>> order;
   order.reserve(members.size());
-  for (std::uint32_t piece = 0; piece < members.pieces(); ++piece)
-    members.visitPiece(piece, [&](std::uint32_t n, std::uint32_t) {
+  std::array<std::uint32_t, MemberSet::kMostInPiece> piece;
+  for (std::uint32_t p = 0; p < members.pieces(); ++p)
+    for (const std::uint32_t n : std::span(piece).first(members.list(p, piece.data()))) {
       const double allowed = criterion.allowedError(a.sphere[n]);
       order.emplace_back(allowed > 0 ? -error(n) / allowed : -std::numeric_limits<double>::infinity(), n);
-    });
+    }
   tbb::parallel_sort(order.begin(), order.end());
   std::uint64_t triangles = mt.rootTriangleCount();
   std::size_t kept = 0;

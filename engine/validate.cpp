@@ -15,6 +15,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/node_blocks.h"
+
 namespace arete {
 namespace {
 
@@ -67,7 +69,14 @@ class NodeCheck {
                            roots + a_.slotBegin[n] + i, r);
     }
     if (std::string what = boundary(n); !what.empty()) return what;
-    return saturation(n);
+    if (std::string what = saturation(n); !what.empty()) return what;
+    for (const std::uint64_t entry : blockEntries(mt_.nodeCount(), n)) {
+      if (!holdsError(a_, entry, n))
+        return fmt::format("law 6: block {} has a smaller error than its node {}", entry, n);
+      if (!holdsSphere(a_, entry, n))
+        return fmt::format("law 6: the sphere of block {} does not hold that of its node {}", entry, n);
+    }
+    return {};
   }
 
  private:

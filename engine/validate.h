@@ -21,7 +21,9 @@ struct ValidateOptions {
 ///   2  floor and ceiling have the same boundary cycle and the same signed area
 ///   3  one creator, at most one remover, no triangle twice
 ///   4  minimal: the floor is one polygon, connected across its inner edges, and holds no part that is one by
-///   itself 6  saturated errors and spheres contain the node's own and its children's
+///   itself
+///   6  saturated errors and spheres contain the node's own and its children's, those of blocks and pages
+///   their nodes'
 /// Orientation is judged in doubles here and must be certain to be called wrong; terrain/ repeats it exactly.
 /// Precondition: indices are in range. O(triangles), parallel.
 Status validate(const MultiTriangulation& mt, const ValidateOptions& options = {},

@@ -65,11 +65,6 @@ Frustum::Frustum(const View& view)
   pixelsPerUnit_ = view.heightPixels / (2 * slopeY_);
 }
 
-Vec3 Frustum::toView(const Vec3& p) const {
-  const Vec3 d{p.x - eye_.x, p.y - eye_.y, p.z - eye_.z};
-  return {dot(d, right_), dot(d, up_), dot(d, forward_)};
-}
-
 bool Frustum::mayMeet(std::span<const Vec3> inView) const {
   unsigned beyondAll = 0x3F;
   for (const Vec3& p : inView) {
@@ -85,16 +80,9 @@ bool Frustum::mayMeet(std::span<const Vec3> inView) const {
   return beyondAll == 0;
 }
 
-bool Frustum::mayMeet(const Sphere& ball) const {
-  const Vec3 p = toView({ball.x, ball.y, ball.z});
-  const double r = ball.radius;
-  return std::abs(p.x) - slopeX_ * p.z <= r * lengthX_ && std::abs(p.y) - slopeY_ * p.z <= r * lengthY_ &&
-         p.z + r >= near_ && p.z - r <= far_;
-}
-
 double Frustum::reach(const Vec3& p, double radius, double leastDepth) const {
   const double distance = std::sqrt(dot(p, p)), nearest = distance - radius;
-  const double byDepth = std::max(leastDepth, near_) * leastCosine_;
+  const double byDepth = reachByDepth(leastDepth);
   if (nearest <= 0) return byDepth;
   const double cosine = p.z / distance, sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
   const double ballSine = radius / distance, ballCosine = std::sqrt(std::max(0.0, 1 - ballSine * ballSine));

@@ -2,6 +2,7 @@
 #include "engine/view_error.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace arete {
@@ -22,7 +23,8 @@ std::array<Vec3, 6> prismOf(const MultiTriangulation& mt, TriangleId t, const Cr
 ViewError::ViewError(const Options& options, const MetricFrame& metric)
     : o_(options),
       frustum_(options.view),
-      errorPerReach_(options.pixels / frustum_.pixelsPerUnit() / std::abs(metric.scale.z)) {}
+      errorPerReach_(options.pixels / frustum_.pixelsPerUnit() / std::abs(metric.scale.z)),
+      filter_(options.view, errorPerReach_, options.outsideError) {}
 
 double ViewError::allowedFor(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
   std::array<Vec3, 6> prism = prismOf(mt, t, corners);
@@ -49,6 +51,15 @@ bool ViewError::isFineEnough(const MultiTriangulation& mt, TriangleId t, const C
 double ViewError::severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
   const double error = mt.error(t);
   return error == 0 ? 0 : o_.pixels * error / allowedFor(mt, t, corners);
+}
+
+std::uint64_t ViewError::exceeding(std::span<const Sphere> balls, std::span<const float> errors) const {
+  auto [exceeds, unsure] = filter_.test(balls, errors);
+  for (; unsure != 0; unsure &= unsure - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(unsure));
+    if (errors[i] > allowedError(balls[i])) exceeds |= std::uint64_t(1) << i;
+  }
+  return exceeds;
 }
 
 double ViewError::allowedError(const Sphere& s) const {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/criterion.h"
+#include "engine/frustum_filter.h"
 #include "engine/view.h"
 
 namespace arete {
@@ -30,6 +31,7 @@ class ViewError final : public Criterion {
   double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
   bool isMonotone() const override { return true; }
   double allowedError(const Sphere& s) const override;
+  std::uint64_t exceeding(std::span<const Sphere> balls, std::span<const float> errors) const override;
 
   const Frustum& frustum() const { return frustum_; }
 
@@ -39,6 +41,7 @@ class ViewError final : public Criterion {
   Options o_;
   Frustum frustum_;
   double errorPerReach_;  // unit of heights per metric unit of reach
+  FrustumFilter filter_;
 };
 
 /// The corners of a triangle, each at the lowest and at the highest place that the terrain can have over it,

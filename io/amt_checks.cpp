@@ -23,6 +23,7 @@
 
 #include "io/amt_checksum.h"
 
+#include "engine/node_blocks.h"
 #include "engine/with_threads.h"
 #include "io/amt_file.h"
 #include "terrain/hole.h"
@@ -48,8 +49,8 @@ class IndexCheck {
     using Step = Status (IndexCheck::*)() const;
     constexpr Step steps[] = {&IndexCheck::slotBegin,  &IndexCheck::rootTriangles, &IndexCheck::links,
                               &IndexCheck::hints,      &IndexCheck::removers,      &IndexCheck::floors,
-                              &IndexCheck::nodeValues, &IndexCheck::parents,       &IndexCheck::vertices,
-                              &IndexCheck::extras};
+                              &IndexCheck::nodeValues, &IndexCheck::parents,       &IndexCheck::blocks,
+                              &IndexCheck::vertices,   &IndexCheck::extras};
     for (std::size_t i = file_.isPacked() ? std::size(steps) - 1 : 0; i < std::size(steps); ++i) {
       context_.report("check indices", static_cast<double>(i) / std::size(steps));
       const Status status = (this->*steps[i])();
@@ -254,6 +255,33 @@ class IndexCheck {
                  !std::isfinite(s.radius) || s.radius < 0;
         }))
       return refuse(amt_tag::kSphere, fmt::format("node {} has a sphere that is none", *bad));
+    return {};
+  }
+
+  Status blocks() const {
+    if (const auto bad = firstBad(a_.blockSphere.size(), [&](std::uint32_t i) {
+          const Sphere& s = a_.blockSphere[i];
+          return !std::isfinite(s.x) || !std::isfinite(s.y) || !std::isfinite(s.z) ||
+                 !std::isfinite(s.radius) || s.radius < 0;
+        }))
+      return refuse(amt_tag::kBlockSphere, fmt::format("block {} has a sphere that is none", *bad));
+    const auto findBad = [&](const auto& holds) -> std::optional<std::pair<std::uint64_t, std::uint32_t>> {
+      const auto misses = [&](std::uint64_t entry, std::uint32_t n) { return !holds(a_, entry, n); };
+      const auto bad = firstBad(nodes_, [&](std::uint32_t n) {
+        const auto entries = blockEntries(nodes_, n);
+        return misses(entries[0], n) || misses(entries[1], n);
+      });
+      if (!bad) return std::nullopt;
+      const auto entries = blockEntries(nodes_, *bad);
+      return std::pair{misses(entries[0], *bad) ? entries[0] : entries[1], *bad};
+    };
+    if (const auto bad = findBad(holdsError))
+      return refuse(amt_tag::kBlockError,
+                    fmt::format("block {} has a smaller error than its node {}", bad->first, bad->second));
+    if (const auto bad = findBad(holdsSphere))
+      return refuse(
+          amt_tag::kBlockSphere,
+          fmt::format("the sphere of block {} does not hold that of its node {}", bad->first, bad->second));
     return {};
   }
 

@@ -14,6 +14,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/node_blocks.h"
 #include "terrain/build_checks.h"
 #include "terrain/hole.h"
 
@@ -395,6 +396,8 @@ std::vector<AmtShape> amtShapes(const AmtMetadata& m, bool isPacked) {
       {amt_tag::kFloor, AmtScalar::u32, 4, c.slots - 2 * c.nodes},
       {amt_tag::kSaturatedError, AmtScalar::u16, 2, c.nodes},
       {amt_tag::kSphere, AmtScalar::f32, 16, c.nodes},
+      {amt_tag::kBlockError, AmtScalar::u16, 2, nodeBlockAndPageCount(c.nodes)},
+      {amt_tag::kBlockSphere, AmtScalar::f32, 16, nodeBlockAndPageCount(c.nodes)},
       {amt_tag::kCreatorHint, AmtScalar::u32, 4, (c.slots + kSlotsPerHint - 1) / kSlotsPerHint},
       m.model.isRaster ? AmtShape{amt_tag::kSamples, AmtScalar::u32, 4, vertices}
                        : AmtShape{amt_tag::kPlan, AmtScalar::f64, 16, vertices},

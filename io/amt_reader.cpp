@@ -190,6 +190,8 @@ Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
   place(amt_tag::kFloor, a.floor);
   place(amt_tag::kSaturatedError, a.saturatedError);
   place(amt_tag::kSphere, a.sphere);
+  place(amt_tag::kBlockError, a.blockError);
+  place(amt_tag::kBlockSphere, a.blockSphere);
   place(amt_tag::kCreatorHint, a.creatorHint);
   if (metadata.model.isRaster)
     place(amt_tag::kSamples, a.vertices.samples);

@@ -97,6 +97,8 @@ Status writeAmt(const std::string& path, const TerrainModel& model, const RunCon
         source(amt_tag::kFloor, a.floor),
         source(amt_tag::kSaturatedError, a.saturatedError),
         source(amt_tag::kSphere, a.sphere),
+        source(amt_tag::kBlockError, a.blockError),
+        source(amt_tag::kBlockSphere, a.blockSphere),
         source(amt_tag::kCreatorHint, a.creatorHint),
         model.isRaster ? source(amt_tag::kSamples, a.vertices.samples)
                        : source(amt_tag::kPlan, a.vertices.plan),

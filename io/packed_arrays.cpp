@@ -80,6 +80,7 @@ MultiTriangulation Arrays::model(std::shared_ptr<Arrays> arrays) {
   from.star = {};
   from.outer = {};
   from.rootOuter = {};
+  from.blocks = makeNodeBlocks(from.saturatedError.view(), from.sphere.view());
   MtArrays a;
   a.rootVertices = from.rootVertices;
   a.rootTriangles = from.rootTriangles.view();
@@ -92,6 +93,8 @@ MultiTriangulation Arrays::model(std::shared_ptr<Arrays> arrays) {
   a.floor = from.floor.view();
   a.saturatedError = from.saturatedError.view();
   a.sphere = from.sphere.view();
+  a.blockError = from.blocks.error;
+  a.blockSphere = from.blocks.sphere;
   a.creatorHint = from.creatorHint.view();
   a.scale = from.scale;
   a.metric = from.metric;

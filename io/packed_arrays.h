@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/multitriangulation.h"
+#include "engine/node_blocks.h"
 #include "io/amt_metadata.h"
 #include "io/packed_layout.h"
 #include "io/packed_symbols.h"
@@ -61,6 +62,7 @@ struct Arrays {
   ZeroArray<std::uint32_t> slotBegin, link, remover, floor, creatorHint;
   ZeroArray<std::uint16_t> error, below, above, saturatedError;
   ZeroArray<Sphere> sphere;
+  NodeBlocks blocks;
   ZeroArray<std::uint32_t> samples;
   ZeroArray<Vec2> plan;
   ZeroArray<std::byte> rawHeights;

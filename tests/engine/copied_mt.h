@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/multitriangulation.h"
+#include "engine/node_blocks.h"
 
 namespace arete {
 
@@ -14,6 +15,7 @@ struct CopiedMt {
   std::vector<std::uint32_t> slotBegin, link, remover, floor, creatorHint;
   std::vector<std::uint16_t> error, below, above, saturatedError;
   std::vector<Sphere> sphere;
+  NodeBlocks blocks;
   MultiTriangulation original;
 
   explicit CopiedMt(const MultiTriangulation& mt) : original(mt) {
@@ -30,6 +32,8 @@ struct CopiedMt {
     copy(above, a.above);
     copy(saturatedError, a.saturatedError);
     copy(sphere, a.sphere);
+    copy(blocks.error, a.blockError);
+    copy(blocks.sphere, a.blockSphere);
   }
 
   MultiTriangulation mt() const {
@@ -45,6 +49,8 @@ struct CopiedMt {
     a.above = above;
     a.saturatedError = saturatedError;
     a.sphere = sphere;
+    a.blockError = blocks.error;
+    a.blockSphere = blocks.sphere;
     return MultiTriangulation(a, nullptr);
   }
 };

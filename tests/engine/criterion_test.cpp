@@ -61,6 +61,68 @@ void expectAllowed(const FamilyModel& m, const Criterion& criterion,
   }
 }
 
+/// Balls of every size near and far, and errors at and around what is allowed there.
+void expectSameOfManyAsOfEach(const Criterion& criterion, const Extent& e, std::mt19937_64& random) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto anySize = [&](double least, double most) {
+    return least * std::pow(most / least, unit(random));
+  };
+  std::vector<Sphere> balls(1 + random() % 64);
+  std::vector<float> errors;
+  for (Sphere& s : balls) {
+    const double far = anySize(1e-6, 1e4) * e.size();
+    const auto place = [&](double low, double high) {
+      return static_cast<float>(low + (high - low) * unit(random) + far * (2 * unit(random) - 1));
+    };
+    s = {place(e.low.x, e.high.x), place(e.low.y, e.high.y), place(e.low.z, e.high.z),
+         static_cast<float>(anySize(1e-7, 10) * e.size())};
+    const double allowed = criterion.allowedError(s);
+    const auto exact = static_cast<float>(allowed);
+    const float choices[] = {exact,
+                             std::nextafter(exact, 0.0f),
+                             std::nextafter(exact, kInfinity),
+                             static_cast<float>(allowed * (1 + 1e-3 * (unit(random) - 0.5))),
+                             static_cast<float>(allowed * anySize(1e-3, 1e3)),
+                             static_cast<float>(anySize(1e-6, 10) * e.relief()),
+                             0.0f};
+    errors.push_back(std::min(choices[random() % 7], 1e30f));
+  }
+  const std::uint64_t bits = criterion.exceeding(balls, errors);
+  for (std::size_t i = 0; i < 64; ++i)
+    EXPECT_EQ((bits >> i & 1) != 0, i < balls.size() && errors[i] > criterion.allowedError(balls[i]))
+        << "ball " << i << " of " << balls.size() << ": " << balls[i % balls.size()].x << " "
+        << balls[i % balls.size()].y << " " << balls[i % balls.size()].z << " "
+        << balls[i % balls.size()].radius;
+}
+
+TEST(Criteria, SayOfManyBallsAtOnceWhatTheySayOfEach) {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    for (const FamilyModel& m : familyModels()) {
+      const Extent e(m.model.mt);
+      for (int round = 0; round < 8; ++round) {
+        std::vector<NamedCriterion> criteria = criteriaFor(m.model.mt, random);
+        ViewError::Options o{
+            .view = randomView(e, random), .pixels = 0.5, .outsideError = 0.2 * spanOf(m.model)};
+        o.view.nearDistance = 0.01 * e.size();
+        o.view.farDistance = 0.5 * e.size();
+        criteria.push_back(
+            {"view, near and far", std::make_shared<ViewError>(o, m.model.mt.arrays().metric)});
+        o.view.verticalFieldOfView = 3.1;
+        criteria.push_back(
+            {"view, nearly half of all", std::make_shared<ViewError>(o, m.model.mt.arrays().metric)});
+        for (const auto& [name, criterion] : criteria) {
+          if (!criterion->isMonotone()) continue;
+          SCOPED_TRACE(m.name + " " + name);
+          for (int i = 0; i < 4; ++i) expectSameOfManyAsOfEach(*criterion, e, random);
+        }
+      }
+    }
+  }
+}
+
 TEST(Corridor, IsFineWithinItsDistanceOfTheLine) {
   for (const FamilyModel& m : familyModels()) {
     const MetricFrame& metric = m.model.mt.arrays().metric;

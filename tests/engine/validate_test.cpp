@@ -82,6 +82,17 @@ TEST(Validate, NamesLaw6WhenASphereIsTooSmall) {
   EXPECT_EQ(firstViolation(copy).substr(0, 5), "law 6");
 }
 
+TEST(Validate, NamesLaw6WhenABlockOrAPageMissesANode) {
+  const CopiedMt good(sample());
+  for (std::size_t entry = 0; entry < good.blocks.error.size(); ++entry) {
+    CopiedMt low = good, small = good;
+    low.blocks.error[entry] -= 1;
+    small.blocks.sphere[entry].radius *= 0.9f;
+    EXPECT_EQ(firstViolation(low).substr(0, 12), "law 6: block") << entry;
+    EXPECT_EQ(firstViolation(small).substr(0, 26), "law 6: the sphere of block") << entry;
+  }
+}
+
 TEST(Validate, NamesTheOrderWhenABandOfSaturatedErrorsRises) {
   CopiedMt copy(sample());
   copy.saturatedError.back() = OutwardScale::kMaxCode;

@@ -135,7 +135,8 @@ TEST(AmtFile, KeepsAModelWithoutNodes) {
   a.link = a.floor = a.creatorHint = {};
   a.error = a.below = a.above = a.error.first(2);
   a.saturatedError = {};
-  a.sphere = {};
+  a.sphere = a.blockSphere = {};
+  a.blockError = {};
   a.vertices.samples = a.vertices.samples.first(4);
   a.vertices.rawHeights = a.vertices.rawHeights.first(8);
   model.mt = MultiTriangulation(a, nullptr);
@@ -166,11 +167,11 @@ TEST(AmtFile, HasTheGoldenBytesOfFormatVersion2) {
                                              "\x04\x03\x02\x01"
                                              "\x02\0\0\0"
                                              "\x40\0\0\0"
-                                             "\x11\0\0\0",
+                                             "\x13\0\0\0",
                                              24));
   EXPECT_EQ(bytes.substr(64, 4), "META");
-  EXPECT_EQ(bytes.size(), 2880u);
-  EXPECT_EQ(fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size())), "7d0244465be00ba5");
+  EXPECT_EQ(bytes.size(), 3072u);
+  EXPECT_EQ(fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size())), "313aa0a9587e29b2");
 }
 
 TEST(AmtFile, PutsEveryArrayAtAMultipleOf64) {
@@ -179,7 +180,7 @@ TEST(AmtFile, PutsEveryArrayAtAMultipleOf64) {
   const Result<AmtFile> file = openAmt(folder.file("tiny.amt"));
   ASSERT_TRUE(file) << file.error().describe();
   EXPECT_EQ(file->writer().substr(0, 6), "Arete ");
-  EXPECT_EQ(file->chunks().size(), 17u);
+  EXPECT_EQ(file->chunks().size(), 19u);
   for (const AmtChunk& chunk : file->chunks()) EXPECT_EQ(chunk.offset % 64, 0u) << chunk.name();
   EXPECT_EQ(file->bytes().size() % 64, 0u);
 }
@@ -313,6 +314,8 @@ TEST(AmtFile, TouchesOnlyTheFirstPagesOnOpening) {
     a.floor = w.first(kSlots - 2 * kNodes);
     a.saturatedError = std::span(halves).first(kNodes);
     a.sphere = spheres;
+    a.blockError = std::span(halves).first(nodeBlockAndPageCount(kNodes));
+    a.blockSphere = std::span(spheres).first(nodeBlockAndPageCount(kNodes));
     a.creatorHint = w.first((kSlots + 63) / 64);
     a.vertices.samples = w.first(kNodes + 4);
     a.vertices.columns = model.columns = 1000;

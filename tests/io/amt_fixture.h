@@ -23,6 +23,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "engine/node_blocks.h"
 #include "io/amt_file.h"
 #include "terrain/build.h"
 
@@ -57,6 +58,7 @@ inline TerrainModel tinyModel() {
     std::vector<std::uint32_t> floor{0, 1, 2}, hint{0}, samples{0, 2, 8, 6, 4, 1};
     std::vector<std::uint16_t> error, below, above, saturated;
     std::vector<Sphere> sphere{{0, 0, 0.5f, 40}, {0.25f, -15, 1, 22}};
+    NodeBlocks blocks;
     std::vector<std::int16_t> heights{10, 20, -30, 40, 25, 12};
   };
   const OutwardScale scale(40.0);
@@ -71,6 +73,8 @@ inline TerrainModel tinyModel() {
   }
   arrays->saturated = {scale.encode(4.0), scale.encode(2.0)};
 
+  arrays->blocks = makeNodeBlocks(arrays->saturated, arrays->sphere);
+
   MtArrays a;
   a.rootVertices = 4;
   a.rootTriangles = arrays->rootTriangles;
@@ -83,6 +87,8 @@ inline TerrainModel tinyModel() {
   a.floor = arrays->floor;
   a.saturatedError = arrays->saturated;
   a.sphere = arrays->sphere;
+  a.blockError = arrays->blocks.error;
+  a.blockSphere = arrays->blocks.sphere;
   a.creatorHint = arrays->hint;
   a.scale = scale;
   a.metric = {{1, 1, 5}, {30, 30, 0.3048}};
@@ -155,6 +161,8 @@ inline void expectSameModel(const TerrainModel& x, const TerrainModel& y) {
   expectSameArray(a.floor, b.floor, "floor");
   expectSameArray(a.saturatedError, b.saturatedError, "saturatedError");
   expectSameArray(a.sphere, b.sphere, "sphere");
+  expectSameArray(a.blockError, b.blockError, "blockError");
+  expectSameArray(a.blockSphere, b.blockSphere, "blockSphere");
   expectSameArray(a.creatorHint, b.creatorHint, "creatorHint");
   expectSameArray(a.vertices.samples, b.vertices.samples, "samples");
   expectSameArray(a.vertices.plan, b.vertices.plan, "plan");

@@ -275,6 +275,15 @@ TEST(HostileAmt, CannotNameWhatDoesNotExist) {
   with([](AmtBytes& b) { b.array<float>(amt_tag::kSphere)[3] = -1; }, "chunk SPHR: node 0");
   with([](AmtBytes& b) { b.array<float>(amt_tag::kSphere)[7] = 30; },
        "chunk SPHR: the sphere of node 0 does not hold that of its child 1");
+  with([](AmtBytes& b) { b.array<std::uint16_t>(amt_tag::kBlockError)[0] -= 1; },
+       "chunk BERR: block 0 has a smaller error than its node 0");
+  with([](AmtBytes& b) { b.array<std::uint16_t>(amt_tag::kBlockError)[1] = 0; },
+       "chunk BERR: block 1 has a smaller error than its node 0");
+  with([](AmtBytes& b) { b.array<float>(amt_tag::kBlockSphere)[3] = 30; },
+       "chunk BSPH: the sphere of block 0 does not hold that of its node 0");
+  with([](AmtBytes& b) { b.array<float>(amt_tag::kBlockSphere)[4] = 1e6f; },
+       "chunk BSPH: the sphere of block 1 does not hold that of its node 0");
+  with([](AmtBytes& b) { b.array<float>(amt_tag::kBlockSphere)[7] = NAN; }, "chunk BSPH: block 1");
   with([](AmtBytes& b) { b.array<double>(amt_tag::kIsolatedHeights)[0] = NAN; }, "chunk IHGT: entry 0");
 
   const TemporaryFolder folder;

@@ -69,6 +69,8 @@ void expectSameArrays(const MultiTriangulation& x, const MultiTriangulation& y, 
   EXPECT_TRUE(sameBytes(a.floor, b.floor)) << name;
   EXPECT_TRUE(sameBytes(a.saturatedError, b.saturatedError)) << name;
   EXPECT_TRUE(sameBytes(a.sphere, b.sphere)) << name;
+  EXPECT_TRUE(sameBytes(a.blockError, b.blockError)) << name;
+  EXPECT_TRUE(sameBytes(a.blockSphere, b.blockSphere)) << name;
   EXPECT_TRUE(sameBytes(a.creatorHint, b.creatorHint)) << name;
   EXPECT_TRUE(sameBytes(a.vertices.samples, b.vertices.samples)) << name;
   EXPECT_TRUE(sameBytes(a.vertices.plan, b.vertices.plan)) << name;

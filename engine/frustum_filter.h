@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "engine/multitriangulation.h"
+#include "engine/view.h"
+
+namespace arete {
+
+/// Decides for most balls at once, in single precision, what Frustum says of one in double: whether an error
+/// exceeds errorPerReach * reach() where the ball is in sight, or outsideError anywhere. What is too close to
+/// call is left to the caller.
+class FrustumFilter {
+ public:
+  /// Precondition: the view validates.
+  FrustumFilter(const View& view, double errorPerReach, double outsideError);
+
+  struct Verdicts {
+    std::uint64_t exceeds = 0;  ///< bit i: ball i surely does
+    std::uint64_t unsure = 0;   ///< bit i: it may; where neither is set, it surely does not
+  };
+  /// Precondition: at most 64 balls, as many errors.
+  Verdicts test(std::span<const Sphere> balls, std::span<const float> errors) const;
+
+ private:
+  struct Axis {
+    float x, y, z;
+  };
+  bool isUsable_;
+  Axis eyeHigh_, eyeLow_, right_, up_, forward_;
+  float slopeX_, slopeY_, lengthX_, lengthY_, near_, far_, leastCosine_, errorPerReach_, outsideError_;
+};
+
+}  // namespace arete
