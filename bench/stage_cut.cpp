@@ -5,6 +5,7 @@
 // of which is in the time, as is the memory for the result.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <variant>
@@ -13,17 +14,21 @@
 #include "bench/threads.h"
 #include "engine/criterion.h"
 #include "engine/cut.h"
+#include "engine/view_error.h"
 #include "io/amt_file.h"
 #include "io/dem_reader.h"
 #include "io/export_tin.h"
 #include "io/mesh_file.h"
+#include "terrain/camera.h"
 #include "terrain/measure.h"
+#include "terrain/surface_height.h"
 
 namespace arete::bench {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kViewTriangles = 200'000;
 constexpr Repetition kShort = {9, 20};  // for what takes milliseconds
 
 /// The models were written by this very run.
@@ -64,6 +69,7 @@ class CutStage {
           fmt::format("{}, region of a tenth, {:g} and {:g} outside", name, inside, outside);
       if (const Status s = general(variant, region, {.method = method}); !s) return tl::unexpected(s.error());
     }
+    if (const Status s = view(); !s) return tl::unexpected(s.error());
     const std::uint32_t budget =
         std::max(model_.mt.rootTriangleCount(), model_.mt.finestTriangleCount() / 100);
     for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
@@ -93,6 +99,37 @@ class CutStage {
     add(variant, "triangles", double(cut->triangles.size()), "", Better::neither);
     add(variant, "time", seconds * 1e3, "ms", Better::lower);
     add(variant, "tested", tested / seconds / 1e6, "million/s", Better::higher);
+  }
+
+  /// From 300 m above the middle, with the pixels of error that make a cut of kViewTriangles.
+  Status view() {
+    const Vec2 middleOf{0.5 * (model_.columns - 1), 0.5 * (model_.rows - 1)};
+    Camera camera{.xy = model_.toSource(middleOf), .azimuthDegrees = 30, .pitchDegrees = -8};
+    const auto ground = SurfaceHeights(model_).at(camera.xy);
+    camera.height = (ground ? ground->height : 0) + 300 / model_.georeference.verticalUnitMetres;
+    const Result<View> seen = viewOf(camera, model_);
+    if (!seen) return tl::unexpected(seen.error());
+    const CutOptions options{.method = CutMethod::saturated};
+    const auto withPixels = [&](double pixels) {
+      return ViewError({.view = *seen, .pixels = pixels}, model_.mt.arrays().metric);
+    };
+    double fine = 1e-3, coarse = 1e3;
+    for (int step = 0; step < 30; ++step) {
+      const double pixels = std::sqrt(fine * coarse);
+      const Result<Cut> cut = takeCut(model_.mt, withPixels(pixels), options);
+      if (!cut) return tl::unexpected(cut.error());
+      (cut->triangles.size() > kViewTriangles ? fine : coarse) = pixels;
+    }
+    const ViewError criterion = withPixels(coarse);
+    const Result<Cut> cut = takeCut(model_.mt, criterion, options);
+    for (const int threads : {1, 0}) {
+      const auto limit = limitTo(threads);
+      const double seconds = medianSeconds(kShort, [&] { return takeCut(model_.mt, criterion, options); });
+      const std::string variant = fmt::format("saturated, view, {}", threadsText(threads));
+      add(variant, "triangles", double(cut->triangles.size()), "", Better::neither);
+      add(variant, "time", seconds * 1e3, "ms", Better::lower);
+    }
+    return {};
   }
 
   Status general(const std::string& variant, const Criterion& criterion, const CutOptions& options) {
