@@ -169,14 +169,14 @@ inline constexpr unsigned kPlainError = 255;
 // ---- bounds
 // ---------------------------------------------------------------------------------------------------
 
-/// Bounds are rounded outwards to quarters of an octave: multiples of a band.
+/// Bounds are rounded outwards to quarters of an octave.
+inline constexpr int kBoundShift = 9;
 inline std::uint32_t boundStep(std::uint32_t code) {
-  constexpr std::uint32_t step = 1u << MultiTriangulation::kBandShift;
+  constexpr std::uint32_t step = 1u << kBoundShift;
   return (code + step - 1) / step;
 }
 inline std::uint16_t boundCode(std::uint32_t step) {
-  return static_cast<std::uint16_t>(
-      std::min<std::uint32_t>(step << MultiTriangulation::kBandShift, OutwardScale::kMaxCode));
+  return static_cast<std::uint16_t>(std::min<std::uint32_t>(step << kBoundShift, OutwardScale::kMaxCode));
 }
 inline constexpr std::uint32_t kBoundSteps = 129;
 
@@ -187,7 +187,8 @@ inline constexpr unsigned kPlainBounds = 0, kNoBounds = 1;
 /// What the greater bound is told against; it has 9 steps, from the one returned.
 inline std::uint32_t boundReference(std::uint32_t errorCode, std::uint32_t band) {
   if (errorCode != 0) return boundStep(errorCode);
-  return band > 4 ? band - 4 : 0;
+  // Without an error the band is what is known: an octave, that is four steps.
+  return band > 0 ? 4 * band - 3 : 0;
 }
 
 struct BoundSteps {
