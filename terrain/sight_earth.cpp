@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "terrain/sight_earth.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace arete {
+namespace {
+
+class PlaneEarth final : public SightEarth {
+ public:
+  explicit PlaneEarth(const TerrainModel& model) : model_(model) {
+    const Georeference& g = model.georeference;
+    perX_ = perY_ = g.crsWkt.empty() ? 1 : g.linearUnitMetres;
+    if (g.isGeographic && model.isRaster) {
+      // groundStep() measures a step of the raster; here metres per unit of x and y are wanted.
+      const double column = (model.columns - 1) / 2.0, row = (model.rows - 1) / 2.0;
+      Georeference axes = g;
+      axes.geoTransform = {0, 1e-3, 0, g.toSource(column, row).y, 0, 1e-3};
+      const Vec2 step = groundStep(axes, 0, 0);
+      perX_ = step.x / 1e-3;
+      perY_ = step.y / 1e-3;
+    }
+  }
+
+  Result<SightTrack> track(Vec2 from, Vec2 to) const override {
+    const Vec2 a = model_.toSource(from), b = model_.toSource(to);
+    const double east = (b.x - a.x) * perX_, north = (b.y - a.y) * perY_;
+    SightTrack track;
+    track.points = {{from, 0}, {to, std::hypot(east, north)}};
+    const double degrees = std::atan2(east, north) * 180 / std::numbers::pi;
+    track.azimuthDegrees = degrees < 0 ? degrees + 360 : degrees;
+    return track;
+  }
+
+ private:
+  const TerrainModel& model_;
+  double perX_ = 1, perY_ = 1;
+};
+
+}  // namespace
+
+std::unique_ptr<SightEarth> makePlaneEarth(const TerrainModel& model) {
+  return std::make_unique<PlaneEarth>(model);
+}
+
+}  // namespace arete

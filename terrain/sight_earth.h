@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include "engine/result.h"
+#include "terrain/sight_line.h"
+#include "terrain/terrain_model.h"
+
+namespace arete {
+
+/// Where a line of sight between two places runs over the ground, and how the Earth curves below it. Plan
+/// coordinates are those of the model. Thread-safe.
+class SightEarth {
+ public:
+  virtual ~SightEarth() = default;
+  /// Errors: invalidData for a place that the Earth model cannot tell (beyond a projection's reach).
+  virtual Result<SightTrack> track(Vec2 from, Vec2 to) const = 0;
+};
+
+/// The map taken as it is: straight in plan, no curvature. Distances are those of the map in metres; of a
+/// geographic CRS, by the ground size of a sample's steps in the middle of the DEM.
+std::unique_ptr<SightEarth> makePlaneEarth(const TerrainModel& model);
+
+}  // namespace arete
