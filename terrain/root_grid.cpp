@@ -129,4 +129,15 @@ std::span<const std::uint32_t> RootGrid::near(Vec2 p) const {
   return std::span(triangles_).subspan(begin_[cell], begin_[cell + 1] - begin_[cell]);
 }
 
+void RootGrid::along(Vec2 from, Vec2 to, std::vector<std::uint32_t>& triangles) const {
+  triangles.clear();
+  if (triangles_.empty() || !std::isfinite(from.x + from.y + to.x + to.y)) return;
+  forCellsOf({from, to, to}, [&](std::size_t cell) {
+    triangles.insert(triangles.end(), triangles_.begin() + begin_[cell],
+                     triangles_.begin() + begin_[cell + 1]);
+  });
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+}
+
 }  // namespace arete

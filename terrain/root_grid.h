@@ -24,6 +24,10 @@ class RootGrid {
   /// farther than the margin from all of them, or not finite.
   std::span<const std::uint32_t> near(Vec2 p) const;
 
+  /// The same for all places of a segment, each triangle once, by rising id. O(cells it meets + triangles of
+  /// their lists, sorted).
+  void along(Vec2 from, Vec2 to, std::vector<std::uint32_t>& triangles) const;
+
   /// Of the root triangles, without the margin.
   const Box2& bounds() const { return bounds_; }
 

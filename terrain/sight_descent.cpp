@@ -1,10 +1,240 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A triangle of the multitriangulation bounds the terrain of full resolution over all of it: z_triangle -
+// z_terrain is in [-below, above]. Where the line passes it, the judge is asked whether terrain as high as
+// the bound allows would matter. If not, all that is finer there is passed over. If so, the node that removes
+// the triangle has a star over the same ground; the triangles of the star that the line crosses are treated
+// the same way, in their order, down to the finest, which are the terrain (De Floriani and Magillo 1994, for
+// rays on a hierarchy; VARIANT 2000, for refining along a ray).
+//
+// The line crosses a star in edges. A vertex has a side of the line and a place along it; an edge whose ends
+// are on different sides is crossed between their places, and the surface has the height of the edge there.
+// Both triangles of an edge take the same crossing, so nothing is lost between them but what rounding does.
+// Triangles next to each other that one node removes are entered once.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
 #include "terrain/sight_engine.h"
+#include "terrain/sight_walk.h"
+#include "terrain/surface_height.h"
+#include "terrain/triangle_locator.h"
 
 namespace arete {
+namespace {
 
-std::unique_ptr<SightEngine> makeSightDescent(const TerrainModel&) {
-  return nullptr;
+/// Where the line passes a triangle: parameters of the piece, and the heights of the plane there.
+struct Span {
+  double t0, t1, z0, z1;
+  std::uint32_t triangle;
+
+  double at(double t) const { return t1 > t0 ? z0 + (z1 - z0) * ((t - t0) / (t1 - t0)) : z0; }
+};
+
+/// A vertex as the line sees it.
+struct Seen {
+  double side, along,
+      z;  ///< side: of the line, scaled; along: the parameter of the nearest place on the line
+};
+
+class Descent {
+ public:
+  Descent(const TriangleLocator& locator, const SightPiece& piece, SightJudge& judge,
+          OutwardScale::Code allowed, bool mayFill)
+      : locator_(locator),
+        mt_(locator.mt()),
+        arrays_(mt_.arrays()),
+        piece_(piece),
+        judge_(judge),
+        allowed_(allowed),
+        mayFill_(mayFill),
+        perLength_(1 / (piece.dx * piece.dx + piece.dy * piece.dy)),
+        shortest_(kShortestInPlan * std::sqrt(perLength_)) {}
+
+  std::uint64_t run() {
+    std::vector<std::uint32_t> roots;
+    locator_.roots().along({piece_.x, piece_.y}, {piece_.x + piece_.dx, piece_.y + piece_.dy}, roots);
+    const std::size_t begin = spans_.size();
+    for (const std::uint32_t r : roots) {
+      const auto& corners = arrays_.rootTriangles[r];
+      addSpan(r, see(corners[0]), see(corners[1]), see(corners[2]), 0, 1);
+    }
+    follow(begin, 0, 1, true);
+    return visited_;
+  }
+
+ private:
+  Seen see(std::uint32_t vertex) const {
+    const Vec2 p = locator_.planPosition(vertex);
+    const double x = p.x - piece_.x, y = p.y - piece_.y;
+    return {piece_.dx * y - piece_.dy * x, (piece_.dx * x + piece_.dy * y) * perLength_,
+            mt_.vertices().height(VertexId(vertex))};
+  }
+
+  /// The span of a triangle within [first, last], if the line passes it.
+  void addSpan(std::uint32_t triangle, const Seen& a, const Seen& b, const Seen& c, double first,
+               double last) {
+    if ((a.side > 0 && b.side > 0 && c.side > 0) || (a.side < 0 && b.side < 0 && c.side < 0)) return;
+    Span span{HUGE_VAL, -HUGE_VAL, 0, 0, triangle};
+    const auto meet = [&span](double t, double z) {
+      if (t < span.t0) {
+        span.t0 = t;
+        span.z0 = z;
+      }
+      if (t > span.t1) {
+        span.t1 = t;
+        span.z1 = z;
+      }
+    };
+    const auto cross = [&meet](const Seen& p, const Seen& q) {
+      if (p.side == 0) meet(p.along, p.z);
+      if (!((p.side < 0 && q.side > 0) || (p.side > 0 && q.side < 0))) return;
+      const double f = p.side / (p.side - q.side);
+      meet(p.along + f * (q.along - p.along), p.z + f * (q.z - p.z));
+    };
+    cross(a, b);
+    cross(b, c);
+    cross(c, a);
+    if (!(span.t0 < last && span.t1 > first)) return;
+    const Span whole = span;
+    if (span.t0 < first) {
+      span.t0 = first;
+      span.z0 = whole.at(first);
+    }
+    if (span.t1 > last) {
+      span.t1 = last;
+      span.z1 = whole.at(last);
+    }
+    if (span.t1 > span.t0) spans_.push_back(span);
+  }
+
+  /// Treats the spans from `begin` on, which cover [first, last] but for gaps, in order, and drops them.
+  void follow(std::size_t begin, double first, double last, bool mayHaveGaps) {
+    std::sort(spans_.begin() + static_cast<std::ptrdiff_t>(begin), spans_.end(),
+              [](const Span& p, const Span& q) { return p.t0 != q.t0 ? p.t0 < q.t0 : p.t1 > q.t1; });
+    const std::size_t end = spans_.size();
+    double done = first;
+    for (std::size_t i = begin; i < end && !judge_.isDone();) {
+      Span span = spans_[i++];
+      if (span.t1 <= done) continue;
+      if (span.t0 > done + shortest_) {
+        if (mayHaveGaps) judge_.gap(piece_.distance(done), piece_.distance(span.t0));
+      }
+      const double from = std::max(span.t0, done);
+      span.z0 = span.at(from);
+      span.t0 = from;
+      const std::uint32_t node = entered(span);
+      if (node == MultiTriangulation::kNone) {
+        done = span.t1;
+        continue;
+      }
+      // As far as the same node goes on.
+      double to = span.t1;
+      while (i < end && spans_[i].t0 <= to + shortest_) {
+        Span next = spans_[i];
+        if (next.t1 > to) {
+          if (arrays_.remover[next.triangle] != node) break;
+          next.z0 = next.at(std::max(next.t0, to));
+          next.t0 = std::max(next.t0, to);
+          if (entered(next) != node) break;
+          to = next.t1;
+        }
+        ++i;
+      }
+      star(node, from, to);
+      done = to;
+    }
+    spans_.resize(begin);
+    if (mayHaveGaps && !judge_.isDone() && last > done + shortest_)
+      judge_.gap(piece_.distance(done), piece_.distance(last));
+  }
+
+  /// The node to enter below a span; none where the span itself says enough.
+  std::uint32_t entered(const Span& span) {
+    ++visited_;
+    const std::uint32_t node = arrays_.remover[span.triangle];
+    const double s0 = piece_.distance(span.t0), s1 = piece_.distance(span.t1);
+    if (node == MultiTriangulation::kNone) {
+      judge_.terrain(s0, span.z0, s1, span.z1);
+      return node;
+    }
+    const OutwardScale::Code below = arrays_.below[span.triangle], above = arrays_.above[span.triangle];
+    const double higher = arrays_.scale.decode(below);
+    if (!judge_.matters(s0, span.z0 + higher, s1, span.z1 + higher, mayFill_))
+      return MultiTriangulation::kNone;
+    if (!mayFill_ && allowed_ > 0 && std::max(below, above) <= allowed_) {
+      judge_.terrain(s0, span.z0, s1, span.z1, arrays_.scale.decode(above), higher);
+      return MultiTriangulation::kNone;
+    }
+    return node;
+  }
+
+  void star(std::uint32_t node, double first, double last) {
+    const std::uint32_t begin = arrays_.slotBegin[node], end = arrays_.slotBegin[node + 1];
+    const std::uint32_t roots = mt_.rootTriangleCount();
+    const Seen apex = see(arrays_.rootVertices + node);
+    const Seen firstLink = see(arrays_.link[begin]);
+    const std::size_t mine = spans_.size();
+    Seen p = firstLink;
+    for (std::uint32_t slot = begin; slot < end; ++slot) {
+      const Seen q = slot + 1 < end ? see(arrays_.link[slot + 1]) : firstLink;
+      // The last slot of an open star is no triangle.
+      if (slot + 1 < end || arrays_.remover[roots + slot] != node)
+        addSpan(roots + slot, apex, p, q, first, last);
+      p = q;
+    }
+    follow(mine, first, last, mayFill_);
+  }
+
+  const TriangleLocator& locator_;
+  const MultiTriangulation& mt_;
+  const MtArrays& arrays_;
+  const SightPiece& piece_;
+  SightJudge& judge_;
+  OutwardScale::Code allowed_;
+  bool mayFill_;
+  double perLength_, shortest_;
+  std::vector<Span> spans_;
+  std::uint64_t visited_ = 0;
+};
+
+class SightDescent final : public SightEngine {
+ public:
+  explicit SightDescent(const TerrainModel& model)
+      : heights_(model), mayFill_(model.options.rimTolerance > 0) {}
+
+  SightAnswer answer(const SightLine& line, const SightOptions& options) const override {
+    SightJudge judge(line, options);
+    const TriangleLocator& locator = heights_.locator();
+    const OutwardScale::Code allowed = locator.mt().arrays().scale.floorCode(options.maxError);
+    std::uint64_t visited = 0;
+    const auto points = line.points();
+    for (std::size_t i = 1; i < points.size() && !judge.isDone(); ++i) {
+      const SightPiece piece(points[i - 1], points[i]);
+      if (piece.dx == 0 && piece.dy == 0) {
+        const auto height = heights_.at(heights_.model().toSource(points[i].plan));
+        if (height) {
+          judge.terrain(piece.s, height->height, piece.distance(1), height->height);
+        } else {
+          judge.gap(piece.s, piece.distance(1));
+        }
+        continue;
+      }
+      visited += Descent(locator, piece, judge, allowed, mayFill_).run();
+    }
+    return judge.answer(visited);
+  }
+
+ private:
+  SurfaceHeights heights_;
+  bool mayFill_;
+};
+
+}  // namespace
+
+std::unique_ptr<SightEngine> makeSightDescent(const TerrainModel& model) {
+  return std::make_unique<SightDescent>(model);
 }
 
 }  // namespace arete
