@@ -114,6 +114,8 @@ class Descent {
     std::sort(spans_.begin() + static_cast<std::ptrdiff_t>(begin), spans_.end(),
               [](const Span& p, const Span& q) { return p.t0 != q.t0 ? p.t0 < q.t0 : p.t1 > q.t1; });
     const std::size_t end = spans_.size();
+    if (!mayFill_)
+      for (std::size_t i = begin; i < end; ++i) hint(spans_[i]);
     double done = first;
     for (std::size_t i = begin; i < end && !judge_.isDone();) {
       Span span = spans_[i++];
@@ -148,6 +150,13 @@ class Descent {
     spans_.resize(begin);
     if (mayHaveGaps && !judge_.isDone() && last > done + shortest_)
       judge_.gap(piece_.distance(done), piece_.distance(last));
+  }
+
+  /// Terrain that the bound of a triangle promises.
+  void hint(const Span& span) {
+    const double lower = arrays_.scale.decode(arrays_.above[span.triangle]);
+    judge_.hint(piece_.distance(span.t0), span.z0 - lower);
+    judge_.hint(piece_.distance(span.t1), span.z1 - lower);
   }
 
   /// The node to enter below a span; none where the span itself says enough.

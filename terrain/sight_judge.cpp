@@ -41,6 +41,7 @@ void SightJudge::setLimit() {
 }
 
 void SightJudge::hint(double s, double z) {
+  if (!options_.wantsClearance) return;
   hint_ = std::min(hint_, line_.height(s) - z);
   setLimit();
 }

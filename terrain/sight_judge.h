@@ -33,7 +33,7 @@ class SightJudge {
   }
   /// No terrain between s0 and s1, which may be one place.
   void gap(double s0, double s1);
-  /// Told before all else: the terrain has this height at s. More can then be passed over.
+  /// Out of order: the terrain is at least this high at s. More can then be passed over.
   void hint(double s, double z);
 
   /// Nothing that follows can change the answer.

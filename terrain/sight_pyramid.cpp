@@ -18,6 +18,7 @@ namespace arete {
 namespace {
 
 constexpr std::uint32_t kFirstSize = 8, kGrowth = 4;
+constexpr int kHints = 32;
 
 struct Level {
   std::uint32_t size = 0;  ///< cells along a side of a square
@@ -46,8 +47,7 @@ class SightPyramid final : public SightEngine {
 
   SightAnswer answer(const SightLine& line, const SightOptions& options) const override {
     SightJudge judge(line, options);
-    for (const SightPoint& end : {line.points().front(), line.points().back()})
-      if (const double z = grid_->at(end.plan); !std::isnan(z)) judge.hint(end.distance, z);
+    if (options.wantsClearance) hint(line, judge);
     std::uint64_t visited = 0;
     forPieces(*grid_, judge, [&](const SightPiece& piece, SightRange range) {
       enter(levels_.size() - 1, piece, range, judge, visited);
@@ -102,6 +102,15 @@ class SightPyramid final : public SightEngine {
         level.hasGaps[to] |= finer.hasGaps[from];
       }
     return level;
+  }
+
+  /// A few heights along the line, from which the least clearance cannot be far, so that most of the rest is
+  /// passed over at once.
+  void hint(const SightLine& line, SightJudge& judge) const {
+    for (int i = 0; i <= kHints; ++i) {
+      const double s = line.length() * (i / double{kHints});
+      if (const double z = grid_->at(line.planAt(s)); !std::isnan(z)) judge.hint(s, z);
+    }
   }
 
   void enter(std::size_t which, const SightPiece& piece, SightRange range, SightJudge& judge,
