@@ -23,8 +23,8 @@ struct Plan {
   bool wants(const std::string& stage) const;
 };
 
-/// The stages there are, in the order in which they are run: read, build, file, cut, follow, height, export,
-/// measure, triangles, rival, machine.
+/// The stages there are, in the order in which they are run: read, build, file, cut, follow, height, sight,
+/// export, measure, triangles, rival, machine.
 const std::vector<std::string>& stageNames();
 
 /// Every stage that the plan wants, on one DEM. Each runs in processes of its own; models are built as needed
@@ -49,6 +49,7 @@ Result<Figures> fileStage(const DemSource& source, HoleShape shape, const std::s
 Result<Figures> cutStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> followStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> heightStage(const DemSource& source, const std::string& model, const Plan& plan);
+Result<Figures> sightStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> exportStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> measureStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> trianglesStage(const DemSource& source, const std::string& delaunay,
