@@ -47,7 +47,7 @@ struct SightAnswer {
   double clearanceWithin = 0;
   /// The least clearance is within the tolerance of SightLine of 0; it counts as visible.
   bool isTouching = false;
-  double gapMetres = 0;       ///< how much of the line has no terrain below it
+  double gapMetres = 0;       ///< how much of the line has no terrain below it; 0 where NODATA is clear
   std::uint64_t visited = 0;  ///< triangles, or cells and blocks of cells, looked at
 };
 

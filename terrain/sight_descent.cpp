@@ -219,6 +219,12 @@ class SightDescent final : public SightEngine {
     const OutwardScale::Code allowed = locator.mt().arrays().scale.floorCode(options.maxError);
     std::uint64_t visited = 0;
     const auto points = line.points();
+    const auto tellEnd = [&](const SightPoint& end) {
+      if (judge.isDone()) return;
+      if (const auto z = heights_.at(heights_.model().toSource(end.plan)))
+        judge.terrain(end.distance, z->height, end.distance, z->height);
+    };
+    tellEnd(points.front());
     for (std::size_t i = 1; i < points.size() && !judge.isDone(); ++i) {
       const SightPiece piece(points[i - 1], points[i]);
       if (piece.dx == 0 && piece.dy == 0) {
@@ -232,6 +238,7 @@ class SightDescent final : public SightEngine {
       }
       visited += Descent(locator, piece, judge, allowed, mayFill_).run();
     }
+    tellEnd(points.back());
     return judge.answer(visited);
   }
 

@@ -24,6 +24,8 @@ class PlaneEarth final : public SightEarth {
   }
 
   Result<SightTrack> track(Vec2 from, Vec2 to) const override {
+    from = sightEnd(model_, from);
+    to = sightEnd(model_, to);
     const Vec2 a = model_.toSource(from), b = model_.toSource(to);
     const double east = (b.x - a.x) * perX_, north = (b.y - a.y) * perY_;
     SightTrack track;
@@ -39,6 +41,14 @@ class PlaneEarth final : public SightEarth {
 };
 
 }  // namespace
+
+Vec2 sightEnd(const TerrainModel& model, Vec2 plan) {
+  const auto onLine = [](double v) {
+    const double line = std::round(v);
+    return std::fabs(v - line) <= 1e-9 ? line : v;
+  };
+  return model.isRaster ? Vec2{onLine(plan.x), onLine(plan.y)} : plan;
+}
 
 std::unique_ptr<SightEarth> makePlaneEarth(const TerrainModel& model) {
   return std::make_unique<PlaneEarth>(model);

@@ -14,9 +14,13 @@ namespace arete {
 class SightEarth {
  public:
   virtual ~SightEarth() = default;
-  /// Errors: invalidData for a place that the Earth model cannot tell (beyond a projection's reach).
+  /// The track begins and ends where sightEnd() puts the two places. Errors: invalidData for a place that the
+  /// Earth model cannot tell (beyond a projection's reach).
   virtual Result<SightTrack> track(Vec2 from, Vec2 to) const = 0;
 };
+
+/// A place within 1e-9 of a lattice line of the raster is on it: coordinates are rounded.
+Vec2 sightEnd(const TerrainModel& model, Vec2 plan);
 
 /// The map taken as it is: straight in plan, no curvature. Distances are those of the map in metres; of a
 /// geographic CRS, by the ground size of a sample's steps in the middle of the DEM.

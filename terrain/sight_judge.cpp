@@ -69,6 +69,7 @@ void SightJudge::take(double s0, double z0, double s1, double z1, double lower, 
 }
 
 void SightJudge::gap(double s0, double s1) {
+  if (!countsGaps_) return;
   hasGap_ = true;
   gap_ += s1 - s0;
   if (options_.nodata != NodataSight::blocked || obstruction_) return;

@@ -15,8 +15,11 @@
 namespace arete {
 namespace {
 
-/// Where the first power that is left out is worth less than 1e-7 m.
-constexpr double kPieceMetres = 60000;
+/// The longest piece on which the first power that is left out is worth less than 1e-7 m: that is about
+/// radius * (length / (2 radius))^6 / 12.
+double longestPiece(double curvature) {
+  return 60000 * std::pow(std::fabs(curvature) * 6.371e6, -5.0 / 6);
+}
 
 /// sin(k x) / k, for k = 0 too.
 double sn(double k, double x) {
@@ -66,9 +69,9 @@ SightLine::SightLine(SightTrack track, double fromHeight, double toHeight, doubl
       to_(toHeight),
       tolerance_((1e-6 + 1e-12 * length_) / heightUnitMetres) {
   const double k = track_.curvature;
-  const auto count = k == 0 || !(length_ > kPieceMetres)
-                         ? std::size_t{1}
-                         : static_cast<std::size_t>(std::ceil(length_ / kPieceMetres));
+  const auto count =
+      k == 0 ? std::size_t{1}
+             : std::max(std::size_t{1}, static_cast<std::size_t>(std::ceil(length_ / longestPiece(k))));
   pieces_.resize(count);
   piecesPerMetre_ = length_ > 0 ? static_cast<double>(count) / length_ : 0;
   for (std::size_t i = 0; i < count; ++i) {

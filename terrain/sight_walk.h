@@ -73,10 +73,16 @@ void forSquares(const SightPiece& piece, SightRange range, double size, int colu
 std::uint64_t walkCells(const SightGrid& grid, const SightPiece& piece, SightRange range, SightJudge& judge);
 
 /// Calls inside(piece, range) for each piece of the line that has a part over the grid, and tells the judge
-/// the rest.
+/// the rest: what has no terrain, and both ends, which may be all the terrain there is.
 template <class Inside>
 void forPieces(const SightGrid& grid, SightJudge& judge, const Inside& inside) {
   const auto points = judge.line().points();
+  if (grid.columns() < 2 || grid.rows() < 2) return judge.gap(0, points.back().distance);  // no cell
+  const auto tellEnd = [&](const SightPoint& end) {
+    const double z = grid.at(end.plan);
+    if (!std::isnan(z) && !judge.isDone()) judge.terrain(end.distance, z, end.distance, z);
+  };
+  tellEnd(points.front());
   for (std::size_t i = 1; i < points.size() && !judge.isDone(); ++i) {
     const SightPiece piece(points[i - 1], points[i]);
     const double plan = std::hypot(piece.dx, piece.dy);
@@ -99,6 +105,7 @@ void forPieces(const SightGrid& grid, SightJudge& judge, const Inside& inside) {
     inside(piece, range);
     if (1 - range.last > shortest) judge.gap(piece.distance(range.last), piece.distance(1));
   }
+  tellEnd(points.back());
 }
 
 }  // namespace arete
