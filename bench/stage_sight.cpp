@@ -87,12 +87,14 @@ Result<Figures> sightStage(const DemSource& source, const std::string& path, con
       (clearShare(*pyramid, linesOf(*model, ends, middle)) < kClearShare ? low : high) = middle;
     }
     const std::vector<SightLine> lines = linesOf(*model, ends, high);
-    for (const bool wantsClearance : {false, true}) {
+    for (const char* what : {"verdict", "first obstruction", "clearance"}) {
       SightOptions options;
-      options.wantsClearance = wantsClearance;
+      options.wantsClearance = std::string_view(what) == "clearance";
+      options.wantsObstruction = std::string_view(what) != "verdict";
       options.nodata = NodataSight::clear;
       double scanSeconds = 0;
-      for (const SightMethod method : {SightMethod::scan, SightMethod::pyramid, SightMethod::descent}) {
+      for (const SightMethod method :
+           {SightMethod::scan, SightMethod::pyramid, SightMethod::descent, SightMethod::embree}) {
         const auto engine = makeSightEngine(method, *model, grid);
         if (!engine) return tl::unexpected(engine.error());
         double visited = 0;
@@ -105,8 +107,7 @@ Result<Figures> sightStage(const DemSource& source, const std::string& path, con
         });
         if (method == SightMethod::scan) scanSeconds = seconds;
         const std::string variant =
-            fmt::format("{}{}, {}", isLong ? "2000 cells and more, " : "",
-                        wantsClearance ? "clearance" : "first obstruction", toString(method));
+            fmt::format("{}{}, {}", isLong ? "2000 cells and more, " : "", what, toString(method));
         const auto add = [&](const char* name, double value, const char* unit, Better better) {
           figures.push_back({source.name, "sight", variant, name, value, unit, better});
         };

@@ -25,6 +25,8 @@ struct SightOptions {
   double maxError = 0;
   /// The least clearance along the whole line. Without it a blocked line is left at its first obstruction.
   bool wantsClearance = true;
+  /// Where a blocked line is first obstructed. Without it and the clearance an engine may know only that.
+  bool wantsObstruction = true;
 };
 
 /// A place on the line.
@@ -36,8 +38,9 @@ struct SightPlace {
 
 struct SightAnswer {
   SightVerdict verdict = SightVerdict::visible;
-  /// Where the line first meets higher terrain, or, where NODATA blocks, NODATA. Set if and only if blocked.
-  /// To the metre it is where the line goes under; by the tolerance of SightLine the terrain is higher there.
+  /// Where the line first meets higher terrain, or, where NODATA blocks, NODATA. Set if blocked and asked
+  /// for. To the metre it is where the line goes under; by the tolerance of SightLine the terrain is higher
+  /// there.
   std::optional<SightPlace> obstruction;
   /// The least height of the line above the terrain, negative when blocked: where terrain is below the line,
   /// and when it was asked for.

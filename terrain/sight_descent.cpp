@@ -52,17 +52,27 @@ class Descent {
         perLength_(1 / (piece.dx * piece.dx + piece.dy * piece.dy)),
         shortest_(kShortestInPlan * std::sqrt(perLength_)) {}
 
-  std::uint64_t run() {
+  /// The root triangles below the piece.
+  void findRoots() {
     std::vector<std::uint32_t> roots;
     locator_.roots().along({piece_.x, piece_.y}, {piece_.x + piece_.dx, piece_.y + piece_.dy}, roots);
-    const std::size_t begin = spans_.size();
     for (const std::uint32_t r : roots) {
       const auto& corners = arrays_.rootTriangles[r];
       addSpan(r, see(corners[0]), see(corners[1]), see(corners[2]), 0, 1);
     }
-    follow(begin, 0, 1, true);
+    for (const Span& span : spans_) {
+      hasFirst_ = hasFirst_ || span.t0 <= shortest_;
+      hasLast_ = hasLast_ || span.t1 >= 1 - shortest_;
+    }
+  }
+  /// Precondition: findRoots().
+  std::uint64_t run() {
+    follow(0, 0, 1, true);
     return visited_;
   }
+  /// Whether there is terrain on the line up to its ends; if not, an end may still stand on a corner of it.
+  bool hasFirst() const { return !mayFill_ && hasFirst_; }
+  bool hasLast() const { return !mayFill_ && hasLast_; }
 
  private:
   Seen see(std::uint32_t vertex) const {
@@ -206,6 +216,7 @@ class Descent {
   double perLength_, shortest_;
   std::vector<Span> spans_;
   std::uint64_t visited_ = 0;
+  bool hasFirst_ = false, hasLast_ = false;
 };
 
 class SightDescent final : public SightEngine {
@@ -224,21 +235,21 @@ class SightDescent final : public SightEngine {
       if (const auto z = heights_.at(heights_.model().toSource(end.plan)))
         judge.terrain(end.distance, z->height, end.distance, z->height);
     };
-    tellEnd(points.front());
+    bool hasLast = false;
     for (std::size_t i = 1; i < points.size() && !judge.isDone(); ++i) {
       const SightPiece piece(points[i - 1], points[i]);
       if (piece.dx == 0 && piece.dy == 0) {
-        const auto height = heights_.at(heights_.model().toSource(points[i].plan));
-        if (height) {
-          judge.terrain(piece.s, height->height, piece.distance(1), height->height);
-        } else {
-          judge.gap(piece.s, piece.distance(1));
-        }
+        tellEnd(points[i]);
+        if (!heights_.at(heights_.model().toSource(points[i].plan))) judge.gap(piece.s, piece.distance(1));
         continue;
       }
-      visited += Descent(locator, piece, judge, allowed, mayFill_).run();
+      Descent descent(locator, piece, judge, allowed, mayFill_);
+      descent.findRoots();
+      if (i == 1 && !descent.hasFirst()) tellEnd(points.front());
+      visited += descent.run();
+      hasLast = descent.hasLast();
     }
-    tellEnd(points.back());
+    if (!hasLast) tellEnd(points.back());
     return judge.answer(visited);
   }
 

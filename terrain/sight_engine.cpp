@@ -14,6 +14,8 @@ std::string_view toString(SightMethod method) {
       return "pyramid";
     case SightMethod::scan:
       return "scan";
+    case SightMethod::embree:
+      return "embree";
     default:
       return "automatic";
   }
@@ -27,6 +29,7 @@ Result<std::unique_ptr<SightEngine>> makeSightEngine(SightMethod method, const T
   if (!model.isRaster)
     return failure(ErrorCode::unsupported, "walks over the cells of a raster; this model is of points",
                    "the method " + std::string(toString(method)));
+  if (method == SightMethod::embree) return makeSightEmbree(model);
   if (!grid) grid = std::make_shared<SightGrid>(model);
   return method == SightMethod::scan ? makeSightScan(std::move(grid))
                                      : makeSightPyramid(std::move(grid), context);

@@ -20,6 +20,7 @@ enum class SightMethod {
   descent,    ///< down the multitriangulation, by its signed bounds
   pyramid,    ///< rasters: blocks of cells with their highest samples, then cells
   scan,       ///< rasters: every cell below the line
+  embree,     ///< rasters: Embree, on a front raised and one lowered by its bounds, then the descent
 };
 std::string_view toString(SightMethod method);
 
@@ -32,7 +33,8 @@ class SightEngine {
 
 /// Preconditions: the model outlives the engine; so does the grid, which is that of the model, shared by who
 /// asks for several engines. Errors: unsupported (a method for rasters and a model of points; a tolerance and
-/// a method that has none). descent: O(root triangles); pyramid: O(samples), parallel; scan: O(1).
+/// a method that has none). descent: O(root triangles); pyramid: O(samples), parallel; scan: O(1); embree:
+/// O(front log front).
 Result<std::unique_ptr<SightEngine>> makeSightEngine(SightMethod method, const TerrainModel& model,
                                                      std::shared_ptr<const SightGrid> grid = {},
                                                      const RunContext& context = {});
@@ -42,5 +44,6 @@ std::unique_ptr<SightEngine> makeSightScan(std::shared_ptr<const SightGrid> grid
 std::unique_ptr<SightEngine> makeSightPyramid(std::shared_ptr<const SightGrid> grid,
                                               const RunContext& context = {});
 std::unique_ptr<SightEngine> makeSightDescent(const TerrainModel& model);
+std::unique_ptr<SightEngine> makeSightEmbree(const TerrainModel& model);
 
 }  // namespace arete

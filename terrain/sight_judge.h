@@ -35,6 +35,9 @@ class SightJudge {
   void gap(double s0, double s1);
   /// Out of order: the terrain is at least this high at s. More can then be passed over.
   void hint(double s, double z);
+  /// False when the terrain of a hint was not among what was told: it was in a single point, which engines
+  /// may pass. Then too much was passed over: ask again without hints.
+  bool areHintsKept() const { return !(most_ > hint_ + line_.tolerance()); }
 
   /// Nothing that follows can change the answer.
   bool isDone() const { return isDone_; }

@@ -46,12 +46,15 @@ class SightPyramid final : public SightEngine {
   }
 
   SightAnswer answer(const SightLine& line, const SightOptions& options) const override {
-    SightJudge judge(line, options);
-    if (options.wantsClearance) hint(line, judge);
     std::uint64_t visited = 0;
-    forPieces(*grid_, judge, [&](const SightPiece& piece, SightRange range) {
-      enter(levels_.size() - 1, piece, range, judge, visited);
-    });
+    if (options.wantsClearance) {
+      SightJudge judge(line, options);
+      hint(line, judge);
+      pass(judge, visited);
+      if (judge.areHintsKept()) return judge.answer(visited);
+    }
+    SightJudge judge(line, options);
+    pass(judge, visited);
     return judge.answer(visited);
   }
 
@@ -111,6 +114,12 @@ class SightPyramid final : public SightEngine {
       const double s = line.length() * (i / double{kHints});
       if (const double z = grid_->at(line.planAt(s)); !std::isnan(z)) judge.hint(s, z);
     }
+  }
+
+  void pass(SightJudge& judge, std::uint64_t& visited) const {
+    forPieces(*grid_, judge, [&](const SightPiece& piece, SightRange range) {
+      enter(levels_.size() - 1, piece, range, judge, visited);
+    });
   }
 
   void enter(std::size_t which, const SightPiece& piece, SightRange range, SightJudge& judge,
