@@ -61,8 +61,8 @@ class Descent {
       addSpan(r, see(corners[0]), see(corners[1]), see(corners[2]), 0, 1);
     }
     for (const Span& span : spans_) {
-      hasFirst_ = hasFirst_ || span.t0 <= shortest_;
-      hasLast_ = hasLast_ || span.t1 >= 1 - shortest_;
+      hasFirst_ = hasFirst_ || (span.t0 <= shortest_ && span.t1 > shortest_);
+      hasLast_ = hasLast_ || (span.t1 >= 1 - shortest_ && span.t0 < 1 - shortest_);
     }
   }
   /// Precondition: findRoots().
@@ -239,8 +239,12 @@ class SightDescent final : public SightEngine {
     for (std::size_t i = 1; i < points.size() && !judge.isDone(); ++i) {
       const SightPiece piece(points[i - 1], points[i]);
       if (piece.dx == 0 && piece.dy == 0) {
-        tellEnd(points[i]);
-        if (!heights_.at(heights_.model().toSource(points[i].plan))) judge.gap(piece.s, piece.distance(1));
+        if (const auto z = heights_.at(heights_.model().toSource(points[i].plan))) {
+          judge.terrain(piece.s, z->height, piece.distance(1), z->height);
+        } else {
+          judge.gap(piece.s, piece.distance(1));
+        }
+        hasLast = true;
         continue;
       }
       Descent descent(locator, piece, judge, allowed, mayFill_);
