@@ -18,6 +18,7 @@
 #include "cli/height_command.h"
 #include "cli/info_command.h"
 #include "cli/interrupt.h"
+#include "cli/los_command.h"
 #include "cli/measure_command.h"
 #include "cli/session.h"
 #include "cli/validate_command.h"
@@ -61,6 +62,7 @@ ExitCode run(int argc, char** argv) {
   addInfoCommand(app, session);
   addExtractCommand(app, session);
   addHeightCommand(app, session);
+  addLosCommand(app, session);
   addMeasureCommand(app, session);
   addValidateCommand(app, session);
   addConvertCommand(app, session);

@@ -92,7 +92,8 @@ class EllipsoidEarth final : public SightEarth {
     const GeodesicLine line =
         geodesic_.Line(ends[0].y, ends[0].x, azimuth,
                        Geodesic::LATITUDE | Geodesic::LONGITUDE | Geodesic::AZIMUTH | Geodesic::DISTANCE_IN);
-    track.curvature = bend_ * curvatureInTheMiddle(line, length);
+    track.groundCurvature = curvatureInTheMiddle(line, length);
+    track.curvature = bend_ * track.groundCurvature;
     if (!(std::abs(track.curvature) * length < kLongestAngle))
       return failure(ErrorCode::invalidData,
                      fmt::format("a line of {:.0f} km is too long for the effective radius of {:.0f} km",

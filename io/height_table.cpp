@@ -9,9 +9,7 @@
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <iterator>
@@ -21,6 +19,7 @@
 #include "io/file_writer.h"
 #include "io/gdal_support.h"
 #include "io/output_file.h"
+#include "io/table_text.h"
 
 namespace arete {
 namespace {
@@ -29,37 +28,6 @@ constexpr std::array<std::string_view, 7> kOwnNames = {"x", "y", "height", "belo
 constexpr std::array<const char*, 5> kOwnFields = {"x", "y", "height", "below", "above"};
 constexpr std::size_t kRowsPerReport = 4096;
 constexpr const char* kStamp = "2000-01-01T00:00:00.000Z";
-
-bool isSameName(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char p, unsigned char q) { return std::tolower(p) == std::tolower(q); });
-}
-
-/// The input's columns under names that are not ours and each other's.
-std::vector<std::string> columnNames(const PointAttributes& attributes) {
-  std::vector<std::string> names;
-  const auto isTaken = [&](const std::string& name) {
-    const auto isIt = [&](std::string_view other) { return isSameName(name, other); };
-    return std::any_of(kOwnNames.begin(), kOwnNames.end(), isIt) ||
-           std::any_of(names.begin(), names.end(), isIt);
-  };
-  for (const auto& column : attributes.columns) {
-    std::string name = column.name;
-    while (isTaken(name)) name += "_in";
-    names.push_back(std::move(name));
-  }
-  return names;
-}
-
-void appendCsv(std::string& line, std::string_view value) {
-  if (value.find_first_of(",\"\r\n#") == std::string_view::npos) {
-    line += value;
-    return;
-  }
-  line += '"';
-  for (const char c : value) line += c == '"' ? std::string_view("\"\"") : std::string_view(&c, 1);
-  line += '"';
-}
 
 Status writeCsv(const std::string& path, const PointTable& table,
                 std::span<const std::optional<SurfaceHeight>> heights, const RunContext& context) {
@@ -118,7 +86,7 @@ class GeoPackageWriter {
   }
 
   bool createFields(OGRLayer& layer) {
-    const std::vector<std::string> names = columnNames(table_.attributes);
+    const std::vector<std::string> names = namesBeside(table_.attributes, kOwnNames);
     for (std::size_t c = 0; c < names.size(); ++c) {
       const PointAttributes::Kind kind = table_.attributes.columns[c].kind;
       OGRFieldDefn field(names[c].c_str(), kind == PointAttributes::Kind::integer ? OFTInteger64
@@ -183,15 +151,15 @@ std::string heightText(double height) {
 void forCsvLines(const PointTable& table, std::span<const std::optional<SurfaceHeight>> heights,
                  const std::function<void(std::string_view)>& write) {
   std::string line;
-  for (const std::string& name : columnNames(table.attributes)) {
-    appendCsv(line, name);
+  for (const std::string& name : namesBeside(table.attributes, kOwnNames)) {
+    appendCsvField(line, name);
     line += ',';
   }
   write(line += "x,y,height,below,above\n");
   for (std::size_t row = 0; row < table.stated.size(); ++row) {
     line.clear();
     for (std::size_t c = 0; c < table.attributes.columns.size(); ++c) {
-      appendCsv(line, table.attributes.at(row, c));
+      appendCsvField(line, table.attributes.at(row, c));
       line += ',';
     }
     const Vec2 p = table.stated[row];

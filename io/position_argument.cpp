@@ -83,6 +83,17 @@ std::string_view toString(HeightKind kind) {
   return "unknown";
 }
 
+Result<StatedHeight> readHeightText(std::string_view text) {
+  std::string_view height = trimmed(text);
+  const HeightKind kind = takeKind(height);
+  const auto value = numberOf(height);
+  if (!value)
+    return failure(
+        ErrorCode::usage,
+        fmt::format("'{}' is not a height: a number, with agl, msl or ell behind it or nothing", text));
+  return StatedHeight{*value, kind};
+}
+
 Result<Vec2> readPlaceArgument(const std::string& option, const std::string& text,
                                const CrsTransform& toDem) {
   const std::string culprit = fmt::format("{} {}", option, text);
@@ -103,15 +114,10 @@ Result<PositionArgument> readPositionArgument(const std::string& option, const s
         fmt::format("a position is X,Y,H with agl, msl or ell behind H, not {} fields", fields.size()),
         culprit);
   PositionArgument position;
-  std::string_view height = fields[2];
-  position.kind = takeKind(height);
-  const auto value = numberOf(height);
-  if (!value)
-    return failure(
-        ErrorCode::usage,
-        fmt::format("'{}' is not a height: a number, with agl, msl or ell behind it or nothing", fields[2]),
-        culprit);
-  position.height = *value;
+  const auto height = readHeightText(fields[2]);
+  if (!height) return failure(height.error().code, height.error().message, culprit);
+  position.height = height->height;
+  position.kind = height->kind;
   const auto place = placeOf(fields[0], fields[1], toDem, culprit);
   if (!place) return tl::unexpected(place.error());
   position.xy = *place;

@@ -26,6 +26,13 @@ struct PositionArgument {
   HeightKind kind = HeightKind::aboveGround;
 };
 
+/// A height by itself: "30", "30agl", "120.5msl", "98ell".
+struct StatedHeight {
+  double height = 0;  ///< in the DEM's vertical unit
+  HeightKind kind = HeightKind::aboveGround;
+};
+Result<StatedHeight> readHeightText(std::string_view text);
+
 /// The place "X,Y". `toDem` brings what was typed into the DEM's CRS: CrsTransform::fromLonLat() for
 /// longitude and latitude, CrsTransform() for the DEM's own coordinates. `option` is named in errors. Errors:
 /// usage.

@@ -12,9 +12,10 @@ bool mayHold(OGRwkbGeometryType declared, LayerKind kind) {
   const OGRwkbGeometryType type = wkbFlatten(declared);
   if (type == wkbUnknown || type == wkbGeometryCollection) return true;
   if (kind == LayerKind::points) return type == wkbPoint || type == wkbMultiPoint;
-  if (kind == LayerKind::polygonsAndLines &&
-      (OGR_GT_IsSubClassOf(type, wkbCurve) || OGR_GT_IsSubClassOf(type, wkbMultiCurve)))
-    return true;
+  const bool isLines = OGR_GT_IsSubClassOf(type, wkbCurve) || OGR_GT_IsSubClassOf(type, wkbMultiCurve);
+  if (kind == LayerKind::linesOrTable)
+    return isLines || type == wkbNone || type == wkbPoint || type == wkbMultiPoint;
+  if (kind == LayerKind::polygonsAndLines && isLines) return true;
   if (kind == LayerKind::surfaces && OGR_GT_IsSubClassOf(type, wkbPolyhedralSurface)) return true;
   return OGR_GT_IsSubClassOf(type, wkbCurvePolygon) || OGR_GT_IsSubClassOf(type, wkbMultiSurface);
 }
@@ -36,6 +37,7 @@ Result<OGRLayer*> chooseLayer(GDALDataset& dataset, const std::string& name, Lay
   const char* what = kind == LayerKind::points             ? "points"
                      : kind == LayerKind::polygons         ? "polygons"
                      : kind == LayerKind::polygonsAndLines ? "polygons or lines"
+                     : kind == LayerKind::linesOrTable     ? "lines or a table"
                                                            : "surfaces";
   if (!name.empty())
     return failure(ErrorCode::notFound,

@@ -14,7 +14,8 @@ enum class LayerKind {
   points,
   polygons,
   polygonsAndLines,
-  surfaces,  ///< polygons, TINs and polyhedral surfaces
+  linesOrTable,  ///< lines, points, or rows without a geometry
+  surfaces,      ///< polygons, TINs and polyhedral surfaces
 };
 
 /// The layer of that name, or, for an empty name, the only layer that may hold geometries of that kind.

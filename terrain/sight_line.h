@@ -19,9 +19,10 @@ struct SightPoint {
 /// and how the Earth curves below it. Made by a SightEarth (terrain/sight_earth.h).
 struct SightTrack {
   std::vector<SightPoint>
-      points;                 ///< at least two; distances rise, from 0, or are all 0 (both ends in one place)
-  double curvature = 0;       ///< 1/m: (1 - K) / R, of the effective Earth; 0 = flat, negative bends away
-  double azimuthDegrees = 0;  ///< at the first point, clockwise from north (from the map's +y when flat)
+      points;            ///< at least two; distances rise, from 0, or are all 0 (both ends in one place)
+  double curvature = 0;  ///< 1/m: (1 - K) / R, of the effective Earth; 0 = flat, negative bends away
+  double groundCurvature = 0;  ///< 1/m: 1 / R of the Earth itself; 0 = flat
+  double azimuthDegrees = 0;   ///< at the first point, clockwise from north (from the map's +y when flat)
 };
 
 /// The straight line, on an Earth of the effective radius, between two heights over a track: the sight line

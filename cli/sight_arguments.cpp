@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/sight_arguments.h"
+
+#include <map>
+#include <utility>
+
+#include "cli/arguments.h"
+#include "io/crs_lonlat.h"
+#include "io/crs_transform.h"
+
+namespace arete {
+
+void SightArguments::addEarthTo(CLI::App& command) {
+  const std::string group = "The Earth";
+  command
+      .add_option(
+          "--earth", earth,
+          "ellipsoid: lines over geodesics of the CRS's ellipsoid (default where there is one); plane: "
+          "the map taken as it is, without curvature")
+      ->check(oneOf({"ellipsoid", "plane"}))
+      ->type_name("ellipsoid|plane")
+      ->group(group);
+  command
+      .add_option("--refraction", refraction,
+                  "Refraction K: the Earth's effective radius is R / (1 - K) (default 1/7; GDAL's curvature "
+                  "coefficient is 1 - K)")
+      ->check(finiteBetween(-10, 10))
+      ->type_name("K")
+      ->group(group);
+}
+
+void SightArguments::addNodataTo(CLI::App& command) {
+  command
+      .add_option(
+          "--nodata", nodata,
+          "What a line over NODATA, or outside the DEM, is there: unknown (default), clear or blocked")
+      ->transform(CLI::Transformer(std::map<std::string, NodataSight>{{"unknown", NodataSight::unknown},
+                                                                      {"clear", NodataSight::clear},
+                                                                      {"blocked", NodataSight::blocked}},
+                                   CLI::ignore_case))
+      ->type_name("unknown|clear|blocked");
+}
+
+void SightArguments::addLonLatTo(CLI::App& command) {
+  command.add_flag("--lonlat", lonLat, "X,Y are longitude, latitude in degrees (WGS 84)");
+}
+
+std::string SightArguments::earthName(const TerrainModel& model) const {
+  if (!earth.empty()) return earth;
+  return !model.georeference.crsWkt.empty() && CrsLonLat::of(model.georeference) ? "ellipsoid" : "plane";
+}
+
+Result<std::unique_ptr<SightEarth>> SightArguments::makeEarth(const TerrainModel& model,
+                                                              Session& session) const {
+  if (earthName(model) == "plane") {
+    if (earth.empty() && !model.georeference.crsWkt.empty())
+      session.warn("the DEM's CRS knows no longitude and latitude: its map is taken as plane");
+    return makePlaneEarth(model);
+  }
+  auto made = makeEllipsoidEarth(model, refraction);
+  if (!made) made.error().culprit = "--earth ellipsoid";
+  return made;
+}
+
+Result<CrsTransform> transformOfPlaces(bool lonLat, const Georeference& dem) {
+  Result<CrsTransform> toDem = lonLat ? CrsTransform::fromLonLat(dem) : CrsTransform();
+  if (!toDem && toDem.error().culprit.empty()) toDem.error().culprit = "--lonlat";
+  return toDem;
+}
+
+std::string_view toString(NodataSight nodata) {
+  return nodata == NodataSight::clear ? "clear" : nodata == NodataSight::blocked ? "blocked" : "unknown";
+}
+
+std::string_view toString(SightVerdict verdict) {
+  switch (verdict) {
+    case SightVerdict::visible:
+      return "visible";
+    case SightVerdict::blocked:
+      return "blocked";
+    case SightVerdict::unknown:
+      return "unknown";
+    default:
+      return "undecided";
+  }
+}
+
+}  // namespace arete

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "cli/session.h"
+#include "engine/result.h"
+#include "io/crs_transform.h"
+#include "io/ellipsoid_earth.h"
+#include "terrain/sight_answer.h"
+#include "terrain/sight_earth.h"
+#include "terrain/sight_engine.h"
+
+namespace arete {
+
+/// What los, profile and viewshed are told alike.
+struct SightArguments {
+  std::string earth;  ///< "ellipsoid", "plane" or empty: the ellipsoid where the DEM's CRS has one
+  double refraction = kUsualRefraction;
+  NodataSight nodata = NodataSight::unknown;
+  bool lonLat = false;
+
+  void addEarthTo(CLI::App& command);
+  void addNodataTo(CLI::App& command);
+  void addLonLatTo(CLI::App& command);
+
+  /// The Earth as asked for. Errors name the option.
+  Result<std::unique_ptr<SightEarth>> makeEarth(const TerrainModel& model, Session& session) const;
+  /// Which one that is, for answers.
+  std::string earthName(const TerrainModel& model) const;
+};
+
+/// Brings what is typed into the DEM's CRS. Errors name --lonlat.
+Result<CrsTransform> transformOfPlaces(bool lonLat, const Georeference& dem);
+
+std::string_view toString(NodataSight nodata);
+std::string_view toString(SightVerdict verdict);
+
+}  // namespace arete

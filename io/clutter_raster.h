@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "engine/result.h"
+#include "engine/run_context.h"
+#include "terrain/sight_links.h"
+#include "terrain/terrain_model.h"
+
+namespace arete {
+
+/// What stands on the terrain: "12.5", everywhere, or a raster of heights in the CRS of the DEM, taken pixel
+/// by pixel; NODATA and what is outside of it has none. Heights are in the DEM's vertical unit unless the
+/// raster states another. The result reads the model's georeference only while this runs. Errors: usage (a
+/// negative height; another CRS), and those of readRaster().
+Result<SightClutter> readClutter(const std::string& text, const TerrainModel& model,
+                                 const RunContext& context = {});
+
+}  // namespace arete
