@@ -20,6 +20,7 @@
 #include "cli/interrupt.h"
 #include "cli/los_command.h"
 #include "cli/measure_command.h"
+#include "cli/profile_command.h"
 #include "cli/session.h"
 #include "cli/validate_command.h"
 
@@ -63,6 +64,7 @@ ExitCode run(int argc, char** argv) {
   addExtractCommand(app, session);
   addHeightCommand(app, session);
   addLosCommand(app, session);
+  addProfileCommand(app, session);
   addMeasureCommand(app, session);
   addValidateCommand(app, session);
   addConvertCommand(app, session);

@@ -152,14 +152,15 @@ class Descent {
   std::vector<Stretch>& stretches_;
 };
 
-/// Appends what is below one piece.
-void append(Profile& profile, const SightPiece& piece, std::span<const Stretch> stretches, double shortest) {
+/// Appends what is below one piece, which ends at a distance of `end`. isOpen: the last vertex is where the
+/// piece begins. Says whether there is terrain where it ends.
+bool append(Profile& profile, const SightPiece& piece, double end, std::span<const Stretch> stretches,
+            double shortest, bool isOpen) {
   auto& vertices = profile.vertices;
   const auto vertexAt = [&](double t, double z, bool isJoined) {
     return ProfileVertex{piece.distance(t), {piece.x + t * piece.dx, piece.y + t * piece.dy}, z, isJoined};
   };
   double done = 0;
-  bool isOpen = !vertices.empty() && vertices.back().distance == piece.s;
   for (const Stretch& s : stretches) {
     if (s.t0 > done + shortest) {
       profile.gapMetres += piece.ds * (s.t0 - done);
@@ -175,9 +176,10 @@ void append(Profile& profile, const SightPiece& piece, std::span<const Stretch> 
   }
   if (1 > done + shortest) {
     profile.gapMetres += piece.ds * (1 - done);
-  } else if (isOpen) {
-    vertices.back().distance = piece.distance(1);
+    return false;
   }
+  if (isOpen) vertices.back().distance = end;
+  return isOpen;
 }
 
 }  // namespace
@@ -194,6 +196,7 @@ Profile Profiles::along(const SightTrack& track, double maxError) const {
     return profile;
   }
   std::vector<Stretch> stretches;
+  bool isOpen = false;
   for (std::size_t i = 1; i < track.points.size(); ++i) {
     const SightPiece piece(track.points[i - 1], track.points[i]);
     const double plan = std::hypot(piece.dx, piece.dy);
@@ -205,7 +208,8 @@ Profile Profiles::along(const SightTrack& track, double maxError) const {
     } else {
       Descent(heights_.locator(), piece, allowed, model.options.rimTolerance > 0, stretches).run();
     }
-    append(profile, piece, stretches, plan > 0 ? kShortestInPlan / plan : 0);
+    isOpen = append(profile, piece, track.points[i].distance, stretches,
+                    plan > 0 ? kShortestInPlan / plan : 0, isOpen);
   }
   return profile;
 }

@@ -50,6 +50,7 @@ void expectInOrder(const Profile& profile) {
     const ProfileVertex &p = profile.vertices[i - 1], &q = profile.vertices[i];
     ASSERT_LE(p.distance, q.distance);
     if (q.isJoined) joined += q.distance - p.distance;
+    ASSERT_TRUE(q.isJoined || q.distance > p.distance) << "a break without a gap";
   }
   ASSERT_NEAR(joined + profile.gapMetres, profile.length, 1e-6 * (1 + profile.length));
 }
