@@ -263,12 +263,14 @@ void addLosCommand(CLI::App& app, Session& session) {
       ->check(finiteAtLeast(0))
       ->type_name("E");
   command
-      ->add_option("--method", arguments->method,
-                   "How to find out; all give the same answer: auto (default), descent, pyramid, scan")
+      ->add_option(
+          "--method", arguments->method,
+          "How to find out; all give the same answer: auto (default), descent, pyramid, scan, embree")
       ->transform(CLI::Transformer(std::map<std::string, SightMethod>{{"auto", SightMethod::automatic},
                                                                       {"descent", SightMethod::descent},
                                                                       {"pyramid", SightMethod::pyramid},
-                                                                      {"scan", SightMethod::scan}},
+                                                                      {"scan", SightMethod::scan},
+                                                                      {"embree", SightMethod::embree}},
                                    CLI::ignore_case))
       ->type_name("METHOD");
   arguments->sight.addEarthTo(*command);

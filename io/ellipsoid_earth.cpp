@@ -71,6 +71,8 @@ class EllipsoidEarth final : public SightEarth {
   }
 
   Result<SightTrack> track(Vec2 from, Vec2 to) const override {
+    from = sightEnd(model_, from);
+    to = sightEnd(model_, to);
     Vec2 ends[2] = {model_.toSource(from), model_.toSource(to)};
     const Vec2 stated[2] = {ends[0], ends[1]};
     lonLat_.toLonLat(ends);

@@ -29,6 +29,10 @@ namespace {
 constexpr int kTileSize = 256;
 constexpr const char* kStaleSidecars[] = {".ovr", ".msk"};
 
+bool isWhole(GeoTiffOptions::Sample sample) {
+  return sample == GeoTiffOptions::Sample::uint8 || sample == GeoTiffOptions::Sample::uint16;
+}
+
 CPLStringList creationOptions(GDALDriver& driver, const GeoTiffOptions& options) {
   CPLStringList list;
   list.SetNameValue("TILED", "YES");
@@ -40,7 +44,7 @@ CPLStringList creationOptions(GDALDriver& driver, const GeoTiffOptions& options)
   const bool zstd =
       options.compression == GeoTiffOptions::Compression::zstd && known && std::strstr(known, "ZSTD");
   list.SetNameValue("COMPRESS", zstd ? "ZSTD" : "DEFLATE");
-  list.SetNameValue("PREDICTOR", "3");
+  list.SetNameValue("PREDICTOR", isWhole(options.sample) ? "1" : "3");
   return list;
 }
 
@@ -57,14 +61,14 @@ Status describe(GDALDataset& dataset, const Georeference& georeference, const Ge
       return failure(ErrorCode::unreadable, "the geotransform cannot be written");
   }
   GDALRasterBand& band = *dataset.GetRasterBand(1);
-  band.SetNoDataValue(std::numeric_limits<double>::quiet_NaN());
+  band.SetNoDataValue(isWhole(options.sample) ? options.nodata : std::numeric_limits<double>::quiet_NaN());
   if (!georeference.verticalUnit.empty()) band.SetUnitType(georeference.verticalUnit.c_str());
   if (!options.description.empty()) band.SetDescription(options.description.c_str());
   return {};
 }
 
 template <class Sample>
-Status writeRows(GDALRasterBand& band, std::span<const double> values, GDALDataType type,
+Status writeRows(GDALRasterBand& band, std::span<const double> values, GDALDataType type, double nodata,
                  const GdalErrors& errors, const RunContext& context) {
   const std::size_t columns = std::size_t(band.GetXSize());
   const int rows = band.GetYSize();
@@ -76,10 +80,19 @@ Status writeRows(GDALRasterBand& band, std::span<const double> values, GDALDataT
     const auto source = values.subspan(std::size_t(row) * columns, std::size_t(count) * columns);
     strip.clear();
     for (const double value : source) {
-      if (std::isfinite(value) && std::abs(value) > double(std::numeric_limits<Sample>::max()))
-        return failure(ErrorCode::invalidData,
-                       fmt::format("the value {} does not fit a 32-bit float", value));
-      strip.push_back(Sample(value));
+      using Limits = std::numeric_limits<Sample>;
+      if constexpr (Limits::is_integer) {
+        const double whole = std::isnan(value) ? nodata : value;
+        if (!(whole >= 0 && whole <= double(Limits::max())))
+          return failure(ErrorCode::invalidData,
+                         fmt::format("the value {} does not fit {} bits", whole, Limits::digits));
+        strip.push_back(Sample(whole));
+      } else {
+        if (std::isfinite(value) && std::abs(value) > double(Limits::max()))
+          return failure(ErrorCode::invalidData,
+                         fmt::format("the value {} does not fit a 32-bit float", value));
+        strip.push_back(Sample(value));
+      }
     }
     if (band.RasterIO(GF_Write, 0, row, int(columns), count, strip.data(), int(columns), count, type, 0, 0,
                       nullptr) != CE_None)
@@ -94,8 +107,11 @@ Status writeTo(const std::string& path, std::uint32_t columns, std::uint32_t row
   GdalErrors errors;
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   if (!driver) return failure(ErrorCode::unsupported, "this GDAL cannot write GeoTIFF");
-  const bool wide = options.sample == GeoTiffOptions::Sample::float64;
-  const GDALDataType type = wide ? GDT_Float64 : GDT_Float32;
+  using Sample = GeoTiffOptions::Sample;
+  const GDALDataType type = options.sample == Sample::float64   ? GDT_Float64
+                            : options.sample == Sample::float32 ? GDT_Float32
+                            : options.sample == Sample::uint8   ? GDT_Byte
+                                                                : GDT_UInt16;
   const CPLStringList list = creationOptions(*driver, options);
   GdalDatasetPtr dataset(driver->Create(path.c_str(), int(columns), int(rows), 1, type, list.List()));
   if (!dataset)
@@ -104,8 +120,13 @@ Status writeTo(const std::string& path, std::uint32_t columns, std::uint32_t row
   errors.clear();
 
   GDALRasterBand& band = *dataset->GetRasterBand(1);
-  Status status = wide ? writeRows<double>(band, values, type, errors, context)
-                       : writeRows<float>(band, values, type, errors, context);
+  const auto write = [&](auto sample) {
+    return writeRows<decltype(sample)>(band, values, type, options.nodata, errors, context);
+  };
+  Status status = options.sample == Sample::float64   ? write(double{})
+                  : options.sample == Sample::float32 ? write(float{})
+                  : options.sample == Sample::uint8   ? write(std::uint8_t{})
+                                                      : write(std::uint16_t{});
   dataset.reset();
   if (status && errors.anyFailure())
     status = failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", errors.firstFailure()));

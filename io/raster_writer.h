@@ -12,7 +12,7 @@
 namespace arete {
 
 struct GeoTiffOptions {
-  enum class Sample { float32, float64 };
+  enum class Sample { float32, float64, uint8, uint16 };
   enum class Compression {
     none,
     deflate,
@@ -21,6 +21,7 @@ struct GeoTiffOptions {
   Sample sample = Sample::float32;
   Compression compression = Compression::deflate;
   std::string description;  ///< of the band; empty = none
+  double nodata = 0;        ///< of whole numbers: what stands for NaN; floats keep NaN
 };
 
 /// Writes one band of row-major values as a tiled GeoTIFF: NaN is declared as NODATA, the vertical unit
@@ -29,8 +30,8 @@ struct GeoTiffOptions {
 /// together with its GDAL sidecar files (.aux.xml, .ovr, .msk).
 ///
 /// Precondition: values.size() == columns * rows, columns and rows positive; otherwise invalidData.
-/// Errors: invalidData (also a value that float32 cannot hold), notFound (no such folder), unreadable (cannot
-/// be written), interrupted.
+/// Errors: invalidData (also a value that the samples cannot hold), notFound (no such folder), unreadable
+/// (cannot be written), interrupted.
 ///
 /// O(values); memory: one row of tiles and GDAL's block cache.
 Status writeGeoTiff(const std::string& path, std::uint32_t columns, std::uint32_t rows,

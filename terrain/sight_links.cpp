@@ -68,16 +68,21 @@ Profile withClutter(const Profile& profile, const SightClutter& clutter) {
   return high;
 }
 
-/// The judge, told all of a profile.
-SightAnswer judged(const SightLine& line, const Profile& profile, const SightOptions& options) {
+/// The judge, told all of a profile. Ends that stand on a corner of the terrain alone are not in it.
+SightAnswer judged(const SightLine& line, const Profile& profile, const SurfaceHeights& heights,
+                   const SightOptions& options) {
   SightJudge judge(line, options);
+  const auto tellEnd = [&](const SightPoint& end) {
+    if (const auto ground = heights.at(heights.model().toSource(end.plan)))
+      judge.terrain(end.distance, ground->height, end.distance, ground->height);
+  };
+  tellEnd(line.points().front());
   const double shortest = 1e-9 * profile.length;
   double done = 0;
   for (std::size_t i = 0; i < profile.vertices.size() && !judge.isDone(); ++i) {
     const ProfileVertex& q = profile.vertices[i];
     if (!q.isJoined) {
       if (q.distance > done + shortest) judge.gap(done, q.distance);
-      if (profile.length == 0) judge.terrain(0, q.height, 0, q.height);
     } else {
       const ProfileVertex& p = profile.vertices[i - 1];
       judge.terrain(p.distance, p.height, q.distance, q.height);
@@ -85,6 +90,7 @@ SightAnswer judged(const SightLine& line, const Profile& profile, const SightOpt
     done = q.distance;
   }
   if (profile.vertices.empty() || profile.length > done + shortest) judge.gap(done, profile.length);
+  tellEnd(line.points().back());
   return judge.answer(profile.vertices.size());
 }
 
@@ -135,7 +141,8 @@ Result<SightLinkAnswer> answerLink(const SightLink& link, const SightEarth& eart
   Profile profile;
   if (hasClutter || options.frequencyMegahertz > 0) profile = profiles.along(track);
   if (hasClutter) profile = withClutter(profile, options.clutter);
-  answer.sight = hasClutter ? judged(*line, profile, options.sight) : engine.answer(*line, options.sight);
+  answer.sight = hasClutter ? judged(*line, profile, profiles.heights(), options.sight)
+                            : engine.answer(*line, options.sight);
   if (options.frequencyMegahertz > 0)
     answer.fresnel = leastFresnelClearance(*line, profile, wavelengthMetres(options.frequencyMegahertz));
   return answer;
