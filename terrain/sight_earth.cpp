@@ -35,6 +35,12 @@ class PlaneEarth final : public SightEarth {
     return track;
   }
 
+  std::optional<PlaneSteps> planeSteps() const override {
+    const Vec2 origin = model_.toSource({0, 0}), x = model_.toSource({1, 0}), y = model_.toSource({0, 1});
+    return PlaneSteps{{(x.x - origin.x) * perX_, (x.y - origin.y) * perY_},
+                      {(y.x - origin.x) * perX_, (y.y - origin.y) * perY_}};
+  }
+
  private:
   const TerrainModel& model_;
   double perX_ = 1, perY_ = 1;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "engine/result.h"
 #include "terrain/sight_line.h"
@@ -17,6 +18,12 @@ class SightEarth {
   /// The track begins and ends where sightEnd() puts the two places. Errors: invalidData for a place that the
   /// Earth model cannot tell (beyond a projection's reach).
   virtual Result<SightTrack> track(Vec2 from, Vec2 to) const = 0;
+  /// Where all tracks are straight, distances are linear in the plan and nothing curves: metres east and
+  /// north that a step of one plan unit makes. Else nothing.
+  struct PlaneSteps {
+    Vec2 x, y;
+  };
+  virtual std::optional<PlaneSteps> planeSteps() const { return std::nullopt; }
 };
 
 /// A place within 1e-9 of a lattice line of the raster is on it: coordinates are rounded.

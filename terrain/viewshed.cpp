@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "terrain/viewshed.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "terrain/sight_walk.h"
+#include "terrain/viewshed_methods.h"
+
+namespace arete {
+namespace {
+
+Status check(const ViewshedObserver& observer, const ViewshedOptions& options) {
+  const auto bad = [](const char* what, const char* culprit) {
+    return failure(ErrorCode::usage, what, culprit);
+  };
+  const ViewshedField& field = options.field;
+  if (!std::isfinite(observer.plan.x + observer.plan.y + observer.height))
+    return bad("is not a finite place", "the observer");
+  if (!(options.targetHeight >= 0 && std::isfinite(options.targetHeight)))
+    return bad("must be 0 or more", "the target height");
+  if (!(field.leastMetres >= 0 && field.leastMetres <= field.greatestMetres))
+    return bad("the least must be 0 or more, the greatest no less", "the distances");
+  if (!(std::isfinite(field.fromAzimuth) && field.azimuthSpan > 0))
+    return bad("must be finite, its span more than 0", "the horizontal field");
+  if (!(field.lowest >= -90 && field.lowest <= field.highest && field.highest <= 90))
+    return bad("must rise, from -90 degrees or more to 90 or less", "the vertical field");
+  if (!(options.maxError >= 0 && std::isfinite(options.maxError)))
+    return bad("must be 0 or more", "the tolerance");
+  return {};
+}
+
+/// Coordinates are rounded: what all but is on a lattice line is meant to be.
+double onLattice(double v) {
+  return std::fabs(v - std::round(v)) <= kShortestInPlan ? std::round(v) : v;
+}
+
+}  // namespace
+
+std::string_view toString(ViewshedMethod method) {
+  switch (method) {
+    case ViewshedMethod::sweep:
+      return "sweep";
+    case ViewshedMethod::rays:
+      return "rays";
+    default:
+      return "automatic";
+  }
+}
+
+Result<ViewshedMaker> ViewshedMaker::make(const TerrainModel& model, const SightEarth& earth,
+                                          std::shared_ptr<const SightGrid> grid, const RunContext& context) {
+  if (!model.isRaster)
+    return failure(ErrorCode::unsupported, "is for rasters; this model is of points", "a viewshed");
+  ViewshedMaker maker(model, earth, grid ? std::move(grid) : std::make_shared<SightGrid>(model));
+  auto engine = makeSightEngine(SightMethod::pyramid, model, maker.grid_, context);
+  if (!engine) return tl::unexpected(engine.error());
+  maker.engine_ = std::move(*engine);
+  return maker;
+}
+
+Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const ViewshedOptions& options,
+                                     const RunContext& context) const {
+  if (const Status status = check(observer, options); !status) return tl::unexpected(status.error());
+  std::unique_ptr<SightEngine> descent;
+  if (options.maxError > 0) {
+    if (options.method == ViewshedMethod::sweep)
+      return failure(ErrorCode::unsupported, "has no tolerance", "the method sweep");
+    auto engine = makeSightEngine(SightMethod::descent, *model_, grid_, context);
+    if (!engine) return tl::unexpected(engine.error());
+    descent = std::move(*engine);
+    if (!descent) return failure(ErrorCode::unsupported, "has no engine yet", "a tolerance");
+  }
+  const ViewshedObserver from{{onLattice(observer.plan.x), onLattice(observer.plan.y)}, observer.height};
+  const ViewshedExact exact(descent ? *descent : *engine_, *earth_, model_->georeference.verticalUnitMetres,
+                            from, options);
+  const ViewshedTask task{*model_, *grid_, *earth_, from, options, exact};
+  Viewshed result;
+  result.columns = grid_->columns();
+  result.rows = grid_->rows();
+  const std::size_t count = std::size_t{result.columns} * result.rows;
+  result.cells.assign(count, ViewshedCell::outside);
+  if (options.value != ViewshedValue::none)
+    result.values.assign(count, std::numeric_limits<float>::quiet_NaN());
+  std::optional<std::string> whyNot;
+  if (descent) {
+    whyNot = "a tolerance is asked for";
+  } else if (options.method != ViewshedMethod::rays) {
+    whyNot = whyNotSweep(task);
+  }
+  if (options.method == ViewshedMethod::sweep && whyNot)
+    return failure(ErrorCode::unsupported, *whyNot, "the method sweep");
+  result.method =
+      options.method == ViewshedMethod::rays || whyNot ? ViewshedMethod::rays : ViewshedMethod::sweep;
+  context.report("viewshed", 0);
+  const Status status = result.method == ViewshedMethod::sweep ? viewshedSweep(task, context, result)
+                                                               : viewshedRays(task, context, result);
+  if (!status) return tl::unexpected(status.error());
+  context.report("viewshed", 1);
+  std::uint64_t counts[5] = {};
+  for (const ViewshedCell cell : result.cells) ++counts[static_cast<int>(cell)];
+  result.hidden = counts[0];
+  result.seen = counts[1];
+  result.unknown = counts[2];
+  result.undecided = counts[3];
+  result.outside = counts[4];
+  return result;
+}
+
+}  // namespace arete
