@@ -23,6 +23,7 @@
 #include "cli/profile_command.h"
 #include "cli/session.h"
 #include "cli/validate_command.h"
+#include "cli/viewshed_command.h"
 
 namespace arete {
 namespace {
@@ -65,6 +66,7 @@ ExitCode run(int argc, char** argv) {
   addHeightCommand(app, session);
   addLosCommand(app, session);
   addProfileCommand(app, session);
+  addViewshedCommand(app, session);
   addMeasureCommand(app, session);
   addValidateCommand(app, session);
   addConvertCommand(app, session);

@@ -20,8 +20,8 @@ struct GeoTiffOptions {
   };
   Sample sample = Sample::float32;
   Compression compression = Compression::deflate;
-  std::string description;  ///< of the band; empty = none
-  double nodata = 0;        ///< of whole numbers: what stands for NaN; floats keep NaN
+  std::string description = {};  ///< of the band; empty = none
+  double nodata = 0;             ///< of whole numbers: what stands for NaN; floats keep NaN
 };
 
 /// Writes one band of row-major values as a tiled GeoTIFF: NaN is declared as NODATA, the vertical unit

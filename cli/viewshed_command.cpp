@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/viewshed_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments.h"
+#include "cli/sight_arguments.h"
+#include "io/amt_file.h"
+#include "io/crs_transform.h"
+#include "io/position_argument.h"
+#include "io/raster_writer.h"
+#include "io/sight_pairs.h"
+#include "terrain/sight_links.h"
+#include "terrain/viewshed.h"
+#include "terrain/viewshed_many.h"
+
+namespace arete {
+namespace {
+
+enum class Mode { seen, height, horizon, count, server };
+
+/// What a Byte says.
+constexpr double kSeen = 255, kHidden = 0, kUnknown = 100, kUndecided = 200, kOutside = 1;
+
+struct ViewshedArguments {
+  std::string model, observers, layer, output, observerHeight, azimuths, elevations;
+  std::vector<std::string> observer;
+  SightArguments sight;
+  Mode mode = Mode::seen;
+  ViewshedMethod method = ViewshedMethod::automatic;
+  double targetHeight = 0, radius = std::numeric_limits<double>::infinity(), least = 0, maxError = 0;
+};
+
+Result<ViewshedOptions> optionsOf(const ViewshedArguments& a) {
+  ViewshedOptions options;
+  options.targetHeight = a.targetHeight;
+  options.nodata = a.sight.nodata;
+  options.maxError = a.maxError;
+  options.method = a.method;
+  options.field.leastMetres = a.least;
+  options.field.greatestMetres = a.radius;
+  options.value = a.mode == Mode::height    ? ViewshedValue::leastHeight
+                  : a.mode == Mode::horizon ? ViewshedValue::horizon
+                                            : ViewshedValue::none;
+  const auto two = [](const std::string& option,
+                      const std::string& text) -> Result<std::pair<double, double>> {
+    const auto numbers = parseNumbers(option, text);
+    if (!numbers) return tl::unexpected(numbers.error());
+    if (numbers->size() != 2 || !std::isfinite((*numbers)[0] + (*numbers)[1]))
+      return failure(ErrorCode::usage, "is two numbers with a comma between",
+                     fmt::format("{} {}", option, text));
+    return std::pair{(*numbers)[0], (*numbers)[1]};
+  };
+  if (!a.azimuths.empty()) {
+    const auto range = two("--azimuth", a.azimuths);
+    if (!range) return tl::unexpected(range.error());
+    const auto turned = [](double v) { return v - 360 * std::floor(v / 360); };
+    options.field.fromAzimuth = turned(range->first);
+    const double span = range->second - range->first;
+    options.field.azimuthSpan = span >= 360 ? 360 : turned(span);
+  }
+  if (!a.elevations.empty()) {
+    const auto range = two("--elevation", a.elevations);
+    if (!range) return tl::unexpected(range.error());
+    if (!(range->first <= range->second && range->first >= -90 && range->second <= 90))
+      return failure(ErrorCode::usage, "is two angles from -90 to 90, the lower first",
+                     "--elevation " + a.elevations);
+    options.field.lowest = range->first;
+    options.field.highest = range->second;
+  }
+  return options;
+}
+
+Result<std::vector<ViewshedObserver>> readObservers(const ViewshedArguments& a, const TerrainModel& model,
+                                                    const SurfaceHeights& heights, Session& session) {
+  std::vector<ViewshedObserver> observers;
+  const auto add = [&](const PositionArgument& position) -> Status {
+    const auto height = demHeight(position, heights);
+    if (!height) return tl::unexpected(height.error());
+    observers.push_back({sightPlan(model, position.xy), *height});
+    return {};
+  };
+  const auto toDem = transformOfPlaces(a.sight.lonLat, model.georeference);
+  if (!toDem) return tl::unexpected(toDem.error());
+  for (const std::string& text : a.observer) {
+    const auto position = readPositionArgument("--observer", text, *toDem);
+    if (!position) return tl::unexpected(position.error());
+    if (Status added = add(*position); !added) return tl::unexpected(added.error());
+  }
+  if (a.observers.empty()) return observers;
+  std::optional<StatedHeight> usual;
+  if (!a.observerHeight.empty()) {
+    const auto height = readHeightText(a.observerHeight);
+    if (!height)
+      return failure(height.error().code, height.error().message, "--observer-height " + a.observerHeight);
+    usual = *height;
+  }
+  const auto sites = readSightSites(a.observers, model.georeference,
+                                    {.layer = a.layer, .lonLat = a.sight.lonLat}, session.context());
+  if (!sites) return tl::unexpected(sites.error());
+  session.warn(sites->warnings, a.observers);
+  for (std::size_t i = 0; i < sites->rows.size(); ++i) {
+    const SightSite& site = sites->rows[i][0];
+    const std::string culprit = fmt::format("{}, row {}", a.observers, i + 1);
+    if (!std::isfinite(site.xy.x + site.xy.y))
+      return failure(ErrorCode::invalidData, "has no place that the DEM's CRS can tell", culprit);
+    const auto height = site.height ? site.height : usual;
+    if (!height) return failure(ErrorCode::usage, "has no height; --observer-height says one", culprit);
+    if (Status added = add({site.xy, height->height, height->kind}); !added)
+      return failure(added.error().code, added.error().message,
+                     fmt::format("{}: {}", culprit, added.error().culprit));
+  }
+  return observers;
+}
+
+double byteOf(ViewshedCell cell) {
+  switch (cell) {
+    case ViewshedCell::seen:
+      return kSeen;
+    case ViewshedCell::hidden:
+      return kHidden;
+    case ViewshedCell::unknown:
+      return kUnknown;
+    case ViewshedCell::undecided:
+      return kUndecided;
+    default:
+      return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+struct Picture {
+  std::vector<double> values;
+  GeoTiffOptions options;
+  bool isHeight = false;
+};
+
+Picture pictureOfOne(Mode mode, const Viewshed& viewshed) {
+  Picture picture;
+  picture.values.reserve(viewshed.cells.size());
+  if (mode == Mode::seen) {
+    picture.options = {.sample = GeoTiffOptions::Sample::uint8, .nodata = kOutside};
+    for (const ViewshedCell cell : viewshed.cells) picture.values.push_back(byteOf(cell));
+    return picture;
+  }
+  picture.isHeight = mode == Mode::height;
+  for (std::size_t i = 0; i < viewshed.cells.size(); ++i) {
+    double value = viewshed.cells[i] == ViewshedCell::outside ? std::nan("") : double(viewshed.values[i]);
+    if (mode == Mode::horizon) value = std::atan(value) * 180 / std::numbers::pi;
+    picture.values.push_back(std::isfinite(value) ? value : std::nan(""));
+  }
+  return picture;
+}
+
+Picture pictureOfMany(Mode mode, const ViewshedOfMany& all) {
+  Picture picture;
+  picture.options = {
+      .sample = mode == Mode::seen ? GeoTiffOptions::Sample::uint8 : GeoTiffOptions::Sample::uint16,
+      .nodata = mode == Mode::seen ? kOutside : 65535};
+  picture.values.reserve(all.cells.size());
+  for (std::size_t i = 0; i < all.cells.size(); ++i) {
+    const bool isOutside = all.cells[i] == ViewshedCell::outside;
+    picture.values.push_back(mode == Mode::seen    ? byteOf(all.cells[i])
+                             : isOutside           ? std::nan("")
+                             : mode == Mode::count ? all.count[i]
+                                                   : all.server[i]);
+  }
+  return picture;
+}
+
+const char* descriptionOf(Mode mode) {
+  switch (mode) {
+    case Mode::height:
+      return "least height above the terrain that is seen";
+    case Mode::horizon:
+      return "elevation of the horizon, degrees";
+    case Mode::count:
+      return "observers that see it";
+    case Mode::server:
+      return "nearest observer that sees it, from 1; 0 = none";
+    default:
+      return "255 seen, 0 hidden, 100 unknown, 200 undecided";
+  }
+}
+
+Status runViewshed(const ViewshedArguments& a, Session& session) {
+  if (a.observer.empty() && a.observers.empty())
+    return failure(ErrorCode::usage, "--observer or --observers says from where");
+  if (!a.layer.empty() && a.observers.empty())
+    return failure(ErrorCode::usage, "means something only with --observers", "--layer");
+  const auto options = optionsOf(a);
+  if (!options) return tl::unexpected(options.error());
+  const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
+  if (!model) return tl::unexpected(model.error());
+  if (Status output = checkOutput("--output", a.output, {a.model, a.observers, model->source}); !output)
+    return output;
+  const SurfaceHeights heights(*model);
+  const auto observers = readObservers(a, *model, heights, session);
+  if (!observers) return tl::unexpected(observers.error());
+  const bool isOne = observers->size() == 1 && (a.mode != Mode::count && a.mode != Mode::server);
+  if (!isOne && (a.mode == Mode::height || a.mode == Mode::horizon))
+    return failure(ErrorCode::usage, fmt::format("is of one observer, and there are {}", observers->size()),
+                   a.mode == Mode::height ? "--mode height" : "--mode horizon");
+  const auto earth = a.sight.makeEarth(*model, session);
+  if (!earth) return tl::unexpected(earth.error());
+  const auto maker = ViewshedMaker::make(*model, **earth, {}, session.context());
+  if (!maker) return tl::unexpected(maker.error());
+
+  Picture picture;
+  std::vector<ViewshedCell> cells;
+  Json json = {{"model", a.model},
+               {"observers", observers->size()},
+               {"targetHeight", a.targetHeight},
+               {"earth", a.sight.earthName(*model)},
+               {"refraction", a.sight.refraction},
+               {"nodata", std::string(toString(a.sight.nodata))},
+               {"maxError", a.maxError}};
+  if (isOne) {
+    auto viewshed = maker->from(observers->front(), *options, session.context());
+    if (!viewshed) return tl::unexpected(viewshed.error());
+    json["method"] = std::string(toString(viewshed->method));
+    json["rays"] = viewshed->rays;
+    picture = pictureOfOne(a.mode, *viewshed);
+    cells = std::move(viewshed->cells);
+  } else {
+    auto all = viewshedOfMany(*maker, *model, **earth, *observers, *options, a.mode == Mode::server,
+                              session.context());
+    if (!all) return tl::unexpected(all.error());
+    picture = pictureOfMany(a.mode, *all);
+    cells = std::move(all->cells);
+  }
+  picture.options.description = descriptionOf(a.mode);
+  Georeference georeference = model->georeference;
+  if (!picture.isHeight) georeference.verticalUnit.clear();
+  if (Status written = writeGeoTiff(a.output, model->columns, model->rows, picture.values, georeference,
+                                    picture.options, session.context());
+      !written)
+    return written;
+
+  const auto count = [&](ViewshedCell which) {
+    return static_cast<std::uint64_t>(std::count(cells.begin(), cells.end(), which));
+  };
+  const std::uint64_t seen = count(ViewshedCell::seen), hidden = count(ViewshedCell::hidden),
+                      unknown = count(ViewshedCell::unknown), undecided = count(ViewshedCell::undecided);
+  json["seen"] = seen;
+  json["hidden"] = hidden;
+  json["unknown"] = unknown;
+  json["undecided"] = undecided;
+  json["outside"] = count(ViewshedCell::outside);
+  json["file"] = a.output;
+  std::string text = fmt::format("{}: {} samples seen, {} hidden, {} unknown", a.output, grouped(seen),
+                                 grouped(hidden), grouped(unknown));
+  if (undecided > 0) text += fmt::format(", {} undecided", grouped(undecided));
+  session.say(text + "\n");
+  session.answer(json);
+  return {};
+}
+
+}  // namespace
+
+void addViewshedCommand(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<ViewshedArguments>();
+  CLI::App* command = session.addCommand(
+      app, "viewshed", "Tell what can be seen from places",
+      "  arete viewshed dem.amt --observer 409050,3801450,10 --target-height 2 --radius 20000 -o seen.tif\n"
+      "  arete viewshed dem.amt --observer 409050,3801450,10 --mode height -o least_height.tif\n"
+      "  arete viewshed dem.amt --observers masts.gpkg --observer-height 30 --mode count -o count.tif\n"
+      "\n"
+      "A raster on the grid of the DEM. seen: 255 seen, 0 hidden, 100 unknown (NODATA in between), 200 "
+      "undecided\n"
+      "(--max-error), 1 = NODATA: no sample, too far, out of the field of view. Every sample has the answer "
+      "that\n"
+      "arete los gives for it.",
+      [arguments](Session& s) { return runViewshed(*arguments, s); });
+  command->add_option("FILE.amt", arguments->model, "Multitriangulation of a raster")
+      ->required()
+      ->type_name("");
+  command->add_option("-o,--output", arguments->output, "GeoTIFF")->required()->type_name("FILE.tif");
+  command
+      ->add_option("--observer", arguments->observer,
+                   "Where the observer is, in the DEM's CRS; may be repeated")
+      ->type_size(1)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("X,Y,H");
+  command
+      ->add_option(
+          "--observers", arguments->observers,
+          "Observers from a file: CSV or a layer of points, with a column h or height where they differ")
+      ->type_name("FILE");
+  command->add_option("--layer", arguments->layer, "Layer of a file with several")->type_name("NAME");
+  command
+      ->add_option("--observer-height", arguments->observerHeight,
+                   "Height of observers that the file has none for")
+      ->type_name("H");
+  command
+      ->add_option("--target-height", arguments->targetHeight,
+                   "Height of what is looked for above the terrain, in the DEM's unit (default 0)")
+      ->check(finiteAtLeast(0))
+      ->type_name("H");
+  command
+      ->add_option(
+          "--mode", arguments->mode,
+          "seen (default); height: the least height above the terrain that would be seen; horizon: its "
+          "elevation, degrees; count: how many observers see it; server: the nearest that does")
+      ->transform(CLI::Transformer(std::map<std::string, Mode>{{"seen", Mode::seen},
+                                                               {"height", Mode::height},
+                                                               {"horizon", Mode::horizon},
+                                                               {"count", Mode::count},
+                                                               {"server", Mode::server}},
+                                   CLI::ignore_case))
+      ->type_name("MODE");
+  const std::string field = "The field of view";
+  command->add_option("--radius", arguments->radius, "Greatest distance along the ground")
+      ->check(finiteAbove(0))
+      ->type_name("METRES")
+      ->group(field);
+  command->add_option("--min-distance", arguments->least, "Least distance along the ground (default 0)")
+      ->check(finiteAtLeast(0))
+      ->type_name("METRES")
+      ->group(field);
+  command
+      ->add_option("--azimuth", arguments->azimuths,
+                   "From the first azimuth clockwise to the second, degrees")
+      ->type_name("A,B")
+      ->group(field);
+  command
+      ->add_option("--elevation", arguments->elevations,
+                   "From the lowest to the highest elevation of the target, degrees above the horizontal")
+      ->type_name("A,B")
+      ->group(field);
+  arguments->sight.addLonLatTo(*command);
+  arguments->sight.addNodataTo(*command);
+  command
+      ->add_option("--max-error", arguments->maxError,
+                   "Stop at this detail, in the DEM's unit: samples that it does not decide are undecided")
+      ->check(finiteAtLeast(0))
+      ->type_name("E");
+  command
+      ->add_option("--method", arguments->method, "auto (default), sweep or rays; all give the same answer")
+      ->transform(CLI::Transformer(std::map<std::string, ViewshedMethod>{{"auto", ViewshedMethod::automatic},
+                                                                         {"sweep", ViewshedMethod::sweep},
+                                                                         {"rays", ViewshedMethod::rays}},
+                                   CLI::ignore_case))
+      ->type_name("METHOD");
+  arguments->sight.addEarthTo(*command);
+}
+
+}  // namespace arete

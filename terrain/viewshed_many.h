@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/result.h"
+#include "engine/run_context.h"
+#include "terrain/viewshed.h"
+
+namespace arete {
+
+/// What several observers see together, on the model's own grid, row by row.
+struct ViewshedOfMany {
+  std::uint32_t columns = 0, rows = 0;
+  /// Seen by any; else undecided or unknown by any; else hidden from any; outside for all.
+  std::vector<ViewshedCell> cells;
+  std::vector<std::uint16_t> count;  ///< how many see the cell
+  /// The observer nearest along the ground of those that see the cell, counted from 1; 0 = none. Empty unless
+  /// asked for.
+  std::vector<std::uint16_t> server;
+};
+
+/// Viewsheds of up to 65 000 observers, one after the other, each on all threads. The same for any number of
+/// threads. Preconditions: `earth` and `model` are those of the maker. Errors: usage (none, too many), those
+/// of ViewshedMaker::from(). Memory: 8 bytes per sample beside one viewshed.
+Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainModel& model,
+                                      const SightEarth& earth, std::span<const ViewshedObserver> observers,
+                                      const ViewshedOptions& options, bool wantsServer,
+                                      const RunContext& context = {});
+
+}  // namespace arete
