@@ -33,6 +33,8 @@ constexpr std::uint32_t kNodesPerFrontNode = 16;
 constexpr double kUlp = 0x1p-23;
 /// What a curved line may be away from its chords, in the DEM's vertical unit.
 constexpr double kSag = 0.1;
+/// Steps from the border within which lines go to the descent: far beyond single precision.
+constexpr double kBorder = 0.01;
 
 struct Release {
   void operator()(RTCDeviceTy* device) const { rtcReleaseDevice(device); }
@@ -140,9 +142,11 @@ class SightEmbree final : public SightEngine {
     return scene;
   }
 
+  /// Away from the border, where a ray along the edge of the surface may miss it.
   bool isInside(const SightLine& line) const {
     return std::ranges::all_of(line.points(), [&](const SightPoint& p) {
-      return p.plan.x >= 0 && p.plan.y >= 0 && p.plan.x <= model_.columns - 1 && p.plan.y <= model_.rows - 1;
+      return p.plan.x >= kBorder && p.plan.y >= kBorder && p.plan.x <= model_.columns - 1 - kBorder &&
+             p.plan.y <= model_.rows - 1 - kBorder;
     });
   }
 
