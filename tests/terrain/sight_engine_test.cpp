@@ -34,7 +34,8 @@ struct Engine {
 };
 
 struct Tally {
-  std::uint64_t pairs = 0, visible = 0, blocked = 0, unknown = 0, close = 0, touching = 0, hangs = 0;
+  std::uint64_t pairs = 0, visible = 0, blocked = 0, unknown = 0, close = 0, touching = 0, hangs = 0,
+                between = 0;
   std::uint64_t undecided = 0, tolerant = 0;
   std::map<std::string, std::uint64_t> hangsOf;
 
@@ -69,19 +70,24 @@ std::string judged(const SightOracle& oracle, const SightPair& pair, const Oracl
   options.nodata =
       std::array{NodataSight::unknown, NodataSight::clear, NodataSight::blocked}[random.below(3)];
   const SightLine line = lineOf(pair);
-  bool hangs = false, hangsSomewhere = false;
+  Rounding rounding = Rounding::none;
+  bool hangsSomewhere = false, isBetween = false;
+  const auto wrongHere = [&](const SightPair& asked, const SightAnswer& answer, const OracleAnswer& true_) {
+    std::string what = wrongBeyondRounding(oracle, asked, options, answer, true_, rounding);
+    hangsSomewhere |= rounding != Rounding::none;
+    isBetween |= rounding == Rounding::between;
+    return what;
+  };
   std::optional<SightAnswer> first;
   for (const Engine& engine : engines) {
     options.wantsClearance = true;
     options.maxError = 0;
     const SightAnswer answer = engine.engine->answer(line, options);
-    if (auto what = wrongBeyondRounding(oracle, pair, options, answer, truth, hangs); !what.empty())
-      return engine.name + ": " + what;
-    hangsSomewhere |= hangs;
+    if (auto what = wrongHere(pair, answer, truth); !what.empty()) return engine.name + ": " + what;
     // Without the clearance: the same verdict, the same obstruction.
     options.wantsClearance = false;
     const SightAnswer quick = engine.engine->answer(line, options);
-    if (auto what = wrongBeyondRounding(oracle, pair, options, quick, truth, hangs); !what.empty())
+    if (auto what = wrongHere(pair, quick, truth); !what.empty())
       return engine.name + " without clearance: " + what;
     if (quick.verdict != answer.verdict) return engine.name + ": another verdict without the clearance";
     if (answer.obstruction &&
@@ -96,7 +102,7 @@ std::string judged(const SightOracle& oracle, const SightPair& pair, const Oracl
       tally.add(answer, truth, pair.unit);
     }
     const double c = answer.clearance.value_or(0);
-    if (answer.verdict != first->verdict && !hangs &&
+    if (answer.verdict != first->verdict && !hangsSomewhere &&
         std::fabs(std::fabs(c) - line.tolerance()) > 0.5 * line.tolerance())
       return engine.name + ": another verdict than " + engines.front().name;
     // From the other end, every third time.
@@ -105,21 +111,21 @@ std::string judged(const SightOracle& oracle, const SightPair& pair, const Oracl
       options.wantsClearance = true;
       const SightAnswer again = engine.engine->answer(lineOf(back), options);
       const OracleAnswer truthAgain = oracle.ask(back.track, back.from, back.to, back.unit);
-      if (auto what = wrongBeyondRounding(oracle, back, options, again, truthAgain, hangs); !what.empty())
+      if (auto what = wrongHere(back, again, truthAgain); !what.empty())
         return engine.name + " from the other end: " + what;
-      hangsSomewhere |= hangs;
     }
     if (engine.takesTolerance && random.below(2)) {
       options.wantsClearance = random.below(2) == 0;
       options.maxError = std::pow(10.0, random.between(-3, 2)) / pair.unit;
       const SightAnswer coarse = engine.engine->answer(line, options);
-      if (auto what = wrongBeyondRounding(oracle, pair, options, coarse, truth, hangs); !what.empty())
+      if (auto what = wrongHere(pair, coarse, truth); !what.empty())
         return engine.name + " within " + std::to_string(options.maxError) + ": " + what;
       ++tally.tolerant;
       tally.undecided += coarse.verdict == SightVerdict::undecided;
     }
   }
   tally.hangs += hangsSomewhere;
+  tally.between += isBetween;
   if (hangsSomewhere) ++tally.hangsOf[pair.kind];
   return {};
 }
@@ -166,6 +172,7 @@ void expectHard(const Tally& tally, bool hasVoids) {
   EXPECT_GE(share(tally.blocked), 0.3);
   EXPECT_GE(share(tally.close), 0.1);
   EXPECT_LE(share(tally.hangs), hasVoids ? 0.05 : 0.005);
+  EXPECT_LE(share(tally.between), 0.001);
 }
 
 class SightEnginesOnRasters : public testing::TestWithParam<RasterFamily> {};

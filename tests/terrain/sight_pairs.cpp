@@ -316,20 +316,52 @@ SightPair SightPairs::next() {
   return pair;
 }
 
-std::string wrong(const SightOracle& oracle, const SightPair& pair, const SightOptions& options,
-                  const SightAnswer& answer, const OracleAnswer& truth) {
+namespace {
+
+/// What may be true: of one track one thing, of tracks that rounding does not tell apart all between theirs.
+struct Range {
+  static constexpr Real kNone = 1e300L;
+  Real lowest = kNone, highest = -kNone;  ///< clearance
+  Real leastGapInPlan = kNone, mostGapInPlan = 0, leastGapMetres = kNone, mostGapMetres = 0;
+  std::optional<Real> firstGap, ceased, deep;
+  Real lastFirstGap = 0;
+  bool isAlwaysDeep = true;
+
+  void add(const OracleAnswer& a) {
+    const Real c = a.clearance.value_or(kNone);
+    lowest = std::min(lowest, c);
+    highest = std::max(highest, c);
+    leastGapInPlan = std::min(leastGapInPlan, a.longestGapInPlan);
+    mostGapInPlan = std::max(mostGapInPlan, a.longestGapInPlan);
+    leastGapMetres = std::min(leastGapMetres, a.gapMetres);
+    mostGapMetres = std::max(mostGapMetres, a.gapMetres);
+    if (a.firstGap) {
+      firstGap = std::min(firstGap.value_or(*a.firstGap), *a.firstGap);
+      lastFirstGap = std::max(lastFirstGap, *a.firstGap);
+    }
+    if (a.ceased) ceased = std::min(ceased.value_or(*a.ceased), *a.ceased);
+    isAlwaysDeep &= a.deep.has_value();
+    if (a.deep) deep = std::max(deep.value_or(*a.deep), *a.deep);
+    if (!isAlwaysDeep) deep.reset();
+  }
+};
+
+std::string wrongWithin(const SightOracle& oracle, const SightPair& pair, const SightOptions& options,
+                        const SightAnswer& answer, const Range& truth) {
   const Real length = pair.track.points.back().distance;
   const Real metre = 1 / (Real)pair.unit, tolerance = (1e-6L + 1e-12L * length) * metre;
   const Real near = 2e-6L * metre;
   const OracleLine line(length > 0 ? pair.track.curvature : 0, length, (Real)pair.from * pair.unit,
                         (Real)pair.to * pair.unit);
-  const Real c = truth.clearance.value_or(1e300L);
+  constexpr Real kNone = Range::kNone;
+  const Real c = truth.lowest;
   const bool isExactly = options.maxError == 0;
 
   // What may be said.
-  bool mayBlock = c < -tolerance / 2, mustBlock = c < -1.5L * tolerance;
-  const Real gap = truth.longestGapInPlan;
-  const bool mayHaveGap = gap > 0.5e-9L, mustHaveGap = gap > 1e-8L * std::max(1.0, pair.step);
+  bool mayBlock = truth.lowest < -tolerance / 2, mustBlock = truth.highest < -1.5L * tolerance;
+  const Real gap = truth.mostGapInPlan;
+  const bool mayHaveGap = gap > 0.5e-9L,
+             mustHaveGap = truth.leastGapInPlan > 1e-8L * std::max(1.0, pair.step);
   if (options.nodata == NodataSight::blocked) mayBlock |= mayHaveGap, mustBlock |= mustHaveGap;
   const bool countsGaps = options.nodata == NodataSight::unknown;
   const bool mayBeUnknown = countsGaps && mayHaveGap, mustBeUnknown = countsGaps && mustHaveGap;
@@ -359,10 +391,10 @@ std::string wrong(const SightOracle& oracle, const SightPair& pair, const SightO
     const Real slack = 1e-6L * length + 1e-7L;
     const bool isOfGap = options.nodata == NodataSight::blocked && std::isnan(o.terrainHeight);
     if (isOfGap) {
-      if (!truth.firstGap || std::fabs(o.distance - *truth.firstGap) > slack)
+      if (!truth.firstGap || o.distance < *truth.firstGap - slack || o.distance > truth.lastFirstGap + slack)
         return text("NODATA blocks at %.12g m, and the first gap is at %.12Lg m", o.distance,
                     truth.firstGap.value_or(-1));
-      if (truth.deep && *truth.deep < *truth.firstGap - slack)
+      if (truth.deep && *truth.deep < o.distance - slack)
         return text("NODATA blocks, and terrain does so before, at %.12Lg m", *truth.deep);
     } else {
       if (!truth.ceased) return "blocked by terrain, and there is none in the way" + tells;
@@ -370,8 +402,8 @@ std::string wrong(const SightOracle& oracle, const SightPair& pair, const SightO
       if (o.distance < *truth.ceased - slack || o.distance > last + slack)
         return text("the first obstruction is at %.12g m, not between %.12Lg and %.12Lg m", o.distance,
                     *truth.ceased, last);
-      if (options.nodata == NodataSight::blocked && mustHaveGap && *truth.firstGap < *truth.ceased - slack)
-        return text("terrain blocks, and NODATA does so before, at %.12Lg m", *truth.firstGap);
+      if (options.nodata == NodataSight::blocked && mustHaveGap && truth.lastFirstGap < *truth.ceased - slack)
+        return text("terrain blocks, and NODATA does so before, at %.12Lg m", truth.lastFirstGap);
       const auto z = oracle.heightAt(o.plan, 1e-8L * pair.step);
       if (!z) return text("the first obstruction is over no terrain, at %.12g, %.12g", o.plan.x, o.plan.y);
     }
@@ -385,13 +417,14 @@ std::string wrong(const SightOracle& oracle, const SightPair& pair, const SightO
     if (answer.clearance) return "a clearance that was not asked for";
     return {};
   }
-  if (answer.clearance.has_value() != truth.clearance.has_value())
+  const bool mayHave = truth.lowest < kNone, mustHave = truth.highest < kNone;
+  if (answer.clearance ? !mayHave : mustHave)
     return answer.clearance ? text("a clearance of %.9g where there is no terrain", *answer.clearance)
                             : text("no clearance where it is %.9Lg", c);
   if (!answer.clearance) return {};
   const Real within = near + answer.clearanceWithin;
   if (isExactly && answer.clearanceWithin != 0) return "a clearance within something, without a tolerance";
-  if (std::fabs(*answer.clearance - c) > within)
+  if (*answer.clearance < truth.lowest - within || *answer.clearance > truth.highest + within)
     return text("a clearance of %.12g within %.3g, not %.12Lg", *answer.clearance, answer.clearanceWithin, c);
   if (!isExactly) return {};
   const Real difference = (Real)answer.least.sightHeight - answer.least.terrainHeight;
@@ -404,38 +437,54 @@ std::string wrong(const SightOracle& oracle, const SightPair& pair, const SightO
   if (answer.verdict == SightVerdict::visible || answer.verdict == SightVerdict::unknown) {
     const bool isTouching = c <= tolerance;
     if (answer.verdict == SightVerdict::visible && answer.isTouching != isTouching &&
-        std::fabs(c - tolerance) > tolerance / 2)
+        std::fabs(c - tolerance) > tolerance / 2 && truth.lowest == truth.highest)
       return text("touching is %d", int(answer.isTouching)) + tells;
   }
   const Real most = 1e-6L * length + 1e-6L;
-  if (options.nodata != NodataSight::clear && std::fabs(answer.gapMetres - truth.gapMetres) > most)
-    return text("gaps of %.12g m, not %.12Lg m", answer.gapMetres, truth.gapMetres);
+  if (options.nodata != NodataSight::clear &&
+      (answer.gapMetres < truth.leastGapMetres - most || answer.gapMetres > truth.mostGapMetres + most))
+    return text("gaps of %.12g m, not %.12Lg m", answer.gapMetres, truth.mostGapMetres);
   return {};
 }
 
+}  // namespace
+
+std::string wrong(const SightOracle& oracle, const SightPair& pair, const SightOptions& options,
+                  const SightAnswer& answer, const OracleAnswer& truth) {
+  Range range;
+  range.add(truth);
+  return wrongWithin(oracle, pair, options, answer, range);
+}
+
 std::string wrongBeyondRounding(const SightOracle& oracle, const SightPair& pair, const SightOptions& options,
-                                const SightAnswer& answer, const OracleAnswer& truth, bool& hangs) {
-  hangs = false;
+                                const SightAnswer& answer, const OracleAnswer& truth, Rounding& rounding) {
+  rounding = Rounding::none;
   std::string first = wrong(oracle, pair, options, answer, truth);
   if (first.empty()) return first;
-  hangs = true;
+  rounding = Rounding::another;
+  Range all;
+  all.add(truth);
   const auto isRight = [&](const SightPair& other, const SightOracle::Options& asked) {
     const OracleAnswer t = oracle.ask(other.track, other.from, other.to, other.unit, asked);
+    all.add(t);
     return wrong(oracle, other, options, answer, t).empty();
   };
   if (isRight(pair, {.countsTouches = false})) return {};
-  if (pair.isExact) return first;
-  const Vec2 at = pair.track.points[0].plan;
-  const double e = 3e-9 * pair.step + 4e-16 * (std::fabs(at.x) + std::fabs(at.y));
-  for (const double x : {0.0, e, -e})
-    for (const double y : {0.0, e, -e}) {
-      SightPair moved = pair;
-      for (SightPoint& p : moved.track.points) p.plan = {p.plan.x + x, p.plan.y + y};
-      for (const Real reach : {1e-18L, 1e-9L * pair.step})
-        for (const bool counts : {true, false})
-          for (const Real endReach : {0.0L, 1e-9L * pair.step})
-            if (isRight(moved, {reach, counts, endReach})) return {};
-    }
+  if (!pair.isExact) {
+    const Vec2 at = pair.track.points[0].plan;
+    const double e = 3e-9 * pair.step + 4e-16 * (std::fabs(at.x) + std::fabs(at.y));
+    for (const double x : {0.0, e, -e})
+      for (const double y : {0.0, e, -e}) {
+        SightPair moved = pair;
+        for (SightPoint& p : moved.track.points) p.plan = {p.plan.x + x, p.plan.y + y};
+        for (const Real reach : {1e-18L, 1e-9L * pair.step})
+          for (const bool counts : {true, false})
+            for (const Real endReach : {0.0L, 1e-9L * pair.step})
+              if (isRight(moved, {reach, counts, endReach})) return {};
+      }
+  }
+  rounding = Rounding::between;
+  if (wrongWithin(oracle, pair, options, answer, all).empty()) return {};
   return first;
 }
 

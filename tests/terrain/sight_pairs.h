@@ -85,9 +85,11 @@ class SightPairs {
 /// Empty, or what is wrong with the answer.
 std::string wrong(const SightOracle& oracle, const SightPair& pair, const SightOptions& options,
                   const SightAnswer& answer, const OracleAnswer& truth);
-/// The same, forgiving what would be right for a track a few 1e-9 of a step away. `hangs` is told
-/// whether that was needed.
+/// Whether an answer is right for the track itself; for another one a few 1e-9 of a step away, or where
+/// terrain that is met in a single place counts differently; for something between those.
+enum class Rounding { none, another, between };
+/// The same, forgiving what is right but for rounding.
 std::string wrongBeyondRounding(const SightOracle& oracle, const SightPair& pair, const SightOptions& options,
-                                const SightAnswer& answer, const OracleAnswer& truth, bool& hangs);
+                                const SightAnswer& answer, const OracleAnswer& truth, Rounding& rounding);
 
 }  // namespace arete::test
