@@ -6,12 +6,15 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
+#include <cstring>
 #include <string>
 
 #include "datasets/families.h"
 #include "datasets/random.h"
 #include "terrain/build.h"
+#include "terrain/viewshed_cover.h"
 
 namespace arete {
 namespace {
@@ -87,7 +90,6 @@ TEST(Viewshed, TheSweepGivesTheAnswerOfTheScanOnEveryFamily) {
     const auto maker = ViewshedMaker::make(place.model, *place.earth, place.grid);
     ASSERT_TRUE(maker);
     Tally tally;
-    int sweeps = 0;
     for (int i = 0; i < 30; ++i) {
       const ViewshedObserver observer = randomObserver(place, random, i);
       ViewshedOptions options;
@@ -95,14 +97,9 @@ TEST(Viewshed, TheSweepGivesTheAnswerOfTheScanOnEveryFamily) {
       options.nodata = static_cast<NodataSight>(i % 3);
       const auto viewshed = maker->from(observer, options);
       ASSERT_TRUE(viewshed) << viewshed.error().describe();
-      sweeps += viewshed->method == ViewshedMethod::sweep;
       compare(place, observer, options, *viewshed, std::string(family.name) + " " + std::to_string(i), tally);
     }
     EXPECT_EQ(tally.wrong, 0u) << family.name;
-    printf("%-20s %2d sweeps, %llu cells, rays %.3f, seen %.3f unknown %.3f wrong %llu\n",
-           std::string(family.name).c_str(), sweeps, (unsigned long long)tally.cells,
-           double(tally.rays) / tally.cells, double(tally.seen) / tally.cells,
-           double(tally.unknown) / tally.cells, (unsigned long long)tally.wrong);
   }
 }
 
@@ -134,6 +131,106 @@ TEST(Viewshed, ValuesOfTheSweepAreThoseOfTheRays) {
       }
     }
   }
+}
+
+TEST(Viewshed, IsTheSameForAnyNumberOfThreadsAndStopsWhenTold) {
+  const Place place(rasterFamilies()[3].make(150, 130, 9));
+  const auto maker = ViewshedMaker::make(place.model, *place.earth, place.grid);
+  const Vec2 plan{70.25, 61};
+  const ViewshedObserver observer{plan, place.grid->at(plan) + 3};
+  RunContext one;
+  one.threads = 1;
+  ViewshedOptions options;
+  options.value = ViewshedValue::horizon;
+  for (const ViewshedMethod method : {ViewshedMethod::sweep, ViewshedMethod::rays}) {
+    options.method = method;
+    const auto first = maker->from(observer, options, one);
+    ASSERT_TRUE(first);
+    for (const int threads : {2, 4}) {
+      RunContext many;
+      many.threads = threads;
+      const auto other = maker->from(observer, options, many);
+      EXPECT_EQ(other->cells, first->cells);
+      EXPECT_EQ(0, std::memcmp(other->values.data(), first->values.data(), first->values.size() * 4));
+    }
+    std::atomic<bool> stop = true;
+    RunContext stopped;
+    stopped.cancel = &stop;
+    const auto none = maker->from(observer, options, stopped);
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().code, ErrorCode::interrupted);
+  }
+}
+
+TEST(Viewshed, FieldsLeaveOutWhatIsBeyondThem) {
+  Random random(4);
+  for (const RasterFamily& family : rasterFamilies()) {
+    const Place place(family.make(40, 33, 2));
+    const auto maker = ViewshedMaker::make(place.model, *place.earth, place.grid);
+    const double far = place.earth->track({0, 0}, {39, 32})->points.back().distance;
+    for (int i = 0; i < 12; ++i) {
+      const ViewshedObserver observer = randomObserver(place, random, i);
+      ViewshedOptions options;
+      options.nodata = NodataSight::clear;
+      options.field.leastMetres = i % 2 == 0 ? 0.1 * far : 0;
+      options.field.greatestMetres = i % 3 == 0 ? far : 0.4 * far;
+      options.field.fromAzimuth = 45.0 * i - 90;
+      options.field.azimuthSpan = i % 4 == 0 ? 360 : 30.0 * (i + 1);
+      if (i % 2 == 1) options.field.lowest = -10, options.field.highest = 1;
+      const auto sweep = maker->from(observer, options);
+      options.method = ViewshedMethod::rays;
+      const auto rays = maker->from(observer, options);
+      ASSERT_TRUE(sweep && rays);
+      EXPECT_EQ(sweep->cells, rays->cells) << family.name << " " << i;
+      EXPECT_GT(rays->outside, 0u);
+    }
+  }
+}
+
+TEST(Viewshed, CoverCountsWhoSeesACellAndNamesTheNearest) {
+  Random random(6);
+  const Place place(rasterFamilies()[3].make(40, 33, 2));
+  const auto maker = ViewshedMaker::make(place.model, *place.earth, place.grid);
+  std::vector<ViewshedSite> sites;
+  for (int i = 0; i < 9; ++i) sites.push_back({randomObserver(place, random, i), {}});
+  sites.push_back(sites[3]);  // equally near
+  sites[5].field.greatestMetres = 20;
+  const auto cover = viewshedCover(*maker, *place.earth, sites, {});
+  ASSERT_TRUE(cover);
+  std::vector<std::uint32_t> counts(cover->counts.size());
+  std::vector<double> nearest(counts.size(), HUGE_VAL);
+  std::vector<std::int32_t> best(counts.size(), ViewshedCover::kNobody);
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    ViewshedOptions options;
+    options.field = sites[i].field;
+    const auto one = maker->from(sites[i].observer, options);
+    for (std::size_t c = 0; c < counts.size(); ++c) {
+      if (one->cells[c] != ViewshedCell::seen) continue;
+      ++counts[c];
+      const double distance = place.earth->track(sites[i].observer.plan, {double(c % 40), double(c / 40)})
+                                  ->points.back()
+                                  .distance;
+      if (!(distance < nearest[c] * (1 - 1e-12))) continue;
+      nearest[c] = distance;
+      best[c] = std::int32_t(i);
+    }
+  }
+  EXPECT_EQ(cover->counts, counts);
+  EXPECT_EQ(cover->best, best);
+}
+
+TEST(Viewshed, SaysWhatIsWrongWithOptions) {
+  const Place place(rasterFamilies()[3].make(20, 20, 2));
+  const auto maker = ViewshedMaker::make(place.model, *place.earth, place.grid);
+  ViewshedOptions options;
+  options.targetHeight = -1;
+  EXPECT_EQ(maker->from({{3, 3}, 10}, options).error().code, ErrorCode::usage);
+  options = {};
+  options.field.lowest = 20, options.field.highest = 10;
+  EXPECT_EQ(maker->from({{3, 3}, 10}, options).error().code, ErrorCode::usage);
+  options = {};
+  options.method = ViewshedMethod::sweep;
+  EXPECT_EQ(maker->from({{-3, 3}, 1e6}, options).error().code, ErrorCode::unsupported);
 }
 
 }  // namespace
