@@ -7,7 +7,7 @@
 //
 // Embree computes in single precision. Plan coordinates of a raster's samples are exact in it; heights are
 // rounded outwards, and by a margin beyond that which a line whose coordinates are rounded needs on the
-// steepest triangle of the front.
+// steepest triangle of the front. Lines far above or below are not for it.
 //
 // A curved line is cut into chords. The line is convex: it runs below each chord, by at most its sag, so a
 // chord that hits the lowered surface proves that the line does, and a chord lowered by the sag that misses
@@ -97,14 +97,14 @@ class SightEmbree final : public SightEngine {
     }
     middle_ = low / 2 + high / 2;
     const double extent = std::max(model.columns, model.rows);
-    margin_ = 8 * kUlp * (extent * envelope.steepest + (high - low));
+    reach_ = 8 * (high - low) + 1000;
+    margin_ = 8 * kUlp * (extent * envelope.steepest + reach_);
     raised_ = scene(mt, cut, envelope.higher, 1);
     lowered_ = scene(mt, cut, envelope.lower, -1);
   }
 
   SightAnswer answer(const SightLine& line, const SightOptions& options) const override {
-    const bool isConvex = line.track().curvature >= 0;
-    if (options.wantsClearance || !isConvex || !(line.length() > 0)) return descent_->answer(line, options);
+    if (options.wantsClearance || !isFor(line)) return descent_->answer(line, options);
     SightAnswer answer;
     // A line that begins above a surface without holes and does not meet it is above all of it.
     if (isFull_ && isInside(line) && isAboveRaised(line) && !meets(raised_.get(), line, true, answer.visited))
@@ -140,6 +140,14 @@ class SightEmbree final : public SightEngine {
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene.get());
     return scene;
+  }
+
+  /// Whether single precision and the margin are enough for it.
+  bool isFor(const SightLine& line) const {
+    const double away =
+        std::max(std::fabs(line.fromHeight() - middle_), std::fabs(line.toHeight() - middle_));
+    return line.track().curvature >= 0 && line.length() > 0 && away < reach_ &&
+           line.tolerance() < margin_ / 4;
   }
 
   /// Away from the border, where a ray along the edge of the surface may miss it.
@@ -205,6 +213,7 @@ class SightEmbree final : public SightEngine {
   std::unique_ptr<SightEngine> descent_;
   bool isFull_;
   double middle_ = 0, margin_ = 0;
+  double reach_ = 0;  ///< of heights from the middle: what the margin is enough for
   Device device_;
   Scene raised_, lowered_;
 };

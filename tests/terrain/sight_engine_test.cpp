@@ -24,7 +24,7 @@ bool isFull() {
   return std::getenv("ARETE_FULL") != nullptr;
 }
 
-constexpr bool kHasEmbree = false;
+constexpr bool kHasEmbree = true;
 
 /// An engine under test, and what it may be asked.
 struct Engine {
