@@ -96,7 +96,8 @@ class Descent {
 
   bool saysEnough(std::uint32_t triangle) const {
     return arrays_.remover[triangle] == MultiTriangulation::kNone ||
-           (!mayFill_ && std::max(arrays_.below[triangle], arrays_.above[triangle]) <= allowed_);
+           (!mayFill_ && allowed_ > 0 &&
+            std::max(arrays_.below[triangle], arrays_.above[triangle]) <= allowed_);
   }
 
   /// Takes the spans from `begin` on, as far as they are beyond `done`, and drops them.
