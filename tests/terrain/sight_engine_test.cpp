@@ -67,8 +67,10 @@ struct Tally {
 std::string judged(const SightOracle& oracle, const SightPair& pair, const OracleAnswer& truth,
                    const std::vector<Engine>& engines, Random& random, Tally& tally) {
   SightOptions options;
-  options.nodata =
-      std::array{NodataSight::unknown, NodataSight::clear, NodataSight::blocked}[random.below(3)];
+  const std::uint32_t policy = random.below(10);
+  options.nodata = policy == 0  ? NodataSight::blocked
+                   : policy < 4 ? NodataSight::unknown
+                                : NodataSight::clear;
   const SightLine line = lineOf(pair);
   Rounding rounding = Rounding::none;
   bool hangsSomewhere = false, isBetween = false;
