@@ -121,6 +121,9 @@ class EllipsoidEarth final : public SightEarth {
     return track;
   }
 
+  /// The middles of pieces are held to the tolerance; the rest of an arc is hardly farther off.
+  std::optional<double> geodesicError() const override { return 1.1 * tolerance_; }
+
  private:
   static std::string placeText(Vec2 p) { return fmt::format("{},{}", p.x, p.y); }
   static std::string lineText(const Vec2 (&ends)[2]) {

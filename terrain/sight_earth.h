@@ -24,6 +24,9 @@ class SightEarth {
     Vec2 x, y;
   };
   virtual std::optional<PlaneSteps> planeSteps() const { return std::nullopt; }
+  /// Where tracks run over geodesics, so that those from one place in one direction lie on one another: how
+  /// far a track may be from its geodesic, in plan units along x and along y. Else nothing.
+  virtual std::optional<double> geodesicError() const { return std::nullopt; }
 };
 
 /// A place within 1e-9 of a lattice line of the raster is on it: coordinates are rounded.

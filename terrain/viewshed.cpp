@@ -7,6 +7,7 @@
 
 #include "terrain/sight_walk.h"
 #include "terrain/viewshed_methods.h"
+#include "terrain/viewshed_picture.h"
 
 namespace arete {
 namespace {
@@ -57,6 +58,8 @@ Result<ViewshedMaker> ViewshedMaker::make(const TerrainModel& model, const Sight
   auto engine = makeSightEngine(SightMethod::pyramid, model, maker.grid_, context);
   if (!engine) return tl::unexpected(engine.error());
   maker.engine_ = std::move(*engine);
+  if (!earth.planeSteps() && earth.geodesicError())
+    maker.steepness_ = std::make_shared<const std::vector<float>>(viewshedSteepness(*maker.grid_, context));
   return maker;
 }
 
@@ -75,7 +78,9 @@ Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const Vie
   const ViewshedObserver from{{onLattice(observer.plan.x), onLattice(observer.plan.y)}, observer.height};
   const ViewshedExact exact(descent ? *descent : *engine_, *earth_, model_->georeference.verticalUnitMetres,
                             from, options);
-  const ViewshedTask task{*model_, *grid_, *earth_, from, options, exact};
+  static const std::vector<float> kNothing;
+  const ViewshedTask task{
+      *model_, *grid_, *earth_, from, options, exact, steepness_ ? *steepness_ : kNothing};
   Viewshed result;
   result.columns = grid_->columns();
   result.rows = grid_->rows();
@@ -87,15 +92,26 @@ Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const Vie
   if (descent) {
     whyNot = "a tolerance is asked for";
   } else if (options.method != ViewshedMethod::rays) {
-    whyNot = whyNotSweep(task);
+    whyNot = whyNotSweep(task, nullptr);
+  }
+  std::optional<ViewshedFan> fan;
+  if (!descent && options.method != ViewshedMethod::rays && !whyNot && !earth_->planeSteps()) {
+    auto made = ViewshedFan::make(*earth_, from.plan, grid_->columns(), grid_->rows(), context);
+    if (made) {
+      fan = std::move(*made);
+      whyNot = whyNotSweep(task, &*fan);
+    } else {
+      whyNot = made.error();
+    }
   }
   if (options.method == ViewshedMethod::sweep && whyNot)
     return failure(ErrorCode::unsupported, *whyNot, "the method sweep");
   result.method =
       options.method == ViewshedMethod::rays || whyNot ? ViewshedMethod::rays : ViewshedMethod::sweep;
   context.report("viewshed", 0);
-  const Status status = result.method == ViewshedMethod::sweep ? viewshedSweep(task, context, result)
-                                                               : viewshedRays(task, context, result);
+  const Status status = result.method == ViewshedMethod::sweep
+                            ? viewshedSweep(task, fan ? &*fan : nullptr, context, result)
+                            : viewshedRays(task, context, result);
   if (!status) return tl::unexpected(status.error());
   context.report("viewshed", 1);
   std::uint64_t counts[5] = {};

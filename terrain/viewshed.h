@@ -54,7 +54,7 @@ enum class ViewshedValue : std::uint8_t {
 
 enum class ViewshedMethod : std::uint8_t {
   automatic,  ///< the sweep where it can, else rays
-  sweep,      ///< all cells at once, the horizon kept (viewshed_sweep.cpp): rasters, straight tracks
+  sweep,      ///< all cells at once, the horizon kept (viewshed_sweep.cpp): over planes and geodesics
   rays,       ///< an engine's answer for each cell
 };
 std::string_view toString(ViewshedMethod method);
@@ -105,7 +105,8 @@ class ViewshedMaker {
   const TerrainModel* model_;
   const SightEarth* earth_;
   std::shared_ptr<const SightGrid> grid_;
-  std::shared_ptr<const SightEngine> engine_, descent_;
+  std::shared_ptr<const SightEngine> engine_;
+  std::shared_ptr<const std::vector<float>> steepness_;
 };
 
 }  // namespace arete

@@ -57,14 +57,14 @@ class ViewshedGaps {
   bool isPossible(double u) const { return possible_.has(u); }
   bool isCertain(double u) const { return certain_.has(u); }
   /// There is no terrain over a cell or half of one, which is seen from u0 to u1. A line that cuts its corner
-  /// off by less than 1e-9 of a step does not count as over it, and so near to a corner rounding decides.
-  void add(double u0, double u1) {
-    possible_.add(u0 - kCorner, u1 + kCorner);
-    certain_.add(u0 + kCorner, u1 - kCorner);
+  /// off by less than 1e-9 of a step does not count as over it, and so near to a corner rounding decides, and
+  /// whatever else makes directions `corner` uncertain.
+  void add(double u0, double u1, double corner) {
+    possible_.add(u0 - corner, u1 + corner);
+    certain_.add(u0 + corner, u1 - corner);
   }
 
  private:
-  static constexpr double kCorner = 1e-8;
   DirectionSet certain_, possible_;
 };
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "terrain/viewshed_exact.h"
+#include "terrain/viewshed_fan.h"
 
 namespace arete {
 
@@ -16,14 +17,18 @@ struct ViewshedTask {
   const ViewshedObserver& observer;
   const ViewshedOptions& options;
   const ViewshedExact& exact;
+  const std::vector<float>& steepness;  ///< viewshedSteepness(), where the Earth has geodesics
 };
 
 /// Each cell by itself; fills cells, values and rays. Errors: interrupted, those of the earth.
 Status viewshedRays(const ViewshedTask& task, const RunContext& context, Viewshed& result);
 
-/// Why the sweep cannot do this; nothing where it can. O(1), O(samples) where heights must be known.
-std::optional<std::string> whyNotSweep(const ViewshedTask& task);
-/// Precondition: !whyNotSweep(). Fills cells, values and rays. Errors: interrupted.
-Status viewshedSweep(const ViewshedTask& task, const RunContext& context, Viewshed& result);
+/// Why the sweep cannot do this; nothing where it can. Without the fan that the Earth has, as far as the
+/// observer and the options go. O(1).
+std::optional<std::string> whyNotSweep(const ViewshedTask& task, const ViewshedFan* fan);
+/// Preconditions: !whyNotSweep(task, fan); the fan is the observer's; null where the Earth is a plane. Fills
+/// cells, values and rays. Errors: interrupted, those of the earth.
+Status viewshedSweep(const ViewshedTask& task, const ViewshedFan* fan, const RunContext& context,
+                     Viewshed& result);
 
 }  // namespace arete

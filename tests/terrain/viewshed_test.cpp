@@ -14,7 +14,7 @@
 #include "datasets/families.h"
 #include "datasets/random.h"
 #include "terrain/build.h"
-#include "terrain/viewshed_cover.h"
+#include "terrain/viewshed_many.h"
 
 namespace arete {
 namespace {
@@ -187,36 +187,32 @@ TEST(Viewshed, FieldsLeaveOutWhatIsBeyondThem) {
   }
 }
 
-TEST(Viewshed, CoverCountsWhoSeesACellAndNamesTheNearest) {
+TEST(Viewshed, OfManyCountsWhoSeesACellAndNamesTheNearest) {
   Random random(6);
   const Place place(rasterFamilies()[3].make(40, 33, 2));
   const auto maker = ViewshedMaker::make(place.model, *place.earth, place.grid);
-  std::vector<ViewshedSite> sites;
-  for (int i = 0; i < 9; ++i) sites.push_back({randomObserver(place, random, i), {}});
-  sites.push_back(sites[3]);  // equally near
-  sites[5].field.greatestMetres = 20;
-  const auto cover = viewshedCover(*maker, *place.earth, sites, {});
-  ASSERT_TRUE(cover);
-  std::vector<std::uint32_t> counts(cover->counts.size());
-  std::vector<double> nearest(counts.size(), HUGE_VAL);
-  std::vector<std::int32_t> best(counts.size(), ViewshedCover::kNobody);
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    ViewshedOptions options;
-    options.field = sites[i].field;
-    const auto one = maker->from(sites[i].observer, options);
+  std::vector<ViewshedObserver> observers;
+  for (int i = 0; i < 9; ++i) observers.push_back(randomObserver(place, random, i));
+  observers.push_back(observers[3]);  // equally near
+  const auto all = viewshedOfMany(*maker, place.model, *place.earth, observers, {}, true);
+  ASSERT_TRUE(all);
+  std::vector<std::uint16_t> counts(all->count.size(), 0), server(counts.size(), 0);
+  std::vector<float> nearest(counts.size(), HUGE_VALF);
+  for (std::size_t i = 0; i < observers.size(); ++i) {
+    const auto one = maker->from(observers[i]);
     for (std::size_t c = 0; c < counts.size(); ++c) {
       if (one->cells[c] != ViewshedCell::seen) continue;
       ++counts[c];
-      const double distance = place.earth->track(sites[i].observer.plan, {double(c % 40), double(c / 40)})
-                                  ->points.back()
-                                  .distance;
-      if (!(distance < nearest[c] * (1 - 1e-12))) continue;
+      const Vec2 cell{double(c % 40), double(c / 40)};
+      const auto distance =
+          static_cast<float>(place.earth->track(observers[i].plan, cell)->points.back().distance);
+      if (!(distance < nearest[c])) continue;
       nearest[c] = distance;
-      best[c] = std::int32_t(i);
+      server[c] = static_cast<std::uint16_t>(i + 1);
     }
   }
-  EXPECT_EQ(cover->counts, counts);
-  EXPECT_EQ(cover->best, best);
+  EXPECT_EQ(all->count, counts);
+  EXPECT_EQ(all->server, server);
 }
 
 TEST(Viewshed, SaysWhatIsWrongWithOptions) {

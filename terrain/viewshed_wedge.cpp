@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From one lattice line of x to the next: first its samples are asked about, then the edges between the two
+// lines, and those of the farther one, are added to the skyline. What stands lower than the skyline's lowest
+// place around is done with by one comparison: that is most of the terrain.
+#include "terrain/viewshed_wedge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace arete {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+/// Wedges overlap by this much, in u.
+constexpr double kPad = 1e-6;
+/// Terrain this near to the observer (in steps) is left out where an edge comes so near.
+constexpr double kNearest = 1e-6;
+/// Edges narrower than this (in steps) point at the observer, over a fan: their ends are those of others.
+constexpr double kNarrow = 1e-7;
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+std::uint32_t binsOf(const ViewshedWedge& wedge, double farthest) {
+  constexpr double kBinsPerSample = 0.5;
+  return static_cast<std::uint32_t>(
+             std::ceil((wedge.last - wedge.first) * std::max(0.0, farthest) * kBinsPerSample)) +
+         1;
+}
+
+int greatestX(const ViewshedSector& s, const SightGrid& grid) {
+  return s.sign > 0 ? static_cast<int>(s.isAlongRows ? grid.columns() : grid.rows()) - 1 : 0;
+}
+
+}  // namespace
+
+ViewshedWedgeSweep::ViewshedWedgeSweep(const ViewshedPicture& picture, const ViewshedWedge& wedge,
+                                       Viewshed& result)
+    : picture_(picture),
+      task_(picture.task()),
+      wedge_(wedge),
+      result_(result),
+      xGreatest_(greatestX(wedge.sector, task_.grid)),
+      observer_(picture.observer(wedge.sector)),
+      shear_(wedge.first >= 0.5 && !picture.isFan() ? 1 : 0),
+      turn_(picture.turn()),
+      first_(wedge.first - shear_ - kPad),
+      last_(wedge.last - shear_ + kPad),
+      horizon_(first_, last_, binsOf(wedge, xGreatest_ - observer_.x)) {
+  const ViewshedSector& s = wedge.sector;
+  const int columns = static_cast<int>(task_.grid.columns()), rows = static_cast<int>(task_.grid.rows());
+  const int xCount = s.isAlongRows ? columns : rows, yCount = s.isAlongRows ? rows : columns;
+  xLeast_ = xGreatest_ - xCount + 1;
+  yGreatest_ = s.sign > 0 ? yCount - 1 : 0;
+  yLeast_ = yGreatest_ - yCount + 1;
+  const ViewshedField& field = task_.options.field;
+  hasField_ = field.leastMetres > 0 || field.greatestMetres < kInfinite || field.azimuthSpan < 360 ||
+              field.lowest > -90 || field.highest < 90;
+  wantsValue_ = task_.options.value != ViewshedValue::none;
+}
+
+std::size_t ViewshedWedgeSweep::index(int x, int y) const {
+  const ViewshedSector& s = wedge_.sector;
+  const auto column = static_cast<std::size_t>(s.line(s.isAlongRows ? x : y)),
+             row = static_cast<std::size_t>(s.line(s.isAlongRows ? y : x));
+  return row * task_.grid.columns() + column;
+}
+
+double ViewshedWedgeSweep::height(int x, int y) const {
+  return y < yLeast_ || y > yGreatest_ || x < xLeast_ || x > xGreatest_ ? kNone
+                                                                        : task_.grid.row(0)[index(x, y)];
+}
+
+/// The samples of a lattice line that may matter in the wedge, with those of the lines beside it.
+void ViewshedWedgeSweep::take(int x, PictureLine& line) const {
+  constexpr int kMargin = 3;
+  const double away = x - observer_.x;
+  const double first = observer_.y + (wedge_.first - turn_) * away,
+               last = observer_.y + (wedge_.last + turn_) * away;
+  const int low = std::max(yLeast_, static_cast<int>(std::floor(std::max(first, -2e9))) - kMargin);
+  const int high = std::min(yGreatest_, static_cast<int>(std::ceil(std::min(last, 2e9))) + kMargin);
+  picture_.take(wedge_.sector, x, low, high, shear_, line);
+  const auto count = static_cast<std::size_t>(line.count);
+  for (std::size_t i = 0; i < count; ++i) line.bin[i] = horizon_.bin(line.u[i]);
+}
+
+Status ViewshedWedgeSweep::exactly(std::size_t at, int x, int y) {
+  const int a = wedge_.sector.line(x), b = wedge_.sector.line(y);
+  const Vec2 plan = wedge_.sector.isAlongRows ? Vec2{double(a), double(b)} : Vec2{double(b), double(a)};
+  const auto answer = task_.exact.at(plan, task_.grid.row(0)[at]);
+  if (!answer) return tl::unexpected(answer.error());
+  result_.cells[at] = answer->cell;
+  if (wantsValue_) result_.values[at] = answer->value;
+  rays_ += answer->cell != ViewshedCell::outside;
+  return {};
+}
+
+/// Whether all of the wedge from x on is farther away than is looked.
+bool ViewshedWedgeSweep::isBeyond(double x) const {
+  const double greatest = task_.options.field.greatestMetres;
+  if (greatest == kInfinite) return false;
+  const Vec2 xStep = picture_.xStep(wedge_.sector), yStep = picture_.yStep(wedge_.sector);
+  const double yy = yStep.x * yStep.x + yStep.y * yStep.y, xy = xStep.x * yStep.x + xStep.y * yStep.y;
+  const double u = std::clamp(-xy / yy, wedge_.first - turn_, wedge_.last + turn_);
+  const double nearest = x * std::hypot(xStep.x + u * yStep.x, xStep.y + u * yStep.y);
+  // A fan's steps are not quite the plan's.
+  return nearest > greatest * (1 + 1e-6 + 2 * turn_);
+}
+
+Status ViewshedWedgeSweep::run(const RunContext& context) {
+  const int start = static_cast<int>(std::floor(observer_.x)) + 1;
+  for (int x = start; x <= xGreatest_; ++x) {
+    if (context.cancelled()) return {};
+    std::swap(near_, far_);
+    take(x, far_);
+    if (far_.count == 0 && x - observer_.x > 4) return {};
+    if (isBeyond(far_.x)) return {};
+    if (const Status status = ask(x); !status) return status;
+    if (x == start) {
+      addFirst(x);
+    } else {
+      addEdges(x);
+    }
+  }
+  return {};
+}
+
+Status ViewshedWedgeSweep::ask(int x) {
+  const int end = far_.from + far_.count;
+  if (picture_.isFan()) {
+    for (int y = far_.from; y < end; ++y) {
+      const double u = far_.u[far_.at(y)];
+      if (u < wedge_.first || (u == wedge_.first && !wedge_.ownsFirst)) continue;
+      if (u > wedge_.last || (u == wedge_.last && !wedge_.ownsLast)) continue;
+      if (const Status status = askOne(x, y); !status) return status;
+    }
+    return {};
+  }
+  // Whose a sample is, the sectors and wedges that meet there must agree on: by x and y, not sheared.
+  const double last = wedge_.last * far_.x, first = wedge_.first * far_.x;
+  const auto before = [&](double at) { return wedge_.ownsFirst ? at < first : at <= first; };
+  const auto within = [&](double at) { return wedge_.ownsLast ? at <= last : at < last; };
+  int y = far_.from;
+  while (y < end && before(y - observer_.y)) ++y;
+  for (; y < end && within(y - observer_.y); ++y)
+    if (const Status status = askOne(x, y); !status) return status;
+  return {};
+}
+
+/// Whether the sample at `i` is in the field of view.
+ViewshedWedgeSweep::Side ViewshedWedgeSweep::fieldAt(const PictureLine& line, std::size_t i,
+                                                     double target) const {
+  const ViewshedField& field = task_.options.field;
+  const Vec2 ground = picture_.ground(wedge_.sector, line, i);
+  const double metres = std::hypot(ground.x, ground.y);
+  const double azimuth = kDegrees * std::atan2(ground.x, ground.y);
+  const auto shrunk = [&](double by) {
+    ViewshedField f = field;
+    f.leastMetres *= 1 + by;
+    f.greatestMetres *= 1 - by;
+    if (f.azimuthSpan < 360) {
+      f.fromAzimuth += 360 * by;
+      f.azimuthSpan -= 720 * by;
+    }
+    return f;
+  };
+  const double doubt = picture_.isFan() ? 1e-5 : 1e-10;
+  if (!isInField(shrunk(-doubt), metres, azimuth)) return Side::outside;
+  if (!isInField(shrunk(doubt), metres, azimuth)) return Side::doubtful;
+  if (field.lowest == -90 && field.highest == 90) return Side::inside;
+  const double away = picture_.isFan() ? line.away[i] : line.x;
+  const double elevation = kDegrees * std::atan(target * away * picture_.unit() / metres);
+  const double angle = picture_.isFan() ? 1e-3 : 1e-9;
+  if (elevation < field.lowest - angle || elevation > field.highest + angle) return Side::outside;
+  return elevation < field.lowest + angle || elevation > field.highest - angle ? Side::doubtful
+                                                                               : Side::inside;
+}
+
+/// Whether there may be no terrain in a cell that leads to the sample from the observer.
+bool ViewshedWedgeSweep::isBesideGap(int x, int y) const {
+  const double yy = y - observer_.y, turned = turn_ * far_.x + (picture_.isFan() ? 1e-2 : 0);
+  return (yy >= -turned && std::isnan(height(x, y - 1) + height(x - 1, y - 1) + height(x - 1, y))) ||
+         (yy <= turned && std::isnan(height(x, y + 1) + height(x - 1, y + 1) + height(x - 1, y)));
+}
+
+/// The edges between the lines x - 1 and x that are before a sample at x and do not lead to it, as far as
+/// they stand higher than `target`: the skyline does not know them yet.
+ViewshedHorizon::Bounds ViewshedWedgeSweep::linkBefore(int y, double target) const {
+  const double u = far_.u[far_.at(y)];
+  ViewshedHorizon::Bounds bounds{-kInfinite, -kInfinite};
+  const auto look = [&](int yNear, int yFar) {
+    if (!near_.has(yNear) || !far_.has(yFar)) return;
+    const std::size_t n = near_.at(yNear), f = far_.at(yFar);
+    const double v0 = near_.v[n], v1 = far_.v[f];
+    if (!(std::max(v0, v1) > target)) return;
+    const double u0 = near_.u[n], u1 = far_.u[f];
+    if (!(std::min(u0, u1) <= u && u <= std::max(u0, u1)) || u0 == u1) return;
+    const double v = v0 + (v1 - v0) * ((u - u0) / (u1 - u0));
+    bounds.upper = std::max(bounds.upper, v);
+    bounds.lower = std::max(bounds.lower, v - slack(near_, n, far_, f));
+  };
+  if (y < observer_.y || picture_.isFan()) look(y, y + 1);
+  if (picture_.isFan()) look(y - 1, y - 1);
+  return bounds;
+}
+
+Status ViewshedWedgeSweep::askOne(int x, int y) {
+  const std::size_t i = far_.at(y), at = index(x, y);
+  if (std::isnan(far_.z[i])) return {};
+  if (!(far_.x > 1)) return exactly(at, x, y);
+  const ViewshedOptions& options = task_.options;
+  const double target = picture_.target(far_, i, options.targetHeight), u = far_.u[i];
+  if (hasField_) {
+    const Side side = fieldAt(far_, i, target);
+    if (side == Side::outside) return {};
+    if (side == Side::doubtful) return exactly(at, x, y);
+  }
+  const bool isAtBorder = picture_.isFan() && (y == yLeast_ || y == yGreatest_);
+  if ((far_.hasGaps || near_.hasGaps || isAtBorder) && isBesideGap(x, y)) return exactly(at, x, y);
+  // Over a fan the terrain beside a gap may be beside the line instead.
+  if (picture_.isFan() && gaps_.isPossible(u)) return exactly(at, x, y);
+
+  const ViewshedHorizon::Bounds before = linkBefore(y, wantsValue_ ? -kInfinite : target);
+  const int bin = far_.bin[i];
+  bool isSeen = false, isHidden = false;
+  ViewshedHorizon::Bounds skyline{};
+  if (!wantsValue_ && target < horizon_.low(bin)) {
+    isHidden = true;
+  } else if (!wantsValue_ && target >= horizon_.high(bin) && target >= before.upper) {
+    isSeen = true;
+  } else {
+    skyline = horizon_.at(u);
+    skyline.upper = std::max(skyline.upper, before.upper);
+    skyline.lower = std::max(skyline.lower, before.lower);
+    isHidden = target < skyline.lower;
+    isSeen = target >= skyline.upper;
+  }
+  if (!isSeen && !isHidden) return exactly(at, x, y);
+  bool isUnknown = false, isCut = false;
+  if (!gaps_.isEmpty() && options.nodata != NodataSight::clear && gaps_.isPossible(u)) {
+    const bool isCertain = gaps_.isCertain(u);
+    if (options.nodata == NodataSight::unknown) {
+      if (isSeen && !isCertain) return exactly(at, x, y);
+      isUnknown = isSeen;
+    } else {
+      if ((isSeen || wantsValue_) && !isCertain) return exactly(at, x, y);
+      isCut = isCertain;
+      isHidden = true;
+    }
+  }
+  result_.cells[at] = isUnknown  ? ViewshedCell::unknown
+                      : isHidden ? ViewshedCell::hidden
+                                 : ViewshedCell::seen;
+  if (!wantsValue_) return {};
+  const double ground = picture_.target(far_, i, 0);
+  if (isCut) {
+    result_.values[at] = std::numeric_limits<float>::infinity();
+  } else if (options.value == ViewshedValue::leastHeight) {
+    if (ground < skyline.upper && !(ground < skyline.lower)) return exactly(at, x, y);
+    result_.values[at] =
+        ground >= skyline.upper ? 0.0f : static_cast<float>((skyline.upper - ground) * far_.x);
+  } else {
+    const Vec2 place = picture_.ground(wedge_.sector, far_, i);
+    result_.values[at] = static_cast<float>(std::max(skyline.upper, ground) * far_.x * picture_.unit() /
+                                            std::hypot(place.x, place.y));
+  }
+  return {};
+}
+
+template <bool kIsFan>
+void ViewshedWedgeSweep::addWholeCells(int from, int count) {
+  const std::size_t n = near_.at(from), f = far_.at(from);
+  const double *u0 = near_.u.data() + n, *v0 = near_.v.data() + n, *u1 = far_.u.data() + f,
+               *v1 = far_.v.data() + f;
+  const int *bin0 = near_.bin.data() + n, *bin1 = far_.bin.data() + f;
+  const double slack0 = picture_.slack(near_.x * 0.99, 0), slack1 = picture_.slack(far_.x * 0.99, 0);
+  for (int i = 0; i < count; ++i) {
+    const double highest = std::max(v0[i], std::max(v1[i], v1[i + 1]));
+    if (highest <= horizon_.low(std::min(bin0[i], bin1[i]), std::max(bin0[i], bin1[i + 1]))) continue;
+    if constexpr (kIsFan) {
+      const std::size_t j = n + static_cast<std::size_t>(i), k = f + static_cast<std::size_t>(i);
+      horizon_.add(u1[i], v1[i], u1[i + 1], v1[i + 1], slack(far_, k, far_, k + 1));
+      if (std::fabs(u1[i] - u0[i]) * near_.x > kNarrow)
+        horizon_.add(u0[i], v0[i], u1[i], v1[i], slack(near_, j, far_, k));
+      if (std::fabs(u1[i + 1] - u0[i]) * near_.x > kNarrow)
+        horizon_.add(u0[i], v0[i], u1[i + 1], v1[i + 1], slack(near_, j, far_, k + 1));
+    } else {
+      horizon_.add(u1[i], v1[i], u1[i + 1], v1[i + 1], slack1);
+      horizon_.add(u0[i], v0[i], u1[i], v1[i], slack0);
+      horizon_.add(u0[i], v0[i], u1[i + 1], v1[i + 1], slack0);
+    }
+  }
+  if (count < 0) return;
+  if (kIsFan && !(std::fabs(u1[count] - u0[count]) * near_.x > kNarrow)) return;
+  horizon_.add(u0[count], v0[count], u1[count], v1[count],
+               slack(near_, n + static_cast<std::size_t>(count), far_, f + static_cast<std::size_t>(count)));
+}
+
+void ViewshedWedgeSweep::addEdges(int x) {
+  const int from = std::max(near_.from, far_.from),
+            to = std::min(near_.from + near_.count, far_.from + far_.count) - 1;
+  if (to < from) return;
+  if (near_.hasGaps || far_.hasGaps) {
+    for (int y = from; y <= to; ++y) addPartialCell(x, y);
+  } else if (picture_.isFan()) {
+    addWholeCells<true>(from, to - from);
+  } else {
+    addWholeCells<false>(from, to - from);
+  }
+  // Geodesics may leave the DEM between two places in it.
+  if (picture_.isFan() && from == yLeast_) addBorder(x, yLeast_, yLeast_ - 1);
+  if (picture_.isFan() && to == yGreatest_) addBorder(x, yGreatest_, yGreatest_ + 1);
+}
+
+/// The cell from the DEM's border to beyond it.
+void ViewshedWedgeSweep::addBorder(int x, int y, int outside) {
+  const double beyond0 = picture_.direction(wedge_.sector, x - 1, outside, shear_),
+               beyond1 = picture_.direction(wedge_.sector, x, outside, shear_);
+  const double u0 = near_.u[near_.at(y)], u1 = far_.u[far_.at(y)];
+  gaps_.add(std::min(std::min(u0, u1), std::min(beyond0, beyond1)),
+            std::max(std::max(u0, u1), std::max(beyond0, beyond1)), picture_.corner(near_.x));
+}
+
+/// The edges of the cell from (x - 1, y) to (x, y + 1) that it adds: its own diagonal, that along x at y,
+/// that along y at x; if they are there. An edge is when both its samples are and any sample opposite to it
+/// is.
+void ViewshedWedgeSweep::addPartialCell(int x, int y) {
+  const auto n = near_.at(y), f = far_.at(y);
+  const auto isThere = [&](int atX, int atY) { return !std::isnan(height(atX, atY)); };
+  const auto add = [&](const PictureLine& a, std::size_t i, const PictureLine& b, std::size_t j) {
+    if (picture_.isFan() && !(std::fabs(a.u[i] - b.u[j]) * near_.x > kNarrow)) return;
+    horizon_.add(a.u[i], a.v[i], b.u[j], b.v[j], slack(a, i, b, j));
+  };
+  const bool has00 = !std::isnan(near_.z[n]), has10 = !std::isnan(far_.z[f]);
+  if (has00 && has10 &&
+      (isThere(x, y - 1) || isThere(x - 1, y - 1) || isThere(x, y + 1) || isThere(x - 1, y + 1)))
+    add(near_, n, far_, f);
+  if (!near_.has(y + 1) || !far_.has(y + 1)) return;
+  const bool has01 = !std::isnan(near_.z[n + 1]), has11 = !std::isnan(far_.z[f + 1]);
+  if (has10 && has11 && (has00 || has01 || isThere(x + 1, y) || isThere(x + 1, y + 1)))
+    add(far_, f, far_, f + 1);
+  const int corners = has00 + has01 + has10 + has11;
+  if (corners >= 3) {
+    if (has00 && has11) {
+      add(near_, n, far_, f + 1);
+    } else {
+      add(near_, n + 1, far_, f);
+    }
+  }
+  if (corners == 4) return;
+  double first = kInfinite, last = -kInfinite;
+  const auto reach = [&](double u) {
+    first = std::min(first, u);
+    last = std::max(last, u);
+  };
+  // Of three corners, the gap is the triangle of the fourth and its neighbours.
+  if (corners < 3 || !has00 || !has11 || !has01) reach(near_.u[n + 1]);
+  if (corners < 3 || !has00 || !has11 || !has10) reach(far_.u[f]);
+  if (corners < 3 || !has01 || !has10 || !has00) reach(near_.u[n]);
+  if (corners < 3 || !has01 || !has10 || !has11) reach(far_.u[f + 1]);
+  gaps_.add(first, last, picture_.corner(near_.x));
+}
+
+/// The edges between the lattice line behind the observer, or below it, and the first before it.
+void ViewshedWedgeSweep::addFirst(int x) {
+  const int low = std::max(yLeast_, static_cast<int>(std::floor(observer_.y)) - 3),
+            high = std::min(yGreatest_, low + 8);
+  std::vector<ViewshedPicture::Sample> before, at;
+  for (int y = low; y <= high; ++y) {
+    before.push_back(picture_.sample(wedge_.sector, x - 1, y));
+    at.push_back(picture_.sample(wedge_.sector, x, y));
+  }
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    addNear(before[i], at[i]);
+    if (i + 1 == at.size()) break;
+    addNear(before[i], at[i + 1]);
+    addNear(at[i], at[i + 1]);
+  }
+}
+
+/// An edge that may lead behind the observer: the part of it that is in the wedge and not too near.
+void ViewshedWedgeSweep::addNear(const ViewshedPicture::Sample& from, const ViewshedPicture::Sample& to) {
+  if (std::isnan(from.height + to.height)) return;
+  const Vec2 a = from.place, b = to.place;
+  double t0 = 0, t1 = 1;
+  const auto keep = [&](double atA, double atB) {  // where it is positive
+    if (atA >= 0 && atB >= 0) return;
+    if (atA < 0 && atB < 0) {
+      t0 = 2;
+    } else if (atA < 0) {
+      t0 = std::max(t0, atA / (atA - atB));
+    } else {
+      t1 = std::min(t1, atA / (atA - atB));
+    }
+  };
+  // Wider than the wedge: what is cut off here must not matter.
+  constexpr double kWider = 1.0 / 64;
+  keep(a.x - kNearest, b.x - kNearest);
+  keep(a.y - (wedge_.first - kWider) * a.x, b.y - (wedge_.first - kWider) * b.x);
+  keep((wedge_.last + kWider) * a.x - a.y, (wedge_.last + kWider) * b.x - b.y);
+  if (!(t0 < t1)) return;
+  const auto at = [&](double t, double& u, double& v) {
+    const double x = t == 1 ? b.x : a.x + t * (b.x - a.x), y = t == 1 ? b.y : a.y + t * (b.y - a.y);
+    u = (y - shear_ * x) / x;
+    v = (t == 1 ? to.height : from.height + t * (to.height - from.height)) / x;
+    return x;
+  };
+  double u0, v0, u1, v1;
+  const double x0 = at(t0, u0, v0), x1 = at(t1, u1, v1), nearest = std::min(x0, x1);
+  if (std::fabs(u1 - u0) < (picture_.isFan() ? kNarrow : 1e-12)) return;  // it points at the observer
+  horizon_.add(u0, v0, u1, v1, picture_.slack(nearest, std::max(from.doubt, to.doubt)));
+}
+
+}  // namespace arete

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "terrain/viewshed_gaps.h"
+#include "terrain/viewshed_horizon.h"
+#include "terrain/viewshed_picture.h"
+
+namespace arete {
+
+/// Directions of one sector, from u = first to u = last.
+struct ViewshedWedge {
+  ViewshedSector sector;
+  double first, last;
+  bool ownsFirst, ownsLast;  ///< samples at that end are its own
+};
+
+/// Sweeps one wedge: fills the result's cells, and values, that are in it.
+class ViewshedWedgeSweep {
+ public:
+  ViewshedWedgeSweep(const ViewshedPicture& picture, const ViewshedWedge& wedge, Viewshed& result);
+  /// Errors: those of the earth. Stops when told to.
+  Status run(const RunContext& context);
+  std::uint64_t rays() const { return rays_; }
+
+ private:
+  double height(int x, int y) const;
+  std::size_t index(int x, int y) const;
+  int yAround(double u, double x) const;
+
+  void take(int x, PictureLine& line) const;
+  Status ask(int x);
+  Status askOne(int x, int y);
+  bool isBesideGap(int x, int y) const;
+  ViewshedHorizon::Bounds linkBefore(int y, double target) const;
+  enum class Side { inside, doubtful, outside };
+  Side fieldAt(const PictureLine& line, std::size_t i, double target) const;
+  Status exactly(std::size_t at, int x, int y);
+  bool isBeyond(double x) const;
+
+  void addEdges(int x);
+  template <bool kIsFan>
+  void addWholeCells(int from, int count);
+  void addPartialCell(int x, int y);
+  void addBorder(int x, int y, int outside);
+  void addFirst(int x);
+  void addNear(const ViewshedPicture::Sample& a, const ViewshedPicture::Sample& b);
+
+  double slack(const PictureLine& a, std::size_t i, const PictureLine& b, std::size_t j) const {
+    return picture_.slack(std::min(a.x, b.x) * 0.99, picture_.isFan() ? std::max(a.doubt[i], b.doubt[j]) : 0);
+  }
+
+  const ViewshedPicture& picture_;
+  const ViewshedTask& task_;
+  const ViewshedWedge& wedge_;
+  Viewshed& result_;
+  int xLeast_, xGreatest_, yLeast_, yGreatest_;
+  Vec2 observer_;
+  int shear_;
+  double turn_;
+  double first_, last_;  ///< of u, sheared, padded
+  bool hasField_, wantsValue_;
+  ViewshedHorizon horizon_;
+  ViewshedGaps gaps_;
+  PictureLine near_, far_;  ///< the lattice lines before and at x
+  std::uint64_t rays_ = 0;
+};
+
+}  // namespace arete
