@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <span>
 
 #include "engine/multitriangulation.h"
@@ -32,6 +34,8 @@ struct EnclosingBall {
     return ball;
   }
 
+  static EnclosingBall of(const Sphere& s) { return {s.x, s.y, s.z, s.radius}; }
+
   void encloseChild(const Sphere& child) {
     const double px = child.x, py = child.y, pz = child.z, pRadius = child.radius * kWiden;
     const double dx = px - x, dy = py - y, dz = pz - z;
@@ -52,7 +56,9 @@ struct EnclosingBall {
   Sphere rounded() const {
     Sphere s{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), 0};
     const double moved = std::sqrt((s.x - x) * (s.x - x) + (s.y - y) * (s.y - y) + (s.z - z) * (s.z - z));
-    s.radius = std::nextafter(static_cast<float>((radius + moved) * kWiden), INFINITY);
+    // The next float of one that is not negative has the next bits.
+    s.radius =
+        std::bit_cast<float>(std::bit_cast<std::uint32_t>(static_cast<float>((radius + moved) * kWiden)) + 1);
     return s;
   }
 

@@ -81,7 +81,7 @@ class WriterIo {
   }
 
   /// The node that removes the seed gets the number.
-  void begin(Handle seed, std::uint32_t number) {
+  void begin(std::uint32_t seed, std::uint32_t number) {
     number_ = number;
     old_ = a_.remover[oldIdOf(seed)];
     w_.oldNode[number] = old_;
@@ -127,7 +127,7 @@ class WriterIo {
   bool star(const Floor& floor, std::uint32_t slot) {
     if (floor.size != floorSize_ || floor.isOpen != mt_.isOpen(NodeId(old_))) return false;
     for (int i = 0; i < floor.size; ++i)
-      if (a_.remover[oldIdOf(floor.triangles[i].handle)] != old_) return false;
+      if (a_.remover[oldIdOf(floor.triangles[i].id)] != old_) return false;
     const auto link = mt_.link(NodeId(old_));
     const std::uint32_t size = static_cast<std::uint32_t>(link.size());
     std::uint32_t turn = 0;
@@ -140,13 +140,12 @@ class WriterIo {
       w_.oldTriangle[slot + i] = roots_ + a_.slotBegin[old_] + j;
       w_.newSlot[a_.slotBegin[old_] + j] = slot + i;
     }
-    for (int i = 0; i < floor.size; ++i) floorIds_[i] = oldIdOf(floor.triangles[i].handle);
     return true;
   }
 
   Arrays::Place actualPlace() const {
     const Vec2 p = a_.vertices.planPosition(mt_.apex(NodeId(old_)));
-    return {p.x, p.y};
+    return {p.x, p.y, 0};
   }
   std::int64_t actualHeightResidual(double predicted) const {
     const HeightEncoding::Type type = a_.vertices.encoding.type;
@@ -154,7 +153,7 @@ class WriterIo {
         type, rawHeight(type, a_.vertices.rawHeights.data(), mt_.apex(NodeId(old_)).index()), predicted);
   }
 
-  std::uint16_t actualError(int i) const { return a_.error[floorIds_[i]]; }
+  std::uint16_t actualError(std::uint32_t id) const { return a_.error[oldIdOf(id)]; }
   std::optional<std::uint64_t> wholeError(double doubledArea, std::uint16_t code) const {
     if (code == 0) return 0;
     const double largest =
@@ -164,18 +163,20 @@ class WriterIo {
     // least one that has the code.
     const auto most = static_cast<std::uint64_t>(largest + 1e-6);
     for (std::uint64_t whole = most - std::min<std::uint64_t>(most, most / 2048 + 1); whole <= most; ++whole)
-      if (NodeCoder<WriterIo>::wholeErrorCode(w_.arrays, whole, doubledArea) == code) return whole;
+      if (wholeErrorCode(w_.arrays.scale, w_.arrays.encoding, whole, doubledArea) == code) return whole;
     return std::nullopt;
   }
-  BoundSteps actualBounds(int i) const {
-    return roundedBounds(boundStep(a_.below[floorIds_[i]]), boundStep(a_.above[floorIds_[i]]));
+  BoundSteps actualBounds(std::uint32_t id) const {
+    const std::uint32_t t = oldIdOf(id);
+    return roundedBounds(boundStep(a_.below[t]), boundStep(a_.above[t]));
   }
 
-  /// 0, or 1 + how many bands lie between the node that has its seed here and this one.
-  unsigned seedSymbol(std::uint32_t slot, std::uint32_t band) {
+  /// How many bands the node that has its seed here lies below this one, if there is one.
+  std::optional<unsigned> seedAt(std::uint32_t slot, std::uint32_t band) {
     const std::uint32_t remover = a_.remover[w_.oldTriangle[slot]];
-    if (remover == kNone || w_.plan.chunkOf[remover] != chunk_ || --w_.ownParentsLeft[remover] != 0) return 0;
-    return 1 + band - bandOf(remover);
+    if (remover == kNone || w_.plan.chunkOf[remover] != chunk_ || --w_.ownParentsLeft[remover] != 0)
+      return std::nullopt;
+    return band - bandOf(remover);
   }
 
  private:
@@ -185,7 +186,7 @@ class WriterIo {
   std::uint32_t newVertex(std::uint32_t old) const {
     return old < a_.rootVertices ? old : a_.rootVertices + w_.newNode[old - a_.rootVertices];
   }
-  std::uint32_t oldIdOf(Handle h) const { return h.isRoot() ? h.slot : w_.oldTriangle[h.slot]; }
+  std::uint32_t oldIdOf(std::uint32_t id) const { return id < roots_ ? id : w_.oldTriangle[id - roots_]; }
 
   /// Where a triangle of another chunk is found: its chunk + 1 and its node's place among those of the chunk.
   template <class Entry>
@@ -213,7 +214,6 @@ class WriterIo {
   int floorSize_ = 0;
   std::array<std::array<std::uint32_t, 3>, kMaxFloor> corners_;
   std::array<bool, kMaxFloor> isFound_;
-  std::array<std::uint32_t, kMaxFloor> floorIds_;
 };
 
 struct Streams {
@@ -267,7 +267,6 @@ class Packer {
     if (!arrays_.allocate(
             {from.rootVertices, from.rootTriangles.size(), model.mt.nodeCount(), from.link.size(), 0, 0}))
       return false;
-    std::fill_n(arrays_.remover.get(), arrays_.remover.size(), kNone);
     std::copy(from.rootTriangles.begin(), from.rootTriangles.end(), arrays_.rootTriangles.get());
     if (model.isRaster)
       std::copy_n(from.vertices.samples.begin(), from.rootVertices, arrays_.samples.get());

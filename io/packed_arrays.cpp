@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The root's triangles are joined by sorting their edges. Saturation goes from the last node of a chunk to
-// the first, so children come before parents; chunks are taken in the reverse order of their kinds.
+// the first, so children come before parents; chunks are taken in the reverse order of their kinds. A node's
+// sphere holds its star already and grows around those of its children.
 #include "io/packed_arrays.h"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +16,25 @@
 namespace arete::packed {
 
 constexpr std::uint32_t kNone = MultiTriangulation::kNone;
+constexpr std::uint32_t kAhead = 8;
+constexpr std::size_t kWorthAMapping = std::size_t{1} << 20;
+
+void* takeZeros(std::size_t bytes) {
+  if (bytes < kWorthAMapping) return std::calloc(bytes, 1);
+  void* const zeros = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (zeros == MAP_FAILED) return nullptr;
+#ifdef MADV_HUGEPAGE
+  madvise(zeros, bytes, MADV_HUGEPAGE);  // a wish: nothing depends on it
+#endif
+  return zeros;
+}
+
+void giveZerosBack(void* zeros, std::size_t bytes) {
+  if (bytes < kWorthAMapping)
+    std::free(zeros);
+  else
+    munmap(zeros, bytes);
+}
 
 bool Arrays::allocate(const AmtCounts& counts) {
   rootVertices = static_cast<std::uint32_t>(counts.rootVertices);
@@ -36,13 +57,19 @@ bool Arrays::allocate(const AmtCounts& counts) {
   samples = ZeroArray<std::uint32_t>(isLattice ? v : 0);
   plan = ZeroArray<Vec2>(isLattice ? 0 : v);
   rawHeights = ZeroArray<std::byte>(v * encoding.bytesPerHeight());
+  floorError = ZeroArray<std::uint16_t>(s - 2 * n);
   place = ZeroArray<Place>(v);
   star = ZeroArray<std::uint8_t>(n);
   outer = ZeroArray<Handle>(s);
+  std::fill_n(remover.get(), remover.isThere() ? roots : 0, kNone);
+  wholeErrors.assign((kLatticeErrorArea + 1) * 16, 0);
+  for (unsigned area = 1; area <= kLatticeErrorArea; ++area)
+    for (unsigned whole = 0; whole < 16; ++whole)
+      wholeErrors[area * 16 + whole] = wholeErrorCode(scale, encoding, whole, area);
   return rootTriangles.isThere() && slotBegin.isThere() && link.isThere() && remover.isThere() &&
          floor.isThere() && creatorHint.isThere() && error.isThere() && below.isThere() && above.isThere() &&
          saturatedError.isThere() && sphere.isThere() && samples.isThere() && plan.isThere() &&
-         rawHeights.isThere() && place.isThere() && star.isThere() && outer.isThere();
+         rawHeights.isThere() && floorError.isThere() && place.isThere() && star.isThere() && outer.isThere();
 }
 
 void Arrays::joinRoot() {
@@ -76,6 +103,7 @@ void Arrays::finishHints() {
 
 MultiTriangulation Arrays::model(std::shared_ptr<Arrays> arrays) {
   Arrays& from = *arrays;
+  from.floorError = {};
   from.place = {};
   from.star = {};
   from.outer = {};
@@ -107,36 +135,39 @@ MultiTriangulation Arrays::model(std::shared_ptr<Arrays> arrays) {
 }
 
 std::optional<std::string> saturate(Arrays& a, const Chunk& chunk, bool isPart) {
-  std::array<Vec3, 40> positions;
+  const std::uint32_t* const remover = a.remover.get() + a.roots;
+  Sphere* const sphere = a.sphere.get();
+  std::uint16_t* const saturatedError = a.saturatedError.get();
+  std::array<Sphere, 40> children;
   for (auto run = chunk.runs.rbegin(); run != chunk.runs.rend(); ++run) {
+    const auto least =
+        isPart ? static_cast<std::uint16_t>(run->band << MultiTriangulation::kBandShift) : std::uint16_t{0};
     for (std::uint32_t n = run->firstNode + run->nodes; n-- > run->firstNode;) {
+      if (n >= run->firstNode + kAhead) {
+        const std::uint32_t slot = a.slotBegin[n - kAhead];
+        for (std::uint32_t i = 0; i < 6; ++i) {
+          const std::uint32_t child = remover[slot + i];
+          __builtin_prefetch(&sphere[child < a.nodes ? child : 0]);
+        }
+      }
       const std::uint32_t begin = a.slotBegin[n], size = a.starSize(n);
-      std::uint16_t saturated =
-          isPart ? static_cast<std::uint16_t>(run->band << MultiTriangulation::kBandShift) : std::uint16_t{0};
-      for (std::uint32_t i = begin - 2 * n; i < begin - 2 * n + size - 2; ++i) {
-        const std::uint32_t t = a.floor[i];
-        if (a.remover[t] != n)
-          return fmt::format("nodes {} and {} both remove triangle {}", a.remover[t], n, t);
-        saturated = std::max(saturated, a.error[t]);
-      }
-      const auto metricPosition = [&](std::uint32_t v) {
-        const double z = a.height(v) * a.encoding.scale + a.encoding.offset;
-        return a.metric.toMetric({a.place[v].x, a.place[v].y, z});
-      };
-      for (std::uint32_t i = 0; i < size; ++i) positions[i] = metricPosition(a.link[begin + i]);
-      positions[size] = metricPosition(a.rootVertices + n);
-      EnclosingBall ball = EnclosingBall::around({positions.data(), size + 1});
-      std::uint32_t previous = n;
-      for (std::uint32_t i = 0; i < size; ++i) {
-        const std::uint32_t child = a.remover[a.roots + begin + i];
-        if (child == kNone || child == previous || child == n) continue;
+      std::uint16_t saturated = least;
+      for (std::uint32_t i = begin - 2 * n; i < begin - 2 * n + size - 2; ++i)
+        saturated = std::max(saturated, a.floorError[i]);
+      std::uint32_t count = 0, previous = n;
+      for (std::uint32_t i = begin; i < begin + size; ++i) {
+        const std::uint32_t child = remover[i] == kNone ? n : remover[i];
+        children[count] = sphere[child];
+        // n's own is still 0.
+        saturated = std::max(saturated, saturatedError[child]);
+        count += static_cast<std::uint32_t>(child != n) & static_cast<std::uint32_t>(child != previous);
         previous = child;
-        saturated = std::max(saturated, a.saturatedError[child]);
-        ball.encloseChild(a.sphere[child]);
       }
-      a.saturatedError[n] = saturated;
-      a.sphere[n] = ball.rounded();
-      if (!std::isfinite(a.sphere[n].x + a.sphere[n].y + a.sphere[n].z + a.sphere[n].radius))
+      saturatedError[n] = saturated;
+      EnclosingBall ball = EnclosingBall::of(sphere[n]);
+      for (std::uint32_t i = 0; i < count; ++i) ball.encloseChild(children[i]);
+      sphere[n] = ball.rounded();
+      if (!std::isfinite(sphere[n].x + sphere[n].y + sphere[n].z + sphere[n].radius))
         return fmt::format("node {} has a sphere that is none", n);
       if (MultiTriangulation::bandOf(saturated) != run->band)
         return fmt::format("node {} has a saturated error outside of its band", n);

@@ -15,27 +15,33 @@
 
 namespace arete::packed {
 
-/// An array of zeros that the system hands out page by page as they are touched.
+/// Zeros from the system, in large pages where it has them; nullptr when there is not enough memory.
+void* takeZeros(std::size_t bytes);
+void giveZerosBack(void* zeros, std::size_t bytes);
+
+/// An array of zeros, whose memory comes page by page as they are touched. There are some more behind its
+/// end, so that looking ahead needs no test.
 template <class T>
 class ZeroArray {
+  static constexpr std::size_t kSpare = 8;
+
  public:
   ZeroArray() = default;
-  /// Empty when there is not enough memory.
-  explicit ZeroArray(std::size_t size) : data_(static_cast<T*>(std::calloc(size + 1, sizeof(T)))) {
-    size_ = data_ == nullptr ? 0 : size;
-  }
+  /// Not there when there is not enough memory.
+  explicit ZeroArray(std::size_t size)
+      : data_(static_cast<T*>(takeZeros((size + kSpare) * sizeof(T))), Free{size}) {}
   T* get() const { return data_.get(); }
   T& operator[](std::size_t i) const { return data_.get()[i]; }
-  std::size_t size() const { return size_; }
-  std::span<const T> view() const { return {data_.get(), size_}; }
+  std::size_t size() const { return isThere() ? data_.get_deleter().size : 0; }
+  std::span<const T> view() const { return {data_.get(), size()}; }
   bool isThere() const { return data_ != nullptr; }
 
  private:
   struct Free {
-    void operator()(T* p) const { std::free(p); }
+    std::size_t size = 0;
+    void operator()(T* p) const { giveZerosBack(p, (size + kSpare) * sizeof(T)); }
   };
   std::unique_ptr<T, Free> data_;
-  std::size_t size_ = 0;
 };
 
 /// A triangle: the node that created it and its slot, or kNone and a triangle of the root. All ones: there is
@@ -68,9 +74,12 @@ struct Arrays {
   ZeroArray<std::byte> rawHeights;
 
   struct Place {
-    double x, y;
+    double x, y, z;
   };
-  ZeroArray<Place> place;         ///< plan coordinates of the vertices
+  ZeroArray<std::uint16_t> floorError;  ///< error of the triangle at the same place of floor
+  ZeroArray<Place> place;               ///< plan coordinates and raw heights of the vertices
+  /// Codes of errors of whole-numbered heights: by doubled area, up to kLatticeErrorArea, and error * area.
+  std::vector<std::uint16_t> wholeErrors;
   ZeroArray<std::uint8_t> star;   ///< slots of a node, + kOpen; 0 = not there yet
   ZeroArray<Handle> outer;        ///< per slot: what was across the link's edge when the star was made
   std::vector<Handle> rootOuter;  ///< 3 per root triangle: across each edge
@@ -92,9 +101,9 @@ struct Arrays {
 };
 
 /// Saturated errors and spheres of the nodes of a chunk, from those of their children, which are complete:
-/// see engine/mt_recorder.h. Nothing, or what is wrong: a saturated error outside of its band, or a triangle
-/// that two nodes remove. Of a part of an MT (`isPart`) some children are missing; its saturated errors are
-/// at least the lowest of their band.
+/// see engine/mt_recorder.h. A node's sphere holds its star when this is called. Nothing, or what is wrong: a
+/// saturated error outside of its band. Of a part of an MT (`isPart`) some children are missing; its
+/// saturated errors are at least the lowest of their band.
 std::optional<std::string> saturate(Arrays& arrays, const Chunk& chunk, bool isPart);
 
 }  // namespace arete::packed

@@ -232,7 +232,6 @@ std::vector<std::byte> toBytes(std::span<const RansTable> tables) {
     for (unsigned s = 0; s < RansTable::kAlphabet; ++s) symbols += table.share(s) > 0 ? 1 : 0;
     out.number(symbols);
     if (symbols == 0) continue;
-    out.number(static_cast<std::uint64_t>(table.bits()));
     unsigned next = 0;
     for (unsigned s = 0; s < RansTable::kAlphabet; ++s) {
       if (table.share(s) == 0) continue;
@@ -250,17 +249,16 @@ std::optional<std::vector<RansTable>> tablesOf(std::span<const std::byte> bytes)
   for (RansTable& table : tables) {
     const std::uint32_t symbols = in.number(RansTable::kAlphabet);
     if (symbols == 0) continue;
-    const int bits = static_cast<int>(in.number(RansTable::kMaxBits));
     std::array<std::uint16_t, RansTable::kAlphabet> shares{};
     std::uint32_t next = 0;
     for (std::uint32_t i = 0; i < symbols; ++i) {
       const std::uint32_t s = next + in.number(RansTable::kAlphabet);
-      const std::uint32_t share = in.number((1u << RansTable::kMaxBits) - 1) + 1;
+      const std::uint32_t share = in.number((1u << RansTable::kBits) - 1) + 1;
       if (in.isBad() || s >= RansTable::kAlphabet) return std::nullopt;
       shares[s] = static_cast<std::uint16_t>(share);
       next = s + 1;
     }
-    const auto read = RansTable::ofShares(bits, shares);
+    const auto read = RansTable::ofShares(shares);
     if (!read) return std::nullopt;
     table = *read;
   }

@@ -18,43 +18,20 @@
 //   of the floor that it stands on.
 //   Error and bounds of the floor's triangles.
 //
-// What lies across an edge. A star remembers, for every edge of its link, the triangle that was on the other
-// side when the star was made, and this is never changed. That triangle may have been removed since: then the
-// star that removed it has the edge in its link (the edge is still there), and the triangle at that slot is
-// the next one to look at. All nodes on this way are ancestors of whoever asks, so chunks that do not lean on
-// each other never look at what the other one writes; in a damaged file they may, and then read some value,
-// in range.
+// What lies across an edge: packed_front.h.
 
 #include <array>
-#include <atomic>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/enclosing_ball.h"
 #include "io/packed_arrays.h"
-#include "terrain/hole.h"
+#include "io/packed_front.h"
 
 namespace arete::packed {
-
-inline constexpr int kMaxFloor = kMaxHoleCorners - 2;
-
-/// A triangle of a floor.
-struct FloorTriangle {
-  Handle handle;
-  std::array<std::uint32_t, 3> corners;
-  double doubledArea;
-};
-
-struct Floor {
-  std::array<FloorTriangle, kMaxFloor> triangles;
-  int size = 0;
-  std::array<std::uint32_t, kMaxHoleCorners> link;
-  std::array<Handle, kMaxHoleCorners> outer;
-  int corners = 0;
-  bool isOpen = false;
-  double doubledArea = 0;
-};
 
 /// Numbers of any size through a table.
 template <class Io, class Actual>
@@ -86,20 +63,21 @@ bool codeRoot(Arrays& a, Io& io) {
                                           std::int64_t{a.samples[v]} - static_cast<std::int64_t>(sample)));
       if (sample >= std::uint64_t{a.columns} * a.rows) return false;
       a.samples[v] = static_cast<std::uint32_t>(sample);
-      a.place[v] = {static_cast<double>(sample % a.columns), static_cast<double>(sample / a.columns)};
+      a.place[v] = {static_cast<double>(sample % a.columns), static_cast<double>(sample / a.columns), 0};
     } else {
       x = wrapped(x, codeSigned(io, kPlaceStream, kRootPlaceTable,
                                 static_cast<std::int64_t>(ordinal(a.plan[v].x) - x)));
       y = wrapped(y, codeSigned(io, kPlaceStream, kRootPlaceTable,
                                 static_cast<std::int64_t>(ordinal(a.plan[v].y) - y)));
       a.plan[v] = {fromOrdinal(x), fromOrdinal(y)};
-      a.place[v] = {a.plan[v].x, a.plan[v].y};
+      a.place[v] = {a.plan[v].x, a.plan[v].y, 0};
       if (!std::isfinite(a.plan[v].x) || !std::isfinite(a.plan[v].y)) return false;
     }
     const std::int64_t residual =
         codeSigned(io, kHeightStream, kRootHeightTable, heightResidual(a.encoding.type, a.height(v), z));
     z = putHeight(a.encoding.type, a.rawHeights.get(), v, z, residual);
     if (!std::isfinite(z)) return false;
+    a.place[v].z = z;
   }
   std::uint64_t corner = 0;
   for (std::uint32_t t = 0; t < a.roots; ++t)
@@ -117,10 +95,11 @@ template <class Io>
 class NodeCoder {
  public:
   NodeCoder(Arrays& arrays, const Directory& directory, const Chunk& chunk, Io& io)
-      : a_(arrays), directory_(directory), chunk_(chunk), io_(io) {}
+      : a_(arrays), directory_(directory), chunk_(chunk), io_(io), front_(arrays, chunk.nodes) {}
 
   /// All nodes of the chunk. False when the symbols make no sense; problem() says which.
   bool run() {
+    if (chunk_.nodes > kMostNodes) return fail("has more nodes than a chunk can have");
     for (const Run& run : chunk_.runs) {
       band_ = run.band;
       class_ = directory_.bandClass[band_];
@@ -128,164 +107,116 @@ class NodeCoder {
       slot_ = run.firstSlot;
       slotEnd_ = run.firstSlot + run.slots;
       nodeEnd_ = run.firstNode + run.nodes;
-      std::vector<Handle>& queue = queues_[band_];
+      areas_.resize(run.slots - 2 * std::size_t{run.nodes});
+      nextArea_ = areas_.data();
+      std::vector<Front::Own>& queue = queues_[band_];
       if (!io_.listed(run, listed_)) return fail("lists a seed that cannot be one");
-      for (const Handle seed : listed_)
-        if (!node(seed, true)) return false;
+      for (const Handle seed : listed_) {
+        begin(a_.idOf(seed));
+        if (!front_.take(seed, node_, floor_.triangles[0])) return fail("lists a seed that is gone");
+        if (!node(true)) return false;
+      }
       // Nodes of this band may join the queue on the way.
       for (std::size_t i = 0; i < queue.size(); ++i) {
         if (node_ == nodeEnd_) return fail("has more nodes than announced");
-        const Handle seed = queue[i];
-        if (i + kAhead < queue.size()) prefetch(queue[i + kAhead]);
-        if (!node(seed, false)) return false;
+        const Front::Own seed = queue[i];
+        if (i + kAhead < queue.size()) front_.prefetch(queue[i + kAhead]);
+        if (i + kAhead / 2 < queue.size()) front_.prefetchAround(queue[i + kAhead / 2]);
+        begin(seed.id);
+        if (!front_.take(seed, node_, floor_.triangles[0])) return fail("has a seed that is gone");
+        if (!node(false)) return false;
       }
       if (node_ != nodeEnd_ || slot_ != slotEnd_)
         return fail("has another number of nodes or slots than announced");
       queue = {};
+      values(run);
     }
+    front_.finish();
     return true;
   }
   const std::string& problem() const { return problem_; }
 
  private:
-  static constexpr std::size_t kAhead = 6;
-  static constexpr std::uint32_t kNone = MultiTriangulation::kNone;
+  /// An edge that the walk has come to: triangle of the floor << 3, edge << 1, whether it is an inner one.
+  using Edge = std::uint32_t;
+  static constexpr std::size_t kAhead = 12;
+  static constexpr std::uint32_t kMostNodes = 1u << 29;  ///< so that the front's records can be numbered
 
   bool fail(const char* what) {
     problem_ = what;
     return false;
   }
-  void prefetch(Handle h) const {
-    if (h.isRoot()) return;
-    __builtin_prefetch(&a_.link[h.slot]);
-    __builtin_prefetch(&a_.outer[h.slot]);
-    __builtin_prefetch(&a_.remover[a_.roots + h.slot]);
-    __builtin_prefetch(&a_.slotBegin[h.node]);
-    __builtin_prefetch(&a_.star[h.node]);
-  }
-
-  std::uint32_t removerOf(Handle h) const {
-    return std::atomic_ref(a_.remover[a_.idOf(h)]).load(std::memory_order_relaxed);
-  }
-
-  std::array<std::uint32_t, 3> cornersOf(Handle h) const {
-    if (h.isRoot()) return a_.rootTriangles[h.slot];
-    const std::uint32_t begin = a_.slotBegin[h.node], end = begin + a_.starSize(h.node);
-    return {a_.rootVertices + h.node, a_.link[h.slot], a_.link[h.slot + 1 < end ? h.slot + 1 : begin]};
-  }
-
-  /// What was across an edge of a triangle when its star was made.
-  Handle across(Handle h, int edge) const {
-    if (h.isRoot()) return a_.rootOuter[3 * std::size_t{h.slot} + static_cast<unsigned>(edge)];
-    if (edge == 1) return a_.outer[h.slot];
-    const std::uint32_t begin = a_.slotBegin[h.node], end = begin + a_.starSize(h.node);
-    const bool isOpen = a_.isOpen(h.node);
-    if (edge == 0) {
-      if (h.slot > begin) return {h.node, h.slot - 1};
-      return isOpen ? Handle{} : Handle{h.node, end - 1};
-    }
-    if (h.slot + 1 < end - (isOpen ? 1 : 0)) return {h.node, h.slot + 1};
-    return isOpen ? Handle{} : Handle{h.node, begin};
-  }
-
-  /// The triangle there now that has the directed edge (from, to), and which of its edges that is.
-  bool resolve(Handle& h, std::uint32_t from, std::uint32_t to, int& edge) const {
-    if (h.isNothing()) return false;
-    std::uint32_t remover = removerOf(h);
-    if (remover == kNone) {
-      const auto corners = cornersOf(h);
-      for (edge = 0; edge < 3; ++edge)
-        if (corners[edge] == from && corners[edge == 2 ? 0 : edge + 1] == to) return true;
-      return false;
-    }
-    edge = 1;
-    for (std::uint32_t youngest = 0;;) {
-      if (remover >= a_.nodes || remover < youngest) return false;
-      youngest = remover;
-      const std::uint32_t begin = a_.slotBegin[remover], size = a_.starSize(remover);
-      const std::uint32_t* link = a_.link.get() + begin;
-      std::uint32_t i = 0;
-      while (i < size && (link[i] != from || link[i + 1 < size ? i + 1 : 0] != to)) ++i;
-      if (i == size) return false;
-      h = {remover, begin + i};
-      const std::uint32_t next = removerOf(h);
-      if (next == kNone) return true;
-      if (next == remover) return false;
-      remover = next;
-    }
-  }
-
-  bool node(Handle seed, bool isListed) {
-    Floor floor;
+  void begin(std::uint32_t seed) {
+    floor_.size = 1;
+    floor_.corners = 0;
+    floor_.sumX = floor_.sumY = 0;
+    floor_.isOpen = false;
     io_.begin(seed, node_);
-    if (!walk(seed, isListed, floor)) return fail("has a floor that is none");
+  }
+
+  bool node(bool isListed) {
+    Floor& floor = floor_;
+    if (!walk(isListed, floor)) return fail("has a floor that is none");
     if (!open(floor)) return fail("has an open star away from the border");
     const std::uint32_t size = static_cast<std::uint32_t>(floor.corners);
     // Every node that is still to come needs three.
     if (size + 3 * (nodeEnd_ - node_ - 1) > slotEnd_ - slot_) return fail("has more slots than announced");
     if (!io_.star(floor, slot_)) return fail("has a star that is not its floor's");
     if (!place(floor)) return fail("has a vertex outside of its grid or without a height");
-    errors(floor);
-    store(floor);
+    ball(floor);
+    front_.addStar(node_, slot_, floor, records_.data());
+    std::uint32_t* const ids = a_.floor.get() + (slot_ - 2 * node_);
+    std::uint8_t* const areas = nextArea_;
+    for (int i = 0; i < floor.size; ++i) {
+      ids[i] = floor.triangles[i].id;
+      areas[i] = shownArea(a_.isLattice, floor.triangles[i].doubledArea);
+    }
+    nextArea_ += floor.size;
     if (!seeds(floor)) return fail("has a node below the last band");
     ++node_;
     slot_ += size;
     return true;
   }
 
-  bool take(Handle h, Floor& floor) {
-    if (floor.size == kMaxFloor) return false;
-    std::uint32_t& remover = a_.remover[a_.idOf(h)];
-    const std::atomic_ref atomic(remover);
-    if (atomic.load(std::memory_order_relaxed) != kNone) return false;
-    atomic.store(node_, std::memory_order_relaxed);
-    FloorTriangle& t = floor.triangles[floor.size++];
-    t.handle = h;
-    t.corners = cornersOf(h);
-    const auto &p = a_.place[t.corners[0]], &q = a_.place[t.corners[1]], &r = a_.place[t.corners[2]];
-    t.doubledArea = std::fabs((q.x - p.x) * (r.y - p.y) - (r.x - p.x) * (q.y - p.y));
-    floor.doubledArea += t.doubledArea;
-    return true;
-  }
-
-  bool walk(Handle seed, bool isListed, Floor& floor) {
-    struct Side {
-      Handle of;
-      std::uint32_t from, to;
-      int edge;
-      bool isInner;
-    };
-    std::array<Side, 2 * kMaxFloor + 3> stack;
+  bool walk(bool isListed, Floor& floor) {
     int depth = 0, inner = 0;
-    const auto push = [&](int firstEdge, int count, unsigned symbol) {
-      const FloorTriangle& t = floor.triangles[floor.size - 1];
-      for (int i = count; i-- > 0;) {
-        const int edge = (firstEdge + i) % 3;
-        const bool isInner = (symbol >> i & 1) != 0;
-        stack[depth++] = {t.handle, t.corners[edge], t.corners[edge == 2 ? 0 : edge + 1], edge, isInner};
-        inner += isInner ? 1 : 0;
-      }
+    floor.doubledArea = floor.triangles[0].doubledArea;
+    const auto push = [&](int edge, unsigned isInner) {
+      stack_[depth++] =
+          static_cast<unsigned>(floor.size - 1) << 3 | static_cast<unsigned>(edge) << 1 | isInner;
+      inner += static_cast<int>(isInner);
     };
-    if (!take(seed, floor)) return false;
-    push(0, 3, io_.code(kFloorStream, kSeedTable + (isListed ? 1 : 0), [&] {
-      return io_.innerEdges(floor, 0, 3);
-    }));
+    const unsigned around =
+        io_.code(kFloorStream, kSeedTable + (isListed ? 1 : 0), [&] { return io_.innerEdges(floor, 0, 3); });
+    push(2, around >> 2 & 1);
+    push(1, around >> 1 & 1);
+    push(0, around & 1);
     while (depth > 0) {
-      const Side side = stack[--depth];
-      Handle there = across(side.of, side.edge);
-      if (!side.isInner) {
+      const Edge side = stack_[--depth];
+      const FloorTriangle& t = floor.triangles[side >> 3];
+      const int at = static_cast<int>(side >> 1 & 3);
+      if ((side & 1) == 0) {
         if (floor.corners == kMaxHoleCorners) return false;
-        floor.link[floor.corners] = side.from;
-        floor.outer[floor.corners++] = there;
+        floor.link[floor.corners] = t.corners[at];
+        floor.outer[floor.corners++] = t.across[at];
+        const Arrays::Place& p = a_.place[t.corners[at]];
+        floor.sumX += p.x;
+        floor.sumY += p.y;
         continue;
       }
       --inner;
+      if (floor.size == kMaxFloor) return false;
+      FloorTriangle& next = floor.triangles[floor.size];
       int edge = 0;
-      if (!resolve(there, side.to, side.from, edge) || !take(there, floor)) return false;
-      const int first = edge == 2 ? 0 : edge + 1;
+      if (!front_.takeAcross(t, at, node_, next, edge)) return false;
+      ++floor.size;
+      floor.doubledArea += next.doubledArea;
+      const int first = kNextEdge[edge];
       const unsigned table =
           kFloodTable + static_cast<unsigned>(std::min(floor.size - 2, 5) * 4 + std::min(inner, 3));
-      push(first, 2, io_.code(kFloorStream, table, [&] { return io_.innerEdges(floor, first, 2); }));
+      const unsigned on = io_.code(kFloorStream, table, [&] { return io_.innerEdges(floor, first, 2); });
+      push(kNextEdge[first], on >> 1 & 1);
+      push(first, on & 1);
     }
     return floor.corners == floor.size + 2;
   }
@@ -296,7 +227,7 @@ class NodeCoder {
     std::array<int, kMaxHoleCorners> borders;
     unsigned count = 0;
     for (int i = 0; i < floor.corners; ++i)
-      if (floor.outer[i].isNothing() || a_.hasFills) borders[count++] = i;
+      if (floor.outer[i] == kNoSide || a_.hasFills) borders[count++] = i;
     if (count == 0) return true;
     const unsigned which = io_.code(kFloorStream, kOpenTable,
                                     [&] { return io_.openEdge(floor, std::span(borders.data(), count)); });
@@ -315,16 +246,11 @@ class NodeCoder {
 
   bool place(const Floor& floor) {
     const std::uint32_t v = a_.rootVertices + node_;
-    double x = 0, y = 0;
-    for (int i = 0; i < floor.corners; ++i) {
-      const auto& p = a_.place[floor.link[i]];
-      x += p.x;
-      y += p.y;
-    }
+    double x = floor.sumX, y = floor.sumY;
     const Arrays::Place actual = io_.actualPlace();
     if (a_.isLattice) {
-      x = std::floor(x / floor.corners + 0.5);
-      y = std::floor(y / floor.corners + 0.5);
+      x = static_cast<double>(nearest(x / floor.corners));
+      y = static_cast<double>(nearest(y / floor.corners));
       const unsigned symbol =
           io_.code(kPlaceStream, kPlaceTable + placeClass(floor.doubledArea, floor.isOpen), [&] {
             const double dx = actual.x - x, dy = actual.y - y;
@@ -347,13 +273,26 @@ class NodeCoder {
       if (!std::isfinite(x) || !std::isfinite(y)) return false;
       a_.plan[v] = {x, y};
     }
-    a_.place[v] = {x, y};
-
     const double predicted = predictedHeight(floor, x, y);
     const std::int64_t residual =
         signedNumber(kHeightStream, kHeightTable + class_, io_.actualHeightResidual(predicted));
-    return std::isfinite(putHeight(a_.encoding.type, a_.rawHeights.get(), v, predicted, residual));
+    const double z = putHeight(a_.encoding.type, a_.rawHeights.get(), v, predicted, residual);
+    a_.place[v] = {x, y, z};
+    return std::isfinite(z);
   }
+
+  /// Around the star; saturate() adds the children's.
+  void ball(const Floor& floor) {
+    std::array<Vec3, kMaxHoleCorners + 1> positions;
+    const auto metric = [this](const Arrays::Place& p) {
+      return a_.metric.toMetric({p.x, p.y, p.z * a_.encoding.scale + a_.encoding.offset});
+    };
+    const auto size = static_cast<std::size_t>(floor.corners);
+    for (std::size_t i = 0; i < size; ++i) positions[i] = metric(a_.place[floor.link[i]]);
+    positions[size] = metric(a_.place[a_.rootVertices + node_]);
+    a_.sphere[node_] = EnclosingBall::around({positions.data(), size + 1}).rounded();
+  }
+
   double far(unsigned table, double predicted, double actual) {
     const std::int64_t residual =
         signedNumber(kPlaceStream, table, static_cast<std::int64_t>(ordinal(actual) - ordinal(predicted)));
@@ -373,88 +312,97 @@ class NodeCoder {
       if ((w[0] >= 0 && w[1] >= 0 && w[2] >= 0) || (w[0] <= 0 && w[1] <= 0 && w[2] <= 0)) break;
     }
     const double sum = w[0] + w[1] + w[2];
-    const double z0 = a_.height(t->corners[0]), z1 = a_.height(t->corners[1]), z2 = a_.height(t->corners[2]);
+    const double z0 = a_.place[t->corners[0]].z, z1 = a_.place[t->corners[1]].z,
+                 z2 = a_.place[t->corners[2]].z;
     const double z = (w[0] * z0 + w[1] * z1 + w[2] * z2) / sum;
-    const double low = std::fmin(std::fmin(z0, z1), z2), high = std::fmax(std::fmax(z0, z1), z2);
-    return std::isfinite(z) ? std::fmin(std::fmax(z, low), high) : low;
+    const double low = std::min(std::min(z0, z1), z2), high = std::max(std::max(z0, z1), z2);
+    return std::isfinite(z) ? std::min(std::max(z, low), high) : low;
   }
 
-  void errors(const Floor& floor) {
+  /// Errors and bounds of all triangles that the nodes of a run remove.
+  void values(const Run& run) {
     const bool isWhole = a_.isLattice && a_.encoding.type == HeightEncoding::Type::int16;
     const std::uint32_t top = (band_ + 1) << MultiTriangulation::kBandShift;
-    for (int i = 0; i < floor.size; ++i) {
-      const FloorTriangle& t = floor.triangles[i];
-      const std::uint32_t id = a_.idOf(t.handle);
-      const unsigned area = areaClass(a_.isLattice, t.doubledArea);
-      const unsigned table = kErrorTable + area * kClasses + class_;
-      const std::uint16_t actual = io_.actualError(i);
+    const std::uint32_t firstFloor = run.firstSlot - 2 * run.firstNode;
+    const std::uint32_t* const ids = a_.floor.get() + firstFloor;
+    const std::uint32_t withoutError = boundReference(0, band_);
+    for (std::size_t i = 0; i < areas_.size(); ++i) {
+      if (i + kAhead < areas_.size()) {
+        __builtin_prefetch(&a_.error[ids[i + kAhead]], 1);
+        __builtin_prefetch(&a_.below[ids[i + kAhead]], 1);
+        __builtin_prefetch(&a_.above[ids[i + kAhead]], 1);
+      }
+      const std::uint32_t id = ids[i];
+      const unsigned shown = areas_[i], area = kAreaClass[shown];
+      const unsigned table = kErrorTable + area * kErrorClasses + class_ / 3;
       std::uint32_t code = 0;
-      if (isWhole && t.doubledArea <= kLatticeErrorArea && t.doubledArea > 0) {
+      if (isWhole && shown <= kLatticeErrorArea && shown > 0) {
         std::uint64_t whole = 0;
         const unsigned symbol = io_.code(kErrorStream, table, [&] {
-          const auto found = io_.wholeError(t.doubledArea, actual);
+          const auto found = io_.wholeError(shown, io_.actualError(id));
           whole = found.value_or(0);
           return found ? bucketOf(whole).symbol : kPlainError;
         });
-        if (symbol == kPlainError) {
-          code = static_cast<std::uint32_t>(io_.raw(16, actual));
+        if (symbol < 16) {
+          code = a_.wholeErrors[shown * 16 + symbol];
+        } else if (symbol == kPlainError) {
+          code = static_cast<std::uint32_t>(io_.raw(16, io_.actualError(id)));
         } else {
           const int bits = rawBitsOf(symbol);
-          whole = bits == 0 ? symbol
-                            : bucketValue(symbol, io_.raw(bits, whole & ((std::uint64_t{1} << bits) - 1)));
-          code = wholeErrorCode(a_, whole, t.doubledArea);
+          whole = bucketValue(symbol, io_.raw(bits, whole & ((std::uint64_t{1} << bits) - 1)));
+          code = wholeErrorCode(a_.scale, a_.encoding, whole, shown);
         }
       } else {
         const std::uint64_t below = codeNumber(io_, kErrorStream, table, [&] {
+          const std::uint16_t actual = io_.actualError(id);
           return actual == 0 ? std::uint64_t{0} : std::uint64_t{top} - actual;
         });
         code = below == 0 || below >= top ? 0 : top - static_cast<std::uint32_t>(below);
       }
-      a_.error[id] = static_cast<std::uint16_t>(code);
+      a_.error[id] = a_.floorError[firstFloor + i] = static_cast<std::uint16_t>(code);
 
-      const std::uint32_t reference = boundReference(code, band_);
-      BoundSteps bounds = io_.actualBounds(i);
+      const std::uint32_t reference = code != 0 ? boundStep(code) : withoutError;
+      BoundSteps bounds = io_.actualBounds(id);
       const unsigned symbol = io_.code(kBoundStream, kBoundTable + area * 2 + (code == 0 ? 1 : 0),
                                        [&] { return boundSymbol(bounds, reference); });
-      if (symbol == kPlainBounds) {
-        bounds.below = static_cast<std::uint32_t>(io_.raw(8, bounds.below));
-        bounds.above = static_cast<std::uint32_t>(io_.raw(8, bounds.above));
+      if (symbol > kNoBounds) {
+        bounds = nearBoundsOf(symbol, reference);
+      } else if (symbol == kNoBounds) {
+        bounds = {0, 0};
       } else {
-        bounds = symbol == kNoBounds ? BoundSteps{0, 0} : boundsOf(symbol, reference);
+        const unsigned isZero = code == 0 ? 1 : 0;
+        const unsigned greater = io_.code(kBoundStream, kFarBoundTable + class_ * 2 + isZero,
+                                          [&] { return std::max(bounds.below, bounds.above); });
+        bounds = boundsOf(greater, io_.code(kBoundStream, kLesserBoundTable + isZero,
+                                            [&] { return lesserSymbol(bounds); }));
       }
       a_.below[id] = boundCode(bounds.below);
       a_.above[id] = boundCode(bounds.above);
     }
   }
 
- public:
-  static std::uint32_t wholeErrorCode(const Arrays& a, std::uint64_t whole, double doubledArea) {
-    const double magnitude = static_cast<double>(whole) * std::fabs(a.encoding.scale) / doubledArea;
-    const double largest = static_cast<double>(a.scale.decode(OutwardScale::kMaxCode));
-    return a.scale.encode(std::fmin(magnitude, largest));
-  }
-
- private:
-  void store(const Floor& floor) {
-    const std::uint32_t size = static_cast<std::uint32_t>(floor.corners);
-    a_.slotBegin[node_] = slot_;
-    a_.star[node_] = static_cast<std::uint8_t>(size | (floor.isOpen ? Arrays::kOpen : 0));
-    std::copy_n(floor.link.begin(), size, a_.link.get() + slot_);
-    std::copy_n(floor.outer.begin(), size, a_.outer.get() + slot_);
-    if (floor.isOpen) a_.remover[a_.roots + slot_ + size - 1] = node_;
-    const std::uint32_t firstFloor = slot_ - 2 * node_;
-    for (int i = 0; i < floor.size; ++i)
-      a_.floor[firstFloor + static_cast<std::uint32_t>(i)] = a_.idOf(floor.triangles[i].handle);
-  }
-
   bool seeds(const Floor& floor) {
     const std::uint32_t triangles = static_cast<std::uint32_t>(floor.corners) - (floor.isOpen ? 1 : 0);
-    for (std::uint32_t i = 0; i < triangles; ++i) {
-      const unsigned symbol =
-          io_.code(kSlotStream, kSlotTable + class_, [&] { return io_.seedSymbol(slot_ + i, band_); });
-      if (symbol == 0) continue;
-      if (symbol - 1 > band_) return false;
-      queues_[band_ - (symbol - 1)].push_back({node_, slot_ + i});
+    for (std::uint32_t first = 0; first < triangles; first += 8) {
+      const std::uint32_t left = triangles - first;
+      std::array<unsigned, 8> bandsBelow;
+      unsigned mask = io_.code(kSlotStream, seedsTable(left, band_), [&] {
+        unsigned actual = 0;
+        for (std::uint32_t i = 0; i < std::min(left, 8u); ++i)
+          if (const auto below = io_.seedAt(slot_ + first + i, band_)) {
+            bandsBelow[i] = *below;
+            actual |= 1u << i;
+          }
+        return actual;
+      });
+      if (left < 8 && mask >> left != 0) return false;
+      for (; mask != 0; mask &= mask - 1) {
+        const auto i = static_cast<std::uint32_t>(std::countr_zero(mask));
+        const unsigned below =
+            band_ == 0 ? 0 : io_.code(kSlotStream, kSeedBandTable + class_, [&] { return bandsBelow[i]; });
+        if (below > band_) return false;
+        queues_[band_ - below].push_back({records_[first + i], a_.roots + slot_ + first + i});
+      }
     }
     return true;
   }
@@ -464,7 +412,13 @@ class NodeCoder {
   const Chunk& chunk_;
   Io& io_;
   std::uint32_t band_ = 0, class_ = 0, node_ = 0, slot_ = 0, nodeEnd_ = 0, slotEnd_ = 0;
-  std::array<std::vector<Handle>, MultiTriangulation::kBands> queues_;
+  Front front_;
+  Floor floor_;
+  std::array<Edge, 2 * kMaxFloor + 3> stack_;
+  std::array<std::uint32_t, kMaxHoleCorners + 1> records_;
+  std::array<std::vector<Front::Own>, MultiTriangulation::kBands> queues_;
+  std::vector<std::uint8_t> areas_;  ///< of the run's floors
+  std::uint8_t* nextArea_ = nullptr;
   std::vector<Handle> listed_;
   std::string problem_;
 };

@@ -25,17 +25,22 @@ inline constexpr unsigned kStreams = 6;
 inline constexpr unsigned kClasses = 9;       ///< of bands: see Directory::bandClass
 inline constexpr unsigned kAreaClasses = 14;  ///< see areaClass()
 inline constexpr unsigned kPlaceClasses = 36;
+inline constexpr unsigned kErrorClasses = 3;  ///< bandClass / 3: errors have many tables, which want a cache
+inline constexpr unsigned kStarClasses = 9;
 enum Table : unsigned {
-  kSlotTable = 0,                      // by class
-  kSeedTable = kSlotTable + kClasses,  // by whether the seed is listed
-  kFloodTable = kSeedTable + 2,        // by triangles found (6) and inner edges left (4)
-  kOpenTable = kFloodTable + 24,
-  kPlaceTable = kOpenTable + 1,                         // by place class
-  kPlaceFarTable = kPlaceTable + kPlaceClasses,         // by axis
-  kHeightTable = kPlaceFarTable + 2,                    // by class
-  kErrorTable = kHeightTable + kClasses,                // by area class and class
-  kBoundTable = kErrorTable + kAreaClasses * kClasses,  // by area class and whether the error is 0
-  kListChunkTable = kBoundTable + kAreaClasses * 2,
+  kSeedsTable = 0,                                  // by star class and whether the band is the last
+  kSeedBandTable = kSeedsTable + 2 * kStarClasses,  // by class
+  kSeedTable = kSeedBandTable + kClasses,           // by whether the seed is listed
+  kFloodTable = kSeedTable + 2,                     // by triangles found (6) and inner edges left (4)
+  kOpenTable = kFloodTable + 24,                    //
+  kPlaceTable = kOpenTable + 1,                     // by place class
+  kPlaceFarTable = kPlaceTable + kPlaceClasses,     // by axis
+  kHeightTable = kPlaceFarTable + 2,                // by class
+  kErrorTable = kHeightTable + kClasses,            // by area class and error class
+  kBoundTable = kErrorTable + kAreaClasses * kErrorClasses,  // by area class and whether the error is 0
+  kFarBoundTable = kBoundTable + kAreaClasses * 2,           // by class and whether the error is 0
+  kLesserBoundTable = kFarBoundTable + kClasses * 2,         // by whether the error is 0
+  kListChunkTable = kLesserBoundTable + 2,
   kListNodeTable,
   kListSlotTable,
   kRootCornerTable,
@@ -43,6 +48,11 @@ enum Table : unsigned {
   kRootHeightTable,
   kTables
 };
+
+/// Seeds of a star are told eight slots at a time; `left` slots are still to be told.
+inline unsigned seedsTable(std::uint32_t left, std::uint32_t band) {
+  return kSeedsTable + std::min<std::uint32_t>(left, kStarClasses) - 1 + (band == 0 ? kStarClasses : 0);
+}
 
 // ---- numbers of any size: 256 kinds and raw bits --------------------------------------------------------
 
@@ -65,6 +75,13 @@ inline int rawBitsOf(unsigned symbol) {
 inline std::uint64_t bucketValue(unsigned symbol, std::uint64_t raw) {
   if (symbol < 16) return symbol;
   return (std::uint64_t{4 | ((symbol - 16) & 3)} << rawBitsOf(symbol)) | raw;
+}
+
+/// The nearest whole number, halves upwards. Precondition: below 2^62 in magnitude.
+inline std::int64_t nearest(double x) {
+  const double shifted = x + 0.5;
+  const auto whole = static_cast<std::int64_t>(shifted);
+  return whole - (static_cast<double>(whole) > shifted ? 1 : 0);
 }
 
 inline std::uint64_t zigzag(std::int64_t value) {
@@ -110,8 +127,7 @@ inline double rawHeight(HeightEncoding::Type type, const std::byte* heights, std
 
 /// How far a raw height is from what was predicted, in steps of its type.
 inline std::int64_t heightResidual(HeightEncoding::Type type, double raw, double predicted) {
-  if (type == HeightEncoding::Type::int16)
-    return static_cast<std::int64_t>(raw) - static_cast<std::int64_t>(std::floor(predicted + 0.5));
+  if (type == HeightEncoding::Type::int16) return static_cast<std::int64_t>(raw) - nearest(predicted);
   if (type == HeightEncoding::Type::float32)
     return static_cast<std::int32_t>(ordinal(static_cast<float>(raw)) -
                                      ordinal(static_cast<float>(predicted)));
@@ -121,9 +137,8 @@ inline std::int64_t heightResidual(HeightEncoding::Type type, double raw, double
 inline double putHeight(HeightEncoding::Type type, std::byte* heights, std::size_t i, double predicted,
                         std::int64_t residual) {
   if (type == HeightEncoding::Type::int16) {
-    const std::int64_t wide = static_cast<std::int64_t>(
-        static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(predicted + 0.5))) +
-        static_cast<std::uint64_t>(residual));
+    const std::int64_t wide = static_cast<std::int64_t>(static_cast<std::uint64_t>(nearest(predicted)) +
+                                                        static_cast<std::uint64_t>(residual));
     const std::int16_t value = static_cast<std::int16_t>(wide);
     std::memcpy(heights + 2 * i, &value, sizeof value);
     return value == wide ? value : HUGE_VAL;
@@ -142,19 +157,31 @@ inline double putHeight(HeightEncoding::Type type, std::byte* heights, std::size
 // ---- areas
 // --------------------------------------------------------------------------------------------------
 
-/// Twice the area of a triangle of a lattice is a whole number; few areas of it hold few possible errors.
-/// 13 for scattered points.
-inline unsigned areaClass(bool isLattice, double doubledArea) {
-  if (!isLattice) return 13;
-  if (doubledArea <= 8) return static_cast<unsigned>(doubledArea);
-  return doubledArea <= 16 ? 9 : doubledArea <= 32 ? 10 : doubledArea <= 64 ? 11 : 12;
+/// Twice the area of a triangle of a lattice is a whole number; few areas of it hold few possible errors. As
+/// one byte: 65 for more than 64, 66 for scattered points.
+inline std::uint8_t shownArea(bool isLattice, double doubledArea) {
+  if (!isLattice) return 66;
+  return static_cast<std::uint8_t>(std::min(doubledArea, 65.0));
 }
+inline constexpr auto kAreaClass = [] {
+  std::array<std::uint8_t, 67> classes{};
+  for (unsigned area = 0; area < 67; ++area)
+    classes[area] = static_cast<std::uint8_t>(area <= 8    ? area
+                                              : area <= 16 ? 9
+                                              : area <= 32 ? 10
+                                              : area <= 64 ? 11
+                                              : area == 65 ? 12
+                                                           : 13);
+  return classes;
+}();
 /// Of a floor.
 inline unsigned placeClass(double doubledArea, bool isOpen) {
   if (isOpen) return kPlaceClasses - 1;
   if (doubledArea <= 12) return static_cast<unsigned>(doubledArea);
   if (doubledArea <= 32) return 12 + static_cast<unsigned>((doubledArea - 12) / 4);
-  return std::min(17 + static_cast<unsigned>(std::ilogb(std::fmin(doubledArea, 1e6)) - 5), kPlaceClasses - 2);
+  return std::min(
+      12 + static_cast<unsigned>(std::bit_width(static_cast<std::uint64_t>(std::min(doubledArea, 1e6)))),
+      kPlaceClasses - 2);
 }
 
 // ---- errors
@@ -162,9 +189,15 @@ inline unsigned placeClass(double doubledArea, bool isOpen) {
 
 /// Up to this doubled area, an error of whole-numbered heights is told as the whole number
 /// error * doubled area / height step.
-inline constexpr double kLatticeErrorArea = 64;
+inline constexpr unsigned kLatticeErrorArea = 64;
 /// A symbol that no such number below 2^24 has: the code follows as 16 raw bits.
 inline constexpr unsigned kPlainError = 255;
+
+inline std::uint16_t wholeErrorCode(const OutwardScale& scale, const HeightEncoding& heights,
+                                    std::uint64_t whole, double doubledArea) {
+  const double magnitude = static_cast<double>(whole) * std::fabs(heights.scale) / doubledArea;
+  return scale.encode(std::min(magnitude, static_cast<double>(scale.decode(OutwardScale::kMaxCode))));
+}
 
 // ---- bounds
 // ---------------------------------------------------------------------------------------------------
@@ -183,12 +216,13 @@ inline constexpr std::uint32_t kBoundSteps = 129;
 /// How far the lesser bound may lie below the greater one; what lies between is rounded outwards, and
 /// the last stands for a bound of 0.
 inline constexpr std::array<std::uint8_t, 13> kBoundDrops = {0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 255};
-inline constexpr unsigned kPlainBounds = 0, kNoBounds = 1;
-/// What the greater bound is told against; it has 9 steps, from the one returned.
+/// Symbols: the greater bound follows by itself, and then how the lesser one lies; no bounds at all.
+inline constexpr unsigned kFarBounds = 0, kNoBounds = 1;
+/// What the greater bound is told against; it has 9 steps, from the one returned. Without an error the band
+/// is what is known.
 inline std::uint32_t boundReference(std::uint32_t errorCode, std::uint32_t band) {
   if (errorCode != 0) return boundStep(errorCode);
-  // Without an error the band is what is known: an octave, that is four steps.
-  return band > 0 ? 4 * band - 3 : 0;
+  return band > 0 ? (band << (MultiTriangulation::kBandShift - kBoundShift)) - 3 : 0;
 }
 
 struct BoundSteps {
@@ -202,24 +236,47 @@ inline BoundSteps roundedBounds(std::uint32_t below, std::uint32_t above) {
   const std::uint32_t rounded = greater - *drop;
   return below >= above ? BoundSteps{greater, rounded} : BoundSteps{rounded, greater};
 }
-/// Precondition: rounded.
-inline unsigned boundSymbol(BoundSteps b, std::uint32_t reference) {
+/// How the lesser bound lies to the greater one, and which one that is. Precondition: rounded.
+inline unsigned lesserSymbol(BoundSteps b) {
   const std::uint32_t greater = std::max(b.below, b.above), lesser = std::min(b.below, b.above);
-  if (greater == 0) return kNoBounds;
-  if (greater < reference || greater > reference + 8) return kPlainBounds;
   const auto drop = lesser == 0 ? kBoundDrops.end() - 1
                                 : std::lower_bound(kBoundDrops.begin(), kBoundDrops.end(), greater - lesser);
-  const auto index = static_cast<std::uint32_t>(drop - kBoundDrops.begin());
-  return 2 + ((greater - reference) * static_cast<std::uint32_t>(kBoundDrops.size()) + index) * 2 +
-         (b.below >= b.above ? 0 : 1);
+  return static_cast<unsigned>(drop - kBoundDrops.begin()) * 2 + (b.below >= b.above ? 0 : 1);
 }
-/// Precondition: the symbol is none of the two above. Steps beyond the last are possible in a hostile file.
-inline BoundSteps boundsOf(unsigned symbol, std::uint32_t reference) {
-  const unsigned side = symbol & 1, rest = (symbol - 2) >> 1;
-  const std::uint32_t greater = reference + rest / 13;
-  const std::uint32_t drop = kBoundDrops[rest % 13];
-  const std::uint32_t lesser = drop < greater ? greater - drop : 0;
-  return side == 0 ? BoundSteps{greater, lesser} : BoundSteps{lesser, greater};
+inline constexpr unsigned kLesserSymbols = 2 * static_cast<unsigned>(kBoundDrops.size());
+/// Precondition: rounded.
+inline unsigned boundSymbol(BoundSteps b, std::uint32_t reference) {
+  const std::uint32_t greater = std::max(b.below, b.above);
+  if (greater == 0) return kNoBounds;
+  if (greater < reference || greater > reference + 8) return kFarBounds;
+  return 2 + (greater - reference) * kLesserSymbols + lesserSymbol(b);
+}
+/// `lesser`: a symbol of lesserSymbol(), or one that only a damaged file has. The greater step may then be
+/// beyond the last.
+inline BoundSteps boundsOf(std::uint32_t greater, unsigned lesser) {
+  const std::uint32_t drop = kBoundDrops[std::min<std::size_t>(lesser >> 1, kBoundDrops.size() - 1)];
+  const std::uint32_t other = greater - std::min(drop, greater);
+  return (lesser & 1) == 0 ? BoundSteps{greater, other} : BoundSteps{other, greater};
+}
+/// Of a symbol of boundSymbol() that is none of the two above. Without a branch.
+inline BoundSteps nearBoundsOf(unsigned symbol, std::uint32_t reference) {
+  struct Meaning {
+    std::uint8_t rise, drop, side, pad;
+  };
+  static constexpr auto kMeanings = [] {
+    std::array<Meaning, 256> meanings{};
+    for (unsigned s = 2; s < 256; ++s) {
+      const unsigned lesser = (s - 2) % kLesserSymbols;
+      meanings[s] = {static_cast<std::uint8_t>((s - 2) / kLesserSymbols), kBoundDrops[lesser >> 1],
+                     static_cast<std::uint8_t>(lesser & 1), 0};
+    }
+    return meanings;
+  }();
+  const Meaning m = kMeanings[symbol];
+  const std::uint32_t greater = reference + m.rise;
+  const std::uint32_t lesser = greater - std::min<std::uint32_t>(m.drop, greater);
+  const std::uint32_t swap = (greater ^ lesser) & (0u - m.side);
+  return {greater ^ swap, lesser ^ swap};
 }
 
 }  // namespace arete::packed

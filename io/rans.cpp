@@ -8,25 +8,14 @@
 #include "io/rans.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace arete {
 
 RansTable RansTable::ofCounts(std::span<const std::uint64_t, kAlphabet> counts) {
   std::uint64_t total = 0;
-  unsigned symbols = 0;
-  for (const std::uint64_t count : counts) {
-    total += count;
-    symbols += count > 0 ? 1 : 0;
-  }
-  RansTable table;
-  if (total == 0) return table;
-  // Fine shares only where there is much to win: a small table stays in the cache.
-  const int least = static_cast<int>(std::bit_width(symbols)) + 1;
-  const int wanted = std::min(static_cast<int>(std::bit_width(total)), symbols > 48 ? kMaxBits : 11);
-  table.bits_ = symbols == 1 ? 0 : std::clamp(wanted, std::min(least, kMaxBits), kMaxBits);
-
-  const std::uint64_t size = std::uint64_t{1} << table.bits_;
+  for (const std::uint64_t count : counts) total += count;
+  if (total == 0) return {};
+  const std::uint64_t size = std::uint64_t{1} << kBits;
   std::array<std::uint16_t, kAlphabet> shares{};
   std::int64_t left = static_cast<std::int64_t>(size);
   for (std::size_t s = 0; s < kAlphabet; ++s) {
@@ -43,33 +32,31 @@ RansTable RansTable::ofCounts(std::span<const std::uint64_t, kAlphabet> counts) 
     *largest = static_cast<std::uint16_t>(*largest + change);
     left -= change;
   }
-  return *ofShares(table.bits_, shares);
+  return *ofShares(shares);
 }
 
-std::optional<RansTable> RansTable::ofShares(int bits, const std::array<std::uint16_t, kAlphabet>& shares) {
-  if (bits < 0 || bits > kMaxBits) return std::nullopt;
+std::optional<RansTable> RansTable::ofShares(const std::array<std::uint16_t, kAlphabet>& shares) {
   RansTable table;
-  table.bits_ = bits;
   table.shares_.assign(shares.begin(), shares.end());
   table.begins_.resize(kAlphabet);
   std::uint32_t begin = 0;
   for (std::size_t s = 0; s < kAlphabet; ++s) {
     table.begins_[s] = static_cast<std::uint16_t>(begin);
     begin += shares[s];
-    if (begin > 1u << bits) return std::nullopt;
+    if (begin > 1u << kBits) return std::nullopt;
   }
-  if (begin != 1u << bits) return std::nullopt;
+  if (begin != 1u << kBits) return std::nullopt;
   return table;
 }
 
-std::vector<std::uint32_t> RansTable::decodingEntries() const {
-  std::vector<std::uint32_t> entries;
-  if (isEmpty()) return entries;
-  entries.reserve(std::size_t{1} << bits_);
-  for (unsigned s = 0; s < kAlphabet; ++s)
+void RansTable::writeEntries(std::uint32_t* entries) const {
+  if (isEmpty()) {
+    std::fill_n(entries, std::size_t{1} << kBits, 0);
+    return;
+  }
+  for (std::uint32_t s = 0; s < kAlphabet; ++s)
     for (std::uint32_t place = 0; place < shares_[s]; ++place)
-      entries.push_back(s | place << 8 | (shares_[s] - 1u) << 20);
-  return entries;
+      *entries++ = s | place << 8 | std::uint32_t{shares_[s]} << (8 + kBits);
 }
 
 std::vector<std::byte> ransEncode(std::span<const RansSymbol> symbols, std::span<const RansTable> tables) {
@@ -78,11 +65,11 @@ std::vector<std::byte> ransEncode(std::span<const RansSymbol> symbols, std::span
   for (std::size_t i = symbols.size(); i-- > 0;) {
     const RansTable& table = tables[symbols[i].table];
     const std::uint32_t share = table.share(symbols[i].symbol);
-    if (state >= std::uint64_t{share} << (32 - table.bits())) {
+    if (state >= std::uint64_t{share} << (32 - RansTable::kBits)) {
       words.push_back(static_cast<std::uint16_t>(state & 0xFFFFu));
       state >>= 16;
     }
-    state = ((state / share) << table.bits()) + state % share + table.begin(symbols[i].symbol);
+    state = ((state / share) << RansTable::kBits) + state % share + table.begin(symbols[i].symbol);
   }
   words.push_back(static_cast<std::uint16_t>(state & 0xFFFFu));
   words.push_back(static_cast<std::uint16_t>(state >> 16));

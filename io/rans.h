@@ -15,29 +15,29 @@ namespace arete {
 /// arXiv:1311.2540), a 32-bit state that takes in 16-bit words. A stream may use another table for every
 /// symbol; coder and decoder must agree on which.
 ///
-/// A table gives each symbol 0..255 a share of 2^bits; a symbol costs bits - log2(share) bits.
+/// A table gives each symbol 0..255 a share of 1024; a symbol costs 10 - log2(share) bits. Larger tables
+/// would cost half a percent less and would not stay in a processor's cache, of which they are many.
 class RansTable {
  public:
-  static constexpr int kMaxBits = 12;
+  static constexpr int kBits = 10;
   static constexpr std::size_t kAlphabet = 256;
 
   RansTable() = default;
   /// Shares in proportion to how often each symbol occurs, none of those that do occur being zero.
   static RansTable ofCounts(std::span<const std::uint64_t, kAlphabet> counts);
-  /// Nothing unless the shares sum to 2^bits, bits <= kMaxBits.
-  static std::optional<RansTable> ofShares(int bits, const std::array<std::uint16_t, kAlphabet>& shares);
+  /// Nothing unless the shares sum to 2^kBits.
+  static std::optional<RansTable> ofShares(const std::array<std::uint16_t, kAlphabet>& shares);
 
   /// No symbol has a share: nothing can be coded.
   bool isEmpty() const { return shares_.empty(); }
-  int bits() const { return bits_; }
   std::uint32_t share(unsigned symbol) const { return isEmpty() ? 0u : shares_[symbol]; }
   std::uint32_t begin(unsigned symbol) const { return begins_[symbol]; }
 
-  /// 2^bits entries for RansDecoder: symbol, place within the symbol's share << 8, share - 1 << 20.
-  std::vector<std::uint32_t> decodingEntries() const;
+  /// What RansDecoder wants to know, 2^kBits entries: symbol, place within the symbol's share << 8,
+  /// share << 18. Zeros where the table is empty: what is decoded then does not end where it should.
+  void writeEntries(std::uint32_t* entries) const;
 
  private:
-  int bits_ = 0;
   std::vector<std::uint16_t> shares_, begins_;
 };
 
@@ -53,43 +53,57 @@ std::vector<std::byte> ransEncode(std::span<const RansSymbol> symbols, std::span
 /// Decodes one stream. Reading beyond its end gives some symbols and is noticed by isAtEnd().
 class RansDecoder {
  public:
+  /// What must be readable behind a stream, whatever it holds.
+  static constexpr std::size_t kReadable = 4;
+
   RansDecoder() = default;
-  explicit RansDecoder(std::span<const std::byte> bytes)
-      : at_(bytes.data()), end_(bytes.data() + bytes.size() / 2 * 2) {
+  /// The stream is bytes[0, size); kReadable bytes more are there.
+  RansDecoder(const std::byte* bytes, std::size_t size) : at_(bytes), end_(bytes + size / 2 * 2) {
     state_ = next() << 16;
     state_ |= next();
   }
 
-  /// `entries`: 2^bits, of the table the symbol was coded with.
-  unsigned decode(const std::uint32_t* entries, int bits) {
-    const std::uint32_t entry = entries[state_ & ((1u << bits) - 1)];
-    state_ = ((entry >> 20) + 1) * (state_ >> bits) + ((entry >> 8) & 0xFFFu);
-    if (state_ < kLow) state_ = (state_ << 16) | next();
+  /// `entries`: of the table the symbol was coded with.
+  unsigned decode(const std::uint32_t* entries) {
+    constexpr int kBits = RansTable::kBits;
+    constexpr std::uint32_t kMask = (1u << kBits) - 1;
+    const std::uint32_t entry = entries[state_ & kMask];
+    std::uint32_t state = (entry >> (8 + kBits)) * (state_ >> kBits) + ((entry >> 8) & kMask);
+    if (state < kLow) {
+      state = state << 16 | word();
+      at_ += sizeof(std::uint16_t);
+      if (at_ > end_) [[unlikely]]
+        at_ = end_ + sizeof(std::uint16_t);
+    }
+    state_ = state;
     return entry & 0xFFu;
   }
 
   /// All was read, nothing beyond, and the coder's first state is back: what is so of every undamaged stream
   /// after its last symbol.
-  bool isAtEnd() const { return at_ == end_ && state_ == kLow && !isOver_; }
+  bool isAtEnd() const { return at_ == end_ && state_ == kLow; }
 
  private:
   friend std::vector<std::byte> ransEncode(std::span<const RansSymbol>, std::span<const RansTable>);
   static constexpr std::uint32_t kLow = 1u << 16;
 
-  std::uint32_t next() {
-    if (at_ == end_) {
-      isOver_ = true;
-      return 0;
-    }
+  std::uint32_t word() const {
     std::uint16_t word;
     std::memcpy(&word, at_, sizeof word);
-    at_ += sizeof word;
     return word;
+  }
+  std::uint32_t next() {
+    if (at_ >= end_) {
+      at_ = end_ + sizeof(std::uint16_t);
+      return 0;
+    }
+    const std::uint32_t w = word();
+    at_ += sizeof(std::uint16_t);
+    return w;
   }
 
   std::uint32_t state_ = 0;
-  bool isOver_ = false;
-  const std::byte *at_ = nullptr, *end_ = nullptr;
+  const std::byte *at_ = nullptr, *end_ = nullptr;  // one word beyond the end: too much was read
 };
 
 /// Numbers of known width, without a model.
@@ -137,7 +151,7 @@ class BitReader {
     }
     std::uint64_t word = 0;
     const std::size_t byte = at_ >> 3;
-    if (byte + sizeof word <= bytes_.size())
+    if (byte + sizeof word <= bytes_.size()) [[likely]]
       std::memcpy(&word, bytes_.data() + byte, sizeof word);
     else if (byte < bytes_.size())
       std::memcpy(&word, bytes_.data() + byte, bytes_.size() - byte);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Chunks of one kind do not lean on each other, so they are decoded in parallel, kind after kind; then
-// saturated errors and spheres in the opposite direction. What the decoder cannot see while it decodes is
-// seen at the end: a triangle that two chunks both claim has one remover and stands in two floors.
+// saturated errors and spheres in the opposite direction. Every index that the walk writes it has looked up
+// before, so nothing is left for a check of indices afterwards.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -19,32 +19,30 @@ namespace arete {
 namespace packed {
 namespace {
 
-/// A table as the decoder wants it. An empty one yields zeros, and the stream will not end where it should.
-struct DecodingTable {
-  std::vector<std::uint32_t> entries{0};
-  int bits = 0;
-};
-
 class ReaderIo {
  public:
-  ReaderIo(const Arrays& arrays, const Directory& directory, std::size_t chunk,
-           std::span<const DecodingTable> tables, std::span<const std::byte> bytes)
-      : a_(arrays), directory_(directory), chunk_(chunk) {
-    for (unsigned t = 0; t < kTables; ++t) entries_[t] = {tables[t].entries.data(), tables[t].bits};
+  ReaderIo(const Arrays& arrays, const Directory& directory, std::size_t chunk, const std::uint32_t* tables,
+           std::span<const std::byte> bytes)
+      : a_(arrays),
+        directory_(directory),
+        chunk_(chunk),
+        tables_(tables),
+        bytes_(bytes.begin(), bytes.end()) {
+    bytes_.resize(bytes.size() + RansDecoder::kReadable);
     std::size_t at = 0;
     for (unsigned s = 0; s <= kStreams; ++s) {
       const std::size_t size = directory.chunks[chunk].streamBytes[s];
       if (s < kStreams)
-        streams_[s] = RansDecoder(bytes.subspan(at, size));
+        streams_[s] = RansDecoder(bytes_.data() + at, size);
       else
-        raw_ = BitReader(bytes.subspan(at, size));
+        raw_ = BitReader({bytes_.data() + at, size});
       at += size;
     }
   }
 
   template <class Actual>
   unsigned code(Stream stream, unsigned table, const Actual&) {
-    return streams_[stream].decode(entries_[table].first, entries_[table].second);
+    return streams_[stream].decode(tables_ + (std::size_t{table} << RansTable::kBits));
   }
   std::uint64_t raw(int bits, std::uint64_t) { return raw_.read(bits); }
 
@@ -69,16 +67,16 @@ class ReaderIo {
   }
 
   // What only the writer knows.
-  void begin(Handle, std::uint32_t) {}
+  void begin(std::uint32_t, std::uint32_t) {}
   unsigned innerEdges(const Floor&, int, int) { return 0; }
   unsigned openEdge(const Floor&, std::span<const int>) { return 0; }
   bool star(const Floor&, std::uint32_t) { return true; }
-  Arrays::Place actualPlace() const { return {0, 0}; }
+  Arrays::Place actualPlace() const { return {0, 0, 0}; }
   std::int64_t actualHeightResidual(double) const { return 0; }
-  std::uint16_t actualError(int) const { return 0; }
+  std::uint16_t actualError(std::uint32_t) const { return 0; }
   std::optional<std::uint64_t> wholeError(double, std::uint16_t) const { return 0; }
-  BoundSteps actualBounds(int) const { return {0, 0}; }
-  unsigned seedSymbol(std::uint32_t, std::uint32_t) { return 0; }
+  BoundSteps actualBounds(std::uint32_t) const { return {0, 0}; }
+  std::optional<unsigned> seedAt(std::uint32_t, std::uint32_t) { return std::nullopt; }
 
  private:
   std::optional<Handle> seed(std::uint64_t from, std::uint64_t node, std::uint64_t slot) const {
@@ -105,7 +103,8 @@ class ReaderIo {
   const Arrays& a_;
   const Directory& directory_;
   std::size_t chunk_;
-  std::array<std::pair<const std::uint32_t*, int>, kTables> entries_;
+  const std::uint32_t* tables_;
+  std::vector<std::byte> bytes_;
   std::array<RansDecoder, kStreams> streams_;
   BitReader raw_;
 };
@@ -131,12 +130,8 @@ class Unpacker {
   Unpacker(Directory directory, std::span<const RansTable> tables, std::span<const std::byte> bytes,
            const RunContext& context, bool isPart)
       : directory_(std::move(directory)), bytes_(bytes), context_(context), isPart_(isPart) {
-    for (const RansTable& table : tables) {
-      DecodingTable& to = tables_.emplace_back();
-      if (table.isEmpty()) continue;
-      to.entries = table.decodingEntries();
-      to.bits = table.bits();
-    }
+    tables_.resize(std::size_t{kTables} << RansTable::kBits);
+    for (std::size_t t = 0; t < kTables; ++t) tables[t].writeEntries(&tables_[t << RansTable::kBits]);
   }
 
   Result<MultiTriangulation> run(const AmtMetadata& metadata) {
@@ -154,7 +149,6 @@ class Unpacker {
     if (!arrays->allocate(counts))
       return failure(ErrorCode::unreadable, "needs more memory than there is to be unpacked");
     arrays_ = arrays.get();
-    std::fill_n(arrays->remover.get(), arrays->remover.size(), MultiTriangulation::kNone);
 
     const auto kinds = byKind();
     for (const auto& [begin, end] : kinds) forChunks(begin, end, [this](std::size_t i) { return decode(i); });
@@ -207,7 +201,7 @@ class Unpacker {
     const Chunk& chunk = directory_.chunks[index];
     const auto bytes = bytes_.subspan(chunk.offset, chunk.bytes());
     if (amtChecksum(bytes) != chunk.checksum) return "has been altered: its checksum does not match";
-    ReaderIo io(*arrays_, directory_, index, tables_, bytes);
+    ReaderIo io(*arrays_, directory_, index, tables_.data(), bytes);
     if (index == 0 && !codeRoot(*arrays_, io)) return "has a root that is none";
     NodeCoder coder(*arrays_, directory_, chunk, io);
     if (!coder.run()) return coder.problem();
@@ -219,7 +213,7 @@ class Unpacker {
   std::span<const std::byte> bytes_;
   const RunContext& context_;
   bool isPart_;
-  std::vector<DecodingTable> tables_;
+  std::vector<std::uint32_t> tables_;  ///< entries of all tables
   Arrays* arrays_ = nullptr;
   std::mutex mutex_;
   std::uint64_t done_ = 0;
