@@ -125,7 +125,8 @@ class Descent {
               [](const Span& p, const Span& q) { return p.t0 != q.t0 ? p.t0 < q.t0 : p.t1 > q.t1; });
     const std::size_t end = spans_.size();
     if (!mayFill_)
-      for (std::size_t i = begin; i < end; ++i) hint(spans_[i]);
+      for (std::size_t i = begin; i < end; ++i)
+        if (spans_[i].t1 - spans_[i].t0 > shortest_) hint(spans_[i]);
     double done = first;
     for (std::size_t i = begin; i < end && !judge_.isDone();) {
       Span span = spans_[i++];
