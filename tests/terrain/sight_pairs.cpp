@@ -145,6 +145,15 @@ Vec2 SightPairs::place() {
 }
 
 std::array<Vec2, 2> SightPairs::ends(std::string& kind, bool& isExact) {
+  auto [from, to] = anyEnds(kind, isExact);
+  // What is rounding is none: ends are put on lattice lines that they are that near to.
+  for (double* at : {&from.x, &from.y, &to.x, &to.y})
+    if (std::fabs(*at - std::round(*at)) <= 1e-9) *at = std::round(*at) + 0.0;
+  if (std::hypot(to.x - from.x, to.y - from.y) < 1e-8 * std::max(1.0, terrain_.step)) to = from;
+  return {from, to};
+}
+
+std::array<Vec2, 2> SightPairs::anyEnds(std::string& kind, bool& isExact) {
   const Box2& b = terrain_.box;
   isExact = false;
   const auto named = [&](const char* name, Vec2 from, Vec2 to) {
@@ -304,11 +313,7 @@ SightPair SightPairs::next() {
   SightPair pair;
   pair.unit = ground_.unitMetres;
   pair.step = terrain_.step;
-  auto [from, to] = ends(pair.kind, pair.isExact);
-  // What is rounding is none: ends are put on lattice lines that they are that near to.
-  for (double* at : {&from.x, &from.y, &to.x, &to.y})
-    if (std::fabs(*at - std::round(*at)) <= 1e-9) *at = std::round(*at) + 0.0;
-  if (std::hypot(to.x - from.x, to.y - from.y) < 1e-8) to = from;
+  const auto [from, to] = ends(pair.kind, pair.isExact);
   pair.track.curvature = ground_.curvature;
   pair.track.points = {{from, 0}, {to, std::hypot(to.x - from.x, to.y - from.y) * ground_.metresPerStep}};
   if (pair.track.points[1].distance > 0 && random_.below(5) == 0) bend(pair);
@@ -350,7 +355,12 @@ std::string wrongWithin(const SightOracle& oracle, const SightPair& pair, const 
                         const SightAnswer& answer, const Range& truth) {
   const Real length = pair.track.points.back().distance;
   const Real metre = 1 / (Real)pair.unit, tolerance = (1e-6L + 1e-12L * length) * metre;
-  const Real near = 2e-6L * metre;
+  // What the last bits of coordinates are worth on a line that is nearly a vertical one.
+  const Vec2 p = pair.track.points.front().plan, q = pair.track.points.back().plan;
+  const Real plan = std::hypot((Real)q.x - p.x, (Real)q.y - p.y);
+  const Real bits = 2e-15L * (1 + std::fabs((Real)p.x) + std::fabs((Real)p.y));
+  const Real slip = plan > 0 ? bits / plan * std::fabs((Real)pair.to - pair.from) : 0;
+  const Real near = 2e-6L * metre + slip;
   const OracleLine line(length > 0 ? pair.track.curvature : 0, length, (Real)pair.from * pair.unit,
                         (Real)pair.to * pair.unit);
   constexpr Real kNone = Range::kNone;
@@ -358,7 +368,7 @@ std::string wrongWithin(const SightOracle& oracle, const SightPair& pair, const 
   const bool isExactly = options.maxError == 0;
 
   // What may be said.
-  bool mayBlock = truth.lowest < -tolerance / 2, mustBlock = truth.highest < -1.5L * tolerance;
+  bool mayBlock = truth.lowest < -tolerance / 2 + slip, mustBlock = truth.highest < -1.5L * tolerance - slip;
   const Real gap = truth.mostGapInPlan;
   const bool mayHaveGap = gap > 0.5e-9L,
              mustHaveGap = truth.leastGapInPlan > 1e-8L * std::max(1.0, pair.step);
@@ -437,7 +447,7 @@ std::string wrongWithin(const SightOracle& oracle, const SightPair& pair, const 
   if (answer.verdict == SightVerdict::visible || answer.verdict == SightVerdict::unknown) {
     const bool isTouching = c <= tolerance;
     if (answer.verdict == SightVerdict::visible && answer.isTouching != isTouching &&
-        std::fabs(c - tolerance) > tolerance / 2 && truth.lowest == truth.highest)
+        std::fabs(c - tolerance) > tolerance / 2 + slip && truth.lowest == truth.highest)
       return text("touching is %d", int(answer.isTouching)) + tells;
   }
   const Real most = 1e-6L * length + 1e-6L;

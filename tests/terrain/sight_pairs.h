@@ -69,6 +69,7 @@ class SightPairs {
   double finest() const { return terrain_.isRaster ? 16 : 5; }
   Vec2 anywhere();
   Vec2 place();
+  std::array<Vec2, 2> anyEnds(std::string& kind, bool& isExact);
   void bend(SightPair& pair);
   OracleAnswer ask(const SightPair& pair) const;
   template <class T>
