@@ -24,8 +24,6 @@ bool isFull() {
   return std::getenv("ARETE_FULL") != nullptr;
 }
 
-constexpr bool kHasEmbree = true;
-
 /// An engine under test, and what it may be asked.
 struct Engine {
   std::string name;
@@ -241,7 +239,7 @@ TEST_P(SightDescents, OnRastersAreNeverWrong) {
       const SightTerrain terrain = terrainOf(field, oracle);
       std::vector<Engine> engines;
       engines.push_back({"descent", makeSightDescent(*model), true});
-      if (kHasEmbree) engines.push_back({"embree", makeSightEmbree(*model)});
+      engines.push_back({"embree", makeSightEmbree(*model)});
       hasVoids |= !terrain.holes.empty();
       tryPairs(terrain, engines, seed + 100, wanted / int(2 * kSizes.size()), tally, failures);
     }
