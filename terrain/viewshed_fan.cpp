@@ -1,4 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A track is a geodesic cut into pieces that are within the Earth's error of it in their middles, the fewest
+// for which that is so. Where the geodesics' curvature in the plan is at most c, pieces are therefore no
+// shorter than sqrt(2 error / c), and an arc is at most 4 error * s / length from its chord at the distance s
+// from an end of it: from the observer on, the track leaves the geodesic slowly.
+//
+// The curvature of the Earth below a line is that in its middle, so for a nearer place in the same direction
+// it differs. By how much is asked for on the way to the border, for half of it: k differs by d over S / 2,
+// hence heights at s by at most d / (S / 2) (S - s) s^2 / 2 < d s^2, and by 4/27 d S^2 in all.
 #include "terrain/viewshed_fan.h"
 
 #include <tbb/parallel_for.h>
@@ -127,7 +136,8 @@ tl::expected<ViewshedFan, std::string> ViewshedFan::make(const SightEarth& earth
     return Quantities{p.x, p.y, node.curvature * node.distance * node.distance};
   };
   std::atomic<bool> isBroken = false;
-  std::atomic<double> turn = 0, bent = 0, off = 0, offBend = 0, edge = 0, bend = 0, angle = 0;
+  std::atomic<double> turn = 0, bent = 0, bentPerSquare = 0, off = 0, offBend = 0, curving = 0, bend = 0,
+                      angle = 0, greatest = -HUGE_VAL, lowest = -HUGE_VAL;
   withThreads(context, [&] {
     tbb::parallel_for(0, nodesDown, [&](int j) {
       for (int i = 0; i < nodesAcross && !isBroken; ++i) {
@@ -143,6 +153,10 @@ tl::expected<ViewshedFan, std::string> ViewshedFan::make(const SightEarth& earth
         if (std::hypot(dx, dy) > 4)
           raise(turn, std::fabs(std::atan2(q.y * dx - q.x * dy, q.x * dx + q.y * dy)));
         raise(bend, std::fabs(node->curvature));
+        if (node->distance > 0) {
+          raise(greatest, node->curvature);
+          raise(lowest, -node->curvature);
+        }
         raise(angle, std::fabs(node->curvature) * node->distance);
         // How much the curvature differs along the way to the border, and what that makes of heights.
         if (i == 0 || j == 0 || i + 1 >= nodesAcross - 1 || j + 1 >= nodesDown - 1) {
@@ -152,7 +166,9 @@ tl::expected<ViewshedFan, std::string> ViewshedFan::make(const SightEarth& earth
             return;
           }
           const double s = node->distance;
-          raise(bent, std::fabs(half->curvature - node->curvature) * s * s * (4.0 / 27));
+          const double differs = std::fabs(half->curvature - node->curvature);
+          raise(bentPerSquare, differs);
+          raise(bent, differs * s * s * (4.0 / 27));
         }
       }
     });
@@ -173,10 +189,11 @@ tl::expected<ViewshedFan, std::string> ViewshedFan::make(const SightEarth& earth
             const auto inV = parabola(inU[0][k], inU[1][k], inU[2][k]);
             for (std::size_t power = 0; power < 3; ++power) block.of[q][3 * power + k] = inV[power];
           }
-          // An edge, a diagonal at most, is off its chord by an eighth of its second differences.
+          // The curvature of the map, which is that of geodesics in the plan.
           if (q < 2)
-            raise(edge, (std::fabs(block.of[q][2]) + std::fabs(block.of[q][4]) + std::fabs(block.of[q][6])) *
-                            2 / (8.0 * kSpacing * kSpacing) * 2);
+            raise(curving,
+                  std::numbers::sqrt2 * 2 / (kSpacing * kSpacing) *
+                      (std::fabs(block.of[q][2]) + std::fabs(block.of[q][4]) + std::fabs(block.of[q][6])));
         }
         for (const double at : {0.5, 1.5}) {
           const Vec2 plan{(2 * a + at) * kSpacing - 1, (2 * b + at) * kSpacing - 1};
@@ -195,10 +212,18 @@ tl::expected<ViewshedFan, std::string> ViewshedFan::make(const SightEarth& earth
   if (isBroken) return broken();
   const double diagonal = stepX + stepY;
   fan.turn = 1.2 * turn + 1e-3;
-  fan.planError = 1.1 * (std::numbers::sqrt2 * *geodesicError + 4 * off + 2 * edge);
-  fan.heightError = 4 * offBend + 2 * bent + 1.5 * bend * diagonal * diagonal / 8 + 1e-6;
-  if (!(fan.turn < kMostTurn && angle < kMostAngle && fan.planError < kMostPlanError &&
-        std::isfinite(fan.heightError)))
+  fan.leastCurvature = -lowest;
+  fan.mostCurvature = greatest;
+  // An edge, a diagonal at most, is off its chord by an eighth of the curvature times its square, 2.
+  fan.leastPlanError_ = 1.1 * (4 * off + curving / 4) + 1e-6;
+  fan.planErrorPerStep_ =
+      1.5 * std::numbers::sqrt2 * 4 * *geodesicError * std::sqrt(curving / (2 * *geodesicError));
+  fan.mostPlanError_ = fan.leastPlanError_ + 1.1 * std::numbers::sqrt2 * *geodesicError;
+  fan.heightError_ = 4 * offBend + 1.5 * bend * diagonal * diagonal / 8 + 1e-6;
+  fan.bentPerSquare_ = 2 * bentPerSquare;
+  fan.mostBent_ = 2 * bent;
+  if (!(fan.turn < kMostTurn && angle < kMostAngle && fan.mostPlanError_ < kMostPlanError &&
+        std::isfinite(fan.heightError_ + fan.mostBent_)))
     return tl::unexpected(std::string("the DEM is too large or too near a pole for it"));
   return fan;
 }

@@ -16,7 +16,7 @@ namespace arete {
 /// The fan of geodesics from one place, as a plan of its own: at the distance s in the azimuth a, the place
 /// (x, y) with (s sin a, s cos a) = x * steps.x + y * steps.y (an azimuthal equidistant map). Around the
 /// observer its steps are those of the model's plan, farther away all but; geodesics from the observer are
-/// straight in it, and tracks within planError of that.
+/// straight in it, and tracks all but.
 ///
 /// Geodesics are asked for at places 32 samples apart and in between to check: the map is interpolated, by
 /// parabolas in both directions, and four times the worst of the checks is in the errors.
@@ -28,9 +28,22 @@ class ViewshedFan {
                                                      const RunContext& context);
 
   SightEarth::PlaneSteps steps;
-  double planError = 0;    ///< steps, all in all: how far tracks and edges are from straight lines in the fan
-  double heightError = 0;  ///< metres: of what the Earth's curvature does along a line
-  double turn = 0;         ///< the most that a direction differs from that in the model's plan, radians
+  double turn = 0;  ///< the most that a direction differs from that in the model's plan, radians
+
+  /// Steps: how far tracks and edges may be from straight lines in the fan, so many steps from the observer.
+  double planError(double distance) const {
+    const double error = leastPlanError_ + planErrorPerStep_ * distance;
+    return error < mostPlanError_ ? error : mostPlanError_;
+  }
+  /// Metres: of what the Earth's curvature does along a line, so many metres from the observer.
+  double heightError(double metres) const {
+    const double bent = bentPerSquare_ * metres * metres;
+    return heightError_ + (bent < mostBent_ ? bent : mostBent_);
+  }
+
+  /// 1/m: the curvatures of all lines are between these, those over one another this near to each other.
+  double leastCurvature = 0, mostCurvature = 0;
+  double curvatureError() const { return bentPerSquare_; }
 
   /// At samples of a column (isColumn) or a row, from the one numbered `from` on: their places in the fan, as
   /// steps from the observer, and the curvature times the squared distance, in metres. May reach one sample
@@ -47,6 +60,8 @@ class ViewshedFan {
   struct Block {
     std::array<Parabolas, 3> of;  ///< x, y, bend
   };
+  double leastPlanError_ = 0, planErrorPerStep_ = 0, mostPlanError_ = 0;
+  double heightError_ = 0, bentPerSquare_ = 0, mostBent_ = 0;
   int blocksAcross_ = 0;
   std::vector<Block> blocks_;
 };

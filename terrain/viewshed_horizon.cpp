@@ -60,7 +60,7 @@ void ViewshedHorizon::add(double u0, double v0, double u1, double v1, double sla
 void ViewshedHorizon::add(int b, const Piece& line, double from, double to) {
   Bin& bin = bins_[static_cast<std::size_t>(b)];
   const Piece* old = pieces_.data() + bin.from;
-  const double end = startOf(b + 1), least = line.slack / 100;
+  const double end = startOf(b + 1), least = line.slack < -kNone ? line.slack / 100 : 0;
   scratch_.clear();
   bool isChanged = false;
   const auto push = [&](double start, const Piece& piece) {

@@ -33,7 +33,8 @@ class ViewshedHorizon {
     return low;
   }
 
-  /// The segment from (u0, v0) to (u1, v1), both ends included, known to stand no more than `slack` lower.
+  /// The segment from (u0, v0) to (u1, v1), both ends included, known to stand no more than `slack` lower;
+  /// an infinite one: it may not be there at all.
   /// It may be left out where it is less than a hundredth of its slack above the envelope. What is outside of
   /// [first, last], and a segment of no width, is left out.
   void add(double u0, double v0, double u1, double v1, double slack);

@@ -20,6 +20,7 @@ namespace {
 
 /// What is drawn too high by a doubt may be lower by twice as much.
 constexpr double kDoubts = 2.1;
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 struct Heights {
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
@@ -71,10 +72,18 @@ std::size_t ViewshedPicture::index(const ViewshedSector& s, int x, int y) const 
 
 ViewshedPicture::Bent ViewshedPicture::bent(double x, double y, double bend) const {
   const double east = x * steps_.x.x + y * steps_.y.x, north = x * steps_.x.y + y * steps_.y.y;
-  const double square = east * east + north * north, k = square > 0 ? bend / square : 0;
+  const double square = east * east + north * north,
+               // All but at the observer, the quotient is of rounding.
+      k = std::clamp(square > 0 ? bend / square : 0, fan_->leastCurvature, fan_->mostCurvature);
   const double b = k * bend;  // (ks)^2
   const double scale = 1 + b * (1.0 / 6 + b * (7.0 / 360 + b * (31.0 / 15120)));
-  return {scale, scale * bend / 2 * (1 - b / 12 * (1 - b / 30)), k};
+  return {scale, scale * bend / 2 * (1 - b / 12 * (1 - b / 30)), k, std::sqrt(square)};
+}
+
+/// How much higher than drawn without it the terrain on the tracks may be.
+double ViewshedPicture::doubt(double x, double y, const Bent& bent, double z, float steepness) const {
+  return 1.1 * fan_->planError(std::hypot(x, y)) * std::fabs(steepness) * unit_ +
+         fan_->heightError(bent.distance) + fan_->curvatureError() * std::fabs(z * unit_ * (z - h0_) * unit_);
 }
 
 void ViewshedPicture::take(const ViewshedSector& sector, int x, int low, int high, int shear,
@@ -116,15 +125,16 @@ void ViewshedPicture::take(const ViewshedSector& sector, int x, int low, int hig
   if (sector.sign < 0)
     for (auto* values : {&line.fanX, &line.fanY, &line.bend}) std::reverse(values->begin(), values->end());
   const float* steep = steepness_->data() + first;
-  const double error = fan_->planError * unit_ * 1.1;
   for (std::size_t i = 0; i < count; ++i) {
     const Bent b = bent(line.fanX[i], line.fanY[i], line.bend[i]);
-    const double doubt = error * steep[static_cast<std::ptrdiff_t>(i) * stride] + fan_->heightError;
+    const double raised =
+        doubt(line.fanX[i], line.fanY[i], b, line.z[i], steep[static_cast<std::ptrdiff_t>(i) * stride]);
     const Vec2 place = sector.turned({line.fanX[i], line.fanY[i]});
-    line.doubt[i] = kDoubts * doubt;
+    line.doubt[i] =
+        std::signbit(steep[static_cast<std::ptrdiff_t>(i) * stride]) ? kInfinite : kDoubts * raised;
     line.away[i] = place.x;
     line.u[i] = place.y / place.x;
-    line.v[i] = (elevated(b, line.z[i]) + doubt + lift_) / place.x;
+    line.v[i] = (elevated(b, line.z[i]) + raised + lift_) / place.x;
   }
 }
 
@@ -137,8 +147,10 @@ ViewshedPicture::Sample ViewshedPicture::sample(const ViewshedSector& sector, in
   double fx, fy, bend;
   fan_->along(sector.isAlongRows, sector.line(x), sector.isAlongRows ? row : column, 1, &fx, &fy, &bend);
   const Bent b = bent(fx, fy, bend);
-  const double doubt = fan_->planError * unit_ * 1.1 * (*steepness_)[at] + fan_->heightError;
-  return {sector.turned({fx, fy}), elevated(b, z) + doubt + lift_, kDoubts * doubt};
+  const float steep = (*steepness_)[at];
+  const double raised = doubt(fx, fy, b, z, steep);
+  return {sector.turned({fx, fy}), elevated(b, z) + raised + lift_,
+          std::signbit(steep) ? kInfinite : kDoubts * raised};
 }
 
 double ViewshedPicture::direction(const ViewshedSector& sector, int x, int y, int shear) const {
@@ -220,6 +232,17 @@ std::vector<float> viewshedSteepness(const SightGrid& grid, const RunContext& co
         const float* in = across.data() + std::size_t{r} * columns;
         for (std::uint32_t c = 0; c < columns; ++c) out[c] = std::max(out[c], in[c]);
       }
+      if (row == 0 || row + 1 == rows) {
+        for (std::uint32_t c = 0; c < columns; ++c) out[c] = -out[c];
+        return;
+      }
+      const double *z0 = grid.row(row - 1), *z1 = grid.row(row), *z2 = grid.row(row + 1);
+      out[0] = -out[0];
+      out[columns - 1] = -out[columns - 1];
+      for (std::uint32_t c = 1; c + 1 < columns; ++c)
+        if (std::isnan(z0[c - 1] + z0[c] + z0[c + 1] + z1[c - 1] + z1[c] + z1[c + 1] + z2[c - 1] + z2[c] +
+                       z2[c + 1]))
+          out[c] = -out[c];
     });
   });
   return steep;

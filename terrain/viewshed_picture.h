@@ -30,10 +30,11 @@ struct PictureLine {
   int from = 0, count = 0;  ///< y of the first sample, and how many
   double x = 0;             ///< steps from the observer to the line
   bool hasGaps = false;
-  std::vector<double> z;      ///< heights; NaN: none
-  std::vector<double> u;      ///< directions
-  std::vector<double> v;      ///< how high the terrain is, or could be, in the picture
-  std::vector<double> doubt;  ///< of the fan: metres that the terrain may be lower; else empty
+  std::vector<double> z;  ///< heights; NaN: none
+  std::vector<double> u;  ///< directions
+  std::vector<double> v;  ///< how high the terrain is, or could be, in the picture
+  std::vector<double>
+      doubt;  ///< of the fan: metres that the terrain may be lower, infinite beside a gap; else empty
   std::vector<double> fanX, fanY, bend, away;  ///< of the fan: ViewshedFan::along(), and the distance in x
   std::vector<int> bin;
 
@@ -80,20 +81,21 @@ class ViewshedPicture {
   /// The most by which u differs from that in the plan, and how far from a gap's corner its shadow is sure,
   /// at a distance in x.
   double turn() const { return fan_ != nullptr ? 2.2 * fan_->turn : 0; }
-  double corner(double x) const { return fan_ != nullptr ? 1e-8 + 2 * fan_->planError / x : 1e-8; }
+  double corner(double x) const { return fan_ != nullptr ? 1e-8 + 2 * fan_->planError(1.5 * x) / x : 1e-8; }
   /// Metres that make a step of x, of y.
   Vec2 xStep(const ViewshedSector& sector) const;
   Vec2 yStep(const ViewshedSector& sector) const;
 
  private:
   struct Bent {
-    double scale, drop, curvature;
+    double scale, drop, curvature, distance;
   };
   Bent bent(double x, double y, double bend) const;
   double elevated(const Bent& bent, double z) const {
     const double h = z * unit_;
     return bent.scale * ((h - h0_ * unit_) / (1 + bent.curvature * h)) - bent.drop;
   }
+  double doubt(double x, double y, const Bent& bent, double z, float steepness) const;
   std::size_t index(const ViewshedSector& sector, int x, int y) const;
 
   const ViewshedTask& task_;

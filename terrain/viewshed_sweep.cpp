@@ -88,7 +88,7 @@ std::optional<std::string> whyNotSweep(const ViewshedTask& task, const ViewshedF
   if ((isNear(o.x) || isNear(o.y) || isNear(o.x - o.y)) && above < 100 * kNearest * greatest)
     return "the observer is on the ground, all but on an edge";
   // Over a fan, terrain is drawn too high by as much as it may rise within its error.
-  if (fan != nullptr && above < (4 * fan->planError * greatest + 2 * fan->heightError) / unit)
+  if (fan != nullptr && above < 4 * fan->planError(0) * greatest + 2 * fan->heightError(0) / unit)
     return "the observer is on the ground";
   return std::nullopt;
 }

@@ -216,18 +216,17 @@ Status ViewshedWedgeSweep::askOne(int x, int y) {
     if (side == Side::outside) return {};
     if (side == Side::doubtful) return exactly(at, x, y);
   }
+  const int bin = far_.bin[i];
+  if (!wantsValue_ && target < horizon_.low(bin)) {
+    result_.cells[at] = ViewshedCell::hidden;
+    return {};
+  }
   const bool isAtBorder = picture_.isFan() && (y == yLeast_ || y == yGreatest_);
   if ((far_.hasGaps || near_.hasGaps || isAtBorder) && isBesideGap(x, y)) return exactly(at, x, y);
-  // Over a fan the terrain beside a gap may be beside the line instead.
-  if (picture_.isFan() && gaps_.isPossible(u)) return exactly(at, x, y);
-
   const ViewshedHorizon::Bounds before = linkBefore(y, wantsValue_ ? -kInfinite : target);
-  const int bin = far_.bin[i];
   bool isSeen = false, isHidden = false;
   ViewshedHorizon::Bounds skyline{};
-  if (!wantsValue_ && target < horizon_.low(bin)) {
-    isHidden = true;
-  } else if (!wantsValue_ && target >= horizon_.high(bin) && target >= before.upper) {
+  if (!wantsValue_ && target >= horizon_.high(bin) && target >= before.upper) {
     isSeen = true;
   } else {
     skyline = horizon_.at(u);
@@ -236,6 +235,8 @@ Status ViewshedWedgeSweep::askOne(int x, int y) {
     isHidden = target < skyline.lower;
     isSeen = target >= skyline.upper;
   }
+  // Over a fan the terrain beside a gap may be beside the line instead.
+  if (picture_.isFan() && isSeen && gaps_.isPossible(u)) isSeen = false;
   if (!isSeen && !isHidden) return exactly(at, x, y);
   bool isUnknown = false, isCut = false;
   if (!gaps_.isEmpty() && options.nodata != NodataSight::clear && gaps_.isPossible(u)) {
