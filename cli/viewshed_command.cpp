@@ -81,13 +81,28 @@ Result<ViewshedOptions> optionsOf(const ViewshedArguments& a) {
   return options;
 }
 
-Result<std::vector<ViewshedObserver>> readObservers(const ViewshedArguments& a, const TerrainModel& model,
-                                                    const SurfaceHeights& heights, Session& session) {
-  std::vector<ViewshedObserver> observers;
+/// What a site's own columns say goes before the options.
+Status aim(ViewshedField& field, const SightBeam& beam) {
+  if (std::isfinite(beam.range)) {
+    if (!(beam.range > 0)) return failure(ErrorCode::invalidData, "has a range that is not above 0");
+    field.greatestMetres = beam.range;
+  }
+  if (!std::isfinite(beam.azimuth) || !std::isfinite(beam.beamwidth)) return {};
+  if (!(beam.beamwidth > 0)) return failure(ErrorCode::invalidData, "has a beamwidth that is not above 0");
+  const double from = beam.azimuth - beam.beamwidth / 2;
+  field.fromAzimuth = from - 360 * std::floor(from / 360);
+  field.azimuthSpan = std::min(beam.beamwidth, 360.0);
+  return {};
+}
+
+Result<std::vector<ViewshedSite>> readObservers(const ViewshedArguments& a, const ViewshedField& field,
+                                                const TerrainModel& model, const SurfaceHeights& heights,
+                                                Session& session) {
+  std::vector<ViewshedSite> observers;
   const auto add = [&](const PositionArgument& position) -> Status {
     const auto height = demHeight(position, heights);
     if (!height) return tl::unexpected(height.error());
-    observers.push_back({sightPlan(model, position.xy), *height});
+    observers.push_back({{sightPlan(model, position.xy), *height}, field});
     return {};
   };
   const auto toDem = transformOfPlaces(a.sight.lonLat, model.georeference);
@@ -119,6 +134,8 @@ Result<std::vector<ViewshedObserver>> readObservers(const ViewshedArguments& a, 
     if (Status added = add({site.xy, height->height, height->kind}); !added)
       return failure(added.error().code, added.error().message,
                      fmt::format("{}: {}", culprit, added.error().culprit));
+    if (Status turned = aim(observers.back().field, sites->beams[i]); !turned)
+      return failure(turned.error().code, turned.error().message, culprit);
   }
   return observers;
 }
@@ -204,7 +221,7 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
   if (Status output = checkOutput("--output", a.output, {a.model, a.observers, model->source}); !output)
     return output;
   const SurfaceHeights heights(*model);
-  const auto observers = readObservers(a, *model, heights, session);
+  const auto observers = readObservers(a, options->field, *model, heights, session);
   if (!observers) return tl::unexpected(observers.error());
   const bool isOne = observers->size() == 1 && (a.mode != Mode::count && a.mode != Mode::server);
   if (!isOne && (a.mode == Mode::height || a.mode == Mode::horizon))
@@ -225,7 +242,9 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
                {"nodata", std::string(toString(a.sight.nodata))},
                {"maxError", a.maxError}};
   if (isOne) {
-    auto viewshed = maker->from(observers->front(), *options, session.context());
+    ViewshedOptions one = *options;
+    one.field = observers->front().field;
+    auto viewshed = maker->from(observers->front().observer, one, session.context());
     if (!viewshed) return tl::unexpected(viewshed.error());
     json["method"] = std::string(toString(viewshed->method));
     json["rays"] = viewshed->rays;
@@ -295,7 +314,8 @@ void addViewshedCommand(CLI::App& app, Session& session) {
   command
       ->add_option(
           "--observers", arguments->observers,
-          "Observers from a file: CSV or a layer of points, with a column h or height where they differ")
+          "Observers from a file: CSV or a layer of points; the columns h, range (metres), azimuth and "
+          "beamwidth (degrees) say what differs between them")
       ->type_name("FILE");
   command->add_option("--layer", arguments->layer, "Layer of a file with several")->type_name("NAME");
   command

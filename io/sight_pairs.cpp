@@ -38,10 +38,11 @@ const Names kX[2] = {
 const Names kY[2] = {
     {"y1", "from_y", "y_from", "lat1", "from_lat", "tx_y", "tx_lat", "y", "lat", "latitude", "northing"},
     {"y2", "to_y", "y_to", "lat2", "to_lat", "rx_y", "rx_lat"}};
-const Names kHeight[2] = {{"h1", "from_h", "from_height", "height1", "tx_h", "tx_height",
-                               "observer_height", "h", "height", "agl", "height_agl", "antenna_height"},
-                              {"h2", "to_h", "to_height", "height2", "rx_h", "rx_height", "target_height"}};
-const Names kAzimuth = {"azimuth", "az", "bearing"}, kRange = {"range", "range_m"};
+const Names kHeight[2] = {{"h1", "from_h", "from_height", "height1", "tx_h", "tx_height", "observer_height",
+                           "h", "height", "agl", "height_agl", "antenna_height"},
+                          {"h2", "to_h", "to_height", "height2", "rx_h", "rx_height", "target_height"}};
+const Names kAzimuth = {"azimuth", "az", "bearing"}, kRange = {"range", "range_m"},
+            kBeamwidth = {"beamwidth", "beam_width", "hpbw"};
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -333,6 +334,16 @@ Result<SightPairs> readSightSites(const std::string& path, const Georeference& d
   int column = -1;
   for (int end = 0; end < 2 && column < 0; ++end)
     column = findColumn(int(sites.attributes.columns.size()), nameOf, kHeight[end]);
+  const auto numberIn = [&](std::size_t row, const Names& names) -> Result<double> {
+    const int at = findColumn(int(sites.attributes.columns.size()), nameOf, names);
+    const std::string_view text = at < 0 ? std::string_view() : sites.attributes.at(row, std::size_t(at));
+    if (text.empty()) return kNone;
+    const auto number = numberOf(text);
+    if (!number)
+      return failure(ErrorCode::invalidData, fmt::format("'{}' is not a number", text),
+                     fmt::format("{}, row {}", path, row + 1));
+    return *number;
+  };
   for (std::size_t i = 0; i < table->stated.size(); ++i) {
     std::array<SightSite, 2> row;
     row[0].stated = table->stated[i];
@@ -346,6 +357,11 @@ Result<SightPairs> readSightSites(const std::string& path, const Georeference& d
                          fmt::format("{}, row {}", path, i + 1));
         row[0].height = *height;
       }
+    const auto azimuth = numberIn(i, kAzimuth), beamwidth = numberIn(i, kBeamwidth),
+               range = numberIn(i, kRange);
+    for (const auto* number : {&azimuth, &beamwidth, &range})
+      if (!*number) return tl::unexpected(number->error());
+    sites.beams.push_back({*azimuth, *beamwidth, *range});
     sites.rows.push_back(row);
   }
   return sites;

@@ -23,12 +23,20 @@ struct SightSite {
   std::optional<StatedHeight> height;  ///< nothing where the file has none
 };
 
+/// Where a site looks, as far as its file says it: NaN where it does not.
+struct SightBeam {
+  double azimuth = 0;    ///< of the middle, degrees clockwise from north
+  double beamwidth = 0;  ///< horizontal, degrees
+  double range = 0;      ///< metres
+};
+
 /// Lines of sight to ask about, with all that their file says of them: one row per line, in the order of the
 /// file.
 struct SightPairs {
   std::vector<std::array<SightSite, 2>> rows;
-  PointAttributes attributes;  ///< without the columns that places came from
-  std::string crsWkt;          ///< of the stated places; empty = not known
+  std::vector<SightBeam> beams;  ///< readSightSites(): one per row
+  PointAttributes attributes;    ///< without the columns that places came from
+  std::string crsWkt;            ///< of the stated places; empty = not known
   std::vector<std::string> warnings;
 };
 

@@ -17,12 +17,11 @@ namespace {
 /// Parameters of a piece, and the heights there.
 struct Stretch {
   double t0, t1, z0, z1;
+  std::uint32_t triangle = 0;
   double at(double t) const { return t1 > t0 ? z0 + (z1 - z0) * ((t - t0) / (t1 - t0)) : z0; }
 };
 
-struct Span : Stretch {
-  std::uint32_t triangle = 0;
-};
+using Span = Stretch;
 
 /// A vertex as the piece sees it: on which side of it, at which parameter, how high.
 struct Seen {
@@ -63,7 +62,7 @@ class Descent {
 
   void addSpan(std::uint32_t triangle, const Seen& a, const Seen& b, const Seen& c, double first,
                double last) {
-    Span span{{HUGE_VAL, -HUGE_VAL, 0, 0}, triangle};
+    Span span{HUGE_VAL, -HUGE_VAL, 0, 0, triangle};
     const auto meet = [&span](double t, double z) {
       if (t < span.t0) {
         span.t0 = t;
@@ -90,8 +89,8 @@ class Descent {
 
   static void cut(Stretch& stretch, double first, double last) {
     const Stretch whole = stretch;
-    if (whole.t0 < first) stretch = {first, stretch.t1, whole.at(first), stretch.z1};
-    if (whole.t1 > last) stretch = {stretch.t0, last, stretch.z0, whole.at(last)};
+    if (whole.t0 < first) stretch = {first, stretch.t1, whole.at(first), stretch.z1, whole.triangle};
+    if (whole.t1 > last) stretch = {stretch.t0, last, stretch.z0, whole.at(last), whole.triangle};
   }
 
   bool saysEnough(std::uint32_t triangle) const {
@@ -153,6 +152,32 @@ class Descent {
   std::vector<Stretch>& stretches_;
 };
 
+/// Joins what was cut where no edge is. A node with several parents is entered below each of them, for the
+/// part of the piece that is theirs, so its triangles come in parts. A piece that runs along edges is claimed
+/// by triangles of either side, in turns; where a raster has edges at all is known.
+void joinParts(const SightPiece& piece, bool isFinestRaster, double shortest,
+               std::vector<Stretch>& stretches) {
+  constexpr double kOnLine = 1e-6;
+  const auto isCrossing = [&](double t) {
+    const double x = piece.x + t * piece.dx, y = piece.y + t * piece.dy;
+    const auto meets = [](double v, double d) { return d != 0 && std::abs(v - std::round(v)) < kOnLine; };
+    return meets(x, piece.dx) || meets(y, piece.dy) || meets(x - y, piece.dx - piece.dy);
+  };
+  std::size_t kept = 0;
+  for (std::size_t i = 1; i < stretches.size(); ++i) {
+    Stretch& last = stretches[kept];
+    const Stretch& next = stretches[i];
+    const bool isOne = next.triangle == last.triangle || (isFinestRaster && !isCrossing(next.t0));
+    if (isOne && std::abs(next.t0 - last.t1) <= shortest) {
+      last.t1 = next.t1;
+      last.z1 = next.z1;
+    } else {
+      stretches[++kept] = next;
+    }
+  }
+  if (!stretches.empty()) stretches.resize(kept + 1);
+}
+
 /// Appends what is below one piece, which ends at a distance of `end`. isOpen: the last vertex is where the
 /// piece begins. Says whether there is terrain where it ends.
 bool append(Profile& profile, const SightPiece& piece, double end, std::span<const Stretch> stretches,
@@ -205,12 +230,13 @@ Profile Profiles::along(const SightTrack& track, double maxError) const {
     stretches.clear();
     if (!(plan > 0)) {
       if (const auto height = heights_.at(model.toSource(track.points[i].plan)))
-        stretches.push_back({0, 1, height->height, height->height});
+        stretches.push_back({0, 1, height->height, height->height, 0});
     } else {
       Descent(heights_.locator(), piece, allowed, model.options.rimTolerance > 0, stretches).run();
     }
-    isOpen = append(profile, piece, track.points[i].distance, stretches,
-                    plan > 0 ? kShortestInPlan / plan : 0, isOpen);
+    const double shortest = plan > 0 ? kShortestInPlan / plan : 0;
+    joinParts(piece, model.isRaster && allowed == 0, shortest, stretches);
+    isOpen = append(profile, piece, track.points[i].distance, stretches, shortest, isOpen);
   }
   return profile;
 }

@@ -33,13 +33,13 @@ int weightOf(ViewshedCell cell) {
 }  // namespace
 
 Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainModel& model,
-                                      const SightEarth& earth, std::span<const ViewshedObserver> observers,
+                                      const SightEarth& earth, std::span<const ViewshedSite> sites,
                                       const ViewshedOptions& options, bool wantsServer,
                                       const RunContext& context) {
-  if (observers.empty()) return failure(ErrorCode::usage, "there is no observer");
-  if (observers.size() > kMostObservers)
+  if (sites.empty()) return failure(ErrorCode::usage, "there is no observer");
+  if (sites.size() > kMostObservers)
     return failure(ErrorCode::usage,
-                   fmt::format("{} observers are more than {}", observers.size(), kMostObservers));
+                   fmt::format("{} observers are more than {}", sites.size(), kMostObservers));
   ViewshedOfMany all;
   all.columns = model.columns;
   all.rows = model.rows;
@@ -51,12 +51,14 @@ Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainM
     all.server.assign(size, 0);
     nearest.assign(size, 0);
   }
-  for (std::size_t n = 0; n < observers.size(); ++n) {
+  for (std::size_t n = 0; n < sites.size(); ++n) {
     RunContext part = context;
     part.progress = [&](std::string_view stage, double fraction) {
-      context.report(stage, (double(n) + fraction) / double(observers.size()));
+      context.report(stage, (double(n) + fraction) / double(sites.size()));
     };
-    const auto one = maker.from(observers[n], options, part);
+    ViewshedOptions its = options;
+    its.field = sites[n].field;
+    const auto one = maker.from(sites[n].observer, its, part);
     if (!one) return tl::unexpected(one.error());
     const auto server = static_cast<std::uint16_t>(n + 1);
     withThreads(context, [&] {
@@ -68,7 +70,7 @@ Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainM
           ++all.count[i];
           if (!wantsServer) continue;
           const Vec2 place{double(i % all.columns), double(i / all.columns)};
-          const auto track = earth.track(observers[n].plan, place);
+          const auto track = earth.track(sites[n].observer.plan, place);
           if (!track) continue;
           const auto distance = static_cast<float>(track->points.back().distance);
           if (all.server[i] == 0 || distance < nearest[i]) {

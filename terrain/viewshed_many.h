@@ -11,6 +11,12 @@
 
 namespace arete {
 
+/// One of several observers, with the field it looks at.
+struct ViewshedSite {
+  ViewshedObserver observer;
+  ViewshedField field;
+};
+
 /// What several observers see together, on the model's own grid, row by row.
 struct ViewshedOfMany {
   std::uint32_t columns = 0, rows = 0;
@@ -22,11 +28,12 @@ struct ViewshedOfMany {
   std::vector<std::uint16_t> server;
 };
 
-/// Viewsheds of up to 65 000 observers, one after the other, each on all threads. The same for any number of
+/// Viewsheds of up to 65 000 observers, one after the other, each on all threads; the options' own field is
+/// not used. The same for any number of
 /// threads. Preconditions: `earth` and `model` are those of the maker. Errors: usage (none, too many), those
 /// of ViewshedMaker::from(). Memory: 8 bytes per sample beside one viewshed.
 Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainModel& model,
-                                      const SightEarth& earth, std::span<const ViewshedObserver> observers,
+                                      const SightEarth& earth, std::span<const ViewshedSite> sites,
                                       const ViewshedOptions& options, bool wantsServer,
                                       const RunContext& context = {});
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -80,6 +81,15 @@ TEST(Profiles, AtFullResolutionAreTheSamplesCellByCell) {
         SCOPED_TRACE(std::string(family.name) + ", seed " + std::to_string(seed) + ", line " +
                      std::to_string(n));
         expectInOrder(profile);
+        for (const ProfileVertex& v : profile.vertices) {  // on an edge, or where the track turns or ends
+          const auto isWhole = [](double x) { return std::abs(x - std::round(x)) < 1e-5; };
+          const bool isPlace = std::any_of(places.begin(), places.end(), [&](Vec2 p) {
+            return std::hypot(p.x - v.plan.x, p.y - v.plan.y) < 1e-5;
+          });
+          ASSERT_TRUE(isPlace || isWhole(v.plan.x) || isWhole(v.plan.y) || isWhole(v.plan.x - v.plan.y) ||
+                      isWhole(v.plan.x + v.plan.y))
+              << v.plan.x << ", " << v.plan.y;
+        }
         for (int i = 0; i < 200; ++i) {
           const double s = profile.length * random.unit();
           const double expected = grid.at(placeAt(track, s)), found = heightAt(profile, s);

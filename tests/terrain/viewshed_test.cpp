@@ -194,7 +194,9 @@ TEST(Viewshed, OfManyCountsWhoSeesACellAndNamesTheNearest) {
   std::vector<ViewshedObserver> observers;
   for (int i = 0; i < 9; ++i) observers.push_back(randomObserver(place, random, i));
   observers.push_back(observers[3]);  // equally near
-  const auto all = viewshedOfMany(*maker, place.model, *place.earth, observers, {}, true);
+  std::vector<ViewshedSite> sites;
+  for (const ViewshedObserver& observer : observers) sites.push_back({observer, {}});
+  const auto all = viewshedOfMany(*maker, place.model, *place.earth, sites, {}, true);
   ASSERT_TRUE(all);
   std::vector<std::uint16_t> counts(all->count.size(), 0), server(counts.size(), 0);
   std::vector<float> nearest(counts.size(), HUGE_VALF);
