@@ -84,6 +84,7 @@ class SightEmbree final : public SightEngine {
   explicit SightEmbree(const TerrainModel& model)
       : model_(model),
         descent_(makeSightDescent(model)),
+        mayFill_(model.options.rimTolerance > 0),
         isFull_(model.mt.vertexCount() == std::size_t{model.columns} * model.rows),
         device_(rtcNewDevice("threads=1")) {
     const MultiTriangulation& mt = model.mt;
@@ -146,7 +147,7 @@ class SightEmbree final : public SightEngine {
   bool isFor(const SightLine& line) const {
     const double away =
         std::max(std::fabs(line.fromHeight() - middle_), std::fabs(line.toHeight() - middle_));
-    return line.track().curvature >= 0 && line.length() > 0 && away < reach_ &&
+    return !mayFill_ && line.track().curvature >= 0 && line.length() > 0 && away < reach_ &&
            line.tolerance() < margin_ / 4;
   }
 
@@ -211,6 +212,7 @@ class SightEmbree final : public SightEngine {
 
   const TerrainModel& model_;
   std::unique_ptr<SightEngine> descent_;
+  bool mayFill_;  ///< the front may reach over NODATA: it proves nothing there
   bool isFull_;
   double middle_ = 0, margin_ = 0;
   double reach_ = 0;  ///< of heights from the middle: what the margin is enough for
