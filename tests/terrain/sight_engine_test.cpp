@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <map>
 #include <string>
+#include <thread>
 
 #include "datasets/families.h"
 #include "engine/cut.h"
@@ -95,8 +96,9 @@ std::string judged(const SightOracle& oracle, const SightPair& pair, const Oracl
       return engine.name + ": another obstruction without the clearance";
     options.wantsObstruction = false;
     const SightAnswer shortest = engine.engine->answer(line, options);
+    if (auto what = wrongHere(pair, shortest, truth); !what.empty())
+      return engine.name + " without obstruction: " + what;
     options.wantsObstruction = true;
-    if (shortest.verdict != answer.verdict) return engine.name + ": another verdict without the obstruction";
     if (!first) {
       first = answer;
       tally.add(answer, truth, pair.unit);
@@ -230,10 +232,11 @@ TEST_P(SightDescents, OnRastersAreNeverWrong) {
   bool hasVoids = false;
   constexpr std::array<std::array<std::uint32_t, 2>, 3> kSizes = {{{25, 21}, {41, 37}, {3, 33}}};
   for (std::uint64_t seed = 1; seed <= kSizes.size(); ++seed)
-    for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity}) {
+    for (const BuildOptions& options :
+         {BuildOptions{}, BuildOptions{.shape = HoleShape::fidelity}, BuildOptions{.rimTolerance = 3}}) {
       const auto [columns, rows] = kSizes[seed - 1];
       const RasterHeightfield field = GetParam().make(columns, rows, seed);
-      const auto model = build(field, {.shape = shape});
+      const auto model = build(field, options);
       ASSERT_TRUE(model) << GetParam().name;
       const SightOracle oracle(field);
       const SightTerrain terrain = terrainOf(field, oracle);
@@ -241,7 +244,7 @@ TEST_P(SightDescents, OnRastersAreNeverWrong) {
       engines.push_back({"descent", makeSightDescent(*model), true});
       engines.push_back({"embree", makeSightEmbree(*model)});
       hasVoids |= !terrain.holes.empty();
-      tryPairs(terrain, engines, seed + 100, wanted / int(2 * kSizes.size()), tally, failures);
+      tryPairs(terrain, engines, seed + 100, wanted / int(3 * kSizes.size()), tally, failures);
     }
   tally.print(std::string(GetParam().name));
   expectHard(tally, hasVoids);
@@ -268,6 +271,47 @@ TEST_P(SightDescentsOnPoints, AreNeverWrong) {
     }
   tally.print(std::string(GetParam().name));
   expectHard(tally, true);
+}
+
+TEST(SightEngines, GiveTheSameAnswersOnManyThreads) {
+  const RasterHeightfield field = rasterFamilies()[6].make(60, 50, 8);
+  const auto model = build(field);
+  ASSERT_TRUE(model);
+  const SightOracle oracle(field);
+  const SightTerrain terrain = terrainOf(field, oracle);
+  SightPairs pairs(terrain, {30, 1e-7}, 9);
+  std::vector<SightLine> lines;
+  for (int i = 0; i < 400; ++i) lines.push_back(lineOf(pairs.next()));
+  for (const SightMethod method :
+       {SightMethod::scan, SightMethod::pyramid, SightMethod::descent, SightMethod::embree}) {
+    const auto engine = makeSightEngine(method, *model);
+    ASSERT_TRUE(engine);
+    std::vector<SightAnswer> alone, together(lines.size());
+    for (const SightLine& line : lines) alone.push_back((*engine)->answer(line, {}));
+    std::vector<std::thread> threads;
+    for (std::size_t t = 0; t < 4; ++t)
+      threads.emplace_back([&, t] {
+        for (std::size_t i = t; i < lines.size(); i += 4) together[i] = (*engine)->answer(lines[i], {});
+      });
+    for (std::thread& thread : threads) thread.join();
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      ASSERT_EQ(alone[i].verdict, together[i].verdict) << toString(method) << " " << i;
+      ASSERT_EQ(alone[i].clearance, together[i].clearance) << toString(method) << " " << i;
+      ASSERT_EQ(alone[i].visited, together[i].visited) << toString(method) << " " << i;
+    }
+  }
+}
+
+TEST(SightEngines, ThatWalkOverCellsRefusePoints) {
+  const auto model = build(pointFamilies()[0].make(50, 1));
+  ASSERT_TRUE(model);
+  for (const SightMethod method : {SightMethod::scan, SightMethod::pyramid}) {
+    const auto engine = makeSightEngine(method, *model);
+    ASSERT_FALSE(engine);
+    EXPECT_EQ(engine.error().code, ErrorCode::unsupported);
+  }
+  EXPECT_TRUE(makeSightEngine(SightMethod::automatic, *model));
+  EXPECT_TRUE(makeSightEngine(SightMethod::descent, *model));
 }
 
 template <class Family>
