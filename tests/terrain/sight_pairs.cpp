@@ -343,6 +343,8 @@ struct Range {
     if (a.firstGap) {
       firstGap = std::min(firstGap.value_or(*a.firstGap), *a.firstGap);
       lastFirstGap = std::max(lastFirstGap, *a.firstGap);
+    } else {
+      lastFirstGap = kNone;
     }
     if (a.ceased) ceased = std::min(ceased.value_or(*a.ceased), *a.ceased);
     isAlwaysDeep &= a.deep.has_value();
