@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace arete::test {
@@ -286,8 +287,31 @@ OracleAnswer SightOracle::ask(const SightTrack& track, double height0, double he
     return to;
   };
 
+  // A line over a globe is convex, so it is above its tangents: terrain far below one needs no sines.
+  constexpr int kTangents = 32;
+  std::vector<OracleLine::HeightAndSlope> tangents;
+  if (!isVertical && !line.isStraight() && line.isConvex() && stretches.size() > 2 * kTangents)
+    for (int i = 0; i <= kTangents; ++i) tangents.push_back(line.at(length * i / kTangents));
+  const auto atLeast = [&](const Stretch& p) {
+    if (tangents.empty()) return -std::numeric_limits<long double>::infinity();
+    const auto i = static_cast<int>(p.s0 / length * kTangents + 0.5L);
+    const auto& [height, slope] = tangents[static_cast<std::size_t>(std::clamp(i, 0, kTangents))];
+    const auto above = [&](long double s, long double z) {
+      return (height + slope * (s - length * i / kTangents)) / unit - z;
+    };
+    return std::min(above(p.s0, p.z0), above(p.s1, p.z1)) - 1e-7L / unit;
+  };
+  if (!tangents.empty()) {
+    const auto lowest =
+        std::min_element(stretches.begin(), stretches.end(),
+                         [&](const auto& a, const auto& b) { return atLeast(a) < atLeast(b); });
+    std::tie(answer.clearance, answer.at) = least(*lowest);
+  }
+
   std::optional<long double> shallow;
   for (const Stretch& p : stretches) {
+    if (const long double bound = atLeast(p); bound > 0 && answer.clearance && bound > *answer.clearance)
+      continue;
     const auto [c, s] = least(p);
     if (!answer.clearance || c < *answer.clearance) {
       answer.clearance = c;
@@ -305,7 +329,7 @@ OracleAnswer SightOracle::ask(const SightTrack& track, double height0, double he
   for (const Stretch& p : stretches) {
     if (p.s0 > *shallow) continue;
     const long double end = std::min(p.s1, *shallow), level = kNoise / unit;
-    if (over(p, end) > level) {
+    if (atLeast(p) > level || over(p, end) > level) {
       ceased = std::max(ceased, end);
     } else if (over(p, p.s0) > level) {
       ceased = std::max(ceased, falls(p, p.s0, end, level));
