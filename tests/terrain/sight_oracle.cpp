@@ -103,22 +103,22 @@ void SightOracle::cellTriangles(std::int64_t column, std::int64_t row, std::vect
 
 void SightOracle::candidates(Vec2 a, Vec2 b, std::vector<Triangle>& to) const {
   to.clear();
+  const double margin = 1e-6 * (1 + std::fabs(a.x) + std::fabs(a.y));
+  const double nx = a.y - b.y, ny = b.x - a.x, far = margin * std::hypot(nx, ny);
+  // All corners on one side of the line.
+  const auto isBeside = [&](const Triangle& t) {
+    double side[3];
+    for (std::size_t i = 0; i < 3; ++i) side[i] = nx * (t[i].x - a.x) + ny * (t[i].y - a.y);
+    return std::min({side[0], side[1], side[2]}) > far || std::max({side[0], side[1], side[2]}) < -far;
+  };
   if (columns_ == 0) {
-    const double margin = 1e-6 * (1 + std::fabs(a.x) + std::fabs(a.y));
     const double xMin = std::min(a.x, b.x) - margin, xMax = std::max(a.x, b.x) + margin;
     const double yMin = std::min(a.y, b.y) - margin, yMax = std::max(a.y, b.y) + margin;
-    const double nx = a.y - b.y, ny = b.x - a.x, length = std::hypot(nx, ny);
     for (const Triangle& t : triangles_) {
       if (std::max({t[0].x, t[1].x, t[2].x}) < xMin || std::min({t[0].x, t[1].x, t[2].x}) > xMax ||
           std::max({t[0].y, t[1].y, t[2].y}) < yMin || std::min({t[0].y, t[1].y, t[2].y}) > yMax)
         continue;
-      // All corners on one side of the line.
-      double side[3];
-      for (std::size_t i = 0; i < 3; ++i) side[i] = nx * (t[i].x - a.x) + ny * (t[i].y - a.y);
-      const double far = margin * length;
-      if (std::min({side[0], side[1], side[2]}) > far || std::max({side[0], side[1], side[2]}) < -far)
-        continue;
-      to.push_back(t);
+      if (!isBeside(t)) to.push_back(t);
     }
     return;
   }
@@ -141,6 +141,7 @@ void SightOracle::candidates(Vec2 a, Vec2 b, std::vector<Triangle>& to) const {
         static_cast<std::int64_t>(std::floor(std::clamp(high + 1.01, -1.0, double(columns_) - 2)));
     for (std::int64_t column = from; column <= to_; ++column) cellTriangles(column, row, to);
   }
+  std::erase_if(to, isBeside);
 }
 
 std::optional<std::array<long double, 2>> SightOracle::clip(const Triangle& t, Vec2 a, Vec2 b,
