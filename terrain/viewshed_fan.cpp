@@ -210,7 +210,11 @@ tl::expected<ViewshedFan, std::string> ViewshedFan::make(const SightEarth& earth
     });
   });
   if (isBroken) return broken();
-  const double diagonal = stepX + stepY;
+  // A line that meets its target all but level dips below it by k d^2 / 8 on the last way d over a cell, and
+  // by nothing only if it is k d^2 / 2 above the terrain at that way's beginning.
+  const double diagonal =
+      std::sqrt(stepX * stepX + stepY * stepY +
+                2 * std::fabs(fan.steps.x.x * fan.steps.y.x + fan.steps.x.y * fan.steps.y.y));
   fan.turn = 1.2 * turn + 1e-3;
   fan.leastCurvature = -lowest;
   fan.mostCurvature = greatest;
@@ -219,7 +223,7 @@ tl::expected<ViewshedFan, std::string> ViewshedFan::make(const SightEarth& earth
   fan.planErrorPerStep_ =
       1.5 * std::numbers::sqrt2 * 4 * *geodesicError * std::sqrt(curving / (2 * *geodesicError));
   fan.mostPlanError_ = fan.leastPlanError_ + 1.1 * std::numbers::sqrt2 * *geodesicError;
-  fan.heightError_ = 4 * offBend + 1.5 * bend * diagonal * diagonal / 8 + 1e-6;
+  fan.heightError_ = 4 * offBend + 1.2 * bend * diagonal * diagonal / 2 + 1e-6;
   fan.bentPerSquare_ = 2 * bentPerSquare;
   fan.mostBent_ = 2 * bent;
   if (!(fan.turn < kMostTurn && angle < kMostAngle && fan.mostPlanError_ < kMostPlanError &&

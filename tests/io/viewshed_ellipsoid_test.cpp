@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Viewsheds over the ellipsoid, where the sweep goes by a map of its own, cell by cell against an engine on
+// the tracks as they are.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <variant>
+
+#include "datasets/families.h"
+#include "datasets/random.h"
+#include "io/crs_reader.h"
+#include "io/dem_reader.h"
+#include "io/ellipsoid_earth.h"
+#include "terrain/viewshed.h"
+
+namespace arete {
+namespace {
+
+struct Map {
+  const char* crs;
+  std::array<double, 6> geoTransform;
+};
+
+/// Cells of 1 km and of 30 m, far north and near the equator, turned, south up; metres; another ellipsoid.
+const Map kMaps[] = {
+    {"EPSG:4326", {10, 0.01, 0, 68, 0, -0.01}},           {"EPSG:4326", {-71, 0.0003, 0, -32, 0, -0.0003}},
+    {"EPSG:4326", {30, 0.002, 0.001, 20, -0.001, 0.002}}, {"EPSG:32611", {120000, 100, 0, 4000000, 0, -100}},
+    {"EPSG:27700", {300000, 2.5, 0, 700000, 0, -2.5}},
+};
+
+struct Tally {
+  std::uint64_t cells = 0, wrong = 0, rays = 0;
+  int sweeps = 0;
+};
+
+void compare(const TerrainModel& model, const SightEarth& earth, std::shared_ptr<const SightGrid> grid,
+             const ViewshedObserver& observer, const ViewshedOptions& options, std::size_t every,
+             const std::string& what, Tally& tally) {
+  const auto maker = ViewshedMaker::make(model, earth, grid);
+  ASSERT_TRUE(maker);
+  const auto viewshed = maker->from(observer, options);
+  ASSERT_TRUE(viewshed) << viewshed.error().describe();
+  tally.sweeps += viewshed->method == ViewshedMethod::sweep;
+  tally.rays += viewshed->rays;
+  const auto engine = makeSightPyramid(grid);
+  for (std::size_t at = observer.plan.x > 0 ? 1 : 0; at < viewshed->cells.size(); at += every) {
+    const Vec2 to{double(at % grid->columns()), double(at / grid->columns())};
+    const double z = grid->row(0)[at];
+    if (std::isnan(z)) continue;
+    const SightLine line(*earth.track(observer.plan, to), observer.height, z + options.targetHeight,
+                         model.georeference.verticalUnitMetres);
+    const SightVerdict verdict = engine->answer(line, {.nodata = options.nodata}).verdict;
+    const ViewshedCell expected = verdict == SightVerdict::visible   ? ViewshedCell::seen
+                                  : verdict == SightVerdict::blocked ? ViewshedCell::hidden
+                                                                     : ViewshedCell::unknown;
+    ++tally.cells;
+    if (viewshed->cells[at] != expected && tally.wrong++ < 5)
+      ADD_FAILURE() << what << ": " << to.x << ", " << to.y << " is " << int(viewshed->cells[at]) << ", not "
+                    << int(expected) << "; observer " << observer.plan.x << ", " << observer.plan.y << ", "
+                    << observer.height;
+  }
+}
+
+TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngine) {
+  Random random(11);
+  Tally all;
+  for (const Map& map : kMaps)
+    for (const RasterFamily& family : rasterFamilies()) {
+      const RasterHeightfield field = family.make(71, 84, 4);
+      TerrainModel model;
+      model.columns = field.columns;
+      model.rows = field.rows;
+      model.georeference.geoTransform = map.geoTransform;
+      const auto crs = crsFromText(map.crs);
+      ASSERT_TRUE(crs && describeCrs(*crs, model.georeference));
+      const auto earth = makeEllipsoidEarth(model);
+      ASSERT_TRUE(earth);
+      const auto grid = std::make_shared<const SightGrid>(field.columns, field.rows, field.heights);
+      Tally tally;
+      for (int i = 0; i < 3; ++i) {
+        Vec2 plan{random.between(2, field.columns - 3), random.between(2, field.rows - 3)};
+        if (i == 1) plan = {std::round(plan.x), std::round(plan.y)};
+        const double ground = grid->at(plan), heights[] = {2, 30, 10};
+        ViewshedOptions options;
+        options.targetHeight = i == 2 ? 2 : 0;
+        options.nodata = static_cast<NodataSight>(i);
+        compare(model, **earth, grid, {plan, (std::isnan(ground) ? 100 : ground) + heights[i]}, options, 1,
+                std::string(family.name) + " on " + map.crs, tally);
+      }
+      EXPECT_EQ(tally.wrong, 0u) << family.name << " on " << map.crs;
+      all.sweeps += tally.sweeps;
+      all.rays += tally.rays;
+      all.cells += tally.cells;
+    }
+  EXPECT_GT(all.sweeps, 100);
+  EXPECT_LT(all.rays, all.cells / 2);
+}
+
+TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngineOnRealDems) {
+  const char* folder = std::getenv("ARETE_DATA");
+  if (folder == nullptr) GTEST_SKIP() << "ARETE_DATA is not set";
+  Random random(12);
+  for (const char* name : {"srtm3_N46E008_bernese_alps.tif", "srtm3_S33W071_aconcagua.tif",
+                           "srtm1_bigtujunga_utm11.tif", "lidar_dsm2.5m_edinburgh_bng.tif"}) {
+    const auto path = std::filesystem::path(folder) / "dem" / name;
+    if (!std::filesystem::exists(path)) continue;
+    const auto dem = readDem(path.string());
+    ASSERT_TRUE(dem);
+    const auto& field = std::get<RasterHeightfield>(dem->heightfield);
+    TerrainModel model;
+    model.columns = field.columns;
+    model.rows = field.rows;
+    model.georeference = field.georeference;
+    const auto earth = makeEllipsoidEarth(model);
+    ASSERT_TRUE(earth);
+    const auto grid = std::make_shared<const SightGrid>(field.columns, field.rows, field.heights);
+    Tally tally;
+    for (int i = 0; i < 3; ++i) {
+      Vec2 plan;
+      do plan = {double(random.below(field.columns)), double(random.below(field.rows))};
+      while (std::isnan(grid->at(plan)));
+      compare(model, **earth, grid, {plan, grid->at(plan) + 3}, {}, 97, name, tally);
+    }
+    EXPECT_EQ(tally.wrong, 0u) << name;
+    RecordProperty("rays of " + std::string(name), std::to_string(tally.rays));
+  }
+}
+
+}  // namespace
+}  // namespace arete
