@@ -217,6 +217,23 @@ TEST(Viewshed, OfManyCountsWhoSeesACellAndNamesTheNearest) {
   EXPECT_EQ(all->server, server);
 }
 
+TEST(Viewshed, WithinAToleranceWhatIsCertainIsRight) {
+  Random random(7);
+  const Place place(rasterFamilies()[3].make(45, 52, 8));
+  const auto maker = ViewshedMaker::make(place.model, *place.earth, place.grid);
+  for (int i = 0; i < 4; ++i) {
+    const ViewshedObserver observer = randomObserver(place, random, i);
+    ViewshedOptions options;
+    options.maxError = 5;
+    const auto within = maker->from(observer, options), exact = maker->from(observer);
+    ASSERT_TRUE(within && exact);
+    for (std::size_t c = 0; c < exact->cells.size(); ++c)
+      if (within->cells[c] != ViewshedCell::undecided) {
+        ASSERT_EQ(within->cells[c], exact->cells[c]) << c;
+      }
+  }
+}
+
 TEST(Viewshed, SaysWhatIsWrongWithOptions) {
   const Place place(rasterFamilies()[3].make(20, 20, 2));
   const auto maker = ViewshedMaker::make(place.model, *place.earth, place.grid);
