@@ -57,6 +57,7 @@ ExitCode run(int argc, char** argv) {
       "  arete build dem.tif -o dem.amt                     once\n"
       "  arete extract dem.amt -o tin.ply --max-error 5     as often as wanted, any tolerance\n"
       "  arete height dem.amt --at X,Y                      how high the terrain is there\n"
+      "  arete los dem.amt --from X,Y,H --to X,Y,H          whether they see each other\n"
       "  arete measure tin.ply dem.tif --expect 5           the promise, checked independently\n"
       "\n" +
       std::string(exitCodeTable()) + "\n\nCOMMAND --help tells the options of a command.");

@@ -89,6 +89,12 @@ void drawLine(Canvas& canvas, const Frame& frame, const ProfileSight& sight) {
     hidden.insert(hidden.begin(), p);
     canvas.polyline(hidden, {.color = kBlocked, .width = 2.25, .dash = 7});
   }
+  if (sight.fresnel) {
+    const SightPlace& place = sight.fresnel->place;
+    const Vec2 foot = frame.at(place.distance, place.terrainHeight);
+    canvas.line(foot, frame.at(place.distance, place.sightHeight), {.color = kZone, .width = 1.5, .dash = 3});
+    canvas.fillCircle(foot, 4, kZone);
+  }
   canvas.polyline(clear, {.color = kClear, .width = 2.25});
   for (const double s : {0.0, length}) canvas.fillCircle(frame.at(s, sight.line.height(s)), 4.5, kInk);
   if (isBlocked) {
@@ -166,8 +172,8 @@ Result<Canvas> drawProfile(const Profile& profile, const std::optional<ProfileSi
   canvas.clip(frame.plot);
   drawTerrain(canvas, frame, profile);
   if (sight && sight->wavelength > 0) drawZone(canvas, frame, *sight);
-  if (sight) drawLine(canvas, frame, *sight);
   canvas.unclip();
+  if (sight) drawLine(canvas, frame, *sight);
   canvas.line({frame.plot.left, frame.plot.bottom() + 0.5}, {frame.plot.right(), frame.plot.bottom() + 0.5},
               {.color = kInk, .width = 1});
   canvas.line({frame.plot.left + 0.5, frame.plot.top}, {frame.plot.left + 0.5, frame.plot.bottom()},

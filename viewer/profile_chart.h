@@ -15,10 +15,10 @@ namespace arete {
 /// What is drawn over the terrain of a profile.
 struct ProfileSight {
   const SightLine& line;
-  SightAnswer answer;
-  double wavelength = 0;        ///< metres; > 0: the first Fresnel zone
-  double part = kUsualFresnel;  ///< of its radius, drawn inside of it
-  std::optional<FresnelClearance> fresnel;
+  SightAnswer answer = {};
+  double wavelength = 0;                                   ///< metres; > 0: the first Fresnel zone
+  double part = kUsualFresnel;                             ///< of its radius, drawn inside of it
+  std::optional<FresnelClearance> fresnel = std::nullopt;  ///< where the terrain comes furthest in is marked
 };
 
 struct ProfileChartOptions {
@@ -27,10 +27,10 @@ struct ProfileChartOptions {
   std::string unit = {};  ///< of height; may be empty
 };
 
-/// The terrain along a line: distance to the right, height upwards, on scales of their own. Gaps are left
-/// open and hatched below. The sight line is as curved as the Earth is on such a chart, green where it is
-/// visible, red behind the obstruction, which is marked. Errors: usage, for a size without room; degenerate,
-/// for a profile without terrain or length. O(vertices).
+/// The terrain along a line: distance to the right, height upwards, on scales of their own. Gaps are grey.
+/// The sight line is as curved as the Earth is on such a chart, green where it is visible, red behind the
+/// obstruction, which is marked. Errors: usage, for a size without room; degenerate, for a profile without
+/// terrain or length. O(vertices).
 Result<Canvas> drawProfile(const Profile& profile, const std::optional<ProfileSight>& sight,
                            const ProfileChartOptions& options = {});
 
