@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "terrain/fresnel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -28,20 +29,19 @@ std::optional<FresnelClearance> leastFresnelClearance(const SightLine& line, con
     if (std::isfinite(fraction) && !(least && least->fraction <= fraction))
       least = {fraction, {s, line.planAt(s), z, line.height(s)}};
   };
+  for (const ProfileVertex& v : profile.vertices) take(v.distance, v.height);
   for (std::size_t i = 1; i < profile.vertices.size(); ++i) {
     const ProfileVertex &p = profile.vertices[i - 1], &q = profile.vertices[i];
-    take(q.distance, q.height);
-    if (!q.isJoined || !(q.distance > p.distance)) {
-      take(p.distance, p.height);
-      continue;
-    }
+    if (!q.isJoined || !(q.distance > p.distance)) continue;
     const double d = q.distance - p.distance, rise = (q.height - p.height) / d;
     const auto heightAt = [&](double s) { return p.height + rise * (s - p.distance); };
-    // Far from being the least, a stretch needs no search: a clearance is at least that of its ends less the
-    // line's sag, a radius at most that of the half way.
-    const double most = fresnelRadius(wavelength, length / 2, length);
-    if (least && line.leastBound(p.distance, p.height, q.distance, q.height) * unit > least->fraction * most)
-      continue;
+    // Most stretches need no search: a clearance is at least that of its ends less the line's sag, a radius
+    // at most that of the place nearest to half way.
+    const double lowest = line.leastBound(p.distance, p.height, q.distance, q.height) * unit;
+    const double widest = fresnelRadius(wavelength, std::clamp(length / 2, p.distance, q.distance), length);
+    const double narrowest = std::min(fresnelRadius(wavelength, p.distance, length),
+                                      fresnelRadius(wavelength, q.distance, length));
+    if (least && lowest > least->fraction * (least->fraction > 0 ? widest : narrowest)) continue;
     constexpr double kGolden = 0.6180339887498949;
     double low = p.distance, high = q.distance;
     double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
