@@ -26,10 +26,13 @@
 #include "terrain/build.h"
 #include "terrain/fixed_vertices.h"
 #include "terrain/measure.h"
+#include "terrain/sight_earth.h"
+#include "terrain/viewshed.h"
 #include "viewer/chart.h"
 #include "viewer/error_map.h"
 #include "viewer/ticks.h"
 #include "viewer/tin_picture.h"
+#include "viewer/viewshed_map.h"
 
 namespace arete {
 namespace {
@@ -111,7 +114,7 @@ class Demo {
 
   Result<DemoReport> run(const std::string& dem) {
     for (const auto step : {&Demo::read, &Demo::buildModel, &Demo::takeAll, &Demo::drawChart, &Demo::drawMap,
-                            &Demo::drawTins}) {
+                            &Demo::drawTins, &Demo::drawViewshed}) {
       if (const Status status = interruptedIf(context_); !status) return tl::unexpected(status.error());
       report_.dem = dem;
       if (const Status status = (this->*step)(); !status) return tl::unexpected(status.error());
@@ -234,7 +237,8 @@ class Demo {
     certificate.isKept = keepsPromise(*measured, maxError);
     certificate.checkCommand = fmt::format("arete measure {} {} --expect {}", shellArgument(file),
                                            shellArgument(report_.dem), maxError);
-    if (const Status status = writeCertificate(written(name + ".certificate.json"), certificate, model_); !status)
+    if (const Status status = writeCertificate(written(name + ".certificate.json"), certificate, model_);
+        !status)
       return status;
 
     DemoResult row;
@@ -314,6 +318,30 @@ class Demo {
     }
     context_.report("draw", 1);
     return {};
+  }
+
+  /// From the highest sample, where a person would climb.
+  Status drawViewshed() {
+    constexpr double kMetresUp = 2;
+    const auto& z = field_.heights;
+    std::size_t highest = 0;
+    for (std::size_t i = 0; i < z.size(); ++i)
+      if (!(z[i] <= z[highest]) && !std::isnan(z[i])) highest = i;
+    const auto earth = makePlaneEarth(model_);
+    const Result<ViewshedMaker> maker = ViewshedMaker::make(model_, *earth, {}, quiet());
+    if (!maker) return tl::unexpected(maker.error());
+    const Vec2 place{double(highest % field_.columns), double(highest / field_.columns)};
+    const double up = kMetresUp / field_.georeference.verticalUnitMetres;
+    const Result<Viewshed> viewshed = maker->from({place, z[highest] + up}, {}, quiet());
+    if (!viewshed) return tl::unexpected(viewshed.error());
+    return save(
+        drawViewshedMap(
+            field_, *viewshed, place,
+            {.width = options_.pictureWidth,
+             .title = title("what is seen from the highest place, " + withUnit(z[highest], report_.unit)),
+             .caption = {"2 m above the ground   \u00b7   on a plane Earth   \u00b7   every "
+                         "sample has the answer of full resolution"}}),
+        "viewshed.png");
   }
 
   const DemoOptions& options_;
