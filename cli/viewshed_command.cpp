@@ -18,6 +18,7 @@
 #include "io/amt_file.h"
 #include "io/crs_transform.h"
 #include "io/position_argument.h"
+#include "io/raster_reader.h"
 #include "io/raster_writer.h"
 #include "io/sight_pairs.h"
 #include "terrain/sight_links.h"
@@ -33,7 +34,7 @@ enum class Mode { seen, height, horizon, count, server };
 constexpr double kSeen = 255, kHidden = 0, kUnknown = 100, kUndecided = 200, kOutside = 1;
 
 struct ViewshedArguments {
-  std::string model, observers, layer, output, observerHeight, azimuths, elevations;
+  std::string model, observers, layer, output, observerHeight, azimuths, elevations, like;
   std::vector<std::string> observer;
   SightArguments sight;
   Mode mode = Mode::seen;
@@ -140,6 +141,37 @@ Result<std::vector<ViewshedSite>> readObservers(const ViewshedArguments& a, cons
   return observers;
 }
 
+/// Another raster's grid, and where its samples stand in the plan of the model; NaN where nobody can tell.
+struct OtherGrid {
+  std::uint32_t columns = 0, rows = 0;
+  Georeference georeference;
+  std::vector<Vec2> places;
+};
+
+Result<OtherGrid> readOtherGrid(const std::string& path, const TerrainModel& model, Session& session) {
+  auto raster = readRaster(path, {}, session.context());
+  if (!raster) return tl::unexpected(raster.error());
+  session.warn(raster->warnings, path);
+  OtherGrid grid;
+  grid.columns = raster->heightfield.columns;
+  grid.rows = raster->heightfield.rows;
+  grid.georeference = std::move(raster->heightfield.georeference);
+  const std::string &there = grid.georeference.crsWkt, &here = model.georeference.crsWkt;
+  if (there.empty() != here.empty())
+    return failure(ErrorCode::invalidData, "has a CRS where the DEM has none, or the other way round", path);
+  grid.places.reserve(std::size_t{grid.columns} * grid.rows);
+  for (std::uint32_t row = 0; row < grid.rows; ++row)
+    for (std::uint32_t column = 0; column < grid.columns; ++column)
+      grid.places.push_back(grid.georeference.toSource(column, row));
+  if (there != here) {
+    const auto transform = CrsTransform::between(there, here);
+    if (!transform) return tl::unexpected(transform.error());
+    transform->apply(grid.places);
+  }
+  for (Vec2& place : grid.places) place = model.toPlan(place);
+  return grid;
+}
+
 double byteOf(ViewshedCell cell) {
   switch (cell) {
     case ViewshedCell::seen:
@@ -218,7 +250,8 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
   if (!options) return tl::unexpected(options.error());
   const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
   if (!model) return tl::unexpected(model.error());
-  if (Status output = checkOutput("--output", a.output, {a.model, a.observers, model->source}); !output)
+  if (Status output = checkOutput("--output", a.output, {a.model, a.observers, a.like, model->source});
+      !output)
     return output;
   const SurfaceHeights heights(*model);
   const auto observers = readObservers(a, options->field, *model, heights, session);
@@ -241,10 +274,22 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
                {"refraction", a.sight.refraction},
                {"nodata", std::string(toString(a.sight.nodata))},
                {"maxError", a.maxError}};
+  OtherGrid grid{model->columns, model->rows, model->georeference, {}};
+  if (!a.like.empty()) {
+    if (!isOne)
+      return failure(ErrorCode::usage, "is for one observer and what it sees, not for counts and servers",
+                     "--like");
+    auto other = readOtherGrid(a.like, *model, session);
+    if (!other) return tl::unexpected(other.error());
+    grid = std::move(*other);
+    json["like"] = a.like;
+  }
   if (isOne) {
     ViewshedOptions one = *options;
     one.field = observers->front().field;
-    auto viewshed = maker->from(observers->front().observer, one, session.context());
+    const ViewshedObserver& observer = observers->front().observer;
+    auto viewshed = a.like.empty() ? maker->from(observer, one, session.context())
+                                   : maker->of(grid.places, observer, one, session.context());
     if (!viewshed) return tl::unexpected(viewshed.error());
     json["method"] = std::string(toString(viewshed->method));
     json["rays"] = viewshed->rays;
@@ -258,9 +303,8 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
     cells = std::move(all->cells);
   }
   picture.options.description = descriptionOf(a.mode);
-  Georeference georeference = model->georeference;
-  if (!picture.isHeight) georeference.verticalUnit.clear();
-  if (Status written = writeGeoTiff(a.output, model->columns, model->rows, picture.values, georeference,
+  grid.georeference.verticalUnit = picture.isHeight ? model->georeference.verticalUnit : "";
+  if (Status written = writeGeoTiff(a.output, grid.columns, grid.rows, picture.values, grid.georeference,
                                     picture.options, session.context());
       !written)
     return written;
@@ -294,7 +338,8 @@ void addViewshedCommand(CLI::App& app, Session& session) {
       "  arete viewshed dem.amt --observer 409050,3801450,10 --mode height -o least_height.tif\n"
       "  arete viewshed dem.amt --observers masts.gpkg --observer-height 30 --mode count -o count.tif\n"
       "\n"
-      "A raster on the grid of the DEM. seen: 255 seen, 0 hidden, 100 unknown (NODATA in between), 200 "
+      "A raster on the grid of the DEM, or of another raster (--like). seen: 255 seen, 0 hidden, 100 unknown "
+      "(NODATA in between), 200 "
       "undecided\n"
       "(--max-error), 1 = NODATA: no sample, too far, out of the field of view. Every sample has the answer "
       "that\n"
@@ -318,6 +363,10 @@ void addViewshedCommand(CLI::App& app, Session& session) {
           "beamwidth (degrees) say what differs between them")
       ->type_name("FILE");
   command->add_option("--layer", arguments->layer, "Layer of a file with several")->type_name("NAME");
+  command
+      ->add_option("--like", arguments->like,
+                   "Answer for the samples of this raster's grid, in its CRS, instead of the DEM's")
+      ->type_name("RASTER");
   command
       ->add_option("--observer-height", arguments->observerHeight,
                    "Height of observers that the file has none for")

@@ -37,6 +37,16 @@ double onLattice(double v) {
   return std::fabs(v - std::round(v)) <= kShortestInPlan ? std::round(v) : v;
 }
 
+void countCells(Viewshed& result) {
+  std::uint64_t counts[5] = {};
+  for (const ViewshedCell cell : result.cells) ++counts[static_cast<int>(cell)];
+  result.hidden = counts[0];
+  result.seen = counts[1];
+  result.unknown = counts[2];
+  result.undecided = counts[3];
+  result.outside = counts[4];
+}
+
 }  // namespace
 
 std::string_view toString(ViewshedMethod method) {
@@ -63,21 +73,23 @@ Result<ViewshedMaker> ViewshedMaker::make(const TerrainModel& model, const Sight
   return maker;
 }
 
+Result<std::shared_ptr<const SightEngine>> ViewshedMaker::engineFor(const ViewshedOptions& options) const {
+  if (!(options.maxError > 0)) return engine_;
+  if (options.method == ViewshedMethod::sweep)
+    return failure(ErrorCode::unsupported, "has no tolerance", "the method sweep");
+  auto engine = makeSightEngine(SightMethod::descent, *model_, grid_);
+  if (!engine) return tl::unexpected(engine.error());
+  return std::shared_ptr<const SightEngine>(std::move(*engine));
+}
+
 Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const ViewshedOptions& options,
                                      const RunContext& context) const {
   if (const Status status = check(observer, options); !status) return tl::unexpected(status.error());
-  std::unique_ptr<SightEngine> descent;
-  if (options.maxError > 0) {
-    if (options.method == ViewshedMethod::sweep)
-      return failure(ErrorCode::unsupported, "has no tolerance", "the method sweep");
-    auto engine = makeSightEngine(SightMethod::descent, *model_, grid_, context);
-    if (!engine) return tl::unexpected(engine.error());
-    descent = std::move(*engine);
-    if (!descent) return failure(ErrorCode::unsupported, "has no engine yet", "a tolerance");
-  }
+  const auto engine = engineFor(options);
+  if (!engine) return tl::unexpected(engine.error());
+  const bool hasTolerance = options.maxError > 0;
   const ViewshedObserver from{{onLattice(observer.plan.x), onLattice(observer.plan.y)}, observer.height};
-  const ViewshedExact exact(descent ? *descent : *engine_, *earth_, model_->georeference.verticalUnitMetres,
-                            from, options);
+  const ViewshedExact exact(**engine, *earth_, model_->georeference.verticalUnitMetres, from, options);
   static const std::vector<float> kNothing;
   const ViewshedTask task{
       *model_, *grid_, *earth_, from, options, exact, steepness_ ? *steepness_ : kNothing};
@@ -89,13 +101,13 @@ Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const Vie
   if (options.value != ViewshedValue::none)
     result.values.assign(count, std::numeric_limits<float>::quiet_NaN());
   std::optional<std::string> whyNot;
-  if (descent) {
+  if (hasTolerance) {
     whyNot = "a tolerance is asked for";
   } else if (options.method != ViewshedMethod::rays) {
     whyNot = whyNotSweep(task, nullptr);
   }
   std::optional<ViewshedFan> fan;
-  if (!descent && options.method != ViewshedMethod::rays && !whyNot && !earth_->planeSteps()) {
+  if (!hasTolerance && options.method != ViewshedMethod::rays && !whyNot && !earth_->planeSteps()) {
     auto made = ViewshedFan::make(*earth_, from.plan, grid_->columns(), grid_->rows(), context);
     if (made) {
       fan = std::move(*made);
@@ -114,13 +126,33 @@ Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const Vie
                             : viewshedRays(task, context, result);
   if (!status) return tl::unexpected(status.error());
   context.report("viewshed", 1);
-  std::uint64_t counts[5] = {};
-  for (const ViewshedCell cell : result.cells) ++counts[static_cast<int>(cell)];
-  result.hidden = counts[0];
-  result.seen = counts[1];
-  result.unknown = counts[2];
-  result.undecided = counts[3];
-  result.outside = counts[4];
+  countCells(result);
+  return result;
+}
+
+Result<Viewshed> ViewshedMaker::of(std::span<const Vec2> places, const ViewshedObserver& observer,
+                                   const ViewshedOptions& options, const RunContext& context) const {
+  if (const Status status = check(observer, options); !status) return tl::unexpected(status.error());
+  if (options.method == ViewshedMethod::sweep)
+    return failure(ErrorCode::unsupported, "is for the grid of the DEM", "the method sweep");
+  const auto engine = engineFor(options);
+  if (!engine) return tl::unexpected(engine.error());
+  const ViewshedObserver from{{onLattice(observer.plan.x), onLattice(observer.plan.y)}, observer.height};
+  const ViewshedExact exact(**engine, *earth_, model_->georeference.verticalUnitMetres, from, options);
+  std::vector<Vec2> targets(places.begin(), places.end());
+  for (Vec2& place : targets) place = {onLattice(place.x), onLattice(place.y)};
+  Viewshed result;
+  result.columns = static_cast<std::uint32_t>(places.size());
+  result.rows = 1;
+  result.cells.assign(places.size(), ViewshedCell::outside);
+  if (options.value != ViewshedValue::none)
+    result.values.assign(places.size(), std::numeric_limits<float>::quiet_NaN());
+  context.report("viewshed", 0);
+  if (const Status status = viewshedOfPlaces(exact, *grid_, targets, context, result); !status)
+    return tl::unexpected(status.error());
+  context.report("viewshed", 1);
+  countCells(result);
+  result.rays = places.size() - result.outside;
   return result;
 }
 

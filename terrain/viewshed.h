@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -97,11 +98,19 @@ class ViewshedMaker {
   Result<Viewshed> from(const ViewshedObserver& observer, const ViewshedOptions& options = {},
                         const RunContext& context = {}) const;
 
+  /// The same for targets anywhere, on the terrain at `places` (plan coordinates; NaN is nowhere) or the
+  /// target height above it: a viewshed of one row, by rays. Errors: those of from(); unsupported (the
+  /// sweep).
+  Result<Viewshed> of(std::span<const Vec2> places, const ViewshedObserver& observer,
+                      const ViewshedOptions& options = {}, const RunContext& context = {}) const;
+
   const SightGrid& grid() const { return *grid_; }
 
  private:
   ViewshedMaker(const TerrainModel& model, const SightEarth& earth, std::shared_ptr<const SightGrid> grid)
       : model_(&model), earth_(&earth), grid_(std::move(grid)) {}
+
+  Result<std::shared_ptr<const SightEngine>> engineFor(const ViewshedOptions& options) const;
 
   const TerrainModel* model_;
   const SightEarth* earth_;

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <optional>
+#include <span>
 
 #include "terrain/viewshed_exact.h"
 #include "terrain/viewshed_fan.h"
@@ -22,6 +23,9 @@ struct ViewshedTask {
 
 /// Each cell by itself; fills cells, values and rays. Errors: interrupted, those of the earth.
 Status viewshedRays(const ViewshedTask& task, const RunContext& context, Viewshed& result);
+/// The same for places in plan coordinates; NaN and what has no terrain is outside.
+Status viewshedOfPlaces(const ViewshedExact& exact, const SightGrid& grid, std::span<const Vec2> places,
+                        const RunContext& context, Viewshed& result);
 
 /// Why the sweep cannot do this; nothing where it can. Without the fan that the Earth has, as far as the
 /// observer and the options go. O(1).

@@ -8,6 +8,7 @@
 
 #include "cli/cli_fixture.h"
 #include "io/raster_reader.h"
+#include "io/raster_writer.h"
 
 namespace arete::cli_test {
 namespace {
@@ -287,6 +288,46 @@ TEST_F(SightCommands, ViewshedHasTheAnswersOfLos) {
     const std::string verdict = los["answers"][i]["verdict"];
     EXPECT_EQ(expected[i], verdict == "visible" ? 255 : verdict == "blocked" ? 0 : 100) << los["answers"][i];
   }
+}
+
+TEST_F(SightCommands, ViewshedTakesTheGridOfAnotherRaster) {
+  makeModel();
+  ASSERT_EQ(run({"viewshed", "dem.amt", "--observer", "1105,1895,20", "-o", "seen.tif", "-q"}).code, 0);
+  ASSERT_EQ(
+      run({"viewshed", "dem.amt", "--observer", "1105,1895,20", "--like", "seen.tif", "-o", "like.tif", "-q"})
+          .code,
+      0);
+  const auto seen = readRaster(path("seen.tif")), like = readRaster(path("like.tif"));
+  ASSERT_TRUE(seen && like);
+  ASSERT_EQ(like->heightfield.size(), seen->heightfield.size());
+  for (std::size_t i = 0; i < seen->heightfield.size(); ++i) {
+    const double a = seen->heightfield.heights[i], b = like->heightfield.heights[i];
+    EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << i;
+  }
+  // Twice as coarse: every other sample.
+  RasterHeightfield half;
+  half.georeference = seen->heightfield.georeference;
+  half.columns = (seen->heightfield.columns + 1) / 2;
+  half.rows = (seen->heightfield.rows + 1) / 2;
+  half.heights.assign(std::size_t{half.columns} * half.rows, 1);
+  auto& g = half.georeference.geoTransform;
+  g = {g[0] - g[1] / 2, 2 * g[1], 0, g[3] - g[5] / 2, 0, 2 * g[5]};
+  ASSERT_TRUE(writeGeoTiff(path("half.tif"), half.columns, half.rows, half.heights, half.georeference));
+  ASSERT_EQ(
+      run({"viewshed", "dem.amt", "--observer", "1105,1895,20", "--like", "half.tif", "-o", "half_seen.tif"})
+          .code,
+      0);
+  const auto coarse = readRaster(path("half_seen.tif"));
+  ASSERT_TRUE(coarse);
+  ASSERT_EQ(coarse->heightfield.columns, half.columns);
+  for (std::uint32_t row = 0; row < half.rows; ++row)
+    for (std::uint32_t column = 0; column < half.columns; ++column) {
+      const double a = seen->heightfield.at(2 * column, 2 * row), b = coarse->heightfield.at(column, row);
+      EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << column << ", " << row;
+    }
+  refused({"viewshed", "dem.amt", "--observer", "1105,1895,20", "--observer", "1205,1895,20", "--like",
+           "half.tif", "-o", "v.tif"},
+          2, "is for one observer");
 }
 
 TEST_F(SightCommands, ViewshedOfManyCountsAndNamesTheNearest) {

@@ -187,6 +187,33 @@ TEST(Viewshed, FieldsLeaveOutWhatIsBeyondThem) {
   }
 }
 
+TEST(Viewshed, OfPlacesHasTheAnswersOfTheGridAndOfLinesBetween) {
+  Random random(7);
+  const Place place(rasterFamilies()[3].make(33, 28, 4));
+  const auto maker = ViewshedMaker::make(place.model, *place.earth, place.grid);
+  const ViewshedObserver observer = randomObserver(place, random, 1);
+  const auto whole = maker->from(observer);
+  std::vector<Vec2> places;
+  for (std::uint32_t i = 0; i < 33 * 28; ++i) places.push_back({double(i % 33), double(i / 33)});
+  for (int i = 0; i < 400; ++i) places.push_back({random.between(-2, 34), random.between(-2, 29)});
+  places.push_back({NAN, 3});
+  const auto of = maker->of(places, observer);
+  ASSERT_TRUE(of) << of.error().describe();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (i < whole->cells.size()) {
+      EXPECT_EQ(of->cells[i], whole->cells[i]) << i;
+      continue;
+    }
+    const double z = place.grid->at(places[i]);
+    if (std::isnan(z)) {
+      EXPECT_EQ(of->cells[i], ViewshedCell::outside) << i;
+      continue;
+    }
+    const SightLine line(*place.earth->track(observer.plan, places[i]), observer.height, z);
+    EXPECT_EQ(of->cells[i], cellOf(place.scan->answer(line, {}).verdict)) << i;
+  }
+}
+
 TEST(Viewshed, OfManyCountsWhoSeesACellAndNamesTheNearest) {
   Random random(6);
   const Place place(rasterFamilies()[3].make(40, 33, 2));
