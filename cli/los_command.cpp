@@ -218,7 +218,7 @@ void addLosCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<LosArguments>();
   CLI::App* command = session.addCommand(
       app, "los", "Tell whether places see each other",
-      "  arete los dem.amt --from 409050,3801450,10 --to 415000,3805000,2msl\n"
+      "  arete los dem.amt --from 409050,3801450,10 --to 411000,3795000,1500msl\n"
       "  arete los dem.amt --from 8.55,46.6,30 --to 8.7,46.55,10 --lonlat --frequency 2400\n"
       "  arete los dem.amt --pairs links.gpkg -o answers.gpkg --observer-height 30 --target-height 10\n"
       "  arete los dem.amt --from 409050,3801450,10 --points huts.gpkg --target-height 2 -o seen.csv\n"

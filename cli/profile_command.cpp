@@ -324,9 +324,9 @@ void addProfileCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<ProfileArguments>();
   CLI::App* command = session.addCommand(
       app, "profile", "Give the terrain along a line",
-      "  arete profile dem.amt --along 409050,3801450:415000,3805000 > profile.csv\n"
+      "  arete profile dem.amt --along 409050,3801450:411000,3795000 > profile.csv\n"
       "  arete profile dem.amt --along road.gpkg --max-error 1 -o road.csv\n"
-      "  arete profile dem.amt --along 409050,3801450,10:415000,3805000,30 --frequency 2400 --png link.png\n"
+      "  arete profile dem.amt --along 409050,3801450,10:411000,3795000,30 --frequency 2400 --png link.png\n"
       "\n"
       "Between two places the line is the geodesic. At full resolution every edge that it crosses is a "
       "vertex.\n"
