@@ -92,10 +92,10 @@ class Walk {
 
   void partialCell(const SightCell& cell, double t0, double x0, double y0, double t1, double x1, double y1) {
     if (cell.corners() < 3) return gap(t0, t1);
-    const double in0 = cell.inside(x0, y0), in1 = cell.inside(x1, y1);
     // What is outside by rounding is on the border.
-    if (in0 < kShortestInPlan && in1 < kShortestInPlan && (in0 < -kShortestInPlan || in1 < -kShortestInPlan))
-      return gap(t0, t1);
+    const auto rounded = [](double in) { return std::fabs(in) < kShortestInPlan ? 0 : in; };
+    const double in0 = rounded(cell.inside(x0, y0)), in1 = rounded(cell.inside(x1, y1));
+    if (in0 <= 0 && in1 <= 0 && (in0 < 0 || in1 < 0)) return gap(t0, t1);
     double first = 0, last = 1;
     if (in0 < 0 && in1 > 0) first = in0 / (in0 - in1);
     if (in1 < 0 && in0 > 0) last = in0 / (in0 - in1);

@@ -11,6 +11,9 @@
 
 namespace arete {
 
+/// Lengths in plan below this are rounding: neither a gap nor a crossing.
+inline constexpr double kShortestInPlan = 1e-9;
+
 /// A straight piece of a sight line over the plan: at parameter t in [0, 1] it is at (x + t dx, y + t dy) and
 /// at the distance s + t ds.
 struct SightPiece {
@@ -23,12 +26,21 @@ struct SightPiece {
         dx(to.plan.x - from.plan.x),
         dy(to.plan.y - from.plan.y),
         s(from.distance),
-        ds(to.distance - from.distance) {}
+        ds(to.distance - from.distance) {
+    putOnLine(x, dx);
+    putOnLine(y, dy);
+  }
   double distance(double t) const { return s + t * ds; }
-};
 
-/// Lengths in plan below this are rounding: neither a gap nor a crossing.
-inline constexpr double kShortestInPlan = 1e-9;
+ private:
+  /// A piece that is nowhere off a lattice line by more than rounding runs along it.
+  static void putOnLine(double& at, double& step) {
+    const double line = std::round(at);
+    if (std::fabs(at - line) > kShortestInPlan || std::fabs(at + step - line) > kShortestInPlan) return;
+    at = line;
+    step = 0;
+  }
+};
 
 /// The part [first, last] of the piece's parameters over the box (0, 0)..(xMax, yMax), the border included;
 /// first > last where there is none.
