@@ -61,6 +61,8 @@ class Frustum {
   double reachByDepth(double leastDepth) const { return std::max(leastDepth, near_) * leastCosine_; }
   double pixelsPerUnit() const { return pixelsPerUnit_; }
   double nearDistance() const { return near_; }
+  double farDistance() const { return far_; }
+  const Vec3& eye() const { return eye_; }
 
   /// The directions of the eye; side planes |x| = slopeX z, |y| = slopeY z and the lengths of their normals;
   /// the cosine at the corner.

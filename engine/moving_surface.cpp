@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Members are listed in the order in which they came, which has parents before children: what goes has no
+// children left, and what comes, comes last. One pass over the list computes the scale of every member's
+// ball, in parallel; a second, in order, moves those that are not at rest.
+//
+// Jumps. What left is given the offset that it would have now, and so the cut before and the cut after are
+// surfaces over the same moved vertices, and differ where nodes came or went. At any place the triangle that
+// both cuts have or refine has one remover, so there either all came or all went, one after the other, and
+// the distances of their floors and ceilings add up along the chain: what came to a node is its own distance
+// plus the most that came to one of its parents in the same update. On the screen that is seen from within
+// the ball of the last of the chain, widened by the vertices' offsets and by the way itself.
+#include "engine/moving_surface.h"
+
+#include <tbb/parallel_for.h>
+#include <tsl/robin_map.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "engine/incremental_state.h"
+#include "engine/surface_jump.h"
+
+namespace arete {
+namespace {
+
+constexpr std::size_t kMembersPerTask = 2048;
+
+}  // namespace
+
+class MovingSurface::State {
+ public:
+  State(MultiTriangulation multitriangulation, const RunContext& context)
+      : mt(std::move(multitriangulation)),
+        nodes(makeMorphNodes(mt, context)),
+        offsets_(mt.nodeCount(), 0),
+        isMember_(mt.nodeCount(), false) {}
+
+  Update update(const MorphCamera& given, const IncrementalCut& cut, bool budgetBinds) {
+    changes.clear();
+    takeSteps(cut);
+    pixels_.resize(members_.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, members_.size(), kMembersPerTask),
+                      [&](const auto& range) {
+                        given.pixelsPerHeight(std::span(balls_).subspan(range.begin(), range.size()),
+                                              std::span(pixels_).subspan(range.begin(), range.size()));
+                      });
+    MorphCamera camera = given;
+    if (budgetBinds) {
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < members_.size(); ++i) least = std::min(least, errors_[i] * pixels_[i]);
+      if (std::isfinite(least) && least > camera.tolerance().cut) camera.widen(least);
+    }
+    Update made;
+    made.cutPixels = camera.tolerance().cut;
+    made.moving = move(camera);
+    made.jumpPixels = jump(camera);
+    return made;
+  }
+
+  double offset(std::uint32_t v) const {
+    return v < mt.rootVertexCount() ? 0 : offsets_[v - mt.rootVertexCount()];
+  }
+
+  const MultiTriangulation mt;
+  const std::vector<MorphNode> nodes;
+  std::vector<Change> changes;
+
+ private:
+  void takeSteps(const IncrementalCut& cut) {
+    entered_.clear();
+    left_.clear();
+    for (const CutStep& step : cut.lastSteps()) {
+      const std::uint32_t n = step.node.index();
+      const bool isIn = cut.contains(step.node);
+      if (isIn == isMember_[n]) continue;
+      isMember_[n] = isIn;
+      (isIn ? entered_ : left_).push_back(n);
+    }
+    std::ranges::reverse(left_);  // parents first
+    if (!left_.empty()) {
+      std::size_t kept = 0;
+      for (std::size_t i = 0; i < members_.size(); ++i) {
+        if (!isMember_[members_[i]]) continue;
+        members_[kept] = members_[i];
+        balls_[kept] = balls_[i];
+        errors_[kept++] = errors_[i];
+      }
+      members_.resize(kept);
+      balls_.resize(kept);
+      errors_.resize(kept);
+    }
+    for (const std::uint32_t n : entered_) {
+      members_.push_back(n);
+      balls_.push_back(mt.arrays().sphere[n]);
+      errors_.push_back(static_cast<float>(mt.saturatedError(NodeId(n))));
+    }
+  }
+
+  float offsetOf(const MorphCamera& camera, std::uint32_t n, double rho, double pixelsPerHeight) const {
+    const MorphNode& m = nodes[n];
+    return static_cast<float>(camera.offset(m, rho, pixelsPerHeight, offset(m.corner[0]), offset(m.corner[1]),
+                                            offset(m.corner[2])));
+  }
+
+  std::uint32_t move(const MorphCamera& camera) {
+    std::uint32_t moving = 0;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      const std::uint32_t n = members_[i];
+      const double rho = errors_[i] * pixels_[i];
+      float now = 0;
+      if (camera.share(rho) > 0) {
+        now = offsetOf(camera, n, rho, pixels_[i]);
+        ++moving;
+      }
+      if (now == offsets_[n]) continue;
+      offsets_[n] = now;
+      changes.push_back({mt.apex(NodeId(n)), now});
+    }
+    return moving;
+  }
+
+  double jump(const MorphCamera& camera) {
+    // Offsets of what left are not handed out: they are put back.
+    std::vector<float> before;
+    for (const std::uint32_t n : left_) {
+      before.push_back(offsets_[n]);
+      const double pixels = camera.pixelsPerHeight(mt.arrays().sphere[n]);
+      offsets_[n] = offsetOf(camera, n, mt.saturatedError(NodeId(n)) * pixels, pixels);
+    }
+    const double most = std::max(chained(camera, entered_), chained(camera, left_));
+    for (std::size_t i = 0; i < left_.size(); ++i) offsets_[left_[i]] = before[i];
+    return most;
+  }
+
+  /// The most pixels of a jump where these nodes, parents first, all came or all went.
+  double chained(const MorphCamera& camera, const std::vector<std::uint32_t>& changed) const {
+    std::vector<SurfaceJump> jumps(changed.size());
+    tbb::parallel_for(std::size_t(0), changed.size(), [&](std::size_t i) {
+      jumps[i] =
+          surfaceJump(mt, NodeId(changed[i]), nodes[changed[i]], [&](std::uint32_t v) { return offset(v); });
+    });
+    tsl::robin_map<std::uint32_t, double, ScatteredId> heightAt;
+    heightAt.reserve(changed.size());
+    const double unit = std::abs(mt.arrays().metric.scale.z);
+    double most = 0;
+    for (std::size_t i = 0; i < changed.size(); ++i) {
+      double height = 0;
+      for (const std::uint32_t t : mt.floor(NodeId(changed[i])))
+        if (const NodeId parent = mt.creator(TriangleId(t)); parent.isValid())
+          if (const auto at = heightAt.find(parent.index()); at != heightAt.end())
+            height = std::max(height, at->second);
+      height += jumps[i].height;
+      heightAt[changed[i]] = height;
+      Sphere ball = mt.arrays().sphere[changed[i]];
+      ball.radius += static_cast<float>(unit * (height + jumps[i].mostOffset) * (1 + 1e-6));
+      most = std::max(most, camera.pixelsOf(height, camera.pixelsPerHeight(ball)));
+    }
+    return most;
+  }
+
+  std::vector<float> offsets_;  // by node
+  std::vector<bool> isMember_;
+  std::vector<std::uint32_t> members_, entered_, left_;
+  std::vector<Sphere> balls_;   // of members
+  std::vector<float> errors_;   // of members
+  std::vector<double> pixels_;  // of members: per unit of height
+};
+
+MovingSurface::MovingSurface(MultiTriangulation mt, const RunContext& context)
+    : state_(std::make_unique<State>(std::move(mt), context)) {}
+MovingSurface::~MovingSurface() = default;
+MovingSurface::MovingSurface(MovingSurface&&) noexcept = default;
+MovingSurface& MovingSurface::operator=(MovingSurface&&) noexcept = default;
+
+MovingSurface::Update MovingSurface::update(const MorphCamera& camera, const IncrementalCut& cut,
+                                            bool budgetBinds) {
+  return state_->update(camera, cut, budgetBinds);
+}
+
+double MovingSurface::offset(VertexId v) const {
+  return state_->offset(v.index());
+}
+
+std::span<const MovingSurface::Change> MovingSurface::changes() const {
+  return state_->changes;
+}
+
+const MultiTriangulation& MovingSurface::mt() const {
+  return state_->mt;
+}
+
+std::span<const MorphNode> MovingSurface::nodes() const {
+  return state_->nodes;
+}
+
+}  // namespace arete
