@@ -100,6 +100,26 @@ double MorphCamera::pixelsPerHeight(const Sphere& ball) const {
   return reach > 0 ? pixelsPerReach_ / reach : kInfinity;
 }
 
+double MorphCamera::pixelsPerHeight(std::span<const Vec3> hull) const {
+  thread_local std::vector<Vec3> inView;
+  inView.clear();
+  Vec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
+  for (const Vec3& place : hull) {
+    const Vec3 p = frustum_.toView(place);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    inView.push_back(p);
+  }
+  if (!frustum_.mayMeet(inView)) return 0;
+  const Vec3 centre{(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
+  double squared = 0;
+  for (const Vec3& p : inView)
+    squared = std::max(squared, (p.x - centre.x) * (p.x - centre.x) + (p.y - centre.y) * (p.y - centre.y) +
+                                    (p.z - centre.z) * (p.z - centre.z));
+  const double reach = frustum_.reach(centre, std::sqrt(squared), low.z);
+  return reach > 0 ? pixelsPerReach_ / reach : kInfinity;
+}
+
 // As view.cpp has it, without branches, for vector code.
 ARETE_VECTOR_CLONES
 void MorphCamera::pixelsPerHeight(std::span<const Sphere> balls, std::span<double> results) const {

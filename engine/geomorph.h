@@ -66,8 +66,11 @@ class MorphCamera {
   /// sight, infinite around the eye of a view without a near distance. Largest for the outermost of nested
   /// balls.
   double pixelsPerHeight(const Sphere& ball) const;
-  /// The same of many, up to rounding. Precondition: equal sizes.
+  /// The same of the convex hull of points in metric space. Precondition: at least one.
+  double pixelsPerHeight(std::span<const Vec3> hull) const;
+  /// The first of many balls, up to rounding. Precondition: equal sizes.
   void pixelsPerHeight(std::span<const Sphere> balls, std::span<double> results) const;
+  bool mayMeet(std::span<const Vec3> hull) const { return pixelsPerHeight(hull) > 0; }
   /// Pixels that a displacement of the given height at a place of the ball and the frustum takes at most,
   /// the change of scale on its way included. Infinite when it may pass the eye.
   double pixelsOf(double height, double pixelsPerHeight) const;

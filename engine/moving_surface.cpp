@@ -135,30 +135,60 @@ class MovingSurface::State {
     return most;
   }
 
+  /// The star of a node over moved vertices, in metric space, and the same so much higher and lower.
+  void hullOf(std::uint32_t n, double room, std::vector<Vec3>& hull) const {
+    hull.clear();
+    const MetricFrame& metric = mt.arrays().metric;
+    const auto add = [&](std::uint32_t v) {
+      Vec3 p = mt.position(VertexId(v));
+      p.z += offset(v);
+      hull.push_back(metric.toMetric({p.x, p.y, p.z - room}));
+      if (room > 0) hull.push_back(metric.toMetric({p.x, p.y, p.z + room}));
+    };
+    add(mt.apex(NodeId(n)).index());
+    for (const std::uint32_t v : mt.link(NodeId(n))) add(v);
+  }
+
+  /// What is known of a changed node.
+  struct Changed {
+    double own = 0;       ///< distance of its floor and ceiling
+    double before = 0;    ///< the most that came to one of its parents
+    bool isSeen = false;  ///< it or one that came before it
+  };
+
   /// The most pixels of a jump where these nodes, parents first, all came or all went.
-  double chained(const MorphCamera& camera, const std::vector<std::uint32_t>& changed) const {
-    std::vector<SurfaceJump> jumps(changed.size());
+  double chained(const MorphCamera& camera, const std::vector<std::uint32_t>& nodesChanged) const {
+    std::vector<Changed> changed(nodesChanged.size());
     tbb::parallel_for(std::size_t(0), changed.size(), [&](std::size_t i) {
-      jumps[i] =
-          surfaceJump(mt, NodeId(changed[i]), nodes[changed[i]], [&](std::uint32_t v) { return offset(v); });
+      const std::uint32_t n = nodesChanged[i];
+      thread_local std::vector<Vec3> hull;
+      hullOf(n, 0, hull);
+      changed[i].own = surfaceJump(mt, NodeId(n), nodes[n], [&](std::uint32_t v) { return offset(v); });
+      changed[i].isSeen = camera.mayMeet(hull);
     });
-    tsl::robin_map<std::uint32_t, double, ScatteredId> heightAt;
-    heightAt.reserve(changed.size());
-    const double unit = std::abs(mt.arrays().metric.scale.z);
-    double most = 0;
+    tsl::robin_map<std::uint32_t, std::size_t, ScatteredId> place;
+    place.reserve(changed.size());
     for (std::size_t i = 0; i < changed.size(); ++i) {
-      double height = 0;
-      for (const std::uint32_t t : mt.floor(NodeId(changed[i])))
-        if (const NodeId parent = mt.creator(TriangleId(t)); parent.isValid())
-          if (const auto at = heightAt.find(parent.index()); at != heightAt.end())
-            height = std::max(height, at->second);
-      height += jumps[i].height;
-      heightAt[changed[i]] = height;
-      Sphere ball = mt.arrays().sphere[changed[i]];
-      ball.radius += static_cast<float>(unit * (height + jumps[i].mostOffset) * (1 + 1e-6));
-      most = std::max(most, camera.pixelsOf(height, camera.pixelsPerHeight(ball)));
+      Changed& c = changed[i];
+      for (const std::uint32_t t : mt.floor(NodeId(nodesChanged[i]))) {
+        const NodeId parent = mt.creator(TriangleId(t));
+        const auto at = parent.isValid() ? place.find(parent.index()) : place.end();
+        if (at == place.end()) continue;
+        const Changed& p = changed[at->second];
+        c.before = std::max(c.before, p.before + p.own);
+        c.isSeen = c.isSeen || p.isSeen;
+      }
+      place[nodesChanged[i]] = i;
     }
-    return most;
+    std::vector<double> pixels(changed.size(), 0);
+    tbb::parallel_for(std::size_t(0), changed.size(), [&](std::size_t i) {
+      const Changed& c = changed[i];
+      if (!c.isSeen || c.own + c.before == 0) return;
+      thread_local std::vector<Vec3> hull;
+      hullOf(nodesChanged[i], c.before, hull);
+      pixels[i] = camera.pixelsOf(c.own + c.before, camera.pixelsPerHeight(hull));
+    });
+    return pixels.empty() ? 0 : std::ranges::max(pixels);
   }
 
   std::vector<float> offsets_;  // by node

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -9,17 +9,11 @@
 
 namespace arete {
 
-/// How far apart the floor and the ceiling of a node are.
-struct SurfaceJump {
-  double height = 0;      ///< the largest vertical distance of the two, over the region of both
-  double mostOffset = 0;  ///< the largest offset of a vertex of the two
-};
-
-/// With vertices moved by offset(vertex). Both surfaces are linear between the vertex, the link and the
-/// places where spokes of the star cross inner edges of the floor, so the largest distance is at one of
-/// these. O(k^2), k the vertex's degree.
+/// The largest vertical distance between the floor and the ceiling of a node, over the region of both, with
+/// vertices moved by offset(vertex). Both are linear between the vertex, the link and the places where spokes
+/// of the star cross inner edges of the floor, so it is at one of these. O(k^2), k the vertex's degree.
 template <class Offset>
-SurfaceJump surfaceJump(const MultiTriangulation& mt, NodeId n, const MorphNode& node, const Offset& offset) {
+double surfaceJump(const MultiTriangulation& mt, NodeId n, const MorphNode& node, const Offset& offset) {
   struct Corner {
     std::uint32_t id;
     double x, y, z;  // from the vertex, moved
@@ -27,17 +21,14 @@ SurfaceJump surfaceJump(const MultiTriangulation& mt, NodeId n, const MorphNode&
   const VertexId apex = mt.apex(n);
   const Vec3 v = mt.position(apex);
   const double own = offset(apex.index());
-  SurfaceJump jump;
-  jump.mostOffset = std::abs(own);
   thread_local std::vector<Corner> link;
   link.clear();
   for (const std::uint32_t id : mt.link(n)) {
     const Vec3 p = mt.position(VertexId(id));
     const double moved = offset(id);
-    jump.mostOffset = std::max(jump.mostOffset, std::abs(moved));
     link.push_back({id, p.x - v.x, p.y - v.y, p.z - v.z + moved - own});
   }
-  jump.height =
+  double jump =
       std::abs(node.detail + own -
                node.interpolate(offset(node.corner[0]), offset(node.corner[1]), offset(node.corner[2])));
   const auto corner = [&](std::uint32_t id) -> const Corner& {
@@ -58,7 +49,7 @@ SurfaceJump surfaceJump(const MultiTriangulation& mt, NodeId n, const MorphNode&
         const double s = side / across, x = s * spoke.x - a.x, y = s * spoke.y - a.y;
         const double along = (x * dx + y * dy) / (dx * dx + dy * dy);
         if (!(along > 0 && along < 1)) continue;
-        jump.height = std::max(jump.height, std::abs(s * spoke.z - (a.z + along * (b.z - a.z))));
+        jump = std::max(jump, std::abs(s * spoke.z - (a.z + along * (b.z - a.z))));
       }
     }
   }
