@@ -26,7 +26,7 @@
 namespace arete {
 namespace {
 
-constexpr std::size_t kMembersPerTask = 2048;
+constexpr std::size_t kMembersPerTask = 2048, kAhead = 16;
 
 }  // namespace
 
@@ -107,7 +107,9 @@ class MovingSurface::State {
 
   std::uint32_t move(const MorphCamera& camera) {
     std::uint32_t moving = 0;
-    for (std::size_t i = 0; i < members_.size(); ++i) {
+    const std::size_t count = members_.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i + kAhead < count) __builtin_prefetch(&nodes[members_[i + kAhead]]);
       const std::uint32_t n = members_[i];
       const double rho = errors_[i] * pixels_[i];
       float now = 0;
