@@ -114,6 +114,17 @@ TEST_F(Library, IsInstalledFoundBuiltAgainstAndAnswers) {
   run("examples/follow_camera dem.amt 5");
   EXPECT_EQ(std::count(out_.begin(), out_.end(), '\n'), 5) << out_;
   EXPECT_EQ(out_.rfind("frame 0: ", 0), 0u) << out_;
+
+  // It fails by itself where the buffers that it kept by changes are not those of the mesh.
+  run("examples/own_renderer dem.amt 20 last.pgm");
+  EXPECT_EQ(std::count(out_.begin(), out_.end(), '\n'), 20) << out_;
+  EXPECT_NE(out_.find(" triangles within 1 pixels, "), std::string::npos) << out_;
+  const std::string picture = contentOf(folder_ / "last.pgm"), header = "P5\n640 360\n255\n";
+  ASSERT_EQ(picture.size(), header.size() + 640 * 360);
+  EXPECT_EQ(picture.rfind(header, 0), 0u);
+  const auto black = std::count(picture.begin(), picture.end(), '\0');
+  EXPECT_GT(black, 0);              // sky
+  EXPECT_LT(black, 640 * 360 / 2);  // and ground
 }
 
 }  // namespace
