@@ -18,6 +18,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
+#include <utility>
 #include <vector>
 
 #include "engine/incremental_state.h"
@@ -26,7 +28,7 @@
 namespace arete {
 namespace {
 
-constexpr std::size_t kMembersPerTask = 2048, kAhead = 16;
+constexpr std::size_t kMembersPerTask = 2048, kChangesPerTask = 64, kAhead = 16;
 
 }  // namespace
 
@@ -153,44 +155,55 @@ class MovingSurface::State {
 
   /// What is known of a changed node.
   struct Changed {
-    double own = 0;       ///< distance of its floor and ceiling
-    double before = 0;    ///< the most that came to one of its parents
-    bool isSeen = false;  ///< it or one that came before it
+    double own = 0;         ///< distance of its floor and ceiling
+    double before = 0;      ///< the most that came to one of its parents
+    bool isSeen = false;    ///< it or one that came before it
+    bool isNeeded = false;  ///< it or one that came after it is seen
   };
 
   /// The most pixels of a jump where these nodes, parents first, all came or all went.
-  double chained(const MorphCamera& camera, const std::vector<std::uint32_t>& nodesChanged) const {
-    std::vector<Changed> changed(nodesChanged.size());
-    tbb::parallel_for(std::size_t(0), changed.size(), [&](std::size_t i) {
-      const std::uint32_t n = nodesChanged[i];
-      thread_local std::vector<Vec3> hull;
-      hullOf(n, 0, hull);
-      changed[i].own = surfaceJump(mt, NodeId(n), nodes[n], [&](std::uint32_t v) { return offset(v); });
-      changed[i].isSeen = camera.mayMeet(hull);
-    });
+  double chained(const MorphCamera& camera, const std::vector<std::uint32_t>& ids) const {
+    std::vector<Changed> changed(ids.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ids.size(), kChangesPerTask),
+                      [&](const auto& range) {
+                        std::vector<Vec3> hull;
+                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                          hullOf(ids[i], 0, hull);
+                          changed[i].isSeen = camera.mayMeet(hull);
+                        }
+                      });
     tsl::robin_map<std::uint32_t, std::size_t, ScatteredId> place;
-    place.reserve(changed.size());
-    for (std::size_t i = 0; i < changed.size(); ++i) {
-      Changed& c = changed[i];
-      for (const std::uint32_t t : mt.floor(NodeId(nodesChanged[i]))) {
-        const NodeId parent = mt.creator(TriangleId(t));
-        const auto at = parent.isValid() ? place.find(parent.index()) : place.end();
-        if (at == place.end()) continue;
-        const Changed& p = changed[at->second];
-        c.before = std::max(c.before, p.before + p.own);
-        c.isSeen = c.isSeen || p.isSeen;
-      }
-      place[nodesChanged[i]] = i;
-    }
-    std::vector<double> pixels(changed.size(), 0);
-    tbb::parallel_for(std::size_t(0), changed.size(), [&](std::size_t i) {
+    place.reserve(ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i) place[ids[i]] = i;
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;  // child and parent, by child
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      for (const std::uint32_t t : mt.floor(NodeId(ids[i])))
+        if (const NodeId parent = mt.creator(TriangleId(t)); parent.isValid())
+          if (const auto at = place.find(parent.index()); at != place.end())
+            pairs.emplace_back(i, at->second);
+    for (const auto& [child, parent] : pairs)
+      changed[child].isSeen = changed[child].isSeen || changed[parent].isSeen;
+    for (Changed& c : changed) c.isNeeded = c.isSeen;
+    for (const auto& [child, parent] : std::views::reverse(pairs))
+      changed[parent].isNeeded = changed[parent].isNeeded || changed[child].isNeeded;
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, ids.size(), kChangesPerTask), [&](const auto& range) {
+          for (std::size_t i = range.begin(); i < range.end(); ++i)
+            if (changed[i].isNeeded)
+              changed[i].own =
+                  surfaceJump(mt, NodeId(ids[i]), nodes[ids[i]], [&](std::uint32_t v) { return offset(v); });
+        });
+    for (const auto& [child, parent] : pairs)
+      changed[child].before = std::max(changed[child].before, changed[parent].before + changed[parent].own);
+    double most = 0;
+    std::vector<Vec3> hull;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
       const Changed& c = changed[i];
-      if (!c.isSeen || c.own + c.before == 0) return;
-      thread_local std::vector<Vec3> hull;
-      hullOf(nodesChanged[i], c.before, hull);
-      pixels[i] = camera.pixelsOf(c.own + c.before, camera.pixelsPerHeight(hull));
-    });
-    return pixels.empty() ? 0 : std::ranges::max(pixels);
+      if (!c.isSeen || c.own + c.before == 0) continue;
+      hullOf(ids[i], c.before, hull);
+      most = std::max(most, camera.pixelsOf(c.own + c.before, camera.pixelsPerHeight(hull)));
+    }
+    return most;
   }
 
   std::vector<float> offsets_;  // by node
