@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "engine/vec.h"
+#include "terrain/camera.h"
+#include "terrain/terrain_model.h"
+
+namespace arete {
+
+/// Where a camera looks.
+struct Look {
+  double azimuthDegrees = 0;  ///< clockwise from north, 0 to below 360
+  double pitchDegrees = 0;    ///< above the horizon
+};
+
+/// The metric space of a model (terrain/camera.h), in which cameras move, there and back: metres (source
+/// units without a CRS), z up. Directions agree with viewOf(). The space may be mirrored against the map;
+/// right() is on the right of the map all the same. A small value without ties to the model.
+class CameraSpace {
+ public:
+  explicit CameraSpace(const TerrainModel& model);
+
+  /// metricPosition() of the camera.
+  Vec3 position(const Camera& camera) const { return position(camera.xy, camera.height); }
+  Vec3 position(Vec2 xy, double height) const;
+  /// Source coordinates, and height in the DEM's vertical unit, of a metric position.
+  Vec2 xy(const Vec3& position) const;
+  double height(const Vec3& position) const { return position.z / metresPerHeight_ + originHeight_; }
+  /// The camera moved to a metric position.
+  Camera at(Camera camera, const Vec3& position) const;
+
+  /// Where the camera looks, what is up in its picture, and what is on its right: unit vectors, the last one
+  /// level. In terms of curves tangent, normal and binormal.
+  Vec3 forward(Look look) const;
+  Vec3 up(Look look) const;
+  Vec3 right(double azimuthDegrees) const;
+  /// Of a direction of any length but 0. One that is straight up or down has no azimuth: `azimuthThere` is.
+  Look lookAlong(const Vec3& direction, double azimuthThere = 0) const;
+
+  /// Metres of one unit of height.
+  double metresPerHeight() const { return metresPerHeight_; }
+
+ private:
+  Vec3 level(double azimuthDegrees) const;
+
+  Vec2 originXy_;  // in the source
+  double originHeight_ = 0, metresPerHeight_ = 1;
+  Vec2 perX_, perY_;   // metric steps of one unit of x, of y
+  Vec2 east_, north_;  // unit vectors
+  bool isMirrored_ = false;
+};
+
+/// An azimuth in 0 to below 360.
+double wrappedAzimuth(double degrees);
+
+/// The direction of a camera.
+inline Look lookOf(const Camera& camera) {
+  return {camera.azimuthDegrees, camera.pitchDegrees};
+}
+
+}  // namespace arete

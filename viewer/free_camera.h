@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "viewer/camera_space.h"
+
+namespace arete {
+
+/// A way in the directions of a camera, or a speed: metres, or metres per second (source units without a
+/// CRS).
+struct CameraStep {
+  double tangent = 0;   ///< ahead, where the camera looks
+  double binormal = 0;  ///< to the right, always level
+  double normal = 0;    ///< up in the picture
+  double climb = 0;     ///< straight up
+};
+
+/// Free flight: the camera turns on the spot and moves in its own directions (Fornous 2003, A.1.3).
+class FreeCamera {
+ public:
+  FreeCamera(const CameraSpace& space, const Camera& camera);
+
+  const Camera& camera() const { return camera_; }
+  /// Puts the camera elsewhere: by terrain following, a key, a flight. Its speed stays.
+  void place(const Camera& camera);
+
+  /// To the right and up, in degrees. The pitch stops at straight up and straight down.
+  void turn(double rightDegrees, double upDegrees);
+  void move(const CameraStep& metres);
+
+  /// Moves on for some time. The speed goes over into the wanted one within about three `inertiaSeconds`,
+  /// and the way is the same however the time is cut into frames. Precondition: seconds >= 0.
+  void fly(const CameraStep& wantedSpeed, double seconds, double inertiaSeconds = 0.15);
+  const CameraStep& speed() const { return speed_; }
+  /// Stands still at once.
+  void stop() { speed_ = {}; }
+
+ private:
+  CameraSpace space_;
+  Camera camera_;
+  CameraStep speed_;
+};
+
+}  // namespace arete

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "terrain/surface_height.h"
+#include "viewer/camera_space.h"
+#include "viewer/home_view.h"
+
+namespace arete {
+
+struct GroundFollowingOptions {
+  double floorMetres = 2;  ///< no camera is ever lower above the ground
+  /// How exact the ground is taken, in the DEM's vertical unit; what it may be off counts as ground.
+  double maxError = 1;
+  double lookAheadSeconds = 2;  ///< ground that the camera reaches so soon lifts it already
+  double settleSeconds = 0.4;   ///< about a third of the time a change of height takes
+};
+
+/// Keeps a camera above the terrain: never below a floor, and on request at a height above the ground that it
+/// follows smoothly. Where there is no terrain (NODATA, outside) the last ground counts; before there was any
+/// nothing does. The floor holds above full resolution, at every place that the camera is put to.
+///
+/// Keeps a reference to the heights. One thread at a time.
+class GroundFollowing {
+ public:
+  using Options = GroundFollowingOptions;
+
+  /// Precondition: the heights outlive this.
+  GroundFollowing(const SurfaceHeights& heights, const CameraSpace& space, const Options& options = {});
+
+  /// The camera, raised to the floor where it is lower.
+  Camera aboveFloor(Camera camera);
+
+  /// Begins to follow at the camera's height above the ground, or at the floor where it is lower.
+  void begin(const Camera& camera);
+  /// The camera at the height that is kept, after so many seconds; where it came by its own height does not
+  /// count. Precondition: begin(); seconds >= 0.
+  Camera follow(Camera camera, double seconds);
+
+  /// Metres above the ground, at least the floor.
+  double keptMetres() const { return kept_; }
+  void keep(double metres);
+
+ private:
+  std::optional<double> groundMetres(Vec2 xy) const;
+
+  const SurfaceHeights& heights_;
+  CameraSpace space_;
+  Options options_;
+  std::optional<double> lastGround_;  // metric z
+  double kept_ = 0;
+  Vec3 place_;             // where follow() left the camera
+  double climbSpeed_ = 0;  // metres per second
+};
+
+/// How far ahead on its axis a camera meets the terrain, in metres; nothing where there is none
+/// within `farthest` or the camera stands below it. It looks in steps of a hundredth of the distance, at
+/// least of a ten-thousandth of `farthest`: a ridge thinner than that may be missed. One that comes in
+/// below an edge of the terrain meets nothing.
+std::optional<double> distanceToGround(const Camera& camera, const CameraSpace& space,
+                                       const SurfaceHeights& heights, double farthest, double maxError = 0);
+
+/// The radius for OrbitCamera::of(): to the ground ahead, else as far as the middle of the box is.
+double orbitRadius(const Camera& camera, const CameraSpace& space, const SurfaceHeights& heights,
+                   const MetricBox& box);
+
+}  // namespace arete

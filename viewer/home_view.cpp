@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A camera that looks in a given direction has the point (x, y, z) of its own axes in its picture when
+// |x - ex| <= sx (z - ez) and |y - ey| <= sy (z - ez), (ex, ey, ez) the eye. Over all corners the first is
+// two bounds, A = max(x - sx z) <= ex - sx ez and B = max(-x - sx z) <= -ex - sx ez. Their sum bounds how far
+// ahead the eye may stand, ez <= -(A + B) / 2 sx; so does the second. The lesser of the two is the nearest
+// eye, and ex and ey are taken in the middle of what it leaves them.
+#include "viewer/home_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace arete {
+namespace {
+
+constexpr double kFree = 0.05;  // of the picture, on either side
+
+double dot(const Vec3& a, const Vec3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// The bounds A and B above.
+struct Sides {
+  double slope;
+  double above = -std::numeric_limits<double>::infinity(), below = above;
+
+  void take(double across, double ahead) {
+    above = std::max(above, across - slope * ahead);
+    below = std::max(below, -across - slope * ahead);
+  }
+  double mostAhead() const { return -(above + below) / (2 * slope); }
+  double middle() const { return (above - below) / 2; }
+};
+
+}  // namespace
+
+std::array<Vec3, 8> MetricBox::corners() const {
+  std::array<Vec3, 8> corners;
+  for (std::size_t i = 0; i < 8; ++i)
+    corners[i] = {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
+  return corners;
+}
+
+double MetricBox::diagonal() const {
+  return std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
+}
+
+MetricBox metricBox(const TerrainModel& model) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  Vec3 low{kNone, kNone, kNone}, high{-kNone, -kNone, -kNone};
+  const std::uint32_t count = model.mt.vertexCount();
+  for (std::uint32_t v = 0; v < count; ++v) {
+    const Vec3 p = model.mt.vertices().position(VertexId{v});
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const MetricFrame& metric = model.mt.arrays().metric;
+  return {metric.toMetric(low), metric.toMetric(high)};
+}
+
+std::string_view toString(HomeView view) {
+  switch (view) {
+    case HomeView::overview:
+      return "overview";
+    case HomeView::fromAbove:
+      return "above";
+    case HomeView::fromSouth:
+      return "south";
+    case HomeView::fromWest:
+      return "west";
+    case HomeView::fromNorth:
+      return "north";
+    case HomeView::fromEast:
+      return "east";
+  }
+  return "unknown";
+}
+
+Camera cameraOnAll(const CameraSpace& space, const MetricBox& box, Look look, const Camera& picture) {
+  const Vec3 right = space.right(look.azimuthDegrees), up = space.up(look), ahead = space.forward(look);
+  const double slope =
+      std::tan(picture.verticalFieldOfViewDegrees * std::numbers::pi / 360) * (1 - 2 * kFree);
+  Sides across{.slope = slope * picture.widthPixels / picture.heightPixels}, upwards{.slope = slope};
+  const Vec3 centre = box.centre();
+  for (const Vec3& corner : box.corners()) {
+    const Vec3 d{corner.x - centre.x, corner.y - centre.y, corner.z - centre.z};
+    across.take(dot(d, right), dot(d, ahead));
+    upwards.take(dot(d, up), dot(d, ahead));
+  }
+  const double x = across.middle(), y = upwards.middle();
+  const double z = std::min(across.mostAhead(), upwards.mostAhead());
+  Camera camera = space.at(picture, {centre.x + x * right.x + y * up.x + z * ahead.x,
+                                     centre.y + x * right.y + y * up.y + z * ahead.y,
+                                     centre.z + x * right.z + y * up.z + z * ahead.z});
+  camera.azimuthDegrees = wrappedAzimuth(look.azimuthDegrees);
+  camera.pitchDegrees = look.pitchDegrees;
+  return camera;
+}
+
+Camera homeCamera(HomeView view, const CameraSpace& space, const MetricBox& box, const Camera& picture) {
+  const auto look = [&]() -> Look {
+    switch (view) {
+      case HomeView::overview:
+        return {0, -30};
+      case HomeView::fromAbove:
+        return {0, -90};
+      case HomeView::fromSouth:
+        return {0, 0};
+      case HomeView::fromWest:
+        return {90, 0};
+      case HomeView::fromNorth:
+        return {180, 0};
+      case HomeView::fromEast:
+        return {270, 0};
+    }
+    return {};
+  };
+  return cameraOnAll(space, box, look(), picture);
+}
+
+}  // namespace arete

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "viewer/camera_space.h"
+
+namespace arete {
+
+/// A box in metric space that holds a terrain.
+struct MetricBox {
+  Vec3 low, high;
+
+  Vec3 centre() const { return {(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2}; }
+  std::array<Vec3, 8> corners() const;
+  double diagonal() const;
+};
+
+/// The least box along the axes of the plan that holds all of the terrain; isolated samples are none of it.
+/// O(vertices).
+MetricBox metricBox(const TerrainModel& model);
+
+/// Views of the whole terrain.
+enum class HomeView {
+  overview,   ///< from the south, 30 degrees from above
+  fromAbove,  ///< straight down, north up
+  fromSouth,  ///< this and the next three: from that side, level
+  fromWest,
+  fromNorth,
+  fromEast,
+};
+inline constexpr std::array kHomeViews = {HomeView::overview, HomeView::fromAbove, HomeView::fromSouth,
+                                          HomeView::fromWest, HomeView::fromNorth, HomeView::fromEast};
+std::string_view toString(HomeView view);
+
+/// The nearest camera of a direction that has all of the box in its picture, with a twentieth of the picture
+/// free on either side; its place is in the middle of what is left to choose. `picture` gives field of view
+/// and size. Precondition: a field of view of 0 to below 180 degrees.
+Camera cameraOnAll(const CameraSpace& space, const MetricBox& box, Look look, const Camera& picture = {});
+
+Camera homeCamera(HomeView view, const CameraSpace& space, const MetricBox& box, const Camera& picture = {});
+
+}  // namespace arete

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "viewer/camera_space.h"
+
+namespace arete {
+
+/// A camera on a sphere around a target that it looks at (Fornous 2003, A.1.2).
+class OrbitCamera {
+ public:
+  struct Orbit {
+    Vec3 target = {};           ///< metric
+    double azimuthDegrees = 0;  ///< in which the camera looks: 0 = it stands south of the target
+    double zenithDegrees = 60;  ///< of the camera seen from the target: 0 = straight above, 90 = level
+    double radius = 1000;       ///< metres, > 0
+  };
+  /// `picture` gives field of view and size; its place and direction do not count.
+  OrbitCamera(const CameraSpace& space, const Orbit& orbit, const Camera& picture = {});
+
+  /// The orbit of a camera around what lies ahead of it at a distance (distanceToGround() finds it): its
+  /// picture stays. Precondition: radius > 0.
+  static OrbitCamera of(const CameraSpace& space, const Camera& camera, double radius);
+
+  const Orbit& orbit() const { return orbit_; }
+  Camera camera() const;
+
+  /// Around the target, in degrees: the camera goes anticlockwise for `azimuth` > 0 and down for `zenith` >
+  /// 0, from straight above to straight below.
+  void turn(double azimuthDegrees, double zenithDegrees);
+  /// Multiplies the radius; it stays within the limits.
+  void zoom(double factor);
+  /// The same with what is seen at `point` (metric) kept where it is in the picture.
+  void zoomAbout(const Vec3& point, double factor);
+  /// Moves camera and target in the plane of the picture, in metres at the target.
+  void pan(double right, double up);
+  /// Moves camera and target level, as over a map.
+  void slide(double right, double ahead);
+  /// Goes to another target; direction and radius stay.
+  void lookAt(const Vec3& target) { orbit_.target = target; }
+
+  /// For zoom(); the radius at hand stays. Precondition: 0 < least <= most.
+  void limitRadius(double least, double most);
+
+ private:
+  CameraSpace space_;
+  Orbit orbit_;
+  Camera picture_;
+  double leastRadius_ = 0.01, mostRadius_ = 1e9;
+};
+
+}  // namespace arete
