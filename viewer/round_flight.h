@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+
+#include "engine/result.h"
+#include "terrain/surface_height.h"
+#include "viewer/flight.h"
+#include "viewer/home_view.h"
+
+namespace arete {
+
+struct RoundFlightOptions {
+  double heightAboveGround = 0;  ///< metres, at least so high everywhere; 0 chooses by the terrain's size
+  double durationSeconds = 60;   ///< once around
+  double pitchDegrees = -15;
+  double inwardDegrees = 20;  ///< how far the camera looks inwards from straight ahead
+  std::size_t keys = 24;      ///< at least 4
+};
+
+/// A closed flight around the inside of a terrain, clockwise on the map, for those who have none: along an
+/// ellipse half as wide and as long as the box, so high that nothing of the terrain below the path comes
+/// nearer than stated (checked every sixty-fourth of a leg). Over NODATA the last ground counts. Errors:
+/// usage, numbers that make no sense. O(keys * height query).
+Result<FlightPlan> roundFlight(const SurfaceHeights& heights, const CameraSpace& space, const MetricBox& box,
+                               const RoundFlightOptions& options = {});
+
+/// The least height of a flight above the ground in metres, over so many looks at even times; infinite where
+/// there is no terrain under any of them.
+double leastHeightAboveGround(const Flight& flight, const SurfaceHeights& heights, const CameraSpace& space,
+                              std::size_t looks = 10000);
+
+}  // namespace arete
