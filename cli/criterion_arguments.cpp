@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli/arguments.h"
+#include "io/camera_argument.h"
 #include "io/position_argument.h"
 #include "terrain/surface_height.h"
 
@@ -93,8 +94,9 @@ void CriterionArguments::addTo(CLI::App& command) {
   CLI::Option* camera = command
                             .add_option("--camera", camera_,
                                         "Where a camera stands, H above the ground (agl) or as the DEM's "
-                                        "heights (msl, ell): the error counts in pixels of its picture")
-                            ->type_name("X,Y,H[agl|msl|ell]")
+                                        "heights (msl, ell): the error counts in pixels of its picture; "
+                                        "behind it what --look and --fov say, if it is given here")
+                            ->type_name("X,Y,H[agl|msl|ell][,AZIMUTH,PITCH[,FOV]]")
                             ->group(where)
                             ->excludes(region)
                             ->excludes(focus)
@@ -184,12 +186,12 @@ Status CriterionArguments::checkFit() const {
 Status CriterionArguments::placeCamera(const TerrainModel& model, ExtractCriterion& c) const {
   const auto transform = placesTransform(isLonLat_, model);
   if (!transform) return tl::unexpected(transform.error());
-  const auto position = readPositionArgument("--camera", camera_, *transform);
-  if (!position) return tl::unexpected(position.error());
-  const Result<double> height = demHeight(*position, SurfaceHeights(model));
-  if (!height) return failure(height.error().code, height.error().message, "--camera " + camera_);
-  Camera camera{.xy = position->xy, .height = *height};
+  const auto argument = readCameraArgument("--camera", camera_, *transform, SurfaceHeights(model));
+  if (!argument) return tl::unexpected(argument.error());
+  Camera camera = argument->camera;
   if (!look_.empty()) {
+    if (argument->statesLook)
+      return failure(ErrorCode::usage, "--camera says already where it looks", "--look " + look_);
     const auto look = twoNumbers("--look", look_, ',');
     if (!look) return tl::unexpected(look.error());
     camera.azimuthDegrees = look->first;
@@ -201,11 +203,13 @@ Status CriterionArguments::placeCamera(const TerrainModel& model, ExtractCriteri
     camera.widthPixels = viewport->first;
     camera.heightPixels = viewport->second;
   }
+  if (!std::isnan(fieldOfView_) && argument->statesFieldOfView)
+    return failure(ErrorCode::usage, "--camera states its field of view already", "--fov");
   if (!std::isnan(fieldOfView_)) camera.verticalFieldOfViewDegrees = fieldOfView_;
   if (const Result<View> view = viewOf(camera, model); !view)
     return failure(view.error().code, view.error().message, "--camera " + camera_);
   c.camera = camera;
-  c.cameraText = camera_;
+  c.cameraText = argument->positionText;
   c.isLonLat = isLonLat_;
   if (!std::isnan(pixelError_))
     c.pixelError = pixelError_;

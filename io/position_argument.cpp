@@ -47,8 +47,8 @@ Result<Vec2> placeOf(std::string_view x, std::string_view y, const CrsTransform&
                      const std::string& culprit) {
   Vec2 place;
   for (const auto& [field, value] : {std::pair{x, &place.x}, std::pair{y, &place.y}}) {
-    const auto number = numberOf(field);
-    if (!number) return failure(ErrorCode::usage, fmt::format("'{}' is not a number", field), culprit);
+    const auto number = readNumberText(field);
+    if (!number) return failure(number.error().code, number.error().message, culprit);
     *value = *number;
   }
   const auto known = toDem(place);
@@ -81,6 +81,12 @@ std::string_view toString(HeightKind kind) {
   for (const auto& [word, k] : kWords)
     if (k == kind) return word;
   return "unknown";
+}
+
+Result<double> readNumberText(std::string_view text) {
+  const auto number = numberOf(trimmed(text));
+  if (!number) return failure(ErrorCode::usage, fmt::format("'{}' is not a number", text));
+  return *number;
 }
 
 Result<StatedHeight> readHeightText(std::string_view text) {

@@ -26,6 +26,9 @@ struct PositionArgument {
   HeightKind kind = HeightKind::aboveGround;
 };
 
+/// A finite number, blanks around it allowed. Errors: usage, quoting the text.
+Result<double> readNumberText(std::string_view text);
+
 /// A height by itself: "30", "30agl", "120.5msl", "98ell".
 struct StatedHeight {
   double height = 0;  ///< in the DEM's vertical unit

@@ -382,6 +382,8 @@ TEST_F(MainJob, ServesACameraAPlaceABudgetAndADeadline) {
   const Json fine = triangles({camera, "--look", "45,-10", "--pixel-error", "0.5"});
   const Json coarse = triangles({camera, "--look", "45,-10", "--pixel-error", "20"});
   EXPECT_GT(fine["triangles"], coarse["triangles"]);
+  const Json inOne = triangles({camera + ",45,-10,60", "--pixel-error", "0.5"});
+  EXPECT_EQ(fine["triangles"], inOne["triangles"]) << "the camera in one option";
   EXPECT_LE(fine["pixels"], 0.5);
   EXPECT_LE(coarse["pixels"], 20);
   const Json budget = triangles({camera, "--max-triangles", "1500", "--order", "two-queues"});
@@ -408,6 +410,8 @@ TEST_F(MainJob, RefusesCriteriaThatContradictEachOther) {
   };
   refused({}, "--deadline");
   refused({"--max-error", "1", "--camera", "1,2,3"}, "--camera");
+  refused({"--camera=0,0,3msl,4,5", "--look", "6,7"}, "--look 6,7");
+  refused({"--camera=0,0,3msl,4,5,60", "--fov", "50"}, "--fov");
   refused({"--max-error", "1", "--focus", "1,2"}, "--error-growth");
   refused({"--max-error", "1", "--distance", "4"}, "--region");
   refused({"--max-error", "1", "--order", "depth"}, "--order");
