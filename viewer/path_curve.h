@@ -10,8 +10,8 @@ namespace arete {
 
 /// A smooth way through points in space, asked by the length gone. In the plan it is a centripetal
 /// Catmull-Rom spline (Barry and Goldman 1988; Yuksel, Schaefer, Keyser 2011), which keeps close to the
-/// points and makes no loop or cusp between two of them; its z is a cubic that stays between the two heights
-/// of each leg. The direction is continuous.
+/// points and, of points at one height, makes no loop or cusp between two of them; its z is a cubic that
+/// stays between the two heights of each leg. The direction is continuous.
 class PathCurve {
  public:
   PathCurve() = default;
