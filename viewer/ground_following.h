@@ -14,7 +14,7 @@ struct GroundFollowingOptions {
   /// How exact the ground is taken, in the DEM's vertical unit; what it may be off counts as ground.
   double maxError = 1;
   double lookAheadSeconds = 2;  ///< ground that the camera reaches so soon lifts it already
-  double settleSeconds = 0.4;   ///< about a third of the time a change of height takes
+  double settleSeconds = 0.8;   ///< about a third of the time a change of height takes
 };
 
 /// Keeps a camera above the terrain: never below a floor, and on request at a height above the ground that it
