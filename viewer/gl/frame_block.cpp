@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "viewer/gl/frame_block.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arete {
+namespace {
+
+glm::vec4 floats(const Vec3& v, double w = 0) {
+  return glm::vec4(glm::dvec4(v.x, v.y, v.z, w));
+}
+
+glm::dvec4 doubles(const Vec3& v) {
+  return {v.x, v.y, v.z, 0};
+}
+
+}  // namespace
+
+FrameBlock frameBlock(const FrameView& f, const MetricFrame& metric) {
+  const Frustum frustum(f.view);
+  const Frustum::Planes p = frustum.planes();
+  // GLSL need not know infinity.
+  const double far = std::min(f.view.farDistance, 1e30);
+  const double unitsToMetric = std::abs(metric.scale.z) * f.stretch;
+  const double errorPerReach = f.pixels / frustum.pixelsPerUnit() / unitsToMetric;
+
+  FrameBlock block;
+  const Vec3 eye = f.view.eye;
+  block.eyeHigh = floats(eye);
+  block.eyeLow = floats(
+      {eye.x - double(block.eyeHigh.x), eye.y - double(block.eyeHigh.y), eye.z - double(block.eyeHigh.z)});
+  const double side = f.isMirrored ? -1 : 1;
+  block.right = floats({side * p.right.x, side * p.right.y, side * p.right.z});
+  block.up = floats(p.up);
+  block.forward = floats(p.forward);
+  block.lens = glm::vec4{float(1 / p.slopeX), float(1 / p.slopeY), float(f.drawnNear), float(f.stretch)};
+  block.sides = glm::vec4{float(p.slopeX), float(p.slopeY), float(p.lengthX), float(p.lengthY)};
+  block.reach = glm::vec4{float(f.view.nearDistance), float(far), float(p.leastCosine), float(errorPerReach)};
+  block.morph = glm::vec4{float(f.pixels), float(f.morphPixels),
+                          float(frustum.pixelsPerUnit() * unitsToMetric), f.morphPixels > 0 ? 1.0f : 0.0f};
+  block.eyeExact = doubles(eye);
+  block.rightExact = doubles(p.right);
+  block.upExact = doubles(p.up);
+  block.forwardExact = doubles(p.forward);
+  block.sidesExact = glm::dvec4{p.slopeX, p.slopeY, p.lengthX, p.lengthY};
+  block.reachExact = glm::dvec4{f.view.nearDistance, far, p.leastCosine, errorPerReach};
+  block.metricOrigin = floats(metric.origin);
+  block.metricScale = floats(metric.scale);
+  return block;
+}
+
+}  // namespace arete

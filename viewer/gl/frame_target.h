@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "engine/result.h"
+#include "viewer/gl/gl_objects.h"
+#include "viewer/picture.h"
+
+namespace arete {
+
+/// A picture of colours and 32-bit float depths to draw into, with samples to smooth edges by.
+class FrameTarget {
+ public:
+  /// Errors: usage, when the device cannot draw so large a picture.
+  static Result<FrameTarget> create(int widthPixels, int heightPixels, int samples = 1);
+
+  /// What is drawn from here on goes into it, over a clear depth.
+  void begin() const;
+  /// The colours. Waits for the drawing.
+  Image image() const;
+  /// Depths along forward in metric units, row by row from the top, infinity where there is nothing. With one
+  /// sample only. `drawnNear`: of the frame that was drawn.
+  std::vector<float> depths(double drawnNear) const;
+  /// Copies the colours into another framebuffer (0 = the window's), of the same size.
+  void copyTo(GLuint framebuffer) const;
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+ private:
+  FrameTarget() = default;
+  int width_ = 0, height_ = 0, samples_ = 1;
+  GlTexture color_, depth_, resolved_;
+  GlFramebuffer framebuffer_, resolvedFramebuffer_;
+};
+
+}  // namespace arete

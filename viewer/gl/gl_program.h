@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <initializer_list>
+#include <string_view>
+
+#include "engine/result.h"
+#include "viewer/gl/gl_objects.h"
+
+namespace arete {
+
+/// The text of a file of viewer/gl/shaders; empty when there is none of that name.
+std::string_view shaderText(std::string_view name);
+
+/// One stage of a program: files of viewer/gl/shaders, put together in this order.
+struct ShaderStage {
+  GLenum kind;  ///< GL_VERTEX_SHADER, ...
+  std::initializer_list<std::string_view> files;
+};
+
+/// Compiles and links. Errors: unsupported, with what the driver says, naming the last file of the stage.
+Result<GlProgram> makeProgram(std::initializer_list<ShaderStage> stages);
+
+}  // namespace arete

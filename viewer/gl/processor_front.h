@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include "engine/result.h"
+#include "engine/view_mesh.h"
+#include "viewer/gl/drawn_front.h"
+#include "viewer/gl/terrain_on_gpu.h"
+
+namespace arete {
+
+/// Cuts for a view, taken by the processor on a thread of its own (engine/view_mesh.h): each frame asks for
+/// its view and draws what there is by then; what changed goes to the device.
+class ProcessorFront {
+ public:
+  /// Starts at the root. `stretch`: vertical exaggeration. Errors: those of ViewMesh; unsupported, by the
+  /// driver.
+  static Result<ProcessorFront> create(const MultiTriangulation& mt, double stretch);
+  ProcessorFront(ProcessorFront&&) noexcept;
+  ProcessorFront& operator=(ProcessorFront&&) noexcept;
+  ~ProcessorFront();
+
+  struct Asked {
+    View view;
+    double pixels = 1;
+    std::uint32_t maxTriangles = 0;   ///< 0 = any number
+    double deadlineMilliseconds = 0;  ///< 0 = none
+    bool geomorph = true;
+  };
+  struct Done {
+    ViewMesh::Report report;
+    double milliseconds = 0;  ///< of the update
+    std::uint64_t updates = 0;
+  };
+  /// Takes the place of what was asked and not begun.
+  void ask(const Asked& asked);
+  /// Uploads what there is since the last call. `waits`: for what was asked last. Errors: of the update.
+  Result<Done> receive(TerrainOnGpu& terrain, bool waits);
+
+  DrawnFront front() const;
+
+ private:
+  struct State;
+  explicit ProcessorFront(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace arete

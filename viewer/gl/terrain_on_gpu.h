@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "engine/geomorph.h"
+#include "engine/multitriangulation.h"
+#include "viewer/gl/gl_objects.h"
+
+namespace arete {
+
+/// What of a multitriangulation lives in the graphics memory, written once.
+struct TerrainOnGpu {
+  /// Of every vertex: x, y, z in metric space; and its rise, which moves while it is geomorphed.
+  GlBuffer positions, rises;
+  GlBuffer triangleErrors;  ///< codes of OutwardScale, two a word; empty before somebody wants them
+
+  /// What the compute shaders ask; empty where the device cannot (see refusal).
+  GlBuffer roots, nodes, nodeBalls, blockBalls, blockErrors, links, removers, morphs;
+  /// Why the cut cannot be taken on the device, or empty.
+  std::string refusal;
+
+  std::uint32_t vertices = 0, nodeCount = 0, rootTriangles = 0, rootVertices = 0, blocks = 0, pages = 0;
+  bool hasMorphs = false;
+};
+
+/// `morphs`: of every node, or none. The vertices go there whatever the device can. O(size of the MT).
+TerrainOnGpu uploadTerrain(const MultiTriangulation& mt, std::span<const MorphNode> morphs);
+
+/// Of all triangles: 2 bytes each.
+void uploadErrors(TerrainOnGpu& terrain, const MultiTriangulation& mt);
+
+}  // namespace arete

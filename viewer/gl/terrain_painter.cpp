@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "viewer/gl/terrain_painter.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "terrain/camera.h"
+#include "viewer/color_ramp.h"
+#include "viewer/gl/drape_on_gpu.h"
+#include "viewer/gl/gl_program.h"
+
+namespace arete {
+
+/// shaders/terrain.frag.glsl, std140.
+struct TerrainPainter::Look {
+  glm::vec4 sun{}, range{}, heightUnits{}, modes{}, flatColor{}, drapeFrame{}, overlayFrame{}, eastNorth{},
+      heat{};
+};
+
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180;
+
+/// dz/dx and dz/dy of the samples in metric space: central differences, one-sided beside what has no data.
+std::vector<float> slopesOf(const RasterHeightfield& f, const MetricFrame& metric) {
+  std::vector<float> slopes(2 * f.size(), 0);
+  const auto along = [](double before, double here, double after) {
+    if (!std::isnan(before) && !std::isnan(after)) return (after - before) / 2;
+    if (!std::isnan(after)) return after - here;
+    return std::isnan(before) ? 0 : here - before;
+  };
+  tbb::parallel_for(std::uint32_t(0), f.rows, [&](std::uint32_t row) {
+    for (std::uint32_t col = 0; col < f.columns; ++col) {
+      const double here = f.at(col, row);
+      if (std::isnan(here)) continue;
+      const double none = std::nan("");
+      const double x =
+          along(col > 0 ? f.at(col - 1, row) : none, here, col + 1 < f.columns ? f.at(col + 1, row) : none);
+      const double y =
+          along(row > 0 ? f.at(col, row - 1) : none, here, row + 1 < f.rows ? f.at(col, row + 1) : none);
+      float* s = &slopes[2 * (std::size_t(row) * f.columns + col)];
+      s[0] = float(x * metric.scale.z / metric.scale.x);
+      s[1] = float(y * metric.scale.z / metric.scale.y);
+    }
+  });
+  return slopes;
+}
+
+void setSampling(GLuint texture, GLenum minify, GLenum magnify) {
+  glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GLint(minify));
+  glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GLint(magnify));
+  glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+GLsizei levelsOf(std::uint32_t width, std::uint32_t height) {
+  return GLsizei(std::bit_width(std::max(width, height)));
+}
+
+}  // namespace
+
+Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
+  TerrainPainter p;
+  const auto program = [](GlProgram& into, std::initializer_list<std::string_view> vertex,
+                          std::initializer_list<std::string_view> fragment) -> Status {
+    Result<GlProgram> made = makeProgram({{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}});
+    if (!made) return tl::unexpected(made.error());
+    into = std::move(*made);
+    return {};
+  };
+  for (const Status& ok :
+       {program(p.terrain_, {"frame.glsl", "terrain.vert.glsl"}, {"frame.glsl", "terrain.frag.glsl"}),
+        program(p.sky_, {"sky.vert.glsl"}, {"frame.glsl", "sky.frag.glsl"}),
+        program(p.lines_, {"frame.glsl", "lines.vert.glsl"}, {"lines.frag.glsl"})})
+    if (!ok) return tl::unexpected(ok.error());
+
+  const MultiTriangulation& mt = model.mt;
+  p.metric_ = mt.arrays().metric;
+  p.scale_ = mt.arrays().scale;
+  p.frame_ = makeBuffer(sizeof(FrameBlock));
+  p.look_ = makeBuffer(sizeof(Look));
+  p.noIds_ = makeBuffer(64);
+  p.emptyArray_ = makeVertexArray();
+  p.linesArray_ = makeVertexArray();
+  p.terrainArray_ = makeVertexArray();
+
+  double low = INFINITY, high = -INFINITY;
+  for (std::uint32_t v = 0; v < mt.vertexCount(); ++v) {
+    const double z = mt.vertices().height(VertexId(v));
+    low = std::min(low, z);
+    high = std::max(high, z);
+  }
+  p.lowest_ = (low - p.metric_.origin.z) * p.metric_.scale.z;
+  p.highest_ = (high - p.metric_.origin.z) * p.metric_.scale.z;
+  p.largestError_ = mt.largestError();
+  const Vec2 middle = model.toSource({p.metric_.origin.x, p.metric_.origin.y});
+  const auto axis = [&](double azimuth) -> Vec2 {
+    const Result<View> view = viewOf({.xy = middle, .azimuthDegrees = azimuth}, model);
+    return view ? Vec2{view->forward.x, view->forward.y} : Vec2{0, 1};
+  };
+  p.east_ = axis(90);
+  p.north_ = axis(0);
+
+  std::array<std::array<std::uint8_t, 4>, 256> tints;
+  for (std::size_t i = 0; i < tints.size(); ++i) {
+    const Rgb c = rampColor(hypsometricRamp(), double(i) / 255);
+    tints[i] = {c.r, c.g, c.b, 255};
+  }
+  p.tints_ = makeTexture(GL_TEXTURE_1D);
+  glTextureStorage1D(p.tints_, 1, GL_RGBA8, 256);
+  glTextureSubImage1D(p.tints_, 0, 0, 256, GL_RGBA, GL_UNSIGNED_BYTE, tints.data());
+  setSampling(p.tints_, GL_LINEAR, GL_LINEAR);
+
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+  if (model.isRaster && model.columns <= std::uint32_t(most) && model.rows <= std::uint32_t(most)) {
+    const std::vector<float> slopes = slopesOf(model.rasterSamples(), p.metric_);
+    p.slopes_ = makeTexture(GL_TEXTURE_2D);
+    glTextureStorage2D(p.slopes_, levelsOf(model.columns, model.rows), GL_RG16F, GLsizei(model.columns),
+                       GLsizei(model.rows));
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(p.slopes_, 0, 0, 0, GLsizei(model.columns), GLsizei(model.rows), GL_RG, GL_FLOAT,
+                        slopes.data());
+    glGenerateTextureMipmap(p.slopes_);
+    setSampling(p.slopes_, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
+    GLfloat anisotropy = 1;
+    if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
+      glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &anisotropy);
+      glTextureParameterf(p.slopes_, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(anisotropy, 8.0f));
+    }
+    p.hasSlopes_ = true;
+  }
+  return p;
+}
+
+void TerrainPainter::setFrame(const FrameView& frame) {
+  const FrameBlock block = frameBlock(frame, metric_);
+  glNamedBufferSubData(frame_, 0, sizeof block, &block);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
+}
+
+void TerrainPainter::setOverlay(int width, int height, std::span<const std::array<std::uint8_t, 4>> rgba,
+                                Vec2 scale, Vec2 shift) {
+  hasOverlay_ = !rgba.empty();
+  if (!hasOverlay_) return;
+  overlay_ = makeTexture(GL_TEXTURE_2D);
+  glTextureStorage2D(overlay_, levelsOf(std::uint32_t(width), std::uint32_t(height)), GL_RGBA8, width,
+                     height);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTextureSubImage2D(overlay_, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  glGenerateTextureMipmap(overlay_);
+  setSampling(overlay_, GL_LINEAR_MIPMAP_LINEAR, GL_NEAREST);
+  overlayFrame_ = {float(scale.x), float(scale.y), float(shift.x), float(shift.y)};
+}
+
+void TerrainPainter::draw(const TerrainOnGpu& terrain, const DrawnFront& front, const ViewLook& l) {
+  Look look;
+  const double azimuth = l.sunAzimuthDegrees * kRadians, elevation = l.sunElevationDegrees * kRadians;
+  const double flat = std::cos(elevation);
+  look.sun = {float(flat * (std::sin(azimuth) * east_.x + std::cos(azimuth) * north_.x)),
+              float(flat * (std::sin(azimuth) * east_.y + std::cos(azimuth) * north_.y)),
+              float(std::sin(elevation)), l.isShaded ? 1.0f : 0.0f};
+  look.range = {float(lowest_), float(highest_), float(l.contourInterval), 1.0f};
+  look.heightUnits = {float(1 / metric_.scale.z), float(metric_.origin.z), float(l.hazeKilometres * 1000), 0};
+  const int mode = l.coloring == Coloring::hypsometric ? 0
+                   : l.coloring == Coloring::slope     ? 1
+                   : l.coloring == Coloring::aspect    ? 2
+                   : l.coloring == Coloring::error     ? 4
+                                                       : 3;
+  const bool isDraped = l.hasDrape && drape_ != nullptr;
+  look.modes = {float(mode), hasSlopes_ ? 1.0f : 0.0f, isDraped ? 1.0f : 0.0f,
+                l.hasOverlay && hasOverlay_ ? 1.0f : 0.0f};
+  if (isDraped) {
+    look.drapeFrame = drape_->planToTexture();
+    drape_->bind(terrain_, 2, 2, 3);
+  }
+  look.overlayFrame = overlayFrame_;
+  look.eastNorth = {float(east_.x), float(east_.y), float(north_.x), float(north_.y)};
+  look.heat = {float(l.heatError > 0 ? l.heatError : largestError_ / 16), 0, 0, 0};
+  drawWith(terrain, front, look);
+  if (l.hasWireframe) {
+    look.heightUnits[3] = 1;
+    look.flatColor = {0.05f, 0.07f, 0.10f, 1};
+    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    glEnable(GL_POLYGON_OFFSET_LINE);
+    glPolygonOffset(1, 1);  // nearer: depth is reversed
+    drawWith(terrain, front, look);
+    glDisable(GL_POLYGON_OFFSET_LINE);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  }
+}
+
+void TerrainPainter::drawFlat(const TerrainOnGpu& terrain, const DrawnFront& front, const glm::vec4& color) {
+  Look look;
+  look.heightUnits[3] = 1;
+  look.flatColor = color;
+  drawWith(terrain, front, look);
+}
+
+void TerrainPainter::drawWith(const TerrainOnGpu& terrain, const DrawnFront& front, const Look& look) {
+  glNamedBufferSubData(look_, 0, sizeof look, &look);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 1, look_);
+  glUseProgram(terrain_);
+  glBindTextureUnit(0, slopes_);
+  glBindTextureUnit(1, tints_);
+  glBindTextureUnit(3, overlay_);
+  // Codes follow each other as the bits of the floats that they stand for do.
+  const auto bitsOf = [&](OutwardScale::Code code) {
+    return std::bit_cast<std::uint32_t>(scale_.decode(code));
+  };
+  glProgramUniform2ui(terrain_, 1, bitsOf(1), bitsOf(2) - bitsOf(1));
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, front.ids != 0 ? front.ids : noIds_);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 9,
+                   terrain.triangleErrors != 0 ? terrain.triangleErrors : noIds_);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 10, front.indirect != 0 ? front.indirect : noIds_);
+
+  const GLuint array = terrainArray_;
+  const auto attribute = [&](GLuint index, GLuint buffer, GLint size) {
+    glVertexArrayVertexBuffer(array, index, buffer, 0, 4 * size);
+    glVertexArrayAttribFormat(array, index, size, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(array, index, index);
+    glEnableVertexArrayAttrib(array, index);
+  };
+  attribute(0, terrain.positions, 3);
+  attribute(1, terrain.rises, 1);
+  glVertexArrayElementBuffer(array, front.indices);
+  glBindVertexArray(array);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GEQUAL);
+  if (front.indirect != 0) {
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, front.indirect);
+    glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr);
+  } else if (front.count > 0) {
+    glDrawElements(GL_TRIANGLES, GLsizei(3 * front.count), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(std::size_t(12) * front.first));
+  }
+}
+
+void TerrainPainter::drawSky(const ViewLook& l) {
+  const double azimuth = l.sunAzimuthDegrees * kRadians, elevation = l.sunElevationDegrees * kRadians;
+  const double flat = std::cos(elevation);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
+  glProgramUniform4f(sky_, 0, float(flat * (std::sin(azimuth) * east_.x + std::cos(azimuth) * north_.x)),
+                     float(flat * (std::sin(azimuth) * east_.y + std::cos(azimuth) * north_.y)),
+                     float(std::sin(elevation)), 1.0f);
+  glUseProgram(sky_);
+  glBindVertexArray(emptyArray_);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_EQUAL);  // where nothing has been drawn
+  glDepthMask(GL_FALSE);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthMask(GL_TRUE);
+}
+
+void TerrainPainter::drawLines(std::span<const LineEnd> ends, bool isAlwaysSeen) {
+  if (ends.empty()) return;
+  const GlBuffer buffer = makeBuffer(ends);
+  glVertexArrayVertexBuffer(linesArray_, 0, buffer, 0, sizeof(LineEnd));
+  glVertexArrayAttribFormat(linesArray_, 0, 3, GL_FLOAT, GL_FALSE, 0);
+  glVertexArrayAttribFormat(linesArray_, 1, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(LineEnd, color));
+  for (const GLuint i : {0u, 1u}) {
+    glVertexArrayAttribBinding(linesArray_, i, 0);
+    glEnableVertexArrayAttrib(linesArray_, i);
+  }
+  glUseProgram(lines_);
+  glBindVertexArray(linesArray_);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
+  if (isAlwaysSeen)
+    glDisable(GL_DEPTH_TEST);
+  else
+    glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GEQUAL);
+  glDrawArrays(GL_LINES, 0, GLsizei(ends.size()));
+  glEnable(GL_DEPTH_TEST);
+}
+
+}  // namespace arete

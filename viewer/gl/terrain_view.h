@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "engine/result.h"
+#include "engine/run_context.h"
+#include "terrain/camera.h"
+#include "terrain/terrain_model.h"
+#include "viewer/gl/compute_front.h"
+#include "viewer/gl/terrain_painter.h"
+#include "viewer/scene/view_look.h"
+
+namespace arete {
+
+/// Who takes the cut.
+enum class CutPath { device, processor };
+
+struct ViewSettings {
+  double pixels = 1;               ///< tolerance of what is drawn, moving or not
+  std::uint32_t maxTriangles = 0;  ///< 0 = any number that there is room for
+  double cutMilliseconds = 0;  ///< the processor's cut gives up then and goes on in the next frame; 0 = never
+  CutPath path = CutPath::device;
+  bool isGeomorphed = true;
+  bool waits = true;   ///< for the processor's cut of this frame; else what there is by then is drawn
+  double stretch = 1;  ///< vertical exaggeration
+  ViewLook look;
+};
+
+struct FrameFigures {
+  std::uint32_t triangles = 0;  ///< drawn
+  std::uint32_t asked = 0;      ///< of the whole cut at this tolerance
+  std::uint32_t moving = 0;     ///< vertices between two places
+  double pixels = 0;            ///< the tolerance asked for
+  bool isComplete = true;       ///< false: a budget, a deadline or the room ended the cut
+  /// The largest jump of this frame that geomorphing leaves, by the processor's cut; NaN by the device's, which
+  /// takes the same nodes and does not look.
+  double jumpPixels = std::numeric_limits<double>::quiet_NaN();
+  double cutMilliseconds = 0, drawMilliseconds = 0;
+};
+
+/// One terrain in an OpenGL context, drawn for one camera after the other.
+class TerrainView {
+ public:
+  struct Options {
+    CutPath path = CutPath::device;
+    std::uint32_t mostTriangles = 4'000'000;  ///< room on the device
+  };
+  /// The model stays alive as long as the view. Errors: unsupported.
+  static Result<TerrainView> create(const TerrainModel& model, const Options& options,
+                                    const RunContext& context = {});
+  TerrainView(TerrainView&&) noexcept;
+  TerrainView& operator=(TerrainView&&) noexcept;
+  ~TerrainView();
+
+  /// Takes the cut, without drawing; a frozen cut is one that is not taken. Errors: usage, of the camera;
+  /// interrupted.
+  Result<FrameFigures> cut(const Camera& camera, const ViewSettings& settings);
+  /// Draws the last cut for the camera into the framebuffer that is bound.
+  Status draw(const Camera& camera, const ViewSettings& settings);
+
+  /// Why the device cannot take cuts, or empty.
+  const std::string& deviceRefusal() const;
+  /// Triangles that the device has room for.
+  std::uint32_t capacity() const;
+  TerrainPainter& painter();
+  const TerrainOnGpu& terrain() const;
+  DrawnFront front() const;
+  /// The frame that a camera and settings make.
+  Result<FrameView> frameOf(const Camera& camera, const ViewSettings& settings) const;
+  const TerrainModel& model() const;
+  /// Of the device's last cut: for tests.
+  const ComputeFront* computeFront() const;
+
+ private:
+  struct State;
+  explicit TerrainView(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace arete
