@@ -23,6 +23,7 @@
 #include "cli/profile_command.h"
 #include "cli/session.h"
 #include "cli/validate_command.h"
+#include "cli/view_command.h"
 #include "cli/viewshed_command.h"
 
 namespace arete {
@@ -68,6 +69,7 @@ ExitCode run(int argc, char** argv) {
   addLosCommand(app, session);
   addProfileCommand(app, session);
   addViewshedCommand(app, session);
+  addViewCommand(app, session);
   addMeasureCommand(app, session);
   addValidateCommand(app, session);
   addConvertCommand(app, session);

@@ -27,9 +27,13 @@
 #include "terrain/fixed_vertices.h"
 #include "terrain/measure.h"
 #include "terrain/sight_earth.h"
+#include "terrain/surface_height.h"
 #include "terrain/viewshed.h"
 #include "viewer/chart.h"
 #include "viewer/error_map.h"
+#include "viewer/headless.h"
+#include "viewer/home_view.h"
+#include "viewer/round_flight.h"
 #include "viewer/ticks.h"
 #include "viewer/tin_picture.h"
 #include "viewer/viewshed_map.h"
@@ -114,7 +118,7 @@ class Demo {
 
   Result<DemoReport> run(const std::string& dem) {
     for (const auto step : {&Demo::read, &Demo::buildModel, &Demo::takeAll, &Demo::drawChart, &Demo::drawMap,
-                            &Demo::drawTins, &Demo::drawViewshed}) {
+                            &Demo::drawTins, &Demo::drawViewshed, &Demo::drawView}) {
       if (const Status status = interruptedIf(context_); !status) return tl::unexpected(status.error());
       report_.dem = dem;
       if (const Status status = (this->*step)(); !status) return tl::unexpected(status.error());
@@ -342,6 +346,29 @@ class Demo {
              .caption = {"2 m above the ground   \u00b7   on a plane Earth   \u00b7   every "
                          "sample has the answer of full resolution"}}),
         "viewshed.png");
+  }
+
+  /// A machine without OpenGL has all of the demo but this.
+  Status drawView() {
+    const SurfaceHeights heights(model_);
+    const CameraSpace space(model_);
+    const MetricBox box = metricBox(model_);
+    Camera camera = homeCamera(HomeView::overview, space, box);
+    // A terrain too small to fly around is shown whole.
+    if (const Result<FlightPlan> round = roundFlight(heights, space, box))
+      if (const Result<Flight> flight = Flight::create(*round, space)) camera = flight->at(0);
+    HeadlessOptions options;
+    options.widthPixels = options_.pictureWidth;
+    options.heightPixels = options_.pictureWidth * 9 / 16;
+    options.settings.look.hazeKilometres = box.diagonal() / 1000;
+    Result<HeadlessView> view = HeadlessView::create(model_, options, quiet());
+    if (!view) {
+      report_.warnings.push_back("no view.png: " + view.error().describe());
+      return {};
+    }
+    const Result<FrameFigures> figures = view->draw(camera);
+    if (!figures) return tl::unexpected(figures.error());
+    return savePng(view->image(), written("view.png"));
   }
 
   const DemoOptions& options_;

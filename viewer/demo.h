@@ -50,7 +50,8 @@ struct DemoReport {
 
 /// All of Arete on one DEM: reads it, builds, writes the .amt, takes minimal cuts at several tolerances,
 /// writes each as PLY with its certificate, measures each from the mesh alone, and draws pictures: TINs over
-/// the relief, a map of the errors, triangles against tolerance. Files of the same names are replaced.
+/// the relief, a map of the errors, triangles against tolerance, a viewshed, a view of the terrain. Files of
+/// the same names are replaced.
 ///
 /// Errors: unsupported for scattered points (the pictures are maps of rasters); usage for a tolerance that is
 /// negative or no number; brokenPromise when a TIN does not keep its tolerance, after everything was written;

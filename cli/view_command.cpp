@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/view_command.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <tuple>
+
+#include "cli/arguments.h"
+#include "cli/sight_arguments.h"
+#include "io/amt_file.h"
+#include "io/camera_argument.h"
+#include "io/file_writer.h"
+#include "terrain/surface_height.h"
+#include "viewer/flight_json.h"
+#include "viewer/headless.h"
+#include "viewer/home_view.h"
+#include "viewer/round_flight.h"
+
+namespace arete {
+namespace {
+
+struct ViewArguments {
+  std::string model, drape, path;
+  bool isHeadless = false, isLonLat = false, isRound = false;
+  std::string size, camera, home = "overview";
+  std::string screenshot, frames, film, figures;
+  double framesPerSecond = 0;
+  int samples = 4;
+
+  double pixelError = 1, frameTime = 0, exaggeration = 1;
+  std::int64_t maxTriangles = 0;
+  std::string cut = "device";
+  bool isFixed = false;
+
+  std::string color = "height", sun;
+  double contours = 0, hazeKilometres = 0;
+  bool hasWireframe = false, isUnshaded = false;
+};
+
+/// "1280x720". Errors: usage.
+Result<std::pair<int, int>> readSize(const std::string& text) {
+  int width = 0, height = 0;
+  char more = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &more) != 2 || width < 1 || height < 1)
+    return failure(ErrorCode::usage, "a picture's size is WIDTHxHEIGHT, as 1280x720", "--size " + text);
+  return std::pair(width, height);
+}
+
+Coloring coloringOf(const std::string& name) {
+  if (name == "slope") return Coloring::slope;
+  if (name == "aspect") return Coloring::aspect;
+  if (name == "plain") return Coloring::plain;
+  if (name == "error") return Coloring::error;
+  return Coloring::hypsometric;
+}
+
+Result<ViewSettings> settingsOf(const ViewArguments& a) {
+  ViewSettings s;
+  s.pixels = a.pixelError;
+  s.maxTriangles = static_cast<std::uint32_t>(a.maxTriangles);
+  s.path = a.cut == "device" ? CutPath::device : CutPath::processor;
+  s.isGeomorphed = !a.isFixed;
+  s.stretch = a.exaggeration;
+  s.look.coloring = coloringOf(a.color);
+  s.look.isShaded = !a.isUnshaded;
+  s.look.contourInterval = a.contours;
+  s.look.hazeKilometres = a.hazeKilometres;
+  s.look.hasWireframe = a.hasWireframe;
+  if (!a.sun.empty()) {
+    const auto sun = parseNumbers("--sun", a.sun);
+    if (!sun) return tl::unexpected(sun.error());
+    if (sun->size() != 2 || !((*sun)[1] >= 0 && (*sun)[1] <= 90))
+      return failure(ErrorCode::usage, "the sun stands at AZIMUTH,ELEVATION, the latter of 0 to 90 degrees",
+                     "--sun " + a.sun);
+    s.look.sunAzimuthDegrees = (*sun)[0];
+    s.look.sunElevationDegrees = (*sun)[1];
+  }
+  return s;
+}
+
+HomeView homeOf(const std::string& name) {
+  for (const HomeView view : kHomeViews)
+    if (toString(view) == name) return view;
+  return HomeView::overview;
+}
+
+Result<Camera> cameraOf(const ViewArguments& a, const TerrainModel& model, const SurfaceHeights& heights,
+                        int width, int height) {
+  Camera picture;
+  picture.widthPixels = width;
+  picture.heightPixels = height;
+  if (a.camera.empty()) return homeCamera(homeOf(a.home), CameraSpace(model), metricBox(model), picture);
+  const auto toDem = transformOfPlaces(a.isLonLat, model.georeference);
+  if (!toDem) return tl::unexpected(toDem.error());
+  Result<CameraArgument> stated = readCameraArgument("--camera", a.camera, *toDem, heights);
+  if (!stated) return tl::unexpected(stated.error());
+  stated->camera.widthPixels = width;
+  stated->camera.heightPixels = height;
+  return stated->camera;
+}
+
+Result<std::optional<Flight>> flightOf(const ViewArguments& a, const TerrainModel& model,
+                                       const SurfaceHeights& heights, Session& session) {
+  const CameraSpace space(model);
+  FlightPlan plan;
+  if (!a.path.empty()) {
+    Result<FlightRead> read = readFlight(a.path, model.georeference);
+    if (!read) return tl::unexpected(read.error());
+    session.warn(read->warnings, a.path);
+    plan = std::move(read->plan);
+  } else if (a.isRound) {
+    Result<FlightPlan> round = roundFlight(heights, space, metricBox(model));
+    if (!round) return tl::unexpected(round.error());
+    plan = std::move(*round);
+  } else {
+    return std::optional<Flight>();
+  }
+  Result<Flight> flight = Flight::create(std::move(plan), space);
+  if (!flight)
+    return failure(flight.error().code, flight.error().message,
+                   a.path.empty() ? flight.error().culprit : a.path + ", " + flight.error().culprit);
+  return std::optional<Flight>(std::move(*flight));
+}
+
+Json jsonOf(const Camera& c) {
+  return {{"x", c.xy.x},
+          {"y", c.xy.y},
+          {"height", c.height},
+          {"azimuth", c.azimuthDegrees},
+          {"pitch", c.pitchDegrees},
+          {"fov", c.verticalFieldOfViewDegrees}};
+}
+
+Json jsonOf(const FrameFigures& f) {
+  return {{"triangles", f.triangles},
+          {"moving", f.moving},
+          {"pixelError", std::isfinite(f.pixels) ? Json(f.pixels) : Json()},
+          {"isComplete", f.isComplete},
+          {"jumpPixels", std::isfinite(f.jumpPixels) ? Json(f.jumpPixels) : Json()},
+          {"cutMilliseconds", f.cutMilliseconds},
+          {"drawMilliseconds", f.drawMilliseconds}};
+}
+
+Status checkArguments(const ViewArguments& a) {
+  const auto refuse = [](const char* sentence, const std::string& option) {
+    return failure(ErrorCode::usage, sentence, option);
+  };
+  if (!a.isHeadless)
+    for (const auto& [option, value] : {std::pair{"--screenshot", a.screenshot},
+                                        {"--frames", a.frames},
+                                        {"--film", a.film},
+                                        {"--figures", a.figures}})
+      if (!value.empty())
+        return refuse("is made without a window: add --headless", std::string(option) + " " + value);
+  if (a.isHeadless && a.screenshot.empty() && a.frames.empty())
+    return refuse("makes pictures: say --screenshot FILE.png or --frames FOLDER", "--headless");
+  if (!a.screenshot.empty() && std::filesystem::path(a.screenshot).extension() != ".png")
+    return refuse("a picture ends in .png", "--screenshot " + a.screenshot);
+  if (!a.path.empty() && a.isRound) return refuse("flies a way of its own; leave --path out", "--round");
+  if (!a.frames.empty() && a.path.empty() && !a.isRound)
+    return refuse("are those of a flight: say --path FLIGHT.json or --round", "--frames " + a.frames);
+  if (!a.film.empty() && a.frames.empty())
+    return refuse("is made of frames: say --frames FOLDER as well", "--film " + a.film);
+  return {};
+}
+
+Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView& view, Session& session,
+                      Json& json) {
+  const Result<FrameFigures> figures = view.draw(camera);
+  if (!figures) return tl::unexpected(figures.error());
+  if (Status saved = savePng(view.image(), a.screenshot); !saved) return saved;
+  if (!figures->isComplete)
+    session.warn(fmt::format("the budget leaves an error of {:.3g} pixels", figures->pixels));
+  session.say(fmt::format("{}: {} triangles, {} of them on the move, within {:.3g} pixels\n", a.screenshot,
+                          grouped(figures->triangles), grouped(figures->moving), figures->pixels));
+  json["screenshot"] = {{"file", a.screenshot}, {"camera", jsonOf(camera)}, {"figures", jsonOf(*figures)}};
+  return {};
+}
+
+Status makeFilm(const ViewArguments& a, const Flight& flight, HeadlessView& view, Session& session,
+                Json& json) {
+  const auto frames =
+      drawFilm(view, flight, {.folder = a.frames, .framesPerSecond = a.framesPerSecond}, session.context());
+  if (!frames) return tl::unexpected(frames.error());
+  Json list = Json::array();
+  std::uint64_t triangles = 0;
+  for (const FilmFrame& frame : *frames) {
+    Json entry = {{"file", frame.file}, {"seconds", frame.seconds}, {"camera", jsonOf(frame.camera)}};
+    entry.update(jsonOf(frame.figures));
+    list.push_back(std::move(entry));
+    triangles += frame.figures.triangles;
+  }
+  json["renderer"] = view.description();
+  json["frames"] = std::move(list);
+  if (!a.figures.empty()) {
+    auto file = FileWriter::create(a.figures);
+    if (!file) return tl::unexpected(file.error());
+    file->write(json.dump(1) + "\n");
+    if (Status finished = file->finish(); !finished) return finished;
+  }
+  session.say(fmt::format("{}: {} frames, {} triangles in the mean\n", a.frames, frames->size(),
+                          grouped(triangles / frames->size())));
+  if (!a.film.empty()) {
+    const double rate = a.framesPerSecond > 0 ? a.framesPerSecond : flight.plan().framesPerSecond;
+    if (Status encoded = encodeFilm(a.frames, rate, a.film); !encoded) return encoded;
+    session.say(a.film + "\n");
+    json["film"] = a.film;
+  }
+  return {};
+}
+
+Status runView(const ViewArguments& a, Session& session) {
+  if (Status ok = checkArguments(a); !ok) return ok;
+  const Result<ViewSettings> settings = settingsOf(a);
+  if (!settings) return tl::unexpected(settings.error());
+  const auto size = readSize(a.size.empty() ? "1280x720" : a.size);
+  if (!size) return tl::unexpected(size.error());
+  const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
+  if (!model) return tl::unexpected(model.error());
+  for (const auto& [option, path] :
+       {std::pair{"--screenshot", a.screenshot}, {"--film", a.film}, {"--figures", a.figures}})
+    if (!path.empty())
+      if (Status ok = checkOutput(option, path, {a.model, a.path, a.drape, model->source}); !ok) return ok;
+  const SurfaceHeights heights(*model);
+  const Result<Camera> camera = cameraOf(a, *model, heights, size->first, size->second);
+  if (!camera) return tl::unexpected(camera.error());
+  const auto flight = flightOf(a, *model, heights, session);
+  if (!flight) return tl::unexpected(flight.error());
+
+  HeadlessOptions options{size->first, size->second, a.samples, *settings};
+  Result<HeadlessView> view = HeadlessView::create(*model, options, session.context());
+  if (!view) return tl::unexpected(view.error());
+  for (const std::string& warning : view->warnings()) session.warn(warning);
+  Json json = {{"model", a.model}, {"renderer", view->description()}};
+  if (!a.screenshot.empty()) {
+    const Camera from = *flight && a.camera.empty() ? (*flight)->at(0) : *camera;
+    if (Status ok = takeScreenshot(a, from, *view, session, json); !ok) return ok;
+  }
+  if (!a.frames.empty())
+    if (Status ok = makeFilm(a, **flight, *view, session, json); !ok) return ok;
+  session.answer(json);
+  return {};
+}
+
+}  // namespace
+
+void addViewCommand(CLI::App& app, Session& session) {
+  auto a = std::make_shared<ViewArguments>();
+  CLI::App* command = session.addCommand(
+      app, "view", "Fly over it: a window, or pictures without one",
+      "  arete view dem.amt\n"
+      "  arete view dem.amt --headless --screenshot view.png --camera 409050,3801450,300,20,-10\n"
+      "  arete view dem.amt --headless --round --frames frames --film flight.mp4 --figures figures.json",
+      [a](Session& s) { return runView(*a, s); });
+  command->add_option("FILE.amt", a->model, "Multitriangulation")->required()->type_name("");
+
+  const std::string where = "From where";
+  command
+      ->add_option(
+          "--camera", a->camera,
+          "Where the camera stands, H above the ground (agl) or as the DEM's heights (msl, ell), and where "
+          "it looks: clockwise from north, above the horizon; its vertical field of view (default 60)")
+      ->type_name("X,Y,H[,AZIMUTH,PITCH[,FOV]]")
+      ->group(where);
+  command->add_flag("--lonlat", a->isLonLat, "--camera stands at longitude and latitude")->group(where);
+  command->add_option("--home", a->home, "A view of the whole terrain (default overview)")
+      ->check(oneOf({"overview", "above", "south", "west", "north", "east"}))
+      ->type_name("NAME")
+      ->group(where);
+  command->add_option("--path", a->path, "A flight through key frames (docs/topics/flights.md)")
+      ->type_name("FLIGHT.json")
+      ->group(where);
+  command->add_flag("--round", a->isRound, "A flight around the inside of the terrain")->group(where);
+
+  const std::string detail = "Detail";
+  command->add_option("--pixel-error", a->pixelError, "Largest error in the picture (default 1)")
+      ->check(finiteAbove(0))
+      ->type_name("P")
+      ->group(detail);
+  command->add_option("--max-triangles", a->maxTriangles, "As coarse as needed to have no more")
+      ->check(wholeNumber(1, 0xFFFFFFF))
+      ->type_name("N")
+      ->group(detail);
+  command->add_option("--cut", a->cut, "Who decides what is drawn: device (default) or processor")
+      ->check(oneOf({"device", "processor"}))
+      ->type_name("NAME")
+      ->group(detail);
+  command->add_flag("--no-geomorph", a->isFixed, "Vertices appear at their own height at once")
+      ->group(detail);
+
+  const std::string look = "Looks";
+  command->add_option("--color", a->color, "height (default), slope, aspect, plain or error")
+      ->check(oneOf({"height", "slope", "aspect", "plain", "error"}))
+      ->type_name("NAME")
+      ->group(look);
+  command->add_option("--contours", a->contours, "Contour lines every so much height")
+      ->check(finiteAbove(0))
+      ->type_name("H")
+      ->group(look);
+  command->add_option("--sun", a->sun, "Where the sun stands (default 315,40)")
+      ->type_name("AZIMUTH,ELEVATION")
+      ->group(look);
+  command->add_option("--haze", a->hazeKilometres, "Where the air hides about two thirds (default: clear)")
+      ->check(finiteAbove(0))
+      ->type_name("KM")
+      ->group(look);
+  command->add_option("--exaggeration", a->exaggeration, "Heights so many times as high (default 1)")
+      ->check(finiteAbove(0))
+      ->type_name("X")
+      ->group(look);
+  command->add_flag("--wireframe", a->hasWireframe, "The edges over it")->group(look);
+  command->add_flag("--unshaded", a->isUnshaded, "No sun")->group(look);
+
+  const std::string pictures = "Pictures";
+  command->add_flag("--headless", a->isHeadless, "No window, no display")->group(pictures);
+  command->add_option("--size", a->size, "Of the picture or the window (default 1280x720)")
+      ->type_name("WxH")
+      ->group(pictures);
+  command->add_option("--samples", a->samples, "Of each pixel, to smooth edges (default 4)")
+      ->check(wholeNumber(1, 32))
+      ->type_name("N")
+      ->group(pictures);
+  command->add_option("--screenshot", a->screenshot, "One picture")->type_name("FILE.png")->group(pictures);
+  command->add_option("--frames", a->frames, "The flight's pictures")->type_name("FOLDER")->group(pictures);
+  command->add_option("--fps", a->framesPerSecond, "Pictures a second (default: the flight's)")
+      ->check(finiteAbove(0))
+      ->type_name("N")
+      ->group(pictures);
+  command->add_option("--film", a->film, "A film of them, by ffmpeg")->type_name("FILE.mp4")->group(pictures);
+  command->add_option("--figures", a->figures, "Triangles, tolerance and times of each frame")
+      ->type_name("FILE.json")
+      ->group(pictures);
+}
+
+}  // namespace arete

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// arete view as a user without a screen meets it.
+#include "cli/cli_fixture.h"
+
+namespace arete::cli_test {
+namespace {
+
+class ViewCommand : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    makeRaster("dem.tif", "fractal", 60, 50);
+    ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt", "-q"}).code, 0);
+  }
+  /// What is said when the machine has no OpenGL at all.
+  static bool isWithoutOpenGl(const Outcome& o) {
+    return o.err.find("no OpenGL 4.5 context") != std::string::npos;
+  }
+};
+
+TEST_F(ViewCommand, DrawsAPictureWithoutAScreen) {
+  const Outcome shot =
+      run({"view", "dem.amt", "--headless", "--screenshot", "view.png", "--size", "200x120", "--json"});
+  if (isWithoutOpenGl(shot)) GTEST_SKIP() << shot.err;
+  ASSERT_EQ(shot.code, 0) << shot.err;
+  EXPECT_TRUE(exists("view.png"));
+  EXPECT_GT(shot.json()["screenshot"]["figures"]["triangles"], 100);
+  EXPECT_EQ(shot.json()["screenshot"]["figures"]["pixelError"], 1.0);
+}
+
+TEST_F(ViewCommand, ARoundFlightGivesFramesAndTheirFigures) {
+  const Outcome film = run({"view", "dem.amt", "--headless", "--round", "--frames", "frames", "--fps", "0.1",
+                            "--size", "160x90", "--figures", "figures.json", "--cut", "processor"});
+  if (isWithoutOpenGl(film)) GTEST_SKIP() << film.err;
+  ASSERT_EQ(film.code, 0) << film.err;
+  const Json figures = readJson("figures.json");
+  ASSERT_EQ(figures["frames"].size(), 7u);
+  for (const Json& frame : figures["frames"]) {
+    EXPECT_TRUE(exists(frame["file"]));
+    for (const char* key :
+         {"seconds", "triangles", "pixelError", "cutMilliseconds", "drawMilliseconds"})
+      EXPECT_TRUE(frame[key].is_number()) << key;
+  }
+}
+
+TEST_F(ViewCommand, AFlightFromAFileIsFlown) {
+  const Json camera =
+      run({"view", "dem.amt", "--headless", "--screenshot", "x.png", "--size", "64x64", "--json"})
+          .json()["screenshot"]["camera"];
+  if (camera.is_null()) GTEST_SKIP() << "no OpenGL here";
+  Json key = camera, other = camera;
+  other["azimuth"] = 40;
+  write("flight.json", Json{{"frames", {key, other}}, {"duration", 1}}.dump());
+  const Outcome film = run({"view", "dem.amt", "--headless", "--path", "flight.json", "--frames", "frames",
+                            "--fps", "2", "--size", "64x64"});
+  ASSERT_EQ(film.code, 0) << film.err;
+  EXPECT_TRUE(exists("frames/frame_00002.png"));
+}
+
+TEST_F(ViewCommand, SaysWhatIsWrongInASentence) {
+  write("one.json", R"({"frames":[{"x":1,"y":2,"height":3,"azimuth":0,"pitch":0}],"duration":3})");
+  write("equal.json", R"({"frames":[{"x":1,"y":2,"height":3,"azimuth":0,"pitch":0},
+                                    {"x":1,"y":2,"height":3,"azimuth":0,"pitch":0}],"duration":3})");
+  write("broken.json", "{");
+  struct Case {
+    std::vector<std::string> arguments;
+    int code;
+    std::string says;
+  };
+  const std::vector<Case> cases = {
+      {{"--screenshot", "a.png"}, 2, "add --headless"},
+      {{"--headless"}, 2, "--screenshot FILE.png"},
+      {{"--headless", "--screenshot", "a.jpg"}, 2, ".png"},
+      {{"--headless", "--screenshot", "a.png", "--size", "12"}, 2, "WIDTHxHEIGHT"},
+      {{"--headless", "--screenshot", "a.png", "--sun", "10"}, 2, "AZIMUTH,ELEVATION"},
+      {{"--headless", "--screenshot", "a.png", "--camera", "1,2"}, 2, "--camera"},
+      {{"--headless", "--screenshot", "a.png", "--pixel-error", "0"}, 2, "--pixel-error"},
+      {{"--headless", "--screenshot", "no/where/a.png"}, 3, "no/where"},
+      {{"--headless", "--frames", "f"}, 2, "--path FLIGHT.json or --round"},
+      {{"--headless", "--screenshot", "a.png", "--film", "a.mp4"}, 2, "--frames FOLDER"},
+      {{"--headless", "--frames", "f", "--path", "one.json"}, 2, "one.json"},
+      {{"--headless", "--frames", "f", "--path", "equal.json"}, 2, "key frame 2"},
+      {{"--headless", "--frames", "f", "--path", "broken.json"}, 4, "broken.json"},
+      {{"--headless", "--frames", "f", "--path", "none.json"}, 3, "none.json"},
+  };
+  for (const Case& c : cases) {
+    std::vector<std::string> arguments = {"view", "dem.amt"};
+    arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
+    const Outcome o = run(arguments);
+    EXPECT_EQ(o.code, c.code) << c.says << ": " << o.err;
+    EXPECT_NE(o.err.find(c.says), std::string::npos) << o.err;
+    EXPECT_EQ(o.out, "");
+  }
+  EXPECT_FALSE(exists("f"));
+}
+
+TEST_F(ViewCommand, AMachineWithoutOpenGlGetsASentence) {
+  setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent", 1);
+  const char* display = std::getenv("DISPLAY");
+  const std::string kept = display ? display : "";
+  unsetenv("DISPLAY");
+  const Outcome o = run({"view", "dem.amt", "--headless", "--screenshot", "a.png"});
+  unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
+  if (display) setenv("DISPLAY", kept.c_str(), 1);
+  EXPECT_EQ(o.code, 3) << o.err;
+  EXPECT_NE(o.err.find("no OpenGL 4.5 context can be had"), std::string::npos) << o.err;
+  EXPECT_FALSE(exists("a.png"));
+}
+
+}  // namespace
+}  // namespace arete::cli_test

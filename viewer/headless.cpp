@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "viewer/headless.h"
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <system_error>
+
+#include "viewer/gl/frame_target.h"
+#include "viewer/gl/offscreen.h"
+
+extern char** environ;
+
+namespace arete {
+namespace {
+
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+struct HeadlessView::State {
+  OffscreenContext context;  // the last to go
+  FrameTarget target;
+  TerrainView view;
+  HeadlessOptions options;
+  std::vector<std::string> warnings;
+};
+
+Result<HeadlessView> HeadlessView::create(const TerrainModel& model, const HeadlessOptions& options,
+                                          const RunContext& context) {
+  Result<OffscreenContext> gl = OffscreenContext::create();
+  if (!gl) return tl::unexpected(gl.error());
+  Result<FrameTarget> target =
+      FrameTarget::create(options.widthPixels, options.heightPixels, options.samples);
+  if (!target) return tl::unexpected(target.error());
+  TerrainView::Options viewOptions;
+  viewOptions.path = options.settings.path;
+  Result<TerrainView> view = TerrainView::create(model, viewOptions, context);
+  if (!view) return tl::unexpected(view.error());
+  auto state =
+      std::make_unique<State>(State{std::move(*gl), std::move(*target), std::move(*view), options, {}});
+  if (options.settings.path == CutPath::device && !state->view.deviceRefusal().empty()) {
+    state->warnings.push_back("the processor takes the cuts: " + state->view.deviceRefusal());
+    state->options.settings.path = CutPath::processor;
+  }
+  return HeadlessView(std::move(state));
+}
+
+HeadlessView::HeadlessView(std::unique_ptr<State> state) : state_(std::move(state)) {}
+HeadlessView::HeadlessView(HeadlessView&&) noexcept = default;
+HeadlessView& HeadlessView::operator=(HeadlessView&&) noexcept = default;
+HeadlessView::~HeadlessView() = default;
+
+Result<FrameFigures> HeadlessView::draw(const Camera& stated) {
+  State& s = *state_;
+  Camera camera = stated;
+  camera.widthPixels = s.options.widthPixels;
+  camera.heightPixels = s.options.heightPixels;
+  ViewSettings settings = s.options.settings;
+  settings.waits = true;
+  Result<FrameFigures> figures = s.view.cut(camera, settings);
+  if (!figures) return figures;
+  // The device's cut knows its number of triangles beforehand, but not which tolerance has fewer: doubled
+  // until there are few enough, halved between (on a logarithmic scale) until nearly all of the budget is
+  // used.
+  const std::uint32_t most = settings.maxTriangles > 0 ? settings.maxTriangles : s.view.capacity();
+  const auto fits = [&] { return figures->isComplete && figures->asked <= most; };
+  if (settings.path == CutPath::device && !fits()) {
+    const auto cutAt = [&](double pixels) -> Status {
+      settings.pixels = pixels;
+      figures = s.view.cut(camera, settings);
+      return figures ? Status() : tl::unexpected(figures.error());
+    };
+    constexpr int kDoublings = 60, kHalvings = 12;
+    constexpr double kUsed = 0.99;
+    double tooFine = settings.pixels, coarse = tooFine;
+    for (int i = 0; i < kDoublings && !fits(); ++i) {
+      tooFine = coarse;
+      coarse *= 2;
+      if (const Status ok = cutAt(coarse); !ok) return tl::unexpected(ok.error());
+    }
+    const bool canFit = fits();  // else the root alone is beyond the budget
+    for (int i = 0; i < kHalvings && canFit && figures->asked < kUsed * most; ++i) {
+      const double middle = std::sqrt(tooFine * coarse);
+      if (const Status ok = cutAt(middle); !ok) return tl::unexpected(ok.error());
+      (fits() ? coarse : tooFine) = middle;
+    }
+    if (canFit && !fits())
+      if (const Status ok = cutAt(coarse); !ok) return tl::unexpected(ok.error());
+    figures->isComplete = false;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  s.target.begin();
+  if (const Status drawn = s.view.draw(camera, settings); !drawn) return tl::unexpected(drawn.error());
+  glFinish();
+  figures->drawMilliseconds = millisecondsSince(start);
+  return figures;
+}
+
+Image HeadlessView::image() const {
+  return state_->target.image();
+}
+TerrainView& HeadlessView::view() {
+  return state_->view;
+}
+const std::string& HeadlessView::description() const {
+  return state_->context.description();
+}
+const std::vector<std::string>& HeadlessView::warnings() const {
+  return state_->warnings;
+}
+
+Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight, const FilmOptions& options,
+                                        const RunContext& context) {
+  std::error_code failed;
+  std::filesystem::create_directories(options.folder, failed);
+  if (failed)
+    return failure(ErrorCode::unreadable, "the folder cannot be made: " + failed.message(),
+                   options.folder.string());
+  const double rate = options.framesPerSecond > 0 ? options.framesPerSecond : flight.plan().framesPerSecond;
+  const auto count = static_cast<std::size_t>(std::floor(flight.duration() * rate + 1e-9)) + 1;
+  std::vector<FilmFrame> frames;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (context.cancelled())
+      return failure(ErrorCode::interrupted, "the film was interrupted", options.folder.string());
+    FilmFrame frame;
+    frame.seconds = double(i) / rate;
+    frame.camera = flight.at(frame.seconds);
+    const Result<FrameFigures> figures = view.draw(frame.camera);
+    if (!figures) return tl::unexpected(figures.error());
+    frame.figures = *figures;
+    const auto path = options.folder / fmt::format("frame_{:05}.png", i);
+    if (const Status saved = savePng(view.image(), path); !saved) return tl::unexpected(saved.error());
+    frame.file = path.string();
+    frames.push_back(std::move(frame));
+    context.report("draw frames", double(i + 1) / double(count));
+  }
+  return frames;
+}
+
+Status encodeFilm(const std::filesystem::path& folder, double framesPerSecond,
+                  const std::filesystem::path& film) {
+  const std::string rate = fmt::format("{}", framesPerSecond), pattern = (folder / "frame_%05d.png").string(),
+                    output = film.string();
+  // The picture's sides made even, which H.264 wants.
+  std::vector<std::string> words = {
+      "ffmpeg",     "-v",      "error",    "-y",      "-framerate",
+      rate,         "-i",      pattern,    "-vf",     "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+      "-c:v",       "libx264", "-pix_fmt", "yuv420p", "-movflags",
+      "+faststart", output};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  pid_t child = 0;
+  if (const int error = posix_spawnp(&child, "ffmpeg", nullptr, nullptr, arguments.data(), environ);
+      error != 0)
+    return failure(
+        ErrorCode::unsupported,
+        "a film needs ffmpeg, which this machine does not have (Debian: ffmpeg); the frames are there",
+        output);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (status != 0)
+    return failure(ErrorCode::unreadable, "ffmpeg did not make it; the frames are there", output);
+  return {};
+}
+
+Status savePng(const Image& image, const std::filesystem::path& path) {
+  Result<Canvas> canvas = Canvas::create(image.width, image.height);
+  if (!canvas) return tl::unexpected(canvas.error());
+  canvas->image(image, 0, 0);
+  return canvas->savePng(path);
+}
+
+}  // namespace arete
