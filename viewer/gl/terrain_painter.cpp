@@ -97,7 +97,6 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
   }
   p.lowest_ = (low - p.metric_.origin.z) * p.metric_.scale.z;
   p.highest_ = (high - p.metric_.origin.z) * p.metric_.scale.z;
-  p.largestError_ = mt.largestError();
   const Vec2 middle = model.toSource({p.metric_.origin.x, p.metric_.origin.y});
   const auto axis = [&](double azimuth) -> Vec2 {
     const Result<View> view = viewOf({.xy = middle, .azimuthDegrees = azimuth}, model);
@@ -181,7 +180,7 @@ void TerrainPainter::draw(const TerrainOnGpu& terrain, const DrawnFront& front, 
   }
   look.overlayFrame = overlayFrame_;
   look.eastNorth = {float(east_.x), float(east_.y), float(north_.x), float(north_.y)};
-  look.heat = {float(l.heatError > 0 ? l.heatError : largestError_ / 16), 0, 0, 0};
+  look.heat = {float(l.heatError), 0, 0, 0};
   drawWith(terrain, front, look);
   if (l.hasWireframe) {
     look.heightUnits[3] = 1;

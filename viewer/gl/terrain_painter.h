@@ -63,7 +63,6 @@ class TerrainPainter {
   Vec2 east_, north_;                // of the map, in metric space
   double metresPerUnit_ = 1;         // of metric space
   OutwardScale scale_;
-  double largestError_ = 0;
 };
 
 }  // namespace arete

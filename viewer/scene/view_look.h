@@ -15,7 +15,8 @@ struct ViewLook {
   bool hasWireframe = false;
   bool hasDrape = true;    ///< where there is one
   bool hasOverlay = true;  ///< a viewshed, where there is one
-  double heatError = 0;  ///< the error of the hottest colour; 0 = the largest allowed in the picture's middle
+  /// The error of the hottest colour, in the unit of heights; 0 = as many pixels as the cut allows.
+  double heatError = 0;
 };
 
 }  // namespace arete

@@ -9,7 +9,7 @@ layout(std140, binding = 1) uniform Look {
   vec4 flatColor;
   vec4 drapeFrame, overlayFrame;  // plan to texture: (u, v) = (x, y) * xy + zw
   vec4 eastNorth;    // the map's east and north in metric space
-  vec4 heat;         // error of the largest heat, first triangle
+  vec4 heat;         // error of the largest heat; 0 = the cut's pixels
 };
 layout(binding = 0) uniform sampler2D slopes;     // dz/dx, dz/dy of the samples, metric
 layout(binding = 1) uniform sampler1D tints;
@@ -67,7 +67,9 @@ void main() {
     base = mix(vec3(0.8), hue(turns), min(1.0, length(slope / lens.w) * 8.0) * 0.75);
   }
   if (mode == 4) {
-    float e = errorOf(drawnId[drawFirst / 3u + uint(gl_PrimitiveID)]) / max(heat.x, 1e-12);
+    float e = errorOf(drawnId[drawFirst / 3u + uint(gl_PrimitiveID)]);
+    float depth = dot(fromEye, forward.xyz);
+    e = heat.x > 0.0 ? e / heat.x : e * morph.z * length(fromEye) / (depth * depth * morph.x);
     base = ramp3(clamp(e, 0.0, 1.0), vec3(0.13, 0.3, 0.55), vec3(0.95, 0.93, 0.8), vec3(0.75, 0.1, 0.1));
   }
   if (modes.z > 0.0) {
