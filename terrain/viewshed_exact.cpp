@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "terrain/sight_walk.h"
+
 namespace arete {
 namespace {
 
@@ -72,6 +74,11 @@ float ViewshedExact::value(const SightTrack& track, double ground) const {
   const bool isHorizon = options_.value == ViewshedValue::horizon;
   const double k = track.curvature, length = track.points.back().distance, from = observer_.height * unit_;
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  // Nearer than this is the observer's own place: what rounding leaves of heights there says nothing of
+  // tangents.
+  const Vec2 there = track.points.back().plan;
+  const double shortest =
+      kShortestInPlan * length / std::hypot(there.x - observer_.plan.x, there.y - observer_.plan.y);
   double height = ground;
   for (int step = 0; step < 64; ++step) {
     const SightLine line(track, observer_.height, height, unit_);
@@ -83,7 +90,7 @@ float ViewshedExact::value(const SightTrack& track, double ground) const {
     }
     if (!answer.clearance || *answer.clearance >= (step == 0 ? -line.tolerance() : 0)) break;
     const SightPlace& least = answer.least;
-    if (!(least.distance > 0)) {
+    if (!(least.distance > shortest)) {
       if (*answer.clearance < -line.tolerance()) height = kInfinite;
       break;
     }

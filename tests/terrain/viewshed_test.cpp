@@ -133,6 +133,31 @@ TEST(Viewshed, ValuesOfTheSweepAreThoseOfTheRays) {
   }
 }
 
+TEST(Viewshed, HorizonsFromTheGroundOnADiagonalAreOfTheTerrainBeyond) {
+  Random random(12);
+  const Place place(rasterFamilies()[3].make(40, 44, 6));
+  const auto maker = ViewshedMaker::make(place.model, *place.earth, place.grid);
+  for (int i = 0; i < 40; ++i) {
+    const double x = random.between(2, 12), y = x + 29;  // on it but for rounding
+    const ViewshedObserver observer{{x, y}, place.grid->at({x, y})};
+    ViewshedOptions options;
+    options.value = ViewshedValue::horizon;
+    options.method = ViewshedMethod::rays;
+    const auto rays = maker->from(observer, options);
+    ASSERT_TRUE(rays);
+    const Vec2 to{double(random.below(40)), double(random.below(44))};
+    const double length = place.earth->track(observer.plan, to)->points.back().distance;
+    double steepest = -HUGE_VAL;
+    for (int k = 1; k <= 20000; ++k) {
+      const double t = k / 20000.0, z = place.grid->at({x + t * (to.x - x), y + t * (to.y - y)});
+      steepest = std::max(steepest, (z - observer.height) / (t * length));
+    }
+    const float value =
+        rays->values[static_cast<std::size_t>(to.y) * rays->columns + static_cast<std::size_t>(to.x)];
+    EXPECT_NEAR(value, steepest, 1e-5 + 0.01 * std::fabs(steepest)) << x << " to " << to.x << ", " << to.y;
+  }
+}
+
 TEST(Viewshed, IsTheSameForAnyNumberOfThreadsAndStopsWhenTold) {
   const Place place(rasterFamilies()[3].make(150, 130, 9));
   const auto maker = ViewshedMaker::make(place.model, *place.earth, place.grid);
