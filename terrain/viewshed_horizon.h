@@ -20,6 +20,7 @@ class ViewshedHorizon {
     const auto b = static_cast<int>((u - first_) * perUnit_);
     return b < 0 ? 0 : b > lastBin_ ? lastBin_ : b;
   }
+  int binCount() const { return lastBin_ + 1; }
   /// The envelope less its slack is nowhere lower, and the envelope nowhere higher, in the bin.
   double low(int bin) const { return low_[static_cast<std::size_t>(bin)]; }
   double high(int bin) const { return high_[static_cast<std::size_t>(bin)]; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -81,7 +82,11 @@ class ViewshedPicture {
   /// The most by which u differs from that in the plan, and how far from a gap's corner its shadow is sure,
   /// at a distance in x.
   double turn() const { return fan_ != nullptr ? 2.2 * fan_->turn : 0; }
-  double corner(double x) const { return fan_ != nullptr ? 1e-8 + 2 * fan_->planError(1.5 * x) / x : 1e-8; }
+  double corner(double x) const {
+    return 1e-8 / std::min(x, 1.0) + (fan_ != nullptr ? 2 * fan_->planError(1.5 * x) / x : 0);
+  }
+  /// By what angle lines leave the observer in other directions of the plan, as far as two steps.
+  double directionError() const { return fan_ != nullptr ? 10 * fan_->planError(2) : 0; }
   /// Metres that make a step of x, of y.
   Vec2 xStep(const ViewshedSector& sector) const;
   Vec2 yStep(const ViewshedSector& sector) const;

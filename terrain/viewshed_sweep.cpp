@@ -66,7 +66,6 @@ std::optional<std::string> whyNotSweep(const ViewshedTask& task, const ViewshedF
         o.y <= grid.rows() - 1 - margin))
     return isFan ? "the observer is outside of the DEM or at its border"
                  : "the observer is outside of the DEM";
-  // The sweep takes the terrain around the observer as whole.
   const int column = static_cast<int>(o.x), row = static_cast<int>(o.y);
   double greatest = 0;
   for (int r = row - 2; r <= row + 3; ++r)
@@ -74,19 +73,20 @@ std::optional<std::string> whyNotSweep(const ViewshedTask& task, const ViewshedF
       if (c < 0 || r < 0 || c >= static_cast<int>(grid.columns()) || r >= static_cast<int>(grid.rows()))
         continue;
       const double z = grid.height(static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(r));
-      if (std::isnan(z)) return "there is NODATA beside the observer";
-      greatest = std::max(greatest, std::fabs(z - task.observer.height));
+      if (!std::isnan(z)) greatest = std::max(greatest, std::fabs(z - task.observer.height));
     }
   const double above = task.observer.height - grid.at(o), unit = task.model.georeference.verticalUnitMetres;
   if (above < -0.5e-6 / unit) return "the observer is below the ground";
-  // An edge that all but meets the observer is left out where it is nearest.
+  // An edge that all but meets the observer is left out where it is nearest. Beside NODATA it may be one that
+  // slants the other way, and end the terrain: then it hangs on rounding whether the observer is over that.
   constexpr double kNearest = 2e-6;
-  const auto isNear = [&](double v) {
-    const double off = std::fabs(v - std::round(v));
-    return off > 0 && off < kNearest;
-  };
-  if ((isNear(o.x) || isNear(o.y) || isNear(o.x - o.y)) && above < 100 * kNearest * greatest)
+  const auto off = [](double v) { return std::fabs(v - std::round(v)); };
+  const auto isNear = [&](double v) { return off(v) > 0 && off(v) < kNearest; };
+  const bool isNearEdge = isNear(o.x) || isNear(o.y) || isNear(o.x - o.y) || isNear(o.x + o.y);
+  if (isNearEdge && !(above >= 100 * kNearest * greatest))
     return "the observer is on the ground, all but on an edge";
+  if (std::isnan(above) && off(o.x) > 0 && (off(o.x - o.y) < kNearest || off(o.x + o.y) < kNearest))
+    return "the observer is over NODATA, all but on an edge";
   // Over a fan, terrain is drawn too high by as much as it may rise within its error.
   if (fan != nullptr && above < 4 * fan->planError(0) * greatest + 2 * fan->heightError(0) / unit)
     return "the observer is on the ground";

@@ -58,6 +58,7 @@ ViewshedWedgeSweep::ViewshedWedgeSweep(const ViewshedPicture& picture, const Vie
   hasField_ = field.leastMetres > 0 || field.greatestMetres < kInfinite || field.azimuthSpan < 360 ||
               field.lowest > -90 || field.highest < 90;
   wantsValue_ = task_.options.value != ViewshedValue::none;
+  wantsGaps_ = picture.isFan() || task_.options.nodata != NodataSight::clear;
 }
 
 std::size_t ViewshedWedgeSweep::index(int x, int y) const {
@@ -117,6 +118,7 @@ Status ViewshedWedgeSweep::run(const RunContext& context) {
     if (far_.count == 0 && x - observer_.x > 4) return {};
     if (isBeyond(far_.x)) return {};
     if (const Status status = ask(x); !status) return status;
+    if (!picture_.isFan() && (x == start || near_.hasGaps || far_.hasGaps)) addTips(x);
     if (x == start) {
       addFirst(x);
     } else {
@@ -205,6 +207,14 @@ ViewshedHorizon::Bounds ViewshedWedgeSweep::linkBefore(int y, double target) con
   return bounds;
 }
 
+/// Of the terrain before the line that is asked about.
+ViewshedNearGaps::Crossing ViewshedWedgeSweep::gapsTowards(double u) const {
+  ViewshedNearGaps::Crossing gap{gaps_.isPossible(u), gaps_.isCertain(u)};
+  if (nearGaps_.isEmpty() || gap.isCertain) return gap;
+  const ViewshedNearGaps::Crossing near = nearGaps_.towards(u + shear_);
+  return {gap.isPossible || near.isPossible, near.isCertain};
+}
+
 Status ViewshedWedgeSweep::askOne(int x, int y) {
   const std::size_t i = far_.at(y), at = index(x, y);
   if (std::isnan(far_.z[i])) return {};
@@ -217,7 +227,7 @@ Status ViewshedWedgeSweep::askOne(int x, int y) {
     if (side == Side::doubtful) return exactly(at, x, y);
   }
   const int bin = far_.bin[i];
-  if (!wantsValue_ && target < horizon_.low(bin)) {
+  if (!wantsValue_ && target < horizon_.low(bin) && !isAtTip(bin, u)) {
     result_.cells[at] = ViewshedCell::hidden;
     return {};
   }
@@ -235,19 +245,19 @@ Status ViewshedWedgeSweep::askOne(int x, int y) {
     isHidden = target < skyline.lower;
     isSeen = target >= skyline.upper;
   }
+  const bool mayMeetGap = wantsGaps_ && (isSeen || wantsValue_);
+  const ViewshedNearGaps::Crossing gap = mayMeetGap ? gapsTowards(u) : ViewshedNearGaps::Crossing{};
   // Over a fan the terrain beside a gap may be beside the line instead.
-  if (picture_.isFan() && isSeen && gaps_.isPossible(u)) isSeen = false;
-  if (!isSeen && !isHidden) return exactly(at, x, y);
+  if (picture_.isFan() && gap.isPossible) isSeen = false;
+  if (!isSeen && (!isHidden || isAtTip(bin, u))) return exactly(at, x, y);
   bool isUnknown = false, isCut = false;
-  if (!gaps_.isEmpty() && options.nodata != NodataSight::clear && gaps_.isPossible(u)) {
-    const bool isCertain = gaps_.isCertain(u);
+  if (gap.isPossible && options.nodata != NodataSight::clear) {
     if (options.nodata == NodataSight::unknown) {
-      if (isSeen && !isCertain) return exactly(at, x, y);
+      if (isSeen && !gap.isCertain) return exactly(at, x, y);
       isUnknown = isSeen;
     } else {
-      if ((isSeen || wantsValue_) && !isCertain) return exactly(at, x, y);
-      isCut = isCertain;
-      isHidden = true;
+      if (!gap.isCertain) return exactly(at, x, y);
+      isCut = isHidden = true;
     }
   }
   result_.cells[at] = isUnknown  ? ViewshedCell::unknown
@@ -267,6 +277,29 @@ Status ViewshedWedgeSweep::askOne(int x, int y) {
                                             std::hypot(place.x, place.y));
   }
   return {};
+}
+
+/// The edges of cells that may not all be whole, row by row of those that are.
+void ViewshedWedgeSweep::addCells(int x, int from, int to) {
+  const double *z0 = near_.z.data() + near_.at(from), *z1 = far_.z.data() + far_.at(from);
+  const auto isWhole = [&](int i) { return !std::isnan((z0[i] + z0[i + 1]) + (z1[i] + z1[i + 1])); };
+  const int count = to - from;
+  for (int i = 0; i <= count;) {
+    int end = i;
+    while (end < count && isWhole(end)) ++end;
+    if (end > i) addWholeCells(from + i, end - i);
+    // Its edge at `end` is twice the same where the cell before is whole: no matter.
+    addPartialCell(x, from + end);
+    i = end + 1;
+  }
+}
+
+void ViewshedWedgeSweep::addWholeCells(int from, int count) {
+  if (picture_.isFan()) {
+    addWholeCells<true>(from, count);
+  } else {
+    addWholeCells<false>(from, count);
+  }
 }
 
 template <bool kIsFan>
@@ -298,16 +331,45 @@ void ViewshedWedgeSweep::addWholeCells(int from, int count) {
                slack(near_, n + static_cast<std::size_t>(count), far_, f + static_cast<std::size_t>(count)));
 }
 
+/// Samples on the skyline that a line may meet without being over terrain before or behind them: whether they
+/// count is for the engine to say. (Over a fan nothing beside a gap is sure to hide.)
+void ViewshedWedgeSweep::addTips(int x) {
+  for (int y = far_.from; y < far_.from + far_.count; ++y) {
+    const std::size_t i = far_.at(y);
+    const double u = far_.u[i];
+    if (!(far_.v[i] > horizon_.low(far_.bin[i])) || !isTip(x, y, u + shear_)) continue;
+    if (!(far_.v[i] > horizon_.at(u).lower)) continue;
+    const double corner = picture_.corner(far_.x);
+    if (tips_.isEmpty()) binsWithTips_.assign(static_cast<std::size_t>(horizon_.binCount()), 0);
+    tips_.add(u - corner, u + corner);
+    for (int bin = horizon_.bin(u - corner); bin <= horizon_.bin(u + corner); ++bin)
+      binsWithTips_[static_cast<std::size_t>(bin)] = 1;
+  }
+}
+
+/// Of a line in the direction u over the sample.
+bool ViewshedWedgeSweep::isTip(int x, int y, double u) const {
+  const auto isThere = [&](int atX, int atY) { return !std::isnan(height(atX, atY)); };
+  const auto hasTerrain = [&](int ahead, int side) {
+    return isThere(x + ahead, y) && (isThere(x + ahead, y + side) || isThere(x, y + side));
+  };
+  const auto isBetween = [&](int side) { return !hasTerrain(1, side) && !hasTerrain(-1, -side); };
+  constexpr double kAlong = 1e-6;
+  // Beside a lattice line or a diagonal, on either side of it.
+  if (std::fabs(u) < kAlong) return isBetween(1) || isBetween(-1);
+  if (std::fabs(u) > 1 - kAlong)
+    return !isThere(x + 1, y) || !isThere(x - 1, y) || !isThere(x, y - 1) || !isThere(x, y + 1);
+  return isBetween(u > 0 ? 1 : -1);
+}
+
 void ViewshedWedgeSweep::addEdges(int x) {
   const int from = std::max(near_.from, far_.from),
             to = std::min(near_.from + near_.count, far_.from + far_.count) - 1;
   if (to < from) return;
   if (near_.hasGaps || far_.hasGaps) {
-    for (int y = from; y <= to; ++y) addPartialCell(x, y);
-  } else if (picture_.isFan()) {
-    addWholeCells<true>(from, to - from);
+    addCells(x, from, to);
   } else {
-    addWholeCells<false>(from, to - from);
+    addWholeCells(from, to - from);
   }
   // Geodesics may leave the DEM between two places in it.
   if (picture_.isFan() && from == yLeast_) addBorder(x, yLeast_, yLeast_ - 1);
@@ -349,7 +411,7 @@ void ViewshedWedgeSweep::addPartialCell(int x, int y) {
       add(near_, n + 1, far_, f);
     }
   }
-  if (corners == 4) return;
+  if (corners == 4 || !wantsGaps_) return;
   double first = kInfinite, last = -kInfinite;
   const auto reach = [&](double u) {
     first = std::min(first, u);
@@ -363,21 +425,41 @@ void ViewshedWedgeSweep::addPartialCell(int x, int y) {
   gaps_.add(first, last, picture_.corner(near_.x));
 }
 
-/// The edges between the lattice line behind the observer, or below it, and the first before it.
+/// The edges and the gaps between the lattice line behind the observer, or below it, and the first before it.
 void ViewshedWedgeSweep::addFirst(int x) {
   const int low = std::max(yLeast_, static_cast<int>(std::floor(observer_.y)) - 3),
             high = std::min(yGreatest_, low + 8);
-  std::vector<ViewshedPicture::Sample> before, at;
+  const auto isThere = [&](int atX, int atY) { return !std::isnan(height(atX, atY)); };
+  nearGaps_.setError(picture_.directionError());
   for (int y = low; y <= high; ++y) {
-    before.push_back(picture_.sample(wedge_.sector, x - 1, y));
-    at.push_back(picture_.sample(wedge_.sector, x, y));
+    const ViewshedPicture::Sample before = picture_.sample(wedge_.sector, x - 1, y),
+                                  at = picture_.sample(wedge_.sector, x, y);
+    if (isThere(x - 1, y - 1) || isThere(x, y - 1) || isThere(x - 1, y + 1) || isThere(x, y + 1))
+      addNear(before, at);
+    if (y == high) break;
+    const ViewshedPicture::Sample beforeNext = picture_.sample(wedge_.sector, x - 1, y + 1),
+                                  next = picture_.sample(wedge_.sector, x, y + 1);
+    if (isThere(x - 1, y + 1) || isThere(x, y)) addNear(before, next);
+    if (isThere(x - 1, y) != isThere(x, y + 1)) addNear(beforeNext, at);
+    if (isThere(x - 1, y) || isThere(x - 1, y + 1) || isThere(x + 1, y) || isThere(x + 1, y + 1))
+      addNear(at, next);
+    if (wantsGaps_) addNearGap(x, y);
   }
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    addNear(before[i], at[i]);
-    if (i + 1 == at.size()) break;
-    addNear(before[i], at[i + 1]);
-    addNear(at[i], at[i + 1]);
-  }
+}
+
+/// What is not terrain of the cell from (x - 1, y) to (x, y + 1).
+void ViewshedWedgeSweep::addNearGap(int x, int y) {
+  const double x0 = x - 1 - observer_.x, x1 = x - observer_.x, y0 = y - observer_.y, y1 = y + 1 - observer_.y;
+  const std::array<Vec2, 4> corners{Vec2{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+  const bool isMissing[] = {std::isnan(height(x - 1, y)), std::isnan(height(x, y)),
+                            std::isnan(height(x, y + 1)), std::isnan(height(x - 1, y + 1))};
+  const auto missing = std::count(std::begin(isMissing), std::end(isMissing), true);
+  if (missing > 1) return nearGaps_.add(corners);
+  if (missing == 0) return;
+  // The triangle of the corner that is missing and those beside it.
+  const auto i =
+      static_cast<std::size_t>(std::find(std::begin(isMissing), std::end(isMissing), true) - isMissing);
+  nearGaps_.add(std::array<Vec2, 3>{corners[(i + 3) % 4], corners[i], corners[(i + 1) % 4]});
 }
 
 /// An edge that may lead behind the observer: the part of it that is in the wedge and not too near.

@@ -3,6 +3,7 @@
 
 #include "terrain/viewshed_gaps.h"
 #include "terrain/viewshed_horizon.h"
+#include "terrain/viewshed_near_gaps.h"
 #include "terrain/viewshed_picture.h"
 
 namespace arete {
@@ -38,11 +39,20 @@ class ViewshedWedgeSweep {
   bool isBeyond(double x) const;
 
   void addEdges(int x);
+  void addTips(int x);
+  bool isTip(int x, int y, double u) const;
+  bool isAtTip(int bin, double u) const {
+    return !tips_.isEmpty() && binsWithTips_[static_cast<std::size_t>(bin)] != 0 && tips_.has(u);
+  }
+  void addCells(int x, int from, int to);
+  void addWholeCells(int from, int count);
   template <bool kIsFan>
   void addWholeCells(int from, int count);
   void addPartialCell(int x, int y);
   void addBorder(int x, int y, int outside);
   void addFirst(int x);
+  void addNearGap(int x, int y);
+  ViewshedNearGaps::Crossing gapsTowards(double u) const;
   void addNear(const ViewshedPicture::Sample& a, const ViewshedPicture::Sample& b);
 
   double slack(const PictureLine& a, std::size_t i, const PictureLine& b, std::size_t j) const {
@@ -58,9 +68,12 @@ class ViewshedWedgeSweep {
   int shear_;
   double turn_;
   double first_, last_;  ///< of u, sheared, padded
-  bool hasField_, wantsValue_;
+  bool hasField_, wantsValue_, wantsGaps_;
   ViewshedHorizon horizon_;
   ViewshedGaps gaps_;
+  ViewshedNearGaps nearGaps_;
+  DirectionSet tips_;  ///< where lines may meet terrain on the skyline in a single point
+  std::vector<char> binsWithTips_;
   PictureLine near_, far_;  ///< the lattice lines before and at x
   std::uint64_t rays_ = 0;
 };

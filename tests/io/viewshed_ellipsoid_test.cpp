@@ -101,6 +101,58 @@ TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngine) {
   EXPECT_LT(all.rays, all.cells / 2);
 }
 
+TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngineWhereNodataIsScattered) {
+  const std::uint64_t seeds = std::getenv("ARETE_FULL") != nullptr ? 12 : 1;
+  Tally all;
+  for (const Map& map : kMaps)
+    for (const double share : {0.01, 0.1, 0.4})
+      for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        Random random(seed * 100 + static_cast<std::uint64_t>(100 * share));
+        RasterHeightfield field = rasterFamilies()[3].make(67, 74, seed + 1);
+        const bool isPatches = random.below(2) == 0;
+        std::vector<Vec2> voids;
+        for (std::uint32_t row = 0; row < field.rows; ++row)
+          for (std::uint32_t column = 0; column < field.columns; ++column) {
+            const std::uint32_t size = isPatches ? 3 : 1;
+            if (Random::toUnit(Random::at(seed, column / size, row / size)) >= share) continue;
+            field.heights[std::size_t{row} * field.columns + column] = std::nan("");
+            voids.push_back({double(column), double(row)});
+          }
+        ASSERT_FALSE(voids.empty());
+        TerrainModel model;
+        model.columns = field.columns;
+        model.rows = field.rows;
+        model.georeference.geoTransform = map.geoTransform;
+        const auto crs = crsFromText(map.crs);
+        ASSERT_TRUE(crs && describeCrs(*crs, model.georeference));
+        const auto earth = makeEllipsoidEarth(model);
+        ASSERT_TRUE(earth);
+        const auto grid = std::make_shared<const SightGrid>(field.columns, field.rows, field.heights);
+        Tally tally;
+        const std::string what = "share " + std::to_string(share) + ", seed " + std::to_string(seed);
+        for (int i = 0; i < 6; ++i) {
+          Vec2 plan = voids[random.below(static_cast<std::uint32_t>(voids.size()))];
+          plan.x = std::clamp(plan.x + double(random.below(3)) - 1, 2.0, field.columns - 3.0);
+          plan.y = std::clamp(plan.y + double(random.below(3)) - 1, 2.0, field.rows - 3.0);
+          if (i % 2 == 1) plan = {plan.x + random.unit() - 0.5, plan.y + random.unit() - 0.5};
+          plan = {std::max(plan.x, 2.0), std::max(plan.y, 2.0)};
+          const double ground = grid->at(plan), heights[] = {2, 30, 10};
+          ViewshedOptions options;
+          options.targetHeight = i % 3 == 2 ? 2 : 0;
+          options.nodata = static_cast<NodataSight>(i % 3);
+          compare(model, **earth, grid, {plan, (std::isnan(ground) ? 100 : ground) + heights[i / 2]}, options,
+                  1, what + " on " + map.crs, tally);
+        }
+        EXPECT_EQ(tally.wrong, 0u) << what << " on " << map.crs;
+        all.sweeps += tally.sweeps;
+        all.rays += tally.rays;
+        all.cells += tally.cells;
+      }
+  RecordProperty("sweeps", std::to_string(all.sweeps));
+  RecordProperty("rays", std::to_string(all.rays) + " of " + std::to_string(all.cells));
+  EXPECT_GT(all.sweeps, 40);
+}
+
 TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngineOnRealDems) {
   const char* folder = std::getenv("ARETE_DATA");
   if (folder == nullptr) GTEST_SKIP() << "ARETE_DATA is not set";
