@@ -20,7 +20,6 @@ namespace {
 
 /// What is drawn too high by a doubt may be lower by twice as much.
 constexpr double kDoubts = 2.1;
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 struct Heights {
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
@@ -118,6 +117,7 @@ void ViewshedPicture::take(const ViewshedSector& sector, int x, int low, int hig
     return;
   }
   for (auto* values : {&line.doubt, &line.fanX, &line.fanY, &line.bend, &line.away}) values->resize(count);
+  line.isBesideGap.resize(count);
   // The fan counts with the plan's numbers, the sector perhaps against them.
   const int start = sector.sign > 0 ? low : -high;
   fan_->along(sector.isAlongRows, sector.line(x), start, line.count, line.fanX.data(), line.fanY.data(),
@@ -130,8 +130,8 @@ void ViewshedPicture::take(const ViewshedSector& sector, int x, int low, int hig
     const double raised =
         doubt(line.fanX[i], line.fanY[i], b, line.z[i], steep[static_cast<std::ptrdiff_t>(i) * stride]);
     const Vec2 place = sector.turned({line.fanX[i], line.fanY[i]});
-    line.doubt[i] =
-        std::signbit(steep[static_cast<std::ptrdiff_t>(i) * stride]) ? kInfinite : kDoubts * raised;
+    line.doubt[i] = kDoubts * raised;
+    line.isBesideGap[i] = std::signbit(steep[static_cast<std::ptrdiff_t>(i) * stride]);
     line.away[i] = place.x;
     line.u[i] = place.y / place.x;
     line.v[i] = (elevated(b, line.z[i]) + raised + lift_) / place.x;
@@ -142,15 +142,14 @@ ViewshedPicture::Sample ViewshedPicture::sample(const ViewshedSector& sector, in
   const Vec2 o = observer(sector);
   const std::size_t at = index(sector, x, y);
   const double z = task_.grid.row(0)[at];
-  if (fan_ == nullptr) return {{x - o.x, y - o.y}, z + lift_ - h0_, 0};
+  if (fan_ == nullptr) return {{x - o.x, y - o.y}, z + lift_ - h0_, 0, false};
   const int column = sector.line(sector.isAlongRows ? x : y), row = sector.line(sector.isAlongRows ? y : x);
   double fx, fy, bend;
   fan_->along(sector.isAlongRows, sector.line(x), sector.isAlongRows ? row : column, 1, &fx, &fy, &bend);
   const Bent b = bent(fx, fy, bend);
   const float steep = (*steepness_)[at];
   const double raised = doubt(fx, fy, b, z, steep);
-  return {sector.turned({fx, fy}), elevated(b, z) + raised + lift_,
-          std::signbit(steep) ? kInfinite : kDoubts * raised};
+  return {sector.turned({fx, fy}), elevated(b, z) + raised + lift_, kDoubts * raised, std::signbit(steep)};
 }
 
 double ViewshedPicture::direction(const ViewshedSector& sector, int x, int y, int shear) const {

@@ -31,11 +31,11 @@ struct PictureLine {
   int from = 0, count = 0;  ///< y of the first sample, and how many
   double x = 0;             ///< steps from the observer to the line
   bool hasGaps = false;
-  std::vector<double> z;  ///< heights; NaN: none
-  std::vector<double> u;  ///< directions
-  std::vector<double> v;  ///< how high the terrain is, or could be, in the picture
-  std::vector<double>
-      doubt;  ///< of the fan: metres that the terrain may be lower, infinite beside a gap; else empty
+  std::vector<double> z;          ///< heights; NaN: none
+  std::vector<double> u;          ///< directions
+  std::vector<double> v;          ///< how high the terrain is, or could be, in the picture
+  std::vector<double> doubt;      ///< of the fan: metres that the terrain may be lower; else empty
+  std::vector<char> isBesideGap;  ///< of the fan: some of the eight samples around is none
   std::vector<double> fanX, fanY, bend, away;  ///< of the fan: ViewshedFan::along(), and the distance in x
   std::vector<int> bin;
 
@@ -66,6 +66,7 @@ class ViewshedPicture {
   struct Sample {
     Vec2 place;
     double height, doubt;
+    bool isBesideGap;
   };
   Sample sample(const ViewshedSector& sector, int x, int y) const;
   /// The direction of a place that may be one sample beside the raster.
@@ -85,6 +86,8 @@ class ViewshedPicture {
   double corner(double x) const {
     return 1e-8 / std::min(x, 1.0) + (fan_ != nullptr ? 2 * fan_->planError(1.5 * x) / x : 0);
   }
+  /// Steps: how far lines may be from straight ones, so many steps from the observer.
+  double planError(double distance) const { return fan_ != nullptr ? fan_->planError(distance) : 0; }
   /// By what angle lines leave the observer in other directions of the plan, as far as two steps.
   double directionError() const { return fan_ != nullptr ? 10 * fan_->planError(2) : 0; }
   /// Metres that make a step of x, of y.

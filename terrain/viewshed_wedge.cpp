@@ -43,7 +43,8 @@ ViewshedWedgeSweep::ViewshedWedgeSweep(const ViewshedPicture& picture, const Vie
       turn_(picture.turn()),
       first_(wedge.first - shear_ - kPad),
       last_(wedge.last - shear_ + kPad),
-      horizon_(first_, last_, binsOf(wedge, xGreatest_ - observer_.x)) {
+      horizon_(first_, last_, binsOf(wedge, xGreatest_ - observer_.x)),
+      doubtful_(first_, last_, picture.isFan() ? static_cast<std::uint32_t>(horizon_.binCount()) : 1) {
   const ViewshedSector& s = wedge.sector;
   const int columns = static_cast<int>(task_.grid.columns()), rows = static_cast<int>(task_.grid.rows());
   const int xCount = s.isAlongRows ? columns : rows, yCount = s.isAlongRows ? rows : columns;
@@ -196,7 +197,8 @@ ViewshedHorizon::Bounds ViewshedWedgeSweep::linkBefore(int y, double target) con
     if (!(std::min(u0, u1) <= u && u <= std::max(u0, u1)) || u0 == u1) return;
     const double v = v0 + (v1 - v0) * ((u - u0) / (u1 - u0));
     bounds.upper = std::max(bounds.upper, v);
-    bounds.lower = std::max(bounds.lower, v - slack(near_, n, far_, f));
+    if (!picture_.isFan() || !(near_.isBesideGap[n] || far_.isBesideGap[f]))
+      bounds.lower = std::max(bounds.lower, v - slack(near_, n, far_, f));
   };
   if (y < observer_.y || picture_.isFan()) look(y, y + 1);
   if (picture_.isFan()) look(y - 1, y - 1);
@@ -227,20 +229,19 @@ Status ViewshedWedgeSweep::askOne(int x, int y) {
     result_.cells[at] = ViewshedCell::hidden;
     return {};
   }
+  ViewshedHorizon::Bounds skyline = horizon_.at(u);
+  // What is before it hides it whatever is beside it.
+  if (!wantsValue_ && target < skyline.lower && !isAtTip(bin, u)) {
+    result_.cells[at] = ViewshedCell::hidden;
+    return {};
+  }
   const bool isAtBorder = picture_.isFan() && (y == yLeast_ || y == yGreatest_);
   if ((far_.hasGaps || near_.hasGaps || isAtBorder) && isBesideGap(x, y)) return exactly(at, x, y);
   const ViewshedHorizon::Bounds before = linkBefore(y, wantsValue_ ? -kInfinite : target);
-  bool isSeen = false, isHidden = false;
-  ViewshedHorizon::Bounds skyline{};
-  if (!wantsValue_ && target >= horizon_.high(bin) && target >= before.upper) {
-    isSeen = true;
-  } else {
-    skyline = horizon_.at(u);
-    skyline.upper = std::max(skyline.upper, before.upper);
-    skyline.lower = std::max(skyline.lower, before.lower);
-    isHidden = target < skyline.lower;
-    isSeen = target >= skyline.upper;
-  }
+  skyline.upper = std::max(skyline.upper, before.upper);
+  skyline.lower = std::max(skyline.lower, before.lower);
+  if (picture_.isFan()) skyline.upper = std::max(skyline.upper, doubtful_.at(u).upper);
+  bool isHidden = target < skyline.lower, isSeen = target >= skyline.upper;
   const bool mayMeetGap = wantsGaps_ && (isSeen || wantsValue_);
   const ViewshedNearGaps::Crossing gap = mayMeetGap ? gapsTowards(u) : ViewshedNearGaps::Crossing{};
   // Over a fan the terrain beside a gap may be beside the line instead.

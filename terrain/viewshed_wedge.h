@@ -45,9 +45,18 @@ class ViewshedWedgeSweep {
     return !tips_.isEmpty() && binsWithTips_[static_cast<std::size_t>(bin)] != 0 && tips_.has(u);
   }
   void addCells(int x, int from, int to);
-  void addWholeCells(int from, int count);
+  void addWholeCells(int x, int from, int count);
   template <bool kIsFan>
-  void addWholeCells(int from, int count);
+  void addWholeCells(int x, int from, int count);
+  struct End {
+    const PictureLine& line;
+    std::size_t at;
+    Vec2 place() const { return {line.away[at], line.u[at] * line.away[at]}; }
+  };
+  void addFanEdge(End a, End b, int triangles);
+  void addBesideGap(End a, End b, bool isRim);
+  int trianglesAlong(int x, int y) const;
+  int trianglesAcross(int x, int y) const;
   void addPartialCell(int x, int y);
   void addBorder(int x, int y, int outside);
   void addFirst(int x);
@@ -70,6 +79,9 @@ class ViewshedWedgeSweep {
   double first_, last_;  ///< of u, sheared, padded
   bool hasField_, wantsValue_, wantsGaps_;
   ViewshedHorizon horizon_;
+  /// Over a fan: what may be before a line, but may as well be beside it. The lower bound of the skyline is
+  /// that of the other horizon alone, the upper one that of both.
+  ViewshedHorizon doubtful_;
   ViewshedGaps gaps_;
   ViewshedNearGaps nearGaps_;
   DirectionSet tips_;  ///< where lines may meet terrain on the skyline in a single point

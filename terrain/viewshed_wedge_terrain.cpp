@@ -28,23 +28,23 @@ void ViewshedWedgeSweep::addCells(int x, int from, int to) {
   for (int i = 0; i <= count;) {
     int end = i;
     while (end < count && isWhole(end)) ++end;
-    if (end > i) addWholeCells(from + i, end - i);
+    if (end > i) addWholeCells(x, from + i, end - i);
     // Its edge at `end` is twice the same where the cell before is whole: no matter.
     addPartialCell(x, from + end);
     i = end + 1;
   }
 }
 
-void ViewshedWedgeSweep::addWholeCells(int from, int count) {
+void ViewshedWedgeSweep::addWholeCells(int x, int from, int count) {
   if (picture_.isFan()) {
-    addWholeCells<true>(from, count);
+    addWholeCells<true>(x, from, count);
   } else {
-    addWholeCells<false>(from, count);
+    addWholeCells<false>(x, from, count);
   }
 }
 
 template <bool kIsFan>
-void ViewshedWedgeSweep::addWholeCells(int from, int count) {
+void ViewshedWedgeSweep::addWholeCells(int x, int from, int count) {
   const std::size_t n = near_.at(from), f = far_.at(from);
   const double *u0 = near_.u.data() + n, *v0 = near_.v.data() + n, *u1 = far_.u.data() + f,
                *v1 = far_.v.data() + f;
@@ -54,12 +54,11 @@ void ViewshedWedgeSweep::addWholeCells(int from, int count) {
     const double highest = std::max(v0[i], std::max(v1[i], v1[i + 1]));
     if (highest <= horizon_.low(std::min(bin0[i], bin1[i]), std::max(bin0[i], bin1[i + 1]))) continue;
     if constexpr (kIsFan) {
-      const std::size_t j = n + static_cast<std::size_t>(i), k = f + static_cast<std::size_t>(i);
-      horizon_.add(u1[i], v1[i], u1[i + 1], v1[i + 1], slack(far_, k, far_, k + 1));
-      if (std::fabs(u1[i] - u0[i]) * near_.x > kNarrow)
-        horizon_.add(u0[i], v0[i], u1[i], v1[i], slack(near_, j, far_, k));
-      if (std::fabs(u1[i + 1] - u0[i]) * near_.x > kNarrow)
-        horizon_.add(u0[i], v0[i], u1[i + 1], v1[i + 1], slack(near_, j, far_, k + 1));
+      const End start{near_, n + static_cast<std::size_t>(i)}, across{far_, f + static_cast<std::size_t>(i)},
+          end{far_, across.at + 1};
+      addFanEdge(across, end, trianglesAcross(x, from + i));
+      addFanEdge(start, across, trianglesAlong(x, from + i));
+      addFanEdge(start, end, 2);
     } else {
       horizon_.add(u1[i], v1[i], u1[i + 1], v1[i + 1], slack1);
       horizon_.add(u0[i], v0[i], u1[i], v1[i], slack0);
@@ -67,13 +66,71 @@ void ViewshedWedgeSweep::addWholeCells(int from, int count) {
     }
   }
   if (count < 0) return;
-  if (kIsFan && !(std::fabs(u1[count] - u0[count]) * near_.x > kNarrow)) return;
-  horizon_.add(u0[count], v0[count], u1[count], v1[count],
-               slack(near_, n + static_cast<std::size_t>(count), far_, f + static_cast<std::size_t>(count)));
+  if constexpr (kIsFan) {
+    addFanEdge({near_, n + static_cast<std::size_t>(count)}, {far_, f + static_cast<std::size_t>(count)},
+               trianglesAlong(x, from + count));
+  } else {
+    horizon_.add(u0[count], v0[count], u1[count], v1[count], slack0);
+  }
+}
+
+/// How many triangles the edges from (x - 1, y) to (x, y) and from (x, y) to (x, y + 1) have, if both their
+/// samples are there.
+int ViewshedWedgeSweep::trianglesAlong(int x, int y) const {
+  const auto isThere = [&](int atX, int atY) { return !std::isnan(height(atX, atY)); };
+  return int{isThere(x, y - 1) || isThere(x - 1, y - 1)} + int{isThere(x, y + 1) || isThere(x - 1, y + 1)};
+}
+int ViewshedWedgeSweep::trianglesAcross(int x, int y) const {
+  const auto isThere = [&](int atX, int atY) { return !std::isnan(height(atX, atY)); };
+  return int{isThere(x - 1, y) || isThere(x - 1, y + 1)} + int{isThere(x + 1, y) || isThere(x + 1, y + 1)};
+}
+
+/// An edge of so many triangles.
+void ViewshedWedgeSweep::addFanEdge(End a, End b, int triangles) {
+  const double u0 = a.line.u[a.at], u1 = b.line.u[b.at];
+  if (triangles == 0 || !(std::fabs(u1 - u0) * near_.x > kNarrow)) return;
+  const double v0 = a.line.v[a.at], v1 = b.line.v[b.at];
+  if (!a.line.isBesideGap[a.at] && !b.line.isBesideGap[b.at])
+    return horizon_.add(u0, v0, u1, v1, slack(a.line, a.at, b.line, b.at));
+  doubtful_.add(u0, v0, u1, v1, 0);
+  addBesideGap(a, b, triangles == 1);
+}
+
+/// The part of an edge beside a gap that is before lines in its directions for sure, though they run a little
+/// to its side: that is no nearer than this to where there may be no terrain. A line that crosses the rim
+/// does so elsewhere, and surely has terrain below it only some way into its triangle, where it may be lower.
+void ViewshedWedgeSweep::addBesideGap(End a, End b, bool isRim) {
+  constexpr double kSmallestAngle = 0.25;  // its sine, between the line and the rim
+  const Vec2 p = a.place(), q = b.place();
+  const double dx = q.x - p.x, dy = q.y - p.y, length = std::sqrt(dx * dx + dy * dy);
+  const double error = 3 * picture_.planError(
+                               std::hypot(std::max(p.x, q.x), std::max(std::fabs(p.y), std::fabs(q.y)))),
+               inward = isRim ? error / kSmallestAngle : 0;
+  const double cut = 2 * (error + inward) / length;
+  const double first = a.line.isBesideGap[a.at] ? cut : 0, last = b.line.isBesideGap[b.at] ? 1 - cut : 1;
+  if (!(first < last)) return;
+  const double h0 = a.line.v[a.at] * p.x, h1 = b.line.v[b.at] * q.x;
+  double u[2], v[2], nearest = p.x, steepest = 0, sines[2];
+  for (const int end : {0, 1}) {
+    const double t = end == 0 ? first : last, x = p.x + t * dx, y = p.y + t * dy;
+    u[end] = t == 0 ? a.line.u[a.at] : t == 1 ? b.line.u[b.at] : y / x;
+    v[end] = t == 0 ? a.line.v[a.at] : t == 1 ? b.line.v[b.at] : (h0 + t * (h1 - h0)) / x;
+    nearest = std::min(nearest, x);
+    steepest = std::max(steepest, std::fabs(v[end]));
+    sines[end] = (x * dy - y * dx) / (length * std::sqrt(x * x + y * y));
+  }
+  double doubt = std::max(a.line.doubt[a.at], b.line.doubt[b.at]);
+  if (isRim) {
+    if (!(std::min(std::fabs(sines[0]), std::fabs(sines[1])) > kSmallestAngle) || sines[0] * sines[1] < 0)
+      return;
+    doubt = 8 * doubt + 2 * inward * steepest;
+  }
+  if (std::fabs(u[1] - u[0]) * near_.x > kNarrow)
+    horizon_.add(u[0], v[0], u[1], v[1], picture_.slack(nearest * 0.99, doubt));
 }
 
 /// Samples on the skyline that a line may meet without being over terrain before or behind them: whether they
-/// count is for the engine to say. (Over a fan nothing beside a gap is sure to hide.)
+/// count is for the engine to say. (Over a fan no sample beside a gap is sure to hide.)
 void ViewshedWedgeSweep::addTips(int x) {
   for (int y = far_.from; y < far_.from + far_.count; ++y) {
     const std::size_t i = far_.at(y);
@@ -110,7 +167,7 @@ void ViewshedWedgeSweep::addEdges(int x) {
   if (near_.hasGaps || far_.hasGaps) {
     addCells(x, from, to);
   } else {
-    addWholeCells(from, to - from);
+    addWholeCells(x, from, to - from);
   }
   // Geodesics may leave the DEM between two places in it.
   if (picture_.isFan() && from == yLeast_) addBorder(x, yLeast_, yLeast_ - 1);
@@ -131,25 +188,25 @@ void ViewshedWedgeSweep::addBorder(int x, int y, int outside) {
 /// is.
 void ViewshedWedgeSweep::addPartialCell(int x, int y) {
   const auto n = near_.at(y), f = far_.at(y);
-  const auto isThere = [&](int atX, int atY) { return !std::isnan(height(atX, atY)); };
-  const auto add = [&](const PictureLine& a, std::size_t i, const PictureLine& b, std::size_t j) {
-    if (picture_.isFan() && !(std::fabs(a.u[i] - b.u[j]) * near_.x > kNarrow)) return;
-    horizon_.add(a.u[i], a.v[i], b.u[j], b.v[j], slack(a, i, b, j));
+  const auto add = [&](const PictureLine& a, std::size_t i, const PictureLine& b, std::size_t j,
+                       int triangles) {
+    if (picture_.isFan()) {
+      addFanEdge({a, i}, {b, j}, triangles);
+    } else if (triangles > 0) {
+      horizon_.add(a.u[i], a.v[i], b.u[j], b.v[j], slack(a, i, b, j));
+    }
   };
   const bool has00 = !std::isnan(near_.z[n]), has10 = !std::isnan(far_.z[f]);
-  if (has00 && has10 &&
-      (isThere(x, y - 1) || isThere(x - 1, y - 1) || isThere(x, y + 1) || isThere(x - 1, y + 1)))
-    add(near_, n, far_, f);
+  if (has00 && has10) add(near_, n, far_, f, trianglesAlong(x, y));
   if (!near_.has(y + 1) || !far_.has(y + 1)) return;
   const bool has01 = !std::isnan(near_.z[n + 1]), has11 = !std::isnan(far_.z[f + 1]);
-  if (has10 && has11 && (has00 || has01 || isThere(x + 1, y) || isThere(x + 1, y + 1)))
-    add(far_, f, far_, f + 1);
+  if (has10 && has11) add(far_, f, far_, f + 1, trianglesAcross(x, y));
   const int corners = has00 + has01 + has10 + has11;
   if (corners >= 3) {
     if (has00 && has11) {
-      add(near_, n, far_, f + 1);
+      add(near_, n, far_, f + 1, corners - 2);
     } else {
-      add(near_, n + 1, far_, f);
+      add(near_, n + 1, far_, f, 1);
     }
   }
   if (corners == 4 || !wantsGaps_) return;
@@ -233,6 +290,7 @@ void ViewshedWedgeSweep::addNear(const ViewshedPicture::Sample& from, const View
   double u0, v0, u1, v1;
   const double x0 = at(t0, u0, v0), x1 = at(t1, u1, v1), nearest = std::min(x0, x1);
   if (std::fabs(u1 - u0) < (picture_.isFan() ? kNarrow : 1e-12)) return;  // it points at the observer
+  if (from.isBesideGap || to.isBesideGap) return doubtful_.add(u0, v0, u1, v1, 0);
   horizon_.add(u0, v0, u1, v1, picture_.slack(nearest, std::max(from.doubt, to.doubt)));
 }
 
