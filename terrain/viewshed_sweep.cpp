@@ -11,12 +11,14 @@
 // from the diagonal. A wedge is sheared where u >= 1/2.
 //
 // Over an ellipsoid the plan is that of the fan of geodesics (viewshed_fan.h), in which tracks are straight
-// but for a thousandth of a step. What terrain rises in that is in doubt; so are edges that point at the
-// observer.
+// but for a thousandth of a step. What terrain rises in that is in doubt, and whether a line is over terrain
+// so near to a void; edges that point at the observer are left out.
 //
 // What is decided here is outside of every doubt: the terrain that hides is at least two tolerances above
 // the line, the terrain in front of what is seen is not above the line at all. The rest is decided by an
-// engine's answer, cell by cell: what lies between, places less than a step away, what is beside NODATA.
+// engine's answer, cell by cell: what lies between, places less than a step away, what is beside NODATA and
+// not hidden by what is before it, what is behind a corner of the terrain that a line may meet in a single
+// point.
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
