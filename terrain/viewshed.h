@@ -81,8 +81,8 @@ struct Viewshed {
 };
 
 /// What can be seen of a terrain. For every cell the answer is that of a SightEngine for the line from the
-/// observer to (sample, its height + target height): docs/topics/visibility.md. Only terrain beside NODATA
-/// that the line meets in a single point may count in one method and not in the other. Thread-safe.
+/// observer to (sample, its height + target height): docs/topics/visibility.md,
+/// by either method. Thread-safe.
 class ViewshedMaker {
  public:
   /// Preconditions: the model and the earth outlive it; `grid`, where given, is the model's. Errors:

@@ -246,7 +246,8 @@ Status ViewshedWedgeSweep::askOne(int x, int y) {
   const ViewshedNearGaps::Crossing gap = mayMeetGap ? gapsTowards(u) : ViewshedNearGaps::Crossing{};
   // Over a fan the terrain beside a gap may be beside the line instead.
   if (picture_.isFan() && gap.isPossible) isSeen = false;
-  if (!isSeen && (!isHidden || isAtTip(bin, u))) return exactly(at, x, y);
+  if (!isSeen && !isHidden) return exactly(at, x, y);
+  if ((wantsValue_ || !isSeen) && isAtTip(bin, u)) return exactly(at, x, y);
   bool isUnknown = false, isCut = false;
   if (gap.isPossible && options.nodata != NodataSight::clear) {
     if (options.nodata == NodataSight::unknown) {
