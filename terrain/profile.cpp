@@ -7,92 +7,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "terrain/mt_crossing.h"
 #include "terrain/sight_walk.h"
 #include "terrain/triangle_locator.h"
 
 namespace arete {
 namespace {
 
-/// Parameters of a piece, and the heights there.
-struct Stretch {
-  double t0, t1, z0, z1;
-  std::uint32_t triangle = 0;
-  double at(double t) const { return t1 > t0 ? z0 + (z1 - z0) * ((t - t0) / (t1 - t0)) : z0; }
-};
-
-using Span = Stretch;
-
-/// A vertex as the piece sees it: on which side of it, at which parameter, how high.
-struct Seen {
-  double side, along, z;
-};
+using Stretch = TriangleSpan;
 
 class Descent {
  public:
   Descent(const TriangleLocator& locator, const SightPiece& piece, OutwardScale::Code allowed, bool mayFill,
           std::vector<Stretch>& stretches)
-      : locator_(locator),
-        mt_(locator.mt()),
-        arrays_(mt_.arrays()),
-        piece_(piece),
+      : crossing_(locator, piece),
+        arrays_(locator.mt().arrays()),
         allowed_(allowed),
         mayFill_(mayFill),
-        perLength_(1 / (piece.dx * piece.dx + piece.dy * piece.dy)),
-        shortest_(kShortestInPlan * std::sqrt(perLength_)),
         stretches_(stretches) {}
 
   void run() {
-    std::vector<std::uint32_t> roots;
-    locator_.roots().along({piece_.x, piece_.y}, {piece_.x + piece_.dx, piece_.y + piece_.dy}, roots);
-    for (const std::uint32_t r : roots) {
-      const auto& corners = arrays_.rootTriangles[r];
-      addSpan(r, see(corners[0]), see(corners[1]), see(corners[2]), 0, 1);
-    }
+    crossing_.addRoots(spans_);
     follow(0, 0);
   }
 
  private:
-  Seen see(std::uint32_t vertex) const {
-    const Vec2 p = locator_.planPosition(vertex);
-    const double x = p.x - piece_.x, y = p.y - piece_.y;
-    return {piece_.dx * y - piece_.dy * x, (piece_.dx * x + piece_.dy * y) * perLength_,
-            mt_.vertices().height(VertexId(vertex))};
-  }
-
-  void addSpan(std::uint32_t triangle, const Seen& a, const Seen& b, const Seen& c, double first,
-               double last) {
-    Span span{HUGE_VAL, -HUGE_VAL, 0, 0, triangle};
-    const auto meet = [&span](double t, double z) {
-      if (t < span.t0) {
-        span.t0 = t;
-        span.z0 = z;
-      }
-      if (t > span.t1) {
-        span.t1 = t;
-        span.z1 = z;
-      }
-    };
-    const auto cross = [&meet](const Seen& p, const Seen& q) {
-      if (p.side == 0) meet(p.along, p.z);
-      if (!((p.side < 0 && q.side > 0) || (p.side > 0 && q.side < 0))) return;
-      const double f = p.side / (p.side - q.side);
-      meet(p.along + f * (q.along - p.along), p.z + f * (q.z - p.z));
-    };
-    cross(a, b);
-    cross(b, c);
-    cross(c, a);
-    if (!(span.t0 < last && span.t1 > first)) return;
-    cut(span, first, last);
-    if (span.t1 > span.t0) spans_.push_back(span);
-  }
-
-  static void cut(Stretch& stretch, double first, double last) {
-    const Stretch whole = stretch;
-    if (whole.t0 < first) stretch = {first, stretch.t1, whole.at(first), stretch.z1, whole.triangle};
-    if (whole.t1 > last) stretch = {stretch.t0, last, stretch.z0, whole.at(last), whole.triangle};
-  }
-
   bool saysEnough(std::uint32_t triangle) const {
     return arrays_.remover[triangle] == MultiTriangulation::kNone ||
            (!mayFill_ && allowed_ > 0 &&
@@ -101,13 +42,12 @@ class Descent {
 
   /// Takes the spans from `begin` on, as far as they are beyond `done`, and drops them.
   void follow(std::size_t begin, double done) {
-    std::sort(spans_.begin() + static_cast<std::ptrdiff_t>(begin), spans_.end(),
-              [](const Span& p, const Span& q) { return p.t0 != q.t0 ? p.t0 < q.t0 : p.t1 > q.t1; });
+    MtCrossing::sort(std::span(spans_).subspan(begin));
     const std::size_t end = spans_.size();
     for (std::size_t i = begin; i < end;) {
-      Span span = spans_[i++];
+      Stretch span = spans_[i++];
       if (span.t1 <= done) continue;
-      cut(span, done, span.t1);
+      span.cut(done, span.t1);
       done = span.t1;
       if (saysEnough(span.triangle)) {
         stretches_.push_back(span);
@@ -115,7 +55,7 @@ class Descent {
       }
       // Neighbours that the same node removes are followed together.
       const std::uint32_t node = arrays_.remover[span.triangle];
-      for (; i < end && spans_[i].t0 <= done + shortest_; ++i) {
+      for (; i < end && spans_[i].t0 <= done + crossing_.shortest(); ++i) {
         if (spans_[i].t1 <= done) continue;
         if (arrays_.remover[spans_[i].triangle] != node || saysEnough(spans_[i].triangle)) break;
         done = spans_[i].t1;
@@ -126,29 +66,16 @@ class Descent {
   }
 
   void star(std::uint32_t node, double first, double last) {
-    const std::uint32_t begin = arrays_.slotBegin[node], end = arrays_.slotBegin[node + 1];
-    const std::uint32_t roots = mt_.rootTriangleCount();
-    const Seen apex = see(arrays_.rootVertices + node), firstLink = see(arrays_.link[begin]);
     const std::size_t mine = spans_.size();
-    Seen p = firstLink;
-    for (std::uint32_t slot = begin; slot < end; ++slot) {
-      const Seen q = slot + 1 < end ? see(arrays_.link[slot + 1]) : firstLink;
-      // The last slot of an open star is no triangle.
-      if (slot + 1 < end || arrays_.remover[roots + slot] != node)
-        addSpan(roots + slot, apex, p, q, first, last);
-      p = q;
-    }
+    crossing_.addStar(node, first, last, spans_);
     follow(mine, first);
   }
 
-  const TriangleLocator& locator_;
-  const MultiTriangulation& mt_;
+  MtCrossing crossing_;
   const MtArrays& arrays_;
-  const SightPiece& piece_;
   OutwardScale::Code allowed_;
   bool mayFill_;
-  double perLength_, shortest_;
-  std::vector<Span> spans_;
+  std::vector<Stretch> spans_;
   std::vector<Stretch>& stretches_;
 };
 

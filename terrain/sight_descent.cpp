@@ -6,16 +6,12 @@
 // the triangle has a star over the same ground; the triangles of the star that the line crosses are treated
 // the same way, in their order, down to the finest, which are the terrain (De Floriani and Magillo 1994, for
 // rays on a hierarchy; VARIANT 2000, for refining along a ray).
-//
-// The line crosses a star in edges. A vertex has a side of the line and a place along it; an edge whose ends
-// are on different sides is crossed between their places, and the surface has the height of the edge there.
-// Both triangles of an edge take the same crossing, so nothing is lost between them but what rounding does.
 // Triangles next to each other that one node removes are entered once.
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <span>
 #include <vector>
 
+#include "terrain/mt_crossing.h"
 #include "terrain/sight_engine.h"
 #include "terrain/sight_walk.h"
 #include "terrain/surface_height.h"
@@ -24,43 +20,22 @@
 namespace arete {
 namespace {
 
-/// Where the line passes a triangle: parameters of the piece, and the heights of the plane there.
-struct Span {
-  double t0, t1, z0, z1;
-  std::uint32_t triangle;
-
-  double at(double t) const { return t1 > t0 ? z0 + (z1 - z0) * ((t - t0) / (t1 - t0)) : z0; }
-};
-
-/// A vertex as the line sees it.
-struct Seen {
-  double side, along,
-      z;  ///< side: of the line, scaled; along: the parameter of the nearest place on the line
-};
-
 class Descent {
  public:
   Descent(const TriangleLocator& locator, const SightPiece& piece, SightJudge& judge,
           OutwardScale::Code allowed, bool mayFill)
-      : locator_(locator),
-        mt_(locator.mt()),
-        arrays_(mt_.arrays()),
+      : crossing_(locator, piece),
+        arrays_(locator.mt().arrays()),
         piece_(piece),
         judge_(judge),
         allowed_(allowed),
         mayFill_(mayFill),
-        perLength_(1 / (piece.dx * piece.dx + piece.dy * piece.dy)),
-        shortest_(kShortestInPlan * std::sqrt(perLength_)) {}
+        shortest_(crossing_.shortest()) {}
 
   /// The root triangles below the piece.
   void findRoots() {
-    std::vector<std::uint32_t> roots;
-    locator_.roots().along({piece_.x, piece_.y}, {piece_.x + piece_.dx, piece_.y + piece_.dy}, roots);
-    for (const std::uint32_t r : roots) {
-      const auto& corners = arrays_.rootTriangles[r];
-      addSpan(r, see(corners[0]), see(corners[1]), see(corners[2]), 0, 1);
-    }
-    for (const Span& span : spans_) {
+    crossing_.addRoots(spans_);
+    for (const TriangleSpan& span : spans_) {
       hasFirst_ = hasFirst_ || (span.t0 <= shortest_ && span.t1 > shortest_);
       hasLast_ = hasLast_ || (span.t1 >= 1 - shortest_ && span.t0 < 1 - shortest_);
     }
@@ -75,61 +50,16 @@ class Descent {
   bool hasLast() const { return !mayFill_ && hasLast_; }
 
  private:
-  Seen see(std::uint32_t vertex) const {
-    const Vec2 p = locator_.planPosition(vertex);
-    const double x = p.x - piece_.x, y = p.y - piece_.y;
-    return {piece_.dx * y - piece_.dy * x, (piece_.dx * x + piece_.dy * y) * perLength_,
-            mt_.vertices().height(VertexId(vertex))};
-  }
-
-  /// The span of a triangle within [first, last], if the line passes it.
-  void addSpan(std::uint32_t triangle, const Seen& a, const Seen& b, const Seen& c, double first,
-               double last) {
-    if ((a.side > 0 && b.side > 0 && c.side > 0) || (a.side < 0 && b.side < 0 && c.side < 0)) return;
-    Span span{HUGE_VAL, -HUGE_VAL, 0, 0, triangle};
-    const auto meet = [&span](double t, double z) {
-      if (t < span.t0) {
-        span.t0 = t;
-        span.z0 = z;
-      }
-      if (t > span.t1) {
-        span.t1 = t;
-        span.z1 = z;
-      }
-    };
-    const auto cross = [&meet](const Seen& p, const Seen& q) {
-      if (p.side == 0) meet(p.along, p.z);
-      if (!((p.side < 0 && q.side > 0) || (p.side > 0 && q.side < 0))) return;
-      const double f = p.side / (p.side - q.side);
-      meet(p.along + f * (q.along - p.along), p.z + f * (q.z - p.z));
-    };
-    cross(a, b);
-    cross(b, c);
-    cross(c, a);
-    if (!(span.t0 < last && span.t1 > first)) return;
-    const Span whole = span;
-    if (span.t0 < first) {
-      span.t0 = first;
-      span.z0 = whole.at(first);
-    }
-    if (span.t1 > last) {
-      span.t1 = last;
-      span.z1 = whole.at(last);
-    }
-    if (span.t1 > span.t0) spans_.push_back(span);
-  }
-
   /// Treats the spans from `begin` on, which cover [first, last] but for gaps, in order, and drops them.
   void follow(std::size_t begin, double first, double last, bool mayHaveGaps) {
-    std::sort(spans_.begin() + static_cast<std::ptrdiff_t>(begin), spans_.end(),
-              [](const Span& p, const Span& q) { return p.t0 != q.t0 ? p.t0 < q.t0 : p.t1 > q.t1; });
+    MtCrossing::sort(std::span(spans_).subspan(begin));
     const std::size_t end = spans_.size();
     if (!mayFill_)
       for (std::size_t i = begin; i < end; ++i)
         if (spans_[i].t1 - spans_[i].t0 > shortest_) hint(spans_[i]);
     double done = first;
     for (std::size_t i = begin; i < end && !judge_.isDone();) {
-      Span span = spans_[i++];
+      TriangleSpan span = spans_[i++];
       if (span.t1 <= done) continue;
       if (span.t0 > done + shortest_) {
         if (mayHaveGaps) judge_.gap(piece_.distance(done), piece_.distance(span.t0));
@@ -145,7 +75,7 @@ class Descent {
       // As far as the same node goes on.
       double to = span.t1;
       while (i < end && spans_[i].t0 <= to + shortest_) {
-        Span next = spans_[i];
+        TriangleSpan next = spans_[i];
         if (next.t1 > to) {
           if (arrays_.remover[next.triangle] != node) break;
           next.z0 = next.at(std::max(next.t0, to));
@@ -164,14 +94,14 @@ class Descent {
   }
 
   /// Terrain that the bound of a triangle promises.
-  void hint(const Span& span) {
+  void hint(const TriangleSpan& span) {
     const double lower = arrays_.scale.decode(arrays_.above[span.triangle]);
     judge_.hint(piece_.distance(span.t0), span.z0 - lower);
     judge_.hint(piece_.distance(span.t1), span.z1 - lower);
   }
 
   /// The node to enter below a span; none where the span itself says enough.
-  std::uint32_t entered(const Span& span) {
+  std::uint32_t entered(const TriangleSpan& span) {
     ++visited_;
     const std::uint32_t node = arrays_.remover[span.triangle];
     const double s0 = piece_.distance(span.t0), s1 = piece_.distance(span.t1);
@@ -191,31 +121,19 @@ class Descent {
   }
 
   void star(std::uint32_t node, double first, double last) {
-    const std::uint32_t begin = arrays_.slotBegin[node], end = arrays_.slotBegin[node + 1];
-    const std::uint32_t roots = mt_.rootTriangleCount();
-    const Seen apex = see(arrays_.rootVertices + node);
-    const Seen firstLink = see(arrays_.link[begin]);
     const std::size_t mine = spans_.size();
-    Seen p = firstLink;
-    for (std::uint32_t slot = begin; slot < end; ++slot) {
-      const Seen q = slot + 1 < end ? see(arrays_.link[slot + 1]) : firstLink;
-      // The last slot of an open star is no triangle.
-      if (slot + 1 < end || arrays_.remover[roots + slot] != node)
-        addSpan(roots + slot, apex, p, q, first, last);
-      p = q;
-    }
+    crossing_.addStar(node, first, last, spans_);
     follow(mine, first, last, mayFill_);
   }
 
-  const TriangleLocator& locator_;
-  const MultiTriangulation& mt_;
+  MtCrossing crossing_;
   const MtArrays& arrays_;
   const SightPiece& piece_;
   SightJudge& judge_;
   OutwardScale::Code allowed_;
   bool mayFill_;
-  double perLength_, shortest_;
-  std::vector<Span> spans_;
+  double shortest_;
+  std::vector<TriangleSpan> spans_;
   std::uint64_t visited_ = 0;
   bool hasFirst_ = false, hasLast_ = false;
 };
