@@ -2,7 +2,8 @@
 //
 // Lines of sight between places spread evenly over the DEM, by each method. Both ends stand between the
 // ground and a height above it that leaves about a third of the lines clear. Lines of 2000 cells and more are
-// those longer than that in rows and columns together; a DEM too small for them has none.
+// those longer than that in rows and columns together; a DEM too small for them has none. Below the same
+// lines whole profiles are taken.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include "bench/threads.h"
 #include "datasets/random.h"
 #include "io/amt_file.h"
+#include "terrain/profile.h"
 #include "terrain/sight_earth.h"
 #include "terrain/sight_engine.h"
 
@@ -64,6 +66,18 @@ double clearShare(const SightEngine& engine, const std::vector<SightLine>& lines
   for (const SightLine& line : lines)
     clear += engine.answer(line, options).verdict == SightVerdict::visible ? 1 : 0;
   return clear / static_cast<double>(std::max<std::size_t>(1, lines.size()));
+}
+
+/// Microseconds for a thousand vertices.
+double profileTime(const Profiles& profiles, const std::vector<SightLine>& lines, const Plan& plan) {
+  std::size_t vertices = 0;
+  for (const SightLine& line : lines) vertices += profiles.along(line.track()).vertices.size();
+  const double seconds = medianSeconds(plan.repetition, [&] {
+    double sum = 0;
+    for (const SightLine& line : lines) sum += profiles.along(line.track()).gapMetres;
+    return sum;
+  });
+  return seconds / static_cast<double>(vertices) * 1e9;
 }
 
 }  // namespace
@@ -117,6 +131,13 @@ Result<Figures> sightStage(const DemSource& source, const std::string& path, con
         add("times the scan", scanSeconds / seconds, "", Better::higher);
       }
     }
+    for (const bool overCells : {true, false})
+      figures.push_back({source.name, "sight",
+                         fmt::format("{}profile, {}", isLong ? "2000 cells and more, " : "",
+                                     overCells ? "cells" : "descent"),
+                         "time per 1000 vertices",
+                         profileTime(overCells ? Profiles(*model, grid) : Profiles(*model), lines, plan),
+                         "us", Better::lower});
   }
   return figures;
 }

@@ -138,10 +138,13 @@ Status runLos(const LosArguments& a, Session& session) {
   }
   const auto earth = a.sight.makeEarth(*model, session);
   if (!earth) return tl::unexpected(earth.error());
-  const Profiles profiles(*model);
+  // Whole profiles at full resolution are walks over the cells of a raster.
+  const bool hasProfiles = options.frequencyMegahertz > 0 || options.clutter.height;
+  const auto grid = hasProfiles && model->isRaster ? std::make_shared<const SightGrid>(*model) : nullptr;
+  const Profiles profiles(*model, grid);
   const SightRows rows = SightRows::of(*pairs, profiles.heights());
   const SightMethod method = bestMethod(a.method, a.maxError, rows.links.size(), *model);
-  const auto engine = makeSightEngine(method, *model, {}, session.context());
+  const auto engine = makeSightEngine(method, *model, grid, session.context());
   if (!engine) return tl::unexpected(engine.error());
   const auto answers = answerLinks(rows.links, **earth, **engine, profiles, options, session.context());
   if (!answers) return tl::unexpected(answers.error());

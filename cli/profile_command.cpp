@@ -274,7 +274,9 @@ Status runProfile(const ProfileArguments& a, Session& session) {
   const auto earth = a.sight.makeEarth(*model, session);
   if (!earth) return tl::unexpected(earth.error());
 
-  const Profiles profiles(*model);
+  const bool isFull = a.maxError == 0 || a.frequency > 0;
+  const Profiles profiles(*model,
+                          isFull && model->isRaster ? std::make_shared<const SightGrid>(*model) : nullptr);
   const double wavelength = a.frequency > 0 ? wavelengthMetres(a.frequency) : 0;
   std::vector<Answer> answers;
   std::size_t vertices = 0;

@@ -3,6 +3,9 @@
 // The spans of the track over the triangles of a node's star are sorted, and each is followed down in its
 // turn, so stretches come out in order. What two triangles both claim (the track runs along their edge) goes
 // to the first. A triangle that says enough, by its bound or because nothing is finer, is a stretch.
+//
+// A raster at full resolution needs no descent: the walk over its cells gives the same stretches, in about an
+// eightieth of the time.
 #include "terrain/profile.h"
 
 #include <algorithm>
@@ -10,6 +13,7 @@
 #include <span>
 
 #include "terrain/mt_crossing.h"
+#include "terrain/sight_cells.h"
 #include "terrain/sight_walk.h"
 #include "terrain/triangle_locator.h"
 
@@ -78,6 +82,36 @@ class Descent {
   std::vector<Stretch> spans_;
   std::vector<Stretch>& stretches_;
 };
+
+/// Takes the stretches of a walk over cells. Where the line passes a sample, rounding leaves slivers of the
+/// cells around; they are left to their neighbours.
+struct CellStretches {
+  std::vector<Stretch>& stretches;
+  double shortest;
+
+  void terrain(double t0, double z0, double t1, double z1) {
+    if (!(t1 > t0)) return;
+    if (!stretches.empty()) {
+      Stretch& last = stretches.back();
+      const bool isSliver = t1 - t0 <= shortest || last.t1 - last.t0 <= shortest;
+      if (isSliver && t0 - last.t1 <= shortest) {
+        last.t1 = t1;
+        last.z1 = z1;
+        return;
+      }
+    }
+    stretches.push_back({t0, t1, z0, z1, 0});
+  }
+  void gap(double, double) {}
+  bool isDone() const { return false; }
+};
+
+void walk(const SightGrid& grid, const SightPiece& piece, double shortest, std::vector<Stretch>& stretches) {
+  if (grid.columns() < 2 || grid.rows() < 2) return;  // no cell
+  const SightRange range = rangeOver(piece, grid.columns() - 1, grid.rows() - 1);
+  CellStretches sink{stretches, shortest};
+  if (range.first <= range.last) walkCells(grid, piece, range, sink);
+}
 
 /// Joins what was cut where no edge is. A node with several parents is entered below each of them, for the
 /// part of the piece that is theirs, so its triangles come in parts. A piece that runs along edges is claimed
@@ -155,14 +189,16 @@ Profile Profiles::along(const SightTrack& track, double maxError) const {
     const double plan = std::hypot(piece.dx, piece.dy);
     if (!(piece.ds > 0)) continue;
     stretches.clear();
+    const double shortest = plan > 0 ? kShortestInPlan / plan : 0;
     if (!(plan > 0)) {
       if (const auto height = heights_.at(model.toSource(track.points[i].plan)))
         stretches.push_back({0, 1, height->height, height->height, 0});
+    } else if (grid_ && allowed == 0) {
+      walk(*grid_, piece, shortest, stretches);
     } else {
       Descent(heights_.locator(), piece, allowed, model.options.rimTolerance > 0, stretches).run();
+      joinParts(piece, model.isRaster && allowed == 0, shortest, stretches);
     }
-    const double shortest = plan > 0 ? kShortestInPlan / plan : 0;
-    joinParts(piece, model.isRaster && allowed == 0, shortest, stretches);
     isOpen = append(profile, piece, track.points[i].distance, stretches, shortest, isOpen);
   }
   return profile;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
+#include <utility>
 #include <vector>
 
+#include "terrain/sight_grid.h"
 #include "terrain/sight_line.h"
 #include "terrain/surface_height.h"
 
@@ -25,23 +28,27 @@ struct Profile {
 };
 
 /// Takes profiles: from the root triangles below a track down through the multitriangulation, to the finest
-/// triangles or to the first whose bound is within a tolerance. Every crossing of an edge is a vertex.
+/// triangles or to the first whose bound is within a tolerance; or, given the samples of a raster, over its
+/// cells where no tolerance is allowed. Every crossing of an edge is a vertex.
 ///
 /// Keeps a reference to the model. Thread-safe: it is only read.
 class Profiles {
  public:
-  /// O(root triangles). Precondition: the model outlives this.
-  explicit Profiles(const TerrainModel& model) : heights_(model) {}
+  /// grid: that of the model, shared by who has one; may be null. O(root triangles). Precondition: the model
+  /// outlives this.
+  explicit Profiles(const TerrainModel& model, std::shared_ptr<const SightGrid> grid = {})
+      : heights_(model), grid_(std::move(grid)) {}
 
   /// maxError: in the DEM's vertical unit; the profile is within it of full resolution everywhere. 0 = full
   /// resolution. A track without length gives the one vertex of its place, or none. O(vertices * depth *
-  /// degree).
+  /// degree), over cells O(vertices).
   Profile along(const SightTrack& track, double maxError = 0) const;
 
   const SurfaceHeights& heights() const { return heights_; }
 
  private:
   SurfaceHeights heights_;
+  std::shared_ptr<const SightGrid> grid_;
 };
 
 }  // namespace arete

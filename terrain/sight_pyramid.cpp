@@ -133,7 +133,7 @@ class SightPyramid final : public SightEngine {
                  if (!judge.matters(piece.distance(t0), top, piece.distance(t1), top, level.hasGaps[at] != 0))
                    return true;
                  if (which == 0) {
-                   visited += walkCells(*grid_, piece, {t0, t1}, judge);
+                   visited += judgeCells(*grid_, piece, {t0, t1}, judge);
                  } else {
                    enter(which - 1, piece, {t0, t1}, judge, visited);
                  }

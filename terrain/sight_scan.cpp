@@ -17,7 +17,7 @@ class SightScan final : public SightEngine {
     SightJudge judge(line, options);
     std::uint64_t visited = 0;
     forPieces(*grid_, judge, [&](const SightPiece& piece, SightRange range) {
-      visited += walkCells(*grid_, piece, range, judge);
+      visited += judgeCells(*grid_, piece, range, judge);
     });
     return judge.answer(visited);
   }

@@ -80,9 +80,8 @@ void forSquares(const SightPiece& piece, SightRange range, double size, int colu
 }
 
 /// Tells the judge all terrain and all gaps below the part of a piece inside the grid, cell by cell, in
-/// order. Returns how many cells it looked at. Precondition: range lies within rangeOver() of the grid, and
-/// the piece has a length in plan. O(cells).
-std::uint64_t walkCells(const SightGrid& grid, const SightPiece& piece, SightRange range, SightJudge& judge);
+/// order: walkCells() of terrain/sight_cells.h. Returns how many cells it looked at.
+std::uint64_t judgeCells(const SightGrid& grid, const SightPiece& piece, SightRange range, SightJudge& judge);
 
 /// Calls inside(piece, range) for each piece of the line that has a part over the grid, and tells the judge
 /// the rest: what has no terrain, and both ends, which may be all the terrain there is.
