@@ -10,10 +10,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
 #include "io/gdal_support.h"
+#include "io/text_scan.h"
 
 namespace arete {
 namespace {
@@ -107,9 +107,7 @@ Result<OGRSpatialReference> parsedCrs(const std::string& text, CSLConstList limi
 }  // namespace
 
 std::optional<double> metresPerUnit(std::string_view name) {
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string lower = text::lowered(name);
   for (const UnitName& unit : kUnitNames)
     if (unit.name == lower) return unit.metres;
   return std::nullopt;

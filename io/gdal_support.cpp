@@ -10,10 +10,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <mutex>
+
+#include "io/text_scan.h"
 
 namespace arete {
 namespace {
@@ -112,10 +113,7 @@ bool isVirtualPath(std::string_view path) {
 std::string lowerExtension(const std::string& path) {
   const std::size_t dot = path.find_last_of("./\\");
   if (dot == std::string::npos || path[dot] != '.') return {};
-  std::string extension = path.substr(dot + 1);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return extension;
+  return text::lowered(std::string_view(path).substr(dot + 1));
 }
 
 }  // namespace arete

@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "io/crs_reader.h"
+#include "io/feature_rows.h"
 #include "io/gdal_support.h"
 #include "io/point_rows.h"
 #include "io/point_text.h"
@@ -26,7 +27,6 @@ namespace arete {
 namespace {
 
 constexpr std::size_t kPointLimit = (std::size_t(1) << 32) - 2;
-constexpr std::size_t kFeaturesPerReport = 4096;
 
 std::string fieldNames(const OGRFeatureDefn& definition) {
   std::vector<std::string> names;
@@ -104,22 +104,10 @@ Result<PointRows> readLayer(OGRLayer& layer, const PointReadOptions& options,
   if (!zField) return tl::unexpected(zField.error());
   GdalErrors errors;
   FeatureCollector collector(layer, *zField);
-  const double total = double(layer.GetFeatureCount(false));
-  layer.ResetReading();
-  for (std::size_t n = 0;; ++n) {
-    if (n % kFeaturesPerReport == 0) {
-      if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
-      context.report("reading", total > 0 ? std::min(1.0, double(n) / total) : 0);
-    }
-    const OGRFeatureUniquePtr feature(layer.GetNextFeature());
-    if (!feature) break;
-    if (Status status = collector.add(*feature); !status) return tl::unexpected(status.error());
-  }
-  if (errors.anyFailure())
-    return failure(ErrorCode::unreadable,
-                   fmt::format("the layer '{}' cannot be read: {}", layer.GetName(), errors.firstFailure()));
+  const Status read =
+      forFeatures(layer, errors, context, [&](OGRFeature& feature) { return collector.add(feature); });
+  if (!read) return tl::unexpected(read.error());
   errors.moveTo(warnings);
-  context.report("reading", 1);
   if (collector.skipped > 0)
     warnings.push_back(
         fmt::format("{} features without a position or a height are left out", collector.skipped));

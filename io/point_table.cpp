@@ -5,13 +5,11 @@
 #include <ogr_geometry.h>
 #include <ogr_spatialref.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
-#include "io/crs_reader.h"
 #include "io/crs_transform.h"
+#include "io/feature_rows.h"
 #include "io/gdal_support.h"
 #include "io/point_text.h"
 #include "io/vector_layer.h"
@@ -20,19 +18,6 @@ namespace arete {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kFeaturesPerReport = 4096;
-
-PointAttributes::Kind kindOf(OGRFieldType type) {
-  switch (type) {
-    case OFTInteger:
-    case OFTInteger64:
-      return PointAttributes::Kind::integer;
-    case OFTReal:
-      return PointAttributes::Kind::real;
-    default:
-      return PointAttributes::Kind::text;
-  }
-}
 
 class FeatureReader {
  public:
@@ -68,14 +53,7 @@ class FeatureReader {
   void addRow(OGRFeature& feature, Vec2 place) {
     table_.stated.push_back(place);
     table_.attributes.add(fmt::format("{}", feature.GetFID()));
-    for (int i = 0; i < feature.GetFieldCount(); ++i) {
-      if (!feature.IsFieldSetAndNotNull(i))
-        table_.attributes.add({});
-      else if (feature.GetFieldDefnRef(i)->GetType() == OFTReal)  // all digits, which GDAL's text has not
-        table_.attributes.add(fmt::format("{}", feature.GetFieldAsDouble(i)));
-      else
-        table_.attributes.add(feature.GetFieldAsString(i));
-    }
+    for (int i = 0; i < feature.GetFieldCount(); ++i) table_.attributes.add(fieldText(feature, i));
   }
 
   OGRLayer& layer_;
@@ -85,39 +63,7 @@ class FeatureReader {
 Status readLayer(OGRLayer& layer, PointTable& table, const RunContext& context) {
   const GdalErrors errors;
   FeatureReader reader(layer, table);
-  const double total = double(layer.GetFeatureCount(false));
-  layer.ResetReading();
-  for (std::size_t n = 0;; ++n) {
-    if (n % kFeaturesPerReport == 0) {
-      if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
-      context.report("reading", total > 0 ? std::min(1.0, double(n) / total) : 0);
-    }
-    const OGRFeatureUniquePtr feature(layer.GetNextFeature());
-    if (!feature) break;
-    if (Status added = reader.add(*feature); !added) return added;
-  }
-  if (errors.anyFailure())
-    return failure(ErrorCode::unreadable,
-                   fmt::format("the layer '{}' cannot be read: {}", layer.GetName(), errors.firstFailure()));
-  context.report("reading", 1);
-  return {};
-}
-
-/// What brings the stated coordinates into the DEM's CRS.
-Result<CrsTransform> transformOf(const OGRSpatialReference* own, const Georeference& dem, bool lonLat,
-                                 bool isText, std::vector<std::string>& warnings) {
-  if (!isKnownCrs(own)) {
-    if (lonLat) return CrsTransform::fromLonLat(dem);
-    if (!isText && !dem.crsWkt.empty())
-      warnings.push_back("has no CRS; its coordinates are taken as the DEM's");
-    return CrsTransform();
-  }
-  if (dem.crsWkt.empty())
-    return failure(ErrorCode::invalidData,
-                   "has a CRS and the DEM has none, so they cannot be brought together; --crs states the "
-                   "DEM's when it is built");
-  if (lonLat) warnings.push_back("has a CRS of its own, which is used instead of --lonlat");
-  return CrsTransform::between(wktOf(*own), dem.crsWkt);
+  return forFeatures(layer, errors, context, [&](OGRFeature& feature) { return reader.add(feature); });
 }
 
 Result<PointTable> readFrom(const std::string& path, const Georeference& dem,

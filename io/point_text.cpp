@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -53,13 +52,6 @@ std::string_view unquoted(std::string_view text) {
 
 std::string quoted(std::string_view text) {
   return fmt::format("'{}'", text::printable(text, kQuotedCharacters));
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return result;
 }
 
 char separatorOf(std::string_view line) {
@@ -128,7 +120,7 @@ std::optional<std::size_t> findColumn(std::span<const std::string_view> fields,
                                       std::span<const std::string_view> names) {
   for (const std::string_view name : names)
     for (std::size_t i = 0; i < fields.size(); ++i)
-      if (lower(fields[i]) == name) return i;
+      if (text::lowered(fields[i]) == name) return i;
   return std::nullopt;
 }
 
@@ -139,7 +131,7 @@ Result<Columns> columnsByName(std::span<const std::string_view> fields, const st
   auto z = findColumn(fields, kZNames);
   if (!zColumn.empty()) {
     const auto named = std::find(fields.begin(), fields.end(), std::string_view(zColumn));
-    const std::string wanted = lower(zColumn);
+    const std::string wanted = text::lowered(zColumn);
     z = named != fields.end() ? std::optional(std::size_t(named - fields.begin()))
                               : findColumn(fields, std::array<std::string_view, 1>{wanted});
     if (!z)

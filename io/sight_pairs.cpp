@@ -9,7 +9,6 @@
 
 #include <GeographicLib/Geodesic.hpp>
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -20,16 +19,16 @@
 #include <utility>
 
 #include "io/crs_lonlat.h"
-#include "io/crs_reader.h"
 #include "io/crs_transform.h"
+#include "io/feature_rows.h"
 #include "io/gdal_support.h"
+#include "io/text_scan.h"
 #include "io/vector_layer.h"
 
 namespace arete {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kFeaturesPerReport = 4096;
 using Names = std::vector<std::string_view>;
 
 const Names kX[2] = {
@@ -44,19 +43,12 @@ const Names kHeight[2] = {{"h1", "from_h", "from_height", "height1", "tx_h", "tx
 const Names kAzimuth = {"azimuth", "az", "bearing"}, kRange = {"range", "range_m"},
             kBeamwidth = {"beamwidth", "beam_width", "hpbw"};
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return result;
-}
-
 /// -1 where there is none.
 template <class NameOf>
 int findColumn(int count, const NameOf& nameOf, const Names& names) {
   for (const std::string_view name : names)
     for (int i = 0; i < count; ++i)
-      if (lower(nameOf(i)) == name) return i;
+      if (text::lowered(nameOf(i)) == name) return i;
   return -1;
 }
 
@@ -96,19 +88,6 @@ class GroundDirection {
   GeographicLib::Geodesic geodesic_;
   double unit_;
 };
-
-PointAttributes::Kind kindOf(OGRFieldType type) {
-  return type == OFTInteger || type == OFTInteger64 ? PointAttributes::Kind::integer
-         : type == OFTReal                          ? PointAttributes::Kind::real
-                                                    : PointAttributes::Kind::text;
-}
-
-std::string fieldText(OGRFeature& feature, int field) {
-  if (!feature.IsFieldSetAndNotNull(field)) return {};
-  if (feature.GetFieldDefnRef(field)->GetType() == OFTReal)  // all digits, which GDAL's text has not
-    return fmt::format("{}", feature.GetFieldAsDouble(field));
-  return feature.GetFieldAsString(field);
-}
 
 class PairReader {
  public:
@@ -232,22 +211,6 @@ class PairReader {
   std::vector<std::array<double, 2>> directions_;
 };
 
-Result<CrsTransform> transformOf(const OGRSpatialReference* own, const Georeference& dem, bool lonLat,
-                                 bool isTable, std::vector<std::string>& warnings) {
-  if (!isKnownCrs(own)) {
-    if (lonLat) return CrsTransform::fromLonLat(dem);
-    if (!isTable && !dem.crsWkt.empty())
-      warnings.push_back("has no CRS; its coordinates are taken as the DEM's");
-    return CrsTransform();
-  }
-  if (dem.crsWkt.empty())
-    return failure(ErrorCode::invalidData,
-                   "has a CRS and the DEM has none, so they cannot be brought together; --crs states the "
-                   "DEM's when it is built");
-  if (lonLat) warnings.push_back("has a CRS of its own, which is used instead of --lonlat");
-  return CrsTransform::between(wktOf(*own), dem.crsWkt);
-}
-
 void place(SightPairs& pairs, const PairReader& reader, const CrsTransform& toDem, const Georeference& dem) {
   for (int end = 0; end < 2; ++end) {
     std::vector<Vec2> places;
@@ -285,23 +248,14 @@ Result<SightPairs> readFrom(const std::string& path, const Georeference& dem,
   const bool isTable = (*layer)->GetGeomType() == wkbNone;
   PairReader reader(**layer, pairs);
   if (Status checked = reader.check(); !checked) return tl::unexpected(checked.error());
-  const double total = double((*layer)->GetFeatureCount(false));
-  (*layer)->ResetReading();
-  for (std::size_t n = 0;; ++n) {
-    if (n % kFeaturesPerReport == 0) {
-      if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
-      context.report("reading", total > 0 ? std::min(1.0, double(n) / total) : 0);
-    }
-    const OGRFeatureUniquePtr feature((*layer)->GetNextFeature());
-    if (!feature) break;
-    if (Status added = reader.add(*feature); !added)
+  const Status read = forFeatures(**layer, errors, context, [&](OGRFeature& feature) -> Status {
+    if (Status added = reader.add(feature); !added)
       return failure(
           added.error().code, added.error().message,
           added.error().culprit.empty() ? path : fmt::format("{}, {}", path, added.error().culprit));
-  }
-  if (errors.anyFailure())
-    return failure(ErrorCode::unreadable, fmt::format("the layer '{}' cannot be read: {}",
-                                                      (*layer)->GetName(), errors.firstFailure()));
+    return {};
+  });
+  if (!read) return tl::unexpected(read.error());
   if (pairs.rows.empty()) return failure(ErrorCode::invalidData, "holds no line");
   if (isTable) pairs.attributes.findKinds();
   const auto transform = transformOf((*layer)->GetSpatialRef(), dem, options.lonLat, isTable, pairs.warnings);
@@ -309,7 +263,6 @@ Result<SightPairs> readFrom(const std::string& path, const Georeference& dem,
   errors.moveTo(pairs.warnings);
   pairs.crsWkt = transform->sourceWkt().empty() ? dem.crsWkt : transform->sourceWkt();
   place(pairs, reader, *transform, dem);
-  context.report("reading", 1);
   return pairs;
 }
 

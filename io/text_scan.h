@@ -19,6 +19,14 @@ inline bool isSpace(char c) {
   return isBlank(c) || c == '\n';
 }
 
+/// A to Z in lower case; all else stays.
+inline std::string lowered(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
 /// The 1-based line of a place in a text. O(distance): for messages only.
 inline std::size_t lineOf(const char* begin, const char* at) {
   std::size_t line = 1;
