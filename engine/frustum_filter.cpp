@@ -16,21 +16,13 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/float_bounds.h"
 #include "engine/vector_clones.h"
 
 namespace arete {
 namespace {
 
 constexpr std::size_t kMost = 64, kLanes = 16;
-
-/// The largest float that is at most x: for a float e, e > x as e > floorFloat(x).
-float floorFloat(double x) {
-  if (std::isinf(x)) return static_cast<float>(x);
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  if (x >= double(std::numeric_limits<float>::max())) return std::numeric_limits<float>::max();
-  const auto f = static_cast<float>(x);
-  return double(f) > x ? std::nextafter(f, -kInfinity) : f;
-}
 
 /// The second where the first is no number.
 float larger(float a, float b) {
@@ -68,7 +60,7 @@ FrustumFilter::FrustumFilter(const View& view, double errorPerReach, double outs
   far_ = static_cast<float>(view.farDistance);
   leastCosine_ = static_cast<float>(p.leastCosine);
   errorPerReach_ = static_cast<float>(errorPerReach);
-  outsideError_ = floorFloat(outsideError);
+  outsideError_ = floatAtMost(outsideError);
   constexpr double kMostCoordinate = 1e15, kLeast = 1e-30;
   isUsable_ = p.leastCosine >= 0.05 && std::abs(view.eye.x) < kMostCoordinate &&
               std::abs(view.eye.y) < kMostCoordinate && std::abs(view.eye.z) < kMostCoordinate &&

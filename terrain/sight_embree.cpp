@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "engine/cut.h"
+#include "engine/float_bounds.h"
 #include "terrain/sight_engine.h"
 
 namespace arete {
@@ -42,12 +43,6 @@ struct Release {
 };
 using Device = std::unique_ptr<RTCDeviceTy, Release>;
 using Scene = std::unique_ptr<RTCSceneTy, Release>;
-
-float rounded(double z, bool isUpwards) {
-  const auto nearest = static_cast<float>(z);
-  if (isUpwards) return nearest < z ? std::nextafter(nearest, HUGE_VALF) : nearest;
-  return nearest > z ? std::nextafter(nearest, -HUGE_VALF) : nearest;
-}
 
 /// What the front promises around each of its vertices.
 struct Envelope {
@@ -130,7 +125,8 @@ class SightEmbree final : public SightEngine {
       const Vec3 p = mt.position(VertexId(cut.vertices[i]));
       *position++ = static_cast<float>(p.x);
       *position++ = static_cast<float>(p.y);
-      *position++ = rounded(p.z - middle_ + side * (away[i] + margin_), side > 0);
+      const double z = p.z - middle_ + side * (away[i] + margin_);
+      *position++ = side > 0 ? floatAtLeast(z) : floatAtMost(z);
     }
     auto* corner = static_cast<std::uint32_t*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,

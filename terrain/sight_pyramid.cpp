@@ -10,6 +10,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/float_bounds.h"
 #include "engine/with_threads.h"
 #include "terrain/sight_engine.h"
 #include "terrain/sight_walk.h"
@@ -30,11 +31,6 @@ struct Level {
     return static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
   }
 };
-
-float roundedUp(double z) {
-  const auto nearest = static_cast<float>(z);
-  return nearest < z ? std::nextafter(nearest, HUGE_VALF) : nearest;
-}
 
 class SightPyramid final : public SightEngine {
  public:
@@ -86,7 +82,7 @@ class SightPyramid final : public SightEngine {
               top = std::max(top, z);
           }
         const std::size_t at = std::size_t{row} * level.columns + column;
-        level.top[at] = roundedUp(top);
+        level.top[at] = floatAtLeast(top);
         level.hasGaps[at] = hasGaps;
       }
     });
