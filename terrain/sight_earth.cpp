@@ -48,10 +48,10 @@ class PlaneEarth final : public SightEarth {
 
 }  // namespace
 
-Vec2 sightEnd(const TerrainModel& model, Vec2 plan) {
-  const auto onLine = [](double v) {
+Vec2 sightEnd(const TerrainModel& model, Vec2 plan, double margin) {
+  const auto onLine = [margin](double v) {
     const double line = std::round(v);
-    return std::fabs(v - line) <= 1e-9 ? line : v;
+    return std::fabs(v - line) <= margin ? line : v;
   };
   return model.isRaster ? Vec2{onLine(plan.x), onLine(plan.y)} : plan;
 }

@@ -30,8 +30,8 @@ class SightEarth {
   virtual std::optional<double> geodesicError() const { return std::nullopt; }
 };
 
-/// A place within 1e-9 of a lattice line of the raster is on it: coordinates are rounded.
-Vec2 sightEnd(const TerrainModel& model, Vec2 plan);
+/// A place within `margin` of a lattice line of the raster is on it: coordinates are rounded.
+Vec2 sightEnd(const TerrainModel& model, Vec2 plan, double margin = kShortestInPlan);
 
 /// The map taken as it is: straight in plan, no curvature. Distances are those of the map in metres; of a
 /// geographic CRS, by the ground size of a sample's steps in the middle of the DEM.

@@ -9,6 +9,9 @@
 
 namespace arete {
 
+/// Lengths in plan below this are rounding: neither a gap nor a crossing.
+inline constexpr double kShortestInPlan = 1e-9;
+
 /// A place on the way of a sight line.
 struct SightPoint {
   Vec2 plan;            ///< plan coordinates of the model: column, row of a raster

@@ -103,12 +103,8 @@ Vec2 sightPlan(const TerrainModel& model, Vec2 xy) {
     const double middle = g.toSource((model.columns - 1) / 2.0, (model.rows - 1) / 2.0).x;
     if (std::abs(xy.x - middle) > turn / 2) xy.x += turn * std::round((middle - xy.x) / turn);
   }
-  Vec2 plan = model.toPlan(xy);
-  if (!model.isRaster) return plan;
-  const double margin = SurfaceHeights::margin(model);
-  for (double* v : {&plan.x, &plan.y})
-    if (const double line = std::round(*v); std::abs(*v - line) <= margin) *v = line;
-  return plan;
+  const Vec2 plan = model.toPlan(xy);
+  return model.isRaster ? sightEnd(model, plan, SurfaceHeights::margin(model)) : plan;
 }
 
 Result<SightLine> sightLine(const SightLink& link, const SightEarth& earth, const TerrainModel& model) {

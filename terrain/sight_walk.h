@@ -11,9 +11,6 @@
 
 namespace arete {
 
-/// Lengths in plan below this are rounding: neither a gap nor a crossing.
-inline constexpr double kShortestInPlan = 1e-9;
-
 /// A straight piece of a sight line over the plan: at parameter t in [0, 1] it is at (x + t dx, y + t dy) and
 /// at the distance s + t ds.
 struct SightPiece {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "terrain/sight_walk.h"
+#include "terrain/sight_earth.h"
 #include "terrain/viewshed_methods.h"
 #include "terrain/viewshed_picture.h"
 
@@ -30,11 +30,6 @@ Status check(const ViewshedObserver& observer, const ViewshedOptions& options) {
   if (!(options.maxError >= 0 && std::isfinite(options.maxError)))
     return bad("must be 0 or more", "the tolerance");
   return {};
-}
-
-/// Coordinates are rounded: what all but is on a lattice line is meant to be.
-double onLattice(double v) {
-  return std::fabs(v - std::round(v)) <= kShortestInPlan ? std::round(v) : v;
 }
 
 void countCells(Viewshed& result) {
@@ -88,7 +83,7 @@ Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const Vie
   const auto engine = engineFor(options);
   if (!engine) return tl::unexpected(engine.error());
   const bool hasTolerance = options.maxError > 0;
-  const ViewshedObserver from{{onLattice(observer.plan.x), onLattice(observer.plan.y)}, observer.height};
+  const ViewshedObserver from{sightEnd(*model_, observer.plan), observer.height};
   const ViewshedExact exact(**engine, *earth_, model_->georeference.verticalUnitMetres, from, options);
   static const std::vector<float> kNothing;
   const ViewshedTask task{
@@ -137,10 +132,10 @@ Result<Viewshed> ViewshedMaker::of(std::span<const Vec2> places, const ViewshedO
     return failure(ErrorCode::unsupported, "is for the grid of the DEM", "the method sweep");
   const auto engine = engineFor(options);
   if (!engine) return tl::unexpected(engine.error());
-  const ViewshedObserver from{{onLattice(observer.plan.x), onLattice(observer.plan.y)}, observer.height};
+  const ViewshedObserver from{sightEnd(*model_, observer.plan), observer.height};
   const ViewshedExact exact(**engine, *earth_, model_->georeference.verticalUnitMetres, from, options);
   std::vector<Vec2> targets(places.begin(), places.end());
-  for (Vec2& place : targets) place = {onLattice(place.x), onLattice(place.y)};
+  for (Vec2& place : targets) place = sightEnd(*model_, place);
   Viewshed result;
   result.columns = static_cast<std::uint32_t>(places.size());
   result.rows = 1;
