@@ -8,11 +8,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "engine/shared_progress.h"
 #include "engine/with_threads.h"
 #include "terrain/sight_judge.h"
 
@@ -150,19 +150,14 @@ Result<std::vector<Result<SightLinkAnswer>>> answerLinks(std::span<const SightLi
                                                          const SightLinkOptions& options,
                                                          const RunContext& context) {
   std::vector<Result<SightLinkAnswer>> answers(links.size(), SightLinkAnswer{});
-  std::atomic<std::size_t> done = 0;
-  std::atomic<bool> isReporting = false;
+  SharedProgress progress(context, "lines of sight", links.size());
   context.report("lines of sight", 0);
   withThreads(context, [&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, links.size(), kLinksPerTask),
                       [&](const auto& range) {
                         for (std::size_t i = range.begin(); i < range.end() && !context.cancelled(); ++i)
                           answers[i] = answerLink(links[i], earth, engine, profiles, options);
-                        const std::size_t count = done += range.size();
-                        if (!isReporting.exchange(true)) {
-                          context.report("lines of sight", double(count) / double(links.size()));
-                          isReporting = false;
-                        }
+                        progress.add(range.size());
                       });
   });
   if (context.cancelled()) return failure(ErrorCode::interrupted, "the query was stopped");

@@ -11,10 +11,10 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <utility>
 
+#include "engine/shared_progress.h"
 #include "engine/with_threads.h"
 
 namespace arete {
@@ -108,8 +108,7 @@ Result<std::vector<std::optional<SurfaceHeight>>> SurfaceHeights::at(std::span<c
   const OutwardScale::Code allowed = model_.mt.arrays().scale.floorCode(maxError);
   std::vector<std::optional<SurfaceHeight>> answers(places.size());
   std::vector<Visit> order(places.size());
-  std::atomic<std::size_t> done = 0;
-  std::atomic<bool> isReporting = false;
+  SharedProgress progress(context, "heights", places.size());
   context.report("heights", 0);
   withThreads(context, [&] {
     tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
@@ -124,11 +123,7 @@ Result<std::vector<std::optional<SurfaceHeight>>> SurfaceHeights::at(std::span<c
                           const std::uint32_t place = order[i].place;
                           answers[place] = inPlan(model_.toPlan(places[place]), allowed);
                         }
-                        const std::size_t count = done += range.size();
-                        if (!isReporting.exchange(true)) {
-                          context.report("heights", double(count) / double(places.size()));
-                          isReporting = false;
-                        }
+                        progress.add(range.size());
                       });
   });
   if (context.cancelled()) return failure(ErrorCode::interrupted, "the query was stopped");

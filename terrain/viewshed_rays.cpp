@@ -4,8 +4,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 
+#include "engine/shared_progress.h"
 #include "engine/with_threads.h"
 #include "terrain/viewshed_methods.h"
 
@@ -15,8 +17,8 @@ namespace {
 /// body(row): a Status, for every row; the error of the first row that has one.
 template <class Body>
 Status forRows(std::uint32_t rows, const RunContext& context, const Body& body) {
-  std::atomic<std::uint32_t> done = 0;
-  std::atomic<bool> isReporting = false, isBroken = false;
+  SharedProgress progress(context, "viewshed", rows);
+  std::atomic<bool> isBroken = false;
   std::mutex mutex;
   std::pair<std::uint32_t, Error> first{rows, {}};
   withThreads(context, [&] {
@@ -28,11 +30,7 @@ Status forRows(std::uint32_t rows, const RunContext& context, const Body& body) 
         if (row < first.first) first = {row, status.error()};
         return;
       }
-      const std::uint32_t count = ++done;
-      if (!isReporting.exchange(true)) {
-        context.report("viewshed", double(count) / rows);
-        isReporting = false;
-      }
+      progress.add();
     });
   });
   if (context.cancelled()) return failure(ErrorCode::interrupted, "the viewshed was stopped");
