@@ -105,6 +105,90 @@ Result<SightPairs> readRows(const LosArguments& a, const Georeference& dem, Sess
   return sites;
 }
 
+/// Where a row says no height the options may.
+Status addUsualHeights(const LosArguments& a, SightPairs& pairs) {
+  for (const auto& [end, option, text] :
+       {std::tuple{0, "--observer-height", &a.observerHeight}, {1, "--target-height", &a.targetHeight}}) {
+    if (text->empty()) continue;
+    const auto height = readHeightText(*text);
+    if (!height)
+      return failure(height.error().code, height.error().message, fmt::format("{} {}", option, *text));
+    for (auto& row : pairs.rows)
+      if (!row[end].height) row[end].height = *height;
+  }
+  return {};
+}
+
+Result<SightLinkOptions> optionsOf(const LosArguments& a, const TerrainModel& model, Session& session) {
+  SightLinkOptions options;
+  options.sight.nodata = a.sight.nodata;
+  options.sight.maxError = a.maxError;
+  options.frequencyMegahertz = a.frequency;
+  if (a.clutter.empty()) return options;
+  auto clutter = readClutter(a.clutter, model, session.context());
+  if (!clutter) return tl::unexpected(clutter.error());
+  options.clutter = std::move(*clutter);
+  options.clutter.freeMetres = a.clutterFree;
+  return options;
+}
+
+Status tellOne(const SightResults& results, Json json, Session& session) {
+  if (const Error* error = results.errorOf(0)) return tl::unexpected(*error);
+  json.update(results.jsonOf(0));
+  session.say(results.textOf(0));
+  session.answer(json);
+  return {};
+}
+
+Status writeAnswers(const std::string& path, const LineTable& table, const Json& json, Session& session) {
+  if (!isJson(path)) return writeLineTable(path, table, session.context());
+  auto file = FileWriter::create(path);
+  if (!file) return tl::unexpected(file.error());
+  file->write(json.dump(1) + "\n");
+  return file->finish();
+}
+
+Status tellMany(const LosArguments& a, const SightResults& results, Json json, Session& session) {
+  const std::size_t lines = results.rows.count();
+  const SightCounts counts = results.counts();
+  json["lines"] = lines;
+  json["visible"] = counts.visible;
+  json["blocked"] = counts.blocked;
+  json["unknown"] = counts.unknown;
+  json["undecided"] = counts.undecided;
+  json["failed"] = counts.failed;
+  const PointAttributes columns = results.columns();
+  const auto ends = results.ends();
+  const LineTable table{.layer = "sight",
+                        .crsWkt = results.pairs.crsWkt,
+                        .ends = ends,
+                        .inputs = &results.pairs.attributes,
+                        .results = &columns};
+  if (a.output.empty() || isJson(a.output)) {
+    Json all = Json::array();
+    for (std::size_t i = 0; i < lines; ++i) all.push_back(results.jsonOf(i));
+    json["answers"] = std::move(all);
+  }
+  if (a.output.empty()) {
+    std::string text;
+    forCsvLines(table, [&](std::string_view line) { text += line; });
+    session.say(text);
+  } else {
+    if (Status written = writeAnswers(a.output, table, json, session); !written) return written;
+    json.erase("answers");
+    json["file"] = a.output;
+    session.say(fmt::format("{}: {} lines of sight: {}\n", a.output, grouped(lines), counts.text()));
+  }
+  session.answer(json);
+  if (counts.failed == lines)
+    return failure(ErrorCode::invalidData,
+                   fmt::format("no line of sight has both ends: {}", results.errorOf(0)->describe()));
+  if (counts.failed > 0)
+    session.warn(fmt::format("{} of {} lines have no answer; the column error says why",
+                             grouped(counts.failed), grouped(lines)));
+  return {};
+}
+
 Status runLos(const LosArguments& a, Session& session) {
   if (Status checked = checkArguments(a); !checked) return checked;
   const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
@@ -116,45 +200,28 @@ Status runLos(const LosArguments& a, Session& session) {
       return output;
   auto pairs = readRows(a, model->georeference, session);
   if (!pairs) return tl::unexpected(pairs.error());
-  for (const auto& [end, option, text] :
-       {std::tuple{0, "--observer-height", &a.observerHeight}, {1, "--target-height", &a.targetHeight}}) {
-    if (text->empty()) continue;
-    const auto height = readHeightText(*text);
-    if (!height)
-      return failure(height.error().code, height.error().message, fmt::format("{} {}", option, *text));
-    for (auto& row : pairs->rows)
-      if (!row[end].height) row[end].height = *height;
-  }
-
-  SightLinkOptions options;
-  options.sight.nodata = a.sight.nodata;
-  options.sight.maxError = a.maxError;
-  options.frequencyMegahertz = a.frequency;
-  if (!a.clutter.empty()) {
-    auto clutter = readClutter(a.clutter, *model, session.context());
-    if (!clutter) return tl::unexpected(clutter.error());
-    options.clutter = std::move(*clutter);
-    options.clutter.freeMetres = a.clutterFree;
-  }
+  if (Status added = addUsualHeights(a, *pairs); !added) return added;
+  const auto options = optionsOf(a, *model, session);
+  if (!options) return tl::unexpected(options.error());
   const auto earth = a.sight.makeEarth(*model, session);
   if (!earth) return tl::unexpected(earth.error());
   // Whole profiles at full resolution are walks over the cells of a raster.
-  const bool hasProfiles = options.frequencyMegahertz > 0 || options.clutter.height;
+  const bool hasProfiles = options->frequencyMegahertz > 0 || options->clutter.height;
   const auto grid = hasProfiles && model->isRaster ? std::make_shared<const SightGrid>(*model) : nullptr;
   const Profiles profiles(*model, grid);
   const SightRows rows = SightRows::of(*pairs, profiles.heights());
   const SightMethod method = bestMethod(a.method, a.maxError, rows.links.size(), *model);
   const auto engine = makeSightEngine(method, *model, grid, session.context());
   if (!engine) return tl::unexpected(engine.error());
-  const auto answers = answerLinks(rows.links, **earth, **engine, profiles, options, session.context());
+  const auto answers = answerLinks(rows.links, **earth, **engine, profiles, *options, session.context());
   if (!answers) return tl::unexpected(answers.error());
 
-  SightResults results{.pairs = *pairs,
-                       .rows = rows,
-                       .answers = *answers,
-                       .model = *model,
-                       .hasFresnel = a.frequency > 0,
-                       .fresnel = a.fresnel};
+  const SightResults results{.pairs = *pairs,
+                             .rows = rows,
+                             .answers = *answers,
+                             .model = *model,
+                             .hasFresnel = a.frequency > 0,
+                             .fresnel = a.fresnel};
   Json json = {{"model", a.model},
                {"verticalUnit", model->georeference.verticalUnit},
                {"earth", a.sight.earthName(*model)},
@@ -162,57 +229,8 @@ Status runLos(const LosArguments& a, Session& session) {
                {"nodata", std::string(toString(a.sight.nodata))},
                {"maxError", a.maxError},
                {"method", std::string(toString(method))}};
-  const SightCounts counts = results.counts();
-  if (a.pairs.empty() && a.points.empty() && a.output.empty()) {
-    if (const Error* error = results.errorOf(0)) return tl::unexpected(*error);
-    json.update(results.jsonOf(0));
-    session.say(results.textOf(0));
-    session.answer(json);
-    return {};
-  }
-  json["lines"] = rows.count();
-  json["visible"] = counts.visible;
-  json["blocked"] = counts.blocked;
-  json["unknown"] = counts.unknown;
-  json["undecided"] = counts.undecided;
-  json["failed"] = counts.failed;
-  const PointAttributes columns = results.columns();
-  const auto ends = results.ends();
-  const LineTable table{.layer = "sight",
-                        .crsWkt = pairs->crsWkt,
-                        .ends = ends,
-                        .inputs = &pairs->attributes,
-                        .results = &columns};
-  if (a.output.empty() || isJson(a.output)) {
-    Json all = Json::array();
-    for (std::size_t i = 0; i < rows.count(); ++i) all.push_back(results.jsonOf(i));
-    json["answers"] = std::move(all);
-  }
-  if (a.output.empty()) {
-    std::string text;
-    forCsvLines(table, [&](std::string_view line) { text += line; });
-    session.say(text);
-  } else {
-    if (isJson(a.output)) {
-      auto file = FileWriter::create(a.output);
-      if (!file) return tl::unexpected(file.error());
-      file->write(json.dump(1) + "\n");
-      if (Status finished = file->finish(); !finished) return finished;
-      json.erase("answers");
-    } else if (Status written = writeLineTable(a.output, table, session.context()); !written) {
-      return written;
-    }
-    json["file"] = a.output;
-    session.say(fmt::format("{}: {} lines of sight: {}\n", a.output, grouped(rows.count()), counts.text()));
-  }
-  session.answer(json);
-  if (counts.failed == rows.count())
-    return failure(ErrorCode::invalidData,
-                   fmt::format("no line of sight has both ends: {}", results.errorOf(0)->describe()));
-  if (counts.failed > 0)
-    session.warn(fmt::format("{} of {} lines have no answer; the column error says why",
-                             grouped(counts.failed), grouped(rows.count())));
-  return {};
+  const bool isOne = a.pairs.empty() && a.points.empty() && a.output.empty();
+  return isOne ? tellOne(results, std::move(json), session) : tellMany(a, results, std::move(json), session);
 }
 
 }  // namespace

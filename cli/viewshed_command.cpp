@@ -10,15 +10,15 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "cli/arguments.h"
 #include "cli/sight_arguments.h"
 #include "io/amt_file.h"
-#include "io/crs_transform.h"
+#include "io/placed_grid.h"
 #include "io/position_argument.h"
-#include "io/raster_reader.h"
 #include "io/raster_writer.h"
 #include "io/sight_pairs.h"
 #include "terrain/sight_links.h"
@@ -141,37 +141,6 @@ Result<std::vector<ViewshedSite>> readObservers(const ViewshedArguments& a, cons
   return observers;
 }
 
-/// Another raster's grid, and where its samples stand in the plan of the model; NaN where nobody can tell.
-struct OtherGrid {
-  std::uint32_t columns = 0, rows = 0;
-  Georeference georeference;
-  std::vector<Vec2> places;
-};
-
-Result<OtherGrid> readOtherGrid(const std::string& path, const TerrainModel& model, Session& session) {
-  auto raster = readRaster(path, {}, session.context());
-  if (!raster) return tl::unexpected(raster.error());
-  session.warn(raster->warnings, path);
-  OtherGrid grid;
-  grid.columns = raster->heightfield.columns;
-  grid.rows = raster->heightfield.rows;
-  grid.georeference = std::move(raster->heightfield.georeference);
-  const std::string &there = grid.georeference.crsWkt, &here = model.georeference.crsWkt;
-  if (there.empty() != here.empty())
-    return failure(ErrorCode::invalidData, "has a CRS where the DEM has none, or the other way round", path);
-  grid.places.reserve(std::size_t{grid.columns} * grid.rows);
-  for (std::uint32_t row = 0; row < grid.rows; ++row)
-    for (std::uint32_t column = 0; column < grid.columns; ++column)
-      grid.places.push_back(grid.georeference.toSource(column, row));
-  if (there != here) {
-    const auto transform = CrsTransform::between(there, here);
-    if (!transform) return tl::unexpected(transform.error());
-    transform->apply(grid.places);
-  }
-  for (Vec2& place : grid.places) place = model.toPlan(place);
-  return grid;
-}
-
 double byteOf(ViewshedCell cell) {
   switch (cell) {
     case ViewshedCell::seen:
@@ -241,74 +210,63 @@ const char* descriptionOf(Mode mode) {
   }
 }
 
-Status runViewshed(const ViewshedArguments& a, Session& session) {
-  if (a.observer.empty() && a.observers.empty())
-    return failure(ErrorCode::usage, "--observer or --observers says from where");
-  if (!a.layer.empty() && a.observers.empty())
-    return failure(ErrorCode::usage, "means something only with --observers", "--layer");
-  const auto options = optionsOf(a);
-  if (!options) return tl::unexpected(options.error());
-  const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
-  if (!model) return tl::unexpected(model.error());
-  if (Status output = checkOutput("--output", a.output, {a.model, a.observers, a.like, model->source});
-      !output)
-    return output;
-  const SurfaceHeights heights(*model);
-  const auto observers = readObservers(a, options->field, *model, heights, session);
-  if (!observers) return tl::unexpected(observers.error());
-  const bool isOne = observers->size() == 1 && (a.mode != Mode::count && a.mode != Mode::server);
-  if (!isOne && (a.mode == Mode::height || a.mode == Mode::horizon))
-    return failure(ErrorCode::usage, fmt::format("is of one observer, and there are {}", observers->size()),
-                   a.mode == Mode::height ? "--mode height" : "--mode horizon");
-  const auto earth = a.sight.makeEarth(*model, session);
-  if (!earth) return tl::unexpected(earth.error());
-  const auto maker = ViewshedMaker::make(*model, **earth, {}, session.context());
-  if (!maker) return tl::unexpected(maker.error());
+/// One observer, and what it sees: no counts, no servers.
+bool isOfOne(const ViewshedArguments& a, std::size_t observers) {
+  return observers == 1 && a.mode != Mode::count && a.mode != Mode::server;
+}
 
+/// What is known before the first cell.
+struct Question {
+  const ViewshedArguments& arguments;
+  const TerrainModel& model;
+  const SightEarth& earth;
+  const ViewshedOptions& options;
+  std::span<const ViewshedSite> observers;
+
+  bool isOfOne() const { return arete::isOfOne(arguments, observers.size()); }
+};
+
+/// The grid that is asked for: the DEM's own, with no places, or that of --like.
+Result<PlacedGrid> gridOf(const Question& q, Session& session) {
+  const ViewshedArguments& a = q.arguments;
+  if (a.like.empty()) return PlacedGrid{q.model.columns, q.model.rows, q.model.georeference, {}};
+  if (!q.isOfOne())
+    return failure(ErrorCode::usage, "is for one observer and what it sees, not for counts and servers",
+                   "--like");
+  std::vector<std::string> warnings;
+  auto grid = readPlacedGrid(a.like, q.model, warnings, session.context());
+  session.warn(warnings, a.like);
+  return grid;
+}
+
+struct Answer {
   Picture picture;
   std::vector<ViewshedCell> cells;
-  Json json = {{"model", a.model},
-               {"observers", observers->size()},
-               {"targetHeight", a.targetHeight},
-               {"earth", a.sight.earthName(*model)},
-               {"refraction", a.sight.refraction},
-               {"nodata", std::string(toString(a.sight.nodata))},
-               {"maxError", a.maxError}};
-  OtherGrid grid{model->columns, model->rows, model->georeference, {}};
-  if (!a.like.empty()) {
-    if (!isOne)
-      return failure(ErrorCode::usage, "is for one observer and what it sees, not for counts and servers",
-                     "--like");
-    auto other = readOtherGrid(a.like, *model, session);
-    if (!other) return tl::unexpected(other.error());
-    grid = std::move(*other);
-    json["like"] = a.like;
-  }
-  if (isOne) {
-    ViewshedOptions one = *options;
-    one.field = observers->front().field;
-    const ViewshedObserver& observer = observers->front().observer;
-    auto viewshed = a.like.empty() ? maker->from(observer, one, session.context())
-                                   : maker->of(grid.places, observer, one, session.context());
-    if (!viewshed) return tl::unexpected(viewshed.error());
-    json["method"] = std::string(toString(viewshed->method));
-    json["rays"] = viewshed->rays;
-    picture = pictureOfOne(a.mode, *viewshed);
-    cells = std::move(viewshed->cells);
-  } else {
-    auto all = viewshedOfMany(*maker, *model, **earth, *observers, *options, a.mode == Mode::server,
-                              session.context());
-    if (!all) return tl::unexpected(all.error());
-    picture = pictureOfMany(a.mode, *all);
-    cells = std::move(all->cells);
-  }
-  picture.options.description = descriptionOf(a.mode);
-  grid.georeference.verticalUnit = picture.isHeight ? model->georeference.verticalUnit : "";
-  if (Status written = writeGeoTiff(a.output, grid.columns, grid.rows, picture.values, grid.georeference,
-                                    picture.options, session.context());
-      !written)
-    return written;
+};
 
+Result<Answer> answerOne(const Question& q, const ViewshedMaker& maker, const PlacedGrid& grid,
+                         const RunContext& context, Json& json) {
+  ViewshedOptions options = q.options;
+  options.field = q.observers.front().field;
+  const ViewshedObserver& observer = q.observers.front().observer;
+  auto viewshed = q.arguments.like.empty() ? maker.from(observer, options, context)
+                                           : maker.of(grid.places, observer, options, context);
+  if (!viewshed) return tl::unexpected(viewshed.error());
+  json["method"] = std::string(toString(viewshed->method));
+  json["rays"] = viewshed->rays;
+  return Answer{pictureOfOne(q.arguments.mode, *viewshed), std::move(viewshed->cells)};
+}
+
+Result<Answer> answerMany(const Question& q, const ViewshedMaker& maker, const RunContext& context) {
+  const Mode mode = q.arguments.mode;
+  auto all = viewshedOfMany(maker, q.model, q.earth, q.observers, q.options, mode == Mode::server, context);
+  if (!all) return tl::unexpected(all.error());
+  return Answer{pictureOfMany(mode, *all), std::move(all->cells)};
+}
+
+/// The last words: how many cells are what.
+void tellCounts(const ViewshedArguments& a, const std::vector<ViewshedCell>& cells, Json json,
+                Session& session) {
   const auto count = [&](ViewshedCell which) {
     return static_cast<std::uint64_t>(std::count(cells.begin(), cells.end(), which));
   };
@@ -325,7 +283,57 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
   if (undecided > 0) text += fmt::format(", {} undecided", grouped(undecided));
   session.say(text + "\n");
   session.answer(json);
+}
+
+Status answer(const Question& q, Session& session) {
+  const ViewshedArguments& a = q.arguments;
+  const auto maker = ViewshedMaker::make(q.model, q.earth, {}, session.context());
+  if (!maker) return tl::unexpected(maker.error());
+  auto grid = gridOf(q, session);
+  if (!grid) return tl::unexpected(grid.error());
+  Json json = {{"model", a.model},
+               {"observers", q.observers.size()},
+               {"targetHeight", a.targetHeight},
+               {"earth", a.sight.earthName(q.model)},
+               {"refraction", a.sight.refraction},
+               {"nodata", std::string(toString(a.sight.nodata))},
+               {"maxError", a.maxError}};
+  if (!a.like.empty()) json["like"] = a.like;
+  auto made = q.isOfOne() ? answerOne(q, *maker, *grid, session.context(), json)
+                          : answerMany(q, *maker, session.context());
+  if (!made) return tl::unexpected(made.error());
+  Picture& picture = made->picture;
+  picture.options.description = descriptionOf(a.mode);
+  grid->georeference.verticalUnit = picture.isHeight ? q.model.georeference.verticalUnit : "";
+  if (Status written = writeGeoTiff(a.output, grid->columns, grid->rows, picture.values, grid->georeference,
+                                    picture.options, session.context());
+      !written)
+    return written;
+  tellCounts(a, made->cells, std::move(json), session);
   return {};
+}
+
+Status runViewshed(const ViewshedArguments& a, Session& session) {
+  if (a.observer.empty() && a.observers.empty())
+    return failure(ErrorCode::usage, "--observer or --observers says from where");
+  if (!a.layer.empty() && a.observers.empty())
+    return failure(ErrorCode::usage, "means something only with --observers", "--layer");
+  const auto options = optionsOf(a);
+  if (!options) return tl::unexpected(options.error());
+  const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
+  if (!model) return tl::unexpected(model.error());
+  if (Status output = checkOutput("--output", a.output, {a.model, a.observers, a.like, model->source});
+      !output)
+    return output;
+  const SurfaceHeights heights(*model);
+  const auto observers = readObservers(a, options->field, *model, heights, session);
+  if (!observers) return tl::unexpected(observers.error());
+  if (!isOfOne(a, observers->size()) && (a.mode == Mode::height || a.mode == Mode::horizon))
+    return failure(ErrorCode::usage, fmt::format("is of one observer, and there are {}", observers->size()),
+                   a.mode == Mode::height ? "--mode height" : "--mode horizon");
+  const auto earth = a.sight.makeEarth(*model, session);
+  if (!earth) return tl::unexpected(earth.error());
+  return answer({a, *model, **earth, *options, *observers}, session);
 }
 
 }  // namespace

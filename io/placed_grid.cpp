@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/placed_grid.h"
+
+#include <utility>
+
+#include "io/crs_transform.h"
+#include "io/raster_reader.h"
+
+namespace arete {
+
+Result<PlacedGrid> readPlacedGrid(const std::string& path, const TerrainModel& model,
+                                  std::vector<std::string>& warnings, const RunContext& context) {
+  auto raster = readRaster(path, {}, context);
+  if (!raster) return tl::unexpected(raster.error());
+  warnings = std::move(raster->warnings);
+  PlacedGrid grid;
+  grid.columns = raster->heightfield.columns;
+  grid.rows = raster->heightfield.rows;
+  grid.georeference = std::move(raster->heightfield.georeference);
+  const std::string &there = grid.georeference.crsWkt, &here = model.georeference.crsWkt;
+  if (there.empty() != here.empty())
+    return failure(ErrorCode::invalidData, "has a CRS where the DEM has none, or the other way round", path);
+  grid.places.reserve(std::size_t{grid.columns} * grid.rows);
+  for (std::uint32_t row = 0; row < grid.rows; ++row)
+    for (std::uint32_t column = 0; column < grid.columns; ++column)
+      grid.places.push_back(grid.georeference.toSource(column, row));
+  if (there != here) {
+    const auto transform = CrsTransform::between(there, here);
+    if (!transform) return tl::unexpected(transform.error());
+    transform->apply(grid.places);
+  }
+  for (Vec2& place : grid.places) place = model.toPlan(place);
+  return grid;
+}
+
+}  // namespace arete

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/result.h"
+#include "engine/run_context.h"
+#include "terrain/terrain_model.h"
+
+namespace arete {
+
+/// The grid of a raster, and where its samples stand in the plan of a model.
+struct PlacedGrid {
+  std::uint32_t columns = 0, rows = 0;
+  Georeference georeference;
+  std::vector<Vec2> places;  ///< row by row; NaN where nobody can tell
+};
+
+/// Errors: those of readRaster(); invalidData (only one of the two has a CRS), those of CrsTransform.
+/// O(samples).
+Result<PlacedGrid> readPlacedGrid(const std::string& path, const TerrainModel& model,
+                                  std::vector<std::string>& warnings, const RunContext& context = {});
+
+}  // namespace arete
