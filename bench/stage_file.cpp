@@ -2,8 +2,11 @@
 //
 // A model in its file: how many bytes, how soon it is open, what it takes to check it, and what of it a
 // program that has used all of it holds in memory. Cold first, while nothing maps the file: what is mapped
-// cannot be dropped from the cache.
+// cannot be dropped from the cache. Last the packed form of the same model.
+#include <fmt/format.h>
+
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -76,6 +79,38 @@ Result<ColdTimes> timeCold(const std::string& model, double tolerance, const Rep
   return times;
 }
 
+/// The same model packed, in a file beside its own that does not stay.
+Result<Figures> timePacked(const DemSource& source, HoleShape shape, const std::string& model,
+                           const Plan& plan) {
+  Figures figures;
+  const std::string packed = model + ".packed";
+  double samples = 0;
+  {
+    AmtLoadOptions trusted;
+    trusted.verify = AmtVerify::none;
+    const auto loaded = loadAmt(model, trusted);
+    if (!loaded) return tl::unexpected(loaded.error());
+    samples = double(loaded->columns) * loaded->rows;
+    const Stopwatch watch;
+    if (const Status written = writeAmt(packed, *loaded, {}, {.isPacked = true}); !written)
+      return tl::unexpected(written.error());
+    figures.push_back({source.name, "file", fmt::format("{}, packed", toString(shape)), "pack and write",
+                       watch.seconds(), "s", Better::lower});
+  }
+  const auto add = [&](const std::string& name, double value, const char* unit) {
+    figures.push_back(
+        {source.name, "file", fmt::format("{}, packed", toString(shape)), name, value, unit, Better::lower});
+  };
+  add("size", double(std::filesystem::file_size(packed)) / samples, "bytes/sample");
+  for (const int threads : {1, 0}) {
+    const auto limit = limitTo(threads);
+    add("load with checks, " + threadsText(threads),
+        medianSeconds(plan.repetition, [&] { return loadAmt(packed); }), "s");
+  }
+  std::filesystem::remove(packed);
+  return figures;
+}
+
 }  // namespace
 
 Result<Figures> fileStage(const DemSource& source, HoleShape shape, const std::string& model,
@@ -126,10 +161,14 @@ Result<Figures> fileStage(const DemSource& source, HoleShape shape, const std::s
                            }),
       "ms");
   add("left in the cache", 100 * cold->left, "%", Better::neither);
-  if (!cold->isCold()) return figures;
-  add("open, cold", 1e6 * medianOf(cold->open), "us");
-  add("load with checks, cold", medianOf(cold->load), "s");
-  add("open and cut, cold", 1000 * medianOf(cold->cut), "ms");
+  if (cold->isCold()) {
+    add("open, cold", 1e6 * medianOf(cold->open), "us");
+    add("load with checks, cold", medianOf(cold->load), "s");
+    add("open and cut, cold", 1000 * medianOf(cold->cut), "ms");
+  }
+  Result<Figures> packed = timePacked(source, shape, model, plan);
+  if (!packed) return packed;
+  figures.insert(figures.end(), packed->begin(), packed->end());
   return figures;
 }
 
