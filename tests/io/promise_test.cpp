@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -16,6 +15,7 @@
 #include <string>
 
 #include "engine/cut.h"
+#include "full_run.h"
 #include "io/amt_file.h"
 #include "io/dem_reader.h"
 #include "io/export_tin.h"
@@ -29,9 +29,7 @@
 namespace arete {
 namespace {
 
-bool isFull() {
-  return std::getenv("ARETE_FULL") != nullptr;
-}
+using test::isFull;
 
 struct RealDem {
   const char* name;

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
 
+#include "full_run.h"
 #include "io/dem_reader.h"
 #include "io/earth_oracle.h"
 #include "io/ellipsoid_earth.h"
@@ -29,10 +29,6 @@ struct Dem {
   /// Nothing for longitude and latitude on WGS 84.
   std::optional<OracleTransverseMercator> map;
 };
-
-bool isFull() {
-  return std::getenv("ARETE_FULL") != nullptr;
-}
 
 const OracleEllipsoid kGrs80 = {6378137, 298.257222101L}, kAiry = {6377563.396L, 299.3249646L};
 

@@ -16,9 +16,9 @@
 #include "io/crs_reader.h"
 #include "io/dem_reader.h"
 #include "io/ellipsoid_earth.h"
-#include "terrain/viewshed.h"
+#include "terrain/viewshed_cells.h"
 
-namespace arete {
+namespace arete::test {
 namespace {
 
 struct Map {
@@ -33,8 +33,7 @@ const Map kMaps[] = {
     {"EPSG:27700", {300000, 2.5, 0, 700000, 0, -2.5}},
 };
 
-struct Tally {
-  std::uint64_t cells = 0, wrong = 0, rays = 0;
+struct Tally : CellTally {
   int sweeps = 0;
 };
 
@@ -46,24 +45,9 @@ void compare(const TerrainModel& model, const SightEarth& earth, std::shared_ptr
   const auto viewshed = maker->from(observer, options);
   ASSERT_TRUE(viewshed) << viewshed.error().describe();
   tally.sweeps += viewshed->method == ViewshedMethod::sweep;
-  tally.rays += viewshed->rays;
   const auto engine = makeSightPyramid(grid);
-  for (std::size_t at = observer.plan.x > 0 ? 1 : 0; at < viewshed->cells.size(); at += every) {
-    const Vec2 to{double(at % grid->columns()), double(at / grid->columns())};
-    const double z = grid->row(0)[at];
-    if (std::isnan(z)) continue;
-    const SightLine line(*earth.track(observer.plan, to), observer.height, z + options.targetHeight,
-                         model.georeference.verticalUnitMetres);
-    const SightVerdict verdict = engine->answer(line, {.nodata = options.nodata}).verdict;
-    const ViewshedCell expected = verdict == SightVerdict::visible   ? ViewshedCell::seen
-                                  : verdict == SightVerdict::blocked ? ViewshedCell::hidden
-                                                                     : ViewshedCell::unknown;
-    ++tally.cells;
-    if (viewshed->cells[at] != expected && tally.wrong++ < 5)
-      ADD_FAILURE() << what << ": " << to.x << ", " << to.y << " is " << int(viewshed->cells[at]) << ", not "
-                    << int(expected) << "; observer " << observer.plan.x << ", " << observer.plan.y << ", "
-                    << observer.height;
-  }
+  expectCells(*viewshed, {earth, *engine, *grid, model.georeference.verticalUnitMetres}, observer, options,
+              what, tally, observer.plan.x > 0 ? 1 : 0, every);
 }
 
 TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngine) {
@@ -184,4 +168,4 @@ TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngineOnRealDems) {
 }
 
 }  // namespace
-}  // namespace arete
+}  // namespace arete::test

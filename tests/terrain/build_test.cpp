@@ -7,22 +7,21 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <numeric>
 
 #include "datasets/families.h"
 #include "engine/validate.h"
+#include "full_run.h"
 #include "terrain/finest_raster.h"
 #include "terrain/validate_model.h"
 
 namespace arete {
 namespace {
 
-bool isFull() {
-  return std::getenv("ARETE_FULL") != nullptr;
-}
+using test::isFull;
+
 std::vector<std::uint64_t> seeds() {
   return isFull() ? std::vector<std::uint64_t>{1, 2, 3, 4, 5, 6} : std::vector<std::uint64_t>{1, 2};
 }

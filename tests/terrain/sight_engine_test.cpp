@@ -8,22 +8,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <string>
 #include <thread>
 
 #include "datasets/families.h"
 #include "engine/cut.h"
+#include "full_run.h"
 #include "terrain/build.h"
 #include "terrain/sight_pairs.h"
 
 namespace arete::test {
 namespace {
-
-bool isFull() {
-  return std::getenv("ARETE_FULL") != nullptr;
-}
 
 /// An engine under test, and what it may be asked.
 struct Engine {

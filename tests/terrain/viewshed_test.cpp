@@ -14,9 +14,10 @@
 #include "datasets/families.h"
 #include "datasets/random.h"
 #include "terrain/build.h"
+#include "terrain/viewshed_cells.h"
 #include "terrain/viewshed_many.h"
 
-namespace arete {
+namespace arete::test {
 namespace {
 
 struct Place {
@@ -31,44 +32,6 @@ struct Place {
     scan = makeSightScan(grid);
   }
 };
-
-ViewshedCell cellOf(SightVerdict verdict) {
-  return verdict == SightVerdict::visible   ? ViewshedCell::seen
-         : verdict == SightVerdict::blocked ? ViewshedCell::hidden
-                                            : ViewshedCell::unknown;
-}
-
-struct Tally {
-  std::uint64_t cells = 0, wrong = 0, rays = 0, seen = 0, hidden = 0, unknown = 0;
-};
-
-/// Every cell of a viewshed against the scan.
-void compare(const Place& place, const ViewshedObserver& observer, const ViewshedOptions& options,
-             const Viewshed& viewshed, const std::string& what, Tally& tally) {
-  const double unit = place.model.georeference.verticalUnitMetres;
-  for (std::uint32_t row = 0; row < viewshed.rows; ++row)
-    for (std::uint32_t column = 0; column < viewshed.columns; ++column) {
-      const ViewshedCell cell = viewshed.cells[std::size_t{row} * viewshed.columns + column];
-      const double z = place.grid->height(column, row);
-      if (std::isnan(z)) {
-        ASSERT_EQ(cell, ViewshedCell::outside) << what;
-        continue;
-      }
-      const SightLine line(*place.earth->track(observer.plan, {double(column), double(row)}), observer.height,
-                           z + options.targetHeight, unit);
-      const SightAnswer answer = place.scan->answer(line, {.nodata = options.nodata});
-      ++tally.cells;
-      if (cell != cellOf(answer.verdict) && tally.wrong++ < 5)
-        ADD_FAILURE() << what << ": cell " << column << ", " << row << " is " << int(cell) << ", not "
-                      << int(cellOf(answer.verdict)) << "; clearance " << answer.clearance.value_or(NAN)
-                      << " at " << answer.least.distance << " of " << line.length() << ", observer "
-                      << observer.plan.x << ", " << observer.plan.y << ", " << observer.height;
-    }
-  tally.rays += viewshed.rays;
-  tally.seen += viewshed.seen;
-  tally.hidden += viewshed.hidden;
-  tally.unknown += viewshed.unknown;
-}
 
 ViewshedObserver randomObserver(const Place& place, Random& random, int which) {
   const double columns = place.grid->columns() - 1, rows = place.grid->rows() - 1;
@@ -89,7 +52,7 @@ TEST(Viewshed, TheSweepGivesTheAnswerOfTheScanOnEveryFamily) {
     const Place place(family.make(47, 38, 3));
     const auto maker = ViewshedMaker::make(place.model, *place.earth, place.grid);
     ASSERT_TRUE(maker);
-    Tally tally;
+    CellTally tally;
     for (int i = 0; i < 30; ++i) {
       const ViewshedObserver observer = randomObserver(place, random, i);
       ViewshedOptions options;
@@ -97,7 +60,9 @@ TEST(Viewshed, TheSweepGivesTheAnswerOfTheScanOnEveryFamily) {
       options.nodata = static_cast<NodataSight>(i % 3);
       const auto viewshed = maker->from(observer, options);
       ASSERT_TRUE(viewshed) << viewshed.error().describe();
-      compare(place, observer, options, *viewshed, std::string(family.name) + " " + std::to_string(i), tally);
+      expectCells(*viewshed,
+                  {*place.earth, *place.scan, *place.grid, place.model.georeference.verticalUnitMetres},
+                  observer, options, std::string(family.name) + " " + std::to_string(i), tally);
     }
     EXPECT_EQ(tally.wrong, 0u) << family.name;
   }
@@ -301,4 +266,4 @@ TEST(Viewshed, SaysWhatIsWrongWithOptions) {
 }
 
 }  // namespace
-}  // namespace arete
+}  // namespace arete::test
