@@ -2,16 +2,19 @@
 //
 // Most changes of an .amt file break a checksum and get no further than that. So files are taken apart, one
 // part is changed, and they are put together again as a writer would: chunks in their places, sizes and
-// checksums right. One change in sixteen is left as it is.
+// checksums right, those of packed nodes too. One change in sixteen is left as it is.
 #include <algorithm>
 #include <cstring>
 #include <optional>
 #include <random>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "fuzz/harness.h"
+#include "io/amt_checksum.h"
 #include "io/amt_layout.h"
+#include "io/packed_layout.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -48,6 +51,26 @@ std::optional<AmtParts> takeApart(std::span<const std::uint8_t> file) {
     amt.parts.push_back({entry, Bytes(bytes.begin(), bytes.end())});
   }
   return amt;
+}
+
+/// The checksums that a directory of packed nodes keeps of them, where it still makes sense.
+void sealPackedNodes(AmtParts& amt) {
+  const auto find = [&](AmtTag tag) {
+    return std::find_if(amt.parts.begin(), amt.parts.end(),
+                        [&](const Part& p) { return p.entry.tag == tag; });
+  };
+  const auto directory = find(amt_tag::kPackedDirectory), nodes = find(amt_tag::kPackedNodes);
+  if (directory == amt.parts.end() || nodes == amt.parts.end()) return;
+  std::string problem;
+  auto read = packed::directoryOf(std::as_bytes(std::span(directory->bytes)), problem);
+  if (!read) return;
+  for (packed::Chunk& chunk : read->chunks)
+    if (chunk.offset <= nodes->bytes.size() && chunk.bytes() <= nodes->bytes.size() - chunk.offset)
+      chunk.checksum =
+          amtChecksum(std::as_bytes(std::span(nodes->bytes)).subspan(chunk.offset, chunk.bytes()));
+  const std::vector<std::byte> sealed = packed::toBytes(*read);
+  directory->bytes.resize(sealed.size());
+  std::memcpy(directory->bytes.data(), sealed.data(), sealed.size());
 }
 
 /// The file of these parts, with every size, place and checksum right.
@@ -136,6 +159,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   auto amt = takeApart({data, size});
   if (!amt || random() % 16 == 0) return LLVMFuzzerMutate(data, size, maxSize);
   mutateParts(*amt, random);
+  sealPackedNodes(*amt);
   const Bytes file = putTogether(*amt);
   if (file.size() > maxSize) return LLVMFuzzerMutate(data, size, maxSize);
   std::copy(file.begin(), file.end(), data);

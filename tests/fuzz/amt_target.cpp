@@ -2,7 +2,7 @@
 //
 // A file is opened; then its checksums and its indices are checked, each whatever the other says; and where
 // the indices are in range, everything is asked of the model that the commands ask. What a wrong file answers
-// does not matter; that it answers within its arrays does.
+// does not matter; that it answers within its arrays does. A packed file is unpacked as a whole and in part.
 #include <cmath>
 #include <vector>
 
@@ -117,7 +117,21 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   const auto model = loadAmt(memory.path(), {AmtVerify::indices, {}}, context);
-  fuzz::require(model.has_value(), "a file whose indices are in range loads");
+  fuzz::require(model || file->isPacked(), "a file whose indices are in range loads");
+  if (!model) {
+    fuzz::requireClear(model.error());
+    return 0;
+  }
   use(*model, context);
+  if (!file->isPacked()) return 0;
+  AmtLoadOptions part;
+  part.verify = AmtVerify::indices;
+  part.unpack.box = Box2{0, 0, 2, 2};
+  const auto corner = loadAmt(memory.path(), part, context);
+  if (corner) {
+    takeCuts(*corner, context);
+  } else {
+    fuzz::requireClear(corner.error());
+  }
   return 0;
 }

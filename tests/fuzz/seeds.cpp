@@ -40,6 +40,7 @@ void check(const Status& status) {
 void writeModel(const fs::path& folder, const std::string& name, const Result<TerrainModel>& model) {
   if (!model) return;  // a family that is degenerate at this size
   check(writeAmt(folder / "amt" / (name + ".amt"), *model, {}, {.writer = "Arete"}));
+  check(writeAmt(folder / "amt" / (name + "-packed.amt"), *model, {}, {.writer = "Arete", .isPacked = true}));
   const MultiTriangulation& mt = model->mt;
   const TinExport tin = exportTin(*model, frontOfPrefix(mt, mt.nodeCount() / 2));
   MeshWriteOptions options;
