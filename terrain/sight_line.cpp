@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace arete {
@@ -137,6 +138,14 @@ double sightTangent(double k, double height0, double distance, double height) {
   // 1 - cos(k d) = 2 sin^2(k d / 2)
   const double half = sn(k, distance / 2);
   return (height - height0 - (1 + k * height) * 2 * k * half * half) / ((1 + k * height) * sn(k, distance));
+}
+
+double sightHeight(double k, double height0, double distance, double tangent) {
+  const double half = std::sin(k * distance / 2);
+  const double drop = 2 * half * half, along = k == 0 ? distance : std::sin(k * distance) / k;
+  const double left = 1 - drop - tangent * k * along;
+  if (!(left > 0)) return std::numeric_limits<double>::infinity();
+  return (height0 + (k == 0 ? 0 : drop / k) + tangent * along) / left;
 }
 
 }  // namespace arete

@@ -103,4 +103,7 @@ class SightLine {
 /// distance > 0.
 double sightTangent(double curvature, double height0, double distance, double height);
 
+/// The inverse of sightTangent(), in the height; infinite where the tangent never reaches that distance.
+double sightHeight(double curvature, double height0, double distance, double tangent);
+
 }  // namespace arete

@@ -29,15 +29,6 @@ ViewshedCell cellOf(SightVerdict verdict) {
   }
 }
 
-/// The inverse of sightTangent(), in the height; infinite where the tangent never reaches that distance.
-double heightAt(double k, double height0, double distance, double tangent) {
-  const double half = std::sin(k * distance / 2);
-  const double drop = 2 * half * half, along = k == 0 ? distance : std::sin(k * distance) / k;
-  const double left = 1 - drop - tangent * k * along;
-  if (!(left > 0)) return std::numeric_limits<double>::infinity();
-  return (height0 + (k == 0 ? 0 : drop / k) + tangent * along) / left;
-}
-
 }  // namespace
 
 bool isInField(const ViewshedField& field, double distance, double azimuthDegrees) {
@@ -95,7 +86,8 @@ float ViewshedExact::value(const SightTrack& track, double ground) const {
       break;
     }
     const double next =
-        heightAt(k, from, length, sightTangent(k, from, least.distance, least.terrainHeight * unit_)) / unit_;
+        sightHeight(k, from, length, sightTangent(k, from, least.distance, least.terrainHeight * unit_)) /
+        unit_;
     if (!(next > height)) break;
     height = next;
     if (height == kInfinite) break;

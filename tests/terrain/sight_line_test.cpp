@@ -193,6 +193,9 @@ TEST(SightLine, RanksWhatIsSeenByTheTangentOfItsElevation) {
     const Real truth = OracleLine(made.curvature, made.length, made.h0, made.h1).tangentAtFirst();
     ASSERT_NEAR(tangent, double(truth), 1e-12 * (1 + std::fabs(tangent))) << made.name();
     ASSERT_GT(sightTangent(made.curvature, made.h0, made.length, made.h1 + 0.01), tangent) << made.name();
+    ASSERT_NEAR(sightHeight(made.curvature, made.h0, made.length, tangent), made.h1,
+                1e-9 * (1 + std::fabs(made.h1) + std::fabs(made.h0) + made.length))
+        << made.name();
   }
 }
 
