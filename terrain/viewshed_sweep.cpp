@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/shared_progress.h"
 #include "engine/with_threads.h"
 #include "terrain/viewshed_wedge.h"
 
@@ -113,19 +114,14 @@ Status viewshedSweep(const ViewshedTask& task, const ViewshedFan* fan, const Run
     const std::vector<ViewshedWedge> wedges = wedgesOf(picture, isAlongRows);
     std::vector<std::uint64_t> rays(wedges.size());
     std::vector<Status> statuses(wedges.size());
-    std::atomic<std::size_t> done = 0;
-    std::atomic<bool> isReporting = false;
+    SharedProgress progress(context, "viewshed", wedges.size(), before, before + 0.5);
     withThreads(context, [&] {
       tbb::parallel_for(std::size_t{0}, wedges.size(), [&](std::size_t i) {
         if (context.cancelled()) return;
         ViewshedWedgeSweep sweep(picture, wedges[i], result);
         statuses[i] = sweep.run(context);
         rays[i] = sweep.rays();
-        const std::size_t count = ++done;
-        if (!isReporting.exchange(true)) {
-          context.report("viewshed", before + 0.5 * double(count) / double(wedges.size()));
-          isReporting = false;
-        }
+        progress.add();
       });
     });
     if (context.cancelled()) return failure(ErrorCode::interrupted, "the viewshed was stopped");
