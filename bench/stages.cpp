@@ -101,7 +101,8 @@ class DemRun {
     const bool isCompared = plan_.wants("triangles") && !baselines.empty();
     const bool needsDelaunay = isCompared || plan_.wants("file") || plan_.wants("cut") ||
                                plan_.wants("follow") || plan_.wants("height") || plan_.wants("export") ||
-                               plan_.wants("measure") || plan_.wants("sight") || plan_.wants("viewshed");
+                               plan_.wants("measure") || plan_.wants("sight") || plan_.wants("viewshed") ||
+                               plan_.wants("view");
     std::vector<BuildVariant> variants;
     if (isMeasured) variants.push_back({HoleShape::delaunay, 1});
     if (isMeasured || needsDelaunay) variants.push_back({HoleShape::delaunay, 0});
@@ -138,6 +139,7 @@ class DemRun {
     if (status && plan_.wants("sight")) status = add([&] { return sightStage(source_, delaunay, plan_); });
     if (status && plan_.wants("viewshed"))
       status = add([&] { return viewshedStage(source_, delaunay, plan_); });
+    if (status && plan_.wants("view")) status = add([&] { return viewStage(source_, delaunay, plan_); });
     if (status && plan_.wants("export")) status = add([&] { return exportStage(source_, delaunay, plan_); });
     if (status && plan_.wants("measure"))
       status = add([&] { return measureStage(source_, delaunay, plan_); });
@@ -165,9 +167,9 @@ bool Plan::wants(const std::string& stage) const {
 }
 
 const std::vector<std::string>& stageNames() {
-  static const std::vector<std::string> names = {"read",      "build", "file",     "cut",    "follow",
-                                                 "height",    "sight", "viewshed", "export", "measure",
-                                                 "triangles", "rival", "machine"};
+  static const std::vector<std::string> names = {"read",    "build",     "file",     "cut",    "follow",
+                                                 "height",  "sight",     "viewshed", "view",   "export",
+                                                 "measure", "triangles", "rival",    "machine"};
   return names;
 }
 

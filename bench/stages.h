@@ -24,7 +24,7 @@ struct Plan {
 };
 
 /// The stages there are, in the order in which they are run: read, build, file, cut, follow, height, sight,
-/// viewshed, export, measure, triangles, rival, machine.
+/// viewshed, view, export, measure, triangles, rival, machine.
 const std::vector<std::string>& stageNames();
 
 /// Every stage that the plan wants, on one DEM. Each runs in processes of its own; models are built as needed
@@ -51,6 +51,8 @@ Result<Figures> followStage(const DemSource& source, const std::string& model, c
 Result<Figures> heightStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> sightStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> viewshedStage(const DemSource& source, const std::string& model, const Plan& plan);
+/// Without OpenGL an error, unsupported.
+Result<Figures> viewStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> exportStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> measureStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> trianglesStage(const DemSource& source, const std::string& delaunay,

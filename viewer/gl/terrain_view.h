@@ -36,8 +36,8 @@ struct FrameFigures {
   std::uint32_t moving = 0;     ///< vertices between two places
   double pixels = 0;            ///< the tolerance asked for
   bool isComplete = true;       ///< false: a budget, a deadline or the room ended the cut
-  /// The largest jump of this frame that geomorphing leaves, by the processor's cut; NaN by the device's, which
-  /// takes the same nodes and does not look.
+  /// The largest jump of this frame that geomorphing leaves, by the processor's cut; NaN by the device's,
+  /// which takes the same nodes and does not look.
   double jumpPixels = std::numeric_limits<double>::quiet_NaN();
   double cutMilliseconds = 0, drawMilliseconds = 0;
 };
