@@ -11,7 +11,7 @@
 namespace arete {
 
 /// The heights of the vertices of a cut that follows a camera, on their way (engine/geomorph.h), and the
-/// jumps that remain. Holds 28 bytes per node of the MT, and some 60 per member of the cut. Not thread-safe;
+/// jumps that remain. Holds 28 bytes per node of the MT, and some 40 per member of the cut. Not thread-safe;
 /// works in parallel inside.
 class MovingSurface {
  public:
