@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "viewer/camera_models.h"
+#include "viewer/window/camera_motion.h"
+#include "viewer/window/camera_rig.h"
+#include "viewer/window/key_bindings.h"
+
+namespace arete {
+namespace {
+
+using test::apart;
+using test::cameraModels;
+
+const MotionScale kFree{.mode = CameraMode::free, .metresPerSecond = 100};
+const MotionScale kOrbit{.mode = CameraMode::orbit, .metresPerPixel = 2, .degreesPerPixel = 0.3};
+
+struct Flown {
+  const TerrainModel& model;
+  Profiles profiles{model};
+  TerrainPicker picker{model, profiles};
+  CameraRig rig;
+  explicit Flown(const TerrainModel& m)
+      : model(m),
+        rig(picker, profiles.heights(), homeCamera(HomeView::overview, picker.space(), picker.box())) {
+    rig.setPicture(800, 600);
+  }
+  Vec3 eye() const { return picker.space().position(rig.camera()); }
+};
+
+TEST(Controls, HandsThatDoNothingAskForNothing) {
+  InputState still;
+  still.seconds = 0.02;
+  still.mouseMoved = {30, -12};
+  EXPECT_TRUE(motionOf(still, kFree).isNone());
+  EXPECT_TRUE(motionOf(still, kOrbit).isNone());
+}
+
+TEST(Controls, AStickInItsDeadZoneAsksForNothingAndBeyondItStartsFromNothing) {
+  InputState in;
+  in.seconds = 0.02;
+  in.gamepad.leftX = 0.1;
+  in.gamepad.leftY = -0.14;
+  EXPECT_TRUE(motionOf(in, kFree).isNone());
+  in.gamepad.leftY = -0.151;
+  EXPECT_NEAR(motionOf(in, kFree).speed.tangent, 0, 1);
+  in.gamepad.leftY = -1;
+  EXPECT_DOUBLE_EQ(motionOf(in, kFree).speed.tangent, 100);
+}
+
+TEST(Controls, KeysAndSticksTogetherAreNoFasterThanEither) {
+  InputState in;
+  in.seconds = 0.02;
+  in.ahead = 1;
+  in.gamepad.leftY = -1;
+  EXPECT_DOUBLE_EQ(motionOf(in, kFree).speed.tangent, 100);
+}
+
+TEST(Controls, ShiftIsFasterAndAltSlower) {
+  InputState in;
+  in.right = 1;
+  const double usual = motionOf(in, kFree).speed.binormal;
+  in.isFast = true;
+  EXPECT_DOUBLE_EQ(motionOf(in, kFree).speed.binormal, 5 * usual);
+  in.isFast = false;
+  in.isSlow = true;
+  EXPECT_DOUBLE_EQ(motionOf(in, kFree).speed.binormal, 0.2 * usual);
+}
+
+TEST(Controls, WheelNotchesUndoEachOther) {
+  InputState in;
+  in.wheel = 3;
+  const CameraMotion there = motionOf(in, kOrbit), faster = motionOf(in, kFree);
+  in.wheel = -3;
+  EXPECT_NEAR(there.zoom * motionOf(in, kOrbit).zoom, 1, 1e-12);
+  EXPECT_LT(there.zoom, 1);
+  EXPECT_NEAR(faster.speedFactor * motionOf(in, kFree).speedFactor, 1, 1e-12);
+}
+
+TEST(Controls, EachButtonDragsWhatItIsFor) {
+  InputState in;
+  in.mouseMoved = {10, 5};
+  in.leftButton = true;
+  EXPECT_TRUE(motionOf(in, kFree).isNone()) << "left picks";
+  EXPECT_DOUBLE_EQ(motionOf(in, kOrbit).turnRight, 3);
+  EXPECT_DOUBLE_EQ(motionOf(in, kOrbit).turnUp, -1.5);
+  in.leftButton = false;
+  in.rightButton = true;
+  EXPECT_GT(motionOf(in, kFree).turnRight, 0);
+  EXPECT_LT(motionOf(in, kFree).turnUp, 0);
+  EXPECT_DOUBLE_EQ(motionOf(in, kOrbit).slideRight, -20);
+  EXPECT_DOUBLE_EQ(motionOf(in, kOrbit).slideAhead, 10);
+}
+
+TEST(Controls, NoKeyIsGivenTwiceAndEveryActionHasOne) {
+  std::set<std::pair<int, bool>> keys;
+  std::set<Action> actions;
+  for (const KeyBinding& b : keyBindings()) {
+    EXPECT_TRUE(keys.insert({b.key, b.isWithControl}).second) << b.name;
+    EXPECT_EQ(actionOfKey(b.key, b.isWithControl), b.action);
+    EXPECT_FALSE(b.help.empty()) << b.name;
+    actions.insert(b.action);
+  }
+  EXPECT_EQ(actions.size(), std::size_t(Action::help) + 1);
+  for (const int key : {'W', 'A', 'S', 'D', 'Q', 'E'})
+    EXPECT_FALSE(actionOfKey(key, false)) << "moves the camera";
+}
+
+TEST(Rig, DraggingInAnOrbitTurnsAboutWhatIsInTheMiddle) {
+  for (const test::CameraModel& m : cameraModels()) {
+    SCOPED_TRACE(m.name);
+    Flown f(m.model);
+    const auto hit = f.picker.at(f.rig.camera(), {400, 300});
+    InputState in;
+    in.seconds = 0.02;
+    in.leftButton = true;
+    in.mouseMoved = {50, -10};
+    f.rig.setFloorMetres(0);
+    EXPECT_TRUE(f.rig.step(in));
+    if (hit) {
+      const auto seen = pixelOf(f.picker.space(), f.rig.camera(), hit->metric);
+      ASSERT_TRUE(seen);
+      EXPECT_NEAR(seen->x, 400, 1e-4);
+      EXPECT_NEAR(seen->y, 300, 1e-4);
+    }
+    EXPECT_NEAR(std::abs(std::remainder(f.rig.camera().azimuthDegrees - 15, 360)), 0, 1e-9);
+  }
+}
+
+TEST(Rig, TheWheelInAnOrbitKeepsWhatIsUnderTheMouse) {
+  for (const test::CameraModel& m : cameraModels()) {
+    SCOPED_TRACE(m.name);
+    Flown f(m.model);
+    f.rig.setFloorMetres(0);
+    // Not everywhere is there terrain.
+    Vec2 mouse;
+    std::optional<TerrainPick> under;
+    for (int i = 0; i < 400 && !under; ++i)
+      under = f.picker.at(f.rig.camera(), mouse = {double(100 + 37 * i % 600), double(100 + 53 * i % 400)});
+    ASSERT_TRUE(under);
+    InputState in;
+    in.seconds = 0.02;
+    in.wheel = 2;
+    in.mouse = mouse;
+    EXPECT_TRUE(f.rig.step(in));
+    const auto seen = pixelOf(f.picker.space(), f.rig.camera(), under->metric);
+    ASSERT_TRUE(seen);
+    EXPECT_NEAR(seen->x, mouse.x, 1e-3);
+    EXPECT_NEAR(seen->y, mouse.y, 1e-3);
+    EXPECT_LT(apart(f.eye(), under->metric), under->metres);
+  }
+}
+
+TEST(Rig, AnOrbitStaysCentredUnderExaggeration) {
+  Flown f(cameraModels()[0].model);
+  f.rig.setFloorMetres(0);
+  const auto before = f.picker.at(f.rig.camera(), {400, 300});
+  f.rig.setStretch(3);
+  InputState in;
+  in.seconds = 0.02;
+  in.leftButton = true;
+  in.mouseMoved = {50, 20};
+  f.rig.step(in);
+  const auto seen = pixelOf(f.picker.space(), f.rig.camera(), before->metric, 3);
+  ASSERT_TRUE(seen);
+  EXPECT_NEAR(seen->x, 400, 1e-4);
+  EXPECT_NEAR(seen->y, 300, 1e-4);
+}
+
+TEST(Rig, FlyingAheadGoesWhereThePictureLooksWhateverTheFrames) {
+  for (const test::CameraModel& m : cameraModels())
+    for (const int frames : {1, 7, 60}) {
+      SCOPED_TRACE(m.name);
+      Flown f(m.model);
+      f.rig.setMode(CameraMode::free);
+      f.rig.setFloorMetres(0);
+      f.rig.setMetresPerSecond(10);
+      const Vec3 from = f.eye(), forward = f.picker.space().forward(lookOf(f.rig.camera()));
+      InputState in;
+      in.ahead = 1;
+      in.seconds = 2.0 / frames;
+      for (int i = 0; i < frames; ++i) f.rig.step(in);
+      // Two seconds at 10 m/s, less what the inertia takes.
+      const Vec3 to = f.eye();
+      const double way = apart(from, to);
+      EXPECT_NEAR(way, 20 - 10 * 0.15 * (1 - std::exp(-2 / 0.15)), 1e-6);
+      EXPECT_NEAR(
+          way, (to.x - from.x) * forward.x + (to.y - from.y) * forward.y + (to.z - from.z) * forward.z, 1e-6);
+    }
+}
+
+TEST(Rig, NothingTakesTheCameraBelowTheFloor) {
+  Flown f(cameraModels()[0].model);
+  f.rig.setFloorMetres(5);
+  Random random(11);
+  for (const CameraMode mode : {CameraMode::orbit, CameraMode::free}) {
+    f.rig.home(HomeView::overview);
+    f.rig.setMode(mode);
+    for (int i = 0; i < 300; ++i) {
+      InputState in;
+      in.seconds = 0.05;
+      in.ahead = random.between(-1, 1);
+      in.up = random.between(-1, 0.2);
+      in.turnRight = random.between(-1, 1);
+      in.leftButton = in.rightButton = true;
+      in.mouseMoved = {random.between(-30, 30), random.between(-30, 30)};
+      in.mouse = {random.between(0, 800), random.between(0, 600)};
+      in.wheel = random.between(-1, 1);
+      f.rig.step(in);
+      const auto above = f.rig.metresAboveGround();
+      ASSERT_GE(above.value_or(5), 5 - 1e-6) << "frame " << i;
+    }
+  }
+}
+
+TEST(Rig, ChangingTheModeKeepsThePicture) {
+  for (const test::CameraModel& m : cameraModels()) {
+    Flown f(m.model);
+    const Camera before = f.rig.camera();
+    for (int i = 0; i < 3; ++i) {
+      f.rig.setMode(CameraMode::free);
+      f.rig.setMode(CameraMode::orbit);
+    }
+    EXPECT_EQ(before.height, f.rig.camera().height);
+    EXPECT_EQ(before.azimuthDegrees, f.rig.camera().azimuthDegrees);
+    EXPECT_EQ(before.pitchDegrees, f.rig.camera().pitchDegrees);
+  }
+}
+
+}  // namespace
+}  // namespace arete

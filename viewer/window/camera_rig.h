@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "viewer/free_camera.h"
+#include "viewer/ground_following.h"
+#include "viewer/home_view.h"
+#include "viewer/orbit_camera.h"
+#include "viewer/window/camera_motion.h"
+#include "viewer/window/picking.h"
+
+namespace arete {
+
+/// The camera of the window and what a person's hands do to it: an orbit, free flight, a floor under both.
+///
+/// With vertical exaggeration it moves in the space that is drawn: an orbit stays centred, and flying ahead
+/// goes where the picture's middle is. What it hands out has heights as they are. Keeps references.
+class CameraRig {
+ public:
+  /// Preconditions: picker and heights outlive this. The camera begins as an orbit of what it looks at.
+  CameraRig(const TerrainPicker& picker, const SurfaceHeights& heights, const Camera& start);
+
+  const Camera& camera() const { return camera_; }
+  CameraMode mode() const { return mode_; }
+
+  /// One frame: moves as the hands ask and never below the floor. False where nothing was asked.
+  bool step(const InputState& input);
+
+  /// Changes between orbit and free flight; the picture stays.
+  void setMode(CameraMode mode);
+  /// Puts the camera elsewhere, by a flight or a key frame. Picture size and exaggeration stay.
+  void place(const Camera& camera);
+  void home(HomeView view);
+  /// Orbits a place of the terrain, from where the camera looks now, at `metres` from it (0 = as far as now).
+  void lookAt(const Vec3& metric, double metres = 0);
+
+  void setPicture(double widthPixels, double heightPixels);
+  void setFieldOfView(double degrees);
+  void setStretch(double stretch);
+
+  /// Keeps the height above the ground in free flight.
+  void follow(bool isOn);
+  bool follows() const { return follows_; }
+  /// Metres above the ground that nothing gets below of; 0 = the camera may go anywhere.
+  double floorMetres() const { return floorMetres_; }
+  void setFloorMetres(double metres);
+  /// Of free flight, metres per second.
+  double metresPerSecond() const { return metresPerSecond_; }
+  void setMetresPerSecond(double speed);
+  /// How fast it really went in the last frame.
+  double lastMetresPerSecond() const { return lastSpeed_; }
+  /// Metres above the terrain; nothing where there is none.
+  std::optional<double> metresAboveGround() const;
+
+ private:
+  Camera shown(Camera camera) const;
+  Camera asIs(Camera camera) const;
+  double reach() const;
+  void enter(const Camera& camera);
+
+  const TerrainPicker& picker_;
+  const SurfaceHeights& heights_;
+  CameraSpace space_;
+  CameraMode mode_ = CameraMode::orbit;
+  Camera camera_;
+  double stretch_ = 1;
+  OrbitCamera orbit_;
+  FreeCamera free_;
+  std::optional<GroundFollowing> ground_;
+  bool follows_ = false;
+  double floorMetres_ = 2, metresPerSecond_, lastSpeed_ = 0;
+};
+
+}  // namespace arete

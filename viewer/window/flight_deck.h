@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "engine/result.h"
+#include "terrain/georeference.h"
+#include "viewer/flight.h"
+
+namespace arete {
+
+/// The flight that a person makes: key frames set one after the other, played, kept in a file.
+class FlightDeck {
+ public:
+  /// `metresPerSecond`: of flights that nobody has stated a speed or a duration for.
+  FlightDeck(const CameraSpace& space, double metresPerSecond) : space_(space), usualSpeed_(metresPerSecond) {}
+
+  const FlightPlan& plan() const { return plan_; }
+  void setPlan(const FlightPlan& plan);
+
+  /// Behind the last one.
+  void addKey(const Camera& camera);
+  /// Precondition: index < keys.
+  void removeKey(std::size_t index);
+  void clear();
+
+  /// Starts at the beginning. Errors: those of Flight::create().
+  Status play();
+  void stop() { time_.reset(); }
+  bool isPlaying() const { return time_.has_value(); }
+  double seconds() const { return time_.value_or(0); }
+  double duration() const { return flight_ ? flight_->duration() : 0; }
+
+  /// Goes on by so many seconds. The camera there; nothing where none is played. Stops at the end of a flight
+  /// that is not closed.
+  std::optional<Camera> advance(double seconds);
+
+  /// The flight as its keys are now. Errors: those of Flight::create().
+  Result<const Flight*> flight();
+
+  /// Errors: those of flight_json.h; a plan that is read takes the place of the one at hand.
+  Status save(const std::filesystem::path& path, const Georeference& dem) const;
+  Status load(const std::filesystem::path& path, const Georeference& dem);
+
+ private:
+  CameraSpace space_;
+  double usualSpeed_;
+  FlightPlan plan_;
+  std::optional<Flight> flight_;  // of the plan; nothing after it changed
+  std::optional<double> time_;
+};
+
+}  // namespace arete

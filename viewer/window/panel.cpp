@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Two columns of sections, one on either side of the picture: figures and what is drawn on the left, where
+// one is and what one does there on the right.
+#include "viewer/window/panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace arete {
+namespace {
+
+constexpr ImGuiWindowFlags kColumn = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoTitleBar |
+                                     ImGuiWindowFlags_AlwaysAutoResize;
+
+float em() {
+  return ImGui::GetFontSize();
+}
+
+void line(const std::string& text) {
+  ImGui::TextUnformatted(text.c_str());
+}
+
+void dim(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::PushTextWrapPos(0);
+  line(text);
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
+/// A name, and what it is, in line with the others.
+void row(const char* name, const std::string& value) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextUnformatted(name);
+  ImGui::PopStyleColor();
+  ImGui::SameLine(5.2f * em());
+  line(value);
+}
+
+std::string grouped(std::uint64_t value) {
+  const std::string digits = std::to_string(value);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ' ';
+    text += digits[i];
+  }
+  return text;
+}
+
+std::string megabytes(std::uint64_t bytes) {
+  return fmt::format("{} MB", grouped(bytes / 1'000'000));
+}
+
+bool section(const char* name, bool isOpen = true) {
+  return ImGui::CollapsingHeader(name, isOpen ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+}
+
+/// A slider over a double.
+bool slider(const char* name, double& value, double low, double high, const char* format,
+            bool isLogarithmic = false) {
+  auto shown = float(value);
+  const bool isChanged = ImGui::SliderFloat(name, &shown, float(low), float(high), format,
+                                            isLogarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  if (isChanged) value = double(shown);
+  return isChanged;
+}
+
+void tip(const char* text) {
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(22 * em());
+  ImGui::TextUnformatted(text);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+void beginColumn(const char* name, bool isRight) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const float gap = 0.5f * em(), width = 20 * em();
+  ImGui::SetNextWindowPos({isRight ? io.DisplaySize.x - gap : gap, gap}, ImGuiCond_Always,
+                          {isRight ? 1.0f : 0.0f, 0});
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, std::max(io.DisplaySize.y - 2 * gap, 4 * em())});
+  ImGui::Begin(name, nullptr, kColumn);
+  ImGui::PushItemWidth(9.2f * em());
+}
+
+void endColumn() {
+  ImGui::PopItemWidth();
+  ImGui::End();
+}
+
+}  // namespace
+
+void setPanelStyle(float scale) {
+  ImGui::StyleColorsDark();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowRounding = 5;
+  style.FrameRounding = 3;
+  style.GrabRounding = 3;
+  style.WindowPadding = {9, 8};
+  style.ItemSpacing = {7, 4};
+  style.WindowBorderSize = 0;
+  style.Colors[ImGuiCol_WindowBg] = {0.09f, 0.10f, 0.12f, 0.86f};
+  style.Colors[ImGuiCol_Header] = {0.20f, 0.30f, 0.38f, 0.80f};
+  style.Colors[ImGuiCol_HeaderHovered] = {0.26f, 0.40f, 0.50f, 0.90f};
+  style.Colors[ImGuiCol_FrameBg] = {0.27f, 0.30f, 0.35f, 0.90f};
+  style.Colors[ImGuiCol_SliderGrab] = style.Colors[ImGuiCol_CheckMark] = {0.95f, 0.70f, 0.25f, 1};
+  style.Colors[ImGuiCol_PlotHistogram] = {0.95f, 0.70f, 0.25f, 1};
+  style.Colors[ImGuiCol_Button] = {0.24f, 0.33f, 0.40f, 1};
+  style.ScaleAllSizes(scale);
+}
+
+void Panel::draw(ViewerSession& s, double scale) {
+  drawMarks(s, scale);
+  if (s.showsHelp) drawHelp(s);
+  const ImGuiIO& io = ImGui::GetIO();
+  if (s.showsPanel) {
+    beginColumn("figures", false);
+    frameSection(s);
+    detailSection(s);
+    lookSection(s);
+    endColumn();
+    beginColumn("places", true);
+    cameraSection(s);
+    pickSection(s);
+    flightSection(s);
+    endColumn();
+  }
+  if (!s.message().empty()) {
+    ImGui::SetNextWindowPos({io.DisplaySize.x / 2, io.DisplaySize.y - em()}, ImGuiCond_Always, {0.5f, 1});
+    ImGui::Begin("message", nullptr, kColumn | ImGuiWindowFlags_NoInputs);
+    ImGui::PushTextWrapPos(std::max(io.DisplaySize.x - 42 * em(), 24 * em()));
+    line(s.message());
+    ImGui::PopTextWrapPos();
+    ImGui::End();
+  }
+}
+
+void Panel::frameSection(ViewerSession& s) {
+  if (!section("Frame")) return;
+  const FrameHistory& h = s.history;
+  const double most = std::max({h.mostWork() * 1.1, s.wanted.frameMilliseconds * 1.5, 4.0});
+  const std::string label = fmt::format("{:.1f} ms   {:.0f} frames/s", h.lastWork(), h.framesPerSecond());
+  ImGui::PlotLines("##times", h.work().data(), int(FrameHistory::kFrames), int(h.first()), label.c_str(), 0,
+                   float(most), {ImGui::GetContentRegionAvail().x, 3.2f * em()});
+  tip("Cutting and drawing the last 180 frames. Frames per second count the wait for the screen as well.");
+  if (s.wanted.frameMilliseconds > 0) {
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    const float y = high.y - (high.y - low.y) * float(s.wanted.frameMilliseconds / most);
+    ImGui::GetWindowDrawList()->AddLine({low.x, y}, {high.x, y}, IM_COL32(120, 220, 140, 200));
+  }
+  const FrameFigures& f = s.figures;
+  row("triangles", f.triangles == f.asked ? grouped(f.triangles)
+                                          : fmt::format("{} of {}", grouped(f.triangles), grouped(f.asked)));
+  row("tolerance", fmt::format("{:.2f} px asked, {:.2f} {}", s.wanted.pixels, f.pixels,
+                               f.isComplete ? "kept" : "not kept"));
+  if (s.settings.isGeomorphed) {
+    row("moving", fmt::format("{} vertices", grouped(f.moving)));
+    if (f.jumpPixels > 0) row("jump", fmt::format("{:.2f} px at most", f.jumpPixels));
+  }
+  row("cut, draw", fmt::format("{:.1f} ms, {:.1f} ms", f.cutMilliseconds, f.drawMilliseconds));
+  row("memory", fmt::format("{}, {} on device", megabytes(s.residentBytes), megabytes(s.deviceBytes)));
+  dim(s.renderer);
+}
+
+void Panel::detailSection(ViewerSession& s) {
+  if (!section("Detail")) return;
+  slider("tolerance", s.wanted.pixels, 0.25, 32, "%.2f px", true);
+  tip("How far anything drawn may be from the terrain at full resolution, on the screen.");
+  int triangles = int(s.wanted.maxTriangles / 1000);
+  if (ImGui::SliderInt("most triangles", &triangles, 0, 4000, triangles == 0 ? "any number" : "%d 000",
+                       ImGuiSliderFlags_Logarithmic))
+    s.wanted.maxTriangles = s.settings.maxTriangles = std::uint32_t(std::max(triangles, 0)) * 1000;
+  slider("frame time", s.wanted.frameMilliseconds, 0, 100,
+         s.wanted.frameMilliseconds <= 0 ? "any" : "%.0f ms");
+  tip("The tolerance is made coarser, up to 64 pixels, until frames take no longer.");
+  int path = s.settings.path == CutPath::device ? 0 : 1;
+  if (!s.deviceRefusal.empty()) {
+    path = 1;
+    dim("cut on the processor: " + s.deviceRefusal);
+  } else if (ImGui::Combo("cut by", &path, "graphics device\0processor\0")) {
+    s.settings.path = path == 0 ? CutPath::device : CutPath::processor;
+  }
+  ImGui::Checkbox("geomorphing", &s.settings.isGeomorphed);
+  ImGui::SameLine(9.5f * em());
+  ImGui::Checkbox("freeze cut", &s.isFrozen);
+  tip("The cut stays as it is while the camera flies on.");
+  if (s.isFrozen) ImGui::Checkbox("show what the frozen camera sees", &s.showsFrustum);
+}
+
+void Panel::lookSection(ViewerSession& s) {
+  if (!section("Look")) return;
+  ViewLook& look = s.settings.look;
+  int coloring = int(look.coloring);
+  if (ImGui::Combo("colour by", &coloring, "height\0slope\0aspect\0nothing\0error\0"))
+    look.coloring = Coloring(coloring);
+  if (look.coloring == Coloring::error) {
+    slider("hottest", look.heatError, 0, s.model.mt.largestError(), look.heatError <= 0 ? "chosen" : "%.2f",
+           true);
+    tip("The error of the hottest colour, in the unit of heights.");
+  }
+  ImGui::Checkbox("shading", &look.isShaded);
+  ImGui::SameLine(9.5f * em());
+  ImGui::Checkbox("wireframe", &look.hasWireframe);
+  if (look.isShaded) {
+    slider("sun azimuth", look.sunAzimuthDegrees, 0, 360, "%.0f°");
+    slider("sun height", look.sunElevationDegrees, 0, 90, "%.0f°");
+  }
+  slider("heights times", s.settings.stretch, 0.5, 10, "%.2f", true);
+  const double range = (s.picker.box().high.z - s.picker.box().low.z) / s.picker.space().metresPerHeight();
+  bool hasContours = look.contourInterval > 0;
+  if (ImGui::Checkbox("contours", &hasContours)) s.apply(Action::contours);
+  if (look.contourInterval > 0) {
+    ImGui::SameLine(9.5f * em());
+    ImGui::PushItemWidth(5 * em());
+    const double least = usualContourInterval(range) / 20;
+    slider("##interval", look.contourInterval, least, std::max(range, 2 * least), "every %.3g", true);
+    ImGui::PopItemWidth();
+  }
+  slider("haze", look.hazeKilometres, 0, 200, look.hazeKilometres <= 0 ? "none" : "%.0f km", true);
+  if (s.hasDrape) ImGui::Checkbox("photo", &look.hasDrape);
+  if (s.hasDrape && s.overlay) ImGui::SameLine(9.5f * em());
+  if (s.overlay) ImGui::Checkbox("viewshed", &look.hasOverlay);
+}
+
+void Panel::cameraSection(ViewerSession& s) {
+  if (!section("Camera")) return;
+  const Camera& camera = s.rig.camera();
+  row("place", s.places.xy(camera.xy));
+  if (s.places.hasLonLat()) {
+    const std::string lonLat = s.places.lonLat(camera.xy);
+    row("", lonLat.empty() ? "no longitude and latitude" : lonLat);
+  }
+  row("height", s.places.height(camera.height));
+  if (const auto above = s.rig.metresAboveGround()) row("", fmt::format("{:.1f} m above ground", *above));
+  row("heading", fmt::format("{:.1f}°, pitch {:+.1f}°", camera.azimuthDegrees, camera.pitchDegrees));
+  row("speed", fmt::format("{:.1f} m/s", s.rig.lastMetresPerSecond()));
+
+  int mode = s.rig.mode() == CameraMode::orbit ? 0 : 1;
+  if (ImGui::RadioButton("orbit", &mode, 0)) s.rig.setMode(CameraMode::orbit);
+  ImGui::SameLine();
+  if (ImGui::RadioButton("free flight", &mode, 1)) s.rig.setMode(CameraMode::free);
+  ImGui::SameLine();
+  bool follows = s.rig.follows();
+  if (ImGui::Checkbox("follow", &follows)) s.rig.follow(follows);
+  if (s.rig.mode() == CameraMode::free) {
+    double speed = s.rig.metresPerSecond();
+    const double diagonal = s.picker.box().diagonal();
+    if (slider("fly at", speed, 1e-5 * diagonal, diagonal, "%.1f m/s", true)) s.rig.setMetresPerSecond(speed);
+    double floor = s.rig.floorMetres();
+    if (slider("floor", floor, 0, 200, floor <= 0 ? "none" : "%.1f m", true)) s.rig.setFloorMetres(floor);
+    tip("The camera stays so far above the terrain. 0: it may go anywhere, below it too.");
+  }
+  double field = camera.verticalFieldOfViewDegrees;
+  if (slider("field of view", field, 5, 120, "%.0f°")) s.rig.setFieldOfView(field);
+  for (const HomeView view : kHomeViews) {
+    if (view != HomeView::overview) ImGui::SameLine(0, 3);
+    const std::string name = view == HomeView::overview ? "home" : std::string(toString(view));
+    if (ImGui::SmallButton(name.c_str())) {
+      s.deck.stop();
+      s.rig.home(view);
+    }
+  }
+  bool goes = ImGui::InputTextWithHint("##goal", isGoalLonLat_ ? "lon,lat or lon,lat,H" : "X,Y or X,Y,H",
+                                       &goal_, ImGuiInputTextFlags_EnterReturnsTrue);
+  ImGui::SameLine();
+  goes = ImGui::Button("go") || goes;
+  if (s.places.hasLonLat()) {
+    ImGui::SameLine();
+    ImGui::Checkbox("lon,lat", &isGoalLonLat_);
+  }
+  if (goes && !goal_.empty()) s.goTo(goal_, isGoalLonLat_);
+}
+
+void Panel::pickSection(ViewerSession& s) {
+  if (!section("Points and sight")) return;
+  if (s.picks.empty()) return dim("Click on the terrain: one point shows its height, two a line of sight.");
+  for (std::size_t i = 0; i < s.picks.size(); ++i) {
+    const TerrainPick& pick = s.picks[i];
+    row(i == 0 ? "A" : "B", s.places.xy(pick.xy));
+    const std::string lonLat = s.places.lonLat(pick.xy);
+    if (!lonLat.empty()) row("", lonLat);
+    row("", s.places.height(pick.height));
+  }
+  bool isMoved = slider("A above ground", s.observerAbove, 0, 200, "%.1f", true);
+  isMoved = slider("B above ground", s.targetAbove, 0, 200, "%.1f", true) || isMoved;
+  if (isMoved) s.updateSight();
+  if (s.sight) {
+    const SightVerdict verdict = s.sight->answer.sight.verdict;
+    const ImVec4 color = verdict == SightVerdict::visible   ? ImVec4(0.45f, 0.90f, 0.45f, 1)
+                         : verdict == SightVerdict::blocked ? ImVec4(1.00f, 0.45f, 0.40f, 1)
+                                                            : ImVec4(0.75f, 0.75f, 0.75f, 1);
+    ImGui::PushTextWrapPos(0);
+    for (std::size_t i = 0; i < s.sight->text.size(); ++i)
+      i == 0 ? ImGui::TextColored(color, "%s", s.sight->text[i].c_str()) : line(s.sight->text[i]);
+    ImGui::PopTextWrapPos();
+  }
+  if (s.viewshed.isRunning()) {
+    ImGui::ProgressBar(float(s.viewshed.progress()), {9.2f * em(), 0});
+    ImGui::SameLine();
+    if (ImGui::Button("cancel")) s.viewshed.cancel();
+  } else if (s.model.isRaster) {
+    if (ImGui::Button(s.picks.size() == 1 ? "viewshed of A" : "viewshed of B")) s.startViewshed();
+    tip("What is seen from there, at the height of A above ground, of targets at the height of B.");
+    ImGui::SameLine();
+  }
+  if (ImGui::Button("clear")) s.clearPicks();
+  if (s.overlay)
+    dim(fmt::format("viewshed: {} of {} samples seen", grouped(s.overlay->seen), grouped(s.overlay->cells)));
+}
+
+void Panel::flightSection(ViewerSession& s) {
+  if (!section("Flight", !s.deck.plan().keys.empty())) return;
+  FlightDeck& deck = s.deck;
+  const std::size_t count = deck.plan().keys.size();
+  if (ImGui::Button("set key")) s.apply(Action::setKeyFrame);
+  ImGui::SameLine();
+  if (ImGui::Button(deck.isPlaying() ? "stop" : "play")) s.apply(Action::playFlight);
+  ImGui::SameLine();
+  if (ImGui::Button("forget") && count > 0) deck.clear();
+  if (deck.isPlaying()) {
+    const std::string text = fmt::format("{:.1f} of {:.1f} s", deck.seconds(), deck.duration());
+    const double part =
+        deck.duration() > 0 ? std::fmod(deck.seconds(), deck.duration()) / deck.duration() : 0;
+    ImGui::ProgressBar(float(part), {-1, 0}, text.c_str());
+  }
+  if (count > 0) {
+    ImGui::BeginChild("keys", {0, std::min(float(count), 5.0f) * ImGui::GetTextLineHeightWithSpacing() + 4});
+    for (std::size_t i = 0; i < deck.plan().keys.size(); ++i) {
+      const Camera& key = deck.plan().keys[i];
+      ImGui::PushID(int(i));
+      if (ImGui::SmallButton("x")) {
+        deck.removeKey(i);
+        ImGui::PopID();
+        break;
+      }
+      ImGui::SameLine();
+      const std::string text =
+          fmt::format("{}  {}  {}", i + 1, s.places.xy(key.xy), s.places.height(key.height));
+      if (ImGui::Selectable(text.c_str())) {
+        deck.stop();
+        s.rig.place(key);
+      }
+      ImGui::PopID();
+    }
+    ImGui::EndChild();
+    FlightPlan plan = deck.plan();
+    double speed = plan.speed.value_or(0);
+    const double diagonal = s.picker.box().diagonal();
+    const std::string format = plan.duration ? fmt::format("for {:.1f} s", *plan.duration) : "%.1f m/s";
+    if (slider("speed", speed, 1e-5 * diagonal, diagonal / 5, format.c_str(), true)) {
+      plan.speed = speed;
+      plan.duration.reset();
+      deck.setPlan(plan);
+    }
+    bool isClosed = plan.isClosed;
+    if (ImGui::Checkbox("round and round", &isClosed)) {
+      plan.isClosed = isClosed;
+      deck.setPlan(plan);
+    }
+  }
+  if (!hasSetFlightPath_) {
+    flightPath_ = s.flightPath.string();
+    framesFolder_ = s.framesFolder.string();
+    hasSetFlightPath_ = true;
+  }
+  if (ImGui::InputText("##path", &flightPath_)) s.flightPath = flightPath_;
+  ImGui::SameLine();
+  if (ImGui::Button("save")) s.apply(Action::saveFlight);
+  ImGui::SameLine();
+  if (ImGui::Button("load")) s.apply(Action::loadFlight);
+  if (ImGui::InputText("##frames", &framesFolder_)) s.framesFolder = framesFolder_;
+  tip("The folder for the frames of the flight as PNG files.");
+  ImGui::SameLine();
+  if (ImGui::Button(s.wantsFrames ? "stop frames" : "render frames")) s.wantsFrames = !s.wantsFrames;
+}
+
+}  // namespace arete

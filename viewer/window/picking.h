@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "terrain/profile.h"
+#include "terrain/sight_earth.h"
+#include "viewer/camera_space.h"
+#include "viewer/home_view.h"
+
+namespace arete {
+
+/// A place of the terrain that somebody pointed at.
+struct TerrainPick {
+  Vec2 plan;          ///< plan coordinates of the model
+  Vec2 xy;            ///< source coordinates
+  double height = 0;  ///< of the terrain, in the DEM's vertical unit
+  Vec3 metric;        ///< heights as they are, not exaggerated
+  double metres = 0;  ///< from the eye, straight
+};
+
+/// What of the terrain is at a pixel: the first place at which the ray through it meets the surface at full
+/// resolution, whatever front is drawn. Flat space, as it is drawn. Keeps references; thread-safe.
+class TerrainPicker {
+ public:
+  /// Precondition: model and profiles outlive this. O(vertices).
+  TerrainPicker(const TerrainModel& model, const Profiles& profiles);
+
+  /// From a point in a direction of any length but 0, in metric space. From above or from below the surface.
+  /// O(triangles below the ray * depth).
+  std::optional<TerrainPick> along(const Vec3& eye, const Vec3& direction) const;
+  /// What a camera has at a pixel, from the top left of its picture, heights drawn `stretch` times as high.
+  std::optional<TerrainPick> at(const Camera& camera, Vec2 pixel, double stretch = 1) const;
+
+  const CameraSpace& space() const { return space_; }
+  const MetricBox& box() const { return box_; }
+
+ private:
+  TerrainPick pickOf(const Vec3& metric, const Vec3& eye) const;
+
+  const TerrainModel& model_;
+  const Profiles& profiles_;
+  CameraSpace space_;
+  MetricBox box_;
+  std::unique_ptr<SightEarth> plane_;
+};
+
+/// The direction, in the space that is drawn, of a pixel of a camera's picture.
+Vec3 directionOfPixel(const CameraSpace& space, const Camera& camera, Vec2 pixel);
+
+/// The pixel of a metric point in a camera's picture; nothing where it is not in front of it.
+std::optional<Vec2> pixelOf(const CameraSpace& space, const Camera& camera, const Vec3& metric,
+                            double stretch = 1);
+
+}  // namespace arete

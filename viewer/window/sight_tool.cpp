@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The line is drawn where its heights are in the terms of the DEM: over an ellipsoid it sags on a flat map,
+// and what it touches there it touches in the picture.
+#include "viewer/window/sight_tool.h"
+
+#include <fmt/format.h>
+
+#include "io/crs_lonlat.h"
+#include "io/ellipsoid_earth.h"
+
+namespace arete {
+namespace {
+
+constexpr int kPoints = 96;
+
+std::string withUnit(double value, const std::string& unit) {
+  return unit.empty() ? fmt::format("{:.2f}", value) : fmt::format("{:.2f} {}", value, unit);
+}
+
+std::string metresText(double metres) {
+  return metres < 10000 ? fmt::format("{:.1f} m", metres) : fmt::format("{:.3f} km", metres / 1000);
+}
+
+std::string_view verdictText(const SightAnswer& answer) {
+  switch (answer.verdict) {
+    case SightVerdict::visible:
+      return answer.isTouching ? "visible, touching the terrain" : "visible";
+    case SightVerdict::blocked:
+      return "blocked";
+    case SightVerdict::unknown:
+      return "unknown: no terrain known below a part of it";
+    default:
+      return "undecided";
+  }
+}
+
+}  // namespace
+
+SightTool::SightTool(const TerrainModel& model, const Profiles& profiles)
+    : model_(model), profiles_(profiles), space_(model) {
+  if (!model.georeference.crsWkt.empty() && CrsLonLat::of(model.georeference)) {
+    if (auto made = makeEllipsoidEarth(model)) {
+      earth_ = std::move(*made);
+      earthName_ = "ellipsoid";
+    }
+  }
+  if (!earth_) earth_ = makePlaneEarth(model);
+  engine_ = makeSightDescent(model);
+}
+
+Result<SightPicture> SightTool::between(const TerrainPick& from, double fromAbove, const TerrainPick& to,
+                                        double toAbove) const {
+  const SightLink link{sightPlan(model_, from.xy), sightPlan(model_, to.xy), from.height + fromAbove,
+                       to.height + toAbove};
+  const Result<SightLine> line = sightLine(link, *earth_, model_);
+  if (!line) return tl::unexpected(line.error());
+  const auto answer = answerLink(link, *earth_, *engine_, profiles_, {});
+  if (!answer) return tl::unexpected(answer.error());
+
+  SightPicture picture{.answer = *answer, .points = {}, .obstruction = {}, .pointsBefore = 0, .text = {}};
+  const SightAnswer& sight = answer->sight;
+  const auto placeAt = [&](double s) {
+    return space_.position(model_.toSource(line->planAt(s)), line->height(s));
+  };
+  for (int i = 0; i <= kPoints; ++i) {
+    const double s = line->length() * i / kPoints;
+    if (!sight.obstruction || s < sight.obstruction->distance) ++picture.pointsBefore;
+    picture.points.push_back(placeAt(s));
+  }
+  if (sight.obstruction) picture.obstruction = placeAt(sight.obstruction->distance);
+
+  const std::string& unit = model_.georeference.verticalUnit;
+  picture.text.emplace_back(verdictText(sight));
+  picture.text.push_back(fmt::format("{} at {:.2f}° from north, {:+.3f}° up",
+                                     metresText(answer->distanceMetres), answer->azimuthDegrees,
+                                     answer->elevationDegrees));
+  if (sight.clearance)
+    picture.text.push_back(fmt::format("clearance {}, {} away", withUnit(*sight.clearance, unit),
+                                       metresText(sight.least.distance)));
+  if (sight.obstruction)
+    picture.text.push_back(fmt::format("blocked {} away, terrain at {}",
+                                       metresText(sight.obstruction->distance),
+                                       withUnit(sight.obstruction->terrainHeight, unit)));
+  if (sight.gapMetres > 0)
+    picture.text.push_back(fmt::format("no terrain below {} of it", metresText(sight.gapMetres)));
+  return picture;
+}
+
+}  // namespace arete

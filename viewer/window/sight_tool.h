@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "terrain/sight_links.h"
+#include "viewer/window/picking.h"
+
+namespace arete {
+
+/// A line of sight between two picks, as it is drawn and told.
+struct SightPicture {
+  SightLinkAnswer answer;
+  std::vector<Vec3> points;         ///< along the line, metric, heights as they are; about a hundred
+  std::optional<Vec3> obstruction;  ///< on the line
+  std::size_t pointsBefore = 0;     ///< of the points, those up to the obstruction; all without one
+  std::vector<std::string> text;    ///< lines for a person
+};
+
+/// Answers lines of sight between picks at full resolution, over the ellipsoid of the DEM's CRS where it has
+/// one, with the usual refraction (docs/topics/visibility.md). Keeps references; thread-safe.
+class SightTool {
+ public:
+  /// Preconditions: model and profiles outlive this.
+  SightTool(const TerrainModel& model, const Profiles& profiles);
+
+  /// Heights above the terrain in the DEM's vertical unit. Errors: those of answerLink().
+  Result<SightPicture> between(const TerrainPick& from, double fromAbove, const TerrainPick& to,
+                               double toAbove) const;
+
+  const SightEarth& earth() const { return *earth_; }
+  /// "ellipsoid" or "plane".
+  const std::string& earthName() const { return earthName_; }
+
+ private:
+  const TerrainModel& model_;
+  const Profiles& profiles_;
+  CameraSpace space_;
+  std::unique_ptr<SightEarth> earth_;
+  std::unique_ptr<SightEngine> engine_;
+  std::string earthName_ = "plane";
+};
+
+}  // namespace arete

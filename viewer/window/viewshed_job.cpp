@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "viewer/window/viewshed_job.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace arete {
+namespace {
+
+using Rgba = std::array<std::uint8_t, 4>;
+
+Rgba colorOf(ViewshedCell cell) {
+  switch (cell) {
+    case ViewshedCell::seen:
+      return {255, 176, 32, 120};
+    case ViewshedCell::hidden:
+      return {24, 30, 48, 130};
+    case ViewshedCell::unknown:
+    case ViewshedCell::undecided:
+      return {60, 120, 220, 130};
+    default:
+      return {0, 0, 0, 0};
+  }
+}
+
+}  // namespace
+
+ViewshedOverlay overlayOf(const Viewshed& viewshed, int mostPixels) {
+  const std::uint32_t most = std::uint32_t(std::max(mostPixels, 1));
+  const std::uint32_t step = (std::max(viewshed.columns, viewshed.rows) + most - 1) / most;
+  ViewshedOverlay overlay;
+  overlay.width = int((viewshed.columns + step - 1) / step);
+  overlay.height = int((viewshed.rows + step - 1) / step);
+  overlay.rgba.reserve(std::size_t(overlay.width) * std::size_t(overlay.height));
+  for (int y = 0; y < overlay.height; ++y)
+    for (int x = 0; x < overlay.width; ++x) {
+      const std::uint32_t column = std::min(std::uint32_t(x) * step + step / 2, viewshed.columns - 1);
+      const std::uint32_t row = std::min(std::uint32_t(y) * step + step / 2, viewshed.rows - 1);
+      overlay.rgba.push_back(colorOf(viewshed.cells[std::size_t(row) * viewshed.columns + column]));
+    }
+  // Sample 0 covers the plan from -1/2 to 1/2.
+  overlay.scale = {1.0 / (step * double(overlay.width)), 1.0 / (step * double(overlay.height))};
+  overlay.shift = {0.5 * overlay.scale.x, 0.5 * overlay.scale.y};
+  overlay.seen = viewshed.seen;
+  overlay.cells = viewshed.seen + viewshed.hidden + viewshed.unknown + viewshed.undecided;
+  return overlay;
+}
+
+void ViewshedJob::start(const TerrainModel& model, const SightEarth& earth, const ViewshedObserver& observer,
+                        double targetHeight, int mostPixels) {
+  cancel();
+  state_ = std::make_unique<State>();
+  thread_ = std::thread([state = state_.get(), &model, &earth, observer, targetHeight, mostPixels] {
+    RunContext context;
+    context.cancel = &state->cancel;
+    context.progress = [state](std::string_view, double fraction) { state->progress = fraction; };
+    // One processor is left for the window.
+    context.threads = std::max(1, int(std::thread::hardware_concurrency()) - 1);
+    state->result = [&]() -> Result<ViewshedOverlay> {
+      const auto maker = ViewshedMaker::make(model, earth, {}, context);
+      if (!maker) return tl::unexpected(maker.error());
+      ViewshedOptions options;
+      options.targetHeight = targetHeight;
+      const auto viewshed = maker->from(observer, options, context);
+      if (!viewshed) return tl::unexpected(viewshed.error());
+      return overlayOf(*viewshed, mostPixels);
+    }();
+    state->isDone = true;
+  });
+}
+
+void ViewshedJob::cancel() {
+  if (!state_) return;
+  state_->cancel = true;
+  thread_.join();
+  state_.reset();
+}
+
+double ViewshedJob::progress() const {
+  return state_ ? state_->progress.load() : 0;
+}
+
+std::optional<Result<ViewshedOverlay>> ViewshedJob::take() {
+  if (!state_ || !state_->isDone) return std::nullopt;
+  thread_.join();
+  auto result = std::move(state_->result);
+  state_.reset();
+  return result;
+}
+
+}  // namespace arete

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "terrain/viewshed.h"
+
+namespace arete {
+
+/// A viewshed as a picture over the plan, for TerrainPainter::setOverlay().
+struct ViewshedOverlay {
+  int width = 0, height = 0;
+  std::vector<std::array<std::uint8_t, 4>> rgba;
+  Vec2 scale, shift;  ///< plan to texture
+  std::uint64_t seen = 0, cells = 0;
+};
+
+/// No side longer than `mostPixels`: then of every so many samples one is shown. O(pixels).
+ViewshedOverlay overlayOf(const Viewshed& viewshed, int mostPixels);
+
+/// A viewshed that is computed while the window goes on. One at a time.
+class ViewshedJob {
+ public:
+  ViewshedJob() = default;
+  ViewshedJob(const ViewshedJob&) = delete;
+  ViewshedJob& operator=(const ViewshedJob&) = delete;
+  ~ViewshedJob() { cancel(); }
+
+  /// Ends what is running. `targetHeight` is above the terrain. Preconditions: model and earth outlive the
+  /// job, or the next cancel().
+  void start(const TerrainModel& model, const SightEarth& earth, const ViewshedObserver& observer,
+             double targetHeight, int mostPixels);
+  /// Waits until nothing runs.
+  void cancel();
+  bool isRunning() const { return state_ != nullptr; }
+  /// 0..1.
+  double progress() const;
+  /// Once, when it is done. Errors: those of ViewshedMaker.
+  std::optional<Result<ViewshedOverlay>> take();
+
+ private:
+  struct State {
+    std::atomic<double> progress = 0;
+    std::atomic<bool> cancel = false, isDone = false;
+    Result<ViewshedOverlay> result;
+  };
+  std::unique_ptr<State> state_;
+  std::thread thread_;
+};
+
+}  // namespace arete

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "engine/result.h"
+#include "engine/run_context.h"
+#include "viewer/window/viewer_session.h"
+
+namespace arete {
+
+struct WindowOptions {
+  std::string title = "arete";
+  ViewerSession::Start start = {};
+  int width = 1280, height = 800;           ///< of the window at first, in the screen's own units
+  int samples = 4;                          ///< per pixel, to smooth edges
+  bool waitsForScreen = true;               ///< vertical synchronisation
+  std::uint32_t mostTriangles = 4'000'000;  ///< room on the device
+
+  /// Once, with the context current: what else is to be drawn (a drape) is handed to the view. May be empty.
+  std::function<Status(TerrainView&)> onReady = {};
+  /// Before every frame, counted from 0; false ends. May be empty.
+  std::function<bool(ViewerSession&, int frame)> onFrame = {};
+  /// Saved when the window closes: what it shows, panel and all. Empty = nothing.
+  std::filesystem::path lastPicture = {};
+  int frames = 0;  ///< the window closes by itself after so many; 0 = never
+};
+
+/// Opens a window on a terrain and shows it until the person closes it (docs/topics/viewer.md, "In the
+/// window").
+///
+/// On the thread of main(); one window at a time. Errors: unsupported (no display; OpenGL below 4.5, saying
+/// what was found; a terrain too large for the device), interrupted, those of onReady and of saving.
+Status runWindow(const TerrainModel& model, const WindowOptions& options, const RunContext& context = {});
+
+}  // namespace arete
