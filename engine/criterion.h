@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "engine/motion.h"
 #include "engine/multitriangulation.h"
 #include "engine/region.h"
 
@@ -45,6 +48,23 @@ class Criterion {
   /// error[i] > allowedError(ball[i]). What decides about many balls at once may override it.
   /// Precondition: isMonotone().
   virtual std::uint64_t exceeding(std::span<const Sphere> balls, std::span<const float> errors) const;
+
+  /// A copy to be asked about when the caller's is gone. Null where motionSince() knows nothing anyway.
+  virtual std::unique_ptr<const Criterion> remembered() const { return nullptr; }
+  /// How far it has moved since it was `before`, at most; nothing where they cannot be compared.
+  virtual std::optional<Motion> motionSince(const Criterion& before) const {
+    static_cast<void>(before);
+    return {};
+  }
+  /// As exceeding(), and for how long: no criterion that has moved by at most units[i] times `rate` since
+  /// this one (motionSince() it) answers otherwise for ball i. The parts of `rate` are positive. 0 units: who
+  /// knows. Precondition: as of exceeding(), and as many units.
+  virtual std::uint64_t exceedingFor(std::span<const Sphere> balls, std::span<const float> errors,
+                                     const Motion& rate, std::span<float> units) const {
+    static_cast<void>(rate);
+    std::fill(units.begin(), units.end(), 0.0f);
+    return exceeding(balls, errors);
+  }
 
   /// The same error allowed everywhere: the front is then found without looking at places. NaN otherwise.
   virtual double uniformError() const { return std::numeric_limits<double>::quiet_NaN(); }

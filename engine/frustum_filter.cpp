@@ -61,6 +61,8 @@ FrustumFilter::FrustumFilter(const View& view, double errorPerReach, double outs
   leastCosine_ = static_cast<float>(p.leastCosine);
   errorPerReach_ = static_cast<float>(errorPerReach);
   outsideError_ = floatAtMost(outsideError);
+  rounding_ = static_cast<float>(
+      1e-13 * std::max({std::abs(view.eye.x), std::abs(view.eye.y), std::abs(view.eye.z)}));
   constexpr double kMostCoordinate = 1e15, kLeast = 1e-30;
   isUsable_ = p.leastCosine >= 0.05 && std::abs(view.eye.x) < kMostCoordinate &&
               std::abs(view.eye.y) < kMostCoordinate && std::abs(view.eye.z) < kMostCoordinate &&
@@ -69,64 +71,164 @@ FrustumFilter::FrustumFilter(const View& view, double errorPerReach, double outs
               view.farDistance > kLeast;
 }
 
+struct FrustumFilter::Lanes {
+  std::array<float, kMost> x{}, y{}, z{}, r{}, e{};
+  std::size_t count;
+  std::uint64_t all;
+};
+
+/// What is known of a ball. Distances beyond planes are positive outside the frustum and have the lengths of
+/// the planes' normals; depths and reaches are bounds from below and from above.
+struct FrustumFilter::Ball {
+  float distance, nearest, fromAxis, slack;
+  float byDepthLow, byDepthHigh, byAngleLow, byAngleHigh;
+  float reached;  // cosine of the largest angle, at least that at the corner
+  float beyondX, beyondY, beyondNear, beyondFar;
+  bool isInRange;
+};
+
+inline FrustumFilter::Lanes FrustumFilter::load(std::span<const Sphere> balls,
+                                                std::span<const float> errors) const {
+  Lanes lanes;
+  lanes.count = balls.size();
+  lanes.all = lanes.count < kMost ? (std::uint64_t(1) << lanes.count) - 1 : ~std::uint64_t(0);
+  for (std::size_t i = 0; i < lanes.count; ++i) {
+    lanes.x[i] = balls[i].x;
+    lanes.y[i] = balls[i].y;
+    lanes.z[i] = balls[i].z;
+    lanes.r[i] = balls[i].radius;
+    lanes.e[i] = errors[i];
+  }
+  return lanes;
+}
+
+[[gnu::always_inline]] inline FrustumFilter::Ball FrustumFilter::look(const Lanes& lanes,
+                                                                      std::size_t i) const {
+  const float dx = (lanes.x[i] - eyeHigh_.x) - eyeLow_.x, dy = (lanes.y[i] - eyeHigh_.y) - eyeLow_.y,
+              dz = (lanes.z[i] - eyeHigh_.z) - eyeLow_.z, radius = lanes.r[i];
+  const float px = dx * right_.x + dy * right_.y + dz * right_.z, py = dx * up_.x + dy * up_.y + dz * up_.z,
+              pz = dx * forward_.x + dy * forward_.y + dz * forward_.z;
+  const float squaredFromAxis = px * px + py * py, squared = squaredFromAxis + pz * pz;
+  Ball b;
+  b.fromAxis = std::sqrt(squaredFromAxis);
+  b.distance = std::sqrt(squared);
+  b.nearest = b.distance - radius;
+  const float size = b.distance + radius;
+  b.slack = 1e-5f * size;
+
+  // What the least of the ball's distances and its largest angle say of z^2 / d.
+  const float covered = b.nearest * size;
+  const float covering = std::sqrt(larger(covered, 0));
+  const float cosine = (pz * covering - b.fromAxis * radius) / squared;
+  b.reached = larger(cosine, leastCosine_);
+  const float byAngle = b.nearest * b.reached * b.reached;
+  const bool isClose = b.nearest <= 1e-3f * b.distance;
+  b.byAngleLow = isClose ? 0 : byAngle * 0.998f;
+  b.byAngleHigh = isClose ? 1.1e-3f * b.distance : byAngle * 1.002f;
+  // What its least depth says.
+  const float depth = pz - radius;
+  b.byDepthLow = larger(depth - b.slack, near_) * leastCosine_;
+  b.byDepthHigh = larger(depth + b.slack, near_) * leastCosine_;
+
+  // How far the ball is beyond the planes.
+  b.beyondX = std::abs(px) - slopeX_ * pz - radius * lengthX_;
+  b.beyondY = std::abs(py) - slopeY_ * pz - radius * lengthY_;
+  b.beyondNear = near_ - pz - radius;
+  b.beyondFar = depth - far_;
+  b.isInRange = (squared > 1e-30f) & (squared < 1e30f);
+  return b;
+}
+
 ARETE_VECTOR_CLONES
 FrustumFilter::Verdicts FrustumFilter::test(std::span<const Sphere> balls,
                                             std::span<const float> errors) const {
-  const std::size_t count = balls.size();
-  const std::uint64_t all = count < kMost ? (std::uint64_t(1) << count) - 1 : ~std::uint64_t(0);
-  if (!isUsable_) return {0, all};
-
-  std::array<float, kMost> x{}, y{}, z{}, r{}, e{};
-  for (std::size_t i = 0; i < count; ++i) {
-    x[i] = balls[i].x;
-    y[i] = balls[i].y;
-    z[i] = balls[i].z;
-    r[i] = balls[i].radius;
-    e[i] = errors[i];
-  }
+  const Lanes lanes = load(balls, errors);
+  if (!isUsable_) return {0, lanes.all};
   std::array<std::uint8_t, kMost> exceeds{}, unsure{};
-  const std::size_t lanes = (count + kLanes - 1) / kLanes * kLanes;
-  for (std::size_t i = 0; i < lanes; ++i) {
-    const float dx = (x[i] - eyeHigh_.x) - eyeLow_.x, dy = (y[i] - eyeHigh_.y) - eyeLow_.y,
-                dz = (z[i] - eyeHigh_.z) - eyeLow_.z, radius = r[i], error = e[i];
-    const float px = dx * right_.x + dy * right_.y + dz * right_.z, py = dx * up_.x + dy * up_.y + dz * up_.z,
-                pz = dx * forward_.x + dy * forward_.y + dz * forward_.z;
-    const float squaredFromAxis = px * px + py * py, squared = squaredFromAxis + pz * pz;
-    const float distance = std::sqrt(squared), nearest = distance - radius, size = distance + radius;
-    const float slack = 1e-5f * size;
-
-    // What the least of the ball's distances and its largest angle say of z^2 / d.
-    const float covered = nearest * size;
-    const float covering = std::sqrt(larger(covered, 0));
-    const float cosine = (pz * covering - std::sqrt(squaredFromAxis) * radius) / squared;
-    const float reached = larger(cosine, leastCosine_);
-    const float byAngle = nearest * reached * reached;
-    const float angleLow = byAngle * 0.998f, angleHigh = byAngle * 1.002f, closeHigh = 1.1e-3f * distance;
-    const bool isClose = nearest <= 1e-3f * distance;
-    // What its least depth says.
-    const float depth = pz - radius;
-    const float depthLow = larger(depth - slack, near_) * leastCosine_,
-                depthHigh = larger(depth + slack, near_) * leastCosine_;
-    const float low = larger(isClose ? 0 : angleLow, depthLow) * errorPerReach_ * 0.9999f,
-                high = larger(isClose ? closeHigh : angleHigh, depthHigh) * errorPerReach_ * 1.0001f;
-
-    // How far the ball is beyond the planes.
-    const float beyondX = std::abs(px) - slopeX_ * pz - radius * lengthX_,
-                beyondY = std::abs(py) - slopeY_ * pz - radius * lengthY_;
-    const float slackX = slack * (1 + slopeX_), slackY = slack * (1 + slopeY_);
-    const float beyondNear = near_ - pz - radius, beyondFar = depth - far_;
+  const std::size_t end = (lanes.count + kLanes - 1) / kLanes * kLanes;
+  for (std::size_t i = 0; i < end; ++i) {
+    const Ball b = look(lanes, i);
+    const float error = lanes.e[i];
+    const float low = larger(b.byAngleLow, b.byDepthLow) * errorPerReach_ * 0.9999f,
+                high = larger(b.byAngleHigh, b.byDepthHigh) * errorPerReach_ * 1.0001f;
+    const float slackX = b.slack * (1 + slopeX_), slackY = b.slack * (1 + slopeY_);
     const bool isMaybeSeen =
-        (beyondX <= slackX) & (beyondY <= slackY) & (beyondNear <= slack) & (beyondFar <= slack);
+        (b.beyondX <= slackX) & (b.beyondY <= slackY) & (b.beyondNear <= b.slack) & (b.beyondFar <= b.slack);
     const bool isSeen =
-        (beyondX < -slackX) & (beyondY < -slackY) & (beyondNear < -slack) & (beyondFar < -slack);
-
-    const bool isInRange = (squared > 1e-30f) & (squared < 1e30f);
-    const bool isIn = (error > outsideError_) | (isSeen & (error > high) & isInRange);
+        (b.beyondX < -slackX) & (b.beyondY < -slackY) & (b.beyondNear < -b.slack) & (b.beyondFar < -b.slack);
+    const bool isIn = (error > outsideError_) | (isSeen & (error > high) & b.isInRange);
     exceeds[i] = isIn;
-    unsure[i] = (isInRange == false) | (isMaybeSeen & (error > low));
+    unsure[i] = (b.isInRange == false) | (isMaybeSeen & (error > low));
   }
-  const std::uint64_t surely = toBits(exceeds) & all;
-  return {surely, toBits(unsure) & all & ~surely};
+  const std::uint64_t surely = toBits(exceeds) & lanes.all;
+  return {surely, toBits(unsure) & lanes.all & ~surely};
+}
+
+// A verdict stands on three quantities, each of which has so far to go before it turns: how far the ball is
+// inside or beyond the frustum, and how far each of the two bounds of its reach is from the reach that its
+// error needs. In the eye's axes the ball's centre moves by travel + d turn, and so do its distances from the
+// planes. A depth changes by its share of that: travel + rho turn + d turn^2 / 2, rho the distance from the
+// axis. The other bound, nearest * cos^2(phi), has a gradient of less than 1.16 (1.1547 at r = 0 and sin^2
+// phi = 1/3), and a turn alone changes it by nearest * (sin(2 phi) turn + turn^2) at most. What is allowed
+// changes by a factor of exp(scale), which is a part `scale` of the larger side. In sight and too coarse, the
+// first of the three to turn ends it; the other way round the last of them.
+ARETE_VECTOR_CLONES
+FrustumFilter::Verdicts FrustumFilter::testFor(std::span<const Sphere> balls, std::span<const float> errors,
+                                               const Motion& rate, std::span<float> units) const {
+  const Lanes lanes = load(balls, errors);
+  std::fill(units.begin(), units.end(), 0.0f);
+  if (!isUsable_) return {0, lanes.all};
+  constexpr float kForever = 1e30f, kMostReach = 1e30f;
+  const auto travel = static_cast<float>(rate.travel), turn = static_cast<float>(rate.turn),
+             scale = static_cast<float>(rate.scale);
+  const float reachPerError = 1 / errorPerReach_, perLengthX = 1 / lengthX_, perLengthY = 1 / lengthY_;
+  // The least t with way <= b t + a t^2.
+  const auto timeFor = [](float way, float b, float a) {
+    const float left = larger(way, 0);
+    return 2 * left / (b + std::sqrt(b * b + 4 * a * left));
+  };
+  std::array<std::uint8_t, kMost> exceeds{}, unsure{};
+  std::array<float, kMost> times;
+  const std::size_t end = (lanes.count + kLanes - 1) / kLanes * kLanes;
+  for (std::size_t i = 0; i < end; ++i) {
+    const Ball b = look(lanes, i);
+    const float error = lanes.e[i], needed = error * reachPerError;
+    const float neededLow = (needed < kMostReach ? needed : kMostReach) * 0.9998f - rounding_,
+                neededHigh = needed * 1.0002f + rounding_;
+    const float nearest = larger(b.nearest, 0);
+
+    const float scaleOfDepth = scale * larger(needed, b.byDepthHigh),
+                scaleOfAngle = scale * larger(needed, b.byAngleHigh);
+    const float depthRate = leastCosine_ * (travel + b.fromAxis * turn) + scaleOfDepth,
+                depthBend = 0.5f * leastCosine_ * b.distance * turn * turn;
+    const float sine2 = 2 * b.reached * std::sqrt(larger(1 - b.reached * b.reached, 0)) + 0.02f;
+    const float angleRate = 1.16f * travel + nearest * sine2 * turn + scaleOfAngle,
+                angleBend = nearest * turn * turn;
+    const float sightRate = travel + b.distance * turn;
+
+    const float slack = b.slack + rounding_;
+    const float slackX = slack * (1 + slopeX_), slackY = slack * (1 + slopeY_);
+    const float inside = -larger(larger((b.beyondX + slackX) * perLengthX, (b.beyondY + slackY) * perLengthY),
+                                 larger(b.beyondNear + slack, b.beyondFar + slack));
+    const float outside = larger(larger((b.beyondX - slackX) * perLengthX, (b.beyondY - slackY) * perLengthY),
+                                 larger(b.beyondNear - slack, b.beyondFar - slack));
+
+    const float tooFine =
+        std::min({timeFor(neededLow - b.byDepthHigh, depthRate, depthBend),
+                  timeFor(neededLow - b.byAngleHigh, angleRate, angleBend), timeFor(inside, sightRate, 0)});
+    const float fine =
+        std::max({timeFor(b.byDepthLow - neededHigh, depthRate, depthBend),
+                  timeFor(b.byAngleLow - neededHigh, angleRate, angleBend), timeFor(outside, sightRate, 0)});
+    const bool isAlways = error > outsideError_, isNever = (error <= 0) & !isAlways;
+    const bool isIn = isAlways | ((tooFine > 0) & b.isInRange);
+    const bool isOut = isNever | (!isAlways & (fine > 0) & b.isInRange);
+    exceeds[i] = isIn;
+    unsure[i] = !(isIn | isOut);
+    times[i] = isAlways | isNever ? kForever : (isIn ? tooFine : (isOut ? fine : 0)) * 0.998f;
+  }
+  std::copy_n(times.begin(), lanes.count, units.begin());
+  const std::uint64_t surely = toBits(exceeds) & lanes.all;
+  return {surely, toBits(unsure) & lanes.all & ~surely};
 }
 
 }  // namespace arete

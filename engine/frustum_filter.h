@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "engine/motion.h"
 #include "engine/multitriangulation.h"
 #include "engine/view.h"
 
@@ -23,14 +24,25 @@ class FrustumFilter {
   };
   /// Precondition: at most 64 balls, as many errors.
   Verdicts test(std::span<const Sphere> balls, std::span<const float> errors) const;
+  /// As test(), and how many times `rate` a view may have moved from here and still give the verdict on ball
+  /// i, when its frustum is asked in double: at least units[i]. 0 of the unsure. Preconditions: as many units
+  /// as balls; the parts of `rate` are positive.
+  Verdicts testFor(std::span<const Sphere> balls, std::span<const float> errors, const Motion& rate,
+                   std::span<float> units) const;
 
  private:
+  struct Lanes;
+  struct Ball;
+  Lanes load(std::span<const Sphere> balls, std::span<const float> errors) const;
+  Ball look(const Lanes& lanes, std::size_t i) const;
+
   struct Axis {
     float x, y, z;
   };
   bool isUsable_;
   Axis eyeHigh_, eyeLow_, right_, up_, forward_;
-  float slopeX_, slopeY_, lengthX_, lengthY_, near_, far_, leastCosine_, errorPerReach_, outsideError_;
+  float slopeX_, slopeY_, lengthX_, lengthY_, near_, far_, leastCosine_, errorPerReach_, outsideError_,
+      rounding_;
 };
 
 }  // namespace arete

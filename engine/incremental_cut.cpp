@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// An update is one Pass. It looks at every triangle of the front: does it fail, is the node that it is the
-// first triangle of a leaf whose floor would do? (Every leaf owns its whole ceiling in the front, so each is
-// met once.) What fails is refined, ancestors first, in the order of the keys; leaves that are not needed
+// A saturated update asks about what may have changed (kinetic_update.cpp), unless the budget is too small
+// for what is wanted, or a deadline comes with an order of its own.
+//
+// Any other update is one Pass. It looks at every triangle of the front: does it fail, is the node that it is
+// the first triangle of a leaf whose floor would do? (Every leaf owns its whole ceiling in the front, so each
+// is met once.) What fails is refined, ancestors first, in the order of the keys; leaves that are not needed
 // leave, and their parents with them where they become leaves.
 //
 // Saturated, a node is wanted or not by itself, and wanted nodes are closed, so both steps together end at
@@ -26,6 +29,7 @@
 #include <queue>
 
 #include "engine/incremental_state.h"
+#include "engine/kinetic_update.h"
 #include "engine/refine.h"
 #include "engine/with_threads.h"
 
@@ -45,6 +49,10 @@ struct Waiting {
   }
 };
 
+bool isWorstFirst(const IncrementalOptions& options) {
+  return !options.order || dynamic_cast<const WorstFirst*>(options.order.get()) != nullptr;
+}
+
 }  // namespace
 
 class IncrementalCut::Pass {
@@ -56,13 +64,13 @@ class IncrementalCut::Pass {
         o_(options),
         context_(context),
         isSaturated_(options.method == CutMethod::saturated),
-        isWorstFirst_(!options.order || dynamic_cast<const WorstFirst*>(options.order.get()) != nullptr) {}
+        isWorstFirst_(isWorstFirst(options)) {}
 
-  Update run() {
-    s_.steps.clear();
+  /// Appends to the state's steps. Returns whether the update is complete.
+  bool run() {
     if (!o_.maxTriangles && !o_.deadline && o_.exact && !isSaturated_) {
       goToLeast();
-      return counted();
+      return isComplete_;
     }
     scan();
     if (o_.maxTriangles) {
@@ -76,17 +84,10 @@ class IncrementalCut::Pass {
       coarsen();
       if (isComplete_ && o_.exact && !isSaturated_) leaveWhatIsNotLeast();
     }
-    return counted();
+    return isComplete_;
   }
 
  private:
-  Update counted() const {
-    Update update;
-    for (const CutStep& step : s_.steps) ++(step.isRefinement ? update.refined : update.coarsened);
-    update.isComplete = isComplete_;
-    return update;
-  }
-
   struct Found {
     std::vector<Waiting> refinable;
     std::vector<Waiting> leaves;  // key: the severity of what they would leave behind
@@ -357,7 +358,34 @@ Result<IncrementalCut::Update> IncrementalCut::update(const Criterion& criterion
                                                       const RunContext& context) {
   if (const Status ok = checkCut(state_->mt, criterion, options.method, options.maxTriangles); !ok)
     return tl::unexpected(ok.error());
-  return withThreads(context, [&] { return Pass(*state_, criterion, options, context).run(); });
+  return withThreads(context, [&] {
+    State& s = *state_;
+    s.steps.clear();
+    Update update;
+    update.isComplete = bring(s, criterion, options, context);
+    for (const CutStep& step : s.steps) ++(step.isRefinement ? update.refined : update.coarsened);
+    return update;
+  });
+}
+
+/// Returns whether the update is complete.
+bool IncrementalCut::bring(State& s, const Criterion& criterion, const IncrementalOptions& options,
+                           const RunContext& context) {
+  const bool isOrderFree = !options.deadline || isWorstFirst(options);
+  if (options.method == CutMethod::saturated && isOrderFree && !(options.maxTriangles && s.isBudgetTight)) {
+    using End = KineticUpdate::End;
+    const End end = KineticUpdate(s, criterion, options, context).run();
+    if (end != End::overBudget) {
+      s.isBudgetTight = false;
+      return end == End::complete;
+    }
+  }
+  s.forgetWatches();
+  const bool isComplete = Pass(s, criterion, options, context).run();
+  constexpr double kTight = 0.9;
+  s.isBudgetTight = options.maxTriangles && !isComplete &&
+                    double(s.triangles().size()) > kTight * double(*options.maxTriangles);
+  return isComplete;
 }
 
 std::span<const CutStep> IncrementalCut::lastSteps() const {
@@ -366,6 +394,7 @@ std::span<const CutStep> IncrementalCut::lastSteps() const {
 
 Status IncrementalCut::apply(std::span<const CutStep> steps) {
   State& s = *state_;
+  s.forgetWatches();
   // The steps may be this cut's own last ones.
   const std::vector<CutStep> playing(steps.begin(), steps.end());
   s.steps.clear();
@@ -423,14 +452,19 @@ Status IncrementalCut::validate() const {
   NodeSet closed = set;
   if (closeUpwards(s.mt, closed) != s.nodeCount() || closed != set)
     return broken("the incremental cut is not closed or miscounts its nodes");
-  std::vector<std::uint32_t> marks(set.begin(), set.end());
+  std::vector<std::uint32_t> counts(set.size(), 0);
   for (std::uint32_t n = 0; n < set.size(); ++n)
-    if (set[n])
-      for (const std::uint32_t t : s.mt.floor(NodeId(n)))
-        if (const NodeId parent = s.mt.creator(TriangleId(t)); parent.isValid()) ++marks[parent.index()];
-  for (std::uint32_t n = 0; n < set.size(); ++n)
-    if (marks[n] != s.mark(n))
-      return broken(fmt::format("node {} counts {} and has {}", n, s.mark(n), marks[n]));
+    for (const std::uint32_t t : s.mt.floor(NodeId(n))) {
+      const NodeId parent = s.mt.creator(TriangleId(t));
+      if (set[n] && parent.isValid()) ++counts[parent.index()];
+      if (!set[n] && parent.isValid() && !set[parent.index()]) ++counts[n];
+    }
+  for (std::uint32_t n = 0; n < set.size(); ++n) {
+    if (counts[n] != s.count(n))
+      return broken(fmt::format("node {} counts {} and has {}", n, s.count(n), counts[n]));
+    if (s.isWatching && counts[n] == 0 && !s.isWatched(n))
+      return broken(fmt::format("node {} can change and is not watched", n));
+  }
   std::vector<std::uint32_t> ids = s.triangles();
   std::ranges::sort(ids);
   if (ids != arete::front(s.mt, set).ids)

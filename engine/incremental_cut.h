@@ -32,8 +32,12 @@ struct IncrementalOptions {
 /// is exact. Without `exact` a minimal update may keep a little more, because errors are not monotone down
 /// the graph: a node whose floor fails the criterion stays, though a coarser triangle would do.
 ///
-/// Holds 2 bytes per node of the MT, and some 30 per triangle of the front. Not thread-safe; works in
-/// parallel inside.
+/// A saturated update asks only about the nodes whose verdict may have turned since they were asked about,
+/// where the criterion knows how far it has moved (Criterion::motionSince(): ViewError does); a camera that
+/// rests costs nothing.
+///
+/// Holds 4 bytes per node of the MT, and some 30 per triangle of the front; saturated, 30 more per node that
+/// can change. Not thread-safe; works in parallel inside.
 class IncrementalCut {
  public:
   /// Starts at the root. O(nodes).
@@ -48,7 +52,7 @@ class IncrementalCut {
     bool isComplete = true;
   };
   /// Errors: usage, as takeCut() (a deadline and an order suit either method here). O(front) tests of the
-  /// criterion, and O(log) per modification. An interruption leaves a cut, too.
+  /// criterion at most, and O(log) per modification. An interruption leaves a cut, too.
   Result<Update> update(const Criterion& criterion, const IncrementalOptions& options = {},
                         const RunContext& context = {});
 
@@ -73,6 +77,10 @@ class IncrementalCut {
  private:
   class State;
   class Pass;
+  class KineticUpdate;
+  static bool bring(State& state, const Criterion& criterion, const IncrementalOptions& options,
+                    const RunContext& context);
+
   std::unique_ptr<State> state_;
 };
 

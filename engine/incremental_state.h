@@ -4,10 +4,13 @@
 #include <tsl/robin_map.h>
 #include <tsl/robin_set.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "engine/incremental_cut.h"
+#include "engine/watch_calendar.h"
 
 namespace arete {
 
@@ -19,19 +22,28 @@ struct ScatteredId {
   }
 };
 
-/// The cut of an IncrementalCut and the only two ways to change it. A node's mark is 0 when it is out, else 1
-/// and the number of its ceiling's triangles that members have removed: a leaf, which can go, has 1.
+/// The cut of an IncrementalCut and the only two ways to change it.
+///
+/// A node's count is 0 when it can change: of a member, how many triangles of its ceiling other members have
+/// removed (0: a leaf, which can leave); of any other node, how many triangles of its floor are not in the
+/// front (0: it can enter).
 class IncrementalCut::State {
  public:
   explicit State(MultiTriangulation multitriangulation)
-      : mt(std::move(multitriangulation)), marks_(mt.nodeCount(), 0) {
-    for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) addTriangle(t);
+      : mt(std::move(multitriangulation)), calendar(leastTravel(mt)), marks_(mt.nodeCount()) {
+    for (std::uint32_t n = 0; n < mt.nodeCount(); ++n)
+      marks_[n] = static_cast<std::uint32_t>(mt.floor(NodeId(n)).size());
+    for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) {
+      addTriangle(t);
+      if (const std::uint32_t r = mt.arrays().remover[t]; r != MultiTriangulation::kNone) --marks_[r];
+    }
   }
 
-  bool isIn(std::uint32_t n) const { return marks_[n] != 0; }
-  bool isLeaf(std::uint32_t n) const { return marks_[n] == 1; }
+  bool isIn(std::uint32_t n) const { return (marks_[n] & kIn) != 0; }
+  bool isLeaf(std::uint32_t n) const { return (marks_[n] & ~kWatched) == kIn; }
+  bool canEnter(std::uint32_t n) const { return (marks_[n] & ~kWatched) == 0; }
   std::uint32_t nodeCount() const { return nodes_; }
-  std::uint16_t mark(std::uint32_t n) const { return marks_[n]; }
+  std::uint32_t count(std::uint32_t n) const { return marks_[n] & ~(kIn | kWatched); }
   const std::vector<std::uint32_t>& triangles() const { return triangles_; }
   bool hasTriangle(std::uint32_t t) const { return place_.contains(t); }
 
@@ -42,8 +54,11 @@ class IncrementalCut::State {
       removeTriangle(t);
       if (const NodeId parent = mt.creator(TriangleId(t)); parent.isValid()) ++marks_[parent.index()];
     }
-    for (std::uint32_t i = 0; i < mt.ceilingSize(node); ++i) addTriangle(mt.slotTriangle(node, i).index());
-    marks_[n] = 1;
+    forCeiling(node, [&](std::uint32_t t, std::uint32_t remover) {
+      addTriangle(t);
+      if (remover != MultiTriangulation::kNone) --marks_[remover];
+    });
+    marks_[n] |= kIn;
     ++nodes_;
     steps.push_back({node, true});
   }
@@ -51,21 +66,63 @@ class IncrementalCut::State {
   /// Precondition: n is a leaf.
   void leave(std::uint32_t n) {
     const NodeId node(n);
-    for (std::uint32_t i = 0; i < mt.ceilingSize(node); ++i) removeTriangle(mt.slotTriangle(node, i).index());
+    forCeiling(node, [&](std::uint32_t t, std::uint32_t remover) {
+      removeTriangle(t);
+      if (remover != MultiTriangulation::kNone) ++marks_[remover];
+    });
     for (const std::uint32_t t : mt.floor(node)) {
       addTriangle(t);
       if (const NodeId parent = mt.creator(TriangleId(t)); parent.isValid()) --marks_[parent.index()];
     }
-    marks_[n] = 0;
+    marks_[n] &= ~kIn;
     --nodes_;
     steps.push_back({node, false});
+  }
+
+  /// visit(triangle, the node that removes it or kNone).
+  template <class Visit>
+  void forCeiling(NodeId n, const Visit& visit) const {
+    const std::uint32_t first = mt.slotTriangle(n, 0).index(), size = mt.ceilingSize(n);
+    for (std::uint32_t t = first; t < first + size; ++t) visit(t, mt.arrays().remover[t]);
   }
 
   const MultiTriangulation mt;
   std::vector<CutStep> steps;  ///< of the running or the last update
   std::size_t cursor = 0;      ///< where a scan that ran out of time goes on
 
+  // What saturated updates know (kinetic_update.cpp). While isWatching, every node that can change is
+  // watched: it is in the calendar, where the verdict on it is that it stays as it is, or among the unasked.
+  bool isWatching = false;
+  std::unique_ptr<const Criterion> asked;  ///< the last criterion, if it can be remembered
+  WatchCalendar calendar;
+  std::vector<std::uint32_t> unasked;
+  bool isBudgetTight = false;  ///< the last update could not afford what it was asked for
+
+  bool isWatched(std::uint32_t n) const { return (marks_[n] & kWatched) != 0; }
+  void unwatch(std::uint32_t n) { marks_[n] &= ~kWatched; }
+  /// To be asked about, if it is not watched already.
+  void watch(std::uint32_t n) {
+    if (isWatched(n)) return;
+    marks_[n] |= kWatched;
+    unasked.push_back(n);
+  }
+  void forgetWatches() {
+    if (!isWatching) return;
+    calendar.clear([&](std::uint32_t n) { unwatch(n); });
+    for (const std::uint32_t n : unasked) unwatch(n);
+    unasked.clear();
+    asked.reset();
+    isWatching = false;
+  }
+
  private:
+  static constexpr std::uint32_t kIn = 1u << 31, kWatched = 1u << 30;
+
+  /// A millionth of the size of the largest region: no travel worth a clock's while.
+  static double leastTravel(const MultiTriangulation& mt) {
+    return mt.nodeCount() == 0 ? 1 : std::max(1e-6 * double(mt.arrays().sphere[0].radius), 1e-12);
+  }
+
   void addTriangle(std::uint32_t t) {
     place_[t] = static_cast<std::uint32_t>(triangles_.size());
     triangles_.push_back(t);
@@ -80,7 +137,7 @@ class IncrementalCut::State {
     place_[last] = place;
   }
 
-  std::vector<std::uint16_t> marks_;
+  std::vector<std::uint32_t> marks_;
   std::uint32_t nodes_ = 0;
   std::vector<std::uint32_t> triangles_;
   tsl::robin_map<std::uint32_t, std::uint32_t, ScatteredId> place_;

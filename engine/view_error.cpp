@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 namespace arete {
 
@@ -53,13 +54,45 @@ double ViewError::severity(const MultiTriangulation& mt, TriangleId t, const Cor
   return error == 0 ? 0 : o_.pixels * error / allowedFor(mt, t, corners);
 }
 
-std::uint64_t ViewError::exceeding(std::span<const Sphere> balls, std::span<const float> errors) const {
-  auto [exceeds, unsure] = filter_.test(balls, errors);
-  for (; unsure != 0; unsure &= unsure - 1) {
+std::uint64_t ViewError::decide(const FrustumFilter::Verdicts& filtered, std::span<const Sphere> balls,
+                                std::span<const float> errors) const {
+  std::uint64_t exceeds = filtered.exceeds;
+  for (std::uint64_t unsure = filtered.unsure; unsure != 0; unsure &= unsure - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(unsure));
     if (errors[i] > allowedError(balls[i])) exceeds |= std::uint64_t(1) << i;
   }
   return exceeds;
+}
+
+std::uint64_t ViewError::exceeding(std::span<const Sphere> balls, std::span<const float> errors) const {
+  return decide(filter_.test(balls, errors), balls, errors);
+}
+
+std::uint64_t ViewError::exceedingFor(std::span<const Sphere> balls, std::span<const float> errors,
+                                      const Motion& rate, std::span<float> units) const {
+  return decide(filter_.testFor(balls, errors, rate, units), balls, errors);
+}
+
+std::optional<Motion> ViewError::motionSince(const Criterion& before) const {
+  const auto* old = dynamic_cast<const ViewError*>(&before);
+  if (old == nullptr || old->o_.view.nearDistance != o_.view.nearDistance ||
+      old->o_.view.farDistance != o_.view.farDistance || old->o_.outsideError != o_.outsideError)
+    return {};
+  const Frustum::Planes a = old->frustum_.planes(), b = frustum_.planes();
+  const auto squared = [](const Vec3& p, const Vec3& q) {
+    return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y) + (p.z - q.z) * (p.z - q.z);
+  };
+  // Axes turned by an angle have moved by 2 sqrt(2) sin(angle / 2) in all.
+  const double axes =
+      std::sqrt(squared(a.right, b.right) + squared(a.up, b.up) + squared(a.forward, b.forward));
+  const double planes = std::max(std::abs(std::atan(a.slopeX) - std::atan(b.slopeX)),
+                                 std::abs(std::atan(a.slopeY) - std::atan(b.slopeY)));
+  constexpr double kWiden = 1 + 1e-9;
+  return Motion{.travel = kWiden * std::sqrt(squared(old->o_.view.eye, o_.view.eye)),
+                .turn = kWiden * (2 * std::asin(std::min(1.0, axes / (2 * std::numbers::sqrt2))) + planes),
+                // The cosine at the corner counts twice: the error allowed grows with its square at most.
+                .scale = kWiden * (std::abs(std::log(errorPerReach_ / old->errorPerReach_)) +
+                                   2 * std::abs(std::log(b.leastCosine / a.leastCosine)))};
 }
 
 double ViewError::allowedError(const Sphere& s) const {

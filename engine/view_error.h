@@ -32,10 +32,18 @@ class ViewError final : public Criterion {
   bool isMonotone() const override { return true; }
   double allowedError(const Sphere& s) const override;
   std::uint64_t exceeding(std::span<const Sphere> balls, std::span<const float> errors) const override;
+  std::unique_ptr<const Criterion> remembered() const override { return std::make_unique<ViewError>(*this); }
+  /// Known from view to view, of any field of view, size and tolerance; not where the near or the far
+  /// distance or the error allowed out of sight are others.
+  std::optional<Motion> motionSince(const Criterion& before) const override;
+  std::uint64_t exceedingFor(std::span<const Sphere> balls, std::span<const float> errors, const Motion& rate,
+                             std::span<float> units) const override;
 
   const Frustum& frustum() const { return frustum_; }
 
  private:
+  std::uint64_t decide(const FrustumFilter::Verdicts& filtered, std::span<const Sphere> balls,
+                       std::span<const float> errors) const;
   double allowedFor(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const;
 
   Options o_;
