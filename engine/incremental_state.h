@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <tsl/robin_map.h>
 #include <tsl/robin_set.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "engine/incremental_cut.h"
+#include "engine/place_table.h"
 #include "engine/watch_calendar.h"
 
 namespace arete {
@@ -124,13 +124,11 @@ class IncrementalCut::State {
   }
 
   void addTriangle(std::uint32_t t) {
-    place_[t] = static_cast<std::uint32_t>(triangles_.size());
+    place_.insert(t, static_cast<std::uint32_t>(triangles_.size()));
     triangles_.push_back(t);
   }
   void removeTriangle(std::uint32_t t) {
-    const auto at = place_.find(t);
-    const std::uint32_t place = at->second, last = triangles_.back();
-    place_.erase(at);
+    const std::uint32_t place = place_.erase(t), last = triangles_.back();
     triangles_.pop_back();
     if (last == t) return;
     triangles_[place] = last;
@@ -140,7 +138,7 @@ class IncrementalCut::State {
   std::vector<std::uint32_t> marks_;
   std::uint32_t nodes_ = 0;
   std::vector<std::uint32_t> triangles_;
-  tsl::robin_map<std::uint32_t, std::uint32_t, ScatteredId> place_;
+  PlaceTable place_;
 };
 
 }  // namespace arete
