@@ -19,6 +19,7 @@
 #include "viewer/headless.h"
 #include "viewer/home_view.h"
 #include "viewer/round_flight.h"
+#include "viewer/window/window.h"
 
 namespace arete {
 namespace {
@@ -30,6 +31,8 @@ struct ViewArguments {
   std::string screenshot, frames, film, figures;
   double framesPerSecond = 0;
   int samples = 4;
+  std::string windowScreenshot;
+  int windowFrames = 0;
 
   double pixelError = 1, frameTime = 0, exaggeration = 1;
   std::int64_t maxTriangles = 0;
@@ -231,6 +234,20 @@ Status runView(const ViewArguments& a, Session& session) {
   const auto flight = flightOf(a, *model, heights, session);
   if (!flight) return tl::unexpected(flight.error());
 
+  if (!a.isHeadless) {
+    WindowOptions window{.title = fmt::format("arete - {}", a.model)};
+    window.start.settings = *settings;
+    window.start.frameMilliseconds = a.frameTime;
+    if (!a.camera.empty() || a.home != "overview") window.start.camera = *camera;
+    if (*flight) window.start.flight = (*flight)->plan();
+    if (!a.path.empty()) window.start.flightPath = a.path;
+    if (!a.size.empty()) std::tie(window.width, window.height) = *size;
+    window.samples = a.samples;
+    window.lastPicture = a.windowScreenshot;
+    window.frames = a.windowFrames;
+    return runWindow(*model, window, session.context());
+  }
+
   HeadlessOptions options{size->first, size->second, a.samples, *settings};
   Result<HeadlessView> view = HeadlessView::create(*model, options, session.context());
   if (!view) return tl::unexpected(view.error());
@@ -289,6 +306,12 @@ void addViewCommand(CLI::App& app, Session& session) {
       ->check(oneOf({"device", "processor"}))
       ->type_name("NAME")
       ->group(detail);
+  command
+      ->add_option("--frame-time", a->frameTime,
+                   "In the window: as coarse as needed for frames to take no longer")
+      ->check(finiteAbove(0))
+      ->type_name("MS")
+      ->group(detail);
   command->add_flag("--no-geomorph", a->isFixed, "Vertices appear at their own height at once")
       ->group(detail);
 
@@ -334,6 +357,9 @@ void addViewCommand(CLI::App& app, Session& session) {
   command->add_option("--figures", a->figures, "Triangles, tolerance and times of each frame")
       ->type_name("FILE.json")
       ->group(pictures);
+  // For pictures of the window itself: what it shows after so many frames, then it closes.
+  command->add_option("--window-screenshot", a->windowScreenshot)->group("");
+  command->add_option("--window-frames", a->windowFrames)->group("");
 }
 
 }  // namespace arete

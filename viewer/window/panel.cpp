@@ -12,6 +12,8 @@
 #include <array>
 #include <cmath>
 
+#include "viewer/round_flight.h"
+
 namespace arete {
 namespace {
 
@@ -325,6 +327,15 @@ void Panel::flightSection(ViewerSession& s) {
   if (ImGui::Button(deck.isPlaying() ? "stop" : "play")) s.apply(Action::playFlight);
   ImGui::SameLine();
   if (ImGui::Button("forget") && count > 0) deck.clear();
+  ImGui::SameLine();
+  if (ImGui::Button("around")) {
+    auto round = roundFlight(s.profiles.heights(), s.picker.space(), s.picker.box());
+    if (round)
+      deck.setPlan(*round);
+    else
+      s.say(round.error().describe());
+  }
+  tip("A flight around the inside of the terrain.");
   if (deck.isPlaying()) {
     const std::string text = fmt::format("{:.1f} of {:.1f} s", deck.seconds(), deck.duration());
     const double part =
