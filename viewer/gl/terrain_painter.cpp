@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 #include <vector>
 
 #include "terrain/camera.h"
@@ -56,6 +57,14 @@ void setSampling(GLuint texture, GLenum minify, GLenum magnify) {
   glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GLint(magnify));
   glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+/// Mesa's software renderer walks over the whole footprint of an anisotropic sample. At the edge of a triangle
+/// seen along itself, with several samples a pixel, that footprint has no end: one frame took minutes.
+bool isMesaSoftware() {
+  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string_view name = renderer != nullptr ? renderer : "";
+  return name.find("llvmpipe") != name.npos || name.find("softpipe") != name.npos;
 }
 
 GLsizei levelsOf(std::uint32_t width, std::uint32_t height) {
@@ -128,7 +137,7 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
     glGenerateTextureMipmap(p.slopes_);
     setSampling(p.slopes_, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
     GLfloat anisotropy = 1;
-    if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
+    if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic") && !isMesaSoftware()) {
       glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &anisotropy);
       glTextureParameterf(p.slopes_, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(anisotropy, 8.0f));
     }

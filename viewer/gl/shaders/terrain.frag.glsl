@@ -81,7 +81,8 @@ void main() {
     base = mix(base, seen.rgb, seen.a);
   }
   if (range.z > 0.0) {
-    float level = height / range.z, width = fwidth(level);
+    // A thousandth of an interval higher than they say, so that a sea at exactly 0 is not all one line.
+    float level = height / range.z - 1e-3, width = fwidth(level);
     float away = abs(fract(level + 0.5) - 0.5) / max(width, 1e-6);
     bool isFifth = abs(fract(level / 5.0 + 0.5) - 0.5) < 0.05;
     float ink = (1.0 - smoothstep(range.w * (isFifth ? 1.0 : 0.5), range.w * (isFifth ? 1.0 : 0.5) + 1.0, away)) * (1.0 - smoothstep(0.3, 0.6, width));
