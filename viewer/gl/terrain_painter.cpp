@@ -19,8 +19,7 @@ namespace arete {
 
 /// shaders/terrain.frag.glsl, std140.
 struct TerrainPainter::Look {
-  glm::vec4 sun{}, range{}, heightUnits{}, modes{}, flatColor{}, drapeFrame{}, overlayFrame{}, eastNorth{},
-      heat{};
+  glm::vec4 sun{}, range{}, heightUnits{}, modes{}, flatColor{}, overlayFrame{}, eastNorth{}, heat{};
 };
 
 namespace {
@@ -148,6 +147,8 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
 
 void TerrainPainter::setFrame(const FrameView& frame) {
   const FrameBlock block = frameBlock(frame, metric_);
+  eyePlan_ = {frame.view.eye.x / metric_.scale.x + metric_.origin.x,
+              frame.view.eye.y / metric_.scale.y + metric_.origin.y};
   glNamedBufferSubData(frame_, 0, sizeof block, &block);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
 }
@@ -183,10 +184,7 @@ void TerrainPainter::draw(const TerrainOnGpu& terrain, const DrawnFront& front, 
   const bool isDraped = l.hasDrape && drape_ != nullptr;
   look.modes = {float(mode), hasSlopes_ ? 1.0f : 0.0f, isDraped ? 1.0f : 0.0f,
                 l.hasOverlay && hasOverlay_ ? 1.0f : 0.0f};
-  if (isDraped) {
-    look.drapeFrame = drape_->planToTexture();
-    drape_->bind(terrain_, 2, 2, 3);
-  }
+  if (isDraped) drape_->bind(terrain_, 2, eyePlan_, {metric_.scale.x, metric_.scale.y});
   look.overlayFrame = overlayFrame_;
   look.eastNorth = {float(east_.x), float(east_.y), float(north_.x), float(north_.y)};
   look.heat = {float(l.heatError), 0, 0, 0};

@@ -31,6 +31,7 @@ class TerrainPainter {
   /// where alpha is 0. Empty to take it away.
   void setOverlay(int width, int height, std::span<const std::array<std::uint8_t, 4>> rgba, Vec2 scale,
                   Vec2 shift);
+  /// It stays alive as long as it is here; null to take it away.
   void setDrape(const DrapeOnGpu* drape) { drape_ = drape; }
 
   /// Preconditions: the frame is set; colouring by error: terrain.triangleErrors are there.
@@ -58,6 +59,7 @@ class TerrainPainter {
   glm::vec4 overlayFrame_{};
   bool hasSlopes_ = false, hasOverlay_ = false;
   const DrapeOnGpu* drape_ = nullptr;
+  Vec2 eyePlan_;
   MetricFrame metric_;
   double lowest_ = 0, highest_ = 0;  // metric z
   Vec2 east_, north_;                // of the map, in metric space

@@ -7,7 +7,7 @@ layout(std140, binding = 1) uniform Look {
   vec4 heightUnits;  // of place.z: height = z * x + y; haze distance; flat colour of the test (1 = on)
   vec4 modes;        // colouring, has slopes, has drape, has overlay
   vec4 flatColor;
-  vec4 drapeFrame, overlayFrame;  // plan to texture: (u, v) = (x, y) * xy + zw
+  vec4 overlayFrame; // plan to texture: (u, v) = (x, y) * xy + zw
   vec4 eastNorth;    // the map's east and north in metric space
   vec4 heat;         // error of the largest heat; 0 = the cut's pixels
 };
@@ -19,8 +19,11 @@ layout(std430, binding = 8) readonly buffer TriangleIds { uint drawnId[]; };
 layout(std430, binding = 9) readonly buffer TriangleErrors { uint triangleError[]; };  // two codes a word
 layout(std430, binding = 10) readonly buffer Drawn { uint drawCount, drawInstances, drawFirst; };
 layout(location = 1) uniform uvec2 errorCode;  // bits of code 1, bits from code to code (OutwardScale)
-layout(location = 2) uniform vec4 drapeGrid;   // tiles across, inner and whole side of a tile, border
-layout(location = 3) uniform vec2 drapeSize;   // pixels of the whole drape
+// Pixels of the drape are counted from the one under the eye, so that those close to it are told exactly.
+layout(location = 2) uniform ivec4 drapePicture;    // pixels across and down, side of a tile, levels
+layout(location = 3) uniform ivec2 drapeEye;        // the pixel under the eye
+layout(location = 4) uniform vec4 drapeStep;        // pixels a unit of metric space; where in its pixel the eye is
+layout(location = 5) uniform ivec2 drapeLevel[16];  // first layer, tiles across
 
 vec3 ramp3(float t, vec3 a, vec3 b, vec3 c) { return t < 0.5 ? mix(a, b, 2.0 * t) : mix(b, c, 2.0 * t - 1.0); }
 
@@ -33,13 +36,37 @@ float errorOf(uint t) {
   return code == 0u ? 0.0 : uintBitsToFloat(errorCode.x + (code - 1u) * errorCode.y);
 }
 
-vec4 drapeAt(vec2 uv) {
-  vec2 pixel = uv * drapeSize, dx = dFdx(pixel), dy = dFdy(pixel);
-  if (any(lessThan(uv, vec2(0.0))) || any(greaterThan(uv, vec2(1.0)))) return vec4(0.0);
-  vec2 tile = min(floor(pixel / drapeGrid.y), floor((drapeSize - 1.0) / drapeGrid.y));
-  vec2 inside = (pixel - tile * drapeGrid.y + drapeGrid.w) / drapeGrid.z;
-  float layer = tile.y * drapeGrid.x + tile.x;
-  return textureGrad(drapeTiles, vec3(inside, layer), dx / drapeGrid.z, dy / drapeGrid.z);
+/// The drape at one level of detail, between four texels of one tile. Nothing beyond its edges.
+vec4 drapeTexel(int level, vec2 fromEyePixel) {
+  ivec2 pixel = drapeEye + ivec2(floor(fromEyePixel));
+  if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, drapePicture.xy))) return vec4(0.0);
+  int side = drapePicture.z, inner = side - 2;
+  ivec2 texel = pixel >> level, tile = texel / inner;
+  vec2 part = (vec2(pixel - (texel << level)) + fract(fromEyePixel)) / float(1 << level);
+  int layer = drapeLevel[level].x + tile.y * drapeLevel[level].y + tile.x;
+  return textureLod(drapeTiles, vec3((vec2(texel - tile * inner + 1) + part) / float(side), float(layer)), 0.0);
+}
+
+/// The mean over the pixel of the screen: up to 8 places along the longer axis of what it covers, each at the
+/// level whose texels are as wide as the shorter one.
+vec4 drapeSeen() {
+  vec2 at = fromEye.xy * drapeStep.xy + drapeStep.zw, dx = dFdx(at), dy = dFdy(at);
+  float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
+  float middle = 0.5 * (xx + yy), apart = 0.5 * (xx - yy), around = sqrt(apart * apart + xy * xy);
+  float longer = sqrt(middle + around), shorter = sqrt(max(middle - around, 0.0));
+  vec2 axis = apart >= 0.0 ? vec2(apart + around, xy) : vec2(xy, around - apart);
+  axis *= longer / max(length(axis), 1e-30);
+  int count = int(clamp(ceil(longer / max(shorter, 1.0) - 0.01), 1.0, 8.0));
+  float lod = clamp(log2(max(longer / float(count), shorter)), 0.0, float(drapePicture.w - 1));
+  int fine = int(lod), coarse = min(fine + 1, drapePicture.w - 1);
+  vec4 sum = vec4(0.0);
+  for (int i = 0; i < count; ++i) {
+    vec2 place = at + ((float(i) + 0.5) / float(count) - 0.5) * axis;
+    vec4 color = drapeTexel(fine, place);
+    if (lod > float(fine)) color = mix(color, drapeTexel(coarse, place), lod - float(fine));
+    sum += color;
+  }
+  return sum / float(count);
 }
 
 void main() {
@@ -73,8 +100,8 @@ void main() {
     base = ramp3(clamp(e, 0.0, 1.0), vec3(0.13, 0.3, 0.55), vec3(0.95, 0.93, 0.8), vec3(0.75, 0.1, 0.1));
   }
   if (modes.z > 0.0) {
-    vec4 photo = drapeAt(plan * drapeFrame.xy + drapeFrame.zw);
-    base = mix(base, photo.rgb, photo.a);
+    vec4 photo = drapeSeen();
+    base = base * (1.0 - photo.a) + photo.rgb;
   }
   if (modes.w > 0.0) {
     vec4 seen = texture(overlay, plan * overlayFrame.xy + overlayFrame.zw);
