@@ -25,7 +25,7 @@ namespace arete {
 namespace {
 
 struct ViewArguments {
-  std::string model, drape, path;
+  std::string model, drape, drapeBands, path;
   bool isHeadless = false, isLonLat = false, isRound = false;
   std::string size, camera, home = "overview";
   std::string screenshot, frames, film, figures;
@@ -148,6 +148,23 @@ Json jsonOf(const FrameFigures& f) {
           {"drawMilliseconds", f.drawMilliseconds}};
 }
 
+/// The bands of the picture that are shown. Errors: usage.
+Result<DrapeOptions> drapeOptionsOf(const ViewArguments& a) {
+  DrapeOptions options;
+  if (a.drapeBands.empty()) return options;
+  if (a.drape.empty())
+    return failure(ErrorCode::usage, "are those of a picture: say --drape FILE", "--drape-bands");
+  const auto numbers = parseNumbers("--drape-bands", a.drapeBands);
+  if (!numbers) return tl::unexpected(numbers.error());
+  for (const double n : *numbers) {
+    if (!(n >= 1 && n <= 65535 && n == std::floor(n)) || (numbers->size() != 1 && numbers->size() != 3))
+      return failure(ErrorCode::usage, "names one band (grey) or three (red, green, blue), counted from 1",
+                     "--drape-bands " + a.drapeBands);
+    options.read.bands.push_back(static_cast<int>(n));
+  }
+  return options;
+}
+
 Status checkArguments(const ViewArguments& a) {
   const auto refuse = [](const char* sentence, const std::string& option) {
     return failure(ErrorCode::usage, sentence, option);
@@ -220,6 +237,8 @@ Status runView(const ViewArguments& a, Session& session) {
   if (Status ok = checkArguments(a); !ok) return ok;
   const Result<ViewSettings> settings = settingsOf(a);
   if (!settings) return tl::unexpected(settings.error());
+  const Result<DrapeOptions> drapeOptions = drapeOptionsOf(a);
+  if (!drapeOptions) return tl::unexpected(drapeOptions.error());
   const auto size = readSize(a.size.empty() ? "1280x720" : a.size);
   if (!size) return tl::unexpected(size.error());
   const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
@@ -253,6 +272,13 @@ Status runView(const ViewArguments& a, Session& session) {
   if (!view) return tl::unexpected(view.error());
   for (const std::string& warning : view->warnings()) session.warn(warning);
   Json json = {{"model", a.model}, {"renderer", view->description()}};
+  if (!a.drape.empty()) {
+    if (Status laid = view->setDrape(a.drape, *drapeOptions, session.context()); !laid) return laid;
+    const DrapeOnGpu& drape = *view->drape();
+    session.warn(drape.warnings(), a.drape);
+    json["drape"] = {
+        {"file", a.drape}, {"columns", drape.columns()}, {"rows", drape.rows()}, {"bytes", drape.bytes()}};
+  }
   if (!a.screenshot.empty()) {
     const Camera from = *flight && a.camera.empty() ? (*flight)->at(0) : *camera;
     if (Status ok = takeScreenshot(a, from, *view, session, json); !ok) return ok;
@@ -319,6 +345,17 @@ void addViewCommand(CLI::App& app, Session& session) {
   command->add_option("--color", a->color, "height (default), slope, aspect, plain or error")
       ->check(oneOf({"height", "slope", "aspect", "plain", "error"}))
       ->type_name("NAME")
+      ->group(look);
+  command
+      ->add_option("--drape", a->drape,
+                   "A picture over the terrain, by its georeference, in any CRS; --color shows where it does "
+                   "not reach")
+      ->type_name("FILE")
+      ->group(look);
+  command
+      ->add_option("--drape-bands", a->drapeBands,
+                   "Its bands: one (grey) or red, green and blue (default: as it says)")
+      ->type_name("R,G,B")
       ->group(look);
   command->add_option("--contours", a->contours, "Contour lines every so much height")
       ->check(finiteAbove(0))
