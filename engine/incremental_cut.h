@@ -36,8 +36,9 @@ struct IncrementalOptions {
 /// where the criterion knows how far it has moved (Criterion::motionSince(): ViewError does); a camera that
 /// rests costs nothing.
 ///
-/// Holds 4 bytes per node of the MT, and some 30 per triangle of the front; saturated, 30 more per node that
-/// can change. Not thread-safe; works in parallel inside.
+/// Holds 4 bytes per node of the MT, and some 30 per triangle of the front; saturated, 24 more per node that
+/// can change, in blocks of 64 nodes of which up to a few thousand are not full. Not thread-safe; works in
+/// parallel inside.
 class IncrementalCut {
  public:
   /// Starts at the root. O(nodes).
