@@ -41,7 +41,7 @@ struct ViewArguments {
 
   std::string color = "height", sun;
   double contours = 0, hazeKilometres = 0;
-  bool hasWireframe = false, isUnshaded = false;
+  bool hasWireframe = false, isUnshaded = false, isCurved = false;
 };
 
 /// "1280x720". Errors: usage.
@@ -68,6 +68,7 @@ Result<ViewSettings> settingsOf(const ViewArguments& a) {
   s.path = a.cut == "device" ? CutPath::device : CutPath::processor;
   s.isGeomorphed = !a.isFixed;
   s.stretch = a.exaggeration;
+  s.isCurved = a.isCurved;
   s.look.coloring = coloringOf(a.color);
   s.look.isShaded = !a.isUnshaded;
   s.look.contourInterval = a.contours;
@@ -371,6 +372,9 @@ void addViewCommand(CLI::App& app, Session& session) {
   command->add_option("--exaggeration", a->exaggeration, "Heights so many times as high (default 1)")
       ->check(finiteAbove(0))
       ->type_name("X")
+      ->group(look);
+  command
+      ->add_flag("--curvature", a->isCurved, "The Earth curves away as its ellipsoid does (DEMs with a CRS)")
       ->group(look);
   command->add_flag("--wireframe", a->hasWireframe, "The edges over it")->group(look);
   command->add_flag("--unshaded", a->isUnshaded, "No sun")->group(look);

@@ -34,11 +34,13 @@ FrameBlock frameBlock(const FrameView& f, const MetricFrame& metric) {
   block.right = floats({side * p.right.x, side * p.right.y, side * p.right.z});
   block.up = floats(p.up);
   block.forward = floats(p.forward);
-  block.lens = glm::vec4{float(1 / p.slopeX), float(1 / p.slopeY), float(f.drawnNear), float(f.stretch)};
+  block.lens = glm::vec4{float(1 / p.slopeX), float(1 / p.slopeY), float(f.drawnNear),
+                         float(f.earthRadius > 0 ? 1 : f.stretch)};
   block.sides = glm::vec4{float(p.slopeX), float(p.slopeY), float(p.lengthX), float(p.lengthY)};
   block.reach = glm::vec4{float(f.view.nearDistance), float(far), float(p.leastCosine), float(errorPerReach)};
   block.morph = glm::vec4{float(f.pixels), float(f.morphPixels),
                           float(frustum.pixelsPerUnit() * unitsToMetric), f.morphPixels > 0 ? 1.0f : 0.0f};
+  block.earth = glm::vec4{float(f.stretch), float(f.earthRadius), 0, 0};
   block.eyeExact = doubles(eye);
   block.rightExact = doubles(p.right);
   block.upExact = doubles(p.up);

@@ -10,23 +10,24 @@ namespace arete {
 
 /// What decides a frame's cut and where it appears.
 struct FrameView {
-  View view;                ///< in metric space, heights multiplied by `stretch`
+  View view;  ///< in metric space, heights multiplied by `stretch`; or in that of a CurvedGround
   bool isMirrored = false;  ///< metric space turns the other way round than the map
   double stretch = 1;       ///< vertical exaggeration, > 0
   double pixels = 1;        ///< of the cut: what vertices rest within
   double morphPixels = 0;   ///< that moving vertices may be off beside that; 0 = none moves
+  double earthRadius = 0;   ///< metres, on a CurvedGround, whose places are stretched already; 0 = flat
   double drawnNear = 0.1;   ///< depth of the near plane that clips what is drawn, metric units, > 0
 };
 
 /// shaders/frame.glsl, std140.
 struct FrameBlock {
-  glm::vec4 eyeHigh{}, eyeLow{}, right{}, up{}, forward{}, lens{}, sides{}, reach{}, morph{}, padding{};
+  glm::vec4 eyeHigh{}, eyeLow{}, right{}, up{}, forward{}, lens{}, sides{}, reach{}, morph{}, earth{};
   glm::dvec4 eyeExact{}, rightExact{}, upExact{}, forwardExact{}, sidesExact{}, reachExact{};
   glm::vec4 metricOrigin{}, metricScale{};
 };
 static_assert(sizeof(FrameBlock) == 10 * 16 + 6 * 32 + 2 * 16);
 
-/// Precondition: the view validates.
+/// `metric`: of the flat space, in both cases. Precondition: the view validates.
 FrameBlock frameBlock(const FrameView& frame, const MetricFrame& metric);
 
 }  // namespace arete

@@ -58,7 +58,8 @@ std::string whyNot(const MultiTriangulation& mt) {
 
 }  // namespace
 
-TerrainOnGpu uploadTerrain(const MultiTriangulation& mt, std::span<const MorphNode> morphs) {
+TerrainOnGpu uploadTerrain(const MultiTriangulation& mt, std::span<const MorphNode> morphs,
+                           const MultiTriangulation* flat) {
   const MtArrays& a = mt.arrays();
   TerrainOnGpu t;
   t.vertices = mt.vertexCount();
@@ -68,6 +69,7 @@ TerrainOnGpu uploadTerrain(const MultiTriangulation& mt, std::span<const MorphNo
   t.blocks = static_cast<std::uint32_t>(nodeBlockCount(mt.nodeCount()));
   t.pages = static_cast<std::uint32_t>(a.blockSphere.size()) - t.blocks;
   t.positions = makeBuffer(std::span<const float>(metricPositions(mt)));
+  if (flat) t.places = makeBuffer(std::span<const float>(metricPositions(*flat)));
   t.rises = makeBuffer(std::size_t(4) * mt.vertexCount());
   t.refusal = whyNot(mt);
   if (!t.refusal.empty()) return t;

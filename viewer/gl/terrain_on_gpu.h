@@ -14,6 +14,8 @@ namespace arete {
 struct TerrainOnGpu {
   /// Of every vertex: x, y, z in metric space; and its rise, which moves while it is geomorphed.
   GlBuffer positions, rises;
+  GlBuffer
+      places;  ///< on a curved Earth: x, y, z in the flat metric space; else empty, as positions are these
   GlBuffer triangleErrors;  ///< codes of OutwardScale, two a word; empty before somebody wants them
 
   /// What the compute shaders ask; empty where the device cannot (see refusal).
@@ -25,8 +27,10 @@ struct TerrainOnGpu {
   bool hasMorphs = false;
 };
 
-/// `morphs`: of every node, or none. The vertices go there whatever the device can. O(size of the MT).
-TerrainOnGpu uploadTerrain(const MultiTriangulation& mt, std::span<const MorphNode> morphs);
+/// `morphs`: of every node, or none. `flat`: the MT that a bent one (engine/bent_mt.h) was made of. The
+/// vertices go there whatever the device can. O(size of the MT).
+TerrainOnGpu uploadTerrain(const MultiTriangulation& mt, std::span<const MorphNode> morphs,
+                           const MultiTriangulation* flat = nullptr);
 
 /// Of all triangles: 2 bytes each.
 void uploadErrors(TerrainOnGpu& terrain, const MultiTriangulation& mt);

@@ -235,6 +235,7 @@ void TerrainPainter::drawWith(const TerrainOnGpu& terrain, const DrawnFront& fro
   };
   attribute(0, terrain.positions, 3);
   attribute(1, terrain.rises, 1);
+  attribute(2, terrain.places != 0 ? terrain.places : terrain.positions, 3);
   glVertexArrayElementBuffer(array, front.indices);
   glBindVertexArray(array);
   glEnable(GL_DEPTH_TEST);

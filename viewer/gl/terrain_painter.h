@@ -41,7 +41,7 @@ class TerrainPainter {
   void drawFlat(const TerrainOnGpu& terrain, const DrawnFront& front, const glm::vec4& color);
 
   struct LineEnd {
-    std::array<float, 3> position;  ///< metric space
+    std::array<float, 3> position;  ///< TerrainView::drawnPosition()
     std::array<std::uint8_t, 4> color;
   };
   /// Lines between pairs of ends. `isAlwaysSeen`: also behind the terrain.

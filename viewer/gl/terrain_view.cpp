@@ -6,6 +6,7 @@
 
 #include "engine/geomorph.h"
 #include "viewer/gl/processor_front.h"
+#include "viewer/scene/curved_ground.h"
 
 namespace arete {
 namespace {
@@ -24,6 +25,7 @@ class Stopwatch {
 
 struct TerrainView::State {
   const TerrainModel* model = nullptr;
+  MultiTriangulation mt;  // what is drawn, the model's or a bent one
   TerrainOnGpu terrain;
   TerrainPainter painter;
   std::optional<ComputeFront> device;
@@ -31,6 +33,44 @@ struct TerrainView::State {
   double processorStretch = 1;
   bool hasRises = false;  // of vertices that the device's cut would not put to rest
   CutPath drawn = CutPath::device;
+  std::optional<CurvedGround> ground;  // once somebody wants it
+  bool isBent = false;
+  double bentStretch = 1;
+
+  Result<const CurvedGround*> curvedGround() {
+    if (!ground) {
+      Result<CurvedGround> made = CurvedGround::create(*model);
+      if (!made) return tl::unexpected(made.error());
+      ground = std::move(*made);
+    }
+    return &*ground;
+  }
+
+  bool isReadyFor(const ViewSettings& settings) const {
+    return settings.isCurved == isBent && (!isBent || settings.stretch == bentStretch);
+  }
+  /// The buffers that the settings want.
+  Status prepare(const ViewSettings& settings) {
+    if (isReadyFor(settings)) return {};
+    MultiTriangulation wanted = model->mt;
+    if (settings.isCurved) {
+      const Result<const CurvedGround*> curved = curvedGround();
+      if (!curved) return tl::unexpected(curved.error());
+      Result<MultiTriangulation> bent = (*curved)->bentMt(settings.stretch);
+      if (!bent) return tl::unexpected(bent.error());
+      wanted = std::move(*bent);
+    }
+    processor.reset();
+    std::string refusal = std::move(terrain.refusal);
+    terrain = {};
+    mt = std::move(wanted);
+    terrain = uploadTerrain(mt, makeMorphNodes(mt), settings.isCurved ? &model->mt : nullptr);
+    terrain.refusal = std::move(refusal);
+    hasRises = false;
+    isBent = settings.isCurved;
+    bentStretch = settings.stretch;
+    return {};
+  }
 };
 
 Result<TerrainView> TerrainView::create(const TerrainModel& model, const Options& options,
@@ -38,8 +78,18 @@ Result<TerrainView> TerrainView::create(const TerrainModel& model, const Options
   Result<TerrainPainter> painter = TerrainPainter::create(model);
   if (!painter) return tl::unexpected(painter.error());
   const std::vector<MorphNode> morphs = makeMorphNodes(model.mt, context);
-  auto state = std::make_unique<State>(
-      State{&model, uploadTerrain(model.mt, morphs), std::move(*painter), {}, {}, 1, false, options.path});
+  auto state = std::make_unique<State>(State{&model,
+                                             model.mt,
+                                             uploadTerrain(model.mt, morphs),
+                                             std::move(*painter),
+                                             {},
+                                             {},
+                                             1,
+                                             false,
+                                             options.path,
+                                             {},
+                                             false,
+                                             1});
   if (state->terrain.refusal.empty()) {
     Result<ComputeFront> device = ComputeFront::create(state->terrain, options.mostTriangles);
     if (device)
@@ -56,11 +106,20 @@ TerrainView& TerrainView::operator=(TerrainView&&) noexcept = default;
 TerrainView::~TerrainView() = default;
 
 Result<FrameView> TerrainView::frameOf(const Camera& camera, const ViewSettings& settings) const {
-  Result<View> view = viewOf(camera, *state_->model);
-  if (!view) return tl::unexpected(view.error());
   FrameView frame;
-  frame.view = *view;
-  frame.view.eye.z *= settings.stretch;
+  if (settings.isCurved) {
+    const Result<const CurvedGround*> ground = state_->curvedGround();
+    if (!ground) return tl::unexpected(ground.error());
+    Result<View> view = (*ground)->viewOf(camera, settings.stretch);
+    if (!view) return tl::unexpected(view.error());
+    frame.view = *view;
+    frame.earthRadius = (*ground)->radius();
+  } else {
+    Result<View> view = viewOf(camera, *state_->model);
+    if (!view) return tl::unexpected(view.error());
+    frame.view = *view;
+    frame.view.eye.z *= settings.stretch;
+  }
   frame.isMirrored = state_->model->isFlipped();
   frame.stretch = settings.stretch;
   MetricFrame stretched = state_->model->mt.arrays().metric;
@@ -76,6 +135,7 @@ Result<FrameFigures> TerrainView::cut(const Camera& camera, const ViewSettings& 
   State& s = *state_;
   Result<FrameView> frame = frameOf(camera, settings);
   if (!frame) return tl::unexpected(frame.error());
+  if (const Status ready = s.prepare(settings); !ready) return tl::unexpected(ready.error());
   FrameFigures figures;
   figures.pixels = settings.pixels;
   const Stopwatch watch;
@@ -95,12 +155,13 @@ Result<FrameFigures> TerrainView::cut(const Camera& camera, const ViewSettings& 
     figures.isComplete = counts.isComplete;
     s.drawn = CutPath::device;
   } else {
-    if (!s.processor || s.processorStretch != settings.stretch) {
+    const double stretch = s.isBent ? 1 : settings.stretch;  // a bent one is stretched already
+    if (!s.processor || s.processorStretch != stretch) {
       s.processor.reset();
-      Result<ProcessorFront> made = ProcessorFront::create(s.model->mt, settings.stretch);
+      Result<ProcessorFront> made = ProcessorFront::create(s.mt, stretch);
       if (!made) return tl::unexpected(made.error());
       s.processor = std::move(*made);
-      s.processorStretch = settings.stretch;
+      s.processorStretch = stretch;
       glClearNamedBufferData(s.terrain.rises, GL_R32F, GL_RED, GL_FLOAT, nullptr);
     }
     s.processor->ask({.view = frame->view,
@@ -124,6 +185,14 @@ Result<FrameFigures> TerrainView::cut(const Camera& camera, const ViewSettings& 
   return figures;
 }
 
+Result<Vec3> TerrainView::drawnPosition(Vec2 xy, double height, const ViewSettings& settings) const {
+  // On a flat Earth the device multiplies heights.
+  if (!settings.isCurved) return metricPosition(xy, height, *state_->model);
+  const Result<const CurvedGround*> ground = state_->curvedGround();
+  if (!ground) return tl::unexpected(ground.error());
+  return (*ground)->position(xy, height, settings.stretch);
+}
+
 DrawnFront TerrainView::front() const {
   const State& s = *state_;
   if (s.drawn == CutPath::device && s.device) return s.device->front();
@@ -134,6 +203,11 @@ Status TerrainView::draw(const Camera& camera, const ViewSettings& settings) {
   State& s = *state_;
   Result<FrameView> frame = frameOf(camera, settings);
   if (!frame) return tl::unexpected(frame.error());
+  if (!s.isReadyFor(settings)) {
+    ViewSettings now = settings;
+    now.waits = true;
+    if (const auto taken = cut(camera, now); !taken) return tl::unexpected(taken.error());
+  }
   s.painter.setFrame(*frame);
   if (settings.look.coloring == Coloring::error && s.terrain.triangleErrors == 0)
     uploadErrors(s.terrain, s.model->mt);
@@ -156,6 +230,9 @@ const TerrainOnGpu& TerrainView::terrain() const {
 }
 const TerrainModel& TerrainView::model() const {
   return *state_->model;
+}
+const MultiTriangulation& TerrainView::mt() const {
+  return state_->mt;
 }
 const ComputeFront* TerrainView::computeFront() const {
   return state_->device ? &*state_->device : nullptr;

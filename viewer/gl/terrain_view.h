@@ -25,8 +25,9 @@ struct ViewSettings {
   double cutMilliseconds = 0;  ///< the processor's cut gives up then and goes on in the next frame; 0 = never
   CutPath path = CutPath::device;
   bool isGeomorphed = true;
-  bool waits = true;   ///< for the processor's cut of this frame; else what there is by then is drawn
-  double stretch = 1;  ///< vertical exaggeration
+  bool waits = true;      ///< for the processor's cut of this frame; else what there is by then is drawn
+  double stretch = 1;     ///< vertical exaggeration
+  bool isCurved = false;  ///< the Earth curves away (viewer/scene/curved_ground.h): for DEMs with a CRS
   ViewLook look;
 };
 
@@ -56,10 +57,12 @@ class TerrainView {
   TerrainView& operator=(TerrainView&&) noexcept;
   ~TerrainView();
 
-  /// Takes the cut, without drawing; a frozen cut is one that is not taken. Errors: usage, of the camera;
-  /// interrupted.
+  /// Takes the cut, without drawing; a frozen cut is one that is not taken. Bending the Earth, straightening
+  /// it and exaggerating a curved one make all buffers anew. Errors: usage, of the camera; those of
+  /// CurvedGround; interrupted.
   Result<FrameFigures> cut(const Camera& camera, const ViewSettings& settings);
-  /// Draws the last cut for the camera into the framebuffer that is bound.
+  /// Draws the last cut for the camera into the framebuffer that is bound; a new one where the settings want
+  /// new buffers.
   Status draw(const Camera& camera, const ViewSettings& settings);
 
   /// Why the device cannot take cuts, or empty.
@@ -71,6 +74,10 @@ class TerrainView {
   DrawnFront front() const;
   /// The frame that a camera and settings make.
   Result<FrameView> frameOf(const Camera& camera, const ViewSettings& settings) const;
+  /// Where a place of the map is drawn with these settings, as TerrainPainter::drawLines() wants it.
+  Result<Vec3> drawnPosition(Vec2 xy, double height, const ViewSettings& settings) const;
+  /// The multitriangulation that is cut: the model's or a bent one.
+  const MultiTriangulation& mt() const;
   const TerrainModel& model() const;
   /// Of the device's last cut: for tests.
   const ComputeFront* computeFront() const;

@@ -75,8 +75,11 @@ void main() {
   vec2 slope;
   vec3 flatNormal = cross(dFdx(fromEye), dFdy(fromEye));
   if (modes.y > 0.0) {
-    slope = texture(slopes, (plan + 0.5) / vec2(textureSize(slopes, 0))).xy * lens.w;
+    slope = texture(slopes, (plan + 0.5) / vec2(textureSize(slopes, 0))).xy * earth.x;
   } else {
+    // Turned as the vertical of the place to the z axis.
+    vec3 up = upAt(fromEye + eyeHigh.xyz), between = up + vec3(0.0, 0.0, 1.0);
+    flatNormal += 2.0 * dot(up, flatNormal) * vec3(0.0, 0.0, 1.0) - dot(between, flatNormal) / max(1.0 + up.z, 1e-6) * between;
     flatNormal *= flatNormal.z < 0.0 ? -1.0 : 1.0;
     slope = -flatNormal.xy / max(flatNormal.z, 1e-6);
   }
@@ -87,11 +90,11 @@ void main() {
   float part = clamp((place.z - range.x) / max(range.y - range.x, 1e-6), 0.0, 1.0);
   vec3 base = vec3(0.78);
   if (mode == 0) base = texture(tints, part).rgb;
-  if (mode == 1) base = ramp3(clamp(atan(length(slope / lens.w)) / 1.0472, 0.0, 1.0), vec3(0.95, 0.95, 0.88), vec3(0.93, 0.6, 0.25), vec3(0.45, 0.08, 0.2));
+  if (mode == 1) base = ramp3(clamp(atan(length(slope / earth.x)) / 1.0472, 0.0, 1.0), vec3(0.95, 0.95, 0.88), vec3(0.93, 0.6, 0.25), vec3(0.45, 0.08, 0.2));
   if (mode == 2) {
     vec2 down = -slope;
     float turns = atan(dot(down, eastNorth.xy), dot(down, eastNorth.zw)) / 6.2831853;
-    base = mix(vec3(0.8), hue(turns), min(1.0, length(slope / lens.w) * 8.0) * 0.75);
+    base = mix(vec3(0.8), hue(turns), min(1.0, length(slope / earth.x) * 8.0) * 0.75);
   }
   if (mode == 4) {
     float e = errorOf(drawnId[drawFirst / 3u + uint(gl_PrimitiveID)]);
