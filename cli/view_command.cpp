@@ -254,6 +254,11 @@ Status runView(const ViewArguments& a, Session& session) {
   const auto flight = flightOf(a, *model, heights, session);
   if (!flight) return tl::unexpected(flight.error());
 
+  const auto layDrape = [&](TerrainView& view) -> Status {
+    if (Status laid = view.setDrape(a.drape, *drapeOptions, session.context()); !laid) return laid;
+    session.warn(view.drape()->warnings(), a.drape);
+    return {};
+  };
   if (!a.isHeadless) {
     WindowOptions window{.title = fmt::format("arete - {}", a.model)};
     window.start.settings = *settings;
@@ -263,6 +268,8 @@ Status runView(const ViewArguments& a, Session& session) {
     if (!a.path.empty()) window.start.flightPath = a.path;
     if (!a.size.empty()) std::tie(window.width, window.height) = *size;
     window.samples = a.samples;
+    window.start.hasDrape = !a.drape.empty();
+    if (!a.drape.empty()) window.onReady = layDrape;
     window.lastPicture = a.windowScreenshot;
     window.frames = a.windowFrames;
     return runWindow(*model, window, session.context());
@@ -274,9 +281,8 @@ Status runView(const ViewArguments& a, Session& session) {
   for (const std::string& warning : view->warnings()) session.warn(warning);
   Json json = {{"model", a.model}, {"renderer", view->description()}};
   if (!a.drape.empty()) {
-    if (Status laid = view->setDrape(a.drape, *drapeOptions, session.context()); !laid) return laid;
-    const DrapeOnGpu& drape = *view->drape();
-    session.warn(drape.warnings(), a.drape);
+    if (Status laid = layDrape(view->view()); !laid) return laid;
+    const DrapeOnGpu& drape = *view->view().drape();
     json["drape"] = {
         {"file", a.drape}, {"columns", drape.columns()}, {"rows", drape.rows()}, {"bytes", drape.bytes()}};
   }

@@ -31,7 +31,6 @@ struct HeadlessView::State {
   TerrainView view;
   HeadlessOptions options;
   std::vector<std::string> warnings;
-  std::optional<DrapeOnGpu> drape;
 };
 
 Result<HeadlessView> HeadlessView::create(const TerrainModel& model, const HeadlessOptions& options,
@@ -46,7 +45,7 @@ Result<HeadlessView> HeadlessView::create(const TerrainModel& model, const Headl
   Result<TerrainView> view = TerrainView::create(model, viewOptions, context);
   if (!view) return tl::unexpected(view.error());
   auto state =
-      std::make_unique<State>(State{std::move(*gl), std::move(*target), std::move(*view), options, {}, {}});
+      std::make_unique<State>(State{std::move(*gl), std::move(*target), std::move(*view), options, {}});
   if (options.settings.path == CutPath::device && !state->view.deviceRefusal().empty()) {
     state->warnings.push_back("the processor takes the cuts: " + state->view.deviceRefusal());
     state->options.settings.path = CutPath::processor;
@@ -58,20 +57,6 @@ HeadlessView::HeadlessView(std::unique_ptr<State> state) : state_(std::move(stat
 HeadlessView::HeadlessView(HeadlessView&&) noexcept = default;
 HeadlessView& HeadlessView::operator=(HeadlessView&&) noexcept = default;
 HeadlessView::~HeadlessView() = default;
-
-Status HeadlessView::setDrape(const std::string& path, const DrapeOptions& options,
-                              const RunContext& context) {
-  State& s = *state_;
-  Result<DrapeOnGpu> drape = DrapeOnGpu::load(path, s.view.model(), options, context);
-  if (!drape) return tl::unexpected(drape.error());
-  s.drape = std::move(*drape);
-  s.view.painter().setDrape(&*s.drape);
-  return {};
-}
-
-const DrapeOnGpu* HeadlessView::drape() const {
-  return state_->drape ? &*state_->drape : nullptr;
-}
 
 Result<FrameFigures> HeadlessView::draw(const Camera& stated) {
   State& s = *state_;

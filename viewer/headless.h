@@ -11,7 +11,6 @@
 #include "engine/run_context.h"
 #include "terrain/camera.h"
 #include "viewer/flight.h"
-#include "viewer/gl/drape_on_gpu.h"
 #include "viewer/gl/terrain_view.h"
 #include "viewer/picture.h"
 
@@ -34,11 +33,6 @@ class HeadlessView {
   HeadlessView(HeadlessView&&) noexcept;
   HeadlessView& operator=(HeadlessView&&) noexcept;
   ~HeadlessView();
-
-  /// Lays a picture over the terrain. Its warnings are there afterwards. Errors: those of DrapeOnGpu::load().
-  Status setDrape(const std::string& path, const DrapeOptions& options = {}, const RunContext& context = {});
-  /// What lies over the terrain, or null.
-  const DrapeOnGpu* drape() const;
 
   /// The terrain as the camera sees it. The picture's size is that of the options, whatever the camera says.
   /// With a budget the tolerance grows until the cut keeps it. Errors: usage, of the camera.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "viewer/gl/frame_block.h"
 
+#include <glm/vec2.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -49,6 +51,9 @@ FrameBlock frameBlock(const FrameView& f, const MetricFrame& metric) {
   block.reachExact = glm::dvec4{f.view.nearDistance, far, p.leastCosine, errorPerReach};
   block.metricOrigin = floats(metric.origin);
   block.metricScale = floats(metric.scale);
+  const glm::vec2 high(float(f.eyeGround.x), float(f.eyeGround.y));
+  block.eyeGround =
+      glm::vec4(high, float(f.eyeGround.x - double(high.x)), float(f.eyeGround.y - double(high.y)));
   return block;
 }
 

@@ -15,6 +15,7 @@ struct FrameView {
   double stretch = 1;       ///< vertical exaggeration, > 0
   double pixels = 1;        ///< of the cut: what vertices rest within
   double morphPixels = 0;   ///< that moving vertices may be off beside that; 0 = none moves
+  Vec2 eyeGround;           ///< x and y of the eye in the flat metric space
   double earthRadius = 0;   ///< metres, on a CurvedGround, whose places are stretched already; 0 = flat
   double drawnNear = 0.1;   ///< depth of the near plane that clips what is drawn, metric units, > 0
 };
@@ -23,9 +24,9 @@ struct FrameView {
 struct FrameBlock {
   glm::vec4 eyeHigh{}, eyeLow{}, right{}, up{}, forward{}, lens{}, sides{}, reach{}, morph{}, earth{};
   glm::dvec4 eyeExact{}, rightExact{}, upExact{}, forwardExact{}, sidesExact{}, reachExact{};
-  glm::vec4 metricOrigin{}, metricScale{};
+  glm::vec4 metricOrigin{}, metricScale{}, eyeGround{};
 };
-static_assert(sizeof(FrameBlock) == 10 * 16 + 6 * 32 + 2 * 16);
+static_assert(sizeof(FrameBlock) == 10 * 16 + 6 * 32 + 3 * 16);
 
 /// `metric`: of the flat space, in both cases. Precondition: the view validates.
 FrameBlock frameBlock(const FrameView& frame, const MetricFrame& metric);

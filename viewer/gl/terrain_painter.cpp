@@ -58,8 +58,9 @@ void setSampling(GLuint texture, GLenum minify, GLenum magnify) {
   glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-/// Mesa's software renderer walks over the whole footprint of an anisotropic sample. At the edge of a triangle
-/// seen along itself, with several samples a pixel, that footprint has no end: one frame took minutes.
+/// Mesa's software renderer walks over the whole footprint of an anisotropic sample. At the edge of a
+/// triangle seen along itself, with several samples a pixel, that footprint has no end: one frame took
+/// minutes.
 bool isMesaSoftware() {
   const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   const std::string_view name = renderer != nullptr ? renderer : "";
@@ -147,8 +148,8 @@ Result<TerrainPainter> TerrainPainter::create(const TerrainModel& model) {
 
 void TerrainPainter::setFrame(const FrameView& frame) {
   const FrameBlock block = frameBlock(frame, metric_);
-  eyePlan_ = {frame.view.eye.x / metric_.scale.x + metric_.origin.x,
-              frame.view.eye.y / metric_.scale.y + metric_.origin.y};
+  eyePlan_ = {frame.eyeGround.x / metric_.scale.x + metric_.origin.x,
+              frame.eyeGround.y / metric_.scale.y + metric_.origin.y};
   glNamedBufferSubData(frame_, 0, sizeof block, &block);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
 }

@@ -33,6 +33,7 @@ struct TerrainView::State {
   double processorStretch = 1;
   bool hasRises = false;  // of vertices that the device's cut would not put to rest
   CutPath drawn = CutPath::device;
+  std::optional<DrapeOnGpu> drape;
   std::optional<CurvedGround> ground;  // once somebody wants it
   bool isBent = false;
   double bentStretch = 1;
@@ -120,6 +121,8 @@ Result<FrameView> TerrainView::frameOf(const Camera& camera, const ViewSettings&
     frame.view = *view;
     frame.view.eye.z *= settings.stretch;
   }
+  const Vec3 ground = metricPosition(camera.xy, camera.height, *state_->model);
+  frame.eyeGround = {ground.x, ground.y};
   frame.isMirrored = state_->model->isFlipped();
   frame.stretch = settings.stretch;
   MetricFrame stretched = state_->model->mt.arrays().metric;
@@ -222,6 +225,20 @@ const std::string& TerrainView::deviceRefusal() const {
 std::uint32_t TerrainView::capacity() const {
   return state_->device ? state_->device->capacity() : 0;
 }
+Status TerrainView::setDrape(const std::string& path, const DrapeOptions& options,
+                             const RunContext& context) {
+  State& s = *state_;
+  Result<DrapeOnGpu> drape = DrapeOnGpu::load(path, *s.model, options, context);
+  if (!drape) return tl::unexpected(drape.error());
+  s.drape = std::move(*drape);
+  s.painter.setDrape(&*s.drape);
+  return {};
+}
+
+const DrapeOnGpu* TerrainView::drape() const {
+  return state_->drape ? &*state_->drape : nullptr;
+}
+
 TerrainPainter& TerrainView::painter() {
   return state_->painter;
 }

@@ -5,12 +5,14 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "engine/result.h"
 #include "engine/run_context.h"
 #include "terrain/camera.h"
 #include "terrain/terrain_model.h"
 #include "viewer/gl/compute_front.h"
+#include "viewer/gl/drape_on_gpu.h"
 #include "viewer/gl/terrain_painter.h"
 #include "viewer/scene/view_look.h"
 
@@ -69,6 +71,10 @@ class TerrainView {
   const std::string& deviceRefusal() const;
   /// Triangles that the device has room for.
   std::uint32_t capacity() const;
+  /// Lays a picture over the terrain; its warnings are there afterwards. Errors: those of DrapeOnGpu::load().
+  Status setDrape(const std::string& path, const DrapeOptions& options = {}, const RunContext& context = {});
+  /// Null where none was laid.
+  const DrapeOnGpu* drape() const;
   TerrainPainter& painter();
   const TerrainOnGpu& terrain() const;
   DrawnFront front() const;

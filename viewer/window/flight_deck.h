@@ -14,7 +14,8 @@ namespace arete {
 class FlightDeck {
  public:
   /// `metresPerSecond`: of flights that nobody has stated a speed or a duration for.
-  FlightDeck(const CameraSpace& space, double metresPerSecond) : space_(space), usualSpeed_(metresPerSecond) {}
+  FlightDeck(const CameraSpace& space, double metresPerSecond)
+      : space_(space), usualSpeed_(metresPerSecond) {}
 
   const FlightPlan& plan() const { return plan_; }
   void setPlan(const FlightPlan& plan);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "viewer/gl/offscreen.h"
@@ -24,6 +25,11 @@ std::string& lastReason() {
 
 void keepReason(int, const char* text) {
   lastReason() = text;
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
 }
 
 constexpr double kDragPixels = 4;  // a hand that clicks is never quite still
@@ -78,9 +84,10 @@ Result<GlfwWindow> GlfwWindow::open(const std::string& title, int width, int hei
   lastReason().clear();
   glfwSetErrorCallback(keepReason);
   if (!glfwInit())
-    return failure(ErrorCode::unsupported,
-                   fmt::format("no window can be opened: {}; --headless draws without one", lastReason()),
-                   "display");
+    return failure(
+        ErrorCode::unsupported,
+        fmt::format("no window can be opened ({}); --headless draws without one", trimmed(lastReason())),
+        "display");
   auto held = std::make_unique<Held>();
   askForContext(4, 5);
   held->window = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
@@ -101,6 +108,8 @@ Result<GlfwWindow> GlfwWindow::open(const std::string& title, int width, int hei
     if (action == GLFW_PRESS)
       static_cast<Held*>(glfwGetWindowUserPointer(w))->keys.emplace_back(key, modifiers);
   });
+  // A click between two slow frames is one all the same.
+  glfwSetInputMode(held->window, GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);
   held->lastTime = glfwGetTime();
   return GlfwWindow(std::move(held));
 }

@@ -113,7 +113,10 @@ void setPanelStyle(float scale) {
   style.Colors[ImGuiCol_Header] = {0.20f, 0.30f, 0.38f, 0.80f};
   style.Colors[ImGuiCol_HeaderHovered] = {0.26f, 0.40f, 0.50f, 0.90f};
   style.Colors[ImGuiCol_FrameBg] = {0.27f, 0.30f, 0.35f, 0.90f};
-  style.Colors[ImGuiCol_SliderGrab] = style.Colors[ImGuiCol_CheckMark] = {0.95f, 0.70f, 0.25f, 1};
+  style.GrabMinSize = 7;
+  style.Colors[ImGuiCol_CheckMark] = {0.95f, 0.70f, 0.25f, 1};
+  style.Colors[ImGuiCol_SliderGrab] = {0.95f, 0.70f, 0.25f, 0.55f};
+  style.Colors[ImGuiCol_SliderGrabActive] = {0.95f, 0.70f, 0.25f, 0.9f};
   style.Colors[ImGuiCol_PlotHistogram] = {0.95f, 0.70f, 0.25f, 1};
   style.Colors[ImGuiCol_Button] = {0.24f, 0.33f, 0.40f, 1};
   style.ScaleAllSizes(scale);
@@ -215,6 +218,7 @@ void Panel::lookSection(ViewerSession& s) {
     slider("sun azimuth", look.sunAzimuthDegrees, 0, 360, "%.0f°");
     slider("sun height", look.sunElevationDegrees, 0, 90, "%.0f°");
   }
+  if (s.canBeCurved) ImGui::Checkbox("curved Earth", &s.settings.isCurved);
   slider("heights times", s.settings.stretch, 0.5, 10, "%.2f", true);
   const double range = (s.picker.box().high.z - s.picker.box().low.z) / s.picker.space().metresPerHeight();
   bool hasContours = look.contourInterval > 0;
@@ -236,7 +240,7 @@ void Panel::cameraSection(ViewerSession& s) {
   if (!section("Camera")) return;
   const Camera& camera = s.rig.camera();
   row("place", s.places.xy(camera.xy));
-  if (s.places.hasLonLat()) {
+  if (s.places.hasLonLat() && !s.places.isLonLat()) {
     const std::string lonLat = s.places.lonLat(camera.xy);
     row("", lonLat.empty() ? "no longitude and latitude" : lonLat);
   }
@@ -287,7 +291,7 @@ void Panel::pickSection(ViewerSession& s) {
   for (std::size_t i = 0; i < s.picks.size(); ++i) {
     const TerrainPick& pick = s.picks[i];
     row(i == 0 ? "A" : "B", s.places.xy(pick.xy));
-    const std::string lonLat = s.places.lonLat(pick.xy);
+    const std::string lonLat = s.places.isLonLat() ? std::string() : s.places.lonLat(pick.xy);
     if (!lonLat.empty()) row("", lonLat);
     row("", s.places.height(pick.height));
   }

@@ -10,7 +10,7 @@ namespace arete {
 namespace {
 
 constexpr ImU32 kVisible = IM_COL32(90, 220, 90, 190), kBlocked = IM_COL32(240, 70, 60, 200),
-                kBehind = IM_COL32(150, 40, 40, 130), kUnknown = IM_COL32(170, 170, 170, 190);
+                kBehind = IM_COL32(200, 50, 45, 150), kUnknown = IM_COL32(170, 170, 170, 190);
 
 }  // namespace
 
@@ -34,7 +34,7 @@ void drawMarks(const ViewerSession& s, double scale) {
       const ImU32 color = verdict == SightVerdict::visible   ? kVisible
                           : verdict == SightVerdict::blocked ? (isBefore ? kBlocked : kBehind)
                                                              : kUnknown;
-      list.AddLine(*a, *b, color, (isBefore ? 0.16f : 0.10f) * em);
+      list.AddLine(*a, *b, color, (isBefore ? 0.18f : 0.13f) * em);
     }
     if (const auto cross = sight.obstruction ? at(*sight.obstruction) : std::nullopt) {
       const float r = 0.45f * em;

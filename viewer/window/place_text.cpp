@@ -33,6 +33,12 @@ std::string PlaceText::lonLat(Vec2 xy) const {
                      lat < 0 ? "S" : "N");
 }
 
+bool PlaceText::isLonLat() const {
+  constexpr double kDegree = 0.017453292519943295;
+  return lonLat_ && lonLat_->isPlain() &&
+         std::abs(heights_.model().georeference.angularUnitRadians - kDegree) < 1e-12;
+}
+
 std::string PlaceText::height(double height) const {
   const std::string& unit = heights_.model().georeference.verticalUnit;
   return unit.empty() ? fmt::format("{:.2f}", height) : fmt::format("{:.2f} {}", height, unit);

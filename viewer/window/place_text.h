@@ -21,6 +21,8 @@ class PlaceText {
   std::string lonLat(Vec2 xy) const;
   std::string height(double height) const;
   bool hasLonLat() const { return lonLat_.has_value(); }
+  /// Source coordinates are longitude and latitude in degrees themselves: once is enough.
+  bool isLonLat() const;
 
   struct Goal {
     Vec2 xy;

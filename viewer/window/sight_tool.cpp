@@ -72,9 +72,8 @@ Result<SightPicture> SightTool::between(const TerrainPick& from, double fromAbov
 
   const std::string& unit = model_.georeference.verticalUnit;
   picture.text.emplace_back(verdictText(sight));
-  picture.text.push_back(fmt::format("{} at {:.2f}° from north, {:+.3f}° up",
-                                     metresText(answer->distanceMetres), answer->azimuthDegrees,
-                                     answer->elevationDegrees));
+  picture.text.push_back(fmt::format("{}, azimuth {:.2f}°, {:+.3f}° up", metresText(answer->distanceMetres),
+                                     answer->azimuthDegrees, answer->elevationDegrees));
   if (sight.clearance)
     picture.text.push_back(fmt::format("clearance {}, {} away", withUnit(*sight.clearance, unit),
                                        metresText(sight.least.distance)));

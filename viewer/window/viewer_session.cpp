@@ -32,6 +32,7 @@ ViewerSession::ViewerSession(const TerrainModel& terrain, const Start& start)
              .maxTriangles = start.settings.maxTriangles,
              .frameMilliseconds = start.frameMilliseconds},
       hasDrape(start.hasDrape),
+      canBeCurved(!terrain.georeference.crsWkt.empty()),
       flightPath(start.flightPath),
       framesFolder("frames") {
   rig.setStretch(settings.stretch);
@@ -149,6 +150,11 @@ void ViewerSession::apply(Action action) {
 }
 
 void ViewerSession::click(Vec2 pixel) {
+  if (settings.isCurved) {
+    // The ray through a pixel is straight there, and the map is not.
+    say("points are picked on the flat map: switch the curved Earth off for it");
+    return;
+  }
   const auto pick = picker.at(rig.camera(), pixel, settings.stretch);
   if (!pick) return;
   if (picks.size() >= 2) picks.clear();

@@ -73,6 +73,7 @@ class ViewerSession {
   void updateSight();
   ViewshedJob viewshed;
   bool hasDrape = false;
+  bool canBeCurved = false;                ///< the DEM has a CRS
   std::optional<ViewshedOverlay> overlay;  ///< laid over the terrain
   bool isOverlayNew = false;               ///< the window has not drawn with it yet
 

@@ -232,6 +232,16 @@ class WindowLoop {
     return {};
   }
 
+  /// Ends of lines are those of the flat map.
+  void bend(std::vector<LineEnd>& lines, const ViewSettings& settings) {
+    const CameraSpace& space = session_.picker.space();
+    for (LineEnd& end : lines) {
+      const Vec3 flat{end.position[0], end.position[1], end.position[2]};
+      const Result<Vec3> p = view_.drawnPosition(space.xy(flat), space.height(flat), settings);
+      if (p) end.position = {float(p->x), float(p->y), float(p->z)};
+    }
+  }
+
   Status drawTerrain() {
     ViewerSession& s = session_;
     if (s.isOverlayNew) {
@@ -254,12 +264,11 @@ class WindowLoop {
     target_->begin();
     const auto start = Clock::now();
     if (Status drawn = view_.draw(s.rig.camera(), settings); !drawn) return drawn;
-    const std::vector<LineEnd> lines = linesOf(s);
+    std::vector<LineEnd> lines = linesOf(s);
+    if (settings.isCurved) bend(lines, settings);
     if (!files_) view_.painter().drawLines(lines);
-    if (s.figures.drawMilliseconds == 0) {
-      glFinish();
-      s.figures.drawMilliseconds = millisecondsSince(start);
-    }
+    glFinish();
+    s.figures.drawMilliseconds = millisecondsSince(start);
     return {};
   }
 

@@ -12,6 +12,7 @@ layout(std140, binding = 0) uniform Frame {
   dvec4 rightExact, upExact, forwardExact;
   dvec4 sidesExact, reachExact;
   vec4 metricOrigin, metricScale;  // of the flat space
+  vec4 eyeGround;                  // x, y of the eye there, each as the sum of two floats
 };
 
 /// Upwards at a position.

@@ -1,5 +1,6 @@
 in vec3 place;
 in vec3 fromEye;
+in vec2 overGround;
 layout(location = 0) out vec4 color;
 layout(std140, binding = 1) uniform Look {
   vec4 sun;          // direction to it in metric space, 1 = shaded
@@ -50,7 +51,7 @@ vec4 drapeTexel(int level, vec2 fromEyePixel) {
 /// The mean over the pixel of the screen: up to 8 places along the longer axis of what it covers, each at the
 /// level whose texels are as wide as the shorter one.
 vec4 drapeSeen() {
-  vec2 at = fromEye.xy * drapeStep.xy + drapeStep.zw, dx = dFdx(at), dy = dFdy(at);
+  vec2 at = overGround * drapeStep.xy + drapeStep.zw, dx = dFdx(at), dy = dFdy(at);
   float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
   float middle = 0.5 * (xx + yy), apart = 0.5 * (xx - yy), around = sqrt(apart * apart + xy * xy);
   float longer = sqrt(middle + around), shorter = sqrt(max(middle - around, 0.0));

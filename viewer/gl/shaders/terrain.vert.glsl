@@ -3,11 +3,13 @@ layout(location = 2) in vec3 spot;      // flat metric space: the same, but on a
 layout(location = 1) in float rise;     // of a moving vertex, in units of height
 out vec3 place;
 out vec3 fromEye;
+out vec2 overGround;  // from the eye, in flat metric space
 void main() {
   float risen = rise * metricScale.z;
   place = vec3(spot.xy, spot.z + risen);
   vec3 there = earth.y > 0.0 ? vec3(position.xy, position.z + risen * earth.x) : vec3(place.xy, place.z * lens.w);
   fromEye = (there - eyeHigh.xyz) - eyeLow.xyz;
+  overGround = (place.xy - eyeGround.xy) - eyeGround.zw;
   // Depth is near / depth: 1 at the near plane, 0 at infinity, as fine far away as floats are.
   gl_Position = vec4(dot(fromEye, right.xyz) * lens.x, dot(fromEye, up.xyz) * lens.y, lens.z,
                      dot(fromEye, forward.xyz));
