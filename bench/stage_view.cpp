@@ -10,9 +10,9 @@
 #include "bench/stages.h"
 #include "io/amt_file.h"
 #include "terrain/surface_height.h"
+#include "viewer/camera/home_view.h"
+#include "viewer/camera/round_flight.h"
 #include "viewer/headless.h"
-#include "viewer/home_view.h"
-#include "viewer/round_flight.h"
 
 namespace arete::bench {
 namespace {

@@ -15,10 +15,10 @@
 #include "io/camera_argument.h"
 #include "io/file_writer.h"
 #include "terrain/surface_height.h"
-#include "viewer/flight_json.h"
+#include "viewer/camera/flight_json.h"
+#include "viewer/camera/home_view.h"
+#include "viewer/camera/round_flight.h"
 #include "viewer/headless.h"
-#include "viewer/home_view.h"
-#include "viewer/round_flight.h"
 #include "viewer/window/window.h"
 
 namespace arete {

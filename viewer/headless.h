@@ -10,7 +10,7 @@
 #include "engine/result.h"
 #include "engine/run_context.h"
 #include "terrain/camera.h"
-#include "viewer/flight.h"
+#include "viewer/camera/flight.h"
 #include "viewer/gl/terrain_view.h"
 #include "viewer/picture.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/camera_space.h"
+#include "viewer/camera/camera_space.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/flight_json.h"
+#include "viewer/camera/flight_json.h"
 
 #include <gtest/gtest.h>
 

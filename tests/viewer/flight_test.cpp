@@ -2,7 +2,7 @@
 //
 // Flights held against what they promise, numerically: keys met at their times, speeds by differences of
 // positions, no steps in position or direction, nothing beyond what two neighbouring keys say.
-#include "viewer/flight.h"
+#include "viewer/camera/flight.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/ground_following.h"
+#include "viewer/camera/ground_following.h"
 
 #include <gtest/gtest.h>
 
+#include "viewer/camera/free_camera.h"
+#include "viewer/camera/orbit_camera.h"
 #include "viewer/camera_models.h"
-#include "viewer/free_camera.h"
-#include "viewer/orbit_camera.h"
 
 namespace arete {
 namespace {

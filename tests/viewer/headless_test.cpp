@@ -11,9 +11,9 @@
 #include "datasets/terrain_generator.h"
 #include "terrain/build.h"
 #include "terrain/surface_height.h"
+#include "viewer/camera/home_view.h"
+#include "viewer/camera/round_flight.h"
 #include "viewer/drawn_mesh.h"
-#include "viewer/home_view.h"
-#include "viewer/round_flight.h"
 
 namespace arete {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/home_view.h"
+#include "viewer/camera/home_view.h"
 
 #include <gtest/gtest.h>
 

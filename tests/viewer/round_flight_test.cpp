@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/round_flight.h"
+#include "viewer/camera/round_flight.h"
 
 #include <gtest/gtest.h>
 

@@ -28,13 +28,13 @@ struct TerrainView::State {
   MultiTriangulation mt;  // what is drawn, the model's or a bent one
   TerrainOnGpu terrain;
   TerrainPainter painter;
-  std::optional<ComputeFront> device;
-  std::optional<ProcessorFront> processor;
+  std::optional<ComputeFront> device = {};
+  std::optional<ProcessorFront> processor = {};
   double processorStretch = 1;
   bool hasRises = false;  // of vertices that the device's cut would not put to rest
   CutPath drawn = CutPath::device;
-  std::optional<DrapeOnGpu> drape;
-  std::optional<CurvedGround> ground;  // once somebody wants it
+  std::optional<DrapeOnGpu> drape = {};
+  std::optional<CurvedGround> ground = {};  // once somebody wants it
   bool isBent = false;
   double bentStretch = 1;
 
@@ -79,18 +79,11 @@ Result<TerrainView> TerrainView::create(const TerrainModel& model, const Options
   Result<TerrainPainter> painter = TerrainPainter::create(model);
   if (!painter) return tl::unexpected(painter.error());
   const std::vector<MorphNode> morphs = makeMorphNodes(model.mt, context);
-  auto state = std::make_unique<State>(State{&model,
-                                             model.mt,
-                                             uploadTerrain(model.mt, morphs),
-                                             std::move(*painter),
-                                             {},
-                                             {},
-                                             1,
-                                             false,
-                                             options.path,
-                                             {},
-                                             false,
-                                             1});
+  auto state = std::make_unique<State>(State{.model = &model,
+                                             .mt = model.mt,
+                                             .terrain = uploadTerrain(model.mt, morphs),
+                                             .painter = std::move(*painter)});
+  state->drawn = options.path;
   if (state->terrain.refusal.empty()) {
     Result<ComputeFront> device = ComputeFront::create(state->terrain, options.mostTriangles);
     if (device)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "viewer/free_camera.h"
+#include "viewer/camera/free_camera.h"
 #include "viewer/window/input_state.h"
 
 namespace arete {

@@ -3,10 +3,10 @@
 
 #include <optional>
 
-#include "viewer/free_camera.h"
-#include "viewer/ground_following.h"
-#include "viewer/home_view.h"
-#include "viewer/orbit_camera.h"
+#include "viewer/camera/free_camera.h"
+#include "viewer/camera/ground_following.h"
+#include "viewer/camera/home_view.h"
+#include "viewer/camera/orbit_camera.h"
 #include "viewer/window/camera_motion.h"
 #include "viewer/window/picking.h"
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "viewer/flight_json.h"
+#include "viewer/camera/flight_json.h"
 
 namespace arete {
 

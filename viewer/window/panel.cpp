@@ -12,7 +12,7 @@
 #include <array>
 #include <cmath>
 
-#include "viewer/round_flight.h"
+#include "viewer/camera/round_flight.h"
 
 namespace arete {
 namespace {

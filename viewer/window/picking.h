@@ -5,8 +5,8 @@
 
 #include "terrain/profile.h"
 #include "terrain/sight_earth.h"
-#include "viewer/camera_space.h"
-#include "viewer/home_view.h"
+#include "viewer/camera/camera_space.h"
+#include "viewer/camera/home_view.h"
 
 namespace arete {
 

@@ -3,7 +3,7 @@
 // Inertia: the speed v follows v' = (w - v) / T towards the wanted speed w. Over a time t it becomes
 // w + (v - w) exp(-t / T), and the way is its integral, w t + (v - w) T (1 - exp(-t / T)): both are taken in
 // closed form, so that frames of any length add up to the same.
-#include "viewer/free_camera.h"
+#include "viewer/camera/free_camera.h"
 
 #include <algorithm>
 #include <cmath>

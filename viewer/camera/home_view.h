@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "viewer/camera_space.h"
+#include "viewer/camera/camera_space.h"
 
 namespace arete {
 

@@ -4,7 +4,7 @@
 // at most three times the lesser secant, which is enough for a cubic to be monotone (Fritsch and Carlson
 // 1980). At an end it is that of the parabola through three points, held to the same bounds; of two points,
 // their secant.
-#include "viewer/monotone_curve.h"
+#include "viewer/camera/monotone_curve.h"
 
 #include <algorithm>
 #include <cmath>

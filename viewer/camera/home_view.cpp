@@ -5,7 +5,7 @@
 // two bounds, A = max(x - sx z) <= ex - sx ez and B = max(-x - sx z) <= -ex - sx ez. Their sum bounds how far
 // ahead the eye may stand, ez <= -(A + B) / 2 sx; so does the second. The lesser of the two is the nearest
 // eye, and ex and ey are taken in the middle of what it leaves them.
-#include "viewer/home_view.h"
+#include "viewer/camera/home_view.h"
 
 #include <algorithm>
 #include <cmath>

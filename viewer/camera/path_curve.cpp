@@ -7,14 +7,14 @@
 // The length of a leg is integrated by Gauss and Legendre over pieces, halved until the halves agree with the
 // whole: a sharp bend takes many, a gentle one few. A length is looked up among the sums and its place in the
 // piece found by Newton's steps, each held inside the piece.
-#include "viewer/path_curve.h"
+#include "viewer/camera/path_curve.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
-#include "viewer/monotone_curve.h"
+#include "viewer/camera/monotone_curve.h"
 
 namespace arete {
 namespace {

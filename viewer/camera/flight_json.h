@@ -8,7 +8,7 @@
 
 #include "engine/result.h"
 #include "terrain/georeference.h"
-#include "viewer/flight.h"
+#include "viewer/camera/flight.h"
 
 namespace arete {
 

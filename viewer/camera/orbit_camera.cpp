@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "viewer/orbit_camera.h"
+#include "viewer/camera/orbit_camera.h"
 
 #include <algorithm>
 #include <cmath>

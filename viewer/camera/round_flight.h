@@ -5,8 +5,8 @@
 
 #include "engine/result.h"
 #include "terrain/surface_height.h"
-#include "viewer/flight.h"
-#include "viewer/home_view.h"
+#include "viewer/camera/flight.h"
+#include "viewer/camera/home_view.h"
 
 namespace arete {
 

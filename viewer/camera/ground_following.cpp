@@ -5,7 +5,7 @@
 // v the speed, after a time t they are (d + (v + w d) t) exp(-w t) and (v - w (v + w d) t) exp(-w t), in
 // closed form, so no length of a frame makes it swing. What then lies below the floor is put on it: a cliff
 // that comes up sooner than the spring can lift the camera costs smoothness, never the floor.
-#include "viewer/ground_following.h"
+#include "viewer/camera/ground_following.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // Each object is read by the list of its members: name, where its number goes, whether it may be missing. The
 // first problem is the one that is told. Numbers are written with the fewest digits that read back to the
 // same double.
-#include "viewer/flight_json.h"
+#include "viewer/camera/flight_json.h"
 
 #include <fmt/format.h>
 

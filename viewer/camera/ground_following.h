@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "terrain/surface_height.h"
-#include "viewer/camera_space.h"
-#include "viewer/home_view.h"
+#include "viewer/camera/camera_space.h"
+#include "viewer/camera/home_view.h"
 
 namespace arete {
 

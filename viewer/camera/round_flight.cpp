@@ -4,7 +4,7 @@
 // high as the ground below both its legs asks. The plan of the path hangs a little on the keys' heights, its
 // knots being apart by distances in space: the keys are raised until nothing on the path as it is asks for
 // more. They are only ever raised, and to what the ground asks, so that ends.
-#include "viewer/round_flight.h"
+#include "viewer/camera/round_flight.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 // the metric's scale. It is kept as its origin and the images of the source's two axes. Those, as unit
 // vectors, are east and north, as in viewOf(); where the grid is sheared they are not at right angles in
 // metric space, so an azimuth is taken apart by solving for its two parts.
-#include "viewer/camera_space.h"
+#include "viewer/camera/camera_space.h"
 
 #include <cmath>
 #include <numbers>

@@ -10,7 +10,7 @@
 //
 // A duration is met by the one v for which the runs add up to it: their sum falls with v and is piecewise
 // linear in 1 / v, so halving intervals finds it.
-#include "viewer/flight.h"
+#include "viewer/camera/flight.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "viewer/camera_space.h"
+#include "viewer/camera/camera_space.h"
 
 namespace arete {
 

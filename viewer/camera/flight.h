@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "engine/result.h"
-#include "viewer/camera_space.h"
-#include "viewer/monotone_curve.h"
-#include "viewer/path_curve.h"
+#include "viewer/camera/camera_space.h"
+#include "viewer/camera/monotone_curve.h"
+#include "viewer/camera/path_curve.h"
 
 namespace arete {
 
