@@ -34,7 +34,7 @@ struct ViewArguments {
   std::string windowScreenshot;
   int windowFrames = 0;
 
-  double pixelError = 1, frameTime = 0, exaggeration = 1;
+  double pixelError = 1, frameTime = 0, deadline = 0, exaggeration = 1;
   std::int64_t maxTriangles = 0;
   std::string cut = "device";
   bool isFixed = false;
@@ -66,6 +66,7 @@ Result<ViewSettings> settingsOf(const ViewArguments& a) {
   s.pixels = a.pixelError;
   s.maxTriangles = static_cast<std::uint32_t>(a.maxTriangles);
   s.path = a.cut == "device" ? CutPath::device : CutPath::processor;
+  s.cutMilliseconds = a.deadline;
   s.isGeomorphed = !a.isFixed;
   s.stretch = a.exaggeration;
   s.isCurved = a.isCurved;
@@ -177,6 +178,8 @@ Status checkArguments(const ViewArguments& a) {
                                         {"--figures", a.figures}})
       if (!value.empty())
         return refuse("is made without a window: add --headless", std::string(option) + " " + value);
+  if (a.deadline > 0 && a.cut == "device")
+    return refuse("is for cuts of the processor: add --cut processor", "--deadline");
   if (a.isHeadless && a.screenshot.empty() && a.frames.empty())
     return refuse("makes pictures: say --screenshot FILE.png or --frames FOLDER", "--headless");
   if (!a.screenshot.empty() && std::filesystem::path(a.screenshot).extension() != ".png")
@@ -342,6 +345,12 @@ void addViewCommand(CLI::App& app, Session& session) {
   command
       ->add_option("--frame-time", a->frameTime,
                    "In the window: as coarse as needed for frames to take no longer")
+      ->check(finiteAbove(0))
+      ->type_name("MS")
+      ->group(detail);
+  command
+      ->add_option("--deadline", a->deadline,
+                   "The processor's cut of a frame takes no longer; the next frame goes on with it")
       ->check(finiteAbove(0))
       ->type_name("MS")
       ->group(detail);

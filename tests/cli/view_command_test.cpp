@@ -37,8 +37,7 @@ TEST_F(ViewCommand, ARoundFlightGivesFramesAndTheirFigures) {
   ASSERT_EQ(figures["frames"].size(), 7u);
   for (const Json& frame : figures["frames"]) {
     EXPECT_TRUE(exists(frame["file"]));
-    for (const char* key :
-         {"seconds", "triangles", "pixelError", "cutMilliseconds", "drawMilliseconds"})
+    for (const char* key : {"seconds", "triangles", "pixelError", "cutMilliseconds", "drawMilliseconds"})
       EXPECT_TRUE(frame[key].is_number()) << key;
   }
 }
@@ -76,6 +75,7 @@ TEST_F(ViewCommand, SaysWhatIsWrongInASentence) {
       {{"--headless", "--screenshot", "a.png", "--camera", "1,2"}, 2, "--camera"},
       {{"--headless", "--screenshot", "a.png", "--pixel-error", "0"}, 2, "--pixel-error"},
       {{"--headless", "--screenshot", "no/where/a.png"}, 3, "no/where"},
+      {{"--headless", "--screenshot", "a.png", "--deadline", "5"}, 2, "--cut processor"},
       {{"--headless", "--frames", "f"}, 2, "--path FLIGHT.json or --round"},
       {{"--headless", "--screenshot", "a.png", "--film", "a.mp4"}, 2, "--frames FOLDER"},
       {{"--headless", "--frames", "f", "--path", "one.json"}, 2, "one.json"},

@@ -193,6 +193,11 @@ void Panel::detailSection(ViewerSession& s) {
   } else if (ImGui::Combo("cut by", &path, "graphics device\0processor\0")) {
     s.settings.path = path == 0 ? CutPath::device : CutPath::processor;
   }
+  if (path == 1) {
+    slider("deadline", s.settings.cutMilliseconds, 0, 50,
+           s.settings.cutMilliseconds <= 0 ? "none" : "%.0f ms");
+    tip("A cut takes no longer; the next frame goes on with it.");
+  }
   ImGui::Checkbox("geomorphing", &s.settings.isGeomorphed);
   ImGui::SameLine(9.5f * em());
   ImGui::Checkbox("freeze cut", &s.isFrozen);
