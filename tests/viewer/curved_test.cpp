@@ -13,6 +13,7 @@
 #include "viewer/drawn_mesh.h"
 #include "viewer/gl/frame_target.h"
 #include "viewer/true_earth.h"
+#include "viewer/window/picking.h"
 
 namespace arete {
 namespace {
@@ -387,6 +388,48 @@ TEST(CurvedEarth, TwoMapsOfTheSameGroundLookTheSame) {
   }
   EXPECT_GT(seen, 10000);
   EXPECT_GE(agreeing, 0.97 * seen) << "of " << seen;
+}
+
+TEST(CurvedEarth, AClickFindsWhatIsAtThePixel) {
+  for (const Map& map : maps()) {
+    SCOPED_TRACE(map.name + std::string(", seed 9"));
+    const auto ground = CurvedGround::create(map.model);
+    ASSERT_TRUE(ground);
+    const Profiles profiles(map.model);
+    const TerrainPicker picker(map.model, profiles);
+    Random random(9);
+    int found = 0;
+    for (int i = 0; i < 60; ++i) {
+      const Camera camera = anyCamera(random, map.model);
+      const Vec2 pixel{random.between(0, camera.widthPixels), random.between(0, camera.heightPixels)};
+      const auto pick = picker.at(*ground, camera, pixel);
+      if (!pick) continue;
+      ++found;
+      const auto there = profiles.heights().at(pick->xy);
+      ASSERT_TRUE(there);
+      EXPECT_NEAR(there->height, pick->height, 1e-3);
+      const TrueCamera truth(map, camera);
+      const Vec3 place = map.centred(pick->xy, pick->height), s = truth.project(place);
+      // A few centimetres of the chord, and what they are seen under.
+      const double allowed = 0.05 + 0.3 * truth.focal / s.z;
+      EXPECT_NEAR(s.x, pixel.x, allowed);
+      EXPECT_NEAR(s.y, pixel.y, allowed);
+      // Nothing of the terrain is before it.
+      const Vec3 eye = truth.here.at;
+      for (int k = 1; k < 500; ++k) {
+        const double part = k / 500.0;
+        const Vec3 p{eye.x + part * (place.x - eye.x), eye.y + part * (place.y - eye.y),
+                     eye.z + part * (place.z - eye.z)};
+        const Space space(map);
+        const Vec3 source = ground->source(space.in(p));
+        const auto below = profiles.heights().at({source.x, source.y});
+        if (below) {
+          EXPECT_GT(source.z, below->height - 0.5);
+        }
+      }
+    }
+    EXPECT_GT(found, 10);
+  }
 }
 
 TEST(CurvedEarth, ItCanBeSwitchedAtAnyTimeEvenWhereTheCutIsFrozen) {

@@ -71,7 +71,11 @@ TerrainPick TerrainPicker::pickOf(const Vec3& metric, const Vec3& eye) const {
 std::optional<TerrainPick> TerrainPicker::along(const Vec3& eye, const Vec3& direction) const {
   const auto part = within(box_, eye, direction);
   if (!part) return std::nullopt;
-  const Vec3 first = arete::along(eye, direction, part->from), last = arete::along(eye, direction, part->to);
+  return between(arete::along(eye, direction, part->from), arete::along(eye, direction, part->to), eye);
+}
+
+std::optional<TerrainPick> TerrainPicker::between(const Vec3& first, const Vec3& last,
+                                                  const Vec3& eye) const {
   const Vec2 from = model_.toPlan(space_.xy(first)), to = model_.toPlan(space_.xy(last));
   const Vec2 way{to.x - from.x, to.y - from.y};
   const double length2 = way.x * way.x + way.y * way.y;
@@ -110,6 +114,46 @@ std::optional<TerrainPick> TerrainPicker::at(const Camera& camera, Vec2 pixel, d
   Vec3 direction = directionOfPixel(space_, camera, pixel);
   direction.z /= stretch;
   return along(space_.position(camera), direction);
+}
+
+std::optional<TerrainPick> TerrainPicker::at(const CurvedGround& ground, const Camera& camera, Vec2 pixel,
+                                             double stretch) const {
+  const Result<View> view = ground.viewOf(camera, stretch);
+  if (!view) return std::nullopt;
+  const Frustum::Planes p = Frustum(*view).planes();
+  const double x = (2 * pixel.x / camera.widthPixels - 1) * p.slopeX * (model_.isFlipped() ? -1 : 1);
+  const double y = (1 - 2 * pixel.y / camera.heightPixels) * p.slopeY;
+  Vec3 direction = arete::along(arete::along(p.forward, p.right, x), p.up, y);
+  const double length = std::hypot(direction.x, direction.y, direction.z);
+  direction = {direction.x / length, direction.y / length, direction.z / length};
+
+  const Vec3 eye = space_.position(camera), middle = box_.centre();
+  const double farthest = std::hypot(eye.x - middle.x, eye.y - middle.y, stretch * (eye.z - middle.z)) +
+                          box_.diagonal() * std::max(1.0, stretch);
+  const auto flat = [&](double metres) {
+    const Vec3 source = ground.source(arete::along(view->eye, direction, metres), stretch);
+    return space_.position({source.x, source.y}, source.z);
+  };
+  // A chord c of a circle of radius R is off by c^2 / 8 R: 5 mm, and where meridians run together more.
+  constexpr double kChordMetres = 500;
+  Vec3 before = eye;
+  for (double gone = 0; gone < farthest; gone += kChordMetres) {
+    const Vec3 now = flat(gone + kChordMetres);
+    const Vec3 chord{now.x - before.x, now.y - before.y, now.z - before.z};
+    const auto part = within(box_, before, chord);
+    const bool isNear = part && part->from <= 1;
+    auto hit = isNear ? between(arete::along(before, chord, part->from),
+                                arete::along(before, chord, std::min(part->to, 1.0)), eye)
+                      : std::nullopt;
+    if (hit) {
+      const Vec3 place = ground.position(hit->xy, hit->height),
+                 from = ground.position(camera.xy, camera.height);
+      hit->metres = std::hypot(place.x - from.x, place.y - from.y, place.z - from.z);
+      return hit;
+    }
+    before = now;
+  }
+  return std::nullopt;
 }
 
 Vec3 directionOfPixel(const CameraSpace& space, const Camera& camera, Vec2 pixel) {

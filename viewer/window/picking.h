@@ -7,6 +7,7 @@
 #include "terrain/sight_earth.h"
 #include "viewer/camera/camera_space.h"
 #include "viewer/camera/home_view.h"
+#include "viewer/scene/curved_ground.h"
 
 namespace arete {
 
@@ -20,7 +21,7 @@ struct TerrainPick {
 };
 
 /// What of the terrain is at a pixel: the first place at which the ray through it meets the surface at full
-/// resolution, whatever front is drawn. Flat space, as it is drawn. Keeps references; thread-safe.
+/// resolution, whatever front is drawn. Keeps references; thread-safe.
 class TerrainPicker {
  public:
   /// Precondition: model and profiles outlive this. O(vertices).
@@ -32,10 +33,17 @@ class TerrainPicker {
   /// What a camera has at a pixel, from the top left of its picture, heights drawn `stretch` times as high.
   std::optional<TerrainPick> at(const Camera& camera, Vec2 pixel, double stretch = 1) const;
 
+  /// The same on a curved Earth, where the ray bends over the map: in chords
+  /// that are off by some centimetres at most.
+  std::optional<TerrainPick> at(const CurvedGround& ground, const Camera& camera, Vec2 pixel,
+                                double stretch = 1) const;
+
   const CameraSpace& space() const { return space_; }
   const MetricBox& box() const { return box_; }
 
  private:
+  /// The first meeting between two points.
+  std::optional<TerrainPick> between(const Vec3& first, const Vec3& last, const Vec3& eye) const;
   TerrainPick pickOf(const Vec3& metric, const Vec3& eye) const;
 
   const TerrainModel& model_;

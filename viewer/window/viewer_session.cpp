@@ -149,13 +149,21 @@ void ViewerSession::apply(Action action) {
   }
 }
 
-void ViewerSession::click(Vec2 pixel) {
-  if (settings.isCurved) {
-    // The ray through a pixel is straight there, and the map is not.
-    say("points are picked on the flat map: switch the curved Earth off for it");
-    return;
+std::optional<TerrainPick> ViewerSession::pickAt(Vec2 pixel) {
+  if (!settings.isCurved) return picker.at(rig.camera(), pixel, settings.stretch);
+  if (!ground_) {
+    Result<CurvedGround> made = CurvedGround::create(model);
+    if (!made) {
+      say(made.error().describe());
+      return std::nullopt;
+    }
+    ground_ = std::move(*made);
   }
-  const auto pick = picker.at(rig.camera(), pixel, settings.stretch);
+  return picker.at(*ground_, rig.camera(), pixel, settings.stretch);
+}
+
+void ViewerSession::click(Vec2 pixel) {
+  const auto pick = pickAt(pixel);
   if (!pick) return;
   if (picks.size() >= 2) picks.clear();
   picks.push_back(*pick);

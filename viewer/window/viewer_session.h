@@ -90,6 +90,9 @@ class ViewerSession {
   const std::string& message() const { return message_; }
 
  private:
+  std::optional<TerrainPick> pickAt(Vec2 pixel);
+
+  std::optional<CurvedGround> ground_;  // once somebody picks on it
   std::string message_;
   double messageSeconds_ = 0;
   std::size_t nextHome_ = 0;
