@@ -14,6 +14,7 @@
 #include "viewer/gl/frame_target.h"
 #include "viewer/true_earth.h"
 #include "viewer/window/picking.h"
+#include "viewer/window/viewer_session.h"
 
 namespace arete {
 namespace {
@@ -429,6 +430,28 @@ TEST(CurvedEarth, AClickFindsWhatIsAtThePixel) {
       }
     }
     EXPECT_GT(found, 10);
+  }
+}
+
+TEST(CurvedEarth, AMarkIsDrawnWhereTheClickWas) {
+  for (const Map& map : maps()) {
+    SCOPED_TRACE(map.name);
+    ViewerSession::Start start;
+    start.camera = Camera{.xy = map.model.toSource({0.5 * map.model.columns, 0.5 * map.model.rows}),
+                          .height = 20000,
+                          .azimuthDegrees = 30,
+                          .pitchDegrees = -20};
+    start.settings.isCurved = true;
+    start.settings.stretch = 2;
+    ViewerSession session(map.model, start);
+    const Camera& camera = session.rig.camera();
+    const Vec2 pixel{0.3 * camera.widthPixels, 0.7 * camera.heightPixels};
+    session.click(pixel);
+    ASSERT_EQ(session.picks.size(), 1u) << session.message();
+    const auto mark = session.pixelOf(session.picks[0].metric);
+    ASSERT_TRUE(mark);
+    EXPECT_NEAR(mark->x, pixel.x, 0.1);
+    EXPECT_NEAR(mark->y, pixel.y, 0.1);
   }
 }
 

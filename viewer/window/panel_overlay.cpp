@@ -18,7 +18,7 @@ void drawMarks(const ViewerSession& s, double scale) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const float em = ImGui::GetFontSize();
   const auto at = [&](const Vec3& metric) -> std::optional<ImVec2> {
-    const auto pixel = pixelOf(s.picker.space(), s.rig.camera(), metric, s.settings.stretch);
+    const auto pixel = s.pixelOf(metric);
     if (!pixel) return std::nullopt;
     return ImVec2(float(pixel->x / scale), float(pixel->y / scale));
   };

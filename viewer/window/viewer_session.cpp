@@ -162,6 +162,21 @@ std::optional<TerrainPick> ViewerSession::pickAt(Vec2 pixel) {
   return picker.at(*ground_, rig.camera(), pixel, settings.stretch);
 }
 
+std::optional<Vec2> ViewerSession::pixelOf(const Vec3& metric) const {
+  const Camera& camera = rig.camera();
+  if (!settings.isCurved || !ground_) return arete::pixelOf(picker.space(), camera, metric, settings.stretch);
+  const CameraSpace& space = picker.space();
+  const Result<View> view = ground_->viewOf(camera, settings.stretch);
+  if (!view) return std::nullopt;
+  const Frustum frustum(*view);
+  const Vec3 p = frustum.toView(ground_->position(space.xy(metric), space.height(metric), settings.stretch));
+  if (!(p.z > 0)) return std::nullopt;
+  const auto planes = frustum.planes();
+  const double side = model.isFlipped() ? -1 : 1;
+  return Vec2{(1 + side * p.x / (p.z * planes.slopeX)) / 2 * camera.widthPixels,
+              (1 - p.y / (p.z * planes.slopeY)) / 2 * camera.heightPixels};
+}
+
 void ViewerSession::click(Vec2 pixel) {
   const auto pick = pickAt(pixel);
   if (!pick) return;

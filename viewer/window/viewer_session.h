@@ -42,6 +42,8 @@ class ViewerSession {
   void apply(Action action);
   /// A click on the terrain: the next pick. The first of two begins anew.
   void click(Vec2 pixel);
+  /// Where the picture has a metric point, heights as they are; nothing where it is not in front.
+  std::optional<Vec2> pixelOf(const Vec3& metric) const;
   void clearPicks();
   /// From the last pick.
   void startViewshed();
