@@ -22,13 +22,18 @@ TEST(HomeView, HasTheWholeTerrainInThePictureAndFillsIt) {
               homeCamera(view, space, box,
                          {.verticalFieldOfViewDegrees = field, .widthPixels = width, .heightPixels = height});
           double most = 0;
+          Vec2 low{1, 1}, high{-1, -1};
           for (const Vec3& corner : box.corners()) {
             const auto seen = test::inPicture(camera, corner, model);
             ASSERT_TRUE(seen);
             most = std::max({most, std::abs(seen->x), std::abs(seen->y)});
+            low = {std::min(low.x, seen->x), std::min(low.y, seen->y)};
+            high = {std::max(high.x, seen->x), std::max(high.y, seen->y)};
           }
           EXPECT_LE(most, 0.9 + 1e-6) << "all of it, with some room";
           EXPECT_GE(most, 0.9 - 1e-6) << "and no further away than that takes";
+          EXPECT_NEAR(low.x, -high.x, 1e-6) << "in the middle";
+          EXPECT_NEAR(low.y, -high.y, 1e-6);
           EXPECT_EQ(camera.widthPixels, width);
         }
   }

@@ -4,13 +4,15 @@
 // |x - ex| <= sx (z - ez) and |y - ey| <= sy (z - ez), (ex, ey, ez) the eye. Over all corners the first is
 // two bounds, A = max(x - sx z) <= ex - sx ez and B = max(-x - sx z) <= -ex - sx ez. Their sum bounds how far
 // ahead the eye may stand, ez <= -(A + B) / 2 sx; so does the second. The lesser of the two is the nearest
-// eye, and ex and ey are taken in the middle of what it leaves them.
+// eye, and ex and ey are taken, of what it leaves them, so that the picture has as much free on either side.
 #include "viewer/camera/home_view.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <vector>
 
 namespace arete {
 namespace {
@@ -31,7 +33,21 @@ struct Sides {
     below = std::max(below, -across - slope * ahead);
   }
   double mostAhead() const { return -(above + below) / (2 * slope); }
-  double middle() const { return (above - below) / 2; }
+  /// Of what an eye so far ahead leaves, the place from which the corners reach as far to either side.
+  double balanced(double eyeAhead, std::span<const Vec2> acrossAndAhead) const {
+    double low = above + slope * eyeAhead, high = -below - slope * eyeAhead;
+    for (int halving = 0; halving < 60; ++halving) {
+      const double eye = (low + high) / 2;
+      double most = -std::numeric_limits<double>::infinity(), least = -most;
+      for (const Vec2& p : acrossAndAhead) {
+        const double side = (p.x - eye) / (p.y - eyeAhead);
+        most = std::max(most, side);
+        least = std::min(least, side);
+      }
+      (most + least > 0 ? low : high) = eye;
+    }
+    return (low + high) / 2;
+  }
 };
 
 }  // namespace
@@ -84,13 +100,16 @@ Camera cameraOnAll(const CameraSpace& space, const MetricBox& box, Look look, co
       std::tan(picture.verticalFieldOfViewDegrees * std::numbers::pi / 360) * (1 - 2 * kFree);
   Sides across{.slope = slope * picture.widthPixels / picture.heightPixels}, upwards{.slope = slope};
   const Vec3 centre = box.centre();
+  std::vector<Vec2> acrossAndAhead, upAndAhead;
   for (const Vec3& corner : box.corners()) {
     const Vec3 d{corner.x - centre.x, corner.y - centre.y, corner.z - centre.z};
     across.take(dot(d, right), dot(d, ahead));
     upwards.take(dot(d, up), dot(d, ahead));
+    acrossAndAhead.push_back({dot(d, right), dot(d, ahead)});
+    upAndAhead.push_back({dot(d, up), dot(d, ahead)});
   }
-  const double x = across.middle(), y = upwards.middle();
   const double z = std::min(across.mostAhead(), upwards.mostAhead());
+  const double x = across.balanced(z, acrossAndAhead), y = upwards.balanced(z, upAndAhead);
   Camera camera = space.at(picture, {centre.x + x * right.x + y * up.x + z * ahead.x,
                                      centre.y + x * right.y + y * up.y + z * ahead.y,
                                      centre.z + x * right.z + y * up.z + z * ahead.z});

@@ -35,7 +35,7 @@ inline constexpr std::array kHomeViews = {HomeView::overview, HomeView::fromAbov
 std::string_view toString(HomeView view);
 
 /// The nearest camera of a direction that has all of the box in its picture, with a twentieth of the picture
-/// free on either side; its place is in the middle of what is left to choose. `picture` gives field of view
+/// free on either side at least, and as much on one as on the other. `picture` gives field of view
 /// and size. Precondition: a field of view of 0 to below 180 degrees.
 Camera cameraOnAll(const CameraSpace& space, const MetricBox& box, Look look, const Camera& picture = {});
 
