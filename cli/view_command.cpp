@@ -27,7 +27,7 @@ namespace {
 struct ViewArguments {
   std::string model, drape, drapeBands, path;
   bool isHeadless = false, isLonLat = false, isRound = false;
-  std::string size, camera, home = "overview";
+  std::string size, camera, home;
   std::string screenshot, frames, film, figures;
   double framesPerSecond = 0;
   int samples = 4;
@@ -98,7 +98,8 @@ Result<Camera> cameraOf(const ViewArguments& a, const TerrainModel& model, const
   Camera picture;
   picture.widthPixels = width;
   picture.heightPixels = height;
-  if (a.camera.empty()) return homeCamera(homeOf(a.home), CameraSpace(model), metricBox(model), picture);
+  if (a.camera.empty())
+    return homeCamera(homeOf(a.home), CameraSpace(model), metricBox(model), picture, a.exaggeration);
   const auto toDem = transformOfPlaces(a.isLonLat, model.georeference);
   if (!toDem) return tl::unexpected(toDem.error());
   Result<CameraArgument> stated = readCameraArgument("--camera", a.camera, *toDem, heights);
@@ -125,9 +126,10 @@ Result<std::optional<Flight>> flightOf(const ViewArguments& a, const TerrainMode
     return std::optional<Flight>();
   }
   Result<Flight> flight = Flight::create(std::move(plan), space);
-  if (!flight)
-    return failure(flight.error().code, flight.error().message,
-                   a.path.empty() ? flight.error().culprit : a.path + ", " + flight.error().culprit);
+  if (!flight && !a.path.empty())
+    return failure(ErrorCode::invalidData, flight.error().message,
+                   flight.error().culprit.empty() ? a.path : a.path + ", " + flight.error().culprit);
+  if (!flight) return tl::unexpected(flight.error());
   return std::optional<Flight>(std::move(*flight));
 }
 
@@ -187,9 +189,37 @@ Status checkArguments(const ViewArguments& a) {
   if (!a.path.empty() && a.isRound) return refuse("flies a way of its own; leave --path out", "--round");
   if (!a.frames.empty() && a.path.empty() && !a.isRound)
     return refuse("are those of a flight: say --path FLIGHT.json or --round", "--frames " + a.frames);
+  if (!a.figures.empty() && a.frames.empty())
+    return refuse("are those of frames: say --frames FOLDER as well", "--figures " + a.figures);
+  if (a.framesPerSecond > 0 && a.frames.empty())
+    return refuse("counts frames: say --frames FOLDER as well", "--fps");
+  if (a.frameTime > 0 && a.isHeadless)
+    return refuse("is for the window; --max-triangles bounds a picture", "--frame-time");
+  if (!a.home.empty() && !a.camera.empty())
+    return refuse("is a view of its own; leave --camera out", "--home " + a.home);
+  if (a.isLonLat && a.camera.empty()) return refuse("says what --camera X,Y,H means", "--lonlat");
   if (!a.film.empty() && a.frames.empty())
     return refuse("is made of frames: say --frames FOLDER as well", "--film " + a.film);
   return {};
+}
+
+/// "within 1 pixel".
+std::string accuracyOf(const FrameFigures& figures) {
+  if (!std::isfinite(figures.pixels)) return "as coarse as it gets, its error around the eye not known";
+  return fmt::format("within {:.3g} pixel{}", figures.pixels, figures.pixels == 1 ? "" : "s");
+}
+
+/// What can end a cut before it is within the tolerance.
+std::string whatEnds(const ViewArguments& a) {
+  if (a.deadline > 0 && a.maxTriangles > 0) return "budget or the deadline";
+  return a.deadline > 0 ? "deadline" : a.maxTriangles > 0 ? "budget" : "room on the device";
+}
+
+/// Frames that an earlier flight left behind those of this one.
+bool hasFramesBehind(const std::string& folder, std::size_t frames) {
+  std::error_code ignored;
+  return std::filesystem::exists(std::filesystem::path(folder) / fmt::format("frame_{:05}.png", frames),
+                                 ignored);
 }
 
 Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView& view, Session& session,
@@ -198,9 +228,9 @@ Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView
   if (!figures) return tl::unexpected(figures.error());
   if (Status saved = savePng(view.image(), a.screenshot); !saved) return saved;
   if (!figures->isComplete)
-    session.warn(fmt::format("the budget leaves an error of {:.3g} pixels", figures->pixels));
-  session.say(fmt::format("{}: {} triangles, {} of them on the move, within {:.3g} pixels\n", a.screenshot,
-                          grouped(figures->triangles), grouped(figures->moving), figures->pixels));
+    session.warn(fmt::format("the {} ended the cut: the terrain is {}", whatEnds(a), accuracyOf(*figures)));
+  session.say(fmt::format("{}: {} triangles, {} vertices on the move, {}\n", a.screenshot,
+                          grouped(figures->triangles), grouped(figures->moving), accuracyOf(*figures)));
   json["screenshot"] = {{"file", a.screenshot}, {"camera", jsonOf(camera)}, {"figures", jsonOf(*figures)}};
   return {};
 }
@@ -212,6 +242,13 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, HeadlessView& view
   if (!frames) return tl::unexpected(frames.error());
   Json list = Json::array();
   std::uint64_t triangles = 0;
+  std::size_t unfinished = 0;
+  for (const FilmFrame& frame : *frames) unfinished += frame.figures.isComplete ? 0 : 1;
+  if (unfinished > 0)
+    session.warn(
+        fmt::format("the {} ended the cut of {} of {} frames", whatEnds(a), unfinished, frames->size()));
+  if (hasFramesBehind(a.frames, frames->size()))
+    session.warn(fmt::format("{} has frames of an earlier, longer flight behind these", a.frames));
   for (const FilmFrame& frame : *frames) {
     Json entry = {{"file", frame.file}, {"seconds", frame.seconds}, {"camera", jsonOf(frame.camera)}};
     entry.update(jsonOf(frame.figures));
@@ -226,11 +263,12 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, HeadlessView& view
     file->write(json.dump(1) + "\n");
     if (Status finished = file->finish(); !finished) return finished;
   }
-  session.say(fmt::format("{}: {} frames, {} triangles in the mean\n", a.frames, frames->size(),
-                          grouped(triangles / frames->size())));
+  session.say(fmt::format("{}: {} frame{}, {} triangles in the mean\n", a.frames, frames->size(),
+                          frames->size() == 1 ? "" : "s", grouped(triangles / frames->size())));
   if (!a.film.empty()) {
     const double rate = a.framesPerSecond > 0 ? a.framesPerSecond : flight.plan().framesPerSecond;
-    if (Status encoded = encodeFilm(a.frames, rate, a.film); !encoded) return encoded;
+    if (Status encoded = encodeFilm(a.frames, frames->size(), rate, a.film, session.context()); !encoded)
+      return encoded;
     session.say(a.film + "\n");
     json["film"] = a.film;
   }
@@ -247,6 +285,10 @@ Status runView(const ViewArguments& a, Session& session) {
   if (!size) return tl::unexpected(size.error());
   const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
   if (!model) return tl::unexpected(model.error());
+  if (!a.frames.empty()) {
+    std::error_code failed;  // drawFilm() says why; the film may lie in it
+    std::filesystem::create_directories(a.frames, failed);
+  }
   for (const auto& [option, path] :
        {std::pair{"--screenshot", a.screenshot}, {"--film", a.film}, {"--figures", a.figures}})
     if (!path.empty())
@@ -254,6 +296,9 @@ Status runView(const ViewArguments& a, Session& session) {
   const SurfaceHeights heights(*model);
   const Result<Camera> camera = cameraOf(a, *model, heights, size->first, size->second);
   if (!camera) return tl::unexpected(camera.error());
+  if (const auto ground = heights.at(camera->xy); ground && camera->height < ground->height)
+    session.warn(fmt::format("the camera stands {} under the ground",
+                             withUnit(ground->height - camera->height, model->georeference.verticalUnit)));
   const auto flight = flightOf(a, *model, heights, session);
   if (!flight) return tl::unexpected(flight.error());
 
@@ -266,7 +311,10 @@ Status runView(const ViewArguments& a, Session& session) {
     WindowOptions window{.title = fmt::format("arete - {}", a.model)};
     window.start.settings = *settings;
     window.start.frameMilliseconds = a.frameTime;
-    if (!a.camera.empty() || a.home != "overview") window.start.camera = *camera;
+    if (!a.camera.empty() || !a.home.empty())
+      window.start.camera = *camera;
+    else if (*flight)
+      window.start.camera = (*flight)->at(0);
     if (*flight) window.start.flight = (*flight)->plan();
     if (!a.path.empty()) window.start.flightPath = a.path;
     if (!a.size.empty()) std::tie(window.width, window.height) = *size;
@@ -290,7 +338,8 @@ Status runView(const ViewArguments& a, Session& session) {
         {"file", a.drape}, {"columns", drape.columns()}, {"rows", drape.rows()}, {"bytes", drape.bytes()}};
   }
   if (!a.screenshot.empty()) {
-    const Camera from = *flight && a.camera.empty() ? (*flight)->at(0) : *camera;
+    const bool isStated = !a.camera.empty() || !a.home.empty();
+    const Camera from = *flight && !isStated ? (*flight)->at(0) : *camera;
     if (Status ok = takeScreenshot(a, from, *view, session, json); !ok) return ok;
   }
   if (!a.frames.empty())
@@ -406,7 +455,7 @@ void addViewCommand(CLI::App& app, Session& session) {
   command->add_option("--screenshot", a->screenshot, "One picture")->type_name("FILE.png")->group(pictures);
   command->add_option("--frames", a->frames, "The flight's pictures")->type_name("FOLDER")->group(pictures);
   command->add_option("--fps", a->framesPerSecond, "Pictures a second (default: the flight's)")
-      ->check(finiteAbove(0))
+      ->check(finiteBetween(0.001, 1000))
       ->type_name("N")
       ->group(pictures);
   command->add_option("--film", a->film, "A film of them, by ffmpeg")->type_name("FILE.mp4")->group(pictures);

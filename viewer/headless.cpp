@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -18,6 +19,8 @@ extern char** environ;
 
 namespace arete {
 namespace {
+
+constexpr std::uint64_t kMostFrames = 1'000'000;
 
 double millisecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -119,15 +122,20 @@ const std::vector<std::string>& HeadlessView::warnings() const {
 
 Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight, const FilmOptions& options,
                                         const RunContext& context) {
+  const double rate = options.framesPerSecond > 0 ? options.framesPerSecond : flight.plan().framesPerSecond;
+  const std::uint64_t count = flight.frameCount(rate);
+  if (count > kMostFrames)
+    return failure(ErrorCode::usage,
+                   fmt::format("{:.6g} seconds of flight at {:.6g} frames a second are more than {} frames",
+                               flight.duration(), rate, kMostFrames),
+                   options.folder.string());
   std::error_code failed;
   std::filesystem::create_directories(options.folder, failed);
   if (failed)
     return failure(ErrorCode::unreadable, "the folder cannot be made: " + failed.message(),
                    options.folder.string());
-  const double rate = options.framesPerSecond > 0 ? options.framesPerSecond : flight.plan().framesPerSecond;
-  const auto count = static_cast<std::size_t>(std::floor(flight.duration() * rate + 1e-9)) + 1;
   std::vector<FilmFrame> frames;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::uint64_t i = 0; i < count; ++i) {
     if (context.cancelled())
       return failure(ErrorCode::interrupted, "the film was interrupted", options.folder.string());
     FilmFrame frame;
@@ -145,16 +153,36 @@ Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight
   return frames;
 }
 
-Status encodeFilm(const std::filesystem::path& folder, double framesPerSecond,
-                  const std::filesystem::path& film) {
-  const std::string rate = fmt::format("{}", framesPerSecond), pattern = (folder / "frame_%05d.png").string(),
-                    output = film.string();
-  // The picture's sides made even, which H.264 wants.
-  std::vector<std::string> words = {
-      "ffmpeg",     "-v",      "error",    "-y",      "-framerate",
-      rate,         "-i",      pattern,    "-vf",     "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-      "-c:v",       "libx264", "-pix_fmt", "yuv420p", "-movflags",
-      "+faststart", output};
+Status encodeFilm(const std::filesystem::path& folder, std::size_t frames, double framesPerSecond,
+                  const std::filesystem::path& film, const RunContext& context) {
+  // Under another name until it is whole; the ending says the format.
+  const std::filesystem::path part =
+      film.parent_path() / fmt::format(".{}.part{}", film.stem().string(), film.extension().string());
+  const std::string rate = fmt::format("{}", framesPerSecond), count = std::to_string(frames),
+                    pattern = (folder / "frame_%05d.png").string(), output = part.string();
+  // Of the folder this flight's frames only; the picture's sides made even, which H.264 wants.
+  std::vector<std::string> words = {"ffmpeg",
+                                    "-v",
+                                    "error",
+                                    "-nostdin",
+                                    "-y",
+                                    "-framerate",
+                                    rate,
+                                    "-start_number",
+                                    "0",
+                                    "-i",
+                                    pattern,
+                                    "-vf",
+                                    "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                                    "-frames:v",
+                                    count,
+                                    "-c:v",
+                                    "libx264",
+                                    "-pix_fmt",
+                                    "yuv420p",
+                                    "-movflags",
+                                    "+faststart",
+                                    output};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -164,12 +192,19 @@ Status encodeFilm(const std::filesystem::path& folder, double framesPerSecond,
     return failure(
         ErrorCode::unsupported,
         "a film needs ffmpeg, which this machine does not have (Debian: ffmpeg); the frames are there",
-        output);
+        film.string());
   int status = 0;
-  waitpid(child, &status, 0);
-  if (status != 0)
-    return failure(ErrorCode::unreadable, "ffmpeg did not make it; the frames are there", output);
-  return {};
+  while (waitpid(child, &status, 0) == -1 && errno == EINTR) {
+  }
+  std::error_code error;
+  if (status == 0 && !context.cancelled()) {
+    std::filesystem::rename(part, film, error);
+    if (!error) return {};
+  }
+  std::filesystem::remove(part, error);
+  if (context.cancelled())
+    return failure(ErrorCode::interrupted, "the film was interrupted; the frames are there", film.string());
+  return failure(ErrorCode::unreadable, "ffmpeg did not make it; the frames are there", film.string());
 }
 
 Status savePng(const Image& image, const std::filesystem::path& path) {

@@ -64,15 +64,16 @@ struct FilmFrame {
   FrameFigures figures;
 };
 
-/// A flight's frames as PNGs, rising. Errors: those of drawing and writing; interrupted, which leaves whole
+/// A flight's frames as PNGs, rising. Errors: usage (more than a million); those of drawing and writing;
+/// interrupted, which leaves whole
 /// frames only.
 Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight, const FilmOptions& options,
                                         const RunContext& context = {});
 
-/// The frames of a folder as an H.264 film, by the ffmpeg of the machine. Errors: unsupported when there is
-/// none, unreadable when it fails, with its last words.
-Status encodeFilm(const std::filesystem::path& folder, double framesPerSecond,
-                  const std::filesystem::path& film);
+/// The first frames of a folder as an H.264 film, by the ffmpeg of the machine. Errors: unsupported when
+/// there is none; unreadable when it fails; interrupted. Then there is no film.
+Status encodeFilm(const std::filesystem::path& folder, std::size_t frames, double framesPerSecond,
+                  const std::filesystem::path& film, const RunContext& context = {});
 
 Status savePng(const Image& image, const std::filesystem::path& path);
 

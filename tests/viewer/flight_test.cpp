@@ -350,7 +350,7 @@ TEST(Flight, RefusesWhatIsNoneAndNamesTheKeyFrame) {
       {[](FlightPlan& p) { p.keys[0].pitchDegrees = 91; }, "key frame 1", "pitch"},
       {[](FlightPlan& p) { p.keys[2].verticalFieldOfViewDegrees = 180; }, "key frame 3", "field of view"},
       {[](FlightPlan& p) { p.speed.reset(); }, "flight", "speed or its duration"},
-      {[](FlightPlan& p) { p.duration = 3; }, "flight", "speed or its duration"},
+      {[](FlightPlan& p) { p.duration = 3; }, "flight", "both its speed and its duration"},
       {[](FlightPlan& p) { p.speed = 0; }, "flight", "speed"},
       {[&](FlightPlan& p) { p.speed = kNan; }, "flight", "speed"},
       {[](FlightPlan& p) { p.speed.reset(), p.duration = -1; }, "flight", "duration"},

@@ -60,7 +60,8 @@ Status checkNumbers(const FlightPlan& plan) {
   const auto refuse = [](const char* message) { return failure(ErrorCode::usage, message, "flight"); };
   const auto isPositive = [](double value) { return value > 0 && std::isfinite(value); };
   if (plan.speed.has_value() == plan.duration.has_value())
-    return refuse("either its speed or its duration must be stated");
+    return refuse(plan.speed ? "both its speed and its duration are stated; leave one out"
+                             : "either its speed or its duration must be stated");
   if (plan.speed && !isPositive(*plan.speed))
     return refuse("its speed must be a number of metres per second above 0");
   if (plan.duration && !isPositive(*plan.duration))
@@ -238,9 +239,9 @@ Status Flight::shareTime() {
   return {};
 }
 
-std::uint64_t Flight::frameCount() const {
+std::uint64_t Flight::frameCount(double framesPerSecond) const {
   // The last frame of a flight that stops shows its end; a closed one is then at its first frame again.
-  const double frames = duration_ * plan_.framesPerSecond;
+  const double frames = duration_ * (framesPerSecond > 0 ? framesPerSecond : plan_.framesPerSecond);
   if (!(frames < 1e15)) return static_cast<std::uint64_t>(1e15);
   return plan_.isClosed ? static_cast<std::uint64_t>(std::max(1.0, std::round(frames)))
                         : static_cast<std::uint64_t>(std::floor(frames + 1e-6)) + 1;

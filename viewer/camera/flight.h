@@ -44,8 +44,8 @@ class Flight {
   double length() const { return length_; }          ///< metres
   double metresPerSecond() const { return speed_; }  ///< between the easings; 0 where it only turns
   std::span<const double> keyTimes() const { return keyTimes_; }  ///< seconds, of each key of the plan
-  /// Of a film: frame i stands at i / framesPerSecond.
-  std::uint64_t frameCount() const;
+  /// Of a film: frame i stands at i / framesPerSecond, the plan's where it is 0.
+  std::uint64_t frameCount(double framesPerSecond = 0) const;
 
   /// Before the start the first key, behind the end the last; a closed flight goes round. O(log keys).
   Camera at(double seconds) const;

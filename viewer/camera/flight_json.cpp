@@ -117,7 +117,7 @@ std::optional<std::string> findFrameProblem(const json& object, Camera& key) {
 Result<FlightRead> readFlightText(std::string_view text, const std::string& name, const Georeference& dem) {
   const json object = json::parse(text, nullptr, false);
   if (object.is_discarded())
-    return failure(ErrorCode::corrupt, "is not JSON, or has a number too large", name);
+    return failure(ErrorCode::corrupt, "is not JSON (which knows no NaN), or has a number too large", name);
   const auto refuse = [&](std::string problem) {
     return failure(ErrorCode::invalidData, std::move(problem), name);
   };

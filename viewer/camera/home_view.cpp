@@ -118,7 +118,8 @@ Camera cameraOnAll(const CameraSpace& space, const MetricBox& box, Look look, co
   return camera;
 }
 
-Camera homeCamera(HomeView view, const CameraSpace& space, const MetricBox& box, const Camera& picture) {
+Camera homeCamera(HomeView view, const CameraSpace& space, const MetricBox& box, const Camera& picture,
+                  double stretch) {
   const auto look = [&]() -> Look {
     switch (view) {
       case HomeView::overview:
@@ -136,7 +137,12 @@ Camera homeCamera(HomeView view, const CameraSpace& space, const MetricBox& box,
     }
     return {};
   };
-  return cameraOnAll(space, box, look(), picture);
+  MetricBox drawn = box;
+  drawn.low.z *= stretch;
+  drawn.high.z *= stretch;
+  const Camera camera = cameraOnAll(space, drawn, look(), picture);
+  const Vec3 place = space.position(camera);
+  return space.at(camera, {place.x, place.y, place.z / stretch});
 }
 
 }  // namespace arete

@@ -39,6 +39,8 @@ std::string_view toString(HomeView view);
 /// and size. Precondition: a field of view of 0 to below 180 degrees.
 Camera cameraOnAll(const CameraSpace& space, const MetricBox& box, Look look, const Camera& picture = {});
 
-Camera homeCamera(HomeView view, const CameraSpace& space, const MetricBox& box, const Camera& picture = {});
+/// `stretch`: heights are drawn so many times as high, > 0.
+Camera homeCamera(HomeView view, const CameraSpace& space, const MetricBox& box, const Camera& picture = {},
+                  double stretch = 1);
 
 }  // namespace arete

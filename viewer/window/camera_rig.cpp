@@ -74,12 +74,9 @@ void CameraRig::setMode(CameraMode mode) {
 }
 
 void CameraRig::home(HomeView view) {
-  MetricBox box = picker_.box();
-  box.low.z *= stretch_;
-  box.high.z *= stretch_;
   mode_ = CameraMode::orbit;
   follows_ = false;
-  enter(asIs(homeCamera(view, space_, box, camera_)));
+  enter(homeCamera(view, space_, picker_.box(), camera_, stretch_));
 }
 
 void CameraRig::lookAt(const Vec3& metric, double metres) {

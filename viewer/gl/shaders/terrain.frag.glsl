@@ -116,7 +116,8 @@ void main() {
     float level = height / range.z - 1e-3, width = fwidth(level);
     float away = abs(fract(level + 0.5) - 0.5) / max(width, 1e-6);
     bool isFifth = abs(fract(level / 5.0 + 0.5) - 0.5) < 0.05;
-    float ink = (1.0 - smoothstep(range.w * (isFifth ? 1.0 : 0.5), range.w * (isFifth ? 1.0 : 0.5) + 1.0, away)) * (1.0 - smoothstep(0.3, 0.6, width));
+    float ink = (1.0 - smoothstep(range.w * (isFifth ? 0.8 : 0.25), range.w * (isFifth ? 0.8 : 0.25) + 1.0, away)) *
+                (1.0 - smoothstep(0.12, 0.35, width));  // too close together to be told apart
     base = mix(base, vec3(0.32, 0.2, 0.1), 0.75 * ink);
   }
   if (sun.w > 0.0) {
