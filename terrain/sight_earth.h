@@ -25,8 +25,8 @@ class SightEarth {
   };
   virtual std::optional<PlaneSteps> planeSteps() const { return std::nullopt; }
   /// Where tracks run over geodesics, so that those from one place in one direction lie on one another, cut
-  /// into equal pieces, the fewest (2^k) in whose middles they are within an error of the geodesic: that error,
-  /// which holds for all of a piece, in plan units along x and along y. Else nothing.
+  /// into equal pieces, the fewest (2^k) in whose middles they are within an error of the geodesic: that
+  /// error, which holds for all of a piece, in plan units along x and along y. Else nothing.
   virtual std::optional<double> geodesicError() const { return std::nullopt; }
 };
 
