@@ -21,8 +21,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "engine/enclosing_ball.h"
 #include "engine/node_blocks.h"
+#include "engine/saturated_balls.h"
 
 namespace arete {
 namespace {
@@ -94,29 +94,20 @@ double boundOfErrors(const MultiTriangulation& mt, const Bending& bending) {
   return (largest + bend / bending.metric.scale.z) * kRounding * kRounding;
 }
 
-/// Children first: errors and balls, each of a node's own and of its children's.
-void saturate(const MultiTriangulation& mt, Owner& owner) {
-  const auto place = [&](std::uint32_t v) {
-    const Bending& b = owner.bending;
-    return b.metric.toMetric({b.plan[v].x, b.plan[v].y, b.heights[v]});
-  };
-  std::vector<Vec3> star;
+/// Children first: the largest error of a node's floor and of its children.
+std::vector<OutwardScale::Code> saturatedErrors(const MultiTriangulation& mt,
+                                                std::span<const OutwardScale::Code> errors) {
+  std::vector<OutwardScale::Code> saturated(mt.nodeCount());
   for (std::uint32_t n = mt.nodeCount(); n-- > 0;) {
     const NodeId node(n);
-    star.clear();
-    star.push_back(place(mt.apex(node).index()));
-    for (const std::uint32_t v : mt.link(node)) star.push_back(place(v));
-    EnclosingBall ball = EnclosingBall::around(star);
     OutwardScale::Code error = 0;
-    for (const std::uint32_t t : mt.floor(node)) error = std::max(error, owner.error[t]);
+    for (const std::uint32_t t : mt.floor(node)) error = std::max(error, errors[t]);
     for (std::uint32_t i = 0; i < mt.ceilingSize(node); ++i)
-      if (const NodeId child = mt.remover(mt.slotTriangle(node, i)); child.isValid()) {
-        ball.encloseChild(owner.sphere[child.index()]);
-        error = std::max(error, owner.saturatedError[child.index()]);
-      }
-    owner.sphere[n] = ball.rounded();
-    owner.saturatedError[n] = error;
+      if (const NodeId child = mt.remover(mt.slotTriangle(node, i)); child.isValid())
+        error = std::max(error, saturated[child.index()]);
+    saturated[n] = error;
   }
+  return saturated;
 }
 
 }  // namespace
@@ -144,9 +135,10 @@ MultiTriangulation bent(const MultiTriangulation& mt, Bending bending) {
   owner->error.resize(a.error.size());
   forEachTriangle(mt, owner->bending,
                   [&](std::uint32_t t, double error) { owner->error[t] = a.scale.encode(error); });
-  owner->sphere.resize(mt.nodeCount());
-  owner->saturatedError.resize(mt.nodeCount());
-  saturate(mt, *owner);
+  const Bending& b = owner->bending;
+  owner->sphere = saturatedBalls(
+      mt, [&](std::uint32_t v) { return b.metric.toMetric({b.plan[v].x, b.plan[v].y, b.heights[v]}); });
+  owner->saturatedError = saturatedErrors(mt, owner->error);
   owner->blocks = makeNodeBlocks(owner->saturatedError, owner->sphere);
   a.error = owner->error;
   a.saturatedError = owner->saturatedError;

@@ -10,8 +10,8 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/enclosing_ball.h"
 #include "engine/node_blocks.h"
+#include "engine/saturated_balls.h"
 
 namespace arete {
 namespace {
@@ -30,19 +30,8 @@ MultiTriangulation stretched(const MultiTriangulation& mt, double factor) {
   owner->original = mt;
   MtArrays a = mt.arrays();
   a.metric.scale.z *= factor;
-  owner->sphere.resize(mt.nodeCount());
-  std::vector<Vec3> star;
-  for (std::uint32_t n = mt.nodeCount(); n-- > 0;) {
-    const NodeId node(n);
-    star.clear();
-    star.push_back(a.metric.toMetric(mt.position(mt.apex(node))));
-    for (const std::uint32_t v : mt.link(node)) star.push_back(a.metric.toMetric(mt.position(VertexId(v))));
-    EnclosingBall ball = EnclosingBall::around(star);
-    for (std::uint32_t i = 0; i < mt.ceilingSize(node); ++i)
-      if (const NodeId child = mt.remover(mt.slotTriangle(node, i)); child.isValid())
-        ball.encloseChild(owner->sphere[child.index()]);
-    owner->sphere[n] = ball.rounded();
-  }
+  owner->sphere =
+      saturatedBalls(mt, [&](std::uint32_t v) { return a.metric.toMetric(mt.position(VertexId(v))); });
   owner->blocks = makeNodeBlocks(a.saturatedError, owner->sphere);
   a.sphere = owner->sphere;
   a.blockSphere = owner->blocks.sphere;
