@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bench/embree_rays.h"
 
-#ifdef ARETE_HAS_EMBREE
-
 #include <embree3/rtcore.h>
 
 #include <cmath>
@@ -121,16 +119,3 @@ std::unique_ptr<EmbreeRays> EmbreeRays::make(const SightGrid& grid, const SightE
 }
 
 }  // namespace arete::bench
-
-#else
-
-namespace arete::bench {
-
-std::unique_ptr<EmbreeRays> EmbreeRays::make(const SightGrid&, const SightEarth::PlaneSteps&, double,
-                                             Geometry) {
-  return nullptr;
-}
-
-}  // namespace arete::bench
-
-#endif

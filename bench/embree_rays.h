@@ -17,7 +17,7 @@ namespace arete::bench {
 class EmbreeRays {
  public:
   enum class Geometry { triangles, grid };
-  /// Null where this program was built without Embree. NODATA is a deep hole.
+  /// NODATA is a deep hole.
   static std::unique_ptr<EmbreeRays> make(const SightGrid& grid, const SightEarth::PlaneSteps& steps,
                                           double heightUnitMetres, Geometry geometry);
   virtual ~EmbreeRays() = default;

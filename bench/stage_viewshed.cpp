@@ -136,7 +136,6 @@ Result<Figures> viewshedStage(const DemSource& source, const std::string& path, 
   std::vector<std::unique_ptr<EmbreeRays>> embree;
   for (const auto geometry : {EmbreeRays::Geometry::grid, EmbreeRays::Geometry::triangles}) {
     embree.push_back(EmbreeRays::make(*grid, *earth->planeSteps(), unit, geometry));
-    if (!embree.back()) continue;
     const bool isGrid = geometry == EmbreeRays::Geometry::grid;
     contestants.push_back(
         {isGrid ? "Embree, grid" : "Embree, triangles", embree.back()->buildSeconds(),
