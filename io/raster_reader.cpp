@@ -165,14 +165,10 @@ Result<RasterRead> readRaster(const std::string& path, const RasterReadOptions& 
   try {
     registerGdal();
     GdalErrors errors;
-    std::string gdalPath = path;
-    if (isPlainZip(path)) {
-      auto inside = findZippedRaster(path);
-      if (!inside) return tl::unexpected(inside.error());
-      gdalPath = std::move(*inside);
-    }
-    const GdalDatasetPtr dataset = openGdal(gdalPath, GDAL_OF_RASTER);
-    if (!dataset) return tl::unexpected(explainOpenFailure(gdalPath, "raster", errors));
+    const Result<std::string> gdalPath = rasterPathOf(path);
+    if (!gdalPath) return tl::unexpected(gdalPath.error());
+    const GdalDatasetPtr dataset = openGdal(*gdalPath, GDAL_OF_RASTER);
+    if (!dataset) return tl::unexpected(explainOpenFailure(*gdalPath, "raster", errors));
     auto read = readOpened(*dataset, path, options, errors, context);
     if (!read && read.error().culprit.empty()) read.error().culprit = path;
     return read;

@@ -64,4 +64,8 @@ Result<std::string> findZippedRaster(const std::string& archive) {
   return root + "/" + rasters.front();
 }
 
+Result<std::string> rasterPathOf(const std::string& path) {
+  return isPlainZip(path) ? findZippedRaster(path) : Result<std::string>(path);
+}
+
 }  // namespace arete

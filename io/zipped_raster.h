@@ -15,4 +15,8 @@ bool isPlainZip(const std::string& path);
 /// corrupt (no zip archive), unsupported (no raster inside, or several: listed).
 Result<std::string> findZippedRaster(const std::string& archive);
 
+/// What GDAL opens for a path: that of the one raster in it for a plain zip archive, else itself. Errors: as
+/// findZippedRaster().
+Result<std::string> rasterPathOf(const std::string& path);
+
 }  // namespace arete
