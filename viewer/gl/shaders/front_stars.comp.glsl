@@ -1,11 +1,8 @@
-// A group a listed block, a thread a node: what is left of its star.
-layout(local_size_x = 64) in;
+// What is left of the stars of members.
 layout(std430, binding = 0) readonly buffer Links { uint link[]; };
 layout(std430, binding = 5) readonly buffer Nodes { uvec2 node[]; };
-layout(std430, binding = 6) readonly buffer Blocks { uint listedBlock[]; };
 void main() {
-  uint listed = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-  uint n = listed < blocks ? listedBlock[listed] * 64u + gl_LocalInvocationID.x : nodes;
+  uint n = listedNode();
   uint begin = 0u, end = 0u, count = 0u;
   if (isMember(n)) {
     begin = node[n].y;

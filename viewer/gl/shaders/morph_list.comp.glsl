@@ -1,15 +1,12 @@
 // Which members move (engine/geomorph.h): those of less than twice the cut's pixels. The others rest.
-layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer NodeBalls { vec4 nodeBall[]; };
 layout(std430, binding = 1) readonly buffer Nodes { uvec2 node[]; };
 layout(std430, binding = 2) readonly buffer Members { uint member[]; };
 layout(std430, binding = 3) readonly buffer Morphs { uint morphWord[]; };  // 3 corners, 2 weights, detail
 layout(std430, binding = 4) writeonly buffer Offsets { float offset[]; };
 layout(std430, binding = 5) writeonly buffer Moving { uvec4 movingNode[]; };
-layout(std430, binding = 6) readonly buffer Blocks { uint listedBlock[]; };
 void main() {
-  uint listed = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-  uint n = listed < blocks ? listedBlock[listed] * 64u + gl_LocalInvocationID.x : nodes;
+  uint n = listedNode();
   if (n >= nodes || (member[n >> 5] >> (n & 31u) & 1u) == 0u) return;
   float perUnit = morph.z / max(reachOver(nodeBall[n]), 1e-30);  // pixels of a unit of height
   float ratio = abs(uintBitsToFloat(node[n].x)) * perUnit / morph.x;
