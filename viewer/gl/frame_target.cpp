@@ -70,11 +70,14 @@ Image FrameTarget::image() const {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glGetTextureImage(samples_ > 1 ? resolved_ : color_, 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(bytes.size()),
                     bytes.data());
-  Image image(width_, height_);
-  for (int y = 0; y < height_; ++y)
-    for (int x = 0; x < width_; ++x) {
-      const std::uint8_t* p =
-          &bytes[4 * (std::size_t(height_ - 1 - y) * std::size_t(width_) + std::size_t(x))];
+  return imageFromBottomUp(width_, height_, bytes);
+}
+
+Image imageFromBottomUp(int width, int height, std::span<const std::uint8_t> rgba) {
+  Image image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::uint8_t* p = &rgba[4 * (std::size_t(height - 1 - y) * std::size_t(width) + std::size_t(x))];
       image.at(x, y) = {p[0], p[1], p[2]};
     }
   return image;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/result.h"
@@ -34,5 +36,8 @@ class FrameTarget {
   GlTexture color_, depth_, resolved_;
   GlFramebuffer framebuffer_, resolvedFramebuffer_;
 };
+
+/// Of what OpenGL reads back: RGBA, four bytes a pixel, rows from the bottom. Precondition: as many bytes.
+Image imageFromBottomUp(int width, int height, std::span<const std::uint8_t> rgba);
 
 }  // namespace arete

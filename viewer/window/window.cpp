@@ -46,13 +46,7 @@ Image windowImage(int width, int height) {
   glReadBuffer(GL_BACK);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
-  Image image(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const std::uint8_t* p = &bytes[4 * (std::size_t(height - 1 - y) * std::size_t(width) + std::size_t(x))];
-      image.at(x, y) = {p[0], p[1], p[2]};
-    }
-  return image;
+  return imageFromBottomUp(width, height, bytes);
 }
 
 /// Dear ImGui, as long as the window.
