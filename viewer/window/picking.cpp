@@ -156,6 +156,19 @@ std::optional<TerrainPick> TerrainPicker::at(const CurvedGround& ground, const C
   return std::nullopt;
 }
 
+std::optional<Vec2> TerrainPicker::pixelOf(const CurvedGround& ground, const Camera& camera,
+                                           const Vec3& metric, double stretch) const {
+  const Result<View> view = ground.viewOf(camera, stretch);
+  if (!view) return std::nullopt;
+  const Frustum frustum(*view);
+  const Vec3 p = frustum.toView(ground.position(space_.xy(metric), space_.height(metric), stretch));
+  if (!(p.z > 0)) return std::nullopt;
+  const Frustum::Planes planes = frustum.planes();
+  const double side = model_.isFlipped() ? -1 : 1;
+  return Vec2{(1 + side * p.x / (p.z * planes.slopeX)) / 2 * camera.widthPixels,
+              (1 - p.y / (p.z * planes.slopeY)) / 2 * camera.heightPixels};
+}
+
 Vec3 directionOfPixel(const CameraSpace& space, const Camera& camera, Vec2 pixel) {
   const Lens lens = lensOf(camera);
   const double x = (2 * pixel.x / camera.widthPixels - 1) * lens.slopeX;

@@ -38,6 +38,10 @@ class TerrainPicker {
   std::optional<TerrainPick> at(const CurvedGround& ground, const Camera& camera, Vec2 pixel,
                                 double stretch = 1) const;
 
+  /// The pixel of a metric point on a curved Earth; nothing where it is not in front of the camera.
+  std::optional<Vec2> pixelOf(const CurvedGround& ground, const Camera& camera, const Vec3& metric,
+                              double stretch = 1) const;
+
   const CameraSpace& space() const { return space_; }
   const MetricBox& box() const { return box_; }
 

@@ -52,6 +52,7 @@ void ViewerSession::step(const InputState& input) {
   // A hand on the controls takes them back.
   if (rig.step(input)) deck.stop();
   rig.setStretch(settings.stretch);
+  curvedGround();  // marks are drawn on it from the first frame on
 
   if (auto done = viewshed.take()) {
     if (*done) {
@@ -149,36 +150,27 @@ void ViewerSession::apply(Action action) {
   }
 }
 
-std::optional<TerrainPick> ViewerSession::pickAt(Vec2 pixel) {
-  if (!settings.isCurved) return picker.at(rig.camera(), pixel, settings.stretch);
+const CurvedGround* ViewerSession::curvedGround() {
+  if (!settings.isCurved) return nullptr;
   if (!ground_) {
     Result<CurvedGround> made = CurvedGround::create(model);
-    if (!made) {
+    if (made)
+      ground_ = std::move(*made);
+    else
       say(made.error().describe());
-      return std::nullopt;
-    }
-    ground_ = std::move(*made);
   }
-  return picker.at(*ground_, rig.camera(), pixel, settings.stretch);
+  return ground_ ? &*ground_ : nullptr;
 }
 
 std::optional<Vec2> ViewerSession::pixelOf(const Vec3& metric) const {
-  const Camera& camera = rig.camera();
-  if (!settings.isCurved || !ground_) return arete::pixelOf(picker.space(), camera, metric, settings.stretch);
-  const CameraSpace& space = picker.space();
-  const Result<View> view = ground_->viewOf(camera, settings.stretch);
-  if (!view) return std::nullopt;
-  const Frustum frustum(*view);
-  const Vec3 p = frustum.toView(ground_->position(space.xy(metric), space.height(metric), settings.stretch));
-  if (!(p.z > 0)) return std::nullopt;
-  const auto planes = frustum.planes();
-  const double side = model.isFlipped() ? -1 : 1;
-  return Vec2{(1 + side * p.x / (p.z * planes.slopeX)) / 2 * camera.widthPixels,
-              (1 - p.y / (p.z * planes.slopeY)) / 2 * camera.heightPixels};
+  if (settings.isCurved && ground_) return picker.pixelOf(*ground_, rig.camera(), metric, settings.stretch);
+  return arete::pixelOf(picker.space(), rig.camera(), metric, settings.stretch);
 }
 
 void ViewerSession::click(Vec2 pixel) {
-  const auto pick = pickAt(pixel);
+  const CurvedGround* ground = curvedGround();
+  const auto pick = ground ? picker.at(*ground, rig.camera(), pixel, settings.stretch)
+                           : picker.at(rig.camera(), pixel, settings.stretch);
   if (!pick) return;
   if (picks.size() >= 2) picks.clear();
   picks.push_back(*pick);

@@ -92,9 +92,10 @@ class ViewerSession {
   const std::string& message() const { return message_; }
 
  private:
-  std::optional<TerrainPick> pickAt(Vec2 pixel);
+  /// Null on a flat map, and where there is none.
+  const CurvedGround* curvedGround();
 
-  std::optional<CurvedGround> ground_;  // once somebody picks on it
+  std::optional<CurvedGround> ground_;  // once somebody wants it
   std::string message_;
   double messageSeconds_ = 0;
   std::size_t nextHome_ = 0;
