@@ -125,6 +125,16 @@ Result<std::vector<double>> parseNumbers(const std::string& option, const std::s
   return numbers;
 }
 
+Result<std::pair<double, double>> twoNumbers(const std::string& option, std::string text, char separator) {
+  const std::string culprit = fmt::format("{} {}", option, text);
+  std::ranges::replace(text, separator, ',');
+  const auto numbers = parseNumbers(option, text);
+  if (!numbers) return tl::unexpected(numbers.error());
+  if (numbers->size() != 2)
+    return failure(ErrorCode::usage, fmt::format("has two numbers, not {}", numbers->size()), culprit);
+  return std::pair((*numbers)[0], (*numbers)[1]);
+}
+
 void DemArguments::addTo(CLI::App& command) {
   const std::string group = "Reading the DEM";
   command.add_option("--band", band, "Band of a raster (default: its first)")

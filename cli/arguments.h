@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/session.h"
@@ -28,6 +29,9 @@ CLI::Validator tolerances();
 
 /// The numbers of a text with commas between. Errors: usage, naming the option and what is no number.
 Result<std::vector<double>> parseNumbers(const std::string& option, const std::string& text);
+
+/// Two numbers and what stands between them, as in 1920x1080. Errors: usage, naming the option.
+Result<std::pair<double, double>> twoNumbers(const std::string& option, std::string text, char separator);
 
 /// How to read a DEM; the options of all commands that do.
 struct DemArguments {

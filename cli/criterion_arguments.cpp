@@ -20,17 +20,6 @@ Result<CrsTransform> placesTransform(bool isLonLat, const TerrainModel& model) {
   return CrsTransform::fromLonLat(model.georeference);
 }
 
-/// "AxB" or "A,B".
-Result<std::pair<double, double>> twoNumbers(const std::string& option, std::string text, char separator) {
-  const std::string culprit = fmt::format("{} {}", option, text);
-  std::ranges::replace(text, separator, ',');
-  const auto numbers = parseNumbers(option, text);
-  if (!numbers) return tl::unexpected(numbers.error());
-  if (numbers->size() != 2)
-    return failure(ErrorCode::usage, fmt::format("has two numbers, not {}", numbers->size()), culprit);
-  return std::pair((*numbers)[0], (*numbers)[1]);
-}
-
 }  // namespace
 
 void CriterionArguments::addTo(CLI::App& command) {

@@ -46,11 +46,11 @@ struct ViewArguments {
 
 /// "1280x720". Errors: usage.
 Result<std::pair<int, int>> readSize(const std::string& text) {
-  int width = 0, height = 0;
-  char more = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &more) != 2 || width < 1 || height < 1)
+  const auto size = twoNumbers("--size", text, 'x');
+  const auto isSide = [](double n) { return n >= 1 && n <= 1e6 && n == std::floor(n); };
+  if (!size || !isSide(size->first) || !isSide(size->second))
     return failure(ErrorCode::usage, "a picture's size is WIDTHxHEIGHT, as 1280x720", "--size " + text);
-  return std::pair(width, height);
+  return std::pair(static_cast<int>(size->first), static_cast<int>(size->second));
 }
 
 Coloring coloringOf(const std::string& name) {
@@ -76,13 +76,11 @@ Result<ViewSettings> settingsOf(const ViewArguments& a) {
   s.look.hazeKilometres = a.hazeKilometres;
   s.look.hasWireframe = a.hasWireframe;
   if (!a.sun.empty()) {
-    const auto sun = parseNumbers("--sun", a.sun);
-    if (!sun) return tl::unexpected(sun.error());
-    if (sun->size() != 2 || !((*sun)[1] >= 0 && (*sun)[1] <= 90))
+    const auto sun = twoNumbers("--sun", a.sun, ',');
+    if (!sun || !(sun->second >= 0 && sun->second <= 90) || !std::isfinite(sun->first))
       return failure(ErrorCode::usage, "the sun stands at AZIMUTH,ELEVATION, the latter of 0 to 90 degrees",
                      "--sun " + a.sun);
-    s.look.sunAzimuthDegrees = (*sun)[0];
-    s.look.sunElevationDegrees = (*sun)[1];
+    std::tie(s.look.sunAzimuthDegrees, s.look.sunElevationDegrees) = *sun;
   }
   return s;
 }
@@ -285,14 +283,6 @@ Status runView(const ViewArguments& a, Session& session) {
   if (!size) return tl::unexpected(size.error());
   const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
   if (!model) return tl::unexpected(model.error());
-  if (!a.frames.empty()) {
-    std::error_code failed;  // drawFilm() says why; the film may lie in it
-    std::filesystem::create_directories(a.frames, failed);
-  }
-  for (const auto& [option, path] :
-       {std::pair{"--screenshot", a.screenshot}, {"--film", a.film}, {"--figures", a.figures}})
-    if (!path.empty())
-      if (Status ok = checkOutput(option, path, {a.model, a.path, a.drape, model->source}); !ok) return ok;
   const SurfaceHeights heights(*model);
   const Result<Camera> camera = cameraOf(a, *model, heights, size->first, size->second);
   if (!camera) return tl::unexpected(camera.error());
@@ -301,6 +291,16 @@ Status runView(const ViewArguments& a, Session& session) {
                              withUnit(ground->height - camera->height, model->georeference.verticalUnit)));
   const auto flight = flightOf(a, *model, heights, session);
   if (!flight) return tl::unexpected(flight.error());
+
+  if (!a.frames.empty()) {
+    if (const auto count = filmFrames(**flight, a.framesPerSecond); !count) return tl::unexpected(count.error());
+    std::error_code failed;  // drawFilm() says why; the film may lie in it
+    std::filesystem::create_directories(a.frames, failed);
+  }
+  for (const auto& [option, path] :
+       {std::pair{"--screenshot", a.screenshot}, {"--film", a.film}, {"--figures", a.figures}})
+    if (!path.empty())
+      if (Status ok = checkOutput(option, path, {a.model, a.path, a.drape, model->source}); !ok) return ok;
 
   const auto layDrape = [&](TerrainView& view) -> Status {
     if (Status laid = view.setDrape(a.drape, *drapeOptions, session.context()); !laid) return laid;

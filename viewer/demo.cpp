@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
@@ -34,6 +33,7 @@
 #include "viewer/chart.h"
 #include "viewer/error_map.h"
 #include "viewer/headless.h"
+#include "viewer/stopwatch.h"
 #include "viewer/ticks.h"
 #include "viewer/tin_picture.h"
 #include "viewer/viewshed_map.h"
@@ -47,16 +47,6 @@ constexpr double kLargestPercent = 30;  // of the finest triangles, among the to
 constexpr std::uint32_t kFewTriangles = 24;
 constexpr std::size_t kCurvePoints = 15;
 constexpr std::size_t kTinPictures = 3;
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// A TIN that has been written and measured, as long as the pictures need it.
 struct Shown {

@@ -7,13 +7,13 @@
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <system_error>
 
 #include "viewer/gl/frame_target.h"
 #include "viewer/gl/offscreen.h"
+#include "viewer/stopwatch.h"
 
 extern char** environ;
 
@@ -21,10 +21,6 @@ namespace arete {
 namespace {
 
 constexpr std::uint64_t kMostFrames = 1'000'000;
-
-double millisecondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
 
 }  // namespace
 
@@ -99,11 +95,11 @@ Result<FrameFigures> HeadlessView::draw(const Camera& stated) {
       if (const Status ok = cutAt(coarse); !ok) return tl::unexpected(ok.error());
     figures->isComplete = false;
   }
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   s.target.begin();
   if (const Status drawn = s.view.draw(camera, settings); !drawn) return tl::unexpected(drawn.error());
   glFinish();
-  figures->drawMilliseconds = millisecondsSince(start);
+  figures->drawMilliseconds = watch.milliseconds();
   return figures;
 }
 
@@ -120,22 +116,26 @@ const std::vector<std::string>& HeadlessView::warnings() const {
   return state_->warnings;
 }
 
+Result<std::uint64_t> filmFrames(const Flight& flight, double framesPerSecond) {
+  const std::uint64_t count = flight.frameCount(framesPerSecond);
+  if (count <= kMostFrames) return count;
+  return failure(ErrorCode::usage, fmt::format("{:.6g} seconds of flight are more than {} frames",
+                                               flight.duration(), kMostFrames),
+                 "flight");
+}
+
 Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight, const FilmOptions& options,
                                         const RunContext& context) {
   const double rate = options.framesPerSecond > 0 ? options.framesPerSecond : flight.plan().framesPerSecond;
-  const std::uint64_t count = flight.frameCount(rate);
-  if (count > kMostFrames)
-    return failure(ErrorCode::usage,
-                   fmt::format("{:.6g} seconds of flight at {:.6g} frames a second are more than {} frames",
-                               flight.duration(), rate, kMostFrames),
-                   options.folder.string());
+  const Result<std::uint64_t> count = filmFrames(flight, rate);
+  if (!count) return tl::unexpected(count.error());
   std::error_code failed;
   std::filesystem::create_directories(options.folder, failed);
   if (failed)
     return failure(ErrorCode::unreadable, "the folder cannot be made: " + failed.message(),
                    options.folder.string());
   std::vector<FilmFrame> frames;
-  for (std::uint64_t i = 0; i < count; ++i) {
+  for (std::uint64_t i = 0; i < *count; ++i) {
     if (context.cancelled())
       return failure(ErrorCode::interrupted, "the film was interrupted", options.folder.string());
     FilmFrame frame;
@@ -148,7 +148,7 @@ Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight
     if (const Status saved = savePng(view.image(), path); !saved) return tl::unexpected(saved.error());
     frame.file = path.string();
     frames.push_back(std::move(frame));
-    context.report("draw frames", double(i + 1) / double(count));
+    context.report("draw frames", double(i + 1) / double(*count));
   }
   return frames;
 }

@@ -64,6 +64,9 @@ struct FilmFrame {
   FrameFigures figures;
 };
 
+/// How many pictures a flight is, the flight's a second where it is 0. Errors: usage, more than a million.
+Result<std::uint64_t> filmFrames(const Flight& flight, double framesPerSecond);
+
 /// A flight's frames as PNGs, rising. Errors: usage (more than a million); those of drawing and writing;
 /// interrupted, which leaves whole
 /// frames only.

@@ -103,6 +103,7 @@ TEST_F(ViewCommand, SaysWhatIsWrongInASentence) {
     EXPECT_NE(o.err.find(c.says), std::string::npos) << o.err;
     EXPECT_EQ(o.out, "");
   }
+  for (const char* folder : {"f", "g", "h"}) EXPECT_FALSE(exists(folder)) << folder;
 }
 
 TEST_F(ViewCommand, AMachineWithoutOpenGlGetsASentence) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "viewer/gl/gl_program.h"
+#include "viewer/stopwatch.h"
 
 namespace arete {
 namespace {
@@ -88,9 +89,9 @@ struct ProcessorFront::State {
       using Milliseconds = std::chrono::duration<double, std::milli>;
       if (now.deadlineMilliseconds > 0)
         options.deadline = Deadline::in(Milliseconds(now.deadlineMilliseconds));
-      const auto start = std::chrono::steady_clock::now();
+      const Stopwatch watch;
       Result<ViewMesh::Report> report = mesh.update(now.view, options);
-      const double milliseconds = Milliseconds(std::chrono::steady_clock::now() - start).count();
+      const double milliseconds = watch.milliseconds();
 
       const std::lock_guard lock(mutex);
       if (report) {

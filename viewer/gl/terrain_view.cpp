@@ -2,27 +2,13 @@
 #include "viewer/gl/terrain_view.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "engine/geomorph.h"
 #include "viewer/gl/processor_front.h"
 #include "viewer/scene/curved_ground.h"
+#include "viewer/stopwatch.h"
 
 namespace arete {
-namespace {
-
-class Stopwatch {
- public:
-  double milliseconds() const {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-}  // namespace
-
 struct TerrainView::State {
   const TerrainModel* model = nullptr;
   MultiTriangulation mt;  // what is drawn, the model's or a bent one
