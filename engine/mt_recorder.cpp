@@ -44,6 +44,7 @@ std::span<const T> view(const std::unique_ptr<T[]>& array, std::size_t size) {
 }
 
 constexpr std::size_t kGrain = 1 << 13;
+constexpr std::uint32_t kFarAhead = 24, kMiddleAhead = 16, kNearAhead = 6;
 
 template <class Body>
 void forRange(std::size_t size, const Body& body) {
@@ -72,9 +73,7 @@ std::uint32_t MtRecorder::beginBatch(std::span<const std::uint8_t> linkSizes) {
   const std::size_t slots = slotBegin_[removals_], births = slots - 2 * std::size_t(removals_);
   link_.resize(slots);
   ceiling_.resize(slots);
-  error_.resize(births);
-  below_.resize(births);
-  above_.resize(births);
+  floor_.resize(births);
   return first;
 }
 
@@ -82,7 +81,7 @@ void MtRecorder::record(std::uint32_t removal, const VertexRemoval& what) {
   const std::uint32_t begin = slotBegin_[removal];
   const std::size_t slots = what.link.size();
   assert(slots == slotBegin_[removal + 1] - begin && slots >= 3);
-  assert(what.ceiling.size() == slots - (what.isOpen ? 1 : 0) && what.floorError.size() == slots - 2);
+  assert(what.ceiling.size() == slots - (what.isOpen ? 1 : 0) && what.floor.size() == slots - 2);
 
   vertex_[removal] = what.vertex;
   for (std::size_t i = 0; i < slots; ++i) {
@@ -93,10 +92,8 @@ void MtRecorder::record(std::uint32_t removal, const VertexRemoval& what) {
   std::uint16_t saturated = 0;
   const std::size_t firstFloor = begin - 2 * std::size_t(removal);
   for (std::size_t i = 0; i < slots - 2; ++i) {
-    error_[firstFloor + i] = what.floorError[i];
-    below_[firstFloor + i] = what.floorBelow[i];
-    above_[firstFloor + i] = what.floorAbove[i];
-    saturated = std::max(saturated, what.floorError[i]);
+    floor_[firstFloor + i] = what.floor[i];
+    saturated = std::max(saturated, what.floor[i].error);
   }
 
   EnclosingBall ball = EnclosingBall::around(what.metricPositions);
@@ -167,10 +164,10 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   const auto place = [&](std::uint32_t id, std::uint32_t birth) {
     idOfBirth[birth] = id;
     owned->remover[id] = kNone;
-    const bool isFinest = birth < finestTriangles_;
-    owned->error[id] = isFinest ? 0 : error_[birth - finestTriangles_];
-    owned->below[id] = isFinest ? 0 : below_[birth - finestTriangles_];
-    owned->above[id] = isFinest ? 0 : above_[birth - finestTriangles_];
+    const FloorCodes codes = birth < finestTriangles_ ? FloorCodes{} : floor_[birth - finestTriangles_];
+    owned->error[id] = codes.error;
+    owned->below[id] = codes.below;
+    owned->above[id] = codes.above;
   };
   owned->rootTriangles.resize(roots);
   for (std::uint32_t i = 0; i < roots; ++i) {
@@ -178,7 +175,31 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
     owned->rootTriangles[i] = {newVertex[c[0]], newVertex[c[1]], newVertex[c[2]]};
     place(i, surviving[i].birth);
   }
+  const auto prefetchStar = [&](std::uint32_t n) __attribute__((always_inline)) {
+    if (n + kFarAhead < nodes) {
+      const std::uint32_t r = removalOf[n + kFarAhead];
+      __builtin_prefetch(&slotBegin_[r]);
+      __builtin_prefetch(&saturated_[r]);
+      __builtin_prefetch(&sphere_[r]);
+    }
+    if (n + kMiddleAhead < nodes) {
+      const std::uint32_t from = slotBegin_[removalOf[n + kMiddleAhead]];
+      __builtin_prefetch(&link_[from]);
+      __builtin_prefetch(&ceiling_[from]);
+    }
+    if (n + kNearAhead < nodes) {
+      const std::uint32_t r = removalOf[n + kNearAhead];
+      for (std::uint32_t slot = slotBegin_[r]; slot < slotBegin_[r + 1]; ++slot) {
+        __builtin_prefetch(&newVertex[link_[slot]]);
+        const std::uint32_t birth = ceiling_[slot];
+        if (birth == kNone) continue;
+        __builtin_prefetch(&idOfBirth[birth], 1);
+        if (birth >= finestTriangles_) __builtin_prefetch(&floor_[birth - finestTriangles_]);
+      }
+    }
+  };
   forRange(nodes, [&](std::uint32_t n) {
+    prefetchStar(n);
     const std::uint32_t r = removalOf[n];
     owned->saturatedError[n] = saturated_[r];
     owned->sphere[n] = sphere_[r];
@@ -198,9 +219,7 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   sphere_.clear();
   link_.clear();
   ceiling_.clear();
-  error_.clear();
-  below_.clear();
-  above_.clear();
+  floor_.clear();
   std::vector<std::uint32_t>().swap(newVertex);
 
   stage.emplace(clock, "finish: floors");

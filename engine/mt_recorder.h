@@ -12,6 +12,11 @@
 
 namespace arete {
 
+/// What is recorded of a new triangle: its error and bounds, coded.
+struct FloorCodes {
+  std::uint16_t error = 0, below = 0, above = 0;
+};
+
 /// One vertex removal, read bottom-up: the star of a vertex (the node's ceiling) gives way to a triangulation
 /// of the hole (its floor). Ids are the caller's: vertices as it numbers them, triangles by birth.
 struct VertexRemoval {
@@ -25,8 +30,8 @@ struct VertexRemoval {
   std::span<const std::uint32_t> ceiling;
   /// For each, the removal that bore it (kNone for triangles of the finest triangulation).
   std::span<const std::uint32_t> ceilingBearer;
-  /// Per new triangle: error and bounds, coded. Their birth ids are consecutive, from firstBirth(i).
-  std::span<const std::uint16_t> floorError, floorBelow, floorAbove;
+  /// Per new triangle. Their birth ids are consecutive, from firstBirth(i).
+  std::span<const FloorCodes> floor;
 };
 
 /// A triangle that no removal took away: it belongs to the root.
@@ -59,6 +64,8 @@ class MtRecorder {
   std::uint32_t firstBirth(std::uint32_t removal) const {
     return finestTriangles_ + slotBegin_[removal] - 2 * removal;
   }
+  /// How many slots, one for each vertex of a link, come before those of a removal; of all: removalCount().
+  std::uint32_t firstSlot(std::uint32_t removal) const { return slotBegin_[removal]; }
   /// Records an announced removal. Thread-safe for different removals of a batch; the removals that bore its
   /// ceiling are of earlier batches. Precondition: link.size() as announced, 3 <= size.
   void record(std::uint32_t removal, const VertexRemoval& what);
@@ -84,13 +91,13 @@ class MtRecorder {
   MetricFrame metric_;
   std::uint32_t removals_ = 0;
 
-  ChunkedArray<std::uint32_t> slotBegin_;              // per removal, and the end
-  ChunkedArray<std::uint32_t> vertex_;                 // per removal
-  ChunkedArray<std::uint16_t> saturated_;              // per removal
-  ChunkedArray<Sphere> sphere_;                        // per removal
-  ChunkedArray<std::uint32_t> link_;                   // per slot
-  ChunkedArray<std::uint32_t> ceiling_;                // per slot; kNone in the last slot of an open star
-  ChunkedArray<std::uint16_t> error_, below_, above_;  // per birth, from finestTriangles_ on
+  ChunkedArray<std::uint32_t> slotBegin_;  // per removal, and the end
+  ChunkedArray<std::uint32_t> vertex_;     // per removal
+  ChunkedArray<std::uint16_t> saturated_;  // per removal
+  ChunkedArray<Sphere> sphere_;            // per removal
+  ChunkedArray<std::uint32_t> link_;       // per slot
+  ChunkedArray<std::uint32_t> ceiling_;    // per slot; kNone in the last slot of an open star
+  ChunkedArray<FloorCodes> floor_;         // per birth, from finestTriangles_ on
 };
 
 /// The same MT with the given vertices (and an owner for them beside its own).

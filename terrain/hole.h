@@ -62,6 +62,52 @@ HoleTriangulation wrapHole(int corners, const Hole& hole) {
   return result;
 }
 
+/// The same triangles one by one: visit(i, m, j, isOverApex) returns whether to go on. The first is the one
+/// over the apex, where the removal of a vertex most often costs most, so that a hole that costs too much is
+/// known by a triangle or two. False when some edge finds no third corner; what was visited then means
+/// nothing.
+template <class Hole, class Visit>
+bool wrapHoleFromApex(int corners, const Hole& hole, const Visit& visit) {
+  using Edge = std::array<std::uint8_t, 2>;
+  std::array<Edge, kMaxHoleCorners> stack;
+  std::array<std::array<std::uint8_t, 3>, kMaxHoleCorners> passed;  // on the way to the apex
+  int top = 0, passedCount = 0;
+  const auto third = [&](std::uint8_t i, std::uint8_t j) {
+    return hole.third(i, j,
+                      [&](int first, int later) { return isOtherDiagonalCloser(hole, i, first, later, j); });
+  };
+  const auto push = [&](std::uint8_t i, std::uint8_t j) {
+    if (j - i > 1) stack[top++] = {i, j};
+  };
+  for (std::uint8_t i = 0, j = static_cast<std::uint8_t>(corners - 1);;) {
+    const int found = third(i, j);
+    if (found < 0) return false;
+    const auto m = static_cast<std::uint8_t>(found);
+    const bool isBeyondFirst = m - i > 1 && hole.orientationToApex(i, m) < 0;
+    const bool isBeyondSecond = !isBeyondFirst && j - m > 1 && hole.orientationToApex(m, j) < 0;
+    if (!isBeyondSecond) push(m, j);
+    if (!isBeyondFirst) push(i, m);
+    if (!isBeyondFirst && !isBeyondSecond) {
+      if (!visit(i, m, j, true)) return true;
+      break;
+    }
+    passed[passedCount++] = {i, m, j};
+    (isBeyondFirst ? j : i) = m;
+  }
+  for (int k = 0; k < passedCount; ++k)
+    if (!visit(passed[k][0], passed[k][1], passed[k][2], false)) return true;
+  while (top > 0) {
+    const auto [i, j] = stack[--top];
+    const int found = third(i, j);
+    if (found < 0) return false;
+    const auto m = static_cast<std::uint8_t>(found);
+    if (!visit(i, m, j, false)) return true;
+    push(m, j);
+    push(i, m);
+  }
+  return true;
+}
+
 /// Ear clipping of a polygon that is star-shaped about its apex (in its closure).
 ///
 /// Corner i is an ear when it turns left and the apex is not to the right of the edge that would cut it off:

@@ -2,9 +2,9 @@
 //
 // Removals of a batch are independent: no two stars share a triangle. They may share an edge of their rims,
 // and then each is the other's neighbour while both are being rewritten. So a batch works in two steps with a
-// barrier between: refill() rewrites the slots of one star and notes where each rim half-edge went, in a
-// table at the old half-edge's place; sew() then joins each rim edge to its former twin, looking it up in the
-// table if that twin moved too. Both sides of an edge between two moved stars write their own twin only, and
+// barrier between: refill() rewrites the slots of one star and notes where each rim half-edge went; sew()
+// then joins each rim edge to its former twin, looking among the notes of the removal that rewrote that
+// twin's slot if it moved too. Both sides of an edge between two moved stars write their own twin only, and
 // an unmoved twin has one moved neighbour across that edge, so no location is written twice.
 #include "terrain/live_mesh.h"
 
@@ -106,13 +106,14 @@ bool Star::gather(const LiveMesh& mesh, std::uint32_t v, int maxLink) {
 }
 
 void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, std::uint32_t firstBirth,
-            std::uint32_t removal, std::vector<LiveMesh::Corners>& movedHalfedge, PendingSeams& seams) {
+            std::uint32_t removal, std::span<Seam> seams) {
   const int corners = star.linkSize;
-  assert(floor.size == corners - 2);
-  seams.size = static_cast<std::uint8_t>(corners);
-  for (int i = 0; i < star.triangleCount; ++i) seams.beyond[i] = mesh.twinOf(star.rim(i));
-  seams.isOpen = star.isOpen;
-  if (star.isOpen) seams.beyond[corners - 1] = LiveMesh::kNone;
+  assert(floor.size == corners - 2 && seams.size() == static_cast<std::size_t>(corners));
+  for (int i = 0; i < star.triangleCount; ++i) {
+    seams[i].movedFrom = star.rim(i);
+    seams[i].beyond = mesh.twinOf(star.rim(i));
+  }
+  if (star.isOpen) seams[corners - 1].movedFrom = seams[corners - 1].beyond = LiveMesh::kNone;
 
   // Which link vertices keep a half-edge that is about to vanish.
   std::array<bool, kMaxHoleCorners> mustPoint{};
@@ -133,14 +134,10 @@ void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, st
     for (std::uint32_t c = 0; c < 3; ++c)
       edge[floor.triangles[f][c]][floor.triangles[f][(c + 1) % 3]] = LiveMesh::halfedge(t, c);
   }
-  for (int i = 0; i < corners; ++i) seams.movedTo[i] = edge[i][i + 1 < corners ? i + 1 : 0];
-  for (int i = 0; i < star.triangleCount; ++i) {
-    const std::uint32_t old = star.rim(i);
-    movedHalfedge[LiveMesh::triangleOf(old)][LiveMesh::sideOf(old)] = seams.movedTo[i];
-  }
+  for (int i = 0; i < corners; ++i) seams[i].movedTo = edge[i][i + 1 < corners ? i + 1 : 0];
   for (int i = 0; i < corners; ++i)
     if (mustPoint[i])
-      std::atomic_ref(mesh.vertexHalfedge[star.link[i]]).store(seams.movedTo[i], std::memory_order_relaxed);
+      std::atomic_ref(mesh.vertexHalfedge[star.link[i]]).store(seams[i].movedTo, std::memory_order_relaxed);
 
   std::array<std::uint32_t, kMaxHoleCorners> slots;
   for (int i = 0; i < star.triangleCount; ++i) slots[i] = star.triangle(i);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -91,42 +92,41 @@ void forLink(const LiveMesh& mesh, std::uint32_t v, const Visit& visit) {
   }
 }
 
-/// What one removal must leave behind until the whole batch has rewritten its stars: where each rim edge went
-/// and what lay beyond it.
-struct PendingSeams {
-  std::array<std::uint32_t, kMaxHoleCorners>
-      movedTo;  ///< new half-edge of rim edge i (closing edge last, when open)
-  std::array<std::uint32_t, kMaxHoleCorners> beyond;  ///< its twin before the batch, kNone on a border
-  std::uint8_t size = 0;
-  bool isOpen = false;  ///< the last entry is the closing edge, a new border
+/// What a removal must leave behind of an edge of its star's rim until the whole batch has rewritten its
+/// stars. Of an open star the last one is of the new border edge that closes its hole.
+struct Seam {
+  std::uint32_t movedFrom;  ///< half-edge of the rim before the batch, kNone for a new border edge
+  std::uint32_t movedTo;    ///< the same after it
+  std::uint32_t beyond;     ///< its twin before the batch, kNone on a border
 };
 
 /// Fills the star's hole with the floor: rewrites its triangle slots, inner twins and the half-edges of the
-/// link. Touches nothing outside the star but `movedTo` records for the seams; call sew() for every star of
-/// the batch after. `movedHalfedge`: receives, per old rim half-edge, where it moved: an array over
-/// half-edges, written at the old ids.
+/// link. Touches nothing outside the star and fills in `seams`, one for each vertex of the link; call sew()
+/// for every star of the batch after.
 void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, std::uint32_t firstBirth,
-            std::uint32_t removal, std::vector<LiveMesh::Corners>& movedHalfedge, PendingSeams& seams);
+            std::uint32_t removal, std::span<Seam> seams);
 
-/// Joins the floor's rim to what lies beyond it, whether that moved in the same batch or not.
+/// Joins an edge of a floor's rim to what lies beyond it, whether that moved in the same batch or not.
 /// `firstRemoval`: of this batch; slots that a removal from it on has rewritten have moved.
-inline void sew(LiveMesh& mesh, const PendingSeams& seams,
-                const std::vector<LiveMesh::Corners>& movedHalfedge, std::uint32_t firstRemoval) {
-  const auto isMoved = [&](std::uint32_t t) {
-    const std::uint32_t bearer = mesh.triangles[t].bearer;
-    return bearer != LiveMesh::kNone && bearer >= firstRemoval;
-  };
-  for (int i = 0; i < seams.size; ++i) {
-    const std::uint32_t h = seams.movedTo[i], old = seams.beyond[i];
-    if (old == LiveMesh::kNone) {
-      mesh.setTwin(h, LiveMesh::kNone);
-    } else if (isMoved(LiveMesh::triangleOf(old))) {
-      mesh.setTwin(h, movedHalfedge[LiveMesh::triangleOf(old)][LiveMesh::sideOf(old)]);
-    } else {
-      mesh.setTwin(h, old);
-      mesh.setTwin(old, h);
-    }
+/// seamsOf(removal): the seams of a removal of the batch.
+template <class SeamsOf>
+void sew(LiveMesh& mesh, const Seam& seam, std::uint32_t firstRemoval, const SeamsOf& seamsOf) {
+  if (seam.beyond == LiveMesh::kNone) {
+    mesh.setTwin(seam.movedTo, LiveMesh::kNone);
+    return;
   }
+  const std::uint32_t bearer = mesh.triangles[LiveMesh::triangleOf(seam.beyond)].bearer;
+  if (bearer == LiveMesh::kNone || bearer < firstRemoval) {
+    mesh.setTwin(seam.movedTo, seam.beyond);
+    mesh.setTwin(seam.beyond, seam.movedTo);
+    return;
+  }
+  for (const Seam& other : seamsOf(bearer))
+    if (other.movedFrom == seam.beyond) {
+      mesh.setTwin(seam.movedTo, other.movedTo);
+      return;
+    }
+  assert(false && "a half-edge of a rewritten slot has a seam");
 }
 
 }  // namespace arete

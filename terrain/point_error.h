@@ -30,6 +30,11 @@ class PointError {
   [[gnu::always_inline]] void prefetch(std::uint32_t point) const {
     __builtin_prefetch(heights_.data() + point);
   }
+  [[gnu::always_inline]] void prefetch(const Star& star) const {
+    for (int i = 0; i < star.triangleCount; ++i) __builtin_prefetch(&head_[star.triangle(i)]);
+  }
+  /// RasterError knows a rule for the finest triangulation; for points there is none.
+  double costInFinest(std::uint32_t, std::array<std::uint32_t, 3>&) const { return -1; }
   /// The live mesh has moved its triangles (LiveMesh::compact): their points move with them.
   void compact(std::span<const std::uint32_t> newSlot, std::size_t liveSlots);
 

@@ -33,12 +33,14 @@ class RasterError {
    public:
     Hole(const RasterError& errors, const Star& star, std::uint32_t apex)
         : errors_(errors), apex_(errors.corner(apex)), size_(star.linkSize) {
+      const std::int64_t p = errors.plan_.p(), q = errors.plan_.q();
       std::uint32_t spread = 0;
       for (int i = 0; i < size_; ++i) {
         corners_[i] = errors.corner(star.link[i]);
-        x_[i] = corners_[i].x - apex_.x;
-        y_[i] = corners_[i].y - apex_.y;
-        spread |= static_cast<std::uint32_t>(std::abs(x_[i])) | static_cast<std::uint32_t>(std::abs(y_[i]));
+        const std::int32_t x = corners_[i].x - apex_.x, y = corners_[i].y - apex_.y;
+        x_[i] = x * p;
+        y_[i] = y * q;
+        spread |= static_cast<std::uint32_t>(std::abs(x)) | static_cast<std::uint32_t>(std::abs(y));
       }
       isSmall_ = spread < errors.smallSpread_;
     }
@@ -49,9 +51,7 @@ class RasterError {
     }
 
     /// Of whether corners i, j and the apex turn left (> 0), right, or not at all; exact.
-    std::int64_t orientationToApex(int i, int j) const {
-      return std::int64_t(x_[i]) * y_[j] - std::int64_t(y_[i]) * x_[j];
-    }
+    std::int64_t orientationToApex(int i, int j) const { return x_[i] * y_[j] - y_[i] * x_[j]; }
 
     /// The corner between i and j with the largest angle over the edge j -> i, among those that turn left, or
     /// -1. Of two with the same angle `prefersLater(first, later)` decides. Exact.
@@ -81,11 +81,9 @@ class RasterError {
    private:
     __extension__ using Wide = __int128;
 
-    /// The larger angle has the smaller cotangent, dot / cross, and all crosses are positive. (A cross lacks
-    /// the factor p q that all have in common.)
+    /// The larger angle has the smaller cotangent, dot / cross, and all crosses are positive.
     template <class T, class PrefersLater>
     int thirdIn(int i, int j, const PrefersLater& prefersLater) const {
-      const T p = errors_.plan_.p(), q = errors_.plan_.q(), pp = p * p, qq = q * q;
       const T ax = x_[i], ay = y_[i], bx = x_[j], by = y_[j];
       int best = -1;
       T bestDot = 1, bestCross = 0;
@@ -93,7 +91,7 @@ class RasterError {
         const T ux = ax - x_[m], uy = ay - y_[m], vx = bx - x_[m], vy = by - y_[m];
         const T cross = vx * uy - vy * ux;
         if (cross <= 0) continue;
-        const T dot = ux * vx * pp + uy * vy * qq;
+        const T dot = ux * vx + uy * vy;
         const T mine = dot * bestCross, theirs = bestDot * cross;
         if (mine < theirs || (mine == theirs && prefersLater(best, m))) {
           best = m;
@@ -108,7 +106,7 @@ class RasterError {
     Corner apex_;
     int size_;
     bool isSmall_;
-    std::array<std::int32_t, kMaxHoleCorners> x_, y_;  // from the apex
+    std::array<std::int64_t, kMaxHoleCorners> x_, y_;  // from the apex, on the plan: times p and q
     std::array<Corner, kMaxHoleCorners> corners_;
   };
 
@@ -118,12 +116,10 @@ class RasterError {
         heights_(heights),
         rows_(static_cast<std::uint32_t>(heights.size() / plan.columns())),
         reachesBeyondRims_(reachesBeyondRims) {
-    // Differences below 2 s make a dot below 8 s^2 f, f the larger square of p and q, and a cross below 8
-    // s^2: the product of the two must stay below 2^63.
-    const std::uint64_t f = std::uint64_t(std::max(plan.p(), plan.q())) * std::max(plan.p(), plan.q());
-    while (std::uint64_t(64) * f * smallSpread_ * smallSpread_ <
-           (std::uint64_t(1) << 62) / smallSpread_ / smallSpread_ / 4)
-      smallSpread_ *= 2;
+    // Differences below 2 s f, f the larger of p and q, make a dot and a cross below 8 (s f)^2: the product
+    // of the two must stay below 2^63.
+    const double f = std::max(plan.p(), plan.q());
+    while (64 * std::pow(2.0 * smallSpread_ * f, 4) < 0x1p62) smallSpread_ *= 2;
   }
 
   double height(std::uint32_t sample) const { return heights_[sample]; }
@@ -134,6 +130,41 @@ class RasterError {
     if (sample >= columns) __builtin_prefetch(heights_.data() + sample - columns);
     if (sample + columns < heights_.size()) __builtin_prefetch(heights_.data() + sample + columns);
   }
+  /// Asks for the heights under a star whose vertex is soon to be removed.
+  [[gnu::always_inline]] void prefetch(const Star& star) const {
+    constexpr std::uint32_t kMostRows = 8;
+    if (star.linkSize == 0) return;
+    LatticePlan::Cell least = plan_.cell(star.link[0]), most = least;
+    for (int i = 1; i < star.linkSize; ++i) {
+      const LatticePlan::Cell cell = plan_.cell(star.link[i]);
+      least = {std::min(least.column, cell.column), std::min(least.row, cell.row)};
+      most = {std::max(most.column, cell.column), std::max(most.row, cell.row)};
+    }
+    const double* row =
+        heights_.data() + std::size_t(least.row) * plan_.columns() + (least.column + most.column) / 2;
+    for (std::uint32_t i = 0; i <= std::min(most.row - least.row, kMostRows); ++i, row += plan_.columns())
+      __builtin_prefetch(row);
+  }
+
+  /// What it costs to remove a sample from the finest triangulation, where its six neighbours there are
+  /// valid; -1 elsewhere. Two of the hole's triangles are the outer halves of cells; the other two share one
+  /// diagonal of the rhombus of the four nearest neighbours, whose middle is the sample: the shorter one, or
+  /// of two alike the one that passes closer. `witness`: the corners of one of these.
+  double costInFinest(std::uint32_t sample, std::array<std::uint32_t, 3>& witness) const {
+    const std::uint32_t columns = plan_.columns();
+    const LatticePlan::Cell cell = plan_.cell(sample);
+    if (cell.column == 0 || cell.row == 0 || cell.column + 1 == columns || cell.row + 1 == rows_) return -1;
+    const double* z = &heights_[sample];
+    const std::ptrdiff_t down = columns;
+    const double along = std::abs(z[0] - (z[-1] + z[1]) / 2),
+                 across = std::abs(z[0] - (z[-down] + z[down]) / 2);
+    if (std::isnan(along + across + z[-down - 1] + z[down + 1])) return -1;
+    const bool isAlong = plan_.p() != plan_.q() ? plan_.p() < plan_.q() : along < across;
+    witness = isAlong ? std::array{sample - 1, sample + 1, sample + columns}
+                      : std::array{sample - columns, sample + columns, sample + 1};
+    return isAlong ? along : across;
+  }
+
   /// The live mesh has moved its triangles: nothing here hangs on them.
   void compact(std::span<const std::uint32_t>, std::size_t) {}
 

@@ -4,12 +4,13 @@
 // each; retriangulate its hole; record the modification } until nothing is removable. A level goes through
 // these steps:
 //
-//   collect   Look through the living for whom the level concerns: those of whom too little is known, and
-//             those under the threshold.
-//   evaluate  Triangulate the hole that such a vertex would leave and find the error; give up as soon as it
-//   is
-//             known to be well beyond the threshold and keep what was found as a lower bound. The triangle
-//             that costs most is remembered: while its corners stay, so does the bound (vertex_note.h).
+//   collect   Look through those that may go for whom the level concerns: those of whom too little is known,
+//             and those under the threshold (waiting_list.h).
+//   evaluate  Triangulate the hole that such a vertex would leave, first where the vertex itself stands, and
+//             find the error; give up as soon as it is known to be well beyond the threshold and keep what
+//             was found as a lower bound. The triangle that costs most is remembered: while its corners stay,
+//             so does the bound (vertex_note.h). In the finest triangulation of a raster a rule gives the
+//             error.
 //   choose    The vertices under the threshold, in order of their error, each unless a neighbour was chosen
 //             before it (independent_set.h).
 //   remove    Rewrite each chosen star, record the modification, tell the link.
@@ -47,6 +48,7 @@
 #include "terrain/signed_bound.h"
 #include "terrain/star_prefetch.h"
 #include "terrain/vertex_note.h"
+#include "terrain/waiting_list.h"
 
 namespace arete {
 
@@ -82,39 +84,40 @@ class Simplifier {
   /// Removes what can be removed. `isFixed`: per vertex, not 0 = stays.
   Result<SimplifiedRoot> run(const std::vector<std::uint8_t>& isFixed, const MetricFrame& metric) {
     const auto vertexCount = static_cast<std::uint32_t>(mesh_.vertexHalfedge.size());
-    for (std::uint32_t v = 0; v < vertexCount; ++v) {
-      if (mesh_.vertexHalfedge[v] == kNone) continue;
-      if (!isFixed[v]) live_.push_back(v);
-    }
+    std::vector<std::uint32_t> removable;
+    for (std::uint32_t v = 0; v < vertexCount; ++v)
+      if (mesh_.vertexHalfedge[v] != kNone && !isFixed[v]) removable.push_back(v);
     // From here on vertices are visited in the order of their triangles in memory, which is that of the
     // ground.
-    tbb::parallel_sort(live_.begin(), live_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    tbb::parallel_sort(removable.begin(), removable.end(), [&](std::uint32_t a, std::uint32_t b) {
       return mesh_.vertexHalfedge[a] < mesh_.vertexHalfedge[b];
     });
     notes_.assign(vertexCount, {});
-    movedHalfedge_.resize(mesh_.triangles.size());
     liveTriangles_ = mesh_.triangles.size();
     metric_ = metric;
+
+    const auto removableAtStart = static_cast<double>(std::max<std::size_t>(removable.size(), 1));
+    waiting_.assign(std::move(removable), vertexCount);
+    evaluateFinest();
 
     // Below a ten-millionth of the relief all errors are alike: noise of the arithmetic must not make levels.
     double threshold = heightRange_ * 1e-7;
     std::uint32_t level = 0;
-    const auto removableAtStart = static_cast<double>(std::max<std::size_t>(live_.size(), 1));
-    while (!live_.empty()) {
+    while (!waiting_.empty()) {
       if (context_.cancelled()) return failure(ErrorCode::interrupted, "the build was interrupted");
       ++level;
       collectDue(threshold);
       evaluate(threshold, level);
       choose(level);
       if (chosen_.empty()) {
-        const double pending = leastPending();
+        const double pending = waiting_.least();
         if (!(pending < std::numeric_limits<double>::infinity())) break;
         threshold = std::max(threshold * options_.thresholdRatio, pending);
         continue;
       }
       removeChosen();
       // Most levels are late and short: progress by what is left, on the scale of vertices.
-      context_.report("simplify", 1.0 - double(live_.size()) / removableAtStart);
+      context_.report("simplify", 1.0 - double(waiting_.size()) / removableAtStart);
       threshold *= options_.thresholdRatio;
     }
 
@@ -162,36 +165,33 @@ class Simplifier {
     return star.isOpen && plan_.orientation(star.link[star.linkSize - 1], v, star.link[0]) != 0;
   }
 
-  /// Takes what has gone off the list of the living and finds whom the level concerns: vertices of whom too
-  /// little is known, and those under the threshold. In the order of memory.
+  /// Finds whom the level concerns: vertices of whom too little is known, and those under the threshold. In
+  /// the order of memory.
   void collectDue(double threshold) {
     const StageClock::Scope stage(context_.clock, "simplify: collect");
-    const std::size_t chunks = (live_.size() + kChunk - 1) / kChunk;
-    if (chunks_.size() < chunks) chunks_.resize(chunks);
-    tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t c) {
-      Chunk& chunk = chunks_[c];
-      chunk.due.clear();
-      chunk.begin = chunk.end = c * kChunk;
-      for (std::size_t i = chunk.begin; i < std::min(chunk.begin + kChunk, live_.size()); ++i) {
-        const std::uint32_t v = live_[i];
+    waiting_.collect(threshold, due_);
+  }
+
+  /// What removing a vertex costs where its star is as the finest triangulation made it, found without a look
+  /// at the mesh where the errors know a rule.
+  void evaluateFinest() {
+    if (options_.shape != HoleShape::delaunay) return;
+    const StageClock::Scope stage(context_.clock, "simplify: evaluate");
+    waiting_.collect(WaitingList::kNow, due_);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, due_.size(), 4096), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+        const std::uint32_t v = due_[i];
         VertexNote& note = notes_[v];
-        if (note.state == State::gone) continue;
-        live_[chunk.end++] = v;
-        note.settle();
-        if (note.state == State::stale || (note.state != State::stuck && note.cost <= threshold))
-          chunk.due.push_back(v);
+        std::array<std::uint32_t, 3> witness;
+        const double cost = errors_.costInFinest(v, witness);
+        if (cost < 0) continue;
+        note.cost = static_cast<float>(cost);
+        note.setWitness(witness[0], witness[1], witness[2]);
+        note.linkSize = 6;
+        note.state = State::exact;
+        waiting_.set(v, note.cost);
       }
     });
-    due_.clear();
-    std::size_t kept = 0;
-    for (std::size_t c = 0; c < chunks; ++c) {
-      const Chunk& chunk = chunks_[c];
-      due_.insert(due_.end(), chunk.due.begin(), chunk.due.end());
-      if (kept != chunk.begin)
-        std::copy(live_.begin() + chunk.begin, live_.begin() + chunk.end, live_.begin() + kept);
-      kept += chunk.end - chunk.begin;
-    }
-    live_.resize(kept);
   }
 
   /// Leaves in `due_` the candidates: vertices whose removal costs no more than the threshold.
@@ -203,10 +203,18 @@ class Simplifier {
       Star star;
       for (std::size_t i = range.begin(); i != range.end(); ++i) {
         prefetchStars<StarReach::neighbours>(mesh_, i, due_.size(), [&](std::size_t k) { return due_[k]; });
-        if (i + kHeightsAhead < due_.size()) errors_.prefetch(due_[i + kHeightsAhead]);
+        if (i + kHeightsAhead < due_.size()) {
+          errors_.prefetch(due_[i + kHeightsAhead]);
+          __builtin_prefetch(&notes_[due_[i + kHeightsAhead]], 1);
+          waiting_.prefetch(due_[i + kHeightsAhead]);
+        }
         const std::uint32_t v = due_[i];
         VertexNote& note = notes_[v];
-        if (note.state != State::exact) evaluate(v, note, star, limit);
+        note.settle();
+        if (note.state != State::exact) {
+          evaluate(v, note, star, limit);
+          waiting_.set(v, note.state == State::stuck ? WaitingList::kNever : note.cost);
+        }
         if (note.state == State::exact && note.cost <= threshold) set_.enter(v, level);
       }
     });
@@ -223,6 +231,25 @@ class Simplifier {
     }
     note.linkSize = static_cast<std::uint8_t>(star.linkSize);
     const typename Errors::Hole hole(errors_, star, v);
+    double worst = -1;
+    /// Whether the triangle leaves the cost within the limit.
+    const auto look = [&](int i, int j, int m, bool isOverApex) {
+      double error = isOverApex ? hole.apexError(i, j, m) : 0;
+      if (error <= limit) error = hole.maximum(i, j, m, limit);
+      if (error > worst) {
+        worst = error;
+        note.setWitness(star.link[i], star.link[j], star.link[m]);
+      }
+      return worst <= limit;
+    };
+    const auto conclude = [&] {
+      note.cost = static_cast<float>(worst);
+      note.state = worst > limit ? State::atLeast : State::exact;
+    };
+    if (options_.shape == HoleShape::delaunay && isDomainConvex_) {
+      if (wrapHoleFromApex(star.linkSize, hole, look)) return conclude();
+      worst = -1;
+    }
     // No error exceeds the range of the heights: a hole that the aspect bound alone leaves open takes any
     // shape then.
     double leastError = 0;
@@ -233,24 +260,9 @@ class Simplifier {
           static_cast<float>(std::clamp(leastError, limit * (1 + 1e-6), std::max(heightRange_, limit * 2)));
       return;
     }
-    double worst = -1;
-    for (const auto& t : floor.view()) {
-      const double error = hole.maximum(t[0], t[1], t[2], limit);
-      if (error <= worst) continue;
-      worst = error;
-      note.setWitness(star.link[t[0]], star.link[t[1]], star.link[t[2]]);
-      if (worst > limit) break;
-    }
-    note.cost = static_cast<float>(worst);
-    note.state = worst > limit ? State::atLeast : State::exact;
-  }
-
-  double leastPending() const {
-    float least = std::numeric_limits<float>::infinity();
-    for (const std::uint32_t v : live_)
-      if (notes_[v].state == State::exact || notes_[v].state == State::atLeast)
-        least = std::min(least, notes_[v].cost);
-    return least;
+    for (const auto& t : floor.view())
+      if (!look(t[0], t[1], t[2], false)) break;
+    conclude();
   }
 
   void choose(std::uint32_t level) {
@@ -270,7 +282,13 @@ class Simplifier {
 
   void removeChosen() {
     const std::uint32_t first = recorder_.beginBatch(linkSizes_);
-    seams_.resize(chosen_.size());
+    const std::uint32_t firstSlot = recorder_.firstSlot(first);
+    const auto seamsOf = [&](std::uint32_t removal) {
+      const std::uint32_t from = recorder_.firstSlot(removal);
+      return std::span(seams_).subspan(from - firstSlot, recorder_.firstSlot(removal + 1) - from);
+    };
+    seams_.resize(recorder_.firstSlot(recorder_.removalCount()) - firstSlot);
+    isOpen_.resize(chosen_.size());
     {
       const StageClock::Scope stage(context_.clock, "simplify: remove");
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chosen_.size(), 64), [&](const auto& range) {
@@ -283,6 +301,12 @@ class Simplifier {
           star.gather(mesh_, chosen_[i], kMaxHoleCorners);
           for (int k = 0; k < star.triangleCount; ++k)
             recorder_.prefetch(mesh_.triangles[star.triangle(k)].bearer);
+          for (int k = 0; k < star.linkSize; ++k) {
+            __builtin_prefetch(&notes_[star.link[k]], 1);
+            waiting_.prefetch(star.link[k]);
+            __builtin_prefetch(&mesh_.vertexHalfedge[star.link[k]], 1);
+          }
+          errors_.prefetch(star);
         };
         for (std::size_t i = range.begin(); i < range.begin() + kStarsAhead - 1; ++i) gather(i);
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
@@ -290,34 +314,34 @@ class Simplifier {
           prefetchStars<StarReach::own>(mesh_, i, range.end(), [&](std::size_t k) { return chosen_[k]; });
           if (i + kHeightsAhead < range.end()) errors_.prefetch(chosen_[i + kHeightsAhead]);
           gather(i + kStarsAhead - 1);
-          remove(chosen_[i], ahead[i % kStarsAhead], first + static_cast<std::uint32_t>(i), seams_[i]);
+          const Star& star = ahead[i % kStarsAhead];
+          const std::uint32_t removal = first + static_cast<std::uint32_t>(i);
+          isOpen_[i] = star.isOpen;
+          remove(chosen_[i], star, removal, seamsOf(removal));
         }
       });
     }
     const StageClock::Scope stage(context_.clock, "simplify: sew");
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chosen_.size(), 256), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i != range.end(); ++i) sew(mesh_, seams_[i], movedHalfedge_, first);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seams_.size(), 2048), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+        if (i + kSeamsAhead < range.end() && seams_[i + kSeamsAhead].beyond != kNone)
+          __builtin_prefetch(&mesh_.triangles[LiveMesh::triangleOf(seams_[i + kSeamsAhead].beyond)], 1);
+        sew(mesh_, seams_[i], first, seamsOf);
+      }
     });
     if (rim_ != nullptr)
-      for (const PendingSeams& seams : seams_)
-        if (seams.isOpen) Rim::closeVoid(mesh_, seams.movedTo[seams.size - 1]);
-    liveTriangles_ -= liveTrianglesRemoved();
+      for (std::size_t i = 0; i < chosen_.size(); ++i)
+        if (isOpen_[i]) Rim::closeVoid(mesh_, seamsOf(first + static_cast<std::uint32_t>(i)).back().movedTo);
+    waiting_.remove(chosen_);
+    // A removal leaves two slots dead, one on a border.
+    for (const std::uint8_t isOpen : isOpen_) liveTriangles_ -= isOpen ? 1 : 2;
     if (liveTriangles_ < mesh_.triangles.size() / 2) {
       const std::vector<std::uint32_t> newSlot = mesh_.compact();
       errors_.compact(newSlot, mesh_.triangles.size());
-      movedHalfedge_.resize(mesh_.triangles.size());
-      movedHalfedge_.shrink_to_fit();
     }
   }
 
-  /// A removal leaves two slots dead, one on a border.
-  std::size_t liveTrianglesRemoved() const {
-    std::size_t count = 0;
-    for (const PendingSeams& seams : seams_) count += seams.isOpen ? 1 : 2;
-    return count;
-  }
-
-  void remove(std::uint32_t v, const Star& star, std::uint32_t removal, PendingSeams& seams) {
+  void remove(std::uint32_t v, const Star& star, std::uint32_t removal, std::span<Seam> seams) {
     typename Errors::Hole hole(errors_, star, v);
     double leastError = 0;
     const HoleTriangulation floor =
@@ -343,13 +367,11 @@ class Simplifier {
         if (!onRim) bounds[owner[b][a]].include(bound);
       }
 
-    std::array<std::uint16_t, kMaxHoleCorners> errorCode, belowCode, aboveCode;
+    std::array<FloorCodes, kMaxHoleCorners> codes;
     const OutwardScale& scale = recorder_.scale();
-    for (int f = 0; f < floor.size; ++f) {
-      errorCode[f] = scale.encode(withoutRounding(errors[f]));
-      belowCode[f] = scale.encode(outward(bounds[f].below));
-      aboveCode[f] = scale.encode(outward(bounds[f].above));
-    }
+    for (int f = 0; f < floor.size; ++f)
+      codes[f] = {scale.encode(withoutRounding(errors[f])), scale.encode(outward(bounds[f].below)),
+                  scale.encode(outward(bounds[f].above))};
     std::array<std::uint32_t, kMaxHoleCorners> ceiling, bearer;
     std::array<Vec3, kMaxHoleCorners + 1> positions;
     for (int i = 0; i < star.triangleCount; ++i) {
@@ -371,22 +393,21 @@ class Simplifier {
     what.metricPositions = {positions.data(), size(corners + 1)};
     what.ceiling = {ceiling.data(), size(star.triangleCount)};
     what.ceilingBearer = {bearer.data(), size(star.triangleCount)};
-    what.floorError = {errorCode.data(), size(floor.size)};
-    what.floorBelow = {belowCode.data(), size(floor.size)};
-    what.floorAbove = {aboveCode.data(), size(floor.size)};
+    what.floor = {codes.data(), size(floor.size)};
     recorder_.record(removal, what);
 
-    refill(mesh_, star, floor, recorder_.firstBirth(removal), removal, movedHalfedge_, seams);
+    refill(mesh_, star, floor, recorder_.firstBirth(removal), removal, seams);
     hole.settle(floor);
 
     // Two stars can share a link vertex: both write the same value.
     for (int i = 0; i < corners; ++i) {
       VertexNote& note = notes_[star.link[i]];
       std::atomic_ref(note.isTouched).store(1, std::memory_order_relaxed);
-      if (options_.shape != HoleShape::delaunay || star.isOpen || note.isWitnessedBy(v))
-        std::atomic_ref(note.isWitnessGone).store(1, std::memory_order_relaxed);
+      const bool isWitnessGone =
+          options_.shape != HoleShape::delaunay || star.isOpen || note.isWitnessedBy(v);
+      if (isWitnessGone) std::atomic_ref(note.isWitnessGone).store(1, std::memory_order_relaxed);
+      if (isWitnessGone || note.state == State::stuck) waiting_.wake(star.link[i]);
     }
-    notes_[v].state = State::gone;
     mesh_.vertexHalfedge[v] = kNone;
   }
 
@@ -408,14 +429,7 @@ class Simplifier {
  private:
   static constexpr double kLookAhead = 1.5;
 
-  static constexpr std::size_t kChunk = 1 << 15;
-  static constexpr std::size_t kStarsAhead = 4, kHeightsAhead = 12;
-
-  /// A piece of the living, looked through by one thread.
-  struct Chunk {
-    std::size_t begin = 0, end = 0;  ///< of `live_`: what stays
-    std::vector<std::uint32_t> due;
-  };
+  static constexpr std::size_t kStarsAhead = 4, kHeightsAhead = 12, kSeamsAhead = 16;
 
   LiveMesh& mesh_;
   const Plan& plan_;
@@ -429,16 +443,15 @@ class Simplifier {
   double heightRange_ = 0;
   bool isDomainConvex_ = false;
 
-  std::vector<std::uint32_t> live_;
+  WaitingList waiting_;
   std::vector<VertexNote> notes_;  // per vertex
   IndependentSet set_;
-  std::vector<Chunk> chunks_;
   std::vector<std::uint32_t> due_;  // of a level: vertices to look at, then the candidates
-  std::vector<LiveMesh::Corners> movedHalfedge_;
   std::size_t liveTriangles_ = 0;
   std::vector<std::uint32_t> chosen_;
   std::vector<std::uint8_t> linkSizes_;
-  std::vector<PendingSeams> seams_;
+  std::vector<std::uint8_t> isOpen_;  // per chosen: whether its star is
+  std::vector<Seam> seams_;           // per slot of the batch
 };
 
 }  // namespace arete

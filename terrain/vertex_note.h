@@ -13,7 +13,6 @@ struct VertexNote {
     atLeast,  ///< removing it costs at least `cost`
     exact,    ///< removing it costs `cost`
     stuck,    ///< it cannot go, whatever it costs
-    gone,
   };
 
   float cost = 0;

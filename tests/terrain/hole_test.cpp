@@ -96,6 +96,55 @@ TEST(HoleTriangulation, BothWaysTileTheHoleWithDelaunayTriangles) {
   }
 }
 
+TEST(HoleTriangulation, FromTheApexIsTheSameAndBeginsOverTheApex) {
+  std::mt19937_64 random(20261122);
+  for (int run = 0; run < 3000; ++run) {
+    const SomeHole some = someHole(random, 1 + run % 12);
+    const LatticePlan plan(kColumns, 1 + run % 3, 1 + run % 2);
+    const RasterError errors(plan, some.heights, false);
+    const RasterError::Hole hole(errors, some.star, some.apex);
+    std::set<std::array<std::uint8_t, 3>> expected, found;
+    const HoleTriangulation wrapped = wrapHole(some.star.linkSize, hole);
+    for (const auto& t : wrapped.view()) expected.insert(t);
+    const bool isWhole =
+        wrapHoleFromApex(some.star.linkSize, hole, [&](int i, int j, int m, bool isOverApex) {
+          EXPECT_EQ(isOverApex, found.empty()) << "run " << run;
+          for (const auto& [a, b] : {std::array{i, j}, std::array{j, m}, std::array{m, i}})
+            EXPECT_TRUE(!isOverApex || hole.polygon().orientationToApex(a, b) >= 0) << "run " << run;
+          found.insert(
+              {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j), static_cast<std::uint8_t>(m)});
+          return true;
+        });
+    EXPECT_TRUE(isWhole) << "run " << run;
+    EXPECT_EQ(found, expected) << "run " << run;
+  }
+}
+
+TEST(HoleTriangulation, OfAnUntouchedSampleCostsWhatTheRuleSays) {
+  std::mt19937_64 random(11);
+  for (int run = 0; run < 3000; ++run) {
+    constexpr std::uint32_t kWidth = 3;
+    std::vector<double> heights(9);
+    for (double& z : heights) z = static_cast<double>(random() % 64) / 4;
+    const LatticePlan plan(kWidth, 1 + run % 4, 1 + (run / 4) % 4);
+    const RasterError errors(plan, heights, false);
+    // The link of the middle sample, whose cells' diagonals run from the upper left to the lower right.
+    Star star;
+    star.linkSize = star.triangleCount = 6;
+    star.link = {1, 5, 8, 7, 3, 0};
+    const RasterError::Hole hole(errors, star, 4);
+    double worst = 0;
+    const HoleTriangulation filled = triangulateHoleDelaunay(6, hole, true);
+    for (const auto& t : filled.view()) worst = std::max(worst, hole.maximum(t[0], t[1], t[2], 1e9));
+    std::array<std::uint32_t, 3> witness;
+    EXPECT_NEAR(errors.costInFinest(4, witness), worst, 1e-12) << "run " << run;
+    for (const std::uint32_t border : {0u, 1u, 2u, 3u, 5u, 6u, 7u, 8u})
+      EXPECT_EQ(errors.costInFinest(border, witness), -1);
+    heights[star.link[random() % 6]] = std::nan("");
+    EXPECT_EQ(errors.costInFinest(4, witness), -1) << "beside NODATA";
+  }
+}
+
 TEST(HoleTriangulation, OfASquareTakesTheDiagonalCloserToTheApex) {
   std::vector<double> heights(9, 0);
   const LatticePlan plan(3, 1, 1);

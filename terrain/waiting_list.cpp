@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One in ten to twenty is due, nobody knows which: so the look writes every vertex down and moves on by the
+// outcome of the comparison, without a branch.
+#include "terrain/waiting_list.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace arete {
+namespace {
+
+constexpr std::size_t kChunk = 1 << 14;
+
+}  // namespace
+
+void WaitingList::assign(std::vector<std::uint32_t> vertices, std::uint32_t vertexCount) {
+  vertices_ = std::move(vertices);
+  living_ = vertices_.size();
+  dueAt_.assign(living_, kNow);
+  place_.resize(vertexCount);
+  for (std::uint32_t place = 0; place < living_; ++place) place_[vertices_[place]] = place;
+}
+
+void WaitingList::collect(double threshold, std::vector<std::uint32_t>& due) {
+  if (living_ < vertices_.size() / 2) forgetGone();
+  const std::size_t chunks = (vertices_.size() + kChunk - 1) / kChunk;
+  found_.resize(vertices_.size());
+  foundCount_.resize(chunks);
+  tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t c) {
+    const std::size_t begin = c * kChunk, count = std::min(kChunk, vertices_.size() - begin);
+    const float* dueAt = dueAt_.data() + begin;
+    const std::uint32_t* vertex = vertices_.data() + begin;
+    std::uint32_t* const found = found_.data() + begin;
+    std::uint32_t* to = found;
+    for (std::size_t i = 0; i < count; ++i) {
+      *to = vertex[i];
+      to += dueAt[i] <= threshold ? 1 : 0;
+    }
+    foundCount_[c] = static_cast<std::size_t>(to - found);
+  });
+  due.clear();
+  for (std::size_t c = 0; c < chunks; ++c) {
+    const auto found = std::span(found_).subspan(c * kChunk, foundCount_[c]);
+    due.insert(due.end(), found.begin(), found.end());
+  }
+}
+
+void WaitingList::remove(std::span<const std::uint32_t> gone) {
+  for (const std::uint32_t v : gone) {
+    dueAt_[place_[v]] = kNever;
+    vertices_[place_[v]] = kGone;
+  }
+  living_ -= gone.size();
+}
+
+float WaitingList::least() const {
+  return dueAt_.empty() ? kNever : *std::min_element(dueAt_.begin(), dueAt_.end());
+}
+
+void WaitingList::forgetGone() {
+  std::uint32_t kept = 0;
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    if (vertices_[i] == kGone) continue;
+    vertices_[kept] = vertices_[i];
+    dueAt_[kept] = dueAt_[i];
+    place_[vertices_[kept]] = kept;
+    ++kept;
+  }
+  vertices_.resize(kept);
+  dueAt_.resize(kept);
+}
+
+}  // namespace arete

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace arete {
+
+/// The vertices that may still go, each with the threshold from which on a level concerns it.
+///
+/// A level looks through all of them for the few that are due, so the thresholds lie side by side in the
+/// order of the look; a vertex finds its own by its place. One that has gone keeps its place, and is never
+/// due, until half of them have.
+class WaitingList {
+ public:
+  static constexpr float kNow = 0, kNever = std::numeric_limits<float>::infinity();
+
+  /// `vertices`: in the order in which they shall be visited; all due now. vertexCount: they are below it.
+  void assign(std::vector<std::uint32_t> vertices, std::uint32_t vertexCount);
+
+  /// How many have not gone.
+  std::size_t size() const { return living_; }
+  bool empty() const { return living_ == 0; }
+
+  /// `due` receives, in order, those whose threshold has come. Forgets those that went, now and then.
+  /// O(size), parallel.
+  void collect(double threshold, std::vector<std::uint32_t>& due);
+
+  /// When v is due: a threshold, kNow or kNever. Safe for different vertices at once.
+  void set(std::uint32_t v, float threshold) { dueAt_[place_[v]] = threshold; }
+  /// Makes v due now. Safe for the same vertex at once, not beside set() of the same.
+  void wake(std::uint32_t v) { std::atomic_ref(dueAt_[place_[v]]).store(kNow, std::memory_order_relaxed); }
+  /// These have gone. O(gone).
+  void remove(std::span<const std::uint32_t> gone);
+
+  /// The least threshold of all, kNever where none will come. O(size).
+  float least() const;
+
+  /// Asks for what set() and wake() read.
+  [[gnu::always_inline]] void prefetch(std::uint32_t v) const { __builtin_prefetch(&place_[v]); }
+
+ private:
+  void forgetGone();
+
+  static constexpr std::uint32_t kGone = 0xFFFFFFFF;
+  std::vector<std::uint32_t> vertices_;  // by place; kGone
+  std::vector<float> dueAt_;             // by place
+  std::vector<std::uint32_t> place_;     // by vertex
+  std::vector<std::uint32_t> found_;     // of a look, each chunk's from where the chunk begins
+  std::vector<std::size_t> foundCount_;  // per chunk
+  std::size_t living_ = 0;
+};
+
+}  // namespace arete
