@@ -1,20 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <sys/mman.h>
+
 #include <cstddef>
 #include <memory>
+#include <new>
+#include <type_traits>
 #include <vector>
 
 namespace arete {
 
 /// An array that grows without moving what it holds and without a doubled peak: blocks of 2^18 elements.
 /// Elements are uninitialised until written. Different elements may be written by different threads.
+///
+/// Blocks are pages of the system's, not of the heap, which would keep what clear() gives back: a build frees
+/// one such array to make room for the next.
 template <class T>
 class ChunkedArray {
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+
  public:
   std::size_t size() const { return size_; }
   void resize(std::size_t size) {
-    while (blocks_.size() * kBlock < size) blocks_.emplace_back(std::make_unique_for_overwrite<T[]>(kBlock));
+    while (blocks_.size() * kBlock < size) blocks_.push_back(takeBlock());
     size_ = size;
   }
   T& operator[](std::size_t i) { return blocks_[i >> kShift][i & (kBlock - 1)]; }
@@ -27,7 +36,20 @@ class ChunkedArray {
 
  private:
   static constexpr std::size_t kShift = 18, kBlock = std::size_t(1) << kShift;
-  std::vector<std::unique_ptr<T[]>> blocks_;
+
+  struct GiveBack {
+    void operator()(T* block) const { munmap(block, kBlock * sizeof(T)); }
+  };
+  using Block = std::unique_ptr<T[], GiveBack>;
+
+  static Block takeBlock() {
+    void* const pages =
+        mmap(nullptr, kBlock * sizeof(T), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (pages == MAP_FAILED) throw std::bad_alloc();
+    return Block(static_cast<T*>(pages));
+  }
+
+  std::vector<Block> blocks_;
   std::size_t size_ = 0;
 };
 

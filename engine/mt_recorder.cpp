@@ -9,9 +9,9 @@
 // so that parents come before children (a parent is removed later and is at least as saturated). The removals
 // of a batch are listed in the order of memory, which follows the ground; so do the nodes of one batch and
 // band. A counting sort over the bands does it in O(N). Vertices: the root's, then one per node. Triangles:
-// the root's, then the slots of the nodes in order. One pass copies the stars and notes where each birth
-// went; a second pass lets each node fill its floor and sign as the remover of its floor's triangles. Every
-// element is written once, by one node, so both passes are parallel.
+// the root's, then the slots of the nodes in order. Passes copy the spheres, the links and the ceilings, the
+// last noting where each birth went; then each node fills its floor and signs as the remover of its floor's
+// triangles. Every element is written once, by one node, so all passes are parallel.
 #include "engine/mt_recorder.h"
 
 #include <tbb/parallel_for.h>
@@ -44,7 +44,8 @@ std::span<const T> view(const std::unique_ptr<T[]>& array, std::size_t size) {
 }
 
 constexpr std::size_t kGrain = 1 << 13;
-constexpr std::uint32_t kFarAhead = 24, kMiddleAhead = 16, kNearAhead = 6;
+constexpr std::uint32_t kAhead = 16,
+                        kNearAhead = 6;  // nodes whose stars are asked for before they are needed
 
 template <class Body>
 void forRange(std::size_t size, const Body& body) {
@@ -159,7 +160,43 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
     owned->slotBegin[n + 1] = owned->slotBegin[n] + slotBegin_[r + 1] - slotBegin_[r];
   }
 
+  // What the recorder holds goes as soon as it has been copied: here both would be in memory at once.
   stage.emplace(clock, "finish: stars");
+  forRange(nodes, [&](std::uint32_t n) {
+    if (n + kAhead < nodes) {
+      __builtin_prefetch(&saturated_[removalOf[n + kAhead]]);
+      __builtin_prefetch(&sphere_[removalOf[n + kAhead]]);
+    }
+    owned->saturatedError[n] = saturated_[removalOf[n]];
+    owned->sphere[n] = sphere_[removalOf[n]];
+  });
+  saturated_.clear();
+  sphere_.clear();
+
+  const auto prefetchSlots = [&](std::uint32_t n, const ChunkedArray<std::uint32_t>& array)
+      __attribute__((always_inline)) {
+    if (n + 2 * kAhead < nodes) __builtin_prefetch(&slotBegin_[removalOf[n + 2 * kAhead]]);
+    if (n + kAhead < nodes) __builtin_prefetch(&array[slotBegin_[removalOf[n + kAhead]]]);
+  };
+  owned->rootTriangles.resize(roots);
+  for (std::uint32_t i = 0; i < roots; ++i) {
+    const auto& c = surviving[i].corners;
+    owned->rootTriangles[i] = {newVertex[c[0]], newVertex[c[1]], newVertex[c[2]]};
+  }
+  forRange(nodes, [&](std::uint32_t n) {
+    prefetchSlots(n, link_);
+    if (n + kNearAhead < nodes) {
+      const std::uint32_t r = removalOf[n + kNearAhead];
+      for (std::uint32_t i = slotBegin_[r]; i < slotBegin_[r + 1]; ++i)
+        __builtin_prefetch(&newVertex[link_[i]]);
+    }
+    const std::uint32_t from = slotBegin_[removalOf[n]], to = owned->slotBegin[n];
+    for (std::uint32_t i = 0; i < owned->slotBegin[n + 1] - to; ++i)
+      owned->link[to + i] = newVertex[link_[from + i]];
+  });
+  link_.clear();
+  std::vector<std::uint32_t>().swap(newVertex);
+
   auto idOfBirth = std::make_unique_for_overwrite<std::uint32_t[]>(births);
   const auto place = [&](std::uint32_t id, std::uint32_t birth) {
     idOfBirth[birth] = id;
@@ -169,43 +206,20 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
     owned->below[id] = codes.below;
     owned->above[id] = codes.above;
   };
-  owned->rootTriangles.resize(roots);
-  for (std::uint32_t i = 0; i < roots; ++i) {
-    const auto& c = surviving[i].corners;
-    owned->rootTriangles[i] = {newVertex[c[0]], newVertex[c[1]], newVertex[c[2]]};
-    place(i, surviving[i].birth);
-  }
-  const auto prefetchStar = [&](std::uint32_t n) __attribute__((always_inline)) {
-    if (n + kFarAhead < nodes) {
-      const std::uint32_t r = removalOf[n + kFarAhead];
-      __builtin_prefetch(&slotBegin_[r]);
-      __builtin_prefetch(&saturated_[r]);
-      __builtin_prefetch(&sphere_[r]);
-    }
-    if (n + kMiddleAhead < nodes) {
-      const std::uint32_t from = slotBegin_[removalOf[n + kMiddleAhead]];
-      __builtin_prefetch(&link_[from]);
-      __builtin_prefetch(&ceiling_[from]);
-    }
+  for (std::uint32_t i = 0; i < roots; ++i) place(i, surviving[i].birth);
+  forRange(nodes, [&](std::uint32_t n) {
+    prefetchSlots(n, ceiling_);
     if (n + kNearAhead < nodes) {
       const std::uint32_t r = removalOf[n + kNearAhead];
-      for (std::uint32_t slot = slotBegin_[r]; slot < slotBegin_[r + 1]; ++slot) {
-        __builtin_prefetch(&newVertex[link_[slot]]);
-        const std::uint32_t birth = ceiling_[slot];
+      for (std::uint32_t i = slotBegin_[r]; i < slotBegin_[r + 1]; ++i) {
+        const std::uint32_t birth = ceiling_[i];
         if (birth == kNone) continue;
         __builtin_prefetch(&idOfBirth[birth], 1);
         if (birth >= finestTriangles_) __builtin_prefetch(&floor_[birth - finestTriangles_]);
       }
     }
-  };
-  forRange(nodes, [&](std::uint32_t n) {
-    prefetchStar(n);
-    const std::uint32_t r = removalOf[n];
-    owned->saturatedError[n] = saturated_[r];
-    owned->sphere[n] = sphere_[r];
-    const std::uint32_t from = slotBegin_[r], to = owned->slotBegin[n];
-    for (std::uint32_t i = 0; i < slotBegin_[r + 1] - from; ++i) {
-      owned->link[to + i] = newVertex[link_[from + i]];
+    const std::uint32_t from = slotBegin_[removalOf[n]], to = owned->slotBegin[n];
+    for (std::uint32_t i = 0; i < owned->slotBegin[n + 1] - to; ++i) {
       const std::uint32_t birth = ceiling_[from + i], id = roots + to + i;
       if (birth != kNone) {
         place(id, birth);
@@ -215,12 +229,8 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
       }
     }
   });
-  saturated_.clear();
-  sphere_.clear();
-  link_.clear();
   ceiling_.clear();
   floor_.clear();
-  std::vector<std::uint32_t>().swap(newVertex);
 
   stage.emplace(clock, "finish: floors");
   owned->floor = std::make_unique_for_overwrite<std::uint32_t[]>(slots - 2 * std::size_t(nodes));
