@@ -46,6 +46,12 @@ PointError::Hole::Hole(PointError& errors, const Star& star, std::uint32_t apex)
       points_.push_back(p);
 }
 
+Vec3 PointError::Hole::fromApex(int i) const {
+  const std::uint32_t apex = points_.front(), corner = star_.link[i];
+  const PointPlan::Point o = errors_.plan_.point(apex), p = errors_.plan_.point(corner);
+  return {p.x() - o.x(), p.y() - o.y(), errors_.heights_[corner] - errors_.heights_[apex]};
+}
+
 double PointError::Hole::apexError(int i, int j, int m) const {
   return std::abs(errors_.difference(star_.link[i], star_.link[j], star_.link[m], points_.front()));
 }

@@ -50,6 +50,8 @@ class PointError {
     int third(int i, int j, const PrefersLater& prefersLater) const {
       return polygon_.third(i, j, prefersLater);
     }
+    /// Where corner i lies from the apex, in the metric of the plan, and by how much it is higher.
+    Vec3 fromApex(int i) const;
     /// |z - plane| at the apex, of a triangle over it.
     double apexError(int i, int j, int m) const;
     SignedBound alongEdge(int i, int j) const { return errors_.alongEdge(star_.link[i], star_.link[j]); }

@@ -60,6 +60,10 @@ class RasterError {
       return isSmall_ ? thirdIn<std::int64_t>(i, j, prefersLater) : thirdIn<Wide>(i, j, prefersLater);
     }
 
+    /// Where corner i lies from the apex, in the metric of the plan, and by how much it is higher.
+    Vec3 fromApex(int i) const {
+      return {double(x_[i]) * errors_.plan_.p(), double(y_[i]) * errors_.plan_.q(), corners_[i].z - apex_.z};
+    }
     /// |z - plane| at the apex, of a triangle over it.
     double apexError(int i, int j, int m) const {
       const Corner &a = corners_[i], &b = corners_[j], &c = corners_[m];

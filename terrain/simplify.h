@@ -41,6 +41,7 @@
 #include "terrain/build_checks.h"
 #include "terrain/build_options.h"
 #include "terrain/hole.h"
+#include "terrain/hole_code.h"
 #include "terrain/hole_fidelity.h"
 #include "terrain/independent_set.h"
 #include "terrain/live_mesh.h"
@@ -61,6 +62,7 @@ struct SimplifiedRoot {
 
 /// Plan: LatticePlan or PointPlan. Errors: RasterError or PointError, see there for the interface:
 ///   Hole hole(star, apex)                        what the hole's triangles are measured against
+///   hole.fromApex(i)                             where a corner lies from the apex
 ///   hole.maximum(i, j, m, limit)                 error of the triangle of three corners
 ///   hole.maximum(i, j, m, bound)                 the same, with the signed difference at the samples
 ///   hole.alongEdge(i, j)                         signed difference along an edge
@@ -138,16 +140,31 @@ class Simplifier {
  private:
   using State = VertexNote::State;
 
-  /// Empty when the fidelity shape finds nothing within the limit, unless any shape is welcome: then Delaunay
-  /// fills.
-  HoleTriangulation fill(const Star& star, const typename Errors::Hole& hole, double limit,
-                         bool isAnyShapeWelcome, double& leastError) const {
-    if (options_.shape == HoleShape::fidelity) {
-      const HoleTriangulation floor = triangulateHoleFidelity(hole.polygon(), star.linkSize, hole, limit,
-                                                              options_.minimumAspect, leastError);
-      if (floor.size > 0 || !isAnyShapeWelcome) return floor;
-    }
-    return triangulateHoleDelaunay(star.linkSize, hole, isDomainConvex_);
+  /// Of the fidelity shape. Empty when nothing keeps the limit, unless any shape is welcome: then Delaunay
+  /// fills. See FidelitySearch::run() for the threshold, the limit and `leastError`.
+  HoleTriangulation fillWithFidelity(const Star& star, const typename Errors::Hole& hole, double threshold,
+                                     double limit, double& leastError) const {
+    // No error exceeds the range of the heights: a hole that the aspect bound alone leaves open takes any
+    // shape then.
+    const bool isAnyShapeWelcome = limit >= heightRange_;
+    FidelitySearch search(star.linkSize, hole, options_.minimumAspect);
+    const HoleTriangulation floor = search.run(isAnyShapeWelcome ? limit : threshold, limit, leastError);
+    if (floor.size > 0 || !isAnyShapeWelcome) return floor;
+    const HoleTriangulation any = triangulateHoleDelaunay(star.linkSize, hole, isDomainConvex_);
+    leastError = 0;
+    for (const auto& t : any.view()) leastError = std::max(leastError, hole.maximum(t[0], t[1], t[2], limit));
+    return any;
+  }
+
+  /// The floor of a vertex whose cost is known exactly.
+  HoleTriangulation floorOf(std::uint32_t v, const Star& star, const typename Errors::Hole& hole) const {
+    if (options_.shape == HoleShape::delaunay)
+      return triangulateHoleDelaunay(star.linkSize, hole, isDomainConvex_);
+    if (star.linkSize <= HoleCode::kMostCorners) return HoleCode::decode(notes_[v].witness, star.linkSize);
+    double leastError = 0;
+    const double limit = std::nextafter(notes_[v].cost, std::numeric_limits<float>::infinity());
+    const HoleTriangulation floor = fillWithFidelity(star, hole, limit, limit, leastError);
+    return floor.size > 0 ? floor : triangulateHoleDelaunay(star.linkSize, hole, isDomainConvex_);
   }
 
   /// Whether v may go at all, as its star stands. On a border: only from a straight one, or as the rim
@@ -198,7 +215,7 @@ class Simplifier {
   void evaluate(double threshold, std::uint32_t level) {
     const StageClock::Scope stage(context_.clock, "simplify: evaluate");
     // Worth knowing exactly a little beyond the threshold: the next levels will ask.
-    const double limit = threshold * kLookAhead;
+    const double limit = threshold * lookAhead();
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, due_.size(), 128), [&](const auto& range) {
       Star star;
       for (std::size_t i = range.begin(); i != range.end(); ++i) {
@@ -212,7 +229,7 @@ class Simplifier {
         VertexNote& note = notes_[v];
         note.settle();
         if (note.state != State::exact) {
-          evaluate(v, note, star, limit);
+          evaluate(v, note, star, threshold, limit);
           waiting_.set(v, note.state == State::stuck ? WaitingList::kNever : note.cost);
         }
         if (note.state == State::exact && note.cost <= threshold) set_.enter(v, level);
@@ -223,7 +240,7 @@ class Simplifier {
     });
   }
 
-  void evaluate(std::uint32_t v, VertexNote& note, Star& star, double limit) const {
+  void evaluate(std::uint32_t v, VertexNote& note, Star& star, double threshold, double limit) const {
     if (!star.gather(mesh_, v, static_cast<int>(options_.maxDegree) + 1) ||
         star.triangleCount > static_cast<int>(options_.maxDegree) || !isRemovable(star, v)) {
       note.state = State::stuck;
@@ -231,6 +248,10 @@ class Simplifier {
     }
     note.linkSize = static_cast<std::uint8_t>(star.linkSize);
     const typename Errors::Hole hole(errors_, star, v);
+    if (options_.shape == HoleShape::fidelity) {
+      evaluateFidelity(note, star, hole, threshold, limit);
+      return;
+    }
     double worst = -1;
     /// Whether the triangle leaves the cost within the limit.
     const auto look = [&](int i, int j, int m, bool isOverApex) {
@@ -246,23 +267,34 @@ class Simplifier {
       note.cost = static_cast<float>(worst);
       note.state = worst > limit ? State::atLeast : State::exact;
     };
-    if (options_.shape == HoleShape::delaunay && isDomainConvex_) {
+    if (isDomainConvex_) {
       if (wrapHoleFromApex(star.linkSize, hole, look)) return conclude();
       worst = -1;
     }
-    // No error exceeds the range of the heights: a hole that the aspect bound alone leaves open takes any
-    // shape then.
-    double leastError = 0;
-    const HoleTriangulation floor = fill(star, hole, limit, limit >= heightRange_, leastError);
+    const HoleTriangulation floor = triangulateHoleDelaunay(star.linkSize, hole, isDomainConvex_);
     if (floor.size == 0) {
       note.state = limit >= heightRange_ ? State::stuck : State::atLeast;
-      note.cost =
-          static_cast<float>(std::clamp(leastError, limit * (1 + 1e-6), std::max(heightRange_, limit * 2)));
+      note.cost = static_cast<float>(limit * (1 + 1e-6));
       return;
     }
     for (const auto& t : floor.view())
       if (!look(t[0], t[1], t[2], false)) break;
     conclude();
+  }
+
+  void evaluateFidelity(VertexNote& note, const Star& star, const typename Errors::Hole& hole,
+                        double threshold, double limit) const {
+    double leastError = 0;
+    const HoleTriangulation floor = fillWithFidelity(star, hole, threshold, limit, leastError);
+    if (floor.size == 0) {
+      note.state = limit >= heightRange_ ? State::stuck : State::atLeast;
+      note.cost = static_cast<float>(
+          std::clamp(leastError, threshold * (1 + 1e-6), std::max(heightRange_, threshold * 2)));
+      return;
+    }
+    note.cost = static_cast<float>(leastError);
+    note.state = leastError > limit ? State::atLeast : State::exact;
+    if (star.linkSize <= HoleCode::kMostCorners) note.witness = HoleCode::encode(floor, star.linkSize);
   }
 
   void choose(std::uint32_t level) {
@@ -343,9 +375,7 @@ class Simplifier {
 
   void remove(std::uint32_t v, const Star& star, std::uint32_t removal, std::span<Seam> seams) {
     typename Errors::Hole hole(errors_, star, v);
-    double leastError = 0;
-    const HoleTriangulation floor =
-        fill(star, hole, std::nextafter(notes_[v].cost, INFINITY), true, leastError);
+    const HoleTriangulation floor = floorOf(v, star, hole);
     const int corners = star.linkSize;
 
     // Bounds: samples inside each triangle, and each edge once for the two triangles that share it.
@@ -427,7 +457,7 @@ class Simplifier {
   }
 
  private:
-  static constexpr double kLookAhead = 1.5;
+  double lookAhead() const { return options_.shape == HoleShape::fidelity ? 1.2 : 1.5; }
 
   static constexpr std::size_t kStarsAhead = 4, kHeightsAhead = 12, kSeamsAhead = 16;
 
