@@ -29,16 +29,13 @@ float larger(float a, float b) {
   return a > b ? a : b;
 }
 
-/// Bit i is flag i. Flags are 0 or 1.
-std::uint64_t toBits(const std::array<std::uint8_t, kMost>& flags) {
-  std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < kMost; i += 8) {
-    std::uint64_t eight = 0;
-    for (std::size_t k = 0; k < 8; ++k) eight |= std::uint64_t(flags[i + k]) << (8 * k);
-    bits |= (eight * 0x0102040810204080u >> 56) << i;  // the eight low bits, side by side
-  }
-  return bits;
-}
+/// Bits are gathered by words as wide as the floats are, so that flags need not be repacked.
+constexpr std::size_t kPerWord = 32;
+constexpr auto kBit = [] {
+  std::array<std::uint32_t, kPerWord> bit{};
+  for (std::size_t i = 0; i < kPerWord; ++i) bit[i] = std::uint32_t(1) << i;
+  return bit;
+}();
 
 }  // namespace
 
@@ -71,8 +68,9 @@ FrustumFilter::FrustumFilter(const View& view, double errorPerReach, double outs
               view.farDistance > kLeast;
 }
 
+/// As many as there is room for, those that were not asked about all of them 0.
 struct FrustumFilter::Lanes {
-  std::array<float, kMost> x{}, y{}, z{}, r{}, e{};
+  std::array<float, kMost> x, y, z, r, e;
   std::size_t count;
   std::uint64_t all;
 };
@@ -87,19 +85,25 @@ struct FrustumFilter::Ball {
   bool isInRange;
 };
 
-inline FrustumFilter::Lanes FrustumFilter::load(std::span<const Sphere> balls,
-                                                std::span<const float> errors) const {
-  Lanes lanes;
+[[gnu::always_inline]] inline void FrustumFilter::load(std::span<const Sphere> balls,
+                                                       std::span<const float> errors, Lanes& lanes) {
   lanes.count = balls.size();
   lanes.all = lanes.count < kMost ? (std::uint64_t(1) << lanes.count) - 1 : ~std::uint64_t(0);
-  for (std::size_t i = 0; i < lanes.count; ++i) {
-    lanes.x[i] = balls[i].x;
-    lanes.y[i] = balls[i].y;
-    lanes.z[i] = balls[i].z;
-    lanes.r[i] = balls[i].radius;
-    lanes.e[i] = errors[i];
+  std::array<Sphere, kMost> few;
+  const Sphere* ball = balls.data();
+  if (lanes.count < kMost) {
+    few.fill({});
+    std::copy(balls.begin(), balls.end(), few.begin());
+    ball = few.data();
+    lanes.e.fill(0);
   }
-  return lanes;
+  for (std::size_t i = 0; i < kMost; ++i) {
+    lanes.x[i] = ball[i].x;
+    lanes.y[i] = ball[i].y;
+    lanes.z[i] = ball[i].z;
+    lanes.r[i] = ball[i].radius;
+  }
+  std::copy(errors.begin(), errors.end(), lanes.e.begin());
 }
 
 [[gnu::always_inline]] inline FrustumFilter::Ball FrustumFilter::look(const Lanes& lanes,
@@ -142,26 +146,33 @@ inline FrustumFilter::Lanes FrustumFilter::load(std::span<const Sphere> balls,
 ARETE_VECTOR_CLONES
 FrustumFilter::Verdicts FrustumFilter::test(std::span<const Sphere> balls,
                                             std::span<const float> errors) const {
-  const Lanes lanes = load(balls, errors);
+  Lanes lanes;
+  load(balls, errors, lanes);
   if (!isUsable_) return {0, lanes.all};
-  std::array<std::uint8_t, kMost> exceeds{}, unsure{};
+  std::uint64_t exceeds = 0, unsure = 0;
   const std::size_t end = (lanes.count + kLanes - 1) / kLanes * kLanes;
-  for (std::size_t i = 0; i < end; ++i) {
-    const Ball b = look(lanes, i);
-    const float error = lanes.e[i];
-    const float low = larger(b.byAngleLow, b.byDepthLow) * errorPerReach_ * 0.9999f,
-                high = larger(b.byAngleHigh, b.byDepthHigh) * errorPerReach_ * 1.0001f;
-    const float slackX = b.slack * (1 + slopeX_), slackY = b.slack * (1 + slopeY_);
-    const bool isMaybeSeen =
-        (b.beyondX <= slackX) & (b.beyondY <= slackY) & (b.beyondNear <= b.slack) & (b.beyondFar <= b.slack);
-    const bool isSeen =
-        (b.beyondX < -slackX) & (b.beyondY < -slackY) & (b.beyondNear < -b.slack) & (b.beyondFar < -b.slack);
-    const bool isIn = (error > outsideError_) | (isSeen & (error > high) & b.isInRange);
-    exceeds[i] = isIn;
-    unsure[i] = (b.isInRange == false) | (isMaybeSeen & (error > low));
+  for (std::size_t first = 0; first < end; first += kPerWord) {
+    std::uint32_t exceedsHere = 0, unsureHere = 0;
+    for (std::size_t k = 0; k < std::min(kPerWord, end - first); ++k) {
+      const Ball b = look(lanes, first + k);
+      const float error = lanes.e[first + k];
+      const float low = larger(b.byAngleLow, b.byDepthLow) * errorPerReach_ * 0.9999f,
+                  high = larger(b.byAngleHigh, b.byDepthHigh) * errorPerReach_ * 1.0001f;
+      const float slackX = b.slack * (1 + slopeX_), slackY = b.slack * (1 + slopeY_);
+      const bool isMaybeSeen = (b.beyondX <= slackX) & (b.beyondY <= slackY) & (b.beyondNear <= b.slack) &
+                               (b.beyondFar <= b.slack);
+      const bool isSeen = (b.beyondX < -slackX) & (b.beyondY < -slackY) & (b.beyondNear < -b.slack) &
+                          (b.beyondFar < -b.slack);
+      const bool isIn = (error > outsideError_) | (isSeen & (error > high) & b.isInRange);
+      const bool isUnsure = (b.isInRange == false) | (isMaybeSeen & (error > low));
+      exceedsHere |= isIn ? kBit[k] : 0;
+      unsureHere |= isUnsure ? kBit[k] : 0;
+    }
+    exceeds |= std::uint64_t(exceedsHere) << first;
+    unsure |= std::uint64_t(unsureHere) << first;
   }
-  const std::uint64_t surely = toBits(exceeds) & lanes.all;
-  return {surely, toBits(unsure) & lanes.all & ~surely};
+  const std::uint64_t surely = exceeds & lanes.all;
+  return {surely, unsure & lanes.all & ~surely};
 }
 
 // A verdict stands on three quantities, each of which has so far to go before it turns: how far the ball is
@@ -175,7 +186,8 @@ FrustumFilter::Verdicts FrustumFilter::test(std::span<const Sphere> balls,
 ARETE_VECTOR_CLONES
 FrustumFilter::Verdicts FrustumFilter::testFor(std::span<const Sphere> balls, std::span<const float> errors,
                                                const Motion& rate, std::span<float> units) const {
-  const Lanes lanes = load(balls, errors);
+  Lanes lanes;
+  load(balls, errors, lanes);
   std::fill(units.begin(), units.end(), 0.0f);
   if (!isUsable_) return {0, lanes.all};
   constexpr float kForever = 1e30f, kMostReach = 1e30f;
@@ -187,48 +199,56 @@ FrustumFilter::Verdicts FrustumFilter::testFor(std::span<const Sphere> balls, st
     const float left = larger(way, 0);
     return 2 * left / (b + std::sqrt(b * b + 4 * a * left));
   };
-  std::array<std::uint8_t, kMost> exceeds{}, unsure{};
+  std::uint64_t exceeds = 0, unsure = 0;
   std::array<float, kMost> times;
   const std::size_t end = (lanes.count + kLanes - 1) / kLanes * kLanes;
-  for (std::size_t i = 0; i < end; ++i) {
-    const Ball b = look(lanes, i);
-    const float error = lanes.e[i], needed = error * reachPerError;
-    const float neededLow = (needed < kMostReach ? needed : kMostReach) * 0.9998f - rounding_,
-                neededHigh = needed * 1.0002f + rounding_;
-    const float nearest = larger(b.nearest, 0);
+  for (std::size_t first = 0; first < end; first += kPerWord) {
+    std::uint32_t exceedsHere = 0, unsureHere = 0;
+    for (std::size_t k = 0; k < std::min(kPerWord, end - first); ++k) {
+      const std::size_t i = first + k;
+      const Ball b = look(lanes, i);
+      const float error = lanes.e[i], needed = error * reachPerError;
+      const float neededLow = (needed < kMostReach ? needed : kMostReach) * 0.9998f - rounding_,
+                  neededHigh = needed * 1.0002f + rounding_;
+      const float nearest = larger(b.nearest, 0);
 
-    const float scaleOfDepth = scale * larger(needed, b.byDepthHigh),
-                scaleOfAngle = scale * larger(needed, b.byAngleHigh);
-    const float depthRate = leastCosine_ * (travel + b.fromAxis * turn) + scaleOfDepth,
-                depthBend = 0.5f * leastCosine_ * b.distance * turn * turn;
-    const float sine2 = 2 * b.reached * std::sqrt(larger(1 - b.reached * b.reached, 0)) + 0.02f;
-    const float angleRate = 1.16f * travel + nearest * sine2 * turn + scaleOfAngle,
-                angleBend = nearest * turn * turn;
-    const float sightRate = travel + b.distance * turn;
+      const float scaleOfDepth = scale * larger(needed, b.byDepthHigh),
+                  scaleOfAngle = scale * larger(needed, b.byAngleHigh);
+      const float depthRate = leastCosine_ * (travel + b.fromAxis * turn) + scaleOfDepth,
+                  depthBend = 0.5f * leastCosine_ * b.distance * turn * turn;
+      const float sine2 = 2 * b.reached * std::sqrt(larger(1 - b.reached * b.reached, 0)) + 0.02f;
+      const float angleRate = 1.16f * travel + nearest * sine2 * turn + scaleOfAngle,
+                  angleBend = nearest * turn * turn;
+      const float sightRate = travel + b.distance * turn;
 
-    const float slack = b.slack + rounding_;
-    const float slackX = slack * (1 + slopeX_), slackY = slack * (1 + slopeY_);
-    const float inside = -larger(larger((b.beyondX + slackX) * perLengthX, (b.beyondY + slackY) * perLengthY),
-                                 larger(b.beyondNear + slack, b.beyondFar + slack));
-    const float outside = larger(larger((b.beyondX - slackX) * perLengthX, (b.beyondY - slackY) * perLengthY),
-                                 larger(b.beyondNear - slack, b.beyondFar - slack));
+      const float slack = b.slack + rounding_;
+      const float slackX = slack * (1 + slopeX_), slackY = slack * (1 + slopeY_);
+      const float inside =
+          -larger(larger((b.beyondX + slackX) * perLengthX, (b.beyondY + slackY) * perLengthY),
+                  larger(b.beyondNear + slack, b.beyondFar + slack));
+      const float outside =
+          larger(larger((b.beyondX - slackX) * perLengthX, (b.beyondY - slackY) * perLengthY),
+                 larger(b.beyondNear - slack, b.beyondFar - slack));
 
-    const float tooFine =
-        std::min({timeFor(neededLow - b.byDepthHigh, depthRate, depthBend),
-                  timeFor(neededLow - b.byAngleHigh, angleRate, angleBend), timeFor(inside, sightRate, 0)});
-    const float fine =
-        std::max({timeFor(b.byDepthLow - neededHigh, depthRate, depthBend),
-                  timeFor(b.byAngleLow - neededHigh, angleRate, angleBend), timeFor(outside, sightRate, 0)});
-    const bool isAlways = error > outsideError_, isNever = (error <= 0) & !isAlways;
-    const bool isIn = isAlways | ((tooFine > 0) & b.isInRange);
-    const bool isOut = isNever | (!isAlways & (fine > 0) & b.isInRange);
-    exceeds[i] = isIn;
-    unsure[i] = !(isIn | isOut);
-    times[i] = isAlways | isNever ? kForever : (isIn ? tooFine : (isOut ? fine : 0)) * 0.998f;
+      const float tooFine =
+          std::min({timeFor(neededLow - b.byDepthHigh, depthRate, depthBend),
+                    timeFor(neededLow - b.byAngleHigh, angleRate, angleBend), timeFor(inside, sightRate, 0)});
+      const float fine = std::max({timeFor(b.byDepthLow - neededHigh, depthRate, depthBend),
+                                   timeFor(b.byAngleLow - neededHigh, angleRate, angleBend),
+                                   timeFor(outside, sightRate, 0)});
+      const bool isAlways = error > outsideError_, isNever = (error <= 0) & !isAlways;
+      const bool isIn = isAlways | ((tooFine > 0) & b.isInRange);
+      const bool isOut = isNever | (!isAlways & (fine > 0) & b.isInRange);
+      exceedsHere |= isIn ? kBit[k] : 0;
+      unsureHere |= (isIn | isOut) ? 0 : kBit[k];
+      times[i] = (isAlways | isNever) ? kForever : (isIn ? tooFine : (isOut ? fine : 0)) * 0.998f;
+    }
+    exceeds |= std::uint64_t(exceedsHere) << first;
+    unsure |= std::uint64_t(unsureHere) << first;
   }
   std::copy_n(times.begin(), lanes.count, units.begin());
-  const std::uint64_t surely = toBits(exceeds) & lanes.all;
-  return {surely, toBits(unsure) & lanes.all & ~surely};
+  const std::uint64_t surely = exceeds & lanes.all;
+  return {surely, unsure & lanes.all & ~surely};
 }
 
 }  // namespace arete

@@ -33,7 +33,7 @@ class FrustumFilter {
  private:
   struct Lanes;
   struct Ball;
-  Lanes load(std::span<const Sphere> balls, std::span<const float> errors) const;
+  static void load(std::span<const Sphere> balls, std::span<const float> errors, Lanes& lanes);
   Ball look(const Lanes& lanes, std::size_t i) const;
 
   struct Axis {
