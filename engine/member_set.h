@@ -5,17 +5,19 @@
 #include <bit>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "engine/cut.h"
 
 namespace arete {
 
-/// The nodes of a cut, a bit each, 64 to a word. Made in parallel, the same for any number of threads; it
-/// knows how many members come before each, so that a front can number its vertices.
+/// The nodes of a cut, a bit each, 64 to a word, 16 words to a page; a page without members takes an index
+/// and no words. Made in parallel, the same for any number of threads; it knows how many members come before
+/// each, so that a front can number its vertices.
 class MemberSet {
  public:
-  static constexpr std::uint32_t kNodesPerWord = 64;
+  static constexpr std::uint32_t kNodesPerWord = 64, kWordsPerPage = 16;
 
   /// Takes the members of a run of words.
   class Sink;
@@ -23,8 +25,9 @@ class MemberSet {
   using Fill = std::function<void(std::uint32_t, std::uint32_t, Sink&)>;
 
   /// Nodes before `certain` are members, nodes from `end` on are not; fill() says which of the rest are,
-  /// called for runs of at most so many words, by any thread. `certain` is rounded down to a whole word.
-  MemberSet(std::uint32_t certain, std::uint32_t end, std::uint32_t wordsPerRun, const Fill& fill);
+  /// called for runs of at most so many pages, by any thread. `certain` is rounded down to a whole page: a
+  /// fill() may have to say again what is certain.
+  MemberSet(std::uint32_t certain, std::uint32_t end, std::uint32_t pagesPerRun, const Fill& fill);
   /// The nodes that are in, of all of them.
   explicit MemberSet(const NodeSet& set);
   /// The nodes of a rising list, below `end`.
@@ -33,24 +36,34 @@ class MemberSet {
 
   std::uint32_t size() const { return size_; }
 
+ private:
+  /// Half of a word's nodes: what is asked of a node is in eight bytes.
+  struct Half {
+    std::uint32_t bits;
+    std::uint32_t before;  // members before those of the half
+  };
+  static constexpr std::uint32_t kNodesPerHalf = 32, kHalvesPerPage = 2 * kWordsPerPage;
+
+ public:
   /// What a front asks: whether n is a member, be it a node or none; how many come before it (precondition: n
-  /// is below `end`). Pointers by value, so that nothing a loop writes can change them.
+  /// is a member). Pointers by value, so that nothing a loop writes can change them.
   class Lookup {
    public:
     bool contains(std::uint32_t n) const {
-      return (bits_[std::min(n / kNodesPerWord, words_)] >> (n % kNodesPerWord) & 1) != 0;
+      const std::uint32_t begin = begins_[std::min(n / kNodesPerPage, pages_)];
+      return (halves_[begin + n / kNodesPerHalf % kHalvesPerPage].bits >> (n % kNodesPerHalf) & 1) != 0;
     }
     std::uint32_t rank(std::uint32_t n) const {
-      const std::uint32_t word = n / kNodesPerWord;
-      const std::uint64_t before = bits_[word] & ((std::uint64_t(1) << (n % kNodesPerWord)) - 1);
-      return before_[word] + static_cast<std::uint32_t>(std::popcount(before));
+      const Half half = halves_[begins_[n / kNodesPerPage] + n / kNodesPerHalf % kHalvesPerPage];
+      // What is left are the members up to n, itself among them.
+      return half.before + static_cast<std::uint32_t>(std::popcount(half.bits << (~n % kNodesPerHalf))) - 1;
     }
 
    private:
     friend class MemberSet;
-    const std::uint64_t* bits_;
-    const std::uint32_t* before_;
-    std::uint32_t words_;
+    const std::uint32_t* begins_;
+    const Half* halves_;
+    std::uint32_t pages_;
   };
   Lookup lookup() const;
 
@@ -61,16 +74,22 @@ class MemberSet {
   /// Writes the members of a piece, rising; returns how many. Precondition: room for kMostInPiece.
   std::uint32_t list(std::uint32_t piece, std::uint32_t* members) const;
   /// Members before those of the piece.
-  std::uint32_t before(std::uint32_t piece) const { return before_[used_[piece * kWordsPerPiece]]; }
+  std::uint32_t before(std::uint32_t piece) const { return halves(used_[piece * kWordsPerPiece])[0].before; }
 
   NodeSet toNodeSet(std::uint32_t nodeCount) const;
 
  private:
+  static constexpr std::uint32_t kNodesPerPage = kNodesPerWord * kWordsPerPage;
   static constexpr std::uint32_t kWordsPerPiece = kMostInPiece / kNodesPerWord;
 
+  /// The two of a word.
+  const Half* halves(std::uint32_t w) const {
+    return halves_.get() + begins_[w / kWordsPerPage] + w % kWordsPerPage * 2;
+  }
+
   std::uint32_t size_ = 0;
-  std::vector<std::uint64_t> bits_;    // and one word of none
-  std::vector<std::uint32_t> before_;  // of used words: members before them
+  std::vector<std::uint32_t> begins_;  // of pages, and of one beyond them: where their halves begin
+  std::unique_ptr<Half[]> halves_;     // the first page is that of none
   std::vector<std::uint32_t> used_;    // words with members
 };
 
@@ -79,15 +98,17 @@ class MemberSet::Sink {
   /// The members among nodes 64 word .. 64 word + 63; rising words, no word twice.
   void put(std::uint32_t word, std::uint64_t bits) {
     if (bits == 0) return;
-    bits_[word] = bits;
-    used_.push_back(word);
+    pages_ += words_.empty() || words_.back() / kWordsPerPage != word / kWordsPerPage ? 1 : 0;
+    members_ += static_cast<std::uint32_t>(std::popcount(bits));
+    words_.push_back(word);
+    bits_.push_back(bits);
   }
 
  private:
   friend class MemberSet;
-  Sink(std::uint64_t* bits, std::vector<std::uint32_t>& used) : bits_(bits), used_(used) {}
-  std::uint64_t* bits_;
-  std::vector<std::uint32_t>& used_;
+  std::uint32_t pages_ = 0, members_ = 0;
+  std::vector<std::uint32_t> words_;
+  std::vector<std::uint64_t> bits_;
 };
 
 }  // namespace arete

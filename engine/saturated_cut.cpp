@@ -21,13 +21,14 @@
 #include <utility>
 
 #include "engine/node_blocks.h"
+#include "engine/vector_clones.h"
 
 namespace arete {
 namespace {
 
 using Code = OutwardScale::Code;
 constexpr std::uint32_t kPerWord = MemberSet::kNodesPerWord;
-constexpr std::uint32_t kWordsPerRun = 64;
+constexpr std::uint32_t kPagesPerRun = 4;
 
 std::uint32_t added(const MultiTriangulation& mt, std::uint32_t n) {
   return mt.isOpen(NodeId(n)) ? 1 : 2;
@@ -36,7 +37,7 @@ std::uint32_t added(const MultiTriangulation& mt, std::uint32_t n) {
 /// The nodes before `end` for which isIn(n), of which those before `certain` are known to be.
 template <class IsIn>
 MemberSet membersFor(std::uint32_t certain, std::uint32_t end, const IsIn& isIn) {
-  return MemberSet(certain, end, kWordsPerRun,
+  return MemberSet(certain, end, kPagesPerRun,
                    [&](std::uint32_t first, std::uint32_t last, MemberSet::Sink& sink) {
                      for (std::uint32_t word = first; word < last; ++word) {
                        std::uint64_t bits = 0;
@@ -77,56 +78,86 @@ SaturatedMembers uniformCut(const MultiTriangulation& mt, double maxError,
   return {uniformMembers(mt, last, n), false};
 }
 
-/// By pages, by the blocks of those pages that may have members, by the nodes of those blocks.
+/// By pages, by the blocks of those pages that may have members, by the nodes of those blocks. What is looked
+/// into lies wherever it lies, so its memory is asked for some time before it is looked at.
 class PlaceSearch {
  public:
   PlaceSearch(const MultiTriangulation& mt, const Criterion& criterion)
       : a_(mt.arrays()),
         criterion_(criterion),
-        blocks_(static_cast<std::uint32_t>(nodeBlockCount(mt.nodeCount()))) {}
+        nodes_(mt.nodeCount()),
+        blocks_(static_cast<std::uint32_t>(nodeBlockCount(nodes_))) {}
 
   MemberSet members() const {
-    const auto nodes = static_cast<std::uint32_t>(a_.sphere.size());
-    return MemberSet(0, nodes, kBlocksPerPage * kPagesPerRun,
-                     [&](std::uint32_t first, std::uint32_t last, MemberSet::Sink& sink) {
-                       const std::uint32_t from = first / kBlocksPerPage,
-                                           to = (last + kBlocksPerPage - 1) / kBlocksPerPage;
-                       const std::uint64_t pages =
-                           exceeding(a_.blockSphere, a_.blockError, blocks_ + from, to - from);
-                       forEachBit(pages, [&](std::uint32_t page) { searchPage(from + page, sink); });
-                     });
+    return MemberSet(
+        0, nodes_, kPagesPerRun,
+        [&](std::uint32_t first, std::uint32_t last, MemberSet::Sink& sink) { search(first, last, sink); });
   }
 
  private:
   static constexpr std::uint32_t kPerBlock = MultiTriangulation::kNodesPerBlock,
                                  kBlocksPerPage = MultiTriangulation::kNodesPerPage / kPerBlock,
-                                 kPagesPerRun = 64;
-  static_assert(kPerBlock == kPerWord);
+                                 kPagesPerRun = 64, kBlocksAhead = 2;
+  static_assert(kPerBlock == kPerWord && kBlocksPerPage == MemberSet::kWordsPerPage);
 
-  template <class Visit>
-  static void forEachBit(std::uint64_t bits, const Visit& visit) {
-    for (; bits != 0; bits &= bits - 1) visit(static_cast<std::uint32_t>(std::countr_zero(bits)));
-  }
+  /// Of pages or blocks, at most as many as a run has.
+  struct List {
+    std::array<std::uint32_t, kPagesPerRun * kBlocksPerPage> at;
+    std::uint32_t count = 0;
+    void add(std::uint32_t first, std::uint64_t bits) {
+      for (; bits != 0; bits &= bits - 1)
+        at[count++] = first + static_cast<std::uint32_t>(std::countr_zero(bits));
+    }
+  };
 
   std::uint64_t exceeding(std::span<const Sphere> spheres, std::span<const Code> codes, std::uint32_t begin,
                           std::uint32_t count) const {
     std::array<float, 64> errors;
-    for (std::uint32_t i = 0; i < count; ++i) errors[i] = a_.scale.decode(codes[begin + i]);
+    decode(codes.data() + begin, count, errors.data());
     return criterion_.exceeding(spheres.subspan(begin, count), std::span(errors).first(count));
   }
 
-  void searchPage(std::uint32_t page, MemberSet::Sink& sink) const {
-    const std::uint32_t first = page * kBlocksPerPage, count = std::min(kBlocksPerPage, blocks_ - first);
-    forEachBit(exceeding(a_.blockSphere, a_.blockError, first, count), [&](std::uint32_t i) {
-      const std::uint32_t block = first + i, begin = block * kPerBlock;
-      const auto nodes = static_cast<std::uint32_t>(a_.sphere.size());
-      sink.put(block, exceeding(a_.sphere, a_.saturatedError, begin, std::min(kPerBlock, nodes - begin)));
-    });
+  ARETE_VECTOR_CLONES
+  void decode(const Code* codes, std::uint32_t count, float* errors) const {
+    const OutwardScale scale = a_.scale;
+    for (std::uint32_t i = 0; i < count; ++i) errors[i] = scale.decode(codes[i]);
+  }
+
+  void search(std::uint32_t firstBlock, std::uint32_t lastBlock, MemberSet::Sink& sink) const {
+    const std::uint32_t from = firstBlock / kBlocksPerPage,
+                        to = (lastBlock + kBlocksPerPage - 1) / kBlocksPerPage;
+    List pages, blocks;
+    pages.add(from, exceeding(a_.blockSphere, a_.blockError, blocks_ + from, to - from));
+    for (std::uint32_t i = 0; i < pages.count; ++i)
+      prefetch(a_.blockSphere, a_.blockError, pages.at[i] * kBlocksPerPage, kBlocksPerPage);
+    for (std::uint32_t i = 0; i < pages.count; ++i) {
+      const std::uint32_t first = pages.at[i] * kBlocksPerPage;
+      blocks.add(first,
+                 exceeding(a_.blockSphere, a_.blockError, first, std::min(kBlocksPerPage, blocks_ - first)));
+    }
+    for (std::uint32_t i = 0; i < blocks.count; ++i) {
+      if (i + kBlocksAhead < blocks.count)
+        prefetch(a_.sphere, a_.saturatedError, blocks.at[i + kBlocksAhead] * kPerBlock, kPerBlock);
+      const std::uint32_t begin = blocks.at[i] * kPerBlock;
+      sink.put(blocks.at[i],
+               exceeding(a_.sphere, a_.saturatedError, begin, std::min(kPerBlock, nodes_ - begin)));
+    }
+  }
+
+  // Inlined by force: GCC drops calls of functions that only prefetch.
+  [[gnu::always_inline]] static void prefetch(std::span<const Sphere> spheres, std::span<const Code> codes,
+                                              std::uint32_t begin, std::uint32_t count) {
+    constexpr std::uint32_t kLine = 64;
+    count = std::min(count, static_cast<std::uint32_t>(spheres.size()) - begin);
+    for (std::uint32_t i = 0; i < count; i += kLine / sizeof(Sphere))
+      __builtin_prefetch(spheres.data() + begin + i);
+    for (std::uint32_t i = 0; i < count; i += kLine / sizeof(Code))
+      __builtin_prefetch(codes.data() + begin + i);
   }
 
   const MtArrays& a_;
   const Criterion& criterion_;
-  const std::uint32_t blocks_;
+  const std::uint32_t nodes_, blocks_;
 };
 
 }  // namespace
