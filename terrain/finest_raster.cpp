@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Triangles are laid out tile by tile, so that those near each other on the ground are near each other in
-// memory.
+// Triangles are laid out tile by tile, the tiles along a Hilbert curve, so that those near each other in
+// memory are near each other on the ground at every scale: the nodes of a build inherit the order, and the
+// blocks of a cut are as tight as it makes them (docs/decisions/0008).
 //
 // The mesh needs no search for neighbours: what a cell holds follows from which of its corners are valid, and
 // across an edge lies the cell above, below, left or right. One pass counts the triangles of each tile, the
@@ -12,7 +13,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 namespace arete {
 namespace {
@@ -20,13 +23,43 @@ namespace {
 constexpr std::uint32_t kTile = 32;
 constexpr std::uint32_t kNone = LiveMesh::kNone;
 
+/// Counted in tiles.
+struct Tile {
+  std::uint32_t column, row;
+};
+
+/// A place of the curve of Hilbert (1891) through a square with so many tiles, a power of two, along a side.
+Tile onCurve(std::uint64_t place, std::uint32_t side) {
+  Tile tile{0, 0};
+  for (std::uint32_t half = 1; half < side; half *= 2, place /= 4) {
+    const std::uint32_t right = place >> 1 & 1, down = (place ^ right) & 1;
+    if (down == 0) {
+      if (right == 1) tile = {half - 1 - tile.column, half - 1 - tile.row};
+      std::swap(tile.column, tile.row);
+    }
+    tile.column += half * right;
+    tile.row += half * down;
+  }
+  return tile;
+}
+
 /// The cells of a raster by their upper left sample, and which of their corners are valid.
 class Cells {
  public:
-  explicit Cells(const RasterHeightfield& field)
-      : field_(field),
-        tileColumns_((field.columns - 1 + kTile - 1) / kTile),
-        tileRows_((field.rows - 1 + kTile - 1) / kTile) {}
+  /// Squares side by side, a curve through each.
+  explicit Cells(const RasterHeightfield& field) : field_(field) {
+    const std::uint32_t across = (field.columns - 1 + kTile - 1) / kTile,
+                        down = (field.rows - 1 + kTile - 1) / kTile,
+                        side = std::bit_ceil(std::min(across, down));
+    tiles_.reserve(std::size_t(across) * down);
+    for (std::uint32_t top = 0; top < down; top += side)
+      for (std::uint32_t left = 0; left < across; left += side)
+        for (std::uint64_t place = 0; place < std::uint64_t(side) * side; ++place) {
+          const Tile tile = onCurve(place, side);
+          if (left + tile.column < across && top + tile.row < down)
+            tiles_.push_back({left + tile.column, top + tile.row});
+        }
+  }
 
   enum Corner : unsigned { upperLeft = 1, upperRight = 2, lowerLeft = 4, lowerRight = 8, all = 15 };
 
@@ -41,13 +74,12 @@ class Cells {
     return valid == all ? 2 : valid == 7 || valid == 11 || valid == 13 || valid == 14 ? 1 : 0;
   }
 
-  std::size_t tileCount() const { return std::size_t(tileColumns_) * tileRows_; }
+  std::size_t tileCount() const { return tiles_.size(); }
 
   /// visit(column, row) for the cells of a tile, row by row.
   template <class Visit>
   void forTile(std::size_t tile, const Visit& visit) const {
-    const auto left = static_cast<std::uint32_t>(tile % tileColumns_) * kTile,
-               top = static_cast<std::uint32_t>(tile / tileColumns_) * kTile;
+    const std::uint32_t left = tiles_[tile].column * kTile, top = tiles_[tile].row * kTile;
     for (std::uint32_t row = top; row < std::min(top + kTile, field_.rows - 1); ++row)
       for (std::uint32_t column = left; column < std::min(left + kTile, field_.columns - 1); ++column)
         visit(column, row);
@@ -87,7 +119,7 @@ class Cells {
 
  private:
   const RasterHeightfield& field_;
-  std::uint32_t tileColumns_, tileRows_;
+  std::vector<Tile> tiles_;
 };
 
 bool hasCells(const RasterHeightfield& field) {

@@ -61,6 +61,35 @@ TEST(FinestRaster, IsTheSameAsAMeshThatLooksForItsNeighbours) {
     }
 }
 
+TEST(FinestRaster, FollowsTheGroundAtEveryScale) {
+  // Stretches of all lengths are about as wide as they are high; of rows of tiles they would be strips.
+  for (const auto& [columns, rows] : {std::pair{513u, 513u}, {700u, 300u}}) {
+    RasterHeightfield field;
+    field.columns = columns;
+    field.rows = rows;
+    field.heights.assign(std::size_t(columns) * rows, 0.0);
+    const auto triangles = finestTriangulation(field);
+    for (std::size_t length = 2 * 32 * 32; length <= triangles.size() / 4; length *= 4) {
+      std::size_t stretches = 0;
+      double squares = 0;  // around them
+      for (std::size_t begin = 0; begin + length <= triangles.size(); begin += length, ++stretches) {
+        std::uint32_t left = columns, right = 0, top = rows, bottom = 0;
+        for (std::size_t t = begin; t < begin + length; ++t)
+          for (const std::uint32_t v : triangles[t]) {
+            left = std::min(left, v % columns);
+            right = std::max(right, v % columns);
+            top = std::min(top, v / columns);
+            bottom = std::max(bottom, v / columns);
+          }
+        const double side = std::max(right - left, bottom - top);
+        squares += side * side;
+      }
+      EXPECT_LT(squares / double(stretches), 4 * double(length) / 2)
+          << columns << " x " << rows << ": " << length;
+    }
+  }
+}
+
 TEST(FinestRaster, IsDelaunayUpToCocircularTiesByCgalsPredicates) {
   // The layout is the finest front of a model; validateDelaunayFront asks CGAL about every triangle and edge.
   for (const RasterFamily& family : rasterFamilies()) {
