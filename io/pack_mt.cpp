@@ -55,6 +55,9 @@ class WriterIo {
     return actual;
   }
 
+  WriterIo& values() { return *this; }
+  void putBack(const WriterIo&) {}
+
   bool listed(const Run& run, std::vector<Handle>& seeds) {
     struct Entry {
       std::uint32_t from, node, slot;
@@ -80,6 +83,8 @@ class WriterIo {
     return seeds.size() == run.listed;
   }
 
+  /// A node that has its number.
+  void at(std::uint32_t number) { old_ = w_.oldNode[number]; }
   /// The node that removes the seed gets the number.
   void begin(std::uint32_t seed, std::uint32_t number) {
     number_ = number;
@@ -97,20 +102,30 @@ class WriterIo {
     }
   }
 
-  unsigned innerEdges(const Floor& floor, int firstEdge, int count) {
-    const auto& corners = floor.triangles[floor.size - 1].corners;
-    unsigned symbol = 0;
-    for (int i = 0; i < count; ++i) {
-      const int edge = (firstEdge + i) % 3;
-      const std::uint32_t from = corners[(edge + 1) % 3], to = corners[edge];
-      for (int j = 0; j < floorSize_; ++j)
-        for (int e = 0; e < 3 && !isFound_[j]; ++e)
-          if (corners_[j][e] == from && corners_[j][(e + 1) % 3] == to) {
-            isFound_[j] = true;
-            symbol |= 1u << i;
-          }
-    }
-    return symbol;
+  /// Walks the floor as the reader will; `words` begin with the seed's corners.
+  unsigned shapeSymbol(const std::uint32_t* words) {
+    std::array<std::array<std::uint32_t, 3>, kMaxFloor> found;
+    shapeBits_ = 0;
+    int told = 0;
+    const auto shape = walkedShape([&](const Shape& s, int, int count) {
+      const unsigned t = s.triangles - 1u;
+      if (t == 0)
+        found[0] = {words[0], words[1], words[2]};
+      else
+        found[t] = acrossOf(found[s.steps[t].from >> 3], s.steps[t].from & 7);
+      unsigned inner = 0;
+      for (int i = 0; i < count; ++i)
+        if (find(found[t], 3 - count + i)) inner |= 1u << i;
+      shapeBits_ |= std::uint64_t{inner} << told;
+      told += count;
+      return inner;
+    });
+    return shape ? packed::shapeSymbol(shapeBits_, shape->triangles) : 0;
+  }
+  unsigned shapeBits(int count) {
+    const auto bits = static_cast<unsigned>(shapeBits_ & ((1u << count) - 1));
+    shapeBits_ >>= count;
+    return bits;
   }
 
   unsigned openEdge(const Floor& floor, std::span<const int> borders) const {
@@ -127,7 +142,7 @@ class WriterIo {
   bool star(const Floor& floor, std::uint32_t slot) {
     if (floor.size != floorSize_ || floor.isOpen != mt_.isOpen(NodeId(old_))) return false;
     for (int i = 0; i < floor.size; ++i)
-      if (a_.remover[oldIdOf(floor.triangles[i].id)] != old_) return false;
+      if (a_.remover[oldIdOf(floor.id(i))] != old_) return false;
     const auto link = mt_.link(NodeId(old_));
     const std::uint32_t size = static_cast<std::uint32_t>(link.size());
     std::uint32_t turn = 0;
@@ -143,9 +158,9 @@ class WriterIo {
     return true;
   }
 
-  Arrays::Place actualPlace() const {
+  Vec2 actualPlace() const {
     const Vec2 p = a_.vertices.planPosition(mt_.apex(NodeId(old_)));
-    return {p.x, p.y, 0};
+    return {p.x, p.y};
   }
   std::int64_t actualHeightResidual(double predicted) const {
     const HeightEncoding::Type type = a_.vertices.encoding.type;
@@ -203,6 +218,24 @@ class WriterIo {
     return {};
   }
 
+  /// Whether a triangle of the floor that was not found yet lies across an edge.
+  bool find(const std::array<std::uint32_t, 3>& corners, int edge) {
+    const std::uint32_t from = corners[(edge + 1) % 3], to = corners[edge];
+    for (int j = 0; j < floorSize_; ++j)
+      for (int e = 0; e < 3 && !isFound_[j]; ++e)
+        if (corners_[j][e] == from && corners_[j][(e + 1) % 3] == to) return isFound_[j] = true;
+    return false;
+  }
+  /// Its corners, from that edge.
+  std::array<std::uint32_t, 3> acrossOf(const std::array<std::uint32_t, 3>& corners, int edge) const {
+    const std::uint32_t from = corners[(edge + 1) % 3], to = corners[edge];
+    for (int j = 0; j < floorSize_; ++j)
+      for (int e = 0; e < 3; ++e)
+        if (corners_[j][e] == from && corners_[j][(e + 1) % 3] == to)
+          return {from, to, corners_[j][(e + 2) % 3]};
+    return {};
+  }
+
   Walk& w_;
   const MultiTriangulation& mt_;
   const MtArrays& a_;
@@ -214,6 +247,7 @@ class WriterIo {
   int floorSize_ = 0;
   std::array<std::array<std::uint32_t, 3>, kMaxFloor> corners_;
   std::array<bool, kMaxFloor> isFound_;
+  std::uint64_t shapeBits_ = 0;
 };
 
 struct Streams {
@@ -285,17 +319,22 @@ class Packer {
   void walkChunk(std::size_t i, Streams& streams) {
     if (context_.cancelled()) return;
     WriterIo io(walk_, static_cast<std::uint32_t>(i));
-    NodeCoder coder(arrays_, plan_.directory, plan_.directory.chunks[i], io);
-    std::optional<std::string> bad;
-    if (i == 0 && !codeRoot(arrays_, io))
-      bad = "the root makes no sense";
-    else if (!coder.run())
-      bad = fmt::format("chunk {} of its nodes {}", i, coder.problem());
+    const std::optional<std::string> bad =
+        arrays_.holdsFloats() ? walkNodes<float>(i, io) : walkNodes<double>(i, io);
     streams.symbols = std::move(io.symbols);
     streams.rawBits = io.rawBits.take();
     if (!bad) return;
     const std::lock_guard lock(mutex_);
     problem_ = bad;
+  }
+
+  template <class Real>
+  std::optional<std::string> walkNodes(std::size_t i, WriterIo& io) {
+    if (i == 0 && !codeRoot<Real>(arrays_, io)) return "the root makes no sense";
+    CoderSpace space;
+    NodeCoder<Real, WriterIo> coder(arrays_, plan_.directory, plan_.directory.chunks[i], io, space);
+    if (!coder.run()) return fmt::format("chunk {} of its nodes {}", i, coder.problem());
+    return std::nullopt;
   }
 
   static std::vector<RansTable> tablesFor(const std::vector<Streams>& streams) {

@@ -57,9 +57,10 @@ bool Arrays::allocate(const AmtCounts& counts) {
   samples = ZeroArray<std::uint32_t>(isLattice ? v : 0);
   plan = ZeroArray<Vec2>(isLattice ? 0 : v);
   rawHeights = ZeroArray<std::byte>(v * encoding.bytesPerHeight());
-  floorError = ZeroArray<std::uint16_t>(s - 2 * n);
-  place = ZeroArray<Place>(v);
+  floatPlaces = ZeroArray<Place<float>>(holdsFloats() ? v : 0);
+  doublePlaces = ZeroArray<Place<double>>(holdsFloats() ? 0 : v);
   star = ZeroArray<std::uint8_t>(n);
+  shownArea = ZeroArray<std::uint8_t>(ids);
   outer = ZeroArray<Handle>(s);
   std::fill_n(remover.get(), remover.isThere() ? roots : 0, kNone);
   wholeErrors.assign((kLatticeErrorArea + 1) * 16, 0);
@@ -69,7 +70,8 @@ bool Arrays::allocate(const AmtCounts& counts) {
   return rootTriangles.isThere() && slotBegin.isThere() && link.isThere() && remover.isThere() &&
          floor.isThere() && creatorHint.isThere() && error.isThere() && below.isThere() && above.isThere() &&
          saturatedError.isThere() && sphere.isThere() && samples.isThere() && plan.isThere() &&
-         rawHeights.isThere() && floorError.isThere() && place.isThere() && star.isThere() && outer.isThere();
+         rawHeights.isThere() && floatPlaces.isThere() && doublePlaces.isThere() && star.isThere() &&
+         shownArea.isThere() && outer.isThere();
 }
 
 void Arrays::joinRoot() {
@@ -103,9 +105,10 @@ void Arrays::finishHints() {
 
 MultiTriangulation Arrays::model(std::shared_ptr<Arrays> arrays) {
   Arrays& from = *arrays;
-  from.floorError = {};
-  from.place = {};
+  from.floatPlaces = {};
+  from.doublePlaces = {};
   from.star = {};
+  from.shownArea = {};
   from.outer = {};
   from.rootOuter = {};
   from.blocks = makeNodeBlocks(from.saturatedError.view(), from.sphere.view());
@@ -134,6 +137,35 @@ MultiTriangulation Arrays::model(std::shared_ptr<Arrays> arrays) {
   return MultiTriangulation(a, std::move(arrays));
 }
 
+namespace {
+
+/// Grows a ball around others, as EnclosingBall::encloseChild() does, without a branch: which of two balls
+/// holds the other, if one does, cannot be foreseen. In float, for its faster roots and quotients; what that
+/// loses is made good for at the end.
+struct GrowingBall {
+  float x, y, z, radius;
+
+  void enclose(const Sphere& child) {
+    const float dx = child.x - x, dy = child.y - y, dz = child.z - z, other = child.radius;
+    const float distance = std::sqrt(dx * dx + dy * dy + dz * dz);
+    const float grown = std::max(std::max(radius, other), (distance + radius + other) * 0.5f);
+    // Of the way to the child's centre: all of it if the child holds this ball.
+    const float part = std::min((grown - radius) / std::max(distance, 1e-30f), 1.0f);
+    x += dx * part;
+    y += dy * part;
+    z += dz * part;
+    radius = grown;
+  }
+  /// After so many: each lost at most two units in the last place of the centre, and of the radius, and is
+  /// widened as EnclosingBall does.
+  Sphere rounded(std::uint32_t count) const {
+    const float lost = (std::fabs(x) + std::fabs(y) + std::fabs(z) + radius) * 0x1p-22f;
+    return {x, y, z, radius * (1 + 3e-6f) + static_cast<float>(count) * lost};
+  }
+};
+
+}  // namespace
+
 std::optional<std::string> saturate(Arrays& a, const Chunk& chunk, bool isPart) {
   const std::uint32_t* const remover = a.remover.get() + a.roots;
   Sphere* const sphere = a.sphere.get();
@@ -145,30 +177,34 @@ std::optional<std::string> saturate(Arrays& a, const Chunk& chunk, bool isPart) 
     for (std::uint32_t n = run->firstNode + run->nodes; n-- > run->firstNode;) {
       if (n >= run->firstNode + kAhead) {
         const std::uint32_t slot = a.slotBegin[n - kAhead];
-        for (std::uint32_t i = 0; i < 6; ++i) {
-          const std::uint32_t child = remover[slot + i];
-          __builtin_prefetch(&sphere[child < a.nodes ? child : 0]);
-        }
+        for (std::uint32_t i = 0; i < 6; ++i) __builtin_prefetch(&sphere[std::min(remover[slot + i], n)]);
       }
       const std::uint32_t begin = a.slotBegin[n], size = a.starSize(n);
-      std::uint16_t saturated = least;
-      for (std::uint32_t i = begin - 2 * n; i < begin - 2 * n + size - 2; ++i)
-        saturated = std::max(saturated, a.floorError[i]);
+      const Sphere own = sphere[n];
+      // A child n stands for none: it is its own floor's error.
+      std::uint16_t saturated = std::max(least, saturatedError[n]);
       std::uint32_t count = 0, previous = n;
+      float unready = 0;
       for (std::uint32_t i = begin; i < begin + size; ++i) {
-        const std::uint32_t child = remover[i] == kNone ? n : remover[i];
+        // kNone becomes n.
+        const std::uint32_t isNone = remover[i] == kNone ? ~0u : 0u;
+        const std::uint32_t child = (remover[i] & ~isNone) | (n & isNone);
         children[count] = sphere[child];
-        // n's own is still 0.
         saturated = std::max(saturated, saturatedError[child]);
         count += static_cast<std::uint32_t>(child != n) & static_cast<std::uint32_t>(child != previous);
         previous = child;
       }
       saturatedError[n] = saturated;
-      EnclosingBall ball = EnclosingBall::of(sphere[n]);
-      for (std::uint32_t i = 0; i < count; ++i) ball.encloseChild(children[i]);
-      sphere[n] = ball.rounded();
-      if (!std::isfinite(sphere[n].x + sphere[n].y + sphere[n].z + sphere[n].radius))
+      GrowingBall ball{own.x, own.y, own.z, -own.radius};
+      for (std::uint32_t i = 0; i < count; ++i) {
+        unready = std::min(unready, children[i].radius);
+        ball.enclose(children[i]);
+      }
+      const Sphere grown = ball.rounded(count + 1);
+      sphere[n] = grown;
+      if (!std::isfinite(grown.x + grown.y + grown.z + grown.radius))
         return fmt::format("node {} has a sphere that is none", n);
+      if (unready < 0) return fmt::format("node {} has a child that cannot be one", n);
       if (MultiTriangulation::bandOf(saturated) != run->band)
         return fmt::format("node {} has a saturated error outside of its band", n);
     }

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "engine/multitriangulation.h"
@@ -53,6 +54,12 @@ struct Handle {
   bool isRoot() const { return node == MultiTriangulation::kNone; }
 };
 
+/// Plan coordinates and raw height of a vertex. w is 0.
+template <class Real>
+struct alignas(4 * sizeof(Real)) Place {
+  Real x, y, z, w;
+};
+
 /// The MT that grows while a packed file is read, or while one is written: the arrays of MtArrays, and what
 /// is needed only on the way.
 struct Arrays {
@@ -73,16 +80,15 @@ struct Arrays {
   ZeroArray<Vec2> plan;
   ZeroArray<std::byte> rawHeights;
 
-  struct Place {
-    double x, y, z;
-  };
-  ZeroArray<std::uint16_t> floorError;  ///< error of the triangle at the same place of floor
-  ZeroArray<Place> place;               ///< plan coordinates and raw heights of the vertices
+  /// Places of the vertices, in float where that holds them exactly (holdsFloats()), else in double.
+  ZeroArray<Place<float>> floatPlaces;
+  ZeroArray<Place<double>> doublePlaces;
   /// Codes of errors of whole-numbered heights: by doubled area, up to kLatticeErrorArea, and error * area.
   std::vector<std::uint16_t> wholeErrors;
-  ZeroArray<std::uint8_t> star;   ///< slots of a node, + kOpen; 0 = not there yet
-  ZeroArray<Handle> outer;        ///< per slot: what was across the link's edge when the star was made
-  std::vector<Handle> rootOuter;  ///< 3 per root triangle: across each edge
+  ZeroArray<std::uint8_t> star;       ///< slots of a node, + kOpen; 0 = not there yet
+  ZeroArray<std::uint8_t> shownArea;  ///< per triangle id, see packed::shownArea()
+  ZeroArray<Handle> outer;            ///< per slot left by its chunk: what was across the link's edge
+  std::vector<Handle> rootOuter;      ///< 3 per root triangle: across each edge
   static constexpr std::uint8_t kOpen = 128;
 
   /// All arrays, of the sizes stated in MtArrays. False when there is not enough memory.
@@ -94,6 +100,17 @@ struct Arrays {
   /// What stays of them.
   static MultiTriangulation model(std::shared_ptr<Arrays> arrays);
 
+  bool holdsFloats() const {
+    constexpr std::uint32_t kMost = 1u << 22;
+    return isLattice && columns <= kMost && rows <= kMost && encoding.type != HeightEncoding::Type::float64;
+  }
+  template <class Real>
+  Place<Real>* places() const {
+    if constexpr (std::is_same_v<Real, float>)
+      return floatPlaces.get();
+    else
+      return doublePlaces.get();
+  }
   double height(std::uint32_t vertex) const { return rawHeight(encoding.type, rawHeights.get(), vertex); }
   std::uint32_t idOf(Handle h) const { return h.isRoot() ? h.slot : roots + h.slot; }
   std::uint32_t starSize(std::uint32_t node) const { return star[node] & (kOpen - 1u); }
@@ -102,7 +119,8 @@ struct Arrays {
 
 /// Saturated errors and spheres of the nodes of a chunk, from those of their children, which are complete:
 /// see engine/mt_recorder.h. A node's sphere holds its star when this is called. Nothing, or what is wrong: a
-/// saturated error outside of its band. Of a part of an MT (`isPart`) some children are missing; its
+/// saturated error outside of its band. A node's saturated error is the largest of its floor when this is
+/// called. Of a part of an MT (`isPart`) some children are missing; its
 /// saturated errors are at least the lowest of their band.
 std::optional<std::string> saturate(Arrays& arrays, const Chunk& chunk, bool isPart);
 

@@ -3,7 +3,8 @@
 
 // The front that a chunk works on while its nodes are read or written. Triangles that the chunk made and that
 // are still there have a record: corners, and what lies across each edge, kept up to date as stars replace
-// floors. Records of triangles that are gone are used again, so they stay in a cache.
+// floors. Records of triangles that are gone are used again, so they stay in a cache. While a record is
+// there, the triangle's remover is a mark that names the record.
 //
 // Triangles that other chunks made have none. All that is known of them is what lay across the link's edge
 // when their chunk ended (Arrays::outer, never changed afterwards). That triangle may have been removed
@@ -14,41 +15,48 @@
 
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <vector>
 
 #include "io/packed_arrays.h"
-#include "terrain/hole.h"
+#include "io/packed_shapes.h"
 
 namespace arete::packed {
 
-inline constexpr int kMaxFloor = kMaxHoleCorners - 2;
-
-/// What lies across an edge: a record of the front, or a triangle of another chunk, or nothing.
+/// What lies across an edge: 4 times a record of the front and which of its edges that is, or a triangle of
+/// another chunk, or nothing.
 using Side = std::uint32_t;
 inline constexpr Side kForeign = 1u << 31;  ///< and the place in the front's list of foreign triangles
 inline constexpr Side kNoSide = ~0u;
 
 /// Edge i of a triangle goes from corner i to the next one.
-inline constexpr std::array<std::uint8_t, 3> kNextEdge = {1, 2, 0};
+inline constexpr std::array<std::uint8_t, 4> kNextEdge = {1, 2, 0, 0};
 
-/// A triangle of a floor.
-struct FloorTriangle {
-  std::array<std::uint32_t, 3> corners;
-  std::array<Side, 3> across;
-  std::uint32_t id;
-  double doubledArea;
-};
-
+/// A node's floor while the node is told.
 struct Floor {
-  std::array<FloorTriangle, kMaxFloor> triangles;
+  /// 8 numbers a triangle: at 0 its corners, at kId its id, at kAcross what is across its edges.
+  static constexpr unsigned kId = 3, kAcross = 4;
+  std::array<std::uint32_t, 8 * kMaxFloor> words;
   int size = 0;
-  std::array<std::uint32_t, kMaxHoleCorners + 1> link;  ///< addStar() repeats the first at the end
+  std::array<std::uint32_t, kMaxHoleCorners + 1> link;  ///< the last is for looking ahead
   std::array<Side, kMaxHoleCorners> outer;
   int corners = 0;
-  double sumX = 0, sumY = 0;  ///< of the link's corners
   bool isOpen = false;
-  double doubledArea = 0;
+  bool isAtBorder = false;  ///< there is nothing across an edge of the link
+
+  std::uint32_t id(int triangle) const { return words[8 * static_cast<unsigned>(triangle) + kId]; }
+};
+
+/// Memory of a front, to be used again for another one: fresh memory costs time.
+struct FrontSpace {
+  /// A triangle that the chunk made.
+  struct alignas(32) Record {
+    std::array<std::uint32_t, 3> corners;
+    std::uint32_t id;
+    std::array<Side, 3> across;
+  };
+  std::vector<Record> pool;
+  std::vector<std::uint32_t> free;  ///< records that are free, and some spare
+  std::vector<Handle> foreign;
 };
 
 class Front {
@@ -58,163 +66,199 @@ class Front {
     std::uint32_t record, id;
   };
 
-  Front(Arrays& arrays, std::uint32_t nodes) : a_(arrays) {
-    grow(std::min(2 * nodes, 1u << 16) + 2 * kSpare);
+  explicit Front(Arrays& arrays, FrontSpace& space)
+      : a_(arrays), pool_(space.pool), free_(space.free), foreign_(space.foreign) {
+    pool_.clear();
+    foreign_.clear();
+    free_.resize(std::max(free_.size(), kSpare));
   }
 
-  /// Takes triangles away: node `node` removes them. False when they are not there.
-  bool take(Own own, std::uint32_t node, FloorTriangle& to) {
-    if (pool_[own.record].id != own.id) return false;
-    return takeRecord(own.record, node, to);
+  /// Takes a triangle away: node `node` removes it, and it is number `at` of the floor. False when it is not
+  /// there.
+  bool take(Own own, std::uint32_t node, Floor& floor, int at) {
+    return pool_[own.record].id == own.id && takeRecord(own.record, 0, node, floor, at);
   }
-  bool take(Handle foreign, std::uint32_t node, FloorTriangle& to) {
+  bool take(Handle foreign, unsigned edge, std::uint32_t node, Floor& floor, int at) {
     std::uint32_t record = 0;
-    if (isOwn(foreign, record)) return takeRecord(record, node, to);
+    if (isOwn(foreign, record)) return takeRecord(record, edge, node, floor, at);
+    if (!foreign.isRoot() && foreign.node >= node) return false;
     const std::uint32_t id = a_.idOf(foreign);
     // In a damaged file two chunks may reach for the same triangle: one gets it, and neither one that
     // another chunk is still at work on.
     std::uint32_t nobody = kNone;
     if (!std::atomic_ref(a_.remover[id]).compare_exchange_strong(nobody, node, std::memory_order_acq_rel))
       return false;
-    if (!foreign.isRoot() && a_.outer[foreign.slot].slot == kRecordMark) return false;
-    to.id = id;
-    to.corners = cornersOf(foreign);
-    for (int e = 0; e < 3; ++e) to.across[e] = foreignSide(across(foreign, e));
-    measure(to);
+    const auto corners = cornersOf(foreign);
+    std::uint32_t* const words = &floor.words[8 * static_cast<unsigned>(at)];
+    for (unsigned i = 0; i < 3; ++i) {
+      words[i] = corners[edge];
+      words[Floor::kAcross + i] = foreignSide(across(foreign, static_cast<int>(edge)));
+      edge = kNextEdge[edge];
+    }
+    words[Floor::kId] = id;
     return true;
   }
-  /// The triangle across an edge of one that was taken, and which of its edges that is.
-  bool takeAcross(const FloorTriangle& from, int edge, std::uint32_t node, FloorTriangle& to, int& there) {
-    const Side side = from.across[edge];
-    const std::uint32_t begin = from.corners[kNextEdge[edge]], end = from.corners[edge];
-    if ((side & kForeign) == 0) {
-      const Record& r = pool_[side];
-      const unsigned isOne = r.corners[1] == begin, isTwo = r.corners[2] == begin;
-      there = static_cast<int>(isOne | (isTwo & ~isOne) << 1);
-      if (r.corners[there] != begin || r.corners[kNextEdge[there]] != end) return false;
-      return takeRecord(side, node, to);
+  /// The same of the triangle across an edge (8 times the triangle's number and the edge) of the floor.
+  bool takeAcross(unsigned from, std::uint32_t node, Floor& floor, int at) {
+    const Side side = floor.words[from + Floor::kAcross];
+    const std::uint32_t begin = floor.words[(from & ~7u) + kNextEdge[from & 3]], end = floor.words[from];
+    if ((side & kForeign) == 0) [[likely]] {
+      if (!takeRecord(side >> 2, side & 3, node, floor, at)) return false;
+      const std::uint32_t* const words = &floor.words[8 * static_cast<unsigned>(at)];
+      return words[0] == begin && words[1] == end;
     }
     if (side == kNoSide) return false;
     Handle h = foreign_[side & ~kForeign];
-    return resolve(h, begin, end, there) && take(h, node, to);
+    unsigned edge = 0;
+    return resolve(h, begin, end, edge) && take(h, edge, node, floor, at);
   }
 
-  /// Puts a node's star in the place of its floor: the link, the removers and the front. Writes the records
-  /// of the star's triangles.
-  void addStar(std::uint32_t node, std::uint32_t slot, Floor& floor, std::uint32_t* records) {
-    const auto size = static_cast<std::uint32_t>(floor.corners);
-    const std::uint32_t triangles = size - (floor.isOpen ? 1 : 0), apex = a_.rootVertices + node;
+  /// Puts a node's star in the place of its floor: the link, the removers and the front. Returns the records
+  /// of the star's triangles, valid until one is taken.
+  /// kCorners: of the link, whose star is closed; or 0 for any.
+  template <int kCorners>
+  [[gnu::always_inline]] const std::uint32_t* addStar(std::uint32_t node, std::uint32_t slot,
+                                                      const Floor& floor) {
+    const auto size = static_cast<std::uint32_t>(kCorners > 0 ? kCorners : floor.corners);
+    const bool isOpen = kCorners == 0 && floor.isOpen;
+    const std::uint32_t triangles = size - (isOpen ? 1 : 0), apex = a_.rootVertices + node;
     const std::uint32_t id = a_.roots + slot;
-    if (used_ + kSpare > pool_.size()) grow(2 * pool_.size());
-    std::uint32_t freeCount = freeCount_, used = used_;
-    std::uint32_t* const free = free_.data();
-    while (freeCount < triangles) free[freeCount++] = used++;
-    freeCount -= triangles;
-    freeCount_ = freeCount;
-    used_ = used;
-    for (std::uint32_t i = 0; i < triangles; ++i) records[i] = free[freeCount + i];
+    if (freeCount_ < kMaxHoleCorners) moreFree();
+    freeCount_ -= triangles;
+    const std::uint32_t* const records = free_.data() + freeCount_;
     Record* const pool = pool_.data();
     std::uint32_t* const link = a_.link.get() + slot;
     std::uint32_t* const remover = a_.remover.get() + id;
-    Handle* const outer = a_.outer.get() + slot;
-    floor.link[size] = floor.link[0];
-    Side before = floor.isOpen ? kNoSide : records[triangles - 1];
-    records[triangles] = floor.isOpen ? kNoSide : records[0];
-    std::uint32_t corner = floor.link[0], record = records[0];
+    // Where the star closes: triangle 0 after the last, corner 0 after the last.
+    Side before = isOpen ? kNoSide : records[triangles - 1] << 2 | 2;
+    std::uint32_t corner = floor.link[0];
     for (std::uint32_t i = 0; i < triangles; ++i) {
-      const std::uint32_t nextCorner = floor.link[i + 1], nextRecord = records[i + 1];
+      const std::uint32_t nextCorner = floor.link[i + 1], record = records[i];
       const Side across = floor.outer[i];
-      pool[record] = {{apex, corner, nextCorner}, {before, across, nextRecord}, id + i, 1};
-      joinBack(pool, across, nextCorner, record);
+      Record& r = pool[record];
+      r.corners[0] = apex;
+      r.corners[1] = corner;
+      r.corners[2] = nextCorner;
+      r.id = id + i;
+      r.across[0] = before;
+      r.across[1] = across;
+      r.across[2] = records[i + 1] << 2;
+      if ((across & kForeign) == 0) [[likely]]
+        pool[across >> 2].across[across & 3] = record << 2 | 1;
       link[i] = corner;
-      outer[i] = {record, kRecordMark};
-      std::atomic_ref(remover[i]).store(kNone, std::memory_order_release);
-      before = record;
-      record = nextRecord;
+      std::atomic_ref(remover[i]).store(kMark | record, std::memory_order_relaxed);
+      before = record << 2 | 2;
       corner = nextCorner;
     }
-    if (floor.isOpen) {
+    Record& last = pool[records[triangles - 1]];
+    if (isOpen) {
+      last.across[2] = kNoSide;
       link[triangles] = corner;
       remover[triangles] = node;
-      outer[triangles] = {};
-      joinBack(pool, floor.outer[triangles], floor.link[0], kNoSide);
+      const Side across = floor.outer[triangles];
+      if ((across & kForeign) == 0) pool[across >> 2].across[across & 3] = kNoSide;
+    } else {
+      last.across[2] = records[0] << 2;
+      last.corners[2] = floor.link[0];
     }
     a_.slotBegin[node] = slot;
-    a_.star[node] = static_cast<std::uint8_t>(size | (floor.isOpen ? Arrays::kOpen : 0));
+    a_.star[node] = static_cast<std::uint8_t>(size | (isOpen ? Arrays::kOpen : 0));
+    return records;
   }
 
   /// After the last node: what other chunks may ask for.
   void finish() {
-    for (std::uint32_t i = 0; i < used_; ++i) {
+    for (std::uint32_t i = 0; i < pool_.size(); ++i) {
       const Record& r = pool_[i];
-      if (r.isThere == 0) continue;
+      if (r.id == kGone) continue;
       const Side side = r.across[1];
       a_.outer[r.id - a_.roots] = side == kNoSide          ? Handle{}
                                   : (side & kForeign) != 0 ? foreign_[side & ~kForeign]
-                                                           : Handle{pool_[side].corners[0] - a_.rootVertices,
-                                                                    pool_[side].id - a_.roots};
+                                                           : handleOf(pool_[side >> 2]);
+      std::atomic_ref(a_.remover[r.id]).store(kNone, std::memory_order_release);
     }
   }
 
+  void prefetch(Handle foreign) const {
+    __builtin_prefetch(&a_.remover[a_.idOf(foreign)], 1);
+    if (foreign.isRoot()) return;
+    __builtin_prefetch(&a_.outer[foreign.slot]);
+    __builtin_prefetch(&a_.link[foreign.slot]);
+    __builtin_prefetch(&a_.slotBegin[foreign.node]);
+    __builtin_prefetch(&a_.star[foreign.node]);
+  }
   void prefetch(Own own) const { __builtin_prefetch(&pool_[own.record]); }
   /// Once the record itself is there.
   void prefetchAround(Own own) const {
     const Record& r = pool_[own.record];
-    __builtin_prefetch(&a_.remover[r.id]);
-    for (const std::uint32_t v : r.corners) __builtin_prefetch(&a_.place[v]);
-    for (const Side side : r.across) __builtin_prefetch(&pool_[(side & kForeign) == 0 ? side : 0]);
+    for (const Side side : r.across) {
+      if ((side & kForeign) == 0)
+        __builtin_prefetch(&pool_[side >> 2]);
+      else if (side != kNoSide)
+        prefetch(foreign_[side & ~kForeign]);
+    }
+    __builtin_prefetch(&a_.remover[r.id != kGone ? r.id : 0], 1);
+  }
+  /// Once it is known who removed what lay across: the star that has the edge now.
+  void prefetchBeyond(Own own) const {
+    for (const Side side : pool_[own.record].across) {
+      if ((side & kForeign) == 0 || side == kNoSide) [[likely]]
+        continue;
+      const std::uint32_t remover = removerOf(foreign_[side & ~kForeign]);
+      if (remover >= a_.nodes) continue;
+      __builtin_prefetch(&a_.star[remover]);
+      __builtin_prefetch(&a_.link[a_.slotBegin[remover]]);
+      __builtin_prefetch(&a_.remover[a_.roots + a_.slotBegin[remover]], 1);
+    }
   }
 
  private:
   static constexpr std::uint32_t kNone = MultiTriangulation::kNone;
-  static constexpr std::uint32_t kRecordMark = kNone - 1;  ///< in Handle::slot: the node is a record
-  static constexpr std::size_t kSpare = 2 * kMaxHoleCorners;
+  static constexpr std::uint32_t kMark = 1u << 31;  ///< of removers; nodes are fewer
+  static constexpr std::uint32_t kGone = kNone;     ///< id of a record that is free
+  static constexpr std::size_t kSpare = 8;
 
-  struct Record {
-    std::array<std::uint32_t, 3> corners;
-    std::array<Side, 3> across;
-    std::uint32_t id, isThere;
-  };
+  using Record = FrontSpace::Record;
 
-  void grow(std::size_t size) {
-    pool_.resize(size);
-    free_.resize(size);
+  /// Enough for a star.
+  [[gnu::noinline]] void moreFree() {
+    const auto first = static_cast<std::uint32_t>(pool_.size());
+    pool_.resize(first + 4 * kMaxHoleCorners, Record{{}, kGone, {}});
+    // Every record may be free, and one more is looked at.
+    free_.resize(std::max(free_.size(), pool_.size() + kSpare));
+    for (std::uint32_t i = 4 * kMaxHoleCorners; i-- > 0;) free_[freeCount_++] = first + i;
   }
 
-  bool takeRecord(std::uint32_t record, std::uint32_t node, FloorTriangle& to) {
+  /// `edge` becomes the triangle's edge 0.
+  bool takeRecord(std::uint32_t record, unsigned edge, std::uint32_t node, Floor& floor, int at) {
     Record& r = pool_[record];
-    if (r.isThere == 0) return false;
-    r.isThere = 0;
+    const std::uint32_t id = r.id;
+    if (id == kGone) return false;
+    r.id = kGone;
     free_[freeCount_++] = record;
-    to.corners = r.corners;
-    to.across = r.across;
-    to.id = r.id;
-    std::atomic_ref(a_.remover[r.id]).store(node, std::memory_order_relaxed);
-    measure(to);
+    std::uint32_t* const words = &floor.words[8 * static_cast<unsigned>(at)];
+    const unsigned next = kNextEdge[edge], last = kNextEdge[next];
+    words[0] = r.corners[edge];
+    words[1] = r.corners[next];
+    words[2] = r.corners[last];
+    words[Floor::kId] = id;
+    words[Floor::kAcross] = r.across[edge];
+    words[Floor::kAcross + 1] = r.across[next];
+    words[Floor::kAcross + 2] = r.across[last];
+    std::atomic_ref(a_.remover[id]).store(node, std::memory_order_relaxed);
     return true;
   }
-  void measure(FloorTriangle& t) const {
-    const Arrays::Place* const place = a_.place.get();
-    const Arrays::Place &p = place[t.corners[0]], &q = place[t.corners[1]], &r = place[t.corners[2]];
-    t.doubledArea = std::fabs((q.x - p.x) * (r.y - p.y) - (r.x - p.x) * (q.y - p.y));
-  }
-  /// Tells the triangle across the edge that begins there at `corner` who is its neighbour now.
-  static void joinBack(Record* pool, Side side, std::uint32_t corner, Side neighbour) {
-    if ((side & kForeign) != 0) return;
-    Record& r = pool[side];
-    const unsigned isOne = r.corners[1] == corner, isTwo = r.corners[2] == corner;
-    r.across[isOne | (isTwo & ~isOne) << 1] = neighbour;
-  }
+  Handle handleOf(const Record& r) const { return {r.corners[0] - a_.rootVertices, r.id - a_.roots}; }
 
   bool isOwn(Handle h, std::uint32_t& record) const {
-    if (h.isRoot()) return false;
-    const Handle mark = a_.outer[h.slot];
-    record = mark.node;
-    return mark.slot == kRecordMark && record < used_ && pool_[record].id == a_.idOf(h);
+    const std::uint32_t mark = removerOf(h);
+    record = mark & ~kMark;
+    return mark != kNone && (mark & kMark) != 0 && record < pool_.size() && pool_[record].id == a_.idOf(h);
   }
   Side foreignSide(Handle h) {
     // In a damaged file a chunk may see what another one has half written.
     if (h.slot >= (h.isRoot() ? a_.roots : a_.slots) || (!h.isRoot() && h.node >= a_.nodes)) return kNoSide;
+    __builtin_prefetch(&a_.remover[a_.idOf(h)]);
     foreign_.push_back(h);
     return kForeign | static_cast<Side>(foreign_.size() - 1);
   }
@@ -242,9 +286,9 @@ class Front {
     return isOpen ? Handle{} : Handle{h.node, begin};
   }
   /// The triangle there now that has the directed edge (from, to), and which of its edges that is.
-  bool resolve(Handle& h, std::uint32_t from, std::uint32_t to, int& edge) const {
+  bool resolve(Handle& h, std::uint32_t from, std::uint32_t to, unsigned& edge) const {
     std::uint32_t remover = removerOf(h);
-    if (remover == kNone) {
+    if ((remover & kMark) != 0) {
       const auto corners = cornersOf(h);
       for (edge = 0; edge < 3; ++edge)
         if (corners[edge] == from) return corners[kNextEdge[edge]] == to;
@@ -261,17 +305,17 @@ class Front {
       if (i == size || link[i + 1 < size ? i + 1 : 0] != to) return false;
       h = {remover, begin + i};
       const std::uint32_t next = removerOf(h);
-      if (next == kNone) return true;
+      if ((next & kMark) != 0) return true;
       if (next == remover) return false;
       remover = next;
     }
   }
 
   Arrays& a_;
-  std::vector<Record> pool_;
-  std::vector<std::uint32_t> free_;
-  std::uint32_t used_ = 0, freeCount_ = 0;
-  std::vector<Handle> foreign_;
+  std::vector<Record>& pool_;
+  std::vector<std::uint32_t>& free_;
+  std::uint32_t freeCount_ = 0;
+  std::vector<Handle>& foreign_;
 };
 
 }  // namespace arete::packed

@@ -73,6 +73,10 @@ class ByteSource {
   bool isBad_ = false;
 };
 
+/// The first packed form had none, but a class of a band in its place, which is below kClasses.
+constexpr std::uint8_t kPackedVersion = 16;
+static_assert(kPackedVersion >= kClasses);
+
 constexpr std::uint32_t kMaxIds = MultiTriangulation::kNone - 1;
 constexpr std::uint32_t kMaxTiles = 1u << 26, kMaxLevel = 26;
 
@@ -140,6 +144,7 @@ std::uint64_t Directory::slots() const {
 
 std::vector<std::byte> toBytes(const Directory& directory) {
   ByteSink out;
+  out.plain(kPackedVersion);
   for (const std::uint8_t c : directory.bandClass) out.plain(c);
   out.plain(directory.tileX);
   out.plain(directory.tileY);
@@ -169,6 +174,13 @@ std::optional<Directory> directoryOf(std::span<const std::byte> bytes, std::stri
   problem = "is cut short or damaged";
   ByteSource in(bytes);
   Directory directory;
+  if (const auto version = in.plain<std::uint8_t>(); version != kPackedVersion) {
+    if (!bytes.empty() && version < kClasses)
+      problem = "was packed by an older Arete; pack the terrain again";
+    else if (version > kPackedVersion)
+      problem = fmt::format("has packed format version {}, and this Arete reads {}", version, kPackedVersion);
+    return std::nullopt;
+  }
   for (std::uint8_t& c : directory.bandClass) {
     c = in.plain<std::uint8_t>();
     if (c >= kClasses) return std::nullopt;

@@ -30,8 +30,9 @@ inline constexpr unsigned kStarClasses = 9;
 enum Table : unsigned {
   kSeedsTable = 0,                                  // by star class and whether the band is the last
   kSeedBandTable = kSeedsTable + 2 * kStarClasses,  // by class
-  kSeedTable = kSeedBandTable + kClasses,           // by whether the seed is listed
-  kFloodTable = kSeedTable + 2,                     // by triangles found (6) and inner edges left (4)
+  kSeedTable = kSeedBandTable + kClasses,           //
+  kShapeTable = kSeedTable + 1,                     // by whether the seed is listed
+  kFloodTable = kShapeTable + 2,                    // by triangles found (6) and inner edges left (4)
   kOpenTable = kFloodTable + 24,                    //
   kPlaceTable = kOpenTable + 1,                     // by place class
   kPlaceFarTable = kPlaceTable + kPlaceClasses,     // by axis
@@ -159,9 +160,9 @@ inline double putHeight(HeightEncoding::Type type, std::byte* heights, std::size
 
 /// Twice the area of a triangle of a lattice is a whole number; few areas of it hold few possible errors. As
 /// one byte: 65 for more than 64, 66 for scattered points.
-inline std::uint8_t shownArea(bool isLattice, double doubledArea) {
+inline std::uint8_t shownArea(bool isLattice, float doubledArea) {
   if (!isLattice) return 66;
-  return static_cast<std::uint8_t>(std::min(doubledArea, 65.0));
+  return static_cast<std::uint8_t>(std::min(doubledArea, 65.0f));
 }
 inline constexpr auto kAreaClass = [] {
   std::array<std::uint8_t, 67> classes{};
@@ -175,12 +176,12 @@ inline constexpr auto kAreaClass = [] {
   return classes;
 }();
 /// Of a floor.
-inline unsigned placeClass(double doubledArea, bool isOpen) {
+inline unsigned placeClass(float doubledArea, bool isOpen) {
   if (isOpen) return kPlaceClasses - 1;
   if (doubledArea <= 12) return static_cast<unsigned>(doubledArea);
   if (doubledArea <= 32) return 12 + static_cast<unsigned>((doubledArea - 12) / 4);
   return std::min(
-      12 + static_cast<unsigned>(std::bit_width(static_cast<std::uint64_t>(std::min(doubledArea, 1e6)))),
+      12 + static_cast<unsigned>(std::bit_width(static_cast<std::uint64_t>(std::min(doubledArea, 1e6f)))),
       kPlaceClasses - 2);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A state x with low <= x < low * 2^16 stands for all symbols coded so far, the last one on top: coding a
+// A state x with low <= x < low * 2^32 stands for all symbols coded so far, the last one on top: coding a
 // symbol with the share f of 2^bits that begins at b makes x = (x / f << bits) + b + x % f, decoding undoes
-// it. Before a step that would carry x out of its range its low 16 bits go out, and come in again after the
+// it. Before a step that would carry x out of its range its low 32 bits go out, and come in again after the
 // decoder's step. So the coder runs from the last symbol to the first and its words are read backwards; the
 // decoder ends in the state that the coder began with.
 #include "io/rans.h"
@@ -50,31 +50,32 @@ std::optional<RansTable> RansTable::ofShares(const std::array<std::uint16_t, kAl
 }
 
 void RansTable::writeEntries(std::uint32_t* entries) const {
-  if (isEmpty()) {
-    std::fill_n(entries, std::size_t{1} << kBits, 0);
-    return;
+  std::fill_n(entries, kEntries, 0);
+  if (isEmpty()) return;
+  std::vector<std::uint8_t> symbols;
+  for (std::uint32_t s = 0; s < kAlphabet; ++s) {
+    symbols.insert(symbols.end(), shares_[s], static_cast<std::uint8_t>(s));
+    entries[kEntries - kAlphabet + s] = std::uint32_t{shares_[s]} << 16 | begins_[s];
   }
-  for (std::uint32_t s = 0; s < kAlphabet; ++s)
-    for (std::uint32_t place = 0; place < shares_[s]; ++place)
-      *entries++ = s | place << 8 | std::uint32_t{shares_[s]} << (8 + kBits);
+  std::memcpy(entries, symbols.data(), symbols.size());
 }
 
 std::vector<std::byte> ransEncode(std::span<const RansSymbol> symbols, std::span<const RansTable> tables) {
-  std::vector<std::uint16_t> words;
-  std::uint32_t state = RansDecoder::kLow;
+  std::vector<std::uint32_t> words;
+  std::uint64_t state = RansDecoder::kLow;
   for (std::size_t i = symbols.size(); i-- > 0;) {
     const RansTable& table = tables[symbols[i].table];
     const std::uint32_t share = table.share(symbols[i].symbol);
-    if (state >= std::uint64_t{share} << (32 - RansTable::kBits)) {
-      words.push_back(static_cast<std::uint16_t>(state & 0xFFFFu));
-      state >>= 16;
+    if (state >= std::uint64_t{share} << (63 - RansTable::kBits)) {
+      words.push_back(static_cast<std::uint32_t>(state));
+      state >>= 32;
     }
     state = ((state / share) << RansTable::kBits) + state % share + table.begin(symbols[i].symbol);
   }
-  words.push_back(static_cast<std::uint16_t>(state & 0xFFFFu));
-  words.push_back(static_cast<std::uint16_t>(state >> 16));
+  words.push_back(static_cast<std::uint32_t>(state));
+  words.push_back(static_cast<std::uint32_t>(state >> 32));
   std::ranges::reverse(words);
-  std::vector<std::byte> bytes(words.size() * sizeof(std::uint16_t));
+  std::vector<std::byte> bytes(words.size() * sizeof(std::uint32_t));
   std::memcpy(bytes.data(), words.data(), bytes.size());
   return bytes;
 }

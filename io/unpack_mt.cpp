@@ -2,11 +2,16 @@
 //
 // Chunks of one kind do not lean on each other, so they are decoded in parallel, kind after kind; then
 // saturated errors and spheres in the opposite direction. Every index that the walk writes it has looked up
-// before, so nothing is left for a check of indices afterwards.
+// before, so nothing is left for a check of indices afterwards. A sphere's radius is negative until it is
+// final, so no damaged file makes a parent's from a child's that is not.
 #include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
+#include <functional>
 #include <mutex>
 
 #include "engine/with_threads.h"
@@ -42,9 +47,31 @@ class ReaderIo {
 
   template <class Actual>
   unsigned code(Stream stream, unsigned table, const Actual&) {
-    return streams_[stream].decode(tables_ + (std::size_t{table} << RansTable::kBits));
+    return streams_[stream].decode(tables_ + table * RansTable::kEntries);
   }
   std::uint64_t raw(int bits, std::uint64_t) { return raw_.read(bits); }
+
+  /// What a long row of errors and bounds is read with: a copy that stays in registers.
+  struct Values {
+    RansDecoder error, bound;
+    BitReader rawBits;
+    const std::uint32_t* tables;
+
+    template <class Actual>
+    unsigned code(Stream stream, unsigned table, const Actual&) {
+      return (stream == kErrorStream ? error : bound).decode(tables + table * RansTable::kEntries);
+    }
+    std::uint64_t raw(int bits, std::uint64_t) { return rawBits.read(bits); }
+    std::uint16_t actualError(std::uint32_t) const { return 0; }
+    std::optional<std::uint64_t> wholeError(double, std::uint16_t) const { return 0; }
+    BoundSteps actualBounds(std::uint32_t) const { return {0, 0}; }
+  };
+  Values values() const { return {streams_[kErrorStream], streams_[kBoundStream], raw_, tables_}; }
+  void putBack(const Values& values) {
+    streams_[kErrorStream] = values.error;
+    streams_[kBoundStream] = values.bound;
+    raw_ = values.rawBits;
+  }
 
   bool listed(const Run& run, std::vector<Handle>& seeds) {
     seeds.clear();
@@ -68,14 +95,13 @@ class ReaderIo {
 
   // What only the writer knows.
   void begin(std::uint32_t, std::uint32_t) {}
-  unsigned innerEdges(const Floor&, int, int) { return 0; }
+  void at(std::uint32_t) {}
+  unsigned shapeSymbol(const std::uint32_t*) { return 0; }
+  unsigned shapeBits(int) { return 0; }
   unsigned openEdge(const Floor&, std::span<const int>) { return 0; }
   bool star(const Floor&, std::uint32_t) { return true; }
-  Arrays::Place actualPlace() const { return {0, 0, 0}; }
+  Vec2 actualPlace() const { return {0, 0}; }
   std::int64_t actualHeightResidual(double) const { return 0; }
-  std::uint16_t actualError(std::uint32_t) const { return 0; }
-  std::optional<std::uint64_t> wholeError(double, std::uint16_t) const { return 0; }
-  BoundSteps actualBounds(std::uint32_t) const { return {0, 0}; }
   std::optional<unsigned> seedAt(std::uint32_t, std::uint32_t) { return std::nullopt; }
 
  private:
@@ -130,8 +156,8 @@ class Unpacker {
   Unpacker(Directory directory, std::span<const RansTable> tables, std::span<const std::byte> bytes,
            const RunContext& context, bool isPart)
       : directory_(std::move(directory)), bytes_(bytes), context_(context), isPart_(isPart) {
-    tables_.resize(std::size_t{kTables} << RansTable::kBits);
-    for (std::size_t t = 0; t < kTables; ++t) tables[t].writeEntries(&tables_[t << RansTable::kBits]);
+    tables_.resize(kTables * RansTable::kEntries);
+    for (std::size_t t = 0; t < kTables; ++t) tables[t].writeEntries(&tables_[t * RansTable::kEntries]);
   }
 
   Result<MultiTriangulation> run(const AmtMetadata& metadata) {
@@ -172,29 +198,32 @@ class Unpacker {
     return kinds;
   }
 
-  /// Keeps the problem of the first chunk that has one; after that nothing more is done.
+  /// The largest chunks first, so that no thread waits long for another one's last. Keeps the problem of the
+  /// first chunk that has one; after that nothing more is done.
   template <class Body>
   void forChunks(std::size_t begin, std::size_t end, const Body& body) {
     if (problem_ || context_.cancelled()) return;
+    std::vector<std::size_t> order;
+    for (std::size_t i = begin; i < end; ++i)
+      if (!directory_.chunks[i].runs.empty() || i == 0) order.push_back(i);
+    std::ranges::stable_sort(order, std::greater<>(),
+                             [&](std::size_t i) { return directory_.chunks[i].nodes; });
     std::size_t firstBad = end;
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(begin, end, 1),
-        [&](const auto& range) {
-          for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            if (context_.cancelled()) return;
-            if (directory_.chunks[i].runs.empty() && i != 0) continue;
-            const std::optional<std::string> bad = body(i);
-            const std::lock_guard lock(mutex_);
-            if (bad && i < firstBad) {
-              firstBad = i;
-              problem_ = fmt::format("chunk {} of the packed nodes: {}", i, *bad);
-            }
-            done_ += directory_.chunks[i].nodes;
-            context_.report("unpack",
-                            static_cast<double>(done_) / static_cast<double>(2 * arrays_->nodes + 1));
-          }
-        },
-        tbb::simple_partitioner());
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&](int) {
+      for (std::size_t at = next++; at < order.size() && !context_.cancelled(); at = next++) {
+        const std::size_t i = order[at];
+        const std::optional<std::string> bad = body(i);
+        const std::lock_guard lock(mutex_);
+        if (bad && i < firstBad) {
+          firstBad = i;
+          problem_ = fmt::format("chunk {} of the packed nodes: {}", i, *bad);
+        }
+        done_ += directory_.chunks[i].nodes;
+        context_.report("unpack", static_cast<double>(done_) / static_cast<double>(2 * arrays_->nodes + 1));
+      }
+    };
+    tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), work, tbb::simple_partitioner());
   }
 
   std::optional<std::string> decode(std::size_t index) {
@@ -202,8 +231,12 @@ class Unpacker {
     const auto bytes = bytes_.subspan(chunk.offset, chunk.bytes());
     if (amtChecksum(bytes) != chunk.checksum) return "has been altered: its checksum does not match";
     ReaderIo io(*arrays_, directory_, index, tables_.data(), bytes);
-    if (index == 0 && !codeRoot(*arrays_, io)) return "has a root that is none";
-    NodeCoder coder(*arrays_, directory_, chunk, io);
+    return arrays_->holdsFloats() ? decode<float>(index, io) : decode<double>(index, io);
+  }
+  template <class Real>
+  std::optional<std::string> decode(std::size_t index, ReaderIo& io) {
+    if (index == 0 && !codeRoot<Real>(*arrays_, io)) return "has a root that is none";
+    NodeCoder<Real, ReaderIo> coder(*arrays_, directory_, directory_.chunks[index], io, spaces_.local());
     if (!coder.run()) return coder.problem();
     if (!io.isAtEnd()) return "has symbols that do not end where they should";
     return std::nullopt;
@@ -215,6 +248,7 @@ class Unpacker {
   bool isPart_;
   std::vector<std::uint32_t> tables_;  ///< entries of all tables
   Arrays* arrays_ = nullptr;
+  tbb::enumerable_thread_specific<CoderSpace> spaces_;
   std::mutex mutex_;
   std::uint64_t done_ = 0;
   std::optional<std::string> problem_;
