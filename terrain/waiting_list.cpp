@@ -18,20 +18,22 @@ constexpr std::size_t kChunk = 1 << 14;
 void WaitingList::assign(std::vector<std::uint32_t> vertices, std::uint32_t vertexCount) {
   vertices_ = std::move(vertices);
   living_ = vertices_.size();
-  dueAt_.assign(living_, kNow);
-  place_.resize(vertexCount);
-  for (std::uint32_t place = 0; place < living_; ++place) place_[vertices_[place]] = place;
+  vertices_.insert(vertices_.begin(), kGone);
+  dueAt_.assign(vertices_.size(), kNow);
+  place_.assign(vertexCount, kNobody);
+  for (std::uint32_t place = kNobody + 1; place < vertices_.size(); ++place) place_[vertices_[place]] = place;
 }
 
 void WaitingList::collect(double threshold, std::vector<std::uint32_t>& due) {
-  if (living_ < vertices_.size() / 2) forgetGone();
-  const std::size_t chunks = (vertices_.size() + kChunk - 1) / kChunk;
-  found_.resize(vertices_.size());
+  if (living_ + 1 < vertices_.size() / 2) forgetGone();
+  const std::size_t first = kNobody + 1, size = vertices_.size() - first;
+  const std::size_t chunks = (size + kChunk - 1) / kChunk;
+  found_.resize(size);
   foundCount_.resize(chunks);
   tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t c) {
-    const std::size_t begin = c * kChunk, count = std::min(kChunk, vertices_.size() - begin);
-    const float* dueAt = dueAt_.data() + begin;
-    const std::uint32_t* vertex = vertices_.data() + begin;
+    const std::size_t begin = c * kChunk, count = std::min(kChunk, size - begin);
+    const float* dueAt = dueAt_.data() + first + begin;
+    const std::uint32_t* vertex = vertices_.data() + first + begin;
     std::uint32_t* const found = found_.data() + begin;
     std::uint32_t* to = found;
     for (std::size_t i = 0; i < count; ++i) {
@@ -51,17 +53,21 @@ void WaitingList::remove(std::span<const std::uint32_t> gone) {
   for (const std::uint32_t v : gone) {
     dueAt_[place_[v]] = kNever;
     vertices_[place_[v]] = kGone;
+    place_[v] = kNobody;
   }
   living_ -= gone.size();
 }
 
 float WaitingList::least() const {
-  return dueAt_.empty() ? kNever : *std::min_element(dueAt_.begin(), dueAt_.end());
+  float least = kNever;
+  for (std::size_t place = kNobody + 1; place < dueAt_.size(); ++place)
+    least = std::min(least, dueAt_[place]);
+  return least;
 }
 
 void WaitingList::forgetGone() {
-  std::uint32_t kept = 0;
-  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+  std::uint32_t kept = kNobody + 1;
+  for (std::size_t i = kept; i < vertices_.size(); ++i) {
     if (vertices_[i] == kGone) continue;
     vertices_[kept] = vertices_[i];
     dueAt_[kept] = dueAt_[i];

@@ -29,7 +29,8 @@ class WaitingList {
   /// O(size), parallel.
   void collect(double threshold, std::vector<std::uint32_t>& due);
 
-  /// When v is due: a threshold, kNow or kNever. Safe for different vertices at once.
+  /// When v is due: a threshold, kNow or kNever. Safe for different vertices at once. Of one that is not in
+  /// the list, or has gone, nothing is noted, here and in wake().
   void set(std::uint32_t v, float threshold) { dueAt_[place_[v]] = threshold; }
   /// Makes v due now. Safe for the same vertex at once, not beside set() of the same.
   void wake(std::uint32_t v) { std::atomic_ref(dueAt_[place_[v]]).store(kNow, std::memory_order_relaxed); }
@@ -46,11 +47,12 @@ class WaitingList {
   void forgetGone();
 
   static constexpr std::uint32_t kGone = 0xFFFFFFFF;
-  std::vector<std::uint32_t> vertices_;  // by place; kGone
-  std::vector<float> dueAt_;             // by place
-  std::vector<std::uint32_t> place_;     // by vertex
-  std::vector<std::uint32_t> found_;     // of a look, each chunk's from where the chunk begins
-  std::vector<std::size_t> foundCount_;  // per chunk
+  static constexpr std::uint32_t kNobody = 0;  // the place of all who are not in the list; never looked at
+  std::vector<std::uint32_t> vertices_;        // by place; kGone
+  std::vector<float> dueAt_;                   // by place
+  std::vector<std::uint32_t> place_;           // by vertex
+  std::vector<std::uint32_t> found_;           // of a look, each chunk's from where the chunk begins
+  std::vector<std::size_t> foundCount_;        // per chunk
   std::size_t living_ = 0;
 };
 
