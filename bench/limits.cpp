@@ -40,11 +40,13 @@ constexpr Need kBuild[] = {
     // Heights three times, the cells' first triangles, triangles of 32 bytes cleared, written and read, two a
     // sample, half-edges of vertices.
     {"triangulate", 236, 0, 80},
-    // An id and a note at every look.
-    {"simplify: collect", 96 * (4 + 4 + 16), 0, 96 * 6},
-    // Of whoever is due: id, note, half-edge, height and its share of the star, two triangles; a corner's
-    // place is a division, a third corner 16 operations a try, a row 12, a sample 5.
-    {"simplify: evaluate", 4.85 * (4 + 32) + 4.65 * (4 + 2 * 32 + 8), 0, 4.65 * 460},
+    // An id and a threshold at every look, an id written; four in ten have gone and not been forgotten yet.
+    {"simplify: collect", 1.4 * 96 * (4 + 4 + 4), 0, 1.4 * 96 * 2},
+    // The rule of the finest triangulation once. Of whoever is due: id, place, note, half-edge, height and
+    // its
+    // share of the star, two triangles; a corner's place is a division, a third corner 16 operations a try, a
+    // row 12, a sample 5.
+    {"simplify: evaluate", 36 + 4.1 * (8 + 32) + 3.6 * (4 + 2 * 32 + 8), 0, 20 + 3.6 * 420},
     // Note, half-edge, share of the star, notes of the link.
     {"simplify: choose", 1.6 * (4 + 16 + 4 + 64 + 96), 0, 1.6 * 48},
     // The star read and written, the record written, notes and half-edges of the link; seams. Far: saturated
@@ -53,9 +55,9 @@ constexpr Need kBuild[] = {
     // Seams, the new triangles and those across the rim, read and written.
     {"simplify: sew", 650, 0, 60},
     {"finish: order", 26, 2, 20},
-    // 207 bytes of the record in, 101 of the node out, a table of births. Far: the five arrays of a record,
-    // three of errors and one of births for each of three children, vertices of the link.
-    {"finish: stars", 230, 20, 60},
+    // The record in, the node out, a table of births, where the record lies three times. Far: the five arrays
+    // of a record, errors and births of three children, vertices of the link.
+    {"finish: stars", 246, 16, 60},
     {"finish: floors", 45, 5, 20},
     {"finish", 14, 1, 10},
     // Read for the checksums and for writing, and written.

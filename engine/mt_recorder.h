@@ -47,8 +47,8 @@ struct SurvivingTriangle {
 /// threads; the result depends only on the order in which the batch lists them. Births: the finest
 /// triangulation's triangles are 0 .. F-1, each removal bears link.size() - 2 more.
 ///
-/// Memory: about 95 bytes per removal while recording, and as much again plus 130 for the result while
-/// finishing.
+/// Memory: about 95 bytes per removal while recording, about 190 at most while finishing, the result of
+/// 130 among them.
 class MtRecorder {
  public:
   static constexpr std::uint32_t kNone = MultiTriangulation::kNone;
