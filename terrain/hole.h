@@ -62,6 +62,22 @@ HoleTriangulation wrapHole(int corners, const Hole& hole) {
   return result;
 }
 
+/// Whether no diagonal of a triangulation by wrapHole() has a corner within the circle of the triangle on its
+/// other side: then it is the constrained Delaunay triangulation of the polygon, which its triangles tile, as
+/// they all turn left. Exact.
+template <class Polygon>
+bool isLocallyDelaunay(const HoleTriangulation& wrapped, const Polygon& polygon) {
+  // The corner between i and j, of the triangles on edges from a lower to a higher corner.
+  std::array<std::array<std::uint8_t, kMaxHoleCorners>, kMaxHoleCorners> between;
+  for (const auto& [i, m, j] : wrapped.view()) between[i][j] = m;
+  const auto holds = [&](int a, int b, const std::array<std::uint8_t, 3>& t) {
+    return b - a == 1 || polygon.inCircle(t[0], t[1], t[2], between[a][b]) <= 0;
+  };
+  for (const auto& t : wrapped.view())
+    if (!holds(t[0], t[1], t) || !holds(t[1], t[2], t)) return false;
+  return true;
+}
+
 /// The same triangles one by one: visit(i, m, j, isOverApex) returns whether to go on. The first is the one
 /// over the apex, where the removal of a vertex most often costs most, so that a hole that costs too much is
 /// known by a triangle or two. False when some edge finds no third corner; what was visited then means
@@ -123,15 +139,15 @@ bool wrapHoleFromApex(int corners, const Hole& hole, const Visit& visit) {
 /// Hole: polygon() with orientation(i, j, m), orientationToApex(i, j), inCircle(i, j, m, n), all exact;
 /// orientationToApex(i, j); apexError(i, j, m), the error at the apex of a triangle over it. O(corners^2).
 ///
-/// `isDomainConvex`: nothing constrains; then wrapHole() does it at a quarter of the price.
+/// wrapHole() does it at a quarter of the price: always if `isDomainConvex`, where nothing constrains, and
+/// elsewhere in all but a few holes, which show by a diagonal that is not locally Delaunay.
 template <class Hole>
 HoleTriangulation triangulateHoleDelaunay(int corners, const Hole& hole, bool isDomainConvex) {
   assert(corners >= 3 && corners <= kMaxHoleCorners);
-  if (isDomainConvex) {
-    HoleTriangulation wrapped = wrapHole(corners, hole);
-    if (wrapped.size > 0) return wrapped;
-  }
+  const HoleTriangulation wrapped = wrapHole(corners, hole);
+  if (wrapped.size > 0 && isDomainConvex) return wrapped;
   const auto polygon = hole.polygon();
+  if (wrapped.size > 0 && isLocallyDelaunay(wrapped, polygon)) return wrapped;
   // third[i][j]: the corner across the directed edge i -> j. Only entries of present edges are read.
   std::array<std::array<std::uint8_t, kMaxHoleCorners>, kMaxHoleCorners> third;
   std::array<std::array<std::uint8_t, 2>, kMaxHoleCorners> diagonals;

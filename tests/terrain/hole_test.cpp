@@ -96,6 +96,66 @@ TEST(HoleTriangulation, BothWaysTileTheHoleWithDelaunayTriangles) {
   }
 }
 
+TEST(HoleTriangulation, OfAnyStarPolygonIsConstrainedDelaunay) {
+  std::mt19937_64 random(20261123);
+  int unlikeWrapped = 0, tried = 0;
+  for (int run = 0; run < 6000; ++run) {
+    // Corners around the apex by their directions, near and far by turns: far from convex.
+    SomeHole some = someHole(random, 1);
+    std::vector<std::array<int, 2>> corners;
+    for (int k = 0; k < 12; ++k) {
+      const int reach = k % 2 == 0 ? 3 : 14;
+      const auto coordinate = [&] {
+        return static_cast<int>(random() % static_cast<unsigned>(2 * reach + 1)) - reach;
+      };
+      corners.push_back({coordinate(), coordinate()});
+    }
+    const auto angle = [](const std::array<int, 2>& p) { return std::atan2(p[1], p[0]); };
+    std::erase_if(corners, [](const auto& p) { return p[0] == 0 && p[1] == 0; });
+    std::sort(corners.begin(), corners.end(),
+              [&](const auto& a, const auto& b) { return angle(a) < angle(b); });
+    corners.erase(
+        std::unique(corners.begin(), corners.end(),
+                    [&](const auto& a, const auto& b) { return std::abs(angle(a) - angle(b)) < 1e-9; }),
+        corners.end());
+    bool isAround = corners.size() >= 3;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const auto &a = corners[i], &b = corners[(i + 1) % corners.size()];
+      isAround = isAround && a[0] * b[1] - a[1] * b[0] > 0;
+    }
+    if (!isAround) continue;
+    ++tried;
+    some.star.linkSize = some.star.triangleCount = static_cast<int>(corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      some.star.link[i] =
+          static_cast<std::uint32_t>((32 + corners[i][1]) * int(kColumns) + 32 + corners[i][0]);
+    const LatticePlan plan(kColumns, 1 + run % 3, 1 + run % 2);
+    const RasterError errors(plan, some.heights, false);
+    const RasterError::Hole hole(errors, some.star, some.apex);
+    const auto polygon = hole.polygon();
+    const HoleTriangulation result = triangulateHoleDelaunay(some.star.linkSize, hole, false);
+    ASSERT_EQ(result.size, some.star.linkSize - 2) << "run " << run;
+    const HoleTriangulation wrapped = wrapHole(some.star.linkSize, hole);
+    unlikeWrapped += wrapped.size == 0 || !isLocallyDelaunay(wrapped, polygon) ? 1 : 0;
+    for (const auto& t : result.view()) {
+      EXPECT_GT(signedArea(plan, some.star, t), 0) << "run " << run;
+      for (const auto& other : result.view()) {  // across a shared edge
+        int shared = 0, opposite = -1;
+        for (const std::uint8_t c : other)
+          if (c == t[0] || c == t[1] || c == t[2])
+            ++shared;
+          else
+            opposite = c;
+        if (shared == 2) {
+          EXPECT_LE(polygon.inCircle(t[0], t[1], t[2], opposite), 0) << "run " << run;
+        }
+      }
+    }
+  }
+  EXPECT_GT(tried, 500);
+  EXPECT_GT(unlikeWrapped, 50) << "both ways are meant to be tried";
+}
+
 TEST(HoleTriangulation, FromTheApexIsTheSameAndBeginsOverTheApex) {
   std::mt19937_64 random(20261122);
   for (int run = 0; run < 3000; ++run) {
