@@ -75,17 +75,6 @@ class LatticePlan {
       return isSmall_ ? sign(determinant<std::int64_t>(i, j, m, n)) : sign(determinant<Wide>(i, j, m, n));
     }
 
-    /// Least altitude over longest edge, of a counter-clockwise triangle: 0 for slivers, 0.87 for equilateral
-    /// ones.
-    double aspect(int i, int j, int m) const {
-      const auto squared = [&](int a, int b) {
-        const double dx = double(x_[a] - x_[b]), dy = double(y_[a] - y_[b]);
-        return dx * dx + dy * dy;
-      };
-      const double longest = std::max({squared(i, j), squared(j, m), squared(m, i)});
-      return double(area(i, j, m)) / longest;
-    }
-
    private:
     __extension__ using Wide = __int128;
     // Differences below 2^14 keep the determinant below 12 * 2^56 < 2^63.

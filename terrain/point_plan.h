@@ -60,12 +60,6 @@ class PointPlan {
       }
       return best;
     }
-    double aspect(int i, int j, int m) const {
-      const double longest = std::max({CGAL::squared_distance(corners_[i], corners_[j]),
-                                       CGAL::squared_distance(corners_[j], corners_[m]),
-                                       CGAL::squared_distance(corners_[m], corners_[i])});
-      return 2 * CGAL::area(corners_[i], corners_[j], corners_[m]) / longest;
-    }
 
    private:
     Point apex_;
