@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <sys/mman.h>
-
 #include <cstddef>
 #include <memory>
 #include <new>
 #include <type_traits>
 #include <vector>
 
+#include "engine/pages.h"
+
 namespace arete {
 
 /// An array that grows without moving what it holds and without a doubled peak: blocks of 2^18 elements.
 /// Elements are uninitialised until written. Different elements may be written by different threads.
 ///
-/// Blocks are pages of the system's, not of the heap, which would keep what clear() gives back: a build frees
-/// one such array to make room for the next.
+/// Blocks are pages of the system's (engine/pages.h): a build frees one such array to make room for the next.
 template <class T>
 class ChunkedArray {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -38,14 +37,13 @@ class ChunkedArray {
   static constexpr std::size_t kShift = 18, kBlock = std::size_t(1) << kShift;
 
   struct GiveBack {
-    void operator()(T* block) const { munmap(block, kBlock * sizeof(T)); }
+    void operator()(T* block) const { givePagesBack(block, kBlock * sizeof(T)); }
   };
   using Block = std::unique_ptr<T[], GiveBack>;
 
   static Block takeBlock() {
-    void* const pages =
-        mmap(nullptr, kBlock * sizeof(T), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (pages == MAP_FAILED) throw std::bad_alloc();
+    void* const pages = takePages(kBlock * sizeof(T));
+    if (pages == nullptr) throw std::bad_alloc();
     return Block(static_cast<T*>(pages));
   }
 

@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "engine/enclosing_ball.h"
+#include "engine/pages.h"
 
 namespace arete::packed {
 
@@ -21,8 +22,8 @@ constexpr std::size_t kWorthAMapping = std::size_t{1} << 20;
 
 void* takeZeros(std::size_t bytes) {
   if (bytes < kWorthAMapping) return std::calloc(bytes, 1);
-  void* const zeros = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (zeros == MAP_FAILED) return nullptr;
+  void* const zeros = takePages(bytes);
+  if (zeros == nullptr) return nullptr;
 #ifdef MADV_HUGEPAGE
   madvise(zeros, bytes, MADV_HUGEPAGE);  // a wish: nothing depends on it
 #endif
@@ -33,7 +34,7 @@ void giveZerosBack(void* zeros, std::size_t bytes) {
   if (bytes < kWorthAMapping)
     std::free(zeros);
   else
-    munmap(zeros, bytes);
+    givePagesBack(zeros, bytes);
 }
 
 bool Arrays::allocate(const AmtCounts& counts) {
