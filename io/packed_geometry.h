@@ -49,7 +49,8 @@ class Geometry {
       for (std::uint32_t k = 0; k < 6; ++k)
         __builtin_prefetch(&place_[a_.link[std::min(slot_ + kLinksAhead + k, lastSlot)]]);
       io_.at(node_);
-      if (!node(star)) return false;
+      // An open star has its mark, and is none of the usual ones.
+      if (!withCorners(star, [&](auto known) { return nodeOf<known>(); })) return false;
       slot_ += static_cast<std::uint32_t>(corners_);
     }
     return true;
@@ -60,21 +61,6 @@ class Geometry {
   typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
   static constexpr std::uint32_t kLinksAhead = 24;
 
-  /// As in NodeCoder: nearly all stars are closed and have so many corners.
-  bool node(std::uint8_t star) {
-    switch (star) {
-      case 4:
-        return nodeOf<4>();
-      case 5:
-        return nodeOf<5>();
-      case 6:
-        return nodeOf<6>();
-      case 7:
-        return nodeOf<7>();
-      default:
-        return nodeOf<0>();
-    }
-  }
   template <int kCorners>
   int corners() const {
     return kCorners > 0 ? kCorners : corners_;

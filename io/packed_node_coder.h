@@ -126,19 +126,7 @@ class NodeCoder {
       shape_ = &shapes_[symbol];
     else if (symbol > kWalkedShape || !walked())
       return fail("has a floor that is none");
-    // Nearly all floors have so many corners, and a loop of known length needs no loop.
-    switch (shape_->corners) {
-      case 4:
-        return nodeOf<4>();
-      case 5:
-        return nodeOf<5>();
-      case 6:
-        return nodeOf<6>();
-      case 7:
-        return nodeOf<7>();
-      default:
-        return nodeOf<0>();
-    }
+    return withCorners(shape_->corners, [&](auto known) { return nodeOf<known>(); });
   }
 
   /// kCorners: of the floor, 0 for any number.
