@@ -13,6 +13,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -164,6 +165,15 @@ LiveMesh finestMesh(const RasterHeightfield& heightfield, std::vector<std::uint3
   });
 
   mesh.triangles.resize(tileFirst[tiles]);
+  mesh.vertexHalfedge.assign(heightfield.size(), kNone);
+  std::vector<std::vector<std::uint32_t>> borders(tiles);  // half-edges without a twin
+  // A vertex goes by the last half-edge that leaves it; those between tiles are claimed by several.
+  const auto claim = [&](std::uint32_t v, std::uint32_t h) {
+    const std::atomic_ref last(mesh.vertexHalfedge[v]);
+    std::uint32_t seen = last.load(std::memory_order_relaxed);
+    while ((seen == kNone || seen < h) && !last.compare_exchange_weak(seen, h, std::memory_order_relaxed)) {
+    }
+  };
   tbb::parallel_for(std::size_t(0), tiles, [&](std::size_t tile) {
     cells.forTile(tile, [&](std::uint32_t column, std::uint32_t row) {
       const unsigned valid = cells.valid(column, row);
@@ -190,20 +200,25 @@ LiveMesh finestMesh(const RasterHeightfield& heightfield, std::vector<std::uint3
       join(Cells::rightEdge(valid, begin), column + 1, row, Cells::leftEdge);
       join(Cells::bottomEdge(valid, begin), column, row + 1, Cells::topEdge);
       join(Cells::leftEdge(valid, begin), column - 1, row, Cells::rightEdge);
+
+      const bool isInside = (column + 1) % kTile > 1 && (row + 1) % kTile > 1;
+      for (t = begin; t < begin + Cells::triangleCount(valid); ++t)
+        for (std::uint32_t side = 0; side < 3; ++side) {
+          const std::uint32_t h = LiveMesh::halfedge(t, side), v = mesh.triangles[t].corners[side];
+          if (isInside)
+            mesh.vertexHalfedge[v] = h;
+          else
+            claim(v, h);
+          if (mesh.triangles[t].twin[side] == kNone) borders[tile].push_back(h);
+        }
     });
   });
 
-  mesh.vertexHalfedge.assign(heightfield.size(), kNone);
-  std::vector<std::uint32_t> border;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    for (std::uint32_t side = 0; side < 3; ++side) {
-      const std::uint32_t h = LiveMesh::halfedge(t, side);
-      mesh.vertexHalfedge[mesh.triangles[t].corners[side]] = h;
-      if (mesh.triangles[t].twin[side] == kNone) border.push_back(h);
-    }
-  for (const std::uint32_t h : border) mesh.vertexHalfedge[mesh.origin(h)] = h;
-  for (const std::uint32_t h : border)
-    if (mesh.vertexHalfedge[mesh.origin(h)] != h) pinched.push_back(mesh.origin(h));
+  for (const std::vector<std::uint32_t>& border : borders)
+    for (const std::uint32_t h : border) mesh.vertexHalfedge[mesh.origin(h)] = h;
+  for (const std::vector<std::uint32_t>& border : borders)
+    for (const std::uint32_t h : border)
+      if (mesh.vertexHalfedge[mesh.origin(h)] != h) pinched.push_back(mesh.origin(h));
   return mesh;
 }
 

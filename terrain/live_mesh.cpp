@@ -8,6 +8,9 @@
 // an unmoved twin has one moved neighbour across that edge, so no location is written twice.
 #include "terrain/live_mesh.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cassert>
@@ -62,23 +65,24 @@ LiveMesh LiveMesh::fromTriangles(std::vector<Corners> corners, std::uint32_t ver
   return mesh;
 }
 
-std::vector<std::uint32_t> LiveMesh::compact() {
-  std::vector<std::uint32_t> newSlot(triangles.size(), kNone);
-  std::uint32_t live = 0;
-  for (std::uint32_t t = 0; t < triangles.size(); ++t)
-    if (!triangles[t].isDead()) newSlot[t] = live++;
+SlotMap LiveMesh::compact() {
+  const SlotMap newSlot(triangles.size(), [&](std::size_t t) { return !triangles[t].isDead(); });
   const auto moved = [&](std::uint32_t h) {
     return h == kNone ? kNone : halfedge(newSlot[triangleOf(h)], sideOf(h));
   };
-  std::vector<Triangle> kept(live);
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    if (newSlot[t] == kNone) continue;
-    Triangle& to = kept[newSlot[t]];
-    to = triangles[t];
-    for (std::uint32_t& h : to.twin) h = moved(h);
-  }
+  UninitializedVector<Triangle> kept(newSlot.liveCount());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, triangles.size(), 4096), [&](const auto& range) {
+    for (std::size_t t = range.begin(); t != range.end(); ++t) {
+      if (triangles[t].isDead()) continue;
+      Triangle& to = kept[newSlot[t]];
+      to = triangles[t];
+      for (std::uint32_t& h : to.twin) h = moved(h);
+    }
+  });
   triangles = std::move(kept);
-  for (std::uint32_t& h : vertexHalfedge) h = moved(h);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertexHalfedge.size(), 8192), [&](const auto& range) {
+    for (std::size_t v = range.begin(); v != range.end(); ++v) vertexHalfedge[v] = moved(vertexHalfedge[v]);
+  });
   return newSlot;
 }
 

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "engine/mt_recorder.h"
+#include "engine/uninitialized_vector.h"
 #include "terrain/hole.h"
+#include "terrain/slot_map.h"
 
 namespace arete {
 
@@ -32,7 +34,7 @@ struct LiveMesh {
     std::uint32_t bearer;  ///< the removal that bore it, or kNone; of a dead slot: the removal that left it
     bool isDead() const { return corners[0] == kNone; }
   };
-  std::vector<Triangle> triangles;
+  UninitializedVector<Triangle> triangles;
   std::vector<std::uint32_t> vertexHalfedge;  ///< per vertex, kNone for a vertex in no triangle
 
   /// Half-edges and births for counter-clockwise triangles. `pinched` receives the vertices whose triangles
@@ -40,10 +42,10 @@ struct LiveMesh {
   static LiveMesh fromTriangles(std::vector<Corners> corners, std::uint32_t vertexCount,
                                 std::vector<std::uint32_t>& pinched);
 
-  /// Drops dead slots; the others keep their order and move up. Returns the new slot of every old one (kNone:
-  /// dropped). Levels that remove a few vertices from a mesh long thinned out would otherwise wander through
-  /// all of its memory.
-  std::vector<std::uint32_t> compact();
+  /// Drops dead slots; the others keep their order and move up. Returns where they went. Levels that remove a
+  /// few vertices from a mesh long thinned out would otherwise wander through all of its memory. O(slots +
+  /// vertices), parallel.
+  SlotMap compact();
 
   static constexpr std::uint32_t kMostTriangles = (kNone >> 2) - 1;  ///< that half-edges can name
 

@@ -94,9 +94,9 @@ void PointError::Hole::settle(const HoleTriangulation& floor) {
     }
 }
 
-void PointError::compact(std::span<const std::uint32_t> newSlot, std::size_t liveSlots) {
-  std::vector<std::uint32_t> moved(liveSlots, kNone);
-  for (std::size_t t = 0; t < newSlot.size(); ++t)
+void PointError::compact(const SlotMap& newSlot) {
+  std::vector<std::uint32_t> moved(newSlot.liveCount(), kNone);
+  for (std::size_t t = 0; t < head_.size(); ++t)
     if (newSlot[t] != kNone) moved[newSlot[t]] = head_[t];
   head_ = std::move(moved);
 }

@@ -36,7 +36,7 @@ class PointError {
   /// RasterError knows a rule for the finest triangulation; for points there is none.
   double costInFinest(std::uint32_t, std::array<std::uint32_t, 3>&) const { return -1; }
   /// The live mesh has moved its triangles (LiveMesh::compact): their points move with them.
-  void compact(std::span<const std::uint32_t> newSlot, std::size_t liveSlots);
+  void compact(const SlotMap& newSlot);
 
   /// The triangles of one hole, named by corners of its link, against the points of the star and its apex.
   class Hole {

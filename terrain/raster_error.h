@@ -170,7 +170,7 @@ class RasterError {
   }
 
   /// The live mesh has moved its triangles: nothing here hangs on them.
-  void compact(std::span<const std::uint32_t>, std::size_t) {}
+  void compact(const SlotMap&) {}
 
   /// max |z - plane| over the samples covered; gives up at the first row beyond the limit and returns a value
   /// > limit. Precondition: a, b, c counter-clockwise. O(samples covered + rows).

@@ -368,8 +368,7 @@ class Simplifier {
     // A removal leaves two slots dead, one on a border.
     for (const std::uint8_t isOpen : isOpen_) liveTriangles_ -= isOpen ? 1 : 2;
     if (liveTriangles_ < mesh_.triangles.size() / 2) {
-      const std::vector<std::uint32_t> newSlot = mesh_.compact();
-      errors_.compact(newSlot, mesh_.triangles.size());
+      errors_.compact(mesh_.compact());
     }
   }
 

@@ -4,6 +4,7 @@
 // outcome of the comparison, without a branch.
 #include "terrain/waiting_list.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -50,11 +51,14 @@ void WaitingList::collect(double threshold, std::vector<std::uint32_t>& due) {
 }
 
 void WaitingList::remove(std::span<const std::uint32_t> gone) {
-  for (const std::uint32_t v : gone) {
-    dueAt_[place_[v]] = kNever;
-    vertices_[place_[v]] = kGone;
-    place_[v] = kNobody;
-  }
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, gone.size(), 1024), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      std::uint32_t& place = place_[gone[i]];
+      dueAt_[place] = kNever;
+      vertices_[place] = kGone;
+      place = kNobody;
+    }
+  });
   living_ -= gone.size();
 }
 

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "terrain/slot_map.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace arete {
+namespace {
+
+TEST(SlotMap, MovesLiveSlotsUpInTheirOrder) {
+  for (const std::size_t size : {0u, 1u, 63u, 64u, 65u, 1000u, 100000u})
+    for (const unsigned share : {0u, 1u, 7u, 8u}) {
+      SCOPED_TRACE(testing::Message() << size << " slots, " << share << " of 8 live, seed " << size + share);
+      std::mt19937_64 random(size + share);
+      std::vector<char> isLive(size);
+      for (char& live : isLive) live = random() % 8 < share;
+      const SlotMap map(size, [&](std::size_t slot) { return isLive[slot] != 0; });
+      std::uint32_t next = 0;
+      for (std::size_t slot = 0; slot < size; ++slot)
+        ASSERT_EQ(map[slot], isLive[slot] ? next++ : SlotMap::kNone) << "slot " << slot;
+      EXPECT_EQ(map.liveCount(), next);
+    }
+}
+
+}  // namespace
+}  // namespace arete
