@@ -62,7 +62,7 @@ class RasterError {
 
     /// Where corner i lies from the apex, in the metric of the plan, and by how much it is higher.
     Vec3 fromApex(int i) const {
-      return {double(x_[i]) * errors_.plan_.p(), double(y_[i]) * errors_.plan_.q(), corners_[i].z - apex_.z};
+      return {double(x_[i]), double(y_[i]), corners_[i].z - apex_.z};
     }
     /// |z - plane| at the apex, of a triangle over it.
     double apexError(int i, int j, int m) const {
