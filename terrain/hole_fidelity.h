@@ -11,19 +11,33 @@
 
 namespace arete {
 
-/// The triangulation of a star polygon with the least largest vertical error, then the least sum of errors;
-/// where those are equal, as they often are over heights in whole units, the one of the bluntest triangles.
+/// What it costs to fill a hole.
+struct HoleCost {
+  double error;  ///< the least largest error of all fillings; else no filling has less
+  bool isExact;  ///< the former: a filling with this error exists
+};
+
+/// The triangulation of a star polygon with the least largest vertical error, and of all of those the one
+/// with the least sum of squared diagonals. Which triangles are worst decides what a removal costs; how the
+/// rest of the hole is filled decides what the next removals cost, and short edges serve them better than
+/// small errors do (docs/decisions/0013).
 ///
-/// Some triangle covers the apex, and its error is at least that at the apex, which is known without a look
-/// at any sample. So the search starts from the triangles over the apex, in the order of that bound: most
-/// holes are turned down, or left with one or two to choose from, before a sample is read. What such a
+/// A build asks for the error often and for the triangulation once, so they are found apart.
+///
+/// cost(): Some triangle covers the apex, and its error is at least that at the apex, which is known without
+/// a look at any sample. So the search starts from the triangles over the apex, in the order of that bound:
+/// most holes are turned down, or left with one or two to choose from, before a sample is read. What such a
 /// triangle leaves are up to three pockets, polygons over one of its edges; each is filled by dynamic
 /// programming over its diagonals (Klincsek 1980, with the largest error in place of the length), when asked
-/// for, and kept. A pocket, like the whole, has the least largest error first and the least sum then.
+/// for, and kept. No error below the bound of the triangle over the apex is worth a search: bounds only grow
+/// from here on.
+///
+/// shortest(): Dynamic programming over all diagonals, without errors. Then the errors of the triangles
+/// found; those beyond the limit are ruled out, and the rest is filled anew.
 ///
 /// A triangle is admitted when it turns counter-clockwise, is not thinner than the aspect bound and keeps the
 /// limit. Triangles that all turn the same way and share the polygon's rim tile it, so nothing else needs
-/// checking. A triangle beyond the best known filling is given up early.
+/// checking.
 ///
 /// Hole: fromApex(i), the place and height of a corner from the apex, in the metric that shapes are judged
 /// in; maximum(i, j, m, limit), the error of a triangle, or some value beyond the limit.
@@ -32,36 +46,25 @@ class FidelitySearch {
  public:
   FidelitySearch(int corners, const Hole& hole, double minimumAspect)
       : hole_(hole), corners_(corners), minimumAspect_(std::max(minimumAspect, kLeastAspect)) {
-    double spread = 0;
     for (int i = 0; i < corners; ++i) {
       const auto [x, y, z] = hole.fromApex(i);
       x_[i] = x;
       y_[i] = y;
       z_[i] = z;
-      spread = std::max(spread, std::max(std::abs(x), std::abs(y)));
     }
-    for (int i = 0; i < corners; ++i)
-      for (int j = i + 1; j < corners; ++j) cross_[i][j] = x_[i] * y_[j] - y_[i] * x_[j];
-    slack_ = spread * spread * kRounding;
   }
 
-  /// Empty when every triangulation costs more than the threshold and that shows at the apex already, or when
-  /// none keeps the limit; `leastError` is then a bound from below of what any triangulation costs (infinite
-  /// when the aspect bound alone leaves none), and the error itself otherwise. Precondition: threshold <=
-  /// limit. O(corners^3), one error each at most.
-  HoleTriangulation run(double threshold, double limit, double& leastError) {
-    HoleTriangulation result;
-    leastError = listRoots(limit);
-    double leastBound = leastError;
+  /// Not exact when every triangulation costs more than the threshold and that shows at the apex already, or
+  /// when none keeps the limit (infinite when the aspect bound alone leaves none). Exact but for a
+  /// billionth of a thousandth. Precondition: threshold <= limit. O(corners^3), one error each at most.
+  HoleCost cost(double threshold, double limit) {
+    double least = listRoots(limit);
+    double leastBound = least;
     for (int k = 0; k < rootCount_; ++k) leastBound = std::min(leastBound, roots_[k].bound);
-    if (leastBound > threshold) {
-      leastError = leastBound;
-      return result;
-    }
+    if (leastBound > threshold) return {leastBound, false};
     limit_ = limit;
     for (int i = 0; i < corners_; ++i) known_[i] = 0;
-    Best best = {kInfinity, kInfinity, 0};
-    std::array<std::uint8_t, 3> bestRoot{};
+    double best = kInfinity;
     for (;;) {
       int next = 0;
       for (int k = 1; k < rootCount_; ++k)
@@ -70,73 +73,100 @@ class FidelitySearch {
       if (!(root.bound <= limit_)) break;
       roots_[next].bound = kInfinity;
       const auto [i, j, m] = root.corners;
-      const double thinness = thinnessOf(i, j, m);
-      if (thinness * minimumAspect_ > 1) continue;
-      const double error = hole_.maximum(i, j, m, limit_);
-      Best mine = {std::max(root.bound, error), error + kThinness * thinness, 0};
-      if (error > limit_ || !takePocket(i, j, mine) || !takePocket(j, m, mine) || !takePocket(m, i, mine)) {
-        leastError = std::min(leastError, mine.worst);
+      if (isTooThin(i, j, m)) continue;
+      enough_ = root.bound * (1 + kSame);
+      double mine = std::max(root.bound, hole_.maximum(i, j, m, limit_));
+      if (mine > limit_ || !takePocket(i, j, mine) || !takePocket(j, m, mine) || !takePocket(m, i, mine)) {
+        least = std::min(least, mine);
         continue;
       }
-      if (!isBetter(mine, best)) continue;
       best = mine;
-      bestRoot = root.corners;
-      limit_ = best.worst;
+      if (best <= enough_) break;
+      limit_ = best * (1 - kSame);
     }
-    if (!(best.worst <= limit)) return result;
-    leastError = best.worst;
-    const auto [i, j, m] = bestRoot;
-    result.triangles[result.size++] = bestRoot;
-    emitPocket(i, j, result);
-    emitPocket(j, m, result);
-    emitPocket(m, i, result);
-    return result;
+    return best <= limit ? HoleCost{best, true} : HoleCost{least, false};
+  }
+
+  /// Empty when no triangulation keeps the limit. `errorOf(i, m, j)`: of corners i < m < j, exact up to the
+  /// limit; asked of every triangle of the result, and last of it among all on its edge i - j.
+  /// O(corners^3), one error each at most (but for those that are asked for again).
+  template <class ErrorOf>
+  HoleTriangulation shortest(double limit, const ErrorOf& errorOf) {
+    // Bit m of i, j: the triangle of these three corners, i < m < j, may be used; keeps the limit.
+    Masks allowed, kept;
+    for (int i = 0; i < corners_; ++i)
+      for (int j = i + 2; j < corners_; ++j) {
+        allowed[i][j] = kept[i][j] = 0;
+        for (int m = i + 1; m < j; ++m)
+          if (!isTooThin(i, m, j)) allowed[i][j] |= bit(m);
+      }
+    const auto check = [&](int i, int m, int j) {
+      if (kept[i][j] == bit(m)) return true;
+      const bool isKept = errorOf(i, m, j) <= limit;
+      kept[i][j] = isKept ? bit(m) : 0;
+      if (!isKept) allowed[i][j] &= ~bit(m);
+      return isKept;
+    };
+    for (int round = 0;; ++round) {
+      const HoleTriangulation found = shortestOf(allowed);
+      bool isKept = true;
+      for (const auto& t : found.view()) isKept = check(t[0], t[1], t[2]) && isKept;
+      if (isKept) return found;
+      if (round < kRounds) continue;
+      for (int i = 0; i < corners_; ++i)
+        for (int j = i + 2; j < corners_; ++j)
+          for (int m = i + 1; m < j; ++m)
+            if (allowed[i][j] & bit(m)) check(i, m, j);
+    }
   }
 
  private:
+  using Masks = std::array<std::array<std::uint64_t, kMaxHoleCorners>, kMaxHoleCorners>;
+
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   // Far below any shape worth having, far above what rounding can turn around: what is not that thin turns
   // counter-clockwise exactly.
   static constexpr double kLeastAspect = 1e-9;
   static constexpr double kRounding = 1e-14;
-  // What a triangle's thinness weighs among errors: less than any difference between them that counts.
-  static constexpr double kThinness = 1e-9;
+  // Errors that differ by less are the same: the bound at the apex and the error found there do.
+  static constexpr double kSame = 1e-12;
+  // Refills before all triangles are checked. Nearly all holes need less.
+  static constexpr int kRounds = 8;
 
-  // Beyond the limit `worst` is a bound from below: errors given up early, sides not pursued.
-  struct Best {
-    double worst, sum;
-    std::uint8_t apex;
-  };
   struct Root {
     double bound;
     std::array<std::uint8_t, 3> corners;
   };
 
-  static bool isBetter(const Best& a, const Best& b) {
-    return a.worst < b.worst || (a.worst == b.worst && a.sum < b.sum);
-  }
+  static std::uint64_t bit(int m) { return std::uint64_t(1) << m; }
   int after(int i) const { return i + 1 < corners_ ? i + 1 : 0; }
 
   double squaredLength(int i, int j) const {
     const double dx = x_[i] - x_[j], dy = y_[i] - y_[j];
     return dx * dx + dy * dy;
   }
-  /// Longest edge over least altitude; infinite when i, j, m do not turn counter-clockwise.
-  double thinnessOf(int i, int j, int m) const {
+  /// Whether the least altitude is below the aspect bound's part of the longest edge, or i, j, m do not turn
+  /// counter-clockwise.
+  bool isTooThin(int i, int j, int m) const {
     const double area = (x_[j] - x_[i]) * (y_[m] - y_[i]) - (y_[j] - y_[i]) * (x_[m] - x_[i]);
-    if (!(area > 0)) return kInfinity;
-    return std::max(std::max(squaredLength(i, j), squaredLength(j, m)), squaredLength(m, i)) / area;
+    return !(area >= std::max(std::max(squaredLength(i, j), squaredLength(j, m)), squaredLength(m, i)) *
+                         minimumAspect_);
   }
 
   /// The triangles over the apex whose error there keeps the limit; returns the least of the others' bounds.
   /// Corners go once around the apex at most.
   double listRoots(double limit) {
+    double spread = 0;
+    for (int i = 0; i < corners_; ++i) spread = std::max(spread, std::max(std::abs(x_[i]), std::abs(y_[i])));
+    for (int i = 0; i < corners_; ++i)
+      for (int j = i + 1; j < corners_; ++j) cross_[i][j] = x_[i] * y_[j] - y_[i] * x_[j];
+    const double slack = spread * spread * kRounding;  // what rounding may take from a cross product
     double least = kInfinity;
     rootCount_ = 0;
     for (int i = 0; i + 2 < corners_; ++i)
-      for (int j = i + 1; j + 1 < corners_ && cross_[i][j] >= -slack_; ++j)
-        for (int m = corners_ - 1; m > j && cross_[i][m] <= slack_; --m) {
-          if (cross_[j][m] < -slack_) continue;
+      for (int j = i + 1; j + 1 < corners_ && cross_[i][j] >= -slack; ++j)
+        for (int m = corners_ - 1; m > j && cross_[i][m] <= slack; --m) {
+          if (cross_[j][m] < -slack) continue;
           const double atI = cross_[j][m], atJ = -cross_[i][m], atM = cross_[i][j];
           const double bound = std::abs(z_[i] * atI + z_[j] * atJ + z_[m] * atM) / (atI + atJ + atM);
           if (bound > limit)
@@ -147,40 +177,61 @@ class FidelitySearch {
     return least;
   }
 
-  bool takePocket(int i, int j, Best& mine) {
+  bool takePocket(int i, int j, double& mine) {
     if (after(i) == j) return true;
-    const Best& pocket = fillPocket(i, j);
-    mine.worst = std::max(mine.worst, pocket.worst);
-    mine.sum += pocket.sum;
-    return pocket.worst <= limit_;
+    mine = std::max(mine, fillPocket(i, j));
+    return mine <= limit_;
   }
 
-  /// The polygon i, i + 1, ..., j (around the end of the list, if need be) with the diagonal j -> i. The
-  /// limit only falls, so what has failed once need not be tried again.
-  const Best& fillPocket(int i, int j) {
-    Best& best = pockets_[i][j];
-    if (known_[i] >> j & 1) return best;
-    known_[i] |= std::uint64_t(1) << j;
-    best = {kInfinity, kInfinity, 0};
-    for (int m = after(i); m != j; m = after(m)) {
-      const double thinness = thinnessOf(i, m, j);
-      if (thinness * minimumAspect_ > 1) continue;
-      const double error = hole_.maximum(i, m, j, std::min(best.worst, limit_));
-      Best mine = {error, error + kThinness * thinness, std::uint8_t(m)};
-      if (error <= limit_ && error <= best.worst && takePocket(i, m, mine)) takePocket(m, j, mine);
-      if (isBetter(mine, best)) best = mine;
+  /// The least largest error over the polygon i, i + 1, ..., j (around the end of the list, if need be) with
+  /// the diagonal j -> i; or some that is enough; or, beyond the limit, a bound from below. The limit only
+  /// falls and what is enough only grows, so what is known need not be tried again.
+  double fillPocket(int i, int j) {
+    double& best = pockets_[i][j];
+    if (known_[i] & bit(j)) return best;
+    known_[i] |= bit(j);
+    best = kInfinity;
+    for (int m = after(i); m != j && best > enough_; m = after(m)) {
+      if (isTooThin(i, m, j)) continue;
+      double mine = hole_.maximum(i, m, j, std::min(best, limit_));
+      if (mine <= limit_ && mine < best && takePocket(i, m, mine)) takePocket(m, j, mine);
+      best = std::min(best, mine);
     }
     return best;
   }
 
-  void emitPocket(int i, int j, HoleTriangulation& result) const {
-    if (after(i) == j) return;
-    const int m = pockets_[i][j].apex;
-    std::array<std::uint8_t, 3> t{std::uint8_t(i), std::uint8_t(m), std::uint8_t(j)};
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    result.triangles[result.size++] = t;
-    emitPocket(i, m, result);
-    emitPocket(m, j, result);
+  /// Of the allowed triangles. Empty when there is none.
+  HoleTriangulation shortestOf(const Masks& allowed) const {
+    std::array<std::array<double, kMaxHoleCorners>, kMaxHoleCorners> length;
+    std::array<std::array<std::uint8_t, kMaxHoleCorners>, kMaxHoleCorners> third;
+    for (int i = 0; i + 1 < corners_; ++i) length[i][i + 1] = 0;
+    for (int span = 2; span < corners_; ++span)
+      for (int i = 0; i + span < corners_; ++i) {
+        const int j = i + span;
+        double least = kInfinity;
+        for (int m = i + 1; m < j; ++m) {
+          const double mine = length[i][m] + length[m][j];
+          if (mine < least && (allowed[i][j] & bit(m))) {
+            least = mine;
+            third[i][j] = static_cast<std::uint8_t>(m);
+          }
+        }
+        length[i][j] = least + squaredLength(i, j);
+      }
+    HoleTriangulation result;
+    if (!(length[0][corners_ - 1] < kInfinity)) return result;
+    std::array<std::array<std::uint8_t, 2>, kMaxHoleCorners> stack;
+    int top = 0;
+    stack[top++] = {0, static_cast<std::uint8_t>(corners_ - 1)};
+    while (top > 0) {
+      const auto [i, j] = stack[--top];
+      if (j - i < 2) continue;
+      const std::uint8_t m = third[i][j];
+      result.triangles[result.size++] = {i, m, j};
+      stack[top++] = {i, m};
+      stack[top++] = {m, j};
+    }
+    return result;
   }
 
   static constexpr int kMostRoots = kMaxHoleCorners * (kMaxHoleCorners - 1) * (kMaxHoleCorners - 2) / 6;
@@ -188,13 +239,13 @@ class FidelitySearch {
   const Hole& hole_;
   int corners_;
   double minimumAspect_;
-  double limit_ = 0;  // the least of the limit and what the best filling costs
-  double slack_;      // what rounding may take from a cross product
+  double limit_ = 0;   // the least of the limit and what the best filling costs
+  double enough_ = 0;  // below this errors do not matter any more
   int rootCount_ = 0;
   std::array<double, kMaxHoleCorners> x_, y_, z_;
   std::array<std::array<double, kMaxHoleCorners>, kMaxHoleCorners> cross_;  // of corners i < j
   std::array<std::uint64_t, kMaxHoleCorners> known_;                        // bit j of i: pockets_[i][j] is
-  std::array<std::array<Best, kMaxHoleCorners>, kMaxHoleCorners> pockets_;
+  std::array<std::array<double, kMaxHoleCorners>, kMaxHoleCorners> pockets_;
   std::array<Root, kMostRoots> roots_;
 };
 

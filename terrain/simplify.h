@@ -41,7 +41,6 @@
 #include "terrain/build_checks.h"
 #include "terrain/build_options.h"
 #include "terrain/hole.h"
-#include "terrain/hole_code.h"
 #include "terrain/hole_fidelity.h"
 #include "terrain/independent_set.h"
 #include "terrain/live_mesh.h"
@@ -140,31 +139,49 @@ class Simplifier {
  private:
   using State = VertexNote::State;
 
-  /// Of the fidelity shape. Empty when nothing keeps the limit, unless any shape is welcome: then Delaunay
-  /// fills. See FidelitySearch::run() for the threshold, the limit and `leastError`.
-  HoleTriangulation fillWithFidelity(const Star& star, const typename Errors::Hole& hole, double threshold,
-                                     double limit, double& leastError) const {
-    // No error exceeds the range of the heights: a hole that the aspect bound alone leaves open takes any
-    // shape then.
-    const bool isAnyShapeWelcome = limit >= heightRange_;
-    FidelitySearch search(star.linkSize, hole, options_.minimumAspect);
-    const HoleTriangulation floor = search.run(isAnyShapeWelcome ? limit : threshold, limit, leastError);
-    if (floor.size > 0 || !isAnyShapeWelcome) return floor;
-    const HoleTriangulation any = triangulateHoleDelaunay(star.linkSize, hole, isDomainConvex_);
-    leastError = 0;
-    for (const auto& t : any.view()) leastError = std::max(leastError, hole.maximum(t[0], t[1], t[2], limit));
-    return any;
+  /// A triangulation of a hole with the error of each triangle and the bound at its samples.
+  struct MeasuredFloor {
+    HoleTriangulation triangulation;
+    std::array<double, kMaxHoleCorners> errors;
+    std::array<SignedBound, kMaxHoleCorners> bounds;
+  };
+
+  void measure(const typename Errors::Hole& hole, MeasuredFloor& floor) const {
+    for (int f = 0; f < floor.triangulation.size; ++f) {
+      const auto [i, m, j] = floor.triangulation.triangles[f];
+      floor.bounds[f] = {};
+      floor.errors[f] = hole.maximum(i, m, j, floor.bounds[f]);
+    }
   }
 
   /// The floor of a vertex whose cost is known exactly.
-  HoleTriangulation floorOf(std::uint32_t v, const Star& star, const typename Errors::Hole& hole) const {
-    if (options_.shape == HoleShape::delaunay)
-      return triangulateHoleDelaunay(star.linkSize, hole, isDomainConvex_);
-    if (star.linkSize <= HoleCode::kMostCorners) return HoleCode::decode(notes_[v].witness, star.linkSize);
-    double leastError = 0;
-    const double limit = std::nextafter(notes_[v].cost, std::numeric_limits<float>::infinity());
-    const HoleTriangulation floor = fillWithFidelity(star, hole, limit, limit, leastError);
-    return floor.size > 0 ? floor : triangulateHoleDelaunay(star.linkSize, hole, isDomainConvex_);
+  void fill(std::uint32_t v, const Star& star, const typename Errors::Hole& hole,
+            MeasuredFloor& floor) const {
+    if (options_.shape == HoleShape::fidelity) {
+      struct Measured {  // left alone until it is needed
+        double error, below, above;
+      };
+      std::array<std::array<Measured, kMaxHoleCorners>, kMaxHoleCorners> measured;  // of corners i < m < j
+      FidelitySearch search(star.linkSize, hole, options_.minimumAspect);
+      // The cost was found from other corners, in other roundings, and is kept in few digits.
+      const double limit =
+          std::nextafter(notes_[v].cost, std::numeric_limits<float>::infinity()) + roundingSlack_;
+      floor.triangulation = search.shortest(limit, [&](int i, int m, int j) {
+        SignedBound bound;
+        const double error = hole.maximum(i, m, j, bound);
+        measured[i][j] = {error, bound.below, bound.above};
+        return error;
+      });
+      for (int f = 0; f < floor.triangulation.size; ++f) {
+        const auto [i, m, j] = floor.triangulation.triangles[f];
+        const auto& [error, below, above] = measured[i][j];
+        floor.errors[f] = error;
+        floor.bounds[f] = {below, above};
+      }
+      if (floor.triangulation.size > 0) return;
+    }
+    floor.triangulation = triangulateHoleDelaunay(star.linkSize, hole, isDomainConvex_);
+    measure(hole, floor);
   }
 
   /// Whether v may go at all, as its star stands. On a border: only from a straight one, or as the rim
@@ -284,17 +301,26 @@ class Simplifier {
 
   void evaluateFidelity(VertexNote& note, const Star& star, const typename Errors::Hole& hole,
                         double threshold, double limit) const {
-    double leastError = 0;
-    const HoleTriangulation floor = fillWithFidelity(star, hole, threshold, limit, leastError);
-    if (floor.size == 0) {
-      note.state = limit >= heightRange_ ? State::stuck : State::atLeast;
-      note.cost = static_cast<float>(
-          std::clamp(leastError, threshold * (1 + 1e-6), std::max(heightRange_, threshold * 2)));
-      return;
+    // No error exceeds the range of the heights: a hole that the aspect bound alone leaves open takes any
+    // shape then, Delaunay's.
+    const bool isAnyShapeWelcome = limit >= heightRange_;
+    FidelitySearch search(star.linkSize, hole, options_.minimumAspect);
+    HoleCost cost = search.cost(isAnyShapeWelcome ? limit : threshold, limit);
+    if (!cost.isExact && isAnyShapeWelcome) {
+      const HoleTriangulation any = triangulateHoleDelaunay(star.linkSize, hole, isDomainConvex_);
+      if (any.size == 0) {
+        note.state = State::stuck;
+        return;
+      }
+      cost.error = 0;
+      for (const auto& t : any.view())
+        cost.error = std::max(cost.error, hole.maximum(t[0], t[1], t[2], limit));
+      cost.isExact = cost.error <= limit;
+    } else if (!cost.isExact) {
+      cost.error = std::clamp(cost.error, threshold * (1 + 1e-6), std::max(heightRange_, threshold * 2));
     }
-    note.cost = static_cast<float>(leastError);
-    note.state = leastError > limit ? State::atLeast : State::exact;
-    if (star.linkSize <= HoleCode::kMostCorners) note.witness = HoleCode::encode(floor, star.linkSize);
+    note.cost = static_cast<float>(cost.error);
+    note.state = cost.isExact ? State::exact : State::atLeast;
   }
 
   void choose(std::uint32_t level) {
@@ -374,18 +400,17 @@ class Simplifier {
 
   void remove(std::uint32_t v, const Star& star, std::uint32_t removal, std::span<Seam> seams) {
     typename Errors::Hole hole(errors_, star, v);
-    const HoleTriangulation floor = floorOf(v, star, hole);
+    MeasuredFloor filled;
+    fill(v, star, hole, filled);
+    const HoleTriangulation& floor = filled.triangulation;
     const int corners = star.linkSize;
 
     // Bounds: samples inside each triangle, and each edge once for the two triangles that share it.
-    std::array<SignedBound, kMaxHoleCorners> bounds{};
-    std::array<double, kMaxHoleCorners> errors{};
+    auto& bounds = filled.bounds;
     std::array<std::array<std::uint8_t, kMaxHoleCorners>, kMaxHoleCorners> owner;
-    for (int f = 0; f < floor.size; ++f) {
-      const auto& t = floor.triangles[f];
-      errors[f] = hole.maximum(t[0], t[1], t[2], bounds[f]);
-      for (int c = 0; c < 3; ++c) owner[t[c]][t[(c + 1) % 3]] = static_cast<std::uint8_t>(f);
-    }
+    for (int f = 0; f < floor.size; ++f)
+      for (int c = 0; c < 3; ++c)
+        owner[floor.triangles[f][c]][floor.triangles[f][(c + 1) % 3]] = static_cast<std::uint8_t>(f);
     for (int f = 0; f < floor.size; ++f)
       for (int c = 0; c < 3; ++c) {
         const int a = floor.triangles[f][c], b = floor.triangles[f][(c + 1) % 3];
@@ -399,7 +424,7 @@ class Simplifier {
     std::array<FloorCodes, kMaxHoleCorners> codes;
     const OutwardScale& scale = recorder_.scale();
     for (int f = 0; f < floor.size; ++f)
-      codes[f] = {scale.encode(withoutRounding(errors[f])), scale.encode(outward(bounds[f].below)),
+      codes[f] = {scale.encode(withoutRounding(filled.errors[f])), scale.encode(outward(bounds[f].below)),
                   scale.encode(outward(bounds[f].above))};
     std::array<std::uint32_t, kMaxHoleCorners> ceiling, bearer;
     std::array<Vec3, kMaxHoleCorners + 1> positions;

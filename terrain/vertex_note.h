@@ -16,8 +16,8 @@ struct VertexNote {
   };
 
   float cost = 0;
-  /// Marks of the corners of the triangle that costs that much: see isWitnessedBy(). Of the fidelity shape,
-  /// when exact: its floor (HoleCode).
+  /// Marks of the corners of the triangle that costs that much: see isWitnessedBy(). Not of the fidelity
+  /// shape.
   std::uint32_t witness = 0;
   /// 4 * level + choice: whether it was a candidate of that level, and what became of it.
   std::uint32_t candidacy = 0;

@@ -10,7 +10,6 @@
 #include <random>
 #include <vector>
 
-#include "terrain/hole_code.h"
 #include "terrain/lattice_plan.h"
 #include "terrain/raster_error.h"
 
@@ -81,13 +80,14 @@ double errorOf(const SomeHole& hole, int i, int j, int m) {
   return worst;
 }
 
+double squaredDistance(const SomeHole& hole, int i, int j) {
+  const Place &p = hole.places[std::size_t(i)], &q = hole.places[std::size_t(j)];
+  return double((p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y));
+}
+
 double aspectOf(const SomeHole& hole, int i, int j, int m) {
-  const auto squared = [&](int u, int v) {
-    const Place &p = hole.places[std::size_t(u)], &q = hole.places[std::size_t(v)];
-    return double((p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y));
-  };
   return double(turn(hole.places[std::size_t(i)], hole.places[std::size_t(j)], hole.places[std::size_t(m)])) /
-         std::max({squared(i, j), squared(j, m), squared(m, i)});
+         std::max({squaredDistance(hole, i, j), squaredDistance(hole, j, m), squaredDistance(hole, m, i)});
 }
 
 /// The least largest error of all triangulations, one after the other: the edge j - i takes each corner
@@ -116,15 +116,18 @@ TEST(HoleFidelity, CostsTheLeastOfAllTriangulations) {
     const double least = leastOfAll(some, 0, corners - 1, minimumAspect);
 
     FidelitySearch search(corners, hole, minimumAspect);
-    double cost = 0;
-    const HoleTriangulation floor = search.run(1e9, 1e9, cost);
+    const HoleCost cost = search.cost(1e9, 1e9);
+    const auto errorIn = [&](int i, int m, int j) { return hole.maximum(i, m, j, 1e9); };
+    EXPECT_EQ(cost.isExact, least < kInfinity);
     if (least == kInfinity) {
-      EXPECT_EQ(floor.size, 0);
-      EXPECT_EQ(cost, kInfinity);
+      EXPECT_EQ(cost.error, kInfinity);
+      EXPECT_EQ(search.shortest(1e9, errorIn).size, 0);
       continue;
     }
+    EXPECT_NEAR(cost.error, least, 1e-9);
+    EXPECT_EQ(search.shortest(cost.error - 1e-9, errorIn).size, 0);
+    const HoleTriangulation floor = search.shortest(cost.error + 1e-9, errorIn);
     ASSERT_EQ(floor.size, corners - 2);
-    EXPECT_NEAR(cost, least, 1e-9);
     std::int64_t area = 0, whole = 0;
     double worst = 0;
     for (const auto& t : floor.view()) {
@@ -155,44 +158,61 @@ TEST(HoleFidelity, FindsNothingBeyondALimitButABoundFromBelow) {
     for (const double part : {0.1, 0.5, 0.9, 0.999, 1.001, 1.2}) {
       const double threshold = std::min(least, 1e6) * part;
       FidelitySearch search(corners, hole, 0.02);
-      double cost = 0;
-      const HoleTriangulation floor = search.run(threshold, threshold * 1.1, cost);
+      const HoleCost cost = search.cost(threshold, threshold * 1.1);
       if (threshold >= least) {
-        EXPECT_GT(floor.size, 0);
+        EXPECT_TRUE(cost.isExact);
       }
-      if (floor.size > 0) {
-        EXPECT_NEAR(cost, least, 1e-9);
+      if (cost.isExact) {
+        EXPECT_NEAR(cost.error, least, 1e-9);
       } else if (least > 0) {
-        EXPECT_GT(cost, threshold);
-        EXPECT_LE(cost, least * (1 + 1e-9));
+        EXPECT_GT(cost.error, threshold);
+        EXPECT_LE(cost.error, least * (1 + 1e-9));
       }
     }
   }
 }
 
-TEST(HoleCode, GivesBackEveryTriangulation) {
-  for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+/// The least sum of squared diagonals, j - i among them, of all triangulations within the limit.
+double shortestOfAll(const SomeHole& hole, int i, int j, double minimumAspect, double limit) {
+  if (j - i < 2) return 0;
+  double least = kInfinity;
+  for (int m = i + 1; m < j; ++m) {
+    if (!(aspectOf(hole, i, m, j) > 0) || aspectOf(hole, i, m, j) < minimumAspect) continue;
+    if (errorOf(hole, i, m, j) > limit) continue;
+    least = std::min(least, shortestOfAll(hole, i, m, minimumAspect, limit) +
+                                shortestOfAll(hole, m, j, minimumAspect, limit));
+  }
+  return least + squaredDistance(hole, i, j);
+}
+
+TEST(HoleFidelity, TakesTheShortestDiagonalsThatKeepTheLimit) {
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     std::mt19937_64 random(seed);
-    const int corners = 3 + int(random() % unsigned(HoleCode::kMostCorners - 2));
-    HoleTriangulation floor;
-    std::vector<std::array<int, 2>> edges{{0, corners - 1}};
-    while (!edges.empty()) {
-      const auto [i, j] = edges.back();
-      edges.pop_back();
-      if (j - i < 2) continue;
-      const int m = i + 1 + int(random() % unsigned(j - i - 1));
-      floor.triangles[std::size_t(floor.size++)] = {std::uint8_t(i), std::uint8_t(m), std::uint8_t(j)};
-      edges.push_back({i, m});
-      edges.push_back({m, j});
+    const int corners = 3 + int(random() % 7);
+    const SomeHole some = someHole(random, 3 + int(random() % 6), corners);
+    const LatticePlan plan(kColumns, 1, 1);
+    const RasterError errors(plan, some.heights, false);
+    const RasterError::Hole hole(errors, some.star, some.apex);
+    const double least = leastOfAll(some, 0, corners - 1, 0.02);
+    if (least == kInfinity) continue;
+    for (const double more : {1.0, 1.05, 1.5, 100.0}) {
+      const double limit = least * more + 1e-6;
+      std::array<std::array<int, 9>, 9> asked{};  // by the least and the greatest corner: the one between
+      const HoleTriangulation floor =
+          FidelitySearch(corners, hole, 0.02).shortest(limit, [&](int i, int m, int j) {
+            asked[std::size_t(i)][std::size_t(j)] = m;
+            return hole.maximum(i, m, j, limit);
+          });
+      ASSERT_EQ(floor.size, corners - 2);
+      double sum = 0;
+      for (const auto& [i, m, j] : floor.view()) {
+        EXPECT_LE(errorOf(some, i, m, j), limit);
+        EXPECT_EQ(asked[i][j], m);
+        sum += squaredDistance(some, i, j);
+      }
+      EXPECT_NEAR(sum, shortestOfAll(some, 0, corners - 1, 0.02, limit), 1e-9);
     }
-    const HoleTriangulation again = HoleCode::decode(HoleCode::encode(floor, corners), corners);
-    ASSERT_EQ(again.size, floor.size);
-    std::vector<std::array<std::uint8_t, 3>> a(floor.view().begin(), floor.view().end()),
-        b(again.view().begin(), again.view().end());
-    std::sort(a.begin(), a.end());
-    std::sort(b.begin(), b.end());
-    EXPECT_EQ(a, b);
   }
 }
 
