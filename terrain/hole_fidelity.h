@@ -32,8 +32,8 @@ struct HoleCost {
 /// for, and kept. No error below the bound of the triangle over the apex is worth a search: bounds only grow
 /// from here on.
 ///
-/// shortest(): Dynamic programming over all diagonals, without errors. Then the errors of the triangles
-/// found; those beyond the limit are ruled out, and the rest is filled anew.
+/// shortest(): Dynamic programming over all diagonals, with no errors but those at the apex. Then the errors
+/// of the triangles found; those beyond the limit are ruled out, and the rest is filled anew.
 ///
 /// A triangle is admitted when it turns counter-clockwise, is not thinner than the aspect bound and keeps the
 /// limit. Triangles that all turn the same way and share the polygon's rim tile it, so nothing else needs
@@ -73,6 +73,11 @@ class FidelitySearch {
       if (!(root.bound <= limit_)) break;
       roots_[next].bound = kInfinity;
       const auto [i, j, m] = root.corners;
+      const double beside = std::max({knownOf(i, j), knownOf(j, m), knownOf(m, i)});
+      if (beside > limit_) {
+        least = std::min(least, beside);
+        continue;
+      }
       if (isTooThin(i, j, m)) continue;
       enough_ = root.bound * (1 + kSame);
       double mine = std::max(root.bound, hole_.maximum(i, j, m, limit_));
@@ -92,13 +97,16 @@ class FidelitySearch {
   /// O(corners^3), one error each at most (but for those that are asked for again).
   template <class ErrorOf>
   HoleTriangulation shortest(double limit, const ErrorOf& errorOf) {
+    findCrosses();
     // Bit m of i, j: the triangle of these three corners, i < m < j, may be used; keeps the limit.
     Masks allowed, kept;
     for (int i = 0; i < corners_; ++i)
       for (int j = i + 2; j < corners_; ++j) {
-        allowed[i][j] = kept[i][j] = 0;
+        std::uint64_t mask = 0;
         for (int m = i + 1; m < j; ++m)
-          if (!isTooThin(i, m, j)) allowed[i][j] |= bit(m);
+          if (!isTooThin(i, m, j) && !isBeyondAtApex(i, m, j, limit)) mask |= bit(m);
+        allowed[i][j] = mask;
+        kept[i][j] = 0;
       }
     const auto check = [&](int i, int m, int j) {
       if (kept[i][j] == bit(m)) return true;
@@ -153,29 +161,53 @@ class FidelitySearch {
                          minimumAspect_);
   }
 
-  /// The triangles over the apex whose error there keeps the limit; returns the least of the others' bounds.
-  /// Corners go once around the apex at most.
-  double listRoots(double limit) {
-    double spread = 0;
-    for (int i = 0; i < corners_; ++i) spread = std::max(spread, std::max(std::abs(x_[i]), std::abs(y_[i])));
+  void findCrosses() {
     for (int i = 0; i < corners_; ++i)
       for (int j = i + 1; j < corners_; ++j) cross_[i][j] = x_[i] * y_[j] - y_[i] * x_[j];
+  }
+
+  /// Whether a triangle of corners i < m < j covers the apex and exceeds the limit there.
+  bool isBeyondAtApex(int i, int m, int j, double limit) const {
+    const double atI = cross_[m][j], atM = -cross_[i][j], atJ = cross_[i][m];
+    return atI >= 0 && atM >= 0 && atJ >= 0 &&
+           std::abs(z_[i] * atI + z_[m] * atM + z_[j] * atJ) > limit * (1 + kSame) * (atI + atM + atJ);
+  }
+
+  /// The triangles over the apex whose error there keeps the limit; returns the least of the others' bounds.
+  /// Corners go once around the apex at most: those left of a corner, and those right of it, are consecutive.
+  double listRoots(double limit) {
+    findCrosses();
+    double spread = 0;
+    for (int i = 0; i < corners_; ++i) spread = std::max(spread, std::max(std::abs(x_[i]), std::abs(y_[i])));
     const double slack = spread * spread * kRounding;  // what rounding may take from a cross product
+    // Of the corners after i: the last not right of it, and the first not left of it.
+    std::array<std::uint8_t, kMaxHoleCorners> lastLeft, firstRight;
+    for (int i = 0, left = 0; i < corners_; ++i) {
+      left = std::max(left, i);
+      while (left + 1 < corners_ && cross_[i][left + 1] >= -slack) ++left;
+      int right = left + 1;
+      while (right - 1 > i && cross_[i][right - 1] <= slack) --right;  // those straight across are both
+      lastLeft[i] = static_cast<std::uint8_t>(left);
+      firstRight[i] = static_cast<std::uint8_t>(right);
+    }
     double least = kInfinity;
     rootCount_ = 0;
     for (int i = 0; i + 2 < corners_; ++i)
-      for (int j = i + 1; j + 1 < corners_ && cross_[i][j] >= -slack; ++j)
-        for (int m = corners_ - 1; m > j && cross_[i][m] <= slack; --m) {
-          if (cross_[j][m] < -slack) continue;
-          const double atI = cross_[j][m], atJ = -cross_[i][m], atM = cross_[i][j];
+      for (int j = i + 1; j <= lastLeft[i]; ++j) {
+        const double atM = cross_[i][j];
+        for (int m = std::max<int>(firstRight[i], j + 1); m <= lastLeft[j]; ++m) {
+          const double atI = cross_[j][m], atJ = -cross_[i][m];
           const double bound = std::abs(z_[i] * atI + z_[j] * atJ + z_[m] * atM) / (atI + atJ + atM);
-          if (bound > limit)
-            least = std::min(least, bound);
-          else
-            roots_[rootCount_++] = {bound, {std::uint8_t(i), std::uint8_t(j), std::uint8_t(m)}};
+          roots_[rootCount_] = {bound, {std::uint8_t(i), std::uint8_t(j), std::uint8_t(m)}};
+          rootCount_ += bound <= limit ? 1 : 0;
+          least = std::min(least, bound <= limit ? kInfinity : bound);
         }
+      }
     return least;
   }
+
+  /// What is known of a pocket, 0 if nothing is.
+  double knownOf(int i, int j) const { return known_[i] & bit(j) ? pockets_[i][j] : 0; }
 
   bool takePocket(int i, int j, double& mine) {
     if (after(i) == j) return true;
@@ -193,6 +225,11 @@ class FidelitySearch {
     best = kInfinity;
     for (int m = after(i); m != j && best > enough_; m = after(m)) {
       if (isTooThin(i, m, j)) continue;
+      const double beside = std::max(knownOf(i, m), knownOf(m, j));
+      if (beside > limit_ || beside >= best) {
+        best = std::min(best, beside);
+        continue;
+      }
       double mine = hole_.maximum(i, m, j, std::min(best, limit_));
       if (mine <= limit_ && mine < best && takePocket(i, m, mine)) takePocket(m, j, mine);
       best = std::min(best, mine);
@@ -234,7 +271,8 @@ class FidelitySearch {
     return result;
   }
 
-  static constexpr int kMostRoots = kMaxHoleCorners * (kMaxHoleCorners - 1) * (kMaxHoleCorners - 2) / 6;
+  // One more, as each is written before it is known to count.
+  static constexpr int kMostRoots = kMaxHoleCorners * (kMaxHoleCorners - 1) * (kMaxHoleCorners - 2) / 6 + 1;
 
   const Hole& hole_;
   int corners_;

@@ -35,6 +35,7 @@ class PointError {
   }
   /// RasterError knows a rule for the finest triangulation; for points there is none.
   double costInFinest(std::uint32_t, std::array<std::uint32_t, 3>&) const { return -1; }
+  double boundInFinest(std::uint32_t) const { return -1; }
   /// The live mesh has moved its triangles (LiveMesh::compact): their points move with them.
   void compact(const SlotMap& newSlot);
 

@@ -61,9 +61,7 @@ class RasterError {
     }
 
     /// Where corner i lies from the apex, in the metric of the plan, and by how much it is higher.
-    Vec3 fromApex(int i) const {
-      return {double(x_[i]), double(y_[i]), corners_[i].z - apex_.z};
-    }
+    Vec3 fromApex(int i) const { return {double(x_[i]), double(y_[i]), corners_[i].z - apex_.z}; }
     /// |z - plane| at the apex, of a triangle over it.
     double apexError(int i, int j, int m) const {
       const Corner &a = corners_[i], &b = corners_[j], &c = corners_[m];
@@ -167,6 +165,25 @@ class RasterError {
     witness = isAlong ? std::array{sample - 1, sample + 1, sample + columns}
                       : std::array{sample - columns, sample + columns, sample + 1};
     return isAlong ? along : across;
+  }
+
+  /// A bound from below of what it costs to remove a sample from the finest triangulation, whatever fills the
+  /// hole: the least error at the sample of the triangles of its neighbours that cover it. -1 where one of
+  /// the six is not valid. A triangle with two neighbours that face each other errs as the middle of the two;
+  /// else it has every other one.
+  double boundInFinest(std::uint32_t sample) const {
+    const std::uint32_t columns = plan_.columns();
+    const LatticePlan::Cell cell = plan_.cell(sample);
+    if (cell.column == 0 || cell.row == 0 || cell.column + 1 == columns || cell.row + 1 == rows_) return -1;
+    const double* z = &heights_[sample];
+    const std::ptrdiff_t down = columns;
+    const double right = z[1] - z[0], rightBelow = z[down + 1] - z[0], below = z[down] - z[0],
+                 left = z[-1] - z[0], leftAbove = z[-down - 1] - z[0], above = z[-down] - z[0];
+    if (std::isnan(right + rightBelow + below + left + leftAbove + above)) return -1;
+    const double facing =
+        std::min({std::abs(right + left), std::abs(rightBelow + leftAbove), std::abs(below + above)});
+    return std::min(
+        {facing / 2, std::abs(right + below + leftAbove) / 3, std::abs(rightBelow + left + above) / 3});
   }
 
   /// The live mesh has moved its triangles: nothing here hangs on them.

@@ -206,16 +206,23 @@ class Simplifier {
     waiting_.collect(threshold, due_);
   }
 
-  /// What removing a vertex costs where its star is as the finest triangulation made it, found without a look
-  /// at the mesh where the errors know a rule.
+  /// What removing a vertex costs, or costs at least, where its star is as the finest triangulation made it,
+  /// found without a look at the mesh where the errors know a rule.
   void evaluateFinest() {
-    if (options_.shape != HoleShape::delaunay) return;
     const StageClock::Scope stage(context_.clock, "simplify: evaluate");
     waiting_.collect(WaitingList::kNow, due_);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, due_.size(), 4096), [&](const auto& range) {
       for (std::size_t i = range.begin(); i != range.end(); ++i) {
         const std::uint32_t v = due_[i];
         VertexNote& note = notes_[v];
+        if (options_.shape == HoleShape::fidelity) {
+          const double bound = errors_.boundInFinest(v);
+          if (bound < 0) continue;
+          note.cost = static_cast<float>(bound);
+          note.state = State::atLeast;
+          waiting_.set(v, note.cost);
+          continue;
+        }
         std::array<std::uint32_t, 3> witness;
         const double cost = errors_.costInFinest(v, witness);
         if (cost < 0) continue;
