@@ -44,6 +44,7 @@
 #include "terrain/hole_fidelity.h"
 #include "terrain/independent_set.h"
 #include "terrain/live_mesh.h"
+#include "terrain/measured_floor.h"
 #include "terrain/rim.h"
 #include "terrain/signed_bound.h"
 #include "terrain/star_prefetch.h"
@@ -139,45 +140,14 @@ class Simplifier {
  private:
   using State = VertexNote::State;
 
-  /// A triangulation of a hole with the error of each triangle and the bound at its samples.
-  struct MeasuredFloor {
-    HoleTriangulation triangulation;
-    std::array<double, kMaxHoleCorners> errors;
-    std::array<SignedBound, kMaxHoleCorners> bounds;
-  };
-
-  void measure(const typename Errors::Hole& hole, MeasuredFloor& floor) const {
-    for (int f = 0; f < floor.triangulation.size; ++f) {
-      const auto [i, m, j] = floor.triangulation.triangles[f];
-      floor.bounds[f] = {};
-      floor.errors[f] = hole.maximum(i, m, j, floor.bounds[f]);
-    }
-  }
-
   /// The floor of a vertex whose cost is known exactly.
   void fill(std::uint32_t v, const Star& star, const typename Errors::Hole& hole,
             MeasuredFloor& floor) const {
     if (options_.shape == HoleShape::fidelity) {
-      struct Measured {  // left alone until it is needed
-        double error, below, above;
-      };
-      std::array<std::array<Measured, kMaxHoleCorners>, kMaxHoleCorners> measured;  // of corners i < m < j
-      FidelitySearch search(star.linkSize, hole, options_.minimumAspect);
       // The cost was found from other corners, in other roundings, and is kept in few digits.
       const double limit =
           std::nextafter(notes_[v].cost, std::numeric_limits<float>::infinity()) + roundingSlack_;
-      floor.triangulation = search.shortest(limit, [&](int i, int m, int j) {
-        SignedBound bound;
-        const double error = hole.maximum(i, m, j, bound);
-        measured[i][j] = {error, bound.below, bound.above};
-        return error;
-      });
-      for (int f = 0; f < floor.triangulation.size; ++f) {
-        const auto [i, m, j] = floor.triangulation.triangles[f];
-        const auto& [error, below, above] = measured[i][j];
-        floor.errors[f] = error;
-        floor.bounds[f] = {below, above};
-      }
+      fillShortest(star.linkSize, hole, options_.minimumAspect, limit, floor);
       if (floor.triangulation.size > 0) return;
     }
     floor.triangulation = triangulateHoleDelaunay(star.linkSize, hole, isDomainConvex_);
