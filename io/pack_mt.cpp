@@ -2,12 +2,11 @@
 //
 // The writer walks as the reader will (packed_node_coder.h) and notes every symbol with its table. When all
 // chunks have been walked it knows how often each table saw each symbol; that makes the tables, and then
-// every chunk is coded. Chunks of one kind are walked in parallel, as they are read.
+// every chunk is coded. Chunks are walked in parallel, as they are read.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <mutex>
 #include <tuple>
 
 #include "engine/with_threads.h"
@@ -15,6 +14,7 @@
 #include "io/pack_plan.h"
 #include "io/packed_amt.h"
 #include "io/packed_node_coder.h"
+#include "io/packed_order.h"
 
 namespace arete {
 namespace packed {
@@ -203,16 +203,22 @@ class WriterIo {
   }
   std::uint32_t oldIdOf(std::uint32_t id) const { return id < roots_ ? id : w_.oldTriangle[id - roots_]; }
 
-  /// Where a triangle of another chunk is found: its chunk + 1 and its node's place among those of the chunk.
+  /// Where a triangle of another chunk is found: its chunk's place among those that this one leans on, + 1,
+  /// and its node's place among those of the chunk.
   template <class Entry>
   Entry entryOf(std::uint32_t triangle) const {
     if (triangle < roots_) return {0, triangle, 0, {kNone, triangle}};
     const std::uint32_t creator = w_.plan.creator[triangle - roots_], node = w_.newNode[creator];
     const std::uint32_t c = w_.plan.chunkOf[creator], slot = w_.newSlot[triangle - roots_];
+    const auto& leansOn = w_.plan.directory.chunks[chunk_].leansOn;
+    const auto at = std::lower_bound(leansOn.begin(), leansOn.end(), c) - leansOn.begin();
     std::uint32_t before = 0;
     for (const Run& run : w_.plan.directory.chunks[c].runs) {
       if (node >= run.firstNode && node - run.firstNode < run.nodes)
-        return {c + 1, before + node - run.firstNode, slot - w_.arrays.slotBegin[node], {node, slot}};
+        return {static_cast<std::uint32_t>(at) + 1,
+                before + node - run.firstNode,
+                slot - w_.arrays.slotBegin[node],
+                {node, slot}};
       before += run.nodes;
     }
     return {};
@@ -264,15 +270,18 @@ class Packer {
     if (!prepare()) return failure(ErrorCode::unreadable, "needs more memory than there is to be packed");
     const auto& chunks = plan_.directory.chunks;
     std::vector<Streams> streams(chunks.size());
-    for (std::size_t begin = 0; begin < chunks.size();) {
-      std::size_t end = begin;
-      while (end < chunks.size() && chunks[end].rank() == chunks[begin].rank()) ++end;
-      tbb::parallel_for(begin, end, [&](std::size_t i) { walkChunk(i, streams[i]); });
-      begin = end;
-      if (problem_) return failure(ErrorCode::invalidData, *problem_);
-      if (context_.cancelled()) return failure(ErrorCode::interrupted, "packing was interrupted");
-      context_.report("pack", 0.7 * static_cast<double>(end) / static_cast<double>(chunks.size()));
-    }
+    std::uint64_t done = 0;
+    const auto problem = forChunks(
+        chunks, Direction::forwards, context_, [&](std::size_t i) { return walkChunk(i, streams[i]); },
+        [&](std::size_t i) {
+          done += chunks[i].nodes;
+          context_.report("pack", 0.7 * static_cast<double>(done) /
+                                      (static_cast<double>(walk_.model.mt.nodeCount()) + 1));
+        });
+    if (context_.cancelled()) return failure(ErrorCode::interrupted, "packing was interrupted");
+    if (problem)
+      return failure(ErrorCode::invalidData,
+                     fmt::format("chunk {} of its nodes {}", problem->chunk, problem->what));
     const std::vector<RansTable> tables = tablesFor(streams);
     std::vector<std::vector<std::byte>> bytes(chunks.size());
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t i) {
@@ -316,24 +325,21 @@ class Packer {
     return true;
   }
 
-  void walkChunk(std::size_t i, Streams& streams) {
-    if (context_.cancelled()) return;
+  std::optional<std::string> walkChunk(std::size_t i, Streams& streams) {
     WriterIo io(walk_, static_cast<std::uint32_t>(i));
-    const std::optional<std::string> bad =
+    std::optional<std::string> bad =
         arrays_.holdsFloats() ? walkNodes<float>(i, io) : walkNodes<double>(i, io);
     streams.symbols = std::move(io.symbols);
     streams.rawBits = io.rawBits.take();
-    if (!bad) return;
-    const std::lock_guard lock(mutex_);
-    problem_ = bad;
+    return bad;
   }
 
   template <class Real>
   std::optional<std::string> walkNodes(std::size_t i, WriterIo& io) {
-    if (i == 0 && !codeRoot<Real>(arrays_, io)) return "the root makes no sense";
+    if (i == 0 && !codeRoot<Real>(arrays_, io)) return "come after a root that makes no sense";
     CoderSpace space;
     NodeCoder<Real, WriterIo> coder(arrays_, plan_.directory, plan_.directory.chunks[i], io, space);
-    if (!coder.run()) return fmt::format("chunk {} of its nodes {}", i, coder.problem());
+    if (!coder.run()) return coder.problem();
     return std::nullopt;
   }
 
@@ -370,8 +376,6 @@ class Packer {
   Plan plan_;
   Arrays arrays_;
   Walk walk_;
-  std::mutex mutex_;
-  std::optional<std::string> problem_;
 };
 
 }  // namespace

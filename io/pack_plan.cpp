@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Nodes of the highest bands, at most one in 16, are chunk 0: coarse nodes reach far, and every question
-// needs them. The other ones reach a few samples beyond their own tile. A node's rectangle holds those of its
-// parents, so parents are in chunks that are read before; few rectangles are of more than 2 x 2 tiles.
+// How far a chunk's nodes reach decides with how many others it has to wait for each other. A node's reach is
+// the width of its star; its class is the number of widths (each four times the one before) that it or any
+// node that descends from it exceeds, so no node has a parent of a lower class. The highest class is chunk 0.
+// The others lie in tiles four times as wide as those of the class below. Of one class, a node's rectangle is
+// its own tile and the rectangles of its parents, rounded outwards to at most 2 x 2 tiles (of the least level
+// at which so few do, and no level below its parents'): as reaches are a fraction of a tile, and most parents
+// are wider than their children, most rectangles are one tile. Nodes of one class and rectangle are a chunk.
+//
+// Chunks of one class come in Morton order of the last corner of their rectangles, which is not before that
+// of a part of it; so a chunk comes soon after those that it leans on.
 #include "io/pack_plan.h"
 
 #include <algorithm>
@@ -14,15 +21,32 @@ namespace arete::packed {
 namespace {
 
 constexpr std::uint32_t kNone = MultiTriangulation::kNone;
-constexpr std::uint32_t kCoarsePart = 16;
-/// Samples along a tile's side. Small enough for the nodes of a tile to stay in a processor's second cache or
-/// close to it, large enough that most nodes are in the inside of one.
+/// Samples along the side of a tile of class 0. Small enough for the nodes of a tile to stay in a processor's
+/// second cache or close to it, large enough that most nodes are in the inside of one.
 constexpr double kTileSamples = 128;
+/// A tile is so many times as wide as what a node of its class may reach.
+constexpr double kReachesPerTile = 8;
+/// Of a tile in tiles of the class below, and its logarithm.
+constexpr int kClassStep = 4, kLevelsPerClass = 2;
+constexpr int kMostClasses = 12;
+
+std::uint64_t spread(std::uint32_t x) {
+  std::uint64_t bits = x;
+  bits = (bits | bits << 16) & 0x0000FFFF0000FFFF;
+  bits = (bits | bits << 8) & 0x00FF00FF00FF00FF;
+  bits = (bits | bits << 4) & 0x0F0F0F0F0F0F0F0F;
+  bits = (bits | bits << 2) & 0x3333333333333333;
+  return (bits | bits << 1) & 0x5555555555555555;
+}
+/// Rises in both of them.
+std::uint64_t morton(std::uint32_t row, std::uint32_t column) {
+  return spread(row) << 1 | spread(column);
+}
 
 struct Tiles {
   std::int32_t row = 0, column = 0, rowEnd = 0, columnEnd = 0;
   std::int32_t level = 0;
-  bool isCoarse = false;
+  std::uint8_t reach = 0;  ///< class
 
   void include(const Tiles& t) {
     level = std::max(level, t.level);
@@ -42,17 +66,19 @@ struct Tiles {
       if (rowEnd - row <= 2 * unit && columnEnd - column <= 2 * unit) return;
     }
   }
-  Chunk::Kind kind() const {
-    if (isCoarse) return Chunk::Kind::coarse;
-    const std::int32_t rows = (rowEnd - row) >> level, columns = (columnEnd - column) >> level;
-    return rows * columns == 1   ? Chunk::Kind::one
-           : rows * columns == 2 ? Chunk::Kind::two
-                                 : Chunk::Kind::four;
-  }
+  /// Smaller where chunks come earlier.
   auto key() const {
-    const Chunk::Kind k = kind();
-    return isCoarse ? std::tuple(-1, k, 0, 0, 0, 0) : std::tuple(level, k, row, column, rowEnd, columnEnd);
+    return std::tuple(
+        -int{reach},
+        morton(static_cast<std::uint32_t>(rowEnd - 1), static_cast<std::uint32_t>(columnEnd - 1)), level,
+        (rowEnd - row) * (columnEnd - column), row, column);
   }
+};
+
+/// All that is needed to place nodes.
+struct Tiling {
+  double x = 0, y = 0, size = 1;  ///< where tile (0, 0) begins; a side
+  int classes = 0;                ///< below that of chunk 0
 };
 
 /// As the recorder has them: the largest of the floor's errors and the children's saturated errors.
@@ -81,27 +107,69 @@ void findBandClasses(const std::array<std::uint32_t, MultiTriangulation::kBands>
   directory.bandClass[0] = kClasses - 1;
 }
 
-void placeTiles(const TerrainModel& model, Directory& directory) {
+Tiling tilingOf(const TerrainModel& model) {
+  Tiling tiling;
+  double width = model.columns, height = model.rows;
   if (model.isRaster) {
-    directory.tileSize = kTileSamples;
-    return;
+    tiling.size = kTileSamples;
+  } else {
+    const auto plan = model.mt.vertices().plan;
+    if (plan.empty()) return tiling;
+    double xMax = plan[0].x, yMax = plan[0].y;
+    tiling.x = xMax;
+    tiling.y = yMax;
+    for (const Vec2& p : plan) {
+      tiling.x = std::min(tiling.x, p.x);
+      tiling.y = std::min(tiling.y, p.y);
+      xMax = std::max(xMax, p.x);
+      yMax = std::max(yMax, p.y);
+    }
+    width = xMax - tiling.x;
+    height = yMax - tiling.y;
+    const double fit = std::sqrt(width * height / static_cast<double>(plan.size())) * kTileSamples;
+    // Long thin clouds: never more than a million tiles along a side.
+    const double size = std::fmax(fit, std::fmax(width, height) / 1e6);
+    if (!std::isfinite(size) || !(size > 0)) return tiling;
+    tiling.size = size;
   }
-  double xMax = 0, yMax = 0;
-  const auto plan = model.mt.vertices().plan;
-  if (plan.empty()) return;
-  directory.tileX = xMax = plan[0].x;
-  directory.tileY = yMax = plan[0].y;
-  for (const Vec2& p : plan) {
-    directory.tileX = std::min(directory.tileX, p.x);
-    directory.tileY = std::min(directory.tileY, p.y);
-    xMax = std::max(xMax, p.x);
-    yMax = std::max(yMax, p.y);
+  for (double size = tiling.size; size < std::max(width, height) && tiling.classes < kMostClasses;
+       size *= kClassStep)
+    ++tiling.classes;
+  return tiling;
+}
+
+/// Per node, its class.
+std::vector<std::uint8_t> reachesOf(const MultiTriangulation& mt, const std::vector<std::uint32_t>& creator,
+                                    const Tiling& tiling) {
+  const auto& vertices = mt.arrays().vertices;
+  std::vector<std::uint8_t> reaches(mt.nodeCount(), 0);
+  for (std::uint32_t n = mt.nodeCount(); n-- > 0;) {
+    const Vec2 apex = vertices.planPosition(mt.apex(NodeId(n)));
+    double xMin = apex.x, yMin = apex.y, xMax = apex.x, yMax = apex.y;
+    for (const std::uint32_t v : mt.link(NodeId(n))) {
+      const Vec2 p = vertices.planPosition(VertexId(v));
+      xMin = std::min(xMin, p.x);
+      yMin = std::min(yMin, p.y);
+      xMax = std::max(xMax, p.x);
+      yMax = std::max(yMax, p.y);
+    }
+    const double width = std::max(xMax - xMin, yMax - yMin);
+    double most = tiling.size / kReachesPerTile;
+    std::uint8_t own = 0;
+    for (; own < tiling.classes && width > most; most *= kClassStep) ++own;
+    reaches[n] = std::max(reaches[n], own);
+    for (const std::uint32_t t : mt.floor(NodeId(n)))
+      if (t >= mt.rootTriangleCount()) {
+        std::uint8_t& parent = reaches[creator[t - mt.rootTriangleCount()]];
+        parent = std::max(parent, reaches[n]);
+      }
   }
-  const double width = xMax - directory.tileX, height = yMax - directory.tileY;
-  const double fit = std::sqrt(width * height / static_cast<double>(plan.size())) * kTileSamples;
-  // Long thin clouds: never more than a million tiles along a side.
-  const double size = std::fmax(fit, std::fmax(width, height) / 1e6);
-  directory.tileSize = std::isfinite(size) && size > 0 ? size : 1;
+  return reaches;
+}
+
+void leanOn(Chunk& chunk, std::uint32_t other) {
+  const auto at = std::ranges::lower_bound(chunk.leansOn, other);
+  if (at == chunk.leansOn.end() || *at != other) chunk.leansOn.insert(at, other);
 }
 
 }  // namespace
@@ -119,27 +187,24 @@ Plan planChunks(const TerrainModel& model) {
   std::array<std::uint32_t, MultiTriangulation::kBands> perBand{};
   for (const std::uint16_t code : plan.saturatedError) ++perBand[MultiTriangulation::bandOf(code)];
   findBandClasses(perBand, nodes, plan.directory);
-  std::uint32_t lowestCoarse = MultiTriangulation::kBands;
-  for (std::uint32_t coarse = 0; lowestCoarse > 0; --lowestCoarse) {
-    coarse += perBand[lowestCoarse - 1];
-    if (coarse > nodes / kCoarsePart) break;
-  }
-  placeTiles(model, plan.directory);
 
+  const Tiling tiling = tilingOf(model);
+  const std::vector<std::uint8_t> reaches = reachesOf(mt, plan.creator, tiling);
   std::vector<Tiles> tiles(nodes);
   std::map<decltype(Tiles().key()), std::uint32_t> chunks;
-  chunks[Tiles{.isCoarse = true}.key()] = 0;
+  const Tiles first{.reach = static_cast<std::uint8_t>(tiling.classes)};
+  chunks[first.key()] = 0;
   for (std::uint32_t n = 0; n < nodes; ++n) {
-    if (MultiTriangulation::bandOf(plan.saturatedError[n]) >= lowestCoarse) {
-      tiles[n].isCoarse = true;
+    if (reaches[n] == tiling.classes) {
+      tiles[n] = first;
       continue;
     }
     const Vec2 p = a.vertices.planPosition(mt.apex(NodeId(n)));
-    const auto row = static_cast<std::int32_t>((p.y - plan.directory.tileY) / plan.directory.tileSize);
-    const auto column = static_cast<std::int32_t>((p.x - plan.directory.tileX) / plan.directory.tileSize);
-    tiles[n] = {row, column, row + 1, column + 1, 0, false};
+    const auto row = static_cast<std::int32_t>((p.y - tiling.y) / tiling.size);
+    const auto column = static_cast<std::int32_t>((p.x - tiling.x) / tiling.size);
+    tiles[n] = {row, column, row + 1, column + 1, kLevelsPerClass * reaches[n], reaches[n]};
     for (const std::uint32_t t : mt.floor(NodeId(n)))
-      if (t >= roots && !tiles[plan.creator[t - roots]].isCoarse)
+      if (t >= roots && reaches[plan.creator[t - roots]] == reaches[n])
         tiles[n].include(tiles[plan.creator[t - roots]]);
     tiles[n].round();
     chunks[tiles[n].key()] = 0;
@@ -147,12 +212,7 @@ Plan planChunks(const TerrainModel& model) {
   for (auto& [key, index] : chunks) {
     index = static_cast<std::uint32_t>(plan.directory.chunks.size());
     Chunk& chunk = plan.directory.chunks.emplace_back();
-    chunk.kind = std::get<1>(key);
-    if (chunk.kind != Chunk::Kind::coarse) chunk.level = static_cast<std::uint8_t>(std::get<0>(key));
-    chunk.row = static_cast<std::uint32_t>(std::get<2>(key));
-    chunk.column = static_cast<std::uint32_t>(std::get<3>(key));
-    chunk.rowEnd = static_cast<std::uint32_t>(std::get<4>(key));
-    chunk.columnEnd = static_cast<std::uint32_t>(std::get<5>(key));
+    if (index > 0) chunk.leansOn.push_back(0);
     chunk.xMin = chunk.yMin = HUGE_VAL;
     chunk.xMax = chunk.yMax = -HUGE_VAL;
   }
@@ -164,8 +224,14 @@ Plan planChunks(const TerrainModel& model) {
   std::vector<std::array<Run, MultiTriangulation::kBands>> runs(plan.directory.chunks.size());
   for (std::uint32_t n = 0; n < nodes; ++n) {
     const std::uint32_t c = plan.chunkOf[n];
-    for (const std::uint32_t t : mt.floor(NodeId(n)))
-      if (t >= roots && plan.chunkOf[plan.creator[t - roots]] == c) ++plan.ownParents[n];
+    for (const std::uint32_t t : mt.floor(NodeId(n))) {
+      if (t < roots) continue;
+      const std::uint32_t parent = plan.chunkOf[plan.creator[t - roots]];
+      if (parent == c)
+        ++plan.ownParents[n];
+      else
+        leanOn(plan.directory.chunks[c], parent);
+    }
     Run& run = runs[c][MultiTriangulation::bandOf(plan.saturatedError[n])];
     ++run.nodes;
     run.slots += mt.slotCount(NodeId(n));

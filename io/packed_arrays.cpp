@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The root's triangles are joined by sorting their edges. Saturation goes from the last node of a chunk to
-// the first, so children come before parents; chunks are taken in the reverse order of their kinds. A node's
-// sphere holds its star already and grows around those of its children.
+// the first, so children come before parents; chunks are taken after those that lean on them. A node's sphere
+// holds its star already and grows around those of its children. A radius is negative until the sphere and
+// the saturated error are final, and written after them: in a damaged file a child may belong to any chunk.
 #include "io/packed_arrays.h"
 
 #include <fmt/format.h>
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "engine/enclosing_ball.h"
@@ -190,7 +192,8 @@ std::optional<std::string> saturate(Arrays& a, const Chunk& chunk, bool isPart) 
         // kNone becomes n.
         const std::uint32_t isNone = remover[i] == kNone ? ~0u : 0u;
         const std::uint32_t child = (remover[i] & ~isNone) | (n & isNone);
-        children[count] = sphere[child];
+        const float radius = std::atomic_ref(sphere[child].radius).load(std::memory_order_acquire);
+        children[count] = {sphere[child].x, sphere[child].y, sphere[child].z, radius};
         saturated = std::max(saturated, saturatedError[child]);
         count += static_cast<std::uint32_t>(child != n) & static_cast<std::uint32_t>(child != previous);
         previous = child;
@@ -202,7 +205,10 @@ std::optional<std::string> saturate(Arrays& a, const Chunk& chunk, bool isPart) 
         ball.enclose(children[i]);
       }
       const Sphere grown = ball.rounded(count + 1);
-      sphere[n] = grown;
+      sphere[n].x = grown.x;
+      sphere[n].y = grown.y;
+      sphere[n].z = grown.z;
+      std::atomic_ref(sphere[n].radius).store(grown.radius, std::memory_order_release);
       if (!std::isfinite(grown.x + grown.y + grown.z + grown.radius))
         return fmt::format("node {} has a sphere that is none", n);
       if (unready < 0) return fmt::format("node {} has a child that cannot be one", n);

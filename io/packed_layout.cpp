@@ -73,38 +73,16 @@ class ByteSource {
   bool isBad_ = false;
 };
 
-/// The first packed form had none, but a class of a band in its place, which is below kClasses.
-constexpr std::uint8_t kPackedVersion = 16;
+/// The first packed form had none, but a class of a band in its place, which is below kClasses; the second
+/// was 16.
+constexpr std::uint8_t kPackedVersion = 17;
 static_assert(kPackedVersion >= kClasses);
 
 constexpr std::uint32_t kMaxIds = MultiTriangulation::kNone - 1;
-constexpr std::uint32_t kMaxTiles = 1u << 26, kMaxLevel = 26;
-
-bool isRectangle(const Chunk& c) {
-  const std::uint32_t unit = 1u << c.level;
-  for (const std::uint32_t n : {c.row, c.column, c.rowEnd, c.columnEnd})
-    if (n % unit != 0) return false;
-  const std::uint32_t rows = (c.rowEnd - c.row) / unit, columns = (c.columnEnd - c.column) / unit;
-  switch (c.kind) {
-    case Chunk::Kind::one:
-      return rows == 1 && columns == 1;
-    case Chunk::Kind::two:
-      return (rows == 1 && columns == 2) || (rows == 2 && columns == 1);
-    case Chunk::Kind::four:
-      return rows == 2 && columns == 2;
-    default:
-      return rows == 0 && columns == 0 && c.row == 0 && c.column == 0 && c.level == 0;
-  }
-}
+/// Of a chunk in the directory: four doubles, a checksum, and as many numbers as there always are.
+constexpr std::uint64_t kLeastChunkBytes = 4 * 8 + 8 + (kStreams + 1) + 2;
 
 }  // namespace
-
-bool Chunk::mayLeanOn(const Chunk& other) const {
-  if (kind == Kind::coarse) return false;
-  if (other.kind == Kind::coarse) return true;
-  return other.rank() < rank() && other.row >= row && other.column >= column && other.rowEnd <= rowEnd &&
-         other.columnEnd <= columnEnd;
-}
 
 void Directory::number() {
   std::uint64_t offset = 0;
@@ -146,16 +124,15 @@ std::vector<std::byte> toBytes(const Directory& directory) {
   ByteSink out;
   out.plain(kPackedVersion);
   for (const std::uint8_t c : directory.bandClass) out.plain(c);
-  out.plain(directory.tileX);
-  out.plain(directory.tileY);
-  out.plain(directory.tileSize);
   out.number(directory.chunks.size());
   for (const Chunk& chunk : directory.chunks) {
-    out.number(static_cast<std::uint8_t>(chunk.kind));
-    out.number(chunk.level);
-    for (const std::uint32_t n :
-         {chunk.row, chunk.column, chunk.rowEnd - chunk.row, chunk.columnEnd - chunk.column})
-      out.number(n);
+    const std::span leansOn = std::span(chunk.leansOn).subspan(chunk.leansOn.empty() ? 0 : 1);
+    out.number(leansOn.size());
+    std::uint32_t next = 1;
+    for (const std::uint32_t other : leansOn) {
+      out.number(other - next);
+      next = other + 1;
+    }
     for (const double d : {chunk.xMin, chunk.yMin, chunk.xMax, chunk.yMax}) out.plain(d);
     for (const std::uint32_t n : chunk.streamBytes) out.number(n);
     out.plain(chunk.checksum);
@@ -175,7 +152,7 @@ std::optional<Directory> directoryOf(std::span<const std::byte> bytes, std::stri
   ByteSource in(bytes);
   Directory directory;
   if (const auto version = in.plain<std::uint8_t>(); version != kPackedVersion) {
-    if (!bytes.empty() && version < kClasses)
+    if (!bytes.empty() && version < kPackedVersion)
       problem = "was packed by an older Arete; pack the terrain again";
     else if (version > kPackedVersion)
       problem = fmt::format("has packed format version {}, and this Arete reads {}", version, kPackedVersion);
@@ -185,33 +162,28 @@ std::optional<Directory> directoryOf(std::span<const std::byte> bytes, std::stri
     c = in.plain<std::uint8_t>();
     if (c >= kClasses) return std::nullopt;
   }
-  directory.tileX = in.plain<double>();
-  directory.tileY = in.plain<double>();
-  directory.tileSize = in.plain<double>();
   const std::uint64_t count = in.number();
-  // A chunk takes more than 50 bytes, so no count that the bytes cannot hold is believed.
-  if (in.isBad() || count == 0 || count > bytes.size() / 50) return std::nullopt;
+  // No count that the bytes cannot hold is believed.
+  if (in.isBad() || count == 0 || count > bytes.size() / kLeastChunkBytes) return std::nullopt;
   std::uint64_t nodes = 0, slots = 0;
   directory.chunks.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     Chunk& chunk = directory.chunks[i];
-    chunk.kind = static_cast<Chunk::Kind>(in.number(3));
-    chunk.level = static_cast<std::uint8_t>(in.number(kMaxLevel));
-    chunk.row = in.number(kMaxTiles);
-    chunk.column = in.number(kMaxTiles);
-    chunk.rowEnd = chunk.row + in.number(kMaxTiles);
-    chunk.columnEnd = chunk.column + in.number(kMaxTiles);
+    if (i > 0) chunk.leansOn.push_back(0);
+    std::uint64_t next = 1;
+    for (std::uint32_t left = in.number(kMaxIds); left > 0; --left) {
+      next += in.number(kMaxIds);
+      if (in.isBad() || next >= i) {
+        problem = fmt::format("chunk {} of the packed nodes leans on one that does not come before it", i);
+        return std::nullopt;
+      }
+      chunk.leansOn.push_back(static_cast<std::uint32_t>(next++));
+    }
     for (double* d : {&chunk.xMin, &chunk.yMin, &chunk.xMax, &chunk.yMax}) *d = in.plain<double>();
     for (std::uint32_t& n : chunk.streamBytes) n = in.number(kMaxIds);
     chunk.checksum = in.plain<std::uint64_t>();
     const std::uint32_t runs = in.number(MultiTriangulation::kBands);
     if (in.isBad()) return std::nullopt;
-    const bool isFirst = i == 0;
-    if ((chunk.kind == Chunk::Kind::coarse) != isFirst || !isRectangle(chunk) ||
-        (!isFirst && chunk.rank() < directory.chunks[i - 1].rank())) {
-      problem = fmt::format("chunk {} of the packed nodes has a place it cannot have", i);
-      return std::nullopt;
-    }
     chunk.runs.resize(runs);
     for (std::uint32_t r = 0; r < runs; ++r) {
       Run& run = chunk.runs[r];

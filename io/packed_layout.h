@@ -23,24 +23,15 @@ struct Run {
   std::uint32_t firstNode = 0, firstSlot = 0;
 };
 
-/// Nodes that can be read together. The nodes of the highest bands are chunk 0. Of the others, each has a
-/// rectangle of tiles: its own tile and the rectangles of its parents, rounded outwards to tiles of the least
-/// level at which it has at most 2 x 2 of them (a tile of level l is 2^l x 2^l tiles), and no level below its
-/// parents'. Nodes with the same rectangle and level are a chunk. A node's parents are in its own chunk, in
-/// chunk 0, or in chunks of lower rank whose rectangles are parts of its own.
+/// Nodes that are read one after the other. Their parents are in the chunk itself and in those that it leans
+/// on; the root's triangles and its vertices come with chunk 0.
 struct Chunk {
-  enum class Kind : std::uint8_t { coarse = 0, one = 1, two = 2, four = 3 };
-  Kind kind = Kind::coarse;
-  std::uint8_t level = 0;
-  std::uint32_t row = 0, column = 0, rowEnd = 0, columnEnd = 0;  ///< tiles of level 0; unused in chunk 0
+  std::vector<std::uint32_t> leansOn;  ///< chunks before this one, rising; all others lean on chunk 0
   /// Plan coordinates: a box around the floors and stars of its nodes.
   double xMin = 0, yMin = 0, xMax = 0, yMax = 0;
   std::vector<Run> runs;                                  ///< bands falling, no empty runs
   std::array<std::uint32_t, kStreams + 1> streamBytes{};  ///< the last: raw bits
   std::uint64_t checksum = 0;                             ///< of the streams' bytes
-
-  /// Chunks of the same rank do not lean on each other.
-  unsigned rank() const { return kind == Kind::coarse ? 0 : level * 3u + static_cast<unsigned>(kind); }
 
   // Derived.
   std::uint64_t offset = 0;
@@ -50,14 +41,11 @@ struct Chunk {
     for (const std::uint32_t b : streamBytes) sum += b;
     return sum;
   }
-  /// Whether nodes of this chunk may have parents in `other` (a chunk before it).
-  bool mayLeanOn(const Chunk& other) const;
 };
 
 struct Directory {
   std::array<std::uint8_t, MultiTriangulation::kBands> bandClass{};
-  double tileX = 0, tileY = 0, tileSize = 1;  ///< tile (row, column) begins at tileX + column * tileSize, ...
-  std::vector<Chunk> chunks;                  ///< by rising rank; at least chunk 0
+  std::vector<Chunk> chunks;  ///< at least chunk 0
 
   /// Fills in what is derived: offsets, sums, and the ids of the runs: bands falling, then chunks.
   void number();

@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Chunks of one kind do not lean on each other, so they are decoded in parallel, kind after kind; then
-// saturated errors and spheres in the opposite direction. Every index that the walk writes it has looked up
-// before, so nothing is left for a check of indices afterwards. A sphere's radius is negative until it is
-// final, so no damaged file makes a parent's from a child's that is not.
+// A chunk is decoded when those it leans on are; then saturated errors and spheres go in the opposite
+// direction (packed_order.h). Every index that the walk writes it has looked up before, so nothing is left
+// for a check of indices afterwards. A sphere's radius is negative until it is final, so no damaged file
+// makes a parent's from a child's that is not.
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <atomic>
-#include <functional>
-#include <mutex>
 
 #include "engine/with_threads.h"
 #include "io/amt_checksum.h"
 #include "io/amt_metadata.h"
 #include "io/packed_amt.h"
 #include "io/packed_node_coder.h"
+#include "io/packed_order.h"
 
 namespace arete {
 namespace packed {
@@ -110,10 +106,10 @@ class ReaderIo {
       if (node >= a_.roots || slot != 0) return std::nullopt;
       return Handle{MultiTriangulation::kNone, static_cast<std::uint32_t>(node)};
     }
-    const Chunk& chunk = directory_.chunks[chunk_];
-    if (from - 1 >= chunk_) return std::nullopt;
-    const Chunk& other = directory_.chunks[from - 1];
-    if (!chunk.mayLeanOn(other) || node >= other.nodes) return std::nullopt;
+    const auto& leansOn = directory_.chunks[chunk_].leansOn;
+    if (from - 1 >= leansOn.size()) return std::nullopt;
+    const Chunk& other = directory_.chunks[leansOn[from - 1]];
+    if (node >= other.nodes) return std::nullopt;
     for (const Run& run : other.runs) {
       if (node >= run.nodes) {
         node -= run.nodes;
@@ -142,8 +138,7 @@ void keepWhatReaches(Directory& directory, const Box2& box) {
     const Chunk& c = directory.chunks[i];
     if (c.xMin <= box.xMax && c.xMax >= box.xMin && c.yMin <= box.yMax && c.yMax >= box.yMin) isKept[i] = 1;
     if (isKept[i] == 0) continue;
-    for (std::size_t j = 0; j < i; ++j)
-      if (c.mayLeanOn(directory.chunks[j])) isKept[j] = 1;
+    for (const std::uint32_t other : c.leansOn) isKept[other] = 1;
   }
   isKept[0] = 1;
   for (std::size_t i = 0; i < isKept.size(); ++i)
@@ -176,54 +171,35 @@ class Unpacker {
       return failure(ErrorCode::unreadable, "needs more memory than there is to be unpacked");
     arrays_ = arrays.get();
 
-    const auto kinds = byKind();
-    for (const auto& [begin, end] : kinds) forChunks(begin, end, [this](std::size_t i) { return decode(i); });
-    for (auto kind = kinds.rbegin(); kind != kinds.rend(); ++kind)
-      forChunks(kind->first, kind->second,
-                [this](std::size_t i) { return saturate(*arrays_, directory_.chunks[i], isPart_); });
+    auto problem = overChunks(Direction::forwards, [this](std::size_t i) { return decode(i); });
+    if (!problem && !context_.cancelled())
+      problem = overChunks(Direction::backwards, [this](std::size_t i) {
+        return saturate(*arrays_, directory_.chunks[i], isPart_);
+      });
     if (context_.cancelled()) return failure(ErrorCode::interrupted, "unpacking was interrupted");
-    if (problem_) return failure(ErrorCode::corrupt, *problem_);
+    if (problem)
+      return failure(ErrorCode::corrupt,
+                     fmt::format("chunk {} of the packed nodes: {}", problem->chunk, problem->what));
     arrays->finishHints();
     context_.report("unpack", 1);
     return Arrays::model(arrays);
   }
 
  private:
-  std::vector<std::pair<std::size_t, std::size_t>> byKind() const {
-    std::vector<std::pair<std::size_t, std::size_t>> kinds;
-    for (std::size_t i = 0; i < directory_.chunks.size(); ++i) {
-      if (i == 0 || directory_.chunks[i].rank() != directory_.chunks[i - 1].rank()) kinds.push_back({i, i});
-      kinds.back().second = i + 1;
-    }
-    return kinds;
-  }
-
-  /// The largest chunks first, so that no thread waits long for another one's last. Keeps the problem of the
-  /// first chunk that has one; after that nothing more is done.
+  /// Of the chunks that are wanted.
   template <class Body>
-  void forChunks(std::size_t begin, std::size_t end, const Body& body) {
-    if (problem_ || context_.cancelled()) return;
-    std::vector<std::size_t> order;
-    for (std::size_t i = begin; i < end; ++i)
-      if (!directory_.chunks[i].runs.empty() || i == 0) order.push_back(i);
-    std::ranges::stable_sort(order, std::greater<>(),
-                             [&](std::size_t i) { return directory_.chunks[i].nodes; });
-    std::size_t firstBad = end;
-    std::atomic<std::size_t> next = 0;
-    const auto work = [&](int) {
-      for (std::size_t at = next++; at < order.size() && !context_.cancelled(); at = next++) {
-        const std::size_t i = order[at];
-        const std::optional<std::string> bad = body(i);
-        const std::lock_guard lock(mutex_);
-        if (bad && i < firstBad) {
-          firstBad = i;
-          problem_ = fmt::format("chunk {} of the packed nodes: {}", i, *bad);
-        }
-        done_ += directory_.chunks[i].nodes;
-        context_.report("unpack", static_cast<double>(done_) / static_cast<double>(2 * arrays_->nodes + 1));
-      }
-    };
-    tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), work, tbb::simple_partitioner());
+  std::optional<ChunkProblem> overChunks(Direction direction, const Body& body) {
+    return forChunks(
+        directory_.chunks, direction, context_,
+        [&](std::size_t i) -> std::optional<std::string> {
+          if (directory_.chunks[i].runs.empty() && i != 0) return std::nullopt;
+          return body(i);
+        },
+        [&](std::size_t i) {
+          done_ += directory_.chunks[i].nodes;
+          context_.report("unpack",
+                          static_cast<double>(done_) / (2 * static_cast<double>(arrays_->nodes) + 1));
+        });
   }
 
   std::optional<std::string> decode(std::size_t index) {
@@ -249,9 +225,7 @@ class Unpacker {
   std::vector<std::uint32_t> tables_;  ///< entries of all tables
   Arrays* arrays_ = nullptr;
   tbb::enumerable_thread_specific<CoderSpace> spaces_;
-  std::mutex mutex_;
   std::uint64_t done_ = 0;
-  std::optional<std::string> problem_;
 };
 
 }  // namespace

@@ -176,6 +176,21 @@ TEST(PackedAmt, OfManyTilesIsTheSameForAnyNumberOfThreads) {
   expectPacksWell(built(build(familyNamed("fractal").make(420, 280, 7))));
 }
 
+TEST(PackedAmt, PutsAFlatSeaInSmallChunks) {
+  // Nodes of the sea have no error, and the oldest of them have stars as wide as it is.
+  const TemporaryFolder folder;
+  const TerrainModel model =
+      built(build(hills(900, 700, [](double z) { return std::max(200.0, std::round(z)); })));
+  ASSERT_TRUE(writeAmt(folder.file("packed.amt"), model, {}, {.isPacked = true}));
+  AmtBytes bytes = AmtBytes::of(folder.file("packed.amt"));
+  std::string problem;
+  const auto directory =
+      packed::directoryOf(std::as_bytes(bytes.array<std::uint8_t>(amt_tag::kPackedDirectory)), problem);
+  ASSERT_TRUE(directory) << problem;
+  EXPECT_LT(directory->chunks[0].nodes, model.mt.nodeCount() / 100);
+  for (const packed::Chunk& chunk : directory->chunks) EXPECT_LT(chunk.nodes, 128u * 128u);
+}
+
 TEST(PackedAmt, HoldsAModelMadeByHand) {
   const TemporaryFolder folder;
   const TerrainModel model = tinyModel(), back = throughPacked(model, folder.file("tiny.amt"));
