@@ -42,6 +42,7 @@ class WriterIo {
   }
 
   std::array<std::vector<RansSymbol>, kStreams> symbols;
+  std::vector<std::byte> boundBytes;
   BitWriter rawBits;
 
   template <class Actual>
@@ -181,9 +182,13 @@ class WriterIo {
       if (wholeErrorCode(w_.arrays.scale, w_.arrays.encoding, whole, doubledArea) == code) return whole;
     return std::nullopt;
   }
-  BoundSteps actualBounds(std::uint32_t id) const {
+  BoundBytes bounds(std::uint32_t id, std::uint32_t reference) {
     const std::uint32_t t = oldIdOf(id);
-    return roundedBounds(boundStep(a_.below[t]), boundStep(a_.above[t]));
+    const BoundBytes bytes =
+        bytesOf(roundedBounds(boundStep(a_.below[t]), boundStep(a_.above[t])), reference);
+    boundBytes.push_back(static_cast<std::byte>(bytes.first));
+    if (bytes.isFar()) boundBytes.push_back(static_cast<std::byte>(bytes.second));
+    return bytes;
   }
 
   /// How many bands the node that has its seed here lies below this one, if there is one.
@@ -258,7 +263,7 @@ class WriterIo {
 
 struct Streams {
   std::array<std::vector<RansSymbol>, kStreams> symbols;
-  std::vector<std::byte> rawBits;
+  std::vector<std::byte> boundBytes, rawBits;
 };
 
 class Packer {
@@ -330,6 +335,7 @@ class Packer {
     std::optional<std::string> bad =
         arrays_.holdsFloats() ? walkNodes<float>(i, io) : walkNodes<double>(i, io);
     streams.symbols = std::move(io.symbols);
+    streams.boundBytes = std::move(io.boundBytes);
     streams.rawBits = io.rawBits.take();
     return bad;
   }
@@ -362,11 +368,13 @@ class Packer {
       bytes.insert(bytes.end(), coded.begin(), coded.end());
       streams.symbols[s] = {};
     }
+    chunk.streamBytes[kBoundBytes] = static_cast<std::uint32_t>(streams.boundBytes.size());
+    bytes.insert(bytes.end(), streams.boundBytes.begin(), streams.boundBytes.end());
     const std::uint64_t things =
         chunk.nodes + (isFirst ? std::uint64_t{arrays_.rootVertices} + arrays_.roots : 0);
     const std::uint64_t least = leastBytes(things);
     if (bytes.size() + streams.rawBits.size() < least) streams.rawBits.resize(least - bytes.size());
-    chunk.streamBytes[kStreams] = static_cast<std::uint32_t>(streams.rawBits.size());
+    chunk.streamBytes[kRawBits] = static_cast<std::uint32_t>(streams.rawBits.size());
     bytes.insert(bytes.end(), streams.rawBits.begin(), streams.rawBits.end());
     chunk.checksum = amtChecksum(bytes);
     return bytes;

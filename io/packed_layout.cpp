@@ -80,7 +80,7 @@ static_assert(kPackedVersion >= kClasses);
 
 constexpr std::uint32_t kMaxIds = MultiTriangulation::kNone - 1;
 /// Of a chunk in the directory: four doubles, a checksum, and as many numbers as there always are.
-constexpr std::uint64_t kLeastChunkBytes = 4 * 8 + 8 + (kStreams + 1) + 2;
+constexpr std::uint64_t kLeastChunkBytes = 4 * 8 + 8 + kParts + 2;
 
 }  // namespace
 

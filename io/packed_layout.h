@@ -29,9 +29,9 @@ struct Chunk {
   std::vector<std::uint32_t> leansOn;  ///< chunks before this one, rising; all others lean on chunk 0
   /// Plan coordinates: a box around the floors and stars of its nodes.
   double xMin = 0, yMin = 0, xMax = 0, yMax = 0;
-  std::vector<Run> runs;                                  ///< bands falling, no empty runs
-  std::array<std::uint32_t, kStreams + 1> streamBytes{};  ///< the last: raw bits
-  std::uint64_t checksum = 0;                             ///< of the streams' bytes
+  std::vector<Run> runs;  ///< bands falling, no empty runs
+  std::array<std::uint32_t, kParts> streamBytes{};
+  std::uint64_t checksum = 0;  ///< of the streams' bytes
 
   // Derived.
   std::uint64_t offset = 0;

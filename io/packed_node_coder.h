@@ -251,8 +251,8 @@ class NodeCoder {
       __builtin_prefetch(&above[ahead], 1);
       const unsigned doubledArea = shownArea[*id], area = kAreaClass[doubledArea];
       const std::uint32_t code = triangleError<kIsWhole>(io, *id, doubledArea, area, top, wholeErrors);
-      const BoundSteps bounds =
-          triangleBounds(io, *id, area, code == 0, code != 0 ? boundStep(code) : withoutError);
+      const std::uint32_t reference = code != 0 ? boundStep(code) : withoutError;
+      const BoundSteps bounds = boundsOf(io.bounds(*id, reference), reference);
       error[*id] = static_cast<std::uint16_t>(code);
       below[*id] = boundCode(bounds.below);
       above[*id] = boundCode(bounds.above);
@@ -287,20 +287,6 @@ class NodeCoder {
     const int bits = rawBitsOf(symbol);
     whole = bucketValue(symbol, io.raw(bits, whole & ((std::uint64_t{1} << bits) - 1)));
     return wholeErrorCode(a_.scale, a_.encoding, whole, shown);
-  }
-
-  template <class Values>
-  BoundSteps triangleBounds(Values& io, std::uint32_t id, unsigned area, bool isZero,
-                            std::uint32_t reference) {
-    const BoundSteps bounds = io.actualBounds(id);
-    const unsigned symbol = io.code(kBoundStream, kBoundTable + area * 2 + (isZero ? 1 : 0),
-                                    [&] { return boundSymbol(bounds, reference); });
-    if (symbol > kNoBounds) return nearBoundsOf(symbol, reference);
-    if (symbol == kNoBounds) return {0, 0};
-    const unsigned greater = io.code(kBoundStream, kFarBoundTable + class_ * 2 + (isZero ? 1 : 0),
-                                     [&] { return std::max(bounds.below, bounds.above); });
-    return boundsOf(greater, io.code(kBoundStream, kLesserBoundTable + (isZero ? 1 : 0),
-                                     [&] { return lesserSymbol(bounds); }));
   }
 
   template <int kCorners>

@@ -17,9 +17,11 @@ namespace arete::packed {
 /// symbol is coded with (docs/topics/amt-format.md, "Packed").
 
 // Streams of a chunk: symbols of one stream follow each other, those of different streams are independent, so
-// that a processor works on several at once.
-enum Stream : unsigned { kSlotStream, kFloorStream, kPlaceStream, kHeightStream, kErrorStream, kBoundStream };
-inline constexpr unsigned kStreams = 6;
+// that a processor works on several at once. Behind the coded ones two plain ones: bounds are a byte each, as
+// they are, for there are many, each takes 5 or 6 bits however it is coded, and a byte is read at once.
+enum Stream : unsigned { kSlotStream, kFloorStream, kPlaceStream, kHeightStream, kErrorStream };
+inline constexpr unsigned kStreams = 5;
+inline constexpr unsigned kBoundBytes = kStreams, kRawBits = kStreams + 1, kParts = kStreams + 2;
 
 // Tables, by what a symbol says and what is known when it is read.
 inline constexpr unsigned kClasses = 9;       ///< of bands: see Directory::bandClass
@@ -38,10 +40,7 @@ enum Table : unsigned {
   kPlaceFarTable = kPlaceTable + kPlaceClasses,     // by axis
   kHeightTable = kPlaceFarTable + 2,                // by class
   kErrorTable = kHeightTable + kClasses,            // by area class and error class
-  kBoundTable = kErrorTable + kAreaClasses * kErrorClasses,  // by area class and whether the error is 0
-  kFarBoundTable = kBoundTable + kAreaClasses * 2,           // by class and whether the error is 0
-  kLesserBoundTable = kFarBoundTable + kClasses * 2,         // by whether the error is 0
-  kListChunkTable = kLesserBoundTable + 2,
+  kListChunkTable = kErrorTable + kAreaClasses * kErrorClasses,
   kListNodeTable,
   kListSlotTable,
   kRootCornerTable,
@@ -217,8 +216,6 @@ inline constexpr std::uint32_t kBoundSteps = 129;
 /// How far the lesser bound may lie below the greater one; what lies between is rounded outwards, and
 /// the last stands for a bound of 0.
 inline constexpr std::array<std::uint8_t, 13> kBoundDrops = {0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 255};
-/// Symbols: the greater bound follows by itself, and then how the lesser one lies; no bounds at all.
-inline constexpr unsigned kFarBounds = 0, kNoBounds = 1;
 /// What the greater bound is told against; it has 9 steps, from the one returned. Without an error the band
 /// is what is known.
 inline std::uint32_t boundReference(std::uint32_t errorCode, std::uint32_t band) {
@@ -245,38 +242,48 @@ inline unsigned lesserSymbol(BoundSteps b) {
   return static_cast<unsigned>(drop - kBoundDrops.begin()) * 2 + (b.below >= b.above ? 0 : 1);
 }
 inline constexpr unsigned kLesserSymbols = 2 * static_cast<unsigned>(kBoundDrops.size());
+/// Bounds are told by one byte: none at all; or how far the greater one lies above the reference, and how the
+/// lesser one lies to it. Or by two: how great the greater one is, and how the lesser one lies.
+inline constexpr unsigned kNoBounds = 1, kNearBounds = 2, kNearRises = 9;
+inline constexpr unsigned kFarBounds = kNearBounds + kNearRises * kLesserSymbols, kFarShift = 5;
+static_assert(kLesserSymbols <= 1u << kFarShift &&
+              kFarBounds + ((kBoundSteps << kFarShift) >> 8) < 256);  // bytes suffice
+struct BoundBytes {
+  std::uint8_t first, second;
+  bool isFar() const { return first >= kFarBounds; }
+};
 /// Precondition: rounded.
-inline unsigned boundSymbol(BoundSteps b, std::uint32_t reference) {
+inline BoundBytes bytesOf(BoundSteps b, std::uint32_t reference) {
   const std::uint32_t greater = std::max(b.below, b.above);
-  if (greater == 0) return kNoBounds;
-  if (greater < reference || greater > reference + 8) return kFarBounds;
-  return 2 + (greater - reference) * kLesserSymbols + lesserSymbol(b);
+  if (greater == 0) return {kNoBounds, 0};
+  const unsigned lesser = lesserSymbol(b);
+  if (greater >= reference && greater < reference + kNearRises)
+    return {static_cast<std::uint8_t>(kNearBounds + (greater - reference) * kLesserSymbols + lesser), 0};
+  const unsigned both = greater << kFarShift | lesser;
+  return {static_cast<std::uint8_t>(kFarBounds + (both >> 8)), static_cast<std::uint8_t>(both)};
 }
-/// `lesser`: a symbol of lesserSymbol(), or one that only a damaged file has. The greater step may then be
-/// beyond the last.
-inline BoundSteps boundsOf(std::uint32_t greater, unsigned lesser) {
-  const std::uint32_t drop = kBoundDrops[std::min<std::size_t>(lesser >> 1, kBoundDrops.size() - 1)];
-  const std::uint32_t other = greater - std::min(drop, greater);
-  return (lesser & 1) == 0 ? BoundSteps{greater, other} : BoundSteps{other, greater};
-}
-/// Of a symbol of boundSymbol() that is none of the two above. Without a branch.
-inline BoundSteps nearBoundsOf(unsigned symbol, std::uint32_t reference) {
-  struct Meaning {
-    std::uint8_t rise, drop, side, pad;
-  };
-  static constexpr auto kMeanings = [] {
-    std::array<Meaning, 256> meanings{};
-    for (unsigned s = 2; s < 256; ++s) {
-      const unsigned lesser = (s - 2) % kLesserSymbols;
-      meanings[s] = {static_cast<std::uint8_t>((s - 2) / kLesserSymbols), kBoundDrops[lesser >> 1],
-                     static_cast<std::uint8_t>(lesser & 1), 0};
-    }
-    return meanings;
+/// What the bytes mean; of those that only a damaged file has, something, whose greater step may be beyond
+/// the last. Without a branch: which of the two forms comes cannot be foreseen.
+inline BoundSteps boundsOf(BoundBytes bytes, std::uint32_t reference) {
+  // rise | drop << 8 | side << 16 | whether above the reference << 31
+  static constexpr auto kLesser = [] {
+    std::array<std::uint32_t, 1u << kFarShift> lesser{};
+    for (unsigned l = 0; l < kLesserSymbols; ++l) lesser[l] = kBoundDrops[l >> 1] << 8 | (l & 1) << 16;
+    return lesser;
   }();
-  const Meaning m = kMeanings[symbol];
-  const std::uint32_t greater = reference + m.rise;
-  const std::uint32_t lesser = greater - std::min<std::uint32_t>(m.drop, greater);
-  const std::uint32_t swap = (greater ^ lesser) & (0u - m.side);
+  static constexpr auto kNear = [] {
+    std::array<std::uint32_t, 256> near{};
+    for (unsigned s = kNearBounds; s < kFarBounds; ++s)
+      near[s] = (s - kNearBounds) / kLesserSymbols | kLesser[(s - kNearBounds) % kLesserSymbols] | 1u << 31;
+    return near;
+  }();
+  const unsigned both = (bytes.first - kFarBounds) << 8 | bytes.second;
+  const std::uint32_t far = (both >> kFarShift & 255) | kLesser[both & ((1u << kFarShift) - 1)];
+  const std::uint32_t near = kNear[bytes.first], isFar = 0u - static_cast<std::uint32_t>(bytes.isFar());
+  const std::uint32_t meaning = (far & isFar) | (near & ~isFar);
+  const std::uint32_t greater = (meaning & 255) + (reference & (0u - (meaning >> 31)));
+  const std::uint32_t lesser = greater - std::min<std::uint32_t>(meaning >> 8 & 255, greater);
+  const std::uint32_t swap = (greater ^ lesser) & (0u - (meaning >> 16 & 1));
   return {greater ^ swap, lesser ^ swap};
 }
 

@@ -20,6 +20,28 @@ namespace arete {
 namespace packed {
 namespace {
 
+/// Reads the bytes of bounds. Reading beyond the end gives some bytes and is noticed by isAtEnd().
+class BoundReader {
+ public:
+  /// What must be readable behind the bytes.
+  static constexpr std::size_t kReadable = 3;
+
+  BoundReader() = default;
+  BoundReader(const std::byte* bytes, std::size_t size) : at_(bytes), end_(bytes + size) {}
+
+  BoundBytes next() {
+    const BoundBytes bytes{static_cast<std::uint8_t>(at_[0]), static_cast<std::uint8_t>(at_[1])};
+    at_ += bytes.isFar() ? 2 : 1;
+    if (at_ > end_) [[unlikely]]
+      at_ = end_ + 1;
+    return bytes;
+  }
+  bool isAtEnd() const { return at_ == end_; }
+
+ private:
+  const std::byte *at_ = nullptr, *end_ = nullptr;  // one beyond the end: too much was read
+};
+
 class ReaderIo {
  public:
   ReaderIo(const Arrays& arrays, const Directory& directory, std::size_t chunk, const std::uint32_t* tables,
@@ -29,12 +51,14 @@ class ReaderIo {
         chunk_(chunk),
         tables_(tables),
         bytes_(bytes.begin(), bytes.end()) {
-    bytes_.resize(bytes.size() + RansDecoder::kReadable);
+    bytes_.resize(bytes.size() + std::max(RansDecoder::kReadable, BoundReader::kReadable));
     std::size_t at = 0;
-    for (unsigned s = 0; s <= kStreams; ++s) {
+    for (unsigned s = 0; s < kParts; ++s) {
       const std::size_t size = directory.chunks[chunk].streamBytes[s];
       if (s < kStreams)
         streams_[s] = RansDecoder(bytes_.data() + at, size);
+      else if (s == kBoundBytes)
+        bounds_ = BoundReader(bytes_.data() + at, size);
       else
         raw_ = BitReader({bytes_.data() + at, size});
       at += size;
@@ -49,23 +73,24 @@ class ReaderIo {
 
   /// What a long row of errors and bounds is read with: a copy that stays in registers.
   struct Values {
-    RansDecoder error, bound;
+    RansDecoder error;
+    BoundReader boundBytes;
     BitReader rawBits;
     const std::uint32_t* tables;
 
     template <class Actual>
-    unsigned code(Stream stream, unsigned table, const Actual&) {
-      return (stream == kErrorStream ? error : bound).decode(tables + table * RansTable::kEntries);
+    unsigned code(Stream, unsigned table, const Actual&) {
+      return error.decode(tables + table * RansTable::kEntries);
     }
     std::uint64_t raw(int bits, std::uint64_t) { return rawBits.read(bits); }
     std::uint16_t actualError(std::uint32_t) const { return 0; }
     std::optional<std::uint64_t> wholeError(double, std::uint16_t) const { return 0; }
-    BoundSteps actualBounds(std::uint32_t) const { return {0, 0}; }
+    BoundBytes bounds(std::uint32_t, std::uint32_t) { return boundBytes.next(); }
   };
-  Values values() const { return {streams_[kErrorStream], streams_[kBoundStream], raw_, tables_}; }
+  Values values() const { return {streams_[kErrorStream], bounds_, raw_, tables_}; }
   void putBack(const Values& values) {
     streams_[kErrorStream] = values.error;
-    streams_[kBoundStream] = values.bound;
+    bounds_ = values.boundBytes;
     raw_ = values.rawBits;
   }
 
@@ -86,7 +111,8 @@ class ReaderIo {
   }
 
   bool isAtEnd() const {
-    return !raw_.isOver() && std::ranges::all_of(streams_, [](const RansDecoder& s) { return s.isAtEnd(); });
+    return !raw_.isOver() && bounds_.isAtEnd() &&
+           std::ranges::all_of(streams_, [](const RansDecoder& s) { return s.isAtEnd(); });
   }
 
   // What only the writer knows.
@@ -128,6 +154,7 @@ class ReaderIo {
   const std::uint32_t* tables_;
   std::vector<std::byte> bytes_;
   std::array<RansDecoder, kStreams> streams_;
+  BoundReader bounds_;
   BitReader raw_;
 };
 
