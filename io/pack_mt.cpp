@@ -59,27 +59,21 @@ class WriterIo {
   WriterIo& values() { return *this; }
   void putBack(const WriterIo&) {}
 
-  bool listed(const Run& run, std::vector<Handle>& seeds) {
-    struct Entry {
-      std::uint32_t from, node, slot;
-      Handle seed;
-    };
+  bool listed(const Run& run, std::vector<std::uint32_t>& seeds) {
     std::vector<Entry> entries;
-    for (const std::uint32_t n : listed_[run.band])
-      entries.push_back(entryOf<Entry>(mt_.floor(NodeId(n))[0]));
+    for (const std::uint32_t n : listed_[run.band]) entries.push_back(entryOf(mt_.floor(NodeId(n))[0]));
     std::sort(entries.begin(), entries.end(), [](const Entry& x, const Entry& y) {
-      return std::tie(x.from, x.node, x.slot) < std::tie(y.from, y.node, y.slot);
+      return std::tie(x.from, x.place) < std::tie(y.from, y.place);
     });
     seeds.clear();
-    std::uint32_t from = 0, node = 0;
+    std::uint32_t from = 0, place = 0;
     for (const Entry& e : entries) {
       codeNumber(*this, kFloorStream, kListChunkTable, [&] { return e.from - from; });
-      if (e.from != from) node = 0;
-      codeNumber(*this, kFloorStream, kListNodeTable, [&] { return e.node - node; });
-      codeNumber(*this, kFloorStream, kListSlotTable, [&] { return e.slot; });
+      if (e.from != from) place = 0;
+      codeNumber(*this, kFloorStream, kListBorderTable, [&] { return e.place - place; });
       from = e.from;
-      node = e.node;
-      seeds.push_back(e.seed);
+      place = e.place;
+      seeds.push_back(e.border);
     }
     return seeds.size() == run.listed;
   }
@@ -159,6 +153,15 @@ class WriterIo {
     return true;
   }
 
+  /// Which of the star's triangles nobody removes.
+  std::uint64_t staying(std::uint32_t slot, int triangles) const {
+    std::uint64_t bits = 0;
+    for (int i = 0; i < triangles; ++i)
+      if (a_.remover[w_.oldTriangle[slot + static_cast<std::uint32_t>(i)]] == kNone)
+        bits |= std::uint64_t{1} << i;
+    return bits;
+  }
+
   Vec2 actualPlace() const {
     const Vec2 p = a_.vertices.planPosition(mt_.apex(NodeId(old_)));
     return {p.x, p.y};
@@ -208,25 +211,21 @@ class WriterIo {
   }
   std::uint32_t oldIdOf(std::uint32_t id) const { return id < roots_ ? id : w_.oldTriangle[id - roots_]; }
 
-  /// Where a triangle of another chunk is found: its chunk's place among those that this one leans on, + 1,
-  /// and its node's place among those of the chunk.
-  template <class Entry>
+  /// A triangle of another chunk: its chunk's place among those that this one leans on, + 1 (0: the root),
+  /// its place among those that the chunk leaves, and among all borders.
+  struct Entry {
+    std::uint32_t from, place, border;
+  };
   Entry entryOf(std::uint32_t triangle) const {
-    if (triangle < roots_) return {0, triangle, 0, {kNone, triangle}};
-    const std::uint32_t creator = w_.plan.creator[triangle - roots_], node = w_.newNode[creator];
-    const std::uint32_t c = w_.plan.chunkOf[creator], slot = w_.newSlot[triangle - roots_];
+    if (triangle < roots_) return {0, triangle, triangle};
+    const std::uint32_t c = w_.plan.chunkOf[w_.plan.creator[triangle - roots_]];
+    const Chunk& chunk = w_.plan.directory.chunks[c];
     const auto& leansOn = w_.plan.directory.chunks[chunk_].leansOn;
-    const auto at = std::lower_bound(leansOn.begin(), leansOn.end(), c) - leansOn.begin();
-    std::uint32_t before = 0;
-    for (const Run& run : w_.plan.directory.chunks[c].runs) {
-      if (node >= run.firstNode && node - run.firstNode < run.nodes)
-        return {static_cast<std::uint32_t>(at) + 1,
-                before + node - run.firstNode,
-                slot - w_.arrays.slotBegin[node],
-                {node, slot}};
-      before += run.nodes;
-    }
-    return {};
+    const auto from = std::lower_bound(leansOn.begin(), leansOn.end(), c) - leansOn.begin();
+    // The node that removes it is this chunk's and has not come yet.
+    const std::uint32_t border = w_.arrays.remover[roots_ + w_.newSlot[triangle - roots_]] & ~Arrays::kMarks;
+    return {static_cast<std::uint32_t>(from) + 1,
+            static_cast<std::uint32_t>(border - roots_ - chunk.firstBorder), border};
   }
 
   /// Whether a triangle of the floor that was not found yet lies across an edge.
@@ -272,6 +271,8 @@ class Packer {
       : context_(context), plan_(planChunks(model)), walk_{model, plan_, arrays_, {}, {}, {}, {}, {}} {}
 
   Result<PackedMt> run() {
+    if (walk_.model.mt.rootTriangleCount() + plan_.directory.borders() > kMostBorders)
+      return failure(ErrorCode::invalidData, "has more triangles in its root than can be packed");
     if (!prepare()) return failure(ErrorCode::unreadable, "needs more memory than there is to be packed");
     const auto& chunks = plan_.directory.chunks;
     std::vector<Streams> streams(chunks.size());
@@ -313,7 +314,8 @@ class Packer {
     arrays_.scale = from.scale;
     arrays_.metric = from.metric;
     if (!arrays_.allocate(
-            {from.rootVertices, from.rootTriangles.size(), model.mt.nodeCount(), from.link.size(), 0, 0}))
+            {from.rootVertices, from.rootTriangles.size(), model.mt.nodeCount(), from.link.size(), 0, 0},
+            plan_.directory.borders()))
       return false;
     std::copy(from.rootTriangles.begin(), from.rootTriangles.end(), arrays_.rootTriangles.get());
     if (model.isRaster)

@@ -227,10 +227,12 @@ Plan planChunks(const TerrainModel& model) {
     for (const std::uint32_t t : mt.floor(NodeId(n))) {
       if (t < roots) continue;
       const std::uint32_t parent = plan.chunkOf[plan.creator[t - roots]];
-      if (parent == c)
+      if (parent == c) {
         ++plan.ownParents[n];
-      else
+      } else {
         leanOn(plan.directory.chunks[c], parent);
+        ++plan.directory.chunks[parent].borders;
+      }
     }
     Run& run = runs[c][MultiTriangulation::bandOf(plan.saturatedError[n])];
     ++run.nodes;

@@ -40,7 +40,7 @@ struct UnpackOptions {
 /// whatever the bytes are, the MT that comes back has its indices in range and its floors, removers, links
 /// and spheres in the relations that MtArrays states, or there is an error. Chunks are decoded in parallel;
 /// the result does not depend on it. Errors: corrupt (a checksum, or what makes no sense, named), unreadable
-/// (more than memory holds), interrupted; without a culprit. O(triangles), 70 bytes per node beside the MT.
+/// (more than memory holds), interrupted; without a culprit. O(triangles), 35 bytes per node beside the MT.
 Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directory,
                                     std::span<const std::byte> tables, std::span<const std::byte> nodes,
                                     const UnpackOptions& options = {}, const RunContext& context = {});

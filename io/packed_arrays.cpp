@@ -39,7 +39,7 @@ void giveZerosBack(void* zeros, std::size_t bytes) {
     givePagesBack(zeros, bytes);
 }
 
-bool Arrays::allocate(const AmtCounts& counts) {
+bool Arrays::allocate(const AmtCounts& counts, std::uint64_t borders) {
   rootVertices = static_cast<std::uint32_t>(counts.rootVertices);
   roots = static_cast<std::uint32_t>(counts.rootTriangles);
   nodes = static_cast<std::uint32_t>(counts.nodes);
@@ -64,8 +64,7 @@ bool Arrays::allocate(const AmtCounts& counts) {
   doublePlaces = ZeroArray<Place<double>>(holdsFloats() ? 0 : v);
   star = ZeroArray<std::uint8_t>(n);
   shownArea = ZeroArray<std::uint8_t>(ids);
-  outer = ZeroArray<Handle>(s);
-  std::fill_n(remover.get(), remover.isThere() ? roots : 0, kNone);
+  border = ZeroArray<Border>(roots + borders);
   wholeErrors.assign((kLatticeErrorArea + 1) * 16, 0);
   for (unsigned area = 1; area <= kLatticeErrorArea; ++area)
     for (unsigned whole = 0; whole < 16; ++whole)
@@ -74,7 +73,7 @@ bool Arrays::allocate(const AmtCounts& counts) {
          floor.isThere() && creatorHint.isThere() && error.isThere() && below.isThere() && above.isThere() &&
          saturatedError.isThere() && sphere.isThere() && samples.isThere() && plan.isThere() &&
          rawHeights.isThere() && floatPlaces.isThere() && doublePlaces.isThere() && star.isThere() &&
-         shownArea.isThere() && outer.isThere();
+         shownArea.isThere() && border.isThere();
 }
 
 void Arrays::joinRoot() {
@@ -91,15 +90,20 @@ void Arrays::joinRoot() {
     }
   std::ranges::sort(
       sides, [](const Side& a, const Side& b) { return a.edge != b.edge ? a.edge < b.edge : a.at < b.at; });
-  rootOuter.assign(sides.size(), Handle{});
+  for (std::uint32_t t = 0; t < roots; ++t) border[t] = {rootTriangles[t], t, {kNone, kNone, kNone}};
   for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+    const std::uint32_t p = sides[i].at, q = sides[i + 1].at;
     if (sides[i].edge != sides[i + 1].edge) continue;
-    rootOuter[sides[i].at] = {kNone, sides[i + 1].at / 3};
-    rootOuter[sides[i + 1].at] = {kNone, sides[i].at / 3};
+    border[p / 3].across[p % 3] = q / 3;
+    border[q / 3].across[q % 3] = p / 3;
   }
+  for (std::uint32_t t = 0; t < roots; ++t)
+    std::atomic_ref(remover[t]).store(kMarks | t, std::memory_order_release);
 }
 
-void Arrays::finishHints() {
+void Arrays::finish() {
+  for (std::uint32_t t = 0; t < roots; ++t)
+    if ((remover[t] & kMark) != 0) remover[t] = kNone;
   slotBegin[nodes] = slots;
   constexpr std::uint32_t k = MultiTriangulation::kSlotsPerHint;
   for (std::uint32_t n = 0; n < nodes; ++n)
@@ -112,8 +116,7 @@ MultiTriangulation Arrays::model(std::shared_ptr<Arrays> arrays) {
   from.doublePlaces = {};
   from.star = {};
   from.shownArea = {};
-  from.outer = {};
-  from.rootOuter = {};
+  from.border = {};
   from.blocks = makeNodeBlocks(from.saturatedError.view(), from.sphere.view());
   MtArrays a;
   a.rootVertices = from.rootVertices;
@@ -170,7 +173,7 @@ struct GrowingBall {
 }  // namespace
 
 std::optional<std::string> saturate(Arrays& a, const Chunk& chunk, bool isPart) {
-  const std::uint32_t* const remover = a.remover.get() + a.roots;
+  std::uint32_t* const remover = a.remover.get() + a.roots;
   Sphere* const sphere = a.sphere.get();
   std::uint16_t* const saturatedError = a.saturatedError.get();
   std::array<Sphere, 40> children;
@@ -189,9 +192,11 @@ std::optional<std::string> saturate(Arrays& a, const Chunk& chunk, bool isPart) 
       std::uint32_t count = 0, previous = n;
       float unready = 0;
       for (std::uint32_t i = begin; i < begin + size; ++i) {
-        // kNone becomes n.
-        const std::uint32_t isNone = remover[i] == kNone ? ~0u : 0u;
+        // A mark becomes kNone, and that n.
+        const std::uint32_t isNone = 0u - (remover[i] >> 31);
+        static_assert(Arrays::kMark == 1u << 31);
         const std::uint32_t child = (remover[i] & ~isNone) | (n & isNone);
+        remover[i] |= isNone;
         const float radius = std::atomic_ref(sphere[child].radius).load(std::memory_order_acquire);
         children[count] = {sphere[child].x, sphere[child].y, sphere[child].z, radius};
         saturated = std::max(saturated, saturatedError[child]);

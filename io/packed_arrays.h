@@ -45,14 +45,17 @@ class ZeroArray {
   std::unique_ptr<T, Free> data_;
 };
 
-/// A triangle: the node that created it and its slot, or kNone and a triangle of the root. All ones: there is
-/// no triangle.
-struct Handle {
-  std::uint32_t node = MultiTriangulation::kNone;
-  std::uint32_t slot = MultiTriangulation::kNone;
-  bool isNothing() const { return slot == MultiTriangulation::kNone; }
-  bool isRoot() const { return node == MultiTriangulation::kNone; }
+/// A triangle of the root, or one that a chunk leaves to others: all that they need to take it away, in one
+/// place. The first corner is the apex; `across` has what lay across each edge when the chunk ended (the id
+/// of a triangle, or kNone).
+struct alignas(32) Border {
+  std::array<std::uint32_t, 3> corners;
+  std::uint32_t id;
+  std::array<std::uint32_t, 3> across;
 };
+
+/// As many as Arrays::kLeft leaves numbers for.
+inline constexpr std::uint64_t kMostBorders = (1u << 30) - 1;
 
 /// Plan coordinates and raw height of a vertex. w is 0.
 template <class Real>
@@ -87,16 +90,21 @@ struct Arrays {
   std::vector<std::uint16_t> wholeErrors;
   ZeroArray<std::uint8_t> star;       ///< slots of a node, + kOpen; 0 = not there yet
   ZeroArray<std::uint8_t> shownArea;  ///< per triangle id, see packed::shownArea()
-  ZeroArray<Handle> outer;            ///< per slot left by its chunk: what was across the link's edge
-  std::vector<Handle> rootOuter;      ///< 3 per root triangle: across each edge
+  ZeroArray<Border> border;           ///< of the root's triangles, then of the chunks' (Chunk::firstBorder)
   static constexpr std::uint8_t kOpen = 128;
 
-  /// All arrays, of the sizes stated in MtArrays. False when there is not enough memory.
-  bool allocate(const AmtCounts& counts);
-  /// Fills rootOuter from rootTriangles.
+  /// The remover of a triangle that nobody has removed, until all is read: the front's record of it, for the
+  /// chunk that is at work; or, with kLeft as well, its place in `border`.
+  static constexpr std::uint32_t kMark = 1u << 31, kLeft = 1u << 30, kMarks = kMark | kLeft;
+  static bool isLeft(std::uint32_t remover) { return (remover & kMarks) == kMarks; }
+
+  /// All arrays, of the sizes stated in MtArrays, and borders of the chunks. False when there is not enough
+  /// memory.
+  bool allocate(const AmtCounts& counts, std::uint64_t borders);
+  /// Fills the root's borders from rootTriangles.
   void joinRoot();
-  /// creatorHint and the end of slotBegin. Precondition: slotBegin is complete.
-  void finishHints();
+  /// The root's removers, creatorHint and the end of slotBegin. Precondition: all chunks have been saturated.
+  void finish();
   /// What stays of them.
   static MultiTriangulation model(std::shared_ptr<Arrays> arrays);
 
@@ -112,7 +120,6 @@ struct Arrays {
       return doublePlaces.get();
   }
   double height(std::uint32_t vertex) const { return rawHeight(encoding.type, rawHeights.get(), vertex); }
-  std::uint32_t idOf(Handle h) const { return h.isRoot() ? h.slot : roots + h.slot; }
   std::uint32_t starSize(std::uint32_t node) const { return star[node] & (kOpen - 1u); }
   bool isOpen(std::uint32_t node) const { return (star[node] & kOpen) != 0; }
 };
@@ -121,7 +128,7 @@ struct Arrays {
 /// see engine/mt_recorder.h. A node's sphere holds its star when this is called. Nothing, or what is wrong: a
 /// saturated error outside of its band. A node's saturated error is the largest of its floor when this is
 /// called. Of a part of an MT (`isPart`) some children are missing; its
-/// saturated errors are at least the lowest of their band.
+/// saturated errors are at least the lowest of their band. What nobody removed loses its mark.
 std::optional<std::string> saturate(Arrays& arrays, const Chunk& chunk, bool isPart);
 
 }  // namespace arete::packed

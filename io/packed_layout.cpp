@@ -80,16 +80,18 @@ static_assert(kPackedVersion >= kClasses);
 
 constexpr std::uint32_t kMaxIds = MultiTriangulation::kNone - 1;
 /// Of a chunk in the directory: four doubles, a checksum, and as many numbers as there always are.
-constexpr std::uint64_t kLeastChunkBytes = 4 * 8 + 8 + kParts + 2;
+constexpr std::uint64_t kLeastChunkBytes = 4 * 8 + 8 + kParts + 3;
 
 }  // namespace
 
 void Directory::number() {
-  std::uint64_t offset = 0;
+  std::uint64_t offset = 0, borders = 0;
   std::vector<Run*> runs;
   for (Chunk& chunk : chunks) {
     chunk.offset = offset;
     offset += chunk.bytes();
+    chunk.firstBorder = borders;
+    borders += chunk.borders;
     chunk.nodes = 0;
     for (Run& run : chunk.runs) {
       chunk.nodes += run.nodes;
@@ -120,6 +122,12 @@ std::uint64_t Directory::slots() const {
   return sum;
 }
 
+std::uint64_t Directory::borders() const {
+  std::uint64_t sum = 0;
+  for (const Chunk& chunk : chunks) sum += chunk.borders;
+  return sum;
+}
+
 std::vector<std::byte> toBytes(const Directory& directory) {
   ByteSink out;
   out.plain(kPackedVersion);
@@ -135,6 +143,7 @@ std::vector<std::byte> toBytes(const Directory& directory) {
     }
     for (const double d : {chunk.xMin, chunk.yMin, chunk.xMax, chunk.yMax}) out.plain(d);
     for (const std::uint32_t n : chunk.streamBytes) out.number(n);
+    out.number(chunk.borders);
     out.plain(chunk.checksum);
     out.number(chunk.runs.size());
     for (const Run& run : chunk.runs) {
@@ -181,10 +190,12 @@ std::optional<Directory> directoryOf(std::span<const std::byte> bytes, std::stri
     }
     for (double* d : {&chunk.xMin, &chunk.yMin, &chunk.xMax, &chunk.yMax}) *d = in.plain<double>();
     for (std::uint32_t& n : chunk.streamBytes) n = in.number(kMaxIds);
+    chunk.borders = in.number(kMaxIds);
     chunk.checksum = in.plain<std::uint64_t>();
     const std::uint32_t runs = in.number(MultiTriangulation::kBands);
     if (in.isBad()) return std::nullopt;
     chunk.runs.resize(runs);
+    const std::uint64_t slotsBefore = slots;
     for (std::uint32_t r = 0; r < runs; ++r) {
       Run& run = chunk.runs[r];
       run.band = in.number(r == 0 ? MultiTriangulation::kBands - 1 : chunk.runs[r - 1].band - 1);
@@ -201,6 +212,10 @@ std::optional<Directory> directoryOf(std::span<const std::byte> bytes, std::stri
         return std::nullopt;
       }
       run.slots = static_cast<std::uint32_t>(3 * std::uint64_t{run.nodes} + more);
+    }
+    if (chunk.borders > slots - slotsBefore) {
+      problem = fmt::format("chunk {} of the packed nodes leaves more triangles than it makes", i);
+      return std::nullopt;
     }
   }
   if (!in.isDone()) return std::nullopt;

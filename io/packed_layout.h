@@ -29,13 +29,15 @@ struct Chunk {
   std::vector<std::uint32_t> leansOn;  ///< chunks before this one, rising; all others lean on chunk 0
   /// Plan coordinates: a box around the floors and stars of its nodes.
   double xMin = 0, yMin = 0, xMax = 0, yMax = 0;
-  std::vector<Run> runs;  ///< bands falling, no empty runs
+  std::vector<Run> runs;      ///< bands falling, no empty runs
+  std::uint32_t borders = 0;  ///< triangles that it leaves to chunks that lean on it
   std::array<std::uint32_t, kParts> streamBytes{};
   std::uint64_t checksum = 0;  ///< of the streams' bytes
 
   // Derived.
   std::uint64_t offset = 0;
   std::uint32_t nodes = 0;
+  std::uint64_t firstBorder = 0;  ///< those of the chunks before it
   std::uint64_t bytes() const {
     std::uint64_t sum = 0;
     for (const std::uint32_t b : streamBytes) sum += b;
@@ -51,6 +53,7 @@ struct Directory {
   void number();
   std::uint64_t nodes() const;
   std::uint64_t slots() const;
+  std::uint64_t borders() const;
 };
 
 /// A chunk takes at least a bit for every two things it tells of (nodes, and in chunk 0 vertices and

@@ -39,7 +39,7 @@ namespace arete::packed {
 struct CoderSpace {
   FrontSpace front;
   std::array<std::vector<Front::Own>, MultiTriangulation::kBands> queues;
-  std::vector<Handle> listed;
+  std::vector<std::uint32_t> listed;   ///< places of seeds in Arrays::border
   std::vector<const Shape*> shapesOf;  ///< of the run's nodes
   std::deque<Shape> otherShapes;       ///< those that are not listed, or turned
   std::vector<std::uint8_t> isLast;  ///< of each triangle of the run's floors: whether it is its floor's last
@@ -79,10 +79,11 @@ class NodeCoder {
       std::vector<Own>& queue = space_.queues[band_];
       if (!io_.listed(run, space_.listed)) return fail("lists a seed that cannot be one");
       for (std::size_t i = 0; i < space_.listed.size(); ++i) {
-        const Handle seed = space_.listed[i];
-        if (i + kAhead < space_.listed.size()) front_.prefetch(space_.listed[i + kAhead]);
-        io_.begin(a_.idOf(seed), node_);
-        if (!front_.take(seed, 0, node_, floor_, 0)) return fail("lists a seed that is gone");
+        const std::uint32_t seed = space_.listed[i];
+        if (i + kAhead < space_.listed.size()) front_.prefetchBorder(space_.listed[i + kAhead]);
+        if (i + kAhead / 2 < space_.listed.size()) front_.prefetchAround(space_.listed[i + kAhead / 2]);
+        io_.begin(a_.border[seed].id, node_);
+        if (!front_.takeBorder(seed, 0, node_, floor_, 0)) return fail("lists a seed that is gone");
         if (!node(true)) return false;
       }
       // Nodes of this band may join the queue on the way.
@@ -103,7 +104,7 @@ class NodeCoder {
         return fail("has a vertex outside of its grid or without a height");
       values(run);
     }
-    front_.finish();
+    if (!front_.finish(chunk_)) return fail("leaves another number of triangles than announced");
     return true;
   }
   const std::string& problem() const { return problem_; }
@@ -144,7 +145,9 @@ class NodeCoder {
     // Every node that is still to come needs three.
     if (size + 3 * (nodeEnd_ - node_ - 1) > slotEnd_ - slot_) return fail("has more slots than announced");
     if (!io_.star(floor_, slot_)) return fail("has a star that is not its floor's");
-    const std::uint32_t* const records = front_.template addStar<kCorners>(node_, slot_, floor_);
+    const int made = corners<kCorners>() - (kCorners == 0 && floor_.isOpen ? 1 : 0);
+    const std::uint64_t staying = io_.raw(made, io_.staying(slot_, made));
+    const std::uint32_t* const records = front_.template addStar<kCorners>(node_, slot_, floor_, staying);
     std::uint32_t* const ids = a_.floor.get() + (slot_ - 2 * node_);
     const int triangles = corners<kCorners>() - 2;
     for (int i = 0; i < triangles; ++i) {

@@ -41,8 +41,7 @@ enum Table : unsigned {
   kHeightTable = kPlaceFarTable + 2,                // by class
   kErrorTable = kHeightTable + kClasses,            // by area class and error class
   kListChunkTable = kErrorTable + kAreaClasses * kErrorClasses,
-  kListNodeTable,
-  kListSlotTable,
+  kListBorderTable,
   kRootCornerTable,
   kRootPlaceTable,
   kRootHeightTable,

@@ -94,18 +94,20 @@ class ReaderIo {
     raw_ = values.rawBits;
   }
 
-  bool listed(const Run& run, std::vector<Handle>& seeds) {
+  bool listed(const Run& run, std::vector<std::uint32_t>& seeds) {
+    const auto& leansOn = directory_.chunks[chunk_].leansOn;
     seeds.clear();
-    std::uint64_t from = 0, node = 0;
+    std::uint64_t from = 0, place = 0;
     for (std::uint32_t i = 0; i < run.listed; ++i) {
       const std::uint64_t later = codeNumber(*this, kFloorStream, kListChunkTable, [] { return 0; });
-      if (later > 0) node = 0;
+      if (later > 0) place = 0;
       from += later;
-      node += codeNumber(*this, kFloorStream, kListNodeTable, [] { return 0; });
-      const std::uint64_t slot = codeNumber(*this, kFloorStream, kListSlotTable, [] { return 0; });
-      const auto handle = seed(from, node, slot);
-      if (!handle) return false;
-      seeds.push_back(*handle);
+      place += codeNumber(*this, kFloorStream, kListBorderTable, [] { return 0; });
+      if (from > leansOn.size()) return false;
+      const Chunk* const other = from > 0 ? &directory_.chunks[leansOn[from - 1]] : nullptr;
+      if (place >= (other != nullptr ? other->borders : a_.roots)) return false;
+      const std::uint64_t first = other != nullptr ? a_.roots + other->firstBorder : 0;
+      seeds.push_back(static_cast<std::uint32_t>(first + place));
     }
     return true;
   }
@@ -122,32 +124,12 @@ class ReaderIo {
   unsigned shapeBits(int) { return 0; }
   unsigned openEdge(const Floor&, std::span<const int>) { return 0; }
   bool star(const Floor&, std::uint32_t) { return true; }
+  std::uint64_t staying(std::uint32_t, int) const { return 0; }
   Vec2 actualPlace() const { return {0, 0}; }
   std::int64_t actualHeightResidual(double) const { return 0; }
   std::optional<unsigned> seedAt(std::uint32_t, std::uint32_t) { return std::nullopt; }
 
  private:
-  std::optional<Handle> seed(std::uint64_t from, std::uint64_t node, std::uint64_t slot) const {
-    if (from == 0) {
-      if (node >= a_.roots || slot != 0) return std::nullopt;
-      return Handle{MultiTriangulation::kNone, static_cast<std::uint32_t>(node)};
-    }
-    const auto& leansOn = directory_.chunks[chunk_].leansOn;
-    if (from - 1 >= leansOn.size()) return std::nullopt;
-    const Chunk& other = directory_.chunks[leansOn[from - 1]];
-    if (node >= other.nodes) return std::nullopt;
-    for (const Run& run : other.runs) {
-      if (node >= run.nodes) {
-        node -= run.nodes;
-        continue;
-      }
-      const std::uint32_t n = run.firstNode + static_cast<std::uint32_t>(node);
-      if (slot >= a_.starSize(n)) return std::nullopt;
-      return Handle{n, a_.slotBegin[n] + static_cast<std::uint32_t>(slot)};
-    }
-    return std::nullopt;
-  }
-
   const Arrays& a_;
   const Directory& directory_;
   std::size_t chunk_;
@@ -169,7 +151,10 @@ void keepWhatReaches(Directory& directory, const Box2& box) {
   }
   isKept[0] = 1;
   for (std::size_t i = 0; i < isKept.size(); ++i)
-    if (isKept[i] == 0) directory.chunks[i].runs.clear();
+    if (isKept[i] == 0) {
+      directory.chunks[i].runs.clear();
+      directory.chunks[i].borders = 0;
+    }
   directory.number();
 }
 
@@ -194,7 +179,7 @@ class Unpacker {
     AmtCounts counts = metadata.counts;
     counts.nodes = directory_.nodes();
     counts.slots = directory_.slots();
-    if (!arrays->allocate(counts))
+    if (!arrays->allocate(counts, directory_.borders()))
       return failure(ErrorCode::unreadable, "needs more memory than there is to be unpacked");
     arrays_ = arrays.get();
 
@@ -207,7 +192,7 @@ class Unpacker {
     if (problem)
       return failure(ErrorCode::corrupt,
                      fmt::format("chunk {} of the packed nodes: {}", problem->chunk, problem->what));
-    arrays->finishHints();
+    arrays->finish();
     context_.report("unpack", 1);
     return Arrays::model(arrays);
   }
@@ -278,6 +263,9 @@ Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const
     return failure(
         ErrorCode::corrupt,
         fmt::format("the packed nodes have {} bytes where their directory tells of {}", nodes.size(), bytes));
+  if (metadata.counts.rootTriangles + directory->borders() > packed::kMostBorders)
+    return failure(ErrorCode::corrupt,
+                   "the packed nodes leave more triangles to others than can be numbered");
   const auto tables = packed::tablesOf(tableBytes);
   if (!tables) return failure(ErrorCode::corrupt, "the tables of the packed nodes are damaged");
   if (options.box) packed::keepWhatReaches(*directory, *options.box);
