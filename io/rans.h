@@ -74,14 +74,15 @@ class RansDecoder {
     const unsigned symbol = reinterpret_cast<const std::uint8_t*>(entries)[place];
     const std::uint32_t entry = entries[(std::size_t{1} << kBits) / sizeof *entries + symbol];
     std::uint64_t state = (entry >> 16) * (state_ >> kBits) + place - (entry & 0xFFFFu);
-    if (state < kLow) {
-      Word word;
-      std::memcpy(&word, at_, sizeof word);
-      state = state << 32 | word;
-      at_ += sizeof word;
-      if (at_ > end_) [[unlikely]]
-        at_ = end_ + sizeof word;
-    }
+    // Whether a word is due cannot be foreseen, so it is read in any case, and no branch depends on it.
+    // States are below 2^63, so the sign of the difference tells.
+    Word word;
+    std::memcpy(&word, at_, sizeof word);
+    const auto due = static_cast<std::uint64_t>(static_cast<std::int64_t>(state - kLow) >> 63);
+    state = state << (due & 32) | (word & due);
+    at_ += due & sizeof word;
+    if (at_ > end_) [[unlikely]]
+      at_ = end_ + sizeof word;
     state_ = state;
     return symbol;
   }
