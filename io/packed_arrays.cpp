@@ -170,55 +170,70 @@ struct GrowingBall {
   }
 };
 
+/// A node's children, each once or twice.
+struct Children {
+  std::array<std::uint32_t, 40> nodes;
+  std::uint32_t count;
+};
+
+/// Asks for the children's spheres on the way. What nobody removed loses its mark.
+void find(const Arrays& a, std::uint32_t n, Children& children) {
+  std::uint32_t* const remover = a.remover.get() + a.roots + a.slotBegin[n];
+  const std::uint32_t size = a.starSize(n);
+  std::uint32_t count = 0, previous = n;
+  for (std::uint32_t i = 0; i < size; ++i) {
+    // A mark becomes kNone, and stands for n; so does n itself, behind an open star.
+    static_assert(Arrays::kMark == 1u << 31);
+    const std::uint32_t isNone = 0u - (remover[i] >> 31), child = (remover[i] & ~isNone) | (n & isNone);
+    remover[i] |= isNone;
+    children.nodes[count] = child;
+    count += static_cast<std::uint32_t>(child != n) & static_cast<std::uint32_t>(child != previous);
+    previous = child;
+    __builtin_prefetch(&a.sphere[child]);
+  }
+  children.count = count;
+}
+
+/// Precondition: the children are complete; in a damaged file they may not be, which is returned.
+const char* complete(const Arrays& a, std::uint32_t n, const Children& children, std::uint16_t least,
+                     std::uint32_t band) {
+  Sphere& sphere = a.sphere[n];
+  GrowingBall ball{sphere.x, sphere.y, sphere.z, -sphere.radius};
+  std::uint16_t saturated = std::max(least, a.saturatedError[n]);
+  float unready = 0;
+  for (std::uint32_t i = 0; i < children.count; ++i) {
+    Sphere& child = a.sphere[children.nodes[i]];
+    const float radius = std::atomic_ref(child.radius).load(std::memory_order_acquire);
+    unready = std::min(unready, radius);
+    saturated = std::max(saturated, a.saturatedError[children.nodes[i]]);
+    ball.enclose({child.x, child.y, child.z, radius});
+  }
+  const Sphere grown = ball.rounded(children.count + 1);
+  a.saturatedError[n] = saturated;
+  sphere.x = grown.x;
+  sphere.y = grown.y;
+  sphere.z = grown.z;
+  std::atomic_ref(sphere.radius).store(grown.radius, std::memory_order_release);
+  if (!std::isfinite(grown.x + grown.y + grown.z + grown.radius)) return "a sphere that is none";
+  if (unready < 0) return "a child that cannot be one";
+  if (MultiTriangulation::bandOf(saturated) != band) return "a saturated error outside of its band";
+  return nullptr;
+}
+
 }  // namespace
 
 std::optional<std::string> saturate(Arrays& a, const Chunk& chunk, bool isPart) {
-  std::uint32_t* const remover = a.remover.get() + a.roots;
-  Sphere* const sphere = a.sphere.get();
-  std::uint16_t* const saturatedError = a.saturatedError.get();
-  std::array<Sphere, 40> children;
+  std::array<Children, kAhead> ahead;
   for (auto run = chunk.runs.rbegin(); run != chunk.runs.rend(); ++run) {
     const auto least =
         isPart ? static_cast<std::uint16_t>(run->band << MultiTriangulation::kBandShift) : std::uint16_t{0};
-    for (std::uint32_t n = run->firstNode + run->nodes; n-- > run->firstNode;) {
-      if (n >= run->firstNode + kAhead) {
-        const std::uint32_t slot = a.slotBegin[n - kAhead];
-        for (std::uint32_t i = 0; i < 6; ++i) __builtin_prefetch(&sphere[std::min(remover[slot + i], n)]);
-      }
-      const std::uint32_t begin = a.slotBegin[n], size = a.starSize(n);
-      const Sphere own = sphere[n];
-      // A child n stands for none: it is its own floor's error.
-      std::uint16_t saturated = std::max(least, saturatedError[n]);
-      std::uint32_t count = 0, previous = n;
-      float unready = 0;
-      for (std::uint32_t i = begin; i < begin + size; ++i) {
-        // A mark becomes kNone, and that n.
-        const std::uint32_t isNone = 0u - (remover[i] >> 31);
-        static_assert(Arrays::kMark == 1u << 31);
-        const std::uint32_t child = (remover[i] & ~isNone) | (n & isNone);
-        remover[i] |= isNone;
-        const float radius = std::atomic_ref(sphere[child].radius).load(std::memory_order_acquire);
-        children[count] = {sphere[child].x, sphere[child].y, sphere[child].z, radius};
-        saturated = std::max(saturated, saturatedError[child]);
-        count += static_cast<std::uint32_t>(child != n) & static_cast<std::uint32_t>(child != previous);
-        previous = child;
-      }
-      saturatedError[n] = saturated;
-      GrowingBall ball{own.x, own.y, own.z, -own.radius};
-      for (std::uint32_t i = 0; i < count; ++i) {
-        unready = std::min(unready, children[i].radius);
-        ball.enclose(children[i]);
-      }
-      const Sphere grown = ball.rounded(count + 1);
-      sphere[n].x = grown.x;
-      sphere[n].y = grown.y;
-      sphere[n].z = grown.z;
-      std::atomic_ref(sphere[n].radius).store(grown.radius, std::memory_order_release);
-      if (!std::isfinite(grown.x + grown.y + grown.z + grown.radius))
-        return fmt::format("node {} has a sphere that is none", n);
-      if (unready < 0) return fmt::format("node {} has a child that cannot be one", n);
-      if (MultiTriangulation::bandOf(saturated) != run->band)
-        return fmt::format("node {} has a saturated error outside of its band", n);
+    const std::uint32_t last = run->firstNode + run->nodes - 1;
+    for (std::uint32_t i = 0; i < std::min(run->nodes, kAhead); ++i) find(a, last - i, ahead[i]);
+    for (std::uint32_t i = 0; i < run->nodes; ++i) {
+      Children& children = ahead[i % kAhead];
+      if (const char* const bad = complete(a, last - i, children, least, run->band))
+        return fmt::format("node {} has {}", last - i, bad);
+      if (run->nodes - i > kAhead) find(a, last - i - kAhead, children);
     }
   }
   return std::nullopt;
