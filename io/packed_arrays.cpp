@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -106,8 +108,10 @@ void Arrays::finish() {
     if ((remover[t] & kMark) != 0) remover[t] = kNone;
   slotBegin[nodes] = slots;
   constexpr std::uint32_t k = MultiTriangulation::kSlotsPerHint;
-  for (std::uint32_t n = 0; n < nodes; ++n)
-    for (std::uint32_t h = (slotBegin[n] + k - 1) / k; h * k < slotBegin[n + 1]; ++h) creatorHint[h] = n;
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, nodes, 1u << 14), [&](const auto& range) {
+    for (std::uint32_t n = range.begin(); n < range.end(); ++n)
+      for (std::uint32_t h = (slotBegin[n] + k - 1) / k; h * k < slotBegin[n + 1]; ++h) creatorHint[h] = n;
+  });
 }
 
 MultiTriangulation Arrays::model(std::shared_ptr<Arrays> arrays) {
