@@ -189,7 +189,7 @@ void addBuildCommand(CLI::App& app, Session& session) {
       ->type_name("FILE.amt");
   command->add_flag(
       "--packed", arguments->isPacked,
-      "Write the compressed form: a fifteenth of the size, unpacked into memory when it is read");
+      "Write the compressed form: a ninth to a fifteenth of the size, unpacked into memory when it is read");
   command
       ->add_option("--shape", arguments->shape,
                    "delaunay: well-shaped triangles (default); fidelity: far fewer triangles at a bound")

@@ -15,8 +15,8 @@ namespace arete {
 
 struct AmtMetadata;
 
-/// The packed form of a multitriangulation (docs/topics/amt-format.md, "Packed"): about a fifteenth of its
-/// arrays.
+/// The packed form of a multitriangulation (docs/topics/amt-format.md, "Packed"): a ninth to a fifteenth of
+/// its arrays.
 struct PackedMt {
   std::vector<std::byte> directory, tables, nodes;
 };

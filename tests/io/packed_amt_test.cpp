@@ -201,7 +201,7 @@ TEST(PackedAmt, HoldsAModelMadeByHand) {
   EXPECT_EQ(back.georeference.verticalUnit, "ft");
 }
 
-TEST(PackedAmt, IsAFifteenthOfThePlainFile) {
+TEST(PackedAmt, IsLessThanAnEighthOfThePlainFile) {
   const TemporaryFolder folder;
   const TerrainModel model = built(build(hills(400, 300, [](double z) { return std::round(z) + 0.0; })));
   ASSERT_TRUE(writeAmt(folder.file("plain.amt"), model));
