@@ -17,6 +17,8 @@
 #include <map>
 #include <tuple>
 
+#include "engine/morton.h"
+
 namespace arete::packed {
 namespace {
 
@@ -29,19 +31,6 @@ constexpr double kReachesPerTile = 8;
 /// Of a tile in tiles of the class below, and its logarithm.
 constexpr int kClassStep = 4, kLevelsPerClass = 2;
 constexpr int kMostClasses = 12;
-
-std::uint64_t spread(std::uint32_t x) {
-  std::uint64_t bits = x;
-  bits = (bits | bits << 16) & 0x0000FFFF0000FFFF;
-  bits = (bits | bits << 8) & 0x00FF00FF00FF00FF;
-  bits = (bits | bits << 4) & 0x0F0F0F0F0F0F0F0F;
-  bits = (bits | bits << 2) & 0x3333333333333333;
-  return (bits | bits << 1) & 0x5555555555555555;
-}
-/// Rises in both of them.
-std::uint64_t morton(std::uint32_t row, std::uint32_t column) {
-  return spread(row) << 1 | spread(column);
-}
 
 struct Tiles {
   std::int32_t row = 0, column = 0, rowEnd = 0, columnEnd = 0;
@@ -70,7 +59,7 @@ struct Tiles {
   auto key() const {
     return std::tuple(
         -int{reach},
-        morton(static_cast<std::uint32_t>(rowEnd - 1), static_cast<std::uint32_t>(columnEnd - 1)), level,
+        mortonCode(static_cast<std::uint32_t>(columnEnd - 1), static_cast<std::uint32_t>(rowEnd - 1)), level,
         (rowEnd - row) * (columnEnd - column), row, column);
   }
 };

@@ -13,7 +13,7 @@
 //   number. Nodes whose floor is made by other chunks are listed, at the begin of their band.
 //   Its floor: its shape as a walk from the seed across edges finds it (packed_shapes.h). The walk's order of
 //   the edges that are not inner ones is the link's.
-//   Whether the star is open, and at which edge of the border.
+//   Whether the star is open, and at which edge of the border; which of its triangles nobody removes.
 //   The place of its vertex, against the centroid of the link; its height, against the plane of the triangle
 //   of the floor that it stands on.
 //   Error and bounds of the floor's triangles.

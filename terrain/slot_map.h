@@ -17,7 +17,6 @@ class SlotMap {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
-  SlotMap() = default;
   /// isLive(slot), for slots below size. O(size), parallel.
   template <class IsLive>
   SlotMap(std::size_t size, const IsLive& isLive) : words_(size / 64 + 1) {

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/morton.h"
 #include "engine/shared_progress.h"
 #include "engine/with_threads.h"
 
@@ -22,20 +23,12 @@ namespace {
 
 constexpr std::size_t kPlacesPerTask = 1024;
 
-/// Spreads the low 16 bits to the even places.
-std::uint32_t spread(std::uint32_t x) {
-  x = (x | (x << 8)) & 0x00FF00FFu;
-  x = (x | (x << 4)) & 0x0F0F0F0Fu;
-  x = (x | (x << 2)) & 0x33333333u;
-  return (x | (x << 1)) & 0x55555555u;
-}
-
 std::uint32_t mortonKey(Vec2 p, const Box2& box) {
   const auto cell = [](double v, double low, double high) {
     const double t = high > low ? (v - low) / (high - low) : 0;
     return t > 0 ? static_cast<std::uint32_t>(std::min(t, 1.0) * 65535) : 0u;  // NaN too
   };
-  return spread(cell(p.x, box.xMin, box.xMax)) | (spread(cell(p.y, box.yMin, box.yMax)) << 1);
+  return static_cast<std::uint32_t>(mortonCode(cell(p.x, box.xMin, box.xMax), cell(p.y, box.yMin, box.yMax)));
 }
 
 struct Visit {
