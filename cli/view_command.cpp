@@ -145,6 +145,7 @@ Json jsonOf(const FrameFigures& f) {
           {"moving", f.moving},
           {"pixelError", std::isfinite(f.pixels) ? Json(f.pixels) : Json()},
           {"isComplete", f.isComplete},
+          {"showsTerrain", f.showsTerrain},
           {"jumpPixels", std::isfinite(f.jumpPixels) ? Json(f.jumpPixels) : Json()},
           {"cutMilliseconds", f.cutMilliseconds},
           {"drawMilliseconds", f.drawMilliseconds}};
@@ -225,6 +226,7 @@ Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView
   const Result<FrameFigures> figures = view.draw(camera);
   if (!figures) return tl::unexpected(figures.error());
   if (Status saved = savePng(view.image(), a.screenshot); !saved) return saved;
+  if (!figures->showsTerrain) session.warn("the picture shows nothing of the terrain");
   if (!figures->isComplete)
     session.warn(fmt::format("the {} ended the cut: the terrain is {}", whatEnds(a), accuracyOf(*figures)));
   session.say(fmt::format("{}: {} triangles, {} vertices on the move, {}\n", a.screenshot,
@@ -240,8 +242,13 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, HeadlessView& view
   if (!frames) return tl::unexpected(frames.error());
   Json list = Json::array();
   std::uint64_t triangles = 0;
-  std::size_t unfinished = 0;
-  for (const FilmFrame& frame : *frames) unfinished += frame.figures.isComplete ? 0 : 1;
+  std::size_t unfinished = 0, empty = 0;
+  for (const FilmFrame& frame : *frames) {
+    unfinished += frame.figures.isComplete ? 0 : 1;
+    empty += frame.figures.showsTerrain ? 0 : 1;
+  }
+  if (empty > 0)
+    session.warn(fmt::format("{} of {} frames show nothing of the terrain", empty, frames->size()));
   if (unfinished > 0)
     session.warn(
         fmt::format("the {} ended the cut of {} of {} frames", whatEnds(a), unfinished, frames->size()));
@@ -293,7 +300,8 @@ Status runView(const ViewArguments& a, Session& session) {
   if (!flight) return tl::unexpected(flight.error());
 
   if (!a.frames.empty()) {
-    if (const auto count = filmFrames(**flight, a.framesPerSecond); !count) return tl::unexpected(count.error());
+    if (const auto count = filmFrames(**flight, a.framesPerSecond); !count)
+      return tl::unexpected(count.error());
     std::error_code failed;  // drawFilm() says why; the film may lie in it
     std::filesystem::create_directories(a.frames, failed);
   }

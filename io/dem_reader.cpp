@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 #include <new>
 #include <string_view>
 #include <utility>
@@ -102,11 +103,62 @@ Result<DemRead> readFrom(const std::string& path, const DemReadOptions& options,
   return tl::unexpected(explainOpenFailure(path, "DEM", errors));
 }
 
+/// Where the places of a heightfield lie, and its heights.
+struct Extent {
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+  Vec2 low{kNone, kNone}, high{-kNone, -kNone};
+  double lowest = kNone, highest = -kNone;
+
+  void take(Vec2 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+};
+
+Extent extentOf(const std::vector<double>& heights, Extent extent = {}) {
+  for (const double z : heights) {
+    extent.lowest = z < extent.lowest ? z : extent.lowest;  // false of NODATA
+    extent.highest = z > extent.highest ? z : extent.highest;
+  }
+  return extent;
+}
+
+Extent extentOf(const RasterHeightfield& field) {
+  Extent extent = extentOf(field.heights);
+  for (const double column : {0.0, double(field.columns) - 1})
+    for (const double row : {0.0, double(field.rows) - 1})
+      extent.take(field.georeference.toSource(column, row));
+  return extent;
+}
+
+Extent extentOf(const PointHeightfield& field) {
+  Extent extent = extentOf(field.heights);
+  for (const Vec2& p : field.positions) extent.take(p);
+  return extent;
+}
+
+/// Longitudes and latitudes without a CRS: numbers that a globe has, and heights far beyond the width of the
+/// whole. Nothing but the numbers tells, so it is a warning.
+template <class Heightfield>
+bool looksLikeDegrees(const Heightfield& field) {
+  if (!field.georeference.crsWkt.empty()) return false;
+  const Extent e = extentOf(field);
+  const double width = std::max(e.high.x - e.low.x, e.high.y - e.low.y);
+  return width > 0 && e.low.x >= -180 && e.high.x <= 360 && e.low.y >= -90 && e.high.y <= 90 &&
+         e.highest - e.lowest > 10 * width;
+}
+
 }  // namespace
 
 Result<DemRead> readDem(const std::string& path, const DemReadOptions& options, const RunContext& context) {
   try {
-    return readFrom(path, options, context);
+    Result<DemRead> read = readFrom(path, options, context);
+    if (read && std::visit([](const auto& field) { return looksLikeDegrees(field); }, read->heightfield))
+      read->warnings.push_back(
+          "has no CRS, and its places look like degrees: they are taken as lengths in the unit of the "
+          "heights; "
+          "state the CRS (EPSG:4326 for longitude and latitude)");
+    return read;
   } catch (const std::bad_alloc&) {
     return failure(ErrorCode::unsupported, "is larger than the memory that is free", path);
   }

@@ -99,6 +99,7 @@ Result<FrameFigures> HeadlessView::draw(const Camera& stated) {
   s.target.begin();
   if (const Status drawn = s.view.draw(camera, settings); !drawn) return tl::unexpected(drawn.error());
   glFinish();
+  figures->showsTerrain = s.view.showsTerrain();
   figures->drawMilliseconds = watch.milliseconds();
   return figures;
 }

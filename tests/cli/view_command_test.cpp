@@ -28,6 +28,18 @@ TEST_F(ViewCommand, DrawsAPictureWithoutAScreen) {
   EXPECT_EQ(shot.json()["screenshot"]["figures"]["pixelError"], 1.0);
 }
 
+TEST_F(ViewCommand, APictureOfTheSkyAloneIsWarnedOf) {
+  const auto shoot = [&](const char* camera) {
+    return run({"view", "dem.amt", "--headless", "--screenshot", "sky.png", "--size", "64x64", "--json",
+                "--camera", camera});
+  };
+  const Outcome up = shoot("0,0,100msl,0,80");
+  if (isWithoutOpenGl(up)) GTEST_SKIP() << up.err;
+  ASSERT_EQ(up.code, 0) << up.err;
+  EXPECT_NE(up.err.find("the picture shows nothing of the terrain"), std::string::npos) << up.err;
+  EXPECT_EQ(up.json()["screenshot"]["figures"]["showsTerrain"], false);
+}
+
 TEST_F(ViewCommand, ARoundFlightGivesFramesAndTheirFigures) {
   const Outcome film = run({"view", "dem.amt", "--headless", "--round", "--frames", "frames", "--fps", "0.1",
                             "--size", "160x90", "--figures", "figures.json", "--cut", "processor"});

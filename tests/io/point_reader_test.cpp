@@ -314,6 +314,27 @@ Error demErrorOf(const std::string& path, const DemReadOptions& options = {}) {
   return read ? Error{} : read.error();
 }
 
+TEST(DemReader, WarnsOfPlacesThatLookLikeDegreesWithoutACrs) {
+  TemporaryFolder folder;
+  const auto isWarnedOf = [&](const std::string& name, const std::string& text, const std::string& crs = {}) {
+    DemReadOptions options;
+    options.crs = crs;
+    std::string all;
+    for (const std::string& warning : demOrFail(folder.write(name, text), options).warnings) all += warning;
+    return contains(all, "look like degrees");
+  };
+  const std::string heights = "310 450\n NaN 1290\n";
+  const auto grid = [&](const std::string& corner, const std::string& cell, const std::string& rows) {
+    return "ncols 2\nnrows 2\nxllcorner " + corner + "\nyllcorner 46\ncellsize " + cell + "\n" + rows;
+  };
+  EXPECT_TRUE(isWarnedOf("degrees.asc", grid("8", "0.5", heights)));
+  EXPECT_FALSE(isWarnedOf("stated.asc", grid("8", "0.5", heights), "EPSG:4326"));
+  EXPECT_FALSE(isWarnedOf("metres.asc", grid("408000", "30", heights)));
+  EXPECT_FALSE(isWarnedOf("local.asc", grid("8", "40", "310 312\n 311 309\n")));
+  EXPECT_FALSE(isWarnedOf("flat.asc", grid("8", "0.5", "7 7\n7 7\n")));
+  EXPECT_TRUE(isWarnedOf("points.csv", "8.1,46.2,310\n8.3,46.9,450\n8.9,46.4,1290\n8.5,46.6,800\n"));
+}
+
 TEST(DemReader, DecidesByWhatTheFileIs) {
   TemporaryFolder folder;
   CaptureStderr();

@@ -65,6 +65,22 @@ TEST(Headless, ABudgetIsUsedNearlyWhollyAndSaidToBindByEitherPath) {
   }
 }
 
+TEST(Headless, APictureSaysWhetherItShowsTheTerrain) {
+  ARETE_NEEDS_OPENGL(probe);
+  const TerrainModel model = mountains();
+  Result<HeadlessView> view =
+      HeadlessView::create(model, {.widthPixels = 160, .heightPixels = 90, .samples = 4, .settings = {}});
+  ASSERT_TRUE(view) << view.error().describe();
+  Camera camera = overview(model);
+  EXPECT_TRUE(view->draw(camera)->showsTerrain);
+  camera.pitchDegrees = 60;
+  EXPECT_FALSE(view->draw(camera)->showsTerrain);
+  camera = overview(model);
+  camera.xy.x += 1e6;
+  EXPECT_FALSE(view->draw(camera)->showsTerrain);
+  EXPECT_TRUE(view->draw(overview(model))->showsTerrain);
+}
+
 TEST(Headless, AFilmHasAFrameForEveryMomentAndItsFigures) {
   ARETE_NEEDS_OPENGL(probe);
   const TerrainModel model = mountains();

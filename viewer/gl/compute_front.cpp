@@ -63,9 +63,11 @@ Result<ComputeFront> ComputeFront::create(const TerrainOnGpu& t, std::uint32_t m
         program(f.nodes_, {"frame.glsl", "ball_test.glsl", "front_state.glsl", "front_nodes.comp.glsl"}),
         program(f.plan_, {"front_state.glsl", "front_plan.comp.glsl"}),
         program(f.roots_, {"front_state.glsl", "front_write.glsl", "front_roots.comp.glsl"}),
-        program(f.stars_, {"front_state.glsl", "listed_node.glsl", "front_write.glsl", "front_stars.comp.glsl"}),
+        program(f.stars_,
+                {"front_state.glsl", "listed_node.glsl", "front_write.glsl", "front_stars.comp.glsl"}),
         program(f.publish_, {"front_state.glsl", "front_publish.comp.glsl"}),
-        program(f.list_, {"frame.glsl", "ball_test.glsl", "front_state.glsl", "listed_node.glsl", "morph_list.comp.glsl"}),
+        program(f.list_, {"frame.glsl", "ball_test.glsl", "front_state.glsl", "listed_node.glsl",
+                          "morph_list.comp.glsl"}),
         program(f.step_, {"front_state.glsl", "morph_step.comp.glsl"})})
     if (!ok) return tl::unexpected(ok.error());
 

@@ -88,9 +88,9 @@ inline GlFramebuffer makeFramebuffer() {
   glCreateFramebuffers(1, &name);
   return GlFramebuffer(name);
 }
-inline GlQuery makeTimer() {
+inline GlQuery makeQuery(GLenum target) {
   GLuint name = 0;
-  glCreateQueries(GL_TIME_ELAPSED, 1, &name);
+  glCreateQueries(target, 1, &name);
   return GlQuery(name);
 }
 

@@ -19,6 +19,7 @@ struct TerrainView::State {
   double processorStretch = 1;
   bool hasRises = false;  // of vertices that the device's cut would not put to rest
   CutPath drawn = CutPath::device;
+  GlQuery anySample = makeQuery(GL_ANY_SAMPLES_PASSED);  // of the terrain, when it was drawn last
   std::optional<DrapeOnGpu> drape = {};
   std::optional<CurvedGround> ground = {};  // once somebody wants it
   bool isBent = false;
@@ -193,9 +194,17 @@ Status TerrainView::draw(const Camera& camera, const ViewSettings& settings) {
   s.painter.setFrame(*frame);
   if (settings.look.coloring == Coloring::error && s.terrain.triangleErrors == 0)
     uploadErrors(s.terrain, s.model->mt);
+  glBeginQuery(GL_ANY_SAMPLES_PASSED, s.anySample);
   s.painter.draw(s.terrain, front(), settings.look);
+  glEndQuery(GL_ANY_SAMPLES_PASSED);
   s.painter.drawSky(settings.look);
   return {};
+}
+
+bool TerrainView::showsTerrain() const {
+  GLuint any = 0;
+  glGetQueryObjectuiv(state_->anySample, GL_QUERY_RESULT, &any);
+  return any != 0;
 }
 
 const std::string& TerrainView::deviceRefusal() const {

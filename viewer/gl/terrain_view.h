@@ -43,6 +43,7 @@ struct FrameFigures {
   /// which takes the same nodes and does not look.
   double jumpPixels = std::numeric_limits<double>::quiet_NaN();
   double cutMilliseconds = 0, drawMilliseconds = 0;
+  bool showsTerrain = true;  ///< false: nothing but sky; of pictures without a window
 };
 
 /// One terrain in an OpenGL context, drawn for one camera after the other.
@@ -66,6 +67,8 @@ class TerrainView {
   /// Draws the last cut for the camera into the framebuffer that is bound; a new one where the settings want
   /// new buffers.
   Status draw(const Camera& camera, const ViewSettings& settings);
+  /// Whether a sample of the last picture shows the terrain. Waits for the drawing.
+  bool showsTerrain() const;
 
   /// Why the device cannot take cuts, or empty.
   const std::string& deviceRefusal() const;
