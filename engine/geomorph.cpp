@@ -134,9 +134,11 @@ void MorphCamera::pixelsPerHeight(std::span<const Sphere> balls, std::span<doubl
     const double x = dx * p.right.x + dy * p.right.y + dz * p.right.z,
                  y = dx * p.up.x + dy * p.up.y + dz * p.up.z,
                  z = dx * p.forward.x + dy * p.forward.y + dz * p.forward.z;
-    const bool isSeen = (std::abs(x) - p.slopeX * z <= radius * p.lengthX) &
-                        (std::abs(y) - p.slopeY * z <= radius * p.lengthY) & (z + radius >= near) &
-                        (z - radius <= far);
+    // All four always compared, so that the loop has no branch.
+    const int isBetweenX = std::abs(x) - p.slopeX * z <= radius * p.lengthX,
+              isBetweenY = std::abs(y) - p.slopeY * z <= radius * p.lengthY,
+              isBeyondNear = z + radius >= near, isBeforeFar = z - radius <= far;
+    const bool isSeen = (isBetweenX & isBetweenY & isBeyondNear & isBeforeFar) != 0;
     const double distance = std::sqrt(x * x + y * y + z * z), nearest = distance - radius;
     const double depth = z - radius, byDepth = (depth > near ? depth : near) * p.leastCosine;
     const double cosine = z / distance, sine2 = 1 - cosine * cosine, ballSine = radius / distance,

@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -184,8 +183,10 @@ class MovingSurface::State {
     for (const auto& [child, parent] : pairs)
       changed[child].isSeen = changed[child].isSeen || changed[parent].isSeen;
     for (Changed& c : changed) c.isNeeded = c.isSeen;
-    for (const auto& [child, parent] : std::views::reverse(pairs))
+    for (auto pair = pairs.rbegin(); pair != pairs.rend(); ++pair) {
+      const auto [child, parent] = *pair;
       changed[parent].isNeeded = changed[parent].isNeeded || changed[child].isNeeded;
+    }
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, ids.size(), kChangesPerTask), [&](const auto& range) {
           for (std::size_t i = range.begin(); i < range.end(); ++i)

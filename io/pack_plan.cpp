@@ -22,7 +22,6 @@
 namespace arete::packed {
 namespace {
 
-constexpr std::uint32_t kNone = MultiTriangulation::kNone;
 /// Samples along the side of a tile of class 0. Small enough for the nodes of a tile to stay in a processor's
 /// second cache or close to it, large enough that most nodes are in the inside of one.
 constexpr double kTileSamples = 128;

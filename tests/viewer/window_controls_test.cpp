@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "viewer/camera_models.h"
@@ -192,26 +193,30 @@ TEST(Rig, FlyingAheadGoesWhereThePictureLooksWhateverTheFrames) {
     }
 }
 
-TEST(Rig, NothingTakesTheCameraBelowTheFloor) {
-  Flown f(cameraModels()[0].model);
-  f.rig.setFloorMetres(5);
-  Random random(11);
-  for (const CameraMode mode : {CameraMode::orbit, CameraMode::free}) {
-    f.rig.home(HomeView::overview);
-    f.rig.setMode(mode);
-    for (int i = 0; i < 300; ++i) {
-      InputState in;
-      in.seconds = 0.05;
-      in.ahead = random.between(-1, 1);
-      in.up = random.between(-1, 0.2);
-      in.turnRight = random.between(-1, 1);
-      in.leftButton = in.rightButton = true;
-      in.mouseMoved = {random.between(-30, 30), random.between(-30, 30)};
-      in.mouse = {random.between(0, 800), random.between(0, 600)};
-      in.wheel = random.between(-1, 1);
-      f.rig.step(in);
-      const auto above = f.rig.metresAboveGround();
-      ASSERT_GE(above.value_or(5), 5 - 1e-6) << "frame " << i;
+TEST(Rig, NothingTakesTheCameraBelowTheFloorWhetherItIsTheUsualOneOrAnother) {
+  for (const std::optional<double> stated : {std::optional<double>(), std::optional<double>(5)}) {
+    Flown f(cameraModels()[0].model);
+    if (stated) f.rig.setFloorMetres(*stated);
+    const double floor = stated.value_or(2);
+    EXPECT_EQ(f.rig.floorMetres(), floor);
+    Random random(11);
+    for (const CameraMode mode : {CameraMode::orbit, CameraMode::free}) {
+      f.rig.home(HomeView::overview);
+      f.rig.setMode(mode);
+      for (int i = 0; i < 300; ++i) {
+        InputState in;
+        in.seconds = 0.05;
+        in.ahead = random.between(-1, 1);
+        in.up = random.between(-1, 0.2);
+        in.turnRight = random.between(-1, 1);
+        in.leftButton = in.rightButton = true;
+        in.mouseMoved = {random.between(-30, 30), random.between(-30, 30)};
+        in.mouse = {random.between(0, 800), random.between(0, 600)};
+        in.wheel = random.between(-1, 1);
+        f.rig.step(in);
+        const auto above = f.rig.metresAboveGround();
+        ASSERT_GE(above.value_or(floor), floor - 1e-6) << "frame " << i;
+      }
     }
   }
 }

@@ -65,11 +65,12 @@ class CameraRig {
   CameraMode mode_ = CameraMode::orbit;
   Camera camera_;
   double stretch_ = 1;
+  double floorMetres_ = 2;  // before ground_, which is made with it
   OrbitCamera orbit_;
   FreeCamera free_;
   std::optional<GroundFollowing> ground_;
   bool follows_ = false;
-  double floorMetres_ = 2, metresPerSecond_, lastSpeed_ = 0;
+  double metresPerSecond_, lastSpeed_ = 0;
 };
 
 }  // namespace arete
