@@ -136,8 +136,9 @@ MultiTriangulation bent(const MultiTriangulation& mt, Bending bending) {
   forEachTriangle(mt, owner->bending,
                   [&](std::uint32_t t, double error) { owner->error[t] = a.scale.encode(error); });
   const Bending& b = owner->bending;
-  owner->sphere = saturatedBalls(
-      mt, [&](std::uint32_t v) { return b.metric.toMetric({b.plan[v].x, b.plan[v].y, b.heights[v]}); });
+  owner->sphere = saturatedBalls(mt, [&](std::uint32_t v) {
+    return b.metric.toMetric({b.plan[v].x, b.plan[v].y, b.heights[v]});
+  });
   owner->saturatedError = saturatedErrors(mt, owner->error);
   owner->blocks = makeNodeBlocks(owner->saturatedError, owner->sphere);
   a.error = owner->error;

@@ -8,8 +8,8 @@
 
 namespace arete {
 
-/// The balls of all nodes with the vertices standing elsewhere, as a build makes them: around each node's star,
-/// grown to hold its children's (law 6). place(vertex index): where a vertex stands now. O(slots).
+/// The balls of all nodes with the vertices standing elsewhere, as a build makes them: around each node's
+/// star, grown to hold its children's (law 6). place(vertex index): where a vertex stands now. O(slots).
 template <class Place>
 std::vector<Sphere> saturatedBalls(const MultiTriangulation& mt, const Place& place) {
   std::vector<Sphere> balls(mt.nodeCount());

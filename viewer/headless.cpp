@@ -120,9 +120,10 @@ const std::vector<std::string>& HeadlessView::warnings() const {
 Result<std::uint64_t> filmFrames(const Flight& flight, double framesPerSecond) {
   const std::uint64_t count = flight.frameCount(framesPerSecond);
   if (count <= kMostFrames) return count;
-  return failure(ErrorCode::usage, fmt::format("{:.6g} seconds of flight are more than {} frames",
-                                               flight.duration(), kMostFrames),
-                 "flight");
+  return failure(
+      ErrorCode::usage,
+      fmt::format("{:.6g} seconds of flight are more than {} frames", flight.duration(), kMostFrames),
+      "flight");
 }
 
 Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight, const FilmOptions& options,
