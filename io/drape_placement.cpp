@@ -122,12 +122,12 @@ Result<TransformerPtr> drapeTransformer(GDALDataset& picture, const TerrainModel
   const std::string& dem = model.georeference.crsWkt;
   const bool hasOwn = own && !own->IsEmpty() && isKnownCrs(own);
   CPLStringList options;
-  if (!dem.empty() && !hasOwn)
+  if (dem.empty()) {
+    if (hasOwn) warnings.emplace_back("the DEM has no CRS: the picture's coordinates are taken for its own");
+  } else if (!hasOwn) {
     return failure(ErrorCode::invalidData,
                    "has no CRS, and the DEM has one; gdal_translate -a_srs states it in a copy");
-  if (dem.empty() && hasOwn)
-    warnings.emplace_back("the DEM has no CRS: the picture's coordinates are taken for its own");
-  if (!dem.empty()) {
+  } else {
     const auto way = CrsTransform::between(wktOf(*own), dem);
     if (!way) return tl::unexpected(way.error());
     auto target = crsFromText(dem);

@@ -180,9 +180,8 @@ class Demo {
     if (tolerances.empty()) tolerances = chosenTolerances(report_.curve, model_.mt, options_.mostTolerances);
     for (std::size_t i = 0; i < tolerances.size(); ++i) {
       context_.report("extract", double(i) / double(tolerances.size()));
-      if (const Status status = interruptedIf(context_); !status) return status;
-      if (const Status status = take(tolerances[i], i >= firstPictured(tolerances.size())); !status)
-        return status;
+      if (Status status = interruptedIf(context_); !status) return status;
+      if (Status status = take(tolerances[i], i >= firstPictured(tolerances.size())); !status) return status;
     }
     context_.report("extract", 1);
     return {};
@@ -215,7 +214,7 @@ class Demo {
     mesh.triangleErrors = tin.errors;
     mesh.notes = {fmt::format("within {} of {}", withUnit(maxError, report_.unit), report_.dem)};
     const std::string file = written(name + ".ply");
-    if (const Status status = writeMesh(tin.mesh, file, mesh, quiet()); !status) return status;
+    if (Status status = writeMesh(tin.mesh, file, mesh, quiet()); !status) return status;
 
     MeasureRasters rasters;
     const Result<MeasureReport> measured =
@@ -231,8 +230,7 @@ class Demo {
     certificate.isKept = keepsPromise(*measured, maxError);
     certificate.checkCommand = fmt::format("arete measure {} {} --expect {}", shellArgument(file),
                                            shellArgument(report_.dem), maxError);
-    if (const Status status = writeCertificate(written(name + ".certificate.json"), certificate, model_);
-        !status)
+    if (Status status = writeCertificate(written(name + ".certificate.json"), certificate, model_); !status)
       return status;
 
     DemoResult row;
@@ -299,15 +297,15 @@ class Demo {
   Status drawTins() {
     for (std::size_t i = 0; i < shown_.size(); ++i) {
       context_.report("draw", double(i) / double(shown_.size()));
-      if (const Status status = interruptedIf(context_); !status) return status;
+      if (Status status = interruptedIf(context_); !status) return status;
       const Shown& s = shown_[i];
-      const Status status = save(drawTin(field_, s.mesh,
-                                         {.width = options_.pictureWidth,
-                                          .title = title("TIN within " + withUnit(s.maxError, report_.unit)),
-                                          .tolerance = s.maxError,
-                                          .measuredError = s.measured.maxAbsError,
-                                          .finestTriangles = report_.finestTriangles}),
-                                 fmt::format("tin-{:g}.png", s.maxError));
+      Status status = save(drawTin(field_, s.mesh,
+                                   {.width = options_.pictureWidth,
+                                    .title = title("TIN within " + withUnit(s.maxError, report_.unit)),
+                                    .tolerance = s.maxError,
+                                    .measuredError = s.measured.maxAbsError,
+                                    .finestTriangles = report_.finestTriangles}),
+                           fmt::format("tin-{:g}.png", s.maxError));
       if (!status) return status;
     }
     context_.report("draw", 1);
