@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "io/drape_placement.h"
@@ -118,7 +119,7 @@ GdalDatasetPtr warped(const DrapeSource& source, TransformerPtr transformer, con
     w->pTransformerArg = way;
     w->pfnTransformer = GDALGenImgProjTransform;
   }
-  transformer.release();
+  std::ignore = transformer.release();  // the warp's now
   GDALDatasetH made = GDALCreateWarpedVRT(w->hSrcDS, int(p.columns), int(p.rows), transform.data(), w.get());
   if (!made) GDALDestroyTransformer(w->pTransformerArg);
   return GdalDatasetPtr(GDALDataset::FromHandle(made));

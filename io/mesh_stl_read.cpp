@@ -186,7 +186,7 @@ class AsciiStl {
       const std::string_view word = nextWord();
       if (equalsWord(word, "endsolid")) return {};
       if (!equalsWord(word, "facet")) return corrupt(word, "where \"facet\" or \"endsolid\" should be");
-      if (const Status ok = readFacet(); !ok) return ok;
+      if (Status ok = readFacet(); !ok) return ok;
     }
   }
 
@@ -199,10 +199,10 @@ class AsciiStl {
     if (triangles.size() == kMostTriangles)
       return failure(ErrorCode::unsupported, "holds more triangles than an index can name", path_);
     toLineEnd();  // the normal, which programs write as "nan" too
-    if (const Status ok = expect({"outer", "loop"}); !ok) return ok;
+    if (Status ok = expect({"outer", "loop"}); !ok) return ok;
     std::array<std::uint32_t, 3> triangle;
     for (std::uint32_t& corner : triangle) {
-      if (const Status ok = expect({"vertex"}); !ok) return ok;
+      if (Status ok = expect({"vertex"}); !ok) return ok;
       std::array<double, 3> xyz;
       for (double& value : xyz) {
         const std::string_view word = nextWord();
@@ -215,7 +215,7 @@ class AsciiStl {
       largest_.take(p);
       corner = welder_.add(p);
     }
-    if (const Status ok = expect({"endloop", "endfacet"}); !ok) return ok;
+    if (Status ok = expect({"endloop", "endfacet"}); !ok) return ok;
     triangles.push_back(triangle);
     return {};
   }

@@ -114,7 +114,7 @@ Status ViewshedWedgeSweep::run(const RunContext& context) {
     take(x, far_);
     if (far_.count == 0 && x - observer_.x > 4) return {};
     if (isBeyond(far_.x)) return {};
-    if (const Status status = ask(x); !status) return status;
+    if (Status status = ask(x); !status) return status;
     if (!picture_.isFan() && (x == start || near_.hasGaps || far_.hasGaps)) addTips(x);
     if (x == start) {
       addFirst(x);
@@ -132,7 +132,7 @@ Status ViewshedWedgeSweep::ask(int x) {
       const double u = far_.u[far_.at(y)];
       if (u < wedge_.first || (u == wedge_.first && !wedge_.ownsFirst)) continue;
       if (u > wedge_.last || (u == wedge_.last && !wedge_.ownsLast)) continue;
-      if (const Status status = askOne(x, y); !status) return status;
+      if (Status status = askOne(x, y); !status) return status;
     }
     return {};
   }
@@ -143,7 +143,7 @@ Status ViewshedWedgeSweep::ask(int x) {
   int y = far_.from;
   while (y < end && before(y - observer_.y)) ++y;
   for (; y < end && within(y - observer_.y); ++y)
-    if (const Status status = askOne(x, y); !status) return status;
+    if (Status status = askOne(x, y); !status) return status;
   return {};
 }
 

@@ -137,8 +137,8 @@ std::optional<TerrainPick> TerrainPicker::at(const CurvedGround& ground, const C
   // A chord c of a circle of radius R is off by c^2 / 8 R: 5 mm, and where meridians run together more.
   constexpr double kChordMetres = 500;
   Vec3 before = eye;
-  for (double gone = 0; gone < farthest; gone += kChordMetres) {
-    const Vec3 now = flat(gone + kChordMetres);
+  for (int chords = 0; chords * kChordMetres < farthest; ++chords) {
+    const Vec3 now = flat((chords + 1) * kChordMetres);
     const Vec3 chord{now.x - before.x, now.y - before.y, now.z - before.z};
     const auto part = within(box_, before, chord);
     const bool isNear = part && part->from <= 1;
