@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/run_context.h"
+#include "terrain/heightfield.h"
 
 namespace arete {
 
@@ -56,6 +57,11 @@ struct FeatureOptions {
 std::vector<Feature> rankFeatures(std::span<const double> heights,
                                   std::span<const std::array<std::uint32_t, 3>> triangles,
                                   const FeatureOptions& options = {}, const RunContext& context = {});
+
+/// The same on the finest triangulation of a raster (finest_raster.h), which is not laid out for it: 8 bytes
+/// per sample while it runs, O(n) but for sorting its passes. Parallel.
+std::vector<Feature> rankFeatures(const RasterHeightfield& heightfield, const FeatureOptions& options = {},
+                                  const RunContext& context = {});
 
 /// The samples of the first `options.count` distinct vertices of a ranking whose persistence is at least
 /// `options.minimumPersistence`, in the ranking's order. O(size of the part read).

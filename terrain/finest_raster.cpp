@@ -18,6 +18,8 @@
 #include <cmath>
 #include <utility>
 
+#include "terrain/raster_cells.h"
+
 namespace arete {
 namespace {
 
@@ -44,11 +46,11 @@ Tile onCurve(std::uint64_t place, std::uint32_t side) {
   return tile;
 }
 
-/// The cells of a raster by their upper left sample, and which of their corners are valid.
-class Cells {
+/// The cells of a raster, tile by tile.
+class Cells : public RasterCells {
  public:
   /// Squares side by side, a curve through each.
-  explicit Cells(const RasterHeightfield& field) : field_(field) {
+  explicit Cells(const RasterHeightfield& field) : RasterCells(field) {
     const std::uint32_t across = (field.columns - 1 + kTile - 1) / kTile,
                         down = (field.rows - 1 + kTile - 1) / kTile,
                         side = std::bit_ceil(std::min(across, down));
@@ -62,19 +64,6 @@ class Cells {
         }
   }
 
-  enum Corner : unsigned { upperLeft = 1, upperRight = 2, lowerLeft = 4, lowerRight = 8, all = 15 };
-
-  unsigned valid(std::uint32_t column, std::uint32_t row) const {
-    const double* above = &field_.heights[field_.index(column, row)];
-    const double* under = above + field_.columns;
-    return unsigned(above[0] == above[0]) * upperLeft | unsigned(above[1] == above[1]) * upperRight |
-           unsigned(under[0] == under[0]) * lowerLeft | unsigned(under[1] == under[1]) * lowerRight;
-  }
-
-  static std::uint32_t triangleCount(unsigned valid) {
-    return valid == all ? 2 : valid == 7 || valid == 11 || valid == 13 || valid == 14 ? 1 : 0;
-  }
-
   std::size_t tileCount() const { return tiles_.size(); }
 
   /// visit(column, row) for the cells of a tile, row by row.
@@ -84,20 +73,6 @@ class Cells {
     for (std::uint32_t row = top; row < std::min(top + kTile, field_.rows - 1); ++row)
       for (std::uint32_t column = left; column < std::min(left + kTile, field_.columns - 1); ++column)
         visit(column, row);
-  }
-
-  /// visit(corners) for the triangles of a cell, counter-clockwise.
-  template <class Visit>
-  void forTriangles(std::uint32_t column, std::uint32_t row, unsigned valid, const Visit& visit) const {
-    const std::uint32_t ul = field_.index(column, row), ur = ul + 1, ll = ul + field_.columns, lr = ll + 1;
-    const auto has = [&](unsigned corners) { return (valid & corners) == corners; };
-    if (has(upperLeft | lowerRight)) {
-      if (has(upperRight)) visit(LiveMesh::Corners{ul, ur, lr});
-      if (has(lowerLeft)) visit(LiveMesh::Corners{ul, lr, ll});
-    } else if (has(upperRight | lowerLeft)) {
-      if (has(upperLeft)) visit(LiveMesh::Corners{ul, ur, ll});
-      if (has(lowerRight)) visit(LiveMesh::Corners{ur, lr, ll});
-    }
   }
 
   // The half-edges of the triangles that forTriangles() gives, by what they are to the cell, whose first
@@ -119,7 +94,6 @@ class Cells {
   }
 
  private:
-  const RasterHeightfield& field_;
   std::vector<Tile> tiles_;
 };
 

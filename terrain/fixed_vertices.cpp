@@ -98,14 +98,15 @@ class NearestPoint {
   double lowY_ = std::numeric_limits<double>::infinity(), highY_ = -lowY_;
 };
 
-template <class Snap>
-Result<FixedVertices> choose(std::span<const double> heights, const Triangles& triangles,
-                             const PositionOf& positionOf, const Snap& snapped,
+/// rankedFeatures(): asked for where features are; `triangles`: where creases are.
+template <class Ranked, class Snap>
+Result<FixedVertices> choose(std::size_t vertexCount, const Ranked& rankedFeatures,
+                             const Triangles& triangles, const PositionOf& positionOf, const Snap& snapped,
                              const FixedVertexOptions& options, const RunContext& context) {
   FixedVertices chosen;
-  std::vector<std::uint8_t> isFixed(heights.size(), 0);
+  std::vector<std::uint8_t> isFixed(vertexCount, 0);
   if (options.features && options.features->count > 0) {
-    const std::vector<Feature> ranked = rankFeatures(heights, triangles, *options.features, context);
+    const std::vector<Feature> ranked = rankedFeatures();
     const std::vector<std::uint32_t> selected = selectFeatures(ranked, *options.features);
     chosen.features = selected.size();
     for (const std::uint32_t v : selected) isFixed[v] = 1;
@@ -117,7 +118,7 @@ Result<FixedVertices> choose(std::span<const double> heights, const Triangles& t
   }
   if (options.creaseAngleDegrees && !context.cancelled()) {
     const std::vector<VertexClass> classes =
-        classifyVertices(heights.size(), positionOf, triangles, *options.creaseAngleDegrees);
+        classifyVertices(vertexCount, positionOf, triangles, *options.creaseAngleDegrees);
     for (std::size_t v = 0; v < classes.size(); ++v) {
       if (classes[v] != VertexClass::corner && classes[v] != VertexClass::interiorEdge) continue;
       ++chosen.creases;
@@ -135,8 +136,12 @@ Result<FixedVertices> choose(std::span<const double> heights, const Triangles& t
 Result<FixedVertices> chooseFixedVertices(const RasterHeightfield& field, const FixedVertexOptions& options,
                                           const RunContext& context) {
   if (wantsNothing(options)) return FixedVertices{};
-  const Triangles triangles = finestTriangulation(field);
-  if (triangles.empty()) return FixedVertices{};
+  // Features do without: most builds ask for no more.
+  Triangles triangles;
+  if (!options.given.empty() || options.creaseAngleDegrees) {
+    triangles = finestTriangulation(field);
+    if (triangles.empty()) return FixedVertices{};
+  }
   std::vector<std::uint8_t> inDomain;
   if (!options.given.empty()) inDomain = inTriangles(triangles, field.size());
   const Georeference& georeference = field.georeference;
@@ -146,8 +151,8 @@ Result<FixedVertices> chooseFixedVertices(const RasterHeightfield& field, const 
                 field.heights[v] * georeference.verticalUnitMetres};
   };
   return choose(
-      field.heights, triangles, positionOf, [&](Vec2 p) { return snap(field, inDomain, p); }, options,
-      context);
+      field.size(), [&] { return rankFeatures(field, *options.features, context); }, triangles, positionOf,
+      [&](Vec2 p) { return snap(field, inDomain, p); }, options, context);
 }
 
 Result<FixedVertices> chooseFixedVertices(const PointHeightfield& field, const FixedVertexOptions& options,
@@ -168,7 +173,8 @@ Result<FixedVertices> chooseFixedVertices(const PointHeightfield& field, const F
     return Vec3{p.x * step.x, p.y * step.y, field.heights[v] * georeference.verticalUnitMetres};
   };
   return choose(
-      field.heights, *triangles, positionOf, [&](Vec2 p) { return (*nearest)(p); }, options, context);
+      field.size(), [&] { return rankFeatures(field.heights, *triangles, *options.features, context); },
+      *triangles, positionOf, [&](Vec2 p) { return (*nearest)(p); }, options, context);
 }
 
 }  // namespace arete

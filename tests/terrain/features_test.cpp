@@ -40,6 +40,13 @@ struct Surface {
   std::vector<Feature> rank(const FeatureOptions& options = {}, const RunContext& context = {}) const {
     return rankFeatures(heights, triangles, options, context);
   }
+  std::vector<Feature> rankAsRaster(const RunContext& context = {}) const {
+    RasterHeightfield field;
+    field.columns = columns;
+    field.rows = rows;
+    field.heights = heights;
+    return rankFeatures(field, {}, context);
+  }
   std::vector<std::set<std::uint32_t>> neighbours() const {
     std::vector<std::set<std::uint32_t>> result(heights.size());
     for (const auto& t : triangles) {
@@ -181,7 +188,7 @@ TEST(Features, GivesAPlateauOnePeak) {
 
 TEST(Features, FindsNothingOnFlatGround) {
   EXPECT_TRUE(Surface(8, 5, [](double, double) { return 12.5; }).rank().empty());
-  EXPECT_TRUE(rankFeatures({}, {}).empty());
+  EXPECT_TRUE(rankFeatures(std::vector<double>{}, {}).empty());
   EXPECT_TRUE(rankFeatures(std::vector<double>{1, 2, kNone}, {}).empty())
       << "isolated samples have no features";
 }
@@ -203,15 +210,22 @@ TEST(Features, RanksEachComponentBesideNodataByItself) {
 
 TEST(Features, AgreeWithFloodingOnRandomSurfaces) {
   std::mt19937 random(20021128);
-  for (int trial = 0; trial < 60; ++trial) {
+  for (int trial = 0; trial < 120; ++trial) {
     const std::uint32_t columns = 2 + random() % 11, rows = 2 + random() % 11;
     const unsigned levels = trial % 3 == 0 ? 4 : trial % 3 == 1 ? 25 : 1000000;  // plateaus, some, none
     const unsigned holes = trial % 2 == 0 ? 0 : 20;
     const Surface s(columns, rows, [&](double, double) {
       return random() % 100 < holes ? kNone : double(random() % levels);
     });
-    EXPECT_EQ(s.rank(), rankByFlooding(s)) << "trial " << trial;
+    const auto expected = rankByFlooding(s);
+    EXPECT_EQ(s.rank(), expected) << "trial " << trial;
+    EXPECT_EQ(s.rankAsRaster(), expected) << "trial " << trial;
   }
+}
+
+TEST(Features, OfARasterWithoutTrianglesAreNone) {
+  for (const auto& [columns, rows] : {std::pair(0u, 0u), {1u, 1u}, {1u, 5u}, {5u, 1u}})
+    EXPECT_TRUE(Surface(columns, rows, [](double c, double r) { return c + r; }).rankAsRaster().empty());
 }
 
 // Euler: on a sphere pits - passes + peaks = 2. A surface becomes one when a vertex below everything is
@@ -261,6 +275,8 @@ TEST(Features, DoNotDependOnThreads) {
   one.threads = 1;
   four.threads = 4;
   EXPECT_EQ(s.rank({}, one), s.rank({}, four));
+  EXPECT_EQ(s.rankAsRaster(one), s.rank({}, one));
+  EXPECT_EQ(s.rankAsRaster(four), s.rank({}, one));
 }
 
 TEST(Features, StopWhenCancelled) {
@@ -268,6 +284,7 @@ TEST(Features, StopWhenCancelled) {
   RunContext context;
   context.cancel = &cancel;
   EXPECT_TRUE(twoPeaks().rank({}, context).empty());
+  EXPECT_TRUE(twoPeaks().rankAsRaster(context).empty());
 }
 
 TEST(Features, SelectionStopsAtTheCountAndAtThePersistence) {
