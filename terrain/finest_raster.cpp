@@ -101,6 +101,106 @@ bool hasCells(const RasterHeightfield& field) {
   return field.columns >= 2 && field.rows >= 2;
 }
 
+/// What a mesh is laid out from: per cell, by its upper left sample, its valid corners and its first
+/// triangle. The last sample of a row, and of a column, has no cell. Left of a row is the end of the one
+/// before, and before the first row a row of nothing, so no neighbour need be asked whether it is there.
+class MeshLayout {
+ public:
+  MeshLayout(const RasterHeightfield& field, const Cells& cells)
+      : cells_(cells),
+        columns_(field.columns),
+        validCorners_(field.size() + field.columns, 0),
+        firstTriangles_(field.size() + field.columns) {
+    const std::size_t tiles = cells.tileCount();
+    std::uint8_t* const valid = validCorners_.data() + columns_;
+    std::uint32_t* const first = firstTriangles_.data() + columns_;
+    std::vector<std::uint32_t> tileFirst(tiles + 1, 0);
+    tbb::parallel_for(std::size_t(0), tiles, [&](std::size_t tile) {
+      std::uint32_t count = 0;
+      cells.forTile(tile, [&](std::uint32_t column, std::uint32_t row) {
+        const unsigned corners = cells.valid(column, row);
+        valid[field.index(column, row)] = static_cast<std::uint8_t>(corners);
+        count += Cells::triangleCount(corners);
+      });
+      tileFirst[tile + 1] = count;
+    });
+    for (std::size_t tile = 0; tile < tiles; ++tile) tileFirst[tile + 1] += tileFirst[tile];
+    tbb::parallel_for(std::size_t(0), tiles, [&](std::size_t tile) {
+      std::uint32_t next = tileFirst[tile];
+      cells.forTile(tile, [&](std::uint32_t column, std::uint32_t row) {
+        const std::uint32_t cell = field.index(column, row);
+        first[cell] = next;
+        next += Cells::triangleCount(valid[cell]);
+      });
+    });
+    triangleCount_ = tileFirst[tiles];
+  }
+
+  std::uint32_t triangleCount() const { return triangleCount_; }
+
+  /// Writes the triangles of a cell, twins and all. leave(v, h): half-edge h leaves v; of a cell's, at least
+  /// the last of each vertex, and each without a twin.
+  template <class Leave>
+  void lay(std::uint32_t column, std::uint32_t row, LiveMesh& mesh, const Leave& leave) const {
+    const std::size_t cell = std::size_t(row) * columns_ + column + columns_;
+    const std::uint8_t* const valid = validCorners_.data() + cell;
+    const std::uint32_t* const first = firstTriangles_.data() + cell;
+    const std::ptrdiff_t down = columns_;
+    if ((valid[0] & valid[-down] & valid[1] & valid[down] & valid[-1]) == Cells::all) {
+      layWhole(static_cast<std::uint32_t>(cell) - columns_, first, mesh, leave);
+      return;
+    }
+    const std::uint32_t begin = first[0], end = begin + Cells::triangleCount(valid[0]);
+    if (begin == end) return;
+    std::uint32_t t = begin;
+    cells_.forTriangles(column, row, valid[0], [&](const LiveMesh::Corners& corners) {
+      mesh.triangles[t] = {corners, {kNone, kNone, kNone}, t, kNone};
+      ++t;
+    });
+    if (valid[0] == Cells::all) {
+      mesh.setTwin(LiveMesh::halfedge(begin, 2), LiveMesh::halfedge(begin + 1, 0));
+      mesh.setTwin(LiveMesh::halfedge(begin + 1, 0), LiveMesh::halfedge(begin, 2));
+    }
+    const auto join = [&](std::uint32_t own, std::uint32_t beyond) {
+      if (own != kNone) mesh.setTwin(own, beyond);
+    };
+    join(Cells::topEdge(valid[0], begin), Cells::bottomEdge(valid[-down], first[-down]));
+    join(Cells::rightEdge(valid[0], begin), Cells::leftEdge(valid[1], first[1]));
+    join(Cells::bottomEdge(valid[0], begin), Cells::topEdge(valid[down], first[down]));
+    join(Cells::leftEdge(valid[0], begin), Cells::rightEdge(valid[-1], first[-1]));
+    for (t = begin; t < end; ++t)
+      for (std::uint32_t side = 0; side < 3; ++side)
+        leave(mesh.triangles[t].corners[side], LiveMesh::halfedge(t, side));
+  }
+
+ private:
+  /// Of nearly all cells: with all corners, and so have their neighbours.
+  template <class Leave>
+  void layWhole(std::uint32_t ul, const std::uint32_t* first, LiveMesh& mesh, const Leave& leave) const {
+    const std::uint32_t t = first[0], ur = ul + 1, ll = ul + columns_, lr = ll + 1;
+    const std::ptrdiff_t down = columns_;
+    mesh.triangles[t] = {{ul, ur, lr},
+                         {LiveMesh::halfedge(first[-down] + 1, 1), LiveMesh::halfedge(first[1] + 1, 2),
+                          LiveMesh::halfedge(t + 1, 0)},
+                         t,
+                         kNone};
+    mesh.triangles[t + 1] = {
+        {ul, lr, ll},
+        {LiveMesh::halfedge(t, 2), LiveMesh::halfedge(first[down], 0), LiveMesh::halfedge(first[-1], 1)},
+        t + 1,
+        kNone};
+    leave(ur, LiveMesh::halfedge(t, 1));
+    for (const auto& [v, side] : {std::pair(ul, 0u), {lr, 1u}, {ll, 2u}})
+      leave(v, LiveMesh::halfedge(t + 1, side));
+  }
+
+  const Cells& cells_;
+  std::uint32_t columns_;
+  std::vector<std::uint8_t> validCorners_;
+  UninitializedVector<std::uint32_t> firstTriangles_;
+  std::uint32_t triangleCount_ = 0;
+};
+
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 3>> finestTriangulation(const RasterHeightfield& heightfield) {
@@ -120,27 +220,10 @@ LiveMesh finestMesh(const RasterHeightfield& heightfield, std::vector<std::uint3
   LiveMesh mesh;
   if (!hasCells(heightfield)) return mesh;
   const Cells cells(heightfield);
-  const std::size_t tiles = cells.tileCount();
-  std::vector<std::uint32_t> tileFirst(tiles + 1, 0);
-  tbb::parallel_for(std::size_t(0), tiles, [&](std::size_t tile) {
-    cells.forTile(tile, [&](std::uint32_t column, std::uint32_t row) {
-      tileFirst[tile + 1] += Cells::triangleCount(cells.valid(column, row));
-    });
-  });
-  for (std::size_t tile = 0; tile < tiles; ++tile) tileFirst[tile + 1] += tileFirst[tile];
-
-  std::vector<std::uint32_t> first(heightfield.size());
-  tbb::parallel_for(std::size_t(0), tiles, [&](std::size_t tile) {
-    std::uint32_t next = tileFirst[tile];
-    cells.forTile(tile, [&](std::uint32_t column, std::uint32_t row) {
-      first[heightfield.index(column, row)] = next;
-      next += Cells::triangleCount(cells.valid(column, row));
-    });
-  });
-
-  mesh.triangles.resize(tileFirst[tiles]);
+  const MeshLayout layout(heightfield, cells);
+  mesh.triangles.resize(layout.triangleCount());
   mesh.vertexHalfedge.assign(heightfield.size(), kNone);
-  std::vector<std::vector<std::uint32_t>> borders(tiles);  // half-edges without a twin
+  std::vector<std::vector<std::uint32_t>> borders(cells.tileCount());  // half-edges without a twin
   // A vertex goes by the last half-edge that leaves it; those between tiles are claimed by several.
   const auto claim = [&](std::uint32_t v, std::uint32_t h) {
     const std::atomic_ref last(mesh.vertexHalfedge[v]);
@@ -148,43 +231,16 @@ LiveMesh finestMesh(const RasterHeightfield& heightfield, std::vector<std::uint3
     while ((seen == kNone || seen < h) && !last.compare_exchange_weak(seen, h, std::memory_order_relaxed)) {
     }
   };
-  tbb::parallel_for(std::size_t(0), tiles, [&](std::size_t tile) {
+  tbb::parallel_for(std::size_t(0), cells.tileCount(), [&](std::size_t tile) {
     cells.forTile(tile, [&](std::uint32_t column, std::uint32_t row) {
-      const unsigned valid = cells.valid(column, row);
-      const std::uint32_t begin = first[heightfield.index(column, row)];
-      std::uint32_t t = begin;
-      cells.forTriangles(column, row, valid, [&](const LiveMesh::Corners& corners) {
-        mesh.triangles[t] = {corners, {kNone, kNone, kNone}, t, kNone};
-        ++t;
-      });
-      if (t == begin) return;
-      if (valid == Cells::all) {
-        mesh.setTwin(LiveMesh::halfedge(begin, 2), LiveMesh::halfedge(begin + 1, 0));
-        mesh.setTwin(LiveMesh::halfedge(begin + 1, 0), LiveMesh::halfedge(begin, 2));
-      }
-      const auto join = [&](std::uint32_t own, std::uint32_t besideColumn, std::uint32_t besideRow,
-                            auto edge) {
-        if (own == kNone || besideColumn >= heightfield.columns - 1 || besideRow >= heightfield.rows - 1)
-          return;
-        mesh.setTwin(own, edge(cells.valid(besideColumn, besideRow),
-                               first[heightfield.index(besideColumn, besideRow)]));
-      };
-      // A column or row of -1 is a large one, and beyond the raster like any other.
-      join(Cells::topEdge(valid, begin), column, row - 1, Cells::bottomEdge);
-      join(Cells::rightEdge(valid, begin), column + 1, row, Cells::leftEdge);
-      join(Cells::bottomEdge(valid, begin), column, row + 1, Cells::topEdge);
-      join(Cells::leftEdge(valid, begin), column - 1, row, Cells::rightEdge);
-
       const bool isInside = (column + 1) % kTile > 1 && (row + 1) % kTile > 1;
-      for (t = begin; t < begin + Cells::triangleCount(valid); ++t)
-        for (std::uint32_t side = 0; side < 3; ++side) {
-          const std::uint32_t h = LiveMesh::halfedge(t, side), v = mesh.triangles[t].corners[side];
-          if (isInside)
-            mesh.vertexHalfedge[v] = h;
-          else
-            claim(v, h);
-          if (mesh.triangles[t].twin[side] == kNone) borders[tile].push_back(h);
-        }
+      layout.lay(column, row, mesh, [&](std::uint32_t v, std::uint32_t h) {
+        if (isInside)
+          mesh.vertexHalfedge[v] = h;
+        else
+          claim(v, h);
+        if (mesh.twinOf(h) == kNone) borders[tile].push_back(h);
+      });
     });
   });
 
