@@ -24,6 +24,7 @@ namespace arete {
 namespace {
 
 constexpr int kSteps = 64, kRounds = 4;
+constexpr std::size_t kLinksAhead = 4, kNotesAhead = 8;
 
 std::uint32_t load(std::uint32_t& where) {
   return std::atomic_ref(where).load(std::memory_order_relaxed);
@@ -34,20 +35,33 @@ void store(std::uint32_t& where, std::uint32_t value) {
 
 }  // namespace
 
-IndependentSet::Choice IndependentSet::decide(std::uint32_t v, std::uint32_t level, int& steps) {
+IndependentSet::Choice IndependentSet::decide(std::uint32_t v, const Link& link, std::uint32_t level,
+                                              int& steps) {
   bool isBlocked = false, isWaiting = false;
-  forLink(mesh_, v, [&](std::uint32_t u) {
-    const std::uint32_t candidacy = load(notes_[u].candidacy);
-    if (candidacy / 4 != level || candidacy % 4 == kBlocked || !precedes(u, v)) return true;
+  for (int i = 0; i < link.size && !isBlocked; ++i) {
+    const std::uint32_t u = link.vertices[i], candidacy = load(notes_[u].candidacy);
+    if (candidacy / 4 != level || candidacy % 4 == kBlocked || !precedes(u, v)) continue;
     auto choice = static_cast<Choice>(candidacy % 4);
-    if (choice == kOpen && --steps > 0) choice = decide(u, level, steps);
+    if (choice == kOpen && --steps > 0) {
+      Link further;
+      gather(u, further);
+      choice = decide(u, further, level, steps);
+    }
     if (choice == kChosen) isBlocked = true;
     if (choice == kOpen) isWaiting = true;
-    return !isBlocked;
-  });
+  }
   const Choice choice = isBlocked ? kBlocked : isWaiting ? kOpen : kChosen;
   if (choice != kOpen) store(notes_[v].candidacy, 4 * level + choice);
   return choice;
+}
+
+void IndependentSet::gather(std::uint32_t v, Link& link) const {
+  link.size = 0;
+  forLink(mesh_, v, [&](std::uint32_t u) {
+    __builtin_prefetch(&notes_[u]);
+    link.vertices[link.size++] = u;
+    return true;
+  });
 }
 
 void IndependentSet::choose(std::span<const std::uint32_t> candidates, std::uint32_t level,
@@ -58,10 +72,18 @@ void IndependentSet::choose(std::span<const std::uint32_t> candidates, std::uint
     const bool isBackwards = round % 2 == 1;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, left.size(), 256), [&](const auto& range) {
       const auto candidate = [&](std::size_t i) { return left[isBackwards ? left.size() - 1 - i : i]; };
+      // The links of the next ones are gathered early: their notes are on their way when they are read.
+      std::array<Link, kLinksAhead> ahead;
+      const auto ask = [&](std::size_t i) {
+        if (i + kNotesAhead < range.end()) __builtin_prefetch(&notes_[candidate(i + kNotesAhead)]);
+        if (i < range.end() && isOpen(candidate(i))) gather(candidate(i), ahead[i % kLinksAhead]);
+      };
+      for (std::size_t i = range.begin(); i < range.begin() + kLinksAhead - 1; ++i) ask(i);
       for (std::size_t i = range.begin(); i != range.end(); ++i) {
-        prefetchStars<StarReach::neighbours>(mesh_, i, left.size(), candidate);
+        prefetchStars<StarReach::neighbours>(mesh_, i + kLinksAhead - 1, left.size(), candidate);
+        ask(i + kLinksAhead - 1);
         int steps = kSteps;
-        if (isOpen(candidate(i))) decide(candidate(i), level, steps);
+        if (isOpen(candidate(i))) decide(candidate(i), ahead[i % kLinksAhead], level, steps);
       }
     });
     std::vector<std::uint32_t> open;
@@ -71,8 +93,10 @@ void IndependentSet::choose(std::span<const std::uint32_t> candidates, std::uint
   }
   sortByCost(ordered_);
   for (const std::uint32_t v : ordered_) {
+    Link link;
+    gather(v, link);
     int steps = 1;
-    decide(v, level, steps);
+    decide(v, link, level, steps);
   }
   collectChosen(candidates, level, chosen);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,7 +28,8 @@ class IndependentSet {
   void enter(std::uint32_t v, std::uint32_t level) { notes_[v].candidacy = 4 * level + kOpen; }
 
   /// Decides all candidates; `chosen` receives the chosen ones, in the order of `candidates`. Precondition:
-  /// each has entered the level, and no other has. O(candidates) expected, parallel.
+  /// each has entered the level, and no other has; links of at most kMaxHoleCorners vertices. O(candidates)
+  /// expected, parallel.
   void choose(std::span<const std::uint32_t> candidates, std::uint32_t level,
               std::vector<std::uint32_t>& chosen);
 
@@ -60,7 +62,14 @@ class IndependentSet {
     x ^= x >> 16;
     return x;
   }
-  Choice decide(std::uint32_t v, std::uint32_t level, int& steps);
+  /// The link of a candidate.
+  struct Link {
+    int size = 0;
+    std::array<std::uint32_t, kMaxHoleCorners> vertices;
+  };
+  /// Asks for the notes of the link as well.
+  void gather(std::uint32_t v, Link& link) const;
+  Choice decide(std::uint32_t v, const Link& link, std::uint32_t level, int& steps);
   void sortByCost(std::vector<std::uint32_t>& vertices) const;
   void collectChosen(std::span<const std::uint32_t> candidates, std::uint32_t level,
                      std::vector<std::uint32_t>& chosen) const;
