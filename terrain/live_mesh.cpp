@@ -68,16 +68,15 @@ LiveMesh LiveMesh::fromTriangles(std::vector<Corners> corners, std::uint32_t ver
 SlotMap LiveMesh::compact() {
   const SlotMap newSlot(triangles.size(), [&](std::size_t t) { return !triangles[t].isDead(); });
   const auto moved = [&](std::uint32_t h) {
-    return h == kNone ? kNone : halfedge(newSlot[triangleOf(h)], sideOf(h));
+    return h == kNone ? kNone : halfedge(newSlot.ofLive(triangleOf(h)), sideOf(h));
   };
   UninitializedVector<Triangle> kept(newSlot.liveCount());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, triangles.size(), 4096), [&](const auto& range) {
-    for (std::size_t t = range.begin(); t != range.end(); ++t) {
-      if (triangles[t].isDead()) continue;
-      Triangle& to = kept[newSlot[t]];
-      to = triangles[t];
-      for (std::uint32_t& h : to.twin) h = moved(h);
-    }
+  newSlot.forLive([&](std::size_t from, std::uint32_t to) {
+    const Triangle& triangle = triangles[from];
+    kept[to] = {triangle.corners,
+                {moved(triangle.twin[0]), moved(triangle.twin[1]), moved(triangle.twin[2])},
+                triangle.birth,
+                triangle.bearer};
   });
   triangles = std::move(kept);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertexHalfedge.size(), 8192), [&](const auto& range) {

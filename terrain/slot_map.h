@@ -19,35 +19,58 @@ class SlotMap {
 
   /// isLive(slot), for slots below size. O(size), parallel.
   template <class IsLive>
-  SlotMap(std::size_t size, const IsLive& isLive) : words_(size / 64 + 1) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, words_.size(), 256), [&](const auto& range) {
+  SlotMap(std::size_t size, const IsLive& isLive) : words_(size / kBits + 1) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, words_.size(), 512), [&](const auto& range) {
       for (std::size_t w = range.begin(); w != range.end(); ++w) {
-        std::uint64_t live = 0;
-        for (std::size_t slot = 64 * w; slot < std::min(64 * w + 64, size); ++slot)
-          live |= std::uint64_t(isLive(slot)) << slot % 64;
+        std::uint32_t live = 0;
+        for (std::size_t slot = kBits * w; slot < std::min(kBits * w + kBits, size); ++slot)
+          live |= std::uint32_t(isLive(slot)) << slot % kBits;
         words_[w].live = live;
       }
     });
     for (Word& word : words_) {
       word.before = liveCount_;
-      liveCount_ += static_cast<std::uint32_t>(std::popcount(word.live));
+      liveCount_ += count(word.live);
     }
   }
 
   /// The new slot of an old one; kNone: dropped.
   std::uint32_t operator[](std::size_t slot) const {
-    const Word& word = words_[slot / 64];
-    const std::uint64_t bit = std::uint64_t{1} << slot % 64;
-    if ((word.live & bit) == 0) return kNone;
-    return word.before + static_cast<std::uint32_t>(std::popcount(word.live & (bit - 1)));
+    return (words_[slot / kBits].live >> slot % kBits & 1) != 0 ? ofLive(slot) : kNone;
+  }
+  /// The same of one that is known to be live.
+  std::uint32_t ofLive(std::size_t slot) const {
+    const Word& word = words_[slot / kBits];
+    return word.before + count(word.live & ((std::uint32_t{1} << slot % kBits) - 1));
   }
   std::uint32_t liveCount() const { return liveCount_; }
 
+  /// visit(slot, new slot) for every live one. Parallel.
+  template <class Visit>
+  void forLive(const Visit& visit) const {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, words_.size(), 128), [&](const auto& range) {
+      for (std::size_t w = range.begin(); w != range.end(); ++w) {
+        std::uint32_t to = words_[w].before;
+        for (std::uint32_t live = words_[w].live; live != 0; live &= live - 1)
+          visit(kBits * w + static_cast<std::size_t>(std::countr_zero(live)), to++);
+      }
+    });
+  }
+
  private:
+  static constexpr std::size_t kBits = 32;
   struct Word {
-    std::uint64_t live;
+    std::uint32_t live;
     std::uint32_t before;  ///< live slots in the words before
   };
+
+  /// Bits that are set. A processor without an instruction for it calls a function for std::popcount().
+  static std::uint32_t count(std::uint32_t bits) {
+    bits -= bits >> 1 & 0x55555555;
+    bits = (bits & 0x33333333) + (bits >> 2 & 0x33333333);
+    return ((bits + (bits >> 4)) & 0x0F0F0F0F) * 0x01010101 >> 24;
+  }
+
   std::vector<Word> words_;
   std::uint32_t liveCount_ = 0;
 };

@@ -4,12 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <vector>
 
 namespace arete {
 namespace {
 
 TEST(SlotMap, MovesLiveSlotsUpInTheirOrder) {
-  for (const std::size_t size : {0u, 1u, 63u, 64u, 65u, 1000u, 100000u})
+  for (const std::size_t size : {0u, 1u, 31u, 32u, 33u, 64u, 1000u, 100000u})
     for (const unsigned share : {0u, 1u, 7u, 8u}) {
       SCOPED_TRACE(testing::Message() << size << " slots, " << share << " of 8 live, seed " << size + share);
       std::mt19937_64 random(size + share);
@@ -20,6 +21,13 @@ TEST(SlotMap, MovesLiveSlotsUpInTheirOrder) {
       for (std::size_t slot = 0; slot < size; ++slot)
         ASSERT_EQ(map[slot], isLive[slot] ? next++ : SlotMap::kNone) << "slot " << slot;
       EXPECT_EQ(map.liveCount(), next);
+
+      std::vector<std::uint32_t> visited(size, SlotMap::kNone);
+      map.forLive([&](std::size_t slot, std::uint32_t to) { visited[slot] = to; });
+      for (std::size_t slot = 0; slot < size; ++slot) {
+        ASSERT_EQ(visited[slot], map[slot]) << "slot " << slot;
+        ASSERT_EQ(isLive[slot] ? map.ofLive(slot) : SlotMap::kNone, map[slot]) << "slot " << slot;
+      }
     }
 }
 
