@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <iterator>
 
 #include "terrain/star_prefetch.h"
 
@@ -25,6 +24,7 @@ namespace {
 
 constexpr int kSteps = 64, kRounds = 4;
 constexpr std::size_t kLinksAhead = 4, kNotesAhead = 8;
+constexpr std::size_t kChunk = 4096;
 
 std::uint32_t load(std::uint32_t& where) {
   return std::atomic_ref(where).load(std::memory_order_relaxed);
@@ -34,6 +34,18 @@ void store(std::uint32_t& where, std::uint32_t value) {
 }
 
 }  // namespace
+
+template <class Stays>
+void IndependentSet::filter(std::span<const std::uint32_t> vertices, std::vector<std::uint32_t>& kept,
+                            const Stays& stays) {
+  filter_(vertices.size(), kChunk, kept, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+    for (const std::uint32_t v : vertices.subspan(begin, end - begin)) {
+      *to = v;
+      to += stays(v) ? 1 : 0;
+    }
+    return to;
+  });
+}
 
 IndependentSet::Choice IndependentSet::decide(std::uint32_t v, const Link& link, std::uint32_t level,
                                               int& steps) {
@@ -86,9 +98,7 @@ void IndependentSet::choose(std::span<const std::uint32_t> candidates, std::uint
         if (isOpen(candidate(i))) decide(candidate(i), ahead[i % kLinksAhead], level, steps);
       }
     });
-    std::vector<std::uint32_t> open;
-    std::copy_if(left.begin(), left.end(), std::back_inserter(open), isOpen);
-    ordered_.swap(open);
+    filter(left, ordered_, isOpen);
     left = ordered_;
   }
   sortByCost(ordered_);
@@ -107,10 +117,8 @@ void IndependentSet::sortByCost(std::vector<std::uint32_t>& vertices) const {
 }
 
 void IndependentSet::collectChosen(std::span<const std::uint32_t> candidates, std::uint32_t level,
-                                   std::vector<std::uint32_t>& chosen) const {
-  chosen.clear();
-  for (const std::uint32_t v : candidates)
-    if (notes_[v].candidacy == 4 * level + kChosen) chosen.push_back(v);
+                                   std::vector<std::uint32_t>& chosen) {
+  filter(candidates, chosen, [&](std::uint32_t v) { return notes_[v].candidacy == 4 * level + kChosen; });
 }
 
 }  // namespace arete

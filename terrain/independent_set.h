@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/parallel_filter.h"
 #include "terrain/live_mesh.h"
 #include "terrain/vertex_note.h"
 
@@ -72,11 +73,15 @@ class IndependentSet {
   Choice decide(std::uint32_t v, const Link& link, std::uint32_t level, int& steps);
   void sortByCost(std::vector<std::uint32_t>& vertices) const;
   void collectChosen(std::span<const std::uint32_t> candidates, std::uint32_t level,
-                     std::vector<std::uint32_t>& chosen) const;
+                     std::vector<std::uint32_t>& chosen);
+  /// `kept` receives the vertices that stay, in order.
+  template <class Stays>
+  void filter(std::span<const std::uint32_t> vertices, std::vector<std::uint32_t>& kept, const Stays& stays);
 
   const LiveMesh& mesh_;
   std::vector<VertexNote>& notes_;
   std::vector<std::uint32_t> ordered_;
+  ParallelFilter<std::uint32_t> filter_;
 };
 
 }  // namespace arete

@@ -85,6 +85,27 @@ SlotMap LiveMesh::compact() {
   return newSlot;
 }
 
+std::vector<std::uint32_t> LiveMesh::verticesInOrder(std::span<const std::uint8_t> isLeftOut) const {
+  constexpr std::size_t kChunk = 1 << 14;
+  const std::size_t size = triangles.size(), chunks = (size + kChunk - 1) / kChunk;
+  std::vector<std::vector<std::uint32_t>> ofChunk(chunks);
+  tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t c) {
+    for (std::size_t t = c * kChunk; t < std::min(size, (c + 1) * kChunk); ++t) {
+      if (triangles[t].isDead()) continue;
+      for (std::uint32_t side = 0; side < 3; ++side) {
+        const std::uint32_t v = triangles[t].corners[side];
+        if (vertexHalfedge[v] == halfedge(static_cast<std::uint32_t>(t), side) && isLeftOut[v] == 0)
+          ofChunk[c].push_back(v);
+      }
+    }
+  });
+  std::vector<std::uint32_t> inOrder;
+  inOrder.reserve(vertexHalfedge.size());
+  for (const std::vector<std::uint32_t>& some : ofChunk)
+    inOrder.insert(inOrder.end(), some.begin(), some.end());
+  return inOrder;
+}
+
 bool Star::gather(const LiveMesh& mesh, std::uint32_t v, int maxLink) {
   const std::uint32_t first = mesh.vertexHalfedge[v];
   if (first == LiveMesh::kNone) return false;

@@ -47,6 +47,10 @@ struct LiveMesh {
   /// vertices), parallel.
   SlotMap compact();
 
+  /// The vertices that are in a triangle but not left out, by their half-edges. `isLeftOut`: per vertex, not
+  /// 0 = yes. O(slots), parallel.
+  std::vector<std::uint32_t> verticesInOrder(std::span<const std::uint8_t> isLeftOut) const;
+
   static constexpr std::uint32_t kMostTriangles = (kNone >> 2) - 1;  ///< that half-edges can name
 
   static std::uint32_t halfedge(std::uint32_t triangle, std::uint32_t side) { return 4 * triangle + side; }

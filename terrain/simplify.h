@@ -26,7 +26,6 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
@@ -36,6 +35,7 @@
 #include <vector>
 
 #include "engine/mt_recorder.h"
+#include "engine/parallel_filter.h"
 #include "engine/result.h"
 #include "engine/run_context.h"
 #include "terrain/build_checks.h"
@@ -86,14 +86,8 @@ class Simplifier {
   /// Removes what can be removed. `isFixed`: per vertex, not 0 = stays.
   Result<SimplifiedRoot> run(const std::vector<std::uint8_t>& isFixed, const MetricFrame& metric) {
     const auto vertexCount = static_cast<std::uint32_t>(mesh_.vertexHalfedge.size());
-    std::vector<std::uint32_t> removable;
-    for (std::uint32_t v = 0; v < vertexCount; ++v)
-      if (mesh_.vertexHalfedge[v] != kNone && !isFixed[v]) removable.push_back(v);
-    // From here on vertices are visited in the order of their triangles in memory, which is that of the
-    // ground.
-    tbb::parallel_sort(removable.begin(), removable.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return mesh_.vertexHalfedge[a] < mesh_.vertexHalfedge[b];
-    });
+    // Vertices are visited in the order of their triangles in memory, which is that of the ground.
+    std::vector<std::uint32_t> removable = mesh_.verticesInOrder(isFixed);
     notes_.assign(vertexCount, {});
     liveTriangles_ = mesh_.triangles.size();
     metric_ = metric;
@@ -210,9 +204,9 @@ class Simplifier {
     const StageClock::Scope stage(context_.clock, "simplify: evaluate");
     // Worth knowing exactly a little beyond the threshold: the next levels will ask.
     const double limit = threshold * lookAhead();
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, due_.size(), 128), [&](const auto& range) {
+    candidates_(due_.size(), 128, due_, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
       Star star;
-      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      for (std::size_t i = begin; i != end; ++i) {
         prefetchStars<StarReach::neighbours>(mesh_, i, due_.size(), [&](std::size_t k) { return due_[k]; });
         if (i + kHeightsAhead < due_.size()) {
           errors_.prefetch(due_[i + kHeightsAhead]);
@@ -226,11 +220,12 @@ class Simplifier {
           evaluate(v, note, star, threshold, limit);
           waiting_.set(v, note.state == State::stuck ? WaitingList::kNever : note.cost);
         }
-        if (note.state == State::exact && note.cost <= threshold) set_.enter(v, level);
+        if (note.state == State::exact && note.cost <= threshold) {
+          set_.enter(v, level);
+          *to++ = v;
+        }
       }
-    });
-    std::erase_if(due_, [&](std::uint32_t v) {
-      return !(notes_[v].state == State::exact && notes_[v].cost <= threshold);
+      return to;
     });
   }
 
@@ -312,7 +307,9 @@ class Simplifier {
       });
     }
     linkSizes_.resize(chosen_.size());
-    for (std::size_t i = 0; i < chosen_.size(); ++i) linkSizes_[i] = notes_[chosen_[i]].linkSize;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chosen_.size(), 4096), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) linkSizes_[i] = notes_[chosen_[i]].linkSize;
+    });
   }
 
   void removeChosen() {
@@ -478,6 +475,7 @@ class Simplifier {
   std::vector<VertexNote> notes_;  // per vertex
   IndependentSet set_;
   std::vector<std::uint32_t> due_;  // of a level: vertices to look at, then the candidates
+  ParallelFilter<std::uint32_t> candidates_;
   std::size_t liveTriangles_ = 0;
   std::vector<std::uint32_t> chosen_;
   std::vector<std::uint8_t> linkSizes_;

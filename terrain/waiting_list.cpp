@@ -27,27 +27,16 @@ void WaitingList::assign(std::vector<std::uint32_t> vertices, std::uint32_t vert
 
 void WaitingList::collect(double threshold, std::vector<std::uint32_t>& due) {
   if (living_ + 1 < vertices_.size() / 2) forgetGone();
-  const std::size_t first = kNobody + 1, size = vertices_.size() - first;
-  const std::size_t chunks = (size + kChunk - 1) / kChunk;
-  found_.resize(size);
-  foundCount_.resize(chunks);
-  tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t c) {
-    const std::size_t begin = c * kChunk, count = std::min(kChunk, size - begin);
-    const float* dueAt = dueAt_.data() + first + begin;
-    const std::uint32_t* vertex = vertices_.data() + first + begin;
-    std::uint32_t* const found = found_.data() + begin;
-    std::uint32_t* to = found;
-    for (std::size_t i = 0; i < count; ++i) {
+  const std::size_t first = kNobody + 1;
+  filter_(vertices_.size() - first, kChunk, due, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+    const float* dueAt = dueAt_.data() + first;
+    const std::uint32_t* vertex = vertices_.data() + first;
+    for (std::size_t i = begin; i < end; ++i) {
       *to = vertex[i];
       to += dueAt[i] <= threshold ? 1 : 0;
     }
-    foundCount_[c] = static_cast<std::size_t>(to - found);
+    return to;
   });
-  due.clear();
-  for (std::size_t c = 0; c < chunks; ++c) {
-    const auto found = std::span(found_).subspan(c * kChunk, foundCount_[c]);
-    due.insert(due.end(), found.begin(), found.end());
-  }
 }
 
 void WaitingList::remove(std::span<const std::uint32_t> gone) {

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "engine/parallel_filter.h"
+
 namespace arete {
 
 /// The vertices that may still go, each with the threshold from which on a level concerns it.
@@ -51,8 +53,7 @@ class WaitingList {
   std::vector<std::uint32_t> vertices_;        // by place; kGone
   std::vector<float> dueAt_;                   // by place
   std::vector<std::uint32_t> place_;           // by vertex
-  std::vector<std::uint32_t> found_;           // of a look, each chunk's from where the chunk begins
-  std::vector<std::size_t> foundCount_;        // per chunk
+  ParallelFilter<std::uint32_t> filter_;
   std::size_t living_ = 0;
 };
 
