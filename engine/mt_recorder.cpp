@@ -116,7 +116,7 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   const std::uint32_t slots = slotBegin_[removals_];
   const std::uint32_t roots = static_cast<std::uint32_t>(surviving.size());
   const std::uint32_t rootVertexCount = static_cast<std::uint32_t>(rootVertices.size());
-  const std::uint32_t births = finestTriangles_ + slots - 2 * nodes;
+  const std::uint32_t born = slots - 2 * nodes;
 
   // removalOf[n]: falling band, later removals first.
   std::vector<std::uint32_t> removalOf(nodes);
@@ -197,11 +197,15 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   link_.clear();
   std::vector<std::uint32_t>().swap(newVertex);
 
-  auto idOfBirth = std::make_unique_for_overwrite<std::uint32_t[]>(births);
+  // Of births that removals bore; nobody asks where the finest triangles went.
+  auto idOfBirth = std::make_unique_for_overwrite<std::uint32_t[]>(born);
   const auto place = [&](std::uint32_t id, std::uint32_t birth) {
-    idOfBirth[birth] = id;
     owned->remover[id] = kNone;
-    const FloorCodes codes = birth < finestTriangles_ ? FloorCodes{} : floor_[birth - finestTriangles_];
+    FloorCodes codes;
+    if (birth >= finestTriangles_) {
+      idOfBirth[birth - finestTriangles_] = id;
+      codes = floor_[birth - finestTriangles_];
+    }
     owned->error[id] = codes.error;
     owned->below[id] = codes.below;
     owned->above[id] = codes.above;
@@ -213,9 +217,9 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
       const std::uint32_t r = removalOf[n + kNearAhead];
       for (std::uint32_t i = slotBegin_[r]; i < slotBegin_[r + 1]; ++i) {
         const std::uint32_t birth = ceiling_[i];
-        if (birth == kNone) continue;
-        __builtin_prefetch(&idOfBirth[birth], 1);
-        if (birth >= finestTriangles_) __builtin_prefetch(&floor_[birth - finestTriangles_]);
+        if (birth == kNone || birth < finestTriangles_) continue;
+        __builtin_prefetch(&idOfBirth[birth - finestTriangles_], 1);
+        __builtin_prefetch(&floor_[birth - finestTriangles_]);
       }
     }
     const std::uint32_t from = slotBegin_[removalOf[n]], to = owned->slotBegin[n];
@@ -233,9 +237,10 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   floor_.clear();
 
   stage.emplace(clock, "finish: floors");
-  owned->floor = std::make_unique_for_overwrite<std::uint32_t[]>(slots - 2 * std::size_t(nodes));
+  owned->floor = std::make_unique_for_overwrite<std::uint32_t[]>(born);
   forRange(nodes, [&](std::uint32_t n) {
-    const std::uint32_t r = removalOf[n], birth = firstBirth(r), to = owned->slotBegin[n] - 2 * n;
+    const std::uint32_t r = removalOf[n], birth = firstBirth(r) - finestTriangles_,
+                        to = owned->slotBegin[n] - 2 * n;
     for (std::uint32_t i = 0; i + 2 < slotBegin_[r + 1] - slotBegin_[r]; ++i) {
       const std::uint32_t id = idOfBirth[birth + i];
       owned->floor[to + i] = id;
@@ -261,7 +266,7 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   a.error = view(owned->error, ids);
   a.below = view(owned->below, ids);
   a.above = view(owned->above, ids);
-  a.floor = view(owned->floor, slots - 2 * std::size_t(nodes));
+  a.floor = view(owned->floor, born);
   a.saturatedError = view(owned->saturatedError, nodes);
   a.sphere = view(owned->sphere, nodes);
   owned->blocks = makeNodeBlocks(a.saturatedError, a.sphere);

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "terrain/height_encoding.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
 #include <cmath>
 #include <cstring>
 
 namespace arete {
 namespace {
+
+constexpr std::size_t kAhead = 16;
 
 bool isSameBits(double a, double b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
@@ -18,11 +24,15 @@ bool tryEncode(std::span<const double> heights, std::span<const std::uint32_t> o
   out.size = order.size() * sizeof(Raw);
   out.bytes = std::make_unique_for_overwrite<std::byte[]>(out.size);
   Raw* raw = reinterpret_cast<Raw*>(out.bytes.get());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const double z = heights[order[i]];
-    if (!toRaw(z, raw[i]) || !isSameBits(raw[i] * encoding.scale + encoding.offset, z)) return false;
-  }
-  return true;
+  std::atomic<bool> fits = true;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 8192), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end() && fits.load(std::memory_order_relaxed); ++i) {
+      if (i + kAhead < range.end()) __builtin_prefetch(&heights[order[i + kAhead]]);
+      const double z = heights[order[i]];
+      if (!toRaw(z, raw[i]) || !isSameBits(raw[i] * encoding.scale + encoding.offset, z)) fits = false;
+    }
+  });
+  return fits;
 }
 
 }  // namespace

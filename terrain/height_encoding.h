@@ -18,7 +18,7 @@ struct EncodedHeights {
 
 /// Encodes heights[order[i]]: as 16-bit integers under the band's own scale and offset, as floats, or as
 /// doubles, whichever is the first that gives every height back to the bit. Precondition: no NaN among them.
-/// O(order.size()).
+/// O(order.size()), parallel.
 EncodedHeights encodeHeights(std::span<const double> heights, std::span<const std::uint32_t> order,
                              double rawScale, double rawOffset);
 
