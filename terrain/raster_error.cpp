@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A triangle is scanned row by row. Its left and right edges are followed in integers (quotient and
-// remainder, as a line is drawn), so that the samples exactly on an edge are always counted, and the plane is
-// stepped along the row.
+// A triangle is compared row by row, four samples at a time. The rows of a small one are known from a table
+// (small_triangles.h). In a larger one the lines through the three edges bound a row, each from its side; a
+// bound is rounded to the sample next to it inside, so that the samples exactly on an edge are always
+// counted. Triangles come in all shapes, one after the other: branches that ask for their shape cost more
+// than the arithmetic that does without.
 //
 // The difference between a triangle and the finest triangulation is linear on every piece of the overlay of
 // the two, so its extremes lie at the overlay's vertices: samples inside the triangle, its corners (where it
@@ -13,40 +15,67 @@
 #include "terrain/raster_error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
 
 namespace arete {
 namespace {
 
-/// Where a line by rows, x = x0 + (y - y0) dx / dy, stands: rounded down, or up. Starts one row below y0.
-class EdgeStepper {
- public:
-  EdgeStepper(std::int32_t x0, std::int32_t dx, std::int32_t dy, bool roundUp) {
-    // ceil(a / b) = floor((a + b - 1) / b) for b > 0.
-    denominator_ = dy;
-    step_ = dx / dy;
-    rest_ = dx - step_ * dy;
-    if (rest_ < 0) {
-      --step_;
-      rest_ += dy;
-    }
-    x_ = x0;
-    remainder_ = roundUp ? dy - 1 : 0;
-    advance();
-  }
-  std::int32_t x() const { return x_; }
-  void advance() {
-    x_ += step_;
-    remainder_ += rest_;
-    if (remainder_ >= denominator_) {
-      remainder_ -= denominator_;
-      ++x_;
-    }
-  }
+/// Two doubles that are worked on at once.
+using Two = double __attribute__((vector_size(16)));
 
- private:
-  std::int32_t x_, step_, rest_, remainder_, denominator_;
+Two both(double x) {
+  return Two{x, x};
+}
+Two firsts(Two a, Two b) {
+  return Two{a[0], b[0]};
+}
+Two seconds(Two a, Two b) {
+  return Two{a[1], b[1]};
+}
+Two swapped(Two x) {
+  return Two{x[1], x[0]};
+}
+Two larger(Two a, Two b) {
+  return a > b ? a : b;
+}
+Two smaller(Two a, Two b) {
+  return a < b ? a : b;
+}
+double largest(Two x) {
+  return larger(x, swapped(x))[0];
+}
+double smallest(Two x) {
+  return smaller(x, swapped(x))[0];
+}
+Two load(const double* x) {
+  return Two{x[0], x[1]};
+}
+/// The nearest whole numbers, of less than 2^51.
+Two nearest(Two x) {
+  const Two shift = both(0x1.8p52);
+  return (x + shift) - shift;
+}
+
+/// The largest of some differences, until one is beyond the limit.
+struct LargestDifference {
+  double limit;
+  Two found = {0, 0};
+  void include(Two difference) {
+    const Two size = larger(difference, -difference);
+    found = size > found ? size : found;  // false for NODATA
+  }
+  bool isEnough() const { return largest(found) > limit; }
+};
+
+/// The largest of some differences either way.
+struct SignedDifferences {
+  Two above = {0, 0}, below = {0, 0};
+  void include(Two difference) {
+    above = difference > above ? difference : above;  // false for NODATA
+    below = difference < below ? difference : below;
+  }
+  static bool isEnough() { return false; }
 };
 
 }  // namespace
@@ -82,85 +111,105 @@ class EdgeStepper {
   return true;
 }
 
-/// Calls row(first sample, count, plane at the first sample, plane step per column); stops when it returns
-/// false. The corners are left out: there the plane is the sample.
-template <class Row>
-void RasterError::forRows(const Corner& a, const Corner& b, const Corner& c, const Row& row) const {
-  const std::int64_t area = std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(b.y - a.y) * (c.x - a.x);
+/// Includes z_plane - z at the samples, row after row, until there is enough. The corners are left out: there
+/// the plane is the sample.
+template <class Differences>
+[[gnu::always_inline]] inline void RasterError::compare(const Corner& a, const Corner& b, const Corner& c,
+                                                        Differences& differences) const {
+  // Corner a is the origin and anchors the plane.
+  const Two ab = {double(b.x - a.x), double(b.y - a.y)}, ac = {double(c.x - a.x), double(c.y - a.y)};
+  const Two products = ab * swapped(ac);
+  const double inverse = 1.0 / (products[0] - products[1]);
+  const Two steps = (both(b.z - a.z) * swapped(ac) - both(c.z - a.z) * swapped(ab)) * both(inverse);
+  const double stepX = steps[0], stepY = -steps[1];
+  const auto planeAt = [&](double x, double y) { return both(a.z + stepX * x + stepY * y); };
+  const auto columns = static_cast<std::ptrdiff_t>(plan_.columns());
+  const double* origin = heights_.data() + (a.y * columns + a.x);
 
-  const Corner *p = &a, *q = &b, *r = &c;
-  if (q->y < p->y) std::swap(p, q);
-  if (r->y < q->y) std::swap(q, r);
-  if (q->y < p->y) std::swap(p, q);
-  const std::int32_t top = p->y, middle = q->y, bottom = r->y;
-
-  // Corner a anchors the plane.
-  const double inverse = 1.0 / double(area);
-  const double stepX = ((b.z - a.z) * double(c.y - a.y) - (c.z - a.z) * double(b.y - a.y)) * inverse;
-  const double stepY = ((c.z - a.z) * double(b.x - a.x) - (b.z - a.z) * double(c.x - a.x)) * inverse;
-  const std::size_t columns = plan_.columns();
-  const auto emit = [&](std::int32_t y, std::int32_t left, std::int32_t right) {
-    if (left > right) return true;
-    const double z = a.z + stepX * double(left - a.x) + stepY * double(y - a.y);
-    return row(std::size_t(y) * columns + std::size_t(left), std::size_t(right - left + 1), z, stepX);
-  };
-  const auto emitBetween = [&](const Corner& u, const Corner& v) {  // the inside of a horizontal edge
-    return emit(u.y, std::min(u.x, v.x) + 1, std::max(u.x, v.x) - 1);
-  };
-
-  if (top == middle && !emitBetween(*p, *q)) return;
-  if (bottom - top > 1) {
-    // The long edge p-r on one side, p-q and then q-r on the other.
-    const bool middleIsRight =
-        std::int64_t(q->x - p->x) * (bottom - top) > std::int64_t(middle - top) * (r->x - p->x);
-    EdgeStepper along(p->x, r->x - p->x, bottom - top, middleIsRight);
-    EdgeStepper bent = middle > top ? EdgeStepper(p->x, q->x - p->x, middle - top, !middleIsRight)
-                                    : EdgeStepper(q->x, r->x - q->x, bottom - middle, !middleIsRight);
-    const std::int32_t beside = middleIsRight ? -1 : 1;
-    for (std::int32_t y = top + 1; y < bottom; ++y) {
-      const std::int32_t other = y == middle ? q->x + beside : bent.x();
-      if (!emit(y, middleIsRight ? along.x() : other, middleIsRight ? other : along.x())) return;
-      along.advance();
-      if (y == middle)
-        bent = EdgeStepper(q->x, r->x - q->x, bottom - middle, !middleIsRight);
-      else
-        bent.advance();
+  // Four samples of a row that begins at z, by their columns from there, or the first `count` of them.
+  const Two firstFour[2] = {{0, 1}, {2, 3}};
+  const auto compareFew = [&](Two z, const Two(&x)[2], const double* heights, double count)
+      __attribute__((always_inline)) {
+    const double* end = heights_.data() + heights_.size();
+    std::array<double, 4> copy;
+    if (end - heights < 4) {
+      copy.fill(0);
+      std::copy(heights, end, copy.begin());
+      heights = copy.data();
     }
+    for (int k = 0; k < 2; ++k) {
+      const Two difference = z + both(stepX) * x[k] - load(heights + 2 * k);
+      differences.include(firstFour[k] < both(count) ? difference : both(0));
+    }
+  };
+
+  const auto& rows = small_.rows(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
+  if (rows.count >= 0) {
+    for (int k = 0; k < rows.count; ++k) {
+      const int y = rows.top + k, left = rows.left[k];
+      compareFew(planeAt(left, y), firstFour, origin + (y * columns + left), rows.size[k]);
+      if (differences.isEnough()) return;
+    }
+    return;
   }
-  if (middle == bottom) emitBetween(*q, *r);
+
+  // What the line through an edge leaves of a row, from the corner on: x >= start + slope y if the triangle
+  // turns up along it, -x >= start + slope y if down. The other one is as good as free, both of a level edge.
+  constexpr double kFar = 0x1p100;
+  const auto orOne = [](Two dy) { return dy + (dy == both(0) ? both(1) : both(0)); };
+  const Two bc = ac - ab, mirror = {1, -1};
+  const Two rise = seconds(ab, ac), slope = firsts(ab, ac) / orOne(rise);
+  const Two slopeAB = both(slope[0]) * mirror, slopeCA = both(slope[1]) * mirror,
+            slopeBC = both(bc[0]) / orOne(both(bc[1])) * mirror;
+  const Two ifUp = rise < both(0) ? both(0) : both(-kFar), ifDown = rise > both(0) ? both(0) : both(-kFar);
+  const Two startAB = firsts(ifUp, ifDown), startCA = seconds(ifDown, ifUp),
+            freeBC = both(bc[1]) * mirror < both(0) ? both(0) : both(-kFar);
+  const Two startBC = freeBC + (both(ab[0]) * mirror - slopeBC * both(ab[1]));
+  // The middle corner is left out of its row: on the side that two edges bound, or as one of two in a row.
+  const Two besideMiddle = swapped(startAB + freeBC + startCA) * both(-1 / kFar) - both(1);
+
+  const Two bottom = larger(larger(rise, swapped(rise)), both(0)),
+            top = smaller(smaller(rise, swapped(rise)), both(0)),
+            middle = rise + swapped(rise) - top - bottom;
+  const double last = larger(bottom - both(1), middle)[0];
+  for (double y = smaller(top + both(1), middle)[0]; y <= last; y += 1) {
+    const Two row = both(y);
+    const Two bounds =
+        nearest(larger(larger(startAB + slopeAB * row, startBC + slopeBC * row), startCA + slopeCA * row) +
+                both(roundUp_)) +
+        (row == middle ? besideMiddle : both(0));
+    const double left = bounds[0];
+    double count = 1 - left - bounds[1];
+    const Two z = planeAt(left, y);
+    const double* heights = origin + static_cast<std::ptrdiff_t>(y * double(columns) + left);
+    Two x[2] = {firstFour[0], firstFour[1]};
+    for (; count > 4; count -= 4, heights += 4)
+      for (int k = 0; k < 2; ++k) {
+        differences.include(z + both(stepX) * x[k] - load(heights + 2 * k));
+        x[k] += both(4);
+      }
+    compareFew(z, x, heights, count);
+    if (differences.isEnough()) return;
+  }
 }
 
 double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, double limit) const {
-  double worst = 0;
-  if (isSmall(a, b, c, worst)) return std::abs(worst);
-  forRows(a, b, c, [&](std::size_t first, std::size_t count, double z, double step) {
-    const double* height = heights_.data() + first;
-    double rowWorst = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double difference = std::abs(height[i] - (z + step * double(i)));
-      rowWorst = difference > rowWorst ? difference : rowWorst;  // false for NODATA
-    }
-    worst = rowWorst > worst ? rowWorst : worst;
-    return worst <= limit;
-  });
-  return worst;
+  double only = 0;
+  if (isSmall(a, b, c, only)) return std::abs(only);
+  LargestDifference differences{limit};
+  compare(a, b, c, differences);
+  return largest(differences.found);
 }
 
 double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, SignedBound& bound) const {
-  double high = 0, low = 0, only = 0;
+  double only = 0;
   if (isSmall(a, b, c, only)) {
     bound.include(only);
     return std::abs(only);
   }
-  forRows(a, b, c, [&](std::size_t first, std::size_t count, double z, double step) {
-    const double* height = heights_.data() + first;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double difference = (z + step * double(i)) - height[i];
-      high = difference > high ? difference : high;
-      low = difference < low ? difference : low;
-    }
-    return true;
-  });
+  SignedDifferences differences;
+  compare(a, b, c, differences);
+  const double high = largest(differences.above), low = smallest(differences.below);
   bound.above = std::max(bound.above, high);
   bound.below = std::max(bound.below, -low);
   return std::max(high, -low);

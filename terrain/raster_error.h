@@ -10,6 +10,7 @@
 #include "terrain/lattice_plan.h"
 #include "terrain/live_mesh.h"
 #include "terrain/signed_bound.h"
+#include "terrain/small_triangles.h"
 
 namespace arete {
 
@@ -117,7 +118,8 @@ class RasterError {
       : plan_(plan),
         heights_(heights),
         rows_(static_cast<std::uint32_t>(heights.size() / plan.columns())),
-        reachesBeyondRims_(reachesBeyondRims) {
+        reachesBeyondRims_(reachesBeyondRims),
+        roundUp_(0.5 - 0.5 / rows_) {
     // Differences below 2 s f, f the larger of p and q, make a dot and a cross below 8 (s f)^2: the product
     // of the two must stay below 2^63.
     const double f = std::max(plan.p(), plan.q());
@@ -203,13 +205,15 @@ class RasterError {
 
  private:
   bool isSmall(const Corner& a, const Corner& b, const Corner& c, double& difference) const;
-  template <class Row>
-  void forRows(const Corner& a, const Corner& b, const Corner& c, const Row& row) const;
+  template <class Differences>
+  void compare(const Corner& a, const Corner& b, const Corner& c, Differences& differences) const;
 
   const LatticePlan& plan_;
   std::span<const double> heights_;
   std::uint32_t rows_;
   bool reachesBeyondRims_;
+  double roundUp_;  // to the next whole number, as nearest number to the sum: of fractions of a rise in rows
+  const SmallTriangles& small_ = SmallTriangles::all();
   std::uint32_t smallSpread_ = 1;  // a power of two: spreads below it keep Hole::third() in 64 bits
 };
 
