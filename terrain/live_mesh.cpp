@@ -12,6 +12,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cassert>
 
@@ -109,23 +110,28 @@ std::vector<std::uint32_t> LiveMesh::verticesInOrder(std::span<const std::uint8_
 bool Star::gather(const LiveMesh& mesh, std::uint32_t v, int maxLink) {
   const std::uint32_t first = mesh.vertexHalfedge[v];
   if (first == LiveMesh::kNone) return false;
-  linkSize = triangleCount = 0;
   isOpen = false;
+  constexpr std::array<std::uint8_t, 3> kNext{1, 2, 0}, kPrevious{2, 0, 1};  // sides of a triangle
+  int count = 0;
   std::uint32_t h = first;
   do {
-    if (linkSize >= maxLink) return false;
-    link[linkSize++] = mesh.origin(LiveMesh::nextInTriangle(h));
-    outgoing[triangleCount++] = h;
-    const std::uint32_t last = LiveMesh::previousInTriangle(h);
-    const std::uint32_t across = mesh.twinOf(last);
-    if (across == LiveMesh::kNone) {
-      if (linkSize >= maxLink) return false;
-      link[linkSize++] = mesh.origin(last);
+    if (count >= maxLink) return false;
+    const LiveMesh::Triangle& triangle = mesh.triangles[LiveMesh::triangleOf(h)];
+    const std::uint32_t side = LiveMesh::sideOf(h), last = kPrevious[side];
+    link[count] = triangle.corners[kNext[side]];
+    outgoing[count] = h;
+    ++count;
+    h = triangle.twin[last];
+    if (h == LiveMesh::kNone) {
+      if (count >= maxLink) return false;
+      link[count] = triangle.corners[last];
+      linkSize = count + 1;
+      triangleCount = count;
       isOpen = true;
       return true;
     }
-    h = across;
   } while (h != first);
+  linkSize = triangleCount = count;
   return true;
 }
 
