@@ -30,8 +30,10 @@ bool isOtherDiagonalCloser(const Hole& hole, int i, int j, int m, int n) {
   if (hole.orientationToApex(i, j) < 0 || hole.orientationToApex(j, m) < 0 ||
       hole.orientationToApex(m, n) < 0 || hole.orientationToApex(n, i) < 0)
     return false;
-  const double asItIs = hole.orientationToApex(j, n) >= 0 ? hole.apexError(i, j, n) : hole.apexError(j, m, n);
-  const double other = hole.orientationToApex(i, m) >= 0 ? hole.apexError(i, m, n) : hole.apexError(i, j, m);
+  // Either side of a diagonal is as likely: the corners are selected, the errors not branched to.
+  const bool isFirst = hole.orientationToApex(j, n) >= 0, isLast = hole.orientationToApex(i, m) >= 0;
+  const double asItIs = hole.apexError(isFirst ? i : j, isFirst ? j : m, n);
+  const double other = hole.apexError(i, isLast ? m : j, isLast ? n : m);
   return other < asItIs * (1 - 1e-9);
 }
 

@@ -35,15 +35,16 @@ class RasterError {
     Hole(const RasterError& errors, const Star& star, std::uint32_t apex)
         : errors_(errors), apex_(errors.corner(apex)), size_(star.linkSize) {
       const std::int64_t p = errors.plan_.p(), q = errors.plan_.q();
+      const std::uint32_t most = errors.smallSpread_;
       std::uint32_t spread = 0;
       for (int i = 0; i < size_; ++i) {
         corners_[i] = errors.corner(star.link[i]);
         const std::int32_t x = corners_[i].x - apex_.x, y = corners_[i].y - apex_.y;
         x_[i] = x * p;
         y_[i] = y * q;
-        spread |= static_cast<std::uint32_t>(std::abs(x)) | static_cast<std::uint32_t>(std::abs(y));
+        spread |= (static_cast<std::uint32_t>(x) + most) | (static_cast<std::uint32_t>(y) + most);
       }
-      isSmall_ = spread < errors.smallSpread_;
+      isSmall_ = spread < 2 * most;  // all within [-most, most), as it is a power of two
     }
 
     /// For the slower queries.
@@ -96,11 +97,11 @@ class RasterError {
         if (cross <= 0) continue;
         const T dot = ux * vx + uy * vy;
         const T mine = dot * bestCross, theirs = bestDot * cross;
-        if (mine < theirs || (mine == theirs && prefersLater(best, m))) {
-          best = m;
-          bestDot = dot;
-          bestCross = cross;
-        }
+        bool isBetter = mine < theirs;
+        if (mine == theirs) isBetter = prefersLater(best, m);
+        best = isBetter ? m : best;
+        bestDot = isBetter ? dot : bestDot;
+        bestCross = isBetter ? cross : bestCross;
       }
       return best;
     }
