@@ -5,31 +5,12 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <type_traits>
 
 #include "terrain/hole.h"
 
 namespace arete::packed {
 
 inline constexpr int kMaxFloor = kMaxHoleCorners - 2;
-
-/// Calls f with the number of corners as a constant where it is a usual one, else with 0. Nearly all stars
-/// have so many, and a loop of known length needs no loop.
-template <class F>
-[[gnu::always_inline]] inline bool withCorners(int corners, const F& f) {
-  switch (corners) {
-    case 4:
-      return f(std::integral_constant<int, 4>());
-    case 5:
-      return f(std::integral_constant<int, 5>());
-    case 6:
-      return f(std::integral_constant<int, 6>());
-    case 7:
-      return f(std::integral_constant<int, 7>());
-    default:
-      return f(std::integral_constant<int, 0>());
-  }
-}
 
 /// How the triangles of a floor hang together, as a walk from the seed sees them. Edges of a triangle are
 /// numbered from the one that the walk came in by, those of the seed as it has them; corner i begins edge i.

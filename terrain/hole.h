@@ -6,11 +6,32 @@
 #include <cassert>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 namespace arete {
 
 /// The most corners a hole can have: the largest degree bound a build accepts, and one for an open star.
 inline constexpr int kMaxHoleCorners = 33;
+
+/// Calls f with the number of corners as a constant where it is a usual one, else with 0. Nearly all stars
+/// have so many, and a loop of known length needs no loop.
+template <class F>
+[[gnu::always_inline]] inline auto withCorners(int corners, const F& f) {
+  switch (corners) {
+    case 4:
+      return f(std::integral_constant<int, 4>());
+    case 5:
+      return f(std::integral_constant<int, 5>());
+    case 6:
+      return f(std::integral_constant<int, 6>());
+    case 7:
+      return f(std::integral_constant<int, 7>());
+    case 8:
+      return f(std::integral_constant<int, 8>());
+    default:
+      return f(std::integral_constant<int, 0>());
+  }
+}
 
 /// A triangulation of a star polygon, as corners of the polygon. Each triangle starts at its least corner;
 /// the list is in the order found, the same for the same polygon.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "terrain/hole.h"
 
@@ -58,17 +59,13 @@ class FidelitySearch {
   /// when none keeps the limit (infinite when the aspect bound alone leaves none). Exact but for a
   /// billionth of a thousandth. Precondition: threshold <= limit. O(corners^3), one error each at most.
   HoleCost cost(double threshold, double limit) {
-    double least = listRoots(limit);
-    double leastBound = least;
-    for (int k = 0; k < rootCount_; ++k) leastBound = std::min(leastBound, roots_[k].bound);
-    if (leastBound > threshold) return {leastBound, false};
+    double least = withCorners(corners_, [&](auto known) { return listRoots<known>(limit); });
+    int next = leastRoot();
+    if (std::min(least, roots_[next].bound) > threshold) return {std::min(least, roots_[next].bound), false};
     limit_ = limit;
     for (int i = 0; i < corners_; ++i) known_[i] = 0;
     double best = kInfinity;
-    for (;;) {
-      int next = 0;
-      for (int k = 1; k < rootCount_; ++k)
-        if (roots_[k].bound < roots_[next].bound) next = k;
+    for (;; next = leastRoot()) {
       const Root root = roots_[next];
       if (!(root.bound <= limit_)) break;
       roots_[next].bound = kInfinity;
@@ -97,14 +94,20 @@ class FidelitySearch {
   /// O(corners^3), one error each at most (but for those that are asked for again).
   template <class ErrorOf>
   HoleTriangulation shortest(double limit, const ErrorOf& errorOf) {
-    findCrosses();
+    return withCorners(corners_, [&](auto known) { return shortestOf<known>(limit, errorOf); });
+  }
+
+ private:
+  template <int kCorners, class ErrorOf>
+  HoleTriangulation shortestOf(double limit, const ErrorOf& errorOf) {
+    const int corners = this->corners<kCorners>();
+    findCrosses<kCorners>();
     // Bit m of i, j: the triangle of these three corners, i < m < j, may be used; keeps the limit.
     Masks allowed, kept;
-    for (int i = 0; i < corners_; ++i)
-      for (int j = i + 2; j < corners_; ++j) {
+    for (int i = 0; i < corners; ++i)
+      for (int j = i + 2; j < corners; ++j) {
         std::uint64_t mask = 0;
-        for (int m = i + 1; m < j; ++m)
-          if (!isTooThin(i, m, j) && !isBeyondAtApex(i, m, j, limit)) mask |= bit(m);
+        for (int m = i + 1; m < j; ++m) mask |= std::uint64_t{isAdmitted(i, m, j, limit)} << m;
         allowed[i][j] = mask;
         kept[i][j] = 0;
       }
@@ -116,19 +119,18 @@ class FidelitySearch {
       return isKept;
     };
     for (int round = 0;; ++round) {
-      const HoleTriangulation found = shortestOf(allowed);
+      const HoleTriangulation found = shortestOf<kCorners>(allowed);
       bool isKept = true;
       for (const auto& t : found.view()) isKept = check(t[0], t[1], t[2]) && isKept;
       if (isKept) return found;
       if (round < kRounds) continue;
-      for (int i = 0; i < corners_; ++i)
-        for (int j = i + 2; j < corners_; ++j)
+      for (int i = 0; i < corners; ++i)
+        for (int j = i + 2; j < corners; ++j)
           for (int m = i + 1; m < j; ++m)
             if (allowed[i][j] & bit(m)) check(i, m, j);
     }
   }
 
- private:
   using Masks = std::array<std::array<std::uint64_t, kMaxHoleCorners>, kMaxHoleCorners>;
 
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -141,12 +143,30 @@ class FidelitySearch {
   // Refills before all triangles are checked. Nearly all holes need less.
   static constexpr int kRounds = 8;
 
+  /// What turns a number into infinity unless a condition holds, without a branch.
+  static constexpr std::array<double, 2> kZeroIf = {kInfinity, 0};
+
   struct Root {
     double bound;
     std::array<std::uint8_t, 3> corners;
   };
 
   static std::uint64_t bit(int m) { return std::uint64_t(1) << m; }
+  // As std::min and std::max; of values, they take no branch. Of a number that is none, the first.
+  static double lesser(double a, double b) { return b < a ? b : a; }
+  static double greater(double a, double b) { return a < b ? b : a; }
+  /// Calls f with 0, 1, ... as constants.
+  template <int kTimes, class F>
+  [[gnu::always_inline]] static void inTurn(const F& f) {
+    [&]<int... k>(std::integer_sequence<int, k...>) {
+      (f(std::integral_constant<int, k>()), ...);
+    }
+    (std::make_integer_sequence<int, kTimes>());
+  }
+  template <int kCorners>
+  int corners() const {
+    return kCorners > 0 ? kCorners : corners_;
+  }
   int after(int i) const { return i + 1 < corners_ ? i + 1 : 0; }
 
   double squaredLength(int i, int j) const {
@@ -157,30 +177,65 @@ class FidelitySearch {
   /// counter-clockwise.
   bool isTooThin(int i, int j, int m) const {
     const double area = (x_[j] - x_[i]) * (y_[m] - y_[i]) - (y_[j] - y_[i]) * (x_[m] - x_[i]);
-    return !(area >= std::max(std::max(squaredLength(i, j), squaredLength(j, m)), squaredLength(m, i)) *
+    return !(area >= greater(greater(squaredLength(i, j), squaredLength(j, m)), squaredLength(m, i)) *
                          minimumAspect_);
   }
 
+  template <int kCorners>
   void findCrosses() {
-    for (int i = 0; i < corners_; ++i)
-      for (int j = i + 1; j < corners_; ++j) cross_[i][j] = x_[i] * y_[j] - y_[i] * x_[j];
+    const auto find = [&](int i, int j) { cross_[i][j] = x_[i] * y_[j] - y_[i] * x_[j]; };
+    if constexpr (kCorners > 0) {
+      inTurn<kCorners>([&](auto i) { inTurn<kCorners - i - 1>([&](auto k) { find(i, i + 1 + k); }); });
+    } else {
+      for (int i = 0; i < corners_; ++i)
+        for (int j = i + 1; j < corners_; ++j) find(i, j);
+    }
   }
 
-  /// Whether a triangle of corners i < m < j covers the apex and exceeds the limit there.
-  bool isBeyondAtApex(int i, int m, int j, double limit) const {
+  /// Whether the triangle of corners i < m < j is not too thin, and within the limit at the apex if it is
+  /// there. Without a branch: nothing foretells it.
+  bool isAdmitted(int i, int m, int j, double limit) const {
     const double atI = cross_[m][j], atM = -cross_[i][j], atJ = cross_[i][m];
-    return atI >= 0 && atM >= 0 && atJ >= 0 &&
-           std::abs(z_[i] * atI + z_[m] * atM + z_[j] * atJ) > limit * (1 + kSame) * (atI + atM + atJ);
+    const int isThin = isTooThin(i, m, j), isOver = lesser(lesser(atI, atM), atJ) >= 0,
+              isBeyond =
+                  std::abs(z_[i] * atI + z_[m] * atM + z_[j] * atJ) > limit * (1 + kSame) * (atI + atM + atJ);
+    return (isThin | (isOver & isBeyond)) == 0;
   }
 
   /// The triangles over the apex whose error there keeps the limit; returns the least of the others' bounds.
-  /// Corners go once around the apex at most: those left of a corner, and those right of it, are consecutive.
+  template <int kCorners>
   double listRoots(double limit) {
-    findCrosses();
+    const int corners = this->corners<kCorners>();
+    findCrosses<kCorners>();
     double spread = 0;
-    for (int i = 0; i < corners_; ++i) spread = std::max(spread, std::max(std::abs(x_[i]), std::abs(y_[i])));
+    for (int i = 0; i < corners; ++i) spread = std::max(spread, std::max(std::abs(x_[i]), std::abs(y_[i])));
     const double slack = spread * spread * kRounding;  // what rounding may take from a cross product
-    // Of the corners after i: the last not right of it, and the first not left of it.
+    double least = kInfinity;
+    rootCount_ = 0;
+    const auto list = [&](int i, int j, int m, double atI, double atJ, double atM, bool isOver)
+        __attribute__((always_inline)) {
+      const double bound = std::abs(z_[i] * atI + z_[j] * atJ + z_[m] * atM) / (atI + atJ + atM);
+      const int counts = isOver, keeps = bound <= limit;
+      roots_[rootCount_] = {bound, {std::uint8_t(i), std::uint8_t(j), std::uint8_t(m)}};
+      rootCount_ += counts & keeps;
+      least = lesser(least, greater(bound, kZeroIf[counts & ~keeps]));
+    };
+    if constexpr (kCorners > 0) {
+      // Few enough to look at all of them, without a branch.
+      inTurn<kCorners - 2>([&](auto i) {
+        inTurn<kCorners - 2 - i>([&](auto k) {
+          constexpr int j = i + 1 + k;
+          inTurn<kCorners - 1 - j>([&](auto l) {
+            constexpr int m = j + 1 + l;
+            const double atM = cross_[i][j], atI = cross_[j][m], atJ = -cross_[i][m];
+            list(i, j, m, atI, atJ, atM, lesser(lesser(atI, atJ), atM) >= -slack);
+          });
+        });
+      });
+      return least;
+    }
+    // Corners go once around the apex at most: those left of a corner, and those right of it, are
+    // consecutive. Of the corners after i: the last not right of it, and the first not left of it.
     std::array<std::uint8_t, kMaxHoleCorners> lastLeft, firstRight;
     for (int i = 0, left = 0; i < corners_; ++i) {
       left = std::max(left, i);
@@ -190,19 +245,21 @@ class FidelitySearch {
       lastLeft[i] = static_cast<std::uint8_t>(left);
       firstRight[i] = static_cast<std::uint8_t>(right);
     }
-    double least = kInfinity;
-    rootCount_ = 0;
-    for (int i = 0; i + 2 < corners_; ++i)
-      for (int j = i + 1; j <= lastLeft[i]; ++j) {
-        const double atM = cross_[i][j];
-        for (int m = std::max<int>(firstRight[i], j + 1); m <= lastLeft[j]; ++m) {
-          const double atI = cross_[j][m], atJ = -cross_[i][m];
-          const double bound = std::abs(z_[i] * atI + z_[j] * atJ + z_[m] * atM) / (atI + atJ + atM);
-          roots_[rootCount_] = {bound, {std::uint8_t(i), std::uint8_t(j), std::uint8_t(m)}};
-          rootCount_ += bound <= limit ? 1 : 0;
-          least = std::min(least, bound <= limit ? kInfinity : bound);
-        }
-      }
+    for (int i = 0; i + 2 < corners; ++i)
+      for (int j = i + 1; j <= lastLeft[i]; ++j)
+        for (int m = std::max<int>(firstRight[i], j + 1); m <= lastLeft[j]; ++m)
+          list(i, j, m, cross_[j][m], -cross_[i][m], cross_[i][j], true);
+    return least;
+  }
+  /// The first of those with the least bound; some whose bound is infinite where there is none.
+  int leastRoot() {
+    roots_[rootCount_].bound = kInfinity;
+    int least = 0;
+    double bound = roots_[0].bound;
+    for (int k = 1; k < rootCount_; ++k) {
+      least = roots_[k].bound < bound ? k : least;
+      bound = lesser(bound, roots_[k].bound);
+    }
     return least;
   }
 
@@ -238,28 +295,30 @@ class FidelitySearch {
   }
 
   /// Of the allowed triangles. Empty when there is none.
+  template <int kCorners>
   HoleTriangulation shortestOf(const Masks& allowed) const {
+    const int corners = this->corners<kCorners>();
     std::array<std::array<double, kMaxHoleCorners>, kMaxHoleCorners> length;
     std::array<std::array<std::uint8_t, kMaxHoleCorners>, kMaxHoleCorners> third;
-    for (int i = 0; i + 1 < corners_; ++i) length[i][i + 1] = 0;
-    for (int span = 2; span < corners_; ++span)
-      for (int i = 0; i + span < corners_; ++i) {
+    for (int i = 0; i + 1 < corners; ++i) length[i][i + 1] = 0;
+    for (int span = 2; span < corners; ++span)
+      for (int i = 0; i + span < corners; ++i) {
         const int j = i + span;
         double least = kInfinity;
+        int best = i + 1;
         for (int m = i + 1; m < j; ++m) {
-          const double mine = length[i][m] + length[m][j];
-          if (mine < least && (allowed[i][j] & bit(m))) {
-            least = mine;
-            third[i][j] = static_cast<std::uint8_t>(m);
-          }
+          const double mine = length[i][m] + length[m][j] + kZeroIf[allowed[i][j] >> m & 1];
+          best = mine < least ? m : best;
+          least = lesser(least, mine);
         }
+        third[i][j] = static_cast<std::uint8_t>(best);
         length[i][j] = least + squaredLength(i, j);
       }
     HoleTriangulation result;
-    if (!(length[0][corners_ - 1] < kInfinity)) return result;
+    if (!(length[0][corners - 1] < kInfinity)) return result;
     std::array<std::array<std::uint8_t, 2>, kMaxHoleCorners> stack;
     int top = 0;
-    stack[top++] = {0, static_cast<std::uint8_t>(corners_ - 1)};
+    stack[top++] = {0, static_cast<std::uint8_t>(corners - 1)};
     while (top > 0) {
       const auto [i, j] = stack[--top];
       if (j - i < 2) continue;
