@@ -66,15 +66,21 @@ class MtRecorder {
   }
   /// How many slots, one for each vertex of a link, come before those of a removal; of all: removalCount().
   std::uint32_t firstSlot(std::uint32_t removal) const { return slotBegin_[removal]; }
+  /// What was recorded of a triangle; of the finest triangulation's, zeros. The removal that bore it is of an
+  /// earlier batch.
+  FloorCodes codes(std::uint32_t birth) const {
+    return birth < finestTriangles_ ? FloorCodes{} : floor_[birth - finestTriangles_];
+  }
   /// Records an announced removal. Thread-safe for different removals of a batch; the removals that bore its
   /// ceiling are of earlier batches. Precondition: link.size() as announced, 3 <= size.
   void record(std::uint32_t removal, const VertexRemoval& what);
 
-  /// Asks for what record() reads of a removal that bore a part of the ceiling.
-  [[gnu::always_inline]] void prefetch(std::uint32_t bearer) const {
+  /// Asks for what record() and codes() read of a triangle of the ceiling and of the removal that bore it.
+  [[gnu::always_inline]] void prefetch(std::uint32_t bearer, std::uint32_t birth) const {
     if (bearer == kNone) return;
     __builtin_prefetch(&saturated_[bearer]);
     __builtin_prefetch(&sphere_[bearer]);
+    __builtin_prefetch(&floor_[birth - finestTriangles_]);
   }
 
   /// The finished MT. `vertexOrder`: on return, the caller's vertex of every MT vertex.

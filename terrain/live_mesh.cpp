@@ -135,58 +135,46 @@ bool Star::gather(const LiveMesh& mesh, std::uint32_t v, int maxLink) {
   return true;
 }
 
-void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, std::uint32_t firstBirth,
-            std::uint32_t removal, std::span<Seam> seams) {
+void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, const FloorJoins& joins,
+            std::uint32_t firstBirth, std::uint32_t removal, std::span<Seam> seams) {
   const int corners = star.linkSize;
   assert(floor.size == corners - 2 && seams.size() == static_cast<std::size_t>(corners));
-  for (int i = 0; i < star.triangleCount; ++i) {
-    seams[i].movedFrom = star.rim(i);
-    seams[i].beyond = mesh.twinOf(star.rim(i));
-  }
-  if (star.isOpen) seams[corners - 1].movedFrom = seams[corners - 1].beyond = LiveMesh::kNone;
+  const auto halfedge = [&](FloorJoins::Side s) {
+    return LiveMesh::halfedge(star.triangle(s.triangle), s.side);
+  };
 
-  // Which link vertices keep a half-edge that is about to vanish.
-  std::array<bool, kMaxHoleCorners> mustPoint{};
+  std::uint32_t before = star.isOpen ? LiveMesh::kNone : star.triangle(corners - 1);
   for (int i = 0; i < corners; ++i) {
-    // Another star of the batch may be re-pointing this vertex within its own slots: either value is not of
-    // this star.
-    const std::uint32_t t = LiveMesh::triangleOf(
-        std::atomic_ref(mesh.vertexHalfedge[star.link[i]]).load(std::memory_order_relaxed));
-    const int before = i > 0 ? i - 1 : corners - 1;
-    mustPoint[i] = (i < star.triangleCount && t == star.triangle(i)) ||
-                   (before < star.triangleCount && t == star.triangle(before));
+    const bool isClosing = i == star.triangleCount;  // the new border edge of an open star
+    const std::uint32_t rim = isClosing ? LiveMesh::kNone : star.rim(i),
+                        own = isClosing ? LiveMesh::kNone : star.triangle(i);
+    seams[i] = {rim, halfedge(joins.rim[i]), isClosing ? LiveMesh::kNone : mesh.twinOf(rim)};
+    // A vertex of the link may point at a half-edge that is about to vanish. Another star of the batch may be
+    // re-pointing it within its own slots: either value is not of this star. A third of them must point
+    // elsewhere, nobody foresees which: the others write beside.
+    std::uint32_t& pointer = mesh.vertexHalfedge[star.link[i]];
+    const std::uint32_t t = LiveMesh::triangleOf(std::atomic_ref(pointer).load(std::memory_order_relaxed));
+    std::uint32_t beside;
+    std::atomic_ref((t == own) | (t == before) ? pointer : beside)
+        .store(seams[i].movedTo, std::memory_order_relaxed);
+    before = own;
   }
 
-  // edge[i][j]: the new half-edge i -> j.
-  std::array<std::array<std::uint32_t, kMaxHoleCorners>, kMaxHoleCorners> edge;
-  for (int f = 0; f < floor.size; ++f) {
-    const std::uint32_t t = star.triangle(f);
-    for (std::uint32_t c = 0; c < 3; ++c)
-      edge[floor.triangles[f][c]][floor.triangles[f][(c + 1) % 3]] = LiveMesh::halfedge(t, c);
+  for (int d = 0; d < joins.diagonalCount; ++d) {
+    const std::uint32_t forth = halfedge(joins.diagonals[d].forth), back = halfedge(joins.diagonals[d].back);
+    mesh.setTwin(forth, back);
+    mesh.setTwin(back, forth);
   }
-  for (int i = 0; i < corners; ++i) seams[i].movedTo = edge[i][i + 1 < corners ? i + 1 : 0];
-  for (int i = 0; i < corners; ++i)
-    if (mustPoint[i])
-      std::atomic_ref(mesh.vertexHalfedge[star.link[i]]).store(seams[i].movedTo, std::memory_order_relaxed);
-
-  std::array<std::uint32_t, kMaxHoleCorners> slots;
-  for (int i = 0; i < star.triangleCount; ++i) slots[i] = star.triangle(i);
   for (int f = 0; f < floor.size; ++f) {
-    const std::uint32_t t = slots[f];
     const auto& local = floor.triangles[f];
-    LiveMesh::Triangle& triangle = mesh.triangles[t];
+    LiveMesh::Triangle& triangle = mesh.triangles[star.triangle(f)];
     triangle.corners = {star.link[local[0]], star.link[local[1]], star.link[local[2]]};
     triangle.birth = firstBirth + static_cast<std::uint32_t>(f);
     triangle.bearer = removal;
-    for (int c = 0; c < 3; ++c) {
-      const int a = local[c], b = local[(c + 1) % 3];
-      const bool onRim = b == (a + 1 < corners ? a + 1 : 0);
-      if (!onRim) triangle.twin[c] = edge[b][a];
-    }
   }
   for (int i = floor.size; i < star.triangleCount; ++i) {
-    mesh.triangles[slots[i]].corners[0] = LiveMesh::kNone;
-    mesh.triangles[slots[i]].bearer = removal;
+    mesh.triangles[star.triangle(i)].corners[0] = LiveMesh::kNone;
+    mesh.triangles[star.triangle(i)].bearer = removal;
   }
 }
 

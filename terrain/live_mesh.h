@@ -9,6 +9,7 @@
 
 #include "engine/mt_recorder.h"
 #include "engine/uninitialized_vector.h"
+#include "terrain/floor_joins.h"
 #include "terrain/hole.h"
 #include "terrain/slot_map.h"
 
@@ -108,9 +109,9 @@ struct Seam {
 
 /// Fills the star's hole with the floor: rewrites its triangle slots, inner twins and the half-edges of the
 /// link. Touches nothing outside the star and fills in `seams`, one for each vertex of the link; call sew()
-/// for every star of the batch after.
-void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, std::uint32_t firstBirth,
-            std::uint32_t removal, std::span<Seam> seams);
+/// for every star of the batch after. `joins`: of the floor.
+void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, const FloorJoins& joins,
+            std::uint32_t firstBirth, std::uint32_t removal, std::span<Seam> seams);
 
 /// Joins an edge of a floor's rim to what lies beyond it, whether that moved in the same batch or not.
 /// `firstRemoval`: of this batch; slots that a removal from it on has rewritten have moved.

@@ -27,6 +27,10 @@ class PointError {
         next_(heights.size(), kNone) {}
 
   double height(std::uint32_t point) const { return heights_[point]; }
+  Vec3 position(std::uint32_t point) const {
+    const Vec2 p = plan_.planPosition(point);
+    return {p.x, p.y, heights_[point]};
+  }
   [[gnu::always_inline]] void prefetch(std::uint32_t point) const {
     __builtin_prefetch(heights_.data() + point);
   }
@@ -53,6 +57,9 @@ class PointError {
     }
     /// Where corner i lies from the apex, in the metric of the plan, and by how much it is higher.
     Vec3 fromApex(int i) const;
+    /// Corner i, and the apex, on the plan and with their heights.
+    Vec3 position(int i) const { return errors_.position(star_.link[i]); }
+    Vec3 apexPosition() const { return errors_.position(points_.front()); }
     /// |z - plane| at the apex, of a triangle over it.
     double apexError(int i, int j, int m) const;
     SignedBound alongEdge(int i, int j) const { return errors_.alongEdge(star_.link[i], star_.link[j]); }

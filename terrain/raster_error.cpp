@@ -217,8 +217,9 @@ double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, S
 
 SignedBound RasterError::alongEdge(const Corner& a, const Corner& b) const {
   const std::int64_t x0 = a.x, y0 = a.y, dx = b.x - a.x, dy = b.y - a.y;
-  // Edges of the finest triangulation cross none of it.
-  if (std::abs(dx) + std::abs(dy) <= 1 || (dx == dy && std::abs(dx) == 1 && !reachesBeyondRims_)) return {};
+  // Along a column, a row or a diagonal it crosses edges of the finest triangulation at samples only, which
+  // the scan has.
+  if (dx == 0 || dy == 0 || (dx == dy && !reachesBeyondRims_)) return {};
   const double z0 = a.z, dz = b.z - a.z;
   const std::size_t columns = plan_.columns();
   double high = 0, low = 0;
@@ -227,7 +228,7 @@ SignedBound RasterError::alongEdge(const Corner& a, const Corner& b) const {
     low = difference < low ? difference : low;
   };
 
-  if (dx != 0 && dy != 0) {
+  {
     const double inverseX = 1.0 / double(dx), slope = double(dy) * inverseX;
     const std::int64_t stepX = dx > 0 ? 1 : -1;
     for (std::int64_t k = 1; k < std::abs(dx); ++k) {  // grid columns

@@ -64,6 +64,9 @@ class RasterError {
 
     /// Where corner i lies from the apex, in the metric of the plan, and by how much it is higher.
     Vec3 fromApex(int i) const { return {double(x_[i]), double(y_[i]), corners_[i].z - apex_.z}; }
+    /// Corner i, and the apex, on the plan and with their heights.
+    Vec3 position(int i) const { return positionOf(corners_[i]); }
+    Vec3 apexPosition() const { return positionOf(apex_); }
     /// |z - plane| at the apex, of a triangle over it.
     double apexError(int i, int j, int m) const {
       const Corner &a = corners_[i], &b = corners_[j], &c = corners_[m];
@@ -84,6 +87,8 @@ class RasterError {
 
    private:
     __extension__ using Wide = __int128;
+
+    static Vec3 positionOf(const Corner& c) { return {double(c.x), double(c.y), c.z}; }
 
     /// The larger angle has the smaller cotangent, dot / cross, and all crosses are positive.
     template <class T, class PrefersLater>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+
 namespace arete {
 
 /// How far a surface lies from the reference: z_surface - z_reference stays within [-below, above].
@@ -9,12 +11,12 @@ struct SignedBound {
   double above = 0;
 
   void include(double difference) {
-    if (difference > above) above = difference;
-    if (-difference > below) below = -difference;
+    above = std::max(above, difference);
+    below = std::max(below, -difference);
   }
   void include(const SignedBound& other) {
-    if (other.above > above) above = other.above;
-    if (other.below > below) below = other.below;
+    above = std::max(above, other.above);
+    below = std::max(below, other.below);
   }
 };
 

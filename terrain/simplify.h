@@ -65,6 +65,7 @@ struct SimplifiedRoot {
 ///   hole.fromApex(i)                             where a corner lies from the apex
 ///   hole.maximum(i, j, m, limit)                 error of the triangle of three corners
 ///   hole.maximum(i, j, m, bound)                 the same, with the signed difference at the samples
+///   hole.position(i), hole.apexPosition()        corners and apex on the plan, with their heights
 ///   hole.alongEdge(i, j)                         signed difference along an edge
 ///   hole.settle(floor)                           after a refill: samples find their new triangles
 template <class Plan, class Errors>
@@ -327,12 +328,14 @@ class Simplifier {
         // The stars of a batch share no triangle, so the next ones can be gathered while others are
         // rewritten, and what the recorder will ask of their children can be on its way.
         std::array<Star, kStarsAhead> ahead;
+        RemovalScratch scratch;
         const auto gather = [&](std::size_t i) {
           if (i >= range.end()) return;
           Star& star = ahead[i % kStarsAhead];
           star.gather(mesh_, chosen_[i], kMaxHoleCorners);
           for (int k = 0; k < star.triangleCount; ++k)
-            recorder_.prefetch(mesh_.triangles[star.triangle(k)].bearer);
+            recorder_.prefetch(mesh_.triangles[star.triangle(k)].bearer,
+                               mesh_.triangles[star.triangle(k)].birth);
           for (int k = 0; k < star.linkSize; ++k) {
             __builtin_prefetch(&notes_[star.link[k]], 1);
             waiting_.prefetch(star.link[k]);
@@ -349,7 +352,7 @@ class Simplifier {
           const Star& star = ahead[i % kStarsAhead];
           const std::uint32_t removal = first + static_cast<std::uint32_t>(i);
           isOpen_[i] = star.isOpen;
-          remove(chosen_[i], star, removal, seamsOf(removal));
+          remove(chosen_[i], star, removal, seamsOf(removal), scratch);
         }
       });
     }
@@ -372,46 +375,56 @@ class Simplifier {
     }
   }
 
-  void remove(std::uint32_t v, const Star& star, std::uint32_t removal, std::span<Seam> seams) {
-    typename Errors::Hole hole(errors_, star, v);
+  /// What a removal works out and hands on: kept for the next one, as clearing it takes longer than many a
+  /// step.
+  struct RemovalScratch {
     MeasuredFloor filled;
+    std::array<FloorCodes, kMaxHoleCorners> codes;
+    std::array<std::uint32_t, kMaxHoleCorners> ceiling, bearer;
+    std::array<Vec3, kMaxHoleCorners + 1> positions;
+  };
+
+  void remove(std::uint32_t v, const Star& star, std::uint32_t removal, std::span<Seam> seams,
+              RemovalScratch& scratch) {
+    auto& [filled, codes, ceiling, bearer, positions] = scratch;
+    typename Errors::Hole hole(errors_, star, v);
     fill(v, star, hole, filled);
     const HoleTriangulation& floor = filled.triangulation;
     const int corners = star.linkSize;
 
-    // Bounds: samples inside each triangle, and each edge once for the two triangles that share it.
-    auto& bounds = filled.bounds;
-    std::array<std::array<std::uint8_t, kMaxHoleCorners>, kMaxHoleCorners> owner;
-    for (int f = 0; f < floor.size; ++f)
-      for (int c = 0; c < 3; ++c)
-        owner[floor.triangles[f][c]][floor.triangles[f][(c + 1) % 3]] = static_cast<std::uint8_t>(f);
-    for (int f = 0; f < floor.size; ++f)
-      for (int c = 0; c < 3; ++c) {
-        const int a = floor.triangles[f][c], b = floor.triangles[f][(c + 1) % 3];
-        const bool onRim = b == (a + 1 < corners ? a + 1 : 0);
-        if (!onRim && a > b) continue;
-        const SignedBound bound = hole.alongEdge(a, b);
-        bounds[f].include(bound);
-        if (!onRim) bounds[owner[b][a]].include(bound);
-      }
+    const FloorJoins joins(floor);
 
-    std::array<FloorCodes, kMaxHoleCorners> codes;
+    // Bounds: samples inside each triangle, and its edges.
+    for (int d = 0; d < joins.diagonalCount; ++d) {
+      const FloorJoins::Diagonal& diagonal = joins.diagonals[d];
+      const SignedBound bound = hole.alongEdge(diagonal.from, diagonal.to);
+      filled.bounds[diagonal.forth.triangle].include(bound);
+      filled.bounds[diagonal.back.triangle].include(bound);
+    }
     const OutwardScale& scale = recorder_.scale();
+    const auto encode = [&](double bound) { return scale.encode(outward(bound)); };
     for (int f = 0; f < floor.size; ++f)
-      codes[f] = {scale.encode(withoutRounding(filled.errors[f])), scale.encode(outward(bounds[f].below)),
-                  scale.encode(outward(bounds[f].above))};
-    std::array<std::uint32_t, kMaxHoleCorners> ceiling, bearer;
-    std::array<Vec3, kMaxHoleCorners + 1> positions;
+      codes[f] = {scale.encode(withoutRounding(filled.errors[f])), encode(filled.bounds[f].below),
+                  encode(filled.bounds[f].above)};
+    // The bounds of the star's triangles hold for their edges: most often the rim adds nothing to those of
+    // the floor, and need not be looked at.
+    for (int i = 0; i < corners; ++i) {
+      FloorCodes& own = codes[joins.rim[i].triangle];
+      if (i < star.triangleCount) {
+        const FloorCodes beside = recorder_.codes(mesh_.triangles[star.triangle(i)].birth);
+        if ((beside.below <= own.below) & (beside.above <= own.above)) continue;
+      }
+      const SignedBound bound = hole.alongEdge(i, i + 1 < corners ? i + 1 : 0);
+      own.below = std::max(own.below, encode(bound.below));
+      own.above = std::max(own.above, encode(bound.above));
+    }
+
     for (int i = 0; i < star.triangleCount; ++i) {
       ceiling[i] = mesh_.triangles[star.triangle(i)].birth;
       bearer[i] = mesh_.triangles[star.triangle(i)].bearer;
     }
-    const auto metricPosition = [&](std::uint32_t u) {
-      const Vec2 p = plan_.planPosition(u);
-      return metric_.toMetric({p.x, p.y, errors_.height(u)});
-    };
-    for (int i = 0; i < corners; ++i) positions[i] = metricPosition(star.link[i]);
-    positions[corners] = metricPosition(v);
+    for (int i = 0; i < corners; ++i) positions[i] = metric_.toMetric(hole.position(i));
+    positions[corners] = metric_.toMetric(hole.apexPosition());
 
     const auto size = [](int n) { return static_cast<std::size_t>(n); };
     VertexRemoval what;
@@ -424,17 +437,19 @@ class Simplifier {
     what.floor = {codes.data(), size(floor.size)};
     recorder_.record(removal, what);
 
-    refill(mesh_, star, floor, recorder_.firstBirth(removal), removal, seams);
+    refill(mesh_, star, floor, joins, recorder_.firstBirth(removal), removal, seams);
     hole.settle(floor);
 
-    // Two stars can share a link vertex: both write the same value.
+    // Two stars can share a link vertex: both write the same value. What a neighbour must forget cannot be
+    // foreseen, so it is told where to write instead of whether.
+    const bool isWitnessUnknown = options_.shape != HoleShape::delaunay || star.isOpen;
     for (int i = 0; i < corners; ++i) {
       VertexNote& note = notes_[star.link[i]];
+      const bool isWitnessGone = isWitnessUnknown | note.isWitnessedBy(v);
       std::atomic_ref(note.isTouched).store(1, std::memory_order_relaxed);
-      const bool isWitnessGone =
-          options_.shape != HoleShape::delaunay || star.isOpen || note.isWitnessedBy(v);
-      if (isWitnessGone) std::atomic_ref(note.isWitnessGone).store(1, std::memory_order_relaxed);
-      if (isWitnessGone || note.state == State::stuck) waiting_.wake(star.link[i]);
+      std::atomic_ref(isWitnessGone ? note.isWitnessGone : note.isTouched)
+          .store(1, std::memory_order_relaxed);
+      waiting_.wakeIf(isWitnessGone | (note.state == State::stuck), star.link[i]);
     }
     mesh_.vertexHalfedge[v] = kNone;
   }

@@ -42,7 +42,7 @@ struct VertexNote {
   }
   bool isWitnessedBy(std::uint32_t v) const {
     const std::uint32_t m = mark(v);
-    return (witness & 1023) == m || ((witness >> 10) & 1023) == m || ((witness >> 20) & 1023) == m;
+    return ((witness & 1023) == m) | (((witness >> 10) & 1023) == m) | (((witness >> 20) & 1023) == m);
   }
 
  private:

@@ -32,17 +32,20 @@ class WaitingList {
   void collect(double threshold, std::vector<std::uint32_t>& due);
 
   /// When v is due: a threshold, kNow or kNever. Safe for different vertices at once. Of one that is not in
-  /// the list, or has gone, nothing is noted, here and in wake().
+  /// the list, or has gone, nothing is noted, here and in wakeIf().
   void set(std::uint32_t v, float threshold) { dueAt_[place_[v]] = threshold; }
-  /// Makes v due now. Safe for the same vertex at once, not beside set() of the same.
-  void wake(std::uint32_t v) { std::atomic_ref(dueAt_[place_[v]]).store(kNow, std::memory_order_relaxed); }
+  /// Makes v due now, if so told: callers cannot foresee it, and no branch is needed. Safe for the same
+  /// vertex at once, not beside set() of the same.
+  void wakeIf(bool isDue, std::uint32_t v) {
+    std::atomic_ref(dueAt_[isDue ? place_[v] : kNobody]).store(kNow, std::memory_order_relaxed);
+  }
   /// These have gone. O(gone).
   void remove(std::span<const std::uint32_t> gone);
 
   /// The least threshold of all, kNever where none will come. O(size).
   float least() const;
 
-  /// Asks for what set() and wake() read.
+  /// Asks for what set() and wakeIf() read.
   [[gnu::always_inline]] void prefetch(std::uint32_t v) const { __builtin_prefetch(&place_[v]); }
 
  private:

@@ -42,7 +42,7 @@ TEST(WaitingList, FindsWhoIsDueInOrderHoweverManyHaveGone) {
 
     WaitingList list;
     list.assign(ledger.order, kVertices);
-    for (std::uint32_t v = 0; v < kVertices; ++v) list.wake(v);  // some of whom are not in the list
+    for (std::uint32_t v = 0; v < kVertices; ++v) list.wakeIf(true, v);  // some of whom are not in the list
     std::vector<std::uint32_t> due;
     list.collect(0, due);
     EXPECT_EQ(due, ledger.order) << "all are due at first";
@@ -68,7 +68,7 @@ TEST(WaitingList, FindsWhoIsDueInOrderHoweverManyHaveGone) {
       list.remove(gone);
       for (const std::uint32_t v : ledger.order)
         if (random() % 32 == 0) {  // those that have gone stay away
-          list.wake(v);
+          list.wakeIf(true, v);
           if (ledger.dueAt.count(v) != 0) ledger.dueAt[v] = WaitingList::kNow;
         }
       ASSERT_EQ(list.size(), ledger.dueAt.size());
