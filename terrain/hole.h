@@ -26,8 +26,6 @@ template <class F>
       return f(std::integral_constant<int, 6>());
     case 7:
       return f(std::integral_constant<int, 7>());
-    case 8:
-      return f(std::integral_constant<int, 8>());
     default:
       return f(std::integral_constant<int, 0>());
   }
