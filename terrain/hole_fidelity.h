@@ -94,43 +94,10 @@ class FidelitySearch {
   /// O(corners^3), one error each at most (but for those that are asked for again).
   template <class ErrorOf>
   HoleTriangulation shortest(double limit, const ErrorOf& errorOf) {
-    return withCorners(corners_, [&](auto known) { return shortestOf<known>(limit, errorOf); });
+    return withCorners(corners_, [&](auto known) { return shortestWithin<known>(limit, errorOf); });
   }
 
  private:
-  template <int kCorners, class ErrorOf>
-  HoleTriangulation shortestOf(double limit, const ErrorOf& errorOf) {
-    const int corners = this->corners<kCorners>();
-    findCrosses<kCorners>();
-    // Bit m of i, j: the triangle of these three corners, i < m < j, may be used; keeps the limit.
-    Masks allowed, kept;
-    for (int i = 0; i < corners; ++i)
-      for (int j = i + 2; j < corners; ++j) {
-        std::uint64_t mask = 0;
-        for (int m = i + 1; m < j; ++m) mask |= std::uint64_t{isAdmitted(i, m, j, limit)} << m;
-        allowed[i][j] = mask;
-        kept[i][j] = 0;
-      }
-    const auto check = [&](int i, int m, int j) {
-      if (kept[i][j] == bit(m)) return true;
-      const bool isKept = errorOf(i, m, j) <= limit;
-      kept[i][j] = isKept ? bit(m) : 0;
-      if (!isKept) allowed[i][j] &= ~bit(m);
-      return isKept;
-    };
-    for (int round = 0;; ++round) {
-      const HoleTriangulation found = shortestOf<kCorners>(allowed);
-      bool isKept = true;
-      for (const auto& t : found.view()) isKept = check(t[0], t[1], t[2]) && isKept;
-      if (isKept) return found;
-      if (round < kRounds) continue;
-      for (int i = 0; i < corners; ++i)
-        for (int j = i + 2; j < corners; ++j)
-          for (int m = i + 1; m < j; ++m)
-            if (allowed[i][j] & bit(m)) check(i, m, j);
-    }
-  }
-
   using Masks = std::array<std::array<std::uint64_t, kMaxHoleCorners>, kMaxHoleCorners>;
 
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -292,6 +259,40 @@ class FidelitySearch {
       best = std::min(best, mine);
     }
     return best;
+  }
+
+  /// See shortest().
+  template <int kCorners, class ErrorOf>
+  HoleTriangulation shortestWithin(double limit, const ErrorOf& errorOf) {
+    const int corners = this->corners<kCorners>();
+    findCrosses<kCorners>();
+    // Bit m of i, j: the triangle of these three corners, i < m < j, may be used; keeps the limit.
+    Masks allowed, kept;
+    for (int i = 0; i < corners; ++i)
+      for (int j = i + 2; j < corners; ++j) {
+        std::uint64_t mask = 0;
+        for (int m = i + 1; m < j; ++m) mask |= std::uint64_t{isAdmitted(i, m, j, limit)} << m;
+        allowed[i][j] = mask;
+        kept[i][j] = 0;
+      }
+    const auto check = [&](int i, int m, int j) {
+      if (kept[i][j] == bit(m)) return true;
+      const bool isKept = errorOf(i, m, j) <= limit;
+      kept[i][j] = isKept ? bit(m) : 0;
+      if (!isKept) allowed[i][j] &= ~bit(m);
+      return isKept;
+    };
+    for (int round = 0;; ++round) {
+      const HoleTriangulation found = shortestOf<kCorners>(allowed);
+      bool isKept = true;
+      for (const auto& t : found.view()) isKept = check(t[0], t[1], t[2]) && isKept;
+      if (isKept) return found;
+      if (round < kRounds) continue;
+      for (int i = 0; i < corners; ++i)
+        for (int j = i + 2; j < corners; ++j)
+          for (int m = i + 1; m < j; ++m)
+            if (allowed[i][j] & bit(m)) check(i, m, j);
+    }
   }
 
   /// Of the allowed triangles. Empty when there is none.
