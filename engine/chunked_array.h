@@ -12,7 +12,8 @@
 namespace arete {
 
 /// An array that grows without moving what it holds and without a doubled peak: blocks of 2^18 elements.
-/// Elements are uninitialised until written. Different elements may be written by different threads.
+/// Elements are uninitialised until written. Different elements may be written by different threads, also
+/// while another grows the array, within what was reserved; who reads must know of the growth.
 ///
 /// Blocks are pages of the system's (engine/pages.h): a build frees one such array to make room for the next.
 template <class T>
@@ -21,6 +22,8 @@ class ChunkedArray {
 
  public:
   std::size_t size() const { return size_; }
+  /// How far it may grow while others use it. Takes no memory for elements.
+  void reserve(std::size_t size) { blocks_.reserve((size + kBlock - 1) / kBlock); }
   void resize(std::size_t size) {
     while (blocks_.size() * kBlock < size) blocks_.push_back(takeBlock());
     size_ = size;

@@ -6,7 +6,8 @@
 // children's, the sphere grows to enclose the children's.
 //
 // finish() renumbers. Nodes: by falling band of saturated error, and within a band the later removal first,
-// so that parents come before children (a parent is removed later and is at least as saturated). The removals
+// so that parents come before children (a parent is removed later and is at least as saturated). Later is
+// what the batches' order says: threads announce them as it happens. The removals
 // of a batch are listed in the order of memory, which follows the ground; so do the nodes of one batch and
 // band. A counting sort over the bands does it in O(N). Vertices: the root's, then one per node. Triangles:
 // the root's, then the slots of the nodes in order. Passes copy the spheres, the links and the ceilings, the
@@ -22,6 +23,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <ranges>
 
 #include "engine/enclosing_ball.h"
 
@@ -56,17 +58,29 @@ void forRange(std::size_t size, const Body& body) {
 
 }  // namespace
 
-MtRecorder::MtRecorder(std::uint32_t finestTriangles, OutwardScale scale, MetricFrame metric)
+MtRecorder::MtRecorder(std::uint32_t finestTriangles, std::uint32_t mostRemovals, OutwardScale scale,
+                       MetricFrame metric)
     : finestTriangles_(finestTriangles), scale_(scale), metric_(metric) {
+  constexpr std::size_t kMostSlots = 255;  // of a removal
+  const std::size_t removals = mostRemovals;
+  slotBegin_.reserve(removals + 1);
+  vertex_.reserve(removals);
+  saturated_.reserve(removals);
+  sphere_.reserve(removals);
+  link_.reserve(removals * kMostSlots);
+  ceiling_.reserve(removals * kMostSlots);
+  floor_.reserve(removals * kMostSlots);
   slotBegin_.resize(1);
   slotBegin_[0] = 0;
 }
 
-std::uint32_t MtRecorder::beginBatch(std::span<const std::uint8_t> linkSizes) {
+std::uint32_t MtRecorder::beginBatch(BatchOrder order, std::span<const std::uint8_t> linkSizes) {
+  const std::lock_guard lock(growing_);
   const std::uint32_t first = removals_;
   const std::size_t count = linkSizes.size();
   slotBegin_.resize(removals_ + count + 1);
   for (std::size_t i = 0; i < count; ++i) slotBegin_[first + i + 1] = slotBegin_[first + i] + linkSizes[i];
+  batches_.push_back({order, first, static_cast<std::uint32_t>(count)});
   removals_ += static_cast<std::uint32_t>(count);
   vertex_.resize(removals_);
   saturated_.resize(removals_);
@@ -127,7 +141,12 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
     std::array<std::uint32_t, MultiTriangulation::kBands + 1> begin{};
     for (std::uint32_t r = 0; r < nodes; ++r) ++begin[place(r) + 1];
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    for (std::uint32_t r = nodes; r-- > 0;) removalOf[begin[place(r)]++] = r;
+    std::ranges::stable_sort(batches_, {}, &Batch::order);
+    for (const Batch& batch : std::views::reverse(batches_))
+      for (std::uint32_t i = batch.size; i-- > 0;) {
+        const std::uint32_t r = batch.first + i;
+        removalOf[begin[place(r)]++] = r;
+      }
   }
 
   vertexOrder.resize(std::size_t(rootVertexCount) + nodes);
@@ -276,6 +295,7 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   a.scale = scale_;
   a.metric = metric_;
   slotBegin_.clear();
+  batches_.clear();
   removals_ = 0;
   return MultiTriangulation(a, owned);
 }

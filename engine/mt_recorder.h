@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -43,8 +45,9 @@ struct SurvivingTriangle {
 /// Records vertex removals from the finest triangulation down and turns them into a finished
 /// multitriangulation.
 ///
-/// Removals come in batches (levels). The removals of a batch may be recorded in any order and by any
-/// threads; the result depends only on the order in which the batch lists them. Births: the finest
+/// Removals come in batches (levels of a piece of the ground), announced by any thread; the removals of a
+/// batch may be recorded in any order and by any threads. The result depends only on how the batches follow
+/// each other by their BatchOrder, and on the order in which each lists its removals. Births: the finest
 /// triangulation's triangles are 0 .. F-1, each removal bears link.size() - 2 more.
 ///
 /// Memory: about 95 bytes per removal while recording, about 190 at most while finishing, the result of
@@ -53,18 +56,29 @@ class MtRecorder {
  public:
   static constexpr std::uint32_t kNone = MultiTriangulation::kNone;
 
-  MtRecorder(std::uint32_t finestTriangles, OutwardScale scale, MetricFrame metric);
+  /// Where a batch stands among the others: by its group, then by its part, and among those of the same part
+  /// as they were announced, which is one after the other. The removals that bore a batch's ceilings are of
+  /// earlier batches.
+  struct BatchOrder {
+    std::uint32_t group = 0, part = 0;
+    auto operator<=>(const BatchOrder&) const = default;
+  };
+
+  /// mostRemovals: no more will come.
+  MtRecorder(std::uint32_t finestTriangles, std::uint32_t mostRemovals, OutwardScale scale,
+             MetricFrame metric);
 
   const OutwardScale& scale() const { return scale_; }
-  std::uint32_t removalCount() const { return removals_; }
 
-  /// Announces the next removals, by the sizes of their links, in order. Returns the index of the first.
-  std::uint32_t beginBatch(std::span<const std::uint8_t> linkSizes);
+  /// Announces removals, by the sizes of their links, in order. Returns the index of the first; the others
+  /// follow. Thread-safe.
+  std::uint32_t beginBatch(BatchOrder order, std::span<const std::uint8_t> linkSizes);
   /// The birth id of the first floor triangle of a removal.
   std::uint32_t firstBirth(std::uint32_t removal) const {
     return finestTriangles_ + slotBegin_[removal] - 2 * removal;
   }
-  /// How many slots, one for each vertex of a link, come before those of a removal; of all: removalCount().
+  /// How many slots, one for each vertex of a link, come before those of a removal, also of the one after
+  /// the last of a batch.
   std::uint32_t firstSlot(std::uint32_t removal) const { return slotBegin_[removal]; }
   /// What was recorded of a triangle; of the finest triangulation's, zeros. The removal that bore it is of an
   /// earlier batch.
@@ -95,6 +109,13 @@ class MtRecorder {
   std::uint32_t finestTriangles_;
   OutwardScale scale_;
   MetricFrame metric_;
+
+  struct Batch {
+    BatchOrder order;
+    std::uint32_t first, size;
+  };
+  std::mutex growing_;  // held by who adds to what follows
+  std::vector<Batch> batches_;
   std::uint32_t removals_ = 0;
 
   ChunkedArray<std::uint32_t> slotBegin_;  // per removal, and the end

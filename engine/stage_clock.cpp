@@ -18,18 +18,42 @@ void StageClock::settle() {
   last_ = now;
 }
 
+StageTime& StageClock::timeOf(std::string_view stage) {
+  const auto known =
+      std::find_if(times_.begin(), times_.end(), [&](const StageTime& time) { return time.stage == stage; });
+  return known != times_.end() ? *known : times_.emplace_back(StageTime{std::string(stage)});
+}
+
 void StageClock::enter(std::string_view stage) {
   settle();
-  auto known =
-      std::find_if(times_.begin(), times_.end(), [&](const StageTime& time) { return time.stage == stage; });
-  if (known == times_.end()) known = times_.insert(times_.end(), StageTime{std::string(stage)});
-  ++known->times;
-  open_.push_back(static_cast<std::size_t>(known - times_.begin()));
+  StageTime& time = timeOf(stage);
+  ++time.times;
+  open_.push_back(static_cast<std::size_t>(&time - times_.data()));
 }
 
 void StageClock::leave() {
   settle();
   open_.pop_back();
+}
+
+void StageClock::shareOut(std::span<StageClock* const> workers) {
+  const Moment now;
+  const double seconds = std::chrono::duration<double>(now.wall - last_.wall).count(),
+               cpuSeconds = double(now.cpu - last_.cpu) / CLOCKS_PER_SEC;
+  double total = 0;
+  for (const StageClock* worker : workers)
+    for (const StageTime& time : worker->times_) total += time.seconds;
+  if (!(total > 0)) return;
+  for (StageClock* worker : workers) {
+    for (const StageTime& time : worker->times_) {
+      StageTime& own = timeOf(time.stage);
+      own.seconds += seconds * time.seconds / total;
+      own.cpuSeconds += cpuSeconds * time.seconds / total;
+      own.times += time.times;
+    }
+    worker->times_.clear();
+  }
+  last_ = now;
 }
 
 }  // namespace arete

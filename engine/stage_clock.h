@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <ctime>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,10 @@ class StageClock {
     StageClock* clock_;
   };
 
+  /// What has passed since a scope was last opened or closed is credited to the stages of `workers` clocks,
+  /// in proportion: each worker's tells what one of the threads did meanwhile. They are emptied.
+  void shareOut(std::span<StageClock* const> workers);
+
   /// The stages in the order in which they were first entered. Precondition: no scope is open.
   const std::vector<StageTime>& times() const { return times_; }
 
@@ -51,6 +56,7 @@ class StageClock {
     std::clock_t cpu = std::clock();
   };
 
+  StageTime& timeOf(std::string_view stage);
   void enter(std::string_view stage);
   void leave();
   /// Credits what passed since `last_` to the innermost open stage.

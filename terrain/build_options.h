@@ -13,6 +13,14 @@ enum class HoleShape {
   fidelity,  ///< the least vertical error; far fewer triangles at the same bound
 };
 
+/// How a large build divides the ground (simplify.h). What comes out depends on it, but little, and keeps
+/// every promise either way; a model does not remember it.
+struct PieceOptions {
+  std::uint32_t vertices = 1 << 14;  ///< of a piece; what belongs to them takes about 2 MB. > 0
+  std::uint32_t levels = 6;          ///< that a piece goes through by itself
+  std::uint32_t fewest = 8;          ///< fewer pieces are not made: all threads work together then. > 0
+};
+
 /// Options of a build. The defaults are what the figures in docs/performance.md are measured with.
 struct BuildOptions {
   HoleShape shape = HoleShape::delaunay;
@@ -30,6 +38,8 @@ struct BuildOptions {
   /// Rasters with NODATA: a reflex vertex of a rim may go when the domain then reaches at most this far, in
   /// samples, over NODATA, measured from the original rim. 0 keeps the rims exactly.
   double rimTolerance = 0;
+
+  PieceOptions pieces{};
 
   /// Vertices (sample or point indices) that stay in the root, beside the domain's corners.
   std::vector<std::uint32_t> fixedVertices{};

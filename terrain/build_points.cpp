@@ -77,14 +77,15 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
   model.metricQ = stretch >= 1 ? 1 : static_cast<std::uint32_t>(1 / stretch);
 
   const PointPlan plan(field.positions, stretch);
-  MtRecorder recorder(finestCount, OutwardScale(*high - *low), metric);
+  MtRecorder recorder(finestCount, pointCount, OutwardScale(*high - *low), metric);
   SimplifiedRoot root;
   stage.emplace(context.clock, "simplify");
   {
     PointError errors(plan, field.heights, mesh);
-    Simplifier<PointPlan, PointError> simplifier(mesh, plan, errors, recorder, nullptr, options, context);
-    simplifier.setDomain(*low, *high, true);
-    Result<SimplifiedRoot> simplified = simplifier.run(isFixed, metric);
+    SimplifyState<PointPlan, PointError> state{
+        mesh, plan, errors, recorder, nullptr, options, metric, *high - *low, roundingSlack(*low, *high),
+        true};
+    Result<SimplifiedRoot> simplified = Simplifier(state, context).run(isFixed);
     if (!simplified) return tl::unexpected(simplified.error());
     root = std::move(*simplified);
   }

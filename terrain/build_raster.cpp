@@ -116,17 +116,17 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
 
   const LatticePlan plan(field.columns, ratio.p, ratio.q);
   RasterError errors(plan, field.heights, options.rimTolerance > 0);
-  MtRecorder recorder(finestCount, OutwardScale(high - low), metric);
+  MtRecorder recorder(finestCount, sampleCount, OutwardScale(high - low), metric);
   std::unique_ptr<Rim> rim;
   if (options.rimTolerance > 0) rim = std::make_unique<Rim>(mesh, plan, options.rimTolerance);
 
   SimplifiedRoot root;
   stage.emplace(context.clock, "simplify");
   {
-    Simplifier<LatticePlan, RasterError> simplifier(mesh, plan, errors, recorder, rim.get(), options,
-                                                    context);
-    simplifier.setDomain(low, high, !hasNodata);
-    Result<SimplifiedRoot> simplified = simplifier.run(isFixed, metric);
+    SimplifyState<LatticePlan, RasterError> state{
+        mesh,      plan, errors, recorder, rim.get(), options, metric, high - low, roundingSlack(low, high),
+        !hasNodata};
+    Result<SimplifiedRoot> simplified = Simplifier(state, context).run(isFixed);
     if (!simplified) return tl::unexpected(simplified.error());
     root = std::move(*simplified);
   }

@@ -86,7 +86,7 @@ SlotMap LiveMesh::compact() {
   return newSlot;
 }
 
-std::vector<std::uint32_t> LiveMesh::verticesInOrder(std::span<const std::uint8_t> isLeftOut) const {
+std::vector<std::uint32_t> LiveMesh::verticesInOrder() const {
   constexpr std::size_t kChunk = 1 << 14;
   const std::size_t size = triangles.size(), chunks = (size + kChunk - 1) / kChunk;
   std::vector<std::vector<std::uint32_t>> ofChunk(chunks);
@@ -95,8 +95,7 @@ std::vector<std::uint32_t> LiveMesh::verticesInOrder(std::span<const std::uint8_
       if (triangles[t].isDead()) continue;
       for (std::uint32_t side = 0; side < 3; ++side) {
         const std::uint32_t v = triangles[t].corners[side];
-        if (vertexHalfedge[v] == halfedge(static_cast<std::uint32_t>(t), side) && isLeftOut[v] == 0)
-          ofChunk[c].push_back(v);
+        if (vertexHalfedge[v] == halfedge(static_cast<std::uint32_t>(t), side)) ofChunk[c].push_back(v);
       }
     }
   });

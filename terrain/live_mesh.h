@@ -48,9 +48,8 @@ struct LiveMesh {
   /// vertices), parallel.
   SlotMap compact();
 
-  /// The vertices that are in a triangle but not left out, by their half-edges. `isLeftOut`: per vertex, not
-  /// 0 = yes. O(slots), parallel.
-  std::vector<std::uint32_t> verticesInOrder(std::span<const std::uint8_t> isLeftOut) const;
+  /// The vertices that are in a triangle, by their half-edges. O(slots), parallel.
+  std::vector<std::uint32_t> verticesInOrder() const;
 
   static constexpr std::uint32_t kMostTriangles = (kNone >> 2) - 1;  ///< that half-edges can name
 

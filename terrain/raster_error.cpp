@@ -4,7 +4,8 @@
 // (small_triangles.h). In a larger one the lines through the three edges bound a row, each from its side; a
 // bound is rounded to the sample next to it inside, so that the samples exactly on an edge are always
 // counted. Triangles come in all shapes, one after the other: branches that ask for their shape cost more
-// than the arithmetic that does without.
+// than the arithmetic that does without. A wide one is looked at by blocks of 8 x 8 samples: most of them
+// keep so close to a plane (height_blocks.h) that none of their samples can be the one that differs most.
 //
 // The difference between a triangle and the finest triangulation is linear on every piece of the overlay of
 // the two, so its extremes lie at the overlay's vertices: samples inside the triangle, its corners (where it
@@ -20,6 +21,9 @@
 
 namespace arete {
 namespace {
+
+/// From so many rows on a triangle is looked at by blocks of samples.
+constexpr double kFewWideRows = 16;
 
 /// Two doubles that are worked on at once.
 using Two = double __attribute__((vector_size(16)));
@@ -66,6 +70,8 @@ struct LargestDifference {
     found = size > found ? size : found;  // false for NODATA
   }
   bool isEnough() const { return largest(found) > limit; }
+  /// Whether one between the two could change it.
+  bool isChangedBy(double low, double high) const { return std::fmax(high, -low) > largest(found); }
 };
 
 /// The largest of some differences either way.
@@ -76,6 +82,7 @@ struct SignedDifferences {
     below = difference < below ? difference : below;
   }
   static bool isEnough() { return false; }
+  bool isChangedBy(double low, double high) const { return high > largest(above) || low < smallest(below); }
 };
 
 }  // namespace
@@ -143,11 +150,11 @@ template <class Differences>
     }
   };
 
-  const auto& rows = small_.rows(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
-  if (rows.count >= 0) {
-    for (int k = 0; k < rows.count; ++k) {
-      const int y = rows.top + k, left = rows.left[k];
-      compareFew(planeAt(left, y), firstFour, origin + (y * columns + left), rows.size[k]);
+  const auto& few = small_.rows(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
+  if (few.count >= 0) {
+    for (int k = 0; k < few.count; ++k) {
+      const int y = few.top + k, left = few.left[k];
+      compareFew(planeAt(left, y), firstFour, origin + (y * columns + left), few.size[k]);
       if (differences.isEnough()) return;
     }
     return;
@@ -171,15 +178,17 @@ template <class Differences>
   const Two bottom = larger(larger(rise, swapped(rise)), both(0)),
             top = smaller(smaller(rise, swapped(rise)), both(0)),
             middle = rise + swapped(rise) - top - bottom;
-  const double last = larger(bottom - both(1), middle)[0];
-  for (double y = smaller(top + both(1), middle)[0]; y <= last; y += 1) {
+  const double first = smaller(top + both(1), middle)[0], last = larger(bottom - both(1), middle)[0];
+  /// Columns of a row: the first one, and how many.
+  const auto columnsOf = [&](double y) __attribute__((always_inline)) {
     const Two row = both(y);
     const Two bounds =
         nearest(larger(larger(startAB + slopeAB * row, startBC + slopeBC * row), startCA + slopeCA * row) +
                 both(roundUp_)) +
         (row == middle ? besideMiddle : both(0));
-    const double left = bounds[0];
-    double count = 1 - left - bounds[1];
+    return Two{bounds[0], 1 - bounds[0] - bounds[1]};
+  };
+  const auto compareRow = [&](double y, double left, double count) __attribute__((always_inline)) {
     const Two z = planeAt(left, y);
     const double* heights = origin + static_cast<std::ptrdiff_t>(y * double(columns) + left);
     Two x[2] = {firstFour[0], firstFour[1]};
@@ -189,7 +198,58 @@ template <class Differences>
         x[k] += both(4);
       }
     compareFew(z, x, heights, count);
-    if (differences.isEnough()) return;
+  };
+  if (last - first < kFewWideRows) {
+    for (double y = first; y <= last; y += 1) {
+      const Two row = columnsOf(y);
+      compareRow(y, row[0], row[1]);
+      if (differences.isEnough()) return;
+    }
+    return;
+  }
+
+  // A wide triangle: one row of blocks after the other.
+  constexpr int kSide = HeightBlocks::kSide;
+  constexpr double kMiddle = (kSide - 1) / 2.0, kRounding = 0x1p-46;
+  const auto extent = [](std::int32_t i, std::int32_t j, std::int32_t k) {
+    return double(std::max({i, j, k}) - std::min({i, j, k}) + kSide);
+  };
+  const double magnitude =
+      std::abs(a.z) + std::abs(stepX) * extent(a.x, b.x, c.x) + std::abs(stepY) * extent(a.y, b.y, c.y);
+  for (double y = first; y <= last;) {
+    const int blockRow = (a.y + static_cast<int>(y)) >> HeightBlocks::kShift;
+    const double blockTop = blockRow * kSide - a.y, end = std::fmin(last + 1, blockTop + kSide);
+    std::array<Two, kSide> rows;
+    double left = kFar, right = -kFar;
+    int count = 0;
+    for (double row = y; row < end; row += 1, ++count) {
+      const Two columnsOfRow = rows[count] = columnsOf(row);
+      if (columnsOfRow[1] <= 0) continue;
+      left = std::fmin(left, columnsOfRow[0]);
+      right = std::fmax(right, columnsOfRow[0] + columnsOfRow[1] - 1);
+    }
+    if (left <= right) {
+      const int lastBlock = (a.x + static_cast<int>(right)) >> HeightBlocks::kShift;
+      for (int i = (a.x + static_cast<int>(left)) >> HeightBlocks::kShift; i <= lastBlock; ++i) {
+        // What the differences of the block's samples lie between.
+        const HeightBlocks::Block& block =
+            blocks_.at(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(blockRow));
+        const double blockLeft = i * kSide - a.x, blockHeight = double(block.middle);
+        const double there = planeAt(blockLeft + kMiddle, blockTop + kMiddle)[0] - blockHeight;
+        const double reach =
+            kMiddle * (std::abs(stepX - double(block.slopeX)) + std::abs(stepY - double(block.slopeY))) +
+            kRounding * (magnitude + std::abs(blockHeight));
+        if (!differences.isChangedBy(there - reach - double(block.high), there + reach - double(block.low)))
+          continue;
+        for (int k = 0; k < count; ++k) {
+          const double from = std::fmax(rows[k][0], blockLeft),
+                       to = std::fmin(rows[k][0] + rows[k][1], blockLeft + kSide);
+          if (from < to) compareRow(y + k, from, to - from);
+        }
+      }
+      if (differences.isEnough()) return;
+    }
+    y = end;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "terrain/height_blocks.h"
 #include "terrain/lattice_plan.h"
 #include "terrain/live_mesh.h"
 #include "terrain/signed_bound.h"
@@ -125,7 +126,8 @@ class RasterError {
         heights_(heights),
         rows_(static_cast<std::uint32_t>(heights.size() / plan.columns())),
         reachesBeyondRims_(reachesBeyondRims),
-        roundUp_(0.5 - 0.5 / rows_) {
+        roundUp_(0.5 - 0.5 / rows_),
+        blocks_(heights, plan.columns()) {
     // Differences below 2 s f, f the larger of p and q, make a dot and a cross below 8 (s f)^2: the product
     // of the two must stay below 2^63.
     const double f = std::max(plan.p(), plan.q());
@@ -197,8 +199,9 @@ class RasterError {
   /// The live mesh has moved its triangles: nothing here hangs on them.
   void compact(const SlotMap&) {}
 
-  /// max |z - plane| over the samples covered; gives up at the first row beyond the limit and returns a value
-  /// > limit. Precondition: a, b, c counter-clockwise. O(samples covered + rows).
+  /// max |z - plane| over the samples covered; gives up soon beyond the limit and returns a value > limit.
+  /// Precondition: a, b, c counter-clockwise. O(samples covered + rows); of a wide triangle most often
+  /// O(rows + samples / 64).
   double maximum(const Corner& a, const Corner& b, const Corner& c, double limit) const;
 
   /// The same error without a limit, and the signed difference over the covered samples.
@@ -219,6 +222,7 @@ class RasterError {
   std::uint32_t rows_;
   bool reachesBeyondRims_;
   double roundUp_;  // to the next whole number, as nearest number to the sum: of fractions of a rise in rows
+  HeightBlocks blocks_;
   const SmallTriangles& small_ = SmallTriangles::all();
   std::uint32_t smallSpread_ = 1;  // a power of two: spreads below it keep Hole::third() in 64 bits
 };

@@ -12,7 +12,8 @@ struct VertexNote {
     stale,    ///< nothing is known of its star
     atLeast,  ///< removing it costs at least `cost`
     exact,    ///< removing it costs `cost`
-    stuck,    ///< it cannot go, whatever it costs
+    stuck,    ///< it cannot go, whatever it costs, as its star stands
+    fixed,    ///< it stays
   };
 
   float cost = 0;

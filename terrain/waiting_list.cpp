@@ -4,9 +4,6 @@
 // outcome of the comparison, without a branch.
 #include "terrain/waiting_list.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
 namespace arete {
@@ -16,21 +13,27 @@ constexpr std::size_t kChunk = 1 << 14;
 
 }  // namespace
 
-void WaitingList::assign(std::vector<std::uint32_t> vertices, std::uint32_t vertexCount) {
+void WaitingList::assign(std::vector<std::uint32_t> vertices, std::span<const std::uint8_t> isStaying) {
   vertices_ = std::move(vertices);
-  living_ = vertices_.size();
   vertices_.insert(vertices_.begin(), kGone);
   dueAt_.assign(vertices_.size(), kNow);
-  place_.assign(vertexCount, kNobody);
-  for (std::uint32_t place = kNobody + 1; place < vertices_.size(); ++place) place_[vertices_[place]] = place;
+  place_.assign(isStaying.size(), kNobody);
+  staying_ = 0;
+  for (std::uint32_t place = kNobody + 1; place < vertices_.size(); ++place) {
+    const std::uint32_t v = vertices_[place];
+    place_[v] = place;
+    if (isStaying[v] == 0) continue;
+    dueAt_[place] = kNever;
+    ++staying_;
+  }
+  waiting_ = vertices_.size() - 1 - staying_;
 }
 
-void WaitingList::collect(double threshold, std::vector<std::uint32_t>& due) {
-  if (living_ + 1 < vertices_.size() / 2) forgetGone();
-  const std::size_t first = kNobody + 1;
-  filter_(vertices_.size() - first, kChunk, due, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
-    const float* dueAt = dueAt_.data() + first;
-    const std::uint32_t* vertex = vertices_.data() + first;
+void WaitingList::collect(Piece piece, double threshold, std::vector<std::uint32_t>& due, Space& space,
+                          LoopThreads threads) const {
+  const float* const dueAt = dueAt_.data() + piece.begin;
+  const std::uint32_t* const vertex = vertices_.data() + piece.begin;
+  space(threads, piece.size(), kChunk, due, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
     for (std::size_t i = begin; i < end; ++i) {
       *to = vertex[i];
       to += dueAt[i] <= threshold ? 1 : 0;
@@ -39,16 +42,33 @@ void WaitingList::collect(double threshold, std::vector<std::uint32_t>& due) {
   });
 }
 
-void WaitingList::remove(std::span<const std::uint32_t> gone) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, gone.size(), 1024), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      std::uint32_t& place = place_[gone[i]];
+void WaitingList::collect(std::span<const std::uint32_t> some, double threshold,
+                          std::vector<std::uint32_t>& due, Space& space) const {
+  space(LoopThreads::all, some.size(), kChunk, due,
+        [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+          for (const std::uint32_t v : some.subspan(begin, end - begin)) {
+            *to = v;
+            to += place_[v] != kNobody && dueAt_[place_[v]] <= threshold ? 1 : 0;
+          }
+          return to;
+        });
+}
+
+void WaitingList::remove(std::span<const std::uint32_t> gone, LoopThreads threads) {
+  forRanges(threads, gone.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (const std::uint32_t v : gone.subspan(begin, end - begin)) {
+      std::uint32_t& place = place_[v];
       dueAt_[place] = kNever;
       vertices_[place] = kGone;
       place = kNobody;
     }
   });
-  living_ -= gone.size();
+  waiting_ -= gone.size();
+}
+
+void WaitingList::sort(std::vector<std::uint32_t>& vertices) const {
+  std::ranges::sort(vertices, {}, [&](std::uint32_t v) { return place_[v]; });
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }
 
 float WaitingList::least() const {
@@ -59,6 +79,7 @@ float WaitingList::least() const {
 }
 
 void WaitingList::forgetGone() {
+  if (waiting_ + staying_ + 1 >= vertices_.size() / 2) return;
   std::uint32_t kept = kNobody + 1;
   for (std::size_t i = kept; i < vertices_.size(); ++i) {
     if (vertices_[i] == kGone) continue;

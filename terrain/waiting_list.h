@@ -11,25 +11,46 @@
 
 namespace arete {
 
-/// The vertices that may still go, each with the threshold from which on a level concerns it.
+/// The vertices of a triangulation that shrinks, each with the threshold from which on a level concerns it.
 ///
 /// A level looks through all of them for the few that are due, so the thresholds lie side by side in the
-/// order of the look; a vertex finds its own by its place. One that has gone keeps its place, and is never
-/// due, until half of them have.
+/// order of the look, that of the ground; a vertex finds its own by its place. One that has gone keeps its
+/// place, and is never due, until forgetGone(). Those that stay for ever have a place as well, and are never
+/// due either.
 class WaitingList {
  public:
   static constexpr float kNow = 0, kNever = std::numeric_limits<float>::infinity();
 
-  /// `vertices`: in the order in which they shall be visited; all due now. vertexCount: they are below it.
-  void assign(std::vector<std::uint32_t> vertices, std::uint32_t vertexCount);
+  /// Places from `begin` to before `end`: a piece of the ground.
+  struct Piece {
+    std::uint32_t begin = 0, end = 0;
+    std::uint32_t size() const { return end - begin; }
+  };
 
-  /// How many have not gone.
-  std::size_t size() const { return living_; }
-  bool empty() const { return living_ == 0; }
+  /// What collect() works with: each thread that collects for itself has its own.
+  using Space = ParallelFilter<std::uint32_t>;
 
-  /// `due` receives, in order, those whose threshold has come. Forgets those that went, now and then.
-  /// O(size), parallel.
-  void collect(double threshold, std::vector<std::uint32_t>& due);
+  /// `vertices`: in the order in which they shall be visited, those that stay among them; the others are all
+  /// due now. isStaying: per vertex, not 0 = yes.
+  void assign(std::vector<std::uint32_t> vertices, std::span<const std::uint8_t> isStaying);
+
+  /// How many may still go.
+  std::size_t size() const { return waiting_; }
+  bool empty() const { return size() == 0; }
+
+  /// All places.
+  Piece everything() const { return {kNobody + 1, static_cast<std::uint32_t>(vertices_.size())}; }
+  /// Whether v, which has not gone, has its place in the piece.
+  bool isWithin(Piece piece, std::uint32_t v) const { return place_[v] - piece.begin < piece.size(); }
+  /// Forgets those that have gone if they are more than half: places change. O(size).
+  void forgetGone();
+
+  /// `due` receives, in order, those of the piece whose threshold has come. O(size of the piece).
+  void collect(Piece piece, double threshold, std::vector<std::uint32_t>& due, Space& space,
+               LoopThreads threads) const;
+  /// The same of `some`, none of whom has gone for longer than since the last forgetGone().
+  void collect(std::span<const std::uint32_t> some, double threshold, std::vector<std::uint32_t>& due,
+               Space& space) const;
 
   /// When v is due: a threshold, kNow or kNever. Safe for different vertices at once. Of one that is not in
   /// the list, or has gone, nothing is noted, here and in wakeIf().
@@ -41,8 +62,10 @@ class WaitingList {
     float nowhere = kNow;  // of this call: a place that all threads wrote to would hold them up
     std::atomic_ref(isDue ? dueAt : nowhere).store(kNow, std::memory_order_relaxed);
   }
-  /// These have gone. O(gone).
-  void remove(std::span<const std::uint32_t> gone);
+  /// These have gone. Safe for different vertices at once. O(gone).
+  void remove(std::span<const std::uint32_t> gone, LoopThreads threads);
+  /// Puts vertices, none of whom has gone, into the order of their places, each once.
+  void sort(std::vector<std::uint32_t>& vertices) const;
 
   /// The least threshold of all, kNever where none will come. O(size).
   float least() const;
@@ -51,15 +74,13 @@ class WaitingList {
   [[gnu::always_inline]] void prefetch(std::uint32_t v) const { __builtin_prefetch(&place_[v]); }
 
  private:
-  void forgetGone();
-
   static constexpr std::uint32_t kGone = 0xFFFFFFFF;
   static constexpr std::uint32_t kNobody = 0;  // the place of all who are not in the list; never looked at
   std::vector<std::uint32_t> vertices_;        // by place; kGone
   std::vector<float> dueAt_;                   // by place
   std::vector<std::uint32_t> place_;           // by vertex
-  ParallelFilter<std::uint32_t> filter_;
-  std::size_t living_ = 0;
+  std::atomic<std::size_t> waiting_ = 0;
+  std::size_t staying_ = 0;
 };
 
 }  // namespace arete

@@ -56,6 +56,37 @@ TEST(StageClock, DoesNotRunBetweenScopes) {
   EXPECT_LE(clock.times()[0].seconds, whole - 0.020);
 }
 
+TEST(StageClock, SharesWhatHasPassedAmongTheStagesThatWorkersTellOf) {
+  StageClock clock, one, other;
+  {
+    const StageClock::Scope outer(&clock, "outer");
+    {
+      const StageClock::Scope scope(&one, "evaluate");
+      pass(6);
+    }
+    {
+      const StageClock::Scope scope(&other, "evaluate");
+      pass(6);
+    }
+    {
+      const StageClock::Scope scope(&other, "remove");
+      pass(4);
+    }
+    const double evaluating = one.times()[0].seconds + other.times()[0].seconds,
+                 removing = other.times()[1].seconds;
+    StageClock* const workers[] = {&one, &other};
+    clock.shareOut(workers);
+    ASSERT_EQ(clock.times().size(), 3u);
+    EXPECT_EQ(clock.times()[1].stage, "evaluate");
+    EXPECT_EQ(clock.times()[1].times, 2u);
+    EXPECT_NEAR(clock.times()[1].seconds / clock.times()[2].seconds, evaluating / removing, 1e-9);
+    EXPECT_GE(clock.times()[1].seconds + clock.times()[2].seconds, 0.016);
+    EXPECT_TRUE(one.times().empty() && other.times().empty());
+    clock.shareOut(workers);  // of which nobody has done anything
+  }
+  EXPECT_LE(clock.times()[0].seconds, 0.010) << "what was shared out is no longer the outer stage's";
+}
+
 TEST(StageClock, IsOptional) {
   const StageClock::Scope scope(nullptr, "nobody listens");
 }

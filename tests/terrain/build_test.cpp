@@ -118,6 +118,41 @@ TEST(BuildRaster, GivesTheSameBytesForAnyNumberOfThreads) {
     }
 }
 
+/// So small that the smallest raster has several.
+BuildOptions withPieces(HoleShape shape, std::uint32_t vertices) {
+  BuildOptions options = withShape(shape);
+  options.pieces = {.vertices = vertices, .levels = 7, .fewest = 2};
+  return options;
+}
+
+TEST(BuildRaster, KeepsEveryLawByPiecesAndTheSameBytesForAnyNumberOfThreads) {
+  for (const RasterFamily& family : rasterFamilies())
+    for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity})
+      for (const std::uint32_t vertices : {20u, 300u}) {
+        const std::string name = std::string(family.name) + " " + std::to_string(vertices);
+        const RasterHeightfield field = family.make(90, 70, 12);
+        BuildOptions options = withPieces(shape, vertices);
+        for (std::uint32_t v = 0; v < field.size(); v += 41)
+          if (!std::isnan(field.heights[v])) options.fixedVertices.push_back(v);
+        RunContext context;
+        context.threads = 1;
+        auto one = build(field, options, context);
+        if (!one) {  // a fixed vertex that is in no triangle
+          options.fixedVertices.clear();
+          one = build(field, options, context);
+        }
+        ASSERT_TRUE(one) << name << ": " << one.error().describe();
+        const Status status = validateModel(*one);
+        EXPECT_TRUE(status) << name << ": " << status.error().describe();
+        for (const int threads : {2, 4}) {
+          context.threads = threads;
+          const auto many = build(field, options, context);
+          ASSERT_TRUE(many);
+          expectSameArrays(one->mt, many->mt, name + " " + std::to_string(threads));
+        }
+      }
+}
+
 TEST(BuildRaster, KeepsTheLawsWithARimToleranceAndNeverUncoversASample) {
   forEachRaster([](const RasterFamily&, const RasterHeightfield& field, const std::string& name) {
     for (const double tolerance : {0.5, 1.5, 4.0}) {
@@ -357,6 +392,25 @@ TEST(BuildPoints, GivesTheSameBytesForAnyNumberOfThreads) {
       expectSameArrays(one->mt, many->mt, std::string(family.name));
     }
   }
+}
+
+TEST(BuildPoints, KeepsEveryLawByPiecesAndTheSameBytesForAnyNumberOfThreads) {
+  for (const PointFamily& family : pointFamilies())
+    for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity}) {
+      const PointHeightfield field = family.make(3000, 5);
+      RunContext context;
+      context.threads = 1;
+      const auto one = build(field, withPieces(shape, 100), context);
+      ASSERT_TRUE(one) << family.name << ": " << one.error().describe();
+      const Status status = validateModel(*one);
+      EXPECT_TRUE(status) << family.name << ": " << status.error().describe();
+      for (const int threads : {2, 4}) {
+        context.threads = threads;
+        const auto many = build(field, withPieces(shape, 100), context);
+        ASSERT_TRUE(many);
+        expectSameArrays(one->mt, many->mt, std::string(family.name) + " " + std::to_string(threads));
+      }
+    }
 }
 
 TEST(BuildPoints, StoresErrorsThatAreThoseOfAPlainScanRoundedOutwards) {

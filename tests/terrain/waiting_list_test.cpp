@@ -41,16 +41,47 @@ TEST(WaitingList, FindsWhoIsDueInOrderHoweverManyHaveGone) {
     for (const std::uint32_t v : ledger.order) ledger.dueAt[v] = WaitingList::kNow;
 
     WaitingList list;
-    list.assign(ledger.order, kVertices);
-    for (std::uint32_t v = 0; v < kVertices; ++v) list.wakeIf(true, v);  // some of whom are not in the list
+    std::vector<std::uint8_t> isStaying(kVertices, 0);
+    std::vector<std::uint32_t> all = ledger.order;
+    for (std::size_t i = 0; i < ledger.order.size(); i += 7) {
+      isStaying[ledger.order[i]] = 1;
+      ledger.dueAt.erase(ledger.order[i]);
+    }
+    std::erase_if(ledger.order, [&](std::uint32_t v) { return isStaying[v] != 0; });
+    list.assign(all, isStaying);
+    for (std::uint32_t v = 0; v < kVertices; ++v)
+      list.wakeIf(isStaying[v] == 0, v);  // some of whom are not in the list
     std::vector<std::uint32_t> due;
-    list.collect(0, due);
+    WaitingList::Space space;
+    const auto collect = [&](double threshold) {
+      list.forgetGone();
+      list.collect(list.everything(), threshold, due, space, LoopThreads::all);
+    };
+    collect(0);
     EXPECT_EQ(due, ledger.order) << "all are due at first";
 
     double threshold = 1;
     while (!ledger.dueAt.empty()) {
-      list.collect(threshold, due);
+      collect(threshold);
       ASSERT_EQ(due, ledger.due(threshold)) << "threshold " << threshold;
+      // By pieces it is the same.
+      std::vector<std::uint32_t> byPieces, ofPiece;
+      const WaitingList::Piece everything = list.everything();
+      for (std::uint32_t from = everything.begin; from < everything.end; from += 1000) {
+        const WaitingList::Piece piece{from, std::min(from + 1000, everything.end)};
+        list.collect(piece, threshold, ofPiece, space, LoopThreads::caller);
+        for (const std::uint32_t v : ofPiece) ASSERT_TRUE(list.isWithin(piece, v));
+        byPieces.insert(byPieces.end(), ofPiece.begin(), ofPiece.end());
+      }
+      ASSERT_EQ(byPieces, due);
+      // And of some vertices, however they are listed.
+      std::vector<std::uint32_t> shuffled = due;
+      shuffled.insert(shuffled.end(), due.begin(), due.begin() + std::ptrdiff_t(due.size() / 2));
+      std::shuffle(shuffled.begin(), shuffled.end(), random);
+      list.sort(shuffled);
+      ASSERT_EQ(shuffled, due);
+      list.collect(shuffled, threshold, ofPiece, space);
+      ASSERT_EQ(ofPiece, due);
       ASSERT_EQ(list.least(), ledger.least());
       std::vector<std::uint32_t> gone;
       for (const std::uint32_t v : due) {
@@ -65,7 +96,7 @@ TEST(WaitingList, FindsWhoIsDueInOrderHoweverManyHaveGone) {
           ledger.dueAt[v] = later;
         }
       }
-      list.remove(gone);
+      list.remove(gone, gone.size() % 2 == 0 ? LoopThreads::all : LoopThreads::caller);
       for (const std::uint32_t v : ledger.order)
         if (random() % 32 == 0) {  // those that have gone stay away
           list.wakeIf(true, v);
@@ -74,16 +105,17 @@ TEST(WaitingList, FindsWhoIsDueInOrderHoweverManyHaveGone) {
       ASSERT_EQ(list.size(), ledger.dueAt.size());
       threshold = std::min(threshold * 4, 1e30);
     }
-    list.collect(1e30, due);
+    collect(1e30);
     EXPECT_TRUE(list.empty() && due.empty());
   }
 }
 
 TEST(WaitingList, OfNobodyIsEmpty) {
   WaitingList list;
-  list.assign({}, 10);
+  list.assign({}, std::vector<std::uint8_t>(10, 0));
   std::vector<std::uint32_t> due{1};
-  list.collect(1, due);
+  WaitingList::Space space;
+  list.collect(list.everything(), 1, due, space, LoopThreads::all);
   EXPECT_TRUE(due.empty() && list.empty());
   EXPECT_EQ(list.least(), WaitingList::kNever);
 }

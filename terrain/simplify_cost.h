@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a removal costs: the largest error of the floor that would fill the hole.
+//
+// A look triangulates the hole, first where the vertex itself stands, and finds the error; it gives up as
+// soon as that is known to be well beyond the threshold and keeps what was found as a lower bound. The
+// triangle that costs most is remembered: while its corners stay, so does the bound (vertex_note.h). In the
+// finest triangulation of a raster a rule gives the error without a look.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "terrain/hole.h"
+#include "terrain/hole_fidelity.h"
+#include "terrain/simplify_state.h"
+
+namespace arete {
+
+template <class Plan, class Errors>
+class RemovalCost {
+ public:
+  explicit RemovalCost(const SimplifyState<Plan, Errors>& state) : s_(state) {}
+
+  /// How far beyond the threshold a cost is worth knowing exactly: the next levels will ask.
+  double lookAhead() const { return s_.options.shape == HoleShape::fidelity ? 1.2 : 1.5; }
+
+  /// Writes down what removing v costs, or costs at least, by the finest triangulation's rule, where it has
+  /// one. Precondition: nothing around v has gone.
+  void lookInFinest(std::uint32_t v, VertexNote& note) const {
+    if (s_.options.shape == HoleShape::fidelity) {
+      const double bound = s_.errors.boundInFinest(v);
+      if (bound < 0) return;
+      note.cost = static_cast<float>(bound);
+      note.state = State::atLeast;
+      return;
+    }
+    std::array<std::uint32_t, 3> witness;
+    const double cost = s_.errors.costInFinest(v, witness);
+    if (cost < 0) return;
+    note.cost = static_cast<float>(cost);
+    note.setWitness(witness[0], witness[1], witness[2]);
+    note.linkSize = 6;
+    note.state = State::exact;
+  }
+
+  /// Writes down what removing v costs, exactly where that is within threshold * lookAhead(). `star`: of v.
+  void look(std::uint32_t v, const Star& star, double threshold, VertexNote& note) const {
+    if (star.triangleCount > static_cast<int>(s_.options.maxDegree) || !s_.isRemovable(star, v)) {
+      note.state = State::stuck;
+      return;
+    }
+    note.linkSize = static_cast<std::uint8_t>(star.linkSize);
+    const double limit = threshold * lookAhead();
+    const typename Errors::Hole hole(s_.errors, star, v);
+    if (s_.options.shape == HoleShape::fidelity)
+      lookFidelity(star, hole, threshold, limit, note);
+    else
+      lookDelaunay(star, hole, limit, note);
+  }
+
+ private:
+  using State = VertexNote::State;
+
+  void lookDelaunay(const Star& star, const typename Errors::Hole& hole, double limit,
+                    VertexNote& note) const {
+    double worst = -1;
+    /// Whether the triangle leaves the cost within the limit.
+    const auto measure = [&](int i, int j, int m, bool isOverApex) {
+      double error = isOverApex ? hole.apexError(i, j, m) : 0;
+      if (error <= limit) error = hole.maximum(i, j, m, limit);
+      if (error > worst) {
+        worst = error;
+        note.setWitness(star.link[i], star.link[j], star.link[m]);
+      }
+      return worst <= limit;
+    };
+    const auto conclude = [&] {
+      note.cost = static_cast<float>(worst);
+      note.state = worst > limit ? State::atLeast : State::exact;
+    };
+    if (s_.isDomainConvex) {
+      if (wrapHoleFromApex(star.linkSize, hole, measure)) return conclude();
+      worst = -1;
+    }
+    const HoleTriangulation floor = triangulateHoleDelaunay(star.linkSize, hole, s_.isDomainConvex);
+    if (floor.size == 0) {
+      note.state = limit >= s_.heightRange ? State::stuck : State::atLeast;
+      note.cost = static_cast<float>(limit * (1 + 1e-6));
+      return;
+    }
+    for (const auto& t : floor.view())
+      if (!measure(t[0], t[1], t[2], false)) break;
+    conclude();
+  }
+
+  void lookFidelity(const Star& star, const typename Errors::Hole& hole, double threshold, double limit,
+                    VertexNote& note) const {
+    // No error exceeds the range of the heights: a hole that the aspect bound alone leaves open takes any
+    // shape then, Delaunay's.
+    const bool isAnyShapeWelcome = limit >= s_.heightRange;
+    FidelitySearch search(star.linkSize, hole, s_.options.minimumAspect);
+    HoleCost cost = search.cost(isAnyShapeWelcome ? limit : threshold, limit);
+    if (!cost.isExact && isAnyShapeWelcome) {
+      const HoleTriangulation any = triangulateHoleDelaunay(star.linkSize, hole, s_.isDomainConvex);
+      if (any.size == 0) {
+        note.state = State::stuck;
+        return;
+      }
+      cost.error = 0;
+      for (const auto& t : any.view())
+        cost.error = std::max(cost.error, hole.maximum(t[0], t[1], t[2], limit));
+      cost.isExact = cost.error <= limit;
+    } else if (!cost.isExact) {
+      cost.error = std::clamp(cost.error, threshold * (1 + 1e-6), std::max(s_.heightRange, threshold * 2));
+    }
+    note.cost = static_cast<float>(cost.error);
+    note.state = cost.isExact ? State::exact : State::atLeast;
+  }
+
+  const SimplifyState<Plan, Errors>& s_;
+};
+
+}  // namespace arete

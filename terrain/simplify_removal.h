@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A removal: the star's hole is filled with the floor that its cost is of, the floor is measured, the
+// modification recorded, the star rewritten and its link told.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "terrain/floor_joins.h"
+#include "terrain/hole.h"
+#include "terrain/measured_floor.h"
+#include "terrain/simplify_state.h"
+
+namespace arete {
+
+/// What a thread removes vertices with.
+template <class Plan, class Errors>
+class VertexRemover {
+ public:
+  explicit VertexRemover(SimplifyState<Plan, Errors>& state) : s_(state) {}
+
+  /// Removes v, whose cost is known exactly. `star`: of v; removal: its number in the recorder. `seams`: one
+  /// for each vertex of the link, to be sewn.
+  void remove(std::uint32_t v, const Star& star, std::uint32_t removal, std::span<Seam> seams) {
+    typename Errors::Hole hole(s_.errors, star, v);
+    fill(v, star, hole);
+    const FloorJoins joins(floor_.triangulation);
+    encodeBounds(star, hole, joins);
+    record(v, star, hole, removal);
+    refill(s_.mesh, star, floor_.triangulation, joins, s_.recorder.firstBirth(removal), removal, seams);
+    hole.settle(floor_.triangulation);
+    tellLink(v, star);
+    s_.mesh.vertexHalfedge[v] = LiveMesh::kNone;
+  }
+
+ private:
+  void fill(std::uint32_t v, const Star& star, const typename Errors::Hole& hole) {
+    if (s_.options.shape == HoleShape::fidelity) {
+      // The cost was found from other corners, in other roundings, and is kept in few digits.
+      const double limit =
+          std::nextafter(s_.notes[v].cost, std::numeric_limits<float>::infinity()) + s_.roundingSlack;
+      fillShortest(star.linkSize, hole, s_.options.minimumAspect, limit, floor_);
+      if (floor_.triangulation.size > 0) return;
+    }
+    floor_.triangulation = triangulateHoleDelaunay(star.linkSize, hole, s_.isDomainConvex);
+    measure(hole, floor_);
+  }
+
+  /// Errors and bounds of the floor: of the samples inside each triangle, and along its edges.
+  void encodeBounds(const Star& star, const typename Errors::Hole& hole, const FloorJoins& joins) {
+    for (int d = 0; d < joins.diagonalCount; ++d) {
+      const FloorJoins::Diagonal& diagonal = joins.diagonals[d];
+      const SignedBound bound = hole.alongEdge(diagonal.from, diagonal.to);
+      floor_.bounds[diagonal.forth.triangle].include(bound);
+      floor_.bounds[diagonal.back.triangle].include(bound);
+    }
+    const OutwardScale& scale = s_.recorder.scale();
+    const auto encode = [&](double bound) { return scale.encode(outward(bound)); };
+    for (int f = 0; f < floor_.triangulation.size; ++f)
+      codes_[f] = {scale.encode(withoutRounding(floor_.errors[f])), encode(floor_.bounds[f].below),
+                   encode(floor_.bounds[f].above)};
+    // The bounds of the star's triangles hold for their edges: most often the rim adds nothing to those of
+    // the floor, and need not be looked at.
+    const int corners = star.linkSize;
+    for (int i = 0; i < corners; ++i) {
+      FloorCodes& own = codes_[joins.rim[i].triangle];
+      if (i < star.triangleCount) {
+        const FloorCodes beside = s_.recorder.codes(s_.mesh.triangles[star.triangle(i)].birth);
+        if ((beside.below <= own.below) & (beside.above <= own.above)) continue;
+      }
+      const SignedBound bound = hole.alongEdge(i, i + 1 < corners ? i + 1 : 0);
+      own.below = std::max(own.below, encode(bound.below));
+      own.above = std::max(own.above, encode(bound.above));
+    }
+  }
+
+  void record(std::uint32_t v, const Star& star, const typename Errors::Hole& hole, std::uint32_t removal) {
+    for (int i = 0; i < star.triangleCount; ++i) {
+      ceiling_[i] = s_.mesh.triangles[star.triangle(i)].birth;
+      bearer_[i] = s_.mesh.triangles[star.triangle(i)].bearer;
+    }
+    const int corners = star.linkSize;
+    for (int i = 0; i < corners; ++i) positions_[i] = s_.metric.toMetric(hole.position(i));
+    positions_[corners] = s_.metric.toMetric(hole.apexPosition());
+
+    const auto size = [](int n) { return static_cast<std::size_t>(n); };
+    VertexRemoval what;
+    what.vertex = v;
+    what.link = star.linkView();
+    what.isOpen = star.isOpen;
+    what.metricPositions = {positions_.data(), size(corners + 1)};
+    what.ceiling = {ceiling_.data(), size(star.triangleCount)};
+    what.ceilingBearer = {bearer_.data(), size(star.triangleCount)};
+    what.floor = {codes_.data(), size(floor_.triangulation.size)};
+    s_.recorder.record(removal, what);
+  }
+
+  /// Two stars can share a link vertex: both write the same value. What a neighbour must forget cannot be
+  /// foreseen, so it is told where to write instead of whether.
+  void tellLink(std::uint32_t v, const Star& star) {
+    using State = VertexNote::State;
+    const bool isWitnessUnknown = s_.options.shape != HoleShape::delaunay || star.isOpen;
+    for (const std::uint32_t u : star.linkView()) {
+      VertexNote& note = s_.notes[u];
+      const bool isWitnessGone = isWitnessUnknown | note.isWitnessedBy(v);
+      std::atomic_ref(note.isTouched).store(1, std::memory_order_relaxed);
+      std::atomic_ref(isWitnessGone ? note.isWitnessGone : note.isTouched)
+          .store(1, std::memory_order_relaxed);
+      s_.waiting.wakeIf((isWitnessGone | (note.state == State::stuck)) & (note.state != State::fixed), u);
+    }
+  }
+
+  /// Bounds go beyond the rounding of the scan itself: they prove things.
+  double outward(double x) const { return x == 0 ? 0 : x * (1 + 1e-9) + s_.roundingSlack; }
+  /// An error that is a code but for the last bits of its arithmetic is that code: integer heights make
+  /// errors of exactly 1 common, and a tolerance of 1 must take them. The bits are far below what "equal to
+  /// the bound" allows.
+  double withoutRounding(double x) const { return std::fmax(0.0, x - s_.roundingSlack); }
+
+  SimplifyState<Plan, Errors>& s_;
+  // Kept for the next removal, as clearing them takes longer than many a step.
+  MeasuredFloor floor_;
+  std::array<FloorCodes, kMaxHoleCorners> codes_;
+  std::array<std::uint32_t, kMaxHoleCorners> ceiling_, bearer_;
+  std::array<Vec3, kMaxHoleCorners + 1> positions_;
+};
+
+}  // namespace arete
