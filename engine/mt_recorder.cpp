@@ -23,7 +23,6 @@
 #include <memory>
 #include <numeric>
 #include <optional>
-#include <ranges>
 
 #include "engine/enclosing_ball.h"
 
@@ -142,9 +141,9 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
     for (std::uint32_t r = 0; r < nodes; ++r) ++begin[place(r) + 1];
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     std::ranges::stable_sort(batches_, {}, &Batch::order);
-    for (const Batch& batch : std::views::reverse(batches_))
-      for (std::uint32_t i = batch.size; i-- > 0;) {
-        const std::uint32_t r = batch.first + i;
+    for (std::size_t b = batches_.size(); b-- > 0;)
+      for (std::uint32_t i = batches_[b].size; i-- > 0;) {
+        const std::uint32_t r = batches_[b].first + i;
         removalOf[begin[place(r)]++] = r;
       }
   }

@@ -53,10 +53,8 @@ class Simplifier {
     while (!s_.waiting.empty()) {
       s_.waiting.forgetGone();
       const std::size_t before = s_.waiting.size();
-      const std::uint32_t pieces = s_.waiting.everything().size() / s_.options.pieces.vertices;
-      const double next = pieces >= s_.options.pieces.fewest && s_.rim == nullptr
-                              ? levelsByPieces(threshold, pieces)
-                              : levelOfAll(threshold);
+      const std::uint32_t pieces = pieceCount();
+      const double next = pieces > 1 ? levelsByPieces(threshold, pieces) : levelOfAll(threshold);
       if (context_.cancelled()) return failure(ErrorCode::interrupted, "the build was interrupted");
       threshold = next;
       if (s_.waiting.size() == before) {
@@ -95,6 +93,14 @@ class Simplifier {
         if (note.state != VertexNote::State::stale) s_.waiting.set(v, note.cost);
       }
     });
+  }
+
+  /// Into how many pieces the ground is divided now. Rims are looked after by one for all.
+  std::uint32_t pieceCount() const {
+    const PieceOptions& options = s_.options.pieces;
+    const std::uint32_t places = s_.waiting.everything().size();
+    const std::uint32_t pieces = places / std::clamp(places / options.fewest, options.least, options.most);
+    return pieces < options.fewest || s_.rim != nullptr ? 1 : pieces;
   }
 
   /// One level. Returns the threshold of the next.

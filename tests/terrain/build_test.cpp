@@ -121,7 +121,7 @@ TEST(BuildRaster, GivesTheSameBytesForAnyNumberOfThreads) {
 /// So small that the smallest raster has several.
 BuildOptions withPieces(HoleShape shape, std::uint32_t vertices) {
   BuildOptions options = withShape(shape);
-  options.pieces = {.vertices = vertices, .levels = 7, .fewest = 2};
+  options.pieces = {.most = vertices, .least = vertices, .fewest = 2, .levels = 7};
   return options;
 }
 
