@@ -16,7 +16,7 @@ enum class HoleShape {
 /// How a large build divides the ground (simplify.h). What comes out depends on it, but little, and keeps
 /// every promise either way; a model does not remember it.
 struct PieceOptions {
-  std::uint32_t most = 1 << 14;   ///< vertices of a piece; what belongs to them takes about 2 MB
+  std::uint32_t most = 1 << 13;   ///< vertices of a piece; what belongs to them takes about 1 MB
   std::uint32_t least = 1 << 12;  ///< the same, where larger pieces would be too few. 1 .. most
   std::uint32_t fewest = 8;       ///< fewer pieces are not made: all threads work together then. > 0
   std::uint32_t levels = 6;       ///< that a piece goes through by itself

@@ -145,12 +145,7 @@ class Simplifier {
 
     std::vector<std::uint32_t> some;
     for (const std::vector<std::uint32_t>& of : held) some.insert(some.end(), of.begin(), of.end());
-    for (const std::uint32_t v : some) {
-      VertexNote& note = s_.notes[v];
-      note.settle();
-      const bool isKnown = note.state == VertexNote::State::exact || note.state == VertexNote::State::atLeast;
-      s_.waiting.set(v, isKnown ? note.cost : WaitingList::kNow);
-    }
+    for (const std::uint32_t v : some) s_.waiting.set(v, WaitingList::kNow);
     for (std::uint32_t k = 0; k < s_.options.pieces.levels && !context_.cancelled(); ++k)
       together_.levelOf(some, thresholds[k], ++numbers_, {groups_, pieces});
     return thresholds.back();

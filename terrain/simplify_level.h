@@ -28,7 +28,8 @@
 namespace arete {
 
 /// Who works on levels, and the lists that are needed for it. All threads on the whole ground together, or
-/// each on a piece of its own: then a vertex with a neighbour beyond the piece is held, that is left alone.
+/// each on a piece of its own: then a vertex with a neighbour beyond the piece, were it to go, is held
+/// instead.
 template <class Plan, class Errors>
 class LevelWorker {
  public:
@@ -92,20 +93,20 @@ class LevelWorker {
         const std::uint32_t v = due_[i];
         VertexNote& note = s_.notes[v];
         note.settle();
-        const bool isKnown = note.state == Note::exact;
-        if (!isKnown && !star.gather(s_.mesh, v, static_cast<int>(s_.options.maxDegree) + 1)) {
-          note.state = Note::stuck;
-        } else if (!(isKnown ? isInside(v) : isInside(star))) {
-          held_.push_back(v);
-          s_.waiting.set(v, WaitingList::kNever);
-          continue;
-        } else if (!isKnown) {
-          cost_.look(v, star, threshold, note);
+        if (note.state != Note::exact) {
+          if (star.gather(s_.mesh, v, static_cast<int>(s_.options.maxDegree) + 1))
+            cost_.look(v, star, threshold, note);
+          else
+            note.state = Note::stuck;
+          s_.waiting.set(v, note.state == Note::stuck ? WaitingList::kNever : note.cost);
         }
-        if (!isKnown) s_.waiting.set(v, note.state == Note::stuck ? WaitingList::kNever : note.cost);
-        if (note.state == Note::exact && note.cost <= threshold) {
+        if (note.state != Note::exact || note.cost > threshold) continue;
+        if (isInside(v)) {
           set_.enter(v, number);
           *to++ = v;
+        } else {
+          held_.push_back(v);
+          s_.waiting.set(v, WaitingList::kNever);
         }
       }
       return to;
@@ -113,12 +114,6 @@ class LevelWorker {
   }
 
   /// Whether all of the link lies in the piece.
-  bool isInside(const Star& star) const {
-    if (threads_ == LoopThreads::all) return true;
-    bool isInside = true;
-    for (const std::uint32_t u : star.linkView()) isInside &= s_.waiting.isWithin(piece_, u);
-    return isInside;
-  }
   bool isInside(std::uint32_t v) const {
     if (threads_ == LoopThreads::all) return true;
     bool isInside = true;
