@@ -10,9 +10,11 @@
 // by piece: the ground is divided into pieces that fit a processor's cache, each thread takes one through all
 // those levels by itself, then the next. A vertex with a neighbour beyond its piece is held until all pieces
 // are through: no two threads ever meet, as every triangle around a vertex that one of them removes has its
-// corners in one piece. Those that were held go through the same levels after, together. So what happens in a
-// piece depends on nothing that others do meanwhile, and the MT is the same for any number of threads
-// (docs/decisions/0015).
+// corners in one piece, and the stars of other pieces' vertices have none such. (Sewing writes to a triangle
+// beyond the rim, which can have a corner in another piece: but only what it says of the rim's edge, and who
+// looks at the star of that corner does not ask for it.) Those that were held go through the same levels
+// after, together. So what happens in a piece depends on nothing that others do meanwhile, and the MT is the
+// same for any number of threads (docs/decisions/0015).
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
