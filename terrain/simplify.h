@@ -98,7 +98,7 @@ class Simplifier {
   }
 
   /// Into how many pieces the ground is divided now. Rims are looked after by one for all; the fidelity shape
-  /// computes more than it waits, and would gain nothing for some 0.2 % more triangles.
+  /// computes more than it waits, and would gain little for some 0.2 % more triangles.
   std::uint32_t pieceCount() const {
     const PieceOptions& options = s_.options.pieces;
     const std::uint32_t places = s_.waiting.everything().size();
