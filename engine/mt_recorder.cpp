@@ -7,12 +7,12 @@
 //
 // finish() renumbers. Nodes: by falling band of saturated error, and within a band the later removal first,
 // so that parents come before children (a parent is removed later and is at least as saturated). Later is
-// what the batches' order says: threads announce them as it happens. The removals
-// of a batch are listed in the order of memory, which follows the ground; so do the nodes of one batch and
-// band. A counting sort over the bands does it in O(N). Vertices: the root's, then one per node. Triangles:
-// the root's, then the slots of the nodes in order. Passes copy the spheres, the links and the ceilings, the
-// last noting where each birth went; then each node fills its floor and signs as the remover of its floor's
-// triangles. Every element is written once, by one node, so all passes are parallel.
+// what the batches' order says: threads announce them as it happens. The removals of a batch are listed in
+// the order of memory, which follows the ground; so do the nodes of one batch and band. A counting sort over
+// the bands does it in O(N). Vertices: the root's, then one per node. Triangles: the root's, then the slots
+// of the nodes in order. Passes copy the spheres, the links and the ceilings, the last noting where each
+// birth went; then each node fills its floor and signs as the remover of its floor's triangles. Every element
+// is written once, by one node, so all passes are parallel.
 #include "engine/mt_recorder.h"
 
 #include <tbb/parallel_for.h>
@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -60,7 +61,8 @@ void forRange(std::size_t size, const Body& body) {
 MtRecorder::MtRecorder(std::uint32_t finestTriangles, std::uint32_t mostRemovals, OutwardScale scale,
                        MetricFrame metric)
     : finestTriangles_(finestTriangles), scale_(scale), metric_(metric) {
-  constexpr std::size_t kMostSlots = 255;  // of a removal
+  // As link sizes are told in bytes. Only addresses are reserved: memory is taken as removals come.
+  constexpr std::size_t kMostSlots = std::numeric_limits<std::uint8_t>::max();
   const std::size_t removals = mostRemovals;
   slotBegin_.reserve(removals + 1);
   vertex_.reserve(removals);

@@ -8,14 +8,20 @@
 
 namespace arete {
 
-void StageClock::settle() {
+StageClock::Passed StageClock::passed() {
   const Moment now;
-  if (!open_.empty()) {
-    StageTime& time = times_[open_.back()];
-    time.seconds += std::chrono::duration<double>(now.wall - last_.wall).count();
-    time.cpuSeconds += double(now.cpu - last_.cpu) / CLOCKS_PER_SEC;
-  }
+  const Passed passed = {std::chrono::duration<double>(now.wall - last_.wall).count(),
+                         double(now.cpu - last_.cpu) / CLOCKS_PER_SEC};
   last_ = now;
+  return passed;
+}
+
+void StageClock::settle() {
+  const Passed passed = this->passed();
+  if (open_.empty()) return;
+  StageTime& time = times_[open_.back()];
+  time.seconds += passed.seconds;
+  time.cpuSeconds += passed.cpuSeconds;
 }
 
 StageTime& StageClock::timeOf(std::string_view stage) {
@@ -37,23 +43,20 @@ void StageClock::leave() {
 }
 
 void StageClock::shareOut(std::span<StageClock* const> workers) {
-  const Moment now;
-  const double seconds = std::chrono::duration<double>(now.wall - last_.wall).count(),
-               cpuSeconds = double(now.cpu - last_.cpu) / CLOCKS_PER_SEC;
   double total = 0;
   for (const StageClock* worker : workers)
     for (const StageTime& time : worker->times_) total += time.seconds;
   if (!(total > 0)) return;
+  const Passed passed = this->passed();
   for (StageClock* worker : workers) {
     for (const StageTime& time : worker->times_) {
       StageTime& own = timeOf(time.stage);
-      own.seconds += seconds * time.seconds / total;
-      own.cpuSeconds += cpuSeconds * time.seconds / total;
+      own.seconds += passed.seconds * time.seconds / total;
+      own.cpuSeconds += passed.cpuSeconds * time.seconds / total;
       own.times += time.times;
     }
     worker->times_.clear();
   }
-  last_ = now;
 }
 
 }  // namespace arete

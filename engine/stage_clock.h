@@ -59,7 +59,12 @@ class StageClock {
   StageTime& timeOf(std::string_view stage);
   void enter(std::string_view stage);
   void leave();
-  /// Credits what passed since `last_` to the innermost open stage.
+  struct Passed {
+    double seconds, cpuSeconds;
+  };
+  /// What passed since this was last asked.
+  Passed passed();
+  /// Credits what passed to the innermost open stage.
   void settle();
 
   std::vector<StageTime> times_;

@@ -32,6 +32,14 @@ Status checkOptions(const BuildOptions& options, std::size_t sampleCount) {
   if (!(options.rimTolerance >= 0 && std::isfinite(options.rimTolerance)))
     return refuse(fmt::format("the rim tolerance must be 0 or more samples, not {}", options.rimTolerance),
                   "--rim-tolerance");
+  const PieceOptions& pieces = options.pieces;
+  if (!(1 <= pieces.least && pieces.least <= pieces.most))
+    return refuse(fmt::format("pieces must have at least 1 vertex and at most no fewer, not {} to {}",
+                              pieces.least, pieces.most),
+                  "pieces");
+  if (pieces.fewest < 1 || pieces.levels < 1)
+    return refuse(fmt::format("{} pieces of {} levels are no division", pieces.fewest, pieces.levels),
+                  "pieces");
   for (const std::uint32_t v : options.fixedVertices)
     if (v >= sampleCount)
       return refuse(fmt::format("fixed vertex {} of {} samples", v, sampleCount), "fixed vertices");

@@ -21,14 +21,14 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "engine/result.h"
 #include "engine/run_context.h"
+#include "engine/shared_progress.h"
 #include "terrain/simplify_level.h"
 #include "terrain/simplify_state.h"
 
@@ -64,7 +64,6 @@ class Simplifier {
         if (!(pending < std::numeric_limits<double>::infinity())) break;
         threshold = std::max(threshold, pending);
       }
-      report();
       if (s_.liveTriangles < s_.mesh.triangles.size() / 2) s_.errors.compact(s_.mesh.compact());
     }
     context_.report("simplify", 1);
@@ -83,7 +82,8 @@ class Simplifier {
       if (isFixed[v] != 0) s_.notes[v].state = VertexNote::State::fixed;
     // Vertices are visited in the order of their triangles in memory, which is that of the ground.
     s_.waiting.assign(s_.mesh.verticesInOrder(), isFixed);
-    waitingAtStart_ = static_cast<double>(std::max<std::size_t>(s_.waiting.size(), 1));
+    // Most levels are late and short: progress by what is left.
+    progress_.emplace(context_, "simplify", std::max<std::size_t>(s_.waiting.size(), 1));
 
     const StageClock::Scope stage(context_.clock, "simplify: evaluate");
     const RemovalCost<Plan, Errors> cost(s_);
@@ -110,7 +110,7 @@ class Simplifier {
   /// One level. Returns the threshold of the next.
   double levelOfAll(double threshold) {
     ++levels_;
-    together_.levelOf(s_.waiting.everything(), threshold, ++numbers_, {++groups_, 0});
+    progress_->add(together_.levelOf(s_.waiting.everything(), threshold, ++numbers_, {++groups_, 0}));
     return threshold * s_.options.thresholdRatio;
   }
 
@@ -132,10 +132,10 @@ class Simplifier {
           for (std::uint32_t p = range.begin(); p != range.end(); ++p) {
             Worker& worker = workers_.local().worker;
             for (std::uint32_t k = 0; k < s_.options.pieces.levels && !context_.cancelled(); ++k)
-              worker.levelOf({placeOf(p), placeOf(p + 1)}, thresholds[k], numbers_ + 1 + k, {groups_, p});
+              progress_->add(worker.levelOf({placeOf(p), placeOf(p + 1)}, thresholds[k], numbers_ + 1 + k,
+                                            {groups_, p}));
             held[p].swap(worker.held());
             s_.waiting.sort(held[p]);
-            report();
           }
         },
         tbb::simple_partitioner());
@@ -151,7 +151,7 @@ class Simplifier {
     for (const std::vector<std::uint32_t>& of : held) some.insert(some.end(), of.begin(), of.end());
     for (const std::uint32_t v : some) s_.waiting.set(v, WaitingList::kNow);
     for (std::uint32_t k = 0; k < s_.options.pieces.levels && !context_.cancelled(); ++k)
-      together_.levelOf(some, thresholds[k], ++numbers_, {groups_, pieces});
+      progress_->add(together_.levelOf(some, thresholds[k], ++numbers_, {groups_, pieces}));
     return thresholds.back();
   }
 
@@ -169,13 +169,6 @@ class Simplifier {
     return root;
   }
 
-  /// Most levels are late and short: progress by what is left, on the scale of vertices.
-  void report() {
-    if (isReporting_.exchange(true)) return;
-    context_.report("simplify", 1.0 - double(s_.waiting.size()) / waitingAtStart_);
-    isReporting_ = false;
-  }
-
   struct OneWorker {
     StageClock clock;
     Worker worker;
@@ -190,8 +183,7 @@ class Simplifier {
   std::uint32_t levels_ = 0;   // thresholds
   std::uint32_t numbers_ = 0;  // of levels, those of held vertices counted again
   std::uint32_t groups_ = 0;   // of batches
-  double waitingAtStart_ = 1;
-  std::atomic<bool> isReporting_ = false;
+  std::optional<SharedProgress> progress_;
 };
 
 }  // namespace arete

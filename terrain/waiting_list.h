@@ -48,7 +48,7 @@ class WaitingList {
   /// `due` receives, in order, those of the piece whose threshold has come. O(size of the piece).
   void collect(Piece piece, double threshold, std::vector<std::uint32_t>& due, Space& space,
                LoopThreads threads) const;
-  /// The same of `some`, none of whom has gone for longer than since the last forgetGone().
+  /// The same of `some`. Those that have gone are never due. O(some).
   void collect(std::span<const std::uint32_t> some, double threshold, std::vector<std::uint32_t>& due,
                Space& space) const;
 
