@@ -8,7 +8,6 @@
 #include <numeric>
 #include <vector>
 
-#include "engine/loop_threads.h"
 #include "engine/uninitialized_vector.h"
 
 namespace arete {
@@ -22,15 +21,9 @@ class ParallelFilter {
   /// were, and returns the end of what it wrote; called for each chunk once, on any thread. `kept` receives
   /// all of it: the sequence itself, or another vector. O(size).
   template <class Fill>
-  void operator()(LoopThreads threads, std::size_t size, std::size_t chunk, std::vector<T>& kept,
-                  const Fill& fill) {
-    found_.resize(size);
-    if (threads == LoopThreads::caller) {
-      T* const end = fill(std::size_t(0), size, found_.data());
-      kept.assign(found_.data(), end);
-      return;
-    }
+  void operator()(std::size_t size, std::size_t chunk, std::vector<T>& kept, const Fill& fill) {
     const std::size_t chunks = (size + chunk - 1) / chunk;
+    found_.resize(size);
     first_.assign(chunks + 1, 0);
     tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t c) {
       const std::size_t begin = c * chunk;

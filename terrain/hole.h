@@ -36,6 +36,10 @@ template <class F>
 struct HoleTriangulation {
   std::array<std::array<std::uint8_t, 3>, kMaxHoleCorners - 2> triangles;
   int size = 0;
+  void add(int i, int j, int m) {
+    triangles[size++] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j),
+                         static_cast<std::uint8_t>(m)};
+  }
   std::span<const std::array<std::uint8_t, 3>> view() const {
     return {triangles.data(), static_cast<std::size_t>(size)};
   }

@@ -10,6 +10,8 @@
 // decided in the order of costs after all.
 #include "terrain/independent_set.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -35,8 +37,8 @@ void store(std::uint32_t& where, std::uint32_t value) {
 
 template <class Stays>
 void IndependentSet::filter(std::span<const std::uint32_t> vertices, std::vector<std::uint32_t>& kept,
-                            LoopThreads threads, const Stays& stays) {
-  filter_(threads, vertices.size(), kChunk, kept, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+                            const Stays& stays) {
+  filter_(vertices.size(), kChunk, kept, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
     for (const std::uint32_t v : vertices.subspan(begin, end - begin)) {
       *to = v;
       to += stays(v) ? 1 : 0;
@@ -75,52 +77,48 @@ void IndependentSet::gather(std::uint32_t v, Link& link) const {
 }
 
 void IndependentSet::choose(std::span<const std::uint32_t> candidates, std::uint32_t level,
-                            std::vector<std::uint32_t>& chosen, LoopThreads threads) {
+                            std::vector<std::uint32_t>& chosen) {
   const auto isOpen = [&](std::uint32_t v) { return load(notes_[v].candidacy) % 4 == kOpen; };
   std::span<const std::uint32_t> left = candidates;
   for (int round = 0; round < kRounds && !left.empty(); ++round) {
     const bool isBackwards = round % 2 == 1;
-    forRanges(threads, left.size(), 256, [&](std::size_t begin, std::size_t end) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, left.size(), 256), [&](const auto& range) {
       const auto candidate = [&](std::size_t i) { return left[isBackwards ? left.size() - 1 - i : i]; };
       // The links of the next ones are gathered early: their notes are on their way when they are read.
       std::array<Link, kLinksAhead> ahead;
       const auto ask = [&](std::size_t i) {
-        if (i + kNotesAhead < end) __builtin_prefetch(&notes_[candidate(i + kNotesAhead)]);
-        if (i < end && isOpen(candidate(i))) gather(candidate(i), ahead[i % kLinksAhead]);
+        if (i + kNotesAhead < range.end()) __builtin_prefetch(&notes_[candidate(i + kNotesAhead)]);
+        if (i < range.end() && isOpen(candidate(i))) gather(candidate(i), ahead[i % kLinksAhead]);
       };
-      for (std::size_t i = begin; i < begin + kLinksAhead - 1; ++i) ask(i);
-      for (std::size_t i = begin; i != end; ++i) {
+      for (std::size_t i = range.begin(); i < range.begin() + kLinksAhead - 1; ++i) ask(i);
+      for (std::size_t i = range.begin(); i != range.end(); ++i) {
         prefetchStars(mesh_, i + kLinksAhead - 1, left.size(), candidate);
         ask(i + kLinksAhead - 1);
         int steps = kSteps;
         if (isOpen(candidate(i))) decide(candidate(i), ahead[i % kLinksAhead], level, steps);
       }
     });
-    filter(left, ordered_, threads, isOpen);
+    filter(left, ordered_, isOpen);
     left = ordered_;
   }
-  sortByCost(ordered_, threads);
+  sortByCost(ordered_);
   for (const std::uint32_t v : ordered_) {
     Link link;
     gather(v, link);
     int steps = 1;
     decide(v, link, level, steps);
   }
-  collectChosen(candidates, level, chosen, threads);
+  collectChosen(candidates, level, chosen);
 }
 
-void IndependentSet::sortByCost(std::vector<std::uint32_t>& vertices, LoopThreads threads) const {
-  const auto isBefore = [&](std::uint32_t a, std::uint32_t b) { return precedes(a, b); };
-  if (threads == LoopThreads::caller)
-    std::sort(vertices.begin(), vertices.end(), isBefore);
-  else
-    tbb::parallel_sort(vertices.begin(), vertices.end(), isBefore);
+void IndependentSet::sortByCost(std::vector<std::uint32_t>& vertices) const {
+  tbb::parallel_sort(vertices.begin(), vertices.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return precedes(a, b); });
 }
 
 void IndependentSet::collectChosen(std::span<const std::uint32_t> candidates, std::uint32_t level,
-                                   std::vector<std::uint32_t>& chosen, LoopThreads threads) {
-  filter(candidates, chosen, threads,
-         [&](std::uint32_t v) { return notes_[v].candidacy == 4 * level + kChosen; });
+                                   std::vector<std::uint32_t>& chosen) {
+  filter(candidates, chosen, [&](std::uint32_t v) { return notes_[v].candidacy == 4 * level + kChosen; });
 }
 
 }  // namespace arete

@@ -14,8 +14,7 @@ namespace arete {
 
 /// Chooses the removals of a level among its candidates: in the order of their costs (equal ones by a hash of
 /// the vertex), each unless a neighbour was chosen before it. The set is independent (no two stars share a
-/// triangle), maximal, and the same for any number of threads. Sets of different candidates, whose stars
-/// share no vertex, may be chosen side by side, each by its own object.
+/// triangle), maximal, and the same for any number of threads.
 class IndependentSet {
  public:
   IndependentSet(const LiveMesh& mesh, std::vector<VertexNote>& notes) : mesh_(mesh), notes_(notes) {}
@@ -33,7 +32,7 @@ class IndependentSet {
   /// each has entered the level, and no other has; links of at most kMaxHoleCorners vertices. O(candidates)
   /// expected, parallel.
   void choose(std::span<const std::uint32_t> candidates, std::uint32_t level,
-              std::vector<std::uint32_t>& chosen, LoopThreads threads = LoopThreads::all);
+              std::vector<std::uint32_t>& chosen);
 
   /// The same one after the other, where a candidate may be refused for reasons of the caller's:
   /// accept(v) is asked in the order of costs.
@@ -41,7 +40,7 @@ class IndependentSet {
   void chooseInTurn(std::span<const std::uint32_t> candidates, std::uint32_t level,
                     std::vector<std::uint32_t>& chosen, const Accept& accept) {
     ordered_.assign(candidates.begin(), candidates.end());
-    sortByCost(ordered_, LoopThreads::all);
+    sortByCost(ordered_);
     for (const std::uint32_t v : ordered_) {
       if (notes_[v].candidacy != 4 * level + kOpen || !accept(v)) continue;
       forLink(mesh_, v, [&](std::uint32_t u) {
@@ -50,7 +49,7 @@ class IndependentSet {
       });
       notes_[v].candidacy = 4 * level + kChosen;
     }
-    collectChosen(candidates, level, chosen, LoopThreads::all);
+    collectChosen(candidates, level, chosen);
   }
 
  private:
@@ -72,13 +71,12 @@ class IndependentSet {
   /// Asks for the notes of the link as well.
   void gather(std::uint32_t v, Link& link) const;
   Choice decide(std::uint32_t v, const Link& link, std::uint32_t level, int& steps);
-  void sortByCost(std::vector<std::uint32_t>& vertices, LoopThreads threads) const;
+  void sortByCost(std::vector<std::uint32_t>& vertices) const;
   void collectChosen(std::span<const std::uint32_t> candidates, std::uint32_t level,
-                     std::vector<std::uint32_t>& chosen, LoopThreads threads);
+                     std::vector<std::uint32_t>& chosen);
   /// `kept` receives the vertices that stay, in order.
   template <class Stays>
-  void filter(std::span<const std::uint32_t> vertices, std::vector<std::uint32_t>& kept, LoopThreads threads,
-              const Stays& stays);
+  void filter(std::span<const std::uint32_t> vertices, std::vector<std::uint32_t>& kept, const Stays& stays);
 
   const LiveMesh& mesh_;
   std::vector<VertexNote>& notes_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "terrain/hole.h"
 #include "terrain/hole_fidelity.h"
@@ -9,20 +10,27 @@
 
 namespace arete {
 
+/// Of the error of a triangle that is wanted whatever it is.
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
 /// A triangulation of a hole with the error of each triangle and the signed bound at its samples.
 struct MeasuredFloor {
   HoleTriangulation triangulation;
   std::array<double, kMaxHoleCorners> errors;
   std::array<SignedBound, kMaxHoleCorners> bounds;
+
+  bool isEmpty() const { return triangulation.size == 0; }
+  void clear() { triangulation.size = 0; }
 };
 
-/// Measures a triangulation. Hole: maximum(i, j, m, bound), the error of a triangle, its bound included.
+/// Measures a triangulation. Hole: maximum(i, j, m, limit, bound), the error of a triangle, its bound
+/// included.
 template <class Hole>
 void measure(const Hole& hole, MeasuredFloor& floor) {
   for (int f = 0; f < floor.triangulation.size; ++f) {
     const auto [i, m, j] = floor.triangulation.triangles[f];
     floor.bounds[f] = {};
-    floor.errors[f] = hole.maximum(i, m, j, floor.bounds[f]);
+    floor.errors[f] = hole.maximum(i, m, j, kNoLimit, floor.bounds[f]);
   }
 }
 
@@ -36,7 +44,7 @@ void fillShortest(int corners, const Hole& hole, double minimumAspect, double li
   FidelitySearch search(corners, hole, minimumAspect);
   floor.triangulation = search.shortest(limit, [&](int i, int m, int j) {
     SignedBound bound;
-    const double error = hole.maximum(i, m, j, bound);
+    const double error = hole.maximum(i, m, j, kNoLimit, bound);
     measured[i][j] = {error, bound.below, bound.above};
     return error;
   });

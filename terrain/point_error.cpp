@@ -69,7 +69,7 @@ double PointError::Hole::maximum(int i, int j, int m, double limit) const {
   return worst;
 }
 
-double PointError::Hole::maximum(int i, int j, int m, SignedBound& bound) const {
+double PointError::Hole::maximum(int i, int j, int m, double limit, SignedBound& bound) const {
   const std::uint32_t a = star_.link[i], b = star_.link[j], c = star_.link[m];
   double worst = 0;
   for (const std::uint32_t p : points_) {
@@ -77,6 +77,7 @@ double PointError::Hole::maximum(int i, int j, int m, SignedBound& bound) const 
     if ((d <= bound.above && -d <= bound.below) || !errors_.covers(a, b, c, p)) continue;
     bound.include(d);
     worst = std::max(worst, std::abs(d));
+    if (worst > limit) break;
   }
   return worst;
 }

@@ -48,7 +48,7 @@ class PointError {
    public:
     Hole(PointError& errors, const Star& star, std::uint32_t apex);
     double maximum(int i, int j, int m, double limit) const;
-    double maximum(int i, int j, int m, SignedBound& bound) const;
+    double maximum(int i, int j, int m, double limit, SignedBound& bound) const;
     const PointPlan::Polygon& polygon() const { return polygon_; }
     int orientationToApex(int i, int j) const { return polygon_.orientationToApex(i, j); }
     template <class PrefersLater>

@@ -74,14 +74,15 @@ struct LargestDifference {
   bool isChangedBy(double low, double high) const { return std::fmax(high, -low) > largest(found); }
 };
 
-/// The largest of some differences either way.
+/// The largest of some differences either way, until one is beyond the limit.
 struct SignedDifferences {
+  double limit;
   Two above = {0, 0}, below = {0, 0};
   void include(Two difference) {
     above = difference > above ? difference : above;  // false for NODATA
     below = difference < below ? difference : below;
   }
-  static bool isEnough() { return false; }
+  bool isEnough() const { return largest(larger(above, -below)) > limit; }
   bool isChangedBy(double low, double high) const { return high > largest(above) || low < smallest(below); }
 };
 
@@ -261,13 +262,14 @@ double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, d
   return largest(differences.found);
 }
 
-double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, SignedBound& bound) const {
+double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, double limit,
+                            SignedBound& bound) const {
   double only = 0;
   if (isSmall(a, b, c, only)) {
     bound.include(only);
     return std::abs(only);
   }
-  SignedDifferences differences;
+  SignedDifferences differences{limit};
   compare(a, b, c, differences);
   const double high = largest(differences.above), low = smallest(differences.below);
   bound.above = std::max(bound.above, high);

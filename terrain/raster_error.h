@@ -80,8 +80,8 @@ class RasterError {
     double maximum(int i, int j, int m, double limit) const {
       return errors_.maximum(corners_[i], corners_[j], corners_[m], limit);
     }
-    double maximum(int i, int j, int m, SignedBound& bound) const {
-      return errors_.maximum(corners_[i], corners_[j], corners_[m], bound);
+    double maximum(int i, int j, int m, double limit, SignedBound& bound) const {
+      return errors_.maximum(corners_[i], corners_[j], corners_[m], limit, bound);
     }
     SignedBound alongEdge(int i, int j) const { return errors_.alongEdge(corners_[i], corners_[j]); }
     void settle(const HoleTriangulation&) const {}
@@ -204,8 +204,8 @@ class RasterError {
   /// O(rows + samples / 64).
   double maximum(const Corner& a, const Corner& b, const Corner& c, double limit) const;
 
-  /// The same error without a limit, and the signed difference over the covered samples.
-  double maximum(const Corner& a, const Corner& b, const Corner& c, SignedBound& bound) const;
+  /// The same, and the signed difference over the covered samples, all of them within the limit.
+  double maximum(const Corner& a, const Corner& b, const Corner& c, double limit, SignedBound& bound) const;
 
   /// Signed difference between the segment a-b and the finest triangulation where the segment crosses its
   /// edges: with the samples inside, these hold the extremes of the difference over a triangle. O(length in

@@ -30,6 +30,7 @@
 #include "engine/run_context.h"
 #include "engine/shared_progress.h"
 #include "terrain/simplify_level.h"
+#include "terrain/simplify_piece.h"
 #include "terrain/simplify_state.h"
 
 namespace arete {
@@ -45,7 +46,7 @@ template <class Plan, class Errors>
 class Simplifier {
  public:
   Simplifier(SimplifyState<Plan, Errors>& state, const RunContext& context)
-      : s_(state), context_(context), together_(state, LoopThreads::all, context.clock) {}
+      : s_(state), context_(context), together_(state, context.clock) {}
 
   /// Removes what can be removed. `isFixed`: per vertex, not 0 = stays.
   Result<SimplifiedRoot> run(const std::vector<std::uint8_t>& isFixed) {
@@ -71,7 +72,7 @@ class Simplifier {
   }
 
  private:
-  using Worker = LevelWorker<Plan, Errors>;
+  using Worker = PieceWorker<Plan, Errors>;
   using Piece = WaitingList::Piece;
 
   void start(const std::vector<std::uint8_t>& isFixed) {
@@ -97,20 +98,18 @@ class Simplifier {
     });
   }
 
-  /// Into how many pieces the ground is divided now. Rims are looked after by one for all; the fidelity shape
-  /// computes more than it waits, and would gain little for some 0.2 % more triangles.
+  /// Into how many pieces the ground is divided now. Rims are looked after by one for all.
   std::uint32_t pieceCount() const {
     const PieceOptions& options = s_.options.pieces;
     const std::uint32_t places = s_.waiting.everything().size();
     const std::uint32_t pieces = places / std::clamp(places / options.fewest, options.least, options.most);
-    const bool isTogether = s_.rim != nullptr || s_.options.shape == HoleShape::fidelity;
-    return pieces < options.fewest || isTogether ? 1 : pieces;
+    return pieces < options.fewest || s_.rim != nullptr ? 1 : pieces;
   }
 
   /// One level. Returns the threshold of the next.
   double levelOfAll(double threshold) {
     ++levels_;
-    progress_->add(together_.levelOf(s_.waiting.everything(), threshold, ++numbers_, {++groups_, 0}));
+    progress_->add(together_.levelOfAll(threshold, ++numbers_, {++groups_, 0}));
     return threshold * s_.options.thresholdRatio;
   }
 
@@ -172,13 +171,12 @@ class Simplifier {
   struct OneWorker {
     StageClock clock;
     Worker worker;
-    explicit OneWorker(Simplifier& s)
-        : worker(s.s_, LoopThreads::caller, s.context_.clock != nullptr ? &clock : nullptr) {}
+    explicit OneWorker(Simplifier& s) : worker(s.s_, s.context_.clock != nullptr ? &clock : nullptr) {}
   };
 
   SimplifyState<Plan, Errors>& s_;
   const RunContext& context_;
-  Worker together_;
+  LevelWorkers<Plan, Errors> together_;
   tbb::enumerable_thread_specific<OneWorker> workers_{[this] { return OneWorker(*this); }};
   std::uint32_t levels_ = 0;   // thresholds
   std::uint32_t numbers_ = 0;  // of levels, those of held vertices counted again

@@ -14,6 +14,7 @@
 
 #include "terrain/hole.h"
 #include "terrain/hole_fidelity.h"
+#include "terrain/measured_floor.h"
 #include "terrain/simplify_state.h"
 
 namespace arete {
@@ -47,29 +48,64 @@ class RemovalCost {
 
   /// Writes down what removing v costs, exactly where that is within threshold * lookAhead(). `star`: of v.
   void look(std::uint32_t v, const Star& star, double threshold, VertexNote& note) const {
+    lookAndKeep(v, star, threshold, note, KeepNothing{});
+  }
+  /// The same, and keeps the floor that the cost is of: where the look was through with it, and knows it.
+  /// Precondition: it is empty. What it holds unless the cost is exact means nothing.
+  void look(std::uint32_t v, const Star& star, double threshold, VertexNote& note,
+            MeasuredFloor& floor) const {
+    lookAndKeep(v, star, threshold, note, KeepFloor{floor});
+  }
+
+ private:
+  using State = VertexNote::State;
+  using Hole = typename Errors::Hole;
+
+  /// What becomes of triangles that a look has measured.
+  struct KeepNothing {
+    double measure(const Hole& hole, int i, int j, int m, double limit) const {
+      return hole.maximum(i, j, m, limit);
+    }
+    void startAgain() const {}
+  };
+  struct KeepFloor {
+    MeasuredFloor& floor;
+    double measure(const Hole& hole, int i, int j, int m, double limit) const {
+      SignedBound bound;
+      const double error = hole.maximum(i, j, m, limit, bound);
+      const auto f = static_cast<std::size_t>(floor.triangulation.size);
+      floor.errors[f] = error;
+      floor.bounds[f] = bound;
+      floor.triangulation.add(i, j, m);
+      return error;
+    }
+    void startAgain() const { floor.clear(); }
+  };
+
+  template <class Keep>
+  void lookAndKeep(std::uint32_t v, const Star& star, double threshold, VertexNote& note,
+                   const Keep& keep) const {
     if (star.triangleCount > static_cast<int>(s_.options.maxDegree) || !s_.isRemovable(star, v)) {
       note.state = State::stuck;
       return;
     }
     note.linkSize = static_cast<std::uint8_t>(star.linkSize);
     const double limit = threshold * lookAhead();
-    const typename Errors::Hole hole(s_.errors, star, v);
+    const Hole hole(s_.errors, star, v);
     if (s_.options.shape == HoleShape::fidelity)
       lookFidelity(star, hole, threshold, limit, note);
     else
-      lookDelaunay(star, hole, limit, note);
+      lookDelaunay(star, hole, limit, note, keep);
   }
 
- private:
-  using State = VertexNote::State;
-
-  void lookDelaunay(const Star& star, const typename Errors::Hole& hole, double limit,
-                    VertexNote& note) const {
+  template <class Keep>
+  void lookDelaunay(const Star& star, const Hole& hole, double limit, VertexNote& note,
+                    const Keep& keep) const {
     double worst = -1;
     /// Whether the triangle leaves the cost within the limit.
     const auto measure = [&](int i, int j, int m, bool isOverApex) {
       double error = isOverApex ? hole.apexError(i, j, m) : 0;
-      if (error <= limit) error = hole.maximum(i, j, m, limit);
+      if (error <= limit) error = keep.measure(hole, i, j, m, limit);
       if (error > worst) {
         worst = error;
         note.setWitness(star.link[i], star.link[j], star.link[m]);
@@ -83,6 +119,7 @@ class RemovalCost {
     if (s_.isDomainConvex) {
       if (wrapHoleFromApex(star.linkSize, hole, measure)) return conclude();
       worst = -1;
+      keep.startAgain();
     }
     const HoleTriangulation floor = triangulateHoleDelaunay(star.linkSize, hole, s_.isDomainConvex);
     if (floor.size == 0) {
@@ -95,7 +132,7 @@ class RemovalCost {
     conclude();
   }
 
-  void lookFidelity(const Star& star, const typename Errors::Hole& hole, double threshold, double limit,
+  void lookFidelity(const Star& star, const Hole& hole, double threshold, double limit,
                     VertexNote& note) const {
     // No error exceeds the range of the heights: a hole that the aspect bound alone leaves open takes any
     // shape then, Delaunay's.

@@ -25,46 +25,67 @@ class VertexRemover {
  public:
   explicit VertexRemover(SimplifyState<Plan, Errors>& state) : s_(state) {}
 
+  /// Asks for what remove() will read.
+  [[gnu::always_inline]] void prefetch(const Star& star) const {
+    for (int k = 0; k < star.triangleCount; ++k) {
+      const LiveMesh::Triangle& triangle = s_.mesh.triangles[star.triangle(k)];
+      s_.recorder.prefetch(triangle.bearer, triangle.birth);
+    }
+    for (const std::uint32_t u : star.linkView()) {
+      __builtin_prefetch(&s_.notes[u], 1);
+      s_.waiting.prefetch(u);
+      __builtin_prefetch(&s_.mesh.vertexHalfedge[u], 1);
+    }
+    s_.errors.prefetch(star);
+  }
+
   /// Removes v, whose cost is known exactly. `star`: of v; removal: its number in the recorder. `seams`: one
   /// for each vertex of the link, to be sewn.
   void remove(std::uint32_t v, const Star& star, std::uint32_t removal, std::span<Seam> seams) {
+    floor_.clear();
+    remove(v, star, floor_, removal, seams);
+  }
+  /// The same. `floor`: what the hole is to be filled with, as a look has kept it, or empty.
+  void remove(std::uint32_t v, const Star& star, MeasuredFloor& floor, std::uint32_t removal,
+              std::span<Seam> seams) {
     typename Errors::Hole hole(s_.errors, star, v);
-    fill(v, star, hole);
-    const FloorJoins joins(floor_.triangulation);
-    encodeBounds(star, hole, joins);
-    record(v, star, hole, removal);
-    refill(s_.mesh, star, floor_.triangulation, joins, s_.recorder.firstBirth(removal), removal, seams);
-    hole.settle(floor_.triangulation);
+    if (floor.isEmpty()) fill(v, star, hole, floor);
+    const FloorJoins joins(floor.triangulation);
+    encodeBounds(star, hole, joins, floor);
+    record(v, star, hole, floor.triangulation.size, removal);
+    refill(s_.mesh, star, floor.triangulation, joins, s_.recorder.firstBirth(removal), removal, seams);
+    hole.settle(floor.triangulation);
     tellLink(v, star);
     s_.mesh.vertexHalfedge[v] = LiveMesh::kNone;
   }
 
  private:
-  void fill(std::uint32_t v, const Star& star, const typename Errors::Hole& hole) {
+  void fill(std::uint32_t v, const Star& star, const typename Errors::Hole& hole, MeasuredFloor& floor) {
     if (s_.options.shape == HoleShape::fidelity) {
       // The cost was found from other corners, in other roundings, and is kept in few digits.
       const double limit =
           std::nextafter(s_.notes[v].cost, std::numeric_limits<float>::infinity()) + s_.roundingSlack;
-      fillShortest(star.linkSize, hole, s_.options.minimumAspect, limit, floor_);
-      if (floor_.triangulation.size > 0) return;
+      fillShortest(star.linkSize, hole, s_.options.minimumAspect, limit, floor);
+      if (!floor.isEmpty()) return;
     }
-    floor_.triangulation = triangulateHoleDelaunay(star.linkSize, hole, s_.isDomainConvex);
-    measure(hole, floor_);
+    floor.triangulation = triangulateHoleDelaunay(star.linkSize, hole, s_.isDomainConvex);
+    measure(hole, floor);
   }
 
   /// Errors and bounds of the floor: of the samples inside each triangle, and along its edges.
-  void encodeBounds(const Star& star, const typename Errors::Hole& hole, const FloorJoins& joins) {
+  void encodeBounds(const Star& star, const typename Errors::Hole& hole, const FloorJoins& joins,
+                    MeasuredFloor& floor) {
     for (int d = 0; d < joins.diagonalCount; ++d) {
       const FloorJoins::Diagonal& diagonal = joins.diagonals[d];
       const SignedBound bound = hole.alongEdge(diagonal.from, diagonal.to);
-      floor_.bounds[diagonal.forth.triangle].include(bound);
-      floor_.bounds[diagonal.back.triangle].include(bound);
+      floor.bounds[diagonal.forth.triangle].include(bound);
+      floor.bounds[diagonal.back.triangle].include(bound);
     }
     const OutwardScale& scale = s_.recorder.scale();
     const auto encode = [&](double bound) { return scale.encode(outward(bound)); };
-    for (int f = 0; f < floor_.triangulation.size; ++f)
-      codes_[f] = {scale.encode(withoutRounding(floor_.errors[f])), encode(floor_.bounds[f].below),
-                   encode(floor_.bounds[f].above)};
+    for (int f = 0; f < floor.triangulation.size; ++f)
+      codes_[f] = {scale.encode(withoutRounding(floor.errors[f])), encode(floor.bounds[f].below),
+                   encode(floor.bounds[f].above)};
     // The bounds of the star's triangles hold for their edges: most often the rim adds nothing to those of
     // the floor, and need not be looked at.
     const int corners = star.linkSize;
@@ -80,7 +101,8 @@ class VertexRemover {
     }
   }
 
-  void record(std::uint32_t v, const Star& star, const typename Errors::Hole& hole, std::uint32_t removal) {
+  void record(std::uint32_t v, const Star& star, const typename Errors::Hole& hole, int floorSize,
+              std::uint32_t removal) {
     for (int i = 0; i < star.triangleCount; ++i) {
       ceiling_[i] = s_.mesh.triangles[star.triangle(i)].birth;
       bearer_[i] = s_.mesh.triangles[star.triangle(i)].bearer;
@@ -97,7 +119,7 @@ class VertexRemover {
     what.metricPositions = {positions_.data(), size(corners + 1)};
     what.ceiling = {ceiling_.data(), size(star.triangleCount)};
     what.ceilingBearer = {bearer_.data(), size(star.triangleCount)};
-    what.floor = {codes_.data(), size(floor_.triangulation.size)};
+    what.floor = {codes_.data(), size(floorSize)};
     s_.recorder.record(removal, what);
   }
 

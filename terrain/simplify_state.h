@@ -21,8 +21,9 @@ namespace arete {
 /// Plan: LatticePlan or PointPlan. Errors: RasterError or PointError, see there for the interface:
 ///   Hole hole(star, apex)                        what the hole's triangles are measured against
 ///   hole.fromApex(i)                             where a corner lies from the apex
-///   hole.maximum(i, j, m, limit)                 error of the triangle of three corners
-///   hole.maximum(i, j, m, bound)                 the same, with the signed difference at the samples
+///   hole.maximum(i, j, m, limit)                 error of the triangle of three corners, or some larger than
+///                                                the limit
+///   hole.maximum(i, j, m, limit, bound)          the same, with the signed difference at the samples
 ///   hole.position(i), hole.apexPosition()        corners and apex on the plan, with their heights
 ///   hole.alongEdge(i, j)                         signed difference along an edge
 ///   hole.settle(floor)                           after a refill: samples find their new triangles

@@ -8,6 +8,8 @@
 
 namespace arete {
 
+inline constexpr std::size_t kHeightsAhead = 12;  ///< vertices before the one whose heights are asked for
+
 /// Asks for the stars of the next vertices of a list, on the visit of its i-th.
 ///
 /// A walk around a star follows one pointer after the other. Asking early for what the next stars start with
@@ -44,6 +46,18 @@ template <class VertexAt>
     ask(after(after(h)));
     ask(before(before(h)));
   }
+}
+
+/// Asks for all that a look reads, on the visit of the i-th of some vertices that are looked at in turn.
+template <class State, class Vertices>
+[[gnu::always_inline]] inline void prefetchForLook(const State& state, const Vertices& vertices,
+                                                   std::size_t i) {
+  prefetchStars(state.mesh, i, vertices.size(), [&](std::size_t k) { return vertices[k]; });
+  if (i + kHeightsAhead >= vertices.size()) return;
+  const std::uint32_t v = vertices[i + kHeightsAhead];
+  state.errors.prefetch(v);
+  __builtin_prefetch(&state.notes[v], 1);
+  state.waiting.prefetch(v);
 }
 
 }  // namespace arete

@@ -20,7 +20,8 @@ struct VertexNote {
   /// Marks of the corners of the triangle that costs that much: see isWitnessedBy(). Not of the fidelity
   /// shape.
   std::uint32_t witness = 0;
-  /// 4 * level + choice: whether it was a candidate of that level, and what became of it.
+  /// Whether it was a candidate of a level, and what became of it: 4 * level + choice (IndependentSet); or,
+  /// that a neighbour was taken, ~level (PieceWorker).
   std::uint32_t candidacy = 0;
   State state = State::stale;
   std::uint8_t isTouched = 0;      ///< a neighbour went

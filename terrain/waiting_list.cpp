@@ -29,29 +29,37 @@ void WaitingList::assign(std::vector<std::uint32_t> vertices, std::span<const st
   waiting_ = vertices_.size() - 1 - staying_;
 }
 
-void WaitingList::collect(Piece piece, double threshold, std::vector<std::uint32_t>& due, Space& space,
-                          LoopThreads threads) const {
-  const float* const dueAt = dueAt_.data() + piece.begin;
-  const std::uint32_t* const vertex = vertices_.data() + piece.begin;
-  space(threads, piece.size(), kChunk, due, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
-    for (std::size_t i = begin; i < end; ++i) {
-      *to = vertex[i];
-      to += dueAt[i] <= threshold ? 1 : 0;
-    }
-    return to;
+void WaitingList::collect(double threshold, std::vector<std::uint32_t>& due, Space& space) const {
+  space(everything().size(), kChunk, due, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+    const std::size_t first = everything().begin;
+    return collectTo(first + begin, first + end, threshold, to);
   });
+}
+
+void WaitingList::collect(Piece piece, double threshold, UninitializedVector<std::uint32_t>& due) const {
+  due.resize(piece.size());
+  std::uint32_t* const end = collectTo(piece.begin, piece.end, threshold, due.data());
+  due.resize(static_cast<std::size_t>(end - due.data()));
+}
+
+std::uint32_t* WaitingList::collectTo(std::size_t begin, std::size_t end, double threshold,
+                                      std::uint32_t* to) const {
+  for (std::size_t place = begin; place < end; ++place) {
+    *to = vertices_[place];
+    to += dueAt_[place] <= threshold ? 1 : 0;
+  }
+  return to;
 }
 
 void WaitingList::collect(std::span<const std::uint32_t> some, double threshold,
                           std::vector<std::uint32_t>& due, Space& space) const {
-  space(LoopThreads::all, some.size(), kChunk, due,
-        [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
-          for (const std::uint32_t v : some.subspan(begin, end - begin)) {
-            *to = v;
-            to += place_[v] != kNobody && dueAt_[place_[v]] <= threshold ? 1 : 0;
-          }
-          return to;
-        });
+  space(some.size(), kChunk, due, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+    for (const std::uint32_t v : some.subspan(begin, end - begin)) {
+      *to = v;
+      to += place_[v] != kNobody && dueAt_[place_[v]] <= threshold ? 1 : 0;
+    }
+    return to;
+  });
 }
 
 void WaitingList::remove(std::span<const std::uint32_t> gone, LoopThreads threads) {

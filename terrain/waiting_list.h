@@ -7,7 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "engine/loop_threads.h"
 #include "engine/parallel_filter.h"
+#include "engine/uninitialized_vector.h"
 
 namespace arete {
 
@@ -27,7 +29,7 @@ class WaitingList {
     std::uint32_t size() const { return end - begin; }
   };
 
-  /// What collect() works with: each thread that collects for itself has its own.
+  /// What collect() works with.
   using Space = ParallelFilter<std::uint32_t>;
 
   /// `vertices`: in the order in which they shall be visited, those that stay among them; the others are all
@@ -45,10 +47,11 @@ class WaitingList {
   /// Forgets those that have gone if they are more than half: places change. O(size).
   void forgetGone();
 
-  /// `due` receives, in order, those of the piece whose threshold has come. O(size of the piece).
-  void collect(Piece piece, double threshold, std::vector<std::uint32_t>& due, Space& space,
-               LoopThreads threads) const;
-  /// The same of `some`. Those that have gone are never due. O(some).
+  /// `due` receives, in order, those whose threshold has come. O(places), parallel.
+  void collect(double threshold, std::vector<std::uint32_t>& due, Space& space) const;
+  /// The same of those in the piece, by the calling thread alone. O(size of the piece).
+  void collect(Piece piece, double threshold, UninitializedVector<std::uint32_t>& due) const;
+  /// The same of `some`. Those that have gone are never due. O(some), parallel.
   void collect(std::span<const std::uint32_t> some, double threshold, std::vector<std::uint32_t>& due,
                Space& space) const;
 
@@ -74,6 +77,9 @@ class WaitingList {
   [[gnu::always_inline]] void prefetch(std::uint32_t v) const { __builtin_prefetch(&place_[v]); }
 
  private:
+  /// Writes those of some places that are due, returns where it ended. There is room for all.
+  std::uint32_t* collectTo(std::size_t begin, std::size_t end, double threshold, std::uint32_t* to) const;
+
   static constexpr std::uint32_t kGone = 0xFFFFFFFF;
   static constexpr std::uint32_t kNobody = 0;  // the place of all who are not in the list; never looked at
   std::vector<std::uint32_t> vertices_;        // by place; kGone

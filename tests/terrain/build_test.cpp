@@ -118,34 +118,41 @@ TEST(BuildRaster, GivesTheSameBytesForAnyNumberOfThreads) {
     }
 }
 
-/// Pieces of so few vertices that a small raster has many. (The fidelity shape goes without.)
-BuildOptions withPieces(std::uint32_t vertices) {
-  BuildOptions options;
+/// Pieces of so few vertices that a small raster has many.
+BuildOptions withPieces(HoleShape shape, std::uint32_t vertices) {
+  BuildOptions options = withShape(shape);
   options.pieces = {.most = vertices, .least = vertices, .fewest = 2, .levels = 7};
   return options;
+}
+
+/// Both shapes, together and by pieces.
+std::vector<BuildOptions> eachWay() {
+  return {withShape(HoleShape::delaunay), withShape(HoleShape::fidelity), withPieces(HoleShape::delaunay, 30),
+          withPieces(HoleShape::fidelity, 30)};
 }
 
 TEST(BuildRaster, KeepsEveryLawByPiecesAndTheSameBytesForAnyNumberOfThreads) {
   for (const RasterFamily& family : rasterFamilies()) {
     const RasterHeightfield field = family.make(90, 70, 12);
     const auto finest = finestTriangulation(field);
-    for (const std::uint32_t vertices : {20u, 300u}) {
-      const std::string name = std::string(family.name) + " " + std::to_string(vertices);
-      BuildOptions options = withPieces(vertices);
-      for (std::size_t t = 0; t < finest.size(); t += 83) options.fixedVertices.push_back(finest[t][0]);
-      RunContext context;
-      context.threads = 1;
-      const auto one = build(field, options, context);
-      ASSERT_TRUE(one) << name << ": " << one.error().describe();
-      const Status status = validateModel(*one);
-      EXPECT_TRUE(status) << name << ": " << status.error().describe();
-      for (const int threads : {2, 4}) {
-        context.threads = threads;
-        const auto many = build(field, options, context);
-        ASSERT_TRUE(many);
-        expectSameArrays(one->mt, many->mt, name + " " + std::to_string(threads));
+    for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity})
+      for (const std::uint32_t vertices : {20u, 300u}) {
+        const std::string name = std::string(family.name) + " " + std::to_string(vertices);
+        BuildOptions options = withPieces(shape, vertices);
+        for (std::size_t t = 0; t < finest.size(); t += 83) options.fixedVertices.push_back(finest[t][0]);
+        RunContext context;
+        context.threads = 1;
+        const auto one = build(field, options, context);
+        ASSERT_TRUE(one) << name << ": " << one.error().describe();
+        const Status status = validateModel(*one);
+        EXPECT_TRUE(status) << name << ": " << status.error().describe();
+        for (const int threads : {2, 4}) {
+          context.threads = threads;
+          const auto many = build(field, options, context);
+          ASSERT_TRUE(many);
+          expectSameArrays(one->mt, many->mt, name + " " + std::to_string(threads));
+        }
       }
-    }
   }
 }
 
@@ -191,9 +198,9 @@ TEST(BuildRaster, ReproducesEverySampleToTheBit) {
 /// Every triangle of the MT against every sample, by plain barycentric coordinates.
 TEST(BuildRaster, StoresErrorsThatAreThoseOfAPlainScanRoundedOutwards) {
   for (const RasterFamily& family : rasterFamilies())
-    for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity}) {
+    for (const BuildOptions& options : eachWay()) {
       const RasterHeightfield field = family.make(21, 18, 4);
-      const auto model = build(field, withShape(shape));
+      const auto model = build(field, options);
       ASSERT_TRUE(model) << family.name;
       const MultiTriangulation& mt = model->mt;
       double magnitude = 0;
@@ -395,28 +402,29 @@ TEST(BuildPoints, GivesTheSameBytesForAnyNumberOfThreads) {
 }
 
 TEST(BuildPoints, KeepsEveryLawByPiecesAndTheSameBytesForAnyNumberOfThreads) {
-  for (const PointFamily& family : pointFamilies()) {
-    const PointHeightfield field = family.make(3000, 5);
-    RunContext context;
-    context.threads = 1;
-    const auto one = build(field, withPieces(100), context);
-    ASSERT_TRUE(one) << family.name << ": " << one.error().describe();
-    const Status status = validateModel(*one);
-    EXPECT_TRUE(status) << family.name << ": " << status.error().describe();
-    for (const int threads : {2, 4}) {
-      context.threads = threads;
-      const auto many = build(field, withPieces(100), context);
-      ASSERT_TRUE(many);
-      expectSameArrays(one->mt, many->mt, std::string(family.name) + " " + std::to_string(threads));
+  for (const PointFamily& family : pointFamilies())
+    for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity}) {
+      const PointHeightfield field = family.make(3000, 5);
+      RunContext context;
+      context.threads = 1;
+      const auto one = build(field, withPieces(shape, 100), context);
+      ASSERT_TRUE(one) << family.name << ": " << one.error().describe();
+      const Status status = validateModel(*one);
+      EXPECT_TRUE(status) << family.name << ": " << status.error().describe();
+      for (const int threads : {2, 4}) {
+        context.threads = threads;
+        const auto many = build(field, withPieces(shape, 100), context);
+        ASSERT_TRUE(many);
+        expectSameArrays(one->mt, many->mt, std::string(family.name) + " " + std::to_string(threads));
+      }
     }
-  }
 }
 
 TEST(BuildPoints, StoresErrorsThatAreThoseOfAPlainScanRoundedOutwards) {
   for (const PointFamily& family : pointFamilies())
-    for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity}) {
+    for (const BuildOptions& options : eachWay()) {
       const PointHeightfield field = family.make(150, 3);
-      const auto model = build(field, withShape(shape));
+      const auto model = build(field, options);
       ASSERT_TRUE(model) << family.name;
       const MultiTriangulation& mt = model->mt;
       double magnitude = 0, low = 1e300, high = -1e300;

@@ -261,7 +261,7 @@ TEST(HoleTriangulation, MeasuresATriangleAsALookAtEverySampleDoes) {
       }
     const RasterError::Hole hole(errors, star, star.link[0]);
     SignedBound bound;
-    EXPECT_NEAR(hole.maximum(0, 1, 2, bound), std::max(above, below), 1e-9) << "run " << run;
+    EXPECT_NEAR(hole.maximum(0, 1, 2, 1e9, bound), std::max(above, below), 1e-9) << "run " << run;
     EXPECT_NEAR(bound.above, above, 1e-9) << "run " << run;
     EXPECT_NEAR(bound.below, below, 1e-9) << "run " << run;
     EXPECT_NEAR(hole.maximum(0, 1, 2, 1e9), std::max(above, below), 1e-9) << "run " << run;

@@ -72,13 +72,6 @@ TEST(IndependentSet, IsTheOneAGreedyPassTakesForAnyNumberOfThreads) {
         std::sort(chosen.begin(), chosen.end());
         EXPECT_EQ(chosen, greedy(grid, set));
       }
-      Grid grid = someGrid(23, 17, distinctCosts, seed);
-      IndependentSet set(grid.mesh, grid.notes);
-      for (const std::uint32_t v : grid.candidates) set.enter(v, 7);
-      std::vector<std::uint32_t> chosen;
-      set.choose(grid.candidates, 7, chosen, LoopThreads::caller);
-      std::sort(chosen.begin(), chosen.end());
-      EXPECT_EQ(chosen, greedy(grid, set)) << "by the caller alone";
     }
 }
 

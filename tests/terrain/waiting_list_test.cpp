@@ -55,7 +55,7 @@ TEST(WaitingList, FindsWhoIsDueInOrderHoweverManyHaveGone) {
     WaitingList::Space space;
     const auto collect = [&](double threshold) {
       list.forgetGone();
-      list.collect(list.everything(), threshold, due, space, LoopThreads::all);
+      list.collect(threshold, due, space);
     };
     collect(0);
     EXPECT_EQ(due, ledger.order) << "all are due at first";
@@ -65,11 +65,12 @@ TEST(WaitingList, FindsWhoIsDueInOrderHoweverManyHaveGone) {
       collect(threshold);
       ASSERT_EQ(due, ledger.due(threshold)) << "threshold " << threshold;
       // By pieces it is the same.
-      std::vector<std::uint32_t> byPieces, ofPiece;
+      std::vector<std::uint32_t> byPieces, ofSome;
+      UninitializedVector<std::uint32_t> ofPiece;
       const WaitingList::Piece everything = list.everything();
       for (std::uint32_t from = everything.begin; from < everything.end; from += 1000) {
         const WaitingList::Piece piece{from, std::min(from + 1000, everything.end)};
-        list.collect(piece, threshold, ofPiece, space, LoopThreads::caller);
+        list.collect(piece, threshold, ofPiece);
         for (const std::uint32_t v : ofPiece) ASSERT_TRUE(list.isWithin(piece, v));
         byPieces.insert(byPieces.end(), ofPiece.begin(), ofPiece.end());
       }
@@ -80,8 +81,8 @@ TEST(WaitingList, FindsWhoIsDueInOrderHoweverManyHaveGone) {
       std::shuffle(shuffled.begin(), shuffled.end(), random);
       list.sort(shuffled);
       ASSERT_EQ(shuffled, due);
-      list.collect(shuffled, threshold, ofPiece, space);
-      ASSERT_EQ(ofPiece, due);
+      list.collect(shuffled, threshold, ofSome, space);
+      ASSERT_EQ(ofSome, due);
       ASSERT_EQ(list.least(), ledger.least());
       std::vector<std::uint32_t> gone;
       for (const std::uint32_t v : due) {
@@ -115,7 +116,7 @@ TEST(WaitingList, OfNobodyIsEmpty) {
   list.assign({}, std::vector<std::uint8_t>(10, 0));
   std::vector<std::uint32_t> due{1};
   WaitingList::Space space;
-  list.collect(list.everything(), 1, due, space, LoopThreads::all);
+  list.collect(1, due, space);
   EXPECT_TRUE(due.empty() && list.empty());
   EXPECT_EQ(list.least(), WaitingList::kNever);
 }
