@@ -197,7 +197,8 @@ void addBuildCommand(CLI::App& app, Session& session) {
       ->type_name("NAME");
   command
       ->add_option("--ratio", arguments->options.thresholdRatio,
-                   "Growth of the error threshold from level to level (default 1.07)")
+                   "Growth of the error threshold from the first level to the second; it falls as\n"
+                   "fewer vertices are left (default 1.12)")
       ->check(finiteAbove(1))
       ->type_name("R");
   command

@@ -37,8 +37,8 @@ Status checkOptions(const BuildOptions& options, std::size_t sampleCount) {
     return refuse(fmt::format("pieces must have at least 1 vertex and at most no fewer, not {} to {}",
                               pieces.least, pieces.most),
                   "pieces");
-  if (pieces.fewest < 1 || pieces.levels < 1)
-    return refuse(fmt::format("{} pieces of {} levels are no division", pieces.fewest, pieces.levels),
+  if (pieces.fewest < 1 || !(pieces.span > 1 && std::isfinite(pieces.span)))
+    return refuse(fmt::format("{} pieces over a span of {} are no division", pieces.fewest, pieces.span),
                   "pieces");
   for (const std::uint32_t v : options.fixedVertices)
     if (v >= sampleCount)

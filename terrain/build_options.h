@@ -19,7 +19,7 @@ struct PieceOptions {
   std::uint32_t most = 1 << 13;   ///< vertices of a piece; what belongs to them takes about 1 MB
   std::uint32_t least = 1 << 12;  ///< the same, where larger pieces would be too few. 1 .. most
   std::uint32_t fewest = 8;       ///< fewer pieces are not made: all threads work together then. > 0
-  std::uint32_t levels = 6;       ///< that a piece goes through by itself. > 0
+  double span = 1.5;  ///< the growth of the threshold in the levels that a piece goes through by itself. > 1
 };
 
 /// Options of a build. The defaults are what the figures in docs/performance.md are measured with.
@@ -29,9 +29,9 @@ struct BuildOptions {
   /// A vertex with more neighbours waits until some of them are gone. 6 .. 32.
   std::uint32_t maxDegree = 14;
 
-  /// A level admits removals whose error is under a threshold that grows by this ratio from level to level.
-  /// > 1.
-  double thresholdRatio = 1.07;
+  /// A level admits removals whose error is under a threshold that grows by this ratio from the first level
+  /// to the second, and by less from level to level the fewer vertices are left (simplify.h). > 1.
+  double thresholdRatio = 1.12;
 
   /// Fidelity only: triangles whose least altitude is below this part of their longest edge are rejected.
   double minimumAspect = 0.02;

@@ -2,25 +2,28 @@
 //
 // The build of de Berg and Dobrindt (1995): repeat { choose an independent set of removable vertices; remove
 // each; retriangulate its hole; record the modification } until nothing is removable. That is a level
-// (simplify_level.h). From level to level the threshold below which a removal must cost grows by a constant
-// ratio: cheap removals go first everywhere, which is what keeps the cuts at any error small (DESIGN: without
-// thresholds the same bound takes 1.9 times as many triangles).
+// (simplify_level.h). From level to level the threshold below which a removal must cost grows: cheap removals
+// go first everywhere, which is what keeps the cuts at any error small (DESIGN: without thresholds the same
+// bound takes 1.9 times as many triangles). It grows in smaller steps the fewer vertices are left. Most of
+// the time goes into the first levels, of which only the finest cuts tell; levels among few vertices take
+// next to none, and all coarser cuts live on their order (docs/decisions/0016).
 //
 // A level visits a vertex in ten, and so all of memory. Therefore a large mesh goes through some levels piece
 // by piece: the ground is divided into pieces that fit a processor's cache, each thread takes one through all
-// those levels by itself, then the next. A vertex with a neighbour beyond its piece is held until all pieces
-// are through: no two threads ever meet, as every triangle around a vertex that one of them removes has its
-// corners in one piece, and the stars of other pieces' vertices have none such. (Sewing writes to a triangle
-// beyond the rim, which can have a corner in another piece: but only what it says of the rim's edge, and who
-// looks at the star of that corner does not ask for it.) Those that were held go through the same levels
-// after, together. So what happens in a piece depends on nothing that others do meanwhile, and the MT is the
-// same for any number of threads (docs/decisions/0015).
+// those levels by itself (simplify_piece.h), then the next. A vertex with a neighbour beyond its piece is
+// held until all pieces are through: no two threads ever meet, as every triangle around a vertex that one of
+// them removes has its corners in one piece, and the stars of other pieces' vertices have none such. (Sewing
+// writes to a triangle beyond the rim, which can have a corner in another piece: but only what it says of the
+// rim's edge, and who looks at the star of that corner does not ask for it.) Those that were held go through
+// the same levels after, together. So what happens in a piece depends on nothing that others do meanwhile,
+// and the MT is the same for any number of threads (docs/decisions/0015).
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -83,8 +86,9 @@ class Simplifier {
       if (isFixed[v] != 0) s_.notes[v].state = VertexNote::State::fixed;
     // Vertices are visited in the order of their triangles in memory, which is that of the ground.
     s_.waiting.assign(s_.mesh.verticesInOrder(), isFixed);
+    waitingAtStart_ = std::max<std::size_t>(s_.waiting.size(), 1);
     // Most levels are late and short: progress by what is left.
-    progress_.emplace(context_, "simplify", std::max<std::size_t>(s_.waiting.size(), 1));
+    progress_.emplace(context_, "simplify", waitingAtStart_);
 
     const StageClock::Scope stage(context_.clock, "simplify: evaluate");
     const RemovalCost<Plan, Errors> cost(s_);
@@ -106,18 +110,28 @@ class Simplifier {
     return pieces < options.fewest || s_.rim != nullptr ? 1 : pieces;
   }
 
+  /// By how much the threshold grows now. What it grows by falls with the vertices that are left, to the
+  /// power of 3/4. (Square roots are the same on every machine.)
+  double ratio() const {
+    const double growth = s_.options.thresholdRatio - 1,
+                 root = std::sqrt(double(s_.waiting.size()) / double(waitingAtStart_));
+    return 1 + std::max(std::min(growth, kLeastGrowth), growth * root * std::sqrt(root));
+  }
+
   /// One level. Returns the threshold of the next.
   double levelOfAll(double threshold) {
     ++levels_;
     progress_->add(together_.levelOfAll(threshold, ++numbers_, {++groups_, 0}));
-    return threshold * s_.options.thresholdRatio;
+    return threshold * ratio();
   }
 
   /// As many levels as a piece goes through. Returns the threshold of the next.
   double levelsByPieces(double threshold, std::uint32_t pieces) {
     std::vector<double> thresholds = {threshold};
-    while (thresholds.size() <= s_.options.pieces.levels)
-      thresholds.push_back(thresholds.back() * s_.options.thresholdRatio);
+    const double step = ratio();
+    while (thresholds.size() <= kMostLevels && thresholds.back() < threshold * s_.options.pieces.span)
+      thresholds.push_back(thresholds.back() * step);
+    const auto levels = static_cast<std::uint32_t>(thresholds.size()) - 1;
     ++groups_;
     const Piece everything = s_.waiting.everything();
     const auto placeOf = [&](std::uint64_t piece) {
@@ -130,7 +144,7 @@ class Simplifier {
         [&](const auto& range) {
           for (std::uint32_t p = range.begin(); p != range.end(); ++p) {
             Worker& worker = workers_.local().worker;
-            for (std::uint32_t k = 0; k < s_.options.pieces.levels && !context_.cancelled(); ++k)
+            for (std::uint32_t k = 0; k < levels && !context_.cancelled(); ++k)
               progress_->add(worker.levelOf({placeOf(p), placeOf(p + 1)}, thresholds[k], numbers_ + 1 + k,
                                             {groups_, p}));
             held[p].swap(worker.held());
@@ -138,8 +152,8 @@ class Simplifier {
           }
         },
         tbb::simple_partitioner());
-    levels_ += s_.options.pieces.levels;
-    numbers_ += s_.options.pieces.levels;
+    levels_ += levels;
+    numbers_ += levels;
     if (context_.clock != nullptr) {
       std::vector<StageClock*> clocks;
       for (OneWorker& one : workers_) clocks.push_back(&one.clock);
@@ -149,7 +163,7 @@ class Simplifier {
     std::vector<std::uint32_t> some;
     for (const std::vector<std::uint32_t>& of : held) some.insert(some.end(), of.begin(), of.end());
     for (const std::uint32_t v : some) s_.waiting.set(v, WaitingList::kNow);
-    for (std::uint32_t k = 0; k < s_.options.pieces.levels && !context_.cancelled(); ++k)
+    for (std::uint32_t k = 0; k < levels && !context_.cancelled(); ++k)
       progress_->add(together_.levelOf(some, thresholds[k], ++numbers_, {groups_, pieces}));
     return thresholds.back();
   }
@@ -174,6 +188,9 @@ class Simplifier {
     explicit OneWorker(Simplifier& s) : worker(s.s_, s.context_.clock != nullptr ? &clock : nullptr) {}
   };
 
+  static constexpr double kLeastGrowth = 0.015;
+  static constexpr std::size_t kMostLevels = 16;  // of a piece by itself
+
   SimplifyState<Plan, Errors>& s_;
   const RunContext& context_;
   LevelWorkers<Plan, Errors> together_;
@@ -181,6 +198,7 @@ class Simplifier {
   std::uint32_t levels_ = 0;   // thresholds
   std::uint32_t numbers_ = 0;  // of levels, those of held vertices counted again
   std::uint32_t groups_ = 0;   // of batches
+  std::size_t waitingAtStart_ = 1;
   std::optional<SharedProgress> progress_;
 };
 

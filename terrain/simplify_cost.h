@@ -25,7 +25,7 @@ class RemovalCost {
   explicit RemovalCost(const SimplifyState<Plan, Errors>& state) : s_(state) {}
 
   /// How far beyond the threshold a cost is worth knowing exactly: the next levels will ask.
-  double lookAhead() const { return s_.options.shape == HoleShape::fidelity ? 1.2 : 1.5; }
+  static constexpr double kLookAhead = 1.2;
 
   /// Writes down what removing v costs, or costs at least, by the finest triangulation's rule, where it has
   /// one. Precondition: nothing around v has gone.
@@ -46,7 +46,7 @@ class RemovalCost {
     note.state = State::exact;
   }
 
-  /// Writes down what removing v costs, exactly where that is within threshold * lookAhead(). `star`: of v.
+  /// Writes down what removing v costs, exactly where that is within threshold * kLookAhead. `star`: of v.
   void look(std::uint32_t v, const Star& star, double threshold, VertexNote& note) const {
     lookAndKeep(v, star, threshold, note, KeepNothing{});
   }
@@ -90,7 +90,7 @@ class RemovalCost {
       return;
     }
     note.linkSize = static_cast<std::uint8_t>(star.linkSize);
-    const double limit = threshold * lookAhead();
+    const double limit = threshold * kLookAhead;
     const Hole hole(s_.errors, star, v);
     if (s_.options.shape == HoleShape::fidelity)
       lookFidelity(star, hole, threshold, limit, note);

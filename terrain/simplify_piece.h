@@ -2,12 +2,11 @@
 //
 // A level that one thread works on, of a piece of the ground. It collects who is due, as any level does. Then
 //
-//   take      It looks at one after the other. A vertex with a neighbour beyond the piece, were it to go, is
-//             held instead. One that costs no more than the level before allowed is late, and taken at once;
-//             the others are candidates, and taken in order of their cost when all have been looked at. Who
-//             has a neighbour that was taken is passed over, unseen: the neighbour's removal changes what it
-//             costs. So the taken are independent, hardly dearer ones go first than in an independent set of
-//             all candidates, and one look in twelve is saved (docs/decisions/0016).
+//   take      It looks at one after the other and takes who costs no more than the threshold. A vertex with a
+//             neighbour beyond the piece is held instead. Who has a neighbour that was taken is passed over,
+//             unseen: the neighbour's removal changes what it costs. So the taken are independent, and one
+//             look in ten is saved. Within a level the order is that of the ground, not of the costs, which
+//             is why the levels must not be far apart (docs/decisions/0016).
 //   remove    Those that were taken: their stars, and what their floors measure, are kept from the look.
 #pragma once
 
@@ -59,64 +58,40 @@ class PieceWorker {
  private:
   using Note = VertexNote::State;
 
-  struct Candidate {
-    std::uint32_t vertex;
-    float cost;
+  struct Taken {
     Star star;
     MeasuredFloor floor;  // empty unless the look was of this level
   };
 
   void take(Piece piece, double threshold, std::uint32_t number) {
     const StageClock::Scope stage(clock_, "simplify: evaluate");
-    // A look of the fidelity shape takes so long that those of candidates that are then blocked are dear.
-    const double late =
-        s_.options.shape == HoleShape::fidelity ? threshold : threshold / s_.options.thresholdRatio;
     const std::uint32_t isPassedOver = ~number;
-    candidates_ = 0;
-    later_.clear();
     taken_.clear();
-    takenFrom_.clear();
     linkSizes_.clear();
-    const auto takeOne = [&](std::uint32_t candidate) {
-      const Candidate& one = space_[candidate];
-      for (const std::uint32_t u : one.star.linkView()) s_.notes[u].candidacy = isPassedOver;
-      taken_.push_back(one.vertex);
-      takenFrom_.push_back(candidate);
-      linkSizes_.push_back(static_cast<std::uint8_t>(one.star.linkSize));
-    };
     for (std::size_t i = 0; i != due_.size(); ++i) {
       prefetchForLook(s_, due_, i);
       const std::uint32_t v = due_[i];
       VertexNote& note = s_.notes[v];
       if (note.candidacy == isPassedOver) continue;
-      if (candidates_ == space_.size()) space_.emplace_back();
-      Candidate& one = space_[candidates_];
-      if (!isCandidate(v, note, threshold, one)) continue;
-      if (!std::ranges::all_of(one.star.linkView(),
-                               [&](std::uint32_t u) { return s_.waiting.isWithin(piece, u); })) {
+      if (taken_.size() == space_.size()) space_.emplace_back();
+      Taken& one = space_[taken_.size()];
+      if (!isWithin(threshold, v, note, one)) continue;
+      const auto link = one.star.linkView();
+      if (!std::ranges::all_of(link, [&](std::uint32_t u) { return s_.waiting.isWithin(piece, u); })) {
         held_.push_back(v);
         s_.waiting.set(v, WaitingList::kNever);
         continue;
       }
-      one.vertex = v;
-      one.cost = note.cost;
-      if (double(note.cost) <= late)
-        takeOne(candidates_);
-      else
-        later_.push_back(candidates_);
-      ++candidates_;
+      for (const std::uint32_t u : link) s_.notes[u].candidacy = isPassedOver;
+      taken_.push_back(v);
+      linkSizes_.push_back(static_cast<std::uint8_t>(link.size()));
     }
-    std::ranges::sort(later_, [&](std::uint32_t a, std::uint32_t b) {
-      return space_[a].cost != space_[b].cost ? space_[a].cost < space_[b].cost : a < b;
-    });
-    for (const std::uint32_t candidate : later_)
-      if (s_.notes[space_[candidate].vertex].candidacy != isPassedOver) takeOne(candidate);
   }
 
   /// Whether removing v costs no more than the threshold: then `one` has its star.
-  bool isCandidate(std::uint32_t v, VertexNote& note, double threshold, Candidate& one) {
+  bool isWithin(double threshold, std::uint32_t v, VertexNote& note, Taken& one) {
     note.settle();
-    one.floor.triangulation.size = 0;
+    one.floor.clear();
     if (note.state == Note::exact) {
       if (note.cost > threshold) return false;
       one.star.gather(s_.mesh, v, kMaxHoleCorners);
@@ -134,10 +109,10 @@ class PieceWorker {
     const StageClock::Scope stage(clock_, "simplify: remove");
     batch_.begin(order, linkSizes_);
     for (std::size_t i = 0; i != taken_.size(); ++i) {
-      if (i + kStarsAhead < taken_.size()) remover_.prefetch(space_[takenFrom_[i + kStarsAhead]].star);
-      Candidate& one = space_[takenFrom_[i]];
+      if (i + kStarsAhead < taken_.size()) remover_.prefetch(space_[i + kStarsAhead].star);
+      Taken& one = space_[i];
       batch_.setOpen(i, one.star.isOpen);
-      remover_.remove(one.vertex, one.star, one.floor, batch_.removal(i), batch_.seams(i));
+      remover_.remove(taken_[i], one.star, one.floor, batch_.removal(i), batch_.seams(i));
     }
   }
 
@@ -150,11 +125,9 @@ class PieceWorker {
   StageClock* clock_;
 
   UninitializedVector<std::uint32_t> due_;
-  std::vector<Candidate> space_;  // kept from level to level
-  std::uint32_t candidates_ = 0;  // of this one
-  std::vector<std::uint32_t> later_;
-  std::vector<std::uint32_t> taken_, takenFrom_;  // vertices, and their candidates
-  std::vector<std::uint8_t> linkSizes_;           // per taken
+  std::vector<std::uint32_t> taken_;
+  std::vector<Taken> space_;             // per taken, and kept for those of the next level
+  std::vector<std::uint8_t> linkSizes_;  // per taken
   std::vector<std::uint32_t> held_;
 };
 

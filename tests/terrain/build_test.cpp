@@ -121,7 +121,7 @@ TEST(BuildRaster, GivesTheSameBytesForAnyNumberOfThreads) {
 /// Pieces of so few vertices that a small raster has many.
 BuildOptions withPieces(HoleShape shape, std::uint32_t vertices) {
   BuildOptions options = withShape(shape);
-  options.pieces = {.most = vertices, .least = vertices, .fewest = 2, .levels = 7};
+  options.pieces = {.most = vertices, .least = vertices, .fewest = 2, .span = 1.6};
   return options;
 }
 
@@ -343,7 +343,8 @@ TEST(BuildRaster, RefusesOptionsOutOfRangeAndNamesThem) {
   EXPECT_EQ(culpritOf({.pieces = {.least = 0}}), "pieces");
   EXPECT_EQ(culpritOf({.pieces = {.most = 20, .least = 21}}), "pieces");
   EXPECT_EQ(culpritOf({.pieces = {.fewest = 0}}), "pieces");
-  EXPECT_EQ(culpritOf({.pieces = {.levels = 0}}), "pieces");
+  EXPECT_EQ(culpritOf({.pieces = {.span = 1}}), "pieces");
+  EXPECT_EQ(culpritOf({.pieces = {.span = NAN}}), "pieces");
   EXPECT_EQ(culpritOf({.fixedVertices = {64}}), "fixed vertices");
 }
 
