@@ -19,7 +19,7 @@ struct PieceOptions {
   std::uint32_t most = 1 << 13;   ///< vertices of a piece; what belongs to them takes about 1 MB
   std::uint32_t least = 1 << 12;  ///< the same, where larger pieces would be too few. 1 .. most
   std::uint32_t fewest = 8;       ///< fewer pieces are not made: all threads work together then. > 0
-  double span = 1.5;  ///< the growth of the threshold in the levels that a piece goes through by itself. > 1
+  double span = 1.35;  ///< the growth of the threshold in the levels that a piece goes through by itself. > 1
 };
 
 /// Options of a build. The defaults are what the figures in docs/performance.md are measured with.
