@@ -111,9 +111,11 @@ class Simplifier {
   }
 
   /// By how much the threshold grows now. What it grows by falls with the vertices that are left, to the
-  /// power of 3/4. (Square roots are the same on every machine.)
+  /// power of 3/4. (Square roots are the same on every machine.) The fidelity shape takes smaller steps: its
+  /// cuts have two thousandths less triangles for it, and its time hardly tells.
   double ratio() const {
-    const double growth = s_.options.thresholdRatio - 1,
+    const double part = s_.options.shape == HoleShape::fidelity ? 2.0 / 3 : 1,
+                 growth = (s_.options.thresholdRatio - 1) * part,
                  root = std::sqrt(double(s_.waiting.size()) / double(waitingAtStart_));
     return 1 + std::max(std::min(growth, kLeastGrowth), growth * root * std::sqrt(root));
   }
