@@ -131,8 +131,9 @@ class Simplifier {
   double levelsByPieces(double threshold, std::uint32_t pieces) {
     std::vector<double> thresholds = {threshold};
     const double step = ratio();
-    while (thresholds.size() <= kMostLevels && thresholds.back() < threshold * s_.options.pieces.span)
+    do  // once at least: of flat ground all thresholds are 0
       thresholds.push_back(thresholds.back() * step);
+    while (thresholds.size() <= kMostLevels && thresholds.back() < threshold * s_.options.pieces.span);
     const auto levels = static_cast<std::uint32_t>(thresholds.size()) - 1;
     ++groups_;
     const Piece everything = s_.waiting.everything();

@@ -5,7 +5,7 @@
 //   take      It looks at one after the other and takes who costs no more than the threshold. A vertex with a
 //             neighbour beyond the piece is held instead. Who has a neighbour that was taken is passed over,
 //             unseen: the neighbour's removal changes what it costs. So the taken are independent, and one
-//             look in ten is saved. Within a level the order is that of the ground, not of the costs, which
+//             look in twelve is saved. Within a level the order is that of the ground, not of the costs, which
 //             is why the levels must not be far apart (docs/decisions/0016).
 //   remove    Those that were taken: their stars, and what their floors measure, are kept from the look.
 #pragma once
