@@ -80,7 +80,7 @@ HoleTriangulation wrapHole(int corners, const Hole& hole) {
     });
     if (m < 0) return {};
     const auto middle = static_cast<std::uint8_t>(m);
-    result.triangles[result.size++] = {i, middle, j};
+    result.add(i, m, j);
     if (middle - i > 1) stack[top++] = {i, middle};
     if (j - middle > 1) stack[top++] = {middle, j};
   }
@@ -237,7 +237,7 @@ HoleTriangulation triangulateHoleDelaunay(int corners, const Hole& hole, bool is
   HoleTriangulation result;
   const auto emit = [&](std::uint8_t a, std::uint8_t b) {
     const std::uint8_t c = third[a][b];
-    if (a < b && a < c) result.triangles[result.size++] = {a, b, c};
+    if (a < b && a < c) result.add(a, b, c);
   };
   for (int a = 0; a < corners; ++a)
     emit(static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(a + 1 < corners ? a + 1 : 0));

@@ -46,14 +46,14 @@ class RemovalCost {
     note.state = State::exact;
   }
 
-  /// Writes down what removing v costs, exactly where that is within threshold * kLookAhead. `star`: of v.
-  void look(std::uint32_t v, const Star& star, double threshold, VertexNote& note) const {
+  /// Writes down what removing v costs, exactly where that is within threshold * kLookAhead. `star` receives
+  /// v's, unless it is larger than any that may go.
+  void look(std::uint32_t v, Star& star, double threshold, VertexNote& note) const {
     lookAndKeep(v, star, threshold, note, KeepNothing{});
   }
   /// The same, and keeps the floor that the cost is of: where the look was through with it, and knows it.
   /// Precondition: it is empty. What it holds unless the cost is exact means nothing.
-  void look(std::uint32_t v, const Star& star, double threshold, VertexNote& note,
-            MeasuredFloor& floor) const {
+  void look(std::uint32_t v, Star& star, double threshold, VertexNote& note, MeasuredFloor& floor) const {
     lookAndKeep(v, star, threshold, note, KeepFloor{floor});
   }
 
@@ -83,9 +83,9 @@ class RemovalCost {
   };
 
   template <class Keep>
-  void lookAndKeep(std::uint32_t v, const Star& star, double threshold, VertexNote& note,
-                   const Keep& keep) const {
-    if (star.triangleCount > static_cast<int>(s_.options.maxDegree) || !s_.isRemovable(star, v)) {
+  void lookAndKeep(std::uint32_t v, Star& star, double threshold, VertexNote& note, const Keep& keep) const {
+    const auto most = static_cast<int>(s_.options.maxDegree);
+    if (!star.gather(s_.mesh, v, most + 1) || star.triangleCount > most || !s_.isRemovable(star, v)) {
       note.state = State::stuck;
       return;
     }

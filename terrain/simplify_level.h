@@ -10,7 +10,6 @@
 //   sew       Join the new triangles to their neighbours (simplify_batch.h).
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -20,6 +19,7 @@
 #include "engine/parallel_filter.h"
 #include "engine/stage_clock.h"
 #include "terrain/independent_set.h"
+#include "terrain/measured_floor.h"
 #include "terrain/simplify_batch.h"
 #include "terrain/simplify_cost.h"
 #include "terrain/simplify_removal.h"
@@ -85,11 +85,8 @@ class LevelWorkers {
         VertexNote& note = s_.notes[v];
         note.settle();
         if (note.state != Note::exact) {
-          if (star.gather(s_.mesh, v, static_cast<int>(s_.options.maxDegree) + 1))
-            cost_.look(v, star, threshold, note);
-          else
-            note.state = Note::stuck;
-          s_.waiting.set(v, note.state == Note::stuck ? WaitingList::kNever : note.cost);
+          cost_.look(v, star, threshold, note);
+          s_.waiting.set(v, note.dueAt());
         }
         if (note.state != Note::exact || note.cost > threshold) continue;
         set_.enter(v, number);
@@ -126,6 +123,7 @@ class LevelWorkers {
       // and what the recorder will ask of their children can be on its way.
       std::array<Star, kStarsAhead> ahead;
       VertexRemover<Plan, Errors> remover(s_);
+      MeasuredFloor floor;
       const auto gather = [&](std::size_t i) {
         if (i >= end) return;
         Star& star = ahead[i % kStarsAhead];
@@ -140,7 +138,8 @@ class LevelWorkers {
         gather(i + kStarsAhead - 1);
         const Star& star = ahead[i % kStarsAhead];
         batch_.setOpen(i, star.isOpen);
-        remover.remove(chosen_[i], star, batch_.removal(i), batch_.seams(i));
+        floor.clear();
+        remover.remove(chosen_[i], star, floor, batch_.removal(i), batch_.seams(i));
       }
     });
   }

@@ -5,13 +5,12 @@
 //   take      It looks at one after the other and takes who costs no more than the threshold. A vertex with a
 //             neighbour beyond the piece is held instead. Who has a neighbour that was taken is passed over,
 //             unseen: the neighbour's removal changes what it costs. So the taken are independent, and one
-//             look in twelve is saved. Within a level the order is that of the ground, not of the costs, which
-//             is why the levels must not be far apart (docs/decisions/0016).
+//             look in twelve is saved. Within a level the order is that of the ground, not of the costs,
+//             which is why the levels must not be far apart (docs/decisions/0016).
 //   remove    Those that were taken: their stars, and what their floors measure, are kept from the look.
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -75,7 +74,7 @@ class PieceWorker {
       if (note.candidacy == isPassedOver) continue;
       if (taken_.size() == space_.size()) space_.emplace_back();
       Taken& one = space_[taken_.size()];
-      if (!isWithin(threshold, v, note, one)) continue;
+      if (!costsNoMoreThan(threshold, v, note, one)) continue;
       const auto link = one.star.linkView();
       if (!std::ranges::all_of(link, [&](std::uint32_t u) { return s_.waiting.isWithin(piece, u); })) {
         held_.push_back(v);
@@ -88,8 +87,8 @@ class PieceWorker {
     }
   }
 
-  /// Whether removing v costs no more than the threshold: then `one` has its star.
-  bool isWithin(double threshold, std::uint32_t v, VertexNote& note, Taken& one) {
+  /// Whether removing v does: then `one` has its star.
+  bool costsNoMoreThan(double threshold, std::uint32_t v, VertexNote& note, Taken& one) {
     note.settle();
     one.floor.clear();
     if (note.state == Note::exact) {
@@ -97,11 +96,8 @@ class PieceWorker {
       one.star.gather(s_.mesh, v, kMaxHoleCorners);
       return true;
     }
-    if (one.star.gather(s_.mesh, v, static_cast<int>(s_.options.maxDegree) + 1))
-      cost_.look(v, one.star, threshold, note, one.floor);
-    else
-      note.state = Note::stuck;
-    s_.waiting.set(v, note.state == Note::stuck ? WaitingList::kNever : note.cost);
+    cost_.look(v, one.star, threshold, note, one.floor);
+    s_.waiting.set(v, note.dueAt());
     return note.state == Note::exact && note.cost <= threshold;
   }
 

@@ -39,13 +39,9 @@ class VertexRemover {
     s_.errors.prefetch(star);
   }
 
-  /// Removes v, whose cost is known exactly. `star`: of v; removal: its number in the recorder. `seams`: one
-  /// for each vertex of the link, to be sewn.
-  void remove(std::uint32_t v, const Star& star, std::uint32_t removal, std::span<Seam> seams) {
-    floor_.clear();
-    remove(v, star, floor_, removal, seams);
-  }
-  /// The same. `floor`: what the hole is to be filled with, as a look has kept it, or empty.
+  /// Removes v, whose cost is known exactly. `star`: of v. `floor`: what the hole is to be filled with, as a
+  /// look has kept it, or empty. removal: its number in the recorder. `seams`: one for each vertex of the
+  /// link, to be sewn.
   void remove(std::uint32_t v, const Star& star, MeasuredFloor& floor, std::uint32_t removal,
               std::span<Seam> seams) {
     typename Errors::Hole hole(s_.errors, star, v);
@@ -147,7 +143,6 @@ class VertexRemover {
 
   SimplifyState<Plan, Errors>& s_;
   // Kept for the next removal, as clearing them takes longer than many a step.
-  MeasuredFloor floor_;
   std::array<FloorCodes, kMaxHoleCorners> codes_;
   std::array<std::uint32_t, kMaxHoleCorners> ceiling_, bearer_;
   std::array<Vec3, kMaxHoleCorners + 1> positions_;

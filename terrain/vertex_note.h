@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 namespace arete {
 
@@ -37,6 +38,9 @@ struct VertexNote {
     state = isWitnessGone || state == State::stuck ? State::stale : State::atLeast;
     isTouched = isWitnessGone = 0;
   }
+
+  /// The threshold from which on a level concerns it again.
+  float dueAt() const { return state == State::stuck ? std::numeric_limits<float>::infinity() : cost; }
 
   /// Ten bits of a hash for each corner: a false match makes a look at a star that was not needed.
   void setWitness(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
