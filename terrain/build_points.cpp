@@ -83,8 +83,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
   {
     PointError errors(plan, field.heights, mesh);
     SimplifyState<PointPlan, PointError> state{
-        mesh, plan, errors, recorder, nullptr, options, metric, *high - *low, roundingSlack(*low, *high),
-        true};
+        mesh, plan, errors, recorder, nullptr, options, metric, *high - *low, roundingSlack(*low, *high)};
     Result<SimplifiedRoot> simplified = Simplifier(state, context).run(isFixed);
     if (!simplified) return tl::unexpected(simplified.error());
     root = std::move(*simplified);

@@ -92,12 +92,8 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
     isFixed[v] = 1;
   }
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  bool hasNodata = false;
   for (std::uint32_t v = 0; v < sampleCount; ++v) {
-    if (std::isnan(field.heights[v])) {
-      hasNodata = true;
-      continue;
-    }
+    if (std::isnan(field.heights[v])) continue;
     low = std::min(low, field.heights[v]);
     high = std::max(high, field.heights[v]);
     if (mesh.vertexHalfedge[v] == LiveMesh::kNone) model.isolated.push_back({v, field.heights[v]});
@@ -124,8 +120,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   stage.emplace(context.clock, "simplify");
   {
     SimplifyState<LatticePlan, RasterError> state{
-        mesh,      plan, errors, recorder, rim.get(), options, metric, high - low, roundingSlack(low, high),
-        !hasNodata};
+        mesh, plan, errors, recorder, rim.get(), options, metric, high - low, roundingSlack(low, high)};
     Result<SimplifiedRoot> simplified = Simplifier(state, context).run(isFixed);
     if (!simplified) return tl::unexpected(simplified.error());
     root = std::move(*simplified);

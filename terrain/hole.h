@@ -60,10 +60,10 @@ bool isOtherDiagonalCloser(const Hole& hole, int i, int j, int m, int n) {
   return other < asItIs * (1 - 1e-9);
 }
 
-/// The Delaunay triangulation of the hole that a vertex leaves in a Delaunay triangulation of a convex
-/// domain: there the triangle on an edge is the one with the largest angle opposite, whatever lies elsewhere,
-/// so each edge finds its third corner and splits the polygon in two. Empty when some edge finds none; with
-/// rims in the domain the result may not be Delaunay: see triangulateHoleDelaunay().
+/// The Delaunay triangulation of the hole that a vertex leaves in a Delaunay triangulation, where no border
+/// of the domain comes between the corners: there the triangle on an edge is the one with the largest angle
+/// opposite, whatever lies elsewhere, so each edge finds its third corner and splits the polygon in two.
+/// Empty when some edge finds none; elsewhere the result may not be Delaunay: see triangulateHoleDelaunay().
 ///
 /// Hole: third(i, j, prefersLater), the corner between i and j with the largest angle among those that turn
 /// left, -1 when there is none. O(corners^2), in practice a glance at each corner for each triangle.
@@ -164,13 +164,14 @@ bool wrapHoleFromApex(int corners, const Hole& hole, const Visit& visit) {
 /// Hole: polygon() with orientation(i, j, m), orientationToApex(i, j), inCircle(i, j, m, n), all exact;
 /// orientationToApex(i, j); apexError(i, j, m), the error at the apex of a triangle over it. O(corners^2).
 ///
-/// wrapHole() does it at a quarter of the price: always if `isDomainConvex`, where nothing constrains, and
-/// elsewhere in all but a few holes, which show by a diagonal that is not locally Delaunay.
+/// wrapHole() does it at a quarter of the price: always if `isUnconstrained`, where no border comes between
+/// the corners of a hole in a Delaunay triangulation, and elsewhere in all but a few holes, which show by a
+/// diagonal that is not locally Delaunay.
 template <class Hole>
-HoleTriangulation triangulateHoleDelaunay(int corners, const Hole& hole, bool isDomainConvex) {
+HoleTriangulation triangulateHoleDelaunay(int corners, const Hole& hole, bool isUnconstrained) {
   assert(corners >= 3 && corners <= kMaxHoleCorners);
   const HoleTriangulation wrapped = wrapHole(corners, hole);
-  if (wrapped.size > 0 && isDomainConvex) return wrapped;
+  if (wrapped.size > 0 && isUnconstrained) return wrapped;
   const auto polygon = hole.polygon();
   if (wrapped.size > 0 && isLocallyDelaunay(wrapped, polygon)) return wrapped;
   // third[i][j]: the corner across the directed edge i -> j. Only entries of present edges are read.

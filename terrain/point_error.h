@@ -63,6 +63,8 @@ class PointError {
     /// |z - plane| at the apex, of a triangle over it.
     double apexError(int i, int j, int m) const;
     SignedBound alongEdge(int i, int j) const { return errors_.alongEdge(star_.link[i], star_.link[j]); }
+    /// See RasterError. The domain of points is their convex hull.
+    bool isUnconstrained() const { return true; }
     void settle(const HoleTriangulation& floor);
 
    private:

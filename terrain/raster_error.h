@@ -12,6 +12,7 @@
 #include "terrain/live_mesh.h"
 #include "terrain/signed_bound.h"
 #include "terrain/small_triangles.h"
+#include "terrain/void_clearance.h"
 
 namespace arete {
 
@@ -46,6 +47,19 @@ class RasterError {
         spread |= (static_cast<std::uint32_t>(x) + most) | (static_cast<std::uint32_t>(y) + most);
       }
       isSmall_ = spread < 2 * most;  // all within [-most, most), as it is a power of two
+    }
+
+    /// Whether nothing but its own corners decides how the hole of a Delaunay triangulation is filled: no
+    /// border of the domain comes between them. So it is where the smallest rows and columns that hold the
+    /// corners hold no void, as the raster itself is convex.
+    bool isUnconstrained() const {
+      if (!errors_.clearance_.hasVoids()) return true;
+      const std::int32_t clear =
+          errors_.clearance_.at(static_cast<std::uint32_t>(apex_.x), static_cast<std::uint32_t>(apex_.y));
+      std::int32_t farthest = 0;
+      for (int i = 0; i < size_; ++i)
+        farthest = std::max({farthest, std::abs(corners_[i].x - apex_.x), std::abs(corners_[i].y - apex_.y)});
+      return farthest <= clear;
     }
 
     /// For the slower queries.
@@ -127,7 +141,8 @@ class RasterError {
         rows_(static_cast<std::uint32_t>(heights.size() / plan.columns())),
         reachesBeyondRims_(reachesBeyondRims),
         roundUp_(0.5 - 0.5 / rows_),
-        blocks_(heights, plan.columns()) {
+        blocks_(heights, plan.columns()),
+        clearance_(heights, plan.columns()) {
     // Differences below 2 s f, f the larger of p and q, make a dot and a cross below 8 (s f)^2: the product
     // of the two must stay below 2^63.
     const double f = std::max(plan.p(), plan.q());
@@ -223,6 +238,7 @@ class RasterError {
   bool reachesBeyondRims_;
   double roundUp_;  // to the next whole number, as nearest number to the sum: of fractions of a rise in rows
   HeightBlocks blocks_;
+  VoidClearance clearance_;
   const SmallTriangles& small_ = SmallTriangles::all();
   std::uint32_t smallSpread_ = 1;  // a power of two: spreads below it keep Hole::third() in 64 bits
 };

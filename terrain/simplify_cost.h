@@ -101,6 +101,7 @@ class RemovalCost {
   template <class Keep>
   void lookDelaunay(const Star& star, const Hole& hole, double limit, VertexNote& note,
                     const Keep& keep) const {
+    const bool isUnconstrained = hole.isUnconstrained();
     double worst = -1;
     /// Whether the triangle leaves the cost within the limit.
     const auto measure = [&](int i, int j, int m, bool isOverApex) {
@@ -116,12 +117,12 @@ class RemovalCost {
       note.cost = static_cast<float>(worst);
       note.state = worst > limit ? State::atLeast : State::exact;
     };
-    if (s_.isDomainConvex) {
+    if (isUnconstrained) {
       if (wrapHoleFromApex(star.linkSize, hole, measure)) return conclude();
       worst = -1;
       keep.startAgain();
     }
-    const HoleTriangulation floor = triangulateHoleDelaunay(star.linkSize, hole, s_.isDomainConvex);
+    const HoleTriangulation floor = triangulateHoleDelaunay(star.linkSize, hole, isUnconstrained);
     if (floor.size == 0) {
       note.state = limit >= s_.heightRange ? State::stuck : State::atLeast;
       note.cost = static_cast<float>(limit * (1 + 1e-6));
@@ -140,7 +141,7 @@ class RemovalCost {
     FidelitySearch search(star.linkSize, hole, s_.options.minimumAspect);
     HoleCost cost = search.cost(isAnyShapeWelcome ? limit : threshold, limit);
     if (!cost.isExact && isAnyShapeWelcome) {
-      const HoleTriangulation any = triangulateHoleDelaunay(star.linkSize, hole, s_.isDomainConvex);
+      const HoleTriangulation any = triangulateHoleDelaunay(star.linkSize, hole, false);
       if (any.size == 0) {
         note.state = State::stuck;
         return;

@@ -64,7 +64,8 @@ class VertexRemover {
       fillShortest(star.linkSize, hole, s_.options.minimumAspect, limit, floor);
       if (!floor.isEmpty()) return;
     }
-    floor.triangulation = triangulateHoleDelaunay(star.linkSize, hole, s_.isDomainConvex);
+    const bool isUnconstrained = s_.options.shape == HoleShape::delaunay && hole.isUnconstrained();
+    floor.triangulation = triangulateHoleDelaunay(star.linkSize, hole, isUnconstrained);
     measure(hole, floor);
   }
 

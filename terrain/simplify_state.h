@@ -20,6 +20,7 @@ namespace arete {
 ///
 /// Plan: LatticePlan or PointPlan. Errors: RasterError or PointError, see there for the interface:
 ///   Hole hole(star, apex)                        what the hole's triangles are measured against
+///   hole.isUnconstrained()                       whether no border comes between its corners
 ///   hole.fromApex(i)                             where a corner lies from the apex
 ///   hole.maximum(i, j, m, limit)                 error of the triangle of three corners, or some larger than
 ///                                                the limit
@@ -37,8 +38,7 @@ struct SimplifyState {
   const BuildOptions& options;
   MetricFrame metric;
   double heightRange = 0;
-  double roundingSlack = 0;     ///< what the arithmetic of a plane can be off by
-  bool isDomainConvex = false;  ///< no rims but its border
+  double roundingSlack = 0;  ///< what the arithmetic of a plane can be off by
 
   WaitingList waiting = {};
   std::vector<VertexNote> notes = {};  ///< per vertex

@@ -77,8 +77,8 @@ TEST(HoleTriangulation, BothWaysTileTheHoleWithDelaunayTriangles) {
     for (int i = 1; i + 1 < some.star.linkSize; ++i)
       whole +=
           signedArea(plan, some.star, {0, static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i + 1)});
-    for (const bool isDomainConvex : {true, false}) {
-      const HoleTriangulation result = triangulateHoleDelaunay(some.star.linkSize, hole, isDomainConvex);
+    for (const bool isUnconstrained : {true, false}) {
+      const HoleTriangulation result = triangulateHoleDelaunay(some.star.linkSize, hole, isUnconstrained);
       ASSERT_EQ(result.size, some.star.linkSize - 2) << "run " << run;
       double sum = 0;
       for (const auto& t : result.view()) {
@@ -214,8 +214,8 @@ TEST(HoleTriangulation, OfASquareTakesTheDiagonalCloserToTheApex) {
   heights[0] = heights[8] = 10;  // the apex, 4, lies at 0 and so does the diagonal from 2 to 6
   const RasterError errors(plan, heights, false);
   const RasterError::Hole hole(errors, star, 4);
-  for (const bool isDomainConvex : {true, false}) {
-    const HoleTriangulation result = triangulateHoleDelaunay(4, hole, isDomainConvex);
+  for (const bool isUnconstrained : {true, false}) {
+    const HoleTriangulation result = triangulateHoleDelaunay(4, hole, isUnconstrained);
     double worst = 0;
     for (const auto& t : result.view()) worst = std::max(worst, hole.maximum(t[0], t[1], t[2], 1e9));
     EXPECT_LE(worst, 5) << "the middle of an edge of the square";
