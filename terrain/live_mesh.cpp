@@ -15,6 +15,7 @@
 #include <array>
 #include <atomic>
 #include <cassert>
+#include <numeric>
 
 namespace arete {
 
@@ -66,7 +67,7 @@ LiveMesh LiveMesh::fromTriangles(std::vector<Corners> corners, std::uint32_t ver
   return mesh;
 }
 
-SlotMap LiveMesh::compact() {
+SlotMap LiveMesh::compact(std::span<const std::uint32_t> vertices) {
   const SlotMap newSlot(triangles.size(), [&](std::size_t t) { return !triangles[t].isDead(); });
   const auto moved = [&](std::uint32_t h) {
     return h == kNone ? kNone : halfedge(newSlot.ofLive(triangleOf(h)), sideOf(h));
@@ -80,17 +81,20 @@ SlotMap LiveMesh::compact() {
                 triangle.bearer};
   });
   triangles = std::move(kept);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertexHalfedge.size(), 8192), [&](const auto& range) {
-    for (std::size_t v = range.begin(); v != range.end(); ++v) vertexHalfedge[v] = moved(vertexHalfedge[v]);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices.size(), 4096), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i)
+      if (vertices[i] != kNone) vertexHalfedge[vertices[i]] = moved(vertexHalfedge[vertices[i]]);
   });
   return newSlot;
 }
 
-std::vector<std::uint32_t> LiveMesh::verticesInOrder() const {
+UninitializedVector<std::uint32_t> LiveMesh::verticesInOrder() const {
   constexpr std::size_t kChunk = 1 << 14;
   const std::size_t size = triangles.size(), chunks = (size + kChunk - 1) / kChunk;
   std::vector<std::vector<std::uint32_t>> ofChunk(chunks);
+  std::vector<std::size_t> first(chunks + 1, 0);
   tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t c) {
+    ofChunk[c].reserve(kChunk * 5 / 8);  // half of the triangles, most often
     for (std::size_t t = c * kChunk; t < std::min(size, (c + 1) * kChunk); ++t) {
       if (triangles[t].isDead()) continue;
       for (std::uint32_t side = 0; side < 3; ++side) {
@@ -98,11 +102,12 @@ std::vector<std::uint32_t> LiveMesh::verticesInOrder() const {
         if (vertexHalfedge[v] == halfedge(static_cast<std::uint32_t>(t), side)) ofChunk[c].push_back(v);
       }
     }
+    first[c + 1] = ofChunk[c].size();
   });
-  std::vector<std::uint32_t> inOrder;
-  inOrder.reserve(vertexHalfedge.size());
-  for (const std::vector<std::uint32_t>& some : ofChunk)
-    inOrder.insert(inOrder.end(), some.begin(), some.end());
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  UninitializedVector<std::uint32_t> inOrder(first[chunks]);
+  tbb::parallel_for(std::size_t(0), chunks,
+                    [&](std::size_t c) { std::ranges::copy(ofChunk[c], inOrder.data() + first[c]); });
   return inOrder;
 }
 

@@ -44,12 +44,12 @@ struct LiveMesh {
                                 std::vector<std::uint32_t>& pinched);
 
   /// Drops dead slots; the others keep their order and move up. Returns where they went. Levels that remove a
-  /// few vertices from a mesh long thinned out would otherwise wander through all of its memory. O(slots +
-  /// vertices), parallel.
-  SlotMap compact();
+  /// few vertices from a mesh long thinned out would otherwise wander through all of its memory. `vertices`:
+  /// all that are in a triangle, and kNone any number of times. O(slots + vertices), parallel.
+  SlotMap compact(std::span<const std::uint32_t> vertices);
 
   /// The vertices that are in a triangle, by their half-edges. O(slots), parallel.
-  std::vector<std::uint32_t> verticesInOrder() const;
+  UninitializedVector<std::uint32_t> verticesInOrder() const;
 
   static constexpr std::uint32_t kMostTriangles = (kNone >> 2) - 1;  ///< that half-edges can name
 

@@ -71,7 +71,7 @@ struct LargestDifference {
   }
   bool isEnough() const { return largest(found) > limit; }
   /// Whether one between the two could change it.
-  bool isChangedBy(double low, double high) const { return std::fmax(high, -low) > largest(found); }
+  bool isChangedBy(double low, double high) const { return std::max(high, -low) > largest(found); }
 };
 
 /// The largest of some differences either way, until one is beyond the limit.
@@ -219,15 +219,15 @@ template <class Differences>
       std::abs(a.z) + std::abs(stepX) * extent(a.x, b.x, c.x) + std::abs(stepY) * extent(a.y, b.y, c.y);
   for (double y = first; y <= last;) {
     const int blockRow = (a.y + static_cast<int>(y)) >> HeightBlocks::kShift;
-    const double blockTop = blockRow * kSide - a.y, end = std::fmin(last + 1, blockTop + kSide);
+    const double blockTop = blockRow * kSide - a.y, end = std::min(last + 1, blockTop + kSide);
     std::array<Two, kSide> rows;
     double left = kFar, right = -kFar;
     int count = 0;
     for (double row = y; row < end; row += 1, ++count) {
       const Two columnsOfRow = rows[count] = columnsOf(row);
       if (columnsOfRow[1] <= 0) continue;
-      left = std::fmin(left, columnsOfRow[0]);
-      right = std::fmax(right, columnsOfRow[0] + columnsOfRow[1] - 1);
+      left = std::min(left, columnsOfRow[0]);
+      right = std::max(right, columnsOfRow[0] + columnsOfRow[1] - 1);
     }
     if (left <= right) {
       const int lastBlock = (a.x + static_cast<int>(right)) >> HeightBlocks::kShift;
@@ -243,8 +243,8 @@ template <class Differences>
         if (!differences.isChangedBy(there - reach - double(block.high), there + reach - double(block.low)))
           continue;
         for (int k = 0; k < count; ++k) {
-          const double from = std::fmax(rows[k][0], blockLeft),
-                       to = std::fmin(rows[k][0] + rows[k][1], blockLeft + kSide);
+          const double from = std::max(rows[k][0], blockLeft),
+                       to = std::min(rows[k][0] + rows[k][1], blockLeft + kSide);
           if (from < to) compareRow(y + k, from, to - from);
         }
       }

@@ -6,7 +6,7 @@
 // go first everywhere, which is what keeps the cuts at any error small (DESIGN: without thresholds the same
 // bound takes 1.9 times as many triangles). It grows in smaller steps the fewer vertices are left. Most of
 // the time goes into the first levels, of which only the finest cuts tell; levels among few vertices take
-// next to none, and all coarser cuts live on their order (docs/decisions/0016).
+// next to none, and all coarser cuts live on their order (docs/decisions/0016, 0017).
 //
 // A level visits a vertex in ten, and so all of memory. Therefore a large mesh goes through some levels piece
 // by piece: the ground is divided into pieces that fit a processor's cache, each thread takes one through all
@@ -23,7 +23,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -62,13 +61,14 @@ class Simplifier {
       const std::uint32_t pieces = pieceCount();
       const double next = pieces > 1 ? levelsByPieces(threshold, pieces) : levelOfAll(threshold);
       if (context_.cancelled()) return failure(ErrorCode::interrupted, "the build was interrupted");
-      threshold = next;
+      threshold = std::max(next, leastUseful());
       if (s_.waiting.size() == before) {
         const double pending = s_.waiting.least();
         if (!(pending < std::numeric_limits<double>::infinity())) break;
         threshold = std::max(threshold, pending);
       }
-      if (s_.liveTriangles < s_.mesh.triangles.size() / 2) s_.errors.compact(s_.mesh.compact());
+      if (s_.liveTriangles < s_.mesh.triangles.size() / 2)
+        s_.errors.compact(s_.mesh.compact(s_.waiting.vertices()));
     }
     context_.report("simplify", 1);
     return root();
@@ -110,15 +110,19 @@ class Simplifier {
     return pieces < options.fewest || s_.rim != nullptr ? 1 : pieces;
   }
 
-  /// By how much the threshold grows now. What it grows by falls with the vertices that are left, to the
-  /// power of 3/4. (Square roots are the same on every machine.) The fidelity shape takes smaller steps: its
-  /// cuts have two thousandths less triangles for it, and its time hardly tells.
+  /// By how much the threshold grows now. What it grows by falls with the vertices that are left. The
+  /// fidelity shape takes smaller steps: its cuts have two thousandths less triangles for it, and its time
+  /// hardly tells.
   double ratio() const {
     const double part = s_.options.shape == HoleShape::fidelity ? 2.0 / 3 : 1,
                  growth = (s_.options.thresholdRatio - 1) * part,
-                 root = std::sqrt(double(s_.waiting.size()) / double(waitingAtStart_));
-    return 1 + std::max(std::min(growth, kLeastGrowth), growth * root * std::sqrt(root));
+                 left = double(s_.waiting.size()) / double(waitingAtStart_);
+    return 1 + std::max(std::min(growth, kLeastGrowth), growth * left);
   }
+
+  /// The least threshold that concerns a fiftieth of those that may go: where costs are spread over many
+  /// orders of magnitude, steps in which next to none go would be all there is.
+  double leastUseful() const { return s_.waiting.thresholdOf(0.02); }
 
   /// One level. Returns the threshold of the next.
   double levelOfAll(double threshold) {

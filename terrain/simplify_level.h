@@ -10,6 +10,7 @@
 //   sew       Join the new triangles to their neighbours (simplify_batch.h).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -19,6 +20,7 @@
 #include "engine/parallel_filter.h"
 #include "engine/stage_clock.h"
 #include "terrain/independent_set.h"
+#include "terrain/kept_floors.h"
 #include "terrain/measured_floor.h"
 #include "terrain/simplify_batch.h"
 #include "terrain/simplify_cost.h"
@@ -77,23 +79,29 @@ class LevelWorkers {
   /// Leaves in `due_` the candidates: vertices whose removal costs no more than the threshold.
   void evaluate(double threshold, std::uint32_t number) {
     const StageClock::Scope stage(clock_, "simplify: evaluate");
-    filter_(due_.size(), 128, due_, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
-      Star star;
-      for (std::size_t i = begin; i != end; ++i) {
-        prefetchForLook(s_, due_, i);
-        const std::uint32_t v = due_[i];
-        VertexNote& note = s_.notes[v];
-        note.settle();
-        if (note.state != Note::exact) {
-          cost_.look(v, star, threshold, note);
-          s_.waiting.set(v, note.dueAt());
-        }
-        if (note.state != Note::exact || note.cost > threshold) continue;
-        set_.enter(v, number);
-        *to++ = v;
-      }
-      return to;
-    });
+    floors_.begin(due_.size(), s_.waiting.everything().size());
+    filter_(due_.size(), shareOf(due_.size(), 128), due_,
+            [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+              Star star;
+              for (std::size_t i = begin; i != end; ++i) {
+                prefetchForLook(s_, due_, i);
+                const std::uint32_t v = due_[i];
+                VertexNote& note = s_.notes[v];
+                note.settle();
+                MeasuredFloor* const floor = floors_.keep(i, s_.waiting.placeOf(v));
+                if (note.state != Note::exact) {
+                  if (floor != nullptr)
+                    cost_.look(v, star, threshold, note, *floor);
+                  else
+                    cost_.look(v, star, threshold, note);
+                  s_.waiting.set(v, note.dueAt());
+                }
+                if (note.state != Note::exact || note.cost > threshold) continue;
+                set_.enter(v, number);
+                *to++ = v;
+              }
+              return to;
+            });
   }
 
   void choose(std::uint32_t number) {
@@ -118,12 +126,13 @@ class LevelWorkers {
   void remove(MtRecorder::BatchOrder order) {
     const StageClock::Scope stage(clock_, "simplify: remove");
     batch_.begin(order, linkSizes_);
-    forRanges(LoopThreads::all, chosen_.size(), 64, [&](std::size_t begin, std::size_t end) {
+    const std::size_t grain = shareOf(chosen_.size(), 64);
+    forRanges(LoopThreads::all, chosen_.size(), grain, [&](std::size_t begin, std::size_t end) {
       // The stars of a batch share no triangle, so the next ones can be gathered while others are rewritten,
       // and what the recorder will ask of their children can be on its way.
       std::array<Star, kStarsAhead> ahead;
       VertexRemover<Plan, Errors> remover(s_);
-      MeasuredFloor floor;
+      MeasuredFloor unknown;
       const auto gather = [&](std::size_t i) {
         if (i >= end) return;
         Star& star = ahead[i % kStarsAhead];
@@ -138,16 +147,25 @@ class LevelWorkers {
         gather(i + kStarsAhead - 1);
         const Star& star = ahead[i % kStarsAhead];
         batch_.setOpen(i, star.isOpen);
-        floor.clear();
-        remover.remove(chosen_[i], star, floor, batch_.removal(i), batch_.seams(i));
+        unknown.clear();
+        MeasuredFloor* const kept = floors_.of(s_.waiting.placeOf(chosen_[i]));
+        remover.remove(chosen_[i], star, kept != nullptr ? *kept : unknown, batch_.removal(i),
+                       batch_.seams(i));
       }
     });
+  }
+
+  /// How many of so many, `most` at most, a thread takes at once: late levels are of few vertices, whose
+  /// holes are wide, and all threads shall have some.
+  static std::size_t shareOf(std::size_t size, std::size_t most) {
+    return std::clamp<std::size_t>(size / 32, 4, most);
   }
 
   static constexpr std::size_t kStarsAhead = 4;
 
   State& s_;
   RemovalCost<Plan, Errors> cost_;
+  KeptFloors floors_;
   IndependentSet set_;
   RemovalBatch<Plan, Errors> batch_;
   StageClock* clock_;

@@ -140,7 +140,7 @@ class VertexRemover {
   /// An error that is a code but for the last bits of its arithmetic is that code: integer heights make
   /// errors of exactly 1 common, and a tolerance of 1 must take them. The bits are far below what "equal to
   /// the bound" allows.
-  double withoutRounding(double x) const { return std::fmax(0.0, x - s_.roundingSlack); }
+  double withoutRounding(double x) const { return std::max(0.0, x - s_.roundingSlack); }
 
   SimplifyState<Plan, Errors>& s_;
   // Kept for the next removal, as clearing them takes longer than many a step.

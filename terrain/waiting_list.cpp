@@ -13,20 +13,31 @@ constexpr std::size_t kChunk = 1 << 14;
 
 }  // namespace
 
-void WaitingList::assign(std::vector<std::uint32_t> vertices, std::span<const std::uint8_t> isStaying) {
-  vertices_ = std::move(vertices);
-  vertices_.insert(vertices_.begin(), kGone);
-  dueAt_.assign(vertices_.size(), kNow);
-  place_.assign(isStaying.size(), kNobody);
-  staying_ = 0;
-  for (std::uint32_t place = kNobody + 1; place < vertices_.size(); ++place) {
-    const std::uint32_t v = vertices_[place];
-    place_[v] = place;
-    if (isStaying[v] == 0) continue;
-    dueAt_[place] = kNever;
-    ++staying_;
-  }
-  waiting_ = vertices_.size() - 1 - staying_;
+void WaitingList::assign(std::span<const std::uint32_t> vertices, std::span<const std::uint8_t> isStaying) {
+  // All threads fill them: there are many, and the memory is fresh.
+  place_.resize(isStaying.size());
+  forRanges(LoopThreads::all, place_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    std::fill(place_.begin() + std::ptrdiff_t(begin), place_.begin() + std::ptrdiff_t(end), kNobody);
+  });
+  vertices_.resize(vertices.size() + 1);
+  dueAt_.resize(vertices_.size());
+  vertices_[kNobody] = kNone;
+  dueAt_[kNobody] = kNow;
+  std::atomic<std::size_t> staying = 0;
+  forRanges(LoopThreads::all, vertices.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    std::size_t stayingHere = 0;
+    for (std::size_t i = begin; i != end; ++i) {
+      const std::uint32_t v = vertices[i];
+      const std::size_t place = kNobody + 1 + i;
+      vertices_[place] = v;
+      dueAt_[place] = isStaying[v] != 0 ? kNever : kNow;
+      place_[v] = static_cast<std::uint32_t>(place);
+      stayingHere += isStaying[v] != 0 ? 1 : 0;
+    }
+    staying += stayingHere;
+  });
+  staying_ = staying;
+  waiting_ = vertices.size() - staying_;
 }
 
 void WaitingList::collect(double threshold, std::vector<std::uint32_t>& due, Space& space) const {
@@ -67,7 +78,7 @@ void WaitingList::remove(std::span<const std::uint32_t> gone, LoopThreads thread
     for (const std::uint32_t v : gone.subspan(begin, end - begin)) {
       std::uint32_t& place = place_[v];
       dueAt_[place] = kNever;
-      vertices_[place] = kGone;
+      vertices_[place] = kNone;
       place = kNobody;
     }
   });
@@ -86,11 +97,22 @@ float WaitingList::least() const {
   return least;
 }
 
+float WaitingList::thresholdOf(double part) const {
+  constexpr std::size_t kMost = 8192, kFewest = 256;
+  std::vector<float> sample;
+  for (std::size_t place = kNobody + 1; place < dueAt_.size(); place += dueAt_.size() / kMost + 1)
+    if (dueAt_[place] < kNever) sample.push_back(dueAt_[place]);
+  if (sample.size() < kFewest) return kNow;
+  const auto at = sample.begin() + static_cast<std::ptrdiff_t>(part * double(sample.size()));
+  std::nth_element(sample.begin(), at, sample.end());
+  return *at;
+}
+
 void WaitingList::forgetGone() {
   if (waiting_ + staying_ + 1 >= vertices_.size() / 2) return;
   std::uint32_t kept = kNobody + 1;
   for (std::size_t i = kept; i < vertices_.size(); ++i) {
-    if (vertices_[i] == kGone) continue;
+    if (vertices_[i] == kNone) continue;
     vertices_[kept] = vertices_[i];
     dueAt_[kept] = dueAt_[i];
     place_[vertices_[kept]] = kept;

@@ -21,6 +21,7 @@ namespace arete {
 /// due either.
 class WaitingList {
  public:
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;  ///< no vertex
   static constexpr float kNow = 0, kNever = std::numeric_limits<float>::infinity();
 
   /// Places from `begin` to before `end`: a piece of the ground.
@@ -34,7 +35,7 @@ class WaitingList {
 
   /// `vertices`: in the order in which they shall be visited, those that stay among them; the others are all
   /// due now. isStaying: per vertex, not 0 = yes.
-  void assign(std::vector<std::uint32_t> vertices, std::span<const std::uint8_t> isStaying);
+  void assign(std::span<const std::uint32_t> vertices, std::span<const std::uint8_t> isStaying);
 
   /// How many may still go.
   std::size_t size() const { return waiting_; }
@@ -44,6 +45,10 @@ class WaitingList {
   Piece everything() const { return {kNobody + 1, static_cast<std::uint32_t>(vertices_.size())}; }
   /// Whether v, which has not gone, has its place in the piece.
   bool isWithin(Piece piece, std::uint32_t v) const { return place_[v] - piece.begin < piece.size(); }
+  /// Who has each of them, in order; kNone where he has gone.
+  std::span<const std::uint32_t> vertices() const { return std::span(vertices_).subspan(kNobody + 1); }
+  /// v's place, which it keeps until forgetGone(). Precondition: v has not gone.
+  std::uint32_t placeOf(std::uint32_t v) const { return place_[v]; }
   /// Forgets those that have gone if they are more than half: places change. O(size).
   void forgetGone();
 
@@ -73,6 +78,10 @@ class WaitingList {
   /// The least threshold of all, kNever where none will come. O(size).
   float least() const;
 
+  /// The threshold up to which about such a part of those that will ever be due are, told by a sample of some
+  /// thousand; kNow where there are too few to tell. O(the sample).
+  float thresholdOf(double part) const;
+
   /// Asks for what set() and wakeIf() read.
   [[gnu::always_inline]] void prefetch(std::uint32_t v) const { __builtin_prefetch(&place_[v]); }
 
@@ -80,11 +89,10 @@ class WaitingList {
   /// Writes those of some places that are due, returns where it ended. There is room for all.
   std::uint32_t* collectTo(std::size_t begin, std::size_t end, double threshold, std::uint32_t* to) const;
 
-  static constexpr std::uint32_t kGone = 0xFFFFFFFF;
-  static constexpr std::uint32_t kNobody = 0;  // the place of all who are not in the list; never looked at
-  std::vector<std::uint32_t> vertices_;        // by place; kGone
-  std::vector<float> dueAt_;                   // by place
-  std::vector<std::uint32_t> place_;           // by vertex
+  static constexpr std::uint32_t kNobody = 0;    // the place of all who are not in the list; never looked at
+  UninitializedVector<std::uint32_t> vertices_;  // by place; kNone
+  UninitializedVector<float> dueAt_;             // by place
+  UninitializedVector<std::uint32_t> place_;     // by vertex
   std::atomic<std::size_t> waiting_ = 0;
   std::size_t staying_ = 0;
 };

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <random>
 
@@ -26,6 +27,15 @@ struct Ledger {
     float least = WaitingList::kNever;
     for (const auto& [v, threshold] : dueAt) least = std::min(least, threshold);
     return least;
+  }
+  /// The part of those that will ever be due for whom the threshold has come; 1 where there are none.
+  double partDue(double threshold) const {
+    double ever = 0, now = 0;
+    for (const auto& [v, own] : dueAt) {
+      ever += own < WaitingList::kNever ? 1 : 0;
+      now += own <= threshold && own < WaitingList::kNever ? 1 : 0;
+    }
+    return ever == 0 ? 1 : now / ever;
   }
 };
 
@@ -84,6 +94,13 @@ TEST(WaitingList, FindsWhoIsDueInOrderHoweverManyHaveGone) {
       list.collect(shuffled, threshold, ofSome, space);
       ASSERT_EQ(ofSome, due);
       ASSERT_EQ(list.least(), ledger.least());
+      // A sample of half of them at least tells a tenth from a fifth.
+      const float tenth = list.thresholdOf(0.1), fifth = list.thresholdOf(0.2);
+      if (fifth > WaitingList::kNow) {
+        ASSERT_GT(ledger.partDue(fifth), 0.1);
+        ASSERT_LT(ledger.partDue(std::nextafter(tenth, 0.0f)), 0.2);
+      }
+      for (const std::uint32_t v : due) ASSERT_EQ(list.vertices()[list.placeOf(v) - everything.begin], v);
       std::vector<std::uint32_t> gone;
       for (const std::uint32_t v : due) {
         const unsigned fate = random() % 4;
@@ -119,6 +136,7 @@ TEST(WaitingList, OfNobodyIsEmpty) {
   list.collect(1, due, space);
   EXPECT_TRUE(due.empty() && list.empty());
   EXPECT_EQ(list.least(), WaitingList::kNever);
+  EXPECT_EQ(list.thresholdOf(0.5), WaitingList::kNow);
 }
 
 }  // namespace
