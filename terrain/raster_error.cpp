@@ -11,8 +11,8 @@
 // the two, so its extremes lie at the overlay's vertices: samples inside the triangle, its corners (where it
 // is zero) and crossings of its edges with edges of the finest triangulation: grid columns, grid rows and the
 // diagonals of the cells, which run from the upper-left to the lower-right sample and are the lines column -
-// row = constant. Where a triangle reaches beyond the domain's rim, the rim's own half cells add the other
-// diagonals.
+// row = constant. A short edge's are in a table (short_edges.h). Where a triangle reaches beyond the domain's
+// rim, the rim's own half cells add the other diagonals.
 #include "terrain/raster_error.h"
 
 #include <algorithm>
@@ -277,7 +277,20 @@ double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, d
   return std::max(high, -low);
 }
 
-SignedBound RasterError::alongEdge(const Corner& a, const Corner& b) const {
+SignedBound RasterError::alongShortEdge(const Corner& a, const Corner& b) const {
+  const double dz = b.z - a.z;
+  const double* heights = heights_.data() + (std::size_t(a.y) * plan_.columns() + std::size_t(a.x));
+  double high = 0, low = 0;
+  for (const ShortEdges::Crossing& crossing : shortEdges_.of(b.x - a.x, b.y - a.y)) {
+    const double from = heights[crossing.from], to = heights[crossing.to];
+    const double difference = a.z + dz * crossing.along - (from + crossing.between * (to - from));
+    high = difference > high ? difference : high;  // false for NODATA
+    low = difference < low ? difference : low;
+  }
+  return {0 - low, high};
+}
+
+SignedBound RasterError::alongLongEdge(const Corner& a, const Corner& b) const {
   const std::int64_t x0 = a.x, y0 = a.y, dx = b.x - a.x, dy = b.y - a.y;
   // Along a column, a row or a diagonal it crosses edges of the finest triangulation at samples only, which
   // the scan has.

@@ -10,6 +10,7 @@
 #include "terrain/height_blocks.h"
 #include "terrain/lattice_plan.h"
 #include "terrain/live_mesh.h"
+#include "terrain/short_edges.h"
 #include "terrain/signed_bound.h"
 #include "terrain/small_triangles.h"
 #include "terrain/void_clearance.h"
@@ -142,7 +143,8 @@ class RasterError {
         reachesBeyondRims_(reachesBeyondRims),
         roundUp_(0.5 - 0.5 / rows_),
         blocks_(heights, plan.columns()),
-        clearance_(heights, plan.columns()) {
+        clearance_(heights, plan.columns()),
+        shortEdges_(plan.columns()) {
     // Differences below 2 s f, f the larger of p and q, make a dot and a cross below 8 (s f)^2: the product
     // of the two must stay below 2^63.
     const double f = std::max(plan.p(), plan.q());
@@ -225,9 +227,14 @@ class RasterError {
   /// Signed difference between the segment a-b and the finest triangulation where the segment crosses its
   /// edges: with the samples inside, these hold the extremes of the difference over a triangle. O(length in
   /// samples).
-  SignedBound alongEdge(const Corner& a, const Corner& b) const;
+  SignedBound alongEdge(const Corner& a, const Corner& b) const {
+    return !reachesBeyondRims_ && ShortEdges::isShort(b.x - a.x, b.y - a.y) ? alongShortEdge(a, b)
+                                                                            : alongLongEdge(a, b);
+  }
 
  private:
+  SignedBound alongShortEdge(const Corner& a, const Corner& b) const;
+  SignedBound alongLongEdge(const Corner& a, const Corner& b) const;
   bool isSmall(const Corner& a, const Corner& b, const Corner& c, double& difference) const;
   template <class Differences>
   void compare(const Corner& a, const Corner& b, const Corner& c, Differences& differences) const;
@@ -239,6 +246,7 @@ class RasterError {
   double roundUp_;  // to the next whole number, as nearest number to the sum: of fractions of a rise in rows
   HeightBlocks blocks_;
   VoidClearance clearance_;
+  ShortEdges shortEdges_;
   const SmallTriangles& small_ = SmallTriangles::all();
   std::uint32_t smallSpread_ = 1;  // a power of two: spreads below it keep Hole::third() in 64 bits
 };
