@@ -5,6 +5,9 @@
 // places that nothing before has brought near (far); comparisons, additions and multiplications. How often
 // things happen comes from an instrumented build of generated-4M with default options, by sample:
 //
+// (counted before docs/decisions/0016 and 0017: there are fewer evaluations and looks now, and removals
+// within pieces have no candidates)
+//
 //   1     removal         5.7 link vertices, 3.7 new triangles, 5.6 edges measured, 18 crossings, 31 samples
 //                         compared in 5 rows
 //   4.65  evaluations     2.75 triangles each, 3.7 rows and 23 samples in them, ten tries of a third corner

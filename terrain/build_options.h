@@ -30,8 +30,8 @@ struct BuildOptions {
   std::uint32_t maxDegree = 14;
 
   /// A level admits removals whose error is under a threshold that grows by this ratio from the first level
-  /// to the second, and by less from level to level the fewer vertices are left (simplify.h). What it grows
-  /// by is a third less for the fidelity shape. > 1.
+  /// to the second, and by less from level to level the fewer vertices are left; by more where next to none
+  /// would go (simplify.h). What it grows by is a third less for the fidelity shape. > 1.
   double thresholdRatio = 1.2;
 
   /// Fidelity only: triangles whose least altitude is below this part of their longest edge are rejected.

@@ -32,7 +32,7 @@ template <class F>
 }
 
 /// A triangulation of a star polygon, as corners of the polygon. Each triangle starts at its least corner;
-/// the list is in the order found, the same for the same polygon.
+/// the list is in the order found, the same for the same polygon and the same way of finding it.
 struct HoleTriangulation {
   std::array<std::array<std::uint8_t, 3>, kMaxHoleCorners - 2> triangles;
   int size = 0;

@@ -30,8 +30,8 @@ class KeptFloors {
     return &floors_[i];
   }
 
-  /// What the look of this level has kept of the vertex with this place; null if nothing. Precondition: there
-  /// was one.
+  /// What the look of this level has kept of the vertex with this place; null if nothing. Precondition:
+  /// keep() was called for it in this level.
   MeasuredFloor* of(std::uint32_t place) { return isKeeping_ ? &floors_[lookAt_[place]] : nullptr; }
 
  private:

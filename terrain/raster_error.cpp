@@ -287,7 +287,7 @@ SignedBound RasterError::alongShortEdge(const Corner& a, const Corner& b) const 
     high = difference > high ? difference : high;  // false for NODATA
     low = difference < low ? difference : low;
   }
-  return {0 - low, high};
+  return {0 - low, high};  // not -low: that would be -0
 }
 
 SignedBound RasterError::alongLongEdge(const Corner& a, const Corner& b) const {

@@ -51,8 +51,8 @@ class RasterError {
     }
 
     /// Whether nothing but its own corners decides how the hole of a Delaunay triangulation is filled: no
-    /// border of the domain comes between them. So it is where the smallest rows and columns that hold the
-    /// corners hold no void, as the raster itself is convex.
+    /// border of the domain comes between them. So it is where no void is as near to the apex as the farthest
+    /// corner, in columns or rows: the raster itself is convex (docs/decisions/0017).
     bool isUnconstrained() const {
       if (!errors_.clearance_.hasVoids()) return true;
       const std::int32_t clear =

@@ -195,6 +195,7 @@ class Simplifier {
     explicit OneWorker(Simplifier& s) : worker(s.s_, s.context_.clock != nullptr ? &clock : nullptr) {}
   };
 
+  static_assert(WaitingList::kNone == LiveMesh::kNone);  // see LiveMesh::compact()
   static constexpr double kLeastGrowth = 0.015;
   static constexpr std::size_t kMostLevels = 16;  // of a piece by itself
 

@@ -4,7 +4,8 @@
 //
 //   collect   Look through those that may go for whom the level concerns: those of whom too little is known,
 //             and those under the threshold (waiting_list.h).
-//   evaluate  Find what removing them costs (simplify_cost.h). The candidates are those under the threshold.
+//   evaluate  Find what removing them costs (simplify_cost.h), and keep the floors of it if they are few
+//             (kept_floors.h). The candidates are those under the threshold.
 //   choose    An independent set of them, in order of their cost (independent_set.h).
 //   remove    Rewrite each chosen star, record the modification, tell the link (simplify_removal.h).
 //   sew       Join the new triangles to their neighbours (simplify_batch.h).
@@ -79,7 +80,8 @@ class LevelWorkers {
   /// Leaves in `due_` the candidates: vertices whose removal costs no more than the threshold.
   void evaluate(double threshold, std::uint32_t number) {
     const StageClock::Scope stage(clock_, "simplify: evaluate");
-    floors_.begin(due_.size(), s_.waiting.everything().size());
+    // A fidelity hole is filled anew: its cost is found without the floor.
+    if (s_.options.shape == HoleShape::delaunay) floors_.begin(due_.size(), s_.waiting.everything().size());
     filter_(due_.size(), shareOf(due_.size(), 128), due_,
             [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
               Star star;

@@ -17,8 +17,9 @@ class VoidClearance {
 
   bool hasVoids() const { return !blocks_.empty(); }
 
-  /// No sample of the raster that is no more columns and no more rows away is without data. Negative where
-  /// the sample itself may be. Not more than is known: 506 at most, unless there are no voids.
+  /// All samples of the raster within this Chebyshev distance (columns or rows, whichever are more) are
+  /// valid. Negative where the sample itself may have no data. A bound from below: 506 at most, unless there
+  /// are no voids.
   std::int32_t at(std::uint32_t column, std::uint32_t row) const {
     if (!hasVoids()) return std::numeric_limits<std::int32_t>::max();
     const std::size_t block = std::size_t(row >> kShift) * columns_ + (column >> kShift);

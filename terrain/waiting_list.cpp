@@ -98,7 +98,7 @@ float WaitingList::least() const {
 }
 
 float WaitingList::thresholdOf(double part) const {
-  constexpr std::size_t kMost = 8192, kFewest = 256;
+  constexpr std::size_t kMost = 1024, kFewest = 64;
   std::vector<float> sample;
   for (std::size_t place = kNobody + 1; place < dueAt_.size(); place += dueAt_.size() / kMost + 1)
     if (dueAt_[place] < kNever) sample.push_back(dueAt_[place]);

@@ -45,7 +45,7 @@ class WaitingList {
   Piece everything() const { return {kNobody + 1, static_cast<std::uint32_t>(vertices_.size())}; }
   /// Whether v, which has not gone, has its place in the piece.
   bool isWithin(Piece piece, std::uint32_t v) const { return place_[v] - piece.begin < piece.size(); }
-  /// Who has each of them, in order; kNone where he has gone.
+  /// Who has each place, in order; kNone where he has gone.
   std::span<const std::uint32_t> vertices() const { return std::span(vertices_).subspan(kNobody + 1); }
   /// v's place, which it keeps until forgetGone(). Precondition: v has not gone.
   std::uint32_t placeOf(std::uint32_t v) const { return place_[v]; }
@@ -78,8 +78,8 @@ class WaitingList {
   /// The least threshold of all, kNever where none will come. O(size).
   float least() const;
 
-  /// The threshold up to which about such a part of those that will ever be due are, told by a sample of some
-  /// thousand; kNow where there are too few to tell. O(the sample).
+  /// The threshold up to which about such a part of those that will ever be due are, told by a sample of a
+  /// thousand; kNow where there are too few to tell. Precondition: 0 <= part < 1. O(the sample).
   float thresholdOf(double part) const;
 
   /// Asks for what set() and wakeIf() read.

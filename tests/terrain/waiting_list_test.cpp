@@ -94,7 +94,7 @@ TEST(WaitingList, FindsWhoIsDueInOrderHoweverManyHaveGone) {
       list.collect(shuffled, threshold, ofSome, space);
       ASSERT_EQ(ofSome, due);
       ASSERT_EQ(list.least(), ledger.least());
-      // A sample of half of them at least tells a tenth from a fifth.
+      // A sample tells a tenth from a fifth.
       const float tenth = list.thresholdOf(0.1), fifth = list.thresholdOf(0.2);
       if (fifth > WaitingList::kNow) {
         ASSERT_GT(ledger.partDue(fifth), 0.1);
