@@ -55,6 +55,7 @@ class RasterError {
     /// corner, in columns or rows: the raster itself is convex (docs/decisions/0017).
     bool isUnconstrained() const {
       if (!errors_.clearance_.hasVoids()) return true;
+      if (errors_.reachesBeyondRims_) return false;  // edges may be held that are not Delaunay
       const std::int32_t clear =
           errors_.clearance_.at(static_cast<std::uint32_t>(apex_.x), static_cast<std::uint32_t>(apex_.y));
       std::int32_t farthest = 0;
