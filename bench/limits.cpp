@@ -3,10 +3,9 @@
 // What a part must do is counted in the code, not measured: bytes of the arrays that it has to pass over,
 // each once for each pass that its algorithm makes, in the data structures as they are; lines of memory at
 // places that nothing before has brought near (far); comparisons, additions and multiplications. How often
-// things happen comes from an instrumented build of generated-4M with default options, by sample:
-//
-// (counted before docs/decisions/0016 and 0017: there are fewer evaluations and looks now, and removals
-// within pieces have no candidates)
+// things happen comes from an instrumented build of generated-4M with default options, by sample (counted
+// before docs/decisions/0016 and 0017: there are fewer evaluations and looks now, and removals within pieces
+// have no candidates):
 //
 //   1     removal         5.7 link vertices, 3.7 new triangles, 5.6 edges measured, 18 crossings, 31 samples
 //                         compared in 5 rows

@@ -20,8 +20,8 @@ class ParallelFilter {
   /// fill(begin, end, to) writes what stays of the elements begin .. end - 1 from `to` on, no more than there
   /// were, and returns the end of what it wrote; called for each chunk once, on any thread. `kept` receives
   /// all of it: the sequence itself, or another vector. O(size).
-  template <class Fill>
-  void operator()(std::size_t size, std::size_t chunk, std::vector<T>& kept, const Fill& fill) {
+  template <class Allocator, class Fill>
+  void operator()(std::size_t size, std::size_t chunk, std::vector<T, Allocator>& kept, const Fill& fill) {
     const std::size_t chunks = (size + chunk - 1) / chunk;
     found_.resize(size);
     first_.assign(chunks + 1, 0);

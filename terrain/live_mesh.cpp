@@ -15,7 +15,8 @@
 #include <array>
 #include <atomic>
 #include <cassert>
-#include <numeric>
+
+#include "engine/parallel_filter.h"
 
 namespace arete {
 
@@ -89,25 +90,19 @@ SlotMap LiveMesh::compact(std::span<const std::uint32_t> vertices) {
 }
 
 UninitializedVector<std::uint32_t> LiveMesh::verticesInOrder() const {
-  constexpr std::size_t kChunk = 1 << 14;
-  const std::size_t size = triangles.size(), chunks = (size + kChunk - 1) / kChunk;
-  std::vector<std::vector<std::uint32_t>> ofChunk(chunks);
-  std::vector<std::size_t> first(chunks + 1, 0);
-  tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t c) {
-    ofChunk[c].reserve(kChunk * 5 / 8);  // half of the triangles, most often
-    for (std::size_t t = c * kChunk; t < std::min(size, (c + 1) * kChunk); ++t) {
-      if (triangles[t].isDead()) continue;
-      for (std::uint32_t side = 0; side < 3; ++side) {
-        const std::uint32_t v = triangles[t].corners[side];
-        if (vertexHalfedge[v] == halfedge(static_cast<std::uint32_t>(t), side)) ofChunk[c].push_back(v);
-      }
-    }
-    first[c + 1] = ofChunk[c].size();
-  });
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  UninitializedVector<std::uint32_t> inOrder(first[chunks]);
-  tbb::parallel_for(std::size_t(0), chunks,
-                    [&](std::size_t c) { std::ranges::copy(ofChunk[c], inOrder.data() + first[c]); });
+  UninitializedVector<std::uint32_t> inOrder;
+  ParallelFilter<std::uint32_t> halfedges;
+  halfedges(4 * triangles.size(), 1 << 16, inOrder,
+            [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+              for (std::size_t t = begin / 4; t != end / 4; ++t) {
+                if (triangles[t].isDead()) continue;
+                for (std::uint32_t side = 0; side < 3; ++side) {
+                  const std::uint32_t v = triangles[t].corners[side];
+                  if (vertexHalfedge[v] == halfedge(static_cast<std::uint32_t>(t), side)) *to++ = v;
+                }
+              }
+              return to;
+            });
   return inOrder;
 }
 
