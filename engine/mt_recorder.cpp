@@ -28,22 +28,18 @@
 #include "engine/enclosing_ball.h"
 
 #include "engine/node_blocks.h"
+#include "engine/uninitialized_vector.h"
 
 namespace arete {
 namespace {
 
 struct OwnedMt {
   std::vector<std::array<std::uint32_t, 3>> rootTriangles;
-  std::unique_ptr<std::uint32_t[]> slotBegin, link, remover, floor, creatorHint;
-  std::unique_ptr<std::uint16_t[]> error, below, above, saturatedError;
-  std::unique_ptr<Sphere[]> sphere;
+  UninitializedVector<std::uint32_t> slotBegin, link, remover, floor, creatorHint;
+  UninitializedVector<std::uint16_t> error, below, above, saturatedError;
+  UninitializedVector<Sphere> sphere;
   NodeBlocks blocks;
 };
-
-template <class T>
-std::span<const T> view(const std::unique_ptr<T[]>& array, std::size_t size) {
-  return {array.get(), size};
-}
 
 constexpr std::size_t kGrain = 1 << 13;
 constexpr std::uint32_t kAhead = 16,
@@ -134,7 +130,7 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   const std::uint32_t born = slots - 2 * nodes;
 
   // removalOf[n]: falling band, later removals first.
-  std::vector<std::uint32_t> removalOf(nodes);
+  UninitializedVector<std::uint32_t> removalOf(nodes);
   {
     const auto place = [&](std::uint32_t removal) {
       return MultiTriangulation::kBands - 1 - MultiTriangulation::bandOf(saturated_[removal]);
@@ -151,7 +147,7 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   }
 
   vertexOrder.resize(std::size_t(rootVertexCount) + nodes);
-  std::vector<std::uint32_t> newVertex(callerVertexCount, kNone);
+  UninitializedVector<std::uint32_t> newVertex(callerVertexCount, kNone);
   for (std::uint32_t i = 0; i < rootVertexCount; ++i) {
     vertexOrder[i] = rootVertices[i];
     newVertex[rootVertices[i]] = i;
@@ -165,23 +161,18 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
 
   auto owned = std::make_shared<OwnedMt>();
   const std::size_t ids = std::size_t(roots) + slots;
-  owned->slotBegin = std::make_unique_for_overwrite<std::uint32_t[]>(std::size_t(nodes) + 1);
-  owned->saturatedError = std::make_unique_for_overwrite<std::uint16_t[]>(nodes);
-  owned->sphere = std::make_unique_for_overwrite<Sphere[]>(nodes);
-  owned->link = std::make_unique_for_overwrite<std::uint32_t[]>(slots);
-  owned->remover = std::make_unique_for_overwrite<std::uint32_t[]>(ids);
-  owned->error = std::make_unique_for_overwrite<std::uint16_t[]>(ids);
-  owned->below = std::make_unique_for_overwrite<std::uint16_t[]>(ids);
-  owned->above = std::make_unique_for_overwrite<std::uint16_t[]>(ids);
-
+  owned->slotBegin.resize(std::size_t(nodes) + 1);
   owned->slotBegin[0] = 0;
   for (std::uint32_t n = 0; n < nodes; ++n) {
     const std::uint32_t r = removalOf[n];
     owned->slotBegin[n + 1] = owned->slotBegin[n] + slotBegin_[r + 1] - slotBegin_[r];
   }
 
-  // What the recorder holds goes as soon as it has been copied: here both would be in memory at once.
+  // What the recorder holds goes as soon as it has been copied, and what it leaves takes the next array: here
+  // both would be in memory at once.
   stage.emplace(clock, "finish: stars");
+  owned->saturatedError.resize(nodes);
+  owned->sphere.resize(nodes);
   forRange(nodes, [&](std::uint32_t n) {
     if (n + kAhead < nodes) {
       __builtin_prefetch(&saturated_[removalOf[n + kAhead]]);
@@ -198,6 +189,7 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
     if (n + 2 * kAhead < nodes) __builtin_prefetch(&slotBegin_[removalOf[n + 2 * kAhead]]);
     if (n + kAhead < nodes) __builtin_prefetch(&array[slotBegin_[removalOf[n + kAhead]]]);
   };
+  owned->link.resize(slots);
   owned->rootTriangles.resize(roots);
   for (std::uint32_t i = 0; i < roots; ++i) {
     const auto& c = surviving[i].corners;
@@ -215,10 +207,14 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
       owned->link[to + i] = newVertex[link_[from + i]];
   });
   link_.clear();
-  std::vector<std::uint32_t>().swap(newVertex);
+  UninitializedVector<std::uint32_t>().swap(newVertex);
 
   // Of births that removals bore; nobody asks where the finest triangles went.
-  auto idOfBirth = std::make_unique_for_overwrite<std::uint32_t[]>(born);
+  UninitializedVector<std::uint32_t> idOfBirth(born);
+  owned->remover.resize(ids);
+  owned->error.resize(ids);
+  owned->below.resize(ids);
+  owned->above.resize(ids);
   const auto place = [&](std::uint32_t id, std::uint32_t birth) {
     owned->remover[id] = kNone;
     FloorCodes codes;
@@ -257,7 +253,7 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   floor_.clear();
 
   stage.emplace(clock, "finish: floors");
-  owned->floor = std::make_unique_for_overwrite<std::uint32_t[]>(born);
+  owned->floor.resize(born);
   forRange(nodes, [&](std::uint32_t n) {
     const std::uint32_t r = removalOf[n], birth = firstBirth(r) - finestTriangles_,
                         to = owned->slotBegin[n] - 2 * n;
@@ -270,7 +266,7 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
 
   const std::size_t hints =
       (std::size_t(slots) + MultiTriangulation::kSlotsPerHint - 1) / MultiTriangulation::kSlotsPerHint;
-  owned->creatorHint = std::make_unique_for_overwrite<std::uint32_t[]>(hints);
+  owned->creatorHint.resize(hints);
   for (std::uint32_t n = 0; n < nodes; ++n) {
     constexpr std::uint32_t k = MultiTriangulation::kSlotsPerHint;
     for (std::uint32_t h = (owned->slotBegin[n] + k - 1) / k; h * k < owned->slotBegin[n + 1]; ++h)
@@ -280,19 +276,19 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   MtArrays a;
   a.rootVertices = rootVertexCount;
   a.rootTriangles = owned->rootTriangles;
-  a.slotBegin = view(owned->slotBegin, std::size_t(nodes) + 1);
-  a.link = view(owned->link, slots);
-  a.remover = view(owned->remover, ids);
-  a.error = view(owned->error, ids);
-  a.below = view(owned->below, ids);
-  a.above = view(owned->above, ids);
-  a.floor = view(owned->floor, born);
-  a.saturatedError = view(owned->saturatedError, nodes);
-  a.sphere = view(owned->sphere, nodes);
+  a.slotBegin = owned->slotBegin;
+  a.link = owned->link;
+  a.remover = owned->remover;
+  a.error = owned->error;
+  a.below = owned->below;
+  a.above = owned->above;
+  a.floor = owned->floor;
+  a.saturatedError = owned->saturatedError;
+  a.sphere = owned->sphere;
   owned->blocks = makeNodeBlocks(a.saturatedError, a.sphere);
   a.blockError = owned->blocks.error;
   a.blockSphere = owned->blocks.sphere;
-  a.creatorHint = view(owned->creatorHint, hints);
+  a.creatorHint = owned->creatorHint;
   a.scale = scale_;
   a.metric = metric_;
   slotBegin_.clear();

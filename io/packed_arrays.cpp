@@ -26,7 +26,7 @@ constexpr std::size_t kWorthAMapping = std::size_t{1} << 20;
 
 void* takeZeros(std::size_t bytes) {
   if (bytes < kWorthAMapping) return std::calloc(bytes, 1);
-  void* const zeros = takePages(bytes);
+  void* const zeros = takeZeroPages(bytes);
   if (zeros == nullptr) return nullptr;
 #ifdef MADV_HUGEPAGE
   madvise(zeros, bytes, MADV_HUGEPAGE);  // a wish: nothing depends on it

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "engine/pages.h"
 #include "engine/with_threads.h"
 #include "terrain/build.h"
 #include "terrain/build_checks.h"
@@ -35,6 +36,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
     return failure(ErrorCode::unsupported,
                    fmt::format("{} points are more than 32-bit ids can name", field.size()), field.source);
 
+  const PageKeeper keeper;  // what a step no longer needs goes to the next
   context.report("triangulate", 0);
   std::optional<StageClock::Scope> stage(std::in_place, context.clock, "triangulate");
   const double stretch = pointMetricStretch(field);

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 
+#include "engine/pages.h"
 #include "engine/with_threads.h"
 #include "terrain/build.h"
 #include "terrain/build_checks.h"
@@ -61,6 +62,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
         fmt::format("{} samples have more triangles than 32-bit half-edges can name", field.size()),
         field.source);
 
+  const PageKeeper keeper;  // what a step no longer needs goes to the next
   context.report("triangulate", 0);
   std::optional<StageClock::Scope> stage(std::in_place, context.clock, "triangulate");
   std::vector<std::uint32_t> pinched;

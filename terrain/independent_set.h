@@ -17,7 +17,7 @@ namespace arete {
 /// triangle), maximal, and the same for any number of threads.
 class IndependentSet {
  public:
-  IndependentSet(const LiveMesh& mesh, std::vector<VertexNote>& notes) : mesh_(mesh), notes_(notes) {}
+  IndependentSet(const LiveMesh& mesh, UninitializedVector<VertexNote>& notes) : mesh_(mesh), notes_(notes) {}
 
   /// Whether a is chosen before b.
   bool precedes(std::uint32_t a, std::uint32_t b) const {
@@ -79,7 +79,7 @@ class IndependentSet {
   void filter(std::span<const std::uint32_t> vertices, std::vector<std::uint32_t>& kept, const Stays& stays);
 
   const LiveMesh& mesh_;
-  std::vector<VertexNote>& notes_;
+  UninitializedVector<VertexNote>& notes_;
   std::vector<std::uint32_t> ordered_;
   ParallelFilter<std::uint32_t> filter_;
 };

@@ -36,7 +36,7 @@ struct LiveMesh {
     bool isDead() const { return corners[0] == kNone; }
   };
   UninitializedVector<Triangle> triangles;
-  std::vector<std::uint32_t> vertexHalfedge;  ///< per vertex, kNone for a vertex in no triangle
+  UninitializedVector<std::uint32_t> vertexHalfedge;  ///< per vertex, kNone for a vertex in no triangle
 
   /// Half-edges and births for counter-clockwise triangles. `pinched` receives the vertices whose triangles
   /// form more than one fan. O(triangles). Precondition: an edge has at most one triangle on either side.

@@ -81,9 +81,7 @@ class Simplifier {
   void start(const std::vector<std::uint8_t>& isFixed) {
     const auto vertexCount = static_cast<std::uint32_t>(s_.mesh.vertexHalfedge.size());
     s_.liveTriangles = s_.mesh.triangles.size();
-    s_.notes.assign(vertexCount, {});
-    for (std::uint32_t v = 0; v < vertexCount; ++v)
-      if (isFixed[v] != 0) s_.notes[v].state = VertexNote::State::fixed;
+    s_.notes.resize(vertexCount);
     // Vertices are visited in the order of their triangles in memory, which is that of the ground.
     s_.waiting.assign(s_.mesh.verticesInOrder(), isFixed);
     waitingAtStart_ = std::max<std::size_t>(s_.waiting.size(), 1);
@@ -95,7 +93,11 @@ class Simplifier {
     forRanges(LoopThreads::all, vertexCount, 4096, [&](std::size_t begin, std::size_t end) {
       for (auto v = static_cast<std::uint32_t>(begin); v != end; ++v) {
         VertexNote& note = s_.notes[v];
-        if (note.state == VertexNote::State::fixed) continue;
+        note = {};
+        if (isFixed[v] != 0) {
+          note.state = VertexNote::State::fixed;
+          continue;
+        }
         cost.lookInFinest(v, note);
         if (note.state != VertexNote::State::stale) s_.waiting.set(v, note.cost);
       }

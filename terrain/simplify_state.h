@@ -41,7 +41,7 @@ struct SimplifyState {
   double roundingSlack = 0;  ///< what the arithmetic of a plane can be off by
 
   WaitingList waiting = {};
-  std::vector<VertexNote> notes = {};  ///< per vertex
+  UninitializedVector<VertexNote> notes = {};  ///< per vertex
   std::atomic<std::size_t> liveTriangles = 0;
 
   /// Whether v may go at all, as its star stands. On a border: only from a straight one, or as the rim

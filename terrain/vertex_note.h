@@ -7,7 +7,8 @@
 
 namespace arete {
 
-/// What a build knows of a vertex that may go: 16 bytes, so that one cache line tells of four neighbours.
+/// What a build knows of a vertex that may go: 16 bytes, so that one cache line tells of four neighbours. Of
+/// VertexNote{} nothing is known.
 struct VertexNote {
   enum class State : std::uint8_t {
     stale,    ///< nothing is known of its star
@@ -17,17 +18,17 @@ struct VertexNote {
     fixed,    ///< it stays
   };
 
-  float cost = 0;
+  float cost;
   /// Marks of the corners of the triangle that costs that much: see isWitnessedBy(). Not of the fidelity
   /// shape.
-  std::uint32_t witness = 0;
+  std::uint32_t witness;
   /// Whether it was a candidate of a level, and what became of it: 4 * level + choice (IndependentSet); or,
   /// that a neighbour was taken, ~level (PieceWorker).
-  std::uint32_t candidacy = 0;
-  State state = State::stale;
-  std::uint8_t isTouched = 0;      ///< a neighbour went
-  std::uint8_t isWitnessGone = 0;  ///< one of the witness's corners
-  std::uint8_t linkSize = 0;       ///< of its star, when exact
+  std::uint32_t candidacy;
+  State state;
+  std::uint8_t isTouched;      ///< a neighbour went
+  std::uint8_t isWitnessGone;  ///< one of the witness's corners
+  std::uint8_t linkSize;       ///< of its star, when exact
 
   /// What the removal of neighbours left of what was known. A hole that a removal enlarges keeps every
   /// Delaunay triangle whose corners remain: its circle stays empty. So while the corners of the worst

@@ -15,7 +15,7 @@ namespace {
 
 struct Grid {
   LiveMesh mesh;
-  std::vector<VertexNote> notes;
+  UninitializedVector<VertexNote> notes;
   std::vector<std::uint32_t> candidates;
 };
 
@@ -28,7 +28,7 @@ Grid someGrid(std::uint32_t columns, std::uint32_t rows, int distinctCosts, std:
   std::vector<std::uint32_t> pinched;
   Grid grid;
   grid.mesh = LiveMesh::fromTriangles(finestTriangulation(field), columns * rows, pinched);
-  grid.notes.resize(std::size_t(columns) * rows);
+  grid.notes.assign(std::size_t(columns) * rows, VertexNote{});
   std::mt19937_64 random(seed);
   for (std::uint32_t v = 0; v < grid.notes.size(); ++v) {
     grid.notes[v].cost = static_cast<float>(random() % static_cast<unsigned>(distinctCosts));

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/pages.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <random>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include "engine/uninitialized_vector.h"
+
+namespace arete {
+namespace {
+
+constexpr std::size_t kMiB = std::size_t{1} << 20;
+
+std::span<std::uint8_t> bytesOf(void* pages, std::size_t size) {
+  return {static_cast<std::uint8_t*>(pages), size};
+}
+
+bool isAll(std::span<const std::uint8_t> bytes, std::uint8_t value) {
+  return std::ranges::all_of(bytes, [&](std::uint8_t byte) { return byte == value; });
+}
+
+TEST(Pages, WhatIsGivenBackIsTakenAgainWhileThereIsAKeeper) {
+  const PageKeeper keeper;
+  void* const first = takePages(4 * kMiB);
+  ASSERT_NE(first, nullptr);
+  std::ranges::fill(bytesOf(first, 4 * kMiB), std::uint8_t{7});
+  givePagesBack(first, 4 * kMiB);
+  void* const second = takePages(3 * kMiB);
+  void* const third = takePages(3 * kMiB);
+  EXPECT_TRUE(isAll(bytesOf(second, 3 * kMiB), 7));
+  EXPECT_TRUE(isAll(bytesOf(third, kMiB), 7)) << "what was left";
+  EXPECT_TRUE(isAll(bytesOf(third, 3 * kMiB).subspan(kMiB), 0)) << "there was no more";
+  givePagesBack(second, 3 * kMiB);
+  givePagesBack(third, 3 * kMiB);
+}
+
+TEST(Pages, WithoutAKeeperTheyAreFresh) {
+  void* const first = takePages(4 * kMiB);
+  std::ranges::fill(bytesOf(first, 4 * kMiB), std::uint8_t{7});
+  givePagesBack(first, 4 * kMiB);
+  void* const second = takePages(4 * kMiB);
+  EXPECT_TRUE(isAll(bytesOf(second, 4 * kMiB), 0));
+  givePagesBack(second, 4 * kMiB);
+}
+
+TEST(Pages, AKeeperLeavesNothingToTheNext) {
+  {
+    const PageKeeper outer, inner;
+    void* const pages = takePages(4 * kMiB);
+    std::ranges::fill(bytesOf(pages, 4 * kMiB), std::uint8_t{7});
+    givePagesBack(pages, 4 * kMiB);
+  }
+  const PageKeeper keeper;
+  void* const pages = takePages(4 * kMiB);
+  EXPECT_TRUE(isAll(bytesOf(pages, 4 * kMiB), 0));
+  givePagesBack(pages, 4 * kMiB);
+}
+
+TEST(Pages, ZerosAreZerosWhateverIsKept) {
+  const PageKeeper keeper;
+  void* const used = takePages(4 * kMiB);
+  std::ranges::fill(bytesOf(used, 4 * kMiB), std::uint8_t{7});
+  givePagesBack(used, 4 * kMiB);
+  void* const zeros = takeZeroPages(4 * kMiB);
+  EXPECT_TRUE(isAll(bytesOf(zeros, 4 * kMiB), 0));
+  givePagesBack(zeros, 4 * kMiB);
+}
+
+TEST(Pages, WhatWasPutTogetherFromKeptOnesOutlivesTheKeeper) {
+  UninitializedVector<std::uint32_t> numbers;
+  {
+    const PageKeeper keeper;
+    // Of sizes that are no whole number of pieces.
+    UninitializedVector<std::uint32_t> a(300'001, 1), b(700'003, 2), c(123, 3);
+    UninitializedVector<std::uint32_t>().swap(a);
+    UninitializedVector<std::uint32_t>().swap(b);
+    numbers.resize(1'200'007);
+    for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
+  }
+  for (std::uint32_t i = 0; i < numbers.size(); ++i) ASSERT_EQ(numbers[i], i);
+}
+
+TEST(Pages, NoTwoHaveTheSameWhoeverTakesThem) {
+  const PageKeeper keeper;
+  std::vector<std::uint8_t> isWhole(4, 0);
+  std::vector<std::thread> threads;
+  for (std::uint8_t t = 0; t < isWhole.size(); ++t)
+    threads.emplace_back([&, t] {
+      std::mt19937 random(t);
+      bool isMine = true;
+      for (int round = 0; round < 50; ++round) {
+        UninitializedVector<std::uint8_t> pages(kMiB / 4 + random() % (4 * kMiB));
+        std::ranges::fill(pages, t);
+        isMine = isMine && isAll(pages, t);
+      }
+      isWhole[t] = isMine ? 1 : 0;
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(isWhole, std::vector<std::uint8_t>(4, 1));
+}
+
+}  // namespace
+}  // namespace arete
