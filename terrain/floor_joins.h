@@ -44,7 +44,7 @@ struct FloorJoins {
     // the second of that in whose middle it starts.
     const auto forth = [&](int from, int to) {
       const bool isFirst = leastOf[to] == from;
-      return Side{triangleOf[isFirst ? to : from], static_cast<std::uint8_t>(isFirst ? 0 : 1)};
+      return Side{triangleOf[from + (to - from) * int(isFirst)], static_cast<std::uint8_t>(!isFirst)};
     };
     for (int f = 0; f < floor.size; ++f) {
       const auto [i, m, j] = floor.triangles[f];

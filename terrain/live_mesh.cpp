@@ -154,8 +154,8 @@ void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, co
     std::uint32_t& pointer = mesh.vertexHalfedge[star.link[i]];
     const std::uint32_t t = LiveMesh::triangleOf(std::atomic_ref(pointer).load(std::memory_order_relaxed));
     std::uint32_t beside;
-    std::atomic_ref(((t == own) | (t == before)) != 0 ? pointer : beside)
-        .store(seams[i].movedTo, std::memory_order_relaxed);
+    std::uint32_t* const where[] = {&beside, &pointer};
+    std::atomic_ref(*where[(t == own) | (t == before)]).store(seams[i].movedTo, std::memory_order_relaxed);
     before = own;
   }
 

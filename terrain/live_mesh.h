@@ -56,8 +56,13 @@ struct LiveMesh {
   static std::uint32_t halfedge(std::uint32_t triangle, std::uint32_t side) { return 4 * triangle + side; }
   static std::uint32_t triangleOf(std::uint32_t h) { return h >> 2; }
   static std::uint32_t sideOf(std::uint32_t h) { return h & 3; }
-  static std::uint32_t nextInTriangle(std::uint32_t h) { return (h & 3) == 2 ? h - 2 : h + 1; }
-  static std::uint32_t previousInTriangle(std::uint32_t h) { return (h & 3) == 0 ? h + 2 : h - 1; }
+  // Two bits for each side say which one comes next, and before: which side it is nobody foresees.
+  static std::uint32_t nextInTriangle(std::uint32_t h) {
+    return (h & ~3u) | (0b00'10'01u >> 2 * (h & 3) & 3);
+  }
+  static std::uint32_t previousInTriangle(std::uint32_t h) {
+    return (h & ~3u) | (0b01'00'10u >> 2 * (h & 3) & 3);
+  }
   std::uint32_t origin(std::uint32_t h) const { return triangles[triangleOf(h)].corners[sideOf(h)]; }
   std::uint32_t twinOf(std::uint32_t h) const { return triangles[triangleOf(h)].twin[sideOf(h)]; }
   void setTwin(std::uint32_t h, std::uint32_t to) { triangles[triangleOf(h)].twin[sideOf(h)] = to; }

@@ -86,15 +86,21 @@ class VertexRemover {
     // The bounds of the star's triangles hold for their edges: most often the rim adds nothing to those of
     // the floor, and need not be looked at.
     const int corners = star.linkSize;
-    for (int i = 0; i < corners; ++i) {
+    std::array<std::uint8_t, kMaxHoleCorners> telling;
+    int count = 0;
+    for (int i = 0; i < star.triangleCount; ++i) {
+      const FloorCodes own = codes_[joins.rim[i].triangle],
+                       beside = s_.recorder.codes(s_.mesh.triangles[star.triangle(i)].birth);
+      telling[count] = static_cast<std::uint8_t>(i);
+      count += (beside.below > own.below) | (beside.above > own.above);
+    }
+    if (star.isOpen) telling[count++] = static_cast<std::uint8_t>(corners - 1);
+    for (int k = 0; k < count; ++k) {
+      const int i = telling[k];
       FloorCodes& own = codes_[joins.rim[i].triangle];
-      if (i < star.triangleCount) {
-        const FloorCodes beside = s_.recorder.codes(s_.mesh.triangles[star.triangle(i)].birth);
-        if ((beside.below <= own.below) & (beside.above <= own.above)) continue;
-      }
       const SignedBound bound = hole.alongEdge(i, i + 1 < corners ? i + 1 : 0);
-      own.below = std::max(own.below, encode(bound.below));
-      own.above = std::max(own.above, encode(bound.above));
+      const std::uint16_t below = encode(bound.below), above = encode(bound.above);
+      own = {own.error, std::max(own.below, below), std::max(own.above, above)};
     }
   }
 
@@ -136,7 +142,7 @@ class VertexRemover {
   }
 
   /// Bounds go beyond the rounding of the scan itself: they prove things.
-  double outward(double x) const { return x == 0 ? 0 : x * (1 + 1e-9) + s_.roundingSlack; }
+  double outward(double x) const { return (x * (1 + 1e-9) + s_.roundingSlack) * (x == 0 ? 0 : 1); }
   /// An error that is a code but for the last bits of its arithmetic is that code: integer heights make
   /// errors of exactly 1 common, and a tolerance of 1 must take them. The bits are far below what "equal to
   /// the bound" allows.

@@ -66,9 +66,9 @@ class WaitingList {
   /// Makes v due now, if so told: callers cannot foresee it, and no branch is needed. Safe for the same
   /// vertex at once, not beside set() of the same.
   void wakeIf(bool isDue, std::uint32_t v) {
-    float& dueAt = dueAt_[place_[v]];
     float nowhere = kNow;  // of this call: a place that all threads wrote to would hold them up
-    std::atomic_ref(isDue ? dueAt : nowhere).store(kNow, std::memory_order_relaxed);
+    float* const where[] = {&nowhere, &dueAt_[place_[v]]};
+    std::atomic_ref(*where[isDue]).store(kNow, std::memory_order_relaxed);
   }
   /// These have gone. Safe for different vertices at once. O(gone).
   void remove(std::span<const std::uint32_t> gone, LoopThreads threads);
