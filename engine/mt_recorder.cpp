@@ -24,9 +24,9 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "engine/enclosing_ball.h"
-
 #include "engine/node_blocks.h"
 #include "engine/uninitialized_vector.h"
 
@@ -41,7 +41,7 @@ struct OwnedMt {
   NodeBlocks blocks;
 };
 
-constexpr std::size_t kGrain = 1 << 13;
+constexpr std::size_t kGrain = 1 << 13, kBatchesAtOnce = 64;
 constexpr std::uint32_t kAhead = 16,
                         kNearAhead = 6;  // nodes whose stars are asked for before they are needed
 
@@ -118,6 +118,34 @@ void MtRecorder::record(std::uint32_t removal, const VertexRemoval& what) {
   sphere_[removal] = ball.rounded();
 }
 
+UninitializedVector<std::uint32_t> MtRecorder::byFallingBand() {
+  constexpr std::uint32_t kBands = MultiTriangulation::kBands;
+  std::ranges::stable_sort(batches_, {}, &Batch::order);
+  std::ranges::reverse(batches_);
+  const auto forPart = [&](std::size_t part, const auto& visit) {
+    const std::size_t end = std::min((part + 1) * kBatchesAtOnce, batches_.size());
+    for (std::size_t b = part * kBatchesAtOnce; b != end; ++b)
+      for (std::uint32_t i = batches_[b].size; i-- > 0;) {
+        const std::uint32_t r = batches_[b].first + i;
+        visit(r, kBands - 1 - MultiTriangulation::bandOf(saturated_[r]));
+      }
+  };
+  const std::size_t parts = (batches_.size() + kBatchesAtOnce - 1) / kBatchesAtOnce;
+  std::vector<std::array<std::uint32_t, kBands>> begin(parts);  // of what goes into a band from a part
+  tbb::parallel_for(std::size_t(0), parts, [&](std::size_t part) {
+    begin[part].fill(0);
+    forPart(part, [&](std::uint32_t, std::uint32_t band) { ++begin[part][band]; });
+  });
+  std::uint32_t next = 0;
+  for (std::uint32_t band = 0; band < kBands; ++band)
+    for (auto& of : begin) next += std::exchange(of[band], next);
+  UninitializedVector<std::uint32_t> removalOf(removals_);
+  tbb::parallel_for(std::size_t(0), parts, [&](std::size_t part) {
+    forPart(part, [&](std::uint32_t r, std::uint32_t band) { removalOf[begin[part][band]++] = r; });
+  });
+  return removalOf;
+}
+
 MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertices,
                                       std::span<const SurvivingTriangle> surviving,
                                       std::uint32_t callerVertexCount,
@@ -129,22 +157,7 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   const std::uint32_t rootVertexCount = static_cast<std::uint32_t>(rootVertices.size());
   const std::uint32_t born = slots - 2 * nodes;
 
-  // removalOf[n]: falling band, later removals first.
-  UninitializedVector<std::uint32_t> removalOf(nodes);
-  {
-    const auto place = [&](std::uint32_t removal) {
-      return MultiTriangulation::kBands - 1 - MultiTriangulation::bandOf(saturated_[removal]);
-    };
-    std::array<std::uint32_t, MultiTriangulation::kBands + 1> begin{};
-    for (std::uint32_t r = 0; r < nodes; ++r) ++begin[place(r) + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    std::ranges::stable_sort(batches_, {}, &Batch::order);
-    for (std::size_t b = batches_.size(); b-- > 0;)
-      for (std::uint32_t i = batches_[b].size; i-- > 0;) {
-        const std::uint32_t r = batches_[b].first + i;
-        removalOf[begin[place(r)]++] = r;
-      }
-  }
+  const UninitializedVector<std::uint32_t> removalOf = byFallingBand();
 
   vertexOrder.resize(std::size_t(rootVertexCount) + nodes);
   UninitializedVector<std::uint32_t> newVertex(callerVertexCount, kNone);
@@ -152,21 +165,19 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
     vertexOrder[i] = rootVertices[i];
     newVertex[rootVertices[i]] = i;
   }
-  forRange(nodes, [&](std::uint32_t n) {
-    const std::uint32_t v = vertex_[removalOf[n]];
-    vertexOrder[rootVertexCount + n] = v;
-    newVertex[v] = rootVertexCount + n;
-  });
-  vertex_.clear();
-
   auto owned = std::make_shared<OwnedMt>();
-  const std::size_t ids = std::size_t(roots) + slots;
   owned->slotBegin.resize(std::size_t(nodes) + 1);
   owned->slotBegin[0] = 0;
-  for (std::uint32_t n = 0; n < nodes; ++n) {
-    const std::uint32_t r = removalOf[n];
-    owned->slotBegin[n + 1] = owned->slotBegin[n] + slotBegin_[r + 1] - slotBegin_[r];
-  }
+  forRange(nodes, [&](std::uint32_t n) {
+    const std::uint32_t r = removalOf[n], v = vertex_[r];
+    vertexOrder[rootVertexCount + n] = v;
+    newVertex[v] = rootVertexCount + n;
+    owned->slotBegin[n + 1] = slotBegin_[r + 1] - slotBegin_[r];
+  });
+  vertex_.clear();
+  std::partial_sum(owned->slotBegin.begin(), owned->slotBegin.end(), owned->slotBegin.begin());
+
+  const std::size_t ids = std::size_t(roots) + slots;
 
   // What the recorder holds goes as soon as it has been copied, and what it leaves takes the next array: here
   // both would be in memory at once.
@@ -267,11 +278,11 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   const std::size_t hints =
       (std::size_t(slots) + MultiTriangulation::kSlotsPerHint - 1) / MultiTriangulation::kSlotsPerHint;
   owned->creatorHint.resize(hints);
-  for (std::uint32_t n = 0; n < nodes; ++n) {
+  forRange(nodes, [&](std::uint32_t n) {
     constexpr std::uint32_t k = MultiTriangulation::kSlotsPerHint;
     for (std::uint32_t h = (owned->slotBegin[n] + k - 1) / k; h * k < owned->slotBegin[n + 1]; ++h)
       owned->creatorHint[h] = n;
-  }
+  });
 
   MtArrays a;
   a.rootVertices = rootVertexCount;

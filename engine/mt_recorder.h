@@ -11,6 +11,7 @@
 #include "engine/chunked_array.h"
 #include "engine/multitriangulation.h"
 #include "engine/stage_clock.h"
+#include "engine/uninitialized_vector.h"
 
 namespace arete {
 
@@ -106,6 +107,9 @@ class MtRecorder {
                             std::vector<std::uint32_t>& vertexOrder, StageClock* clock = nullptr);
 
  private:
+  /// The removals in the order of nodes: by falling band, of one the later ones first. Parallel.
+  UninitializedVector<std::uint32_t> byFallingBand();
+
   std::uint32_t finestTriangles_;
   OutwardScale scale_;
   MetricFrame metric_;

@@ -3,6 +3,8 @@
 // A raster is built in lattice coordinates, with integer predicates, and its errors are scanned from the
 // raster itself: see simplify.h for the levels and raster_error.h for the scan.
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +13,7 @@
 #include <optional>
 
 #include "engine/pages.h"
+#include "engine/parallel_filter.h"
 #include "engine/with_threads.h"
 #include "terrain/build.h"
 #include "terrain/build_checks.h"
@@ -45,6 +48,41 @@ Ratio nearestRatio(double aspect) {
     }
   }
   return best;
+}
+
+constexpr std::size_t kSamplesAtOnce = 1 << 16;
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+};
+
+/// Of the samples that have data.
+Range rangeOf(std::span<const double> heights) {
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, heights.size(), kSamplesAtOnce), Range(),
+      [&](const auto& part, Range range) {
+        for (const double z : heights.subspan(part.begin(), part.size())) {
+          range.low = z < range.low ? z : range.low;  // false for NODATA
+          range.high = z > range.high ? z : range.high;
+        }
+        return range;
+      },
+      [](const Range& a, const Range& b) {
+        return Range{std::min(a.low, b.low), std::max(a.high, b.high)};
+      });
+}
+
+/// Those that have data and are in no triangle.
+std::vector<std::uint32_t> isolatedSamples(const RasterHeightfield& field, const LiveMesh& mesh) {
+  std::vector<std::uint32_t> isolated;
+  ParallelFilter<std::uint32_t>()(
+      field.size(), kSamplesAtOnce, isolated, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+        for (std::size_t v = begin; v != end; ++v)
+          if (mesh.vertexHalfedge[v] == LiveMesh::kNone && !std::isnan(field.heights[v]))
+            *to++ = static_cast<std::uint32_t>(v);
+        return to;
+      });
+  return isolated;
 }
 
 struct OwnedVertices {
@@ -93,13 +131,8 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
           field.source);
     isFixed[v] = 1;
   }
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (std::uint32_t v = 0; v < sampleCount; ++v) {
-    if (std::isnan(field.heights[v])) continue;
-    low = std::min(low, field.heights[v]);
-    high = std::max(high, field.heights[v]);
-    if (mesh.vertexHalfedge[v] == LiveMesh::kNone) model.isolated.push_back({v, field.heights[v]});
-  }
+  const auto [low, high] = rangeOf(field.heights);
+  for (const std::uint32_t v : isolatedSamples(field, mesh)) model.isolated.push_back({v, field.heights[v]});
   if (!(high - low < 1e30))
     return failure(ErrorCode::invalidData, fmt::format("heights from {} to {} span too much", low, high),
                    field.source);

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/loop_threads.h"
 #include "terrain/raster_cells.h"
 
 namespace arete {
@@ -222,7 +223,10 @@ LiveMesh finestMesh(const RasterHeightfield& heightfield, std::vector<std::uint3
   const Cells cells(heightfield);
   const MeshLayout layout(heightfield, cells);
   mesh.triangles.resize(layout.triangleCount());
-  mesh.vertexHalfedge.assign(heightfield.size(), kNone);
+  mesh.vertexHalfedge.resize(heightfield.size());
+  forRanges(LoopThreads::all, heightfield.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
+    std::fill(&mesh.vertexHalfedge[begin], &mesh.vertexHalfedge[begin] + (end - begin), kNone);
+  });
   std::vector<std::vector<std::uint32_t>> borders(cells.tileCount());  // half-edges without a twin
   // A vertex goes by the last half-edge that leaves it; those between tiles are claimed by several.
   const auto claim = [&](std::uint32_t v, std::uint32_t h) {

@@ -5,6 +5,7 @@
 #include "terrain/waiting_list.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace arete {
 namespace {
@@ -110,16 +111,29 @@ float WaitingList::thresholdOf(double part) const {
 
 void WaitingList::forgetGone() {
   if (waiting_ + staying_ + 1 >= vertices_.size() / 2) return;
-  std::uint32_t kept = kNobody + 1;
-  for (std::size_t i = kept; i < vertices_.size(); ++i) {
-    if (vertices_[i] == kNone) continue;
-    vertices_[kept] = vertices_[i];
-    dueAt_[kept] = dueAt_[i];
-    place_[vertices_[kept]] = kept;
-    ++kept;
-  }
-  vertices_.resize(kept);
-  dueAt_.resize(kept);
+  UninitializedVector<std::uint32_t> kept;  // places
+  const std::size_t first = everything().begin;
+  Space()(everything().size(), kChunk, kept, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+    for (std::size_t place = first + begin; place < first + end; ++place) {
+      *to = static_cast<std::uint32_t>(place);
+      to += vertices_[place] != kNone ? 1 : 0;
+    }
+    return to;
+  });
+  UninitializedVector<std::uint32_t> vertices(first + kept.size());
+  UninitializedVector<float> dueAt(vertices.size());
+  vertices[kNobody] = vertices_[kNobody];
+  dueAt[kNobody] = dueAt_[kNobody];
+  forRanges(LoopThreads::all, kept.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) {
+      const std::size_t place = first + i;
+      vertices[place] = vertices_[kept[i]];
+      dueAt[place] = dueAt_[kept[i]];
+      place_[vertices[place]] = static_cast<std::uint32_t>(place);
+    }
+  });
+  vertices_ = std::move(vertices);
+  dueAt_ = std::move(dueAt);
 }
 
 }  // namespace arete

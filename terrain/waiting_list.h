@@ -49,7 +49,7 @@ class WaitingList {
   std::span<const std::uint32_t> vertices() const { return std::span(vertices_).subspan(kNobody + 1); }
   /// v's place, which it keeps until forgetGone(). Precondition: v has not gone.
   std::uint32_t placeOf(std::uint32_t v) const { return place_[v]; }
-  /// Forgets those that have gone if they are more than half: places change. O(size).
+  /// Forgets those that have gone if they are more than half: places change. O(size), parallel.
   void forgetGone();
 
   /// `due` receives, in order, those whose threshold has come. O(places), parallel.
