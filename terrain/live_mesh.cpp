@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Removals of a batch are independent: no two stars share a triangle. They may share an edge of their rims,
-// and then each is the other's neighbour while both are being rewritten. So a batch works in two steps with a
+// Removals of a batch are independent: no two stars share a triangle. They may share an edge of their rims:
+// where one is rewritten after the other, each is joined to its neighbours at once (sewAlone()). Threads that
+// rewrite both at a time would each meet half a neighbour; so a batch of theirs works in two steps with a
 // barrier between: refill() rewrites the slots of one star and notes where each rim half-edge went; sew()
 // then joins each rim edge to its former twin, looking among the notes of the removal that rewrote that
 // twin's slot if it moved too. Both sides of an edge between two moved stars write their own twin only, and

@@ -82,6 +82,9 @@ struct Star {
   std::uint32_t rim(int i) const { return LiveMesh::nextInTriangle(outgoing[i]); }
   std::span<const std::uint32_t> linkView() const { return {link.data(), std::size_t(linkSize)}; }
 
+  /// How many of a star's triangles' slots hold none when its vertex is gone.
+  static std::size_t slotsLeftDead(bool isOpen) { return isOpen ? 1 : 2; }
+
   /// Gathers the star of v; false when its link has more than maxLink vertices (or v has no triangle).
   bool gather(const LiveMesh& mesh, std::uint32_t v, int maxLink);
 };
@@ -103,35 +106,35 @@ void forLink(const LiveMesh& mesh, std::uint32_t v, const Visit& visit) {
   }
 }
 
-/// What a removal must leave behind of an edge of its star's rim until the whole batch has rewritten its
-/// stars. Of an open star the last one is of the new border edge that closes its hole.
+/// What a removal leaves to do of an edge of its star's rim: to join it to what lies beyond. Of an open star
+/// the last one is of the new border edge that closes its hole.
 struct Seam {
-  std::uint32_t movedFrom;  ///< half-edge of the rim before the batch, kNone for a new border edge
+  std::uint32_t movedFrom;  ///< half-edge of the rim before the removal, kNone for a new border edge
   std::uint32_t movedTo;    ///< the same after it
-  std::uint32_t beyond;     ///< its twin before the batch, kNone on a border
+  std::uint32_t beyond;     ///< its twin before it, kNone on a border
 };
 
 /// Fills the star's hole with the floor: rewrites its triangle slots, inner twins and the half-edges of the
-/// link. Touches nothing outside the star and fills in `seams`, one for each vertex of the link; call sew()
-/// for every star of the batch after. `joins`: of the floor.
+/// link. Touches nothing outside the star and fills in `seams`, one for each vertex of the link, which are to
+/// be sewn: at once by sewAlone(), or by sew() when all stars of a batch are rewritten. `joins`: of the
+/// floor.
 void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, const FloorJoins& joins,
             std::uint32_t firstBirth, std::uint32_t removal, std::span<Seam> seams);
+
+/// Joins an edge of a floor's rim to what lies beyond it, which is where it was when the star was rewritten.
+inline void sewAlone(LiveMesh& mesh, const Seam& seam) {
+  mesh.setTwin(seam.movedTo, seam.beyond);
+  if (seam.beyond != LiveMesh::kNone) mesh.setTwin(seam.beyond, seam.movedTo);
+}
 
 /// Joins an edge of a floor's rim to what lies beyond it, whether that moved in the same batch or not.
 /// `firstRemoval`: of this batch; slots that a removal from it on has rewritten have moved.
 /// seamsOf(removal): the seams of a removal of the batch.
 template <class SeamsOf>
 void sew(LiveMesh& mesh, const Seam& seam, std::uint32_t firstRemoval, const SeamsOf& seamsOf) {
-  if (seam.beyond == LiveMesh::kNone) {
-    mesh.setTwin(seam.movedTo, LiveMesh::kNone);
-    return;
-  }
+  if (seam.beyond == LiveMesh::kNone) return sewAlone(mesh, seam);
   const std::uint32_t bearer = mesh.triangles[LiveMesh::triangleOf(seam.beyond)].bearer;
-  if (bearer == LiveMesh::kNone || bearer < firstRemoval) {
-    mesh.setTwin(seam.movedTo, seam.beyond);
-    mesh.setTwin(seam.beyond, seam.movedTo);
-    return;
-  }
+  if (bearer == LiveMesh::kNone || bearer < firstRemoval) return sewAlone(mesh, seam);
   for (const Seam& other : seamsOf(bearer))
     if (other.movedFrom == seam.beyond) {
       mesh.setTwin(seam.movedTo, other.movedTo);

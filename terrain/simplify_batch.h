@@ -13,16 +13,15 @@
 
 namespace arete {
 
-/// The removals of a level, no two of whose stars share a triangle: they are announced to the recorder, each
-/// rewrites its star, and what that left to do where stars meet is done when all have.
+/// The removals of a level of all threads, no two of whose stars share a triangle: they are announced to the
+/// recorder, each rewrites its star, and what that left to do where stars meet is done when all have.
 template <class Plan, class Errors>
 class RemovalBatch {
  public:
   using State = SimplifyState<Plan, Errors>;
 
-  /// `threads`: who works on the batch. `clock` may be null.
-  RemovalBatch(State& state, LoopThreads threads, StageClock* clock)
-      : s_(state), threads_(threads), clock_(clock) {}
+  /// `clock` may be null.
+  RemovalBatch(State& state, StageClock* clock) : s_(state), clock_(clock) {}
 
   /// Announces removals by the sizes of their links.
   void begin(MtRecorder::BatchOrder order, std::span<const std::uint8_t> linkSizes) {
@@ -46,17 +45,16 @@ class RemovalBatch {
     if (s_.rim != nullptr)
       for (std::size_t i = 0; i < removed.size(); ++i)
         if (isOpen_[i]) Rim::closeVoid(s_.mesh, seams(i).back().movedTo);
-    s_.waiting.remove(removed, threads_);
-    // A removal leaves two slots dead, one on a border.
+    s_.waiting.remove(removed, LoopThreads::all);
     std::size_t dead = 0;
-    for (const std::uint8_t isOpen : isOpen_) dead += isOpen ? 1 : 2;
+    for (const std::uint8_t isOpen : isOpen_) dead += Star::slotsLeftDead(isOpen != 0);
     s_.liveTriangles -= dead;
   }
 
  private:
   void sewSeams() {
     const StageClock::Scope stage(clock_, "simplify: sew");
-    forRanges(threads_, seams_.size(), 2048, [&](std::size_t begin, std::size_t end) {
+    forRanges(LoopThreads::all, seams_.size(), 2048, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i != end; ++i) {
         if (i + kSeamsAhead < end && seams_[i + kSeamsAhead].beyond != LiveMesh::kNone)
           __builtin_prefetch(&s_.mesh.triangles[LiveMesh::triangleOf(seams_[i + kSeamsAhead].beyond)], 1);
@@ -72,7 +70,6 @@ class RemovalBatch {
   static constexpr std::size_t kSeamsAhead = 16;
 
   State& s_;
-  LoopThreads threads_;
   StageClock* clock_;
   std::uint32_t first_ = 0;
   std::vector<std::uint8_t> isOpen_;  // per removal

@@ -39,11 +39,7 @@ class LevelWorkers {
 
   /// `clock` may be null.
   LevelWorkers(State& state, StageClock* clock)
-      : s_(state),
-        cost_(state),
-        set_(state.mesh, state.notes),
-        batch_(state, LoopThreads::all, clock),
-        clock_(clock) {}
+      : s_(state), cost_(state), set_(state.mesh, state.notes), batch_(state, clock), clock_(clock) {}
 
   /// A level of all that may go. `number`: of the level, none of a vertex's levels has the same. Returns how
   /// many went.

@@ -7,18 +7,20 @@
 //             unseen: the neighbour's removal changes what it costs. So the taken are independent, and one
 //             look in twelve is saved. Within a level the order is that of the ground, not of the costs,
 //             which is why the levels must not be far apart (docs/decisions/0016).
-//   remove    Those that were taken: their stars, and what their floors measure, are kept from the look.
+//   remove    Those that were taken, one after the other, each joined at once to what lies around its star:
+//             their stars, and what their floors measure, are kept from the look.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/loop_threads.h"
 #include "engine/stage_clock.h"
 #include "engine/uninitialized_vector.h"
 #include "terrain/measured_floor.h"
-#include "terrain/simplify_batch.h"
 #include "terrain/simplify_cost.h"
 #include "terrain/simplify_removal.h"
 #include "terrain/simplify_state.h"
@@ -34,8 +36,7 @@ class PieceWorker {
   using Piece = WaitingList::Piece;
 
   /// `clock` may be null.
-  PieceWorker(State& state, StageClock* clock)
-      : s_(state), cost_(state), remover_(state), batch_(state, LoopThreads::caller, clock), clock_(clock) {}
+  PieceWorker(State& state, StageClock* clock) : s_(state), cost_(state), remover_(state), clock_(clock) {}
 
   /// A level of those of the piece that may go. `number`: of the level, none of a vertex's levels has the
   /// same. Returns how many went.
@@ -45,9 +46,7 @@ class PieceWorker {
       s_.waiting.collect(piece, threshold, due_);
     }
     take(piece, threshold, number);
-    if (taken_.empty()) return 0;
-    remove(order);
-    batch_.end(taken_);
+    if (!taken_.empty()) remove(order);
     return taken_.size();
   }
 
@@ -103,13 +102,18 @@ class PieceWorker {
 
   void remove(MtRecorder::BatchOrder order) {
     const StageClock::Scope stage(clock_, "simplify: remove");
-    batch_.begin(order, linkSizes_);
+    const std::uint32_t first = s_.recorder.beginBatch(order, linkSizes_);
+    std::size_t dead = 0;
     for (std::size_t i = 0; i != taken_.size(); ++i) {
       if (i + kStarsAhead < taken_.size()) remover_.prefetch(space_[i + kStarsAhead].star);
       Taken& one = space_[i];
-      batch_.setOpen(i, one.star.isOpen);
-      remover_.remove(taken_[i], one.star, one.floor, batch_.removal(i), batch_.seams(i));
+      const std::span<Seam> seams(seams_.data(), static_cast<std::size_t>(one.star.linkSize));
+      remover_.remove(taken_[i], one.star, one.floor, first + static_cast<std::uint32_t>(i), seams);
+      for (const Seam& seam : seams) sewAlone(s_.mesh, seam);
+      dead += Star::slotsLeftDead(one.star.isOpen);
     }
+    s_.waiting.remove(taken_, LoopThreads::caller);
+    s_.liveTriangles -= dead;
   }
 
   static constexpr std::size_t kStarsAhead = 3;
@@ -117,13 +121,13 @@ class PieceWorker {
   State& s_;
   RemovalCost<Plan, Errors> cost_;
   VertexRemover<Plan, Errors> remover_;
-  RemovalBatch<Plan, Errors> batch_;
   StageClock* clock_;
 
   UninitializedVector<std::uint32_t> due_;
   std::vector<std::uint32_t> taken_;
   std::vector<Taken> space_;             // per taken, and kept for those of the next level
   std::vector<std::uint8_t> linkSizes_;  // per taken
+  std::array<Seam, kMaxHoleCorners> seams_;
   std::vector<std::uint32_t> held_;
 };
 
