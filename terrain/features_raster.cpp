@@ -4,8 +4,8 @@
 // triangles whatever lies beyond; which of the six are lower fits into six bits, and tables say the rest: one
 // lower and one higher neighbour to be hung under, and whether the lower ones stand in several runs around
 // the ring. Only then is the sample a pass of either sweep: neighbours in one run are joined by the ring's
-// own edges before it comes. Samples on the border and beside NODATA are few: they ask the triangles of the
-// cells around them.
+// own edges before it comes, so one of each run is all that it joins. Samples on the border and beside NODATA
+// are few: they ask the triangles of the cells around them.
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -22,15 +22,17 @@ namespace {
 constexpr std::string_view kStage = "ranking features";
 constexpr unsigned kRing = 6, kMasks = 1 << kRing;
 
-/// By the mask of a ring: the first of its bits (kRing: none), and whether they stand in several runs.
+/// By the mask of a ring: the first of its bits (kRing: none), those where a run of them begins, and whether
+/// there are several runs.
 struct RingTables {
-  std::array<std::uint8_t, kMasks> first{};
+  std::array<std::uint8_t, kMasks> first{}, begins{};
   std::array<bool, kMasks> isPass{};
 
   constexpr RingTables() {
     for (unsigned mask = 0; mask < kMasks; ++mask) {
       first[mask] = static_cast<std::uint8_t>(mask == 0 ? kRing : unsigned(std::countr_zero(mask)));
       const unsigned turned = (mask << 1 | mask >> (kRing - 1)) % kMasks;
+      begins[mask] = static_cast<std::uint8_t>(mask & ~turned);
       isPass[mask] = std::popcount(mask ^ turned) > 2;
     }
   }
@@ -65,14 +67,30 @@ class Lattice {
     const auto join = [&](std::uint32_t v, std::uint32_t u) {
       if (trees.tree(u) != trees.tree(v) && before(u, v)) links.push_back({v, u});
     };
-    for (const std::vector<std::uint32_t>& passes : passesOfRow_)
-      for (const std::uint32_t v : passes) forNeighbours(v, [&](std::uint32_t u) { join(v, u); });
+    for (const std::vector<Pass>& passes : passesOfRow_)
+      for (const auto& [v, isRingWhole] : passes) {
+        if (!isRingWhole) {
+          forNeighbours(v, [&](std::uint32_t u) { join(v, u); });
+          continue;
+        }
+        unsigned mask = 0;
+        for (unsigned place = 0; place < kRing; ++place)
+          mask |= unsigned(before(beside(v, place), v)) << place;
+        for (unsigned begins = kTables.begins[mask]; begins != 0; begins &= begins - 1)
+          join(v, beside(v, unsigned(std::countr_zero(begins))));
+      }
     return links;
   }
 
  private:
+  /// A sample that may join trees.
+  struct Pass {
+    std::uint32_t sample;
+    bool isRingWhole;
+  };
+
   void lookAlong(std::uint32_t row, FeatureParents& parents) {
-    std::vector<std::uint32_t>& passes = passesOfRow_[row];
+    std::vector<Pass>& passes = passesOfRow_[row];
     const double* const heights = field_.heights.data();
     const std::uint32_t begin = field_.index(0, row), end = begin + field_.columns;
     const bool isInside = row > 0 && row + 1 < field_.rows;
@@ -90,7 +108,7 @@ class Lattice {
         if ((lower | higher) == kMasks - 1) {
           parents.lower[v] = beside(v, kTables.first[lower]);
           parents.higher[v] = beside(v, kTables.first[higher]);
-          if (kTables.isPass[lower]) passes.push_back(v);
+          if (kTables.isPass[lower]) passes.push_back({v, true});
           continue;
         }
       }
@@ -98,7 +116,7 @@ class Lattice {
       if (heights[v] != heights[v]) continue;
       const LowerVertex isLower(field_.heights);
       forNeighbours(v, [&](std::uint32_t u) { (isLower(u, v) ? parents.lower : parents.higher)[v] = u; });
-      passes.push_back(v);
+      passes.push_back({v, false});
     }
   }
 
@@ -126,7 +144,7 @@ class Lattice {
   RasterCells cells_;
   std::ptrdiff_t columns_;
   std::array<std::ptrdiff_t, kRing + 1> ring_;
-  std::vector<std::vector<std::uint32_t>> passesOfRow_;
+  std::vector<std::vector<Pass>> passesOfRow_;
 };
 
 }  // namespace
