@@ -198,7 +198,7 @@ void addBuildCommand(CLI::App& app, Session& session) {
   command
       ->add_option("--ratio", arguments->options.thresholdRatio,
                    "Growth of the error threshold from the first level to the second; it falls as\n"
-                   "fewer vertices are left (default 1.2)")
+                   "fewer vertices are left (default 1.17)")
       ->check(finiteAbove(1))
       ->type_name("R");
   command

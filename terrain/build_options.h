@@ -19,7 +19,9 @@ struct PieceOptions {
   std::uint32_t most = 1 << 13;   ///< vertices of a piece; what belongs to them takes about 1 MB
   std::uint32_t least = 1 << 12;  ///< the same, where larger pieces would be too few. 1 .. most
   std::uint32_t fewest = 8;       ///< fewer pieces are not made: all threads work together then. > 0
-  double span = 1.35;  ///< the growth of the threshold in the levels that a piece goes through by itself. > 1
+  /// The growth of the threshold in the levels that a piece goes through by itself; less for the fidelity
+  /// shape. > 1
+  double span = 1.6;
 };
 
 /// Options of a build. The defaults are what the figures in docs/performance.md are measured with.
@@ -31,8 +33,8 @@ struct BuildOptions {
 
   /// A level admits removals whose error is under a threshold that grows by this ratio from the first level
   /// to the second, and by less from level to level the fewer vertices are left; by more where next to none
-  /// would go (simplify.h). What it grows by is a third less for the fidelity shape. > 1.
-  double thresholdRatio = 1.2;
+  /// would go (simplify.h). What it grows by is a quarter less for the fidelity shape. > 1.
+  double thresholdRatio = 1.17;
 
   /// Fidelity only: triangles whose least altitude is below this part of their longest edge are rejected.
   double minimumAspect = 0.02;

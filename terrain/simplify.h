@@ -112,15 +112,18 @@ class Simplifier {
     return pieces < options.fewest || s_.rim != nullptr ? 1 : pieces;
   }
 
-  /// By how much the threshold grows now. What it grows by falls with the vertices that are left. The
-  /// fidelity shape takes smaller steps: its cuts have two thousandths less triangles for it, and its time
-  /// hardly tells.
+  bool isFidelity() const { return s_.options.shape == HoleShape::fidelity; }
+
+  // The fidelity shape takes smaller steps, and fewer of them by pieces: its cuts have some thousandths less
+  // triangles for it, and its time hardly tells (docs/decisions/0018).
+  /// By how much the threshold grows now. What it grows by falls with the vertices that are left.
   double ratio() const {
-    const double part = s_.options.shape == HoleShape::fidelity ? 2.0 / 3 : 1,
-                 growth = (s_.options.thresholdRatio - 1) * part,
+    const double growth = (s_.options.thresholdRatio - 1) * (isFidelity() ? 0.75 : 1),
                  left = double(s_.waiting.size()) / double(waitingAtStart_);
     return 1 + std::max(std::min(growth, kLeastGrowth), growth * left);
   }
+  /// By how much it grows while a piece goes by itself.
+  double span() const { return 1 + (s_.options.pieces.span - 1) * (isFidelity() ? 0.6 : 1); }
 
   /// The least threshold that concerns a fiftieth of those that may go: where costs are spread over many
   /// orders of magnitude, steps in which next to none go would be all there is.
@@ -136,10 +139,10 @@ class Simplifier {
   /// As many levels as a piece goes through. Returns the threshold of the next.
   double levelsByPieces(double threshold, std::uint32_t pieces) {
     std::vector<double> thresholds = {threshold};
-    const double step = ratio();
+    const double step = ratio(), end = threshold * span();
     do  // once at least: of flat ground all thresholds are 0
       thresholds.push_back(thresholds.back() * step);
-    while (thresholds.size() <= kMostLevels && thresholds.back() < threshold * s_.options.pieces.span);
+    while (thresholds.size() <= kMostLevels && thresholds.back() < end);
     const auto levels = static_cast<std::uint32_t>(thresholds.size()) - 1;
     ++groups_;
     const Piece everything = s_.waiting.everything();
