@@ -200,6 +200,14 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
     if (n + 2 * kAhead < nodes) __builtin_prefetch(&slotBegin_[removalOf[n + 2 * kAhead]]);
     if (n + kAhead < nodes) __builtin_prefetch(&array[slotBegin_[removalOf[n + kAhead]]]);
   };
+  // As many slots of a node as most have, perhaps the next one's: a number that nobody can foresee takes
+  // longer than to ask for one too many.
+  const auto forFirstSlots = [&](std::uint32_t n, const auto& visit) __attribute__((always_inline)) {
+    constexpr std::uint32_t kMost = 6;
+    const std::uint32_t begin = n < nodes ? slotBegin_[removalOf[n]] : slots;
+    if (begin + kMost > slots) return;
+    for (std::uint32_t k = 0; k < kMost; ++k) visit(begin + k);
+  };
   owned->link.resize(slots);
   owned->rootTriangles.resize(roots);
   for (std::uint32_t i = 0; i < roots; ++i) {
@@ -208,11 +216,9 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   }
   forRange(nodes, [&](std::uint32_t n) {
     prefetchSlots(n, link_);
-    if (n + kNearAhead < nodes) {
-      const std::uint32_t r = removalOf[n + kNearAhead];
-      for (std::uint32_t i = slotBegin_[r]; i < slotBegin_[r + 1]; ++i)
-        __builtin_prefetch(&newVertex[link_[i]]);
-    }
+    forFirstSlots(
+        n + kNearAhead, [&](std::uint32_t slot)
+                            __attribute__((always_inline)) { __builtin_prefetch(&newVertex[link_[slot]]); });
     const std::uint32_t from = slotBegin_[removalOf[n]], to = owned->slotBegin[n];
     for (std::uint32_t i = 0; i < owned->slotBegin[n + 1] - to; ++i)
       owned->link[to + i] = newVertex[link_[from + i]];
@@ -240,15 +246,12 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   for (std::uint32_t i = 0; i < roots; ++i) place(i, surviving[i].birth);
   forRange(nodes, [&](std::uint32_t n) {
     prefetchSlots(n, ceiling_);
-    if (n + kNearAhead < nodes) {
-      const std::uint32_t r = removalOf[n + kNearAhead];
-      for (std::uint32_t i = slotBegin_[r]; i < slotBegin_[r + 1]; ++i) {
-        const std::uint32_t birth = ceiling_[i];
-        if (birth == kNone || birth < finestTriangles_) continue;
-        __builtin_prefetch(&idOfBirth[birth - finestTriangles_], 1);
-        __builtin_prefetch(&floor_[birth - finestTriangles_]);
-      }
-    }
+    forFirstSlots(
+        n + kNearAhead, [&](std::uint32_t slot) __attribute__((always_inline)) {
+          const std::uint32_t birth = ceiling_[slot] - finestTriangles_, known = birth < born ? birth : 0;
+          __builtin_prefetch(&idOfBirth[known], 1);
+          __builtin_prefetch(&floor_[known]);
+        });
     const std::uint32_t from = slotBegin_[removalOf[n]], to = owned->slotBegin[n];
     for (std::uint32_t i = 0; i < owned->slotBegin[n + 1] - to; ++i) {
       const std::uint32_t birth = ceiling_[from + i], id = roots + to + i;
