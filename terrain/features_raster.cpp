@@ -68,8 +68,9 @@ class Lattice {
       if (trees.tree(u) != trees.tree(v) && before(u, v)) links.push_back({v, u});
     };
     for (const std::vector<Pass>& passes : passesOfRow_)
-      for (const auto& [v, isRingWhole] : passes) {
-        if (!isRingWhole) {
+      for (const Pass& pass : passes) {
+        const std::uint32_t v = pass.sample;
+        if (!pass.isRingWhole) {
           forNeighbours(v, [&](std::uint32_t u) { join(v, u); });
           continue;
         }
