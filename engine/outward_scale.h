@@ -40,7 +40,7 @@ class OutwardScale {
   Code encode(double x) const {
     // Without a branch: among the triangles of a build nobody foresees the zeros.
     const auto code = static_cast<std::int32_t>(roundedUpBits(x) - base_);
-    return static_cast<Code>(std::clamp<std::int32_t>(code, 1, kMaxCode) & -std::int32_t(x > 0));
+    return static_cast<Code>(std::clamp<std::int32_t>(code, 1, kMaxCode) & -std::int32_t(!(x <= 0)));
   }
 
   /// The largest code whose magnitude is at most x, for "error <= x" as a comparison of codes. x >= 0, may be

@@ -1,25 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Kept pages are laid into the range of addresses that the taker gets, a piece at a time: the system moves
-// them from one address to another (mremap) in a fortieth of the time that it takes to clear them. A piece
-// lies within one mapping, as a range is put together from whole ones; what is left of it at its end is not
-// kept.
+// them from one address to another (mremap) in a fraction of the time that it takes to clear them. A piece
+// lies within one mapping, as ranges are put together from whole ones; what is left of a range behind its
+// last piece is not kept. A piece that was moved may stay a mapping of its own, and a process can have some
+// 65 000, so only so many are moved. Whatever the system refuses, the taker gets fresh pages instead.
 #include "engine/pages.h"
 
 #include <sys/mman.h>
 
+#include <algorithm>
+#include <array>
 #include <mutex>
+#include <new>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace arete {
 namespace {
 
-constexpr std::size_t kPiece = std::size_t{1} << 19;
+constexpr std::size_t kPiece = std::size_t{1} << 19, kMostMoved = std::size_t{1} << 15;
 
 struct Stock {
   std::mutex using_;
-  std::vector<char*> pieces;
+  std::vector<char*> pieces;  // the next to be taken last
+  std::size_t moved = 0;      // since there is a keeper
   int keepers = 0;
 };
 
@@ -33,14 +39,56 @@ char* mapFresh(void* at, std::size_t bytes, int flags = 0) {
   return pages == MAP_FAILED ? nullptr : static_cast<char*>(pages);
 }
 
-/// Lays a kept piece over fresh pages. Where the system cannot, they stay fresh. Whether all is well.
-bool layOver(char* fresh, char* piece) {
-#ifdef MREMAP_FIXED
-  if (mremap(piece, kPiece, kPiece, MREMAP_MAYMOVE | MREMAP_FIXED, fresh) != MAP_FAILED) return true;
-#endif
-  munmap(piece, kPiece);
-  return mapFresh(fresh, kPiece, MAP_FIXED) != nullptr;
+void unmap(char* pages, std::size_t bytes) {
+  if (bytes == 0 || munmap(pages, bytes) == 0) return;
+  madvise(pages, bytes, MADV_DONTNEED);  // there are too many mappings to split one: the addresses stay
 }
+
+void unmapPieces(std::span<char* const> pieces) {
+  for (char* const piece : pieces) unmap(piece, kPiece);
+}
+
+/// Takes up to so many pieces from the stock, the first to be used last.
+std::vector<char*> takePieces(std::size_t most) {
+  Stock& s = stock();
+  const std::lock_guard lock(s.using_);
+  const std::size_t count = std::min({most, s.pieces.size(), kMostMoved - s.moved});
+  std::vector<char*> pieces(s.pieces.end() - static_cast<std::ptrdiff_t>(count), s.pieces.end());
+  s.pieces.resize(s.pieces.size() - count);
+  s.moved += count;
+  return pieces;
+}
+
+/// All that is kept.
+std::vector<char*> emptyStock() {
+  Stock& s = stock();
+  const std::lock_guard lock(s.using_);
+  return std::exchange(s.pieces, {});
+}
+
+/// Keeps pieces if there is a keeper. Whether it does.
+bool keepPieces(std::span<char* const> pieces) noexcept {
+  Stock& s = stock();
+  const std::lock_guard lock(s.using_);
+  if (s.keepers == 0) return false;
+  try {
+    s.pieces.insert(s.pieces.end(), pieces.begin(), pieces.end());
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+  return true;
+}
+
+#ifdef MREMAP_FIXED
+/// Lays a piece over fresh pages. Where the system does not, the piece stays where it is.
+bool layOver(char* fresh, char* piece) {
+  return mremap(piece, kPiece, kPiece, MREMAP_MAYMOVE | MREMAP_FIXED, fresh) != MAP_FAILED;
+}
+/// Whether pages that nothing could be laid over are there still, or again.
+bool isThere(char* fresh) {
+  return madvise(fresh, kPiece, MADV_NORMAL) == 0 || mapFresh(fresh, kPiece, MAP_FIXED_NOREPLACE) == fresh;
+}
+#endif
 
 }  // namespace
 
@@ -48,40 +96,52 @@ void* takeZeroPages(std::size_t bytes) {
   return mapFresh(nullptr, bytes);
 }
 
-void* takePages(std::size_t bytes) {
-  char* const pages = mapFresh(nullptr, bytes);
-  if (pages == nullptr || bytes < kPiece) return pages;
-  std::vector<char*> pieces;
-  {
-    Stock& s = stock();
-    const std::lock_guard lock(s.using_);
-    while (!s.pieces.empty() && (pieces.size() + 1) * kPiece <= bytes) {
-      pieces.push_back(s.pieces.back());
-      s.pieces.pop_back();
-    }
-  }
-  bool isWhole = true;
-  for (std::size_t i = 0; i < pieces.size(); ++i) isWhole = layOver(pages + i * kPiece, pieces[i]) && isWhole;
-  if (isWhole) return pages;
-  munmap(pages, bytes);
-  return nullptr;
+void giveZeroPagesBack(void* pages, std::size_t bytes) {
+  unmap(static_cast<char*>(pages), bytes);
 }
 
-void givePagesBack(void* pages, std::size_t bytes) {
-  char* const begin = static_cast<char*>(pages);
-  std::size_t kept = 0;
+void* takePages(std::size_t bytes) {
 #ifdef MREMAP_FIXED
-  if (bytes >= kPiece) {
-    Stock& s = stock();
-    const std::lock_guard lock(s.using_);
-    // The first shall be the next to be taken: what was side by side stays so, in one mapping.
-    if (s.keepers > 0) {
-      kept = bytes / kPiece * kPiece;
-      for (std::size_t end = kept; end != 0; end -= kPiece) s.pieces.push_back(begin + end - kPiece);
-    }
+  if (bytes < kPiece) return mapFresh(nullptr, bytes);
+  std::vector<char*> pieces = takePieces(bytes / kPiece);
+  char* const pages = mapFresh(nullptr, bytes);
+  if (pages == nullptr) {
+    // What is kept may be what is missing.
+    unmapPieces(pieces);
+    unmapPieces(emptyStock());
+    return mapFresh(nullptr, bytes);
   }
+  for (char* at = pages; !pieces.empty(); at += kPiece, pieces.pop_back()) {
+    if (layOver(at, pieces.back())) continue;
+    if (!keepPieces(pieces)) unmapPieces(pieces);
+    if (isThere(at)) break;
+    unmap(pages, static_cast<std::size_t>(at - pages));
+    unmap(at + kPiece, static_cast<std::size_t>(pages + bytes - (at + kPiece)));
+    return nullptr;
+  }
+  return pages;
+#else
+  return mapFresh(nullptr, bytes);
 #endif
-  if (kept < bytes) munmap(begin + kept, bytes - kept);
+}
+
+void givePagesBack(void* pages, std::size_t bytes) noexcept {
+  char* const begin = static_cast<char*>(pages);
+#ifdef MREMAP_FIXED
+  // The first piece shall be the next to be taken: what was side by side stays so, in one mapping.
+  std::array<char*, 64> pieces;
+  std::size_t end = bytes / kPiece * kPiece;
+  unmap(begin + end, bytes - end);
+  while (end != 0) {
+    const std::size_t count = std::min(pieces.size(), end / kPiece);
+    for (std::size_t i = 0; i < count; ++i) pieces[i] = begin + end - (i + 1) * kPiece;
+    if (!keepPieces(std::span(pieces).first(count))) break;
+    end -= count * kPiece;
+  }
+  unmap(begin, end);
+#else
+  unmap(begin, bytes);
+#endif
 }
 
 PageKeeper::PageKeeper() {
@@ -95,9 +155,11 @@ PageKeeper::~PageKeeper() {
   {
     Stock& s = stock();
     const std::lock_guard lock(s.using_);
-    if (--s.keepers == 0) pieces = std::exchange(s.pieces, {});
+    if (--s.keepers > 0) return;
+    pieces = std::exchange(s.pieces, {});
+    s.moved = 0;
   }
-  for (char* const piece : pieces) munmap(piece, kPiece);
+  unmapPieces(pieces);
 }
 
 }  // namespace arete

@@ -5,18 +5,22 @@
 
 namespace arete {
 
-/// Memory from the system, zeros, that comes page by page as it is touched; the heap would keep it when it is
-/// no longer used. nullptr when there is none.
+/// Memory from the system, zeros, that comes page by page as it is touched and is the system's again the
+/// moment it is given back; the heap would keep it. nullptr when there is none.
 void* takeZeroPages(std::size_t bytes);
-/// The same, but what is in it may be anything: kept pages first (PageKeeper).
+/// `bytes` as they were taken.
+void giveZeroPagesBack(void* pages, std::size_t bytes);
+
+/// The same, but what is in them may be anything, as kept pages are taken first (PageKeeper).
 void* takePages(std::size_t bytes);
-/// Pages of either kind, `bytes` as they were taken: they are the system's again at once, or kept.
-void givePagesBack(void* pages, std::size_t bytes);
+/// To the system, or to be kept. `bytes` as they were taken.
+void givePagesBack(void* pages, std::size_t bytes) noexcept;
 
 /// While there is one, pages given back are kept for those who take some next: a page from the system has to
-/// be cleared, and found, at its first touch, which takes about as long as filling it ten times over. When
-/// the last one goes, the system gets what is left. Pages are kept by the process, for all of its threads; a
-/// program never holds more of them than it has used at once.
+/// be found and cleared at its first touch, which takes about as long as filling it ten times over. When the
+/// last one goes, the system gets what is left, and so it does when it has no more to give. Pages are kept by
+/// the process, for all of its threads; of those that takePages() gave, it never holds more than were in use
+/// at once. The heap gets none of them.
 class PageKeeper {
  public:
   PageKeeper();

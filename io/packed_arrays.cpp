@@ -38,7 +38,7 @@ void giveZerosBack(void* zeros, std::size_t bytes) {
   if (bytes < kWorthAMapping)
     std::free(zeros);
   else
-    givePagesBack(zeros, bytes);
+    giveZeroPagesBack(zeros, bytes);
 }
 
 bool Arrays::allocate(const AmtCounts& counts, std::uint64_t borders) {

@@ -6,7 +6,7 @@
 // go first everywhere, which is what keeps the cuts at any error small (DESIGN: without thresholds the same
 // bound takes 1.9 times as many triangles). It grows in smaller steps the fewer vertices are left. Most of
 // the time goes into the first levels, of which only the finest cuts tell; levels among few vertices take
-// next to none, and all coarser cuts live on their order (docs/decisions/0016, 0017).
+// next to none, and all coarser cuts live on their order (docs/decisions/0016 to 0018).
 //
 // A level visits a vertex in ten, and so all of memory. Therefore a large mesh goes through some levels piece
 // by piece: the ground is divided into pieces that fit a processor's cache, each thread takes one through all

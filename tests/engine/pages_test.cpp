@@ -2,9 +2,12 @@
 #include "engine/pages.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <fstream>
 #include <random>
 #include <span>
 #include <thread>
@@ -69,7 +72,34 @@ TEST(Pages, ZerosAreZerosWhateverIsKept) {
   givePagesBack(used, 4 * kMiB);
   void* const zeros = takeZeroPages(4 * kMiB);
   EXPECT_TRUE(isAll(bytesOf(zeros, 4 * kMiB), 0));
-  givePagesBack(zeros, 4 * kMiB);
+  std::ranges::fill(bytesOf(zeros, 4 * kMiB), std::uint8_t{9});
+  giveZeroPagesBack(zeros, 4 * kMiB);
+  void* const again = takePages(8 * kMiB);
+  EXPECT_TRUE(isAll(bytesOf(again, 4 * kMiB), 7));
+  EXPECT_TRUE(isAll(bytesOf(again, 8 * kMiB).subspan(4 * kMiB), 0)) << "who asked for zeros keeps nothing";
+  givePagesBack(again, 8 * kMiB);
+}
+
+TEST(Pages, WhatIsKeptGoesWhenTheSystemHasNoMoreAddresses) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  if (before.rlim_cur != RLIM_INFINITY) GTEST_SKIP() << "addresses are limited already";
+  const PageKeeper keeper;
+  constexpr std::size_t kMost = 512 * kMiB;
+  void* const first = takePages(kMost);
+  ASSERT_NE(first, nullptr);
+  givePagesBack(first, kMost);
+  // What the process has now, all of it kept, and a little more: as much again is not to be had.
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  rlimit limit = before;
+  limit.rlim_cur = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + 64 * kMiB;
+  if (pages == 0 || setrlimit(RLIMIT_AS, &limit) != 0) GTEST_SKIP() << "addresses cannot be limited here";
+  void* const second = takePages(kMost);
+  setrlimit(RLIMIT_AS, &before);
+  ASSERT_NE(second, nullptr);
+  bytesOf(second, kMost)[kMost - 1] = 1;
+  givePagesBack(second, kMost);
 }
 
 TEST(Pages, WhatWasPutTogetherFromKeptOnesOutlivesTheKeeper) {
