@@ -11,11 +11,11 @@
 
 namespace arete {
 
-/// An array that grows without moving what it holds and without a doubled peak: blocks of 2^18 elements.
+/// An array that grows without moving what it holds and without a doubled peak: blocks of 2^17 elements.
 /// Elements are uninitialised until written. Different elements may be written by different threads, also
 /// while another grows the array, within what was reserved; who reads must know of the growth.
 ///
-/// Blocks are pages of the system's (engine/pages.h): a build frees one such array to make room for the next.
+/// Blocks are pages (engine/pages.h): a build frees one such array to make room for the next.
 template <class T>
 class ChunkedArray {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -37,7 +37,7 @@ class ChunkedArray {
   }
 
  private:
-  static constexpr std::size_t kShift = 18, kBlock = std::size_t(1) << kShift;
+  static constexpr std::size_t kShift = 17, kBlock = std::size_t(1) << kShift;
 
   struct GiveBack {
     void operator()(T* block) const { givePagesBack(block, kBlock * sizeof(T)); }
