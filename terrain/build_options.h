@@ -21,7 +21,7 @@ struct PieceOptions {
   std::uint32_t fewest = 8;       ///< fewer pieces are not made: all threads work together then. > 0
   /// The growth of the threshold in the levels that a piece goes through by itself; less for the fidelity
   /// shape. > 1
-  double span = 1.6;
+  double span = 1.5;
 };
 
 /// Options of a build. The defaults are what the figures in docs/performance.md are measured with.
@@ -33,7 +33,7 @@ struct BuildOptions {
 
   /// A level admits removals whose error is under a threshold that grows by this ratio from the first level
   /// to the second, and by less from level to level the fewer vertices are left; by more where next to none
-  /// would go (simplify.h). What it grows by is a quarter less for the fidelity shape. > 1.
+  /// would go (simplify.h). What it grows by is a fifth less for the fidelity shape. > 1.
   double thresholdRatio = 1.17;
 
   /// Fidelity only: triangles whose least altitude is below this part of their longest edge are rejected.

@@ -118,12 +118,12 @@ class Simplifier {
   // triangles for it, and its time hardly tells (docs/decisions/0018).
   /// By how much the threshold grows now. What it grows by falls with the vertices that are left.
   double ratio() const {
-    const double growth = (s_.options.thresholdRatio - 1) * (isFidelity() ? 0.75 : 1),
+    const double growth = (s_.options.thresholdRatio - 1) * (isFidelity() ? 0.784 : 1),
                  left = double(s_.waiting.size()) / double(waitingAtStart_);
     return 1 + std::max(std::min(growth, kLeastGrowth), growth * left);
   }
   /// By how much it grows while a piece goes by itself.
-  double span() const { return 1 + (s_.options.pieces.span - 1) * (isFidelity() ? 0.6 : 1); }
+  double span() const { return 1 + (s_.options.pieces.span - 1) * (isFidelity() ? 0.7 : 1); }
 
   /// The least threshold that concerns a fiftieth of those that may go: where costs are spread over many
   /// orders of magnitude, steps in which next to none go would be all there is.
