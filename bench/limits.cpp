@@ -4,8 +4,8 @@
 // each once for each pass that its algorithm makes, in the data structures as they are; lines of memory at
 // places that nothing before has brought near (far); comparisons, additions and multiplications. How often
 // things happen comes from an instrumented build of generated-4M with default options, by sample (counted
-// before docs/decisions/0016 and 0017: there are fewer evaluations and looks now, and removals within pieces
-// have no candidates):
+// before docs/decisions/0016 to 0018: there are fewer evaluations and looks now, and removals within pieces
+// have no candidates and are sewn as they go, so that little is left for the part that is called so):
 //
 //   1     removal         5.7 link vertices, 3.7 new triangles, 5.6 edges measured, 18 crossings, 31 samples
 //                         compared in 5 rows

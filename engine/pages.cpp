@@ -4,7 +4,8 @@
 // them from one address to another (mremap) in a fraction of the time that it takes to clear them. A piece
 // lies within one mapping, as ranges are put together from whole ones; what is left of a range behind its
 // last piece is not kept. A piece that was moved may stay a mapping of its own, and a process can have some
-// 65 000, so only so many are moved. Whatever the system refuses, the taker gets fresh pages instead.
+// 65 000, so only so many are moved; then nothing is kept any more. Whatever the system refuses, the taker
+// gets fresh pages instead.
 #include "engine/pages.h"
 
 #include <sys/mman.h>
@@ -20,7 +21,7 @@
 namespace arete {
 namespace {
 
-constexpr std::size_t kPiece = std::size_t{1} << 19, kMostMoved = std::size_t{1} << 15;
+constexpr std::size_t kPiece = kPieceOfPages, kMostMoved = std::size_t{1} << 15;
 
 struct Stock {
   std::mutex using_;
@@ -66,11 +67,18 @@ std::vector<char*> emptyStock() {
   return std::exchange(s.pieces, {});
 }
 
-/// Keeps pieces if there is a keeper. Whether it does.
+/// Fresh pages; what is kept may be what is missing.
+char* mapOrMakeRoom(std::size_t bytes) {
+  if (char* const pages = mapFresh(nullptr, bytes); pages != nullptr) return pages;
+  unmapPieces(emptyStock());
+  return mapFresh(nullptr, bytes);
+}
+
+/// Keeps pieces if there is a keeper, and somebody may still take them. Whether it does.
 bool keepPieces(std::span<char* const> pieces) noexcept {
   Stock& s = stock();
   const std::lock_guard lock(s.using_);
-  if (s.keepers == 0) return false;
+  if (s.keepers == 0 || s.moved == kMostMoved) return false;
   try {
     s.pieces.insert(s.pieces.end(), pieces.begin(), pieces.end());
   } catch (const std::bad_alloc&) {
@@ -93,7 +101,7 @@ bool isThere(char* fresh) {
 }  // namespace
 
 void* takeZeroPages(std::size_t bytes) {
-  return mapFresh(nullptr, bytes);
+  return mapOrMakeRoom(bytes);
 }
 
 void giveZeroPagesBack(void* pages, std::size_t bytes) {
@@ -102,14 +110,14 @@ void giveZeroPagesBack(void* pages, std::size_t bytes) {
 
 void* takePages(std::size_t bytes) {
 #ifdef MREMAP_FIXED
-  if (bytes < kPiece) return mapFresh(nullptr, bytes);
+  if (bytes < kPiece) return mapOrMakeRoom(bytes);
   std::vector<char*> pieces = takePieces(bytes / kPiece);
+  // No more are to be had, or to be moved: these would be kept for nobody.
+  if (pieces.size() < bytes / kPiece) unmapPieces(emptyStock());
   char* const pages = mapFresh(nullptr, bytes);
   if (pages == nullptr) {
-    // What is kept may be what is missing.
     unmapPieces(pieces);
-    unmapPieces(emptyStock());
-    return mapFresh(nullptr, bytes);
+    return mapOrMakeRoom(bytes);
   }
   for (char* at = pages; !pieces.empty(); at += kPiece, pieces.pop_back()) {
     if (layOver(at, pieces.back())) continue;
@@ -121,7 +129,7 @@ void* takePages(std::size_t bytes) {
   }
   return pages;
 #else
-  return mapFresh(nullptr, bytes);
+  return mapOrMakeRoom(bytes);
 #endif
 }
 

@@ -11,6 +11,9 @@ void* takeZeroPages(std::size_t bytes);
 /// `bytes` as they were taken.
 void giveZeroPagesBack(void* pages, std::size_t bytes);
 
+/// What is kept is kept in pieces of so many bytes. Arrays that are smaller do better on the heap.
+inline constexpr std::size_t kPieceOfPages = std::size_t{1} << 19;
+
 /// The same, but what is in them may be anything, as kept pages are taken first (PageKeeper).
 void* takePages(std::size_t bytes);
 /// To the system, or to be kept. `bytes` as they were taken.

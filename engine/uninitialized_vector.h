@@ -41,7 +41,7 @@ struct UninitializedAllocator : std::allocator<T> {
   }
 
  private:
-  static bool isLarge(std::size_t count) { return count >= (std::size_t{1} << 19) / sizeof(T); }
+  static bool isLarge(std::size_t count) { return count >= kPieceOfPages / sizeof(T); }
 };
 
 /// A vector that does not write its elements before somebody does: of large ones the threads that fill them

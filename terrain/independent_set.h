@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/parallel_filter.h"
+#include "engine/uninitialized_vector.h"
 #include "terrain/live_mesh.h"
 #include "terrain/vertex_note.h"
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/mt_recorder.h"
+#include "engine/uninitialized_vector.h"
 #include "terrain/build_options.h"
 #include "terrain/live_mesh.h"
 #include "terrain/rim.h"

@@ -80,6 +80,19 @@ TEST(Pages, ZerosAreZerosWhateverIsKept) {
   givePagesBack(again, 8 * kMiB);
 }
 
+TEST(Pages, AreFreshWhenSoManyWereMovedThatMappingsMightRunOut) {
+  const PageKeeper keeper;
+  std::uint8_t seen = 1;
+  for (int i = 0; i < (1 << 15) + 2; ++i) {
+    void* const pages = takePages(kPieceOfPages);
+    seen = bytesOf(pages, 1)[0];
+    bytesOf(pages, 1)[0] = 7;
+    givePagesBack(pages, kPieceOfPages);
+    if (i == 1) EXPECT_EQ(seen, 7);
+  }
+  EXPECT_EQ(seen, 0);
+}
+
 TEST(Pages, WhatIsKeptGoesWhenTheSystemHasNoMoreAddresses) {
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
