@@ -88,7 +88,9 @@ TEST(Pages, AreFreshWhenSoManyWereMovedThatMappingsMightRunOut) {
     seen = bytesOf(pages, 1)[0];
     bytesOf(pages, 1)[0] = 7;
     givePagesBack(pages, kPieceOfPages);
-    if (i == 1) EXPECT_EQ(seen, 7);
+    if (i == 1) {
+      EXPECT_EQ(seen, 7);
+    }
   }
   EXPECT_EQ(seen, 0);
 }
