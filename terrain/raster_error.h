@@ -17,6 +17,8 @@
 
 namespace arete {
 
+class TriangleRows;
+
 /// Vertical error of triangles over a raster, exactly: every sample a triangle covers, its edges included, is
 /// compared with the triangle's plane. Triangles are planar in (column, row). NODATA inside a triangle is
 /// passed over.
@@ -238,7 +240,12 @@ class RasterError {
   SignedBound alongLongEdge(const Corner& a, const Corner& b) const;
   bool isSmall(const Corner& a, const Corner& b, const Corner& c, double& difference) const;
   template <class Differences>
+  class PlaneDifferences;
+  template <class Differences>
   void compare(const Corner& a, const Corner& b, const Corner& c, Differences& differences) const;
+  template <class Differences>
+  void compareByBlocks(const Corner& a, const Corner& b, const Corner& c, const TriangleRows& rows,
+                       PlaneDifferences<Differences>& plane, Differences& differences) const;
 
   const LatticePlan& plan_;
   std::span<const double> heights_;
