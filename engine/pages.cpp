@@ -4,8 +4,8 @@
 // them from one address to another (mremap) in a fraction of the time that it takes to clear them. A piece
 // lies within one mapping, as ranges are put together from whole ones; what is left of a range behind its
 // last piece is not kept. A piece that was moved may stay a mapping of its own, and a process can have some
-// 65 000, so only so many are moved; then nothing is kept any more. Whatever the system refuses, the taker
-// gets fresh pages instead.
+// 65 000, so only so many are moved; then nothing is kept any more. Once the
+// system refuses to move one nothing is kept either, and the taker gets fresh pages.
 #include "engine/pages.h"
 
 #include <sys/mman.h>
@@ -35,8 +35,8 @@ Stock& stock() {
   return one;
 }
 
-char* mapFresh(void* at, std::size_t bytes, int flags = 0) {
-  void* const pages = mmap(at, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | flags, -1, 0);
+char* mapFresh(std::size_t bytes) {
+  void* const pages = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   return pages == MAP_FAILED ? nullptr : static_cast<char*>(pages);
 }
 
@@ -69,9 +69,19 @@ std::vector<char*> emptyStock() {
 
 /// Fresh pages; what is kept may be what is missing.
 char* mapOrMakeRoom(std::size_t bytes) {
-  if (char* const pages = mapFresh(nullptr, bytes); pages != nullptr) return pages;
+  if (char* const pages = mapFresh(bytes); pages != nullptr) return pages;
   unmapPieces(emptyStock());
-  return mapFresh(nullptr, bytes);
+  return mapFresh(bytes);
+}
+
+/// From now on nothing is kept, until the next keeper.
+void stopKeeping() {
+  Stock& s = stock();
+  {
+    const std::lock_guard lock(s.using_);
+    s.moved = kMostMoved;
+  }
+  unmapPieces(emptyStock());
 }
 
 /// Keeps pieces if there is a keeper, and somebody may still take them. Whether it does.
@@ -92,10 +102,6 @@ bool keepPieces(std::span<char* const> pieces) noexcept {
 bool layOver(char* fresh, char* piece) {
   return mremap(piece, kPiece, kPiece, MREMAP_MAYMOVE | MREMAP_FIXED, fresh) != MAP_FAILED;
 }
-/// Whether pages that nothing could be laid over are there still, or again.
-bool isThere(char* fresh) {
-  return madvise(fresh, kPiece, MADV_NORMAL) == 0 || mapFresh(fresh, kPiece, MAP_FIXED_NOREPLACE) == fresh;
-}
 #endif
 
 }  // namespace
@@ -114,18 +120,20 @@ void* takePages(std::size_t bytes) {
   std::vector<char*> pieces = takePieces(bytes / kPiece);
   // No more are to be had, or to be moved: these would be kept for nobody.
   if (pieces.size() < bytes / kPiece) unmapPieces(emptyStock());
-  char* const pages = mapFresh(nullptr, bytes);
+  char* const pages = mapFresh(bytes);
   if (pages == nullptr) {
     unmapPieces(pieces);
     return mapOrMakeRoom(bytes);
   }
   for (char* at = pages; !pieces.empty(); at += kPiece, pieces.pop_back()) {
     if (layOver(at, pieces.back())) continue;
-    if (!keepPieces(pieces)) unmapPieces(pieces);
-    if (isThere(at)) break;
+    // The fresh pages may be gone, as they make room first, and their addresses another thread's by now: so
+    // they are left alone, whosever they are.
+    unmapPieces(pieces);
+    stopKeeping();
     unmap(pages, static_cast<std::size_t>(at - pages));
     unmap(at + kPiece, static_cast<std::size_t>(pages + bytes - (at + kPiece)));
-    return nullptr;
+    return mapOrMakeRoom(bytes);
   }
   return pages;
 #else

@@ -32,9 +32,10 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
   if (const Status valid = checkOptions(options, field.size()); !valid) return tl::unexpected(valid.error());
   if (options.rimTolerance > 0)
     return failure(ErrorCode::usage, "scattered points have no NODATA rims to simplify", "--rim-tolerance");
-  if (field.size() > 0xFFFFFFF0u / 6)
+  if (field.size() > LiveMesh::kMostTriangles / 2)
     return failure(ErrorCode::unsupported,
-                   fmt::format("{} points are more than 32-bit ids can name", field.size()), field.source);
+                   fmt::format("{} points have more triangles than 32-bit half-edges can name", field.size()),
+                   field.source);
 
   const PageKeeper keeper;  // what a step no longer needs goes to the next
   context.report("triangulate", 0);
@@ -84,8 +85,16 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
   stage.emplace(context.clock, "simplify");
   {
     PointError errors(plan, field.heights, mesh);
-    SimplifyState<PointPlan, PointError> state{
-        mesh, plan, errors, recorder, nullptr, options, metric, *high - *low, roundingSlack(*low, *high)};
+    SimplifyState<PointPlan, PointError> state{mesh,
+                                               plan,
+                                               errors,
+                                               recorder,
+                                               nullptr,
+                                               options,
+                                               metric,
+                                               *high - *low,
+                                               roundingSlack(*low, *high),
+                                               roundingSlack(*low, *high)};
     Result<SimplifiedRoot> simplified = Simplifier(state, context).run(isFixed);
     if (!simplified) return tl::unexpected(simplified.error());
     root = std::move(*simplified);

@@ -154,8 +154,16 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   SimplifiedRoot root;
   stage.emplace(context.clock, "simplify");
   {
-    SimplifyState<LatticePlan, RasterError> state{
-        mesh, plan, errors, recorder, rim.get(), options, metric, high - low, roundingSlack(low, high)};
+    SimplifyState<LatticePlan, RasterError> state{mesh,
+                                                  plan,
+                                                  errors,
+                                                  recorder,
+                                                  rim.get(),
+                                                  options,
+                                                  metric,
+                                                  high - low,
+                                                  roundingSlack(low, high),
+                                                  roundingSlack(low, high, field.columns, field.rows)};
     Result<SimplifiedRoot> simplified = Simplifier(state, context).run(isFixed);
     if (!simplified) return tl::unexpected(simplified.error());
     root = std::move(*simplified);

@@ -25,6 +25,7 @@ LiveMesh LiveMesh::fromTriangles(std::vector<Corners> corners, std::uint32_t ver
                                  std::vector<std::uint32_t>& pinched) {
   LiveMesh mesh;
   const std::size_t count = corners.size();
+  assert(count <= kMostTriangles);
   mesh.triangles.resize(count);
   for (std::uint32_t t = 0; t < count; ++t) mesh.triangles[t] = {corners[t], {kNone, kNone, kNone}, t, kNone};
   std::vector<Corners>().swap(corners);

@@ -39,7 +39,8 @@ struct LiveMesh {
   UninitializedVector<std::uint32_t> vertexHalfedge;  ///< per vertex, kNone for a vertex in no triangle
 
   /// Half-edges and births for counter-clockwise triangles. `pinched` receives the vertices whose triangles
-  /// form more than one fan. O(triangles). Precondition: an edge has at most one triangle on either side.
+  /// form more than one fan. O(triangles). Precondition: an edge has at most one triangle on either side;
+  /// there are no more than kMostTriangles.
   static LiveMesh fromTriangles(std::vector<Corners> corners, std::uint32_t vertexCount,
                                 std::vector<std::uint32_t>& pinched);
 

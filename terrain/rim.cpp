@@ -70,8 +70,18 @@ bool Rim::claim(std::uint32_t before, std::uint32_t after, std::uint32_t level) 
 void Rim::closeVoid(LiveMesh& mesh, std::uint32_t newBorderHalfedge) {
   const std::uint32_t from = mesh.origin(newBorderHalfedge),
                       to = mesh.origin(LiveMesh::nextInTriangle(newBorderHalfedge));
-  const std::uint32_t back = mesh.vertexHalfedge[to];
-  if (mesh.twinOf(back) != LiveMesh::kNone || mesh.origin(LiveMesh::nextInTriangle(back)) != from) return;
+  const auto runsBack = [&](std::uint32_t h) {
+    return mesh.twinOf(h) == LiveMesh::kNone && mesh.origin(h) == to &&
+           mesh.origin(LiveMesh::nextInTriangle(h)) == from;
+  };
+  // It begins the fan of `to` and ends that of `from`. A pinched vertex has several: then the other one
+  // tells.
+  std::uint32_t back = mesh.vertexHalfedge[to];
+  if (!runsBack(back)) {
+    back = LiveMesh::previousInTriangle(newBorderHalfedge);
+    while (mesh.twinOf(back) != LiveMesh::kNone) back = LiveMesh::previousInTriangle(mesh.twinOf(back));
+    if (!runsBack(back)) return;
+  }
   mesh.setTwin(newBorderHalfedge, back);
   mesh.setTwin(back, newBorderHalfedge);
 }

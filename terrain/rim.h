@@ -25,7 +25,8 @@ class Rim {
   bool claim(std::uint32_t before, std::uint32_t after, std::uint32_t level);
 
   /// Glues the new border edge to the one that runs back between the same vertices, if there is one: the last
-  /// triangle of a void is closed.
+  /// triangle of a void is closed. It is found unless both vertices are pinched; these stay for ever, so a
+  /// slit between them harms nobody.
   static void closeVoid(LiveMesh& mesh, std::uint32_t newBorderHalfedge);
 
  private:

@@ -67,6 +67,7 @@ class Simplifier {
         if (!(pending < std::numeric_limits<double>::infinity())) break;
         threshold = std::max(threshold, pending);
       }
+      threshold = std::min(threshold, kLargest);
       if (s_.liveTriangles < s_.mesh.triangles.size() / 2)
         s_.errors.compact(s_.mesh.compact(s_.waiting.vertices()));
     }
@@ -141,7 +142,7 @@ class Simplifier {
     std::vector<double> thresholds = {threshold};
     const double step = ratio(), end = threshold * span();
     do  // once at least: of flat ground all thresholds are 0
-      thresholds.push_back(thresholds.back() * step);
+      thresholds.push_back(std::min(thresholds.back() * step, kLargest));
     while (thresholds.size() <= kMostLevels && thresholds.back() < end);
     const auto levels = static_cast<std::uint32_t>(thresholds.size()) - 1;
     ++groups_;
@@ -202,7 +203,8 @@ class Simplifier {
 
   static_assert(WaitingList::kNone == LiveMesh::kNone);  // see LiveMesh::compact()
   static constexpr double kLeastGrowth = 0.015;
-  static constexpr std::size_t kMostLevels = 16;  // of a piece by itself
+  static constexpr double kLargest = std::numeric_limits<float>::max();  // below WaitingList::kNever
+  static constexpr std::size_t kMostLevels = 16;                         // of a piece by itself
 
   SimplifyState<Plan, Errors>& s_;
   const RunContext& context_;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "terrain/hole.h"
 #include "terrain/hole_fidelity.h"
@@ -114,7 +115,8 @@ class RemovalCost {
       return worst <= limit;
     };
     const auto conclude = [&] {
-      note.cost = static_cast<float>(worst);
+      // Beyond the limit is not nothing, or it would be due for ever.
+      note.cost = std::max(static_cast<float>(worst), worst > limit ? std::numeric_limits<float>::min() : 0);
       note.state = worst > limit ? State::atLeast : State::exact;
     };
     if (isUnconstrained) {

@@ -143,7 +143,7 @@ class VertexRemover {
 
   /// Bounds go beyond the rounding of the scan itself: they prove things. (No branch: nothing foretells
   /// zeros.)
-  double outward(double x) const { return (x * (1 + 1e-9) + s_.roundingSlack) * (x == 0 ? 0 : 1); }
+  double outward(double x) const { return (x * (1 + 1e-9) + s_.boundSlack) * (x == 0 ? 0 : 1); }
   /// An error that is a code but for the last bits of its arithmetic is that code: integer heights make
   /// errors of exactly 1 common, and a tolerance of 1 must take them. The bits are far below what "equal to
   /// the bound" allows.

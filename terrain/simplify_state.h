@@ -39,7 +39,8 @@ struct SimplifyState {
   const BuildOptions& options;
   MetricFrame metric;
   double heightRange = 0;
-  double roundingSlack = 0;  ///< what the arithmetic of a plane can be off by
+  double roundingSlack = 0;  ///< what the arithmetic of an error can be off by
+  double boundSlack = 0;     ///< and that of a bound between samples
 
   WaitingList waiting = {};
   UninitializedVector<VertexNote> notes = {};  ///< per vertex
@@ -51,6 +52,7 @@ struct SimplifyState {
     if (!star.isOpen) return star.linkSize >= 3;
     if (star.linkSize < 3) return false;
     const std::uint32_t after = star.link[0], before = star.link[star.linkSize - 1];
+    if (before == after) return false;  // at the end of a slit: Rim::closeVoid()
     const int turn = plan.orientation(before, v, after);
     if (turn == 0) return true;
     return turn < 0 && rim != nullptr && rim->mayFill(before, v, after);

@@ -24,6 +24,9 @@ inline Two larger(Two a, Two b) {
 inline Two smaller(Two a, Two b) {
   return a < b ? a : b;
 }
+inline Two magnitude(Two x) {
+  return larger(x, -x);
+}
 inline double largest(Two x) {
   return larger(x, swapped(x))[0];
 }

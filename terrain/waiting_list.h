@@ -60,8 +60,8 @@ class WaitingList {
   void collect(std::span<const std::uint32_t> some, double threshold, std::vector<std::uint32_t>& due,
                Space& space) const;
 
-  /// When v is due: a threshold, kNow or kNever. Safe for different vertices at once. Of one that is not in
-  /// the list, or has gone, nothing is noted, here and in wakeIf().
+  /// When v is due: a threshold, kNow or kNever. Safe for different vertices at once, but for one that is not
+  /// in the list, or has gone: of that nothing is noted, here and in wakeIf().
   void set(std::uint32_t v, float threshold) { dueAt_[place_[v]] = threshold; }
   /// Makes v due now, if so told: callers cannot foresee it, and no branch is needed. Safe for the same
   /// vertex at once, not beside set() of the same.

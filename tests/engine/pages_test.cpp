@@ -2,18 +2,43 @@
 #include "engine/pages.h"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdarg>
 #include <cstdint>
 #include <fstream>
+#include <limits>
 #include <random>
 #include <span>
 #include <thread>
 #include <vector>
 
 #include "engine/uninitialized_vector.h"
+
+/// How often the system still moves pages before it refuses; then it has taken away what was there.
+namespace {
+std::atomic<int> movesLeft = std::numeric_limits<int>::max();
+}
+
+/// In the place of the C library's.
+extern "C" void* mremap(void* from, std::size_t size, std::size_t newSize, int flags, ...) noexcept {
+  va_list rest;
+  va_start(rest, flags);
+  void* const to = va_arg(rest, void*);
+  va_end(rest);
+  if (--movesLeft < 0) {
+    munmap(to, newSize);
+    errno = ENOMEM;
+    return MAP_FAILED;
+  }
+  return reinterpret_cast<void*>(syscall(SYS_mremap, from, size, newSize, flags, to));
+}
 
 namespace arete {
 namespace {
@@ -41,6 +66,23 @@ TEST(Pages, WhatIsGivenBackIsTakenAgainWhileThereIsAKeeper) {
   EXPECT_TRUE(isAll(bytesOf(third, 3 * kMiB).subspan(kMiB), 0)) << "there was no more";
   givePagesBack(second, 3 * kMiB);
   givePagesBack(third, 3 * kMiB);
+}
+
+TEST(Pages, AreFreshWhenTheSystemMovesNoMoreAndNobodyElsesAreTouched) {
+  const PageKeeper keeper;
+  void* const first = takePages(4 * kMiB);
+  ASSERT_NE(first, nullptr);
+  std::ranges::fill(bytesOf(first, 4 * kMiB), std::uint8_t{7});
+  givePagesBack(first, 4 * kMiB);
+  movesLeft = 3;
+  void* const second = takePages(4 * kMiB);
+  movesLeft = std::numeric_limits<int>::max();
+  ASSERT_NE(second, nullptr);
+  EXPECT_TRUE(isAll(bytesOf(second, 4 * kMiB), 0));
+  givePagesBack(second, 4 * kMiB);
+  void* const third = takePages(4 * kMiB);
+  EXPECT_TRUE(isAll(bytesOf(third, 4 * kMiB), 0)) << "nothing is kept any more";
+  givePagesBack(third, 4 * kMiB);
 }
 
 TEST(Pages, WithoutAKeeperTheyAreFresh) {

@@ -179,6 +179,46 @@ TEST(BuildRaster, KeepsTheLawsWithARimToleranceAndNeverUncoversASample) {
   });
 }
 
+TEST(BuildRaster, ClosesAVoidBesideTheBorderWhoseRimPinches) {
+  for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity})
+    for (const std::uint32_t columns : {4u, 5u, 8u, 9u})
+      for (const double tolerance : {1.0, 2.0, 8.0}) {
+        SCOPED_TRACE(testing::Message() << columns << " columns, rim tolerance " << tolerance);
+        RasterHeightfield field;
+        field.columns = columns;
+        field.rows = 7;
+        field.heights.assign(std::size_t{7} * columns, 5.0);
+        field.heights[3 * columns + columns - 2] = std::nan("");
+        BuildOptions options;
+        options.shape = shape;
+        options.rimTolerance = tolerance;
+        const auto model = build(field, options);
+        ASSERT_TRUE(model) << model.error().describe();
+        const Status status = validateModel(*model);
+        EXPECT_TRUE(status) << status.error().describe();
+        // The raster's corners, and the sample on its border that two fans share.
+        if (tolerance >= 2) {
+          EXPECT_EQ(model->mt.rootVertexCount(), 5u);
+        }
+      }
+}
+
+TEST(BuildRaster, EndsOnFlatGroundHoweverSmallItsHeight) {
+  for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity})
+    for (const double height : {1.7e-31, 1e-300, 0.1, 0.3, -1e30 / 3}) {
+      SCOPED_TRACE(height);
+      RasterHeightfield field;
+      field.columns = field.rows = 5;
+      field.heights.assign(25, height);
+      BuildOptions options;
+      options.shape = shape;
+      options.fixedVertices = {0, 7, 11};
+      const auto model = build(field, options);
+      ASSERT_TRUE(model) << model.error().describe();
+      EXPECT_EQ(model->mt.rootVertexCount(), 6u) << "corners and fixed vertices";
+    }
+}
+
 TEST(BuildRaster, ReproducesEverySampleToTheBit) {
   forEachRaster([](const RasterFamily&, const RasterHeightfield& field, const std::string& name) {
     const auto model = build(field);

@@ -116,6 +116,70 @@ TEST(RasterError, ErrorsOfWideTrianglesAreThoseOfEverySampleToo) {
       }
 }
 
+/// The greatest common divisor of a and b, and a x + b y = it.
+struct Bezout {
+  std::int64_t divisor, x, y;
+};
+Bezout bezout(std::int64_t a, std::int64_t b) {
+  if (b == 0) return {std::abs(a), a < 0 ? -1 : 1, 0};
+  const Bezout rest = bezout(b, a % b);
+  return {rest.divisor, rest.y, rest.x - a / b * rest.y};
+}
+
+/// Triangles of thousands of columns and rows and an area of a few cells: their plane is known by differences
+/// of large numbers. The oracle works in whole numbers of 128 bits.
+TEST(RasterError, BoundsOfNeedlesAreNeverTooSmall) {
+  __extension__ using Wide = __int128;
+  constexpr std::int64_t kSide = 2048, kUnits = 1024;
+  std::mt19937_64 random(20261123);
+  std::vector<double> heights(std::size_t(kSide * kSide));
+  for (double& z : heights) z = double(random() % 1'000'000) / kUnits;
+  const LatticePlan plan(kSide, 1, 1);
+  const RasterError errors(plan, heights, false);
+  const auto units = [](double z) { return static_cast<std::int64_t>(z * kUnits); };
+  const auto coordinate = [&] { return std::int64_t(random() % std::uint64_t(kSide)); };
+  for (int needles = 0; needles < 5000;) {
+    const std::int64_t ax = coordinate(), ay = coordinate(), bx = coordinate(), by = coordinate();
+    const std::int64_t dx = bx - ax, dy = by - ay, area = 4 + std::int64_t(random() % 40);
+    if (std::abs(dx) < 700 || std::abs(dy) < 700) continue;
+    // c is near the middle of the segment: dx (cy - ay) - dy (cx - ax) = area.
+    const Bezout one = bezout(dx, dy);
+    if (one.divisor != 1) continue;
+    std::int64_t cx = -area * one.y, cy = area * one.x;
+    const std::int64_t along = std::llround((double(dx) / 2 - double(cx)) / double(dx));
+    cx += ax + along * dx;
+    cy += ay + along * dy;
+    if (cx < 0 || cy < 0 || cx >= kSide || cy >= kSide) continue;
+    ++needles;
+    const RasterError::Corner a = errors.corner(std::uint32_t(ay * kSide + ax)),
+                              b = errors.corner(std::uint32_t(by * kSide + bx)),
+                              c = errors.corner(std::uint32_t(cy * kSide + cx));
+    SignedBound found;
+    errors.maximum(a, b, c, 1e300, found);
+    const auto turn = [](const auto& u, const auto& v, std::int64_t x, std::int64_t y) {
+      return (v.x - u.x) * (y - u.y) - (v.y - u.y) * (x - u.x);
+    };
+    Wide most = 0, least = 0;
+    for (std::int64_t y = std::min({ay, by, cy}); y <= std::max({ay, by, cy}); ++y) {
+      const auto middle = std::int64_t(double(ax) + double(dx) * double(y - ay) / double(dy));
+      for (std::int64_t x = std::max<std::int64_t>(0, middle - 3); x <= std::min(kSide - 1, middle + 3);
+           ++x) {
+        const std::int64_t atA = turn(b, c, x, y), atB = turn(c, a, x, y), atC = turn(a, b, x, y),
+                           z = units(heights[std::size_t(y * kSide + x)]);
+        if (atA < 0 || atB < 0 || atC < 0) continue;
+        const Wide difference =
+            Wide(atA) * (units(a.z) - z) + Wide(atB) * (units(b.z) - z) + Wide(atC) * (units(c.z) - z);
+        most = std::max(most, difference);
+        least = std::min(least, difference);
+      }
+    }
+    const double unit = double(area * kUnits), slack = 2e-12;  // 8 ulp of the heights
+    ASSERT_GE(found.above + slack, double(most) / unit) << "needle " << needles;
+    ASSERT_GE(found.below + slack, -double(least) / unit) << "needle " << needles;
+    ASSERT_LE(found.above, double(most) / unit + 1e-4) << "needle " << needles;
+  }
+}
+
 /// The bound along an edge by trying every edge of the finest triangulation in its box; where it crosses them
 /// at one of their samples as well, or not.
 SignedBound byTryingAllEdges(bool hasSamples, const std::vector<double>& heights, std::uint32_t columns,
