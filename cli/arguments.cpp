@@ -175,14 +175,17 @@ Result<DemRead> DemArguments::read(const Session& session) const {
   return dem;
 }
 
-Status checkOutput(const std::string& option, const std::string& path,
-                   const std::vector<std::string>& inputs) {
+Status checkOutput(const std::string& option, const std::string& path, const std::vector<std::string>& inputs,
+                   const std::vector<std::string>& outputs) {
   const std::string culprit = fmt::format("{} {}", option, path);
-  for (const std::string& input : inputs) {
+  const auto isSame = [&](const std::string& other) {
     std::error_code ignored;
-    if (path == input || fs::equivalent(path, input, ignored))
-      return failure(ErrorCode::usage, "is the input; writing would destroy it", culprit);
-  }
+    return path == other || fs::equivalent(path, other, ignored);
+  };
+  if (std::ranges::any_of(inputs, isSame))
+    return failure(ErrorCode::usage, "is the input; writing would destroy it", culprit);
+  if (std::ranges::any_of(outputs, isSame))
+    return failure(ErrorCode::usage, "is written by this command already, as something else", culprit);
   const Result<OutputFile> file = OutputFile::create(path);
   if (!file) return failure(file.error().code, file.error().message, culprit);
   return {};

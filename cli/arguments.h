@@ -46,10 +46,10 @@ struct DemArguments {
   Result<DemRead> read(const Session& session) const;
 };
 
-/// That a file can be written under that name: it has a folder that can be written to and is none of the
-/// inputs. Errors name the option. Nothing is created.
-Status checkOutput(const std::string& option, const std::string& path,
-                   const std::vector<std::string>& inputs);
+/// That a file can be written under that name: it has a folder that can be written to, is none of the inputs
+/// and none of what the command writes beside it. Errors name the option. Nothing is created.
+Status checkOutput(const std::string& option, const std::string& path, const std::vector<std::string>& inputs,
+                   const std::vector<std::string>& outputs = {});
 
 /// 769671 as "769 671".
 std::string grouped(std::uint64_t count);

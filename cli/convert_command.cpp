@@ -39,7 +39,7 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
   if (!arguments.crs.empty())
     return failure(ErrorCode::usage, "an .amt has the CRS of its DEM",
                    fmt::format("--crs {}", arguments.crs));
-  if (Status output = checkOutput("--output", arguments.output, {}); !output) return output;
+  if (Status output = checkOutput("--output", arguments.output, {arguments.input}); !output) return output;
   const Result<TerrainModel> model = loadAmt(arguments.input, {}, session.context());
   if (!model) return tl::unexpected(model.error());
   const AmtWriteOptions options{.isPacked = arguments.isPacked};

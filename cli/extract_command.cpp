@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPlaceholder = "{}";
+constexpr std::string_view kPlaceholder = "{}";
 
 /// An option with an optional value takes what follows it: FILE.amt, when that comes last.
 CLI::Validator notTheModel() {
@@ -44,11 +44,15 @@ struct ExtractArguments {
   CLI::Option* certificateOption = nullptr;
 };
 
-/// The name for one tolerance: where the placeholder is, or, where there are several, "_5" before the
+/// The name for one tolerance: wherever the placeholder is, or, where there are several, "_5" before the
 /// extension.
 std::string named(const std::string& pattern, const std::string& tag, bool several) {
-  if (const std::size_t at = pattern.find(kPlaceholder); at != std::string::npos)
-    return pattern.substr(0, at) + tag + pattern.substr(at + 2);
+  if (pattern.find(kPlaceholder) != std::string::npos) {
+    std::string name = pattern;
+    for (std::size_t at = 0; (at = name.find(kPlaceholder, at)) != std::string::npos; at += tag.size())
+      name.replace(at, kPlaceholder.size(), tag);
+    return name;
+  }
   if (!several) return pattern;
   const fs::path path = pattern;
   return (path.parent_path() / fmt::format("{}_{}{}", path.stem().string(), tag, path.extension().string()))
@@ -105,12 +109,12 @@ Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments
 
 Status checkOutputs(const std::vector<ExtractRequest>& requests, const ExtractArguments& arguments,
                     const TerrainModel& model) {
-  std::vector<std::string> taken = {arguments.model, model.source};
-  if (fs::exists(arguments.criterion.region())) taken.push_back(arguments.criterion.region());
+  std::vector<std::string> inputs = {arguments.model, model.source}, outputs;
+  if (fs::exists(arguments.criterion.region())) inputs.push_back(arguments.criterion.region());
   const auto check = [&](const char* option, const std::string& path) -> Status {
     if (path.empty()) return {};
-    if (Status output = checkOutput(option, path, taken); !output) return output;
-    taken.push_back(path);
+    if (Status output = checkOutput(option, path, inputs, outputs); !output) return output;
+    outputs.push_back(path);
     return {};
   };
   for (const ExtractRequest& request : requests) {

@@ -9,6 +9,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 
 #include "cli/build_command.h"
 #include "cli/convert_command.h"
@@ -28,11 +29,6 @@
 
 namespace arete {
 namespace {
-
-ExitCode refuse(const std::string& sentence, const std::string& help) {
-  fmt::print(stderr, "arete: {}\nSee {} --help.\n", sentence, help);
-  return ExitCode::usage;
-}
 
 /// CLI11 says that a command is missing where it does not know the one that is there.
 std::string unknownCommand(const CLI::App& app, int argc, char** argv) {
@@ -79,8 +75,9 @@ ExitCode run(int argc, char** argv) {
     fmt::print(stderr, "{}", app.help());
     return ExitCode::usage;
   }
+  const bool wantsJson = std::find(argv + 1, argv + argc, std::string_view("--json")) != argv + argc;
   if (const std::string sentence = unknownCommand(app, argc, argv); !sentence.empty())
-    return refuse(sentence, "arete");
+    return session.refuse(sentence, "arete", wantsJson);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -89,7 +86,8 @@ ExitCode run(int argc, char** argv) {
       return std::fflush(stdout) == 0 ? ExitCode::ok : ExitCode::file;
     }
     const auto parsed = app.get_subcommands();
-    return refuse(error.what(), parsed.empty() ? "arete" : "arete " + parsed.front()->get_name());
+    return session.refuse(error.what(), parsed.empty() ? "arete" : "arete " + parsed.front()->get_name(),
+                          wantsJson);
   }
   return session.runParsed();
 }

@@ -12,6 +12,7 @@
 #include "cli/mesh_distance_text.h"
 #include "io/crs_names.h"
 #include "io/mesh_file.h"
+#include "io/metric_mesh.h"
 #include "io/report_json.h"
 #include "terrain/mesh_distance.h"
 #include "viewer/color_ramp.h"
@@ -24,18 +25,46 @@ void compareFrames(const MeshFile& first, const MeshFile& second, const Session&
     session.warn(
         fmt::format("the first mesh is in {}, the second in {}: they are compared as if they were in one",
                     crsName(first.crsWkt), crsName(second.crsWkt)));
-  if (isGeographicCrs(first.crsWkt) || isGeographicCrs(second.crsWkt))
-    session.warn(
-        "x and y are degrees and heights are not: a distance in space mixes the two. Compare with the DEM, "
-        "or "
-        "meshes in a projected CRS");
 }
 
-/// The unit of the distances, where both files say one and the same and x and y may be in it.
+bool areDegrees(const MeshFile& first, const MeshFile& second) {
+  return isGeographicCrs(first.crsWkt) && isGeographicCrs(second.crsWkt);
+}
+
+/// The meshes as they are compared. Distances between degrees and heights would say nothing, and the search
+/// for them would not end: no triangle is nearer than others.
+Result<MetricMeshes> comparable(const MeshFile& first, const MeshFile& second, const Session& session) {
+  if (areDegrees(first, second)) {
+    Result<MetricMeshes> metric = toMetres(first, second);
+    if (metric)
+      session.warn(fmt::format(
+          "x and y are degrees: they are compared in metres, by the size of a degree at latitude {:.4g}",
+          metric->latitude));
+    return metric;
+  }
+  if (isGeographicCrs(first.crsWkt) || isGeographicCrs(second.crsWkt))
+    return failure(ErrorCode::invalidData,
+                   fmt::format("its x and y are degrees and those of the {} mesh are not",
+                               isGeographicCrs(first.crsWkt) ? "second" : "first"),
+                   isGeographicCrs(first.crsWkt) ? "first" : "second");
+  return MetricMeshes{first.mesh, second.mesh};
+}
+
+/// Where something is, in the coordinates of the files.
+void sayPlacesAsFilesDo(MeshDistanceReport& report, const MetricMeshes& meshes) {
+  const auto divide = [](Vec3& place, const Vec3& units) {
+    place = {place.x / units.x, place.y / units.y, place.z / units.z};
+  };
+  divide(report.forward.worst, meshes.firstUnits);
+  divide(report.forward.worstNearest, meshes.secondUnits);
+  divide(report.backward.worst, meshes.secondUnits);
+  divide(report.backward.worstNearest, meshes.firstUnits);
+}
+
+/// The unit of the distances, where both files say one and the same.
 std::string unitOf(const MeshFile& first, const MeshFile& second) {
-  const bool isSure = first.verticalUnit == second.verticalUnit && !isGeographicCrs(first.crsWkt) &&
-                      !isGeographicCrs(second.crsWkt);
-  return isSure ? first.verticalUnit : "";
+  if (areDegrees(first, second)) return "metre";
+  return first.verticalUnit == second.verticalUnit ? first.verticalUnit : "";
 }
 
 Status writeDistances(const std::string& path, const MeshFile& mesh, const std::string& reference,
@@ -86,14 +115,17 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
   if (!second) return tl::unexpected(second.error());
   compareFrames(*first, *second, session);
 
+  const Result<MetricMeshes> meshes = comparable(*first, *second, session);
+  if (!meshes) return tl::unexpected(named(meshes.error(), arguments));
   MeshDistanceOptions options;
   options.samples = static_cast<std::uint64_t>(arguments.samples);
   options.seed = static_cast<std::uint64_t>(arguments.seed);
   std::vector<double> distances;
-  const Result<MeshDistanceReport> report =
-      measureDistance(first->mesh, second->mesh, options, session.context(),
+  Result<MeshDistanceReport> report =
+      measureDistance(meshes->first, meshes->second, options, session.context(),
                       arguments.errorMesh.empty() ? nullptr : &distances);
   if (!report) return tl::unexpected(named(report.error(), arguments));
+  sayPlacesAsFilesDo(*report, *meshes);
   if (!arguments.errorMesh.empty())
     if (Status written = writeDistances(arguments.errorMesh, *first, arguments.second, distances, session);
         !written)

@@ -23,6 +23,11 @@ ProgressBar& progressBar() {
   return bar;
 }
 
+/// What stdout does not take it remembers, and is asked for in the end.
+void print(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
 /// Names and texts come out of files: none of them may move the cursor of a terminal or name its window.
 std::string withoutControls(std::string text) {
   for (char& c : text)
@@ -84,7 +89,7 @@ RunContext Session::context() const {
 void Session::say(const std::string& text) const {
   if (json_ || quiet_) return;
   progressBar().finishLine();
-  fmt::print("{}", withoutControls(text));
+  print(withoutControls(text));
   std::fflush(stdout);
 }
 
@@ -93,7 +98,7 @@ void Session::answer(const Json& object) {
   progressBar().finishLine();
   answered_ = true;
   // A path need not be UTF-8: what is not is replaced rather than thrown over.
-  fmt::print("{}\n", object.dump(2, ' ', false, Json::error_handler_t::replace));
+  print(object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 void Session::warn(const std::string& sentence) const {
@@ -110,13 +115,24 @@ ExitCode Session::fail(const Error& error) {
   progressBar().endLine();
   const ExitCode code = exitCodeOf(error.code);
   fmt::print(stderr, "arete: {}\n", withoutControls(error.describe()));
-  if (!answered_)
-    answer({{"error",
-             {{"code", toString(error.code)},
-              {"message", error.message},
-              {"culprit", error.culprit},
-              {"exitCode", static_cast<int>(code)}}}});
+  answerError(error, code);
   return code;
+}
+
+ExitCode Session::refuse(const std::string& sentence, const std::string& help, bool wantsJson) {
+  json_ = wantsJson;
+  fmt::print(stderr, "arete: {}\nSee {} --help.\n", withoutControls(sentence), help);
+  answerError({ErrorCode::usage, sentence, ""}, ExitCode::usage);
+  return ExitCode::usage;
+}
+
+void Session::answerError(const Error& error, ExitCode code) {
+  if (answered_) return;
+  answer({{"error",
+           {{"code", toString(error.code)},
+            {"message", error.message},
+            {"culprit", error.culprit},
+            {"exitCode", static_cast<int>(code)}}}});
 }
 
 }  // namespace arete

@@ -32,6 +32,10 @@ class Session {
   /// Runs the command that was parsed, says its error if it has one. At most once.
   ExitCode runParsed();
 
+  /// Says why the command line makes no sense, and whose --help tells what would. `wantsJson`: as far as the
+  /// words tell, since they could not be parsed.
+  ExitCode refuse(const std::string& sentence, const std::string& help, bool wantsJson);
+
   bool wantsJson() const { return json_; }
   /// Progress as asked for, and the flag that Ctrl-C sets.
   RunContext context() const;
@@ -46,6 +50,7 @@ class Session {
 
  private:
   ExitCode fail(const Error& error);
+  void answerError(const Error& error, ExitCode code);
 
   bool json_ = false, quiet_ = false, progress_ = false, answered_ = false;
   int threads_ = 0;

@@ -56,18 +56,19 @@ Result<OutputFile> OutputFile::create(const fs::path& path) {
   std::error_code error;
   if (path.filename().empty())
     return failure(ErrorCode::unreadable, "an output file needs a name, this is a folder", path.string());
-  file.target_ = fs::weakly_canonical(fs::absolute(path, error), error);
-  if (error)
-    return failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", error.message()),
-                   path.string());
-  const fs::file_status status = fs::status(file.target_, error);
+  // Of the path itself: what /dev/stdout leads to need not have a name, as a pipe has none.
+  const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status))
     return failure(ErrorCode::unreadable, "is a folder, not a file", path.string());
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     file.inPlace_ = true;
-    file.temporary_ = file.target_;
+    file.target_ = file.temporary_ = path;
     return file;
   }
+  file.target_ = fs::weakly_canonical(fs::absolute(path, error), error);
+  if (error)
+    return failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", error.message()),
+                   path.string());
   const fs::path folder = file.target_.parent_path();
   if (!fs::is_directory(folder, error))
     return failure(ErrorCode::notFound, fmt::format("the folder {} does not exist", folder.string()),

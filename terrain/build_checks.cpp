@@ -27,8 +27,9 @@ Status checkOptions(const BuildOptions& options, std::size_t sampleCount) {
     return refuse(fmt::format("the threshold ratio must be above 1, not {}", options.thresholdRatio),
                   "--ratio");
   if (!(options.minimumAspect >= 0 && options.minimumAspect < 0.5))
-    return refuse(fmt::format("the aspect bound must be from 0 to 0.5, not {}", options.minimumAspect),
-                  "--min-aspect");
+    return refuse(
+        fmt::format("the aspect bound must be 0 or more and below 0.5, not {}", options.minimumAspect),
+        "--min-aspect");
   if (!(options.rimTolerance >= 0 && std::isfinite(options.rimTolerance)))
     return refuse(fmt::format("the rim tolerance must be 0 or more samples, not {}", options.rimTolerance),
                   "--rim-tolerance");

@@ -135,10 +135,6 @@ class Demo {
   Status read() {
     if (const auto checked = checkedTolerances(options_.maxErrors); !checked)
       return tl::unexpected(checked.error());
-    std::error_code error;
-    fs::create_directories(options_.folder, error);
-    if (error)
-      return failure(ErrorCode::unreadable, "the folder cannot be made: " + error.message(), options_.folder);
     Result<DemRead> dem = readDem(report_.dem, options_.read, context_);
     if (!dem) return tl::unexpected(dem.error());
     if (!std::holds_alternative<RasterHeightfield>(dem->heightfield))
@@ -151,6 +147,10 @@ class Demo {
     report_.columns = field_.columns;
     report_.rows = field_.rows;
     report_.unit = shortUnit(field_.georeference.verticalUnit);
+    std::error_code error;
+    fs::create_directories(options_.folder, error);
+    if (error)
+      return failure(ErrorCode::unreadable, "the folder cannot be made: " + error.message(), options_.folder);
     return {};
   }
 

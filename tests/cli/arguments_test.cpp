@@ -28,6 +28,15 @@ class Arguments : public Cli {
   }
 
   std::set<std::string> before_;
+
+  /// The error object, where nothing else was asked for.
+  static void expectErrorObject(const Outcome& outcome, int code) {
+    EXPECT_EQ(outcome.code, code);
+    const Json json = outcome.json();
+    ASSERT_TRUE(json.is_object()) << outcome.out;
+    EXPECT_EQ(json["error"]["exitCode"], code);
+    EXPECT_NE(json["error"]["message"], "");
+  }
 };
 
 TEST_F(Arguments, HelpAndVersionAreAnswers) {
@@ -266,6 +275,28 @@ TEST_F(Arguments, TellsAStdoutThatIsFull) {
       std::string("'" ARETE_PROGRAM "' info '") + path("dem.amt") + "' >/dev/full 2>/dev/null";
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 3);
+}
+
+TEST_F(Arguments, SpeakJsonEvenWhenTheyCannotBeParsed) {
+  expectErrorObject(run({"extract", "dem.amt", "-o", "t.ply", "--max-error", "x", "--json"}), 2);
+  expectErrorObject(run({"extract", "--json"}), 2);
+  expectErrorObject(run({"nonsense", "--json"}), 2);
+}
+
+TEST_F(Arguments, KeepTheInputOfAConversion) {
+  expectRefusal({"convert", "dem.amt", "-o", "dem.amt", "--packed"}, 2, "dem.amt: is the input");
+  expectRefusal({"convert", "tin.ply", "-o", "tin.ply"}, 2, "tin.ply: is the input");
+}
+
+TEST_F(Arguments, AreToldWhenOneFileIsToBeTwoOutputs) {
+  expectRefusal({"extract", "dem.amt", "-o", "new.tif", "--max-error", "2", "--error-raster", "new.tif"}, 2,
+                "--error-raster new.tif: is written by this command already");
+  expectRefusal({"extract", "dem.amt", "-o", "new.ply", "--max-error", "2", "--certificate", "new.ply"}, 2,
+                "--certificate new.ply: is written by this command already");
+}
+
+TEST_F(Arguments, LeaveNoFolderBehindADemoOfNothing) {
+  expectRefusal({"demo", "nothing.tif", "-o", "folder"}, 3, "nothing.tif");
 }
 
 }  // namespace

@@ -133,6 +133,30 @@ TEST_F(MainJob, NamesTheOutputsOfSeveralTolerances) {
   EXPECT_GE(exports[1]["triangles"], exports[2]["triangles"]);
 }
 
+TEST_F(MainJob, PutsTheToleranceWhereverTheNameAsksForIt) {
+  makeRaster("dem.tif", "fractal", 30, 30);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt", "-q"}).code, 0);
+  std::filesystem::create_directory(path("5"));
+  EXPECT_EQ(run({"extract", "dem.amt", "-o", "{}/{}m.obj", "--max-error", "5"}).code, 0);
+  EXPECT_TRUE(exists("5/5m.obj"));
+}
+
+TEST_F(MainJob, SaysWhenStdoutTakesNothing) {
+  makeRaster("dem.tif", "fractal", 30, 30);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt", "-q"}).code, 0);
+  const std::string command = std::string(ARETE_PROGRAM) + " height " + path("dem.amt") + " --points " +
+                              write("places.csv",
+                                    [] {
+                                      std::string rows = "x,y\n";
+                                      for (int i = 0; i < 20'000; ++i) rows += "3,-3\n";
+                                      return rows;
+                                    }()) +
+                              " > /dev/full 2> " + path("said");
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 3);
+  EXPECT_NE(read("said").find("stdout cannot be written to"), std::string::npos) << read("said");
+}
+
 TEST_F(MainJob, CertificateAgreesWithMeasure) {
   makeRaster("dem.tif", "nodata holes", 60, 50);
   ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);

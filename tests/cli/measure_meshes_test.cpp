@@ -110,9 +110,36 @@ TEST_F(MeasureMeshes, WarnsAboutFramesThatDoNotCompare) {
   write("other.obj", "# crs EPSG:32612\n" + a);
   EXPECT_NE(run({"measure", "degrees.obj", "degrees.obj", "--samples", "10"}).err.find("are degrees"),
             std::string::npos);
+  const Outcome mixed = run({"measure", "degrees.obj", "utm.obj"});
+  EXPECT_EQ(mixed.code, 4);
+  EXPECT_NE(mixed.err.find("degrees.obj: its x and y are degrees"), std::string::npos) << mixed.err;
   EXPECT_NE(run({"measure", "utm.obj", "other.obj", "--samples", "10"}).err.find("as if they were in one"),
             std::string::npos);
   EXPECT_EQ(run({"measure", "utm.obj", "utm.obj", "--samples", "10"}).err, "");
+}
+
+TEST_F(MeasureMeshes, ComparesDegreesInMetres) {
+  // A degree of latitude is 111 km, and of longitude half as much at 60 degrees north.
+  const auto strip = [](double x, double y, double z) {
+    std::string text = "# crs EPSG:4326\n";
+    for (const double dy : {0.0, 0.001})
+      for (const double dx : {0.0, 0.001})
+        text += "v " + std::to_string(x + dx) + " " + std::to_string(y + dy) + " " + std::to_string(z) + "\n";
+    return text + "f 1 2 4\nf 1 4 3\n";
+  };
+  write("a.obj", strip(10, 60, 100));
+  write("up.obj", strip(10, 60, 103));
+  write("east.obj", strip(10.0005, 60, 100));
+  const auto maximum = [&](const std::string& other) {
+    const Outcome outcome = run({"measure", "a.obj", other, "--samples", "1000", "--json"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const Json json = Json::parse(outcome.out);
+    EXPECT_EQ(json["unit"], "metre");
+    EXPECT_NEAR(json["first"]["worst"][1].get<double>(), 60, 0.01) << json.dump(2);
+    return json["first"]["maximum"].get<double>();
+  };
+  EXPECT_NEAR(maximum("up.obj"), 3, 1e-6);
+  EXPECT_NEAR(maximum("east.obj"), 0.0005 * 55'800, 0.1);
 }
 
 TEST_F(MeasureMeshes, TakesEveryFormat) {

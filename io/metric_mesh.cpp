@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/metric_mesh.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "io/crs_reader.h"
+#include "terrain/georeference.h"
+
+namespace arete {
+namespace {
+
+/// A step of the raster whose ground size is asked for; groundStep() measures it on the ellipsoid.
+constexpr double kStep = 1e-3;
+
+TriangleMesh scaled(const TriangleMesh& mesh, const Vec3& by) {
+  TriangleMesh result = mesh;
+  for (Vec3& p : result.positions) p = {p.x * by.x, p.y * by.y, p.z * by.z};
+  return result;
+}
+
+double heightMetres(const MeshFile& mesh, const Georeference& georeference) {
+  return metresPerUnit(mesh.verticalUnit).value_or(georeference.verticalUnitMetres);
+}
+
+}  // namespace
+
+Result<MetricMeshes> toMetres(const MeshFile& first, const MeshFile& second) {
+  const auto crs = crsFromText(first.crsWkt);
+  if (!crs) return tl::unexpected(crs.error());
+  Georeference axes;
+  if (Status described = describeCrs(*crs, axes); !described) return tl::unexpected(described.error());
+  double south = std::numeric_limits<double>::infinity(), north = -south;
+  for (const MeshFile* file : {&first, &second})
+    for (const Vec3& p : file->mesh.positions) {
+      south = std::min(south, p.y);
+      north = std::max(north, p.y);
+    }
+  const double latitude = (south + north) / 2;
+  axes.geoTransform = {0, kStep, 0, latitude, 0, kStep};
+  const Vec2 step = groundStep(axes, 0, 0);
+  const double toEast = step.x / kStep, toNorth = step.y / kStep;
+  const Vec3 firstUnits{toEast, toNorth, heightMetres(first, axes)},
+      secondUnits{toEast, toNorth, heightMetres(second, axes)};
+  return MetricMeshes{scaled(first.mesh, firstUnits), scaled(second.mesh, secondUnits), firstUnits,
+                      secondUnits, latitude};
+}
+
+}  // namespace arete

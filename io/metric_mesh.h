@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "engine/result.h"
+#include "io/mesh_file.h"
+
+namespace arete {
+
+/// Two meshes in one geographic CRS, made comparable in space.
+struct MetricMeshes {
+  TriangleMesh first, second;                            ///< metres: east, north, up
+  Vec3 firstUnits = {1, 1, 1}, secondUnits = {1, 1, 1};  ///< metres in what the files count in
+  double latitude = 0;  ///< in the unit of the CRS: where a degree's ground size was taken
+};
+
+/// Turns degrees into metres by the ground size that they have in the middle of both meshes, and heights into
+/// metres by their unit (metres where the files say none). Away from that latitude lengths to the east are
+/// off by as much as its cosine changes. Precondition: isGeographicCrs() of both. Errors: usage, unsupported
+/// (a CRS that cannot be understood). O(vertices).
+Result<MetricMeshes> toMetres(const MeshFile& first, const MeshFile& second);
+
+}  // namespace arete
