@@ -135,8 +135,8 @@ TEST_F(MeasureMeshes, ComparesDegreesInMetres) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     const Json json = Json::parse(outcome.out);
     EXPECT_EQ(json["unit"], "metre");
-    EXPECT_NEAR(json["first"]["worst"][1].get<double>(), 60, 0.01) << json.dump(2);
-    return json["first"]["maximum"].get<double>();
+    EXPECT_NEAR(json["fromFirst"]["worst"][1].get<double>(), 60, 0.01) << json.dump(2);
+    return json["fromFirst"]["maximum"].get<double>();
   };
   EXPECT_NEAR(maximum("up.obj"), 3, 1e-6);
   EXPECT_NEAR(maximum("east.obj"), 0.0005 * 55'800, 0.1);
