@@ -7,6 +7,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -113,6 +114,11 @@ int fetch(const std::string& name, const std::vector<double>& box, const std::st
   return 0;
 }
 
+bool isGeoTiffName(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return extension == ".tif" || extension == ".tiff" || extension == ".TIF" || extension == ".TIFF";
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Terrain to try Arete on: generated here, or fetched from those who publish it."};
   app.name("arete-datasets");
@@ -135,7 +141,8 @@ int run(int argc, char** argv) {
   bool noLake = false, noSea = false;
   CLI::App* generateCommand = app.add_subcommand("generate", "Make mountains that rivers have carved");
   generateCommand->add_option("-o,--output", output, "GeoTIFF to write")->required();
-  CLI::Option* sizeOption = generateCommand->add_option("--size", size, "Columns and rows (default 1025)");
+  CLI::Option* sizeOption = generateCommand->add_option("--size", size, "Columns and rows (default 1025)")
+                                ->check(CLI::Range(2, 1 << 20));
   generateCommand->add_option("--columns", terrain.columns, "Columns")->excludes(sizeOption);
   generateCommand->add_option("--rows", terrain.rows, "Rows")->excludes(sizeOption);
   generateCommand->add_option("--seed", terrain.seed, "Which terrain (default 1)");
@@ -162,7 +169,11 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  if (size != 0) terrain.columns = terrain.rows = size;
+  if (sizeOption->count() > 0) terrain.columns = terrain.rows = size;
+  if ((generateCommand->parsed() || fetchCommand->parsed()) && !isGeoTiffName(output)) {
+    fmt::print(stderr, "arete-datasets: --output {}: a GeoTIFF's name ends in .tif\n", output);
+    return 2;
+  }
   terrain.lake = !noLake;
   terrain.sea = !noSea;
   if (generateCommand->parsed()) return generate(terrain, output, quiet);

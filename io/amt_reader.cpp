@@ -40,9 +40,7 @@ class AmtOpener {
     return failure(ErrorCode::corrupt, message, file_.path_);
   }
   tl::unexpected<Error> truncated(std::uint64_t wanted) const {
-    return failure(ErrorCode::unreadable,
-                   fmt::format("is cut short: {} of its {} bytes are missing", wanted - all_.size(), wanted),
-                   file_.path_);
+    return corrupt(fmt::format("is cut short: {} of its {} bytes are missing", wanted - all_.size(), wanted));
   }
   template <class T>
   void place(AmtTag tag, std::span<const T>& to) const {
@@ -60,12 +58,11 @@ static_assert(sizeof(Vec2) == 16 && sizeof(Sphere) == 16 && sizeof(std::array<st
 
 Status AmtOpener::readHeader() {
   const std::size_t magicBytes = std::min(all_.size(), kAmtMagic.size());
-  if (std::memcmp(all_.data(), kAmtMagic.data(), magicBytes) != 0) return corrupt("is not an .amt file");
+  if (std::memcmp(all_.data(), kAmtMagic.data(), magicBytes) != 0)
+    return failure(ErrorCode::unsupported, "is not an .amt file", file_.path_);
   if (all_.size() < sizeof header_)
-    return failure(ErrorCode::unreadable,
-                   fmt::format("is cut short: its {} bytes are {} too few for the header", all_.size(),
-                               sizeof header_ - all_.size()),
-                   file_.path_);
+    return corrupt(fmt::format("is cut short: its {} bytes are {} too few for the header", all_.size(),
+                               sizeof header_ - all_.size()));
   std::memcpy(&header_, all_.data(), sizeof header_);
   if (header_.byteOrder == kAmtByteOrderSwapped)
     return failure(ErrorCode::unsupported, "was written with its bytes in the other (big-endian) order",

@@ -196,7 +196,7 @@ TEST_F(Arguments, NeverAssumesACrs) {
 TEST_F(Arguments, TellsFilesThatAreNotWhatTheyShouldBe) {
   expectRefusal({"build", "nowhere.tif", "-o", "x.amt"}, 3, "nowhere.tif: there is no such file");
   expectRefusal({"info", "nowhere.amt"}, 3, "nowhere.amt");
-  expectRefusal({"info", "dem.tif"}, 4, "dem.tif: is not an .amt file");
+  expectRefusal({"info", "dem.tif"}, 3, "dem.tif: is not an .amt file");
   expectRefusal({"measure", "tin.dxf", "dem.tif"}, 3, ".dxf is no known mesh format; known are PLY (.ply)");
   expectRefusal({"measure", "tin.ply", "nowhere.tif"}, 3, "nowhere.tif");
   write("bad.ply", "ply\nformat ascii 1.0\nelement vertex 9999999\n");
