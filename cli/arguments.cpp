@@ -102,6 +102,20 @@ CLI::Validator oneOf(std::vector<std::string> words) {
   });
 }
 
+CLI::Validator oneOfNumbered(std::vector<std::pair<std::string, int>> words) {
+  return validator([words = std::move(words)](std::string& text) -> std::string {
+    std::vector<std::string> known;
+    for (const auto& [word, number] : words) {
+      if (CLI::detail::to_lower(text) == word) {
+        text = std::to_string(number);
+        return {};
+      }
+      known.push_back(word);
+    }
+    return fmt::format("'{}' is none of {}", text, fmt::join(known, ", "));
+  });
+}
+
 CLI::Validator tolerance() {
   return validator([](std::string& text) { return toleranceProblem(text); });
 }
@@ -151,7 +165,9 @@ void DemArguments::addTo(CLI::App& command) {
       ->check(realNumber())
       ->type_name("VALUE")
       ->group(group);
-  command.add_option("--crs", crs, "CRS where the file has none (EPSG:32611, WKT, ...)")
+  command
+      .add_option("--crs", crs,
+                  "CRS of the coordinates, where the file has none or another one (EPSG:32611, WKT, ...)")
       ->type_name("CRS")
       ->group(group);
 }

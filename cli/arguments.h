@@ -22,6 +22,14 @@ CLI::Validator finiteAtLeast(double least);
 CLI::Validator finiteAbove(double bound);
 CLI::Validator finiteBetween(double least, double most);
 CLI::Validator oneOf(std::vector<std::string> words);
+/// One of some words, upper and lower case alike, each of which stands for a value of an enumeration.
+CLI::Validator oneOfNumbered(std::vector<std::pair<std::string, int>> words);
+template <class Enum>
+CLI::Validator oneOf(const std::vector<std::pair<std::string, Enum>>& words) {
+  std::vector<std::pair<std::string, int>> numbers;
+  for (const auto& [word, value] : words) numbers.emplace_back(word, static_cast<int>(value));
+  return oneOfNumbered(std::move(numbers));
+}
 /// An error in the unit of the heights: 0 or more, "inf" allowed.
 CLI::Validator tolerance();
 /// One or more tolerances with commas between.

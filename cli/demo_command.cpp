@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <memory>
 #include <string>
 
@@ -93,10 +92,8 @@ void addDemoCommand(CLI::App& app, Session& session) {
   command
       ->add_option("--shape", arguments->options.build.shape,
                    "delaunay: well-shaped triangles (default); fidelity: far fewer triangles at a bound")
-      ->transform(CLI::Transformer(std::map<std::string, HoleShape>{{"delaunay", HoleShape::delaunay},
-                                                                    {"fidelity", HoleShape::fidelity}},
-                                   CLI::ignore_case))
-      ->type_name("delaunay|fidelity");
+      ->transform(oneOf<HoleShape>({{"delaunay", HoleShape::delaunay}, {"fidelity", HoleShape::fidelity}}))
+      ->type_name("NAME");
   arguments->dem.addTo(*command);
 }
 
