@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A straight line in polar coordinates about the centre of the effective Earth obeys
+// A straight line in polar coordinates about the centre of the effective Earth has as 1 / r a sum of a sine
+// and a cosine of the angle, however high it goes, where its height grows beyond any power of the distance.
+// So what is expanded is
 //
-//     h'' = k (2 h'^2 + r^2) / r,     r = 1 + k h,
+//     w = h / (1 + k h) = (1 - 1 / r) / k,     r = 1 + k h,     w'' = k (1 - k w),
 //
-// so all Taylor coefficients follow from a height and a slope, by power series, without the cancellation
-// that a difference of radii would have. Height and slope at the middle of each piece are the closed form's.
+// whose Taylor coefficients all follow from a value and a slope, without the cancellation that a difference
+// of radii would have, and h = w / (1 - k w). Value and slope at the middle of each piece are the closed
+// form's.
 #include "terrain/sight_line.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,11 +21,16 @@
 namespace arete {
 namespace {
 
-/// The longest piece on which the first power that is left out is worth less than 1e-7 m: that is about
-/// radius * (length / (2 radius))^6 / 12.
+/// The longest piece on which the first power that is left out is worth less than 1e-9 r metres: that is
+/// radius * r * (length / (2 radius))^6 / 720.
 double longestPiece(double curvature) {
   return 60000 * std::pow(std::fabs(curvature) * 6.371e6, -5.0 / 6);
 }
+
+/// Of the effective Earth's radius: deeper heights are mistakes, and the formula of the line ends there.
+constexpr double kDeepest = -0.5;
+/// Of the Earth's curvature: lines that bend more than this somewhere bend much less elsewhere.
+constexpr double kSteep = 10;
 
 /// sin(k x) / k, for k = 0 too.
 double sn(double k, double x) {
@@ -28,39 +38,29 @@ double sn(double k, double x) {
   return std::fabs(t) < 1e-9 ? x : std::sin(t) / k;
 }
 
-struct HeightAndSlope {
-  double height, slope;
+struct ValueAndSlope {
+  double value, slope;
 };
 
-/// The closed form and its derivative, in metres.
-HeightAndSlope closedForm(double k, double h0, double h1, double length, double s) {
-  const double snS = sn(k, length), sns = sn(k, s), snr = sn(k, length - s);
-  const double cs = std::cos(k * s), cr = std::cos(k * (length - s));
-  const double q = -4 * k * sn(k, length / 2) * sn(k, s / 2) * sn(k, (length - s) / 2);
-  const double n = h0 * (snS - sns) + h1 * (snS - snr) + k * h0 * h1 * snS + q;
-  const double d = (1 + k * h0) * sns + (1 + k * h1) * snr;
-  const double dq = 2 * sn(k, length / 2) * std::sin(k * (s - length / 2));  // (cos k(S - s) - cos k s) / k
-  const double dn = h1 * cr - h0 * cs + dq;
-  const double dd = (1 + k * h0) * cs - (1 + k * h1) * cr;
-  return {n / d, (dn - n / d * dd) / d};
-}
-
-/// Coefficients of the powers of the distance, from the first two: both sides of r h'' = k (2 h'^2 + r^2),
-/// power by power.
-void continueSeries(double k, std::array<double, 6>& c) {
-  std::array<double, 6> r{}, slope{};
-  r[0] = 1 + k * c[0];
-  for (int n = 0; n + 2 < 6; ++n) {
-    r[n + 1] = k * c[n + 1];
-    slope[n] = (n + 1) * c[n + 1];
-    double right = 0, left = 0;
-    for (int i = 0; i <= n; ++i) right += 2 * slope[i] * slope[n - i] + r[i] * r[n - i];
-    for (int i = 1; i <= n; ++i) left += r[i] * (n - i + 2) * (n - i + 1) * c[n - i + 2];
-    c[n + 2] = (k * right - left) / (r[0] * (n + 2) * (n + 1));
-  }
+/// w and its derivative, in metres, from those of the ends.
+ValueAndSlope closedForm(double k, double w0, double w1, double length, double s) {
+  const double whole = sn(k, length), half = sn(k, length / 2);
+  const double sag = 4 * k * half * sn(k, s / 2) * sn(k, (length - s) / 2);
+  return {
+      (w0 * sn(k, length - s) + w1 * sn(k, s) - sag) / whole,
+      (w1 * std::cos(k * s) - w0 * std::cos(k * (length - s)) + 2 * half * std::sin(k * (s - length / 2))) /
+          whole};
 }
 
 }  // namespace
+
+Status checkSightHeights(const SightTrack& track, double fromHeight, double toHeight,
+                         double heightUnitMetres) {
+  for (const double h : {fromHeight, toHeight})
+    if (!std::isfinite(h) || track.curvature * h * heightUnitMetres < kDeepest)
+      return failure(ErrorCode::invalidData, fmt::format("a height of {:g} makes no line of sight", h));
+  return {};
+}
 
 SightLine::SightLine(SightTrack track, double fromHeight, double toHeight, double heightUnitMetres)
     : track_(std::move(track)),
@@ -70,38 +70,57 @@ SightLine::SightLine(SightTrack track, double fromHeight, double toHeight, doubl
       to_(toHeight),
       tolerance_((1e-6 + 1e-12 * length_) / heightUnitMetres) {
   const double k = track_.curvature;
+  bend_ = k * unit_;
   const auto count =
       k == 0 ? std::size_t{1}
              : std::max(std::size_t{1}, static_cast<std::size_t>(std::ceil(length_ / longestPiece(k))));
   pieces_.resize(count);
-  piecesPerMetre_ = length_ > 0 ? static_cast<double>(count) / length_ : 0;
+  if (!(length_ > 0)) {
+    bend_ = 0;
+    pieces_[0].c[0] = std::min(from_, to_);
+    return;
+  }
+  piecesPerMetre_ = static_cast<double>(count) / length_;
+  if (k == 0) {  // exact at the first point
+    pieces_[0].c[0] = from_;
+    pieces_[0].c[1] = (to_ - from_) / length_;
+    return;
+  }
+  const double r0 = 1 + k * from_ * unit_, r1 = 1 + k * to_ * unit_;
+  const double w0 = from_ * unit_ / r0, w1 = to_ * unit_ / r1;
   for (std::size_t i = 0; i < count; ++i) {
     Piece& piece = pieces_[i];
-    if (!(length_ > 0)) {
-      piece.c[0] = std::min(from_, to_);
-      continue;
-    }
-    if (k == 0) {  // exact at the first point
-      piece.c[0] = from_;
-      piece.c[1] = (to_ - from_) / length_;
-      continue;
-    }
     piece.middle = length_ * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-    const HeightAndSlope at = closedForm(k, from_ * unit_, to_ * unit_, length_, piece.middle);
-    piece.c[0] = at.height;
+    const ValueAndSlope at = closedForm(k, w0, w1, length_, piece.middle);
+    piece.c[0] = at.value;
     piece.c[1] = at.slope;
-    continueSeries(k, piece.c);
+    piece.c[2] = k * (1 - k * at.value) / 2;
+    for (std::size_t n = 3; n < piece.c.size(); ++n)
+      piece.c[n] = -k * k * piece.c[n - 2] / static_cast<double>(n * (n - 1));
     for (double& c : piece.c) c /= unit_;
-    const double x = length_ / static_cast<double>(2 * count);
-    sag_ = std::max(sag_, 2 * std::fabs(piece.c[2]) +
-                              x * (6 * std::fabs(piece.c[3]) +
-                                   x * (12 * std::fabs(piece.c[4]) + x * 20 * std::fabs(piece.c[5]))));
   }
+  if (k < 0) return;
+  // h'' = k r (1 + 2 (r w')^2), and 1 / r is concave: r and the slope of w are greatest at an end.
+  const double steepest = std::max(std::fabs(closedForm(k, w0, w1, length_, 0).slope),
+                                   std::fabs(closedForm(k, w0, w1, length_, length_).slope));
+  const double r = std::max(r0, r1), slope = r * steepest;
+  sag_ = k * r * (1 + 2 * slope * slope) * (1 + 1e-12) / unit_;
+  isSteep_ = sag_ * unit_ > kSteep * k;
 }
 
 double SightLine::slope(double s) const {
-  const auto i = static_cast<std::size_t>(s * piecesPerMetre_);
-  return pieces_[std::min(i, pieces_.size() - 1)].slope(s);
+  const Piece& piece = pieceAt(s);
+  const double r = 1 / (1 - bend_ * piece.at(s));
+  return piece.slope(s) * r * r;
+}
+
+double SightLine::tangentBound(double s0, double z0, double s1, double z1) const {
+  const double c0 = height(s0) - z0, c1 = height(s1) - z1, d = s1 - s0;
+  if (!(d > 0)) return std::min(c0, c1);
+  const double rise = (z1 - z0) / d, fall = slope(s0) - rise, climb = slope(s1) - rise;
+  if (!(fall < 0 && climb > 0)) return std::min(c0, c1);
+  const double meet = std::clamp((c1 - c0 - climb * d) / (fall - climb), 0.0, d);
+  return std::min(std::min(c0, c1), std::min(c0 + fall * meet, c1 + climb * (meet - d)));
 }
 
 SightLine::Least SightLine::least(double s0, double z0, double s1, double z1) const {
@@ -109,12 +128,12 @@ SightLine::Least SightLine::least(double s0, double z0, double s1, double z1) co
   Least least = c0 <= c1 ? Least{c0, s0} : Least{c1, s1};
   if (sag_ == 0 || !(d > 0)) return least;
   // Convex: inside only where it falls at the beginning and rises at the end. Newton's method, kept inside,
-  // on a slope that is all but straight.
+  // on a slope that is all but straight; where a high line's is not, halving helps.
   const double rise = (z1 - z0) / d;
   double low = s0, high = s1, lowSlope = slope(s0) - rise, highSlope = slope(s1) - rise;
   if (!(lowSlope < 0 && highSlope > 0)) return least;
-  for (int i = 0; i < 8; ++i) {
-    const double s = low + (high - low) * (lowSlope / (lowSlope - highSlope));
+  for (int i = 0; i < 100; ++i) {
+    const double s = low + (high - low) * (i % 3 == 2 ? 0.5 : lowSlope / (lowSlope - highSlope));
     if (!(s > low && s < high)) break;
     const double at = slope(s) - rise, clearance = height(s) - (z0 + rise * (s - s0));
     if (clearance < least.clearance) least = {clearance, s};

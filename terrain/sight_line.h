@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/result.h"
 #include "engine/vec.h"
 
 namespace arete {
@@ -36,7 +37,8 @@ struct SightTrack {
 ///                 / [ (1 + k h0) sn s + (1 + k h1) sn(S - s) ],      sn(x) = sin(k x) / k
 ///
 /// with everything in metres, k the curvature and S the length; for k = 0 the straight line. It is kept as
-/// Taylor polynomials, which are within 1e-7 m of it. Where k >= 0 it is convex in s.
+/// Taylor polynomials of height / (1 + k height), which are within 1e-7 m of it, and within 1e-14 of where
+/// it is higher than the Earth's radius, whatever the heights of the ends. Where k >= 0 it is convex in s.
 class SightLine {
  public:
   /// Heights in the DEM's vertical unit, of heightUnitMetres metres. Preconditions: finite; the length is
@@ -48,9 +50,8 @@ class SightLine {
   double length() const { return length_; }  ///< metres along the ground
   /// In the DEM's vertical unit. Precondition: 0 <= s <= length().
   double height(double s) const {
-    if (pieces_.size() == 1) return pieces_[0].at(s);
-    const auto i = static_cast<std::size_t>(s * piecesPerMetre_);
-    return pieces_[i < pieces_.size() ? i : pieces_.size() - 1].at(s);
+    const double w = pieceAt(s).at(s);
+    return w / (1 - bend_ * w);
   }
   /// d height / ds.
   double slope(double s) const;
@@ -64,6 +65,7 @@ class SightLine {
   Least least(double s0, double z0, double s1, double z1) const;
   /// At most that of least(), within sag() * (s1 - s0)^2 / 8 of it; without a search.
   double leastBound(double s0, double z0, double s1, double z1) const {
+    if (isSteep_) return tangentBound(s0, z0, s1, z1);
     const double c0 = height(s0) - z0, c1 = height(s1) - z1, d = s1 - s0;
     return (c0 < c1 ? c0 : c1) - sag_ * d * d / 8;
   }
@@ -78,6 +80,7 @@ class SightLine {
   Vec2 planAt(double s) const;
 
  private:
+  /// Of w = height / (1 + bend height).
   struct Piece {
     double middle = 0;
     std::array<double, 6> c = {};  // of the powers of s - middle
@@ -91,11 +94,28 @@ class SightLine {
     }
   };
 
+  const Piece& pieceAt(double s) const {
+    if (pieces_.size() == 1) return pieces_[0];
+    const auto i = static_cast<std::size_t>(s * piecesPerMetre_);
+    return pieces_[i < pieces_.size() ? i : pieces_.size() - 1];
+  }
+  /// leastBound() by the tangents at both ends: the sag of a steep line is that of its upper end, and says
+  /// nothing of the rest.
+  double tangentBound(double s0, double z0, double s1, double z1) const;
+
   SightTrack track_;
   double length_, unit_, from_, to_, tolerance_;
   double sag_ = 0, piecesPerMetre_ = 0;
+  double bend_ = 0;  ///< the curvature, per unit of height
+  bool isSteep_ = false;
   std::vector<Piece> pieces_;
 };
+
+/// Whether there is a line between these heights, in the DEM's vertical unit, over that track. Errors:
+/// invalidData for one that is not finite, halfway to the centre of the effective Earth or, where that bends
+/// away from the ground, as high.
+Status checkSightHeights(const SightTrack& track, double fromHeight, double toHeight,
+                         double heightUnitMetres = 1);
 
 /// The tangent of the elevation angle at which a place is seen from `height0` metres above the first point of
 /// a track of that curvature: `height` metres above the ground `distance` metres away. It grows with height,

@@ -20,8 +20,6 @@ namespace arete {
 namespace {
 
 constexpr std::size_t kLinksPerTask = 8;
-/// Of the effective Earth's radius: deeper heights are mistakes, and the formula of the line ends there.
-constexpr double kDeepest = -0.5;
 
 /// The profile with the clutter on it: steps where it begins and ends.
 Profile withClutter(const Profile& profile, const SightClutter& clutter) {
@@ -111,9 +109,8 @@ Result<SightLine> sightLine(const SightLink& link, const SightEarth& earth, cons
   auto track = earth.track(link.from, link.to);
   if (!track) return tl::unexpected(track.error());
   const double unit = model.georeference.verticalUnitMetres;
-  for (const double h : {link.fromHeight, link.toHeight})
-    if (!std::isfinite(h) || track->curvature * h * unit < kDeepest)
-      return failure(ErrorCode::invalidData, fmt::format("a height of {:g} makes no line of sight", h));
+  if (const Status status = checkSightHeights(*track, link.fromHeight, link.toHeight, unit); !status)
+    return tl::unexpected(status.error());
   return SightLine(std::move(*track), link.fromHeight, link.toHeight, unit);
 }
 

@@ -44,6 +44,8 @@ Result<ViewshedExact::Answer> ViewshedExact::at(Vec2 plan, double ground) const 
   Result<SightTrack> track = earth_.track(observer_.plan, plan);
   if (!track) return tl::unexpected(track.error());
   const double distance = track->points.back().distance, target = ground + options_.targetHeight;
+  if (const Status status = checkSightHeights(*track, observer_.height, target, unit_); !status)
+    return tl::unexpected(status.error());
   const ViewshedField& field = options_.field;
   if (!isInField(field, distance, track->azimuthDegrees)) return Answer{};
   if (distance > 0 && (field.lowest > -90 || field.highest < 90)) {

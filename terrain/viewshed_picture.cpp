@@ -75,14 +75,21 @@ ViewshedPicture::Bent ViewshedPicture::bent(double x, double y, double bend) con
                // All but at the observer, the quotient is of rounding.
       k = std::clamp(square > 0 ? bend / square : 0, fan_->leastCurvature, fan_->mostCurvature);
   const double b = k * bend;  // (ks)^2
-  const double scale = 1 + b * (1.0 / 6 + b * (7.0 / 360 + b * (31.0 / 15120)));
+  const double scale =
+      1 + b * (1.0 / 6 + b * (7.0 / 360 + b * (31.0 / 15120 + b * (127.0 / 604800 + b * (73.0 / 3421440)))));
   return {scale, scale * bend / 2 * (1 - b / 12 * (1 - b / 30)), k, std::sqrt(square)};
 }
 
-/// How much higher than drawn without it the terrain on the tracks may be.
+/// How much higher than drawn without it the terrain on the tracks may be. A line that is steeper than the
+/// terrain is as much higher or lower beside it; and what the curvature does to the drop of the ground grows
+/// with the height that is scaled along with it.
 double ViewshedPicture::doubt(double x, double y, const Bent& bent, double z, float steepness) const {
-  return 1.1 * fan_->planError(std::hypot(x, y)) * std::fabs(steepness) * unit_ +
-         fan_->heightError(bent.distance) + fan_->curvatureError() * std::fabs(z * unit_ * (z - h0_) * unit_);
+  const double steps = std::hypot(x, y), below = std::fabs(z - h0_) * unit_;
+  const double fall = below / std::max(steps, 1.0), step = bent.distance / std::max(steps, 1e-9);
+  const double rise = std::fabs(steepness) * unit_ + std::max(0.0, fall - step);
+  return 1.1 * fan_->planError(steps) * rise +
+         fan_->heightError(bent.distance) * (1 + fan_->mostCurvature * below) +
+         fan_->curvatureError() * std::fabs(z * unit_) * below;
 }
 
 void ViewshedPicture::take(const ViewshedSector& sector, int x, int low, int high, int shear,

@@ -16,6 +16,8 @@
 #include "io/crs_reader.h"
 #include "io/dem_reader.h"
 #include "io/ellipsoid_earth.h"
+#include "terrain/build.h"
+#include "terrain/profile.h"
 #include "terrain/viewshed_cells.h"
 
 namespace arete::test {
@@ -83,6 +85,76 @@ TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngine) {
     }
   EXPECT_GT(all.sweeps, 100);
   EXPECT_LT(all.rays, all.cells / 2);
+}
+
+TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngineToObserversAsHighAsSatellites) {
+  Random random(13);
+  Tally all;
+  for (const Map& map : kMaps)
+    for (const RasterFamily& family : rasterFamilies()) {
+      const RasterHeightfield field = family.make(71, 84, 5);
+      TerrainModel model;
+      model.columns = field.columns;
+      model.rows = field.rows;
+      model.georeference.geoTransform = map.geoTransform;
+      const auto crs = crsFromText(map.crs);
+      ASSERT_TRUE(crs && describeCrs(*crs, model.georeference));
+      const auto earth = makeEllipsoidEarth(model);
+      ASSERT_TRUE(earth);
+      const auto grid = std::make_shared<const SightGrid>(field.columns, field.rows, field.heights);
+      Tally tally;
+      for (const double height : {1e4, 4e5, 4e7}) {
+        const Vec2 plan{random.between(2, field.columns - 3), random.between(2, field.rows - 3)};
+        compare(model, **earth, grid, {plan, height}, {}, 3, std::string(family.name) + " on " + map.crs,
+                tally);
+      }
+      EXPECT_EQ(tally.wrong, 0u) << family.name << " on " << map.crs;
+      all.sweeps += tally.sweeps;
+    }
+  EXPECT_GT(all.sweeps, 50);
+}
+
+TEST(ViewshedEllipsoid, EveryEngineAndTheProfileKnowTheLineToASatellite) {
+  Random random(14);
+  const Map& map = kMaps[3];
+  RasterHeightfield field = rasterFamilies()[3].make(71, 84, 6);
+  field.georeference.geoTransform = map.geoTransform;
+  const auto crs = crsFromText(map.crs);
+  ASSERT_TRUE(crs && describeCrs(*crs, field.georeference));
+  const auto built = build(field);
+  ASSERT_TRUE(built) << built.error().describe();
+  const auto earth = makeEllipsoidEarth(*built);
+  ASSERT_TRUE(earth);
+  const auto grid = std::make_shared<const SightGrid>(*built);
+  const Profiles profiles(*built, grid);
+  for (const SightMethod method :
+       {SightMethod::scan, SightMethod::pyramid, SightMethod::descent, SightMethod::embree}) {
+    const auto engine = makeSightEngine(method, *built, grid);
+    if (!engine) continue;  // built without it
+    for (const double height : {2e5, 6e5, 2e6, 4e7})
+      for (int i = 0; i < 20; ++i) {
+        const auto place = [&] {
+          return Vec2{double(random.below(field.columns)), double(random.below(field.rows))};
+        };
+        const Vec2 from = place(), to = place();
+        if (from == to) continue;
+        const auto track = (*earth)->track(from, to);
+        ASSERT_TRUE(track);
+        const double ground = grid->at(to);
+        const SightLine line(*track, height, ground + 2);
+        const SightAnswer answer = (*engine)->answer(line, {});
+        // So steep a line has nothing nearer below it than its lower end.
+        EXPECT_EQ(answer.verdict, SightVerdict::visible);
+        ASSERT_TRUE(answer.clearance);
+        EXPECT_NEAR(*answer.clearance, 2, 1e-6) << height;
+        EXPECT_NEAR(answer.least.distance, line.length(), 1e-6);
+        const Profile profile = profiles.along(*track);
+        ASSERT_FALSE(profile.vertices.empty());
+        const ProfileVertex& last = profile.vertices.back();
+        EXPECT_NEAR(line.height(last.distance) - last.height, 2, 1e-6);
+        EXPECT_NEAR(line.height(0), height, 1e-6);
+      }
+  }
 }
 
 TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngineWhereNodataIsScattered) {

@@ -118,6 +118,64 @@ TEST(SightLine, HasTheSlopeOfTheChordAndCurvesNoMoreThanItsSag) {
   }
 }
 
+/// The formula of docs/topics/visibility.md.
+Real documented(Real k, Real length, Real h0, Real h1, Real s) {
+  const auto sn = [k](Real x) { return std::sin(k * x) / k; };
+  const Real rest = length - s;
+  return (h0 * (sn(length) - sn(s)) + h1 * (sn(length) - sn(rest)) + k * h0 * h1 * sn(length) -
+          4 * k * sn(length / 2) * sn(s / 2) * sn(rest / 2)) /
+         ((1 + k * h0) * sn(s) + (1 + k * h1) * sn(rest));
+}
+
+TEST(SightLine, IsTheDocumentedFormulaHoweverHighItsEndsAre) {
+  constexpr std::uint64_t kSeed = 5;
+  SCOPED_TRACE(kSeed);
+  Random random(kSeed);
+  for (int i = 0; i < 4000; ++i) {
+    Made made = make(random);
+    made.curvature = (random.below(2) == 0 ? 1 : 6.0 / 7) / 6371000;
+    made.h0 = std::pow(10.0, random.between(4, 7.602));  // 4e7: beyond satellites that stand still
+    if (random.below(4) == 0) made.h1 = std::pow(10.0, random.between(4, 7.602));
+    if (random.below(2) == 0) std::swap(made.h0, made.h1);
+    const SightLine line = made.line();
+    const Real h0 = Real(made.h0 / made.unit) * made.unit, h1 = Real(made.h1 / made.unit) * made.unit;
+    const auto within = [](double height) { return 1e-7 + 1e-14 * std::fabs(height); };
+    ASSERT_NEAR(line.height(0) * made.unit, made.h0, within(made.h0)) << made.name();
+    ASSERT_NEAR(line.height(made.length) * made.unit, made.h1, within(made.h1)) << made.name();
+    for (int j = 0; j < 40; ++j) {
+      // As often near the lower end, where the terrain is, as anywhere.
+      double s = made.length * (j % 2 == 0 ? random.unit() : std::pow(10.0, random.between(-6, 0)));
+      if (made.h1 < made.h0) s = made.length - s;
+      s = std::clamp(s, 0.0, made.length);
+      const double truth = double(documented(made.curvature, made.length, h0, h1, s));
+      // A distance is rounded, and the line may be steep.
+      const double rounded = 2.3e-16 * s * std::fabs(line.slope(s)) * made.unit;
+      ASSERT_NEAR(line.height(s) * made.unit, truth, within(truth) + rounded) << made.name() << " at " << s;
+    }
+    // No bound is above the least clearance, and none of terrain far below the line says nothing.
+    double s0 = made.length * random.unit(), s1 = made.length * random.unit();
+    if (s0 > s1) std::swap(s0, s1);
+    const double z0 = random.between(0, 9000), z1 = random.between(0, 9000);
+    const double least = line.least(s0, z0, s1, z1).clearance, bound = line.leastBound(s0, z0, s1, z1);
+    const double scale = std::max(std::fabs(line.height(s0)), std::fabs(line.height(s1)));
+    ASSERT_LE(bound, least + 1e-6 + 1e-13 * scale) << made.name();
+    for (int j = 0; j <= 200; ++j) {
+      const double s = s0 + (s1 - s0) * j / 200;
+      ASSERT_LE(least, line.height(s) - (z0 + (z1 - z0) * j / 200) + 1e-6 + 1e-13 * scale) << made.name();
+    }
+  }
+}
+
+TEST(SightLine, RefusesHeightsThatMakeNone) {
+  SightTrack track;
+  track.points = {{{0, 0}, 0}, {{1, 2}, 6000}};
+  track.curvature = 1 / 7e6;
+  EXPECT_TRUE(checkSightHeights(track, 4e7, 2));
+  EXPECT_FALSE(checkSightHeights(track, 2, -4e6));
+  track.curvature = -1 / 7e6;
+  EXPECT_FALSE(checkSightHeights(track, 4e7, 2));
+}
+
 TEST(SightLine, IsTheSameFromEitherEnd) {
   constexpr std::uint64_t kSeed = 4;
   SCOPED_TRACE(kSeed);
