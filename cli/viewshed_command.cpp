@@ -202,9 +202,9 @@ const char* descriptionOf(Mode mode) {
     case Mode::horizon:
       return "elevation of the horizon, degrees";
     case Mode::count:
-      return "observers that see it";
+      return "observers that see it; 65533 unknown, 65534 undecided";
     case Mode::server:
-      return "nearest observer that sees it, from 1; 0 = none";
+      return "nearest observer that sees it, from 1; 0 = none, 65533 unknown, 65534 undecided";
     default:
       return "255 seen, 0 hidden, 100 unknown, 200 undecided";
   }

@@ -368,6 +368,40 @@ TEST_F(SightCommands, ViewshedOfManyCountsAndNamesTheNearest) {
   EXPECT_NEAR(valueAt("v.tif", 1505, 1895), std::atan(10.0 / 200) * 180 / 3.14159265358979, 1e-4);
 }
 
+TEST_F(SightCommands, ViewshedOfManyTakesNobodyForBlindWhoMaySee) {
+  makeModel();
+  const auto valuesOf = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"viewshed", "dem.amt", "--observer", "1205,1615,20",
+                                          "-o",       "v.tif",   "--observer", "1105,1615,20",
+                                          "-q",       "--nodata"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    auto read = readRaster(path("v.tif"));
+    EXPECT_TRUE(read);
+    return read ? std::move(read->heightfield.heights) : std::vector<double>();
+  };
+  // Behind the hole neither is known to see anything, before it both do.
+  const std::size_t behind = 38 * 61 + 40, before = 38 * 61 + 22;
+  for (const char* mode : {"count", "server"}) {
+    const auto unknown = valuesOf({"unknown", "--mode", mode});
+    EXPECT_EQ(unknown[behind], 65533) << mode;
+    EXPECT_EQ(unknown[before], mode == std::string("count") ? 2 : 1);
+    EXPECT_LT(valuesOf({"clear", "--mode", mode})[behind], 3) << mode;
+    const auto exact = valuesOf({"clear", "--mode", mode}),
+               within = valuesOf({"clear", "--mode", mode, "--max-error", "40"});
+    std::size_t undecided = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      if (within[i] == 65534) {
+        ++undecided;
+      } else {
+        EXPECT_TRUE(within[i] == exact[i] || std::isnan(exact[i])) << mode << " " << i;
+      }
+    }
+    EXPECT_GT(undecided, 0u) << mode;
+  }
+}
+
 TEST_F(SightCommands, ViewshedRefusesWhatMakesNoSense) {
   makeModel();
   write("masts.csv", "x,y\n1105,1895\n");
