@@ -174,7 +174,7 @@ Picture pictureOfOne(Mode mode, const Viewshed& viewshed) {
   for (std::size_t i = 0; i < viewshed.cells.size(); ++i) {
     double value = viewshed.cells[i] == ViewshedCell::outside ? std::nan("") : double(viewshed.values[i]);
     if (mode == Mode::horizon) value = std::atan(value) * 180 / std::numbers::pi;
-    picture.values.push_back(std::isfinite(value) ? value : std::nan(""));
+    picture.values.push_back(value);
   }
   return picture;
 }
@@ -198,7 +198,7 @@ Picture pictureOfMany(Mode mode, const ViewshedOfMany& all) {
 const char* descriptionOf(Mode mode) {
   switch (mode) {
     case Mode::height:
-      return "least height above the terrain that is seen";
+      return "least height above the terrain that is seen; infinite = none";
     case Mode::horizon:
       return "elevation of the horizon, degrees";
     case Mode::count:

@@ -402,6 +402,28 @@ TEST_F(SightCommands, ViewshedOfManyTakesNobodyForBlindWhoMaySee) {
   }
 }
 
+TEST_F(SightCommands, ViewshedTellsNoHeightBehindNodata) {
+  makeModel();
+  const auto valuesOf = [&](const char* mode, const char* nodata) {
+    const Outcome outcome = run({"viewshed", "dem.amt", "--observer", "1205,1615,20", "--mode", mode,
+                                 "--nodata", nodata, "-o", "v.tif", "-q"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    auto read = readRaster(path("v.tif"));
+    EXPECT_TRUE(read);
+    return read ? std::move(read->heightfield.heights) : std::vector<double>();
+  };
+  const std::size_t behind = 38 * 61 + 40, before = 38 * 61 + 22;
+  for (const char* nodata : {"unknown", "clear", "blocked"})
+    EXPECT_EQ(valuesOf("height", nodata)[before], 0) << nodata;
+  EXPECT_TRUE(std::isnan(valuesOf("height", "unknown")[behind]));
+  EXPECT_EQ(valuesOf("height", "clear")[behind], 0);
+  // Infinite, which a reader of heights takes for NODATA.
+  EXPECT_FALSE(std::isfinite(valuesOf("height", "blocked")[behind]));
+  EXPECT_EQ(valuesOf("horizon", "blocked")[behind], 90);
+  // Beside the hole and behind the wall a height is known.
+  EXPECT_GT(valuesOf("height", "unknown")[2 * 61 + 40], 0);
+}
+
 TEST_F(SightCommands, ViewshedRefusesWhatMakesNoSense) {
   makeModel();
   write("masts.csv", "x,y\n1105,1895\n");
