@@ -236,6 +236,7 @@ Result<PlacedGrid> gridOf(const Question& q, Session& session) {
   std::vector<std::string> warnings;
   auto grid = readPlacedGrid(a.like, q.model, warnings, session.context());
   session.warn(warnings, a.like);
+  if (!grid && grid.error().code == ErrorCode::usage) grid.error().culprit = "--like " + a.like;
   return grid;
 }
 

@@ -328,6 +328,12 @@ TEST_F(SightCommands, ViewshedTakesTheGridOfAnotherRaster) {
   refused({"viewshed", "dem.amt", "--observer", "1105,1895,20", "--observer", "1205,1895,20", "--like",
            "half.tif", "-o", "v.tif"},
           2, "is for one observer");
+  // Somewhere else.
+  g[0] += 5000;
+  ASSERT_TRUE(writeGeoTiff(path("far.tif"), half.columns, half.rows, half.heights, half.georeference));
+  refused({"viewshed", "dem.amt", "--observer", "1105,1895,20", "--like", "far.tif", "-o", "v.tif"}, 2,
+          "--like far.tif: has no sample within the DEM");
+  EXPECT_FALSE(exists("v.tif"));
 }
 
 TEST_F(SightCommands, ViewshedOfManyCountsAndNamesTheNearest) {
