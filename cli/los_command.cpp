@@ -221,6 +221,7 @@ Status runLos(const LosArguments& a, Session& session) {
                              .answers = *answers,
                              .model = *model,
                              .hasFresnel = a.frequency > 0,
+                             .hasTolerance = a.maxError > 0,
                              .fresnel = a.fresnel};
   Json json = {{"model", a.model},
                {"verticalUnit", model->georeference.verticalUnit},

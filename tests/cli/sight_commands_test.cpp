@@ -80,6 +80,50 @@ TEST_F(SightCommands, LosTellsWhatIsInTheWay) {
   EXPECT_EQ(touching["touching"], true);
 }
 
+TEST_F(SightCommands, LosMarksAnObstructionOfApproximateTerrain) {
+  // Hills, of which a coarse triangulation says where they hide something, but not to the metre.
+  constexpr std::uint32_t kSide = 65;
+  std::vector<double> heights;
+  for (std::uint32_t row = 0; row < kSide; ++row)
+    for (std::uint32_t column = 0; column < kSide; ++column)
+      heights.push_back(100 + 40 * std::sin(column * 0.21) + 5 * std::sin(row * 0.8 + column));
+  Georeference georeference;
+  georeference.geoTransform = {1000, 10, 0, 2000, 0, -10};
+  georeference.hasGeoTransform = true;
+  georeference.verticalUnit = std::string("m");
+  ASSERT_TRUE(writeGeoTiff(path("hills.tif"), kSide, kSide, heights, georeference));
+  ASSERT_EQ(run({"build", "hills.tif", "-o", "hills.amt", "-q"}).code, 0);
+  std::string pairs = "x1,y1,h1,x2,y2,h2\n";
+  for (int i = 0; i < 60; ++i) pairs += fmt::format("1015,{0},1,1635,{0},1\n", 1375 + 10 * i);
+  write("hills.csv", pairs);
+  const auto ask = [&](const char* error) {
+    return run({"los", "hills.amt", "--pairs", "hills.csv", "--max-error", error, "--json"}).json();
+  };
+  const Json exact = ask("0")["answers"], within = ask("6")["answers"];
+  int approximate = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    if (exact[i]["verdict"] == "blocked") {
+      EXPECT_EQ(exact[i]["obstruction"]["approximate"], false);
+    }
+    if (within[i]["verdict"] != "blocked") continue;
+    ASSERT_EQ(exact[i]["verdict"], "blocked");
+    const double first = exact[i]["obstruction"]["distance"], told = within[i]["obstruction"]["distance"];
+    if (within[i]["obstruction"]["approximate"] == true) {
+      ++approximate;
+      EXPECT_LE(first, told + 1e-6) << i;
+    } else {
+      EXPECT_NEAR(first, told, 1e-6) << i;
+    }
+  }
+  EXPECT_GT(approximate, 0);
+  const auto lines = linesOf(run({"los", "hills.amt", "--pairs", "hills.csv", "--max-error", "6"}).out);
+  EXPECT_NE(lines.at(0).find("obstruction_distance,gap,obstruction_approximate,visited"), std::string::npos);
+  const Outcome text =
+      run({"los", "hills.amt", "--from", "1015,1685,1", "--to", "1635,1685,1", "--max-error", "6"});
+  EXPECT_NE(text.out.find("of the approximate terrain; the first is there or nearer"), std::string::npos)
+      << text.out;
+}
+
 TEST_F(SightCommands, LosTakesNodataAsItIsTold) {
   makeModel();
   const auto verdict = [&](const char* nodata) {
