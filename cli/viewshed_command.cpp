@@ -288,6 +288,8 @@ void tellCounts(const ViewshedArguments& a, const std::vector<ViewshedCell>& cel
 
 Status answer(const Question& q, Session& session) {
   const ViewshedArguments& a = q.arguments;
+  if (!q.model.isRaster)
+    return failure(ErrorCode::usage, "a viewshed is for rasters, and this model is of points", a.model);
   const auto maker = ViewshedMaker::make(q.model, q.earth, {}, session.context());
   if (!maker) return tl::unexpected(maker.error());
   auto grid = gridOf(q, session);
@@ -302,6 +304,9 @@ Status answer(const Question& q, Session& session) {
   if (!a.like.empty()) json["like"] = a.like;
   auto made = q.isOfOne() ? answerOne(q, *maker, *grid, session.context(), json)
                           : answerMany(q, *maker, session.context());
+  // What a method cannot do is no fault of a file: another option answers.
+  if (!made && made.error().code == ErrorCode::unsupported && a.method == ViewshedMethod::sweep)
+    return failure(ErrorCode::usage, made.error().message, "--method sweep");
   if (!made) return tl::unexpected(made.error());
   Picture& picture = made->picture;
   picture.options.description = descriptionOf(a.mode);
@@ -319,6 +324,8 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
     return failure(ErrorCode::usage, "--observer or --observers says from where");
   if (!a.layer.empty() && a.observers.empty())
     return failure(ErrorCode::usage, "means something only with --observers", "--layer");
+  if (a.method == ViewshedMethod::sweep && a.maxError > 0)
+    return failure(ErrorCode::usage, "has no tolerance, so --max-error has no place", "--method sweep");
   const auto options = optionsOf(a);
   if (!options) return tl::unexpected(options.error());
   const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());

@@ -267,6 +267,33 @@ TEST_F(SightCommands, LosRefusesWhatMakesNoSense) {
   EXPECT_NE(heightless.err.find("has no height; --observer-height says one"), std::string::npos);
 }
 
+TEST_F(SightCommands, MethodsThatCannotAnswerAreRefusedByName) {
+  makeModel("EPSG:32632");
+  const auto viewshed = [&](const std::vector<std::string>& more, const std::string& sentence,
+                            const std::string& model = "dem.amt") {
+    std::vector<std::string> arguments = {"viewshed", model, "-o", "v.tif"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    refused(arguments, 2, sentence);
+    EXPECT_FALSE(exists("v.tif"));
+  };
+  const std::string at = "500105,5199895,20";
+  viewshed({"--observer", at, "--method", "sweep", "--max-error", "5"},
+           "--method sweep: has no tolerance, so --max-error has no place");
+  for (const char* mode : {"height", "horizon"})
+    viewshed({"--observer", at, "--method", "sweep", "--mode", mode}, "--method sweep: over an ellipsoid");
+  viewshed({"--observer", at, "--method", "sweep", "--like", "dem.tif"}, "--method sweep: is for the grid");
+  std::string points = "x,y,z\n";
+  for (int i = 0; i < 40; ++i) points += fmt::format("{},{},{}\n", i * 37 % 40, i * 17 % 40, i % 7);
+  write("points.csv", points);
+  const Outcome built = run({"build", "points.csv", "-o", "points.amt", "-q"});
+  ASSERT_EQ(built.code, 0) << built.err;
+  viewshed({"--observer", "20,20,20"}, "points.amt: a viewshed is for rasters", "points.amt");
+  for (const char* method : {"pyramid", "scan", "embree"})
+    refused({"los", "points.amt", "--from", "20,20,5", "--to", "10,20,5", "--method", method}, 2,
+            std::string("--method ") + method + ": is for rasters");
+  EXPECT_EQ(run({"los", "points.amt", "--from", "20,20,5", "--to", "10,20,5"}).code, 0);
+}
+
 TEST_F(SightCommands, ProfileHasAVertexForEveryEdge) {
   makeModel();
   const Outcome outcome = run({"profile", "dem.amt", "--along", "1285,1895:1325,1895"});
