@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <memory>
@@ -21,6 +22,7 @@
 #include "io/position_argument.h"
 #include "io/raster_writer.h"
 #include "io/sight_pairs.h"
+#include "io/text_scan.h"
 #include "terrain/sight_links.h"
 #include "terrain/viewshed.h"
 #include "terrain/viewshed_many.h"
@@ -322,6 +324,10 @@ Status answer(const Question& q, Session& session) {
 Status runViewshed(const ViewshedArguments& a, Session& session) {
   if (a.observer.empty() && a.observers.empty())
     return failure(ErrorCode::usage, "--observer or --observers says from where");
+  const std::string extension = text::lowered(std::filesystem::path(a.output).extension().string());
+  if (extension != ".tif" && extension != ".tiff")
+    return failure(ErrorCode::usage, "a viewshed is a GeoTIFF and ends in .tif or .tiff",
+                   "--output " + a.output);
   if (!a.layer.empty() && a.observers.empty())
     return failure(ErrorCode::usage, "means something only with --observers", "--layer");
   if (a.method == ViewshedMethod::sweep && a.maxError > 0)

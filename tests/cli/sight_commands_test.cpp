@@ -510,6 +510,12 @@ TEST_F(SightCommands, ViewshedRefusesWhatMakesNoSense) {
   refused({"viewshed", "dem.amt", "--observer", "1105,1895,2", "--observer", "1205,1895,2", "--mode",
            "height", "-o", "v.tif"},
           2, "is of one observer");
+  for (const char* output : {"v.png", "v.csv", "v", "v.tif.gz"}) {
+    refused({"viewshed", "dem.amt", "--observer", "1105,1895,2", "-o", output}, 2,
+            std::string("--output ") + output + ": a viewshed is a GeoTIFF and ends in .tif or .tiff");
+    EXPECT_FALSE(exists(output));
+  }
+  EXPECT_EQ(run({"viewshed", "dem.amt", "--observer", "1105,1895,2", "-o", "V.TIFF", "-q"}).code, 0);
   refused({"viewshed", "dem.amt", "--observer", "1105,1895,2", "--azimuth", "3", "-o", "v.tif"}, 2,
           "is two numbers");
   EXPECT_FALSE(exists("v.tif"));
