@@ -211,6 +211,9 @@ Status runLos(const LosArguments& a, Session& session) {
   const Profiles profiles(*model, grid);
   const SightRows rows = SightRows::of(*pairs, profiles.heights());
   const SightMethod method = bestMethod(a.method, a.maxError, rows.links.size(), *model);
+  if (!model->isRaster && method != SightMethod::descent)
+    return failure(ErrorCode::usage, fmt::format("is for rasters, and {} is of points", a.model),
+                   fmt::format("--method {}", toString(method)));
   const auto engine = makeSightEngine(method, *model, grid, session.context());
   if (!engine) return tl::unexpected(engine.error());
   const auto answers = answerLinks(rows.links, **earth, **engine, profiles, *options, session.context());
@@ -221,6 +224,7 @@ Status runLos(const LosArguments& a, Session& session) {
                              .answers = *answers,
                              .model = *model,
                              .hasFresnel = a.frequency > 0,
+                             .hasTolerance = a.maxError > 0,
                              .fresnel = a.fresnel};
   Json json = {{"model", a.model},
                {"verticalUnit", model->georeference.verticalUnit},

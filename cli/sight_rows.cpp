@@ -123,6 +123,8 @@ std::string SightResults::textOf(std::size_t row) const {
                             ? "NODATA"
                             : "terrain of " + withUnit(a.sight.obstruction->terrainHeight, unit),
                         placeText(*a.sight.obstruction));
+  if (a.sight.isObstructionLatest)
+    text += "             of the approximate terrain; the first is there or nearer\n";
   if (a.sight.gapMetres > 0)
     text += fmt::format("no terrain   below {:.1f} m of the line\n", a.sight.gapMetres);
   if (a.fresnel)
@@ -163,6 +165,7 @@ Json SightResults::jsonOf(std::size_t row) const {
   json["clearanceWithin"] = a.sight.clearanceWithin;
   json["least"] = a.sight.clearance ? placeJson(a.sight.least) : Json();
   json["obstruction"] = a.sight.obstruction ? placeJson(*a.sight.obstruction) : Json();
+  if (a.sight.obstruction) json["obstruction"]["approximate"] = a.sight.isObstructionLatest;
   json["gap"] = a.sight.gapMetres;
   json["visited"] = a.sight.visited;
   if (hasFresnel) {
@@ -183,6 +186,7 @@ PointAttributes SightResults::columns() const {
        {"distance", "azimuth", "elevation", "clearance", "clearance_within", "obstruction_x", "obstruction_y",
         "obstruction_height", "obstruction_distance", "gap"})
     table.columns.push_back({name, Kind::real});
+  if (hasTolerance) table.columns.push_back({"obstruction_approximate", Kind::integer});
   table.columns.push_back({"visited", Kind::integer});
   if (hasFresnel) {
     table.columns.push_back({"fresnel", Kind::real});
@@ -206,7 +210,7 @@ PointAttributes SightResults::columns() const {
     table.add(number(to.stated.y));
     table.add(error ? "" : number(link.toHeight));
     if (error) {
-      for (int k = 0; k < (hasFresnel ? 14 : 12); ++k) table.add({});
+      for (int k = 0; k < 12 + (hasTolerance ? 1 : 0) + (hasFresnel ? 2 : 0); ++k) table.add({});
       table.add(error->describe());
       continue;
     }
@@ -225,6 +229,7 @@ PointAttributes SightResults::columns() const {
     table.add(obstruction ? number(obstruction->terrainHeight) : "");
     table.add(obstruction ? number(obstruction->distance) : "");
     table.add(number(a.sight.gapMetres));
+    if (hasTolerance) table.add(obstruction ? a.sight.isObstructionLatest ? "1" : "0" : "");
     table.add(fmt::format("{}", a.sight.visited));
     if (hasFresnel) {
       table.add(a.fresnel ? number(a.fresnel->fraction) : "");

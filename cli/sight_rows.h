@@ -43,7 +43,7 @@ struct SightResults {
   const SightRows& rows;
   std::span<const Result<SightLinkAnswer>> answers;  ///< one per link
   const TerrainModel& model;
-  bool hasFresnel = false;
+  bool hasFresnel = false, hasTolerance = false;
   double fresnel = kUsualFresnel;
 
   /// Null where the row has an answer.

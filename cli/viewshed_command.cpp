@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <memory>
@@ -21,6 +22,7 @@
 #include "io/position_argument.h"
 #include "io/raster_writer.h"
 #include "io/sight_pairs.h"
+#include "io/text_scan.h"
 #include "terrain/sight_links.h"
 #include "terrain/viewshed.h"
 #include "terrain/viewshed_many.h"
@@ -174,7 +176,7 @@ Picture pictureOfOne(Mode mode, const Viewshed& viewshed) {
   for (std::size_t i = 0; i < viewshed.cells.size(); ++i) {
     double value = viewshed.cells[i] == ViewshedCell::outside ? std::nan("") : double(viewshed.values[i]);
     if (mode == Mode::horizon) value = std::atan(value) * 180 / std::numbers::pi;
-    picture.values.push_back(std::isfinite(value) ? value : std::nan(""));
+    picture.values.push_back(value);
   }
   return picture;
 }
@@ -198,13 +200,13 @@ Picture pictureOfMany(Mode mode, const ViewshedOfMany& all) {
 const char* descriptionOf(Mode mode) {
   switch (mode) {
     case Mode::height:
-      return "least height above the terrain that is seen";
+      return "least height above the terrain that is seen; infinite = none";
     case Mode::horizon:
       return "elevation of the horizon, degrees";
     case Mode::count:
-      return "observers that see it";
+      return "observers that see it; 65533 unknown, 65534 undecided";
     case Mode::server:
-      return "nearest observer that sees it, from 1; 0 = none";
+      return "nearest observer that sees it, from 1; 0 = none, 65533 unknown, 65534 undecided";
     default:
       return "255 seen, 0 hidden, 100 unknown, 200 undecided";
   }
@@ -236,6 +238,7 @@ Result<PlacedGrid> gridOf(const Question& q, Session& session) {
   std::vector<std::string> warnings;
   auto grid = readPlacedGrid(a.like, q.model, warnings, session.context());
   session.warn(warnings, a.like);
+  if (!grid && grid.error().code == ErrorCode::usage) grid.error().culprit = "--like " + a.like;
   return grid;
 }
 
@@ -287,6 +290,8 @@ void tellCounts(const ViewshedArguments& a, const std::vector<ViewshedCell>& cel
 
 Status answer(const Question& q, Session& session) {
   const ViewshedArguments& a = q.arguments;
+  if (!q.model.isRaster)
+    return failure(ErrorCode::usage, "a viewshed is for rasters, and this model is of points", a.model);
   const auto maker = ViewshedMaker::make(q.model, q.earth, {}, session.context());
   if (!maker) return tl::unexpected(maker.error());
   auto grid = gridOf(q, session);
@@ -301,6 +306,9 @@ Status answer(const Question& q, Session& session) {
   if (!a.like.empty()) json["like"] = a.like;
   auto made = q.isOfOne() ? answerOne(q, *maker, *grid, session.context(), json)
                           : answerMany(q, *maker, session.context());
+  // What a method cannot do is no fault of a file: another option answers.
+  if (!made && made.error().code == ErrorCode::unsupported && a.method == ViewshedMethod::sweep)
+    return failure(ErrorCode::usage, made.error().message, "--method sweep");
   if (!made) return tl::unexpected(made.error());
   Picture& picture = made->picture;
   picture.options.description = descriptionOf(a.mode);
@@ -316,8 +324,14 @@ Status answer(const Question& q, Session& session) {
 Status runViewshed(const ViewshedArguments& a, Session& session) {
   if (a.observer.empty() && a.observers.empty())
     return failure(ErrorCode::usage, "--observer or --observers says from where");
+  const std::string extension = text::lowered(std::filesystem::path(a.output).extension().string());
+  if (extension != ".tif" && extension != ".tiff")
+    return failure(ErrorCode::usage, "a viewshed is a GeoTIFF and ends in .tif or .tiff",
+                   "--output " + a.output);
   if (!a.layer.empty() && a.observers.empty())
     return failure(ErrorCode::usage, "means something only with --observers", "--layer");
+  if (a.method == ViewshedMethod::sweep && a.maxError > 0)
+    return failure(ErrorCode::usage, "has no tolerance, so --max-error has no place", "--method sweep");
   const auto options = optionsOf(a);
   if (!options) return tl::unexpected(options.error());
   const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());

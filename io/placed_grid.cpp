@@ -5,6 +5,7 @@
 
 #include "io/crs_transform.h"
 #include "io/raster_reader.h"
+#include "terrain/sight_links.h"
 
 namespace arete {
 
@@ -29,7 +30,13 @@ Result<PlacedGrid> readPlacedGrid(const std::string& path, const TerrainModel& m
     if (!transform) return tl::unexpected(transform.error());
     transform->apply(grid.places);
   }
-  for (Vec2& place : grid.places) place = model.toPlan(place);
+  bool hasPlace = false;
+  for (Vec2& place : grid.places) {
+    place = sightPlan(model, place);
+    hasPlace = hasPlace || (place.x >= 0 && place.y >= 0 && place.x <= model.columns - 1.0 &&
+                            place.y <= model.rows - 1.0);
+  }
+  if (!hasPlace) return failure(ErrorCode::usage, "has no sample within the DEM", path);
   return grid;
 }
 

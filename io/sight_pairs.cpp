@@ -146,6 +146,9 @@ class PairReader {
     if (hasDirection()) {
       if (Status read = readNumber(feature, azimuth_, direction[0]); !read) return read;
       if (Status read = readNumber(feature, range_, direction[1]); !read) return read;
+      // Behind the first end is where another azimuth leads.
+      if (!std::isfinite(row[1].stated.x) && direction[1] <= 0)
+        return failure(ErrorCode::invalidData, "has a range that is not above 0", where(feature));
     }
     directions_.push_back(direction);
     if (hasGeometry_) pairs_.attributes.add(fmt::format("{}", feature.GetFID()));

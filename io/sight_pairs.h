@@ -46,7 +46,8 @@ struct SightPairs {
 /// along the geodesic. The columns h1 and h2 (from_height, to_height, ...) hold heights, "30", "30agl",
 /// "120msl"; of points, h, height or agl. A table's coordinates are the DEM's, or longitude and latitude; a
 /// layer's are brought from its CRS into the DEM's. Errors: notFound, unreadable, unsupported, usage,
-/// invalidData (no such columns; a field that is no number, with its row; no row at all), interrupted.
+/// invalidData (no such columns; a field that is no number, a range not above 0, with its row; no row at
+/// all), interrupted.
 /// O(rows).
 Result<SightPairs> readSightPairs(const std::string& path, const Georeference& dem,
                                   const PointTableOptions& options = {}, const RunContext& context = {});

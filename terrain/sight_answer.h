@@ -42,6 +42,9 @@ struct SightAnswer {
   /// for. To the metre it is where the line goes under; by the tolerance of SightLine the terrain is higher
   /// there.
   std::optional<SightPlace> obstruction;
+  /// For maxError > 0: the obstruction is that of terrain known within the tolerance; full resolution's is
+  /// there or nearer to the first end.
+  bool isObstructionLatest = false;
   /// The least height of the line above the terrain, negative when blocked: where terrain is below the line,
   /// and when it was asked for.
   std::optional<double> clearance;

@@ -60,6 +60,7 @@ void SightJudge::take(double s0, double z0, double s1, double z1, double lower, 
       const double s = firstUnder(line_, s0, z0 - lower, s1, z1 - lower, found.distance);
       const double t = s1 > s0 ? (s - s0) / (s1 - s0) : 0;
       obstruction_ = SightPlace{s, line_.planAt(s), z0 + t * (z1 - z0), line_.height(s)};
+      isObstructionLatest_ = mayBeBlocked_ || lower > 0 || higher > 0;
       if (!options_.wantsClearance) isDone_ = true;
     } else {
       mayBeBlocked_ = true;
@@ -74,6 +75,7 @@ void SightJudge::gap(double s0, double s1) {
   gap_ += s1 - s0;
   if (options_.nodata != NodataSight::blocked || obstruction_) return;
   obstruction_ = SightPlace{s0, line_.planAt(s0), std::nan(""), line_.height(s0)};
+  isObstructionLatest_ = mayBeBlocked_;
   if (!options_.wantsClearance) isDone_ = true;
   setLimit();
 }
@@ -83,6 +85,7 @@ SightAnswer SightJudge::answer(std::uint64_t visited) const {
   answer.visited = visited;
   answer.gapMetres = gap_;
   answer.obstruction = obstruction_;
+  answer.isObstructionLatest = isObstructionLatest_;
   if (options_.wantsClearance && most_ < kNone) {
     answer.clearance = least_ / 2 + most_ / 2;
     answer.clearanceWithin = (most_ - least_) / 2;

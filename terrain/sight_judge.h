@@ -57,6 +57,7 @@ class SightJudge {
   double leastAt_ = 0, leastTerrain_ = 0;
   double gap_ = 0;
   bool countsGaps_, hasGap_ = false, isDone_ = false, mayBeBlocked_ = false;
+  bool isObstructionLatest_ = false;
   std::optional<SightPlace> obstruction_;
 };
 

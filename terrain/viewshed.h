@@ -45,11 +45,12 @@ struct ViewshedField {
 enum class ViewshedValue : std::uint8_t {
   none,
   /// The least height above the terrain, in the DEM's vertical unit, that would be seen there: 0 where the
-  /// terrain is; infinite where none would (an observer below the ground, NODATA that blocks). Whatever the
-  /// target height.
+  /// terrain is; infinite where none would (an observer below the ground, NODATA that blocks); NaN where
+  /// NODATA in between leaves it unknown. Whatever the target height.
   leastHeight,
   /// The tangent of the elevation at which the terrain ends for the observer, looking over the cell: of all
-  /// terrain from the observer to the cell, the cell's included. Infinite as above.
+  /// terrain from the observer to the cell, the cell's included: of what there is, where NODATA does not
+  /// block. Infinite as above.
   horizon,
 };
 

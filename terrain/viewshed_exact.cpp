@@ -81,6 +81,9 @@ float ViewshedExact::value(const SightTrack& track, double ground) const {
       height = kInfinite;
       break;
     }
+    // Lines to any height pass over the same NODATA.
+    if (!isHorizon && options_.nodata == NodataSight::unknown && answer.gapMetres > 0)
+      return std::numeric_limits<float>::quiet_NaN();
     if (!answer.clearance || *answer.clearance >= (step == 0 ? -line.tolerance() : 0)) break;
     const SightPlace& least = answer.least;
     if (!(least.distance > shortest)) {

@@ -5,6 +5,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/with_threads.h"
@@ -13,6 +14,7 @@ namespace arete {
 namespace {
 
 constexpr std::size_t kMostObservers = 65000, kCellsPerTask = 4096;
+static_assert(kMostObservers < ViewshedOfMany::kUnknown);
 
 /// Which of two cells says more about what the observers see together.
 int weightOf(ViewshedCell cell) {
@@ -30,6 +32,36 @@ int weightOf(ViewshedCell cell) {
   }
 }
 
+bool isSure(ViewshedCell cell) {
+  return cell != ViewshedCell::unknown && cell != ViewshedCell::undecided;
+}
+
+std::uint16_t markOf(ViewshedCell cell) {
+  return cell == ViewshedCell::undecided ? ViewshedOfMany::kUndecided : ViewshedOfMany::kUnknown;
+}
+
+/// One observer more.
+void addTo(std::uint16_t& count, ViewshedCell cell) {
+  const bool isCounted = count < ViewshedOfMany::kUnknown;
+  if (!isSure(cell)) {
+    count = isCounted ? markOf(cell) : std::max(count, markOf(cell));
+  } else if (isCounted && cell == ViewshedCell::seen) {
+    ++count;
+  }
+}
+
+/// The nearest observer so far of some kind; 0 = none.
+struct Nearest {
+  std::uint16_t who = 0;
+  float distance = 0;
+
+  void add(std::uint16_t other, float itsDistance) {
+    if (who != 0 && !(itsDistance < distance)) return;
+    who = other;
+    distance = itsDistance;
+  }
+};
+
 }  // namespace
 
 Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainModel& model,
@@ -46,11 +78,7 @@ Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainM
   const std::size_t size = std::size_t{all.columns} * all.rows;
   all.cells.assign(size, ViewshedCell::outside);
   all.count.assign(size, 0);
-  std::vector<float> nearest;
-  if (wantsServer) {
-    all.server.assign(size, 0);
-    nearest.assign(size, 0);
-  }
+  std::vector<Nearest> sees(wantsServer ? size : 0), maySee(sees);
   for (std::size_t n = 0; n < sites.size(); ++n) {
     RunContext part = context;
     part.progress = [&](std::string_view stage, double fraction) {
@@ -66,21 +94,26 @@ Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainM
         for (std::size_t i = range.begin(); i < range.end() && !context.cancelled(); ++i) {
           const ViewshedCell cell = one->cells[i];
           if (weightOf(cell) > weightOf(all.cells[i])) all.cells[i] = cell;
-          if (cell != ViewshedCell::seen) continue;
-          ++all.count[i];
-          if (!wantsServer) continue;
+          addTo(all.count[i], cell);
+          if (!wantsServer || (isSure(cell) && cell != ViewshedCell::seen)) continue;
           const Vec2 place{double(i % all.columns), double(i / all.columns)};
           const auto track = earth.track(sites[n].observer.plan, place);
           if (!track) continue;
           const auto distance = static_cast<float>(track->points.back().distance);
-          if (all.server[i] == 0 || distance < nearest[i]) {
-            all.server[i] = server;
-            nearest[i] = distance;
+          if (isSure(cell)) {
+            sees[i].add(server, distance);
+          } else {
+            maySee[i].add(markOf(cell), distance);
           }
         }
       });
     });
     if (context.cancelled()) return failure(ErrorCode::interrupted, "the viewshed was stopped");
+  }
+  all.server.reserve(sees.size());
+  for (std::size_t i = 0; i < sees.size(); ++i) {
+    const bool isKnown = maySee[i].who == 0 || (sees[i].who != 0 && sees[i].distance < maySee[i].distance);
+    all.server.push_back(isKnown ? sees[i].who : maySee[i].who);
   }
   return all;
 }

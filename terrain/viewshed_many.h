@@ -22,8 +22,13 @@ struct ViewshedOfMany {
   std::uint32_t columns = 0, rows = 0;
   /// Seen by any; else undecided or unknown by any; else hidden from any; outside for all.
   std::vector<ViewshedCell> cells;
-  std::vector<std::uint16_t> count;  ///< how many see the cell
-  /// The observer nearest along the ground of those that see the cell, counted from 1; 0 = none. Empty unless
+  /// What stands for a number that is not known: greater than any number of observers.
+  static constexpr std::uint16_t kUnknown = 65533, kUndecided = 65534;
+  /// How many see the cell. Not known where whether one of them does is not: kUndecided where any is
+  /// undecided, else kUnknown.
+  std::vector<std::uint16_t> count;
+  /// The observer nearest along the ground of those that see the cell, counted from 1; 0 = none. Not known
+  /// where one that is no farther may see it as well: the nearest such says which of the two. Empty unless
   /// asked for.
   std::vector<std::uint16_t> server;
 };
@@ -31,7 +36,7 @@ struct ViewshedOfMany {
 /// Viewsheds of up to 65 000 observers, one after the other, each on all threads; the options' own field is
 /// not used. The same for any number of
 /// threads. Preconditions: `earth` and `model` are those of the maker. Errors: usage (none, too many), those
-/// of ViewshedMaker::from(). Memory: 8 bytes per sample beside one viewshed.
+/// of ViewshedMaker::from(). Memory: 21 bytes per sample beside one viewshed.
 Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainModel& model,
                                       const SightEarth& earth, std::span<const ViewshedSite> sites,
                                       const ViewshedOptions& options, bool wantsServer,

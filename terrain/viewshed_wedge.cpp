@@ -248,11 +248,13 @@ Status ViewshedWedgeSweep::askOne(int x, int y) {
   if (picture_.isFan() && gap.isPossible) isSeen = false;
   if (!isSeen && !isHidden) return exactly(at, x, y);
   if ((wantsValue_ || !isSeen) && isAtTip(bin, u)) return exactly(at, x, y);
-  bool isUnknown = false, isCut = false;
+  const bool wantsHeight = options.value == ViewshedValue::leastHeight;
+  bool isUnknown = false, isUnknownHeight = false, isCut = false;
   if (gap.isPossible && options.nodata != NodataSight::clear) {
     if (options.nodata == NodataSight::unknown) {
-      if (isSeen && !gap.isCertain) return exactly(at, x, y);
+      if ((isSeen || wantsHeight) && !gap.isCertain) return exactly(at, x, y);
       isUnknown = isSeen;
+      isUnknownHeight = wantsHeight;
     } else {
       if (!gap.isCertain) return exactly(at, x, y);
       isCut = isHidden = true;
@@ -265,7 +267,9 @@ Status ViewshedWedgeSweep::askOne(int x, int y) {
   const double ground = picture_.target(far_, i, 0);
   if (isCut) {
     result_.values[at] = std::numeric_limits<float>::infinity();
-  } else if (options.value == ViewshedValue::leastHeight) {
+  } else if (isUnknownHeight) {
+    result_.values[at] = std::numeric_limits<float>::quiet_NaN();
+  } else if (wantsHeight) {
     if (ground < skyline.upper && !(ground < skyline.lower)) return exactly(at, x, y);
     result_.values[at] =
         ground >= skyline.upper ? 0.0f : static_cast<float>((skyline.upper - ground) * far_.x);

@@ -80,6 +80,50 @@ TEST_F(SightCommands, LosTellsWhatIsInTheWay) {
   EXPECT_EQ(touching["touching"], true);
 }
 
+TEST_F(SightCommands, LosMarksAnObstructionOfApproximateTerrain) {
+  // Hills, of which a coarse triangulation says where they hide something, but not to the metre.
+  constexpr std::uint32_t kSide = 65;
+  std::vector<double> heights;
+  for (std::uint32_t row = 0; row < kSide; ++row)
+    for (std::uint32_t column = 0; column < kSide; ++column)
+      heights.push_back(100 + 40 * std::sin(column * 0.21) + 5 * std::sin(row * 0.8 + column));
+  Georeference georeference;
+  georeference.geoTransform = {1000, 10, 0, 2000, 0, -10};
+  georeference.hasGeoTransform = true;
+  georeference.verticalUnit = std::string("m");
+  ASSERT_TRUE(writeGeoTiff(path("hills.tif"), kSide, kSide, heights, georeference));
+  ASSERT_EQ(run({"build", "hills.tif", "-o", "hills.amt", "-q"}).code, 0);
+  std::string pairs = "x1,y1,h1,x2,y2,h2\n";
+  for (int i = 0; i < 60; ++i) pairs += fmt::format("1015,{0},1,1635,{0},1\n", 1375 + 10 * i);
+  write("hills.csv", pairs);
+  const auto ask = [&](const char* error) {
+    return run({"los", "hills.amt", "--pairs", "hills.csv", "--max-error", error, "--json"}).json();
+  };
+  const Json exact = ask("0")["answers"], within = ask("6")["answers"];
+  int approximate = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    if (exact[i]["verdict"] == "blocked") {
+      EXPECT_EQ(exact[i]["obstruction"]["approximate"], false);
+    }
+    if (within[i]["verdict"] != "blocked") continue;
+    ASSERT_EQ(exact[i]["verdict"], "blocked");
+    const double first = exact[i]["obstruction"]["distance"], told = within[i]["obstruction"]["distance"];
+    if (within[i]["obstruction"]["approximate"] == true) {
+      ++approximate;
+      EXPECT_LE(first, told + 1e-6) << i;
+    } else {
+      EXPECT_NEAR(first, told, 1e-6) << i;
+    }
+  }
+  EXPECT_GT(approximate, 0);
+  const auto lines = linesOf(run({"los", "hills.amt", "--pairs", "hills.csv", "--max-error", "6"}).out);
+  EXPECT_NE(lines.at(0).find("obstruction_distance,gap,obstruction_approximate,visited"), std::string::npos);
+  const Outcome text =
+      run({"los", "hills.amt", "--from", "1015,1685,1", "--to", "1635,1685,1", "--max-error", "6"});
+  EXPECT_NE(text.out.find("of the approximate terrain; the first is there or nearer"), std::string::npos)
+      << text.out;
+}
+
 TEST_F(SightCommands, LosTakesNodataAsItIsTold) {
   makeModel();
   const auto verdict = [&](const char* nodata) {
@@ -223,6 +267,33 @@ TEST_F(SightCommands, LosRefusesWhatMakesNoSense) {
   EXPECT_NE(heightless.err.find("has no height; --observer-height says one"), std::string::npos);
 }
 
+TEST_F(SightCommands, MethodsThatCannotAnswerAreRefusedByName) {
+  makeModel("EPSG:32632");
+  const auto viewshed = [&](const std::vector<std::string>& more, const std::string& sentence,
+                            const std::string& model = "dem.amt") {
+    std::vector<std::string> arguments = {"viewshed", model, "-o", "v.tif"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    refused(arguments, 2, sentence);
+    EXPECT_FALSE(exists("v.tif"));
+  };
+  const std::string at = "500105,5199895,20";
+  viewshed({"--observer", at, "--method", "sweep", "--max-error", "5"},
+           "--method sweep: has no tolerance, so --max-error has no place");
+  for (const char* mode : {"height", "horizon"})
+    viewshed({"--observer", at, "--method", "sweep", "--mode", mode}, "--method sweep: over an ellipsoid");
+  viewshed({"--observer", at, "--method", "sweep", "--like", "dem.tif"}, "--method sweep: is for the grid");
+  std::string points = "x,y,z\n";
+  for (int i = 0; i < 40; ++i) points += fmt::format("{},{},{}\n", i * 37 % 40, i * 17 % 40, i % 7);
+  write("points.csv", points);
+  const Outcome built = run({"build", "points.csv", "-o", "points.amt", "-q"});
+  ASSERT_EQ(built.code, 0) << built.err;
+  viewshed({"--observer", "20,20,20"}, "points.amt: a viewshed is for rasters", "points.amt");
+  for (const char* method : {"pyramid", "scan", "embree"})
+    refused({"los", "points.amt", "--from", "20,20,5", "--to", "10,20,5", "--method", method}, 2,
+            std::string("--method ") + method + ": is for rasters");
+  EXPECT_EQ(run({"los", "points.amt", "--from", "20,20,5", "--to", "10,20,5"}).code, 0);
+}
+
 TEST_F(SightCommands, ProfileHasAVertexForEveryEdge) {
   makeModel();
   const Outcome outcome = run({"profile", "dem.amt", "--along", "1285,1895:1325,1895"});
@@ -328,6 +399,12 @@ TEST_F(SightCommands, ViewshedTakesTheGridOfAnotherRaster) {
   refused({"viewshed", "dem.amt", "--observer", "1105,1895,20", "--observer", "1205,1895,20", "--like",
            "half.tif", "-o", "v.tif"},
           2, "is for one observer");
+  // Somewhere else.
+  g[0] += 5000;
+  ASSERT_TRUE(writeGeoTiff(path("far.tif"), half.columns, half.rows, half.heights, half.georeference));
+  refused({"viewshed", "dem.amt", "--observer", "1105,1895,20", "--like", "far.tif", "-o", "v.tif"}, 2,
+          "--like far.tif: has no sample within the DEM");
+  EXPECT_FALSE(exists("v.tif"));
 }
 
 TEST_F(SightCommands, ViewshedOfManyCountsAndNamesTheNearest) {
@@ -368,6 +445,62 @@ TEST_F(SightCommands, ViewshedOfManyCountsAndNamesTheNearest) {
   EXPECT_NEAR(valueAt("v.tif", 1505, 1895), std::atan(10.0 / 200) * 180 / 3.14159265358979, 1e-4);
 }
 
+TEST_F(SightCommands, ViewshedOfManyTakesNobodyForBlindWhoMaySee) {
+  makeModel();
+  const auto valuesOf = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"viewshed", "dem.amt", "--observer", "1205,1615,20",
+                                          "-o",       "v.tif",   "--observer", "1105,1615,20",
+                                          "-q",       "--nodata"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    auto read = readRaster(path("v.tif"));
+    EXPECT_TRUE(read);
+    return read ? std::move(read->heightfield.heights) : std::vector<double>();
+  };
+  // Behind the hole neither is known to see anything, before it both do.
+  const std::size_t behind = 38 * 61 + 40, before = 38 * 61 + 22;
+  for (const char* mode : {"count", "server"}) {
+    const auto unknown = valuesOf({"unknown", "--mode", mode});
+    EXPECT_EQ(unknown[behind], 65533) << mode;
+    EXPECT_EQ(unknown[before], mode == std::string("count") ? 2 : 1);
+    EXPECT_LT(valuesOf({"clear", "--mode", mode})[behind], 3) << mode;
+    const auto exact = valuesOf({"clear", "--mode", mode}),
+               within = valuesOf({"clear", "--mode", mode, "--max-error", "40"});
+    std::size_t undecided = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      if (within[i] == 65534) {
+        ++undecided;
+      } else {
+        EXPECT_TRUE(within[i] == exact[i] || std::isnan(exact[i])) << mode << " " << i;
+      }
+    }
+    EXPECT_GT(undecided, 0u) << mode;
+  }
+}
+
+TEST_F(SightCommands, ViewshedTellsNoHeightBehindNodata) {
+  makeModel();
+  const auto valuesOf = [&](const char* mode, const char* nodata) {
+    const Outcome outcome = run({"viewshed", "dem.amt", "--observer", "1205,1615,20", "--mode", mode,
+                                 "--nodata", nodata, "-o", "v.tif", "-q"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    auto read = readRaster(path("v.tif"));
+    EXPECT_TRUE(read);
+    return read ? std::move(read->heightfield.heights) : std::vector<double>();
+  };
+  const std::size_t behind = 38 * 61 + 40, before = 38 * 61 + 22;
+  for (const char* nodata : {"unknown", "clear", "blocked"})
+    EXPECT_EQ(valuesOf("height", nodata)[before], 0) << nodata;
+  EXPECT_TRUE(std::isnan(valuesOf("height", "unknown")[behind]));
+  EXPECT_EQ(valuesOf("height", "clear")[behind], 0);
+  // Infinite, which a reader of heights takes for NODATA.
+  EXPECT_FALSE(std::isfinite(valuesOf("height", "blocked")[behind]));
+  EXPECT_EQ(valuesOf("horizon", "blocked")[behind], 90);
+  // Beside the hole and behind the wall a height is known.
+  EXPECT_GT(valuesOf("height", "unknown")[2 * 61 + 40], 0);
+}
+
 TEST_F(SightCommands, ViewshedRefusesWhatMakesNoSense) {
   makeModel();
   write("masts.csv", "x,y\n1105,1895\n");
@@ -377,6 +510,12 @@ TEST_F(SightCommands, ViewshedRefusesWhatMakesNoSense) {
   refused({"viewshed", "dem.amt", "--observer", "1105,1895,2", "--observer", "1205,1895,2", "--mode",
            "height", "-o", "v.tif"},
           2, "is of one observer");
+  for (const char* output : {"v.png", "v.csv", "v", "v.tif.gz"}) {
+    refused({"viewshed", "dem.amt", "--observer", "1105,1895,2", "-o", output}, 2,
+            std::string("--output ") + output + ": a viewshed is a GeoTIFF and ends in .tif or .tiff");
+    EXPECT_FALSE(exists(output));
+  }
+  EXPECT_EQ(run({"viewshed", "dem.amt", "--observer", "1105,1895,2", "-o", "V.TIFF", "-q"}).code, 0);
   refused({"viewshed", "dem.amt", "--observer", "1105,1895,2", "--azimuth", "3", "-o", "v.tif"}, 2,
           "is two numbers");
   EXPECT_FALSE(exists("v.tif"));

@@ -84,6 +84,12 @@ TEST_F(SightPairsFile, SaysWhatItLacks) {
       << errorOf("x1,y1,x2,y2\n1,2,3,4\n1,z,3,4\n");
   EXPECT_NE(errorOf("x1,y1,x2,y2,h1\n1,2,3,4,tall\n").find("'tall' is not a height"), std::string::npos);
   EXPECT_NE(errorOf("x1,y1,x2,y2\n").find("holds no line"), std::string::npos);
+  for (const char* range : {"-3000", "0"})
+    EXPECT_NE(errorOf(std::string("x1,y1,azimuth,range\n1,2,20,5\n1,2,200,") + range + "\n")
+                  .find("pairs.csv, row 2: has a range that is not above 0"),
+              std::string::npos);
+  // Where a place says the second end the range does not matter.
+  EXPECT_EQ(errorOf("x1,y1,x2,y2,azimuth,range\n1,2,3,4,200,-3000\n"), "");
 }
 
 TEST_F(SightPairsFile, OfSitesHasHeightsAndBeams) {

@@ -234,6 +234,39 @@ TEST(Viewshed, OfManyCountsWhoSeesACellAndNamesTheNearest) {
   EXPECT_EQ(all->server, server);
 }
 
+TEST(Viewshed, OfManyHasNoNumberWhereItIsNotCertain) {
+  Random random(16);
+  const Place place(rasterFamilies()[3].make(40, 33, 2));
+  const auto maker = ViewshedMaker::make(place.model, *place.earth, place.grid);
+  std::vector<ViewshedSite> sites;
+  for (int i = 0; i < 5; ++i) sites.push_back({randomObserver(place, random, i), {}});
+  ViewshedOptions options;
+  options.maxError = 5;
+  const auto exact = viewshedOfMany(*maker, place.model, *place.earth, sites, {}, true);
+  const auto within = viewshedOfMany(*maker, place.model, *place.earth, sites, options, true);
+  ASSERT_TRUE(exact && within);
+  std::vector<bool> isUndecided(exact->count.size()), isUnknown(exact->count.size());
+  for (const ViewshedSite& site : sites) {
+    const auto one = maker->from(site.observer, options);
+    for (std::size_t c = 0; c < isUndecided.size(); ++c) {
+      if (one->cells[c] == ViewshedCell::undecided) isUndecided[c] = true;
+      if (one->cells[c] == ViewshedCell::unknown) isUnknown[c] = true;
+    }
+  }
+  std::size_t undecided = 0, numbers = 0;
+  for (std::size_t c = 0; c < isUndecided.size(); ++c) {
+    const std::uint16_t mark = isUndecided[c] ? ViewshedOfMany::kUndecided : ViewshedOfMany::kUnknown;
+    EXPECT_EQ(within->count[c], isUndecided[c] || isUnknown[c] ? mark : exact->count[c]) << c;
+    if (within->server[c] < ViewshedOfMany::kUnknown) {
+      ++numbers;
+      EXPECT_EQ(within->server[c], exact->server[c]) << c;
+    }
+    undecided += within->server[c] == ViewshedOfMany::kUndecided;
+  }
+  EXPECT_GT(undecided, 0u);
+  EXPECT_GT(numbers, 0u);
+}
+
 TEST(Viewshed, WithinAToleranceWhatIsCertainIsRight) {
   Random random(7);
   const Place place(rasterFamilies()[3].make(45, 52, 8));

@@ -186,6 +186,9 @@ TEST(ViewshedVoids, ValuesOfTheSweepAreThoseOfRays) {
       ASSERT_EQ(sweep->cells, rays->cells) << name << ", observer " << i;
       for (std::size_t at = 0; at < rays->cells.size(); ++at) {
         const float a = sweep->values[at], b = rays->values[at];
+        if (options.value == ViewshedValue::leastHeight && rays->cells[at] == ViewshedCell::unknown) {
+          ASSERT_TRUE(std::isnan(b));
+        }
         if (std::isnan(b)) {
           ASSERT_TRUE(std::isnan(a));
         } else if (a != b) {
