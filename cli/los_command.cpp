@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -291,12 +290,11 @@ void addLosCommand(CLI::App& app, Session& session) {
       ->add_option(
           "--method", arguments->method,
           "How to find out; all give the same answer: auto (default), descent, pyramid, scan, embree")
-      ->transform(CLI::Transformer(std::map<std::string, SightMethod>{{"auto", SightMethod::automatic},
-                                                                      {"descent", SightMethod::descent},
-                                                                      {"pyramid", SightMethod::pyramid},
-                                                                      {"scan", SightMethod::scan},
-                                                                      {"embree", SightMethod::embree}},
-                                   CLI::ignore_case))
+      ->transform(oneOf<SightMethod>({{"auto", SightMethod::automatic},
+                                      {"descent", SightMethod::descent},
+                                      {"pyramid", SightMethod::pyramid},
+                                      {"scan", SightMethod::scan},
+                                      {"embree", SightMethod::embree}}))
       ->type_name("METHOD");
   arguments->sight.addEarthTo(*command);
   const std::string radio = "Radio";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/sight_arguments.h"
 
-#include <map>
 #include <utility>
 
 #include "cli/arguments.h"
@@ -34,10 +33,9 @@ void SightArguments::addNodataTo(CLI::App& command) {
       .add_option(
           "--nodata", nodata,
           "What a line over NODATA, or outside the DEM, is there: unknown (default), clear or blocked")
-      ->transform(CLI::Transformer(std::map<std::string, NodataSight>{{"unknown", NodataSight::unknown},
-                                                                      {"clear", NodataSight::clear},
-                                                                      {"blocked", NodataSight::blocked}},
-                                   CLI::ignore_case))
+      ->transform(oneOf<NodataSight>({{"unknown", NodataSight::unknown},
+                                      {"clear", NodataSight::clear},
+                                      {"blocked", NodataSight::blocked}}))
       ->type_name("unknown|clear|blocked");
 }
 

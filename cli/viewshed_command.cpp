@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -403,12 +402,11 @@ void addViewshedCommand(CLI::App& app, Session& session) {
           "--mode", arguments->mode,
           "seen (default); height: the least height above the terrain that would be seen; horizon: its "
           "elevation, degrees; count: how many observers see it; server: the nearest that does")
-      ->transform(CLI::Transformer(std::map<std::string, Mode>{{"seen", Mode::seen},
-                                                               {"height", Mode::height},
-                                                               {"horizon", Mode::horizon},
-                                                               {"count", Mode::count},
-                                                               {"server", Mode::server}},
-                                   CLI::ignore_case))
+      ->transform(oneOf<Mode>({{"seen", Mode::seen},
+                               {"height", Mode::height},
+                               {"horizon", Mode::horizon},
+                               {"count", Mode::count},
+                               {"server", Mode::server}}))
       ->type_name("MODE");
   const std::string field = "The field of view";
   command->add_option("--radius", arguments->radius, "Greatest distance along the ground")
@@ -438,10 +436,9 @@ void addViewshedCommand(CLI::App& app, Session& session) {
       ->type_name("E");
   command
       ->add_option("--method", arguments->method, "auto (default), sweep or rays; all give the same answer")
-      ->transform(CLI::Transformer(std::map<std::string, ViewshedMethod>{{"auto", ViewshedMethod::automatic},
-                                                                         {"sweep", ViewshedMethod::sweep},
-                                                                         {"rays", ViewshedMethod::rays}},
-                                   CLI::ignore_case))
+      ->transform(oneOf<ViewshedMethod>({{"auto", ViewshedMethod::automatic},
+                                         {"sweep", ViewshedMethod::sweep},
+                                         {"rays", ViewshedMethod::rays}}))
       ->type_name("METHOD");
   arguments->sight.addEarthTo(*command);
 }
