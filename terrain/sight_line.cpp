@@ -8,7 +8,8 @@
 //
 // whose Taylor coefficients all follow from a value and a slope, without the cancellation that a difference
 // of radii would have, and h = w / (1 - k w). Value and slope at the middle of each piece are the closed
-// form's.
+// form's. Where no end is high the series of h itself, which follow from those of w, do as well, and save a
+// division for each height that is asked for.
 #include "terrain/sight_line.h"
 
 #include <fmt/format.h>
@@ -29,6 +30,8 @@ double longestPiece(double curvature) {
 
 /// Of the effective Earth's radius: deeper heights are mistakes, and the formula of the line ends there.
 constexpr double kDeepest = -0.5;
+/// Of the effective Earth's radius: so high the series of the height itself are good for 1e-8 m.
+constexpr double kHigh = 2e-3;
 /// Of the Earth's curvature: lines that bend more than this somewhere bend much less elsewhere.
 constexpr double kSteep = 10;
 
@@ -41,6 +44,16 @@ double sn(double k, double x) {
 struct ValueAndSlope {
   double value, slope;
 };
+
+/// The series of h = w / (1 - k w) in place of that of w: both sides of h - k h w = w, power by power.
+void takeHeight(double k, std::array<double, 6>& c) {
+  const std::array<double, 6> w = c;
+  for (std::size_t n = 0; n < c.size(); ++n) {
+    double known = w[n];
+    for (std::size_t i = 0; i < n; ++i) known += k * c[i] * w[n - i];
+    c[n] = known / (1 - k * w[0]);
+  }
+}
 
 /// w and its derivative, in metres, from those of the ends.
 ValueAndSlope closedForm(double k, double w0, double w1, double length, double s) {
@@ -88,6 +101,7 @@ SightLine::SightLine(SightTrack track, double fromHeight, double toHeight, doubl
   }
   const double r0 = 1 + k * from_ * unit_, r1 = 1 + k * to_ * unit_;
   const double w0 = from_ * unit_ / r0, w1 = to_ * unit_ / r1;
+  isHigh_ = std::fabs(k * unit_) * std::max(std::fabs(from_), std::fabs(to_)) > kHigh;
   for (std::size_t i = 0; i < count; ++i) {
     Piece& piece = pieces_[i];
     piece.middle = length_ * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
@@ -97,6 +111,7 @@ SightLine::SightLine(SightTrack track, double fromHeight, double toHeight, doubl
     piece.c[2] = k * (1 - k * at.value) / 2;
     for (std::size_t n = 3; n < piece.c.size(); ++n)
       piece.c[n] = -k * k * piece.c[n - 2] / static_cast<double>(n * (n - 1));
+    if (!isHigh_) takeHeight(k, piece.c);
     for (double& c : piece.c) c /= unit_;
   }
   if (k < 0) return;
@@ -110,7 +125,7 @@ SightLine::SightLine(SightTrack track, double fromHeight, double toHeight, doubl
 
 double SightLine::slope(double s) const {
   const Piece& piece = pieceAt(s);
-  const double r = 1 / (1 - bend_ * piece.at(s));
+  const double r = isHigh_ ? 1 / (1 - bend_ * piece.at(s)) : 1;
   return piece.slope(s) * r * r;
 }
 

@@ -37,8 +37,9 @@ struct SightTrack {
 ///                 / [ (1 + k h0) sn s + (1 + k h1) sn(S - s) ],      sn(x) = sin(k x) / k
 ///
 /// with everything in metres, k the curvature and S the length; for k = 0 the straight line. It is kept as
-/// Taylor polynomials of height / (1 + k height), which are within 1e-7 m of it, and within 1e-14 of where
-/// it is higher than the Earth's radius, whatever the heights of the ends. Where k >= 0 it is convex in s.
+/// Taylor polynomials, of a high line those of height / (1 + k height), which are within 1e-7 m of it, and
+/// within 1e-14 of where it is higher than the Earth's radius, whatever the heights of the ends. Where k >= 0
+/// it is convex in s.
 class SightLine {
  public:
   /// Heights in the DEM's vertical unit, of heightUnitMetres metres. Preconditions: finite; the length is
@@ -50,8 +51,8 @@ class SightLine {
   double length() const { return length_; }  ///< metres along the ground
   /// In the DEM's vertical unit. Precondition: 0 <= s <= length().
   double height(double s) const {
-    const double w = pieceAt(s).at(s);
-    return w / (1 - bend_ * w);
+    const double at = pieceAt(s).at(s);
+    return isHigh_ ? at / (1 - bend_ * at) : at;
   }
   /// d height / ds.
   double slope(double s) const;
@@ -80,7 +81,7 @@ class SightLine {
   Vec2 planAt(double s) const;
 
  private:
-  /// Of w = height / (1 + bend height).
+  /// Of the height; of a high line of w = height / (1 + bend height).
   struct Piece {
     double middle = 0;
     std::array<double, 6> c = {};  // of the powers of s - middle
@@ -107,7 +108,7 @@ class SightLine {
   double length_, unit_, from_, to_, tolerance_;
   double sag_ = 0, piecesPerMetre_ = 0;
   double bend_ = 0;  ///< the curvature, per unit of height
-  bool isSteep_ = false;
+  bool isHigh_ = false, isSteep_ = false;
   std::vector<Piece> pieces_;
 };
 
