@@ -16,6 +16,7 @@
 #include "io/amt_file.h"
 #include "io/extract_tin.h"
 #include "io/mesh_file.h"
+#include "io/raster_writer.h"
 #include "io/region_argument.h"
 #include "io/report_json.h"
 #include "terrain/plan_region.h"
@@ -91,13 +92,13 @@ Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments
   for (const ExtractRequest& request : requests) {
     if (Status known = checkExtractOutput(request.output, model); !known)
       return failure(known.error().code, known.error().message, fmt::format("--output {}", request.output));
-    if (arguments.criterion.hasDeadline() && isRasterOutput(request.output))
+    if (arguments.criterion.hasDeadline() && isGeoTiffName(request.output))
       return failure(
           ErrorCode::usage,
           "a TIN that a deadline ended cannot be taken a second time to check the raster; write a mesh",
           fmt::format("--output {}", request.output));
     if (request.errorRaster.empty()) continue;
-    if (!isRasterOutput(request.errorRaster))
+    if (!isGeoTiffName(request.errorRaster))
       return failure(ErrorCode::usage, "the error raster is a GeoTIFF: its name ends in .tif",
                      fmt::format("--error-raster {}", request.errorRaster));
     if (Status known = checkExtractOutput(request.errorRaster, model); !known)

@@ -15,7 +15,6 @@
 #include "cli/measure_report_text.h"
 #include "io/crs_names.h"
 #include "io/dem_reader.h"
-#include "io/extract_tin.h"
 #include "io/mesh_file.h"
 #include "io/raster_writer.h"
 #include "io/region_argument.h"
@@ -166,7 +165,7 @@ Status runMeasure(const MeasureArguments& arguments, Session& session) {
     return measureMeshes(meshes, session);
   }
   if (!arguments.errorRaster.empty()) {
-    if (!isRasterOutput(arguments.errorRaster))
+    if (!isGeoTiffName(arguments.errorRaster))
       return failure(ErrorCode::usage, "the error raster is a GeoTIFF: its name ends in .tif",
                      fmt::format("--error-raster {}", arguments.errorRaster));
     if (Status output =

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "cli/arguments.h"
@@ -31,23 +33,25 @@ bool areDegrees(const MeshFile& first, const MeshFile& second) {
   return isGeographicCrs(first.crsWkt) && isGeographicCrs(second.crsWkt);
 }
 
-/// The meshes as they are compared. Distances between degrees and heights would say nothing, and the search
-/// for them would not end: no triangle is nearer than others.
-Result<MetricMeshes> comparable(const MeshFile& first, const MeshFile& second, const Session& session) {
+/// The meshes in metres where both are in degrees, else nothing: they are compared as they are. Distances
+/// between degrees and heights would say nothing, and the search for them would not end: no triangle is
+/// nearer than others.
+Result<std::optional<MetricMeshes>> inMetres(const MeshFile& first, const MeshFile& second,
+                                             const Session& session) {
   if (areDegrees(first, second)) {
     Result<MetricMeshes> metric = toMetres(first, second);
-    if (metric)
-      session.warn(fmt::format(
-          "x and y are degrees: they are compared in metres, by the size of a degree at latitude {:.4g}",
-          metric->latitude));
-    return metric;
+    if (!metric) return tl::unexpected(metric.error());
+    session.warn(fmt::format(
+        "x and y are degrees: they are compared in metres, by the size of a degree at latitude {:.4g}",
+        metric->latitude));
+    return std::move(*metric);
   }
   if (isGeographicCrs(first.crsWkt) || isGeographicCrs(second.crsWkt))
     return failure(ErrorCode::invalidData,
                    fmt::format("its x and y are degrees and those of the {} mesh are not",
                                isGeographicCrs(first.crsWkt) ? "second" : "first"),
                    isGeographicCrs(first.crsWkt) ? "first" : "second");
-  return MetricMeshes{first.mesh, second.mesh};
+  return std::nullopt;
 }
 
 /// Where something is, in the coordinates of the files.
@@ -115,17 +119,17 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
   if (!second) return tl::unexpected(second.error());
   compareFrames(*first, *second, session);
 
-  const Result<MetricMeshes> meshes = comparable(*first, *second, session);
-  if (!meshes) return tl::unexpected(named(meshes.error(), arguments));
+  const Result<std::optional<MetricMeshes>> metric = inMetres(*first, *second, session);
+  if (!metric) return tl::unexpected(named(metric.error(), arguments));
   MeshDistanceOptions options;
   options.samples = static_cast<std::uint64_t>(arguments.samples);
   options.seed = static_cast<std::uint64_t>(arguments.seed);
   std::vector<double> distances;
   Result<MeshDistanceReport> report =
-      measureDistance(meshes->first, meshes->second, options, session.context(),
-                      arguments.errorMesh.empty() ? nullptr : &distances);
+      measureDistance(*metric ? (*metric)->first : first->mesh, *metric ? (*metric)->second : second->mesh,
+                      options, session.context(), arguments.errorMesh.empty() ? nullptr : &distances);
   if (!report) return tl::unexpected(named(report.error(), arguments));
-  sayPlacesAsFilesDo(*report, *meshes);
+  if (*metric) sayPlacesAsFilesDo(*report, **metric);
   if (!arguments.errorMesh.empty())
     if (Status written = writeDistances(arguments.errorMesh, *first, arguments.second, distances, session);
         !written)

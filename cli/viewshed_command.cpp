@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -21,7 +20,6 @@
 #include "io/position_argument.h"
 #include "io/raster_writer.h"
 #include "io/sight_pairs.h"
-#include "io/text_scan.h"
 #include "terrain/sight_links.h"
 #include "terrain/viewshed.h"
 #include "terrain/viewshed_many.h"
@@ -323,8 +321,7 @@ Status answer(const Question& q, Session& session) {
 Status runViewshed(const ViewshedArguments& a, Session& session) {
   if (a.observer.empty() && a.observers.empty())
     return failure(ErrorCode::usage, "--observer or --observers says from where");
-  const std::string extension = text::lowered(std::filesystem::path(a.output).extension().string());
-  if (extension != ".tif" && extension != ".tiff")
+  if (!isGeoTiffName(a.output))
     return failure(ErrorCode::usage, "a viewshed is a GeoTIFF and ends in .tif or .tiff",
                    "--output " + a.output);
   if (!a.layer.empty() && a.observers.empty())
@@ -359,12 +356,12 @@ void addViewshedCommand(CLI::App& app, Session& session) {
       "  arete viewshed dem.amt --observer 409050,3801450,10 --mode height -o least_height.tif\n"
       "  arete viewshed dem.amt --observers masts.gpkg --observer-height 30 --mode count -o count.tif\n"
       "\n"
-      "A raster on the grid of the DEM, or of another raster (--like). seen: 255 seen, 0 hidden, 100 unknown "
-      "(NODATA in between), 200 "
-      "undecided\n"
-      "(--max-error), 1 = NODATA: no sample, too far, out of the field of view. Every sample has the answer "
-      "that\n"
-      "arete los gives for it.",
+      "A raster on the grid of the DEM, or of another raster (--like). seen: 255 seen, 0 hidden, 100 "
+      "unknown\n"
+      "(NODATA in between), 200 undecided (--max-error), 1 = NODATA: no sample, too far, out of the field "
+      "of\n"
+      "view. Every sample has the answer that arete los gives for it. count, server: 65533 unknown, 65534\n"
+      "undecided, 65535 = NODATA. height: infinite where nothing would be seen, NODATA where it is unknown.",
       [arguments](Session& s) { return runViewshed(*arguments, s); });
   command->add_option("FILE.amt", arguments->model, "Multitriangulation of a raster")
       ->required()

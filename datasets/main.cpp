@@ -7,7 +7,6 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -112,11 +111,6 @@ int fetch(const std::string& name, const std::vector<double>& box, const std::st
   if (!fetched) return exitCodeOf(fetched.error());
   fmt::print("{}: {}\nLicence: {}\n", output, dem->summary, dem->licence);
   return 0;
-}
-
-bool isGeoTiffName(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  return extension == ".tif" || extension == ".tiff" || extension == ".TIF" || extension == ".TIFF";
 }
 
 int run(int argc, char** argv) {

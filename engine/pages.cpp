@@ -4,8 +4,8 @@
 // them from one address to another (mremap) in a fraction of the time that it takes to clear them. A piece
 // lies within one mapping, as ranges are put together from whole ones; what is left of a range behind its
 // last piece is not kept. A piece that was moved may stay a mapping of its own, and a process can have some
-// 65 000, so only so many are moved; then nothing is kept any more. Once the
-// system refuses to move one nothing is kept either, and the taker gets fresh pages.
+// 65 000, so only so many are moved; after them, or once the system refuses to move one, nothing is kept any
+// more.
 #include "engine/pages.h"
 
 #include <sys/mman.h>

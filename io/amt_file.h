@@ -80,8 +80,8 @@ class AmtFile {
 };
 
 /// Maps the file and reads its header, directory and metadata, which lie together at its beginning; nothing
-/// else is touched. Errors, naming the path: notFound, unreadable (permissions; empty), unsupported (not an .amt
-/// file; made by a newer Arete, or for the other byte order), corrupt (cut short, saying by how much; a
+/// else is touched. Errors, naming the path: notFound, unreadable (permissions; empty), unsupported (not an
+/// .amt file; made by a newer Arete, or for the other byte order), corrupt (cut short, saying by how much; a
 /// checksum that does not match; chunks out of range or sizes at odds with each other). O(1).
 Result<AmtFile> openAmt(const std::string& path, const AmtOpenOptions& options = {});
 

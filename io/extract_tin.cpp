@@ -18,6 +18,7 @@
 #include "io/mesh_file.h"
 #include "io/raster_writer.h"
 #include "io/shell_text.h"
+#include "io/text_scan.h"
 #include "io/written_mesh.h"
 #include "terrain/plan_region.h"
 
@@ -28,13 +29,6 @@ namespace {
 constexpr double kNegligibleRounding = 1e-3;
 /// No promise is broken by less, in the unit of the heights: acceptedError() of measure.h.
 constexpr double kForgivenRounding = 1e-6;
-
-std::string lowerExtension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return extension;
-}
 
 /// The largest stored error of the triangles that meet the region.
 double storedErrorInside(const TerrainModel& model, const Cut& cut, const Region& region) {
@@ -74,13 +68,8 @@ ExportFormat formatOf(const std::string& path, const WrittenMesh& written, const
 
 }  // namespace
 
-bool isRasterOutput(const std::string& path) {
-  const std::string extension = lowerExtension(path);
-  return extension == ".tif" || extension == ".tiff";
-}
-
 Status checkExtractOutput(const std::string& path, const TerrainModel& model) {
-  if (isRasterOutput(path)) {
+  if (isGeoTiffName(path)) {
     if (model.isRaster) return {};
     return failure(ErrorCode::usage,
                    "the model was built from scattered points: there is no source grid to sample the TIN on",
@@ -91,7 +80,7 @@ Status checkExtractOutput(const std::string& path, const TerrainModel& model) {
     if (format.write) known += fmt::format("{} ({}), ", format.extension, format.name);
   const Result<MeshFormat> format = meshFormatOf(path);
   if (format && format->write) return {};
-  const std::string extension = lowerExtension(path);
+  const std::string extension = text::lowered(std::filesystem::path(path).extension().string());
   return failure(
       ErrorCode::usage,
       fmt::format("{}; known are {}.tif (GeoTIFF: the TIN sampled on the source grid)",
@@ -105,7 +94,7 @@ std::string checkCommand(const ExtractRequest& request, const TerrainModel& mode
                          const std::string& modelPath, double promisedError) {
   const ExtractCriterion& c = request.criterion;
   std::string command, tin = request.output;
-  if (isRasterOutput(request.output)) {
+  if (isGeoTiffName(request.output)) {
     tin = std::filesystem::path(request.output).replace_extension(".ply").string();
     command = fmt::format("arete extract {} -o {}", shellQuoted(modelPath), shellQuoted(tin));
     command += optionsOf(c);
@@ -174,7 +163,7 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
   Result<TinExport> taken = takeTin(request, reserve, tin, context);
   if (!taken) return tl::unexpected(taken.error());
   TinExport& exported = *taken;
-  if (isRasterOutput(request.output)) {
+  if (isGeoTiffName(request.output)) {
     tin.format = {.name = "GeoTIFF",
                   .saysCrs = !model_.georeference.crsWkt.empty(),
                   .saysVerticalUnit = !model_.georeference.verticalUnit.empty()};
@@ -207,7 +196,7 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
     if (!mesh) return tl::unexpected(mesh.error());
   }
   // A fit is not believed on its word.
-  const bool needsMeasure = tin.fit || isRasterOutput(request.output) || !request.certificate.empty() ||
+  const bool needsMeasure = tin.fit || isGeoTiffName(request.output) || !request.certificate.empty() ||
                             !request.errorRaster.empty();
   if (needsMeasure)
     if (Status measured = measureAndWrite(request, *mesh, tin, context); !measured)
@@ -217,7 +206,7 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
 
 Status TinExtractor::measureAndWrite(const ExtractRequest& request, const TriangleMesh& mesh,
                                      ExtractedTin& tin, const RunContext& context) {
-  const bool wantsRasters = isRasterOutput(request.output) || !request.errorRaster.empty();
+  const bool wantsRasters = isGeoTiffName(request.output) || !request.errorRaster.empty();
   MeasureRasters rasters;
   const Vec3& rounding = tin.format.frame.rounding;
   const auto measureWith = [&](MeasureOptions options, MeasureRasters* into) {
@@ -241,7 +230,7 @@ Status TinExtractor::measureAndWrite(const ExtractRequest& request, const Triang
   tin.isKept =
       keepsPromise(tin.measuredInside ? *tin.measuredInside : *tin.measured, tin.promisedError, expect);
 
-  if (!isRasterOutput(request.output))
+  if (!isGeoTiffName(request.output))
     tin.format.planTolerancePixels =
         planTolerancePixels({.planRounding = {rounding.x, rounding.y}}, model_.georeference);
   if (Status written = writeRasters(request, rasters, tin, context); !written) return written;
@@ -263,7 +252,7 @@ Status TinExtractor::measureAndWrite(const ExtractRequest& request, const Triang
 
 Status TinExtractor::writeRasters(const ExtractRequest& request, const MeasureRasters& rasters,
                                   ExtractedTin& tin, const RunContext& context) const {
-  if (isRasterOutput(request.output)) {
+  if (isGeoTiffName(request.output)) {
     double largest = 0;
     for (const double z : rasters.tinHeights)
       if (!std::isnan(z)) largest = std::max(largest, std::abs(z));

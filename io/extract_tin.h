@@ -40,9 +40,6 @@ struct ExtractedTin {
   bool isKept = true;                           ///< false when the measurement contradicts the promise
 };
 
-/// True for a name that is sampled back on the grid (.tif, .tiff).
-bool isRasterOutput(const std::string& path);
-
 /// The formats an output may have, and whether this is one; a .tif needs a model of a raster. Errors: usage,
 /// naming the known extensions.
 Status checkExtractOutput(const std::string& path, const TerrainModel& model);

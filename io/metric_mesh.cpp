@@ -10,9 +10,6 @@
 namespace arete {
 namespace {
 
-/// A step of the raster whose ground size is asked for; groundStep() measures it on the ellipsoid.
-constexpr double kStep = 1e-3;
-
 TriangleMesh scaled(const TriangleMesh& mesh, const Vec3& by) {
   TriangleMesh result = mesh;
   for (Vec3& p : result.positions) p = {p.x * by.x, p.y * by.y, p.z * by.z};
@@ -37,11 +34,9 @@ Result<MetricMeshes> toMetres(const MeshFile& first, const MeshFile& second) {
       north = std::max(north, p.y);
     }
   const double latitude = (south + north) / 2;
-  axes.geoTransform = {0, kStep, 0, latitude, 0, kStep};
-  const Vec2 step = groundStep(axes, 0, 0);
-  const double toEast = step.x / kStep, toNorth = step.y / kStep;
-  const Vec3 firstUnits{toEast, toNorth, heightMetres(first, axes)},
-      secondUnits{toEast, toNorth, heightMetres(second, axes)};
+  const Vec2 unit = groundUnit(axes, latitude);
+  const Vec3 firstUnits{unit.x, unit.y, heightMetres(first, axes)},
+      secondUnits{unit.x, unit.y, heightMetres(second, axes)};
   return MetricMeshes{scaled(first.mesh, firstUnits), scaled(second.mesh, secondUnits), firstUnits,
                       secondUnits, latitude};
 }

@@ -8,9 +8,9 @@ namespace arete {
 
 /// Two meshes in one geographic CRS, made comparable in space.
 struct MetricMeshes {
-  TriangleMesh first, second;                            ///< metres: east, north, up
-  Vec3 firstUnits = {1, 1, 1}, secondUnits = {1, 1, 1};  ///< metres in what the files count in
-  double latitude = 0;  ///< in the unit of the CRS: where a degree's ground size was taken
+  TriangleMesh first, second;    ///< metres: east, north, up
+  Vec3 firstUnits, secondUnits;  ///< metres in what the files count in
+  double latitude = 0;           ///< where the ground size was taken, in the unit of the CRS
 };
 
 /// Turns degrees into metres by the ground size that they have in the middle of both meshes, and heights into

@@ -22,6 +22,7 @@
 #include "io/crs_reader.h"
 #include "io/gdal_support.h"
 #include "io/output_file.h"
+#include "io/text_scan.h"
 
 namespace arete {
 namespace {
@@ -134,6 +135,11 @@ Status writeTo(const std::string& path, std::uint32_t columns, std::uint32_t row
 }
 
 }  // namespace
+
+bool isGeoTiffName(const std::string& path) {
+  const std::string extension = text::lowered(std::filesystem::path(path).extension().string());
+  return extension == ".tif" || extension == ".tiff";
+}
 
 Status writeGeoTiff(const std::string& path, std::uint32_t columns, std::uint32_t rows,
                     std::span<const double> values, const Georeference& georeference,

@@ -11,6 +11,9 @@
 
 namespace arete {
 
+/// Whether a name is a GeoTIFF's: it ends in .tif or .tiff, upper or lower case.
+bool isGeoTiffName(const std::string& path);
+
 struct GeoTiffOptions {
   enum class Sample { float32, float64, uint8, uint16 };
   enum class Compression {

@@ -60,7 +60,7 @@ double roundingSlack(double low, double high) {
   return 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(low), std::abs(high));
 }
 
-double roundingSlack(double low, double high, std::uint32_t columns, std::uint32_t rows) {
+double crossingSlack(double low, double high, std::uint32_t columns, std::uint32_t rows) {
   return roundingSlack(low, high) +
          8 * std::numeric_limits<double>::epsilon() * std::max(columns, rows) * (high - low);
 }

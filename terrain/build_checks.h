@@ -21,9 +21,8 @@ std::string whyNoTriangle(const RasterHeightfield& heightfield);
 /// samples are known: 8 ulp of the largest magnitude.
 double roundingSlack(double low, double high);
 
-/// The same where it stands between samples of a raster, which is told by a column and a row of that much:
-/// such places have that much less of a fraction. Of planes that are known by their steps see
-/// raster_error.cpp.
-double roundingSlack(double low, double high, std::uint32_t columns, std::uint32_t rows);
+/// The same where an edge crosses a raster's lines: a place there is a column and a row with a fraction, and
+/// the larger the number the fewer digits its fraction has. (Of planes see raster_error.cpp.)
+double crossingSlack(double low, double high, std::uint32_t columns, std::uint32_t rows);
 
 }  // namespace arete

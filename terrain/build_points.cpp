@@ -85,16 +85,17 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
   stage.emplace(context.clock, "simplify");
   {
     PointError errors(plan, field.heights, mesh);
-    SimplifyState<PointPlan, PointError> state{mesh,
-                                               plan,
-                                               errors,
-                                               recorder,
-                                               nullptr,
-                                               options,
-                                               metric,
-                                               *high - *low,
-                                               roundingSlack(*low, *high),
-                                               roundingSlack(*low, *high)};
+    const double slack = roundingSlack(*low, *high);
+    SimplifyState<PointPlan, PointError> state{.mesh = mesh,
+                                               .plan = plan,
+                                               .errors = errors,
+                                               .recorder = recorder,
+                                               .rim = nullptr,
+                                               .options = options,
+                                               .metric = metric,
+                                               .heightRange = *high - *low,
+                                               .roundingSlack = slack,
+                                               .boundSlack = slack};
     Result<SimplifiedRoot> simplified = Simplifier(state, context).run(isFixed);
     if (!simplified) return tl::unexpected(simplified.error());
     root = std::move(*simplified);

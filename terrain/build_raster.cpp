@@ -154,16 +154,17 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   SimplifiedRoot root;
   stage.emplace(context.clock, "simplify");
   {
-    SimplifyState<LatticePlan, RasterError> state{mesh,
-                                                  plan,
-                                                  errors,
-                                                  recorder,
-                                                  rim.get(),
-                                                  options,
-                                                  metric,
-                                                  high - low,
-                                                  roundingSlack(low, high),
-                                                  roundingSlack(low, high, field.columns, field.rows)};
+    SimplifyState<LatticePlan, RasterError> state{
+        .mesh = mesh,
+        .plan = plan,
+        .errors = errors,
+        .recorder = recorder,
+        .rim = rim.get(),
+        .options = options,
+        .metric = metric,
+        .heightRange = high - low,
+        .roundingSlack = roundingSlack(low, high),
+        .boundSlack = crossingSlack(low, high, field.columns, field.rows)};
     Result<SimplifiedRoot> simplified = Simplifier(state, context).run(isFixed);
     if (!simplified) return tl::unexpected(simplified.error());
     root = std::move(*simplified);

@@ -33,4 +33,12 @@ Vec2 groundStep(const Georeference& georeference, double column, double row) {
   return {distance(g[1], g[4]), distance(g[2], g[5])};
 }
 
+Vec2 groundUnit(const Georeference& georeference, double y) {
+  constexpr double kStep = 1e-3;
+  Georeference axes = georeference;
+  axes.geoTransform = {0, kStep, 0, y, 0, kStep};
+  const Vec2 step = groundStep(axes, 0, 0);
+  return {step.x / kStep, step.y / kStep};
+}
+
 }  // namespace arete

@@ -54,4 +54,7 @@ struct Georeference {
 /// (GeographicLib).
 Vec2 groundStep(const Georeference& georeference, double column, double row);
 
+/// Metres east and north that a unit of x and of y, an angle, makes where y is. Precondition: isGeographic.
+Vec2 groundUnit(const Georeference& georeference, double y);
+
 }  // namespace arete

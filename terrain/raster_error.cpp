@@ -18,7 +18,6 @@ namespace {
 /// The largest of some differences, until one is beyond the limit.
 struct LargestDifference {
   double limit;
-  double rounding = 0;  ///< of each
   Two found = {0, 0};
   void include(Two difference) {
     const Two size = magnitude(difference);
@@ -32,7 +31,6 @@ struct LargestDifference {
 /// The largest of some differences either way, until one is beyond the limit.
 struct SignedDifferences {
   double limit;
-  double rounding = 0;  ///< of each
   Two above = {0, 0}, below = {0, 0};
   void include(Two difference) {
     above = difference > above ? difference : above;  // false for NODATA
@@ -41,6 +39,19 @@ struct SignedDifferences {
   bool isEnough() const { return largest(larger(above, -below)) > limit; }
   bool isChangedBy(double low, double high) const { return high > largest(above) || low < smallest(below); }
 };
+
+/// What differences from a plane can be off by because it is known by rounded steps along columns and rows:
+/// much of a needle, whose steps are differences of large numbers.
+[[gnu::always_inline]] inline double roundingOfPlane(const RasterError::Corner& a,
+                                                     const RasterError::Corner& b,
+                                                     const RasterError::Corner& c) {
+  const Two ab = {double(b.x - a.x), double(b.y - a.y)}, ac = {double(c.x - a.x), double(c.y - a.y)};
+  const Two crossed = ab * swapped(ac), farthest = larger(magnitude(ab), magnitude(ac));
+  const Two terms =
+      both(std::abs(b.z - a.z)) * magnitude(swapped(ac)) + both(std::abs(c.z - a.z)) * magnitude(swapped(ab));
+  const Two products = terms * farthest;
+  return 0x1p-49 * (products[0] + products[1]) / (crossed[0] - crossed[1]);
+}
 
 }  // namespace
 
@@ -88,18 +99,11 @@ class RasterError::PlaneDifferences {
         z_(a.z) {
     const Two crossed = ab * swapped(ac);
     const double inverse = 1.0 / (crossed[0] - crossed[1]);
-    const Two withB = both(dzB) * swapped(ac), withC = both(dzC) * swapped(ab);
-    const Two steps = (withB - withC) * both(inverse);
+    const Two steps = (both(dzB) * swapped(ac) - both(dzC) * swapped(ab)) * both(inverse);
     stepX_ = steps[0];
     stepY_ = -steps[1];
-    const Two farthest = larger(magnitude(ab), magnitude(ac)),
-              products = (magnitude(withB) + magnitude(withC)) * farthest;
-    rounding_ = 0x1p-49 * inverse * (products[0] + products[1]);
   }
 
-  /// What the differences can be off by because the plane is known by rounded steps: much of a needle, whose
-  /// steps are differences of large numbers.
-  double rounding() const { return rounding_; }
   double stepX() const { return stepX_; }
   double stepY() const { return stepY_; }
   [[gnu::always_inline]] Two planeAt(double x, double y) const { return both(z_ + stepX_ * x + stepY_ * y); }
@@ -142,7 +146,7 @@ class RasterError::PlaneDifferences {
   const double* end_;
   std::ptrdiff_t columns_;
   const double* origin_;
-  double z_, stepX_, stepY_, rounding_;
+  double z_, stepX_, stepY_;
 };
 
 /// Includes z_plane - z at the samples, row after row, until there is enough. The corners are left out: there
@@ -152,7 +156,6 @@ template <class Differences>
                                                         Differences& differences) const {
   const Two ab = {double(b.x - a.x), double(b.y - a.y)}, ac = {double(c.x - a.x), double(c.y - a.y)};
   PlaneDifferences<Differences> plane(*this, a, b.z - a.z, c.z - a.z, ab, ac, differences);
-  differences.rounding = plane.rounding();
 
   const auto& few = small_.rows(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
   if (few.count >= 0) {
@@ -241,8 +244,9 @@ double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, d
   SignedDifferences differences{limit};
   compare(a, b, c, differences);
   const double high = largest(differences.above), low = smallest(differences.below);
-  bound.above = std::max(bound.above, high > 0 ? high + differences.rounding : 0);
-  bound.below = std::max(bound.below, low < 0 ? differences.rounding - low : 0);
+  const double rounding = roundingOfPlane(a, b, c);
+  bound.above = std::max(bound.above, high > 0 ? high + rounding : 0);
+  bound.below = std::max(bound.below, low < 0 ? rounding - low : 0);
   return std::max(high, -low);
 }
 

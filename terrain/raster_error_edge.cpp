@@ -33,25 +33,17 @@ class LongEdge {
 
   /// Precondition: the segment does not run along a column.
   void crossColumns() {
-    const double inverse = 1.0 / double(dx_), slope = double(dy_) * inverse;
-    const std::int64_t step = dx_ > 0 ? 1 : -1;
-    for (std::int64_t k = step; k != dx_; k += step) {
-      const double y = double(y0_) + slope * double(k), base = double(std::int64_t(y)), f = y - base;
-      if (f == 0) continue;
-      const double* h = sample(std::int64_t(base), x0_ + k);
-      include(double(k) * inverse, h[0], h[columns_], f);
-    }
+    crossLines(dx_, y0_, dy_, [&](double t, std::int64_t k, std::int64_t row, double f) {
+      const double* h = sample(row, x0_ + k);
+      include(t, h[0], h[columns_], f);
+    });
   }
   /// Precondition: nor along a row.
   void crossRows() {
-    const double inverse = 1.0 / double(dy_), run = double(dx_) * inverse;
-    const std::int64_t step = dy_ > 0 ? 1 : -1;
-    for (std::int64_t k = step; k != dy_; k += step) {
-      const double x = double(x0_) + run * double(k), base = double(std::int64_t(x)), f = x - base;
-      if (f == 0) continue;
-      const double* h = sample(y0_ + k, std::int64_t(base));
-      include(double(k) * inverse, h[0], h[1], f);
-    }
+    crossLines(dy_, x0_, dx_, [&](double t, std::int64_t k, std::int64_t column, double f) {
+      const double* h = sample(y0_ + k, column);
+      include(t, h[0], h[1], f);
+    });
   }
   /// column - row = constant, through whole cells.
   void crossDiagonals() {
@@ -74,6 +66,17 @@ class LongEdge {
   SignedBound bound() const { return {std::max(0.0, -low_), std::max(0.0, high_)}; }
 
  private:
+  /// Columns or rows: the segment's end is `lines` of them away, and runs from `from` on by `rise` along
+  /// them.
+  template <class Visit>
+  static void crossLines(std::int64_t lines, std::int64_t from, std::int64_t rise, const Visit& visit) {
+    const double inverse = 1.0 / double(lines), slope = double(rise) * inverse;
+    const std::int64_t step = lines > 0 ? 1 : -1;
+    for (std::int64_t k = step; k != lines; k += step) {
+      const double place = double(from) + slope * double(k), base = double(std::int64_t(place));
+      if (place != base) visit(double(k) * inverse, k, std::int64_t(base), place - base);
+    }
+  }
   /// `across`: how many diagonals the segment's end is away. inRow(f): how far below its cell's row a
   /// crossing lies that is f right of its column.
   template <class InRow, class Visit>

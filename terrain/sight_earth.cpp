@@ -13,13 +13,9 @@ class PlaneEarth final : public SightEarth {
     const Georeference& g = model.georeference;
     perX_ = perY_ = g.crsWkt.empty() ? 1 : g.linearUnitMetres;
     if (g.isGeographic && model.isRaster) {
-      // groundStep() measures a step of the raster; here metres per unit of x and y are wanted.
-      const double column = (model.columns - 1) / 2.0, row = (model.rows - 1) / 2.0;
-      Georeference axes = g;
-      axes.geoTransform = {0, 1e-3, 0, g.toSource(column, row).y, 0, 1e-3};
-      const Vec2 step = groundStep(axes, 0, 0);
-      perX_ = step.x / 1e-3;
-      perY_ = step.y / 1e-3;
+      const Vec2 unit = groundUnit(g, g.toSource((model.columns - 1) / 2.0, (model.rows - 1) / 2.0).y);
+      perX_ = unit.x;
+      perY_ = unit.y;
     }
   }
 

@@ -53,12 +53,17 @@ bool isAll(std::span<const std::uint8_t> bytes, std::uint8_t value) {
   return std::ranges::all_of(bytes, [&](std::uint8_t byte) { return byte == value; });
 }
 
+/// Gives 4 MiB back, full of sevens.
+void giveSevensBack() {
+  void* const pages = takePages(4 * kMiB);
+  ASSERT_NE(pages, nullptr);
+  std::ranges::fill(bytesOf(pages, 4 * kMiB), std::uint8_t{7});
+  givePagesBack(pages, 4 * kMiB);
+}
+
 TEST(Pages, WhatIsGivenBackIsTakenAgainWhileThereIsAKeeper) {
   const PageKeeper keeper;
-  void* const first = takePages(4 * kMiB);
-  ASSERT_NE(first, nullptr);
-  std::ranges::fill(bytesOf(first, 4 * kMiB), std::uint8_t{7});
-  givePagesBack(first, 4 * kMiB);
+  giveSevensBack();
   void* const second = takePages(3 * kMiB);
   void* const third = takePages(3 * kMiB);
   EXPECT_TRUE(isAll(bytesOf(second, 3 * kMiB), 7));
@@ -70,10 +75,7 @@ TEST(Pages, WhatIsGivenBackIsTakenAgainWhileThereIsAKeeper) {
 
 TEST(Pages, AreFreshWhenTheSystemMovesNoMoreAndNobodyElsesAreTouched) {
   const PageKeeper keeper;
-  void* const first = takePages(4 * kMiB);
-  ASSERT_NE(first, nullptr);
-  std::ranges::fill(bytesOf(first, 4 * kMiB), std::uint8_t{7});
-  givePagesBack(first, 4 * kMiB);
+  giveSevensBack();
   movesLeft = 3;
   void* const second = takePages(4 * kMiB);
   movesLeft = std::numeric_limits<int>::max();
@@ -86,9 +88,7 @@ TEST(Pages, AreFreshWhenTheSystemMovesNoMoreAndNobodyElsesAreTouched) {
 }
 
 TEST(Pages, WithoutAKeeperTheyAreFresh) {
-  void* const first = takePages(4 * kMiB);
-  std::ranges::fill(bytesOf(first, 4 * kMiB), std::uint8_t{7});
-  givePagesBack(first, 4 * kMiB);
+  giveSevensBack();
   void* const second = takePages(4 * kMiB);
   EXPECT_TRUE(isAll(bytesOf(second, 4 * kMiB), 0));
   givePagesBack(second, 4 * kMiB);
@@ -97,9 +97,7 @@ TEST(Pages, WithoutAKeeperTheyAreFresh) {
 TEST(Pages, AKeeperLeavesNothingToTheNext) {
   {
     const PageKeeper outer, inner;
-    void* const pages = takePages(4 * kMiB);
-    std::ranges::fill(bytesOf(pages, 4 * kMiB), std::uint8_t{7});
-    givePagesBack(pages, 4 * kMiB);
+    giveSevensBack();
   }
   const PageKeeper keeper;
   void* const pages = takePages(4 * kMiB);

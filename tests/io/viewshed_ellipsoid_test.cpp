@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <variant>
 
@@ -39,17 +40,41 @@ struct Tally : CellTally {
   int sweeps = 0;
 };
 
-void compare(const TerrainModel& model, const SightEarth& earth, std::shared_ptr<const SightGrid> grid,
-             const ViewshedObserver& observer, const ViewshedOptions& options, std::size_t every,
-             const std::string& what, Tally& tally) {
-  const auto maker = ViewshedMaker::make(model, earth, grid);
+Georeference georeferenceOf(const Map& map) {
+  Georeference georeference;
+  georeference.geoTransform = map.geoTransform;
+  const auto crs = crsFromText(map.crs);
+  EXPECT_TRUE(crs && describeCrs(*crs, georeference)) << map.crs;
+  return georeference;
+}
+
+/// A raster on a map.
+struct Ground {
+  TerrainModel model;
+  std::shared_ptr<const SightGrid> grid;
+  std::unique_ptr<const SightEarth> earth;  // of the model; null where there is none
+
+  Ground(const RasterHeightfield& field, const Georeference& georeference)
+      : grid(std::make_shared<const SightGrid>(field.columns, field.rows, field.heights)) {
+    model.columns = field.columns;
+    model.rows = field.rows;
+    model.georeference = georeference;
+    if (auto made = makeEllipsoidEarth(model)) earth = std::move(*made);
+  }
+  Ground(const Ground&) = delete;
+};
+
+void compare(const Ground& terrain, const ViewshedObserver& observer, const ViewshedOptions& options,
+             std::size_t every, const std::string& what, Tally& tally) {
+  const auto maker = ViewshedMaker::make(terrain.model, *terrain.earth, terrain.grid);
   ASSERT_TRUE(maker);
   const auto viewshed = maker->from(observer, options);
   ASSERT_TRUE(viewshed) << viewshed.error().describe();
   tally.sweeps += viewshed->method == ViewshedMethod::sweep;
-  const auto engine = makeSightPyramid(grid);
-  expectCells(*viewshed, {earth, *engine, *grid, model.georeference.verticalUnitMetres}, observer, options,
-              what, tally, observer.plan.x > 0 ? 1 : 0, every);
+  const auto engine = makeSightPyramid(terrain.grid);
+  expectCells(*viewshed,
+              {*terrain.earth, *engine, *terrain.grid, terrain.model.georeference.verticalUnitMetres},
+              observer, options, what, tally, observer.plan.x > 0 ? 1 : 0, every);
 }
 
 TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngine) {
@@ -58,24 +83,17 @@ TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngine) {
   for (const Map& map : kMaps)
     for (const RasterFamily& family : rasterFamilies()) {
       const RasterHeightfield field = family.make(71, 84, 4);
-      TerrainModel model;
-      model.columns = field.columns;
-      model.rows = field.rows;
-      model.georeference.geoTransform = map.geoTransform;
-      const auto crs = crsFromText(map.crs);
-      ASSERT_TRUE(crs && describeCrs(*crs, model.georeference));
-      const auto earth = makeEllipsoidEarth(model);
-      ASSERT_TRUE(earth);
-      const auto grid = std::make_shared<const SightGrid>(field.columns, field.rows, field.heights);
+      const Ground terrain(field, georeferenceOf(map));
+      ASSERT_NE(terrain.earth, nullptr);
       Tally tally;
       for (int i = 0; i < 3; ++i) {
         Vec2 plan{random.between(2, field.columns - 3), random.between(2, field.rows - 3)};
         if (i == 1) plan = {std::round(plan.x), std::round(plan.y)};
-        const double ground = grid->at(plan), heights[] = {2, 30, 10};
+        const double ground = terrain.grid->at(plan), heights[] = {2, 30, 10};
         ViewshedOptions options;
         options.targetHeight = i == 2 ? 2 : 0;
         options.nodata = static_cast<NodataSight>(i);
-        compare(model, **earth, grid, {plan, (std::isnan(ground) ? 100 : ground) + heights[i]}, options, 1,
+        compare(terrain, {plan, (std::isnan(ground) ? 100 : ground) + heights[i]}, options, 1,
                 std::string(family.name) + " on " + map.crs, tally);
       }
       EXPECT_EQ(tally.wrong, 0u) << family.name << " on " << map.crs;
@@ -93,20 +111,12 @@ TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngineToObserversAsHighAsSate
   for (const Map& map : kMaps)
     for (const RasterFamily& family : rasterFamilies()) {
       const RasterHeightfield field = family.make(71, 84, 5);
-      TerrainModel model;
-      model.columns = field.columns;
-      model.rows = field.rows;
-      model.georeference.geoTransform = map.geoTransform;
-      const auto crs = crsFromText(map.crs);
-      ASSERT_TRUE(crs && describeCrs(*crs, model.georeference));
-      const auto earth = makeEllipsoidEarth(model);
-      ASSERT_TRUE(earth);
-      const auto grid = std::make_shared<const SightGrid>(field.columns, field.rows, field.heights);
+      const Ground terrain(field, georeferenceOf(map));
+      ASSERT_NE(terrain.earth, nullptr);
       Tally tally;
       for (const double height : {1e4, 4e5, 4e7}) {
         const Vec2 plan{random.between(2, field.columns - 3), random.between(2, field.rows - 3)};
-        compare(model, **earth, grid, {plan, height}, {}, 3, std::string(family.name) + " on " + map.crs,
-                tally);
+        compare(terrain, {plan, height}, {}, 3, std::string(family.name) + " on " + map.crs, tally);
       }
       EXPECT_EQ(tally.wrong, 0u) << family.name << " on " << map.crs;
       all.sweeps += tally.sweeps;
@@ -175,15 +185,8 @@ TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngineWhereNodataIsScattered)
             voids.push_back({double(column), double(row)});
           }
         ASSERT_FALSE(voids.empty());
-        TerrainModel model;
-        model.columns = field.columns;
-        model.rows = field.rows;
-        model.georeference.geoTransform = map.geoTransform;
-        const auto crs = crsFromText(map.crs);
-        ASSERT_TRUE(crs && describeCrs(*crs, model.georeference));
-        const auto earth = makeEllipsoidEarth(model);
-        ASSERT_TRUE(earth);
-        const auto grid = std::make_shared<const SightGrid>(field.columns, field.rows, field.heights);
+        const Ground terrain(field, georeferenceOf(map));
+        ASSERT_NE(terrain.earth, nullptr);
         Tally tally;
         const std::string what = "share " + std::to_string(share) + ", seed " + std::to_string(seed);
         for (int i = 0; i < 6; ++i) {
@@ -192,12 +195,12 @@ TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngineWhereNodataIsScattered)
           plan.y = std::clamp(plan.y + double(random.below(3)) - 1, 2.0, field.rows - 3.0);
           if (i % 2 == 1) plan = {plan.x + random.unit() - 0.5, plan.y + random.unit() - 0.5};
           plan = {std::max(plan.x, 2.0), std::max(plan.y, 2.0)};
-          const double ground = grid->at(plan), heights[] = {2, 30, 10};
+          const double ground = terrain.grid->at(plan), heights[] = {2, 30, 10};
           ViewshedOptions options;
           options.targetHeight = i % 3 == 2 ? 2 : 0;
           options.nodata = static_cast<NodataSight>(i % 3);
-          compare(model, **earth, grid, {plan, (std::isnan(ground) ? 100 : ground) + heights[i / 2]}, options,
-                  1, what + " on " + map.crs, tally);
+          compare(terrain, {plan, (std::isnan(ground) ? 100 : ground) + heights[i / 2]}, options, 1,
+                  what + " on " + map.crs, tally);
         }
         EXPECT_EQ(tally.wrong, 0u) << what << " on " << map.crs;
         all.sweeps += tally.sweeps;
@@ -220,19 +223,14 @@ TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngineOnRealDems) {
     const auto dem = readDem(path.string());
     ASSERT_TRUE(dem);
     const auto& field = std::get<RasterHeightfield>(dem->heightfield);
-    TerrainModel model;
-    model.columns = field.columns;
-    model.rows = field.rows;
-    model.georeference = field.georeference;
-    const auto earth = makeEllipsoidEarth(model);
-    ASSERT_TRUE(earth);
-    const auto grid = std::make_shared<const SightGrid>(field.columns, field.rows, field.heights);
+    const Ground terrain(field, field.georeference);
+    ASSERT_NE(terrain.earth, nullptr);
     Tally tally;
     for (int i = 0; i < 3; ++i) {
       Vec2 plan;
       do plan = {double(random.below(field.columns)), double(random.below(field.rows))};
-      while (std::isnan(grid->at(plan)));
-      compare(model, **earth, grid, {plan, grid->at(plan) + 3}, {}, 97, name, tally);
+      while (std::isnan(terrain.grid->at(plan)));
+      compare(terrain, {plan, terrain.grid->at(plan) + 3}, {}, 97, name, tally);
     }
     EXPECT_EQ(tally.wrong, 0u) << name;
     RecordProperty("rays of " + std::string(name), std::to_string(tally.rays));
