@@ -7,7 +7,6 @@
 #include "io/packed_arrays.h"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -26,12 +25,7 @@ constexpr std::size_t kWorthAMapping = std::size_t{1} << 20;
 
 void* takeZeros(std::size_t bytes) {
   if (bytes < kWorthAMapping) return std::calloc(bytes, 1);
-  void* const zeros = takeZeroPages(bytes);
-  if (zeros == nullptr) return nullptr;
-#ifdef MADV_HUGEPAGE
-  madvise(zeros, bytes, MADV_HUGEPAGE);  // a wish: nothing depends on it
-#endif
-  return zeros;
+  return takeZeroPages(bytes);
 }
 
 void giveZerosBack(void* zeros, std::size_t bytes) {

@@ -16,7 +16,7 @@
 
 namespace arete::packed {
 
-/// Zeros from the system, in large pages where it has them; nullptr when there is not enough memory.
+/// Zeros; of many, pages of the system. nullptr when there is not enough memory.
 void* takeZeros(std::size_t bytes);
 void giveZerosBack(void* zeros, std::size_t bytes);
 
