@@ -255,4 +255,10 @@ Result<std::vector<ExtractCriterion>> CriterionArguments::criteria(const Terrain
   return criteria;
 }
 
+double CriterionArguments::leastError() const {
+  if (maxErrors_.empty() || !camera_.empty() || fit_ != "none") return 0;
+  const auto errors = parseNumbers("--max-error", maxErrors_);
+  return errors ? std::ranges::min(*errors) : 0;
+}
+
 }  // namespace arete

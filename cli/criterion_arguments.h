@@ -24,6 +24,11 @@ struct CriterionArguments {
   /// option; invalidData, a camera above no terrain.
   Result<std::vector<ExtractCriterion>> criteria(const TerrainModel& model) const;
 
+  /// An error that every criterion allows everywhere. 0 where a camera's pixels decide, or a budget or a
+  /// deadline alone, or a fit looks at all samples; or where the tolerances cannot be read, which criteria()
+  /// tells.
+  double leastError() const;
+
   const std::string& region() const { return region_; }
   double distance() const { return distance_; }
   bool hasDeadline() const { return deadline_ > 0; }

@@ -205,9 +205,20 @@ std::string brokenPromise(const ExtractedTin& tin) {
   return sentence;
 }
 
+/// Of a packed file, no more than the TINs can ask for. What is measured is measured against all samples, and
+/// a format that rounds heights may want a smaller error than the one asked for.
+AmtLoadOptions loadOptionsFor(const ExtractArguments& arguments) {
+  AmtLoadOptions options;
+  const Result<MeshFormat> format = meshFormatOf(arguments.output);
+  const bool isMeasured = arguments.certificateOption->count() > 0 || !arguments.errorRaster.empty();
+  if (format && format->holds.isExact && !isMeasured)
+    options.unpack.leastError = arguments.criterion.leastError();
+  return options;
+}
+
 Status runExtract(const ExtractArguments& arguments, Session& session) {
   if (Status ok = arguments.criterion.check(); !ok) return ok;
-  const Result<TerrainModel> model = loadAmt(arguments.model, {}, session.context());
+  const Result<TerrainModel> model = loadAmt(arguments.model, loadOptionsFor(arguments), session.context());
   if (!model) return tl::unexpected(model.error());
   auto requests = requestsOf(arguments, *model);
   if (!requests) return tl::unexpected(requests.error());

@@ -201,6 +201,11 @@ class WriterIo {
       return std::nullopt;
     return band - bandOf(remover);
   }
+  /// Whether a node of another chunk removes the triangle.
+  bool isLeft(std::uint32_t slot) const {
+    const std::uint32_t remover = a_.remover[w_.oldTriangle[slot]];
+    return remover != kNone && w_.plan.chunkOf[remover] != chunk_;
+  }
 
  private:
   std::uint32_t bandOf(std::uint32_t oldNode) const {

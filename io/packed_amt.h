@@ -34,6 +34,10 @@ struct UnpackOptions {
   /// Read only what is needed inside of this box of plan coordinates: the nodes whose floors or stars may
   /// reach into it, and their ancestors. The rest of the terrain is as coarse as these leave it.
   std::optional<Box2> box;
+  /// Read only what cuts can ask for that allow at least this error everywhere, in the unit of the heights:
+  /// these are the same cuts, with the same numbers of vertices and triangles, as those of the whole. The
+  /// time is that of the nodes whose saturated errors are not below half of it. NaN or negative: 0.
+  double leastError = 0;
 };
 
 /// Unpacks. `counts`, `model` and the rest of the metadata are believed only where the bytes bear them out:

@@ -59,7 +59,6 @@ bool Arrays::allocate(const AmtCounts& counts, std::uint64_t borders) {
   floatPlaces = ZeroArray<Place<float>>(holdsFloats() ? v : 0);
   doublePlaces = ZeroArray<Place<double>>(holdsFloats() ? 0 : v);
   star = ZeroArray<std::uint8_t>(n);
-  shownArea = ZeroArray<std::uint8_t>(ids);
   border = ZeroArray<Border>(roots + borders);
   wholeErrors.assign((kLatticeErrorArea + 1) * 16, 0);
   for (unsigned area = 1; area <= kLatticeErrorArea; ++area)
@@ -69,7 +68,7 @@ bool Arrays::allocate(const AmtCounts& counts, std::uint64_t borders) {
          floor.isThere() && creatorHint.isThere() && error.isThere() && below.isThere() && above.isThere() &&
          saturatedError.isThere() && sphere.isThere() && samples.isThere() && plan.isThere() &&
          rawHeights.isThere() && floatPlaces.isThere() && doublePlaces.isThere() && star.isThere() &&
-         shownArea.isThere() && border.isThere();
+         border.isThere();
 }
 
 void Arrays::joinRoot() {
@@ -113,7 +112,6 @@ MultiTriangulation Arrays::model(std::shared_ptr<Arrays> arrays) {
   from.floatPlaces = {};
   from.doublePlaces = {};
   from.star = {};
-  from.shownArea = {};
   from.border = {};
   from.blocks = makeNodeBlocks(from.saturatedError.view(), from.sphere.view());
   MtArrays a;

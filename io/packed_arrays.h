@@ -88,9 +88,8 @@ struct Arrays {
   ZeroArray<Place<double>> doublePlaces;
   /// Codes of errors of whole-numbered heights: by doubled area, up to kLatticeErrorArea, and error * area.
   std::vector<std::uint16_t> wholeErrors;
-  ZeroArray<std::uint8_t> star;       ///< slots of a node, + kOpen; 0 = not there yet
-  ZeroArray<std::uint8_t> shownArea;  ///< per triangle id, see packed::shownArea()
-  ZeroArray<Border> border;           ///< of the root's triangles, then of the chunks' (Chunk::firstBorder)
+  ZeroArray<std::uint8_t> star;  ///< slots of a node, + kOpen; 0 = not there yet
+  ZeroArray<Border> border;      ///< of the root's triangles, then of the chunks' (Chunk::firstBorder)
   static constexpr std::uint8_t kOpen = 128;
 
   /// The remover of a triangle that nobody has removed, until all is read: the front's record of it, for the

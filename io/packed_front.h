@@ -6,7 +6,7 @@
 // replace floors. Records of triangles that are gone are used again, so they stay in a cache. While a record
 // is there, the triangle's remover is a mark that names the record. Triangles that nobody removes (of the
 // finest triangulation: one in three) are known when they are made; nobody asks for them, so they share one
-// record, which says nothing. What is there at the end is left to other chunks.
+// record, which says nothing. Known then are also those that are left to other chunks.
 //
 // Triangles that other chunks made and left have a border record instead (Arrays::border), made when their
 // chunk ended and never changed afterwards. What it says of a triangle across may have been removed since:
@@ -57,6 +57,7 @@ struct FrontSpace {
     std::array<std::uint32_t, 3> corners;
     std::uint32_t id;
     std::array<Side, 3> across;
+    std::uint32_t border;  ///< its place in Arrays::border, if it is left to others
   };
   std::vector<Record> pool;
   std::vector<std::uint32_t> free;     ///< records that are free, and some spare
@@ -70,9 +71,15 @@ class Front {
     std::uint32_t record, id;
   };
 
-  explicit Front(Arrays& arrays, FrontSpace& space)
-      : a_(arrays), pool_(space.pool), free_(space.free), foreign_(space.foreign) {
-    pool_.assign(1, Record{{}, kGone, {}});
+  Front(Arrays& arrays, const Chunk& chunk, FrontSpace& space)
+      : a_(arrays),
+        pool_(space.pool),
+        free_(space.free),
+        foreign_(space.foreign),
+        firstBorder_(static_cast<std::uint32_t>(a_.roots + chunk.firstBorder)),
+        borderEnd_(firstBorder_ + chunk.borders),
+        nextBorder_(firstBorder_) {
+    pool_.assign(1, Record{{}, kGone, {}, kNotLeft});
     foreign_.clear();
     free_.resize(std::max(free_.size(), kSpare));
   }
@@ -115,10 +122,11 @@ class Front {
   /// Puts a node's star in the place of its floor: the link, the removers and the front. Returns the records
   /// of the star's triangles, valid until the next star.
   /// kCorners: of the link, whose star is closed; or 0 for any. staying: bit i says that nobody removes
-  /// triangle i.
+  /// triangle i; left: that another chunk does.
   template <int kCorners>
   [[gnu::always_inline]] const std::uint32_t* addStar(std::uint32_t node, std::uint32_t slot,
-                                                      const Floor& floor, std::uint64_t staying) {
+                                                      const Floor& floor, std::uint64_t staying,
+                                                      std::uint64_t left) {
     const auto size = static_cast<std::uint32_t>(kCorners > 0 ? kCorners : floor.corners);
     const bool isOpen = kCorners == 0 && floor.isOpen;
     const std::uint32_t triangles = size - (isOpen ? 1 : 0), apex = a_.rootVertices + node;
@@ -152,6 +160,9 @@ class Front {
       r.across[0] = before;
       r.across[1] = across;
       r.across[2] = isLast ? afterLast : records[i + 1] << 2;
+      const auto isLeft = static_cast<std::uint32_t>(left >> i & 1);
+      r.border = nextBorder_ | (isLeft - 1);
+      nextBorder_ += isLeft;
       if ((across & kForeign) == 0) [[likely]]
         pool[across >> 2].across[across & 3] = record << 2 | 1;
       link[i] = corner;
@@ -171,19 +182,24 @@ class Front {
     return records;
   }
 
-  /// After the last node: what other chunks may ask for, which is all that is there still. False when these
-  /// are not as many as announced.
-  bool finish(const Chunk& chunk) {
-    auto place = static_cast<std::uint32_t>(a_.roots + chunk.firstBorder);
-    const std::uint32_t end = place + chunk.borders;
+  /// After the last node: what other chunks may ask for. `isWhole`: the nodes of all bands were told, so that
+  /// nothing else is there still. False when it is not so, some of what is left has gone, or it is not as
+  /// much as announced.
+  bool finish(bool isWhole) {
+    if (nextBorder_ > borderEnd_) return false;
+    std::uint32_t there = 0;
     for (const Record& r : pool_) {
       if (r.id == kGone) continue;
-      if (place == end) return false;
-      a_.border[place] = {
+      if (r.border == kNotLeft) {
+        if (isWhole) return false;
+        continue;
+      }
+      a_.border[r.border] = {
           r.corners, r.id, {idAcross(r.across[0]), idAcross(r.across[1]), idAcross(r.across[2])}};
-      std::atomic_ref(a_.remover[r.id]).store(Arrays::kMarks | place++, std::memory_order_release);
+      std::atomic_ref(a_.remover[r.id]).store(Arrays::kMarks | r.border, std::memory_order_release);
+      ++there;
     }
-    return place == end;
+    return there == nextBorder_ - firstBorder_ && (!isWhole || nextBorder_ == borderEnd_);
   }
 
   void prefetchBorder(std::uint32_t place) const { __builtin_prefetch(&a_.border[place]); }
@@ -228,6 +244,7 @@ class Front {
   static constexpr std::uint32_t kGone = kNone;       ///< id of a record that is free
   static constexpr std::uint32_t kStays = kNone - 1;  ///< id across: some triangle that nobody removes
   static constexpr std::uint32_t kStaying = 0;        ///< the record of all of those, which says nothing
+  static constexpr std::uint32_t kNotLeft = ~0u;
   static constexpr std::size_t kSpare = 8;
 
   using Record = FrontSpace::Record;
@@ -235,7 +252,7 @@ class Front {
   /// Enough for a star.
   [[gnu::noinline]] void moreFree() {
     const auto first = static_cast<std::uint32_t>(pool_.size());
-    pool_.resize(first + 4 * kMaxHoleCorners, Record{{}, kGone, {}});
+    pool_.resize(first + 4 * kMaxHoleCorners, Record{{}, kGone, {}, kNotLeft});
     // Every record may be free, and one more is looked at.
     free_.resize(std::max(free_.size(), pool_.size() + kSpare));
     for (std::uint32_t i = 4 * kMaxHoleCorners; i-- > 0;) free_[freeCount_++] = first + i;
@@ -307,6 +324,7 @@ class Front {
   std::uint32_t freeCount_ = 0;
   std::array<std::uint32_t, kMaxHoleCorners> records_;  ///< of the last star
   std::vector<std::uint32_t>& foreign_;
+  std::uint32_t firstBorder_, borderEnd_, nextBorder_;
 };
 
 }  // namespace arete::packed

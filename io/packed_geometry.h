@@ -33,12 +33,13 @@ class Geometry {
                        static_cast<Real>(m.scale.z * a_.encoding.scale), 0};
   }
 
-  /// Of all nodes of a run, whose shapes are given. False when a vertex is outside of its grid, has no
-  /// height, or there is no metric to reckon with.
-  bool run(const Run& run, unsigned bandClass, std::span<const Shape* const> shapes) {
+  /// Of all nodes of a run, whose shapes are given; `areas` receives the shownArea() of each slot. False when
+  /// a vertex is outside of its grid, has no height, or there is no metric to reckon with.
+  bool run(const Run& run, unsigned bandClass, std::span<const Shape* const> shapes, std::uint8_t* areas) {
     if (!std::isfinite(metricStep_[0] + metricStep_[1] + metricStep_[2])) return false;
     class_ = bandClass;
     slot_ = run.firstSlot;
+    nextAreas_ = areas;
     const std::uint32_t lastSlot = run.firstSlot + run.slots - 1;
     for (std::uint32_t i = 0; i < run.nodes; ++i) {
       node_ = run.firstNode + i;
@@ -52,6 +53,7 @@ class Geometry {
       // An open star has its mark, and is none of the usual ones.
       if (!withCorners(star, [&](auto known) { return nodeOf<known>(); })) return false;
       slot_ += static_cast<std::uint32_t>(corners_);
+      nextAreas_ += corners_;
     }
     return true;
   }
@@ -149,9 +151,8 @@ class Geometry {
     const auto cross = [](const std::array<Real, 2>& p, const std::array<Real, 2>& q) {
       return p[0] * q[1] - q[0] * p[1];
     };
-    std::uint8_t* const areas = a_.shownArea.get() + a_.roots + slot_;
     for (unsigned i = 0; i < static_cast<unsigned>(corners); ++i)
-      areas[i] = shownArea(a_.isLattice, static_cast<float>(std::fabs(cross(away[i], away[i + 1]))));
+      nextAreas_[i] = shownArea(a_.isLattice, static_cast<float>(std::fabs(cross(away[i], away[i + 1]))));
     Real w0 = 1, w1 = 0, w2 = 0;
     std::array<std::uint8_t, 3> in{};
     for (int i = 0; i < corners - 2; ++i) {
@@ -204,6 +205,7 @@ class Geometry {
   unsigned class_ = 0;
   int corners_ = 0;
   bool isOpen_ = false;
+  std::uint8_t* nextAreas_ = nullptr;
   const Shape* shape_ = nullptr;
   Four apex_;
 };

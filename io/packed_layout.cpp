@@ -75,7 +75,7 @@ class ByteSource {
 
 /// The first packed form had none, but a class of a band in its place, which is below kClasses; the second
 /// was 16.
-constexpr std::uint8_t kPackedVersion = 17;
+constexpr std::uint8_t kPackedVersion = 18;
 static_assert(kPackedVersion >= kClasses);
 
 constexpr std::uint32_t kMaxIds = MultiTriangulation::kNone - 1;

@@ -38,6 +38,7 @@ struct Chunk {
   std::uint64_t offset = 0;
   std::uint32_t nodes = 0;
   std::uint64_t firstBorder = 0;  ///< those of the chunks before it
+  bool isCut = false;             ///< the runs of its last bands are not wanted
   std::uint64_t bytes() const {
     std::uint64_t sum = 0;
     for (const std::uint32_t b : streamBytes) sum += b;

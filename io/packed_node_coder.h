@@ -13,11 +13,13 @@
 //   number. Nodes whose floor is made by other chunks are listed, at the begin of their band.
 //   Its floor: its shape as a walk from the seed across edges finds it (packed_shapes.h). The walk's order of
 //   the edges that are not inner ones is the link's.
-//   Whether the star is open, and at which edge of the border; which of its triangles nobody removes.
+//   Whether the star is open, and at which edge of the border; which of its triangles nobody removes, and
+//   which are left to other chunks.
 //   The place of its vertex, against the centroid of the link; its height, against the plane of the triangle
 //   of the floor that it stands on.
-//   Error and bounds of the floor's triangles.
-// The last two are told of all nodes of a run when their stars are there (packed_geometry.h).
+//   Error and bounds of those of its star's triangles that somebody removes.
+// The last two are told of all nodes of a run when their stars are there (packed_geometry.h). Nothing is told
+// of a node's children before it: so the first bands alone are an MT, of which every error is known.
 //
 // What lies across an edge: packed_front.h.
 
@@ -42,7 +44,9 @@ struct CoderSpace {
   std::vector<std::uint32_t> listed;   ///< places of seeds in Arrays::border
   std::vector<const Shape*> shapesOf;  ///< of the run's nodes
   std::deque<Shape> otherShapes;       ///< those that are not listed, or turned
-  std::vector<std::uint8_t> isLast;  ///< of each triangle of the run's floors: whether it is its floor's last
+  std::vector<std::uint32_t>
+      passing;                      ///< slots of the run's stars whose triangles somebody removes, and some
+  std::vector<std::uint8_t> areas;  ///< of the run's slots, see shownArea()
 };
 
 /// Real: of the places, see Arrays::places().
@@ -56,7 +60,7 @@ class NodeCoder {
         io_(io),
         shapes_(listedShapes()),
         geometry_(arrays, io),
-        front_(arrays, space.front),
+        front_(arrays, chunk, space.front),
         space_(space) {
     for (auto& queue : space_.queues) queue.clear();
   }
@@ -64,6 +68,7 @@ class NodeCoder {
   /// All nodes of the chunk. False when the symbols make no sense; problem() says which.
   bool run() {
     if (chunk_.nodes > kMostNodes) return fail("has more nodes than a chunk can have");
+    if (&chunk_ == directory_.chunks.data()) rootValues();
     for (const Run& run : chunk_.runs) {
       band_ = run.band;
       class_ = directory_.bandClass[band_];
@@ -71,9 +76,10 @@ class NodeCoder {
       slot_ = run.firstSlot;
       slotEnd_ = run.firstSlot + run.slots;
       nodeEnd_ = run.firstNode + run.nodes;
-      space_.isLast.resize(
-          std::max<std::size_t>(space_.isLast.size(), run.slots - 2 * std::size_t{run.nodes}));
-      nextIsLast_ = space_.isLast.data();
+      // One more is written than there are.
+      space_.passing.resize(std::max<std::size_t>(space_.passing.size(), std::size_t{run.slots} + 1));
+      space_.areas.resize(std::max<std::size_t>(space_.areas.size(), run.slots));
+      nextPassing_ = space_.passing.data();
       space_.shapesOf.clear();
       space_.otherShapes.clear();
       std::vector<Own>& queue = space_.queues[band_];
@@ -100,18 +106,19 @@ class NodeCoder {
       if (node_ != nodeEnd_ || slot_ != slotEnd_)
         return fail("has another number of nodes or slots than announced");
       queue.clear();
-      if (!geometry_.run(run, class_, space_.shapesOf))
+      if (!geometry_.run(run, class_, space_.shapesOf, space_.areas.data()))
         return fail("has a vertex outside of its grid or without a height");
       values(run);
+      saturate(run);
     }
-    if (!front_.finish(chunk_)) return fail("leaves another number of triangles than announced");
+    if (!front_.finish(!chunk_.isCut)) return fail("leaves another number of triangles than announced");
     return true;
   }
   const std::string& problem() const { return problem_; }
 
  private:
   using Own = Front::Own;
-  static constexpr std::size_t kAhead = 12, kValuesAhead = 7;
+  static constexpr std::size_t kAhead = 12;
   static constexpr std::uint32_t kMostNodes = 1u << 27;  ///< so that the front's records can be numbered
 
   bool fail(const char* what) {
@@ -145,17 +152,19 @@ class NodeCoder {
     // Every node that is still to come needs three.
     if (size + 3 * (nodeEnd_ - node_ - 1) > slotEnd_ - slot_) return fail("has more slots than announced");
     if (!io_.star(floor_, slot_)) return fail("has a star that is not its floor's");
-    const int made = corners<kCorners>() - (kCorners == 0 && floor_.isOpen ? 1 : 0);
+    const int made = static_cast<int>(starTriangles<kCorners>());
     const std::uint64_t staying = io_.raw(made, io_.staying(slot_, made));
-    const std::uint32_t* const records = front_.template addStar<kCorners>(node_, slot_, floor_, staying);
+    const std::uint64_t left = this->left<kCorners>();
+    if ((left & staying) != 0 || left >> made != 0) return fail("leaves triangles that it cannot leave");
+    const std::uint32_t* const records =
+        front_.template addStar<kCorners>(node_, slot_, floor_, staying, left);
     std::uint32_t* const ids = a_.floor.get() + (slot_ - 2 * node_);
     const int triangles = corners<kCorners>() - 2;
-    for (int i = 0; i < triangles; ++i) {
-      ids[i] = floor_.id(i);
-      nextIsLast_[i] = 0;
+    for (int i = 0; i < triangles; ++i) ids[i] = floor_.id(i);
+    for (int i = 0; i < made; ++i) {
+      *nextPassing_ = slot_ + static_cast<std::uint32_t>(i);
+      nextPassing_ += ~staying >> i & 1;
     }
-    nextIsLast_ += triangles;
-    nextIsLast_[-1] = 1;
     space_.shapesOf.push_back(shape_);
     if (!seeds<kCorners>(records)) return fail("has a node below the last band");
     ++node_;
@@ -226,52 +235,57 @@ class NodeCoder {
     return true;
   }
 
-  /// Errors and bounds of all triangles that the nodes of a run remove.
+  /// Errors and bounds of all triangles of a run's stars that somebody removes.
   void values(const Run& run) {
-    if (a_.isLattice && a_.encoding.type == HeightEncoding::Type::int16)
-      values<true>(run);
-    else
-      values<false>(run);
+    const std::uint32_t *const begin = space_.passing.data(), *const end = nextPassing_;
+    const std::uint8_t* const areas = space_.areas.data();
+    const auto areaOf = [&](std::uint32_t slot) { return areas[slot - run.firstSlot]; };
+    valuesOf(band_, [&](const auto& tell) {
+      for (const std::uint32_t* slot = begin; slot != end; ++slot) tell(a_.roots + *slot, areaOf(*slot));
+    });
   }
-  template <bool kIsWhole>
-  void values(const Run& run) {
-    const std::uint32_t top = (band_ + 1) << MultiTriangulation::kBandShift;
-    const std::uint32_t withoutError = boundReference(0, band_);
-    const std::uint32_t* id = a_.floor.get() + (run.firstSlot - 2 * run.firstNode);
-    const std::uint8_t* const shownArea = a_.shownArea.get();
-    const std::uint8_t* isLast = space_.isLast.data();
-    const std::uint16_t* const wholeErrors = a_.wholeErrors.data();
+  /// The same of the root's triangles, which no band bounds.
+  void rootValues() {
+    const Place<Real>* const place = a_.places<Real>();
+    valuesOf(MultiTriangulation::kBands - 1, [&](const auto& tell) {
+      for (std::uint32_t t = 0; t < a_.roots; ++t) {
+        const auto& corners = a_.rootTriangles[t];
+        const Place<Real>&p = place[corners[0]], &q = place[corners[1]], &r = place[corners[2]];
+        const Real area = (q.x - p.x) * (r.y - p.y) - (r.x - p.x) * (q.y - p.y);
+        tell(t, shownArea(a_.isLattice, static_cast<float>(std::fabs(area))));
+      }
+    });
+  }
+  /// forEach(tell): calls tell(id, shown area) for each triangle. No error is above the band.
+  template <class ForEach>
+  void valuesOf(std::uint32_t band, const ForEach& forEach) {
+    if (a_.isLattice && a_.encoding.type == HeightEncoding::Type::int16)
+      valuesOf<true>(band, forEach);
+    else
+      valuesOf<false>(band, forEach);
+  }
+  template <bool kIsWhole, class ForEach>
+  void valuesOf(std::uint32_t band, const ForEach& forEach) {
+    const std::uint32_t top = (band + 1) << MultiTriangulation::kBandShift;
+    const std::uint32_t withoutError = boundReference(0, band);
+    const unsigned bandClass = directory_.bandClass[band];
     std::uint16_t *const error = a_.error.get(), *const below = a_.below.get(), *const above = a_.above.get();
     auto&& io = io_.values();
-    std::uint16_t* saturated = a_.saturatedError.get() + run.firstNode;
-    std::uint32_t largest = 0;
-    for (const std::uint32_t* const end = id + run.slots - 2 * std::size_t{run.nodes}; id != end;
-         ++id, ++isLast) {
-      const std::uint32_t ahead = id[std::min<std::ptrdiff_t>(kValuesAhead, end - id - 1)];
-      __builtin_prefetch(&shownArea[ahead]);
-      __builtin_prefetch(&error[ahead], 1);
-      __builtin_prefetch(&below[ahead], 1);
-      __builtin_prefetch(&above[ahead], 1);
-      const unsigned doubledArea = shownArea[*id], area = kAreaClass[doubledArea];
-      const std::uint32_t code = triangleError<kIsWhole>(io, *id, doubledArea, area, top, wholeErrors);
+    forEach([&](std::uint32_t id, unsigned shown) {
+      const std::uint32_t code = triangleError<kIsWhole>(io, id, shown, bandClass, top);
       const std::uint32_t reference = code != 0 ? boundStep(code) : withoutError;
-      const BoundSteps bounds = boundsOf(io.bounds(*id, reference), reference);
-      error[*id] = static_cast<std::uint16_t>(code);
-      below[*id] = boundCode(bounds.below);
-      above[*id] = boundCode(bounds.above);
-      // Of each node in turn.
-      largest = std::max(largest, code);
-      *saturated = static_cast<std::uint16_t>(largest);
-      saturated += *isLast;
-      largest &= *isLast - 1u;
-    }
+      const BoundSteps bounds = boundsOf(io.bounds(id, reference), reference);
+      error[id] = static_cast<std::uint16_t>(code);
+      below[id] = boundCode(bounds.below);
+      above[id] = boundCode(bounds.above);
+    });
     io_.putBack(io);
   }
 
   template <bool kIsWhole, class Values>
-  std::uint32_t triangleError(Values& io, std::uint32_t id, unsigned shown, unsigned area, std::uint32_t top,
-                              const std::uint16_t* wholeErrors) {
-    const unsigned table = kErrorTable + area * kErrorClasses + class_ / 3;
+  std::uint32_t triangleError(Values& io, std::uint32_t id, unsigned shown, unsigned bandClass,
+                              std::uint32_t top) {
+    const unsigned table = kErrorTable + kAreaClass[shown] * kErrorClasses + bandClass / 3;
     if (!kIsWhole || shown > kLatticeErrorArea || shown == 0) {
       const std::uint64_t below = codeNumber(io, kErrorStream, table, [&] {
         const std::uint16_t actual = io.actualError(id);
@@ -285,17 +299,54 @@ class NodeCoder {
       whole = found.value_or(0);
       return found ? bucketOf(whole).symbol : kPlainError;
     });
-    if (symbol < 16) return wholeErrors[shown * 16 + symbol];
+    if (symbol < 16) return a_.wholeErrors[shown * 16 + symbol];
     if (symbol == kPlainError) return static_cast<std::uint32_t>(io.raw(16, io.actualError(id)));
     const int bits = rawBitsOf(symbol);
     whole = bucketValue(symbol, io.raw(bits, whole & ((std::uint64_t{1} << bits) - 1)));
     return wholeErrorCode(a_.scale, a_.encoding, whole, shown);
   }
 
+  /// The largest error of each node's floor; saturate() of packed_arrays.h adds the children's.
+  void saturate(const Run& run) {
+    constexpr std::ptrdiff_t kIdsAhead = 24;
+    const std::uint32_t* id = a_.floor.get() + (run.firstSlot - 2 * run.firstNode);
+    const std::uint32_t* const last = id + (run.slots - 2 * std::size_t{run.nodes}) - 1;
+    const std::uint16_t* const error = a_.error.get();
+    for (std::uint32_t n = run.firstNode; n != run.firstNode + run.nodes; ++n) {
+      const std::uint32_t triangles = a_.starSize(n) - 2;
+      std::uint16_t largest = 0;
+      for (std::uint32_t i = 0; i < triangles; ++i, ++id) {
+        __builtin_prefetch(&error[id[std::min(kIdsAhead, last - id)]]);
+        largest = std::max(largest, error[*id]);
+      }
+      a_.saturatedError[n] = largest;
+    }
+  }
+
+  template <int kCorners>
+  std::uint32_t starTriangles() const {
+    return static_cast<std::uint32_t>(corners<kCorners>() - (kCorners == 0 && floor_.isOpen ? 1 : 0));
+  }
+  /// Bit i says that triangle i of the star is left to other chunks.
+  template <int kCorners>
+  [[gnu::always_inline]] std::uint64_t left() {
+    const std::uint32_t triangles = starTriangles<kCorners>();
+    std::uint64_t all = 0;
+    for (std::uint32_t first = 0; first < triangles; first += 8) {
+      const std::uint32_t more = triangles - first;
+      const std::uint64_t mask = io_.code(kSlotStream, kLeftTable + starClass(more), [&] {
+        unsigned actual = 0;
+        for (std::uint32_t i = 0; i < std::min(more, 8u); ++i)
+          actual |= static_cast<unsigned>(io_.isLeft(slot_ + first + i)) << i;
+        return actual;
+      });
+      all |= mask << first;
+    }
+    return all;
+  }
   template <int kCorners>
   [[gnu::always_inline]] bool seeds(const std::uint32_t* records) {
-    const auto triangles =
-        static_cast<std::uint32_t>(corners<kCorners>() - (kCorners == 0 && floor_.isOpen ? 1 : 0));
+    const std::uint32_t triangles = starTriangles<kCorners>();
     for (std::uint32_t first = 0; first < triangles; first += 8) {
       const std::uint32_t left = triangles - first;
       std::array<unsigned, 8> bandsBelow;
@@ -331,7 +382,7 @@ class NodeCoder {
   Front front_;
   CoderSpace& space_;
   Floor floor_;
-  std::uint8_t* nextIsLast_ = nullptr;
+  std::uint32_t* nextPassing_ = nullptr;
   std::string problem_;
 };
 

@@ -65,12 +65,6 @@ bool codeRoot(Arrays& a, Io& io) {
       if (corner >= a.rootVertices) return false;
       c = static_cast<std::uint32_t>(corner);
     }
-  for (std::uint32_t t = 0; t < a.roots; ++t) {
-    const auto& corners = a.rootTriangles[t];
-    const Place<Real>&p = place[corners[0]], &q = place[corners[1]], &r = place[corners[2]];
-    a.shownArea[t] = shownArea(
-        a.isLattice, static_cast<float>(std::fabs((q.x - p.x) * (r.y - p.y) - (r.x - p.x) * (q.y - p.y))));
-  }
   a.joinRoot();
   return true;
 }

@@ -32,7 +32,8 @@ inline constexpr unsigned kStarClasses = 9;
 enum Table : unsigned {
   kSeedsTable = 0,                                  // by star class and whether the band is the last
   kSeedBandTable = kSeedsTable + 2 * kStarClasses,  // by class
-  kSeedTable = kSeedBandTable + kClasses,           //
+  kLeftTable = kSeedBandTable + kClasses,           // by star class
+  kSeedTable = kLeftTable + kStarClasses,           //
   kShapeTable = kSeedTable + 1,                     // by whether the seed is listed
   kFloodTable = kShapeTable + 2,                    // by triangles found (6) and inner edges left (4)
   kOpenTable = kFloodTable + 24,                    //
@@ -48,9 +49,12 @@ enum Table : unsigned {
   kTables
 };
 
-/// Seeds of a star are told eight slots at a time; `left` slots are still to be told.
-inline unsigned seedsTable(std::uint32_t left, std::uint32_t band) {
-  return kSeedsTable + std::min<std::uint32_t>(left, kStarClasses) - 1 + (band == 0 ? kStarClasses : 0);
+/// What becomes of a star's triangles is told of eight at a time; of `more` it is still to be told.
+inline unsigned starClass(std::uint32_t more) {
+  return std::min<std::uint32_t>(more, kStarClasses) - 1;
+}
+inline unsigned seedsTable(std::uint32_t more, std::uint32_t band) {
+  return kSeedsTable + starClass(more) + (band == 0 ? kStarClasses : 0);
 }
 
 // ---- numbers of any size: 256 kinds and raw bits --------------------------------------------------------

@@ -128,6 +128,7 @@ class ReaderIo {
   Vec2 actualPlace() const { return {0, 0}; }
   std::int64_t actualHeightResidual(double) const { return 0; }
   std::optional<unsigned> seedAt(std::uint32_t, std::uint32_t) { return std::nullopt; }
+  bool isLeft(std::uint32_t) const { return false; }
 
  private:
   const Arrays& a_;
@@ -155,6 +156,14 @@ void keepWhatReaches(Directory& directory, const Box2& box) {
       directory.chunks[i].runs.clear();
       directory.chunks[i].borders = 0;
     }
+  directory.number();
+}
+
+/// Drops the bands of all nodes that no cut needs which allows this error everywhere.
+void keepWhatExceeds(Directory& directory, OutwardScale::Code code) {
+  const std::uint32_t last = MultiTriangulation::bandOf(code);
+  for (Chunk& chunk : directory.chunks)
+    chunk.isCut = std::erase_if(chunk.runs, [&](const Run& run) { return run.band < last; }) > 0;
   directory.number();
 }
 
@@ -226,7 +235,8 @@ class Unpacker {
     if (index == 0 && !codeRoot<Real>(*arrays_, io)) return "has a root that is none";
     NodeCoder<Real, ReaderIo> coder(*arrays_, directory_, directory_.chunks[index], io, spaces_.local());
     if (!coder.run()) return coder.problem();
-    if (!io.isAtEnd()) return "has symbols that do not end where they should";
+    if (!directory_.chunks[index].isCut && !io.isAtEnd())
+      return "has symbols that do not end where they should";
     return std::nullopt;
   }
 
@@ -268,6 +278,8 @@ Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const
                    "the packed nodes leave more triangles to others than can be numbered");
   const auto tables = packed::tablesOf(tableBytes);
   if (!tables) return failure(ErrorCode::corrupt, "the tables of the packed nodes are damaged");
+  if (options.leastError > 0)
+    packed::keepWhatExceeds(*directory, metadata.scale.floorCode(options.leastError));
   if (options.box) packed::keepWhatReaches(*directory, *options.box);
   return withThreads(context, [&] {
     return packed::Unpacker(std::move(*directory), *tables, nodes, context, options.box.has_value())

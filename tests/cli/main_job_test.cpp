@@ -353,6 +353,33 @@ TEST_F(MainJob, ValidatesAndNamesWhatIsBroken) {
   }
 }
 
+TEST_F(MainJob, TakesTheSameTinsFromAPackedFileOfWhichItReadsTheBeginnings) {
+  makeRaster("dem.tif", "fractal", 160, 130);
+  for (const std::string shape : {"delaunay", "fidelity"}) {
+    ASSERT_EQ(run({"build", "dem.tif", "-o", "packed.amt", "--packed", "--shape", shape, "-q"}).code, 0);
+    ASSERT_EQ(run({"convert", "packed.amt", "-o", "plain.amt", "-q"}).code, 0);
+    const std::vector<std::vector<std::string>> criteria = {
+        {"--max-error", "0"},
+        {"--max-error", "0.5"},
+        {"--max-error", "7"},
+        {"--max-error", "3", "--method", "saturated"},
+        {"--max-error", "3", "--focus", "500300,4500400", "--error-growth", "0.01"},
+        {"--max-error", "6", "--fit", "triangles"},
+        {"--max-triangles", "500"}};
+    for (const auto& criterion : criteria)
+      for (const std::string extension : {".ply", ".2dm", ".stl"}) {
+        SCOPED_TRACE(criterion[0] + " " + criterion[1] + " " + criterion.back() + extension);
+        for (const std::string model : {"packed", "plain"}) {
+          std::vector<std::string> words = {"extract", model + ".amt", "-o", model + extension};
+          words.insert(words.end(), criterion.begin(), criterion.end());
+          const Outcome extracted = run(words);
+          ASSERT_EQ(extracted.code, 0) << extracted.err;
+        }
+        EXPECT_TRUE(read("packed" + extension) == read("plain" + extension));
+      }
+  }
+}
+
 TEST_F(MainJob, GivesTheSameBytesForAnyNumberOfThreads) {
   makeRaster("dem.tif", "nodata holes", 120, 100);
   for (const std::string threads : {"1", "2", "4"})

@@ -124,14 +124,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   use(*model, context);
   if (!file->isPacked()) return 0;
-  AmtLoadOptions part;
-  part.verify = AmtVerify::indices;
-  part.unpack.box = Box2{0, 0, 2, 2};
-  const auto corner = loadAmt(memory.path(), part, context);
-  if (corner) {
-    takeCuts(*corner, context);
-  } else {
-    fuzz::requireClear(corner.error());
+  AmtLoadOptions corner, coarse;
+  corner.verify = coarse.verify = AmtVerify::indices;
+  corner.unpack.box = Box2{0, 0, 2, 2};
+  coarse.unpack.leastError = 0.5;
+  for (const AmtLoadOptions& options : {corner, coarse}) {
+    const auto part = loadAmt(memory.path(), options, context);
+    if (part) {
+      takeCuts(*part, context);
+    } else {
+      fuzz::requireClear(part.error());
+    }
   }
   return 0;
 }

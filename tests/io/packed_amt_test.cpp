@@ -241,6 +241,60 @@ TEST(PackedAmt, ReadsARegionAlone) {
   EXPECT_TRUE(within(whole.mt, 0) == within(part.mt, 0));
 }
 
+TEST(PackedAmt, ReadsWhatCutsAtAnErrorAskForAlone) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("packed.amt");
+  std::uint64_t nodesOfAll = 0, nodesOfParts = 0;
+  for (const RasterFamily& family : rasterFamilies())
+    for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity}) {
+      const std::string_view name = family.name;
+      const TerrainModel whole = throughPacked(built(build(family.make(90, 80, 8), {.shape = shape})), path);
+      const double range = whole.mt.arrays().scale.decode(OutwardScale::kMaxCode);
+      std::uint32_t nodesBefore = whole.mt.nodeCount();
+      for (const double least : {0.001 * range, 0.01 * range, 0.06 * range, range}) {
+        AmtLoadOptions options;
+        options.unpack.leastError = least;
+        const TerrainModel part = built(loadAmt(path, options));
+        EXPECT_LE(part.mt.nodeCount(), nodesBefore);
+        nodesBefore = part.mt.nodeCount();
+        const Status laws = validate(part.mt);
+        EXPECT_TRUE(laws) << name << ": " << laws.error().describe();
+        ASSERT_TRUE(writeAmt(folder.file("part.amt"), part));
+        const Result<TerrainModel> checked = loadAmt(folder.file("part.amt"));
+        EXPECT_TRUE(checked) << checked.error().describe();
+        for (const double allowed : {least, 1.7 * least, 5 * least})
+          for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
+            const auto x = takeCut(whole.mt, UniformError(allowed), {.method = method});
+            const auto y = takeCut(part.mt, UniformError(allowed), {.method = method});
+            ASSERT_TRUE(x && y);
+            EXPECT_EQ(x->ids, y->ids) << name << ", " << allowed << " of " << least;
+            EXPECT_EQ(x->triangles, y->triangles);
+            EXPECT_EQ(x->vertices, y->vertices);
+            EXPECT_EQ(x->achievedError, y->achievedError);
+            EXPECT_TRUE(facetsOf(whole.mt, *x) == facetsOf(part.mt, *y));
+          }
+      }
+      nodesOfAll += whole.mt.nodeCount();
+      nodesOfParts += nodesBefore;
+    }
+  EXPECT_LT(nodesOfParts, nodesOfAll / 4);
+}
+
+TEST(PackedAmt, ReadsARegionAtAnErrorAlone) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("packed.amt");
+  const TerrainModel whole = throughPacked(built(build(familyNamed("fractal").make(500, 400, 9))), path);
+  AmtLoadOptions options;
+  options.unpack.leastError = 0.1 * whole.mt.arrays().scale.decode(OutwardScale::kMaxCode);
+  const TerrainModel coarse = built(loadAmt(path, options));
+  options.unpack.box = Box2{10, 10, 90, 90};
+  const TerrainModel part = built(loadAmt(path, options));
+  EXPECT_LT(part.mt.nodeCount(), coarse.mt.nodeCount());
+  EXPECT_LT(coarse.mt.nodeCount(), whole.mt.nodeCount() / 2);
+  const Status laws = validate(part.mt);
+  EXPECT_TRUE(laws) << laws.error().describe();
+}
+
 /// Bytes changed one by one: what comes back is refused or holds to every check of plain files.
 TEST(PackedAmt, RefusesOrSurvivesWhateverTheBytesAre) {
   const TemporaryFolder folder;
@@ -248,7 +302,7 @@ TEST(PackedAmt, RefusesOrSurvivesWhateverTheBytesAre) {
   ASSERT_TRUE(writeAmt(folder.file("packed.amt"), model, {}, {.isPacked = true}));
   const AmtBytes original = AmtBytes::of(folder.file("packed.amt"));
   std::mt19937 random(3);
-  int survived = 0;
+  int survived = 0, partsSurvived = 0;
   for (const AmtTag& tag : {amt_tag::kPackedDirectory, amt_tag::kPackedTables, amt_tag::kPackedNodes}) {
     AmtBytes first = original;
     const std::size_t size = first.array<std::uint8_t>(tag).size();
@@ -270,6 +324,14 @@ TEST(PackedAmt, RefusesOrSurvivesWhateverTheBytesAre) {
       }
       changed.seal();
       changed.save(folder.file("changed.amt"));
+      AmtLoadOptions part;
+      part.unpack.leastError = 2;
+      if (const Result<TerrainModel> some = loadAmt(folder.file("changed.amt"), part)) {
+        ++partsSurvived;
+        ASSERT_TRUE(writeAmt(folder.file("part.amt"), *some));
+        const Result<TerrainModel> plain = loadAmt(folder.file("part.amt"));
+        ASSERT_TRUE(plain) << at << ": " << plain.error().describe();
+      }
       const Result<TerrainModel> back = loadAmt(folder.file("changed.amt"));
       if (!back) {
         EXPECT_FALSE(back.error().message.empty());
@@ -282,6 +344,7 @@ TEST(PackedAmt, RefusesOrSurvivesWhateverTheBytesAre) {
     }
   }
   RecordProperty("survived", survived);
+  RecordProperty("parts survived", partsSurvived);
 }
 
 TEST(PackedAmt, NamesTheChunkThatWasAltered) {
