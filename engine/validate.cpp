@@ -5,6 +5,12 @@
 // remover(t) is that node, each floor lists without repeats, and the total of the floors equals the number of
 // removed triangles; together that is a bijection. No triangle can occur twice in different stars because a
 // star's apex is the youngest of its corners.
+//
+// Law 4 cannot be broken alone. A floor has slots - 2 triangles by the layout of the arrays, and law 2 gives
+// it the link, a simple cycle of so many edges, for its rim. By Euler's formula a connected piece with that
+// rim, v vertices inside and g handles has slots - 2 + 2 v + 4 g triangles, so v = g = 0: a polygon, with no
+// triangle left for other pieces. And a part of a star that is not the whole of it has the apex on its rim,
+// which no floor has: nothing smaller is a modification. The checks stand where they cost nothing.
 #include "engine/validate.h"
 
 #include <fmt/format.h>

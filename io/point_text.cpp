@@ -50,6 +50,14 @@ std::string_view unquoted(std::string_view text) {
   return trimmed(text);
 }
 
+/// Where a comment begins, or npos. In quotes '#' is text.
+std::size_t findComment(std::string_view line) {
+  std::size_t at = line.find('#');
+  const auto isQuoted = [&] { return std::count(line.begin(), line.begin() + std::ptrdiff_t(at), '"') % 2; };
+  while (at != std::string_view::npos && isQuoted()) at = line.find('#', at + 1);
+  return at;
+}
+
 std::string quoted(std::string_view text) {
   return fmt::format("'{}'", text::printable(text, kQuotedCharacters));
 }
@@ -162,8 +170,7 @@ class TextParser {
 
   Status addLine(std::string_view line) {
     ++lineNumber_;
-    if (const std::size_t comment = line.find('#'); comment != std::string_view::npos)
-      line = line.substr(0, comment);
+    line = line.substr(0, findComment(line));
     if (trimmed(line).empty()) return {};
     if (!started_) {
       started_ = true;

@@ -47,6 +47,15 @@ Status checkOptions(const BuildOptions& options, std::size_t sampleCount) {
   return {};
 }
 
+Status checkSpan(const Vec3& span, const std::string& source) {
+  constexpr double kMost = 1e30;
+  if (span.x < kMost && span.y < kMost && span.z < kMost) return {};
+  return failure(
+      ErrorCode::invalidData,
+      fmt::format("spans {} by {} metres, and {} in height: more than {}", span.x, span.y, span.z, kMost),
+      source);
+}
+
 std::string whyNoTriangle(const RasterHeightfield& heightfield) {
   std::size_t valid = 0;
   for (const double z : heightfield.heights) valid += std::isnan(z) ? 0 : 1;

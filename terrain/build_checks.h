@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/result.h"
+#include "engine/vec.h"
 #include "terrain/build_options.h"
 #include "terrain/heightfield.h"
 
@@ -13,6 +14,10 @@ namespace arete {
 
 /// Options in range, fixed vertices among the samples.
 Status checkOptions(const BuildOptions& options, std::size_t sampleCount);
+
+/// Whether a model that spans so much in metric space can be told: its spheres are floats. Errors:
+/// invalidData.
+Status checkSpan(const Vec3& span, const std::string& source);
 
 /// A sentence for a raster without a single triangle.
 std::string whyNoTriangle(const RasterHeightfield& heightfield);

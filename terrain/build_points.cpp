@@ -76,6 +76,8 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
   MetricFrame metric;
   metric.origin = {centre.x, centre.y, (*low + *high) / 2};
   metric.scale = {step.x, step.y, field.georeference.verticalUnitMetres};
+  const Vec3 span{(most.x - least.x) * step.x, (most.y - least.y) * step.y, (*high - *low) * metric.scale.z};
+  if (const Status valid = checkSpan(span, field.source); !valid) return tl::unexpected(valid.error());
   model.metricP = stretch >= 1 ? static_cast<std::uint32_t>(stretch) : 1;
   model.metricQ = stretch >= 1 ? 1 : static_cast<std::uint32_t>(1 / stretch);
 

@@ -144,6 +144,8 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   MetricFrame metric;
   metric.origin = {(field.columns - 1) / 2.0, (field.rows - 1) / 2.0, (low + high) / 2};
   metric.scale = {step.x, step.y, field.georeference.verticalUnitMetres};
+  const Vec3 span{field.columns * step.x, field.rows * step.y, (high - low) * metric.scale.z};
+  if (const Status valid = checkSpan(span, field.source); !valid) return tl::unexpected(valid.error());
 
   const LatticePlan plan(field.columns, ratio.p, ratio.q);
   RasterError errors(plan, field.heights, options.rimTolerance > 0);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace arete {
 
@@ -22,13 +23,35 @@ bool PointError::covers(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::
          plan_.orientation(c, a, p) >= 0;
 }
 
+/// The same where doubles cannot tell the triangle from a line: the largest difference of the sides beside p,
+/// for the plane's lies between two of them.
+double PointError::differenceOnLine(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                    std::uint32_t p) const {
+  const Vec2 q = plan_.planPosition(p);
+  double largest = 0;
+  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+    const Vec2 u = plan_.planPosition(from), v = plan_.planPosition(to);
+    const double dx = v.x - u.x, dy = v.y - u.y, squared = dx * dx + dy * dy;
+    const double along = squared > 0 ? ((q.x - u.x) * dx + (q.y - u.y) * dy) / squared : 0;
+    constexpr double kBeside = 0.01;
+    if (along < -kBeside || along > 1 + kBeside) continue;
+    const double t = std::clamp(along, 0.0, 1.0);
+    const double d = heights_[from] + t * (heights_[to] - heights_[from]) - heights_[p];
+    if (std::abs(d) > std::abs(largest)) largest = d;
+  }
+  return largest;
+}
+
 /// z of the plane through a, b, c minus z of p, at p.
 double PointError::difference(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t p) const {
   const Vec2 o = plan_.planPosition(a), pb = plan_.planPosition(b), pc = plan_.planPosition(c),
              q = plan_.planPosition(p);
   const double bx = pb.x - o.x, by = pb.y - o.y, cx = pc.x - o.x, cy = pc.y - o.y, x = q.x - o.x,
                y = q.y - o.y;
-  const double area = bx * cy - by * cx;
+  const double left = bx * cy, right = by * cx, area = left - right;
+  // The terms are rounded: an area far smaller than they are is no area to divide by.
+  constexpr double kTrusted = 0x1p-30;
+  if (!(std::abs(area) > kTrusted * (std::abs(left) + std::abs(right)))) return differenceOnLine(a, b, c, p);
   const double u = (x * cy - y * cx) / area, w = (bx * y - by * x) / area;
   return heights_[a] + u * (heights_[b] - heights_[a]) + w * (heights_[c] - heights_[a]) - heights_[p];
 }

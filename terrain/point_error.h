@@ -81,6 +81,7 @@ class PointError {
  private:
   bool covers(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t p) const;
   double difference(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t p) const;
+  double differenceOnLine(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t p) const;
 
   const PointPlan& plan_;
   std::span<const double> heights_;

@@ -107,7 +107,8 @@ class RemovalCost {
     /// Whether the triangle leaves the cost within the limit.
     const auto measure = [&](int i, int j, int m, bool isOverApex) {
       double error = isOverApex ? hole.apexError(i, j, m) : 0;
-      if (error <= limit) error = keep.measure(hole, i, j, m, limit);
+      // No number is no reason to leave a triangle out of the floor.
+      if (!(error > limit)) error = keep.measure(hole, i, j, m, limit);
       if (error > worst) {
         worst = error;
         note.setWitness(star.link[i], star.link[j], star.link[m]);

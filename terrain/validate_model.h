@@ -18,11 +18,12 @@ struct ValidateModelOptions {
 };
 
 /// Every law of DESIGN section 2 on a model: those of engine/validate.h, and
-///   5  on the fronts above
+///   5  every triangle positively oriented, exactly; the rest of it on the fronts above
 ///   7  every fixed vertex is in the root
 ///   8  the finest front has every sample of the domain for a vertex (raster: the layout of finest_raster.h,
-///   exactly) 9  Delaunay shape without rim tolerance: the fronts above are (constrained) Delaunay in the
-///   build's metric
+///   exactly)
+///   9  Delaunay shape without rim tolerance: the fronts above are (constrained) Delaunay in the build's
+///   metric
 /// Names the first violation. O(triangles * fronts).
 Status validateModel(const TerrainModel& model, const ValidateModelOptions& options = {},
                      const RunContext& context = {});

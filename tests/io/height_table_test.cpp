@@ -52,6 +52,19 @@ TEST(PointTable, KeepsTheOtherColumnsOfATextWithTheirNames) {
             "2,,010,,11,21,,,\n");
 }
 
+TEST(PointTable, TakesAHashInQuotesForTextAndReadsBackWhatIsWrittenOfIt) {
+  const TemporaryFolder folder;
+  std::string text =
+      "# \"sites\", of which two\nsite,x,y # metres\n\"Mast #4, \"\"old\"\"\",10.5,20 # \"gone\"\nb,11,21\n";
+  for (const char* round : {"as it came", "as it is written"}) {
+    const auto table = readPointTable(folder.write("a.csv", text), utm());
+    ASSERT_TRUE(table) << round << ": " << table.error().describe();
+    EXPECT_EQ(table->positions, (std::vector<Vec2>{{10.5, 20}, {11, 21}})) << round;
+    EXPECT_EQ(table->attributes.at(0, 0), "Mast #4, \"old\"") << round;
+    text = csvOf(*table, {SurfaceHeight{.height = 1.5}, std::nullopt});
+  }
+}
+
 TEST(PointTable, NamesTheColumnsOfATextWithoutNamesByTheirPlace) {
   const TemporaryFolder folder;
   const auto table = readPointTable(folder.write("a.xyz", "1 2 3 a\n4 5 6\n7 8 9 b c\n"), utm());

@@ -500,6 +500,47 @@ TEST(BuildPoints, StoresErrorsThatAreThoseOfAPlainScanRoundedOutwards) {
     }
 }
 
+TEST(BuildPoints, KeepsEveryLawWherePointsStandInRowsThatDoublesBend) {
+  for (const double slope : {0.37, 0.1, 1.0 / 3}) {
+    PointHeightfield field;
+    for (int i = 1; i <= 160; ++i)
+      for (const double turn : {0.0, 0.1, 0.2}) {  // rows through the origin: not quite straight
+        const double x = 0.7 * i;
+        field.positions.push_back({x, (slope + turn) * x});
+        field.heights.push_back(100 * std::sin(x / 5) + (i * 37 + int(50 * turn)) % 20);
+      }
+    for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity}) {
+      const auto model = build(field, withShape(shape));
+      ASSERT_TRUE(model) << slope << ": " << model.error().describe();
+      const Status valid = validateModel(*model);
+      EXPECT_TRUE(valid) << slope << ": " << valid.error().describe();
+    }
+  }
+}
+
+TEST(BuildPoints, RefusesWhatSpansMoreThanSpheresHold) {
+  PointHeightfield field;
+  for (const double unit : {1e35, 1e200}) {
+    field.positions = {{0, 0}, {unit, 0}, {0, unit}, {unit, unit}, {0.4 * unit, 0.3 * unit}};
+    field.heights = {1, 2, 3, 4, 5};
+    const auto model = build(field);
+    ASSERT_FALSE(model) << unit;
+    EXPECT_EQ(model.error().code, ErrorCode::invalidData);
+    EXPECT_NE(model.error().message.find("spans"), std::string::npos) << model.error().message;
+  }
+}
+
+TEST(BuildRaster, RefusesWhatSpansMoreThanSpheresHold) {
+  RasterHeightfield field;
+  field.columns = field.rows = 3;
+  field.heights.assign(9, 7);
+  field.georeference.geoTransform = {0, 1e40, 0, 0, 0, -1e40};
+  field.georeference.hasGeoTransform = true;
+  const auto model = build(field);
+  ASSERT_FALSE(model);
+  EXPECT_EQ(model.error().code, ErrorCode::invalidData);
+}
+
 TEST(BuildPoints, AnswersDegenerateInputWithASentence) {
   for (const PointFamily& family : degeneratePointFamilies()) {
     const auto model = build(family.make(12, 1));
