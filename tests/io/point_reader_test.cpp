@@ -384,6 +384,10 @@ TEST(DemReader, ReadsTextOnARegularGridAsARasterOfDoubles) {
   // So are a few points that happen to stand on a lattice.
   EXPECT_TRUE(std::holds_alternative<PointHeightfield>(
       demOrFail(folder.write("few.csv", "0,0,1\n1,3,1\n2,1,5\n3,2,4\n4,4,4\n")).heightfield));
+
+  // And those that fill a lattice by half with hardly a cell of it: four corners and the middle.
+  EXPECT_TRUE(std::holds_alternative<PointHeightfield>(
+      demOrFail(folder.write("five.csv", "0,0,1\n10,0,2\n0,10,3\n10,10,4\n5,5,9\n")).heightfield));
 }
 
 TEST(DemReader, PassesItsOptionsOn) {
