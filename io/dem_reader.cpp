@@ -52,6 +52,12 @@ bool isRaster(const std::string& path, bool& opensAsVector) {
 
 Result<DemRead> readAsRaster(const std::string& path, const DemReadOptions& options,
                              const RunContext& context) {
+  if (!options.layer.empty())
+    return failure(ErrorCode::usage, fmt::format("is a raster, which has no layer '{}'", options.layer),
+                   path);
+  if (!options.zField.empty())
+    return failure(ErrorCode::usage,
+                   fmt::format("is a raster, which has bands and no field '{}'", options.zField), path);
   RasterReadOptions rasterOptions;
   rasterOptions.band = options.band;
   rasterOptions.crs = options.crs;
@@ -63,6 +69,8 @@ Result<DemRead> readAsRaster(const std::string& path, const DemReadOptions& opti
 
 Result<DemRead> readAsPoints(const std::string& path, bool text, const DemReadOptions& options,
                              const RunContext& context) {
+  if (options.band)
+    return failure(ErrorCode::usage, fmt::format("holds points, which have no band {}", *options.band), path);
   PointReadOptions pointOptions;
   pointOptions.layer = options.layer;
   pointOptions.zField = options.zField;

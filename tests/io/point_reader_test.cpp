@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <tuple>
 
 #include "io/dem_reader.h"
 #include "io/io_fixture.h"
@@ -388,6 +389,24 @@ TEST(DemReader, ReadsTextOnARegularGridAsARasterOfDoubles) {
   // And those that fill a lattice by half with hardly a cell of it: four corners and the middle.
   EXPECT_TRUE(std::holds_alternative<PointHeightfield>(
       demOrFail(folder.write("five.csv", "0,0,1\n10,0,2\n0,10,3\n10,10,4\n5,5,9\n")).heightfield));
+}
+
+TEST(DemReader, RefusesOptionsOfTheOtherKind) {
+  TemporaryFolder folder;
+  const std::string raster = test::writeRaster(folder.file("dem.tif"), {});
+  const std::string points = folder.write("p.csv", "1,2,3\n4,5.5,6\n7.7,8,9\n");
+  DemReadOptions layer, field, band;
+  layer.layer = "peaks";
+  field.zField = "elevation";
+  band.band = 1;
+  for (const auto& [path, options, sentence] :
+       {std::tuple{raster, layer, "is a raster, which has no layer 'peaks'"},
+        {raster, field, "is a raster, which has bands and no field 'elevation'"},
+        {points, band, "holds points, which have no band 1"}}) {
+    const Error error = demErrorOf(path, options);
+    EXPECT_EQ(error.code, ErrorCode::usage);
+    EXPECT_EQ(error.describe(), path + ": " + sentence);
+  }
 }
 
 TEST(DemReader, PassesItsOptionsOn) {
