@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/point_reader.h"
 
+#include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <ogrsf_frmts.h>
 
@@ -407,6 +408,26 @@ TEST(DemReader, RefusesOptionsOfTheOtherKind) {
     EXPECT_EQ(error.code, ErrorCode::usage);
     EXPECT_EQ(error.describe(), path + ": " + sentence);
   }
+}
+
+TEST(DemReader, ReadsPointsFromAnArchiveAsItDoesWithout) {
+  TemporaryFolder folder;
+  const auto add = [&](const std::string& zip, const std::string& name, const std::string& text) {
+    VSILFILE* out = VSIFOpenL(("/vsizip/" + folder.file(zip) + "/" + name).c_str(), "wb");
+    ASSERT_NE(out, nullptr);
+    VSIFWriteL(text.data(), 1, text.size(), out);
+    VSIFCloseL(out);
+  };
+  add("points.zip", "p.csv", "x,y,z\n1,2,3\n4,5.5,6\n7.7,8,9\n0,1,1\n");
+  const DemRead read = demOrFail(folder.file("points.zip"));
+  ASSERT_TRUE(std::holds_alternative<PointHeightfield>(read.heightfield));
+  EXPECT_EQ(std::get<PointHeightfield>(read.heightfield).size(), 4u);
+
+  const std::string grid = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 5\n1 2\n3 4\n";
+  add("both.zip", "dem.asc", grid);
+  add("both.zip", "p.csv", "x,y,z\n1,2,3\n4,5.5,6\n7.7,8,9\n0,1,1\n");
+  EXPECT_TRUE(std::holds_alternative<RasterHeightfield>(demOrFail(folder.file("both.zip")).heightfield))
+      << "text is no raster beside one";
 }
 
 TEST(DemReader, PassesItsOptionsOn) {
