@@ -106,8 +106,10 @@ TEST_F(Arguments, RefusesBuildOptionsOutOfRange) {
   build("--ratio", "1", 2, "--ratio: must be above 1, not 1");
   build("--ratio", "nan", 2, "--ratio: 'nan' is not a finite number");
   build("--max-degree", "3", 2, "--max-degree: must be from 6");
-  build("--min-aspect", "0.9", 2, "--min-aspect");
+  build("--min-aspect", "0.9", 2, "--min-aspect: means something only with --shape fidelity");
   build("--layer", "peaks", 2, "dem.tif: is a raster, which has no layer 'peaks'");
+  expectRefusal({"build", "dem.tif", "-o", "x.amt", "--shape", "fidelity", "--min-aspect", "0.9"}, 2,
+                "--min-aspect");
   build("--rim-tolerance", "-1", 2, "--rim-tolerance: must be 0 or more");
   build("--shape", "pretty", 2, "--shape: 'pretty' is none of delaunay, fidelity");
   build("--features", "-3", 2, "--features: must be from 0");
