@@ -87,6 +87,8 @@ Result<Way> typedWay(const std::string& text, const CrsTransform& toDem) {
 Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference& dem,
                                   const Result<CrsTransform>& toDem, Session& session) {
   if (!isFile(a.along)) {
+    if (!a.layer.empty())
+      return failure(ErrorCode::usage, "means something only with --along FILE", "--layer");
     auto way = typedWay(a.along, *toDem);
     if (!way) return tl::unexpected(way.error());
     return std::vector<Way>{std::move(*way)};
@@ -356,12 +358,14 @@ void addProfileCommand(CLI::App& app, Session& session) {
   arguments->sight.addNodataTo(*command);
   arguments->sight.addEarthTo(*command);
   const std::string radio = "Radio";
-  command->add_option("--frequency", arguments->frequency, "The first Fresnel zone of the line of sight")
-      ->check(finiteAbove(0))
-      ->type_name("MHZ")
-      ->group(radio);
+  CLI::Option* frequency =
+      command->add_option("--frequency", arguments->frequency, "The first Fresnel zone of the line of sight")
+          ->check(finiteAbove(0))
+          ->type_name("MHZ")
+          ->group(radio);
   command->add_option("--fresnel", arguments->fresnel, "The part of it that is drawn inside (default 0.6)")
       ->check(finiteAtLeast(0))
+      ->needs(frequency)
       ->type_name("PART")
       ->group(radio);
 }
