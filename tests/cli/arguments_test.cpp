@@ -27,6 +27,14 @@ class Arguments : public Cli {
     EXPECT_EQ(files(), before_);
   }
 
+  /// "X,Y" of the middle of the DEM.
+  std::string middle() const {
+    const Json grid = run({"info", "dem.amt", "--json"}).json()["grid"];
+    const Json& g = grid["geoTransform"];
+    return std::to_string(g[0].get<double>() + g[1].get<double>() * 15) + "," +
+           std::to_string(g[3].get<double>() + g[5].get<double>() * 15);
+  }
+
   std::set<std::string> before_;
 
   /// The error object, where nothing else was asked for.
@@ -96,6 +104,16 @@ TEST_F(Arguments, RefusesTolerancesThatAreNone) {
   fit({"triangles", "--max-error", "1", "--focus", "1,1", "--error-growth", "0"},
       "--fit triangles: cannot be");
   expectRefusal({"measure", "tin.ply", "dem.tif", "--expect", "-2"}, 2, "--expect: an error cannot be below");
+}
+
+TEST_F(Arguments, NameTheOptionThatSpoilsACamera) {
+  const std::string place = middle() + ",500msl";
+  const auto camera = [&](const std::string& option, const std::string& value, const std::string& sentence) {
+    expectRefusal({"extract", "dem.amt", "-o", "x.ply", "--camera", place, option, value}, 2, sentence);
+  };
+  camera("--viewport", "0x10", "--viewport 0x10: the picture must have a pixel");
+  camera("--look", "10,-100", "--look 10,-100: the pitch must lie between");
+  camera("--fov", "0", "--fov: must be from 0.01");
 }
 
 TEST_F(Arguments, RefusesBuildOptionsOutOfRange) {
