@@ -116,6 +116,17 @@ TEST_F(Arguments, NameTheOptionThatSpoilsACamera) {
   camera("--fov", "0", "--fov: must be from 0.01");
 }
 
+TEST_F(Arguments, ACameraIsToldNoMorePixelsThanItAskedFor) {
+  for (const double pixels : {0.5, 1.0, 2.0, 4.0, 8.0})
+    for (const char* method : {"minimal", "saturated"}) {
+      const Json answer =
+          run({"extract", "dem.amt", "-o", "x.ply", "--json", "--camera", middle() + ",20,45,-10",
+               "--pixel-error", std::to_string(pixels), "--method", method})
+              .json();
+      EXPECT_LE(answer["exports"][0]["pixels"].get<double>(), pixels) << method;
+    }
+}
+
 TEST_F(Arguments, RefusesBuildOptionsOutOfRange) {
   const auto build = [&](const std::string& option, const std::string& value, int code,
                          const std::string& sentence) {
