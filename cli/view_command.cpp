@@ -196,6 +196,9 @@ Status checkArguments(const ViewArguments& a) {
     return refuse("is for the window; --max-triangles bounds a picture", "--frame-time");
   if (!a.home.empty() && !a.camera.empty())
     return refuse("is a view of its own; leave --camera out", "--home " + a.home);
+  if (a.isHeadless && a.screenshot.empty() && !(a.camera + a.home).empty())
+    return refuse("is where --screenshot is taken from; a flight's frames have cameras of their own",
+                  a.home.empty() ? "--camera " + a.camera : "--home " + a.home);
   if (a.isLonLat && a.camera.empty()) return refuse("says what --camera X,Y,H means", "--lonlat");
   if (!a.film.empty() && a.frames.empty())
     return refuse("is made of frames: say --frames FOLDER as well", "--film " + a.film);
