@@ -274,6 +274,7 @@ TEST_F(SightCommands, LosRefusesWhatMakesNoSense) {
           "--fresnel requires --frequency");
   refused({"profile", "dem.amt", "--along", "1105,1895:1205,1895", "--layer", "roads"}, 2,
           "--layer: means something only with --along FILE");
+  line("--refraction", "0.25", "--refraction: bends lines over an ellipsoid");
   const Outcome heightless = run({"los", "dem.amt", "--pairs", "pairs.csv"});
   EXPECT_EQ(heightless.code, 4);
   EXPECT_NE(heightless.err.find("has no height; --observer-height says one"), std::string::npos);
