@@ -93,6 +93,8 @@ Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference&
     if (!way) return tl::unexpected(way.error());
     return std::vector<Way>{std::move(*way)};
   }
+  if (a.sight.lonLat)
+    return failure(ErrorCode::usage, "says what X,Y of --along are; a file says its CRS itself", "--lonlat");
   auto read = readRegion(a.along, dem.crsWkt, {.layer = a.layer, .takesLines = true}, session.context());
   if (!read) return tl::unexpected(read.error());
   session.warn(read->warnings, a.along);
