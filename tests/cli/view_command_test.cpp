@@ -40,6 +40,15 @@ TEST_F(ViewCommand, APictureOfTheSkyAloneIsWarnedOf) {
   EXPECT_EQ(up.json()["screenshot"]["figures"]["showsTerrain"], false);
 }
 
+TEST_F(ViewCommand, ABudgetThatCannotBeKeptIsWarnedOf) {
+  const Outcome shot = run(
+      {"view", "dem.amt", "--headless", "--screenshot", "x.png", "--size", "64x64", "--max-triangles", "1"});
+  if (isWithoutOpenGl(shot)) GTEST_SKIP() << shot.err;
+  EXPECT_EQ(shot.code, 0) << shot.err;
+  EXPECT_NE(shot.err.find("--max-triangles 1: from there the coarsest cut has"), std::string::npos)
+      << shot.err;
+}
+
 TEST_F(ViewCommand, ARoundFlightGivesFramesAndTheirFigures) {
   const Outcome film = run({"view", "dem.amt", "--headless", "--round", "--frames", "frames", "--fps", "0.1",
                             "--size", "160x90", "--figures", "figures.json", "--cut", "processor"});
