@@ -29,6 +29,13 @@ double PointError::difference(std::uint32_t a, std::uint32_t b, std::uint32_t c,
   const double bx = pb.x - o.x, by = pb.y - o.y, cx = pc.x - o.x, cy = pc.y - o.y, x = q.x - o.x,
                y = q.y - o.y;
   const double area = bx * cy - by * cx;
+  // A sliver whose area doubles cannot hold, though its corners turn left. Over a point that it covers its
+  // plane is between the corners.
+  if (!(area > 0)) {
+    const double da = heights_[a] - heights_[p], db = heights_[b] - heights_[p],
+                 dc = heights_[c] - heights_[p];
+    return std::max({da, db, dc}, [](double l, double r) { return std::abs(l) < std::abs(r); });
+  }
   const double u = (x * cy - y * cx) / area, w = (bx * y - by * x) / area;
   return heights_[a] + u * (heights_[b] - heights_[a]) + w * (heights_[c] - heights_[a]) - heights_[p];
 }

@@ -247,6 +247,20 @@ TEST_F(Arguments, NamesDegenerateData) {
   }
 }
 
+TEST_F(Arguments, TakePointsThatAreOnALineButForTheirRounding) {
+  std::string text = "x,y,z\n";
+  for (int i = 0; i < 100; ++i)
+    text += std::to_string(i / 10) + "." + std::to_string(i % 10) + "," + std::to_string(3 * i / 10) + "." +
+            std::to_string(3 * i % 10) + "," + std::to_string(i * i % 17) + "\n";
+  write("line.csv", text);
+  for (const char* shape : {"delaunay", "fidelity"}) {
+    const Outcome build = run({"build", "line.csv", "-o", "line.amt", "--no-features", "--shape", shape});
+    EXPECT_EQ(build.code, 0) << build.err;
+    const Outcome laws = run({"validate", "line.amt"});
+    EXPECT_EQ(laws.code, 0) << laws.err << laws.out;
+  }
+}
+
 TEST_F(Arguments, TellsABrokenPromise) {
   const Outcome outcome = run({"measure", "tin.ply", "dem.tif", "--expect", "0.001"});
   EXPECT_EQ(outcome.code, 5);
