@@ -32,6 +32,7 @@ struct BuildArguments {
   bool isPacked = false;
   std::string fixedPath;
   double creaseAngleDegrees = -1;  // < 0: not stated
+  double minimumAspect = -1;       // < 0: not stated
 };
 
 class Stopwatch {
@@ -118,8 +119,17 @@ void report(Session& session, const BuildArguments& arguments, const TerrainMode
       byteCount(bytes), bytesPerSample));
 }
 
-Status runBuild(BuildArguments& arguments, Session& session) {
+Status takeShape(BuildArguments& arguments) {
   if (arguments.shape == "fidelity") arguments.options.shape = HoleShape::fidelity;
+  if (arguments.minimumAspect < 0) return {};
+  if (arguments.options.shape != HoleShape::fidelity)
+    return failure(ErrorCode::usage, "means something only with --shape fidelity", "--min-aspect");
+  arguments.options.minimumAspect = arguments.minimumAspect;
+  return {};
+}
+
+Status runBuild(BuildArguments& arguments, Session& session) {
+  if (Status taken = takeShape(arguments); !taken) return taken;
   const std::string extension = std::filesystem::path(arguments.output).extension().string();
   if (!extension.empty() && extension != ".amt")
     return failure(
@@ -207,7 +217,7 @@ void addBuildCommand(CLI::App& app, Session& session) {
       ->check(wholeNumber(6, 32))
       ->type_name("D");
   command
-      ->add_option("--min-aspect", arguments->options.minimumAspect,
+      ->add_option("--min-aspect", arguments->minimumAspect,
                    "Fidelity: least altitude of a triangle by its longest edge (default 0.02)")
       ->check(finiteAtLeast(0))
       ->type_name("A");

@@ -185,12 +185,16 @@ Status CriterionArguments::placeCamera(const TerrainModel& model, ExtractCriteri
     if (!look) return tl::unexpected(look.error());
     camera.azimuthDegrees = look->first;
     camera.pitchDegrees = look->second;
+    if (const Result<View> view = viewOf(camera, model); !view)
+      return failure(view.error().code, view.error().message, "--look " + look_);
   }
   if (!viewport_.empty()) {
     const auto viewport = twoNumbers("--viewport", viewport_, 'x');
     if (!viewport) return tl::unexpected(viewport.error());
     camera.widthPixels = viewport->first;
     camera.heightPixels = viewport->second;
+    if (const Result<View> view = viewOf(camera, model); !view)
+      return failure(view.error().code, view.error().message, "--viewport " + viewport_);
   }
   if (!std::isnan(fieldOfView_) && argument->statesFieldOfView)
     return failure(ErrorCode::usage, "--camera states its field of view already", "--fov");

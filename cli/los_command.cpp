@@ -52,6 +52,10 @@ Status checkArguments(const LosArguments& a) {
     return usage("needs either --from or --to for the other end of every line", "--points");
   if (!a.layer.empty() && a.pairs.empty() && a.points.empty())
     return usage("means something only with --pairs or --points", "--layer");
+  for (const auto& [option, height] :
+       {std::pair{"--observer-height", a.observerHeight}, {"--target-height", a.targetHeight}})
+    if (!height.empty() && a.pairs.empty() && a.points.empty())
+      return usage("is of ends from a file; of --from and --to it is the H of X,Y,H", option);
   if (!a.output.empty() && !isLineTable(a.output) && !isJson(a.output))
     return usage("a table of lines of sight ends in .csv, .gpkg or .json", "--output " + a.output);
   if (!a.clutter.empty() && a.maxError > 0)
@@ -298,26 +302,30 @@ void addLosCommand(CLI::App& app, Session& session) {
       ->type_name("METHOD");
   arguments->sight.addEarthTo(*command);
   const std::string radio = "Radio";
-  command
-      ->add_option("--frequency", arguments->frequency,
-                   "Tell how much of the first Fresnel zone is clear at this frequency")
-      ->check(finiteAbove(0))
-      ->type_name("MHZ")
-      ->group(radio);
+  CLI::Option* frequency =
+      command
+          ->add_option("--frequency", arguments->frequency,
+                       "Tell how much of the first Fresnel zone is clear at this frequency")
+          ->check(finiteAbove(0))
+          ->type_name("MHZ")
+          ->group(radio);
   command->add_option("--fresnel", arguments->fresnel, "The part of it that a link needs clear (default 0.6)")
       ->check(finiteAtLeast(0))
+      ->needs(frequency)
       ->type_name("PART")
       ->group(radio);
-  command
-      ->add_option(
-          "--clutter", arguments->clutter,
-          "What stands on the terrain: a height everywhere, or a raster of heights, in the DEM's unit")
-      ->type_name("H|RASTER")
-      ->group(radio);
+  CLI::Option* clutter =
+      command
+          ->add_option(
+              "--clutter", arguments->clutter,
+              "What stands on the terrain: a height everywhere, or a raster of heights, in the DEM's unit")
+          ->type_name("H|RASTER")
+          ->group(radio);
   command
       ->add_option("--clutter-free", arguments->clutterFree,
                    "Metres about either end without clutter (default 100)")
       ->check(finiteAtLeast(0))
+      ->needs(clutter)
       ->type_name("METRES")
       ->group(radio);
 }

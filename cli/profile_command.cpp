@@ -87,10 +87,14 @@ Result<Way> typedWay(const std::string& text, const CrsTransform& toDem) {
 Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference& dem,
                                   const Result<CrsTransform>& toDem, Session& session) {
   if (!isFile(a.along)) {
+    if (!a.layer.empty())
+      return failure(ErrorCode::usage, "means something only with --along FILE", "--layer");
     auto way = typedWay(a.along, *toDem);
     if (!way) return tl::unexpected(way.error());
     return std::vector<Way>{std::move(*way)};
   }
+  if (a.sight.lonLat)
+    return failure(ErrorCode::usage, "says what X,Y of --along are; a file says its CRS itself", "--lonlat");
   auto read = readRegion(a.along, dem.crsWkt, {.layer = a.layer, .takesLines = true}, session.context());
   if (!read) return tl::unexpected(read.error());
   session.warn(read->warnings, a.along);
@@ -356,12 +360,14 @@ void addProfileCommand(CLI::App& app, Session& session) {
   arguments->sight.addNodataTo(*command);
   arguments->sight.addEarthTo(*command);
   const std::string radio = "Radio";
-  command->add_option("--frequency", arguments->frequency, "The first Fresnel zone of the line of sight")
-      ->check(finiteAbove(0))
-      ->type_name("MHZ")
-      ->group(radio);
+  CLI::Option* frequency =
+      command->add_option("--frequency", arguments->frequency, "The first Fresnel zone of the line of sight")
+          ->check(finiteAbove(0))
+          ->type_name("MHZ")
+          ->group(radio);
   command->add_option("--fresnel", arguments->fresnel, "The part of it that is drawn inside (default 0.6)")
       ->check(finiteAtLeast(0))
+      ->needs(frequency)
       ->type_name("PART")
       ->group(radio);
 }

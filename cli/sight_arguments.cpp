@@ -20,9 +20,14 @@ void SightArguments::addEarthTo(CLI::App& command) {
       ->type_name("ellipsoid|plane")
       ->group(group);
   command
-      .add_option("--refraction", refraction,
-                  "Refraction K: the Earth's effective radius is R / (1 - K) (default 1/7; GDAL's curvature "
-                  "coefficient is 1 - K)")
+      .add_option_function<double>(
+          "--refraction",
+          [this](double k) {
+            refraction = k;
+            statesRefraction = true;
+          },
+          "Refraction K: the Earth's effective radius is R / (1 - K) (default 1/7; GDAL's curvature "
+          "coefficient is 1 - K)")
       ->check(finiteBetween(-10, 10))
       ->type_name("K")
       ->group(group);
@@ -51,6 +56,9 @@ std::string SightArguments::earthName(const TerrainModel& model) const {
 Result<std::unique_ptr<SightEarth>> SightArguments::makeEarth(const TerrainModel& model,
                                                               Session& session) const {
   if (earthName(model) == "plane") {
+    if (statesRefraction && refraction != 0)
+      return failure(ErrorCode::usage, "bends lines over an ellipsoid, and the map is taken as plane",
+                     "--refraction");
     if (earth.empty() && !model.georeference.crsWkt.empty())
       session.warn("the DEM's CRS knows no longitude and latitude: its map is taken as plane");
     return makePlaneEarth(model);

@@ -19,6 +19,7 @@ namespace arete {
 struct SightArguments {
   std::string earth;  ///< "ellipsoid", "plane" or empty: the ellipsoid where the DEM's CRS has one
   double refraction = kUsualRefraction;
+  bool statesRefraction = false;  ///< else it is the usual one
   NodataSight nodata = NodataSight::unknown;
   bool lonLat = false;
 

@@ -196,6 +196,9 @@ Status checkArguments(const ViewArguments& a) {
     return refuse("is for the window; --max-triangles bounds a picture", "--frame-time");
   if (!a.home.empty() && !a.camera.empty())
     return refuse("is a view of its own; leave --camera out", "--home " + a.home);
+  if (a.isHeadless && a.screenshot.empty() && !(a.camera + a.home).empty())
+    return refuse("is where --screenshot is taken from; a flight's frames have cameras of their own",
+                  a.home.empty() ? "--camera " + a.camera : "--home " + a.home);
   if (a.isLonLat && a.camera.empty()) return refuse("says what --camera X,Y,H means", "--lonlat");
   if (!a.film.empty() && a.frames.empty())
     return refuse("is made of frames: say --frames FOLDER as well", "--film " + a.film);
@@ -221,6 +224,11 @@ bool hasFramesBehind(const std::string& folder, std::size_t frames) {
                                  ignored);
 }
 
+/// The nodes around the eye, whose pixels nothing bounds, are in every cut of the device.
+bool exceedsBudget(const ViewArguments& a, const FrameFigures& figures) {
+  return a.maxTriangles > 0 && figures.triangles > static_cast<std::uint64_t>(a.maxTriangles);
+}
+
 Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView& view, Session& session,
                       Json& json) {
   const Result<FrameFigures> figures = view.draw(camera);
@@ -229,6 +237,9 @@ Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView
   if (!figures->showsTerrain) session.warn("the picture shows nothing of the terrain");
   if (!figures->isComplete)
     session.warn(fmt::format("the {} ended the cut: the terrain is {}", whatEnds(a), accuracyOf(*figures)));
+  if (exceedsBudget(a, *figures))
+    session.warn(fmt::format("--max-triangles {}: from there the coarsest cut has {}", a.maxTriangles,
+                             grouped(figures->triangles)));
   session.say(fmt::format("{}: {} triangles, {} vertices on the move, {}\n", a.screenshot,
                           grouped(figures->triangles), grouped(figures->moving), accuracyOf(*figures)));
   json["screenshot"] = {{"file", a.screenshot}, {"camera", jsonOf(camera)}, {"figures", jsonOf(*figures)}};
@@ -242,16 +253,20 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, HeadlessView& view
   if (!frames) return tl::unexpected(frames.error());
   Json list = Json::array();
   std::uint64_t triangles = 0;
-  std::size_t unfinished = 0, empty = 0;
+  std::size_t unfinished = 0, empty = 0, large = 0;
   for (const FilmFrame& frame : *frames) {
     unfinished += frame.figures.isComplete ? 0 : 1;
     empty += frame.figures.showsTerrain ? 0 : 1;
+    large += exceedsBudget(a, frame.figures) ? 1 : 0;
   }
   if (empty > 0)
     session.warn(fmt::format("{} of {} frames show nothing of the terrain", empty, frames->size()));
   if (unfinished > 0)
     session.warn(
         fmt::format("the {} ended the cut of {} of {} frames", whatEnds(a), unfinished, frames->size()));
+  if (large > 0)
+    session.warn(fmt::format("--max-triangles {}: the coarsest cuts of {} of {} frames have more",
+                             a.maxTriangles, large, frames->size()));
   if (hasFramesBehind(a.frames, frames->size()))
     session.warn(fmt::format("{} has frames of an earlier, longer flight behind these", a.frames));
   for (const FilmFrame& frame : *frames) {

@@ -326,6 +326,9 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
                    "--output " + a.output);
   if (!a.layer.empty() && a.observers.empty())
     return failure(ErrorCode::usage, "means something only with --observers", "--layer");
+  if (!a.observerHeight.empty() && a.observers.empty())
+    return failure(ErrorCode::usage, "is of --observers; of --observer it is the H of X,Y,H",
+                   "--observer-height");
   if (a.method == ViewshedMethod::sweep && a.maxError > 0)
     return failure(ErrorCode::usage, "has no tolerance, so --max-error has no place", "--method sweep");
   const auto options = optionsOf(a);

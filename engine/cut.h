@@ -30,7 +30,7 @@ struct Cut {
   bool isComplete = true;
 };
 
-/// Two ways to take a cut, both exact (DESIGN, "Two ways to take a cut").
+/// Two ways to take a cut, both exact (docs/topics/cuts.md).
 enum class CutMethod {
   minimal,    ///< the least cut for the criterion: a walk from the root, forcing ancestors
   saturated,  ///< independent tests per node, parallel: a few percent more triangles, no walk

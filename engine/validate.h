@@ -14,7 +14,7 @@ struct ValidateOptions {
   bool allowsFills = false;
 };
 
-/// Laws 1, 2, 3, 4 and 6 of DESIGN section 2 on every node, and the order of the arrays. The first violation
+/// Laws 1, 2, 3, 4 and 6 of ARCHITECTURE.md on every node, and the order of the arrays. The first violation
 /// is the one with the smallest node; the Error is brokenPromise and names the law, the node and the
 /// triangles.
 ///   1  acyclic: a floor's triangles were created by older nodes

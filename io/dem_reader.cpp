@@ -37,11 +37,21 @@ bool isPointCloud(const std::string& path) {
   return whole && std::memcmp(magic.data(), "LASF", magic.size()) == 0;
 }
 
+/// What GDAL's "XYZ" driver takes for a raster: a text of numbers.
+bool isGdalsText(GDALDriverH driver) {
+  return driver && EQUAL(GDALGetDriverShortName(driver), "XYZ");
+}
+
+bool isGdalsText(const std::string& path) {
+  GdalErrors quiet;
+  return isGdalsText(GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr));
+}
+
 /// What the file is, as far as GDAL's raster drivers can tell.
 bool isRaster(const std::string& path, bool& opensAsVector) {
   GdalErrors quiet;
   GDALDriverH driver = GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
-  const bool identified = driver && !EQUAL(GDALGetDriverShortName(driver), "XYZ");
+  const bool identified = driver && !isGdalsText(driver);
   if (identified) {
     const GdalDatasetPtr dataset = openGdal(path, GDAL_OF_RASTER);
     if (dataset && (dataset->GetRasterCount() > 0 || dataset->GetMetadata("SUBDATASETS"))) return true;
@@ -52,6 +62,12 @@ bool isRaster(const std::string& path, bool& opensAsVector) {
 
 Result<DemRead> readAsRaster(const std::string& path, const DemReadOptions& options,
                              const RunContext& context) {
+  if (!options.layer.empty())
+    return failure(ErrorCode::usage, fmt::format("is a raster, which has no layer '{}'", options.layer),
+                   path);
+  if (!options.zField.empty())
+    return failure(ErrorCode::usage,
+                   fmt::format("is a raster, which has bands and no field '{}'", options.zField), path);
   RasterReadOptions rasterOptions;
   rasterOptions.band = options.band;
   rasterOptions.crs = options.crs;
@@ -63,6 +79,8 @@ Result<DemRead> readAsRaster(const std::string& path, const DemReadOptions& opti
 
 Result<DemRead> readAsPoints(const std::string& path, bool text, const DemReadOptions& options,
                              const RunContext& context) {
+  if (options.band)
+    return failure(ErrorCode::usage, fmt::format("holds points, which have no band {}", *options.band), path);
   PointReadOptions pointOptions;
   pointOptions.layer = options.layer;
   pointOptions.zField = options.zField;
@@ -81,6 +99,15 @@ Result<DemRead> readAsPoints(const std::string& path, bool text, const DemReadOp
   return DemRead{std::move(read->heightfield), std::move(read->warnings)};
 }
 
+/// The one raster in an archive, or the one text of points.
+Result<DemRead> readZipped(const std::string& archive, const DemReadOptions& options,
+                           const RunContext& context) {
+  const Result<std::string> inside = findZippedRaster(archive);
+  if (!inside) return tl::unexpected(inside.error());
+  if (isGdalsText(*inside)) return readAsPoints(*inside, true, options, context);
+  return readAsRaster(archive, options, context);
+}
+
 Result<DemRead> readFrom(const std::string& path, const DemReadOptions& options, const RunContext& context) {
   registerGdal();
   if (isPointCloud(path))
@@ -91,7 +118,7 @@ Result<DemRead> readFrom(const std::string& path, const DemReadOptions& options,
           "instance with PDAL: pdal translate IN.laz ground.csv -f filters.range "
           "--filters.range.limits='Classification[2:2]'",
           path);
-  if (isPlainZip(path)) return readAsRaster(path, options, context);
+  if (isPlainZip(path)) return readZipped(path, options, context);
   bool opensAsVector = false;
   if (isRaster(path, opensAsVector)) return readAsRaster(path, options, context);
 

@@ -154,6 +154,8 @@ Result<TinExport> TinExtractor::takeTin(const ExtractRequest& request, double re
   if (!taken) return tl::unexpected(taken.error());
   if (c.fit == ExtractFit::error) return finish(fitLeastError(model_, *taken, {}, context));
   if (c.camera) tin.pixels = worstSeverity(model_.mt, **criterion, *taken);
+  // Where a triangle passed by the bound over a node's ball, its own bound may be the looser of the two.
+  if (c.camera && c.pixelError && taken->isComplete) tin.pixels = std::min(*tin.pixels, *c.pixelError);
   describe(*taken);
   return exportTin(model_, *taken);
 }

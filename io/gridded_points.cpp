@@ -2,9 +2,12 @@
 //
 // The distinct x are sorted; their number and extent give the step, and each must lie on it. The same for y.
 // A set of scattered points has about as many distinct x as points, and is told by that before anything else.
+// A pattern that fills a grid by half and hardly has cells, as a checkerboard or the five of a die, is
+// scattered too: as a raster most of its points would have no triangle.
 #include "io/gridded_points.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -45,6 +48,20 @@ std::optional<Axis> axisOf(const PointHeightfield& points, double Vec2::*coordin
   return regularAxis(std::move(values), points.size());
 }
 
+/// Whether most of the points are corners of a cell that has three valid corners at least: of a triangle.
+bool hasCellsForMost(const RasterHeightfield& raster, std::size_t points) {
+  const auto isValid = [&](std::size_t sample) { return !std::isnan(raster.heights[sample]); };
+  std::vector<bool> hasCell(raster.heights.size());
+  for (std::size_t row = 0; row + 1 < raster.rows; ++row)
+    for (std::size_t column = 0; column + 1 < raster.columns; ++column) {
+      const std::size_t first = row * raster.columns + column;
+      const std::array corners = {first, first + 1, first + raster.columns, first + raster.columns + 1};
+      if (std::ranges::count_if(corners, isValid) >= 3)
+        for (const std::size_t corner : corners) hasCell[corner] = hasCell[corner] || isValid(corner);
+    }
+  return 2 * std::size_t(std::ranges::count(hasCell, true)) > points;
+}
+
 }  // namespace
 
 std::optional<RasterHeightfield> asRaster(const PointHeightfield& points) {
@@ -63,6 +80,7 @@ std::optional<RasterHeightfield> asRaster(const PointHeightfield& points) {
     const std::size_t row = y->count - 1 - y->indexOf(points.positions[i].y);
     raster.heights[row * x->count + column] = points.heights[i];
   }
+  if (!hasCellsForMost(raster, points.size())) return std::nullopt;
   const double top = y->first + y->step * double(y->count - 1);
   raster.georeference = points.georeference;
   raster.georeference.geoTransform = {x->first - x->step / 2, x->step, 0, top + y->step / 2, 0, -y->step};

@@ -8,8 +8,8 @@
 namespace arete {
 
 /// The raster these points are the samples of, if they are: x and y on regular steps to 1 percent of a step
-/// (text is rounded), at least two columns and rows, and at least half of the cells taken. North up; a
-/// missing cell is NaN. O(n log n).
+/// (text is rounded), at least two columns and rows, at least half of the cells taken, and most points beside
+/// two others of one cell. North up; a missing cell is NaN. O(n log n).
 std::optional<RasterHeightfield> asRaster(const PointHeightfield& points);
 
 }  // namespace arete

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/gdal_support.h"
@@ -43,13 +44,14 @@ Result<std::string> findZippedRaster(const std::string& archive) {
   const CPLStringList names(VSIReadDirRecursive(root.c_str()));
   if (names.Count() == 0)
     return failure(ErrorCode::corrupt, "is not a zip archive, or an empty one", archive);
-  std::vector<std::string> rasters;
+  std::vector<std::string> rasters, texts;
   for (int i = 0; i < names.Count(); ++i) {
     const std::string name = names[i];
     if (name.back() == '/' || isSidecar(name)) continue;
-    if (GDALIdentifyDriverEx((root + "/" + name).c_str(), GDAL_OF_RASTER, nullptr, nullptr))
-      rasters.push_back(name);
+    GDALDriverH driver = GDALIdentifyDriverEx((root + "/" + name).c_str(), GDAL_OF_RASTER, nullptr, nullptr);
+    if (driver) (EQUAL(GDALGetDriverShortName(driver), "XYZ") ? texts : rasters).push_back(name);
   }
+  if (rasters.empty()) rasters = std::move(texts);
   if (rasters.empty()) return failure(ErrorCode::unsupported, "the archive holds no raster", archive);
   if (rasters.size() > 1) {
     std::sort(rasters.begin(), rasters.end());

@@ -9,7 +9,7 @@
 
 namespace arete {
 
-/// Builds the multitriangulation of a heightfield: its finest triangulation (DESIGN section 8), taken down to
+/// Builds the multitriangulation of a heightfield: its finest triangulation, taken down to
 /// the domain's corners and the fixed vertices by removing independent sets of vertices (de Berg and Dobrindt
 /// 1995).
 ///

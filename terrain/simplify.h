@@ -3,7 +3,7 @@
 // The build of de Berg and Dobrindt (1995): repeat { choose an independent set of removable vertices; remove
 // each; retriangulate its hole; record the modification } until nothing is removable. That is a level
 // (simplify_level.h). From level to level the threshold below which a removal must cost grows: cheap removals
-// go first everywhere, which is what keeps the cuts at any error small (DESIGN: without thresholds the same
+// go first everywhere, which is what keeps the cuts at any error small (without thresholds the same
 // bound takes 1.9 times as many triangles). It grows in smaller steps the fewer vertices are left. Most of
 // the time goes into the first levels, of which only the finest cuts tell; levels among few vertices take
 // next to none, and all coarser cuts live on their order (docs/decisions/0016 to 0018).

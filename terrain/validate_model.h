@@ -17,7 +17,7 @@ struct ValidateModelOptions {
   std::uint64_t seed = 1;
 };
 
-/// Every law of DESIGN section 2 on a model: those of engine/validate.h, and
+/// Every law of ARCHITECTURE.md on a model: those of engine/validate.h, and
 ///   5  every triangle positively oriented, exactly; the rest of it on the fronts above
 ///   7  every fixed vertex is in the root
 ///   8  the finest front has every sample of the domain for a vertex (raster: the layout of finest_raster.h,

@@ -27,6 +27,14 @@ class Arguments : public Cli {
     EXPECT_EQ(files(), before_);
   }
 
+  /// "X,Y" of the middle of the DEM.
+  std::string middle() const {
+    const Json grid = run({"info", "dem.amt", "--json"}).json()["grid"];
+    const Json& g = grid["geoTransform"];
+    return std::to_string(g[0].get<double>() + g[1].get<double>() * 15) + "," +
+           std::to_string(g[3].get<double>() + g[5].get<double>() * 15);
+  }
+
   std::set<std::string> before_;
 
   /// The error object, where nothing else was asked for.
@@ -98,6 +106,27 @@ TEST_F(Arguments, RefusesTolerancesThatAreNone) {
   expectRefusal({"measure", "tin.ply", "dem.tif", "--expect", "-2"}, 2, "--expect: an error cannot be below");
 }
 
+TEST_F(Arguments, NameTheOptionThatSpoilsACamera) {
+  const std::string place = middle() + ",500msl";
+  const auto camera = [&](const std::string& option, const std::string& value, const std::string& sentence) {
+    expectRefusal({"extract", "dem.amt", "-o", "x.ply", "--camera", place, option, value}, 2, sentence);
+  };
+  camera("--viewport", "0x10", "--viewport 0x10: the picture must have a pixel");
+  camera("--look", "10,-100", "--look 10,-100: the pitch must lie between");
+  camera("--fov", "0", "--fov: must be from 0.01");
+}
+
+TEST_F(Arguments, ACameraIsToldNoMorePixelsThanItAskedFor) {
+  for (const double pixels : {0.5, 1.0, 2.0, 4.0, 8.0})
+    for (const char* method : {"minimal", "saturated"}) {
+      const Json answer =
+          run({"extract", "dem.amt", "-o", "x.ply", "--json", "--camera", middle() + ",20,45,-10",
+               "--pixel-error", std::to_string(pixels), "--method", method})
+              .json();
+      EXPECT_LE(answer["exports"][0]["pixels"].get<double>(), pixels) << method;
+    }
+}
+
 TEST_F(Arguments, RefusesBuildOptionsOutOfRange) {
   const auto build = [&](const std::string& option, const std::string& value, int code,
                          const std::string& sentence) {
@@ -106,7 +135,10 @@ TEST_F(Arguments, RefusesBuildOptionsOutOfRange) {
   build("--ratio", "1", 2, "--ratio: must be above 1, not 1");
   build("--ratio", "nan", 2, "--ratio: 'nan' is not a finite number");
   build("--max-degree", "3", 2, "--max-degree: must be from 6");
-  build("--min-aspect", "0.9", 2, "--min-aspect");
+  build("--min-aspect", "0.9", 2, "--min-aspect: means something only with --shape fidelity");
+  build("--layer", "peaks", 2, "dem.tif: is a raster, which has no layer 'peaks'");
+  expectRefusal({"build", "dem.tif", "-o", "x.amt", "--shape", "fidelity", "--min-aspect", "0.9"}, 2,
+                "--min-aspect");
   build("--rim-tolerance", "-1", 2, "--rim-tolerance: must be 0 or more");
   build("--shape", "pretty", 2, "--shape: 'pretty' is none of delaunay, fidelity");
   build("--features", "-3", 2, "--features: must be from 0");
@@ -212,6 +244,20 @@ TEST_F(Arguments, NamesDegenerateData) {
     makeRaster("bad.tif", family.name, 9, 9);
     before_ = files();
     expectRefusal({"build", "bad.tif", "-o", "x.amt"}, 4, "bad.tif: ");
+  }
+}
+
+TEST_F(Arguments, TakePointsThatAreOnALineButForTheirRounding) {
+  std::string text = "x,y,z\n";
+  for (int i = 0; i < 100; ++i)
+    text += std::to_string(i / 10) + "." + std::to_string(i % 10) + "," + std::to_string(3 * i / 10) + "." +
+            std::to_string(3 * i % 10) + "," + std::to_string(i * i % 17) + "\n";
+  write("line.csv", text);
+  for (const char* shape : {"delaunay", "fidelity"}) {
+    const Outcome build = run({"build", "line.csv", "-o", "line.amt", "--no-features", "--shape", shape});
+    EXPECT_EQ(build.code, 0) << build.err;
+    const Outcome laws = run({"validate", "line.amt"});
+    EXPECT_EQ(laws.code, 0) << laws.err << laws.out;
   }
 }
 

@@ -262,6 +262,21 @@ TEST_F(SightCommands, LosRefusesWhatMakesNoSense) {
           "--earth ellipsoid: the DEM has no CRS");
   refused({"los", "dem.amt", "--from", "1105,1895,2", "--to", "1205,1895,2", "--clutter", "-3"}, 2,
           "is no height");
+  // Options that mean nothing without another one.
+  const auto line = [&](const std::string& option, const std::string& value, const std::string& sentence) {
+    refused({"los", "dem.amt", "--from", "1105,1895,2", "--to", "1205,1895,2", option, value}, 2, sentence);
+  };
+  line("--fresnel", "0.5", "--fresnel requires --frequency");
+  line("--clutter-free", "50", "--clutter-free requires --clutter");
+  line("--observer-height", "5", "--observer-height: is of ends from a file");
+  line("--target-height", "5", "--target-height: is of ends from a file");
+  refused({"profile", "dem.amt", "--along", "1105,1895,2:1205,1895,2", "--fresnel", "0.5"}, 2,
+          "--fresnel requires --frequency");
+  refused({"profile", "dem.amt", "--along", "1105,1895:1205,1895", "--layer", "roads"}, 2,
+          "--layer: means something only with --along FILE");
+  line("--refraction", "0.25", "--refraction: bends lines over an ellipsoid");
+  write("road.csv", "WKT\n\"LINESTRING (1105 1895,1205 1895)\"\n");
+  refused({"profile", "dem.amt", "--along", "road.csv", "--lonlat"}, 2, "--lonlat: ");
   const Outcome heightless = run({"los", "dem.amt", "--pairs", "pairs.csv"});
   EXPECT_EQ(heightless.code, 4);
   EXPECT_NE(heightless.err.find("has no height; --observer-height says one"), std::string::npos);
@@ -505,6 +520,8 @@ TEST_F(SightCommands, ViewshedRefusesWhatMakesNoSense) {
   makeModel();
   write("masts.csv", "x,y\n1105,1895\n");
   refused({"viewshed", "dem.amt", "-o", "v.tif"}, 2, "says from where");
+  refused({"viewshed", "dem.amt", "--observer", "1105,1895,2", "--observer-height", "5", "-o", "v.tif"}, 2,
+          "--observer-height: is of --observers");
   refused({"viewshed", "dem.amt", "--observer", "1,1,2", "-o", "v.tif"}, 4, "is above no terrain");
   refused({"viewshed", "dem.amt", "--observers", "masts.csv", "-o", "v.tif"}, 2, "has no height");
   refused({"viewshed", "dem.amt", "--observer", "1105,1895,2", "--observer", "1205,1895,2", "--mode",

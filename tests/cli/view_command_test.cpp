@@ -40,6 +40,15 @@ TEST_F(ViewCommand, APictureOfTheSkyAloneIsWarnedOf) {
   EXPECT_EQ(up.json()["screenshot"]["figures"]["showsTerrain"], false);
 }
 
+TEST_F(ViewCommand, ABudgetThatCannotBeKeptIsWarnedOf) {
+  const Outcome shot = run(
+      {"view", "dem.amt", "--headless", "--screenshot", "x.png", "--size", "64x64", "--max-triangles", "1"});
+  if (isWithoutOpenGl(shot)) GTEST_SKIP() << shot.err;
+  EXPECT_EQ(shot.code, 0) << shot.err;
+  EXPECT_NE(shot.err.find("--max-triangles 1: from there the coarsest cut has"), std::string::npos)
+      << shot.err;
+}
+
 TEST_F(ViewCommand, ARoundFlightGivesFramesAndTheirFigures) {
   const Outcome film = run({"view", "dem.amt", "--headless", "--round", "--frames", "frames", "--fps", "0.1",
                             "--size", "160x90", "--figures", "figures.json", "--cut", "processor"});
@@ -97,6 +106,10 @@ TEST_F(ViewCommand, SaysWhatIsWrongInASentence) {
       {{"--headless", "--round", "--frames", "g", "--fps", "1e9"}, 2, "--fps"},
       {{"--headless", "--screenshot", "a.png", "--frame-time", "5"}, 2, "--frame-time"},
       {{"--headless", "--screenshot", "a.png", "--home", "above", "--camera", "1,2,3"}, 2, "--home"},
+      {{"--headless", "--round", "--frames", "g", "--home", "above"},
+       2,
+       "--home above: is where --screenshot"},
+      {{"--headless", "--round", "--frames", "g", "--camera", "1,2,3"}, 2, "--camera 1,2,3: is where"},
       {{"--headless", "--screenshot", "a.png", "--lonlat"}, 2, "--camera"},
       {{"--headless", "--frames", "h", "--path", "endless.json"}, 2, "frames"},
       {{"--headless", "--frames", "h", "--path", "both.json"}, 4, "leave one out"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/point_reader.h"
 
+#include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <ogrsf_frmts.h>
 
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <tuple>
 
 #include "io/dem_reader.h"
 #include "io/io_fixture.h"
@@ -384,6 +386,48 @@ TEST(DemReader, ReadsTextOnARegularGridAsARasterOfDoubles) {
   // So are a few points that happen to stand on a lattice.
   EXPECT_TRUE(std::holds_alternative<PointHeightfield>(
       demOrFail(folder.write("few.csv", "0,0,1\n1,3,1\n2,1,5\n3,2,4\n4,4,4\n")).heightfield));
+
+  // And those that fill a lattice by half with hardly a cell of it: four corners and the middle.
+  EXPECT_TRUE(std::holds_alternative<PointHeightfield>(
+      demOrFail(folder.write("five.csv", "0,0,1\n10,0,2\n0,10,3\n10,10,4\n5,5,9\n")).heightfield));
+}
+
+TEST(DemReader, RefusesOptionsOfTheOtherKind) {
+  TemporaryFolder folder;
+  const std::string raster = test::writeRaster(folder.file("dem.tif"), {});
+  const std::string points = folder.write("p.csv", "1,2,3\n4,5.5,6\n7.7,8,9\n");
+  DemReadOptions layer, field, band;
+  layer.layer = "peaks";
+  field.zField = "elevation";
+  band.band = 1;
+  for (const auto& [path, options, sentence] :
+       {std::tuple{raster, layer, "is a raster, which has no layer 'peaks'"},
+        {raster, field, "is a raster, which has bands and no field 'elevation'"},
+        {points, band, "holds points, which have no band 1"}}) {
+    const Error error = demErrorOf(path, options);
+    EXPECT_EQ(error.code, ErrorCode::usage);
+    EXPECT_EQ(error.describe(), path + ": " + sentence);
+  }
+}
+
+TEST(DemReader, ReadsPointsFromAnArchiveAsItDoesWithout) {
+  TemporaryFolder folder;
+  const auto add = [&](const std::string& zip, const std::string& name, const std::string& text) {
+    VSILFILE* out = VSIFOpenL(("/vsizip/" + folder.file(zip) + "/" + name).c_str(), "wb");
+    ASSERT_NE(out, nullptr);
+    VSIFWriteL(text.data(), 1, text.size(), out);
+    VSIFCloseL(out);
+  };
+  add("points.zip", "p.csv", "x,y,z\n1,2,3\n4,5.5,6\n7.7,8,9\n0,1,1\n");
+  const DemRead read = demOrFail(folder.file("points.zip"));
+  ASSERT_TRUE(std::holds_alternative<PointHeightfield>(read.heightfield));
+  EXPECT_EQ(std::get<PointHeightfield>(read.heightfield).size(), 4u);
+
+  const std::string grid = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 5\n1 2\n3 4\n";
+  add("both.zip", "dem.asc", grid);
+  add("both.zip", "p.csv", "x,y,z\n1,2,3\n4,5.5,6\n7.7,8,9\n0,1,1\n");
+  EXPECT_TRUE(std::holds_alternative<RasterHeightfield>(demOrFail(folder.file("both.zip")).heightfield))
+      << "text is no raster beside one";
 }
 
 TEST(DemReader, PassesItsOptionsOn) {
