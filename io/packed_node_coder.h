@@ -44,9 +44,8 @@ struct CoderSpace {
   std::vector<std::uint32_t> listed;   ///< places of seeds in Arrays::border
   std::vector<const Shape*> shapesOf;  ///< of the run's nodes
   std::deque<Shape> otherShapes;       ///< those that are not listed, or turned
-  std::vector<std::uint32_t>
-      passing;                      ///< slots of the run's stars whose triangles somebody removes, and some
-  std::vector<std::uint8_t> areas;  ///< of the run's slots, see shownArea()
+  std::vector<std::uint32_t> passing;  ///< slots, from the run's first, that somebody removes, and one more
+  std::vector<std::uint8_t> areas;     ///< of the run's slots, see shownArea()
 };
 
 /// Real: of the places, see Arrays::places().
@@ -73,7 +72,7 @@ class NodeCoder {
       band_ = run.band;
       class_ = directory_.bandClass[band_];
       node_ = run.firstNode;
-      slot_ = run.firstSlot;
+      slot_ = firstSlot_ = run.firstSlot;
       slotEnd_ = run.firstSlot + run.slots;
       nodeEnd_ = run.firstNode + run.nodes;
       // One more is written than there are.
@@ -108,7 +107,7 @@ class NodeCoder {
       queue.clear();
       if (!geometry_.run(run, class_, space_.shapesOf, space_.areas.data()))
         return fail("has a vertex outside of its grid or without a height");
-      values(run);
+      values();
       saturate(run);
     }
     if (!front_.finish(!chunk_.isCut)) return fail("leaves another number of triangles than announced");
@@ -162,7 +161,7 @@ class NodeCoder {
     const int triangles = corners<kCorners>() - 2;
     for (int i = 0; i < triangles; ++i) ids[i] = floor_.id(i);
     for (int i = 0; i < made; ++i) {
-      *nextPassing_ = slot_ + static_cast<std::uint32_t>(i);
+      *nextPassing_ = slot_ - firstSlot_ + static_cast<std::uint32_t>(i);
       nextPassing_ += ~staying >> i & 1;
     }
     space_.shapesOf.push_back(shape_);
@@ -236,12 +235,12 @@ class NodeCoder {
   }
 
   /// Errors and bounds of all triangles of a run's stars that somebody removes.
-  void values(const Run& run) {
+  void values() {
     const std::uint32_t *const begin = space_.passing.data(), *const end = nextPassing_;
     const std::uint8_t* const areas = space_.areas.data();
-    const auto areaOf = [&](std::uint32_t slot) { return areas[slot - run.firstSlot]; };
+    const std::uint32_t first = a_.roots + firstSlot_;
     valuesOf(band_, [&](const auto& tell) {
-      for (const std::uint32_t* slot = begin; slot != end; ++slot) tell(a_.roots + *slot, areaOf(*slot));
+      for (const std::uint32_t* slot = begin; slot != end; ++slot) tell(first + *slot, areas[*slot]);
     });
   }
   /// The same of the root's triangles, which no band bounds.
@@ -375,7 +374,7 @@ class NodeCoder {
   const Directory& directory_;
   const Chunk& chunk_;
   Io& io_;
-  std::uint32_t band_ = 0, class_ = 0, node_ = 0, slot_ = 0, nodeEnd_ = 0, slotEnd_ = 0;
+  std::uint32_t band_ = 0, class_ = 0, node_ = 0, slot_ = 0, nodeEnd_ = 0, firstSlot_ = 0, slotEnd_ = 0;
   std::span<const Shape, kListedShapes> shapes_;
   const Shape* shape_ = nullptr;
   Geometry<Real, Io> geometry_;

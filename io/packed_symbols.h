@@ -265,29 +265,36 @@ inline BoundBytes bytesOf(BoundSteps b, std::uint32_t reference) {
   const unsigned both = greater << kFarShift | lesser;
   return {static_cast<std::uint8_t>(kFarBounds + (both >> 8)), static_cast<std::uint8_t>(both)};
 }
-/// What the bytes mean; of those that only a damaged file has, something, whose greater step may be beyond
-/// the last. Without a branch: which of the two forms comes cannot be foreseen.
+/// What the bytes mean; of those that only a damaged file has, something, which may be beyond the last step.
+/// Without a branch: which of the two forms comes cannot be foreseen.
 inline BoundSteps boundsOf(BoundBytes bytes, std::uint32_t reference) {
-  // rise | drop << 8 | side << 16 | whether above the reference << 31
-  static constexpr auto kLesser = [] {
-    std::array<std::uint32_t, 1u << kFarShift> lesser{};
-    for (unsigned l = 0; l < kLesserSymbols; ++l) lesser[l] = kBoundDrops[l >> 1] << 8 | (l & 1) << 16;
-    return lesser;
-  }();
-  static constexpr auto kNear = [] {
-    std::array<std::uint32_t, 256> near{};
+  /// How far the two lie above the reference, or above the greater one where a second byte tells it.
+  struct Rise {
+    std::int16_t below, above;
+  };
+  constexpr unsigned kFirstFar = 256;
+  static constexpr auto kRises = [] {
+    const auto rise = [](unsigned greater, unsigned lesser) {
+      const auto high = static_cast<std::int16_t>(greater),
+                 low = static_cast<std::int16_t>(high - kBoundDrops[lesser >> 1]);
+      return lesser % 2 == 0 ? Rise{high, low} : Rise{low, high};
+    };
+    std::array<Rise, kFirstFar + (1u << kFarShift)> rises{};
+    for (unsigned s = 0; s < kNearBounds; ++s) rises[s] = {INT16_MIN, INT16_MIN};  // no bounds
     for (unsigned s = kNearBounds; s < kFarBounds; ++s)
-      near[s] = (s - kNearBounds) / kLesserSymbols | kLesser[(s - kNearBounds) % kLesserSymbols] | 1u << 31;
-    return near;
+      rises[s] = rise((s - kNearBounds) / kLesserSymbols, (s - kNearBounds) % kLesserSymbols);
+    for (unsigned l = 0; l < kLesserSymbols; ++l) rises[kFirstFar + l] = rise(0, l);
+    return rises;
   }();
-  const unsigned both = (bytes.first - kFarBounds) << 8 | bytes.second;
-  const std::uint32_t far = (both >> kFarShift & 255) | kLesser[both & ((1u << kFarShift) - 1)];
-  const std::uint32_t near = kNear[bytes.first], isFar = 0u - static_cast<std::uint32_t>(bytes.isFar());
-  const std::uint32_t meaning = (far & isFar) | (near & ~isFar);
-  const std::uint32_t greater = (meaning & 255) + (reference & (0u - (meaning >> 31)));
-  const std::uint32_t lesser = greater - std::min<std::uint32_t>(meaning >> 8 & 255, greater);
-  const std::uint32_t swap = (greater ^ lesser) & (0u - (meaning >> 16 & 1));
-  return {greater ^ swap, lesser ^ swap};
+  const std::uint32_t both = (bytes.first - kFarBounds) << 8 | bytes.second,
+                      isFar = 0u - static_cast<std::uint32_t>(bytes.isFar());
+  const std::uint32_t place = (bytes.first & ~isFar) | ((kFirstFar + both % (1u << kFarShift)) & isFar),
+                      from = (reference & ~isFar) | (both >> kFarShift & isFar);
+  const Rise rise = kRises[place];
+  const auto risen = [&](std::int16_t by) {
+    return static_cast<std::uint32_t>(std::max(static_cast<std::int32_t>(from) + by, 0));
+  };
+  return {risen(rise.below), risen(rise.above)};
 }
 
 }  // namespace arete::packed
