@@ -24,8 +24,9 @@ struct CriterionArguments {
   /// option; invalidData, a camera above no terrain.
   Result<std::vector<ExtractCriterion>> criteria(const TerrainModel& model) const;
 
-  /// An error that every criterion allows everywhere. 0 where a camera's pixels decide, or a budget or a
-  /// deadline alone, or a fit looks at all samples; or where the tolerances cannot be read, which criteria()
+  /// An error that every criterion allows everywhere, and below which nothing is asked for. 0 where a
+  /// camera's pixels decide, or a budget or a deadline alone; where a fit looks at all samples, or a
+  /// saturated cut at balls around all descendants; or where the tolerances cannot be read, which criteria()
   /// tells.
   double leastError() const;
 

@@ -35,8 +35,9 @@ struct UnpackOptions {
   /// reach into it, and their ancestors. The rest of the terrain is as coarse as these leave it.
   std::optional<Box2> box;
   /// Read only what cuts can ask for that allow at least this error everywhere, in the unit of the heights:
-  /// these are the same cuts, with the same numbers of vertices and triangles, as those of the whole. The
-  /// time is that of the nodes whose saturated errors are not below half of it. NaN or negative: 0.
+  /// these are the same cuts, with the same numbers of vertices and triangles, as those of the whole; but a
+  /// saturated cut by place may be a little coarser, as no sphere holds a node that was not read. The time is
+  /// that of the nodes whose saturated errors are not below half of it. NaN or negative: 0.
   double leastError = 0;
 };
 

@@ -71,13 +71,21 @@ class Front {
     std::uint32_t record, id;
   };
 
+  /// So many records, and the foreign triangles across their edges, can be numbered.
+  static constexpr std::uint64_t kMostRecords = (std::uint64_t{1} << 29) - 256;
+  /// Whether a chunk of so many nodes has no more: a star has two triangles more than its floor, and those of
+  /// a floor have no record where they are other chunks'.
+  static bool canHold(std::uint64_t nodes, std::uint64_t borders) {
+    return 2 * nodes + std::min(kMaxFloor * nodes, borders) <= kMostRecords;
+  }
+
   Front(Arrays& arrays, const Chunk& chunk, FrontSpace& space)
       : a_(arrays),
         pool_(space.pool),
         free_(space.free),
         foreign_(space.foreign),
         firstBorder_(static_cast<std::uint32_t>(a_.roots + chunk.firstBorder)),
-        borderEnd_(firstBorder_ + chunk.borders),
+        borderEnd_(std::uint64_t{firstBorder_} + chunk.borders),
         nextBorder_(firstBorder_) {
     pool_.assign(1, Record{{}, kGone, {}, kNotLeft});
     foreign_.clear();
@@ -161,7 +169,7 @@ class Front {
       r.across[1] = across;
       r.across[2] = isLast ? afterLast : records[i + 1] << 2;
       const auto isLeft = static_cast<std::uint32_t>(left >> i & 1);
-      r.border = nextBorder_ | (isLeft - 1);
+      r.border = static_cast<std::uint32_t>(nextBorder_) | (isLeft - 1);
       nextBorder_ += isLeft;
       if ((across & kForeign) == 0) [[likely]]
         pool[across >> 2].across[across & 3] = record << 2 | 1;
@@ -324,7 +332,8 @@ class Front {
   std::uint32_t freeCount_ = 0;
   std::array<std::uint32_t, kMaxHoleCorners> records_;  ///< of the last star
   std::vector<std::uint32_t>& foreign_;
-  std::uint32_t firstBorder_, borderEnd_, nextBorder_;
+  std::uint32_t firstBorder_;
+  std::uint64_t borderEnd_, nextBorder_;  ///< a damaged file may leave more than 32 bits can number
 };
 
 }  // namespace arete::packed

@@ -66,7 +66,7 @@ class NodeCoder {
 
   /// All nodes of the chunk. False when the symbols make no sense; problem() says which.
   bool run() {
-    if (chunk_.nodes > kMostNodes) return fail("has more nodes than a chunk can have");
+    if (!Front::canHold(chunk_.nodes, a_.border.size())) return fail("has more nodes than a chunk can have");
     if (&chunk_ == directory_.chunks.data()) rootValues();
     for (const Run& run : chunk_.runs) {
       band_ = run.band;
@@ -118,7 +118,6 @@ class NodeCoder {
  private:
   using Own = Front::Own;
   static constexpr std::size_t kAhead = 12;
-  static constexpr std::uint32_t kMostNodes = 1u << 27;  ///< so that the front's records can be numbered
 
   bool fail(const char* what) {
     problem_ = what;

@@ -128,7 +128,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   corner.verify = coarse.verify = AmtVerify::indices;
   corner.unpack.box = Box2{0, 0, 2, 2};
   coarse.unpack.leastError = 0.5;
-  for (const AmtLoadOptions& options : {corner, coarse}) {
+  AmtLoadOptions coarseCorner = coarse;
+  coarseCorner.unpack.box = corner.unpack.box;
+  for (const AmtLoadOptions& options : {corner, coarse, coarseCorner}) {
     const auto part = loadAmt(memory.path(), options, context);
     if (part) {
       takeCuts(*part, context);

@@ -80,6 +80,10 @@ int main(int argc, char** argv) {
     writeModel(folder, name + "-fidelity", build(raster, {.shape = HoleShape::fidelity}));
     writeModel(folder, name + "-rims", build(raster, {.rimTolerance = 1}));
   }
+  // Packed in several chunks, which only long rasters are; plain it is more than a fuzzer likes.
+  const auto chunked = build(rasterFamilies().front().make(150, 3, 1));
+  if (!chunked) check(tl::unexpected(chunked.error()));
+  check(writeAmt(folder / "amt" / "chunked-packed.amt", *chunked, {}, {.writer = "Arete", .isPacked = true}));
   RasterHeightfield odd = rasterFamilies().front().make(kSide, kSide, 1);
   odd.source = "a name that is not UTF-8: \xff";
   writeModel(folder, "odd-name", build(odd));

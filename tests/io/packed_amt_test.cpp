@@ -13,7 +13,9 @@
 #include <vector>
 
 #include "datasets/families.h"
+#include "engine/criterion.h"
 #include "engine/cut.h"
+#include "engine/region.h"
 #include "engine/validate.h"
 #include "io/amt_file.h"
 #include "io/amt_fixture.h"
@@ -280,6 +282,67 @@ TEST(PackedAmt, ReadsWhatCutsAtAnErrorAskForAlone) {
   EXPECT_LT(nodesOfParts, nodesOfAll / 4);
 }
 
+/// What is read of the file down to an error keeps the laws and all minimal cuts of the whole that allow it.
+void expectReadsDownTo(double least, const TerrainModel& whole, const std::string& path) {
+  SCOPED_TRACE(least);
+  AmtLoadOptions options;
+  options.unpack.leastError = least;
+  const TerrainModel part = built(loadAmt(path, options));
+  const Status laws = validate(part.mt, {.allowsFills = whole.options.rimTolerance > 0});
+  EXPECT_TRUE(laws) << laws.error().describe();
+  ASSERT_TRUE(writeAmt(path + ".part", part));
+  const Result<TerrainModel> checked = loadAmt(path + ".part");
+  EXPECT_TRUE(checked) << checked.error().describe();
+  if (std::isnan(least) || least <= 0) {
+    EXPECT_EQ(part.mt.nodeCount(), whole.mt.nodeCount());
+  }
+  const double allowed = std::isnan(least) ? 0 : std::max(least, 0.0);
+  const RegionError corner(Region::box({0, 0, 9, 5}), whole.mt.arrays().metric, allowed, 2 * allowed + 1);
+  const UniformError everywhere(allowed);
+  for (const Criterion* const criterion :
+       {static_cast<const Criterion*>(&corner), static_cast<const Criterion*>(&everywhere)}) {
+    const auto x = takeCut(whole.mt, *criterion), y = takeCut(part.mt, *criterion);
+    ASSERT_TRUE(x && y);
+    EXPECT_EQ(x->ids, y->ids);
+    EXPECT_EQ(x->vertices, y->vertices);
+    EXPECT_TRUE(facetsOf(whole.mt, *x) == facetsOf(part.mt, *y));
+  }
+}
+
+TEST(PackedAmt, ReadsWhateverTheLeastErrorIs) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("packed.amt");
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const TerrainModel whole =
+      throughPacked(built(build(hills(40, 30, [](double z) { return std::round(z) + 0.0; }))), path);
+  for (const double least : {0.0, -1.0, -kInfinity, std::nan(""), std::numeric_limits<double>::denorm_min(),
+                             1e-30, 1e300, kInfinity})
+    expectReadsDownTo(least, whole, path);
+}
+
+TEST(PackedAmt, ReadsPointsRimsAndTheSmallestModelsDownToAnError) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("packed.amt");
+  const auto expectReads = [&](const TerrainModel& model) {
+    const TerrainModel whole = throughPacked(model, path);
+    const double largest = whole.mt.largestError();
+    for (const double least : {0.003 * largest, 0.05 * largest, largest})
+      expectReadsDownTo(least, whole, path);
+  };
+  for (const PointFamily& family : pointFamilies()) {
+    SCOPED_TRACE(family.name);
+    expectReads(built(build(family.make(700, 8))));
+  }
+  const auto whole = [](double z) { return std::round(z) + 0.0; };
+  BuildOptions rims;
+  rims.rimTolerance = 3;
+  expectReads(built(build(hills(40, 30, whole), rims)));
+  // Two root triangles that stay, and a node on a rim.
+  for (const std::uint32_t columns : {2u, 3u, 5u}) expectReads(built(build(hills(columns, 2, whole))));
+  expectPacksWell(built(build(hills(2, 2, whole))));
+  expectReads(tinyModel());
+}
+
 TEST(PackedAmt, ReadsARegionAtAnErrorAlone) {
   const TemporaryFolder folder;
   const std::string path = folder.file("packed.amt");
@@ -295,10 +358,9 @@ TEST(PackedAmt, ReadsARegionAtAnErrorAlone) {
   EXPECT_TRUE(laws) << laws.error().describe();
 }
 
-/// Bytes changed one by one: what comes back is refused or holds to every check of plain files.
-TEST(PackedAmt, RefusesOrSurvivesWhateverTheBytesAre) {
+/// Bytes changed one by one, `step` apart: what comes back is refused or holds to every check of plain files.
+void expectRefusesOrSurvives(const TerrainModel& model, std::size_t step) {
   const TemporaryFolder folder;
-  const TerrainModel model = built(build(hills(24, 22, [](double z) { return std::round(z) + 0.0; })));
   ASSERT_TRUE(writeAmt(folder.file("packed.amt"), model, {}, {.isPacked = true}));
   const AmtBytes original = AmtBytes::of(folder.file("packed.amt"));
   std::mt19937 random(3);
@@ -306,7 +368,7 @@ TEST(PackedAmt, RefusesOrSurvivesWhateverTheBytesAre) {
   for (const AmtTag& tag : {amt_tag::kPackedDirectory, amt_tag::kPackedTables, amt_tag::kPackedNodes}) {
     AmtBytes first = original;
     const std::size_t size = first.array<std::uint8_t>(tag).size();
-    for (std::size_t at = 0; at<size; at += size> 600 ? 3 : 1) {
+    for (std::size_t at = 0; at<size; at += size> 600 ? step : 1) {
       AmtBytes changed = original;
       changed.array<std::uint8_t>(tag)[at] ^= static_cast<std::uint8_t>(1u << random() % 8);
       // The checksums of the packed chunks too: whoever changes bytes can do so.
@@ -343,8 +405,47 @@ TEST(PackedAmt, RefusesOrSurvivesWhateverTheBytesAre) {
       ASSERT_TRUE(plain) << at << ": " << plain.error().describe();
     }
   }
-  RecordProperty("survived", survived);
-  RecordProperty("parts survived", partsSurvived);
+  testing::Test::RecordProperty("survived", survived);
+  testing::Test::RecordProperty("parts survived", partsSurvived);
+}
+
+TEST(PackedAmt, RefusesOrSurvivesWhateverTheBytesAre) {
+  expectRefusesOrSurvives(built(build(hills(24, 22, [](double z) { return std::round(z) + 0.0; }))), 3);
+}
+
+TEST(PackedAmt, RefusesOrSurvivesWhateverTheBytesOfSeveralChunksAre) {
+  // Long enough for tiles, whose chunks leave triangles to each other.
+  expectRefusesOrSurvives(built(build(hills(300, 4, [](double z) { return std::round(z) + 0.0; }))), 23);
+}
+
+TEST(PackedAmt, RefusesChunksThatLeaveMoreOrLessThanTheyAnnounce) {
+  const TemporaryFolder folder;
+  const TerrainModel model = built(build(hills(300, 4, [](double z) { return std::round(z) + 0.0; })));
+  ASSERT_TRUE(writeAmt(folder.file("packed.amt"), model, {}, {.isPacked = true}));
+  AmtBytes original = AmtBytes::of(folder.file("packed.amt"));
+  std::string ignored;
+  const auto bytes = std::as_bytes(original.array<std::uint8_t>(amt_tag::kPackedDirectory));
+  const auto directory = packed::directoryOf(bytes, ignored);
+  ASSERT_TRUE(directory);
+  int changed = 0;
+  for (std::size_t c = 0; c < directory->chunks.size(); ++c)
+    for (const int by : {-1, 1}) {
+      packed::Directory other = *directory;
+      if (other.chunks[c].borders == 0) continue;
+      other.chunks[c].borders += static_cast<std::uint32_t>(by);
+      const auto sealed = packed::toBytes(other);
+      if (sealed.size() != bytes.size()) continue;
+      AmtBytes file = original;
+      std::memcpy(file.array<std::uint8_t>(amt_tag::kPackedDirectory).data(), sealed.data(), sealed.size());
+      file.seal();
+      file.save(folder.file("changed.amt"));
+      const Result<TerrainModel> back = loadAmt(folder.file("changed.amt"));
+      ASSERT_FALSE(back);
+      EXPECT_NE(back.error().message.find("another number of triangles than announced"), std::string::npos)
+          << back.error().message;
+      ++changed;
+    }
+  EXPECT_GT(changed, 4);
 }
 
 TEST(PackedAmt, NamesTheChunkThatWasAltered) {
