@@ -364,6 +364,7 @@ TEST_F(MainJob, TakesTheSameTinsFromAPackedFileOfWhichItReadsTheBeginnings) {
         {"--max-error", "7"},
         {"--max-error", "3", "--method", "saturated"},
         {"--max-error", "3", "--focus", "500300,4500400", "--error-growth", "0.01"},
+        {"--max-error", "3", "--focus", "500300,4500400", "--error-growth", "0.01", "--method", "saturated"},
         {"--max-error", "6", "--fit", "triangles"},
         {"--max-triangles", "500"}};
     for (const auto& criterion : criteria)
