@@ -163,10 +163,11 @@ Status runBuild(BuildArguments& arguments, Session& session) {
         seconds.features = choosing.seconds();
 
         Stopwatch building;
-        const Result<TerrainModel> model = build(field, arguments.options, session.context());
+        Result<TerrainModel> model = build(field, arguments.options, session.context());
         if (!model) return tl::unexpected(model.error());
         seconds.build = building.seconds();
 
+        model->reading = arguments.dem.reading();
         Stopwatch writing;
         const AmtWriteOptions options{.isPacked = arguments.isPacked};
         if (Status written = writeAmt(arguments.output, *model, session.context(), options); !written)
