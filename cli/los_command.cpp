@@ -232,7 +232,7 @@ Status runLos(const LosArguments& a, Session& session) {
   Json json = {{"model", a.model},
                {"verticalUnit", model->georeference.verticalUnit},
                {"earth", a.sight.earthName(*model)},
-               {"refraction", a.sight.refraction},
+               {"refraction", a.sight.refractionJson(*model)},
                {"nodata", std::string(toString(a.sight.nodata))},
                {"maxError", a.maxError},
                {"method", std::string(toString(method))}};

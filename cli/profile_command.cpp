@@ -273,6 +273,8 @@ Status runProfile(const ProfileArguments& a, Session& session) {
   if (!ways) return tl::unexpected(ways.error());
   if (a.frequency > 0 && !ways->front().ends)
     return failure(ErrorCode::usage, "needs a line of sight: --along X,Y,H:X,Y,H", "--frequency");
+  if (a.sight.statesNodata() && !ways->front().ends)
+    return failure(ErrorCode::usage, "is for a line of sight: --along X,Y,H:X,Y,H", "--nodata");
   if (!a.png.empty() && ways->size() > 1)
     return failure(ErrorCode::usage, fmt::format("draws one line, and there are {}", ways->size()), "--png");
   const auto earth = a.sight.makeEarth(*model, session);
@@ -300,7 +302,7 @@ Status runProfile(const ProfileArguments& a, Session& session) {
   Json json = {{"model", a.model},
                {"verticalUnit", dem.verticalUnit},
                {"earth", a.sight.earthName(*model)},
-               {"refraction", a.sight.refraction},
+               {"refraction", a.sight.refractionJson(*model)},
                {"maxError", a.maxError}};
   Json lines = Json::array();
   if (session.wantsJson())

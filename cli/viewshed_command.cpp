@@ -297,7 +297,7 @@ Status answer(const Question& q, Session& session) {
                {"observers", q.observers.size()},
                {"targetHeight", a.targetHeight},
                {"earth", a.sight.earthName(q.model)},
-               {"refraction", a.sight.refraction},
+               {"refraction", a.sight.refractionJson(q.model)},
                {"nodata", std::string(toString(a.sight.nodata))},
                {"maxError", a.maxError}};
   if (!a.like.empty()) json["like"] = a.like;
