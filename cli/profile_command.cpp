@@ -267,7 +267,7 @@ Status runProfile(const ProfileArguments& a, Session& session) {
       if (Status output = checkOutput(option, path, {a.model, a.along, model->source}); !output)
         return output;
   const Georeference& dem = model->georeference;
-  const auto toDem = transformOfPlaces(a.sight.lonLat, dem);
+  const auto toDem = transformOfPlaces(a.sight.lonLat, *model);
   if (!toDem) return tl::unexpected(toDem.error());
   const auto ways = readWays(a, dem, toDem, session);
   if (!ways) return tl::unexpected(ways.error());

@@ -73,9 +73,10 @@ Result<std::unique_ptr<SightEarth>> SightArguments::makeEarth(const TerrainModel
   return made;
 }
 
-Result<CrsTransform> transformOfPlaces(bool lonLat, const Georeference& dem) {
-  Result<CrsTransform> toDem = lonLat ? CrsTransform::fromLonLat(dem) : CrsTransform();
+Result<CrsTransform> transformOfPlaces(bool lonLat, const TerrainModel& model) {
+  Result<CrsTransform> toDem = lonLat ? CrsTransform::fromLonLat(model.georeference) : CrsTransform();
   if (!toDem && toDem.error().culprit.empty()) toDem.error().culprit = "--lonlat";
+  if (toDem) toDem->setTurns(LongitudeTurns(model));
   return toDem;
 }
 

@@ -98,7 +98,7 @@ Result<Camera> cameraOf(const ViewArguments& a, const TerrainModel& model, const
   picture.heightPixels = height;
   if (a.camera.empty())
     return homeCamera(homeOf(a.home), CameraSpace(model), metricBox(model), picture, a.exaggeration);
-  const auto toDem = transformOfPlaces(a.isLonLat, model.georeference);
+  const auto toDem = transformOfPlaces(a.isLonLat, model);
   if (!toDem) return tl::unexpected(toDem.error());
   Result<CameraArgument> stated = readCameraArgument("--camera", a.camera, *toDem, heights);
   if (!stated) return tl::unexpected(stated.error());
