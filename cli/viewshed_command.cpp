@@ -129,6 +129,8 @@ Result<std::vector<ViewshedSite>> readObservers(const ViewshedArguments& a, cons
     SightSite site = sites->rows[i][0];
     site.xy = turns(site.xy);
     const std::string culprit = fmt::format("{}, row {}", a.observers, i + 1);
+    if (!std::isfinite(site.stated.x + site.stated.y))
+      return failure(ErrorCode::invalidData, "has no place", culprit);
     if (!std::isfinite(site.xy.x + site.xy.y))
       return failure(ErrorCode::invalidData, "has no place that the DEM's CRS can tell", culprit);
     const auto height = site.height ? site.height : usual;
