@@ -127,6 +127,15 @@ TEST_F(HeightCommand, FindsALongitudeThatIsOffByAWholeTurn) {
   EXPECT_EQ(seen.code, 0) << seen.err;
 }
 
+TEST_F(HeightCommand, SaysThatALineBreakInQuotesIsNotRead) {
+  makeModel("flat");
+  write("places.csv", "hut,x,y\n\"The\nhut\",500100,5199900\n");
+  const Outcome outcome = run({"height", "dem.amt", "--points", "places.csv"});
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_NE(outcome.err.find("a quoted text begins on line 2 and does not end there"), std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(HeightCommand, GivesEverySampleOfARealDem) {
   const std::string dem = realData("dem/srtm3_zion_cc0.tif");
   if (dem.empty()) GTEST_SKIP() << "the Zion DEM is not here (set ARETE_DATA)";
