@@ -23,6 +23,7 @@
 #include "io/file_writer.h"
 #include "io/line_table.h"
 #include "io/sight_pairs.h"
+#include "io/text_scan.h"
 #include "terrain/sight_links.h"
 
 namespace arete {
@@ -36,7 +37,7 @@ struct LosArguments {
 };
 
 bool isJson(const std::string& path) {
-  return std::filesystem::path(path).extension() == ".json";
+  return text::lowered(std::filesystem::path(path).extension().string()) == ".json";
 }
 
 Status checkArguments(const LosArguments& a) {
@@ -107,8 +108,8 @@ Result<SightPairs> readRows(const LosArguments& a, const TerrainModel& model, Se
   auto sites = readSightSites(a.points, dem, options, session.context());
   if (!sites) return sites;
   session.warn(sites->warnings, a.points);
-  // The one end is stated in the DEM's CRS, or in WGS 84; the sites in their own.
   turnLongitudes(*sites, model);
+  // The one end is stated in the DEM's CRS, or in WGS 84; the sites in their own.
   SightSite fixed = from ? *from : *to;
   if (sites->crsWkt != (a.sight.lonLat ? toDem->sourceWkt() : dem.crsWkt)) {
     const auto there = CrsTransform::between(dem.crsWkt, sites->crsWkt);

@@ -20,6 +20,7 @@
 #include "io/file_writer.h"
 #include "io/position_argument.h"
 #include "io/region_reader.h"
+#include "io/text_scan.h"
 #include "terrain/fresnel.h"
 #include "terrain/profile.h"
 #include "terrain/sight_links.h"
@@ -256,9 +257,9 @@ Status drawPng(const ProfileArguments& a, const Answer& answer, const TerrainMod
 }
 
 Status runProfile(const ProfileArguments& a, Session& session) {
-  if (!a.output.empty() && std::filesystem::path(a.output).extension() != ".csv")
+  if (!a.output.empty() && text::lowered(std::filesystem::path(a.output).extension().string()) != ".csv")
     return failure(ErrorCode::usage, "a profile is written as .csv", "--output " + a.output);
-  if (!a.png.empty() && std::filesystem::path(a.png).extension() != ".png")
+  if (!a.png.empty() && text::lowered(std::filesystem::path(a.png).extension().string()) != ".png")
     return failure(ErrorCode::usage, "a picture ends in .png", "--png " + a.png);
   const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
   if (!model) return tl::unexpected(model.error());
