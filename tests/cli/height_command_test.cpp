@@ -136,6 +136,15 @@ TEST_F(HeightCommand, SaysThatALineBreakInQuotesIsNotRead) {
       << outcome.err;
 }
 
+TEST_F(HeightCommand, AsksForTheFileInAnArchive) {
+  makeModel("flat");
+  write("places.zip", std::string("PK\x05\x06") + std::string(18, '\0'));  // an archive of nothing
+  const Outcome outcome = run({"height", "dem.amt", "--points", "places.zip"});
+  EXPECT_NE(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("is an archive: name the set of points in it"), std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(HeightCommand, GivesEverySampleOfARealDem) {
   const std::string dem = realData("dem/srtm3_zion_cc0.tif");
   if (dem.empty()) GTEST_SKIP() << "the Zion DEM is not here (set ARETE_DATA)";
