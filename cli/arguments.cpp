@@ -182,6 +182,12 @@ DemReadOptions DemArguments::options() const {
   return options;
 }
 
+SourceReading DemArguments::reading() const {
+  SourceReading reading{static_cast<std::uint32_t>(band), layer, zField, crs};
+  if (!std::isnan(nodata)) reading.nodata = nodata;
+  return reading;
+}
+
 Result<DemRead> DemArguments::read(const Session& session) const {
   Result<DemRead> dem = readDem(path, options(), session.context());
   if (dem)

@@ -12,6 +12,7 @@
 #include "cli/session.h"
 #include "engine/result.h"
 #include "io/dem_reader.h"
+#include "terrain/terrain_model.h"
 
 namespace arete {
 
@@ -50,6 +51,8 @@ struct DemArguments {
 
   void addTo(CLI::App& command);
   DemReadOptions options() const;
+  /// The same, as a model keeps it.
+  SourceReading reading() const;
   /// readDem(), its warnings said; an error names the option where one is to blame.
   Result<DemRead> read(const Session& session) const;
 };

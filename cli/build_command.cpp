@@ -15,6 +15,7 @@
 #include "io/crs_names.h"
 #include "io/dem_reader.h"
 #include "io/plan_point_reader.h"
+#include "io/text_scan.h"
 #include "terrain/build.h"
 #include "terrain/fixed_vertices.h"
 
@@ -130,7 +131,7 @@ Status takeShape(BuildArguments& arguments) {
 
 Status runBuild(BuildArguments& arguments, Session& session) {
   if (Status taken = takeShape(arguments); !taken) return taken;
-  const std::string extension = std::filesystem::path(arguments.output).extension().string();
+  const std::string extension = text::lowered(std::filesystem::path(arguments.output).extension().string());
   if (!extension.empty() && extension != ".amt")
     return failure(
         ErrorCode::usage,
@@ -163,9 +164,10 @@ Status runBuild(BuildArguments& arguments, Session& session) {
         seconds.features = choosing.seconds();
 
         Stopwatch building;
-        const Result<TerrainModel> model = build(field, arguments.options, session.context());
+        Result<TerrainModel> model = build(field, arguments.options, session.context());
         if (!model) return tl::unexpected(model.error());
         seconds.build = building.seconds();
+        model->reading = arguments.dem.reading();
 
         Stopwatch writing;
         const AmtWriteOptions options{.isPacked = arguments.isPacked};

@@ -13,6 +13,7 @@
 #include "io/convert_mesh.h"
 #include "io/crs_names.h"
 #include "io/mesh_file.h"
+#include "io/text_scan.h"
 
 namespace arete {
 namespace {
@@ -27,7 +28,7 @@ Json roundingJson(const Vec3& rounding) {
 }
 
 bool isAmt(const std::string& path) {
-  return std::filesystem::path(path).extension() == ".amt";
+  return text::lowered(std::filesystem::path(path).extension().string()) == ".amt";
 }
 
 /// A multitriangulation into its packed form or out of it.

@@ -191,6 +191,8 @@ Status CriterionArguments::placeCamera(const TerrainModel& model, ExtractCriteri
   if (!viewport_.empty()) {
     const auto viewport = twoNumbers("--viewport", viewport_, 'x');
     if (!viewport) return tl::unexpected(viewport.error());
+    if (viewport->first != std::floor(viewport->first) || viewport->second != std::floor(viewport->second))
+      return failure(ErrorCode::usage, "is not of whole pixels", "--viewport " + viewport_);
     camera.widthPixels = viewport->first;
     camera.heightPixels = viewport->second;
     if (const Result<View> view = viewOf(camera, model); !view)

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/arguments.h"
+#include "cli/sight_arguments.h"
 #include "io/amt_file.h"
 #include "io/crs_transform.h"
 #include "io/height_table.h"
@@ -32,14 +33,11 @@ struct HeightArguments {
 using Heights = std::vector<std::optional<SurfaceHeight>>;
 
 /// The places of --at, as they were typed and in the DEM's CRS.
-Result<PointTable> statedPlaces(const HeightArguments& arguments, const Georeference& dem) {
+Result<PointTable> statedPlaces(const HeightArguments& arguments, const TerrainModel& model) {
   PointTable table;
-  Result<CrsTransform> toDem = arguments.lonLat ? CrsTransform::fromLonLat(dem) : CrsTransform();
-  if (!toDem) {
-    if (toDem.error().culprit.empty()) toDem.error().culprit = "--lonlat";
-    return tl::unexpected(toDem.error());
-  }
-  table.crsWkt = arguments.lonLat ? toDem->sourceWkt() : dem.crsWkt;
+  const auto toDem = transformOfPlaces(arguments.lonLat, model);
+  if (!toDem) return tl::unexpected(toDem.error());
+  table.crsWkt = arguments.lonLat ? toDem->sourceWkt() : model.georeference.crsWkt;
   for (const std::string& text : arguments.at) {
     const auto stated = readPlaceArgument("--at", text, CrsTransform());
     if (!stated) return tl::unexpected(stated.error());
@@ -51,11 +49,13 @@ Result<PointTable> statedPlaces(const HeightArguments& arguments, const Georefer
   return table;
 }
 
-Result<PointTable> readPlaces(const HeightArguments& arguments, const Georeference& dem, Session& session) {
-  if (arguments.points.empty()) return statedPlaces(arguments, dem);
-  auto table = readPointTable(arguments.points, dem, {.layer = arguments.layer, .lonLat = arguments.lonLat},
-                              session.context());
-  if (table) session.warn(table->warnings, arguments.points);
+Result<PointTable> readPlaces(const HeightArguments& arguments, const TerrainModel& model, Session& session) {
+  if (arguments.points.empty()) return statedPlaces(arguments, model);
+  auto table = readPointTable(arguments.points, model.georeference,
+                              {.layer = arguments.layer, .lonLat = arguments.lonLat}, session.context());
+  if (!table) return table;
+  session.warn(table->warnings, arguments.points);
+  LongitudeTurns(model).apply(table->positions);
   return table;
 }
 
@@ -107,7 +107,7 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
             checkOutput("--output", arguments.output, {arguments.model, arguments.points, model->source});
         !output)
       return output;
-  const auto table = readPlaces(arguments, model->georeference, session);
+  const auto table = readPlaces(arguments, *model, session);
   if (!table) return tl::unexpected(table.error());
   const auto heights = SurfaceHeights(*model).at(table->positions, arguments.maxError, session.context());
   if (!heights) return tl::unexpected(heights.error());

@@ -23,6 +23,7 @@
 #include "io/file_writer.h"
 #include "io/line_table.h"
 #include "io/sight_pairs.h"
+#include "io/text_scan.h"
 #include "terrain/sight_links.h"
 
 namespace arete {
@@ -36,7 +37,7 @@ struct LosArguments {
 };
 
 bool isJson(const std::string& path) {
-  return std::filesystem::path(path).extension() == ".json";
+  return text::lowered(std::filesystem::path(path).extension().string()) == ".json";
 }
 
 Status checkArguments(const LosArguments& a) {
@@ -72,14 +73,24 @@ Result<SightSite> siteOf(const std::string& option, const std::string& text, con
   return SightSite{stated->xy, position->xy, StatedHeight{position->height, position->kind}};
 }
 
-Result<SightPairs> readRows(const LosArguments& a, const Georeference& dem, Session& session) {
+/// Of rows from a file, in place.
+void turnLongitudes(SightPairs& pairs, const TerrainModel& model) {
+  const LongitudeTurns turns(model);
+  for (auto& row : pairs.rows)
+    for (SightSite& site : row) site.xy = turns(site.xy);
+}
+
+Result<SightPairs> readRows(const LosArguments& a, const TerrainModel& model, Session& session) {
+  const Georeference& dem = model.georeference;
   const PointTableOptions options{.layer = a.layer, .lonLat = a.sight.lonLat};
   if (!a.pairs.empty()) {
     auto pairs = readSightPairs(a.pairs, dem, options, session.context());
-    if (pairs) session.warn(pairs->warnings, a.pairs);
+    if (!pairs) return pairs;
+    session.warn(pairs->warnings, a.pairs);
+    turnLongitudes(*pairs, model);
     return pairs;
   }
-  const auto toDem = transformOfPlaces(a.sight.lonLat, dem);
+  const auto toDem = transformOfPlaces(a.sight.lonLat, model);
   if (!toDem) return tl::unexpected(toDem.error());
   std::optional<SightSite> from, to;
   for (const auto& [option, text, site] : {std::tuple{"--from", &a.from, &from}, {"--to", &a.to, &to}}) {
@@ -97,6 +108,7 @@ Result<SightPairs> readRows(const LosArguments& a, const Georeference& dem, Sess
   auto sites = readSightSites(a.points, dem, options, session.context());
   if (!sites) return sites;
   session.warn(sites->warnings, a.points);
+  turnLongitudes(*sites, model);
   // The one end is stated in the DEM's CRS, or in WGS 84; the sites in their own.
   SightSite fixed = from ? *from : *to;
   if (sites->crsWkt != (a.sight.lonLat ? toDem->sourceWkt() : dem.crsWkt)) {
@@ -201,7 +213,7 @@ Status runLos(const LosArguments& a, Session& session) {
             checkOutput("--output", a.output, {a.model, a.pairs, a.points, a.clutter, model->source});
         !output)
       return output;
-  auto pairs = readRows(a, model->georeference, session);
+  auto pairs = readRows(a, *model, session);
   if (!pairs) return tl::unexpected(pairs.error());
   if (Status added = addUsualHeights(a, *pairs); !added) return added;
   const auto options = optionsOf(a, *model, session);
@@ -232,7 +244,7 @@ Status runLos(const LosArguments& a, Session& session) {
   Json json = {{"model", a.model},
                {"verticalUnit", model->georeference.verticalUnit},
                {"earth", a.sight.earthName(*model)},
-               {"refraction", a.sight.refraction},
+               {"refraction", a.sight.refractionJson(*model)},
                {"nodata", std::string(toString(a.sight.nodata))},
                {"maxError", a.maxError},
                {"method", std::string(toString(method))}};

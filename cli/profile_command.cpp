@@ -20,6 +20,7 @@
 #include "io/file_writer.h"
 #include "io/position_argument.h"
 #include "io/region_reader.h"
+#include "io/text_scan.h"
 #include "terrain/fresnel.h"
 #include "terrain/profile.h"
 #include "terrain/sight_links.h"
@@ -256,9 +257,9 @@ Status drawPng(const ProfileArguments& a, const Answer& answer, const TerrainMod
 }
 
 Status runProfile(const ProfileArguments& a, Session& session) {
-  if (!a.output.empty() && std::filesystem::path(a.output).extension() != ".csv")
+  if (!a.output.empty() && text::lowered(std::filesystem::path(a.output).extension().string()) != ".csv")
     return failure(ErrorCode::usage, "a profile is written as .csv", "--output " + a.output);
-  if (!a.png.empty() && std::filesystem::path(a.png).extension() != ".png")
+  if (!a.png.empty() && text::lowered(std::filesystem::path(a.png).extension().string()) != ".png")
     return failure(ErrorCode::usage, "a picture ends in .png", "--png " + a.png);
   const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
   if (!model) return tl::unexpected(model.error());
@@ -267,12 +268,14 @@ Status runProfile(const ProfileArguments& a, Session& session) {
       if (Status output = checkOutput(option, path, {a.model, a.along, model->source}); !output)
         return output;
   const Georeference& dem = model->georeference;
-  const auto toDem = transformOfPlaces(a.sight.lonLat, dem);
+  const auto toDem = transformOfPlaces(a.sight.lonLat, *model);
   if (!toDem) return tl::unexpected(toDem.error());
   const auto ways = readWays(a, dem, toDem, session);
   if (!ways) return tl::unexpected(ways.error());
   if (a.frequency > 0 && !ways->front().ends)
     return failure(ErrorCode::usage, "needs a line of sight: --along X,Y,H:X,Y,H", "--frequency");
+  if (a.sight.statesNodata() && !ways->front().ends)
+    return failure(ErrorCode::usage, "is for a line of sight: --along X,Y,H:X,Y,H", "--nodata");
   if (!a.png.empty() && ways->size() > 1)
     return failure(ErrorCode::usage, fmt::format("draws one line, and there are {}", ways->size()), "--png");
   const auto earth = a.sight.makeEarth(*model, session);
@@ -300,7 +303,7 @@ Status runProfile(const ProfileArguments& a, Session& session) {
   Json json = {{"model", a.model},
                {"verticalUnit", dem.verticalUnit},
                {"earth", a.sight.earthName(*model)},
-               {"refraction", a.sight.refraction},
+               {"refraction", a.sight.refractionJson(*model)},
                {"maxError", a.maxError}};
   Json lines = Json::array();
   if (session.wantsJson())

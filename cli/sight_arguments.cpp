@@ -34,14 +34,15 @@ void SightArguments::addEarthTo(CLI::App& command) {
 }
 
 void SightArguments::addNodataTo(CLI::App& command) {
-  command
-      .add_option(
-          "--nodata", nodata,
-          "What a line over NODATA, or outside the DEM, is there: unknown (default), clear or blocked")
-      ->transform(oneOf<NodataSight>({{"unknown", NodataSight::unknown},
-                                      {"clear", NodataSight::clear},
-                                      {"blocked", NodataSight::blocked}}))
-      ->type_name("unknown|clear|blocked");
+  nodataOption =
+      command
+          .add_option(
+              "--nodata", nodata,
+              "What a line over NODATA, or outside the DEM, is there: unknown (default), clear or blocked")
+          ->transform(oneOf<NodataSight>({{"unknown", NodataSight::unknown},
+                                          {"clear", NodataSight::clear},
+                                          {"blocked", NodataSight::blocked}}))
+          ->type_name("unknown|clear|blocked");
 }
 
 void SightArguments::addLonLatTo(CLI::App& command) {
@@ -51,6 +52,10 @@ void SightArguments::addLonLatTo(CLI::App& command) {
 std::string SightArguments::earthName(const TerrainModel& model) const {
   if (!earth.empty()) return earth;
   return !model.georeference.crsWkt.empty() && CrsLonLat::of(model.georeference) ? "ellipsoid" : "plane";
+}
+
+Json SightArguments::refractionJson(const TerrainModel& model) const {
+  return earthName(model) == "plane" ? Json() : Json(refraction);
 }
 
 Result<std::unique_ptr<SightEarth>> SightArguments::makeEarth(const TerrainModel& model,
@@ -68,9 +73,10 @@ Result<std::unique_ptr<SightEarth>> SightArguments::makeEarth(const TerrainModel
   return made;
 }
 
-Result<CrsTransform> transformOfPlaces(bool lonLat, const Georeference& dem) {
-  Result<CrsTransform> toDem = lonLat ? CrsTransform::fromLonLat(dem) : CrsTransform();
+Result<CrsTransform> transformOfPlaces(bool lonLat, const TerrainModel& model) {
+  Result<CrsTransform> toDem = lonLat ? CrsTransform::fromLonLat(model.georeference) : CrsTransform();
   if (!toDem && toDem.error().culprit.empty()) toDem.error().culprit = "--lonlat";
+  if (toDem) toDem->setTurns(LongitudeTurns(model));
   return toDem;
 }
 

@@ -23,6 +23,9 @@ struct SightArguments {
   NodataSight nodata = NodataSight::unknown;
   bool lonLat = false;
 
+  CLI::Option* nodataOption = nullptr;
+
+  bool statesNodata() const { return nodataOption != nullptr && nodataOption->count() > 0; }
   void addEarthTo(CLI::App& command);
   void addNodataTo(CLI::App& command);
   void addLonLatTo(CLI::App& command);
@@ -31,10 +34,13 @@ struct SightArguments {
   Result<std::unique_ptr<SightEarth>> makeEarth(const TerrainModel& model, Session& session) const;
   /// Which one that is, for answers.
   std::string earthName(const TerrainModel& model) const;
+  /// For answers; null where the Earth is a plane, over which no line bends.
+  Json refractionJson(const TerrainModel& model) const;
 };
 
-/// Brings what is typed into the DEM's CRS. Errors name --lonlat.
-Result<CrsTransform> transformOfPlaces(bool lonLat, const Georeference& dem);
+/// Brings what is typed into the DEM's CRS, and whole turns of longitude to where it is. Errors name
+/// --lonlat.
+Result<CrsTransform> transformOfPlaces(bool lonLat, const TerrainModel& model);
 
 std::string_view toString(NodataSight nodata);
 std::string_view toString(SightVerdict verdict);

@@ -21,6 +21,8 @@ Result<SightLink> linkOf(const std::array<SightSite, 2>& row, const SurfaceHeigh
   SightLink link;
   for (int end = 0; end < 2; ++end) {
     const SightSite& site = row[end];
+    if (!std::isfinite(site.xy.x + site.xy.y) && !std::isfinite(site.stated.x + site.stated.y))
+      return failure(ErrorCode::invalidData, "has no place", kEnds[end]);
     if (!std::isfinite(site.xy.x + site.xy.y))
       return failure(ErrorCode::invalidData, "has no place that the DEM's CRS can tell", kEnds[end]);
     if (!site.height)

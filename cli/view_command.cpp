@@ -14,6 +14,7 @@
 #include "io/amt_file.h"
 #include "io/camera_argument.h"
 #include "io/file_writer.h"
+#include "io/text_scan.h"
 #include "terrain/surface_height.h"
 #include "viewer/camera/flight_json.h"
 #include "viewer/camera/home_view.h"
@@ -98,7 +99,7 @@ Result<Camera> cameraOf(const ViewArguments& a, const TerrainModel& model, const
   picture.heightPixels = height;
   if (a.camera.empty())
     return homeCamera(homeOf(a.home), CameraSpace(model), metricBox(model), picture, a.exaggeration);
-  const auto toDem = transformOfPlaces(a.isLonLat, model.georeference);
+  const auto toDem = transformOfPlaces(a.isLonLat, model);
   if (!toDem) return tl::unexpected(toDem.error());
   Result<CameraArgument> stated = readCameraArgument("--camera", a.camera, *toDem, heights);
   if (!stated) return tl::unexpected(stated.error());
@@ -183,7 +184,8 @@ Status checkArguments(const ViewArguments& a) {
     return refuse("is for cuts of the processor: add --cut processor", "--deadline");
   if (a.isHeadless && a.screenshot.empty() && a.frames.empty())
     return refuse("makes pictures: say --screenshot FILE.png or --frames FOLDER", "--headless");
-  if (!a.screenshot.empty() && std::filesystem::path(a.screenshot).extension() != ".png")
+  if (!a.screenshot.empty() &&
+      text::lowered(std::filesystem::path(a.screenshot).extension().string()) != ".png")
     return refuse("a picture ends in .png", "--screenshot " + a.screenshot);
   if (!a.path.empty() && a.isRound) return refuse("flies a way of its own; leave --path out", "--round");
   if (!a.frames.empty() && a.path.empty() && !a.isRound)

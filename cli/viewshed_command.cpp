@@ -105,7 +105,7 @@ Result<std::vector<ViewshedSite>> readObservers(const ViewshedArguments& a, cons
     observers.push_back({{sightPlan(model, position.xy), *height}, field});
     return {};
   };
-  const auto toDem = transformOfPlaces(a.sight.lonLat, model.georeference);
+  const auto toDem = transformOfPlaces(a.sight.lonLat, model);
   if (!toDem) return tl::unexpected(toDem.error());
   for (const std::string& text : a.observer) {
     const auto position = readPositionArgument("--observer", text, *toDem);
@@ -124,9 +124,13 @@ Result<std::vector<ViewshedSite>> readObservers(const ViewshedArguments& a, cons
                                     {.layer = a.layer, .lonLat = a.sight.lonLat}, session.context());
   if (!sites) return tl::unexpected(sites.error());
   session.warn(sites->warnings, a.observers);
+  const LongitudeTurns turns(model);
   for (std::size_t i = 0; i < sites->rows.size(); ++i) {
-    const SightSite& site = sites->rows[i][0];
+    SightSite site = sites->rows[i][0];
+    site.xy = turns(site.xy);
     const std::string culprit = fmt::format("{}, row {}", a.observers, i + 1);
+    if (!std::isfinite(site.stated.x + site.stated.y))
+      return failure(ErrorCode::invalidData, "has no place", culprit);
     if (!std::isfinite(site.xy.x + site.xy.y))
       return failure(ErrorCode::invalidData, "has no place that the DEM's CRS can tell", culprit);
     const auto height = site.height ? site.height : usual;
@@ -297,7 +301,7 @@ Status answer(const Question& q, Session& session) {
                {"observers", q.observers.size()},
                {"targetHeight", a.targetHeight},
                {"earth", a.sight.earthName(q.model)},
-               {"refraction", a.sight.refraction},
+               {"refraction", a.sight.refractionJson(q.model)},
                {"nodata", std::string(toString(a.sight.nodata))},
                {"maxError", a.maxError}};
   if (!a.like.empty()) json["like"] = a.like;

@@ -68,6 +68,17 @@ std::optional<std::string> fromHex(const std::string& hex) {
   return text;
 }
 
+/// Only what was told. An infinity, which JSON cannot say, is not.
+ordered_json readingJson(const SourceReading& reading) {
+  ordered_json j = ordered_json::object();
+  if (reading.band > 0) j["band"] = reading.band;
+  for (const auto& [key, text] :
+       {std::pair{"layer", &reading.layer}, {"zField", &reading.zField}, {"crs", &reading.crs}})
+    if (!text->empty()) j[key] = exactText(*text);
+  if (reading.nodata && std::isfinite(*reading.nodata)) j["nodata"] = *reading.nodata;
+  return j;
+}
+
 ordered_json triple(const Vec3& v) {
   return ordered_json::array({v.x, v.y, v.z});
 }
@@ -83,6 +94,7 @@ class Fields {
     static const json empty = json::object();
     return {field != nullptr ? *field : empty, prefix_ + key + ".", problem_};
   }
+  bool has(const char* key) const { return object_.contains(key); }
   void read(const char* key, bool& to) const {
     if (const json* field = find(key, "true or false", [](const json& j) { return j.is_boolean(); }))
       to = field->get<bool>();
@@ -157,6 +169,19 @@ class Fields {
   std::string& problem_;
 };
 
+/// All of it may be missing: earlier writers did not say it.
+SourceReading readingOf(const Fields& top) {
+  SourceReading reading;
+  if (!top.has("reading")) return reading;
+  const Fields fields = top.child("reading");
+  if (fields.has("band")) fields.read("band", reading.band);
+  for (const auto& [key, text] :
+       {std::pair{"layer", &reading.layer}, {"zField", &reading.zField}, {"crs", &reading.crs}})
+    if (fields.has(key)) fields.read(key, *text);
+  if (fields.has("nodata")) fields.read("nodata", reading.nodata.emplace(0));
+  return reading;
+}
+
 std::optional<std::string> findCountProblem(const AmtCounts& c) {
   const auto limit = [](const char* what, std::uint64_t count) -> std::optional<std::string> {
     if (count <= kMaxCount) return std::nullopt;
@@ -223,6 +248,7 @@ AmtMetadata amtMetadataOf(const TerrainModel& model, std::string writer) {
   m.model.rows = model.rows;
   m.model.source = model.source;
   m.model.sourceChecksum = model.sourceChecksum;
+  m.model.reading = model.reading;
   m.model.options = model.options;
   m.model.options.fixedVertices.clear();
   m.model.metricP = model.metricP;
@@ -259,7 +285,7 @@ std::optional<std::string> findAmtProblem(const AmtMetadata& m) {
 std::string toAmtJson(const AmtMetadata& m) {
   const Georeference& g = m.model.georeference;
   const BuildOptions& o = m.model.options;
-  const ordered_json j = {
+  ordered_json j = {
       {"writer", exactText(m.writer)},
       {"source", exactText(m.model.source)},
       {"sourceChecksum", exactText(m.model.sourceChecksum)},
@@ -298,6 +324,8 @@ std::string toAmtJson(const AmtMetadata& m) {
         {"metricP", m.model.metricP},
         {"metricQ", m.model.metricQ},
         {"levels", m.model.levels}}}};
+  if (ordered_json reading = readingJson(m.model.reading); !reading.empty())
+    j["reading"] = std::move(reading);
   return j.dump(1) + "\n";
 }
 
@@ -310,6 +338,7 @@ Result<AmtMetadata> fromAmtJson(std::string_view text) {
   top.read("writer", m.writer);
   top.read("source", m.model.source);
   top.read("sourceChecksum", m.model.sourceChecksum);
+  m.model.reading = readingOf(top);
   top.read("isRaster", m.model.isRaster);
   top.read("columns", m.model.columns);
   top.read("rows", m.model.rows);

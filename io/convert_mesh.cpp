@@ -61,6 +61,11 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   const bool wasExact = mesh.frame.rounding == Vec3{};
   lose(format->holds.isExact, wasExact,
        fmt::format("coordinates finer than {:.2g}, {:.2g}, {:.2g} (x, y, height)", r.x, r.y, r.z));
+  if (const Vec3& off = mesh.frame.rounding; format->holds.isExact && !wasExact)
+    converted.warnings.push_back(fmt::format(
+        "its coordinates are rounded, by up to {:.2g}, {:.2g}, {:.2g} (x, y, height), which {} does "
+        "not say: arete measure takes them as exact and may find samples in no triangle",
+        off.x, off.y, off.z, format->name));
   converted.crsWkt = std::move(mesh.crsWkt);
   converted.verticalUnit = std::move(mesh.verticalUnit);
   return converted;

@@ -77,7 +77,7 @@ std::optional<Vec2> CrsTransform::operator()(Vec2 p) const {
 }
 
 void CrsTransform::apply(std::span<Vec2> positions) const {
-  if (!state_) return;
+  if (!state_) return turns_.apply(positions);
   const GdalErrors quiet;  // which position cannot be told is said by NaN
   constexpr std::size_t kAtOnce = 65536;
   std::vector<double> x, y;
@@ -95,7 +95,7 @@ void CrsTransform::apply(std::span<Vec2> positions) const {
     for (std::size_t i = 0; i < part.size(); ++i) {
       const bool isKnown = known[i] && std::isfinite(x[i]) && std::isfinite(y[i]);
       constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-      part[i] = isKnown ? Vec2{x[i], y[i]} : Vec2{kNone, kNone};
+      part[i] = isKnown ? turns_({x[i], y[i]}) : Vec2{kNone, kNone};
     }
   }
 }

@@ -8,6 +8,7 @@
 
 #include "engine/result.h"
 #include "engine/vec.h"
+#include "io/longitude_turns.h"
 #include "terrain/georeference.h"
 
 namespace arete {
@@ -30,6 +31,9 @@ class CrsTransform {
   /// own datum elsewhere. Errors: usage where the target has no CRS, and those of between().
   static Result<CrsTransform> fromLonLat(const Georeference& target);
 
+  /// Positions are brought to where a DEM is by whole turns of their longitude, behind all else.
+  void setTurns(const LongitudeTurns& turns) { turns_ = turns; }
+
   bool isIdentity() const { return !state_; }
   /// What fromLonLat() and between() start from, as WKT 2; empty for the identity.
   const std::string& sourceWkt() const { return sourceWkt_; }
@@ -43,6 +47,7 @@ class CrsTransform {
   struct State;
   std::unique_ptr<State> state_;
   std::string sourceWkt_;
+  LongitudeTurns turns_;
 };
 
 }  // namespace arete

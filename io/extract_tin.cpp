@@ -50,6 +50,17 @@ std::string noteOf(const ExtractRequest& request, const TerrainModel& model, con
       request.region ? " in the region " + request.criterion.region : "", tin.fit ? ", heights fitted" : "");
 }
 
+/// As the build read the source: without them it may be another terrain.
+std::string readingOptions(const SourceReading& reading) {
+  std::string options;
+  if (reading.band > 0) options += fmt::format(" --band {}", reading.band);
+  if (!reading.layer.empty()) options += " --layer " + shellQuoted(reading.layer);
+  if (!reading.zField.empty()) options += " --z-field " + shellQuoted(reading.zField);
+  if (reading.nodata) options += fmt::format(" --nodata {}", *reading.nodata);
+  if (!reading.crs.empty()) options += " --crs " + shellQuoted(reading.crs);
+  return options;
+}
+
 Status within(Status status, const std::string& path) {
   if (!status && status.error().culprit.empty()) status.error().culprit = path;
   return status;
@@ -102,6 +113,7 @@ std::string checkCommand(const ExtractRequest& request, const TerrainModel& mode
   }
   command += fmt::format("arete measure {} {} --expect {}", shellQuoted(tin), shellQuoted(model.source),
                          promisedError);
+  command += readingOptions(model.reading);
   if (!c.region.empty()) command += fmt::format(" --region {}", shellQuoted(c.region));
   if (c.distance > 0) command += fmt::format(" --distance {}", c.distance);
   if (model.options.rimTolerance > 0) command += " --allow-covered-nodata";

@@ -170,6 +170,7 @@ class TextParser {
 
   Status addLine(std::string_view line) {
     ++lineNumber_;
+    noteQuotes(line);
     line = line.substr(0, findComment(line));
     if (trimmed(line).empty()) return {};
     if (!started_) {
@@ -189,7 +190,12 @@ class TextParser {
         return failure(ErrorCode::usage,
                        fmt::format("has no line of column names in which to find '{}'", zColumn_), path_);
     }
-    return addPoint(line);
+    Status added = addPoint(line);
+    if (!added && quoteLine_ > 0)
+      added.error().message += fmt::format(
+          "; a quoted text begins on line {} and does not end there: line breaks in quotes are not read",
+          quoteLine_);
+    return added;
   }
 
   PointRows takeRows() {
@@ -201,6 +207,15 @@ class TextParser {
   std::uint64_t lineNumber() const { return lineNumber_; }
 
  private:
+  /// For messages: where a text begins that a line, this one or one before, leaves open or closes.
+  void noteQuotes(std::string_view line) {
+    if (!isQuoteOpen_) quoteLine_ = 0;
+    if (line.find('"') == std::string_view::npos || std::count(line.begin(), line.end(), '"') % 2 == 0)
+      return;
+    if (!isQuoteOpen_) quoteLine_ = lineNumber_;
+    isQuoteOpen_ = !isQuoteOpen_;
+  }
+
   Status addPoint(std::string_view line) {
     const std::size_t last = *std::max_element(columns_.at.begin(), columns_.at.end());
     std::array<double, 3> values{};
@@ -272,7 +287,8 @@ class TextParser {
   Columns columns_;
   char separator_ = kSpaces;
   bool started_ = false;
-  std::uint64_t lineNumber_ = 0;
+  std::uint64_t lineNumber_ = 0, quoteLine_ = 0;
+  bool isQuoteOpen_ = false;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,13 @@ struct IsolatedSample {
   double height = 0;
 };
 
+/// What a reader of the source was told beyond its name: without it the source may be read as other terrain.
+struct SourceReading {
+  std::uint32_t band = 0;             ///< of a raster; 0 = not told
+  std::string layer, zField, crs;     ///< empty = not told
+  std::optional<double> nodata = {};  ///< finite
+};
+
 /// What a build makes of a heightfield and what an .amt file holds: the multitriangulation and all that is
 /// needed to give its answers in the source's own terms.
 struct TerrainModel {
@@ -29,6 +37,7 @@ struct TerrainModel {
   std::vector<IsolatedSample> isolated;  ///< raster only, by rising sample
   std::string source;
   std::string sourceChecksum;
+  SourceReading reading = {};  ///< of the source
 
   BuildOptions options;  ///< as built; fixedVertices are samples of a raster, MT vertices of points
   std::uint32_t metricP = 1, metricQ = 1;  ///< raster: the Delaunay metric is (p column, q row)

@@ -78,5 +78,15 @@ TEST_F(Convert, RefusesWhatMakesNoSenseAndOverwritesNoInput) {
     EXPECT_NE(help.out.find(std::string(format.extension)), std::string::npos) << format.name;
 }
 
+TEST_F(Convert, WarnsThatAnExactFormatDoesNotSayHowItsCoordinatesWereRounded) {
+  makeRaster("dem.tif", "fractal", 20, 20);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  ASSERT_EQ(run({"extract", "dem.amt", "-o", "tin.glb", "--max-error", "5"}).code, 0);
+  const Outcome outcome = run({"convert", "tin.glb", "-o", "tin.obj"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("coordinates are rounded, by up to"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("which OBJ does not say"), std::string::npos) << outcome.err;
+}
+
 }  // namespace
 }  // namespace arete::cli_test

@@ -109,6 +109,42 @@ TEST_F(HeightCommand, RefusesWhatMakesNoSense) {
   EXPECT_EQ(files(), (std::set<std::string>{"dem.amt", "dem.tif", "places.csv"}));
 }
 
+TEST_F(HeightCommand, FindsALongitudeThatIsOffByAWholeTurn) {
+  std::string points = "lon,lat,z\n";
+  for (int i = 0; i <= 4; ++i)
+    for (int j = 0; j <= 4; ++j) points += fmt::format("{},{},{}\n", 179 + i * 0.5, 10 + j * 0.5, 100 * i);
+  write("dem.csv", points);
+  ASSERT_EQ(run({"build", "dem.csv", "-o", "dem.amt", "--crs", "EPSG:4326", "-q"}).code, 0);
+  for (const char* place : {"-179.5,11", "180.5,11"}) {
+    const Outcome outcome = run({"height", "dem.amt", "--lonlat", "--at", place});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, std::string(place) + ",300\n");
+  }
+  write("places.csv", "lon,lat\n-179.5,11\n");
+  EXPECT_EQ(run({"height", "dem.amt", "--lonlat", "--points", "places.csv", "--json"}).json()["onTerrain"],
+            1);
+  const Outcome seen = run({"los", "dem.amt", "--lonlat", "--from", "-179.5,11,50", "--to", "180.6,11,50"});
+  EXPECT_EQ(seen.code, 0) << seen.err;
+}
+
+TEST_F(HeightCommand, SaysThatALineBreakInQuotesIsNotRead) {
+  makeModel("flat");
+  write("places.csv", "hut,x,y\n\"The\nhut\",500100,5199900\n");
+  const Outcome outcome = run({"height", "dem.amt", "--points", "places.csv"});
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_NE(outcome.err.find("a quoted text begins on line 2 and does not end there"), std::string::npos)
+      << outcome.err;
+}
+
+TEST_F(HeightCommand, AsksForTheFileInAnArchive) {
+  makeModel("flat");
+  write("places.zip", std::string("PK\x05\x06") + std::string(18, '\0'));  // an archive of nothing
+  const Outcome outcome = run({"height", "dem.amt", "--points", "places.zip"});
+  EXPECT_NE(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("is an archive: name the set of points in it"), std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(HeightCommand, GivesEverySampleOfARealDem) {
   const std::string dem = realData("dem/srtm3_zion_cc0.tif");
   if (dem.empty()) GTEST_SKIP() << "the Zion DEM is not here (set ARETE_DATA)";

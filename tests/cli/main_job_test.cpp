@@ -477,5 +477,27 @@ TEST_F(MainJob, RefusesCriteriaThatContradictEachOther) {
   EXPECT_EQ(run({"extract", "dem.amt", "-o", "t.tif", "--deadline", "5"}).code, 2) << "cannot be repeated";
 }
 
+TEST_F(MainJob, SaysInTheCertificateHowTheDemWasRead) {
+  makeRaster("dem.tif", "fractal", 20, 20);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "DEM.AMT", "--band", "1", "--nodata", "-9999"}).code, 0);
+  ASSERT_EQ(run({"convert", "DEM.AMT", "-o", "small.AMT", "--packed"}).code, 0);
+  for (const char* model : {"DEM.AMT", "small.AMT"}) {
+    const Outcome outcome =
+        run({"extract", model, "-o", "tin.ply", "--max-error", "5", "--certificate", "c.json"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(readJson("c.json")["check"],
+              "arete measure tin.ply dem.tif --expect 5 --band 1 --nodata -9999");
+  }
+}
+
+TEST_F(MainJob, TakesOnlyWholePixels) {
+  makeRaster("dem.tif", "fractal", 20, 20);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  const Outcome outcome =
+      run({"extract", "dem.amt", "-o", "tin.ply", "--camera", "500100,5199900,100", "--viewport", "10.5x3"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("--viewport 10.5x3: is not of whole pixels"), std::string::npos) << outcome.err;
+}
+
 }  // namespace
 }  // namespace arete::cli_test

@@ -327,6 +327,31 @@ TEST_F(SightCommands, ProfileHasAVertexForEveryEdge) {
   EXPECT_LT(coarse["lines"][0]["vertices"].size(), 41u);
 }
 
+TEST_F(SightCommands, ProfileRefusesNodataWhereNothingLooksAlongIt) {
+  makeRaster("hills.tif", "fractal", 20, 20);
+  ASSERT_EQ(run({"build", "hills.tif", "-o", "hills.amt", "-q"}).code, 0);
+  const std::vector<std::string> along = {"profile", "hills.amt", "--along", "500100,5199900:500200,5199800",
+                                          "--earth", "plane"};
+  auto withNodata = along;
+  withNodata.insert(withNodata.end(), {"--nodata", "clear"});
+  const Outcome refused = run(withNodata);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("--nodata: is for a line of sight"), std::string::npos) << refused.err;
+  auto asJson = along;
+  asJson.push_back("--json");
+  EXPECT_TRUE(run(asJson).json()["refraction"].is_null()) << "lines over a plane do not bend";
+}
+
+TEST_F(SightCommands, LosTellsAnEndWithoutAPlace) {
+  makeRaster("hills.tif", "fractal", 20, 20);
+  ASSERT_EQ(run({"build", "hills.tif", "-o", "hills.amt", "-q"}).code, 0);
+  write("pairs.csv", "x1,y1,h1,x2,y2,h2\n,,5,500100,5199900,5\n");
+  const Outcome outcome = run({"los", "hills.amt", "--pairs", "pairs.csv"});
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_NE(outcome.err.find("has no place"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("CRS can tell"), std::string::npos) << outcome.err;
+}
+
 TEST_F(SightCommands, ProfileDrawsTheLineOfSight) {
   makeModel();
   const Outcome outcome = run({"profile", "dem.amt", "--along", "1105,1895,20:1505,1895,20", "--frequency",

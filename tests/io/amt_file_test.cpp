@@ -121,6 +121,7 @@ TEST(AmtFile, KeepsMetadataThatIsAwkwardInJson) {
   g.linearUnitMetres = 1200.0 / 3937;
   g.inverseFlattening = 0;
   model.options = {HoleShape::fidelity, 32, std::nextafter(1.0, 2.0), 1e-9, 2.5, {}};
+  model.reading = {.band = 65535, .layer = "caf\xe9", .zField = "\"", .crs = "EPSG:4326", .nodata = -3.4e38};
   expectRoundTrip(model);
 }
 

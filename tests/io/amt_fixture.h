@@ -193,6 +193,11 @@ inline void expectSameModel(const TerrainModel& x, const TerrainModel& y) {
   EXPECT_EQ(x.rows, y.rows);
   EXPECT_EQ(x.source, y.source);
   EXPECT_EQ(x.sourceChecksum, y.sourceChecksum);
+  EXPECT_EQ(x.reading.band, y.reading.band);
+  EXPECT_EQ(x.reading.layer, y.reading.layer);
+  EXPECT_EQ(x.reading.zField, y.reading.zField);
+  EXPECT_EQ(x.reading.crs, y.reading.crs);
+  EXPECT_EQ(x.reading.nodata, y.reading.nodata);
   EXPECT_EQ(x.metricP, y.metricP);
   EXPECT_EQ(x.metricQ, y.metricQ);
   EXPECT_EQ(x.levels, y.levels);

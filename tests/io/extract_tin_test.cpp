@@ -64,6 +64,18 @@ TEST(ExtractTin, QuotesTheCheckForAShell) {
             "arete measure smooth.ply 'my dem.tif' --expect 5 --region 1,2,3,4 --allow-covered-nodata");
 }
 
+TEST(ExtractTin, SaysInTheCheckHowTheSourceWasRead) {
+  TerrainModel model;
+  model.source = "dem.tif";
+  ExtractRequest request;
+  request.criterion.maxError = 5;
+  request.output = "tin.ply";
+  model.reading = {.band = 2, .layer = "a layer", .zField = "z", .crs = "EPSG:32611", .nodata = -9999};
+  EXPECT_EQ(checkCommand(request, model, "m.amt", 5),
+            "arete measure tin.ply dem.tif --expect 5 --band 2 --layer 'a layer' --z-field z --nodata -9999 "
+            "--crs EPSG:32611");
+}
+
 /// Extracts with a certificate; what `arete measure` would find in the file must agree with it.
 void expectKept(const TerrainModel& model, const std::string& extension, double maxError,
                 ExtractFit fit = ExtractFit::none) {

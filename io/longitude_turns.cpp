@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/longitude_turns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace arete {
+namespace {
+
+double turnOf(const Georeference& georeference) {
+  const double turn = 2 * std::numbers::pi / georeference.angularUnitRadians;
+  return std::abs(turn - 360) < 1e-9 ? 360 : turn;  // degrees to the last bit
+}
+
+}  // namespace
+
+LongitudeTurns::LongitudeTurns(const TerrainModel& model) {
+  if (!model.georeference.isGeographic) return;
+  west_ = std::numeric_limits<double>::infinity();
+  east_ = -west_;
+  const auto add = [&](Vec2 plan) {
+    const double x = model.toSource(plan).x;
+    west_ = std::min(west_, x);
+    east_ = std::max(east_, x);
+  };
+  if (model.isRaster) {
+    for (const double column : {0.0, model.columns - 1.0})
+      for (const double row : {0.0, model.rows - 1.0}) add({column, row});
+  } else {
+    // The root spans all that is there.
+    for (std::uint32_t i = 0; i < model.mt.rootVertexCount(); ++i)
+      add(model.mt.vertices().planPosition(VertexId(i)));
+  }
+  if (west_ <= east_) turn_ = turnOf(model.georeference);
+}
+
+Vec2 LongitudeTurns::operator()(Vec2 p) const {
+  if (turn_ > 0 && (p.x < west_ || p.x > east_))
+    p.x += turn_ * std::round(((west_ + east_) / 2 - p.x) / turn_);
+  return p;
+}
+
+void LongitudeTurns::apply(std::span<Vec2> positions) const {
+  if (turn_ > 0)
+    for (Vec2& p : positions) p = (*this)(p);
+}
+
+}  // namespace arete

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+
+#include "engine/vec.h"
+#include "terrain/terrain_model.h"
+
+namespace arete {
+
+/// A longitude less or more whole turns is the same place: of positions in a geographic CRS that lie beside a
+/// DEM, the one of the same place that is nearest to its middle. All others stay as they are.
+class LongitudeTurns {
+ public:
+  /// Leaves every position where it is.
+  LongitudeTurns() = default;
+  /// O(1) of a raster, O(root vertices) of points.
+  explicit LongitudeTurns(const TerrainModel& model);
+
+  Vec2 operator()(Vec2 p) const;
+  /// All of them in place. O(positions).
+  void apply(std::span<Vec2> positions) const;
+
+ private:
+  double turn_ = 0;  ///< in the unit of the CRS; 0: nothing is turned
+  double west_ = 0, east_ = 0;
+};
+
+}  // namespace arete
