@@ -172,6 +172,13 @@ void DemArguments::addTo(CLI::App& command) {
       ->group(group);
 }
 
+Result<CrsTransform> transformOfPlaces(bool lonLat, const TerrainModel& model) {
+  Result<CrsTransform> toDem = lonLat ? CrsTransform::fromLonLat(model.georeference) : CrsTransform();
+  if (!toDem && toDem.error().culprit.empty()) toDem.error().culprit = "--lonlat";
+  if (toDem) toDem->setTurns(LongitudeTurns(model));
+  return toDem;
+}
+
 DemReadOptions DemArguments::options() const {
   DemReadOptions options;
   if (band > 0) options.band = static_cast<int>(band);

@@ -11,6 +11,7 @@
 
 #include "cli/session.h"
 #include "engine/result.h"
+#include "io/crs_transform.h"
 #include "io/dem_reader.h"
 #include "terrain/terrain_model.h"
 
@@ -41,6 +42,10 @@ Result<std::vector<double>> parseNumbers(const std::string& option, const std::s
 
 /// Two numbers and what stands between them, as in 1920x1080. Errors: usage, naming the option.
 Result<std::pair<double, double>> twoNumbers(const std::string& option, std::string text, char separator);
+
+/// Brings places that are typed, or read from a file, into the DEM's CRS, and whole turns of longitude to
+/// where it is. Errors name --lonlat.
+Result<CrsTransform> transformOfPlaces(bool lonLat, const TerrainModel& model);
 
 /// How to read a DEM; the options of all commands that do.
 struct DemArguments {

@@ -131,11 +131,11 @@ Status takeShape(BuildArguments& arguments) {
 
 Status runBuild(BuildArguments& arguments, Session& session) {
   if (Status taken = takeShape(arguments); !taken) return taken;
-  const std::string extension = text::lowered(std::filesystem::path(arguments.output).extension().string());
-  if (!extension.empty() && extension != ".amt")
+  const std::string extension = text::lowerExtension(arguments.output);
+  if (!extension.empty() && extension != "amt")
     return failure(
         ErrorCode::usage,
-        fmt::format("a multitriangulation is an .amt file, not a {}; arete extract makes others of it",
+        fmt::format("a multitriangulation is an .amt file, not a .{}; arete extract makes others of it",
                     extension),
         fmt::format("--output {}", arguments.output));
   if (Status output = checkOutput("--output", arguments.output, {arguments.dem.path, arguments.fixedPath});

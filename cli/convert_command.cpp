@@ -28,7 +28,7 @@ Json roundingJson(const Vec3& rounding) {
 }
 
 bool isAmt(const std::string& path) {
-  return text::lowered(std::filesystem::path(path).extension().string()) == ".amt";
+  return text::lowerExtension(path) == "amt";
 }
 
 /// A multitriangulation into its packed form or out of it.

@@ -13,15 +13,6 @@
 #include "terrain/surface_height.h"
 
 namespace arete {
-namespace {
-
-Result<CrsTransform> placesTransform(bool isLonLat, const TerrainModel& model) {
-  if (!isLonLat) return CrsTransform();
-  return CrsTransform::fromLonLat(model.georeference);
-}
-
-}  // namespace
-
 void CriterionArguments::addTo(CLI::App& command) {
   CLI::Option* errors =
       command
@@ -173,7 +164,7 @@ Status CriterionArguments::checkFit() const {
 }
 
 Status CriterionArguments::placeCamera(const TerrainModel& model, ExtractCriterion& c) const {
-  const auto transform = placesTransform(isLonLat_, model);
+  const auto transform = transformOfPlaces(isLonLat_, model);
   if (!transform) return tl::unexpected(transform.error());
   const auto argument = readCameraArgument("--camera", camera_, *transform, SurfaceHeights(model));
   if (!argument) return tl::unexpected(argument.error());
@@ -214,7 +205,7 @@ Status CriterionArguments::placeCamera(const TerrainModel& model, ExtractCriteri
 }
 
 Status CriterionArguments::placeFocus(const TerrainModel& model, ExtractCriterion& c) const {
-  const auto transform = placesTransform(isLonLat_, model);
+  const auto transform = transformOfPlaces(isLonLat_, model);
   if (!transform) return tl::unexpected(transform.error());
   const auto place = readPlaceArgument("--focus", focus_, *transform);
   if (!place) return tl::unexpected(place.error());

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "cli/arguments.h"
-#include "cli/sight_arguments.h"
 #include "io/amt_file.h"
 #include "io/crs_transform.h"
 #include "io/height_table.h"

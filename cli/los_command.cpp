@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -37,7 +36,7 @@ struct LosArguments {
 };
 
 bool isJson(const std::string& path) {
-  return text::lowered(std::filesystem::path(path).extension().string()) == ".json";
+  return text::lowerExtension(path) == "json";
 }
 
 Status checkArguments(const LosArguments& a) {

@@ -257,9 +257,9 @@ Status drawPng(const ProfileArguments& a, const Answer& answer, const TerrainMod
 }
 
 Status runProfile(const ProfileArguments& a, Session& session) {
-  if (!a.output.empty() && text::lowered(std::filesystem::path(a.output).extension().string()) != ".csv")
+  if (!a.output.empty() && text::lowerExtension(a.output) != "csv")
     return failure(ErrorCode::usage, "a profile is written as .csv", "--output " + a.output);
-  if (!a.png.empty() && text::lowered(std::filesystem::path(a.png).extension().string()) != ".png")
+  if (!a.png.empty() && text::lowerExtension(a.png) != "png")
     return failure(ErrorCode::usage, "a picture ends in .png", "--png " + a.png);
   const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
   if (!model) return tl::unexpected(model.error());

@@ -73,13 +73,6 @@ Result<std::unique_ptr<SightEarth>> SightArguments::makeEarth(const TerrainModel
   return made;
 }
 
-Result<CrsTransform> transformOfPlaces(bool lonLat, const TerrainModel& model) {
-  Result<CrsTransform> toDem = lonLat ? CrsTransform::fromLonLat(model.georeference) : CrsTransform();
-  if (!toDem && toDem.error().culprit.empty()) toDem.error().culprit = "--lonlat";
-  if (toDem) toDem->setTurns(LongitudeTurns(model));
-  return toDem;
-}
-
 std::string_view toString(NodataSight nodata) {
   return nodata == NodataSight::clear ? "clear" : nodata == NodataSight::blocked ? "blocked" : "unknown";
 }

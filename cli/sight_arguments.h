@@ -38,10 +38,6 @@ struct SightArguments {
   Json refractionJson(const TerrainModel& model) const;
 };
 
-/// Brings what is typed into the DEM's CRS, and whole turns of longitude to where it is. Errors name
-/// --lonlat.
-Result<CrsTransform> transformOfPlaces(bool lonLat, const TerrainModel& model);
-
 std::string_view toString(NodataSight nodata);
 std::string_view toString(SightVerdict verdict);
 

@@ -184,8 +184,7 @@ Status checkArguments(const ViewArguments& a) {
     return refuse("is for cuts of the processor: add --cut processor", "--deadline");
   if (a.isHeadless && a.screenshot.empty() && a.frames.empty())
     return refuse("makes pictures: say --screenshot FILE.png or --frames FOLDER", "--headless");
-  if (!a.screenshot.empty() &&
-      text::lowered(std::filesystem::path(a.screenshot).extension().string()) != ".png")
+  if (!a.screenshot.empty() && text::lowerExtension(a.screenshot) != "png")
     return refuse("a picture ends in .png", "--screenshot " + a.screenshot);
   if (!a.path.empty() && a.isRound) return refuse("flies a way of its own; leave --path out", "--round");
   if (!a.frames.empty() && a.path.empty() && !a.isRound)

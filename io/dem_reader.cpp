@@ -20,6 +20,7 @@
 #include "io/gdal_support.h"
 #include "io/gridded_points.h"
 #include "io/point_text.h"
+#include "io/text_scan.h"
 #include "io/zipped_raster.h"
 
 namespace arete {
@@ -27,7 +28,7 @@ namespace {
 
 bool isPointCloud(const std::string& path) {
   constexpr std::array<std::string_view, 3> kExtensions = {"las", "laz", "e57"};
-  if (std::find(kExtensions.begin(), kExtensions.end(), lowerExtension(path)) != kExtensions.end())
+  if (std::find(kExtensions.begin(), kExtensions.end(), text::lowerExtension(path)) != kExtensions.end())
     return true;
   std::array<char, 4> magic{};
   VSILFILE* file = VSIFOpenL(path.c_str(), "rb");

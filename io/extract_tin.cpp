@@ -91,12 +91,12 @@ Status checkExtractOutput(const std::string& path, const TerrainModel& model) {
     if (format.write) known += fmt::format("{} ({}), ", format.extension, format.name);
   const Result<MeshFormat> format = meshFormatOf(path);
   if (format && format->write) return {};
-  const std::string extension = text::lowered(std::filesystem::path(path).extension().string());
+  const std::string extension = text::lowerExtension(path);
   return failure(
       ErrorCode::usage,
       fmt::format("{}; known are {}.tif (GeoTIFF: the TIN sampled on the source grid)",
                   extension.empty() ? "the extension that names a format is missing"
-                                    : fmt::format("'{}' is no format that can be written", extension),
+                                    : fmt::format("'.{}' is no format that can be written", extension),
                   known),
       path);
 }

@@ -81,7 +81,7 @@ std::optional<Error> findInputProblem(const std::string& path) {
   VSIStatBufL status;
   if (VSIStatL(path.c_str(), &status) != 0) return std::nullopt;
   // A file geodatabase is a folder.
-  if (VSI_ISDIR(status.st_mode) && lowerExtension(path) == "gdb") return std::nullopt;
+  if (VSI_ISDIR(status.st_mode) && text::lowerExtension(path) == "gdb") return std::nullopt;
   if (VSI_ISDIR(status.st_mode) && path.starts_with("/vsizip/"))
     return Error{ErrorCode::usage, "is an archive, or a folder in one: name a file in it behind a /", path};
   if (VSI_ISDIR(status.st_mode)) return Error{ErrorCode::unreadable, "is a folder, not a file", path};
@@ -105,7 +105,7 @@ Error explainOpenFailure(const std::string& path, std::string_view kind, const G
     return {ErrorCode::notFound, said.empty() ? "there is no such file" : "cannot be opened: " + said, path};
   if (GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR, nullptr, nullptr) && !said.empty())
     return {ErrorCode::corrupt, fmt::format("cannot be read as a {}: {}", kind, said), path};
-  if (lowerExtension(path) == "zip" && !isVirtualPath(path))
+  if (text::lowerExtension(path) == "zip" && !isVirtualPath(path))
     return {ErrorCode::unsupported,
             fmt::format("is an archive: name the {} in it, /vsizip/{}/NAME", kind, path), path};
   return {ErrorCode::unsupported, fmt::format("is not a {} in any format GDAL knows", kind), path};
@@ -113,12 +113,6 @@ Error explainOpenFailure(const std::string& path, std::string_view kind, const G
 
 bool isVirtualPath(std::string_view path) {
   return path.substr(0, 4) == "/vsi";
-}
-
-std::string lowerExtension(const std::string& path) {
-  const std::size_t dot = path.find_last_of("./\\");
-  if (dot == std::string::npos || path[dot] != '.') return {};
-  return text::lowered(std::string_view(path).substr(dot + 1));
 }
 
 }  // namespace arete

@@ -57,7 +57,4 @@ Error explainOpenFailure(const std::string& path, std::string_view kind, const G
 /// The names of GDAL's virtual file systems ("/vsizip/...", "/vsicurl/...").
 bool isVirtualPath(std::string_view path);
 
-/// The last extension of a path in lower case, without the dot.
-std::string lowerExtension(const std::string& path);
-
 }  // namespace arete

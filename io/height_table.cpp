@@ -20,6 +20,7 @@
 #include "io/gdal_support.h"
 #include "io/output_file.h"
 #include "io/table_text.h"
+#include "io/text_scan.h"
 
 namespace arete {
 namespace {
@@ -177,7 +178,7 @@ void forCsvLines(const PointTable& table, std::span<const std::optional<SurfaceH
 }
 
 bool isHeightTable(const std::string& path) {
-  const std::string extension = lowerExtension(path);
+  const std::string extension = text::lowerExtension(path);
   return extension == "csv" || extension == "gpkg";
 }
 
@@ -185,8 +186,8 @@ Status writeHeightTable(const std::string& path, const PointTable& table,
                         std::span<const std::optional<SurfaceHeight>> heights, const RunContext& context) {
   if (!isHeightTable(path))
     return failure(ErrorCode::usage, "a table of heights ends in .csv or .gpkg", path);
-  Status status = lowerExtension(path) == "csv" ? writeCsv(path, table, heights, context)
-                                                : writeGeoPackage(path, table, heights, context);
+  Status status = text::lowerExtension(path) == "csv" ? writeCsv(path, table, heights, context)
+                                                      : writeGeoPackage(path, table, heights, context);
   if (!status && status.error().culprit.empty()) status.error().culprit = path;
   return status;
 }

@@ -20,6 +20,7 @@
 #include "io/gdal_support.h"
 #include "io/output_file.h"
 #include "io/table_text.h"
+#include "io/text_scan.h"
 
 namespace arete {
 namespace {
@@ -152,14 +153,14 @@ void forCsvLines(const LineTable& table, const std::function<void(std::string_vi
 }
 
 bool isLineTable(const std::string& path) {
-  const std::string extension = lowerExtension(path);
+  const std::string extension = text::lowerExtension(path);
   return extension == "csv" || extension == "gpkg";
 }
 
 Status writeLineTable(const std::string& path, const LineTable& table, const RunContext& context) {
   if (!isLineTable(path)) return failure(ErrorCode::usage, "a table of lines ends in .csv or .gpkg", path);
-  Status status =
-      lowerExtension(path) == "csv" ? writeCsv(path, table, context) : writeGeoPackage(path, table, context);
+  Status status = text::lowerExtension(path) == "csv" ? writeCsv(path, table, context)
+                                                      : writeGeoPackage(path, table, context);
   if (!status && status.error().culprit.empty()) status.error().culprit = path;
   return status;
 }

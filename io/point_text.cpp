@@ -294,7 +294,7 @@ class TextParser {
 }  // namespace
 
 bool looksLikePointText(const std::string& path) {
-  const std::string extension = lowerExtension(path);
+  const std::string extension = text::lowerExtension(path);
   if (extension == "csv" || extension == "tsv" || extension == "txt" || extension == "xyz") return true;
   const std::unique_ptr<VSILFILE, FileCloser> file(VSIFOpenL(path.c_str(), "rb"));
   if (!file) return false;

@@ -137,8 +137,8 @@ Status writeTo(const std::string& path, std::uint32_t columns, std::uint32_t row
 }  // namespace
 
 bool isGeoTiffName(const std::string& path) {
-  const std::string extension = text::lowered(std::filesystem::path(path).extension().string());
-  return extension == ".tif" || extension == ".tiff";
+  const std::string extension = text::lowerExtension(path);
+  return extension == "tif" || extension == "tiff";
 }
 
 Status writeGeoTiff(const std::string& path, std::uint32_t columns, std::uint32_t rows,

@@ -10,7 +10,7 @@
 
 namespace arete::text {
 
-/// Small pieces that the readers of text formats share. None depends on the locale.
+/// Small pieces that the readers of texts and of names share. None depends on the locale.
 
 inline bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
@@ -25,6 +25,13 @@ inline std::string lowered(std::string_view text) {
   for (char& c : result)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return result;
+}
+
+/// The last extension of a path, in lower case and without the dot.
+inline std::string lowerExtension(std::string_view path) {
+  const std::size_t dot = path.find_last_of("./\\");
+  if (dot == std::string_view::npos || path[dot] != '.') return {};
+  return lowered(path.substr(dot + 1));
 }
 
 /// The 1-based line of a place in a text. O(distance): for messages only.

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "io/gdal_support.h"
+#include "io/text_scan.h"
 
 namespace arete {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 constexpr std::size_t kNamesListed = 10;
 
 bool isSidecar(const std::string& name) {
-  const std::string extension = lowerExtension(name);
+  const std::string extension = text::lowerExtension(name);
   constexpr std::string_view kSidecars[] = {"xml", "prj", "tfw", "wld", "ovr", "msk", "txt", "pdf", "html"};
   return std::find(std::begin(kSidecars), std::end(kSidecars), extension) != std::end(kSidecars);
 }
@@ -29,7 +30,7 @@ bool isSidecar(const std::string& name) {
 }  // namespace
 
 bool isPlainZip(const std::string& path) {
-  return !isVirtualPath(path) && lowerExtension(path) == "zip";
+  return !isVirtualPath(path) && text::lowerExtension(path) == "zip";
 }
 
 Result<std::string> findZippedRaster(const std::string& archive) {
