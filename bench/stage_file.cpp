@@ -79,6 +79,15 @@ Result<ColdTimes> timeCold(const std::string& model, double tolerance, const Rep
   return times;
 }
 
+/// How long it takes to load a file and to take a saturated cut of it.
+double openAndCutMilliseconds(const std::string& path, const AmtLoadOptions& options, double tolerance,
+                              const Repetition& repetition) {
+  return 1000 * medianSeconds(repetition, [&] {
+           const auto loaded = loadAmt(path, options);
+           return takeCut(loaded->mt, UniformError(tolerance), {.method = CutMethod::saturated});
+         });
+}
+
 /// The same model packed, in a file beside its own that does not stay.
 Result<Figures> timePacked(const DemSource& source, HoleShape shape, const std::string& model,
                            double tolerance, const Plan& plan) {
@@ -109,14 +118,7 @@ Result<Figures> timePacked(const DemSource& source, HoleShape shape, const std::
   }
   AmtLoadOptions enough;
   enough.unpack.leastError = tolerance;
-  add("open and cut",
-      1000 * medianSeconds(plan.repetition,
-                           [&] {
-                             const auto loaded = loadAmt(packed, enough);
-                             return takeCut(loaded->mt, UniformError(tolerance),
-                                            {.method = CutMethod::saturated});
-                           }),
-      "ms");
+  add("open and cut", openAndCutMilliseconds(packed, enough, tolerance, plan.repetition), "ms");
   std::filesystem::remove(packed);
   return figures;
 }
@@ -162,14 +164,7 @@ Result<Figures> fileStage(const DemSource& source, HoleShape shape, const std::s
   }
   AmtLoadOptions trusted;
   trusted.verify = AmtVerify::none;
-  add("open and cut",
-      1000 * medianSeconds(plan.repetition,
-                           [&] {
-                             const auto loaded = loadAmt(model, trusted);
-                             return takeCut(loaded->mt, UniformError(tolerance),
-                                            {.method = CutMethod::saturated});
-                           }),
-      "ms");
+  add("open and cut", openAndCutMilliseconds(model, trusted, tolerance, plan.repetition), "ms");
   add("left in the cache", 100 * cold->left, "%", Better::neither);
   if (cold->isCold()) {
     add("open, cold", 1e6 * medianOf(cold->open), "us");

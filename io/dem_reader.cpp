@@ -38,21 +38,11 @@ bool isPointCloud(const std::string& path) {
   return whole && std::memcmp(magic.data(), "LASF", magic.size()) == 0;
 }
 
-/// What GDAL's "XYZ" driver takes for a raster: a text of numbers.
-bool isGdalsText(GDALDriverH driver) {
-  return driver && EQUAL(GDALGetDriverShortName(driver), "XYZ");
-}
-
-bool isGdalsText(const std::string& path) {
-  GdalErrors quiet;
-  return isGdalsText(GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr));
-}
-
 /// What the file is, as far as GDAL's raster drivers can tell.
 bool isRaster(const std::string& path, bool& opensAsVector) {
   GdalErrors quiet;
   GDALDriverH driver = GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
-  const bool identified = driver && !isGdalsText(driver);
+  const bool identified = driver && !isTextDriver(driver);
   if (identified) {
     const GdalDatasetPtr dataset = openGdal(path, GDAL_OF_RASTER);
     if (dataset && (dataset->GetRasterCount() > 0 || dataset->GetMetadata("SUBDATASETS"))) return true;
@@ -100,12 +90,17 @@ Result<DemRead> readAsPoints(const std::string& path, bool text, const DemReadOp
   return DemRead{std::move(read->heightfield), std::move(read->warnings)};
 }
 
+bool isTextOfNumbers(const std::string& path) {
+  GdalErrors quiet;
+  return isTextDriver(GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr));
+}
+
 /// The one raster in an archive, or the one text of points.
 Result<DemRead> readZipped(const std::string& archive, const DemReadOptions& options,
                            const RunContext& context) {
   const Result<std::string> inside = findZippedRaster(archive);
   if (!inside) return tl::unexpected(inside.error());
-  if (isGdalsText(*inside)) return readAsPoints(*inside, true, options, context);
+  if (isTextOfNumbers(*inside)) return readAsPoints(*inside, true, options, context);
   return readAsRaster(archive, options, context);
 }
 

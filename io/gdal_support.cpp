@@ -111,6 +111,10 @@ Error explainOpenFailure(const std::string& path, std::string_view kind, const G
   return {ErrorCode::unsupported, fmt::format("is not a {} in any format GDAL knows", kind), path};
 }
 
+bool isTextDriver(GDALDriverH driver) {
+  return driver != nullptr && EQUAL(GDALGetDriverShortName(driver), "XYZ");
+}
+
 bool isVirtualPath(std::string_view path) {
   return path.substr(0, 4) == "/vsi";
 }

@@ -54,6 +54,9 @@ std::optional<Error> findInputProblem(const std::string& path);
 /// there, or what GDAL had to say. `kind` completes "is not a ...", for instance "raster".
 Error explainOpenFailure(const std::string& path, std::string_view kind, const GdalErrors& errors);
 
+/// Whether it is GDAL's "XYZ", which takes any text of numbers for a raster. Null is none.
+bool isTextDriver(GDALDriverH driver);
+
 /// The names of GDAL's virtual file systems ("/vsizip/...", "/vsicurl/...").
 bool isVirtualPath(std::string_view path);
 

@@ -108,7 +108,7 @@ class NodeCoder {
       if (!geometry_.run(run, class_, space_.shapesOf, space_.areas.data()))
         return fail("has a vertex outside of its grid or without a height");
       values();
-      saturate(run);
+      floorErrors(run);
     }
     if (!front_.finish(!chunk_.isCut)) return fail("leaves another number of triangles than announced");
     return true;
@@ -304,8 +304,8 @@ class NodeCoder {
     return wholeErrorCode(a_.scale, a_.encoding, whole, shown);
   }
 
-  /// The largest error of each node's floor; saturate() of packed_arrays.h adds the children's.
-  void saturate(const Run& run) {
+  /// The largest error of each node's floor, to which saturate() adds the children's (packed_arrays.h).
+  void floorErrors(const Run& run) {
     constexpr std::ptrdiff_t kIdsAhead = 24;
     const std::uint32_t* id = a_.floor.get() + (run.firstSlot - 2 * run.firstNode);
     const std::uint32_t* const last = id + (run.slots - 2 * std::size_t{run.nodes}) - 1;

@@ -50,7 +50,7 @@ Result<std::string> findZippedRaster(const std::string& archive) {
     const std::string name = names[i];
     if (name.back() == '/' || isSidecar(name)) continue;
     GDALDriverH driver = GDALIdentifyDriverEx((root + "/" + name).c_str(), GDAL_OF_RASTER, nullptr, nullptr);
-    if (driver) (EQUAL(GDALGetDriverShortName(driver), "XYZ") ? texts : rasters).push_back(name);
+    if (driver) (isTextDriver(driver) ? texts : rasters).push_back(name);
   }
   if (rasters.empty()) rasters = std::move(texts);
   if (rasters.empty()) return failure(ErrorCode::unsupported, "the archive holds no raster", archive);

@@ -77,50 +77,56 @@ void compare(const Ground& terrain, const ViewshedObserver& observer, const View
               observer, options, what, tally, observer.plan.x > 0 ? 1 : 0, every);
 }
 
-TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngine) {
-  Random random(11);
+/// Every family on every map: visit(terrain, what, tally) compares some viewsheds. Returns the sums.
+template <class Visit>
+Tally onEveryGround(std::uint32_t seed, const Visit& visit) {
   Tally all;
   for (const Map& map : kMaps)
     for (const RasterFamily& family : rasterFamilies()) {
-      const RasterHeightfield field = family.make(71, 84, 4);
-      const Ground terrain(field, georeferenceOf(map));
-      ASSERT_NE(terrain.earth, nullptr);
-      Tally tally;
-      for (int i = 0; i < 3; ++i) {
-        Vec2 plan{random.between(2, field.columns - 3), random.between(2, field.rows - 3)};
-        if (i == 1) plan = {std::round(plan.x), std::round(plan.y)};
-        const double ground = terrain.grid->at(plan), heights[] = {2, 30, 10};
-        ViewshedOptions options;
-        options.targetHeight = i == 2 ? 2 : 0;
-        options.nodata = static_cast<NodataSight>(i);
-        compare(terrain, {plan, (std::isnan(ground) ? 100 : ground) + heights[i]}, options, 1,
-                std::string(family.name) + " on " + map.crs, tally);
+      const Ground terrain(family.make(71, 84, seed), georeferenceOf(map));
+      const std::string what = std::string(family.name) + " on " + map.crs;
+      if (terrain.earth == nullptr) {
+        ADD_FAILURE() << what << " has no earth";
+        continue;
       }
-      EXPECT_EQ(tally.wrong, 0u) << family.name << " on " << map.crs;
+      Tally tally;
+      visit(terrain, what, tally);
+      EXPECT_EQ(tally.wrong, 0u) << what;
       all.sweeps += tally.sweeps;
       all.rays += tally.rays;
       all.cells += tally.cells;
     }
+  return all;
+}
+
+/// Away from the border.
+Vec2 placeOn(const Ground& terrain, Random& random) {
+  return {random.between(2, terrain.model.columns - 3), random.between(2, terrain.model.rows - 3)};
+}
+
+TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngine) {
+  Random random(11);
+  const Tally all = onEveryGround(4, [&](const Ground& terrain, const std::string& what, Tally& tally) {
+    for (int i = 0; i < 3; ++i) {
+      Vec2 plan = placeOn(terrain, random);
+      if (i == 1) plan = {std::round(plan.x), std::round(plan.y)};
+      const double ground = terrain.grid->at(plan), heights[] = {2, 30, 10};
+      ViewshedOptions options;
+      options.targetHeight = i == 2 ? 2 : 0;
+      options.nodata = static_cast<NodataSight>(i);
+      compare(terrain, {plan, (std::isnan(ground) ? 100 : ground) + heights[i]}, options, 1, what, tally);
+    }
+  });
   EXPECT_GT(all.sweeps, 100);
   EXPECT_LT(all.rays, all.cells / 2);
 }
 
 TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngineToObserversAsHighAsSatellites) {
   Random random(13);
-  Tally all;
-  for (const Map& map : kMaps)
-    for (const RasterFamily& family : rasterFamilies()) {
-      const RasterHeightfield field = family.make(71, 84, 5);
-      const Ground terrain(field, georeferenceOf(map));
-      ASSERT_NE(terrain.earth, nullptr);
-      Tally tally;
-      for (const double height : {1e4, 4e5, 4e7}) {
-        const Vec2 plan{random.between(2, field.columns - 3), random.between(2, field.rows - 3)};
-        compare(terrain, {plan, height}, {}, 3, std::string(family.name) + " on " + map.crs, tally);
-      }
-      EXPECT_EQ(tally.wrong, 0u) << family.name << " on " << map.crs;
-      all.sweeps += tally.sweeps;
-    }
+  const Tally all = onEveryGround(5, [&](const Ground& terrain, const std::string& what, Tally& tally) {
+    for (const double height : {1e4, 4e5, 4e7})
+      compare(terrain, {placeOn(terrain, random), height}, {}, 3, what, tally);
+  });
   EXPECT_GT(all.sweeps, 50);
 }
 
