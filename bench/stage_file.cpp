@@ -117,7 +117,7 @@ Result<Figures> timePacked(const DemSource& source, HoleShape shape, const std::
         medianSeconds(plan.repetition, [&] { return loadAmt(packed); }), "s");
   }
   AmtLoadOptions enough;
-  enough.unpack.leastError = tolerance;
+  enough.unpack.wanted = [tolerance](const Box2&) { return tolerance; };
   add("open and cut", openAndCutMilliseconds(packed, enough, tolerance, plan.repetition), "ms");
   std::filesystem::remove(packed);
   return figures;

@@ -252,11 +252,4 @@ Result<std::vector<ExtractCriterion>> CriterionArguments::criteria(const Terrain
   return criteria;
 }
 
-double CriterionArguments::leastError() const {
-  if (maxErrors_.empty() || !camera_.empty() || fit_ != "none") return 0;
-  if (method_ == "saturated" && (!region_.empty() || !focus_.empty())) return 0;
-  const auto errors = parseNumbers("--max-error", maxErrors_);
-  return errors ? std::ranges::min(*errors) : 0;
-}
-
 }  // namespace arete

@@ -20,16 +20,13 @@ struct CriterionArguments {
 
   /// What can be told without a model: options that contradict each other or say nothing. Errors: usage.
   Status check() const;
-  /// One criterion for each tolerance, or the only one. Precondition: check(). Errors: usage, naming the
+  /// One criterion for each tolerance, or the only one. Of the model the root is enough, but for a camera.
+  /// Precondition: check(). Errors: usage, naming the
   /// option; invalidData, a camera above no terrain.
   Result<std::vector<ExtractCriterion>> criteria(const TerrainModel& model) const;
 
-  /// An error that every criterion allows everywhere, and below which nothing is asked for. 0 where a
-  /// camera's pixels decide, or a budget or a deadline alone; where a fit looks at all samples, or a
-  /// saturated cut at balls around all descendants; or where the tolerances cannot be read, which criteria()
-  /// tells.
-  double leastError() const;
-
+  /// A camera is placed on the terrain, so criteria() needs all of it.
+  bool hasCamera() const { return !camera_.empty(); }
   const std::string& region() const { return region_; }
   double distance() const { return distance_; }
   bool hasDeadline() const { return deadline_ > 0; }

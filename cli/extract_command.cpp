@@ -8,12 +8,13 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "cli/arguments.h"
 #include "cli/criterion_arguments.h"
-#include "io/amt_file.h"
+#include "cli/model_file.h"
 #include "io/extract_tin.h"
 #include "io/mesh_file.h"
 #include "io/raster_writer.h"
@@ -207,24 +208,34 @@ std::string brokenPromise(const ExtractedTin& tin) {
 
 /// Of a packed file, no more than the TINs can ask for. What is measured is measured against all samples, and
 /// a format that rounds heights may want a smaller error than the one asked for.
-AmtLoadOptions loadOptionsFor(const ExtractArguments& arguments) {
-  AmtLoadOptions options;
+Result<WantedError> wantedFor(const ExtractArguments& arguments, std::span<const ExtractRequest> requests,
+                              const std::optional<Region>& region, const TerrainModel& outline) {
   const Result<MeshFormat> format = meshFormatOf(arguments.output);
   const bool isMeasured = arguments.certificateOption->count() > 0 || !arguments.errorRaster.empty();
-  if (format && format->holds.isExact && !isMeasured)
-    options.unpack.leastError = arguments.criterion.leastError();
-  return options;
+  if (!format || !format->holds.isExact || isMeasured) return WantedError();
+  std::vector<ExtractCriterion> criteria;
+  for (const ExtractRequest& request : requests) criteria.push_back(request.criterion);
+  return wantedBy(criteria, region, outline);
 }
 
 Status runExtract(const ExtractArguments& arguments, Session& session) {
   if (Status ok = arguments.criterion.check(); !ok) return ok;
-  const Result<TerrainModel> model = loadAmt(arguments.model, loadOptionsFor(arguments), session.context());
+  const Result<AmtFile> file = openModel(arguments.model, session);
+  if (!file) return tl::unexpected(file.error());
+  Result<TerrainModel> model =
+      arguments.criterion.hasCamera() ? file->read({}, session.context()) : outlineOf(*file, session);
   if (!model) return tl::unexpected(model.error());
   auto requests = requestsOf(arguments, *model);
   if (!requests) return tl::unexpected(requests.error());
   if (Status outputs = checkOutputs(*requests, arguments, *model); !outputs) return outputs;
   const auto region = regionOf(arguments, *model, session);
   if (!region) return tl::unexpected(region.error());
+  if (!arguments.criterion.hasCamera()) {
+    const auto wanted = wantedFor(arguments, *requests, *region, *model);
+    if (!wanted) return tl::unexpected(wanted.error());
+    model = file->read({*wanted}, session.context());
+    if (!model) return tl::unexpected(model.error());
+  }
 
   TinExtractor extractor(*model, arguments.model);
   Json exports = Json::array();

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cli/arguments.h"
-#include "io/amt_file.h"
+#include "cli/model_file.h"
 #include "io/crs_transform.h"
 #include "io/height_table.h"
 #include "io/point_table.h"
@@ -99,15 +99,21 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
     if (!isHeightTable(arguments.output))
       return failure(ErrorCode::usage, "a table of heights ends in .csv or .gpkg", culprit);
   }
-  const Result<TerrainModel> model = loadAmt(arguments.model, {}, session.context());
-  if (!model) return tl::unexpected(model.error());
+  const Result<AmtFile> file = openModel(arguments.model, session);
+  if (!file) return tl::unexpected(file.error());
+  const Result<TerrainModel> outline = outlineOf(*file, session);
+  if (!outline) return tl::unexpected(outline.error());
   if (!arguments.output.empty())
     if (Status output =
-            checkOutput("--output", arguments.output, {arguments.model, arguments.points, model->source});
+            checkOutput("--output", arguments.output, {arguments.model, arguments.points, outline->source});
         !output)
       return output;
-  const auto table = readPlaces(arguments, *model, session);
+  const auto table = readPlaces(arguments, *outline, session);
   if (!table) return tl::unexpected(table.error());
+  WantedPlaces wanted(*outline);
+  for (const Vec2 place : table->positions) wanted.add(outline->toPlan(place));
+  const Result<TerrainModel> model = file->read({wanted.within(0)}, session.context());
+  if (!model) return tl::unexpected(model.error());
   const auto heights = SurfaceHeights(*model).at(table->positions, arguments.maxError, session.context());
   if (!heights) return tl::unexpected(heights.error());
 

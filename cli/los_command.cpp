@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "cli/arguments.h"
+#include "cli/model_file.h"
 #include "cli/sight_arguments.h"
 #include "cli/sight_rows.h"
-#include "io/amt_file.h"
 #include "io/clutter_raster.h"
 #include "io/crs_transform.h"
 #include "io/file_writer.h"
@@ -146,6 +146,24 @@ Result<SightLinkOptions> optionsOf(const LosArguments& a, const TerrainModel& mo
   return options;
 }
 
+/// What lines of sight need of a packed model, whichever heights they have: all around their ends, and below
+/// them. All of it where a method looks at the samples as a whole.
+WantedError wantedFor(const LosArguments& a, const SightPairs& pairs, const SightEarth& earth,
+                      const TerrainModel& outline) {
+  if (bestMethod(a.method, a.maxError, pairs.rows.size(), outline) != SightMethod::descent) return {};
+  WantedPlaces wanted(outline, kCellBeside);
+  for (const auto& [first, second] : pairs.rows) {
+    const Vec2 from = sightPlan(outline, first.xy), to = sightPlan(outline, second.xy);
+    for (const auto& [site, plan] : {std::pair{first, from}, {second, to}}) {
+      wanted.add(plan);
+      wanted.add(outline.toPlan(site.xy));
+    }
+    if (!std::isfinite(from.x + from.y + to.x + to.y)) continue;
+    if (const auto track = earth.track(from, to)) addTrack(wanted, *track);  // else its answer says why
+  }
+  return wanted.within(0);
+}
+
 Status tellOne(const SightResults& results, Json json, Session& session) {
   if (const Error* error = results.errorOf(0)) return tl::unexpected(*error);
   json.update(results.jsonOf(0));
@@ -205,20 +223,24 @@ Status tellMany(const LosArguments& a, const SightResults& results, Json json, S
 
 Status runLos(const LosArguments& a, Session& session) {
   if (Status checked = checkArguments(a); !checked) return checked;
-  const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
-  if (!model) return tl::unexpected(model.error());
+  const Result<AmtFile> file = openModel(a.model, session);
+  if (!file) return tl::unexpected(file.error());
+  const Result<TerrainModel> outline = outlineOf(*file, session);
+  if (!outline) return tl::unexpected(outline.error());
   if (!a.output.empty())
     if (Status output =
-            checkOutput("--output", a.output, {a.model, a.pairs, a.points, a.clutter, model->source});
+            checkOutput("--output", a.output, {a.model, a.pairs, a.points, a.clutter, outline->source});
         !output)
       return output;
-  auto pairs = readRows(a, *model, session);
+  auto pairs = readRows(a, *outline, session);
   if (!pairs) return tl::unexpected(pairs.error());
   if (Status added = addUsualHeights(a, *pairs); !added) return added;
-  const auto options = optionsOf(a, *model, session);
+  const auto options = optionsOf(a, *outline, session);
   if (!options) return tl::unexpected(options.error());
-  const auto earth = a.sight.makeEarth(*model, session);
+  const auto earth = a.sight.makeEarth(*outline, session);
   if (!earth) return tl::unexpected(earth.error());
+  const Result<TerrainModel> model = file->read({wantedFor(a, *pairs, **earth, *outline)}, session.context());
+  if (!model) return tl::unexpected(model.error());
   // Whole profiles at full resolution are walks over the cells of a raster.
   const bool hasProfiles = options->frequencyMegahertz > 0 || options->clutter.height;
   const auto grid = hasProfiles && model->isRaster ? std::make_shared<const SightGrid>(*model) : nullptr;

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "cli/arguments.h"
+#include "cli/model_file.h"
 #include "cli/sight_arguments.h"
-#include "io/amt_file.h"
 #include "io/crs_transform.h"
 #include "io/file_writer.h"
 #include "io/position_argument.h"
@@ -233,6 +233,17 @@ Result<Answer> answerWay(const Way& way, const ProfileArguments& a, const SightE
   return answer;
 }
 
+/// What is below the ways, of a packed model.
+WantedError wantedFor(const std::vector<Way>& ways, const SightEarth& earth, const TerrainModel& outline) {
+  WantedPlaces wanted(outline, kCellBeside);
+  for (const Way& way : ways) {
+    for (const Vec2 vertex : way.vertices) wanted.add(outline.toPlan(vertex));
+    if (const auto track = trackAlong(way, earth, outline))
+      addTrack(wanted, *track);  // else its answer says why
+  }
+  return wanted.within(0);
+}
+
 Status drawPng(const ProfileArguments& a, const Answer& answer, const TerrainModel& model,
                double wavelength) {
   ProfileChartOptions options;
@@ -261,14 +272,16 @@ Status runProfile(const ProfileArguments& a, Session& session) {
     return failure(ErrorCode::usage, "a profile is written as .csv", "--output " + a.output);
   if (!a.png.empty() && text::lowerExtension(a.png) != "png")
     return failure(ErrorCode::usage, "a picture ends in .png", "--png " + a.png);
-  const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
-  if (!model) return tl::unexpected(model.error());
+  const Result<AmtFile> amt = openModel(a.model, session);
+  if (!amt) return tl::unexpected(amt.error());
+  const Result<TerrainModel> outline = outlineOf(*amt, session);
+  if (!outline) return tl::unexpected(outline.error());
   for (const auto& [option, path] : {std::pair{"--output", a.output}, {"--png", a.png}})
     if (!path.empty())
-      if (Status output = checkOutput(option, path, {a.model, a.along, model->source}); !output)
+      if (Status output = checkOutput(option, path, {a.model, a.along, outline->source}); !output)
         return output;
-  const Georeference& dem = model->georeference;
-  const auto toDem = transformOfPlaces(a.sight.lonLat, *model);
+  const Georeference& dem = outline->georeference;
+  const auto toDem = transformOfPlaces(a.sight.lonLat, *outline);
   if (!toDem) return tl::unexpected(toDem.error());
   const auto ways = readWays(a, dem, toDem, session);
   if (!ways) return tl::unexpected(ways.error());
@@ -278,8 +291,10 @@ Status runProfile(const ProfileArguments& a, Session& session) {
     return failure(ErrorCode::usage, "is for a line of sight: --along X,Y,H:X,Y,H", "--nodata");
   if (!a.png.empty() && ways->size() > 1)
     return failure(ErrorCode::usage, fmt::format("draws one line, and there are {}", ways->size()), "--png");
-  const auto earth = a.sight.makeEarth(*model, session);
+  const auto earth = a.sight.makeEarth(*outline, session);
   if (!earth) return tl::unexpected(earth.error());
+  const Result<TerrainModel> model = amt->read({wantedFor(*ways, **earth, *outline)}, session.context());
+  if (!model) return tl::unexpected(model.error());
 
   const bool isFull = a.maxError == 0 || a.frequency > 0;
   const Profiles profiles(*model,

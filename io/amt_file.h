@@ -52,10 +52,11 @@ class AmtFile {
     return file_->bytes().subspan(chunk.offset, chunk.bytes);
   }
 
-  /// Whether the MT is packed: then model() has no MT, loadAmt() unpacks it.
+  /// Whether the MT is packed: then model() has no MT, read() unpacks it.
   bool isPacked() const { return packedNodes_.data() != nullptr; }
-  /// Of a packed file.
-  Result<MultiTriangulation> unpack(const UnpackOptions& options = {}, const RunContext& context = {}) const;
+  /// The model: its multitriangulation points into the mapped file and keeps it mapped, or is unpacked, as
+  /// far as `options` want it. Errors: those of unpackMt(), naming the path. Precondition: checkAmt().
+  Result<TerrainModel> read(const UnpackOptions& options = {}, const RunContext& context = {}) const;
 
   /// The model without its isolated samples and fixed vertices. Its arrays have the sizes stated in MtArrays;
   /// before checkAmtIndices() nothing else is known of them, so do not walk it.
@@ -94,21 +95,24 @@ Result<AmtFile> openAmt(const std::string& path, const AmtOpenOptions& options =
 Status checkAmtIndices(const AmtFile& file, const RunContext& context = {});
 
 /// The checksum of every chunk, and zeros between the chunks: with these and what openAmt() checks, no byte
-/// of the file has changed since it was written. Errors: corrupt, naming the chunk; interrupted. Reads the
-/// whole file, chunks in parallel.
+/// of the file has changed since it was written. (Of a packed file the packed nodes are not looked at:
+/// unpacking checks what it reads.) Errors: corrupt, naming the chunk; interrupted. Reads the whole file,
+/// chunks in parallel.
 Status checkAmtChecksums(const AmtFile& file, const RunContext& context = {});
 
-/// What loading checks beyond openAmt(). `none` is for files that one's own program has just written.
+/// What is checked beyond openAmt(). `none` is for files that one's own program has just written.
 enum class AmtVerify { none, indices, all };
 
+/// All that `verify` asks for, all = checksums and indices. Errors: those of the two.
+Status checkAmt(const AmtFile& file, AmtVerify verify, const RunContext& context = {});
+
 struct AmtLoadOptions {
-  AmtVerify verify = AmtVerify::all;  ///< all = checksums and indices
+  AmtVerify verify = AmtVerify::all;
   AmtOpenOptions open;
   UnpackOptions unpack = {};  ///< of packed files
 };
 
-/// Opens, checks, and hands out the model; its multitriangulation points into the mapped file and keeps it
-/// mapped, or is unpacked into memory. Errors: those of openAmt() and of the checks.
+/// Opens, checks and reads. Errors: those of openAmt(), checkAmt() and AmtFile::read().
 Result<TerrainModel> loadAmt(const std::string& path, const AmtLoadOptions& options = {},
                              const RunContext& context = {});
 

@@ -220,11 +220,19 @@ Result<AmtFile> AmtOpener::open(const std::string& path, const AmtOpenOptions& o
   return file;
 }
 
-Result<MultiTriangulation> AmtFile::unpack(const UnpackOptions& options, const RunContext& context) const {
-  Result<MultiTriangulation> mt =
-      unpackMt(*metadata_, packedDirectory_, packedTables_, packedNodes_, options, context);
-  if (mt) return mt;
-  return failure(mt.error().code, mt.error().message, path_);
+Result<TerrainModel> AmtFile::read(const UnpackOptions& options, const RunContext& context) const {
+  TerrainModel model = model_;
+  if (isPacked()) {
+    Result<MultiTriangulation> mt =
+        unpackMt(*metadata_, packedDirectory_, packedTables_, packedNodes_, options, context);
+    if (!mt) return failure(mt.error().code, mt.error().message, path_);
+    model.mt = std::move(*mt);
+  }
+  model.options.fixedVertices.assign(fixedVertices_.begin(), fixedVertices_.end());
+  model.isolated.reserve(isolatedSamples_.size());
+  for (std::size_t i = 0; i < isolatedSamples_.size(); ++i)
+    model.isolated.push_back({isolatedSamples_[i], isolatedHeights_[i]});
+  return model;
 }
 
 Result<AmtFile> openAmt(const std::string& path, const AmtOpenOptions& options) {
@@ -235,22 +243,9 @@ Result<TerrainModel> loadAmt(const std::string& path, const AmtLoadOptions& opti
                              const RunContext& context) {
   const Result<AmtFile> file = openAmt(path, options.open);
   if (!file) return tl::unexpected(file.error());
-  Status status;
-  if (options.verify == AmtVerify::all) status = checkAmtChecksums(*file, context);
-  if (status && options.verify != AmtVerify::none) status = checkAmtIndices(*file, context);
-  if (!status) return tl::unexpected(status.error());
-
-  TerrainModel model = file->model();
-  if (file->isPacked()) {
-    Result<MultiTriangulation> mt = file->unpack(options.unpack, context);
-    if (!mt) return tl::unexpected(mt.error());
-    model.mt = std::move(*mt);
-  }
-  model.options.fixedVertices.assign(file->fixedVertices().begin(), file->fixedVertices().end());
-  model.isolated.reserve(file->isolatedSamples().size());
-  for (std::size_t i = 0; i < file->isolatedSamples().size(); ++i)
-    model.isolated.push_back({file->isolatedSamples()[i], file->isolatedHeights()[i]});
-  return model;
+  if (Status checked = checkAmt(*file, options.verify, context); !checked)
+    return tl::unexpected(checked.error());
+  return file->read(options.unpack, context);
 }
 
 }  // namespace arete

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "engine/refine_order.h"
 #include "engine/view_error.h"
@@ -96,6 +98,33 @@ Result<std::shared_ptr<const Criterion>> engineCriterion(const ExtractCriterion&
                                .farError = outsideError});
   if (region) return std::make_shared<RegionError>(*region, metric, maxError, outsideError);
   return std::make_shared<UniformError>(maxError);
+}
+
+Result<WantedError> wantedBy(std::span<const ExtractCriterion> criteria, const std::optional<Region>& region,
+                             const TerrainModel& outline) {
+  std::vector<std::shared_ptr<const Criterion>> parts;
+  for (const ExtractCriterion& c : criteria) {
+    const bool isByPlace = region || c.focus;
+    if (!c.maxError || c.camera || c.fit != ExtractFit::none ||
+        (isByPlace && c.method == CutMethod::saturated))
+      return WantedError();
+    const auto part = engineCriterion(c, region, 0, outline);
+    if (!part) return tl::unexpected(part.error());
+    parts.push_back(*part);
+  }
+  return WantedError([parts, metric = outline.mt.arrays().metric](const Box2& box) {
+    // None of these criteria looks at heights.
+    const Vec3 low = metric.toMetric({box.xMin, box.yMin, 0}),
+               high = metric.toMetric({box.xMax, box.yMax, 0});
+    const Vec2 middle{(low.x + high.x) / 2, (low.y + high.y) / 2};
+    const double radius = std::hypot(high.x - low.x, high.y - low.y) / 2;
+    const double rounded = 1e-6 * (std::fabs(middle.x) + std::fabs(middle.y) + radius);
+    const Sphere around{static_cast<float>(middle.x), static_cast<float>(middle.y), 0,
+                        static_cast<float>(radius + rounded)};
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& part : parts) least = std::min(least, part->allowedError(around));
+    return least;
+  });
 }
 
 Result<CutOptions> engineOptions(const ExtractCriterion& c, const TerrainModel& model) {

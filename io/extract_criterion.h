@@ -5,12 +5,14 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "engine/criterion.h"
 #include "engine/cut.h"
 #include "engine/result.h"
+#include "io/packed_amt.h"
 #include "terrain/camera.h"
 #include "terrain/terrain_model.h"
 
@@ -71,6 +73,14 @@ std::string optionsOf(const ExtractCriterion& criterion);
 Result<std::shared_ptr<const Criterion>> engineCriterion(const ExtractCriterion& criterion,
                                                          const std::optional<Region>& region, double reserve,
                                                          const TerrainModel& model);
+
+/// What the cuts of these criteria can ask for of a packed model, where nothing is taken off their tolerances
+/// and nothing is measured. Null, which is everything, where a camera's pixels decide, or a budget or a
+/// deadline alone; where a fit looks at all samples, or a saturated cut at balls around all descendants.
+/// Errors: usage. Precondition: `outline` is of the model, its root at least. O(1); of what comes back, that
+/// of the region's meetsDisc().
+Result<WantedError> wantedBy(std::span<const ExtractCriterion> criteria, const std::optional<Region>& region,
+                             const TerrainModel& outline);
 
 /// Its budget, deadline (from now on) and order. Errors: usage, two queues without a camera.
 Result<CutOptions> engineOptions(const ExtractCriterion& criterion, const TerrainModel& model);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -30,15 +30,18 @@ struct PackedMt {
 /// node beside the model.
 Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context = {});
 
+/// The least error that anybody asks for within a box of plan coordinates, in the unit of the heights: 0 (or
+/// less, or NaN) for full resolution, infinity where nobody asks. Null asks for everything.
+using WantedError = std::function<double(const Box2&)>;
+
 struct UnpackOptions {
-  /// Read only what is needed inside of this box of plan coordinates: the nodes whose floors or stars may
-  /// reach into it, and their ancestors. The rest of the terrain is as coarse as these leave it.
-  std::optional<Box2> box;
-  /// Read only what cuts can ask for that allow at least this error everywhere, in the unit of the heights:
-  /// these are the same cuts, with the same numbers of vertices and triangles, as those of the whole; but a
-  /// saturated cut by place may be a little coarser, as no sphere holds a node that was not read. The time is
-  /// that of the nodes whose saturated errors are not below half of it. NaN or negative: 0.
-  double leastError = 0;
+  /// Asked once for each chunk of nodes, with a box around all their floors and stars, which may be far
+  /// larger than each of them. Read are the nodes that a minimal cut may ask for which allows every triangle
+  /// the least error wanted of any box that it meets: these are the same cuts, with the same triangles in the
+  /// same order, as those of the whole. A saturated cut by place may be a little coarser, as no sphere holds
+  /// a node that was not read. Where the same is wanted everywhere, nodes keep the numbers that they have in
+  /// the whole. The time is that of the nodes whose saturated errors are not below half of what is wanted.
+  WantedError wanted = {};
 };
 
 /// Unpacks. `counts`, `model` and the rest of the metadata are believed only where the bytes bear them out:

@@ -8,6 +8,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/with_threads.h"
 #include "io/amt_checksum.h"
@@ -141,30 +142,31 @@ class ReaderIo {
   BitReader raw_;
 };
 
-/// Empties the chunks that nothing in the box needs.
-void keepWhatReaches(Directory& directory, const Box2& box) {
-  std::vector<char> isKept(directory.chunks.size(), 0);
-  for (std::size_t i = directory.chunks.size(); i-- > 0;) {
-    const Chunk& c = directory.chunks[i];
-    if (c.xMin <= box.xMax && c.xMax >= box.xMin && c.yMin <= box.yMax && c.yMax >= box.yMin) isKept[i] = 1;
-    if (isKept[i] == 0) continue;
-    for (const std::uint32_t other : c.leansOn) isKept[other] = 1;
+/// Drops what nobody wants: of each chunk the bands below the lowest that somebody asks for, there or in a
+/// chunk that leans on it (parents are of no lower band than their children). Whether this is the same band
+/// everywhere.
+bool keepWanted(Directory& directory, const WantedError& wanted, const OutwardScale& scale) {
+  constexpr std::uint32_t kNone = MultiTriangulation::kBands;
+  std::vector<Chunk>& chunks = directory.chunks;
+  std::vector<std::uint32_t> lowest(chunks.size());
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    const Chunk& c = chunks[i];
+    const double error = wanted({c.xMin, c.yMin, c.xMax, c.yMax});
+    lowest[i] = error == std::numeric_limits<double>::infinity() ? kNone
+                : error > 0 ? MultiTriangulation::bandOf(scale.floorCode(error))
+                            : 0;
   }
-  isKept[0] = 1;
-  for (std::size_t i = 0; i < isKept.size(); ++i)
-    if (isKept[i] == 0) {
-      directory.chunks[i].runs.clear();
-      directory.chunks[i].borders = 0;
-    }
+  for (std::size_t i = chunks.size(); i-- > 1;) {
+    lowest[0] = std::min(lowest[0], lowest[i]);
+    for (const std::uint32_t other : chunks[i].leansOn) lowest[other] = std::min(lowest[other], lowest[i]);
+  }
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    Chunk& c = chunks[i];
+    c.isCut = std::erase_if(c.runs, [&](const Run& run) { return run.band < lowest[i]; }) > 0;
+    if (i > 0 && c.runs.empty()) c.borders = 0;
+  }
   directory.number();
-}
-
-/// Drops the bands of all nodes that no cut needs which allows this error everywhere.
-void keepWhatExceeds(Directory& directory, OutwardScale::Code code) {
-  const std::uint32_t last = MultiTriangulation::bandOf(code);
-  for (Chunk& chunk : directory.chunks)
-    chunk.isCut = std::erase_if(chunk.runs, [&](const Run& run) { return run.band < last; }) > 0;
-  directory.number();
+  return std::ranges::all_of(lowest, [&](std::uint32_t band) { return band == lowest[0]; });
 }
 
 class Unpacker {
@@ -278,12 +280,9 @@ Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const
                    "the packed nodes leave more triangles to others than can be numbered");
   const auto tables = packed::tablesOf(tableBytes);
   if (!tables) return failure(ErrorCode::corrupt, "the tables of the packed nodes are damaged");
-  if (options.leastError > 0)
-    packed::keepWhatExceeds(*directory, metadata.scale.floorCode(options.leastError));
-  if (options.box) packed::keepWhatReaches(*directory, *options.box);
+  const bool isPart = options.wanted && !packed::keepWanted(*directory, options.wanted, metadata.scale);
   return withThreads(context, [&] {
-    return packed::Unpacker(std::move(*directory), *tables, nodes, context, options.box.has_value())
-        .run(metadata);
+    return packed::Unpacker(std::move(*directory), *tables, nodes, context, isPart).run(metadata);
   });
 }
 

@@ -2,7 +2,9 @@
 // The main job: a DEM in, one multitriangulation, any tolerance out, with proof.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "cli/cli_fixture.h"
 #include "io/raster_reader.h"
@@ -378,6 +380,68 @@ TEST_F(MainJob, TakesTheSameTinsFromAPackedFileOfWhichItReadsTheBeginnings) {
         }
         EXPECT_TRUE(read("packed" + extension) == read("plain" + extension));
       }
+  }
+}
+
+TEST_F(MainJob, AnswersByPlaceAlikeFromAPackedFileOfWhichItReadsWhatLiesThere) {
+  // Four by three tiles, so that most chunks are far from a place.
+  makeRaster("dem.tif", "fractal", 420, 300);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "packed.amt", "--packed", "-q"}).code, 0);
+  ASSERT_EQ(run({"convert", "packed.amt", "-o", "plain.amt", "-q"}).code, 0);
+  const auto dem = readRaster(path("dem.tif"));
+  ASSERT_TRUE(dem);
+  const auto place = [&](double column, double row) {
+    const Vec2 xy = dem->heightfield.georeference.toSource(column, row);
+    return fmt::format("{},{}", xy.x, xy.y);
+  };
+  const Vec2 low = dem->heightfield.georeference.toSource(40.5, 90.25),
+             high = dem->heightfield.georeference.toSource(110.25, 30.5);
+  const std::string corner = fmt::format("{},{},{},{}", std::min(low.x, high.x), std::min(low.y, high.y),
+                                         std::max(low.x, high.x), std::max(low.y, high.y));
+  write("places.csv", fmt::format("x,y\n{}\n{}\n", place(5, 7), place(400.5, 200.25)));
+  write("pairs.csv", fmt::format("x1,y1,h1,x2,y2,h2\n{},30,{},20\n", place(5, 7), place(60, 80)));
+  const std::string mast = fmt::format("{},30", place(300, 20)), hut = fmt::format("{},20", place(380.5, 90)),
+                    walk = fmt::format("{}:{}:{}", place(300, 20), place(380.5, 90), place(300, 100)),
+                    link = fmt::format("{}:{}", mast, hut),
+                    brook = fmt::format("{}:{}", place(10, 200), place(12, 290));
+  const std::vector<std::vector<std::string>> questions = {
+      {"height", "--at", place(33.25, 44.5)},
+      {"height", "--points", "places.csv"},
+      {"height", "--at", place(33.25, 44.5), "--max-error", "3", "--json"},
+      {"los", "--from", mast, "--to", hut},
+      {"los", "--pairs", "pairs.csv"},
+      {"los", "--pairs", "pairs.csv", "--frequency", "2400"},
+      {"los", "--pairs", "pairs.csv", "--clutter", "5"},
+      {"los", "--pairs", "pairs.csv", "--method", "pyramid"},
+      {"los", "--pairs", "pairs.csv", "--max-error", "4"},
+      {"profile", "--along", walk},
+      {"profile", "--along", link, "--frequency", "900"},
+      {"profile", "--along", brook, "--max-error", "2"},
+      {"extract", "-o", "tin.ply", "--max-error", "1", "--region", corner},
+      {"extract", "-o", "tin.ply", "--max-error", "1", "--region", corner, "--outside-error", "20"},
+      {"extract", "-o", "tin.obj", "--max-error", "0.5,2", "--region", corner, "--outside-error", "20"},
+      {"extract", "-o", "tin.ply", "--max-error", "1", "--region", corner, "--method", "saturated"},
+      {"extract", "-o", "tin.ply", "--max-error", "1", "--focus", place(100, 50), "--error-growth", "0.01"}};
+  for (const auto& question : questions) {
+    SCOPED_TRACE(fmt::format("{}", fmt::join(question, " ")));
+    std::map<std::string, std::string> answers;
+    for (const std::string model : {"plain", "packed"}) {
+      std::vector<std::string> words = question;
+      const std::string name = model + ".amt";
+      words.insert(words.begin() + 1, name);
+      const Outcome outcome = run(words);
+      ASSERT_EQ(outcome.code, 0) << outcome.err;
+      std::string& answer = answers[model] = outcome.out;
+      for (std::size_t at = 0; (at = answer.find(name)) != std::string::npos;)
+        answer.replace(at, name.size(), "MODEL");
+      for (const std::string& file : files())
+        if (file.rfind("tin", 0) == 0) {
+          answer += read(file);
+          fs::remove(path(file));
+        }
+    }
+    EXPECT_FALSE(answers["plain"].empty());
+    EXPECT_TRUE(answers["plain"] == answers["packed"]) << answers["packed"].substr(0, 2000);
   }
 }
 

@@ -4,6 +4,7 @@
 // the indices are in range, everything is asked of the model that the commands ask. What a wrong file answers
 // does not matter; that it answers within its arrays does. A packed file is unpacked as a whole and in part.
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "engine/criterion.h"
@@ -124,12 +125,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   use(*model, context);
   if (!file->isPacked()) return 0;
-  AmtLoadOptions corner, coarse;
-  corner.verify = coarse.verify = AmtVerify::indices;
-  corner.unpack.box = Box2{0, 0, 2, 2};
-  coarse.unpack.leastError = 0.5;
-  AmtLoadOptions coarseCorner = coarse;
-  coarseCorner.unpack.box = corner.unpack.box;
+  const auto isCorner = [](const Box2& box) { return box.xMin <= 2 && box.yMin <= 2; };
+  constexpr double kNothing = std::numeric_limits<double>::infinity();
+  AmtLoadOptions corner, coarse, coarseCorner;
+  corner.verify = coarse.verify = coarseCorner.verify = AmtVerify::indices;
+  corner.unpack.wanted = [&](const Box2& box) { return isCorner(box) ? 0 : kNothing; };
+  coarse.unpack.wanted = [](const Box2&) { return 0.5; };
+  coarseCorner.unpack.wanted = [&](const Box2& box) { return isCorner(box) ? 0.5 : 3; };
   for (const AmtLoadOptions& options : {corner, coarse, coarseCorner}) {
     const auto part = loadAmt(memory.path(), options, context);
     if (part) {

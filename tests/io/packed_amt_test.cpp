@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <random>
 #include <string>
@@ -32,6 +33,17 @@ using test::hills;
 using test::readAll;
 using test::TemporaryFolder;
 using test::tinyModel;
+
+WantedError everywhere(double error) {
+  return [error](const Box2&) { return error; };
+}
+WantedError in(const Box2& box, double error) {
+  return [box, error](const Box2& chunk) {
+    const bool meets =
+        chunk.xMin <= box.xMax && chunk.xMax >= box.xMin && chunk.yMin <= box.yMax && chunk.yMax >= box.yMin;
+    return meets ? error : std::numeric_limits<double>::infinity();
+  };
+}
 
 TerrainModel throughPacked(const TerrainModel& model, const std::string& path, int threads = 0) {
   RunContext context;
@@ -218,7 +230,7 @@ TEST(PackedAmt, ReadsARegionAlone) {
   const TerrainModel whole = throughPacked(built(build(familyNamed("fractal").make(700, 500, 7))), path);
   const Box2 box{150, 140, 240, 230};
   AmtLoadOptions options;
-  options.unpack.box = box;
+  options.unpack.wanted = in(box, 0);
   const TerrainModel part = built(loadAmt(path, options));
   EXPECT_LT(part.mt.nodeCount(), whole.mt.nodeCount() / 2);
   const Status laws = validate(part.mt);
@@ -255,7 +267,7 @@ TEST(PackedAmt, ReadsWhatCutsAtAnErrorAskForAlone) {
       std::uint32_t nodesBefore = whole.mt.nodeCount();
       for (const double least : {0.001 * range, 0.01 * range, 0.06 * range, range}) {
         AmtLoadOptions options;
-        options.unpack.leastError = least;
+        options.unpack.wanted = everywhere(least);
         const TerrainModel part = built(loadAmt(path, options));
         EXPECT_LE(part.mt.nodeCount(), nodesBefore);
         nodesBefore = part.mt.nodeCount();
@@ -286,7 +298,7 @@ TEST(PackedAmt, ReadsWhatCutsAtAnErrorAskForAlone) {
 void expectReadsDownTo(double least, const TerrainModel& whole, const std::string& path) {
   SCOPED_TRACE(least);
   AmtLoadOptions options;
-  options.unpack.leastError = least;
+  options.unpack.wanted = everywhere(least);
   const TerrainModel part = built(loadAmt(path, options));
   const Status laws = validate(part.mt, {.allowsFills = whole.options.rimTolerance > 0});
   EXPECT_TRUE(laws) << laws.error().describe();
@@ -348,9 +360,10 @@ TEST(PackedAmt, ReadsARegionAtAnErrorAlone) {
   const std::string path = folder.file("packed.amt");
   const TerrainModel whole = throughPacked(built(build(familyNamed("fractal").make(500, 400, 9))), path);
   AmtLoadOptions options;
-  options.unpack.leastError = 0.1 * whole.mt.arrays().scale.decode(OutwardScale::kMaxCode);
+  const double least = 0.1 * whole.mt.arrays().scale.decode(OutwardScale::kMaxCode);
+  options.unpack.wanted = everywhere(least);
   const TerrainModel coarse = built(loadAmt(path, options));
-  options.unpack.box = Box2{10, 10, 90, 90};
+  options.unpack.wanted = in({10, 10, 90, 90}, least);
   const TerrainModel part = built(loadAmt(path, options));
   EXPECT_LT(part.mt.nodeCount(), coarse.mt.nodeCount());
   EXPECT_LT(coarse.mt.nodeCount(), whole.mt.nodeCount() / 2);
@@ -368,7 +381,8 @@ void expectRefusesOrSurvives(const TerrainModel& model, std::size_t step) {
   for (const AmtTag& tag : {amt_tag::kPackedDirectory, amt_tag::kPackedTables, amt_tag::kPackedNodes}) {
     AmtBytes first = original;
     const std::size_t size = first.array<std::uint8_t>(tag).size();
-    for (std::size_t at = 0; at<size; at += size> 600 ? step : 1) {
+    const std::size_t stride = size > 600 ? step : 1;
+    for (std::size_t at = 0; at < size; at += stride) {
       AmtBytes changed = original;
       changed.array<std::uint8_t>(tag)[at] ^= static_cast<std::uint8_t>(1u << random() % 8);
       // The checksums of the packed chunks too: whoever changes bytes can do so.
@@ -387,7 +401,7 @@ void expectRefusesOrSurvives(const TerrainModel& model, std::size_t step) {
       changed.seal();
       changed.save(folder.file("changed.amt"));
       AmtLoadOptions part;
-      part.unpack.leastError = 2;
+      part.unpack.wanted = [](const Box2& box) { return box.xMin < 8 ? 2.0 : 6.0; };
       if (const Result<TerrainModel> some = loadAmt(folder.file("changed.amt"), part)) {
         ++partsSurvived;
         ASSERT_TRUE(writeAmt(folder.file("part.amt"), *some));

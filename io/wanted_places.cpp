@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A place marks the cell that it lies in and those around it, which is more than any rounding on its way. A
+// line is cut into pieces about as long as a cell, and each marks the cells of its box. A box is asked about
+// by sums of marks over all cells left of and below each (Crow 1984, summed-area tables).
+#include "io/wanted_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace arete {
+namespace {
+
+/// A line may reach far beyond the terrain: its pieces are then longer than a cell.
+constexpr double kMostPieces = 1 << 14;
+
+}  // namespace
+
+WantedPlaces::WantedPlaces(const TerrainModel& outline, double reach)
+    : domain_{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL},
+      reach_(reach),
+      isWanted_(std::size_t{kCells} * kCells, 0) {
+  for (std::uint32_t i = 0; i < outline.mt.rootVertexCount(); ++i) {
+    const Vec2 p = outline.mt.vertices().planPosition(VertexId(i));
+    domain_ = {std::min(domain_.xMin, p.x), std::min(domain_.yMin, p.y), std::max(domain_.xMax, p.x),
+               std::max(domain_.yMax, p.y)};
+  }
+  const double width = domain_.xMax - domain_.xMin, height = domain_.yMax - domain_.yMin;
+  columnsPerUnit_ = width > 0 ? kCells / width : 0;
+  rowsPerUnit_ = height > 0 ? kCells / height : 0;
+}
+
+int WantedPlaces::columnOf(double x) const {
+  return static_cast<int>(std::clamp((x - domain_.xMin) * columnsPerUnit_, 0.0, kCells - 1.0));
+}
+
+int WantedPlaces::rowOf(double y) const {
+  return static_cast<int>(std::clamp((y - domain_.yMin) * rowsPerUnit_, 0.0, kCells - 1.0));
+}
+
+void WantedPlaces::mark(Vec2 low, Vec2 high) {
+  const int left = std::max(columnOf(low.x - reach_) - 1, 0),
+            right = std::min(columnOf(high.x + reach_) + 1, kCells - 1);
+  const int bottom = std::max(rowOf(low.y - reach_) - 1, 0),
+            top = std::min(rowOf(high.y + reach_) + 1, kCells - 1);
+  for (int row = bottom; row <= top; ++row) {
+    const auto begin = isWanted_.begin() + row * kCells;
+    std::fill(begin + left, begin + right + 1, std::uint8_t{1});
+  }
+}
+
+void WantedPlaces::add(Vec2 plan) {
+  if (std::isfinite(plan.x + plan.y)) mark(plan, plan);
+}
+
+void WantedPlaces::addLine(Vec2 from, Vec2 to) {
+  const Vec2 way{to.x - from.x, to.y - from.y};
+  if (!std::isfinite(from.x + from.y) || !std::isfinite(way.x + way.y)) return;
+  const double cells = std::max(std::fabs(way.x) * columnsPerUnit_, std::fabs(way.y) * rowsPerUnit_);
+  const int pieces = static_cast<int>(std::ceil(std::clamp(cells, 1.0, kMostPieces)));
+  Vec2 begin = from;
+  for (int i = 1; i <= pieces; ++i) {
+    const double part = static_cast<double>(i) / pieces;
+    const Vec2 end = i == pieces ? to : Vec2{from.x + part * way.x, from.y + part * way.y};
+    mark({std::min(begin.x, end.x), std::min(begin.y, end.y)},
+         {std::max(begin.x, end.x), std::max(begin.y, end.y)});
+    begin = end;
+  }
+}
+
+WantedError WantedPlaces::within(double error) const {
+  // sums[row][column]: the marks of all cells in rows and columns below these.
+  constexpr int kStride = kCells + 1;
+  const auto sums = std::make_shared<std::vector<std::uint32_t>>(std::size_t{kStride} * kStride, 0);
+  for (int row = 0; row < kCells; ++row)
+    for (int column = 0; column < kCells; ++column) {
+      const auto at = static_cast<std::size_t>((row + 1) * kStride + column + 1);
+      (*sums)[at] = (*sums)[at - 1] + (*sums)[at - kStride] - (*sums)[at - kStride - 1] +
+                    isWanted_[static_cast<std::size_t>(row * kCells + column)];
+    }
+  return [places = std::make_shared<const WantedPlaces>(*this), sums, error](const Box2& box) {
+    constexpr double kNothing = std::numeric_limits<double>::infinity();
+    if (!(box.xMin <= box.xMax && box.yMin <= box.yMax)) return kNothing;
+    const auto sum = [&](int row, int column) {
+      return (*sums)[static_cast<std::size_t>(row * kStride + column)];
+    };
+    const int left = places->columnOf(box.xMin), right = places->columnOf(box.xMax) + 1;
+    const int bottom = places->rowOf(box.yMin), top = places->rowOf(box.yMax) + 1;
+    const bool isWanted = sum(top, right) + sum(bottom, left) != sum(bottom, right) + sum(top, left);
+    return isWanted ? error : kNothing;
+  };
+}
+
+}  // namespace arete

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "engine/vec.h"
+#include "io/packed_amt.h"
+#include "terrain/terrain_model.h"
+
+namespace arete {
+
+/// Nothing is wanted anywhere: what is read is the root, which tells how far the terrain reaches.
+inline WantedError wantedNowhere() {
+  return [](const Box2&) { return std::numeric_limits<double>::infinity(); };
+}
+
+/// Places and lines that questions will be about, so that of a packed model no more is read than these need.
+/// They are kept as cells of a grid over the terrain, any number of them in little memory; what is wanted of
+/// them is at least what they need.
+class WantedPlaces {
+ public:
+  /// The model: of its root alone, or any other part. reach: what is this far from a place is wanted as well,
+  /// in plan units. O(root vertices).
+  explicit WantedPlaces(const TerrainModel& outline, double reach = 0);
+
+  /// In plan coordinates; what is beside the terrain is put on its rim, what is not finite is passed over.
+  void add(Vec2 plan);
+  /// All of the straight line between two places. O(cells that it crosses).
+  void addLine(Vec2 from, Vec2 to);
+
+  /// This error of triangles that may touch one of the places, nothing of others.
+  WantedError within(double error) const;
+
+ private:
+  static constexpr int kCells = 512;  // along each axis
+
+  void mark(Vec2 low, Vec2 high);
+  int columnOf(double x) const;
+  int rowOf(double y) const;
+
+  Box2 domain_;
+  double reach_;
+  double columnsPerUnit_ = 0, rowsPerUnit_ = 0;
+  std::vector<std::uint8_t> isWanted_;  // row by row
+};
+
+}  // namespace arete

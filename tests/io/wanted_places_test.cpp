@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What is read of a packed model for a question answers it as the whole does: heights, lines of sight, cuts
+// for a region or around a place.
+#include "io/wanted_places.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "datasets/families.h"
+#include "datasets/random.h"
+#include "engine/cut.h"
+#include "engine/validate.h"
+#include "io/amt_file.h"
+#include "io/amt_fixture.h"
+#include "io/extract_criterion.h"
+#include "io/io_fixture.h"
+#include "terrain/sight_earth.h"
+#include "terrain/sight_engine.h"
+#include "terrain/surface_height.h"
+
+namespace arete {
+namespace {
+
+using test::built;
+using test::TemporaryFolder;
+
+constexpr double kNothing = std::numeric_limits<double>::infinity();
+
+const RasterFamily& familyNamed(std::string_view name) {
+  return *std::ranges::find(rasterFamilies(), name, &RasterFamily::name);
+}
+
+/// A packed file, its whole model, and its outline.
+struct Packed {
+  Packed(const TerrainModel& model, const std::string& path) {
+    const Status written = writeAmt(path, model, {}, {.isPacked = true});
+    if (!written) throw std::runtime_error(written.error().describe());
+    file = *openAmt(path);
+    whole = built(file->read());
+    outline = built(file->read({wantedNowhere()}));
+    EXPECT_EQ(outline.mt.nodeCount(), 0u);
+    for (std::uint32_t i = 0; i < outline.mt.rootVertexCount(); ++i) {
+      const Vec2 p = outline.mt.vertices().planPosition(VertexId(i));
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+  }
+  TerrainModel part(const WantedError& wanted) const {
+    TerrainModel model = built(file->read({wanted}));
+    const Status laws = validate(model.mt, {.allowsFills = whole.options.rimTolerance > 0});
+    EXPECT_TRUE(laws) << laws.error().describe();
+    return model;
+  }
+  /// A place in plan, one in eight beside the terrain.
+  Vec2 placeIn(Random& random) const {
+    const double beyond = random.below(8) == 0 ? 0.2 : 0;
+    const auto between = [&](double from, double to) {
+      return from + (random.between(0, 1) * (1 + 2 * beyond) - beyond) * (to - from);
+    };
+    Vec2 p{between(low.x, high.x), between(low.y, high.y)};
+    if (random.below(3) == 0 && whole.isRaster) p = {std::round(p.x), std::round(p.y)};
+    return p;
+  }
+
+  std::optional<AmtFile> file;
+  TerrainModel whole, outline;
+  Vec2 low{kNothing, kNothing}, high{-kNothing, -kNothing};
+};
+
+std::vector<TerrainModel> modelsOfAllKinds() {
+  std::vector<TerrainModel> models;
+  for (const char* name : {"fractal", "nodata holes", "plateaus"}) {
+    const auto found = std::ranges::find(rasterFamilies(), name, &RasterFamily::name);
+    if (found != rasterFamilies().end()) models.push_back(built(build(found->make(300, 280, 3))));
+  }
+  BuildOptions rims;
+  rims.rimTolerance = 2;
+  models.push_back(built(build(familyNamed("nodata holes").make(280, 290, 4), rims)));
+  models.push_back(built(build(familyNamed("fractal").make(290, 270, 5), {.shape = HoleShape::fidelity})));
+  for (const PointFamily& family : pointFamilies()) models.push_back(built(build(family.make(900, 6))));
+  return models;
+}
+
+TEST(WantedPlaces, AreWantedByEveryBoxThatHoldsOneAndByNoneFarFromAll) {
+  const TemporaryFolder folder;
+  const Packed packed(built(build(familyNamed("ramp").make(60, 40, 1))), folder.file("packed.amt"));
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Random random(seed);
+    WantedPlaces wanted(packed.outline);
+    std::vector<Vec2> places;
+    for (std::uint64_t i = random.below(4); i-- > 0;) {
+      const Vec2 from{random.between(0, 59), random.between(0, 39)},
+          to{random.between(0, 59), random.between(0, 39)};
+      wanted.addLine(from, to);
+      for (int k = 0; k <= 1000; ++k)
+        places.push_back({from.x + k / 1000.0 * (to.x - from.x), from.y + k / 1000.0 * (to.y - from.y)});
+    }
+    for (std::uint64_t i = random.below(5); i-- > 0;) {
+      places.push_back({random.between(0, 59), random.between(0, 39)});
+      wanted.add(places.back());
+    }
+    wanted.add({std::nan(""), 3});
+    wanted.addLine({1, 2}, {kNothing, 3});
+    const WantedError within = wanted.within(2.5);
+    for (int i = 0; i < 50; ++i) {
+      const double x = random.between(-5, 60), y = random.between(-5, 40);
+      const double width = random.between(0, 12), height = random.between(0, 12);
+      const auto holdsOne = [&](double margin) {
+        return std::ranges::any_of(places, [&](Vec2 p) {
+          return p.x >= x - margin && p.x <= x + width + margin && p.y >= y - margin &&
+                 p.y <= y + height + margin;
+        });
+      };
+      const double error = within({x, y, x + width, y + height});
+      if (holdsOne(0)) {
+        EXPECT_EQ(error, 2.5) << "seed " << seed;
+      }
+      // Cells are a tenth of a sample wide; a box beside the terrain counts as its rim.
+      if (x >= 0 && y >= 0 && x + width <= 59 && y + height <= 39 && !holdsOne(0.5)) {
+        EXPECT_EQ(error, kNothing) << "seed " << seed;
+      }
+    }
+    EXPECT_EQ(within({3, 3, 2, 2}), kNothing) << "an empty box";
+    EXPECT_EQ(within({std::nan(""), 0, 1, 1}), kNothing);
+  }
+}
+
+TEST(WantedPlaces, ReachAsFarBesideAsTheyAreTold) {
+  const TemporaryFolder folder;
+  const Packed packed(built(build(familyNamed("ramp").make(60, 40, 1))), folder.file("packed.amt"));
+  WantedPlaces wanted(packed.outline, 2);
+  wanted.addLine({10, 10}, {20, 10});
+  const WantedError within = wanted.within(0);
+  EXPECT_EQ(within({21.9, 9, 23, 11}), 0);
+  EXPECT_EQ(within({12, 7, 13, 8.1}), 0);
+  EXPECT_EQ(within({22.5, 9, 23, 11}), kNothing);
+}
+
+TEST(WantedPlaces, TakeLinesFarBeyondTheTerrain) {
+  const TemporaryFolder folder;
+  const Packed packed(built(build(familyNamed("ramp").make(60, 40, 1))), folder.file("packed.amt"));
+  WantedPlaces wanted(packed.outline);
+  wanted.addLine({-1e12, 20}, {1e12, 20});
+  EXPECT_EQ(wanted.within(1)({10, 19, 12, 21}), 1);
+}
+
+TEST(WantedPlaces, HaveTheHeightsOfTheWholeWhenOnlyTheyAreRead) {
+  const TemporaryFolder folder;
+  std::uint64_t seed = 0;
+  for (const TerrainModel& model : modelsOfAllKinds()) {
+    const Packed packed(model, folder.file("packed.amt"));
+    Random random(++seed);
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    for (const std::size_t count : {std::size_t{1}, std::size_t{2}, std::size_t{40}}) {
+      std::vector<Vec2> places;
+      WantedPlaces wanted(packed.outline);
+      for (std::size_t i = 0; i < count; ++i) {
+        const Vec2 plan = packed.placeIn(random);
+        places.push_back(packed.whole.toSource(plan));
+        wanted.add(packed.outline.toPlan(places.back()));
+      }
+      const TerrainModel part = packed.part(wanted.within(0));
+      EXPECT_LE(part.mt.nodeCount(), packed.whole.mt.nodeCount());
+      const SurfaceHeights ofWhole(packed.whole), ofPart(part);
+      for (const Vec2 place : places)
+        for (const double maxError : {0.0, 0.3, 20.0}) {
+          const auto x = ofWhole.at(place, maxError), y = ofPart.at(place, maxError);
+          ASSERT_EQ(x.has_value(), y.has_value());
+          if (!x) continue;
+          EXPECT_EQ(x->height, y->height);
+          EXPECT_EQ(x->below, y->below);
+          EXPECT_EQ(x->above, y->above);
+          EXPECT_EQ(x->nodesVisited, y->nodesVisited);
+        }
+    }
+  }
+}
+
+TEST(WantedPlaces, HaveTheLinesOfSightOfTheWholeWhenOnlyTheyAreRead) {
+  const TemporaryFolder folder;
+  std::uint64_t seed = 0;
+  for (const TerrainModel& model : modelsOfAllKinds()) {
+    const Packed packed(model, folder.file("packed.amt"));
+    Random random(++seed);
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const auto earth = makePlaneEarth(packed.outline);
+    for (int i = 0; i < 12; ++i) {
+      const Vec2 from = packed.placeIn(random), to = packed.placeIn(random);
+      const auto track = earth->track(from, to);
+      ASSERT_TRUE(track);
+      WantedPlaces wanted(packed.outline);
+      for (std::size_t k = 1; k < track->points.size(); ++k)
+        wanted.addLine(track->points[k - 1].plan, track->points[k].plan);
+      const TerrainModel part = packed.part(wanted.within(0));
+      const double middle = packed.whole.mt.position(VertexId(0)).z;
+      const SightLine line(*track, middle + random.between(-50, 200), middle + random.between(-50, 200));
+      const auto ofWhole = makeSightDescent(packed.whole), ofPart = makeSightDescent(part);
+      for (const double maxError : {0.0, 5.0}) {
+        const SightAnswer x = ofWhole->answer(line, {.maxError = maxError}),
+                          y = ofPart->answer(line, {.maxError = maxError});
+        EXPECT_EQ(x.verdict, y.verdict);
+        EXPECT_EQ(x.clearance, y.clearance);
+        EXPECT_EQ(x.least.distance, y.least.distance);
+        EXPECT_EQ(x.gapMetres, y.gapMetres);
+        EXPECT_EQ(x.visited, y.visited);
+        ASSERT_EQ(x.obstruction.has_value(), y.obstruction.has_value());
+        if (x.obstruction) {
+          EXPECT_EQ(x.obstruction->distance, y.obstruction->distance);
+        }
+      }
+    }
+  }
+}
+
+/// The front of a cut in the order in which it is written, told without a number of the MT.
+std::vector<double> frontOf(const MultiTriangulation& mt, const Cut& cut) {
+  std::vector<double> front;
+  for (const std::uint32_t v : cut.vertices) {
+    const Vec3 p = mt.position(VertexId(v));
+    front.insert(front.end(), {p.x, p.y, p.z});
+  }
+  for (const auto& corners : cut.triangles) front.insert(front.end(), corners.begin(), corners.end());
+  for (const std::uint32_t id : cut.ids) front.push_back(mt.error(TriangleId(id)));
+  return front;
+}
+
+TEST(WantedBy, ReadsWhatTheCutsOfARegionOrAFocusAreMadeOf) {
+  const TemporaryFolder folder;
+  std::uint64_t seed = 0, nodes = 0, nodesOfParts = 0;
+  for (const TerrainModel& model : modelsOfAllKinds()) {
+    const Packed packed(model, folder.file("packed.amt"));
+    Random random(++seed);
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const double largest = packed.whole.mt.largestError();
+    for (int i = 0; i < 12; ++i) {
+      const Vec2 p = packed.placeIn(random), q = packed.placeIn(random);
+      ExtractCriterion fine;
+      fine.maxError = largest * std::pow(random.between(0, 1), 6);
+      if (i % 4 != 0) fine.outsideError = *fine.maxError + largest * random.between(0, 1);
+      std::optional<Region> region;
+      if (i % 2 == 0) {
+        const Vec2 step{(packed.high.x - packed.low.x) * 0.1, (packed.high.y - packed.low.y) * 0.1};
+        region = i % 3 == 0 ? Region({{p, q, {p.x + step.x, q.y}}})
+                            : Region::box({p.x, p.y, p.x + step.x, p.y + step.y});
+      } else {
+        fine.focus = ExtractCriterion::Focus{.xy = packed.whole.toSource(p),
+                                             .growth = largest * random.between(0, 1e-3)};
+      }
+      ExtractCriterion coarse = fine;
+      coarse.maxError = std::min(2 * *fine.maxError, coarse.outsideError);
+      const std::vector<ExtractCriterion> criteria = {coarse, fine};
+      const auto wanted = wantedBy(criteria, region, packed.outline);
+      ASSERT_TRUE(wanted && *wanted);
+      const TerrainModel part = packed.part(*wanted);
+      nodes += packed.whole.mt.nodeCount();
+      nodesOfParts += part.mt.nodeCount();
+      for (const ExtractCriterion& criterion : criteria) {
+        const auto ofWhole = engineCriterion(criterion, region, 0, packed.whole),
+                   ofPart = engineCriterion(criterion, region, 0, part);
+        const auto x = takeCut(packed.whole.mt, **ofWhole), y = takeCut(part.mt, **ofPart);
+        ASSERT_TRUE(x && y);
+        EXPECT_TRUE(frontOf(packed.whole.mt, *x) == frontOf(part.mt, *y)) << i;
+        EXPECT_EQ(x->achievedError, y->achievedError);
+      }
+    }
+  }
+  EXPECT_LT(nodesOfParts, nodes / 2);
+}
+
+TEST(WantedBy, IsEverythingWherePixelsFitsBudgetsOrBallsDecide) {
+  const TemporaryFolder folder;
+  const Packed packed(built(build(familyNamed("ramp").make(30, 20, 1))), folder.file("packed.amt"));
+  const auto isEverything = [&](const ExtractCriterion& criterion, const std::optional<Region>& region = {}) {
+    const auto wanted = wantedBy(std::vector{criterion}, region, packed.outline);
+    return wanted && !*wanted;
+  };
+  ExtractCriterion c;
+  c.maxError = 2;
+  EXPECT_FALSE(isEverything(c));
+  const Region corner = Region::box({0, 0, 3, 3});
+  EXPECT_FALSE(isEverything(c, corner));
+  c.method = CutMethod::saturated;
+  EXPECT_FALSE(isEverything(c));
+  EXPECT_TRUE(isEverything(c, corner));
+  c.focus = ExtractCriterion::Focus{};
+  EXPECT_TRUE(isEverything(c));
+  c.focus.reset();
+  c.camera = Camera{};
+  EXPECT_TRUE(isEverything(c));
+  c.camera.reset();
+  c.fit = ExtractFit::error;
+  EXPECT_TRUE(isEverything(c));
+  c.fit = ExtractFit::none;
+  c.maxError.reset();
+  c.maxTriangles = 100;
+  EXPECT_TRUE(isEverything(c));
+}
+
+TEST(WantedBy, AsksForTheFinestOfSeveralTolerances) {
+  const TemporaryFolder folder;
+  const Packed packed(built(build(familyNamed("ramp").make(30, 20, 1))), folder.file("packed.amt"));
+  std::vector<ExtractCriterion> criteria(3);
+  for (std::size_t i = 0; i < criteria.size(); ++i) {
+    criteria[i].maxError = 4.0 - static_cast<double>(i);
+    criteria[i].outsideError = 10.0 + static_cast<double>(i);
+  }
+  const auto everywhere = wantedBy(criteria, std::nullopt, packed.outline);
+  ASSERT_TRUE(everywhere);
+  EXPECT_EQ((*everywhere)({20, 10, 21, 11}), 2);
+  const auto corner = wantedBy(criteria, Region::box({0, 0, 3, 3}), packed.outline);
+  ASSERT_TRUE(corner);
+  EXPECT_EQ((*corner)({1, 1, 2, 2}), 2);
+  EXPECT_EQ((*corner)({20, 10, 21, 11}), 10);
+}
+
+}  // namespace
+}  // namespace arete
