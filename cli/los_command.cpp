@@ -151,7 +151,7 @@ Result<SightLinkOptions> optionsOf(const LosArguments& a, const TerrainModel& mo
 WantedError wantedFor(const LosArguments& a, const SightPairs& pairs, const SightEarth& earth,
                       const TerrainModel& outline) {
   if (bestMethod(a.method, a.maxError, pairs.rows.size(), outline) != SightMethod::descent) return {};
-  WantedPlaces wanted(outline, kCellBeside);
+  WantedPlaces wanted(outline);
   for (const auto& [first, second] : pairs.rows) {
     const Vec2 from = sightPlan(outline, first.xy), to = sightPlan(outline, second.xy);
     for (const auto& [site, plan] : {std::pair{first, from}, {second, to}}) {
@@ -159,7 +159,7 @@ WantedError wantedFor(const LosArguments& a, const SightPairs& pairs, const Sigh
       wanted.add(outline.toPlan(site.xy));
     }
     if (!std::isfinite(from.x + from.y + to.x + to.y)) continue;
-    if (const auto track = earth.track(from, to)) addTrack(wanted, *track);  // else its answer says why
+    if (const auto track = earth.track(from, to)) wanted.addTrack(*track);  // else its answer says why
   }
   return wanted.within(0);
 }

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <string>
 
 #include "cli/session.h"
 #include "engine/result.h"
 #include "io/amt_file.h"
 #include "io/wanted_places.h"
-#include "terrain/sight_line.h"
 
 namespace arete {
 
@@ -25,14 +23,6 @@ inline Result<AmtFile> openModel(const std::string& path, const Session& session
 /// All but the terrain itself: of a packed file the model with its root alone.
 inline Result<TerrainModel> outlineOf(const AmtFile& file, const Session& session) {
   return file.read({wantedNowhere()}, session.context());
-}
-
-/// Walks over the cells of a raster ask for all four samples of each: of a cell's width beside a line too.
-inline constexpr double kCellBeside = 1;
-
-inline void addTrack(WantedPlaces& wanted, const SightTrack& track) {
-  for (std::size_t i = 1; i < track.points.size(); ++i)
-    wanted.addLine(track.points[i - 1].plan, track.points[i].plan);
 }
 
 }  // namespace arete

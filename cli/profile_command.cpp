@@ -235,11 +235,11 @@ Result<Answer> answerWay(const Way& way, const ProfileArguments& a, const SightE
 
 /// What is below the ways, of a packed model.
 WantedError wantedFor(const std::vector<Way>& ways, const SightEarth& earth, const TerrainModel& outline) {
-  WantedPlaces wanted(outline, kCellBeside);
+  WantedPlaces wanted(outline);
   for (const Way& way : ways) {
     for (const Vec2 vertex : way.vertices) wanted.add(outline.toPlan(vertex));
     if (const auto track = trackAlong(way, earth, outline))
-      addTrack(wanted, *track);  // else its answer says why
+      wanted.addTrack(*track);  // else its answer says why
   }
   return wanted.within(0);
 }

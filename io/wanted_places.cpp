@@ -18,9 +18,9 @@ constexpr double kMostPieces = 1 << 14;
 
 }  // namespace
 
-WantedPlaces::WantedPlaces(const TerrainModel& outline, double reach)
+WantedPlaces::WantedPlaces(const TerrainModel& outline)
     : domain_{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL},
-      reach_(reach),
+      reach_(outline.isRaster ? 1 : 0),
       isWanted_(std::size_t{kCells} * kCells, 0) {
   for (std::uint32_t i = 0; i < outline.mt.rootVertexCount(); ++i) {
     const Vec2 p = outline.mt.vertices().planPosition(VertexId(i));
@@ -68,6 +68,11 @@ void WantedPlaces::addLine(Vec2 from, Vec2 to) {
          {std::max(begin.x, end.x), std::max(begin.y, end.y)});
     begin = end;
   }
+}
+
+void WantedPlaces::addTrack(const SightTrack& track) {
+  for (std::size_t i = 1; i < track.points.size(); ++i)
+    addLine(track.points[i - 1].plan, track.points[i].plan);
 }
 
 WantedError WantedPlaces::within(double error) const {

@@ -7,6 +7,7 @@
 
 #include "engine/vec.h"
 #include "io/packed_amt.h"
+#include "terrain/sight_line.h"
 #include "terrain/terrain_model.h"
 
 namespace arete {
@@ -18,17 +19,19 @@ inline WantedError wantedNowhere() {
 
 /// Places and lines that questions will be about, so that of a packed model no more is read than these need.
 /// They are kept as cells of a grid over the terrain, any number of them in little memory; what is wanted of
-/// them is at least what they need.
+/// them is at least what they need. Of a raster that is all that is within a sample's width, for who walks
+/// over cells and asks for all four samples of each.
 class WantedPlaces {
  public:
-  /// The model: of its root alone, or any other part. reach: what is this far from a place is wanted as well,
-  /// in plan units. O(root vertices).
-  explicit WantedPlaces(const TerrainModel& outline, double reach = 0);
+  /// The model: of its root alone, or any other part. O(root vertices).
+  explicit WantedPlaces(const TerrainModel& outline);
 
   /// In plan coordinates; what is beside the terrain is put on its rim, what is not finite is passed over.
   void add(Vec2 plan);
   /// All of the straight line between two places. O(cells that it crosses).
   void addLine(Vec2 from, Vec2 to);
+
+  void addTrack(const SightTrack& track);
 
   /// This error of triangles that may touch one of the places, nothing of others.
   WantedError within(double error) const;
