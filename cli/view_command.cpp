@@ -20,6 +20,7 @@
 #include "viewer/camera/home_view.h"
 #include "viewer/camera/round_flight.h"
 #include "viewer/headless.h"
+#include "viewer/scene/curved_home_view.h"
 #include "viewer/window/window.h"
 
 namespace arete {
@@ -97,8 +98,13 @@ Result<Camera> cameraOf(const ViewArguments& a, const TerrainModel& model, const
   Camera picture;
   picture.widthPixels = width;
   picture.heightPixels = height;
-  if (a.camera.empty())
-    return homeCamera(homeOf(a.home), CameraSpace(model), metricBox(model), picture, a.exaggeration);
+  if (a.camera.empty()) {
+    const CameraSpace space(model);
+    if (!a.isCurved) return homeCamera(homeOf(a.home), space, metricBox(model), picture, a.exaggeration);
+    const auto ground = CurvedGround::create(model);
+    if (!ground) return tl::unexpected(ground.error());
+    return curvedHomeCamera(homeOf(a.home), *ground, space, metricBox(model), picture, a.exaggeration);
+  }
   const auto toDem = transformOfPlaces(a.isLonLat, model);
   if (!toDem) return tl::unexpected(toDem.error());
   Result<CameraArgument> stated = readCameraArgument("--camera", a.camera, *toDem, heights);
