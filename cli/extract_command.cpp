@@ -174,7 +174,10 @@ std::string textOf(const ExtractRequest& request, const ExtractedTin& tin, const
                   grouped(tin.vertices), withUnit(tin.storedError, unit));
   if (!request.criterion.region.empty())
     text += fmt::format(" (in the region {})", withUnit(tin.promisedError, unit));
-  if (tin.pixels) text += fmt::format(", {:.3g} pixels in the camera's picture", *tin.pixels);
+  if (tin.pixels && std::isfinite(*tin.pixels))
+    text += fmt::format(", {:.3g} pixels in the camera's picture", *tin.pixels);
+  else if (tin.pixels)
+    text += ", its pixels around the camera's eye not known";
   if (!tin.isComplete && request.criterion.deadlineMilliseconds) text += "; ended by the deadline";
   if (tin.fit && request.criterion.fit == ExtractFit::triangles)
     text += fmt::format("; {} triangles before the fit", grouped(tin.fit->trianglesBefore));

@@ -20,6 +20,7 @@
 #include "viewer/camera/home_view.h"
 #include "viewer/camera/round_flight.h"
 #include "viewer/headless.h"
+#include "viewer/scene/curved_home_view.h"
 #include "viewer/window/window.h"
 
 namespace arete {
@@ -97,8 +98,13 @@ Result<Camera> cameraOf(const ViewArguments& a, const TerrainModel& model, const
   Camera picture;
   picture.widthPixels = width;
   picture.heightPixels = height;
-  if (a.camera.empty())
-    return homeCamera(homeOf(a.home), CameraSpace(model), metricBox(model), picture, a.exaggeration);
+  if (a.camera.empty()) {
+    const CameraSpace space(model);
+    if (!a.isCurved) return homeCamera(homeOf(a.home), space, metricBox(model), picture, a.exaggeration);
+    const auto ground = CurvedGround::create(model);
+    if (!ground) return tl::unexpected(ground.error());
+    return curvedHomeCamera(homeOf(a.home), *ground, space, metricBox(model), picture, a.exaggeration);
+  }
   const auto toDem = transformOfPlaces(a.isLonLat, model);
   if (!toDem) return tl::unexpected(toDem.error());
   Result<CameraArgument> stated = readCameraArgument("--camera", a.camera, *toDem, heights);
@@ -203,6 +209,11 @@ Status checkArguments(const ViewArguments& a) {
   if (a.isLonLat && a.camera.empty()) return refuse("says what --camera X,Y,H means", "--lonlat");
   if (!a.film.empty() && a.frames.empty())
     return refuse("is made of frames: say --frames FOLDER as well", "--film " + a.film);
+  // Before hours of drawing.
+  if (!a.film.empty()) {
+    if (Status can = canEncodeFilm(a.film); !can)
+      return failure(can.error().code, can.error().message, "--film " + a.film);
+  }
   return {};
 }
 
@@ -216,6 +227,25 @@ std::string accuracyOf(const FrameFigures& figures) {
 std::string whatEnds(const ViewArguments& a) {
   if (a.deadline > 0 && a.maxTriangles > 0) return "budget or the deadline";
   return a.deadline > 0 ? "deadline" : a.maxTriangles > 0 ? "budget" : "room on the device";
+}
+
+/// Files beside the frames: none of the inputs, none of each other, none of the frames.
+Status checkOutputs(const ViewArguments& a, const TerrainModel& model) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> outputs;
+  for (const auto& [option, path] :
+       {std::pair{"--screenshot", a.screenshot}, {"--film", a.film}, {"--figures", a.figures}}) {
+    if (path.empty()) continue;
+    const fs::path file(path), folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    std::error_code ignored;
+    const bool isFrame = !a.frames.empty() && file.filename().string().starts_with("frame_") &&
+                         file.extension() == ".png" && fs::equivalent(folder, a.frames, ignored);
+    if (isFrame) outputs.push_back(path);
+    if (Status ok = checkOutput(option, path, {a.model, a.path, a.drape, model.source}, outputs); !ok)
+      return ok;
+    outputs.push_back(path);
+  }
+  return {};
 }
 
 /// Frames that an earlier flight left behind those of this one.
@@ -233,7 +263,10 @@ bool exceedsBudget(const ViewArguments& a, const FrameFigures& figures) {
 Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView& view, Session& session,
                       Json& json) {
   const Result<FrameFigures> figures = view.draw(camera);
-  if (!figures) return tl::unexpected(figures.error());
+  if (!figures)
+    return failure(figures.error().code, figures.error().message,
+                   figures.error().culprit == "camera" && !a.camera.empty() ? "--camera " + a.camera
+                                                                            : figures.error().culprit);
   if (Status saved = savePng(view.image(), a.screenshot); !saved) return saved;
   if (!figures->showsTerrain) session.warn("the picture shows nothing of the terrain");
   if (!figures->isComplete)
@@ -247,21 +280,26 @@ Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView
   return {};
 }
 
-Status makeFilm(const ViewArguments& a, const Flight& flight, HeadlessView& view, Session& session,
-                Json& json) {
+Status makeFilm(const ViewArguments& a, const Flight& flight, const SurfaceHeights& heights,
+                HeadlessView& view, Session& session, Json& json) {
   const auto frames =
       drawFilm(view, flight, {.folder = a.frames, .framesPerSecond = a.framesPerSecond}, session.context());
   if (!frames) return tl::unexpected(frames.error());
   Json list = Json::array();
   std::uint64_t triangles = 0;
-  std::size_t unfinished = 0, empty = 0, large = 0;
+  std::size_t unfinished = 0, empty = 0, large = 0, buried = 0;
   for (const FilmFrame& frame : *frames) {
+    const auto ground = heights.at(frame.camera.xy);
+    buried += ground && frame.camera.height < ground->height ? 1 : 0;
     unfinished += frame.figures.isComplete ? 0 : 1;
     empty += frame.figures.showsTerrain ? 0 : 1;
     large += exceedsBudget(a, frame.figures) ? 1 : 0;
   }
   if (empty > 0)
     session.warn(fmt::format("{} of {} frames show nothing of the terrain", empty, frames->size()));
+  if (buried > 0)
+    session.warn(
+        fmt::format("the camera stands under the ground in {} of {} frames", buried, frames->size()));
   if (unfinished > 0)
     session.warn(
         fmt::format("the {} ended the cut of {} of {} frames", whatEnds(a), unfinished, frames->size()));
@@ -317,14 +355,12 @@ Status runView(const ViewArguments& a, Session& session) {
 
   if (!a.frames.empty()) {
     if (const auto count = filmFrames(**flight, a.framesPerSecond); !count)
-      return tl::unexpected(count.error());
+      return failure(count.error().code, count.error().message,
+                     a.path.empty() ? count.error().culprit : a.path + ", " + count.error().culprit);
     std::error_code failed;  // drawFilm() says why; the film may lie in it
     std::filesystem::create_directories(a.frames, failed);
   }
-  for (const auto& [option, path] :
-       {std::pair{"--screenshot", a.screenshot}, {"--film", a.film}, {"--figures", a.figures}})
-    if (!path.empty())
-      if (Status ok = checkOutput(option, path, {a.model, a.path, a.drape, model->source}); !ok) return ok;
+  if (Status ok = checkOutputs(a, *model); !ok) return ok;
 
   const auto layDrape = [&](TerrainView& view) -> Status {
     if (Status laid = view.setDrape(a.drape, *drapeOptions, session.context()); !laid) return laid;
@@ -367,7 +403,7 @@ Status runView(const ViewArguments& a, Session& session) {
     if (Status ok = takeScreenshot(a, from, *view, session, json); !ok) return ok;
   }
   if (!a.frames.empty())
-    if (Status ok = makeFilm(a, **flight, *view, session, json); !ok) return ok;
+    if (Status ok = makeFilm(a, **flight, heights, *view, session, json); !ok) return ok;
   session.answer(json);
   return {};
 }
@@ -458,7 +494,7 @@ void addViewCommand(CLI::App& app, Session& session) {
       ->type_name("KM")
       ->group(look);
   command->add_option("--exaggeration", a->exaggeration, "Heights so many times as high (default 1)")
-      ->check(finiteAbove(0))
+      ->check(finiteBetween(1e-6, 1e6))
       ->type_name("X")
       ->group(look);
   command

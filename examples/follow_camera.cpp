@@ -33,13 +33,15 @@ int main(int argc, char** argv) {
 
   const arete::SurfaceHeights heights(*model);
   arete::IncrementalCut cut(model->mt);
+  double ground = 0;
   for (int frame = 0; frame < frames; ++frame) {
     // From the first sample towards the last, 200 units above the ground, or above the last ground that there
     // was.
     const double along = (frame + 0.5) / frames;
     arete::Camera camera;
     camera.xy = model->toSource({along * (model->columns - 1), along * (model->rows - 1)});
-    if (const auto ground = heights.at(camera.xy)) camera.height = ground->height + 200;
+    if (const auto found = heights.at(camera.xy)) ground = found->height;
+    camera.height = ground + 200;
     camera.azimuthDegrees = 135;
     camera.pitchDegrees = -15;
     const auto view = arete::viewOf(camera, *model);

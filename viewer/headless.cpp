@@ -4,13 +4,17 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <system_error>
 
+#include "io/text_scan.h"
 #include "viewer/gl/frame_target.h"
 #include "viewer/gl/offscreen.h"
 #include "viewer/stopwatch.h"
@@ -143,16 +147,37 @@ Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight
     FilmFrame frame;
     frame.seconds = double(i) / rate;
     frame.camera = flight.at(frame.seconds);
-    const Result<FrameFigures> figures = view.draw(frame.camera);
-    if (!figures) return tl::unexpected(figures.error());
-    frame.figures = *figures;
     const auto path = options.folder / fmt::format("frame_{:05}.png", i);
+    const Result<FrameFigures> figures = view.draw(frame.camera);
+    if (!figures)
+      return failure(figures.error().code, figures.error().message,
+                     fmt::format("{}, {}", path.string(), figures.error().culprit));
+    frame.figures = *figures;
     if (const Status saved = savePng(view.image(), path); !saved) return tl::unexpected(saved.error());
     frame.file = path.string();
     frames.push_back(std::move(frame));
     context.report("draw frames", double(i + 1) / double(*count));
   }
   return frames;
+}
+
+Status canEncodeFilm(const std::filesystem::path& film) {
+  constexpr std::array kEndings = {"mp4", "m4v", "mov", "mkv", "avi"};
+  if (std::ranges::find(kEndings, text::lowerExtension(film.string())) == kEndings.end())
+    return failure(ErrorCode::usage, "a film ends in .mp4, .m4v, .mov, .mkv or .avi", film.string());
+  // As posix_spawnp() looks for it.
+  const char* listed = std::getenv("PATH");
+  const std::string folders = listed ? listed : "/bin:/usr/bin";
+  for (std::size_t at = 0; at <= folders.size();) {
+    const std::size_t end = std::min(folders.find(':', at), folders.size());
+    if (::access((std::filesystem::path(folders.substr(at, end - at)) / "ffmpeg").c_str(), X_OK) == 0)
+      return {};
+    at = end + 1;
+  }
+  return failure(ErrorCode::unsupported,
+                 "a film needs ffmpeg, which this machine does not have (Debian: ffmpeg); --frames alone "
+                 "does without",
+                 film.string());
 }
 
 Status encodeFilm(const std::filesystem::path& folder, std::size_t frames, double framesPerSecond,

@@ -68,10 +68,13 @@ struct FilmFrame {
 Result<std::uint64_t> filmFrames(const Flight& flight, double framesPerSecond);
 
 /// A flight's frames as PNGs, rising. Errors: usage (more than a million); those of drawing and writing;
-/// interrupted, which leaves whole
-/// frames only.
+/// interrupted, which leaves whole frames only. What goes wrong with a frame names it.
 Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight, const FilmOptions& options,
                                         const RunContext& context = {});
+
+/// Whether encodeFilm() may be able to make a film of that name. Errors: usage (an ending of nothing that
+/// holds H.264), unsupported (no ffmpeg on this machine).
+Status canEncodeFilm(const std::filesystem::path& film);
 
 /// The first frames of a folder as an H.264 film, by the ffmpeg of the machine. Errors: unsupported when
 /// there is none; unreadable when it fails; interrupted. Then there is no film.

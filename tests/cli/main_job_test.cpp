@@ -513,6 +513,17 @@ TEST_F(MainJob, ServesACameraAPlaceABudgetAndADeadline) {
   EXPECT_EQ(soon["complete"], true);
 }
 
+TEST_F(MainJob, SaysInWordsThatThePixelsOfACoarseCutAreNotKnown) {
+  makeRaster("dem.tif", "fractal", 60, 60);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  const RasterHeightfield field = readRaster(path("dem.tif"))->heightfield;
+  const Outcome o = run(
+      {"extract", "dem.amt", "-o", "t.ply", "--camera=" + place(field, 30, 30, ",2"), "--deadline", "1e-6"});
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("its pixels around the camera's eye not known"), std::string::npos) << o.out;
+  EXPECT_EQ(o.out.find("inf"), std::string::npos) << o.out;
+}
+
 TEST_F(MainJob, RefusesCriteriaThatContradictEachOther) {
   makeRaster("dem.tif", "fractal", 20, 20);
   ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);

@@ -77,6 +77,54 @@ TEST_F(ViewCommand, AFlightFromAFileIsFlown) {
   EXPECT_TRUE(exists("frames/frame_00002.png"));
 }
 
+TEST_F(ViewCommand, NothingIsWrittenOverWhatTheSameCommandWrites) {
+  for (const auto& [option, file] : {std::pair{"--screenshot", "frames/frame_00000.png"},
+                                     {"--screenshot", "frames/../frames/frame_00000.png"},
+                                     {"--figures", "twice.png"}}) {
+    std::vector<std::string> arguments = {"view",     "dem.amt", "--headless", "--round",
+                                          "--frames", "frames",  "--fps",      "0.1"};
+    if (std::string(option) == "--figures") arguments.insert(arguments.end(), {"--screenshot", "twice.png"});
+    arguments.insert(arguments.end(), {option, file});
+    const Outcome o = run(arguments);
+    EXPECT_EQ(o.code, 2) << o.err;
+    EXPECT_NE(o.err.find(std::string(option) + " " + file + ": is written by this command already"),
+              std::string::npos)
+        << o.err;
+  }
+}
+
+TEST_F(ViewCommand, AFilmThatCannotBeMadeIsRefusedBeforeItIsDrawn) {
+  const char* path = std::getenv("PATH");
+  const std::string kept = path ? path : "";
+  setenv("PATH", "/nonexistent", 1);
+  const Outcome without = run(
+      {"view", "dem.amt", "--headless", "--round", "--frames", "frames", "--fps", "0.1", "--film", "a.mp4"});
+  const Outcome picture = run(
+      {"view", "dem.amt", "--headless", "--round", "--frames", "frames", "--fps", "0.1", "--film", "a.gif"});
+  setenv("PATH", kept.c_str(), 1);
+  EXPECT_EQ(without.code, 3) << without.err;
+  EXPECT_NE(without.err.find("--film a.mp4: a film needs ffmpeg"), std::string::npos) << without.err;
+  EXPECT_EQ(picture.code, 2) << picture.err;
+  EXPECT_NE(picture.err.find("--film a.gif: a film ends in .mp4"), std::string::npos) << picture.err;
+  EXPECT_FALSE(exists("frames"));
+}
+
+TEST_F(ViewCommand, AFlightUnderTheGroundIsWarnedOf) {
+  const Json camera = run({"view", "dem.amt", "--headless", "--screenshot", "x.png", "--size", "64x64",
+                           "--home", "above", "--json"})
+                          .json()["screenshot"]["camera"];
+  if (camera.is_null()) GTEST_SKIP() << "no OpenGL here";
+  Json key = camera, other = camera;
+  key["height"] = other["height"] = -1e6;
+  other["azimuth"] = 40;
+  write("flight.json", Json{{"frames", {key, other}}, {"duration", 1}}.dump());
+  const Outcome film = run({"view", "dem.amt", "--headless", "--path", "flight.json", "--frames", "frames",
+                            "--fps", "1", "--size", "64x64"});
+  ASSERT_EQ(film.code, 0) << film.err;
+  EXPECT_NE(film.err.find("the camera stands under the ground in 2 of 2 frames"), std::string::npos)
+      << film.err;
+}
+
 TEST_F(ViewCommand, SaysWhatIsWrongInASentence) {
   write("one.json", R"({"frames":[{"x":1,"y":2,"height":3,"azimuth":0,"pitch":0}],"duration":3})");
   write("equal.json", R"({"frames":[{"x":1,"y":2,"height":3,"azimuth":0,"pitch":0},
@@ -111,7 +159,8 @@ TEST_F(ViewCommand, SaysWhatIsWrongInASentence) {
        "--home above: is where --screenshot"},
       {{"--headless", "--round", "--frames", "g", "--camera", "1,2,3"}, 2, "--camera 1,2,3: is where"},
       {{"--headless", "--screenshot", "a.png", "--lonlat"}, 2, "--camera"},
-      {{"--headless", "--frames", "h", "--path", "endless.json"}, 2, "frames"},
+      {{"--headless", "--frames", "h", "--path", "endless.json"}, 2, "endless.json, flight: "},
+      {{"--headless", "--screenshot", "a.png", "--exaggeration", "1e300"}, 2, "--exaggeration: must be"},
       {{"--headless", "--frames", "h", "--path", "both.json"}, 4, "leave one out"},
       {{"--headless", "--frames", "f"}, 2, "--path FLIGHT.json or --round"},
       {{"--headless", "--screenshot", "a.png", "--film", "a.mp4"}, 2, "--frames FOLDER"},

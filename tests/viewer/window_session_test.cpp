@@ -206,6 +206,23 @@ TEST(Session, GoToLooksAtAPlaceOrStandsAtAPosition) {
   }
 }
 
+TEST(Session, GoToFindsALongitudeThatIsWholeTurnsOff) {
+  const TerrainModel& geographic = test::cameraModels()[5].model;
+  ASSERT_TRUE(geographic.georeference.isGeographic);
+  ViewerSession s(geographic, {});
+  s.rig.setFloorMetres(0);
+  const Vec2 xy = geographic.toSource({20, 15});
+  for (const double turns : {-1.0, 0.0, 1.0, 2.0}) {
+    SCOPED_TRACE(turns);
+    const std::string place = std::to_string(xy.x + 360 * turns) + "," + std::to_string(xy.y);
+    const auto goal = s.places.read(place, false);
+    ASSERT_TRUE(goal) << goal.error().describe();
+    EXPECT_NEAR(goal->xy.x, xy.x, 1e-6);
+    s.goTo(place + ",5000msl", false);
+    EXPECT_NEAR(s.rig.camera().xy.x, xy.x, 1e-6);
+  }
+}
+
 TEST(Session, ContourIntervalsAreRoundAndAboutADozen) {
   for (double range = 0.013; range < 1e5; range *= 1.37) {
     const double interval = usualContourInterval(range);

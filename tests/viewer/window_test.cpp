@@ -87,6 +87,39 @@ TEST(Window, RendersAFlightIntoAFolderOfFrames) {
   EXPECT_TRUE(names.contains("frame_00000.png"));
 }
 
+TEST(Window, GoesBackFromWhereACurvedEarthCannotBeSeen) {
+  ARETE_UNDER_XVFB("");
+  const RasterFamily& family = rasterFamilies()[2];
+  for (const bool isKnown : {true, false}) {
+    SCOPED_TRACE(isKnown ? "a camera beyond the pole" : "a CRS that nobody knows");
+    TerrainModel model = test::modelOn(family, {10, 0.001, 0, 60.015, 0, -0.001}, true);
+    if (isKnown) model.georeference.crsWkt = "EPSG:4326";
+    WindowOptions options{
+        .title = "test", .width = 320, .height = 240, .samples = 1, .waitsForScreen = false};
+    options.start.settings.isCurved = isKnown;
+    bool isChecked = false;
+    options.onFrame = [&](ViewerSession& s, int frame) {
+      if (frame == 2) {
+        s.rig.setFloorMetres(0);
+        Camera beyond = s.rig.camera();
+        beyond.xy.y = 95;
+        if (isKnown) s.rig.place(beyond);
+        s.settings.isCurved = true;
+      }
+      if (frame == 4) {
+        EXPECT_NE(s.message().find(isKnown ? "CRS" : "curvature"), std::string::npos) << s.message();
+        EXPECT_EQ(s.settings.isCurved, isKnown);
+        EXPECT_LT(s.rig.camera().xy.y, 61);
+        isChecked = true;
+      }
+      return frame < 5;
+    };
+    const Status shown = runWindow(model, options);
+    EXPECT_TRUE(shown) << shown.error().describe();
+    EXPECT_TRUE(isChecked);
+  }
+}
+
 TEST(Window, AnOpenGlBelow45IsASentenceThatNamesIt) {
   ARETE_UNDER_XVFB("MESA_GL_VERSION_OVERRIDE=3.3");
   const Status shown = runWindow(northUp(), {.title = "test", .frames = 1});

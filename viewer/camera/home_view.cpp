@@ -76,6 +76,10 @@ MetricBox metricBox(const TerrainModel& model) {
   return {metric.toMetric(low), metric.toMetric(high)};
 }
 
+PictureAxes axesOf(const CameraSpace& space, Look look) {
+  return {space.right(look.azimuthDegrees), space.up(look), space.forward(look)};
+}
+
 std::string_view toString(HomeView view) {
   switch (view) {
     case HomeView::overview:
@@ -94,53 +98,60 @@ std::string_view toString(HomeView view) {
   return "unknown";
 }
 
-Camera cameraOnAll(const CameraSpace& space, const MetricBox& box, Look look, const Camera& picture) {
-  const Vec3 right = space.right(look.azimuthDegrees), up = space.up(look), ahead = space.forward(look);
+Vec3 eyeOnAll(std::span<const Vec3> points, const PictureAxes& axes, const Camera& picture) {
   const double slope =
       std::tan(picture.verticalFieldOfViewDegrees * std::numbers::pi / 360) * (1 - 2 * kFree);
   Sides across{.slope = slope * picture.widthPixels / picture.heightPixels}, upwards{.slope = slope};
-  const Vec3 centre = box.centre();
   std::vector<Vec2> acrossAndAhead, upAndAhead;
-  for (const Vec3& corner : box.corners()) {
-    const Vec3 d{corner.x - centre.x, corner.y - centre.y, corner.z - centre.z};
-    across.take(dot(d, right), dot(d, ahead));
-    upwards.take(dot(d, up), dot(d, ahead));
-    acrossAndAhead.push_back({dot(d, right), dot(d, ahead)});
-    upAndAhead.push_back({dot(d, up), dot(d, ahead)});
+  for (const Vec3& p : points) {
+    const Vec3 there{dot(p, axes.right), dot(p, axes.up), dot(p, axes.ahead)};
+    across.take(there.x, there.z);
+    upwards.take(there.y, there.z);
+    acrossAndAhead.push_back({there.x, there.z});
+    upAndAhead.push_back({there.y, there.z});
   }
   const double z = std::min(across.mostAhead(), upwards.mostAhead());
   const double x = across.balanced(z, acrossAndAhead), y = upwards.balanced(z, upAndAhead);
-  Camera camera = space.at(picture, {centre.x + x * right.x + y * up.x + z * ahead.x,
-                                     centre.y + x * right.y + y * up.y + z * ahead.y,
-                                     centre.z + x * right.z + y * up.z + z * ahead.z});
+  return {x * axes.right.x + y * axes.up.x + z * axes.ahead.x,
+          x * axes.right.y + y * axes.up.y + z * axes.ahead.y,
+          x * axes.right.z + y * axes.up.z + z * axes.ahead.z};
+}
+
+Camera cameraOnAll(const CameraSpace& space, const MetricBox& box, Look look, const Camera& picture) {
+  const Vec3 centre = box.centre();
+  std::array<Vec3, 8> corners = box.corners();
+  for (Vec3& corner : corners) corner = {corner.x - centre.x, corner.y - centre.y, corner.z - centre.z};
+  const Vec3 eye = eyeOnAll(corners, axesOf(space, look), picture);
+  Camera camera = space.at(picture, {centre.x + eye.x, centre.y + eye.y, centre.z + eye.z});
   camera.azimuthDegrees = wrappedAzimuth(look.azimuthDegrees);
   camera.pitchDegrees = look.pitchDegrees;
   return camera;
 }
 
+Look homeLook(HomeView view) {
+  switch (view) {
+    case HomeView::overview:
+      return {0, -30};
+    case HomeView::fromAbove:
+      return {0, -90};
+    case HomeView::fromSouth:
+      return {0, 0};
+    case HomeView::fromWest:
+      return {90, 0};
+    case HomeView::fromNorth:
+      return {180, 0};
+    case HomeView::fromEast:
+      return {270, 0};
+  }
+  return {};
+}
+
 Camera homeCamera(HomeView view, const CameraSpace& space, const MetricBox& box, const Camera& picture,
                   double stretch) {
-  const auto look = [&]() -> Look {
-    switch (view) {
-      case HomeView::overview:
-        return {0, -30};
-      case HomeView::fromAbove:
-        return {0, -90};
-      case HomeView::fromSouth:
-        return {0, 0};
-      case HomeView::fromWest:
-        return {90, 0};
-      case HomeView::fromNorth:
-        return {180, 0};
-      case HomeView::fromEast:
-        return {270, 0};
-    }
-    return {};
-  };
   MetricBox drawn = box;
   drawn.low.z *= stretch;
   drawn.high.z *= stretch;
-  const Camera camera = cameraOnAll(space, drawn, look(), picture);
+  const Camera camera = cameraOnAll(space, drawn, homeLook(view), picture);
   const Vec3 place = space.position(camera);
   return space.at(camera, {place.x, place.y, place.z / stretch});
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string_view>
 
 #include "viewer/camera/camera_space.h"
@@ -33,6 +34,19 @@ enum class HomeView {
 inline constexpr std::array kHomeViews = {HomeView::overview, HomeView::fromAbove, HomeView::fromSouth,
                                           HomeView::fromWest, HomeView::fromNorth, HomeView::fromEast};
 std::string_view toString(HomeView view);
+/// Where it looks, in the middle of the terrain.
+Look homeLook(HomeView view);
+
+/// Of a picture: unit vectors at right angles.
+struct PictureAxes {
+  Vec3 right, up, ahead;
+};
+PictureAxes axesOf(const CameraSpace& space, Look look);
+
+/// The nearest eye that has all points in its picture, with a twentieth of it free on either side at least.
+/// Only field of view and size are the camera's. Preconditions: a point; a field of view of 0 to below 180
+/// degrees. O(points).
+Vec3 eyeOnAll(std::span<const Vec3> points, const PictureAxes& axes, const Camera& picture);
 
 /// The nearest camera of a direction that has all of the box in its picture, with a twentieth of the picture
 /// free on either side at least, and as much on one as on the other. `picture` gives field of view

@@ -58,6 +58,10 @@ double largestOver(const Form& form) {
   return most;
 }
 
+tl::unexpected<Error> cameraIsBeyondTheCrs() {
+  return failure(ErrorCode::usage, "the CRS of the DEM does not reach to where the camera stands", "camera");
+}
+
 }  // namespace
 
 struct CurvedGround::State {
@@ -88,6 +92,21 @@ struct CurvedGround::State {
   Vec3 vertical(Vec2 xy, double height) const {
     constexpr double kSpan = 1000;  // units: far enough for the last bits not to matter
     return unit(plus(position(xy, height + kSpan), position(xy, height), -1));
+  }
+  /// The map's directions at a place, levelled there: unit vectors, not finite where the CRS does not reach.
+  struct Level {
+    Vec3 up, east, north;
+    bool isThere() const { return isFinite(up) && isFinite(east) && isFinite(north); }
+  };
+  Level level(Vec2 xy, double height) const {
+    const Georeference& g = model->georeference;
+    const double step = g.isGeographic ? 1e-4 * kRadians / g.angularUnitRadians : 10 / g.linearUnitMetres;
+    const auto between = [&](double dx, double dy) {
+      return plus(position({xy.x + dx, xy.y + dy}, height), position({xy.x - dx, xy.y - dy}, height), -1);
+    };
+    const Vec3 up = vertical(xy, height);
+    const auto levelled = [&](const Vec3& a) { return unit(plus(a, up, -dot(a, up))); };
+    return {up, levelled(between(step, 0)), levelled(between(0, step))};
   }
   void turn();
   bool measure();
@@ -188,26 +207,42 @@ Result<View> CurvedGround::viewOf(const Camera& camera, double stretch) const {
   const State& s = *state_;
   Result<View> view = arete::viewOf(camera, *s.model);  // for what it checks
   if (!view) return view;
-  const Georeference& g = s.model->georeference;
-  const double step = g.isGeographic ? 1e-4 * kRadians / g.angularUnitRadians : 10 / g.linearUnitMetres;
   const double height = s.stretched(camera.height, stretch);
-  const auto at = [&](double dx, double dy) {
-    return s.position({camera.xy.x + dx, camera.xy.y + dy}, height);
-  };
-  const Vec3 up = s.vertical(camera.xy, height);
-  const auto levelled = [&](const Vec3& a) { return unit(plus(a, up, -dot(a, up))); };
-  const Vec3 east = levelled(plus(at(step, 0), at(-step, 0), -1)),
-             north = levelled(plus(at(0, step), at(0, -step), -1));
-  if (!isFinite(up) || !isFinite(east) || !isFinite(north))
-    return failure(ErrorCode::usage, "the CRS of the DEM does not reach to where the camera stands",
-                   "camera");
+  const State::Level there = s.level(camera.xy, height);
+  if (!there.isThere()) return cameraIsBeyondTheCrs();
 
   const double azimuth = camera.azimuthDegrees * kRadians, pitch = camera.pitchDegrees * kRadians;
-  const Vec3 level = unit(plus(plus({}, east, std::sin(azimuth)), north, std::cos(azimuth)));
-  view->eye = at(0, 0);
-  view->forward = plus(plus({}, level, std::cos(pitch)), up, std::sin(pitch));
-  view->up = plus(plus({}, level, -std::sin(pitch)), up, std::cos(pitch));
+  const Vec3 level = unit(plus(plus({}, there.east, std::sin(azimuth)), there.north, std::cos(azimuth)));
+  view->eye = s.position(camera.xy, height);
+  view->forward = plus(plus({}, level, std::cos(pitch)), there.up, std::sin(pitch));
+  view->up = plus(plus({}, level, -std::sin(pitch)), there.up, std::cos(pitch));
   return view;
+}
+
+Result<Camera> CurvedGround::cameraAt(const Vec3& eye, const PictureAxes& axes, const Camera& picture,
+                                      double stretch) const {
+  const State& s = *state_;
+  const Vec3 place = source(eye, stretch);
+  Camera camera = picture;
+  camera.xy = {place.x, place.y};
+  camera.height = place.z;
+  const State::Level there = s.level(camera.xy, s.stretched(camera.height, stretch));
+  if (!isFinite(place) || !there.isThere()) return cameraIsBeyondTheCrs();
+  const double rise = dot(axes.ahead, there.up);
+  Vec3 along = plus(axes.ahead, there.up, -rise);
+  double run = length(along);
+  constexpr double kUpright = 0.02;  // a degree or so
+  if (run < kUpright) {
+    const Vec3 top = plus({}, axes.up, rise < 0 ? 1 : -1);
+    along = unit(plus(top, there.up, -dot(top, there.up)));
+    run = std::max(dot(axes.ahead, along), 0.0);
+  }
+  // The map's directions need not be at right angles.
+  const double skew = dot(there.east, there.north), east = dot(along, there.east),
+               north = dot(along, there.north);
+  camera.azimuthDegrees = wrappedAzimuth(std::atan2(east - skew * north, north - skew * east) / kRadians);
+  camera.pitchDegrees = std::atan2(rise, run) / kRadians;
+  return camera;
 }
 
 Result<MultiTriangulation> CurvedGround::bentMt(double stretch, const RunContext& context) const {

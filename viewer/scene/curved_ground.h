@@ -9,6 +9,7 @@
 #include "engine/view.h"
 #include "terrain/camera.h"
 #include "terrain/terrain_model.h"
+#include "viewer/camera/home_view.h"
 
 namespace arete {
 
@@ -35,6 +36,12 @@ class CurvedGround {
   /// north there, pitches from the level there. Errors: usage, of a camera's numbers or for a place that the
   /// CRS does not reach, as are the poles of a geographic one.
   Result<View> viewOf(const Camera& camera, double stretch = 1) const;
+
+  /// Back: the camera that stands at a place of this space and looks ahead, of `picture`'s size and field of
+  /// view. Cameras do not roll. Where it looks along the vertical within a degree, the top of the picture is
+  /// that of the axes, and ahead may be as far off. Errors: usage, as above.
+  Result<Camera> cameraAt(const Vec3& eye, const PictureAxes& axes, const Camera& picture = {},
+                          double stretch = 1) const;
 
   /// The model's multitriangulation there (engine/bent_mt.h). Errors: invalidData for a vertex that the CRS
   /// does not reach; interrupted. O(vertices) of PROJ for a projected CRS, in parallel.

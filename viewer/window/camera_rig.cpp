@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "viewer/scene/curved_home_view.h"
+
 namespace arete {
 namespace {
 
@@ -73,10 +75,11 @@ void CameraRig::setMode(CameraMode mode) {
   enter(camera_);
 }
 
-void CameraRig::home(HomeView view) {
+void CameraRig::home(HomeView view, const CurvedGround* ground) {
   mode_ = CameraMode::orbit;
   follows_ = false;
-  enter(homeCamera(view, space_, picker_.box(), camera_, stretch_));
+  enter(ground ? curvedHomeCamera(view, *ground, space_, picker_.box(), camera_, stretch_)
+               : homeCamera(view, space_, picker_.box(), camera_, stretch_));
 }
 
 void CameraRig::lookAt(const Vec3& metric, double metres) {

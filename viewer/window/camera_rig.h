@@ -31,7 +31,8 @@ class CameraRig {
   void setMode(CameraMode mode);
   /// Puts the camera elsewhere, by a flight or a key frame. Picture size and exaggeration stay.
   void place(const Camera& camera);
-  void home(HomeView view);
+  /// A view of all of the terrain, on a curved Earth where there is one.
+  void home(HomeView view, const CurvedGround* ground = nullptr);
   /// Orbits a place of the terrain, from where the camera looks now, at `metres` from it (0 = as far as now).
   void lookAt(const Vec3& metric, double metres = 0);
 

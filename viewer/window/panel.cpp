@@ -275,8 +275,7 @@ void Panel::cameraSection(ViewerSession& s) {
     if (view != HomeView::overview) ImGui::SameLine(0, 3);
     const std::string name = view == HomeView::overview ? "home" : std::string(toString(view));
     if (ImGui::SmallButton(name.c_str())) {
-      s.deck.stop();
-      s.rig.home(view);
+      s.home(view);
     }
   }
   bool goes = ImGui::InputTextWithHint("##goal", isGoalLonLat_ ? "lon,lat or lon,lat,H" : "X,Y or X,Y,H",

@@ -46,8 +46,9 @@ std::string PlaceText::height(double height) const {
 
 Result<PlaceText::Goal> PlaceText::read(const std::string& text, bool isLonLat) const {
   const Georeference& dem = heights_.model().georeference;
-  const Result<CrsTransform> toDem = isLonLat ? CrsTransform::fromLonLat(dem) : CrsTransform();
+  Result<CrsTransform> toDem = isLonLat ? CrsTransform::fromLonLat(dem) : CrsTransform();
   if (!toDem) return tl::unexpected(toDem.error());
+  toDem->setTurns(LongitudeTurns(heights_.model()));
   Goal goal;
   if (std::count(text.begin(), text.end(), ',') < 2) {
     const auto place = readPlaceArgument("go to", text, *toDem);

@@ -29,7 +29,8 @@ class PlaceText {
     double ground = 0;  ///< height of the terrain there; the middle of the DEM's where there is none
     std::optional<double> height;  ///< as the DEM's heights; nothing: a place on the ground was asked for
   };
-  /// "X,Y" or "X,Y,H", H as io/position_argument.h has it. Errors: usage, invalidData, naming what was typed;
+  /// "X,Y" or "X,Y,H", H as io/position_argument.h has it; a longitude may be whole turns off. Errors:
+  /// usage, invalidData, naming what was typed;
   /// a place outside of the terrain has none without a height.
   Result<Goal> read(const std::string& text, bool isLonLat) const;
 

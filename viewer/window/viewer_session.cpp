@@ -37,6 +37,7 @@ ViewerSession::ViewerSession(const TerrainModel& terrain, const Start& start)
       framesFolder("frames") {
   rig.setStretch(settings.stretch);
   settings.waits = false;
+  if (!start.camera && settings.isCurved) rig.home(HomeView::overview, curvedGround());
   if (start.flight) deck.setPlan(*start.flight);
 }
 
@@ -80,9 +81,8 @@ void ViewerSession::apply(Action action) {
       say(rig.mode() == CameraMode::orbit ? "orbit" : "free flight");
       break;
     case Action::nextHome: {
-      deck.stop();
       const HomeView view = kHomeViews[nextHome_++ % kHomeViews.size()];
-      rig.home(view);
+      home(view);
       say(fmt::format("home: {}", toString(view)));
       break;
     }
@@ -200,6 +200,11 @@ void ViewerSession::startViewshed() {
   const TerrainPick& from = picks.back();
   viewshed.start(model, sights.earth(), {sightPlan(model, from.xy), from.height + observerAbove}, targetAbove,
                  mostOverlayPixels);
+}
+
+void ViewerSession::home(HomeView view) {
+  deck.stop();
+  rig.home(view, curvedGround());
 }
 
 void ViewerSession::goTo(const std::string& text, bool isLonLat) {

@@ -47,6 +47,7 @@ class ViewerSession {
   void clearPicks();
   /// From the last pick.
   void startViewshed();
+  void home(HomeView view);
   /// To what was typed; a sentence in message() where that is nowhere.
   void goTo(const std::string& text, bool isLonLat);
   /// Says something to the person, for a few seconds.

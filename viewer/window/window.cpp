@@ -236,6 +236,19 @@ class WindowLoop {
     }
   }
 
+  /// To what could be drawn, from what cannot: a camera beyond the CRS of a curved Earth, for instance.
+  void goBack(const Error& why) {
+    ViewerSession& s = session_;
+    s.say(why.describe());
+    s.deck.stop();
+    s.wantsFrames = false;
+    files_.reset();
+    s.settings.isCurved = drawn_->isCurved;
+    s.settings.stretch = drawn_->stretch;
+    s.rig.setStretch(drawn_->stretch);
+    s.rig.place(drawn_->camera);
+  }
+
   Status drawTerrain() {
     ViewerSession& s = session_;
     if (s.isOverlayNew) {
@@ -250,14 +263,26 @@ class WindowLoop {
     // A film has every frame as it should be.
     settings.waits = settings.waits || files_.has_value();
     if (!s.isFrozen || !hasCut_) {
-      const Result<FrameFigures> figures = view_.cut(s.rig.camera(), settings);
+      Result<FrameFigures> figures = view_.cut(s.rig.camera(), settings);
+      if (!figures && drawn_) {
+        goBack(figures.error());
+        settings = s.settings;
+        figures = view_.cut(s.rig.camera(), settings);
+      }
       if (!figures) return tl::unexpected(figures.error());
       s.figures = *figures;
       hasCut_ = true;
     }
     target_->begin();
     const auto start = Clock::now();
-    if (Status drawn = view_.draw(s.rig.camera(), settings); !drawn) return drawn;
+    Status drawn = view_.draw(s.rig.camera(), settings);
+    if (!drawn && drawn_) {
+      goBack(drawn.error());
+      settings = s.settings;
+      drawn = view_.draw(s.rig.camera(), settings);
+    }
+    if (!drawn) return drawn;
+    drawn_ = {s.rig.camera(), s.settings.isCurved, s.settings.stretch};
     std::vector<LineEnd> lines = linesOf(s);
     if (settings.isCurved) bend(lines, settings);
     if (!files_) view_.painter().drawLines(lines);
@@ -314,6 +339,12 @@ class WindowLoop {
   std::optional<FrameFiles> files_;
   Image shown_;
   bool hasCut_ = false;
+  struct Drawn {
+    Camera camera;
+    bool isCurved = false;
+    double stretch = 1;
+  };
+  std::optional<Drawn> drawn_;  // last
   Clock::time_point lastFrame_ = Clock::now(), lastMemory_{};
 };
 

@@ -6,7 +6,8 @@ out vec3 fromEye;
 out vec2 overGround;  // from the eye, in flat metric space
 void main() {
   float risen = rise * metricScale.z;
-  place = vec3(spot.xy, spot.z + risen);
+  // A rise on a curved Earth is mostly the sag of a chord: colours and contours go by the heights at rest.
+  place = vec3(spot.xy, earth.y > 0.0 ? spot.z : spot.z + risen);
   vec3 there = earth.y > 0.0 ? vec3(position.xy, position.z + risen * earth.x) : vec3(place.xy, place.z * lens.w);
   fromEye = (there - eyeHigh.xyz) - eyeLow.xyz;
   overGround = (place.xy - eyeGround.xy) - eyeGround.zw;
