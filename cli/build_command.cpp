@@ -167,7 +167,7 @@ Status runBuild(BuildArguments& arguments, Session& session) {
         Result<TerrainModel> model = build(field, arguments.options, session.context());
         if (!model) return tl::unexpected(model.error());
         seconds.build = building.seconds();
-        model->reading = arguments.dem.reading();
+        model->reading = arguments.dem.reading;
 
         Stopwatch writing;
         const AmtWriteOptions options{.isPacked = arguments.isPacked};

@@ -20,6 +20,7 @@
 #include "engine/cut.h"
 #include "io/amt_file.h"
 #include "io/certificate.h"
+#include "io/dem_reader.h"
 #include "io/export_tin.h"
 #include "io/mesh_file.h"
 #include "terrain/build.h"
@@ -135,7 +136,7 @@ class Demo {
   Status read() {
     if (const auto checked = checkedTolerances(options_.maxErrors); !checked)
       return tl::unexpected(checked.error());
-    Result<DemRead> dem = readDem(report_.dem, options_.read, context_);
+    Result<DemRead> dem = readDem(report_.dem, options_.reading, context_);
     if (!dem) return tl::unexpected(dem.error());
     if (!std::holds_alternative<RasterHeightfield>(dem->heightfield))
       return failure(ErrorCode::unsupported,
