@@ -13,7 +13,6 @@
 #include <functional>
 
 #include "bench/forked.h"
-#include "terrain/terrain_model.h"
 
 namespace arete::bench {
 namespace {

@@ -18,6 +18,7 @@
 
 #include "engine/criterion.h"
 #include "engine/cut.h"
+#include "engine/stopwatch.h"
 #include "io/amt_file.h"
 #include "io/certificate.h"
 #include "io/dem_reader.h"
@@ -34,7 +35,6 @@
 #include "viewer/chart.h"
 #include "viewer/error_map.h"
 #include "viewer/headless.h"
-#include "viewer/stopwatch.h"
 #include "viewer/ticks.h"
 #include "viewer/tin_picture.h"
 #include "viewer/viewshed_map.h"

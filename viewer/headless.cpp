@@ -11,9 +11,9 @@
 #include <optional>
 #include <system_error>
 
+#include "engine/stopwatch.h"
 #include "viewer/gl/frame_target.h"
 #include "viewer/gl/offscreen.h"
-#include "viewer/stopwatch.h"
 
 extern char** environ;
 
