@@ -109,7 +109,7 @@ class DemRun {
       variants.push_back({HoleShape::fidelity, 0});
     for (const BuildVariant& variant : variants) {
       const int repeats = isMeasured ? plan_.repetition.most : 1;
-      if (const Status status = build(variant, repeats, isMeasured); !status) return status;
+      if (Status status = build(variant, repeats, isMeasured); !status) return status;
     }
     return {};
   }

@@ -62,12 +62,12 @@ class AmtWriting {
     add(source(amt_tag::kMetadata, json_));
     if (!options.isPacked) {
       addArrays();
-    } else if (const Status packed = addPacked(); !packed) {
+    } else if (Status packed = addPacked(); !packed) {
       return packed;
     }
     addExtras();
     for (const AmtShape& shape : amtShapes(metadata, options.isPacked)) shapes_.push_back(shape);
-    if (const Status placed = layOut(); !placed) return placed;
+    if (Status placed = layOut(); !placed) return placed;
     if (!seal()) return interrupted();
     return write();
   }
@@ -188,7 +188,7 @@ class AmtWriting {
     }
     pad(*out, at);
     if (context_.cancelled()) return interrupted();
-    if (const Status finished = out->finish(); !finished) return finished;
+    if (Status finished = out->finish(); !finished) return finished;
     context_.report("write", 1);
     return {};
   }

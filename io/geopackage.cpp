@@ -36,7 +36,7 @@ Status writeGeoPackage(const std::filesystem::path& path, const GeoPackageFill& 
       driver->Create(file->temporaryPath().string().c_str(), 0, 0, 0, GDT_Unknown, nullptr));
   if (!dataset)
     return failure(ErrorCode::unreadable, fmt::format("cannot be created: {}", errors.firstFailure()));
-  const Status filled = fill(*dataset, errors);
+  Status filled = fill(*dataset, errors);
   dataset.reset();
   if (!filled) return filled;
   if (errors.anyFailure()) return cannotBeWritten(errors);
