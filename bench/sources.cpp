@@ -7,9 +7,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <utility>
+#include <variant>
 
 #include "bench/figure.h"
 #include "datasets/terrain_generator.h"
+#include "io/amt_file.h"
+#include "io/dem_reader.h"
 #include "io/raster_writer.h"
 
 namespace arete::bench {
@@ -98,6 +102,20 @@ Status generateDem(const DemSource& source) {
   const Result<RasterHeightfield> field = generateTerrain(options);
   if (!field) return tl::unexpected(field.error());
   return writeGeoTiff(source.path, field->columns, field->rows, field->heights, field->georeference);
+}
+
+Result<RasterHeightfield> readField(const DemSource& source) {
+  Result<DemRead> dem = readDem(source.path);
+  if (!dem) return tl::unexpected(dem.error());
+  if (!std::holds_alternative<RasterHeightfield>(dem->heightfield))
+    return failure(ErrorCode::unsupported, "not a raster", source.path);
+  return std::move(std::get<RasterHeightfield>(dem->heightfield));
+}
+
+Result<TerrainModel> loadModel(const std::string& path) {
+  AmtLoadOptions trusted;
+  trusted.verify = AmtVerify::none;
+  return loadAmt(path, trusted);
 }
 
 }  // namespace arete::bench

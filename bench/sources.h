@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "engine/result.h"
+#include "terrain/heightfield.h"
+#include "terrain/terrain_model.h"
 
 namespace arete::bench {
 
@@ -43,5 +45,11 @@ DemSource withoutLake(const DemSource& source);
 
 /// Makes the file of a generated source where it is not there. Errors: those of the generator and the writer.
 Status generateDem(const DemSource& source);
+
+/// Errors: those of readDem(); unsupported for scattered points.
+Result<RasterHeightfield> readField(const DemSource& source);
+
+/// A model that this very run has written: nothing of it is checked. Errors: those of loadAmt().
+Result<TerrainModel> loadModel(const std::string& path);
 
 }  // namespace arete::bench

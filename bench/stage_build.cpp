@@ -8,27 +8,18 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <variant>
 
 #include "bench/forked.h"
 #include "bench/page_cache.h"
+#include "bench/sources.h"
 #include "bench/stages.h"
 #include "bench/threads.h"
 #include "io/amt_file.h"
-#include "io/dem_reader.h"
 #include "terrain/build.h"
 #include "terrain/fixed_vertices.h"
 
 namespace arete::bench {
 namespace {
-
-Result<RasterHeightfield> readField(const DemSource& source) {
-  Result<DemRead> dem = readDem(source.path);
-  if (!dem) return tl::unexpected(dem.error());
-  if (!std::holds_alternative<RasterHeightfield>(dem->heightfield))
-    return failure(ErrorCode::unsupported, "not a raster", source.path);
-  return std::move(std::get<RasterHeightfield>(dem->heightfield));
-}
 
 template <class Work>
 auto inStage(StageClock& clock, const char* stage, const Work& work) {

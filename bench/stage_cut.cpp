@@ -8,15 +8,14 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <variant>
 
+#include "bench/sources.h"
 #include "bench/stages.h"
 #include "bench/threads.h"
 #include "engine/criterion.h"
 #include "engine/cut.h"
 #include "engine/view_error.h"
 #include "io/amt_file.h"
-#include "io/dem_reader.h"
 #include "io/export_tin.h"
 #include "io/mesh_file.h"
 #include "terrain/camera.h"
@@ -30,13 +29,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kViewTriangles = 200'000;
 constexpr Repetition kShort = {9, 20};  // for what takes milliseconds
-
-/// The models were written by this very run.
-Result<TerrainModel> loadModel(const std::string& path) {
-  AmtLoadOptions options;
-  options.verify = AmtVerify::none;
-  return loadAmt(path, options);
-}
 
 /// A box of a tenth of the raster in its middle.
 Region middle(const TerrainModel& model) {
@@ -148,12 +140,6 @@ class CutStage {
   const Plan& plan_;
   Figures figures_;
 };
-
-Result<RasterHeightfield> readField(const DemSource& source) {
-  Result<DemRead> dem = readDem(source.path);
-  if (!dem) return tl::unexpected(dem.error());
-  return std::move(std::get<RasterHeightfield>(dem->heightfield));
-}
 
 }  // namespace
 

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "bench/page_cache.h"
+#include "bench/sources.h"
 #include "bench/stages.h"
 #include "bench/threads.h"
 #include "engine/criterion.h"
@@ -95,9 +96,7 @@ Result<Figures> timePacked(const DemSource& source, HoleShape shape, const std::
   const std::string packed = model + ".packed";
   double samples = 0;
   {
-    AmtLoadOptions trusted;
-    trusted.verify = AmtVerify::none;
-    const auto loaded = loadAmt(model, trusted);
+    const auto loaded = loadModel(model);
     if (!loaded) return tl::unexpected(loaded.error());
     samples = double(loaded->columns) * loaded->rows;
     const Stopwatch watch;

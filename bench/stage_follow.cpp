@@ -5,18 +5,17 @@
 // one to the left; the tolerance is 1 pixel of 1920 x 1080. Every way of taking the cuts flies it alone, so
 // that none finds the caches as another left them. Whether the cuts are those from scratch is asked outside
 // the time.
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <ctime>
 #include <functional>
 
+#include "bench/sources.h"
 #include "bench/stages.h"
 #include "bench/threads.h"
 #include "engine/incremental_cut.h"
 #include "engine/view_error.h"
-#include "io/amt_file.h"
 #include "terrain/camera.h"
 #include "terrain/surface_height.h"
 
@@ -60,11 +59,6 @@ double threadSeconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
-
-double quantile(std::vector<double> values, double part) {
-  std::sort(values.begin(), values.end());
-  return values[std::size_t(part * double(values.size() - 1))];
 }
 
 class FollowStage {
@@ -183,9 +177,7 @@ class FollowStage {
 }  // namespace
 
 Result<Figures> followStage(const DemSource& source, const std::string& path, const Plan&) {
-  AmtLoadOptions trusted;  // the model was written by this very run
-  trusted.verify = AmtVerify::none;
-  const Result<TerrainModel> model = loadAmt(path, trusted);
+  const Result<TerrainModel> model = loadModel(path);
   if (!model) return tl::unexpected(model.error());
   Result<std::vector<View>> views = viewsOfFlight(*model);
   if (!views) return tl::unexpected(views.error());

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "bench/sources.h"
 #include "bench/stages.h"
 #include "bench/threads.h"
 #include "datasets/random.h"
-#include "io/amt_file.h"
 #include "terrain/surface_height.h"
 
 namespace arete::bench {
@@ -30,9 +30,7 @@ std::vector<Vec2> placesOn(const TerrainModel& model) {
 }  // namespace
 
 Result<Figures> heightStage(const DemSource& source, const std::string& path, const Plan& plan) {
-  AmtLoadOptions trusted;  // the model was written by this very run
-  trusted.verify = AmtVerify::none;
-  const Result<TerrainModel> model = loadAmt(path, trusted);
+  const Result<TerrainModel> model = loadModel(path);
   if (!model) return tl::unexpected(model.error());
   const SurfaceHeights heights(*model);
   const std::vector<Vec2> places = placesOn(*model);

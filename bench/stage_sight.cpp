@@ -11,10 +11,10 @@
 #include <memory>
 #include <vector>
 
+#include "bench/sources.h"
 #include "bench/stages.h"
 #include "bench/threads.h"
 #include "datasets/random.h"
-#include "io/amt_file.h"
 #include "terrain/profile.h"
 #include "terrain/sight_earth.h"
 #include "terrain/sight_engine.h"
@@ -83,9 +83,7 @@ double profileTime(const Profiles& profiles, const std::vector<SightLine>& lines
 }  // namespace
 
 Result<Figures> sightStage(const DemSource& source, const std::string& path, const Plan& plan) {
-  AmtLoadOptions trusted;  // the model was written by this very run
-  trusted.verify = AmtVerify::none;
-  const Result<TerrainModel> model = loadAmt(path, trusted);
+  const Result<TerrainModel> model = loadModel(path);
   if (!model) return tl::unexpected(model.error());
   const auto limit = limitTo(1);
   const auto grid = std::make_shared<const SightGrid>(*model);

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 
+#include "bench/sources.h"
 #include "bench/stages.h"
-#include "io/amt_file.h"
 #include "terrain/surface_height.h"
 #include "viewer/camera/home_view.h"
 #include "viewer/camera/round_flight.h"
@@ -19,11 +19,6 @@ namespace {
 
 constexpr int kFrames = 120;
 
-double quantile(std::vector<double> values, double part) {
-  std::sort(values.begin(), values.end());
-  return values[std::size_t(part * double(values.size() - 1))];
-}
-
 /// "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 ..." as "llvmpipe".
 std::string shortName(const std::string& renderer) {
   return renderer.substr(0, std::min(renderer.find(" ("), renderer.find(',')));
@@ -32,9 +27,7 @@ std::string shortName(const std::string& renderer) {
 }  // namespace
 
 Result<Figures> viewStage(const DemSource& source, const std::string& path, const Plan&) {
-  AmtLoadOptions trusted;  // the model was written by this very run
-  trusted.verify = AmtVerify::none;
-  const Result<TerrainModel> model = loadAmt(path, trusted);
+  const Result<TerrainModel> model = loadModel(path);
   if (!model) return tl::unexpected(model.error());
   const SurfaceHeights heights(*model);
   const CameraSpace space(*model);

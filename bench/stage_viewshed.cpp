@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "bench/embree_rays.h"
+#include "bench/sources.h"
 #include "bench/stages.h"
 #include "bench/threads.h"
 #include "datasets/random.h"
-#include "io/amt_file.h"
 #include "terrain/viewshed_exact.h"
 
 namespace arete::bench {
@@ -107,9 +107,7 @@ Seen seenOf(const Viewshed& viewshed) {
 }  // namespace
 
 Result<Figures> viewshedStage(const DemSource& source, const std::string& path, const Plan& plan) {
-  AmtLoadOptions trusted;  // the model was written by this very run
-  trusted.verify = AmtVerify::none;
-  const Result<TerrainModel> model = loadAmt(path, trusted);
+  const Result<TerrainModel> model = loadModel(path);
   if (!model) return tl::unexpected(model.error());
   const auto limit = limitTo(1);
   const double unit = model->georeference.verticalUnitMetres;

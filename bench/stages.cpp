@@ -13,7 +13,6 @@
 #include <functional>
 
 #include "bench/forked.h"
-#include "terrain/terrain_model.h"
 
 namespace arete::bench {
 namespace {
@@ -110,7 +109,7 @@ class DemRun {
       variants.push_back({HoleShape::fidelity, 0});
     for (const BuildVariant& variant : variants) {
       const int repeats = isMeasured ? plan_.repetition.most : 1;
-      if (const Status status = build(variant, repeats, isMeasured); !status) return status;
+      if (Status status = build(variant, repeats, isMeasured); !status) return status;
     }
     return {};
   }

@@ -2,26 +2,24 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
+#include <cstddef>
 #include <vector>
 
+#include "engine/stopwatch.h"
+
 namespace arete::bench {
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Precondition: not empty.
 inline double medianOf(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t half = values.size() / 2;
   return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+/// The value that `part` (0..1) of them do not exceed. Precondition: not empty.
+inline double quantile(std::vector<double> values, double part) {
+  std::sort(values.begin(), values.end());
+  return values[std::size_t(part * double(values.size() - 1))];
 }
 
 /// How often a thing is timed: so many times, but no more once it has taken so long altogether.

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -151,22 +152,22 @@ Result<std::pair<double, double>> twoNumbers(const std::string& option, std::str
 
 void DemArguments::addTo(CLI::App& command) {
   const std::string group = "Reading the DEM";
-  command.add_option("--band", band, "Band of a raster (default: its first)")
+  command.add_option("--band", reading.band, "Band of a raster (default: its first)")
       ->check(wholeNumber(1, 65535))
       ->type_name("N")
       ->group(group);
-  command.add_option("--layer", layer, "Layer of a file of points with several")
+  command.add_option("--layer", reading.layer, "Layer of a file of points with several")
       ->type_name("NAME")
       ->group(group);
-  command.add_option("--z-field", zField, "Field or column of points that holds the height")
+  command.add_option("--z-field", reading.zField, "Field or column of points that holds the height")
       ->type_name("NAME")
       ->group(group);
-  command.add_option("--nodata", nodata, "Raw value that means NODATA, instead of the file's own")
+  command.add_option("--nodata", reading.nodata, "Raw value that means NODATA, instead of the file's own")
       ->check(realNumber())
       ->type_name("VALUE")
       ->group(group);
   command
-      .add_option("--crs", crs,
+      .add_option("--crs", reading.crs,
                   "CRS of the coordinates, where the file has none or another one (EPSG:32611, WKT, ...)")
       ->type_name("CRS")
       ->group(group);
@@ -179,28 +180,12 @@ Result<CrsTransform> transformOfPlaces(bool lonLat, const TerrainModel& model) {
   return toDem;
 }
 
-DemReadOptions DemArguments::options() const {
-  DemReadOptions options;
-  if (band > 0) options.band = static_cast<int>(band);
-  options.layer = layer;
-  options.zField = zField;
-  options.crs = crs;
-  if (!std::isnan(nodata)) options.nodata = nodata;
-  return options;
-}
-
-SourceReading DemArguments::reading() const {
-  SourceReading reading{static_cast<std::uint32_t>(band), layer, zField, crs};
-  if (!std::isnan(nodata)) reading.nodata = nodata;
-  return reading;
-}
-
 Result<DemRead> DemArguments::read(const Session& session) const {
-  Result<DemRead> dem = readDem(path, options(), session.context());
+  Result<DemRead> dem = readDem(path, reading, session.context());
   if (dem)
     session.warn(dem->warnings, path);
-  else if (!crs.empty() && dem.error().culprit == crs)
-    dem.error().culprit = fmt::format("--crs {}", crs);
+  else if (!reading.crs.empty() && dem.error().culprit == reading.crs)
+    dem.error().culprit = fmt::format("--crs {}", reading.crs);
   return dem;
 }
 

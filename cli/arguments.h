@@ -3,8 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
-#include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +11,7 @@
 #include "engine/result.h"
 #include "io/crs_transform.h"
 #include "io/dem_reader.h"
+#include "terrain/source_reading.h"
 #include "terrain/terrain_model.h"
 
 namespace arete {
@@ -50,14 +49,9 @@ Result<CrsTransform> transformOfPlaces(bool lonLat, const TerrainModel& model);
 /// How to read a DEM; the options of all commands that do.
 struct DemArguments {
   std::string path;
-  std::int64_t band = 0;
-  std::string layer, zField, crs;
-  double nodata = std::numeric_limits<double>::quiet_NaN();  ///< NaN = not stated
+  SourceReading reading;
 
   void addTo(CLI::App& command);
-  DemReadOptions options() const;
-  /// The same, as a model keeps it.
-  SourceReading reading() const;
   /// readDem(), its warnings said; an error names the option where one is to blame.
   Result<DemRead> read(const Session& session) const;
 };

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -11,6 +10,7 @@
 #include <variant>
 
 #include "cli/arguments.h"
+#include "engine/stopwatch.h"
 #include "io/amt_file.h"
 #include "io/crs_names.h"
 #include "io/dem_reader.h"
@@ -34,15 +34,6 @@ struct BuildArguments {
   std::string fixedPath;
   double creaseAngleDegrees = -1;  // < 0: not stated
   double minimumAspect = -1;       // < 0: not stated
-};
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point begin_ = Clock::now();
 };
 
 struct Seconds {
@@ -167,7 +158,7 @@ Status runBuild(BuildArguments& arguments, Session& session) {
         Result<TerrainModel> model = build(field, arguments.options, session.context());
         if (!model) return tl::unexpected(model.error());
         seconds.build = building.seconds();
-        model->reading = arguments.dem.reading();
+        model->reading = arguments.dem.reading;
 
         Stopwatch writing;
         const AmtWriteOptions options{.isPacked = arguments.isPacked};

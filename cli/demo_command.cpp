@@ -58,7 +58,7 @@ std::string textOf(const DemoReport& report) {
 }
 
 Status demonstrate(DemoArguments& arguments, Session& session) {
-  arguments.options.read = arguments.dem.options();
+  arguments.options.reading = arguments.dem.reading;
   if (!arguments.maxErrors.empty()) {
     Result<std::vector<double>> errors = parseNumbers("--max-error", arguments.maxErrors);
     if (!errors) return tl::unexpected(errors.error());

@@ -38,22 +38,22 @@ struct MeasureArguments {
 
 /// Options that make sense against a DEM only, or against a mesh only, and were given with the other.
 Status checkKind(const MeasureArguments& arguments, bool isMesh) {
-  const DemArguments& dem = arguments.dem;
+  const SourceReading& reading = arguments.dem.reading;
   const auto check = [&](const char* option, bool isGiven, bool isForMesh) -> Status {
     if (!isGiven || isForMesh == isMesh) return {};
     return failure(ErrorCode::usage,
-                   isMesh ? fmt::format("is about a DEM, and {} is a mesh", dem.path)
-                          : fmt::format("is about another mesh, and {} is a DEM", dem.path),
+                   isMesh ? fmt::format("is about a DEM, and {} is a mesh", arguments.dem.path)
+                          : fmt::format("is about another mesh, and {} is a DEM", arguments.dem.path),
                    option);
   };
   for (const Status& ok :
        {check("--region", !arguments.region.empty(), false),
         check("--error-raster", !arguments.errorRaster.empty(), false),
         check("--allow-covered-nodata", arguments.allowCoveredNodata, false),
-        check("--band", dem.band != 0, false), check("--layer", !dem.layer.empty(), false),
-        check("--z-field", !dem.zField.empty(), false), check("--nodata", !std::isnan(dem.nodata), false),
-        check("--crs", !dem.crs.empty(), false), check("--samples", arguments.samples != 0, true),
-        check("--seed", arguments.seed >= 0, true),
+        check("--band", reading.band.has_value(), false), check("--layer", !reading.layer.empty(), false),
+        check("--z-field", !reading.zField.empty(), false),
+        check("--nodata", reading.nodata.has_value(), false), check("--crs", !reading.crs.empty(), false),
+        check("--samples", arguments.samples != 0, true), check("--seed", arguments.seed >= 0, true),
         check("--error-mesh", !arguments.errorMesh.empty(), true)})
     if (!ok) return ok;
   return {};

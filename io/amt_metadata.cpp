@@ -71,7 +71,7 @@ std::optional<std::string> fromHex(const std::string& hex) {
 /// Only what was told. An infinity, which JSON cannot say, is not.
 ordered_json readingJson(const SourceReading& reading) {
   ordered_json j = ordered_json::object();
-  if (reading.band > 0) j["band"] = reading.band;
+  if (reading.band) j["band"] = *reading.band;
   for (const auto& [key, text] :
        {std::pair{"layer", &reading.layer}, {"zField", &reading.zField}, {"crs", &reading.crs}})
     if (!text->empty()) j[key] = exactText(*text);
@@ -174,7 +174,7 @@ SourceReading readingOf(const Fields& top) {
   SourceReading reading;
   if (!top.has("reading")) return reading;
   const Fields fields = top.child("reading");
-  if (fields.has("band")) fields.read("band", reading.band);
+  if (fields.has("band")) fields.read("band", reading.band.emplace(0));
   for (const auto& [key, text] :
        {std::pair{"layer", &reading.layer}, {"zField", &reading.zField}, {"crs", &reading.crs}})
     if (fields.has(key)) fields.read(key, *text);

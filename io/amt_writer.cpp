@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string>
 #include <vector>
 
 #include "io/amt_checksum.h"
@@ -41,51 +42,52 @@ void pad(FileWriter& out, std::uint64_t& at) {
   at += count;
 }
 
-tl::unexpected<Error> interrupted(const std::string& path) {
-  return failure(ErrorCode::interrupted, "writing was interrupted; the file is as it was before", path);
-}
+/// One file on its way: what goes in, where it goes, and out with it.
+class AmtWriting {
+ public:
+  AmtWriting(const std::string& path, const TerrainModel& model, const RunContext& context)
+      : path_(path), model_(model), context_(context) {}
 
-}  // namespace
+  Status run(const AmtWriteOptions& options) {
+    const AmtMetadata metadata =
+        amtMetadataOf(model_, options.writer.empty() ? "Arete " ARETE_VERSION : options.writer);
+    if (const auto problem = findAmtProblem(metadata)) return refuse(*problem);
+    const VertexArrays& vertices = model_.mt.vertices();
+    if (model_.isRaster != vertices.isLattice() || model_.columns != vertices.columns)
+      return refuse("its vertices are not of its grid");
+    json_ = toAmtJson(metadata);
+    if (json_.size() > kAmtMaxMetadataBytes)
+      return refuse(fmt::format("{} bytes of metadata are more than {}", json_.size(), kAmtMaxMetadataBytes));
 
-Status writeAmt(const std::string& path, const TerrainModel& model, const RunContext& context,
-                const AmtWriteOptions& options) {
-  const MtArrays& a = model.mt.arrays();
-  const AmtMetadata metadata =
-      amtMetadataOf(model, options.writer.empty() ? "Arete " ARETE_VERSION : options.writer);
-  const auto refuse = [&](const std::string& problem) {
-    return failure(ErrorCode::invalidData, fmt::format("the model cannot be written: {}", problem), path);
-  };
-  if (const auto problem = findAmtProblem(metadata)) return refuse(*problem);
-  if (model.isRaster != a.vertices.isLattice() || model.columns != a.vertices.columns)
-    return refuse("its vertices are not of its grid");
-  const std::string json = toAmtJson(metadata);
-  if (json.size() > kAmtMaxMetadataBytes)
-    return refuse(fmt::format("{} bytes of metadata are more than {}", json.size(), kAmtMaxMetadataBytes));
-
-  // IsolatedSample has padding, whose bytes are anyone's: the file keeps its members apart.
-  std::vector<std::uint32_t> isolatedSamples;
-  std::vector<double> isolatedHeights;
-  for (const IsolatedSample& sample : model.isolated) {
-    isolatedSamples.push_back(sample.sample);
-    isolatedHeights.push_back(sample.height);
+    add(source(amt_tag::kMetadata, json_));
+    if (!options.isPacked) {
+      addArrays();
+    } else if (Status packed = addPacked(); !packed) {
+      return packed;
+    }
+    addExtras();
+    for (const AmtShape& shape : amtShapes(metadata, options.isPacked)) shapes_.push_back(shape);
+    if (Status placed = layOut(); !placed) return placed;
+    if (!seal()) return interrupted();
+    return write();
   }
-  std::vector<Source> sources = {source(amt_tag::kMetadata, json)};
-  std::vector<AmtShape> shapes = {{amt_tag::kMetadata, AmtScalar::u8, 1, json.size()}};
-  PackedMt packed;
-  if (options.isPacked) {
-    Result<PackedMt> result = packMt(model, context);
-    if (!result) {
-      if (result.error().code == ErrorCode::interrupted) return interrupted(path);
-      return failure(result.error().code, "the model cannot be packed: " + result.error().message, path);
-    }
-    packed = std::move(*result);
-    for (const Source& part :
-         {source(amt_tag::kPackedDirectory, packed.directory), source(amt_tag::kPackedTables, packed.tables),
-          source(amt_tag::kPackedNodes, packed.nodes)}) {
-      sources.push_back(part);
-      shapes.push_back({part.tag, AmtScalar::u8, 1, part.bytes.size()});
-    }
-  } else {
+
+ private:
+  tl::unexpected<Error> refuse(const std::string& problem) const {
+    return failure(ErrorCode::invalidData, fmt::format("the model cannot be written: {}", problem), path_);
+  }
+  tl::unexpected<Error> interrupted() const {
+    return failure(ErrorCode::interrupted, "writing was interrupted; the file is as it was before", path_);
+  }
+
+  /// Bytes that are as many as they are, whatever the counts in the metadata.
+  void add(const Source& bytes) {
+    sources_.push_back(bytes);
+    shapes_.push_back({bytes.tag, AmtScalar::u8, 1, bytes.bytes.size()});
+  }
+
+  void addArrays() {
+    const MtArrays& a = model_.mt.arrays();
     const Source arrays[] = {
         source(amt_tag::kRootTriangles, a.rootTriangles),
         source(amt_tag::kSlotBegin, a.slotBegin),
@@ -100,67 +102,115 @@ Status writeAmt(const std::string& path, const TerrainModel& model, const RunCon
         source(amt_tag::kBlockError, a.blockError),
         source(amt_tag::kBlockSphere, a.blockSphere),
         source(amt_tag::kCreatorHint, a.creatorHint),
-        model.isRaster ? source(amt_tag::kSamples, a.vertices.samples)
-                       : source(amt_tag::kPlan, a.vertices.plan),
+        model_.isRaster ? source(amt_tag::kSamples, a.vertices.samples)
+                        : source(amt_tag::kPlan, a.vertices.plan),
         source(amt_tag::kHeights, a.vertices.rawHeights),
     };
-    sources.insert(sources.end(), std::begin(arrays), std::end(arrays));
+    sources_.insert(sources_.end(), std::begin(arrays), std::end(arrays));
   }
-  sources.push_back(source(amt_tag::kIsolatedSamples, isolatedSamples));
-  sources.push_back(source(amt_tag::kIsolatedHeights, isolatedHeights));
-  sources.push_back(source(amt_tag::kFixedVertices, model.options.fixedVertices));
-  for (const AmtShape& shape : amtShapes(metadata, options.isPacked)) shapes.push_back(shape);
 
-  AmtHeader header;
-  header.chunkCount = static_cast<std::uint32_t>(sources.size());
-  header.directoryBytes = sources.size() * sizeof(AmtChunk);
-  std::vector<AmtChunk> directory(sources.size());
-  std::vector<std::span<const std::byte>> blocks;
-  std::uint64_t at = header.directoryOffset + header.directoryBytes;
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    const AmtShape& shape = shapes[i];
-    AmtChunk& chunk = directory[i];
-    chunk.tag = shape.tag;
-    chunk.scalar = shape.scalar;
-    chunk.elementBytes = shape.elementBytes;
-    chunk.offset = amtAligned(at);
-    chunk.bytes = sources[i].bytes.size();
-    if (sources[i].tag != shape.tag || chunk.bytes != shape.count * shape.elementBytes)
-      return refuse(fmt::format("its {} array has {} bytes where its counts ask for {}", chunk.name(),
-                                chunk.bytes, shape.count * shape.elementBytes));
-    blocks.push_back(sources[i].bytes);
-    at = chunk.offset + chunk.bytes;
-  }
-  header.fileBytes = amtAligned(at);
-
-  const auto sums = amtChecksums(blocks, "checksum", context);
-  if (!sums) return interrupted(path);
-  for (std::size_t i = 0; i < directory.size(); ++i) directory[i].checksum = (*sums)[i];
-  std::vector<std::byte> front(offsetof(AmtHeader, checksum) + header.directoryBytes);
-  std::memcpy(front.data(), &header, offsetof(AmtHeader, checksum));
-  std::memcpy(front.data() + offsetof(AmtHeader, checksum), directory.data(), header.directoryBytes);
-  header.checksum = amtChecksum(front);
-
-  Result<FileWriter> out = FileWriter::create(path);
-  if (!out) return tl::unexpected(out.error());
-  out->write(asText(std::as_bytes(std::span(&header, 1))));
-  out->write(asText(std::as_bytes(std::span(directory))));
-  at = header.directoryOffset + header.directoryBytes;
-  for (const auto& block : blocks) {
-    pad(*out, at);
-    for (std::size_t begin = 0; begin < block.size(); begin += kPiece) {
-      context.report("write", static_cast<double>(at) / static_cast<double>(header.fileBytes));
-      if (context.cancelled()) return interrupted(path);
-      const auto piece = block.subspan(begin, std::min(kPiece, block.size() - begin));
-      out->write(asText(piece));
-      at += piece.size();
+  Status addPacked() {
+    Result<PackedMt> packed = packMt(model_, context_);
+    if (!packed) {
+      if (packed.error().code == ErrorCode::interrupted) return interrupted();
+      return failure(packed.error().code, "the model cannot be packed: " + packed.error().message, path_);
     }
+    packed_ = std::move(*packed);
+    add(source(amt_tag::kPackedDirectory, packed_.directory));
+    add(source(amt_tag::kPackedTables, packed_.tables));
+    add(source(amt_tag::kPackedNodes, packed_.nodes));
+    return {};
   }
-  pad(*out, at);
-  if (context.cancelled()) return interrupted(path);
-  if (const Status finished = out->finish(); !finished) return finished;
-  context.report("write", 1);
-  return {};
+
+  /// IsolatedSample has padding, whose bytes are anyone's: the file keeps its members apart.
+  void addExtras() {
+    for (const IsolatedSample& sample : model_.isolated) {
+      isolatedSamples_.push_back(sample.sample);
+      isolatedHeights_.push_back(sample.height);
+    }
+    sources_.push_back(source(amt_tag::kIsolatedSamples, isolatedSamples_));
+    sources_.push_back(source(amt_tag::kIsolatedHeights, isolatedHeights_));
+    sources_.push_back(source(amt_tag::kFixedVertices, model_.options.fixedVertices));
+  }
+
+  /// Header and directory, but for their checksums.
+  Status layOut() {
+    header_.chunkCount = static_cast<std::uint32_t>(sources_.size());
+    header_.directoryBytes = sources_.size() * sizeof(AmtChunk);
+    directory_.resize(sources_.size());
+    std::uint64_t at = header_.directoryOffset + header_.directoryBytes;
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+      const AmtShape& shape = shapes_[i];
+      AmtChunk& chunk = directory_[i];
+      chunk.tag = shape.tag;
+      chunk.scalar = shape.scalar;
+      chunk.elementBytes = shape.elementBytes;
+      chunk.offset = amtAligned(at);
+      chunk.bytes = sources_[i].bytes.size();
+      if (sources_[i].tag != shape.tag || chunk.bytes != shape.count * shape.elementBytes)
+        return refuse(fmt::format("its {} array has {} bytes where its counts ask for {}", chunk.name(),
+                                  chunk.bytes, shape.count * shape.elementBytes));
+      at = chunk.offset + chunk.bytes;
+    }
+    header_.fileBytes = amtAligned(at);
+    return {};
+  }
+
+  /// False when interrupted.
+  bool seal() {
+    std::vector<std::span<const std::byte>> blocks;
+    for (const Source& s : sources_) blocks.push_back(s.bytes);
+    const auto sums = amtChecksums(blocks, "checksum", context_);
+    if (!sums) return false;
+    for (std::size_t i = 0; i < directory_.size(); ++i) directory_[i].checksum = (*sums)[i];
+    std::vector<std::byte> front(offsetof(AmtHeader, checksum) + header_.directoryBytes);
+    std::memcpy(front.data(), &header_, offsetof(AmtHeader, checksum));
+    std::memcpy(front.data() + offsetof(AmtHeader, checksum), directory_.data(), header_.directoryBytes);
+    header_.checksum = amtChecksum(front);
+    return true;
+  }
+
+  Status write() const {
+    Result<FileWriter> out = FileWriter::create(path_);
+    if (!out) return tl::unexpected(out.error());
+    out->write(asText(std::as_bytes(std::span(&header_, 1))));
+    out->write(asText(std::as_bytes(std::span(directory_))));
+    std::uint64_t at = header_.directoryOffset + header_.directoryBytes;
+    for (const Source& s : sources_) {
+      pad(*out, at);
+      for (std::size_t begin = 0; begin < s.bytes.size(); begin += kPiece) {
+        context_.report("write", static_cast<double>(at) / static_cast<double>(header_.fileBytes));
+        if (context_.cancelled()) return interrupted();
+        const auto piece = s.bytes.subspan(begin, std::min(kPiece, s.bytes.size() - begin));
+        out->write(asText(piece));
+        at += piece.size();
+      }
+    }
+    pad(*out, at);
+    if (context_.cancelled()) return interrupted();
+    if (Status finished = out->finish(); !finished) return finished;
+    context_.report("write", 1);
+    return {};
+  }
+
+  const std::string& path_;
+  const TerrainModel& model_;
+  const RunContext& context_;
+  std::string json_;  // what the sources below point to, beside the model
+  PackedMt packed_;
+  std::vector<std::uint32_t> isolatedSamples_;
+  std::vector<double> isolatedHeights_;
+  std::vector<Source> sources_;   // the chunks, in the order of the file
+  std::vector<AmtShape> shapes_;  // what each is by the metadata
+  AmtHeader header_;
+  std::vector<AmtChunk> directory_;
+};
+
+}  // namespace
+
+Status writeAmt(const std::string& path, const TerrainModel& model, const RunContext& context,
+                const AmtWriteOptions& options) {
+  return AmtWriting(path, model, context).run(options);
 }
 
 }  // namespace arete

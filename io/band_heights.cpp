@@ -37,7 +37,8 @@ class NodataTest {
     value_ = *value;
     asFloat_ = type == GDT_Float32 && std::abs(value_) <= double(std::numeric_limits<float>::max());
     if (asFloat_) value_ = double(float(value_));
-    tolerance_ = std::abs(value_) > kHugeHeight ? kHugeTolerance * std::abs(value_) : 0;
+    const bool isHuge = std::abs(value_) > kHugeHeight && std::isfinite(value_);
+    tolerance_ = isHuge ? kHugeTolerance * std::abs(value_) : 0;
   }
 
   bool operator()(double raw) const {

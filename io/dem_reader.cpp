@@ -51,32 +51,32 @@ bool isRaster(const std::string& path, bool& opensAsVector) {
   return identified && !opensAsVector;
 }
 
-Result<DemRead> readAsRaster(const std::string& path, const DemReadOptions& options,
+Result<DemRead> readAsRaster(const std::string& path, const SourceReading& reading,
                              const RunContext& context) {
-  if (!options.layer.empty())
-    return failure(ErrorCode::usage, fmt::format("is a raster, which has no layer '{}'", options.layer),
+  if (!reading.layer.empty())
+    return failure(ErrorCode::usage, fmt::format("is a raster, which has no layer '{}'", reading.layer),
                    path);
-  if (!options.zField.empty())
+  if (!reading.zField.empty())
     return failure(ErrorCode::usage,
-                   fmt::format("is a raster, which has bands and no field '{}'", options.zField), path);
+                   fmt::format("is a raster, which has bands and no field '{}'", reading.zField), path);
   RasterReadOptions rasterOptions;
-  rasterOptions.band = options.band;
-  rasterOptions.crs = options.crs;
-  rasterOptions.nodata = options.nodata;
+  if (reading.band) rasterOptions.band = static_cast<int>(*reading.band);
+  rasterOptions.crs = reading.crs;
+  rasterOptions.nodata = reading.nodata;
   auto read = readRaster(path, rasterOptions, context);
   if (!read) return tl::unexpected(read.error());
   return DemRead{std::move(read->heightfield), std::move(read->warnings)};
 }
 
-Result<DemRead> readAsPoints(const std::string& path, bool text, const DemReadOptions& options,
+Result<DemRead> readAsPoints(const std::string& path, bool text, const SourceReading& reading,
                              const RunContext& context) {
-  if (options.band)
-    return failure(ErrorCode::usage, fmt::format("holds points, which have no band {}", *options.band), path);
+  if (reading.band)
+    return failure(ErrorCode::usage, fmt::format("holds points, which have no band {}", *reading.band), path);
   PointReadOptions pointOptions;
-  pointOptions.layer = options.layer;
-  pointOptions.zField = options.zField;
-  pointOptions.crs = options.crs;
-  pointOptions.nodata = options.nodata;
+  pointOptions.layer = reading.layer;
+  pointOptions.zField = reading.zField;
+  pointOptions.crs = reading.crs;
+  pointOptions.nodata = reading.nodata;
   auto read = readPoints(path, pointOptions, context);
   if (!read) return tl::unexpected(read.error());
   if (text) {
@@ -96,15 +96,15 @@ bool isTextOfNumbers(const std::string& path) {
 }
 
 /// The one raster in an archive, or the one text of points.
-Result<DemRead> readZipped(const std::string& archive, const DemReadOptions& options,
+Result<DemRead> readZipped(const std::string& archive, const SourceReading& reading,
                            const RunContext& context) {
   const Result<std::string> inside = findZippedRaster(archive);
   if (!inside) return tl::unexpected(inside.error());
-  if (isTextOfNumbers(*inside)) return readAsPoints(*inside, true, options, context);
-  return readAsRaster(archive, options, context);
+  if (isTextOfNumbers(*inside)) return readAsPoints(*inside, true, reading, context);
+  return readAsRaster(archive, reading, context);
 }
 
-Result<DemRead> readFrom(const std::string& path, const DemReadOptions& options, const RunContext& context) {
+Result<DemRead> readFrom(const std::string& path, const SourceReading& reading, const RunContext& context) {
   registerGdal();
   if (isPointCloud(path))
     if (VSIStatBufL status; VSIStatL(path.c_str(), &status) == 0)
@@ -114,14 +114,14 @@ Result<DemRead> readFrom(const std::string& path, const DemReadOptions& options,
           "instance with PDAL: pdal translate IN.laz ground.csv -f filters.range "
           "--filters.range.limits='Classification[2:2]'",
           path);
-  if (isPlainZip(path)) return readZipped(path, options, context);
+  if (isPlainZip(path)) return readZipped(path, reading, context);
   bool opensAsVector = false;
-  if (isRaster(path, opensAsVector)) return readAsRaster(path, options, context);
+  if (isRaster(path, opensAsVector)) return readAsRaster(path, reading, context);
 
   GdalErrors errors;
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
   const bool text = looksLikePointText(path);
-  if (text || opensAsVector) return readAsPoints(path, text, options, context);
+  if (text || opensAsVector) return readAsPoints(path, text, reading, context);
   openGdal(path, GDAL_OF_RASTER | GDAL_OF_VECTOR);
   return tl::unexpected(explainOpenFailure(path, "DEM", errors));
 }
@@ -173,9 +173,9 @@ bool looksLikeDegrees(const Heightfield& field) {
 
 }  // namespace
 
-Result<DemRead> readDem(const std::string& path, const DemReadOptions& options, const RunContext& context) {
+Result<DemRead> readDem(const std::string& path, const SourceReading& reading, const RunContext& context) {
   try {
-    Result<DemRead> read = readFrom(path, options, context);
+    Result<DemRead> read = readFrom(path, reading, context);
     if (read && std::visit([](const auto& field) { return looksLikeDegrees(field); }, read->heightfield))
       read->warnings.push_back(
           "has no CRS, and its places look like degrees: they are taken as lengths in the unit of the "

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -11,16 +10,9 @@
 #include "io/point_reader.h"
 #include "io/raster_reader.h"
 #include "terrain/heightfield.h"
+#include "terrain/source_reading.h"
 
 namespace arete {
-
-struct DemReadOptions {
-  std::optional<int> band;       ///< of a raster
-  std::string layer;             ///< of points
-  std::string zField;            ///< of points
-  std::string crs;               ///< of either
-  std::optional<double> nodata;  ///< of either
-};
 
 struct DemRead {
   std::variant<RasterHeightfield, PointHeightfield> heightfield;
@@ -29,10 +21,10 @@ struct DemRead {
 
 /// The one door for elevation data: reads a raster or scattered points, whichever the file is; see
 /// readRaster() and readPoints() for how and for the errors. Text whose points fill a regular grid, at least
-/// by half, is a raster (and its heights stay doubles). An option of the other kind is refused (usage).
+/// by half, is a raster (and its heights stay doubles). A reading of the other kind is refused (usage).
 /// Places that look like degrees without a CRS are warned of. LAS, LAZ, COPC and E57 clouds are refused with
 /// what to do instead (unsupported).
-Result<DemRead> readDem(const std::string& path, const DemReadOptions& options = {},
+Result<DemRead> readDem(const std::string& path, const SourceReading& reading = {},
                         const RunContext& context = {});
 
 }  // namespace arete

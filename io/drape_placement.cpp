@@ -101,6 +101,102 @@ std::optional<std::pair<Vec2, Vec2>> ownGrid(const PictureToPlan& way, double co
   return std::pair(scale, Vec2{-a->x * scale.x, -a->y * scale.y});
 }
 
+/// Where the picture and the terrain lie.
+struct Extents {
+  Box covered;  ///< by the picture, in the plan
+  Box pictureOnMap, terrainOnMap;
+
+  tl::unexpected<Error> apart() const {
+    return failure(
+        ErrorCode::invalidData,
+        fmt::format("does not overlap the DEM: it lies at {}, the DEM at {}, in the CRS of the DEM",
+                    told(pictureOnMap), told(terrainOnMap)));
+  }
+};
+
+bool isInside(Vec2 pixel, Vec2 size) {
+  return pixel.x >= 0 && pixel.x <= size.x && pixel.y >= 0 && pixel.y <= size.y;
+}
+
+Extents extentsOf(const PictureToPlan& way, const TerrainModel& model, const Box& terrain, Vec2 size) {
+  Extents extents;
+  const auto add = [&](Vec2 plan) {
+    extents.covered.add(plan);
+    extents.pictureOnMap.add(model.toSource(plan));
+  };
+  overGrid([&](double u, double v) {
+    if (const auto plan = way.toPlan({u * size.x, v * size.y})) add(*plan);
+    const Vec2 place = terrain.at(u, v);
+    extents.terrainOnMap.add(model.toSource(place));
+    if (const auto pixel = way.toPixel(place); pixel && isInside(*pixel, size)) add(place);
+  });
+  return extents;
+}
+
+/// A placement whose picture may still be too large: its size has no limits yet.
+struct Sized {
+  DrapePlacement placement;
+  double wide = 0, high = 0;
+};
+
+/// The file's own pixels, those over the box; none where there are none.
+std::optional<Sized> onOwnGrid(const std::pair<Vec2, Vec2>& grid, const Box& box, Vec2 size) {
+  const auto [scale, shift] = grid;
+  const double a = box.left * scale.x + shift.x, b = box.right * scale.x + shift.x;
+  const double c = box.low * scale.y + shift.y, d = box.high * scale.y + shift.y;
+  const double slack = 1e-6;
+  DrapePlacement p;
+  p.window = {
+      std::max(0.0, std::floor(std::min(a, b) + slack)), std::min(size.x, std::ceil(std::max(a, b) - slack)),
+      std::max(0.0, std::floor(std::min(c, d) + slack)), std::min(size.y, std::ceil(std::max(c, d) - slack))};
+  if (!(p.window[1] > p.window[0] && p.window[3] > p.window[2])) return std::nullopt;
+  p.scale = scale;
+  p.shift = {shift.x - p.window[0], shift.y - p.window[2]};
+  p.isExact = true;
+  return Sized{p, p.window[1] - p.window[0], p.window[3] - p.window[2]};
+}
+
+/// A grid along the plan's axes over the box, as fine as the file is anywhere in it; none where the file has
+/// no pixel there.
+std::optional<Sized> onNewGrid(const PictureToPlan& way, const TerrainModel& model, const Box& terrain,
+                               const Box& covered, Vec2 size) {
+  Box window;
+  Vec2 finest{0, 0};
+  const Vec2 step{(covered.right - covered.left) / 1024, (covered.high - covered.low) / 1024};
+  overGrid([&](double u, double v) {
+    const Vec2 place = covered.at(u * 1023 / 1024, v * 1023 / 1024);
+    const auto here = way.toPixel(place), right = way.toPixel({place.x + step.x, place.y}),
+               below = way.toPixel({place.x, place.y + step.y});
+    if (!here || !right || !below || !isInside(*here, size)) return;
+    window.add(*here);
+    finest.x = std::max(finest.x, std::hypot(right->x - here->x, right->y - here->y) / step.x);
+    finest.y = std::max(finest.y, std::hypot(below->x - here->x, below->y - here->y) / step.y);
+  });
+  if (!(finest.x > 0 && finest.y > 0)) return std::nullopt;
+  // Edges bend between the probes.
+  const Box box = Box{covered.left - 2 / finest.x, covered.right + 2 / finest.x, covered.low - 2 / finest.y,
+                      covered.high + 2 / finest.y}
+                      .common(terrain);
+  DrapePlacement p;
+  p.isWarped = true;
+  // Rows run down the map: with the plan's y for a raster, against it for points.
+  p.scale = {finest.x, model.isRaster ? finest.y : -finest.y};
+  p.shift = {-box.left * p.scale.x, -(model.isRaster ? box.low : box.high) * p.scale.y};
+  p.window = {std::max(0.0, std::floor(window.left)), std::min(size.x, std::ceil(window.right) + 1),
+              std::max(0.0, std::floor(window.low)), std::min(size.y, std::ceil(window.high) + 1)};
+  return Sized{p, std::ceil((box.right - box.left) * finest.x), std::ceil((box.high - box.low) * finest.y)};
+}
+
+void makeCoarser(Sized& sized, double mostPixels) {
+  DrapePlacement& p = sized.placement;
+  p.coarser = std::sqrt(sized.wide * sized.high / mostPixels);
+  p.isExact = false;
+  p.scale = {p.scale.x / p.coarser, p.scale.y / p.coarser};
+  p.shift = {p.shift.x / p.coarser, p.shift.y / p.coarser};
+  sized.wide = std::max(1.0, std::floor(sized.wide / p.coarser));
+  sized.high = std::max(1.0, std::floor(sized.high / p.coarser));
+}
+
 }  // namespace
 
 void TransformerCloser::operator()(void* transformer) const {
@@ -147,92 +243,27 @@ Result<TransformerPtr> drapeTransformer(GDALDataset& picture, const TerrainModel
 Result<DrapePlacement> placeDrape(GDALDataset& picture, void* transformer, const TerrainModel& model,
                                   std::uint64_t mostPixels) {
   const PictureToPlan way(transformer, model);
-  const double columns = picture.GetRasterXSize(), rows = picture.GetRasterYSize();
-  const auto isInside = [&](Vec2 p) { return p.x >= 0 && p.x <= columns && p.y >= 0 && p.y <= rows; };
+  const Vec2 size{double(picture.GetRasterXSize()), double(picture.GetRasterYSize())};
   const Box terrain = planBox(model);
-  Box covered, coveredOnMap, terrainOnMap;
-  const auto add = [&](Vec2 plan) {
-    covered.add(plan);
-    coveredOnMap.add(model.toSource(plan));
-  };
-  overGrid([&](double u, double v) {
-    if (const auto plan = way.toPlan({u * columns, v * rows})) add(*plan);
-    const Vec2 place = terrain.at(u, v);
-    terrainOnMap.add(model.toSource(place));
-    if (const auto pixel = way.toPixel(place); pixel && isInside(*pixel)) add(place);
-  });
-  const auto outside = [&] {
-    return failure(
-        ErrorCode::invalidData,
-        fmt::format("does not overlap the DEM: it lies at {}, the DEM at {}, in the CRS of the DEM",
-                    told(coveredOnMap), told(terrainOnMap)));
-  };
-  if (covered.isEmpty())
+  const Extents extents = extentsOf(way, model, terrain, size);
+  if (extents.covered.isEmpty())
     return failure(ErrorCode::invalidData, "no part of it has a place in the CRS of the DEM");
-  Box box = covered.common(terrain);
-  if (box.isEmpty()) return outside();
+  const Box box = extents.covered.common(terrain);
+  if (box.isEmpty()) return extents.apart();
 
-  DrapePlacement p;
+  const auto own = ownGrid(way, size.x, size.y);
+  auto sized = own ? onOwnGrid(*own, box, size) : onNewGrid(way, model, terrain, box, size);
+  if (!sized) return extents.apart();
   std::array<double, 6> ignored{};
-  p.isWarped = picture.GetGeoTransform(ignored.data()) != CE_None;
-  const auto own = ownGrid(way, columns, rows);
-  double wide = 0, high = 0;
-  if (own) {
-    const auto [scale, shift] = *own;
-    const double a = box.left * scale.x + shift.x, b = box.right * scale.x + shift.x;
-    const double c = box.low * scale.y + shift.y, d = box.high * scale.y + shift.y;
-    const double slack = 1e-6;
-    p.window = {std::max(0.0, std::floor(std::min(a, b) + slack)),
-                std::min(columns, std::ceil(std::max(a, b) - slack)),
-                std::max(0.0, std::floor(std::min(c, d) + slack)),
-                std::min(rows, std::ceil(std::max(c, d) - slack))};
-    if (!(p.window[1] > p.window[0] && p.window[3] > p.window[2])) return outside();
-    p.scale = scale;
-    p.shift = {shift.x - p.window[0], shift.y - p.window[2]};
-    wide = p.window[1] - p.window[0];
-    high = p.window[3] - p.window[2];
-    p.isExact = true;
-  } else {
-    p.isWarped = true;
-    Box window;
-    Vec2 finest{0, 0};
-    const Vec2 step{(box.right - box.left) / 1024, (box.high - box.low) / 1024};
-    overGrid([&](double u, double v) {
-      const Vec2 place = box.at(u * 1023 / 1024, v * 1023 / 1024);
-      const auto here = way.toPixel(place), right = way.toPixel({place.x + step.x, place.y}),
-                 below = way.toPixel({place.x, place.y + step.y});
-      if (!here || !right || !below || !isInside(*here)) return;
-      window.add(*here);
-      finest.x = std::max(finest.x, std::hypot(right->x - here->x, right->y - here->y) / step.x);
-      finest.y = std::max(finest.y, std::hypot(below->x - here->x, below->y - here->y) / step.y);
-    });
-    if (!(finest.x > 0 && finest.y > 0)) return outside();
-    // Edges bend between the probes.
-    box = Box{box.left - 2 / finest.x, box.right + 2 / finest.x, box.low - 2 / finest.y,
-              box.high + 2 / finest.y}
-              .common(terrain);
-    wide = std::ceil((box.right - box.left) * finest.x);
-    high = std::ceil((box.high - box.low) * finest.y);
-    // Rows run down the map: with the plan's y for a raster, against it for points.
-    p.scale = {finest.x, model.isRaster ? finest.y : -finest.y};
-    p.shift = {-box.left * p.scale.x, -(model.isRaster ? box.low : box.high) * p.scale.y};
-    p.window = {std::max(0.0, std::floor(window.left)), std::min(columns, std::ceil(window.right) + 1),
-                std::max(0.0, std::floor(window.low)), std::min(rows, std::ceil(window.high) + 1)};
-  }
-  if (wide * high > double(mostPixels)) {
-    p.coarser = std::sqrt(wide * high / double(mostPixels));
-    p.isExact = false;
-    p.scale = {p.scale.x / p.coarser, p.scale.y / p.coarser};
-    p.shift = {p.shift.x / p.coarser, p.shift.y / p.coarser};
-    wide = std::max(1.0, std::floor(wide / p.coarser));
-    high = std::max(1.0, std::floor(high / p.coarser));
-  }
+  if (picture.GetGeoTransform(ignored.data()) != CE_None) sized->placement.isWarped = true;
+  if (sized->wide * sized->high > double(mostPixels)) makeCoarser(*sized, double(mostPixels));
   constexpr double kMostSide = std::numeric_limits<int>::max();
-  if (wide > kMostSide || high > kMostSide)
-    return failure(ErrorCode::unsupported, fmt::format("would be {} by {} pixels on the DEM", wide, high));
-  p.columns = static_cast<std::uint32_t>(wide);
-  p.rows = static_cast<std::uint32_t>(high);
-  return p;
+  if (sized->wide > kMostSide || sized->high > kMostSide)
+    return failure(ErrorCode::unsupported,
+                   fmt::format("would be {} by {} pixels on the DEM", sized->wide, sized->high));
+  sized->placement.columns = static_cast<std::uint32_t>(sized->wide);
+  sized->placement.rows = static_cast<std::uint32_t>(sized->high);
+  return sized->placement;
 }
 
 }  // namespace arete

@@ -35,7 +35,8 @@ using TransformerPtr = std::unique_ptr<void, TransformerCloser>;
 Result<TransformerPtr> drapeTransformer(GDALDataset& picture, const TerrainModel& model,
                                         std::vector<std::string>& warnings);
 
-/// Errors: invalidData, where the picture and the terrain do not overlap.
+/// At most about `mostPixels` (at least 1) are read: more of them are read coarser. Errors: invalidData,
+/// where the picture and the terrain do not overlap; unsupported, where it is too long and thin.
 Result<DrapePlacement> placeDrape(GDALDataset& picture, void* transformer, const TerrainModel& model,
                                   std::uint64_t mostPixels);
 

@@ -35,7 +35,8 @@ class DrapeReader {
   using Pixel = std::array<std::uint8_t, 4>;
 
   /// The model is read only while this runs. Errors: those of opening; usage (bands that are not there);
-  /// invalidData (no georeference, no CRS where the terrain has one, no overlap); interrupted.
+  /// invalidData (no georeference, no CRS where the terrain has one, no overlap); unsupported (too long and
+  /// thin on the terrain); interrupted.
   static Result<DrapeReader> open(const std::string& path, const TerrainModel& model,
                                   const DrapeReadOptions& options = {}, const RunContext& context = {});
   DrapeReader(DrapeReader&&) noexcept;

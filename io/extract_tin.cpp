@@ -53,7 +53,7 @@ std::string noteOf(const ExtractRequest& request, const TerrainModel& model, con
 /// As the build read the source: without them it may be another terrain.
 std::string readingOptions(const SourceReading& reading) {
   std::string options;
-  if (reading.band > 0) options += fmt::format(" --band {}", reading.band);
+  if (reading.band) options += fmt::format(" --band {}", *reading.band);
   if (!reading.layer.empty()) options += " --layer " + shellQuoted(reading.layer);
   if (!reading.zField.empty()) options += " --z-field " + shellQuoted(reading.zField);
   if (reading.nodata) options += fmt::format(" --nodata {}", *reading.nodata);

@@ -76,7 +76,7 @@ class GlbReader {
     const auto nodes = document_.json().find("nodes");
     if (nodes == document_.json().end() || !nodes->is_array()) return {};
     std::vector<Visit> open;
-    if (const Status ok = addRoots(open, nodes->size()); !ok) return ok;
+    if (Status ok = addRoots(open, nodes->size()); !ok) return ok;
     std::vector<char> met(nodes->size(), 0);
     while (!open.empty()) {
       const Visit visit = open.back();
@@ -92,8 +92,8 @@ class GlbReader {
         return failure(ErrorCode::unsupported,
                        fmt::format("node {} has a skin, which Arete does not read", visit.node));
       if ((*node)->contains("mesh"))
-        if (const Status ok = addMesh(**node, placed); !ok) return ok;
-      if (const Status ok = addNumbers(**node, "children", placed, open); !ok) return ok;
+        if (Status ok = addMesh(**node, placed); !ok) return ok;
+      if (Status ok = addNumbers(**node, "children", placed, open); !ok) return ok;
     }
     return {};
   }
@@ -111,7 +111,7 @@ class GlbReader {
     std::vector<Visit> children;
     for (const Json& node : json["nodes"])
       if (node.is_object())
-        if (const Status ok = addNumbers(node, "children", {}, children); !ok) return ok;
+        if (Status ok = addNumbers(node, "children", {}, children); !ok) return ok;
     std::vector<char> isChild(nodes, 0);
     for (const Visit& child : children)
       if (child.node < nodes) isChild[child.node] = 1;
@@ -190,7 +190,7 @@ class GlbReader {
       return failure(ErrorCode::unsupported, "is one vertex more than an index can name");
     const auto base = static_cast<std::uint32_t>(mesh.positions.size());
     for (std::uint64_t v = 0; v < positions.count; ++v) {
-      if (const Status ok = mayGoOn(v, positions.count); !ok) return ok;
+      if (Status ok = mayGoOn(v, positions.count); !ok) return ok;
       std::array<float, 3> xyz;
       std::memcpy(&xyz, positions.first + v * positions.stride, sizeof xyz);
       const Vec3 local = gltfToLocal(placed({xyz[0], xyz[1], xyz[2]}));
@@ -204,7 +204,7 @@ class GlbReader {
     }
     const bool flips = placed.mirrors();
     for (std::uint64_t c = 0; c < corners; c += 3) {
-      if (const Status ok = mayGoOn(c, corners); !ok) return ok;
+      if (Status ok = mayGoOn(c, corners); !ok) return ok;
       std::array<std::uint32_t, 3> triangle;
       for (std::uint64_t k = 0; k < 3; ++k) {
         const std::uint32_t index = indices ? indexAt(*indices, c + k) : static_cast<std::uint32_t>(c + k);

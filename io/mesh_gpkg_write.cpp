@@ -1,10 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// GDAL writes the file under its temporary name, all triangles in one transaction. The journal and the
-// waiting for the disk that make a database safe are off: a file that is not finished is never renamed. GDAL
-// tells of failures on closing only through its error handler, so the file is renamed once it is closed and
-// the handler has heard nothing.
-#include <cpl_conv.h>
 #include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
@@ -13,10 +7,8 @@
 #include <new>
 #include <string>
 
-#include "io/crs_reader.h"
-#include "io/gdal_support.h"
+#include "io/geopackage.h"
 #include "io/mesh_gpkg.h"
-#include "io/output_file.h"
 
 namespace arete {
 
@@ -28,26 +20,19 @@ constexpr const char* kUnitKey = "VERTICAL_UNIT";
 
 Result<OGRLayer*> createLayer(GDALDataset& dataset, const MeshWriteOptions& options,
                               const GdalErrors& errors) {
-  OGRSpatialReference crs;
-  if (!options.crsWkt.empty()) {
-    auto parsed = crsFromText(options.crsWkt);
-    if (!parsed) return tl::unexpected(parsed.error());
-    crs = std::move(*parsed);
-  }
   std::string description;
   for (const std::string& note : options.notes) description += (description.empty() ? "" : "\n") + note;
   CPLStringList list;
   list.SetNameValue("SPATIAL_INDEX", "YES");
   if (!description.empty()) list.SetNameValue("DESCRIPTION", description.c_str());
-  OGRLayer* layer = dataset.CreateLayer(kLayer, crs.IsEmpty() ? nullptr : &crs, wkbPolygon25D, list.List());
-  const auto refused = [&] {
-    return failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", errors.firstFailure()));
-  };
-  if (!layer) return refused();
+  const Result<OGRLayer*> layer =
+      addLayer(dataset, kLayer, options.crsWkt, wkbPolygon25D, errors, list.List());
+  if (!layer) return layer;
   OGRFieldDefn number("triangle", OFTInteger64), error("error", OFTReal);
-  if (layer->CreateField(&number) != OGRERR_NONE) return refused();
-  if (!options.triangleErrors.empty() && layer->CreateField(&error) != OGRERR_NONE) return refused();
-  if (!options.verticalUnit.empty()) layer->SetMetadataItem(kUnitKey, options.verticalUnit.c_str());
+  if ((*layer)->CreateField(&number) != OGRERR_NONE) return cannotBeWritten(errors);
+  if (!options.triangleErrors.empty() && (*layer)->CreateField(&error) != OGRERR_NONE)
+    return cannotBeWritten(errors);
+  if (!options.verticalUnit.empty()) (*layer)->SetMetadataItem(kUnitKey, options.verticalUnit.c_str());
   return layer;
 }
 
@@ -72,35 +57,22 @@ Status writeTriangles(OGRLayer& layer, const TriangleMesh& mesh, std::span<const
     feature.SetField(numberField, static_cast<GIntBig>(t));
     if (errorField >= 0) feature.SetField(errorField, double{triangleErrors[t]});
     feature.SetGeometryDirectly(polygon.release());
-    if (layer.CreateFeature(&feature) != OGRERR_NONE)
-      return failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", errors.firstFailure()));
+    if (layer.CreateFeature(&feature) != OGRERR_NONE) return cannotBeWritten(errors);
   }
   return {};
 }
 
-Status writeTo(const std::string& path, const TriangleMesh& mesh, const MeshWriteOptions& options,
-               const RunContext& context) {
-  GdalErrors errors;
-  const CPLConfigOptionSetter noWait("OGR_SQLITE_SYNCHRONOUS", "OFF", false);
-  const CPLConfigOptionSetter noJournal("OGR_SQLITE_JOURNAL", "OFF", false);
-  const CPLConfigOptionSetter noClock("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z", false);
-  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
-  if (!driver) return failure(ErrorCode::unsupported, "this GDAL cannot write GeoPackages");
-  GdalDatasetPtr dataset(driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
-  if (!dataset)
-    return failure(ErrorCode::unreadable, fmt::format("cannot be created: {}", errors.firstFailure()));
-  const Result<OGRLayer*> layer = createLayer(*dataset, options, errors);
+/// All triangles in one transaction.
+Status fill(GDALDataset& dataset, GdalErrors& errors, const TriangleMesh& mesh,
+            const MeshWriteOptions& options, const RunContext& context) {
+  const Result<OGRLayer*> layer = createLayer(dataset, options, errors);
   if (!layer) return tl::unexpected(layer.error());
   errors.clear();
-  if (dataset->StartTransaction() != OGRERR_NONE)
-    return failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", errors.firstFailure()));
-  Status status = writeTriangles(**layer, mesh, options.triangleErrors, errors, context);
-  if (status && dataset->CommitTransaction() != OGRERR_NONE)
-    status = failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", errors.firstFailure()));
-  dataset.reset();
-  if (status && errors.anyFailure())
-    status = failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", errors.firstFailure()));
-  return status;
+  if (dataset.StartTransaction() != OGRERR_NONE) return cannotBeWritten(errors);
+  if (Status status = writeTriangles(**layer, mesh, options.triangleErrors, errors, context); !status)
+    return status;
+  if (dataset.CommitTransaction() != OGRERR_NONE) return cannotBeWritten(errors);
+  return {};
 }
 
 }  // namespace
@@ -115,11 +87,9 @@ Status writeGpkg(const TriangleMesh& mesh, const std::filesystem::path& path, co
         fmt::format("{} errors for {} triangles", options.triangleErrors.size(), mesh.triangles.size()),
         path.string());
   try {
-    registerGdal();
-    Result<OutputFile> file = OutputFile::create(path);
-    if (!file) return tl::unexpected(file.error());
-    Status status = writeTo(file->temporaryPath().string(), mesh, options, context);
-    if (status) status = file->commit();
+    Status status = writeGeoPackage(path, [&](GDALDataset& dataset, GdalErrors& errors) {
+      return fill(dataset, errors, mesh, options, context);
+    });
     if (!status && status.error().culprit.empty()) status.error().culprit = path.string();
     return status;
   } catch (const std::bad_alloc&) {

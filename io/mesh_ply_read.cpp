@@ -109,7 +109,7 @@ class PlyBody {
     for (const PlyElement& element : header_.elements)
       if (element.name == "vertex") vertexCount_ = element.count;
     for (const PlyElement& element : header_.elements)
-      if (const Status ok = readElement(element); !ok) return ok;
+      if (Status ok = readElement(element); !ok) return ok;
     file.mesh = std::move(mesh_);
     file.triangleErrors = std::move(errors_);
     return {};
@@ -176,7 +176,7 @@ class PlyBody {
                         static_cast<double>(scalars_.at - file_.begin()) / double(file_.size()));
         if (context_.cancelled()) return failure(ErrorCode::interrupted, "reading was interrupted", path_);
       }
-      if (const Status ok = readRecord(element, roles, isVertex, record); !ok) return ok;
+      if (Status ok = readRecord(element, roles, isVertex, record); !ok) return ok;
     }
     return {};
   }
@@ -188,7 +188,7 @@ class PlyBody {
     for (std::size_t p = 0; p < roles.size(); ++p) {
       const PlyProperty& property = element.properties[p];
       if (property.isList) {
-        if (const Status ok = readList(element, property, roles[p], record); !ok) return ok;
+        if (Status ok = readList(element, property, roles[p], record); !ok) return ok;
         continue;
       }
       double value = 0;

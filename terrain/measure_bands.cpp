@@ -29,7 +29,7 @@ struct BandRange {
 }  // namespace
 
 Status checkInputs(const TriangleMesh& mesh, std::size_t samples, const MeasureOptions& options) {
-  if (const Status ok = mesh.validate(); !ok) return ok;
+  if (Status ok = mesh.validate(); !ok) return ok;
   if (mesh.triangles.size() >= std::numeric_limits<std::uint32_t>::max())
     return failure(ErrorCode::unsupported,
                    fmt::format("{} triangles are more than can be measured", mesh.triangles.size()));

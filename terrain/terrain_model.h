@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "terrain/build_options.h"
 #include "terrain/georeference.h"
 #include "terrain/heightfield.h"
+#include "terrain/source_reading.h"
 
 namespace arete {
 
@@ -17,13 +17,6 @@ namespace arete {
 struct IsolatedSample {
   std::uint32_t sample = 0;
   double height = 0;
-};
-
-/// What a reader of the source was told beyond its name: without it the source may be read as other terrain.
-struct SourceReading {
-  std::uint32_t band = 0;             ///< of a raster; 0 = not told
-  std::string layer, zField, crs;     ///< empty = not told
-  std::optional<double> nodata = {};  ///< finite
 };
 
 /// What a build makes of a heightfield and what an .amt file holds: the multitriangulation and all that is
@@ -37,7 +30,7 @@ struct TerrainModel {
   std::vector<IsolatedSample> isolated;  ///< raster only, by rising sample
   std::string source;
   std::string sourceChecksum;
-  SourceReading reading = {};  ///< of the source
+  SourceReading reading = {};  ///< how the source was read
 
   BuildOptions options;  ///< as built; fixedVertices are samples of a raster, MT vertices of points
   std::uint32_t metricP = 1, metricQ = 1;  ///< raster: the Delaunay metric is (p column, q row)

@@ -109,22 +109,6 @@ std::vector<VertexClass> classify(std::size_t vertexCount, const Position& posit
 
 }  // namespace
 
-std::string_view toString(VertexClass vertexClass) {
-  switch (vertexClass) {
-    case VertexClass::isolated:
-      return "isolated";
-    case VertexClass::simple:
-      return "simple";
-    case VertexClass::boundary:
-      return "boundary";
-    case VertexClass::interiorEdge:
-      return "interior edge";
-    case VertexClass::corner:
-      return "corner";
-  }
-  return "unknown";
-}
-
 std::vector<VertexClass> classifyVertices(std::span<const Vec3> positions,
                                           std::span<const Triangle> triangles, double creaseAngleDegrees) {
   return classify(
@@ -135,30 +119,6 @@ std::vector<VertexClass> classifyVertices(std::span<const Vec3> positions,
 std::vector<VertexClass> classifyVertices(std::size_t vertexCount, const PositionOf& positionOf,
                                           std::span<const Triangle> triangles, double creaseAngleDegrees) {
   return classify(vertexCount, positionOf, triangles, creaseAngleDegrees);
-}
-
-VertexClassCounts countClasses(std::span<const VertexClass> classes) {
-  VertexClassCounts counts;
-  for (const VertexClass c : classes) {
-    switch (c) {
-      case VertexClass::isolated:
-        ++counts.isolated;
-        break;
-      case VertexClass::simple:
-        ++counts.simple;
-        break;
-      case VertexClass::boundary:
-        ++counts.boundary;
-        break;
-      case VertexClass::interiorEdge:
-        ++counts.interiorEdge;
-        break;
-      case VertexClass::corner:
-        ++counts.corner;
-        break;
-    }
-  }
-  return counts;
 }
 
 }  // namespace arete

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "engine/vec.h"
@@ -25,13 +24,6 @@ enum class VertexClass : std::uint8_t {
   corner,        ///< a full cycle with one crease, or three and more; or an edge of more than two triangles
 };
 
-std::string_view toString(VertexClass vertexClass);
-
-struct VertexClassCounts {
-  std::size_t isolated = 0, simple = 0, boundary = 0, interiorEdge = 0, corner = 0;
-  bool operator==(const VertexClassCounts&) const = default;
-};
-
 /// Position of a vertex by its index, all three coordinates in one unit.
 using PositionOf = std::function<Vec3(std::uint32_t vertex)>;
 
@@ -46,7 +38,5 @@ std::vector<VertexClass> classifyVertices(std::span<const Vec3> positions,
 std::vector<VertexClass> classifyVertices(std::size_t vertexCount, const PositionOf& positionOf,
                                           std::span<const std::array<std::uint32_t, 3>> triangles,
                                           double creaseAngleDegrees);
-
-VertexClassCounts countClasses(std::span<const VertexClass> classes);
 
 }  // namespace arete

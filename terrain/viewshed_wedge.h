@@ -26,7 +26,6 @@ class ViewshedWedgeSweep {
  private:
   double height(int x, int y) const;
   std::size_t index(int x, int y) const;
-  int yAround(double u, double x) const;
 
   void take(int x, PictureLine& line) const;
   Status ask(int x);

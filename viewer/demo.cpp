@@ -18,8 +18,10 @@
 
 #include "engine/criterion.h"
 #include "engine/cut.h"
+#include "engine/stopwatch.h"
 #include "io/amt_file.h"
 #include "io/certificate.h"
+#include "io/dem_reader.h"
 #include "io/export_tin.h"
 #include "io/mesh_file.h"
 #include "terrain/build.h"
@@ -33,7 +35,6 @@
 #include "viewer/chart.h"
 #include "viewer/error_map.h"
 #include "viewer/headless.h"
-#include "viewer/stopwatch.h"
 #include "viewer/ticks.h"
 #include "viewer/tin_picture.h"
 #include "viewer/viewshed_map.h"
@@ -135,7 +136,7 @@ class Demo {
   Status read() {
     if (const auto checked = checkedTolerances(options_.maxErrors); !checked)
       return tl::unexpected(checked.error());
-    Result<DemRead> dem = readDem(report_.dem, options_.read, context_);
+    Result<DemRead> dem = readDem(report_.dem, options_.reading, context_);
     if (!dem) return tl::unexpected(dem.error());
     if (!std::holds_alternative<RasterHeightfield>(dem->heightfield))
       return failure(ErrorCode::unsupported,

@@ -7,15 +7,15 @@
 
 #include "engine/result.h"
 #include "engine/run_context.h"
-#include "io/dem_reader.h"
 #include "terrain/build_options.h"
 #include "terrain/error_curve.h"
+#include "terrain/source_reading.h"
 
 namespace arete {
 
 struct DemoOptions {
   std::string folder;              ///< made where it is not there, with those above it
-  DemReadOptions read;             ///< how to read the DEM
+  SourceReading reading;           ///< how to read the DEM
   BuildOptions build;              ///< the default features are added to its fixed vertices
   std::vector<double> maxErrors;   ///< in the DEM's vertical unit; empty = chosen from the data
   std::size_t mostTolerances = 5;  ///< of those chosen, at least 1

@@ -14,10 +14,10 @@
 #include <optional>
 #include <system_error>
 
+#include "engine/stopwatch.h"
 #include "io/text_scan.h"
 #include "viewer/gl/frame_target.h"
 #include "viewer/gl/offscreen.h"
-#include "viewer/stopwatch.h"
 
 extern char** environ;
 

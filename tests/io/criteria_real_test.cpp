@@ -23,9 +23,9 @@ class RealCriteria : public testing::TestWithParam<const char*> {
   void SetUp() override {
     const std::filesystem::path path = test::realData(GetParam());
     if (path.empty()) GTEST_SKIP() << "the real DEMs are not here (../shared/data or $ARETE_DATA)";
-    DemReadOptions options;
-    options.band = 1;
-    const auto dem = readDem(path.string(), options);
+    SourceReading reading;
+    reading.band = 1;
+    const auto dem = readDem(path.string(), reading);
     ASSERT_TRUE(dem) << dem.error().describe();
     auto model = build(std::get<RasterHeightfield>(dem->heightfield));
     ASSERT_TRUE(model) << model.error().describe();

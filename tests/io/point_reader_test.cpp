@@ -301,8 +301,8 @@ TEST(PointReader, SaysWhyAFileCannotBeRead) {
   EXPECT_EQ(errorOf(folder.write("prose.doc", "once upon a time")).code, ErrorCode::unsupported);
 }
 
-DemRead demOrFail(const std::string& path, const DemReadOptions& options = {}) {
-  auto read = readDem(path, options);
+DemRead demOrFail(const std::string& path, const SourceReading& reading = {}) {
+  auto read = readDem(path, reading);
   if (!read) {
     ADD_FAILURE() << read.error().describe();
     return {};
@@ -310,8 +310,8 @@ DemRead demOrFail(const std::string& path, const DemReadOptions& options = {}) {
   return std::move(*read);
 }
 
-Error demErrorOf(const std::string& path, const DemReadOptions& options = {}) {
-  auto read = readDem(path, options);
+Error demErrorOf(const std::string& path, const SourceReading& reading = {}) {
+  auto read = readDem(path, reading);
   if (read) ADD_FAILURE() << path << " was read";
   return read ? Error{} : read.error();
 }
@@ -319,10 +319,10 @@ Error demErrorOf(const std::string& path, const DemReadOptions& options = {}) {
 TEST(DemReader, WarnsOfPlacesThatLookLikeDegreesWithoutACrs) {
   TemporaryFolder folder;
   const auto isWarnedOf = [&](const std::string& name, const std::string& text, const std::string& crs = {}) {
-    DemReadOptions options;
-    options.crs = crs;
+    SourceReading reading;
+    reading.crs = crs;
     std::string all;
-    for (const std::string& warning : demOrFail(folder.write(name, text), options).warnings) all += warning;
+    for (const std::string& warning : demOrFail(folder.write(name, text), reading).warnings) all += warning;
     return contains(all, "look like degrees");
   };
   const std::string heights = "310 450\n NaN 1290\n";
@@ -396,15 +396,15 @@ TEST(DemReader, RefusesOptionsOfTheOtherKind) {
   TemporaryFolder folder;
   const std::string raster = test::writeRaster(folder.file("dem.tif"), {});
   const std::string points = folder.write("p.csv", "1,2,3\n4,5.5,6\n7.7,8,9\n");
-  DemReadOptions layer, field, band;
+  SourceReading layer, field, band;
   layer.layer = "peaks";
   field.zField = "elevation";
   band.band = 1;
-  for (const auto& [path, options, sentence] :
+  for (const auto& [path, reading, sentence] :
        {std::tuple{raster, layer, "is a raster, which has no layer 'peaks'"},
         {raster, field, "is a raster, which has bands and no field 'elevation'"},
         {points, band, "holds points, which have no band 1"}}) {
-    const Error error = demErrorOf(path, options);
+    const Error error = demErrorOf(path, reading);
     EXPECT_EQ(error.code, ErrorCode::usage);
     EXPECT_EQ(error.describe(), path + ": " + sentence);
   }
@@ -432,12 +432,12 @@ TEST(DemReader, ReadsPointsFromAnArchiveAsItDoesWithout) {
 
 TEST(DemReader, PassesItsOptionsOn) {
   TemporaryFolder folder;
-  DemReadOptions options;
-  options.band = 7;
-  EXPECT_EQ(demErrorOf(test::writeRaster(folder.file("dem.tif"), {}), options).code, ErrorCode::usage);
-  options = {};
-  options.crs = "EPSG:4326";
-  const DemRead read = demOrFail(folder.write("p.csv", "1,2,3\n4,5.5,6\n7.7,8,9\n"), options);
+  SourceReading reading;
+  reading.band = 7;
+  EXPECT_EQ(demErrorOf(test::writeRaster(folder.file("dem.tif"), {}), reading).code, ErrorCode::usage);
+  reading = {};
+  reading.crs = "EPSG:4326";
+  const DemRead read = demOrFail(folder.write("p.csv", "1,2,3\n4,5.5,6\n7.7,8,9\n"), reading);
   EXPECT_TRUE(std::get<PointHeightfield>(read.heightfield).georeference.isGeographic);
 }
 

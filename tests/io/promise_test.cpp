@@ -82,9 +82,9 @@ class Promise : public testing::TestWithParam<Case> {
       skip_ = "the real DEMs are not here (../shared/data or $ARETE_DATA)";
       return {};
     }
-    DemReadOptions options;
-    if (path.extension() == ".tif" || path.extension() == ".png") options.band = 1;
-    const auto dem = readDem(path.string(), options);
+    SourceReading reading;
+    if (path.extension() == ".tif" || path.extension() == ".png") reading.band = 1;
+    const auto dem = readDem(path.string(), reading);
     EXPECT_TRUE(dem) << dem.error().describe();
     if (!dem) return {};
     RasterHeightfield field = std::get<RasterHeightfield>(dem->heightfield);

@@ -178,6 +178,29 @@ TEST(RasterReader, TakesNanAndInfinityForNodata) {
   EXPECT_TRUE(contains(joined(warnings), "2 infinite heights")) << joined(warnings);
 }
 
+TEST(RasterReader, TakesNothingElseOutWhereNodataIsInfinite) {
+  TemporaryFolder folder;
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const double nodata : {inf, -inf})
+    for (const GDALDataType type : {GDT_Float32, GDT_Float64, GDT_Int16}) {
+      RasterSpec spec;
+      spec.type = type;
+      spec.values = {1, 2, 3, 4, 5, type == GDT_Int16 ? 6 : nodata};
+      const double last = type == GDT_Int16 ? 6 : kNan;
+      spec.adjust = [&](GDALDataset& d) { d.GetRasterBand(1)->SetNoDataValue(nodata); };
+      std::vector<std::string> warnings;
+      expectHeights(readOrFail(writeRaster(folder.file("declared.tif"), spec), {}, &warnings),
+                    {1, 2, 3, 4, 5, last});
+      EXPECT_TRUE(warnings.empty()) << joined(warnings);
+      spec.adjust = {};
+      RasterReadOptions stated;
+      stated.nodata = nodata;
+      expectHeights(readOrFail(writeRaster(folder.file("stated.tif"), spec), stated, &warnings),
+                    {1, 2, 3, 4, 5, last});
+      EXPECT_TRUE(warnings.empty()) << joined(warnings);
+    }
+}
+
 TEST(RasterReader, AppliesAMaskOfTheDataset) {
   TemporaryFolder folder;
   RasterSpec spec;

@@ -74,9 +74,9 @@ class RealSights : public testing::TestWithParam<Dem> {
   void SetUp() override {
     const std::filesystem::path path = realData(GetParam().path);
     if (path.empty()) GTEST_SKIP() << "the real DEMs are not here (../shared/data or $ARETE_DATA)";
-    DemReadOptions options;
-    options.band = 1;
-    const auto dem = readDem(path.string(), options);
+    SourceReading reading;
+    reading.band = 1;
+    const auto dem = readDem(path.string(), reading);
     ASSERT_TRUE(dem) << dem.error().describe();
     field_ = std::get<RasterHeightfield>(dem->heightfield);
   }

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -37,6 +40,17 @@ struct Grid {
   }
   std::uint32_t at(std::uint32_t column, std::uint32_t row) const { return row * columns + column; }
 };
+
+struct VertexClassCounts {
+  std::size_t isolated = 0, simple = 0, boundary = 0, interiorEdge = 0, corner = 0;
+  bool operator==(const VertexClassCounts&) const = default;
+};
+
+VertexClassCounts countClasses(const std::vector<VertexClass>& classes) {
+  const auto count = [&](VertexClass c) { return std::size_t(std::ranges::count(classes, c)); };
+  return {count(VertexClass::isolated), count(VertexClass::simple), count(VertexClass::boundary),
+          count(VertexClass::interiorEdge), count(VertexClass::corner)};
+}
 
 TEST(VertexClasses, FlatGroundIsSimpleInsideABoundary) {
   const Grid grid(6, 5, [](double, double) { return 3.0; });

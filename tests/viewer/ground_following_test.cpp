@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "viewer/camera/free_camera.h"
-#include "viewer/camera/orbit_camera.h"
 #include "viewer/camera_models.h"
 
 namespace arete {
@@ -85,44 +84,6 @@ TEST(GroundFollowing, KeepsTheLastGroundOffTheTerrain) {
   EXPECT_NEAR(following.aboveFloor(outside).height, raised.height, 1e-6);
   const Camera high{.xy = inside, .height = 1e4};
   EXPECT_EQ(following.aboveFloor(high).height, 1e4) << "nothing is lowered";
-}
-
-TEST(DistanceToGround, MeetsTheGroundWhereTheCameraLooks) {
-  // A dome: its edges are low, and a camera outside that looks level comes in below them.
-  RasterHeightfield field;
-  field.columns = 80;
-  field.rows = 60;
-  for (int r = 0; r < 60; ++r)
-    for (int c = 0; c < 80; ++c)
-      field.heights.push_back(500 - 0.2 * ((c - 40) * (c - 40) + (r - 30) * (r - 30)));
-  field.georeference.geoTransform = {1000, 30, 4, 2000, -3, -25};
-  const auto model = build(field);
-  ASSERT_TRUE(model);
-  const CameraSpace space(*model);
-  const SurfaceHeights heights(*model);
-  const MetricBox box = metricBox(*model);
-  for (const HomeView view : {HomeView::overview, HomeView::fromAbove}) {
-    Camera camera = homeCamera(view, space, box);
-    camera.height += 400;
-    const auto distance = distanceToGround(camera, space, heights, 1e6);
-    ASSERT_TRUE(distance);
-    const OrbitCamera orbit = OrbitCamera::of(space, camera, *distance);
-    const Vec3 target = orbit.orbit().target;
-    const auto ground = heights.at(space.xy(target));
-    ASSERT_TRUE(ground);
-    EXPECT_NEAR(ground->height, space.height(target), 1e-6);
-    EXPECT_NEAR(orbitRadius(camera, space, heights, box), *distance, 1e-6);
-    Camera up = camera;
-    up.pitchDegrees = 60;
-    EXPECT_FALSE(distanceToGround(up, space, heights, 1e6));
-    EXPECT_GT(orbitRadius(up, space, heights, box), 0);
-    const Camera level = homeCamera(HomeView::fromSouth, space, box);
-    EXPECT_FALSE(distanceToGround(level, space, heights, 1e6));
-    Camera below = camera;
-    below.xy = model->toSource({40, 30});
-    below.height = 0;
-    EXPECT_FALSE(distanceToGround(below, space, heights, 1e6));
-  }
 }
 
 }  // namespace

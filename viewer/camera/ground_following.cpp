@@ -15,10 +15,6 @@ namespace {
 
 constexpr int kLooks = 8;
 
-Vec3 along(const Vec3& from, const Vec3& direction, double length) {
-  return {from.x + length * direction.x, from.y + length * direction.y, from.z + length * direction.z};
-}
-
 }  // namespace
 
 GroundFollowing::GroundFollowing(const SurfaceHeights& heights, const CameraSpace& space,
@@ -77,41 +73,6 @@ Camera GroundFollowing::follow(Camera camera, double seconds) {
   }
   raised.xy = camera.xy;
   return raised;
-}
-
-std::optional<double> distanceToGround(const Camera& camera, const CameraSpace& space,
-                                       const SurfaceHeights& heights, double farthest, double maxError) {
-  const Vec3 eye = space.position(camera), ahead = space.forward(lookOf(camera));
-  const auto isAbove = [&](double distance) {
-    const Vec3 p = along(eye, ahead, distance);
-    const Vec2 xy = space.xy(p);
-    const auto ground = heights.at(xy, maxError);
-    return !ground || p.z > space.position(xy, ground->height).z;
-  };
-  if (!isAbove(0)) return std::nullopt;
-  double above = 0;
-  while (above < farthest) {
-    double below = std::min(above + std::max(above / 100, farthest / 10000), farthest);
-    if (isAbove(below)) {
-      above = below;
-      continue;
-    }
-    for (int halving = 0; halving < 40; ++halving) {
-      const double middle = (above + below) / 2;
-      (isAbove(middle) ? above : below) = middle;
-    }
-    if (!heights.at(space.xy(along(eye, ahead, above)), maxError)) return std::nullopt;
-    return below;
-  }
-  return std::nullopt;
-}
-
-double orbitRadius(const Camera& camera, const CameraSpace& space, const SurfaceHeights& heights,
-                   const MetricBox& box) {
-  const Vec3 eye = space.position(camera), c = box.centre();
-  const double toCentre = std::hypot(c.x - eye.x, c.y - eye.y, c.z - eye.z);
-  if (const auto ground = distanceToGround(camera, space, heights, toCentre + box.diagonal())) return *ground;
-  return std::max(toCentre, box.diagonal() / 1000);
 }
 
 }  // namespace arete

@@ -5,7 +5,6 @@
 
 #include "terrain/surface_height.h"
 #include "viewer/camera/camera_space.h"
-#include "viewer/camera/home_view.h"
 
 namespace arete {
 
@@ -53,16 +52,5 @@ class GroundFollowing {
   Vec3 place_;             // where follow() left the camera
   double climbSpeed_ = 0;  // metres per second
 };
-
-/// How far ahead on its axis a camera meets the terrain, in metres; nothing where there is none
-/// within `farthest` or the camera stands below it. It looks in steps of a hundredth of the distance, at
-/// least of a ten-thousandth of `farthest`: a ridge thinner than that may be missed. One that comes in
-/// below an edge of the terrain meets nothing.
-std::optional<double> distanceToGround(const Camera& camera, const CameraSpace& space,
-                                       const SurfaceHeights& heights, double farthest, double maxError = 0);
-
-/// The radius for OrbitCamera::of(): to the ground ahead, else as far as the middle of the box is.
-double orbitRadius(const Camera& camera, const CameraSpace& space, const SurfaceHeights& heights,
-                   const MetricBox& box);
 
 }  // namespace arete

@@ -17,8 +17,8 @@ class OrbitCamera {
   /// `picture` gives field of view and size; its place and direction do not count.
   OrbitCamera(const CameraSpace& space, const Orbit& orbit, const Camera& picture = {});
 
-  /// The orbit of a camera around what lies ahead of it at a distance (distanceToGround() finds it): its
-  /// picture stays. Precondition: radius > 0.
+  /// The orbit of a camera around what lies ahead of it at a distance: its picture stays.
+  /// Precondition: radius > 0.
   static OrbitCamera of(const CameraSpace& space, const Camera& camera, double radius);
 
   const Orbit& orbit() const { return orbit_; }

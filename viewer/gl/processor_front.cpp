@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/stopwatch.h"
 #include "viewer/gl/gl_program.h"
-#include "viewer/stopwatch.h"
 
 namespace arete {
 namespace {

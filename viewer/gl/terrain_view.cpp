@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "engine/geomorph.h"
+#include "engine/stopwatch.h"
 #include "viewer/gl/processor_front.h"
 #include "viewer/scene/curved_ground.h"
-#include "viewer/stopwatch.h"
 
 namespace arete {
 struct TerrainView::State {
