@@ -137,11 +137,11 @@ Result<OGRSpatialReference> crsFromUser(const std::string& text) {
 Result<OGRSpatialReference> chooseCrs(const OGRSpatialReference* own, const std::string& text,
                                       std::vector<std::string>& warnings) {
   OGRSpatialReference chosen;
-  if (own) chosen = *own;
+  if (isKnownCrs(own)) chosen = *own;
   if (!text.empty()) {
     auto stated = crsFromUser(text);
     if (!stated) return tl::unexpected(stated.error());
-    if (own && !own->IsEmpty() && !own->IsSame(&*stated))
+    if (isKnownCrs(own) && !own->IsSame(&*stated))
       warnings.push_back(fmt::format("the CRS of the file, {}, is replaced by the one stated, {}",
                                      nameOf(*own), nameOf(*stated)));
     chosen = std::move(*stated);

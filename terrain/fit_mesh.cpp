@@ -51,9 +51,12 @@ void FitMesh::unlink(std::uint32_t slot) {
 FitMesh::Weights FitMesh::weights(const Corners& corners) const {
   Weights w;
   for (int i = 0; i < 3; ++i) w.at[i] = plan(mtVertices_[corners[i]]);
-  const double area =
-      (w.at[1].x - w.at[0].x) * (w.at[2].y - w.at[0].y) - (w.at[1].y - w.at[0].y) * (w.at[2].x - w.at[0].x);
+  const double left = (w.at[1].x - w.at[0].x) * (w.at[2].y - w.at[0].y),
+               right = (w.at[1].y - w.at[0].y) * (w.at[2].x - w.at[0].x), area = left - right;
   w.inverse = 1 / area;
+  constexpr double kTrusted = 0x1p-20;
+  // On a lattice the terms are whole numbers and exact.
+  w.isThin = !mt_.vertices().isLattice() && !(area > kTrusted * (std::abs(left) + std::abs(right)));
   return w;
 }
 

@@ -12,6 +12,7 @@
 #include "engine/multitriangulation.h"
 #include "terrain/fit_patch.h"
 #include "terrain/fit_samples.h"
+#include "terrain/plan_orientation.h"
 
 namespace arete {
 
@@ -103,7 +104,9 @@ class FitMesh {
   struct Weights {
     std::array<Vec2, 3> at;
     double inverse;
+    bool isThin = false;  ///< so far below the terms it is a difference of that doubles do not tell the area
     std::array<double, 3> of(Vec2 p) const {
+      if (isThin) return exactPlanWeights(at[0], at[1], at[2], p);
       const auto turn = [&](int i, int j) {
         return (at[i].x - p.x) * (at[j].y - p.y) - (at[i].y - p.y) * (at[j].x - p.x);
       };

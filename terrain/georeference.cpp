@@ -30,7 +30,13 @@ Vec2 groundStep(const Georeference& georeference, double column, double row) {
                      (here.x + dx / 2) * degrees, metres);
     return metres;
   };
-  return {distance(g[1], g[4]), distance(g[2], g[5])};
+  const Vec2 step{distance(g[1], g[4]), distance(g[2], g[5])};
+  // On a pole, and where no latitude is, a step goes nowhere; a plan without extent would know no distances.
+  const double perRadian = georeference.semiMajorAxisMetres * georeference.angularUnitRadians;
+  const Vec2 equatorial{planarX * perRadian, planarY * perRadian};
+  constexpr double kNowhere = 1e-9;
+  if (step.x > kNowhere * equatorial.x && step.y > kNowhere * equatorial.y) return step;
+  return equatorial;
 }
 
 Vec2 groundUnit(const Georeference& georeference, double y) {

@@ -39,7 +39,7 @@ struct MeasureReport {
   std::uint64_t triangles = 0;
   std::uint64_t vertices = 0;
   std::uint64_t degenerateTriangles =
-      0;  ///< no plan area (thinner than the plan tolerance): they cover nothing
+      0;  ///< no plan area (thinner than the plan tolerance): they cover nothing but points they hold exactly
 
   std::uint64_t samples = 0;    ///< all of them, NODATA included
   std::uint64_t valid = 0;      ///< with a height
@@ -98,7 +98,9 @@ Result<MeasureReport> measure(const TriangleMesh& mesh, const RasterHeightfield&
                               const MeasureOptions& options = {}, const RunContext& context = {},
                               MeasureRasters* rasters = nullptr);
 
-/// The same for scattered points; no point is isolated or NODATA.
+/// The same for scattered points; no point is isolated or NODATA. Unless the mesh's x and y are rounded,
+/// which triangles hold a point, edges included, is decided exactly, however thin they are, and these alone
+/// say how high the TIN is there; the plan tolerance is for points that none holds, and tells overlaps.
 Result<MeasureReport> measure(const TriangleMesh& mesh, const PointHeightfield& points,
                               const MeasureOptions& options = {}, const RunContext& context = {},
                               MeasureRasters* rasters = nullptr);

@@ -49,7 +49,7 @@ double raisedTolerance(const MeasureOptions& options, Vec2 roundingPixels) {
 }
 
 TriangleBands sortIntoBands(const TriangleMesh& mesh, std::span<const Vec2> plan, std::int64_t rows,
-                            double rowHeight, std::int64_t rowsPerBand, double tolerance) {
+                            double rowHeight, std::int64_t rowsPerBand, double tolerance, bool keepsThin) {
   const std::int64_t bands = (rows + rowsPerBand - 1) / rowsPerBand;
   TriangleBands result;
   if (bands <= 0) {
@@ -69,16 +69,14 @@ TriangleBands sortIntoBands(const TriangleMesh& mesh, std::span<const Vec2> plan
   };
 
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
-  std::vector<bool> isDegenerate(count);
+  std::vector<bool> isLeftOut(count);
   PlanTriangle triangle;
   for (std::uint32_t t = 0; t < count; ++t) {
     const bool hasArea = setTriangle(triangle, mesh, plan, t, tolerance);
     result.areaPixels += triangle.area2 / 2;
-    if (!hasArea) {
-      isDegenerate[t] = true;
-      ++result.degenerate;
-      continue;
-    }
+    result.degenerate += !hasArea;
+    isLeftOut[t] = !hasArea && !keepsThin;
+    if (isLeftOut[t]) continue;
     const BandRange range = bandsOf(t);
     for (std::int64_t b = range.first; b <= range.last; ++b) ++result.begin[b + 1];
   }
@@ -87,7 +85,7 @@ TriangleBands sortIntoBands(const TriangleMesh& mesh, std::span<const Vec2> plan
   result.triangles.resize(result.begin.back());
   std::vector<std::uint64_t> next(result.begin.begin(), result.begin.end() - 1);
   for (std::uint32_t t = 0; t < count; ++t) {
-    if (isDegenerate[t]) continue;
+    if (isLeftOut[t]) continue;
     const BandRange range = bandsOf(t);
     for (std::int64_t b = range.first; b <= range.last; ++b) result.triangles[next[b]++] = t;
   }

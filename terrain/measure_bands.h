@@ -37,10 +37,11 @@ struct TriangleBands {
   }
 };
 
-/// `plan` holds the mesh's vertices in pixels. Degenerate triangles are counted and left out.
-/// O(triangles + entries).
+/// `plan` holds the mesh's vertices in pixels. Degenerate triangles are counted and, but for `keepsThin`,
+/// left out. O(triangles + entries).
 TriangleBands sortIntoBands(const TriangleMesh& mesh, std::span<const Vec2> plan, std::int64_t rows,
-                            double rowHeight, std::int64_t rowsPerBand, double tolerance);
+                            double rowHeight, std::int64_t rowsPerBand, double tolerance,
+                            bool keepsThin = false);
 
 /// The corners and heights of a triangle of the mesh, with the plan positions in pixels.
 inline bool setTriangle(PlanTriangle& triangle, const TriangleMesh& mesh, std::span<const Vec2> plan,
@@ -70,6 +71,7 @@ class Gathered {
     turn_[sample] += turn;
   }
 
+  std::size_t size() const { return z_.size(); }
   bool isCovered(std::size_t sample) const { return !std::isnan(z_[sample]); }
   double z(std::size_t sample) const { return z_[sample]; }
   std::uint32_t triangle(std::size_t sample) const { return triangle_[sample]; }

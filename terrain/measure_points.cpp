@@ -6,6 +6,12 @@
 // buckets it reaches; within a row, its extent in x over the row's strip is found by clipping its sides, and
 // the points of the buckets there are decided one by one. A long thin triangle therefore visits the buckets
 // along it and not those of its bounding box.
+//
+// Points near one line make triangles far thinner than the plan tolerance, and a neighbour's side within it
+// of a point need not be anywhere near the height of the sliver that the point lies in. So which triangles
+// hold a point is decided exactly, on the source coordinates, and these say how high the TIN is there,
+// slivers too thin to count otherwise included; the tolerance is for points that no triangle holds. Of a mesh
+// whose x and y are rounded there is nothing exact to be had: there the tolerance decides alone.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +19,7 @@
 
 #include "terrain/measure.h"
 #include "terrain/measure_bands.h"
+#include "terrain/measure_exact.h"
 #include "terrain/measure_triangle.h"
 
 namespace arete {
@@ -52,6 +59,17 @@ struct PlanScale {
   Vec2 toPlan(double x, double y) const { return {(x - origin.x) / spacing, (y - origin.y) / spacing}; }
 };
 
+/// What the triangles within the tolerance of each point left there, and what those left that hold it. The
+/// second is empty where nothing is exact.
+struct GatheredPoints {
+  Gathered near, held;
+
+  /// Which of the two says how high the TIN is at a point.
+  const Gathered& at(std::size_t point) const {
+    return held.size() > 0 && held.isCovered(point) ? held : near;
+  }
+};
+
 class PointMeasurement {
  public:
   PointMeasurement(const TriangleMesh& mesh, const PointHeightfield& points, const MeasureOptions& options,
@@ -63,7 +81,8 @@ class PointMeasurement {
         rasters_(rasters),
         scale_(points.positions),
         tolerance_(measuring::raisedTolerance(
-            options, {options.planRounding.x / scale_.spacing, options.planRounding.y / scale_.spacing})) {}
+            options, {options.planRounding.x / scale_.spacing, options.planRounding.y / scale_.spacing})),
+        isExact_(options.planRounding == Vec2{}) {}
 
   Result<MeasureReport> run() {
     if (!(scale_.width < 1e18 && scale_.height < 1e18))
@@ -78,7 +97,8 @@ class PointMeasurement {
     }
     constexpr std::int64_t kBands = 128;
     bucketRowsPerBand_ = (bucketRows_ + kBands - 1) / kBands;
-    bands_ = measuring::sortIntoBands(mesh_, plan_, bucketRows_, kBucketSide, bucketRowsPerBand_, tolerance_);
+    bands_ = measuring::sortIntoBands(mesh_, plan_, bucketRows_, kBucketSide, bucketRowsPerBand_, tolerance_,
+                                      isExact_);
     if (rasters_) {
       rasters_->tinHeights.resize(points_.size());
       rasters_->errors.resize(points_.size());
@@ -127,7 +147,7 @@ class PointMeasurement {
     const std::int64_t endRow = std::min(firstRow + bucketRowsPerBand_, bucketRows_);
     const std::uint64_t firstPoint = bucketBegin_[firstRow * bucketColumns_];
     const std::uint64_t endPoint = bucketBegin_[endRow * bucketColumns_];
-    Gathered gathered(endPoint - firstPoint);
+    GatheredPoints gathered{Gathered(endPoint - firstPoint), Gathered(isExact_ ? endPoint - firstPoint : 0)};
     PlanTriangle triangle;
     std::size_t untilCheck = measuring::kTrianglesPerCancelCheck;
     for (const std::uint32_t id : bands_.of(band)) {
@@ -135,14 +155,16 @@ class PointMeasurement {
         if (context_.cancelled()) return {};
         untilCheck = measuring::kTrianglesPerCancelCheck;
       }
-      measuring::setTriangle(triangle, mesh_, plan_, id, tolerance_);
-      scanTriangle(triangle, id, firstRow, endRow, firstPoint, gathered);
+      const bool hasArea = measuring::setTriangle(triangle, mesh_, plan_, id, tolerance_);
+      scanTriangle(triangle, hasArea, id, firstRow, endRow, firstPoint, gathered);
     }
     return countBand(firstPoint, endPoint, gathered);
   }
 
-  void scanTriangle(const PlanTriangle& t, std::uint32_t id, std::int64_t firstRow, std::int64_t endRow,
-                    std::uint64_t firstPoint, Gathered& gathered) const {
+  void scanTriangle(const PlanTriangle& t, bool hasArea, std::uint32_t id, std::int64_t firstRow,
+                    std::int64_t endRow, std::uint64_t firstPoint, GatheredPoints& gathered) const {
+    const auto& v = mesh_.triangles[id];
+    const std::array<Vec3, 3> corners = {mesh_.positions[v[0]], mesh_.positions[v[1]], mesh_.positions[v[2]]};
     // Generous: clipping rounds, and every point met is decided by itself.
     const double margin = 4 * tolerance_;
     const auto [yLow, yHigh] = std::minmax({t.corner[0].y, t.corner[1].y, t.corner[2].y});
@@ -172,18 +194,23 @@ class PointMeasurement {
       const std::uint64_t end = bucketBegin_[row * bucketColumns_ + static_cast<std::int64_t>(high) + 1];
       for (std::uint64_t slot = begin; slot < end; ++slot) {
         const Vec3& p = sorted_[slot];
-        const Contact c = t.contact(p.x, p.y, tolerance_);
-        if (c.covers) gathered.add(slot - firstPoint, p.z, id, c.z, c.strict, c.turn);
+        if (hasArea)
+          if (const Contact c = t.contact(p.x, p.y, tolerance_); c.covers)
+            gathered.near.add(slot - firstPoint, p.z, id, c.z, c.strict, c.turn);
+        if (!isExact_) continue;
+        if (const auto z = measuring::heightWhereHeld(corners, points_.positions[order_[slot]]))
+          gathered.held.add(slot - firstPoint, p.z, id, *z, false, 0);
       }
     }
   }
 
-  BandTotals countBand(std::uint64_t firstPoint, std::uint64_t endPoint, const Gathered& gathered) {
+  BandTotals countBand(std::uint64_t firstPoint, std::uint64_t endPoint, const GatheredPoints& both) {
     BandTotals totals;
     MeasureReport& counts = totals.counts;
     for (std::uint64_t slot = firstPoint; slot < endPoint; ++slot) {
       const std::uint64_t point = order_[slot];
       const std::size_t here = slot - firstPoint;
+      const Gathered& gathered = both.at(here);
       if (rasters_) {
         rasters_->tinHeights[point] = gathered.z(here);
         rasters_->errors[point] = std::numeric_limits<double>::quiet_NaN();
@@ -191,8 +218,8 @@ class PointMeasurement {
       if (!options_.mask.empty() && options_.mask[point] == 0) continue;
       ++counts.samples;
       ++counts.valid;
-      counts.doublyCovered += gathered.isDoublyCovered(here);
-      counts.overlapped += gathered.isOverlapped(here);
+      counts.doublyCovered += both.near.isDoublyCovered(here);
+      counts.overlapped += both.near.isOverlapped(here);
       if (!gathered.isCovered(here)) {
         ++counts.uncovered;
         continue;
@@ -212,6 +239,7 @@ class PointMeasurement {
   MeasureRasters* rasters_;
   PlanScale scale_;
   double tolerance_;
+  bool isExact_;  // the mesh says to the bit where its vertices are
   std::int64_t bucketColumns_ = 1, bucketRows_ = 1, bucketRowsPerBand_ = 1;
   std::vector<std::uint64_t> bucketBegin_;
   std::vector<std::uint64_t> order_;  // slot -> point

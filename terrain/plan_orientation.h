@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "engine/vec.h"
@@ -21,5 +22,9 @@ inline int planOrientation(Vec2 a, Vec2 b, Vec2 c) {
   if (turn < -doubt) return -1;
   return exactPlanOrientation(a, b, c);
 }
+
+/// How much a, b and c weigh at p: 0 .. 1 each and together 1 for a p in the triangle, to the last bits
+/// however thin it is. Slow: rational numbers. Precondition: finite, not on one line.
+std::array<double, 3> exactPlanWeights(Vec2 a, Vec2 b, Vec2 c, Vec2 p);
 
 }  // namespace arete

@@ -204,15 +204,15 @@ struct LayerSpec {
   std::vector<std::pair<const char*, double>> features;  ///< WKT (or null), and the field "h"
 };
 
-std::string writeVector(const std::string& path, const char* driverName,
-                        const std::vector<LayerSpec>& layers) {
+std::string writeVector(const std::string& path, const char* driverName, const std::vector<LayerSpec>& layers,
+                        const char* crsName = "EPSG:32611") {
   GDALAllRegister();
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driverName);
   GDALDataset* dataset = driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr);
   OGRSpatialReference crs;
-  crs.SetFromUserInput("EPSG:32611");
+  if (crsName) crs.SetFromUserInput(crsName);
   for (const LayerSpec& spec : layers) {
-    OGRLayer* layer = dataset->CreateLayer(spec.name, &crs, spec.type, nullptr);
+    OGRLayer* layer = dataset->CreateLayer(spec.name, crsName ? &crs : nullptr, spec.type, nullptr);
     OGRFieldDefn height("h", OFTReal), label("label", OFTString);
     EXPECT_EQ(layer->CreateField(&height), OGRERR_NONE);
     EXPECT_EQ(layer->CreateField(&label), OGRERR_NONE);
@@ -243,6 +243,21 @@ TEST(PointReader, ReadsPointsAndMultipointsWithZ) {
     expectTheThree(read);
     EXPECT_FALSE(read.heightfield.georeference.crsWkt.empty());
   }
+}
+
+TEST(PointReader, TakesTheUndefinedCrsOfAGeoPackageForNone) {
+  TemporaryFolder folder;
+  const std::string path = writeVector(
+      folder.file("p.gpkg"), "GPKG",
+      {{"p", wkbPoint25D, {{"POINT Z (500000 5000000 1)", 0}, {"POINT Z (500009 5000000 2)", 0}}}}, nullptr);
+  const PointRead plain = readOrFail(path);
+  EXPECT_EQ(plain.heightfield.georeference.crsWkt, "");
+  EXPECT_FALSE(plain.heightfield.georeference.isGeographic);
+  PointReadOptions options;
+  options.crs = "EPSG:32611";
+  const PointRead stated = readOrFail(path, options);
+  EXPECT_FALSE(stated.heightfield.georeference.crsWkt.empty());
+  EXPECT_TRUE(stated.warnings.empty());  // nothing of the file's was replaced
 }
 
 TEST(PointReader, TakesTheHeightFromAField) {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <random>
 #include <string>
 
 #include "datasets/families.h"
@@ -271,6 +272,36 @@ TEST(FitLeastError, HalvesTheErrorOfARidge) {
   EXPECT_EQ(fitted->errorBefore, 8);
   EXPECT_NEAR(fitted->cut.achievedError, 4, 0.04);
   expectFitted(model, *fitted, fitted->cut.achievedError, true);
+}
+
+TEST(Fit, KeepsItsErrorsOverPointsInRowsThatAreNearlyStraight) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (const double waver : {1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-7})
+    for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity}) {
+      SCOPED_TRACE(waver);
+      PointHeightfield points;
+      for (int row = 0; row < 3; ++row)
+        for (int i = 0; i < 50; ++i) {
+          const double x = i, y = 20 * row + waver * unit(random);
+          points.positions.push_back({0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y});
+          points.heights.push_back(i < 20 + 3 * row ? 100 : 10 * unit(random));
+        }
+      const auto model = build(points, {.shape = shape});
+      ASSERT_TRUE(model) << model.error().describe();
+      for (const double tolerance : {0.0, 1.0, 8.0}) {
+        const auto cut = takeCut(model->mt, UniformError(tolerance));
+        ASSERT_TRUE(cut);
+        const auto least = fitLeastError(*model, *cut);
+        ASSERT_TRUE(least) << least.error().describe();
+        EXPECT_LE(least->cut.achievedError, cut->achievedError + 1e-9);
+        EXPECT_TRUE(keepsPromise(measured(*model, *least), least->cut.achievedError));
+        const auto fewest = fitFewestTriangles(*model, {.maxError = tolerance});
+        ASSERT_TRUE(fewest) << fewest.error().describe();
+        EXPECT_LE(fewest->cut.achievedError, tolerance + 1e-9);
+        EXPECT_TRUE(keepsPromise(measured(*model, *fewest), tolerance));
+      }
+    }
 }
 
 TEST(FitLeastError, ComesNearTheLeastThatALinearProgramFinds) {

@@ -40,6 +40,20 @@ TEST(PlanRegion, HoldsTheSamplesItWasDrawnAround) {
   }
 }
 
+TEST(GroundStep, HasALengthOnAPoleAndWhereNoLatitudeIs) {
+  Georeference degrees;
+  degrees.crsWkt = "of longitude and latitude";
+  degrees.isGeographic = true;
+  const Vec2 equator = groundStep(degrees, -0.5, -0.5);
+  EXPECT_NEAR(equator.x, 111319.49, 0.01);
+  for (const double latitude : {90.0, -90.0, 95.0, 5e6, -1e9}) {
+    const Vec2 step = groundStep(degrees, 7, latitude - 0.5);
+    EXPECT_NEAR(step.x, equator.x, 1) << latitude;
+    EXPECT_NEAR(step.y, equator.x, 1) << latitude;
+  }
+  EXPECT_LT(groundStep(degrees, 7, 88.5).x, 2000);
+}
+
 TEST(PlanRegion, ABoxOfTheMapStaysOneOnARotatedGrid) {
   const RasterHeightfield field = made("rotated", 30, 30);
   const Vec2 centre = field.georeference.toSource(15, 15);
