@@ -164,6 +164,10 @@ TEST_F(SightCommands, LosTellsRadioPlannersOfFresnelZonesAndClutter) {
   georeference.hasGeoTransform = true;
   ASSERT_TRUE(writeGeoTiff(path("wood.tif"), 61, 41, heights, georeference));
   EXPECT_EQ(ask({"--clutter", "wood.tif", "--clutter-free", "50"})["clearance"], wood["clearance"]);
+  georeference.geoTransform[0] += 5000;
+  ASSERT_TRUE(writeGeoTiff(path("far.tif"), 61, 41, heights, georeference));
+  refused({"los", "dem.amt", "--from", "1105,1895,40", "--to", "1505,1895,40", "--clutter", "far.tif"}, 2,
+          "far.tif: lies nowhere over the DEM");
 }
 
 TEST_F(SightCommands, LosAnswersEveryRowOfAFile) {
