@@ -451,6 +451,18 @@ TEST_F(SightCommands, ViewshedTakesTheGridOfAnotherRaster) {
   EXPECT_FALSE(exists("v.tif"));
 }
 
+TEST_F(SightCommands, ViewshedTakesTheGridOfAPicture) {
+  makeModel();
+  write("photo.ppm", "P6\n3 2\n255\n" + std::string(18, 'x'));
+  write("photo.wld", "200\n0\n0\n-50\n1105\n1895\n");
+  const Outcome made = run(
+      {"viewshed", "dem.amt", "--observer", "1105,1895,20", "--like", "photo.ppm", "-o", "seen.tif", "-q"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  const auto seen = readRaster(path("seen.tif"));
+  ASSERT_TRUE(seen);
+  EXPECT_EQ(seen->heightfield.heights, (std::vector<double>{255, 255, 0, 255, 255, 0}));  // behind the wall
+}
+
 TEST_F(SightCommands, ViewshedOfManyCountsAndNamesTheNearest) {
   makeModel();
   write("masts.csv", "x,y\n1105,1895\n1505,1895\n1515,1895\n");
