@@ -576,6 +576,15 @@ TEST_F(SightCommands, ViewshedRefusesWhatMakesNoSense) {
   EXPECT_EQ(run({"viewshed", "dem.amt", "--observer", "1105,1895,2", "-o", "V.TIFF", "-q"}).code, 0);
   refused({"viewshed", "dem.amt", "--observer", "1105,1895,2", "--azimuth", "3", "-o", "v.tif"}, 2,
           "is two numbers");
+  for (const char* nothing : {"10,10", "370,-350"})
+    refused({"viewshed", "dem.amt", "--observer", "1105,1895,2", "--azimuth", nothing, "-o", "v.tif"}, 2,
+            std::string("--azimuth ") + nothing + ": is no field of view");
+  refused({"viewshed", "dem.amt", "--observer", "1105,1895,2", "--radius", "100", "--min-distance", "200",
+           "-o", "v.tif"},
+          2, "--min-distance 200: is beyond --radius 100");
+  write("sectors.csv", "x,y,h,range\n1105,1895,2,300\n1105,1895,2,150\n");
+  refused({"viewshed", "dem.amt", "--observers", "sectors.csv", "--min-distance", "200", "-o", "v.tif"}, 4,
+          "sectors.csv, row 2: has a range below --min-distance 200");
   EXPECT_FALSE(exists("v.tif"));
 }
 
