@@ -209,7 +209,8 @@ Status tellMany(const LosArguments& a, const SightResults& results, Json json, S
     if (Status written = writeAnswers(a.output, table, json, session); !written) return written;
     json.erase("answers");
     json["file"] = a.output;
-    session.say(fmt::format("{}: {} lines of sight: {}\n", a.output, grouped(lines), counts.text()));
+    session.say(fmt::format("{}: {} line{} of sight: {}\n", a.output, grouped(lines), lines == 1 ? "" : "s",
+                            counts.text()));
   }
   session.answer(json);
   if (counts.failed == lines)

@@ -49,6 +49,9 @@ Result<ViewshedOptions> optionsOf(const ViewshedArguments& a) {
   options.method = a.method;
   options.field.leastMetres = a.least;
   options.field.greatestMetres = a.radius;
+  if (a.least > a.radius)
+    return failure(ErrorCode::usage, fmt::format("is beyond --radius {}", a.radius),
+                   fmt::format("--min-distance {}", a.least));
   options.value = a.mode == Mode::height    ? ViewshedValue::leastHeight
                   : a.mode == Mode::horizon ? ViewshedValue::horizon
                                             : ViewshedValue::none;
@@ -68,6 +71,9 @@ Result<ViewshedOptions> optionsOf(const ViewshedArguments& a) {
     options.field.fromAzimuth = turned(range->first);
     const double span = range->second - range->first;
     options.field.azimuthSpan = span >= 360 ? 360 : turned(span);
+    if (!(options.field.azimuthSpan > 0))
+      return failure(ErrorCode::usage, "is no field of view: from A clockwise to B there is nothing",
+                     "--azimuth " + a.azimuths);
   }
   if (!a.elevations.empty()) {
     const auto range = two("--elevation", a.elevations);
@@ -85,6 +91,9 @@ Result<ViewshedOptions> optionsOf(const ViewshedArguments& a) {
 Status aim(ViewshedField& field, const SightBeam& beam) {
   if (std::isfinite(beam.range)) {
     if (!(beam.range > 0)) return failure(ErrorCode::invalidData, "has a range that is not above 0");
+    if (beam.range < field.leastMetres)
+      return failure(ErrorCode::invalidData,
+                     fmt::format("has a range below --min-distance {}", field.leastMetres));
     field.greatestMetres = beam.range;
   }
   if (!std::isfinite(beam.azimuth) || !std::isfinite(beam.beamwidth)) return {};

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace arete {
@@ -18,22 +17,27 @@ double turnOf(const Georeference& georeference) {
 
 LongitudeTurns::LongitudeTurns(const TerrainModel& model) {
   if (!model.georeference.isGeographic) return;
-  west_ = std::numeric_limits<double>::infinity();
-  east_ = -west_;
-  const auto add = [&](Vec2 plan) {
-    const double x = model.toSource(plan).x;
-    west_ = std::min(west_, x);
-    east_ = std::max(east_, x);
-  };
   if (model.isRaster) {
     for (const double column : {0.0, model.columns - 1.0})
-      for (const double row : {0.0, model.rows - 1.0}) add({column, row});
+      for (const double row : {0.0, model.rows - 1.0}) add(model.toSource({column, row}).x);
   } else {
     // The root spans all that is there.
     for (std::uint32_t i = 0; i < model.mt.rootVertexCount(); ++i)
-      add(model.mt.vertices().planPosition(VertexId(i)));
+      add(model.toSource(model.mt.vertices().planPosition(VertexId(i))).x);
   }
   if (west_ <= east_) turn_ = turnOf(model.georeference);
+}
+
+LongitudeTurns::LongitudeTurns(const Georeference& georeference, std::uint32_t columns, std::uint32_t rows) {
+  if (!georeference.isGeographic) return;
+  for (const double column : {-0.5, columns - 0.5})
+    for (const double row : {-0.5, rows - 0.5}) add(georeference.toSource(column, row).x);
+  turn_ = turnOf(georeference);
+}
+
+void LongitudeTurns::add(double x) {
+  west_ = std::min(west_, x);
+  east_ = std::max(east_, x);
 }
 
 Vec2 LongitudeTurns::operator()(Vec2 p) const {

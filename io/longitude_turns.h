@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <span>
 
 #include "engine/vec.h"
@@ -16,14 +18,18 @@ class LongitudeTurns {
   LongitudeTurns() = default;
   /// O(1) of a raster, O(root vertices) of points.
   explicit LongitudeTurns(const TerrainModel& model);
+  /// Those of a raster's pixels, all of which belongs to it. O(1).
+  LongitudeTurns(const Georeference& georeference, std::uint32_t columns, std::uint32_t rows);
 
   Vec2 operator()(Vec2 p) const;
   /// All of them in place. O(positions).
   void apply(std::span<Vec2> positions) const;
 
  private:
+  void add(double x);
+
   double turn_ = 0;  ///< in the unit of the CRS; 0: nothing is turned
-  double west_ = 0, east_ = 0;
+  double west_ = std::numeric_limits<double>::infinity(), east_ = -west_;
 };
 
 }  // namespace arete

@@ -11,7 +11,10 @@ namespace arete {
 
 Result<PlacedGrid> readPlacedGrid(const std::string& path, const TerrainModel& model,
                                   std::vector<std::string>& warnings, const RunContext& context) {
-  auto raster = readRaster(path, {}, context);
+  // Any band has the grid; without one stated a colour image is refused for heights it need not have.
+  RasterReadOptions options;
+  options.band = 1;
+  auto raster = readRaster(path, options, context);
   if (!raster) return tl::unexpected(raster.error());
   warnings = std::move(raster->warnings);
   PlacedGrid grid;

@@ -18,7 +18,8 @@ struct PlacedGrid {
   std::vector<Vec2> places;  ///< row by row; NaN where nobody can tell
 };
 
-/// Errors: those of readRaster(); invalidData (only one of the two has a CRS); usage (no sample is within the
+/// What the samples of the raster are does not matter: it may be a picture. Errors: those of readRaster() for
+/// its first band; invalidData (only one of the two has a CRS); usage (no sample is within the
 /// borders of the model); those of CrsTransform. Precondition: the model is of a raster. O(samples).
 Result<PlacedGrid> readPlacedGrid(const std::string& path, const TerrainModel& model,
                                   std::vector<std::string>& warnings, const RunContext& context = {});

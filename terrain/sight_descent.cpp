@@ -67,12 +67,15 @@ class Descent {
       const double from = std::max(span.t0, done);
       span.z0 = span.at(from);
       span.t0 = from;
-      const std::uint32_t node = entered(span);
-      if (node == MultiTriangulation::kNone) {
+      ++visited_;
+      const Says says = saysOf(span);
+      if (says == Says::enough) tell(span);
+      if (says != Says::tooLittle) {
         done = span.t1;
         continue;
       }
-      // As far as the same node goes on.
+      // As far as the same node goes on. What comes after it is told after it.
+      const std::uint32_t node = arrays_.remover[span.triangle];
       double to = span.t1;
       while (i < end && spans_[i].t0 <= to + shortest_) {
         TriangleSpan next = spans_[i];
@@ -80,7 +83,8 @@ class Descent {
           if (arrays_.remover[next.triangle] != node) break;
           next.z0 = next.at(std::max(next.t0, to));
           next.t0 = std::max(next.t0, to);
-          if (entered(next) != node) break;
+          if (saysOf(next) != Says::tooLittle) break;
+          ++visited_;
           to = next.t1;
         }
         ++i;
@@ -100,24 +104,31 @@ class Descent {
     judge_.hint(piece_.distance(span.t1), span.z1 - lower);
   }
 
-  /// The node to enter below a span; none where the span itself says enough.
-  std::uint32_t entered(const TriangleSpan& span) {
-    ++visited_;
-    const std::uint32_t node = arrays_.remover[span.triangle];
-    const double s0 = piece_.distance(span.t0), s1 = piece_.distance(span.t1);
-    if (node == MultiTriangulation::kNone) {
-      judge_.terrain(s0, span.z0, s1, span.z1);
-      return node;
-    }
+  /// What the triangle of a span says of the terrain there.
+  enum class Says {
+    nothing,    ///< of importance, and what is finer neither
+    enough,     ///< to be told, with its bounds
+    tooLittle,  ///< what is finer has to be looked at
+  };
+
+  Says saysOf(const TriangleSpan& span) const {
+    if (arrays_.remover[span.triangle] == MultiTriangulation::kNone) return Says::enough;
     const OutwardScale::Code below = arrays_.below[span.triangle], above = arrays_.above[span.triangle];
     const double higher = arrays_.scale.decode(below);
-    if (!judge_.matters(s0, span.z0 + higher, s1, span.z1 + higher, mayFill_))
-      return MultiTriangulation::kNone;
-    if (!mayFill_ && allowed_ > 0 && std::max(below, above) <= allowed_) {
-      judge_.terrain(s0, span.z0, s1, span.z1, arrays_.scale.decode(above), higher);
-      return MultiTriangulation::kNone;
-    }
-    return node;
+    if (!judge_.matters(piece_.distance(span.t0), span.z0 + higher, piece_.distance(span.t1),
+                        span.z1 + higher, mayFill_))
+      return Says::nothing;
+    return !mayFill_ && allowed_ > 0 && std::max(below, above) <= allowed_ ? Says::enough : Says::tooLittle;
+  }
+
+  /// Precondition: it says enough.
+  void tell(const TriangleSpan& span) {
+    const double s0 = piece_.distance(span.t0), s1 = piece_.distance(span.t1);
+    if (arrays_.remover[span.triangle] == MultiTriangulation::kNone)
+      judge_.terrain(s0, span.z0, s1, span.z1);
+    else
+      judge_.terrain(s0, span.z0, s1, span.z1, arrays_.scale.decode(arrays_.above[span.triangle]),
+                     arrays_.scale.decode(arrays_.below[span.triangle]));
   }
 
   void star(std::uint32_t node, double first, double last) {

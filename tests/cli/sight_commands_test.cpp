@@ -164,6 +164,10 @@ TEST_F(SightCommands, LosTellsRadioPlannersOfFresnelZonesAndClutter) {
   georeference.hasGeoTransform = true;
   ASSERT_TRUE(writeGeoTiff(path("wood.tif"), 61, 41, heights, georeference));
   EXPECT_EQ(ask({"--clutter", "wood.tif", "--clutter-free", "50"})["clearance"], wood["clearance"]);
+  georeference.geoTransform[0] += 5000;
+  ASSERT_TRUE(writeGeoTiff(path("far.tif"), 61, 41, heights, georeference));
+  refused({"los", "dem.amt", "--from", "1105,1895,40", "--to", "1505,1895,40", "--clutter", "far.tif"}, 2,
+          "far.tif: lies nowhere over the DEM");
 }
 
 TEST_F(SightCommands, LosAnswersEveryRowOfAFile) {
@@ -447,6 +451,18 @@ TEST_F(SightCommands, ViewshedTakesTheGridOfAnotherRaster) {
   EXPECT_FALSE(exists("v.tif"));
 }
 
+TEST_F(SightCommands, ViewshedTakesTheGridOfAPicture) {
+  makeModel();
+  write("photo.ppm", "P6\n3 2\n255\n" + std::string(18, 'x'));
+  write("photo.wld", "200\n0\n0\n-50\n1105\n1895\n");
+  const Outcome made = run(
+      {"viewshed", "dem.amt", "--observer", "1105,1895,20", "--like", "photo.ppm", "-o", "seen.tif", "-q"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  const auto seen = readRaster(path("seen.tif"));
+  ASSERT_TRUE(seen);
+  EXPECT_EQ(seen->heightfield.heights, (std::vector<double>{255, 255, 0, 255, 255, 0}));  // behind the wall
+}
+
 TEST_F(SightCommands, ViewshedOfManyCountsAndNamesTheNearest) {
   makeModel();
   write("masts.csv", "x,y\n1105,1895\n1505,1895\n1515,1895\n");
@@ -560,6 +576,15 @@ TEST_F(SightCommands, ViewshedRefusesWhatMakesNoSense) {
   EXPECT_EQ(run({"viewshed", "dem.amt", "--observer", "1105,1895,2", "-o", "V.TIFF", "-q"}).code, 0);
   refused({"viewshed", "dem.amt", "--observer", "1105,1895,2", "--azimuth", "3", "-o", "v.tif"}, 2,
           "is two numbers");
+  for (const char* nothing : {"10,10", "370,-350"})
+    refused({"viewshed", "dem.amt", "--observer", "1105,1895,2", "--azimuth", nothing, "-o", "v.tif"}, 2,
+            std::string("--azimuth ") + nothing + ": is no field of view");
+  refused({"viewshed", "dem.amt", "--observer", "1105,1895,2", "--radius", "100", "--min-distance", "200",
+           "-o", "v.tif"},
+          2, "--min-distance 200: is beyond --radius 100");
+  write("sectors.csv", "x,y,h,range\n1105,1895,2,300\n1105,1895,2,150\n");
+  refused({"viewshed", "dem.amt", "--observers", "sectors.csv", "--min-distance", "200", "-o", "v.tif"}, 4,
+          "sectors.csv, row 2: has a range below --min-distance 200");
   EXPECT_FALSE(exists("v.tif"));
 }
 

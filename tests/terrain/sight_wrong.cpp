@@ -95,9 +95,15 @@ std::string wrongWithin(const SightOracle& oracle, const SightPair& pair, const 
   const bool isBlocked = answer.verdict == SightVerdict::blocked;
   if (answer.obstruction && !isBlocked) return "an obstruction, and it is not blocked";
   if (options.wantsObstruction && isBlocked && !answer.obstruction) return "blocked, and no obstruction";
-  if (answer.obstruction && isExactly) {
+  const Real slack = 1e-6L * length + 1e-7L;
+  if (answer.obstruction && answer.isObstructionLatest) {
+    if (isExactly) return "an obstruction of approximate terrain, without a tolerance" + tells;
+    if (options.nodata != NodataSight::blocked && truth.ceased &&
+        answer.obstruction->distance < *truth.ceased - slack)
+      return text("approximate terrain is in the way at %.12g m, and none is before %.12Lg m",
+                  answer.obstruction->distance, *truth.ceased);
+  } else if (answer.obstruction) {
     const SightPlace& o = *answer.obstruction;
-    const Real slack = 1e-6L * length + 1e-7L;
     const bool isOfGap = options.nodata == NodataSight::blocked && std::isnan(o.terrainHeight);
     if (isOfGap) {
       if (!truth.firstGap || o.distance < *truth.firstGap - slack || o.distance > truth.lastFirstGap + slack)
@@ -108,7 +114,8 @@ std::string wrongWithin(const SightOracle& oracle, const SightPair& pair, const 
     } else {
       if (!truth.ceased) return "blocked by terrain, and there is none in the way" + tells;
       const Real last = truth.deep.value_or(length);
-      if (o.distance < *truth.ceased - slack || o.distance > last + slack)
+      // The stretches of a tolerance are longer: where one begins on the line it may be told from there on.
+      if ((isExactly && o.distance < *truth.ceased - slack) || o.distance > last + slack)
         return text("the first obstruction is at %.12g m, not between %.12Lg and %.12Lg m", o.distance,
                     *truth.ceased, last);
       if (options.nodata == NodataSight::blocked && mustHaveGap && truth.lastFirstGap < *truth.ceased - slack)
