@@ -28,7 +28,8 @@ class Lessening {
   Status run() {
     double reached = worst(), missed = 0;
     std::vector<double> best = mesh_.heights();
-    while (reached > 0 && missed < kEnough * reached) {
+    // What is left within rounding is nobody's error, and no patch gets it out of its own arithmetic.
+    while (reached > unit_.rounding && missed < kEnough * reached) {
       const double wanted = missed > 0 ? (missed + reached) / 2 : kFirstStep * reached;
       const Result<bool> isReached = reach(wanted);
       if (!isReached) return tl::unexpected(isReached.error());

@@ -304,6 +304,26 @@ TEST(Fit, KeepsItsErrorsOverPointsInRowsThatAreNearlyStraight) {
     }
 }
 
+TEST(FitLeastError, LeavesWhatIsRoundingAlone) {
+  // Far from zero a plane through three points is some billionths off their heights.
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  PointHeightfield points;
+  for (int i = 0; i < 60; ++i) {
+    points.positions.push_back({1e9 + 100 * unit(random), -1e9 + 100 * unit(random)});
+    points.heights.push_back(1e5 + points.positions.back().x - 1e9);
+  }
+  const auto model = build(points);
+  ASSERT_TRUE(model) << model.error().describe();
+  for (const double tolerance : {0.0, 1e-6, 1.0}) {
+    const auto cut = takeCut(model->mt, UniformError(tolerance));
+    ASSERT_TRUE(cut);
+    const auto least = fitLeastError(*model, *cut);
+    ASSERT_TRUE(least) << least.error().describe();
+    EXPECT_LE(least->cut.achievedError, 1e-6);
+  }
+}
+
 TEST(FitLeastError, ComesNearTheLeastThatALinearProgramFinds) {
   double sum = 0;
   std::size_t cases = 0;
