@@ -5,13 +5,14 @@
 #include <optional>
 
 #include "engine/vec.h"
+#include "terrain/measure_triangle.h"
 
 namespace arete::measuring {
 
-/// The height of a triangle over a place of the plan that it holds, edges and corners included; none where it
-/// does not, or has no area. Whether it holds the place is decided exactly, on the doubles as they are,
-/// however thin it is; the height is within a few ulp of the corners' differences. Either orientation. O(1).
-/// Precondition: all finite.
-std::optional<double> heightWhereHeld(const std::array<Vec3, 3>& corner, Vec2 place);
+/// How a triangle meets a place of the plan that it holds, edges and corners included; none where it does
+/// not, or has no area. Whether it holds the place, inside, on an edge or at a corner, is decided exactly, on
+/// the doubles as they are, however thin it is; the height is within a few ulp of the corners' differences.
+/// Either orientation. O(1). Precondition: all finite.
+std::optional<Contact> contactWhereHeld(const std::array<Vec3, 3>& corner, Vec2 place);
 
 }  // namespace arete::measuring

@@ -10,8 +10,9 @@
 // Points near one line make triangles far thinner than the plan tolerance, and a neighbour's side within it
 // of a point need not be anywhere near the height of the sliver that the point lies in. So which triangles
 // hold a point is decided exactly, on the source coordinates, and these say how high the TIN is there,
-// slivers too thin to count otherwise included; the tolerance is for points that no triangle holds. Of a mesh
-// whose x and y are rounded there is nothing exact to be had: there the tolerance decides alone.
+// slivers too thin to count otherwise included; the tolerance is for points that no triangle holds. Triangles
+// overlap at a point where they do so both exactly and by more than the tolerance. Of a mesh whose x and y
+// are rounded there is nothing exact to be had: there the tolerance decides alone.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -198,8 +199,8 @@ class PointMeasurement {
           if (const Contact c = t.contact(p.x, p.y, tolerance_); c.covers)
             gathered.near.add(slot - firstPoint, p.z, id, c.z, c.strict, c.turn);
         if (!isExact_) continue;
-        if (const auto z = measuring::heightWhereHeld(corners, points_.positions[order_[slot]]))
-          gathered.held.add(slot - firstPoint, p.z, id, *z, false, 0);
+        if (const auto c = measuring::contactWhereHeld(corners, points_.positions[order_[slot]]))
+          gathered.held.add(slot - firstPoint, p.z, id, c->z, c->strict, c->turn);
       }
     }
   }
@@ -218,8 +219,10 @@ class PointMeasurement {
       if (!options_.mask.empty() && options_.mask[point] == 0) continue;
       ++counts.samples;
       ++counts.valid;
-      counts.doublyCovered += both.near.isDoublyCovered(here);
-      counts.overlapped += both.near.isOverlapped(here);
+      // Near a sliver a triangle beside it may seem to fill its turn; and coordinates that were rounded may
+      // make two neighbours hold a place between them.
+      counts.doublyCovered += both.near.isDoublyCovered(here) && gathered.isDoublyCovered(here);
+      counts.overlapped += both.near.isOverlapped(here) && gathered.isOverlapped(here);
       if (!gathered.isCovered(here)) {
         ++counts.uncovered;
         continue;

@@ -30,11 +30,20 @@ double diamondAngle(Vec2 d) {
   return d.x < 0 ? 2 - d.y / (-d.x - d.y) : 3 + d.x / (d.x - d.y);
 }
 
+float turnOf(Vec2 from, Vec2 to) {
+  const double turn = diamondAngle(to) - diamondAngle(from);
+  return static_cast<float>(turn < 0 ? turn + kFullTurn : turn);
+}
+
 double squaredDistance(Vec2 a, double x, double y) {
   return (a.x - x) * (a.x - x) + (a.y - y) * (a.y - y);
 }
 
 }  // namespace
+
+float turnBetween(Vec2 around, Vec2 from, Vec2 to) {
+  return turnOf({from.x - around.x, from.y - around.y}, {to.x - around.x, to.y - around.y});
+}
 
 bool PlanTriangle::set(const std::array<Vec2, 3>& corners, const std::array<double, 3>& heights,
                        double tolerance) {
@@ -59,8 +68,7 @@ bool PlanTriangle::set(const std::array<Vec2, 3>& corners, const std::array<doub
 
 float PlanTriangle::cornerTurn(int i) const {
   const Vec2 &out = side[(i + 2) % 3], &in = side[(i + 1) % 3];
-  const double turn = diamondAngle({-in.x, -in.y}) - diamondAngle(out);
-  return static_cast<float>(turn < 0 ? turn + kFullTurn : turn);
+  return turnOf(out, {-in.x, -in.y});
 }
 
 double PlanTriangle::heightFromWeights(double w1, double w2) const {

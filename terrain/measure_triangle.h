@@ -11,6 +11,10 @@ namespace arete::measuring {
 /// sample.
 inline constexpr float kFullTurn = 4, kHalfTurn = 2;
 
+/// The turn counter-clockwise around a point from one place to another: pseudo-angles, additive, opposite
+/// directions exactly half a turn apart. Precondition: neither is the point.
+float turnBetween(Vec2 around, Vec2 from, Vec2 to);
+
 /// How a triangle meets a point of the plan.
 struct Contact {
   bool covers = false;  ///< within the plan tolerance of the triangle
