@@ -226,7 +226,7 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   const Result<AmtFile> file = openModel(arguments.model, session);
   if (!file) return tl::unexpected(file.error());
   Result<TerrainModel> model =
-      arguments.criterion.hasCamera() ? file->read({}, session.context()) : outlineOf(*file, session);
+      file->read({arguments.criterion.hasCamera() ? WantedError() : wantedNowhere()}, session.context());
   if (!model) return tl::unexpected(model.error());
   auto requests = requestsOf(arguments, *model);
   if (!requests) return tl::unexpected(requests.error());

@@ -112,7 +112,7 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
   if (!table) return tl::unexpected(table.error());
   WantedPlaces wanted(*outline);
   for (const Vec2 place : table->positions) wanted.add(outline->toPlan(place));
-  const Result<TerrainModel> model = file->read({wanted.within(0)}, session.context());
+  const Result<TerrainModel> model = readWanted(*file, *outline, wanted.within(0), session);
   if (!model) return tl::unexpected(model.error());
   const auto heights = SurfaceHeights(*model).at(table->positions, arguments.maxError, session.context());
   if (!heights) return tl::unexpected(heights.error());

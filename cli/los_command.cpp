@@ -240,7 +240,8 @@ Status runLos(const LosArguments& a, Session& session) {
   if (!options) return tl::unexpected(options.error());
   const auto earth = a.sight.makeEarth(*outline, session);
   if (!earth) return tl::unexpected(earth.error());
-  const Result<TerrainModel> model = file->read({wantedFor(a, *pairs, **earth, *outline)}, session.context());
+  const Result<TerrainModel> model =
+      readWanted(*file, *outline, wantedFor(a, *pairs, **earth, *outline), session);
   if (!model) return tl::unexpected(model.error());
   // Whole profiles at full resolution are walks over the cells of a raster.
   const bool hasProfiles = options->frequencyMegahertz > 0 || options->clutter.height;

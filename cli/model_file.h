@@ -20,9 +20,18 @@ inline Result<AmtFile> openModel(const std::string& path, const Session& session
   return file;
 }
 
-/// All but the terrain itself: of a packed file the model with its root alone.
+/// All but the terrain itself: of a packed raster the root alone. Of points everything, since what their
+/// coordinates are rounded by is told by how many there are.
 inline Result<TerrainModel> outlineOf(const AmtFile& file, const Session& session) {
+  if (!file.model().isRaster) return file.read({}, session.context());
   return file.read({wantedNowhere()}, session.context());
+}
+
+/// The model, as far as it is wanted. `outline`: of the file.
+inline Result<TerrainModel> readWanted(const AmtFile& file, const TerrainModel& outline,
+                                       const WantedError& wanted, const Session& session) {
+  if (!outline.isRaster) return outline;
+  return file.read({wanted}, session.context());
 }
 
 }  // namespace arete

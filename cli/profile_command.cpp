@@ -293,7 +293,7 @@ Status runProfile(const ProfileArguments& a, Session& session) {
     return failure(ErrorCode::usage, fmt::format("draws one line, and there are {}", ways->size()), "--png");
   const auto earth = a.sight.makeEarth(*outline, session);
   if (!earth) return tl::unexpected(earth.error());
-  const Result<TerrainModel> model = amt->read({wantedFor(*ways, **earth, *outline)}, session.context());
+  const Result<TerrainModel> model = readWanted(*amt, *outline, wantedFor(*ways, **earth, *outline), session);
   if (!model) return tl::unexpected(model.error());
 
   const bool isFull = a.maxError == 0 || a.frequency > 0;

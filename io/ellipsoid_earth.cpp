@@ -11,6 +11,7 @@
 #include <GeographicLib/Geodesic.hpp>
 #include <GeographicLib/GeodesicLine.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -70,18 +71,22 @@ class EllipsoidEarth final : public SightEarth {
     lowest_ = extent.lowest;
   }
 
+  std::optional<double> distance(Vec2 from, Vec2 to) const override {
+    const Vec2 stated[2] = {model_.toSource(sightEnd(model_, from)), model_.toSource(sightEnd(model_, to))};
+    const auto ends = lonLatOf(stated);
+    if (!ends) return std::nullopt;
+    double length = 0;
+    geodesic_.Inverse((*ends)[0].y, (*ends)[0].x, (*ends)[1].y, (*ends)[1].x, length);
+    return length;
+  }
+
   Result<SightTrack> track(Vec2 from, Vec2 to) const override {
     from = sightEnd(model_, from);
     to = sightEnd(model_, to);
-    Vec2 ends[2] = {model_.toSource(from), model_.toSource(to)};
-    const Vec2 stated[2] = {ends[0], ends[1]};
-    lonLat_.toLonLat(ends);
-    for (int i = 0; i < 2; ++i) {
-      if (std::abs(ends[i].y) <= 90 + kPoleDegrees) ends[i].y = std::clamp(ends[i].y, -90.0, 90.0);
-      if (!std::isfinite(ends[i].x) || !(std::abs(ends[i].y) <= 90))
-        return failure(ErrorCode::invalidData, "the CRS of the DEM can tell no longitude and latitude there",
-                       placeText(stated[i]));
-    }
+    const Vec2 stated[2] = {model_.toSource(from), model_.toSource(to)};
+    const auto places = lonLatOf(stated);
+    if (!places) return tl::unexpected(places.error());
+    const auto& ends = *places;
     double length = 0, azimuth = 0, arrival = 0;
     geodesic_.Inverse(ends[0].y, ends[0].x, ends[1].y, ends[1].x, length, azimuth, arrival);
     SightTrack track;
@@ -125,6 +130,19 @@ class EllipsoidEarth final : public SightEarth {
   std::optional<double> geodesicError() const override { return 1.1 * tolerance_; }
 
  private:
+  /// Of two places in source coordinates. Errors: invalidData, naming the one that has none.
+  Result<std::array<Vec2, 2>> lonLatOf(const Vec2 (&stated)[2]) const {
+    std::array<Vec2, 2> ends{stated[0], stated[1]};
+    lonLat_.toLonLat(ends);
+    for (int i = 0; i < 2; ++i) {
+      if (std::abs(ends[i].y) <= 90 + kPoleDegrees) ends[i].y = std::clamp(ends[i].y, -90.0, 90.0);
+      if (!std::isfinite(ends[i].x) || !(std::abs(ends[i].y) <= 90))
+        return failure(ErrorCode::invalidData, "the CRS of the DEM can tell no longitude and latitude there",
+                       placeText(stated[i]));
+    }
+    return ends;
+  }
+
   static std::string placeText(Vec2 p) { return fmt::format("{},{}", p.x, p.y); }
   static std::string lineText(const Vec2 (&ends)[2]) {
     return fmt::format("{} to {}", placeText(ends[0]), placeText(ends[1]));

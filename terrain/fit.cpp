@@ -127,7 +127,7 @@ Result<FittedCut> fitFewestTriangles(const TerrainModel& model, const FitToleran
 
 Result<FittedCut> fitLeastError(const TerrainModel& model, const Cut& cut, const FitOptions& options,
                                 const RunContext& context) {
-  auto mesh = meshOf(model, cut, {.everywhere = 1}, options, context);
+  auto mesh = meshOf(model, cut, {.everywhere = 1, .rounding = roundingOf(model.mt)}, options, context);
   if (!mesh) return tl::unexpected(mesh.error());
   if (Status done = lessenWorst(*mesh, std::max(1u, options.rings), context); !done)
     return tl::unexpected(done.error());

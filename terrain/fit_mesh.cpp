@@ -54,7 +54,7 @@ FitMesh::Weights FitMesh::weights(const Corners& corners) const {
   const double left = (w.at[1].x - w.at[0].x) * (w.at[2].y - w.at[0].y),
                right = (w.at[1].y - w.at[0].y) * (w.at[2].x - w.at[0].x), area = left - right;
   w.inverse = 1 / area;
-  constexpr double kTrusted = 0x1p-20;
+  constexpr double kTrusted = 0x1p-12;
   // On a lattice the terms are whole numbers and exact.
   w.isThin = !mt_.vertices().isLattice() && !(area > kTrusted * (std::abs(left) + std::abs(right)));
   return w;

@@ -118,8 +118,10 @@ class FitMesh {
   Weights weights(const Corners& corners) const;
   /// z_TIN - z_sample.
   double residual(const Corners& corners, const std::array<double, 3>& w, std::uint32_t sample) const {
-    return w[0] * heights_[corners[0]] + w[1] * heights_[corners[1]] + w[2] * heights_[corners[2]] -
-           mt_.vertices().height(VertexId(sample));
+    // By what the corners are above the sample: weights are rounded, and heights may be far from zero.
+    const double z = mt_.vertices().height(VertexId(sample));
+    return w[0] * (heights_[corners[0]] - z) + w[1] * (heights_[corners[1]] - z) +
+           w[2] * (heights_[corners[2]] - z);
   }
   /// The largest |residual| / bound of a triangle's samples. O(samples).
   double severity(std::uint32_t slot) const;

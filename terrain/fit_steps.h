@@ -15,7 +15,8 @@ namespace arete {
 Status removeWhatFits(FitMesh& mesh, std::uint32_t rings, const RunContext& context);
 
 /// Moves heights until the largest |residual| is as small as patches of up to `rings` rings can make it,
-/// within half a hundredth of it. Leaves uniform bounds behind. Errors: interrupted.
+/// within half a hundredth of it, or within the rounding that its bounds state. Leaves uniform bounds behind.
+/// Errors: interrupted.
 Status lessenWorst(FitMesh& mesh, std::uint32_t rings, const RunContext& context);
 
 }  // namespace arete

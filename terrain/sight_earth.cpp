@@ -44,6 +44,12 @@ class PlaneEarth final : public SightEarth {
 
 }  // namespace
 
+std::optional<double> SightEarth::distance(Vec2 from, Vec2 to) const {
+  const auto found = track(from, to);
+  if (!found) return std::nullopt;
+  return found->points.back().distance;
+}
+
 Vec2 sightEnd(const TerrainModel& model, Vec2 plan, double margin) {
   const auto onLine = [margin](double v) {
     const double line = std::round(v);

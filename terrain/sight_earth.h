@@ -18,6 +18,8 @@ class SightEarth {
   /// The track begins and ends where sightEnd() puts the two places. Errors: invalidData for a place that the
   /// Earth model cannot tell (beyond a projection's reach).
   virtual Result<SightTrack> track(Vec2 from, Vec2 to) const = 0;
+  /// Metres along the ground between two places, which may be known where no track is. O(track).
+  virtual std::optional<double> distance(Vec2 from, Vec2 to) const;
   /// Where all tracks are straight, distances are linear in the plan and nothing curves: metres east and
   /// north that a step of one plan unit makes. Else nothing.
   struct PlaneSteps {

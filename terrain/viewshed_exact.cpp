@@ -29,10 +29,14 @@ ViewshedCell cellOf(SightVerdict verdict) {
   }
 }
 
+bool isInRange(const ViewshedField& field, double distance) {
+  return distance >= field.leastMetres && distance <= field.greatestMetres;
+}
+
 }  // namespace
 
 bool isInField(const ViewshedField& field, double distance, double azimuthDegrees) {
-  if (!(distance >= field.leastMetres && distance <= field.greatestMetres)) return false;
+  if (!isInRange(field, distance)) return false;
   if (field.azimuthSpan >= 360 || distance == 0) return true;
   double turn = std::fmod(azimuthDegrees - field.fromAzimuth, 360);
   if (turn < 0) turn += 360;
@@ -42,7 +46,12 @@ bool isInField(const ViewshedField& field, double distance, double azimuthDegree
 Result<ViewshedExact::Answer> ViewshedExact::at(Vec2 plan, double ground) const {
   if (std::isnan(ground)) return Answer{};
   Result<SightTrack> track = earth_.track(observer_.plan, plan);
-  if (!track) return tl::unexpected(track.error());
+  if (!track) {
+    // What is out of range has no answer, and needs none.
+    const auto distance = earth_.distance(observer_.plan, plan);
+    if (distance && !isInRange(options_.field, *distance)) return Answer{};
+    return tl::unexpected(track.error());
+  }
   const double distance = track->points.back().distance, target = ground + options_.targetHeight;
   if (const Status status = checkSightHeights(*track, observer_.height, target, unit_); !status)
     return tl::unexpected(status.error());

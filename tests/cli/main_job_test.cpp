@@ -383,7 +383,35 @@ TEST_F(MainJob, TakesTheSameTinsFromAPackedFileOfWhichItReadsTheBeginnings) {
   }
 }
 
-TEST_F(MainJob, AnswersByPlaceAlikeFromAPackedFileOfWhichItReadsWhatLiesThere) {
+class PackedByPlace : public Cli {
+ protected:
+  /// Both models give the same answers and the same files.
+  void expectAlike(const std::vector<std::vector<std::string>>& questions) const {
+    for (const auto& question : questions) {
+      SCOPED_TRACE(fmt::format("{}", fmt::join(question, " ")));
+      std::map<std::string, std::string> answers;
+      for (const std::string model : {"plain", "packed"}) {
+        std::vector<std::string> words = question;
+        const std::string name = model + ".amt";
+        words.insert(words.begin() + 1, name);
+        const Outcome outcome = run(words);
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        std::string& answer = answers[model] = outcome.out;
+        for (std::size_t at = 0; (at = answer.find(name)) != std::string::npos;)
+          answer.replace(at, name.size(), "MODEL");
+        for (const std::string& file : files())
+          if (file.rfind("tin", 0) == 0) {
+            answer += read(file);
+            fs::remove(path(file));
+          }
+      }
+      EXPECT_FALSE(answers["plain"].empty());
+      EXPECT_TRUE(answers["plain"] == answers["packed"]) << answers["packed"].substr(0, 2000);
+    }
+  }
+};
+
+TEST_F(PackedByPlace, HasTheAnswersOfThePlainFile) {
   // Four by three tiles, so that most chunks are far from a place.
   makeRaster("dem.tif", "fractal", 420, 300);
   ASSERT_EQ(run({"build", "dem.tif", "-o", "packed.amt", "--packed", "-q"}).code, 0);
@@ -422,27 +450,25 @@ TEST_F(MainJob, AnswersByPlaceAlikeFromAPackedFileOfWhichItReadsWhatLiesThere) {
       {"extract", "-o", "tin.obj", "--max-error", "0.5,2", "--region", corner, "--outside-error", "20"},
       {"extract", "-o", "tin.ply", "--max-error", "1", "--region", corner, "--method", "saturated"},
       {"extract", "-o", "tin.ply", "--max-error", "1", "--focus", place(100, 50), "--error-growth", "0.01"}};
-  for (const auto& question : questions) {
-    SCOPED_TRACE(fmt::format("{}", fmt::join(question, " ")));
-    std::map<std::string, std::string> answers;
-    for (const std::string model : {"plain", "packed"}) {
-      std::vector<std::string> words = question;
-      const std::string name = model + ".amt";
-      words.insert(words.begin() + 1, name);
-      const Outcome outcome = run(words);
-      ASSERT_EQ(outcome.code, 0) << outcome.err;
-      std::string& answer = answers[model] = outcome.out;
-      for (std::size_t at = 0; (at = answer.find(name)) != std::string::npos;)
-        answer.replace(at, name.size(), "MODEL");
-      for (const std::string& file : files())
-        if (file.rfind("tin", 0) == 0) {
-          answer += read(file);
-          fs::remove(path(file));
-        }
-    }
-    EXPECT_FALSE(answers["plain"].empty());
-    EXPECT_TRUE(answers["plain"] == answers["packed"]) << answers["packed"].substr(0, 2000);
+  expectAlike(questions);
+}
+
+TEST_F(PackedByPlace, HasTheAnswersOfThePlainFileOverPoints) {
+  std::string points = "x,y,z\n";
+  for (int i = 0; i < 900; ++i) {
+    const double x = 500000 + 1000 * std::fmod(i * 0.618034, 1),
+                 y = 5200000 + 1000 * std::fmod(i * 0.41421, 1);
+    points += fmt::format("{:.3f},{:.3f},{:.2f}\n", x, y, 100 + 80 * std::sin(x / 90) * std::cos(y / 70));
   }
+  write("points.csv", points);
+  ASSERT_EQ(run({"build", "points.csv", "--crs", "EPSG:32632", "-o", "packed.amt", "--packed", "-q"}).code,
+            0);
+  ASSERT_EQ(run({"convert", "packed.amt", "-o", "plain.amt", "-q"}).code, 0);
+  expectAlike(
+      {{"height", "--at", "500333,5200444"},
+       {"los", "--from", "500100,5200100,5", "--to", "500900,5200800,5"},
+       {"profile", "--along", "500100,5200100:500900,5200800"},
+       {"extract", "-o", "tin.ply", "--max-error", "2", "--region", "500100,5200100,500300,5200300"}});
 }
 
 TEST_F(MainJob, GivesTheSameBytesForAnyNumberOfThreads) {

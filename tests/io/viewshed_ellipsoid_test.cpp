@@ -218,6 +218,37 @@ TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngineWhereNodataIsScattered)
   EXPECT_GT(all.sweeps, 40);
 }
 
+TEST(ViewshedEllipsoid, WithinARadiusNeedsNoLinesToTheOtherSideOfTheWorld) {
+  // The shortest ways to half of the cells pass a pole or the seam: no lines on the map, but far out of
+  // range.
+  RasterHeightfield field;
+  field.columns = 72;
+  field.rows = 35;
+  for (std::uint32_t i = 0; i < field.columns * field.rows; ++i) field.heights.push_back(10.0 * (i % 7));
+  const Ground terrain(field, georeferenceOf({"EPSG:4326", {-180, 5, 0, 87.5, 0, -5}}));
+  ASSERT_TRUE(terrain.earth);
+  const auto maker = ViewshedMaker::make(terrain.model, *terrain.earth, terrain.grid);
+  ASSERT_TRUE(maker);
+  const ViewshedObserver observer{{20, 12}, 5000};
+  for (const ViewshedMethod method : {ViewshedMethod::automatic, ViewshedMethod::rays}) {
+    ViewshedOptions options;
+    options.method = method;
+    EXPECT_FALSE(maker->from(observer, options)) << "a cell without a line has no answer";
+    options.field.greatestMetres = 3000e3;
+    const auto viewshed = maker->from(observer, options);
+    ASSERT_TRUE(viewshed) << viewshed.error().describe();
+    std::size_t inRange = 0;
+    for (std::size_t i = 0; i < viewshed->cells.size(); ++i) {
+      const Vec2 cell{double(i % field.columns), double(i / field.columns)};
+      const auto distance = terrain.earth->distance(observer.plan, cell);
+      ASSERT_TRUE(distance);
+      EXPECT_EQ(viewshed->cells[i] == ViewshedCell::outside, *distance > 3000e3) << i;
+      inRange += *distance <= 3000e3;
+    }
+    EXPECT_GT(inRange, 20u);
+  }
+}
+
 TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngineOnRealDems) {
   const char* folder = std::getenv("ARETE_DATA");
   if (folder == nullptr) GTEST_SKIP() << "ARETE_DATA is not set";
