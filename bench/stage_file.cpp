@@ -5,9 +5,11 @@
 // cannot be dropped from the cache. Last the packed form of the same model.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 
 #include "bench/page_cache.h"
@@ -17,6 +19,8 @@
 #include "engine/criterion.h"
 #include "engine/cut.h"
 #include "io/amt_file.h"
+#include "io/wanted_places.h"
+#include "terrain/surface_height.h"
 
 namespace arete::bench {
 namespace {
@@ -89,6 +93,22 @@ double openAndCutMilliseconds(const std::string& path, const AmtLoadOptions& opt
          });
 }
 
+/// How long it takes to open a packed file for the height at one place, and to tell it.
+double openAndTellHeightMilliseconds(const std::string& packed, const Repetition& repetition) {
+  return 1000 * medianSeconds(repetition, [&]() -> std::optional<SurfaceHeight> {
+           const auto file = openAmt(packed);
+           if (!file || !checkAmt(*file, AmtVerify::all)) return std::nullopt;
+           const auto outline = file->read({wantedNowhere()});
+           if (!outline) return std::nullopt;
+           const Vec2 middle{std::floor(outline->columns / 2.0), std::floor(outline->rows / 2.0)};
+           WantedPlaces wanted(*outline);
+           wanted.add(middle);
+           const auto model = file->read({wanted.within(0)});
+           if (!model) return std::nullopt;
+           return SurfaceHeights(*model).at(model->toSource(middle));
+         });
+}
+
 /// The same model packed, in a file beside its own that does not stay.
 Result<Figures> timePacked(const DemSource& source, HoleShape shape, const std::string& model,
                            double tolerance, const Plan& plan) {
@@ -118,6 +138,7 @@ Result<Figures> timePacked(const DemSource& source, HoleShape shape, const std::
   AmtLoadOptions enough;
   enough.unpack.wanted = [tolerance](const Box2&) { return tolerance; };
   add("open and cut", openAndCutMilliseconds(packed, enough, tolerance, plan.repetition), "ms");
+  add("open and tell a height", openAndTellHeightMilliseconds(packed, plan.repetition), "ms");
   std::filesystem::remove(packed);
   return figures;
 }
