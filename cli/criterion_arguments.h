@@ -21,8 +21,7 @@ struct CriterionArguments {
   /// What can be told without a model: options that contradict each other or say nothing. Errors: usage.
   Status check() const;
   /// One criterion for each tolerance, or the only one. Of the model the root is enough, but for a camera.
-  /// Precondition: check(). Errors: usage, naming the
-  /// option; invalidData, a camera above no terrain.
+  /// Precondition: check(). Errors: usage, naming the option; invalidData, a camera above no terrain.
   Result<std::vector<ExtractCriterion>> criteria(const TerrainModel& model) const;
 
   /// A camera is placed on the terrain, so criteria() needs all of it.

@@ -5,7 +5,6 @@
 
 #include "cli/arguments.h"
 #include "io/crs_lonlat.h"
-#include "io/crs_transform.h"
 
 namespace arete {
 

@@ -7,7 +7,6 @@
 
 #include "cli/session.h"
 #include "engine/result.h"
-#include "io/crs_transform.h"
 #include "io/ellipsoid_earth.h"
 #include "terrain/sight_answer.h"
 #include "terrain/sight_earth.h"

@@ -11,6 +11,7 @@
 #include "io/crs_transform.h"
 #include "io/longitude_turns.h"
 #include "io/raster_reader.h"
+#include "terrain/plan_box.h"
 
 namespace arete {
 namespace {
@@ -28,14 +29,9 @@ struct Extent {
 
 Extent extentOf(const TerrainModel& model) {
   Extent extent;
-  if (model.isRaster) {
-    for (const double column : {0.0, model.columns - 1.0})
-      for (const double row : {0.0, model.rows - 1.0}) extent.add(model.toSource({column, row}));
-  } else {
-    // The root spans all that is there.
-    for (std::uint32_t i = 0; i < model.mt.rootVertexCount(); ++i)
-      extent.add(model.toSource(model.mt.vertices().planPosition(VertexId(i))));
-  }
+  const Box2 box = planBox(model);
+  for (const double x : {box.xMin, box.xMax})
+    for (const double y : {box.yMin, box.yMax}) extent.add(model.toSource({x, y}));
   return extent;
 }
 

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "io/crs_lonlat.h"
+#include "terrain/plan_box.h"
 
 namespace arete {
 namespace {
@@ -45,13 +46,7 @@ struct PlanExtent {
 
 PlanExtent extentOf(const TerrainModel& model) {
   if (model.isRaster) return {1, (model.columns - 1) / 2.0, 0};
-  Box2 box{0, 0, 0, 0};
-  for (std::uint32_t v = 0; v < model.mt.rootVertexCount(); ++v) {
-    const Vec2 p = model.mt.vertices().planPosition(VertexId(v));
-    if (v == 0) box = {p.x, p.y, p.x, p.y};
-    box = {std::min(box.xMin, p.x), std::min(box.yMin, p.y), std::max(box.xMax, p.x),
-           std::max(box.yMax, p.y)};
-  }
+  const Box2 box = planBox(model);
   const double area = (box.xMax - box.xMin) * (box.yMax - box.yMin);
   return {std::sqrt(area / std::max(1u, model.mt.vertexCount())), (box.xMin + box.xMax) / 2, box.yMin};
 }

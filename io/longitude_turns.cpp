@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "terrain/plan_box.h"
+
 namespace arete {
 namespace {
 
@@ -17,15 +19,10 @@ double turnOf(const Georeference& georeference) {
 
 LongitudeTurns::LongitudeTurns(const TerrainModel& model) {
   if (!model.georeference.isGeographic) return;
-  if (model.isRaster) {
-    for (const double column : {0.0, model.columns - 1.0})
-      for (const double row : {0.0, model.rows - 1.0}) add(model.toSource({column, row}).x);
-  } else {
-    // The root spans all that is there.
-    for (std::uint32_t i = 0; i < model.mt.rootVertexCount(); ++i)
-      add(model.toSource(model.mt.vertices().planPosition(VertexId(i))).x);
-  }
-  if (west_ <= east_) turn_ = turnOf(model.georeference);
+  const Box2 box = planBox(model);
+  for (const double x : {box.xMin, box.xMax})
+    for (const double y : {box.yMin, box.yMax}) add(model.toSource({x, y}).x);
+  turn_ = turnOf(model.georeference);
 }
 
 LongitudeTurns::LongitudeTurns(const Georeference& georeference, std::uint32_t columns, std::uint32_t rows) {

@@ -10,6 +10,8 @@
 #include <limits>
 #include <memory>
 
+#include "terrain/plan_box.h"
+
 namespace arete {
 namespace {
 
@@ -19,14 +21,9 @@ constexpr double kMostPieces = 1 << 14;
 }  // namespace
 
 WantedPlaces::WantedPlaces(const TerrainModel& outline)
-    : domain_{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL},
+    : domain_(planBox(outline)),
       reach_(outline.isRaster ? 1 : 0),
       isWanted_(std::size_t{kCells} * kCells, 0) {
-  for (std::uint32_t i = 0; i < outline.mt.rootVertexCount(); ++i) {
-    const Vec2 p = outline.mt.vertices().planPosition(VertexId(i));
-    domain_ = {std::min(domain_.xMin, p.x), std::min(domain_.yMin, p.y), std::max(domain_.xMax, p.x),
-               std::max(domain_.yMax, p.y)};
-  }
   const double width = domain_.xMax - domain_.xMin, height = domain_.yMax - domain_.yMin;
   columnsPerUnit_ = width > 0 ? kCells / width : 0;
   rowsPerUnit_ = height > 0 ? kCells / height : 0;

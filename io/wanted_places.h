@@ -23,7 +23,7 @@ inline WantedError wantedNowhere() {
 /// over cells and asks for all four samples of each.
 class WantedPlaces {
  public:
-  /// The model: of its root alone, or any other part. O(root vertices).
+  /// The model: of its root alone, or any other part. O(planBox()).
   explicit WantedPlaces(const TerrainModel& outline);
 
   /// In plan coordinates; what is beside the terrain is put on its rim, what is not finite is passed over.

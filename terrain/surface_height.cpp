@@ -17,6 +17,7 @@
 #include "engine/morton.h"
 #include "engine/shared_progress.h"
 #include "engine/with_threads.h"
+#include "terrain/plan_box.h"
 
 namespace arete {
 namespace {
@@ -50,15 +51,9 @@ double SurfaceHeights::margin(const TerrainModel& model) {
     const double shortestStep = std::min(std::hypot(g[1], g[4]), std::hypot(g[2], g[5]));
     return kPart + kLastBits * largest / shortestStep;
   }
-  Box2 box{0, 0, 0, 0};
-  double largest = 0;
-  for (std::uint32_t v = 0; v < model.mt.rootVertexCount(); ++v) {
-    const Vec2 p = model.mt.vertices().planPosition(VertexId(v));
-    if (v == 0) box = {p.x, p.y, p.x, p.y};
-    box = {std::min(box.xMin, p.x), std::min(box.yMin, p.y), std::max(box.xMax, p.x),
-           std::max(box.yMax, p.y)};
-    largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
-  }
+  const Box2 box = planBox(model);
+  const double largest =
+      std::max({std::abs(box.xMin), std::abs(box.yMin), std::abs(box.xMax), std::abs(box.yMax)});
   const double area = (box.xMax - box.xMin) * (box.yMax - box.yMin);
   return kPart * std::sqrt(area / std::max(1u, model.mt.vertexCount())) + kLastBits * largest;
 }

@@ -34,9 +34,9 @@ struct ViewshedOfMany {
 };
 
 /// Viewsheds of up to 65 000 observers, one after the other, each on all threads; the options' own field is
-/// not used. The same for any number of
-/// threads. Preconditions: `earth` and `model` are those of the maker. Errors: usage (none, too many), those
-/// of ViewshedMaker::from(). Memory: 21 bytes per sample beside one viewshed.
+/// not used. The same for any number of threads. Preconditions: `earth` and `model` are those of the maker.
+/// Errors: usage (none, too many), those of ViewshedMaker::from(). Memory: 21 bytes per sample beside one
+/// viewshed.
 Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainModel& model,
                                       const SightEarth& earth, std::span<const ViewshedSite> sites,
                                       const ViewshedOptions& options, bool wantsServer,

@@ -75,16 +75,27 @@ struct Packed {
 
 std::vector<TerrainModel> modelsOfAllKinds() {
   std::vector<TerrainModel> models;
-  for (const char* name : {"fractal", "nodata holes", "plateaus"}) {
-    const auto found = std::ranges::find(rasterFamilies(), name, &RasterFamily::name);
-    if (found != rasterFamilies().end()) models.push_back(built(build(found->make(300, 280, 3))));
-  }
+  for (const char* name : {"fractal", "nodata holes", "integer", "rotated"})
+    models.push_back(built(build(familyNamed(name).make(300, 280, 3))));
   BuildOptions rims;
   rims.rimTolerance = 2;
   models.push_back(built(build(familyNamed("nodata holes").make(280, 290, 4), rims)));
   models.push_back(built(build(familyNamed("fractal").make(290, 270, 5), {.shape = HoleShape::fidelity})));
   for (const PointFamily& family : pointFamilies()) models.push_back(built(build(family.make(900, 6))));
   return models;
+}
+
+/// visit(packed, random) for each of them.
+template <class Visit>
+void forAllKinds(const Visit& visit) {
+  const TemporaryFolder folder;
+  std::uint64_t seed = 0;
+  for (const TerrainModel& model : modelsOfAllKinds()) {
+    const Packed packed(model, folder.file("packed.amt"));
+    Random random(++seed);
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    visit(packed, random);
+  }
 }
 
 TEST(WantedPlaces, AreWantedByEveryBoxThatHoldsOneAndByNoneFarFromAll) {
@@ -151,12 +162,7 @@ TEST(WantedPlaces, TakeLinesFarBeyondTheTerrain) {
 }
 
 TEST(WantedPlaces, HaveTheHeightsOfTheWholeWhenOnlyTheyAreRead) {
-  const TemporaryFolder folder;
-  std::uint64_t seed = 0;
-  for (const TerrainModel& model : modelsOfAllKinds()) {
-    const Packed packed(model, folder.file("packed.amt"));
-    Random random(++seed);
-    SCOPED_TRACE("seed " + std::to_string(seed));
+  forAllKinds([](const Packed& packed, Random& random) {
     for (const std::size_t count : {std::size_t{1}, std::size_t{2}, std::size_t{40}}) {
       std::vector<Vec2> places;
       WantedPlaces wanted(packed.outline);
@@ -179,16 +185,11 @@ TEST(WantedPlaces, HaveTheHeightsOfTheWholeWhenOnlyTheyAreRead) {
           EXPECT_EQ(x->nodesVisited, y->nodesVisited);
         }
     }
-  }
+  });
 }
 
 TEST(WantedPlaces, HaveTheLinesOfSightOfTheWholeWhenOnlyTheyAreRead) {
-  const TemporaryFolder folder;
-  std::uint64_t seed = 0;
-  for (const TerrainModel& model : modelsOfAllKinds()) {
-    const Packed packed(model, folder.file("packed.amt"));
-    Random random(++seed);
-    SCOPED_TRACE("seed " + std::to_string(seed));
+  forAllKinds([](const Packed& packed, Random& random) {
     const auto earth = makePlaneEarth(packed.outline);
     for (int i = 0; i < 12; ++i) {
       const Vec2 from = packed.placeIn(random), to = packed.placeIn(random);
@@ -214,7 +215,7 @@ TEST(WantedPlaces, HaveTheLinesOfSightOfTheWholeWhenOnlyTheyAreRead) {
         }
       }
     }
-  }
+  });
 }
 
 /// The front of a cut in the order in which it is written, told without a number of the MT.
@@ -230,12 +231,8 @@ std::vector<double> frontOf(const MultiTriangulation& mt, const Cut& cut) {
 }
 
 TEST(WantedBy, ReadsWhatTheCutsOfARegionOrAFocusAreMadeOf) {
-  const TemporaryFolder folder;
-  std::uint64_t seed = 0, nodes = 0, nodesOfParts = 0;
-  for (const TerrainModel& model : modelsOfAllKinds()) {
-    const Packed packed(model, folder.file("packed.amt"));
-    Random random(++seed);
-    SCOPED_TRACE("seed " + std::to_string(seed));
+  std::uint64_t nodes = 0, nodesOfParts = 0;
+  forAllKinds([&](const Packed& packed, Random& random) {
     const double largest = packed.whole.mt.largestError();
     for (int i = 0; i < 12; ++i) {
       const Vec2 p = packed.placeIn(random), q = packed.placeIn(random);
@@ -268,7 +265,7 @@ TEST(WantedBy, ReadsWhatTheCutsOfARegionOrAFocusAreMadeOf) {
         EXPECT_EQ(x->achievedError, y->achievedError);
       }
     }
-  }
+  });
   EXPECT_LT(nodesOfParts, nodes / 2);
 }
 

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "engine/vec.h"
+#include "terrain/terrain_model.h"
+
+namespace arete {
+
+/// A box around the terrain, in plan coordinates: the grid of a raster; of points that of the root, which
+/// spans all that is there. Of a model without vertices {0, 0, 0, 0}. O(1) of a raster, O(root vertices) of
+/// points.
+Box2 planBox(const TerrainModel& model);
+
+}  // namespace arete
