@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "engine/pages.h"
+#include "engine/uninitialized_vector.h"
 #include "engine/with_threads.h"
 #include "terrain/build.h"
 #include "terrain/build_checks.h"
@@ -41,12 +42,14 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
   context.report("triangulate", 0);
   std::optional<StageClock::Scope> stage(std::in_place, context.clock, "triangulate");
   const double stretch = pointMetricStretch(field);
-  auto triangles = finestTriangulation(field, stretch);
-  if (!triangles) return tl::unexpected(triangles.error());
-  const auto finestCount = static_cast<std::uint32_t>(triangles->size());
+  // From here on points are numbered along the ground: neighbours are near each other in memory.
+  Result<FinestPoints> finest = finestPoints(field, stretch);
+  if (!finest) return tl::unexpected(finest.error());
+  const std::vector<std::uint32_t>& ground = finest->order;
+  const auto finestCount = static_cast<std::uint32_t>(finest->triangles.size());
   const auto pointCount = static_cast<std::uint32_t>(field.size());
   std::vector<std::uint32_t> pinched;
-  LiveMesh mesh = LiveMesh::fromTriangles(std::move(*triangles), pointCount, pinched);
+  LiveMesh mesh = LiveMesh::fromTriangles(std::move(finest->triangles), pointCount, pinched);
   context.report("triangulate", 1);
   stage.emplace(context.clock, "prepare");
 
@@ -59,7 +62,12 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
 
   std::vector<std::uint8_t> isFixed(pointCount, 0);
   for (const std::uint32_t v : pinched) isFixed[v] = 1;
-  for (const std::uint32_t v : options.fixedVertices) isFixed[v] = 1;
+  {
+    std::vector<std::uint32_t> fixed = options.fixedVertices;
+    std::ranges::sort(fixed);
+    for (std::uint32_t v = 0; v < pointCount; ++v)
+      if (std::ranges::binary_search(fixed, ground[v])) isFixed[v] = 1;
+  }
 
   const auto [low, high] = std::minmax_element(field.heights.begin(), field.heights.end());
   if (!(*high - *low < 1e30))
@@ -81,12 +89,17 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
   model.metricP = stretch >= 1 ? static_cast<std::uint32_t>(stretch) : 1;
   model.metricQ = stretch >= 1 ? 1 : static_cast<std::uint32_t>(1 / stretch);
 
-  const PointPlan plan(field.positions, stretch);
+  UninitializedVector<Vec3> points(pointCount);
+  for (std::uint32_t v = 0; v < pointCount; ++v) {
+    const Vec2 p = field.positions[ground[v]];
+    points[v] = {p.x, p.y, field.heights[ground[v]]};
+  }
+  const PointPlan plan(points, stretch);
   MtRecorder recorder(finestCount, pointCount, OutwardScale(*high - *low), metric);
   SimplifiedRoot root;
   stage.emplace(context.clock, "simplify");
   {
-    PointError errors(plan, field.heights, mesh);
+    PointError errors(plan, points, mesh);
     const double slack = roundingSlack(*low, *high);
     SimplifyState<PointPlan, PointError> state{.mesh = mesh,
                                                .plan = plan,
@@ -110,10 +123,11 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
   std::vector<std::uint32_t> order;
   const MultiTriangulation bare =
       recorder.finish(root.vertices, root.triangles, pointCount, order, context.clock);
-  // Points are renumbered: from here on the fixed ones go by their MT vertices.
+  // From here on they go by their MT vertices.
   std::vector<std::uint32_t> fixed;
   for (std::uint32_t v = 0; v < order.size(); ++v)
     if (isFixed[order[v]]) fixed.push_back(v);
+  for (std::uint32_t& v : order) v = ground[v];
   model.options.fixedVertices = std::move(fixed);
   auto owned = std::make_shared<OwnedPoints>();
   owned->plan.reserve(order.size());

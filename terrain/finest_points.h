@@ -11,10 +11,19 @@
 namespace arete {
 
 /// The finest triangulation of scattered points: their Delaunay triangulation (CGAL, exact predicates) in the
-/// metric that stretches x by xStretch. Corners are point indices, counter-clockwise. The list is in an order
-/// that depends on the points alone. Points that repeat an earlier one exactly (x, y and z) are left out.
+/// metric that stretches x by xStretch, laid out along the ground.
+struct FinestPoints {
+  std::vector<std::uint32_t> order;  ///< the points, those near each other near each other (groundOrder())
+  /// Corners by their places in `order`, counter-clockwise from the least; by rising corners. Points that
+  /// repeat an earlier one exactly (x, y and z) are left out.
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
 /// Errors: degenerate when two points share x, y and not z (names both), when there is no triangle.
 /// O(n log n) expected. Precondition: xStretch is a power of two.
+Result<FinestPoints> finestPoints(const PointHeightfield& heightfield, double xStretch);
+
+/// The triangles alone. Corners are point indices; otherwise as above.
 Result<std::vector<std::array<std::uint32_t, 3>>> finestTriangulation(const PointHeightfield& heightfield,
                                                                       double xStretch);
 

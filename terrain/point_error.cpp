@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The walk along a segment a-b through the finest triangulation: at a vertex on the segment, turn through its
-// star to the triangle that the segment enters (or to a neighbour that lies on it); inside a triangle, the
-// corner opposite the edge just crossed lies left of, right of or on the segment, which names the next edge
-// or vertex. Every decision is an exact orientation; only the heights at the crossings are computed in
-// doubles.
+// What a triangle covers is told by linear functions with margins (points_below.h); exact predicates decide
+// what these leave open, and only a point that may change the answer is measured by the plane itself.
 #include "terrain/point_error.h"
 
 #include <algorithm>
@@ -36,7 +33,7 @@ double PointError::differenceOnLine(std::uint32_t a, std::uint32_t b, std::uint3
     constexpr double kBeside = 0.01;
     if (along < -kBeside || along > 1 + kBeside) continue;
     const double t = std::clamp(along, 0.0, 1.0);
-    const double d = heights_[from] + t * (heights_[to] - heights_[from]) - heights_[p];
+    const double d = points_[from].z + t * (points_[to].z - points_[from].z) - points_[p].z;
     if (std::abs(d) > std::abs(largest)) largest = d;
   }
   return largest;
@@ -53,51 +50,76 @@ double PointError::difference(std::uint32_t a, std::uint32_t b, std::uint32_t c,
   constexpr double kTrusted = 0x1p-30;
   if (!(std::abs(area) > kTrusted * (std::abs(left) + std::abs(right)))) return differenceOnLine(a, b, c, p);
   const double u = (x * cy - y * cx) / area, w = (bx * y - by * x) / area;
-  return heights_[a] + u * (heights_[b] - heights_[a]) + w * (heights_[c] - heights_[a]) - heights_[p];
+  return points_[a].z + u * (points_[b].z - points_[a].z) + w * (points_[c].z - points_[a].z) - points_[p].z;
 }
 
 namespace {
-// One hole at a time per thread: its points are gathered into a buffer that keeps its capacity.
-thread_local std::vector<std::uint32_t> holePoints;
+// One hole at a time per thread: what is below it is gathered into arrays that keep their capacity.
+thread_local PointsBelow belowHole;
 }  // namespace
 
-PointError::Hole::Hole(PointError& errors, const Star& star, std::uint32_t apex)
-    : errors_(errors), star_(star), polygon_(errors.plan_, apex, star.linkView()), points_(holePoints) {
-  points_.assign(1, apex);
-  for (int i = 0; i < star.triangleCount; ++i)
-    for (std::uint32_t p = errors.head_[star.triangle(i)]; p != kNone; p = errors.next_[p])
-      points_.push_back(p);
+const PointsBelow& PointError::Hole::below() const {
+  if (below_ != nullptr) return *below_;
+  PointsBelow& below = belowHole;
+  const Vec3 apex = errors_.position(apex_);
+  below.clear(apex);
+  below.add(apex_, apex);
+  Vec3 reach{0, 0, std::abs(apex.z)};
+  for (const std::uint32_t corner : star_.linkView()) {
+    const Vec3& p = errors_.position(corner);
+    reach = {std::max(reach.x, std::abs(p.x - apex.x)), std::max(reach.y, std::abs(p.y - apex.y)),
+             std::max(reach.z, std::abs(p.z))};
+  }
+  for (int i = 0; i < star_.triangleCount; ++i)
+    for (std::uint32_t p = errors_.head_[star_.triangle(i)]; p != kNone; p = errors_.next_[p]) {
+      const Vec3& position = errors_.position(p);
+      below.add(p, position);
+      reach.z = std::max(reach.z, std::abs(position.z));
+    }
+  below.close(reach);
+  below_ = &below;
+  return below;
+}
+
+PointsBelow::Triangle PointError::Hole::triangle(int i, int j, int m) const {
+  return {below(), position(i), position(j), position(m)};
+}
+
+bool PointError::Hole::isCovered(const PointsBelow::Found& found, int i, int j, int m) const {
+  return found.isCovered || errors_.covers(star_.link[i], star_.link[j], star_.link[m], below()[found.place]);
 }
 
 Vec3 PointError::Hole::fromApex(int i) const {
-  const std::uint32_t apex = points_.front(), corner = star_.link[i];
-  const PointPlan::Point o = errors_.plan_.point(apex), p = errors_.plan_.point(corner);
-  return {p.x() - o.x(), p.y() - o.y(), errors_.heights_[corner] - errors_.heights_[apex]};
+  const std::uint32_t corner = star_.link[i];
+  const PointPlan::Point o = errors_.plan_.point(apex_), p = errors_.plan_.point(corner);
+  return {p.x() - o.x(), p.y() - o.y(), errors_.position(corner).z - errors_.position(apex_).z};
 }
 
 double PointError::Hole::apexError(int i, int j, int m) const {
-  return std::abs(errors_.difference(star_.link[i], star_.link[j], star_.link[m], points_.front()));
+  return std::abs(errors_.difference(star_.link[i], star_.link[j], star_.link[m], apex_));
 }
 
 double PointError::Hole::maximum(int i, int j, int m, double limit) const {
-  const std::uint32_t a = star_.link[i], b = star_.link[j], c = star_.link[m];
+  const PointsBelow::Triangle over = triangle(i, j, m);
   double worst = 0;
-  for (const std::uint32_t p : points_) {
-    // The difference is cheaper than the exact test: only a point that would raise the maximum is located.
-    const double error = std::abs(errors_.difference(a, b, c, p));
-    if (!(error > worst) || !errors_.covers(a, b, c, p)) continue;
-    worst = error;
+  for (auto found = over.next(0, worst, worst); found.place != below().size();
+       found = over.next(found.place + 1, worst, worst)) {
+    if (!isCovered(found, i, j, m)) continue;
+    const std::uint32_t p = below()[found.place];
+    worst = std::max(worst, std::abs(errors_.difference(star_.link[i], star_.link[j], star_.link[m], p)));
     if (worst > limit) break;
   }
   return worst;
 }
 
 double PointError::Hole::maximum(int i, int j, int m, double limit, SignedBound& bound) const {
-  const std::uint32_t a = star_.link[i], b = star_.link[j], c = star_.link[m];
+  const PointsBelow::Triangle over = triangle(i, j, m);
   double worst = 0;
-  for (const std::uint32_t p : points_) {
-    const double d = errors_.difference(a, b, c, p);
-    if ((d <= bound.above && -d <= bound.below) || !errors_.covers(a, b, c, p)) continue;
+  for (auto found = over.next(0, bound.above, bound.below); found.place != below().size();
+       found = over.next(found.place + 1, bound.above, bound.below)) {
+    if (!isCovered(found, i, j, m)) continue;
+    const std::uint32_t p = below()[found.place];
+    const double d = errors_.difference(star_.link[i], star_.link[j], star_.link[m], p);
     bound.include(d);
     worst = std::max(worst, std::abs(d));
     if (worst > limit) break;
@@ -106,16 +128,22 @@ double PointError::Hole::maximum(int i, int j, int m, double limit, SignedBound&
 }
 
 void PointError::Hole::settle(const HoleTriangulation& floor) {
+  const std::size_t count = below().size();
+  thread_local std::vector<std::uint8_t> isSettled;
+  isSettled.assign(count, 0);
   for (int t = 0; t < star_.triangleCount; ++t) errors_.head_[star_.triangle(t)] = kNone;
-  for (const std::uint32_t p : points_)
-    for (int f = 0; f < floor.size; ++f) {
-      const auto& t = floor.triangles[f];
-      if (!errors_.covers(star_.link[t[0]], star_.link[t[1]], star_.link[t[2]], p)) continue;
-      std::uint32_t& head = errors_.head_[star_.triangle(f)];
+  for (int f = 0; f < floor.size; ++f) {
+    const auto [i, j, m] = floor.triangles[f];
+    std::uint32_t& head = errors_.head_[star_.triangle(f)];
+    const PointsBelow::Triangle over = triangle(i, j, m);
+    for (auto found = over.nextCovered(0); found.place != count; found = over.nextCovered(found.place + 1)) {
+      if (isSettled[found.place] != 0 || !isCovered(found, i, j, m)) continue;
+      const std::uint32_t p = below()[found.place];
+      isSettled[found.place] = 1;
       errors_.next_[p] = head;
       head = p;
-      break;
     }
+  }
 }
 
 void PointError::compact(const SlotMap& newSlot) {
@@ -123,79 +151,6 @@ void PointError::compact(const SlotMap& newSlot) {
   for (std::size_t t = 0; t < head_.size(); ++t)
     if (newSlot[t] != kNone) moved[newSlot[t]] = head_[t];
   head_ = std::move(moved);
-}
-
-SignedBound PointError::alongEdge(std::uint32_t a, std::uint32_t b) const {
-  SignedBound bound;
-  const Vec2 pa = plan_.planPosition(a), pb = plan_.planPosition(b);
-  const double dx = pb.x - pa.x, dy = pb.y - pa.y, squared = dx * dx + dy * dy;
-  const auto side = [&](std::uint32_t v) {
-    const Vec2 p = plan_.planPosition(v);
-    return dx * (p.y - pa.y) - dy * (p.x - pa.x);
-  };
-  const auto isAhead = [&](std::uint32_t from, std::uint32_t v) {
-    const Vec2 p = plan_.planPosition(v), o = plan_.planPosition(from);
-    return (p.x - o.x) * dx + (p.y - o.y) * dy > 0;
-  };
-  // A point on the segment travels with one of the two triangles at the edge; the bound of the other needs
-  // it.
-  const auto pass = [&](std::uint32_t v) {
-    if (v == b) return;
-    const Vec2 p = plan_.planPosition(v);
-    const double t = std::clamp(((p.x - pa.x) * dx + (p.y - pa.y) * dy) / squared, 0.0, 1.0);
-    bound.include(heights_[a] + t * (heights_[b] - heights_[a]) - heights_[v]);
-  };
-  const auto cross = [&](std::uint32_t u, std::uint32_t w) {
-    const double su = std::abs(side(u)), sw = std::abs(side(w));
-    if (su + sw == 0) return;
-    const double s = su / (su + sw);
-    const Vec2 p = plan_.planPosition(u), q = plan_.planPosition(w);
-    const double x = p.x + s * (q.x - p.x), y = p.y + s * (q.y - p.y);
-    const double t = std::clamp(((x - pa.x) * dx + (y - pa.y) * dy) / squared, 0.0, 1.0);
-    bound.include(heights_[a] + t * (heights_[b] - heights_[a]) -
-                  (heights_[u] + s * (heights_[w] - heights_[u])));
-  };
-
-  std::uint32_t at = a;
-  while (at != b) {
-    // Out of the vertex `at`: a neighbour on the segment, or the triangle whose far edge the segment crosses.
-    std::uint32_t through = kNone, onward = kNone;
-    const std::uint32_t first = finest_.vertexHalfedge[at];
-    std::uint32_t h = first;
-    do {
-      const std::uint32_t far = LiveMesh::nextInTriangle(h);
-      const std::uint32_t u = finest_.origin(far), w = finest_.origin(LiveMesh::nextInTriangle(far));
-      const int ou = plan_.orientation(a, b, u), ow = plan_.orientation(a, b, w);
-      if (ou == 0 && isAhead(at, u)) onward = u;
-      if (ow == 0 && isAhead(at, w)) onward = w;
-      // u before w counter-clockwise: the segment leaves between them when u is right of it and w left.
-      if (ou < 0 && ow > 0) through = far;
-      if (onward != kNone || through != kNone) break;
-      h = finest_.twinOf(LiveMesh::previousInTriangle(h));
-    } while (h != kNone && h != first);
-    if (onward != kNone) {
-      at = onward;
-      pass(at);
-      continue;
-    }
-    if (through == kNone) return bound;  // along the hull, within rounding of it: nothing is crossed
-    for (std::uint32_t edge = through;;) {
-      cross(finest_.origin(edge), finest_.origin(LiveMesh::nextInTriangle(edge)));
-      const std::uint32_t across = finest_.twinOf(edge);
-      if (across == kNone) return bound;
-      const std::uint32_t apex = finest_.origin(LiveMesh::previousInTriangle(across));
-      const int o = plan_.orientation(a, b, apex);
-      if (o == 0) {
-        at = apex;
-        pass(at);
-        break;
-      }
-      // `across` runs from the left end of the crossed edge to its right end; the apex replaces the end on
-      // its own side.
-      edge = o > 0 ? LiveMesh::nextInTriangle(across) : LiveMesh::previousInTriangle(across);
-    }
-  }
-  return bound;
 }
 
 }  // namespace arete

@@ -7,7 +7,9 @@
 
 #include "terrain/live_mesh.h"
 #include "terrain/point_plan.h"
+#include "terrain/points_below.h"
 #include "terrain/signed_bound.h"
+#include "terrain/vertex_rings.h"
 
 namespace arete {
 
@@ -18,21 +20,18 @@ class PointError {
  public:
   static constexpr std::uint32_t kNone = LiveMesh::kNone;
 
-  /// Keeps a copy of the finest triangulation, in which bounds along edges are found.
-  PointError(const PointPlan& plan, std::span<const double> heights, const LiveMesh& finest)
+  /// Keeps the rings of the finest triangulation, in which bounds along edges are found. `points`: those of the
+  /// plan, with their heights.
+  PointError(const PointPlan& plan, std::span<const Vec3> points, const LiveMesh& finest)
       : plan_(plan),
-        heights_(heights),
+        points_(points),
         finest_(finest),
         head_(finest.triangles.size(), kNone),
-        next_(heights.size(), kNone) {}
+        next_(points.size(), kNone) {}
 
-  double height(std::uint32_t point) const { return heights_[point]; }
-  Vec3 position(std::uint32_t point) const {
-    const Vec2 p = plan_.planPosition(point);
-    return {p.x, p.y, heights_[point]};
-  }
+  const Vec3& position(std::uint32_t point) const { return points_[point]; }
   [[gnu::always_inline]] void prefetch(std::uint32_t point) const {
-    __builtin_prefetch(heights_.data() + point);
+    __builtin_prefetch(points_.data() + point);
   }
   [[gnu::always_inline]] void prefetch(const Star& star) const {
     for (int i = 0; i < star.triangleCount; ++i) __builtin_prefetch(&head_[star.triangle(i)]);
@@ -46,7 +45,8 @@ class PointError {
   /// The triangles of one hole, named by corners of its link, against the points of the star and its apex.
   class Hole {
    public:
-    Hole(PointError& errors, const Star& star, std::uint32_t apex);
+    Hole(PointError& errors, const Star& star, std::uint32_t apex)
+        : errors_(errors), star_(star), apex_(apex), polygon_(errors.plan_, apex, star.linkView()) {}
     double maximum(int i, int j, int m, double limit) const;
     double maximum(int i, int j, int m, double limit, SignedBound& bound) const;
     const PointPlan::Polygon& polygon() const { return polygon_; }
@@ -59,7 +59,7 @@ class PointError {
     Vec3 fromApex(int i) const;
     /// Corner i, and the apex, on the plan and with their heights.
     Vec3 position(int i) const { return errors_.position(star_.link[i]); }
-    Vec3 apexPosition() const { return errors_.position(points_.front()); }
+    Vec3 apexPosition() const { return errors_.position(apex_); }
     /// |z - plane| at the apex, of a triangle over it.
     double apexError(int i, int j, int m) const;
     SignedBound alongEdge(int i, int j) const { return errors_.alongEdge(star_.link[i], star_.link[j]); }
@@ -68,10 +68,15 @@ class PointError {
     void settle(const HoleTriangulation& floor);
 
    private:
+    const PointsBelow& below() const;
+    PointsBelow::Triangle triangle(int i, int j, int m) const;
+    bool isCovered(const PointsBelow::Found& found, int i, int j, int m) const;
+
     PointError& errors_;
     const Star& star_;
+    std::uint32_t apex_;
     const PointPlan::Polygon polygon_;
-    std::vector<std::uint32_t>& points_;
+    mutable const PointsBelow* below_ = nullptr;  // gathered when first asked for: half of the looks never do
   };
 
   /// Signed difference between the segment a-b and the finest triangulation where it crosses its edges. A
@@ -84,8 +89,8 @@ class PointError {
   double differenceOnLine(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t p) const;
 
   const PointPlan& plan_;
-  std::span<const double> heights_;
-  const LiveMesh finest_;
+  std::span<const Vec3> points_;
+  const VertexRings finest_;
   std::vector<std::uint32_t> head_;  // per triangle slot: its first point
   std::vector<std::uint32_t> next_;  // per point
 };

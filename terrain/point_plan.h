@@ -23,10 +23,10 @@ class PointPlan {
   using Point = Kernel::Point_2;
 
   /// Precondition: xStretch is a power of two.
-  PointPlan(std::span<const Vec2> positions, double xStretch) : positions_(positions), xStretch_(xStretch) {}
+  PointPlan(std::span<const Vec3> points, double xStretch) : points_(points), xStretch_(xStretch) {}
 
-  Vec2 planPosition(std::uint32_t v) const { return positions_[v]; }
-  Point point(std::uint32_t v) const { return {positions_[v].x * xStretch_, positions_[v].y}; }
+  Vec2 planPosition(std::uint32_t v) const { return {points_[v].x, points_[v].y}; }
+  Point point(std::uint32_t v) const { return {points_[v].x * xStretch_, points_[v].y}; }
 
   /// > 0 when a, b, c turn counter-clockwise; exact.
   int orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
@@ -67,7 +67,7 @@ class PointPlan {
   };
 
  private:
-  std::span<const Vec2> positions_;
+  std::span<const Vec3> points_;
   double xStretch_;
 };
 

@@ -7,36 +7,23 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <numeric>
 
+#include "build_fixture.h"
 #include "datasets/families.h"
 #include "engine/validate.h"
-#include "full_run.h"
 #include "terrain/finest_raster.h"
 #include "terrain/validate_model.h"
 
 namespace arete {
 namespace {
 
-using test::isFull;
-
-std::vector<std::uint64_t> seeds() {
-  return isFull() ? std::vector<std::uint64_t>{1, 2, 3, 4, 5, 6} : std::vector<std::uint64_t>{1, 2};
-}
-
 struct Shape {
   std::uint32_t columns, rows;
 };
 std::vector<Shape> shapes() {
   return {{2, 2}, {3, 2}, {2, 9}, {17, 17}, {41, 33}};
-}
-
-BuildOptions withShape(HoleShape shape) {
-  BuildOptions options;
-  options.shape = shape;
-  return options;
 }
 
 void forEachRaster(
@@ -48,32 +35,6 @@ void forEachRaster(
                                  std::to_string(shape.rows) + " seed " + std::to_string(seed);
         run(family, family.make(shape.columns, shape.rows, seed), name);
       }
-}
-
-template <class T>
-bool sameBytes(std::span<const T> a, std::span<const T> b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
-}
-
-void expectSameArrays(const MultiTriangulation& x, const MultiTriangulation& y, const std::string& name) {
-  const MtArrays &a = x.arrays(), &b = y.arrays();
-  EXPECT_EQ(a.rootVertices, b.rootVertices) << name;
-  EXPECT_TRUE(sameBytes(a.rootTriangles, b.rootTriangles)) << name;
-  EXPECT_TRUE(sameBytes(a.slotBegin, b.slotBegin)) << name;
-  EXPECT_TRUE(sameBytes(a.link, b.link)) << name;
-  EXPECT_TRUE(sameBytes(a.remover, b.remover)) << name;
-  EXPECT_TRUE(sameBytes(a.error, b.error)) << name;
-  EXPECT_TRUE(sameBytes(a.below, b.below)) << name;
-  EXPECT_TRUE(sameBytes(a.above, b.above)) << name;
-  EXPECT_TRUE(sameBytes(a.floor, b.floor)) << name;
-  EXPECT_TRUE(sameBytes(a.saturatedError, b.saturatedError)) << name;
-  EXPECT_TRUE(sameBytes(a.sphere, b.sphere)) << name;
-  EXPECT_TRUE(sameBytes(a.blockError, b.blockError)) << name;
-  EXPECT_TRUE(sameBytes(a.blockSphere, b.blockSphere)) << name;
-  EXPECT_TRUE(sameBytes(a.creatorHint, b.creatorHint)) << name;
-  EXPECT_TRUE(sameBytes(a.vertices.samples, b.vertices.samples)) << name;
-  EXPECT_TRUE(sameBytes(a.vertices.plan, b.vertices.plan)) << name;
-  EXPECT_TRUE(sameBytes(a.vertices.rawHeights, b.vertices.rawHeights)) << name;
 }
 
 TEST(BuildRaster, KeepsEveryLawOnEveryFamilyForBothShapes) {
@@ -116,19 +77,6 @@ TEST(BuildRaster, GivesTheSameBytesForAnyNumberOfThreads) {
         expectSameArrays(one->mt, many->mt, std::string(family.name) + " " + std::to_string(threads));
       }
     }
-}
-
-/// Pieces of so few vertices that a small raster has many.
-BuildOptions withPieces(HoleShape shape, std::uint32_t vertices) {
-  BuildOptions options = withShape(shape);
-  options.pieces = {.most = vertices, .least = vertices, .fewest = 2, .span = 1.6};
-  return options;
-}
-
-/// Both shapes, together and by pieces.
-std::vector<BuildOptions> eachWay() {
-  return {withShape(HoleShape::delaunay), withShape(HoleShape::fidelity), withPieces(HoleShape::delaunay, 30),
-          withPieces(HoleShape::fidelity, 30)};
 }
 
 TEST(BuildRaster, KeepsEveryLawByPiecesAndTheSameBytesForAnyNumberOfThreads) {
@@ -413,123 +361,6 @@ TEST(BuildRaster, CountsIsolatedSamplesAndKeepsTheirHeights) {
   EXPECT_EQ(model->rasterSamples().at(5, 4), 77);
 }
 
-TEST(BuildPoints, KeepsEveryLawOnEveryFamilyForBothShapes) {
-  for (const PointFamily& family : pointFamilies())
-    for (const std::uint32_t count : {4u, 25u, 400u})
-      for (const std::uint64_t seed : seeds())
-        for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity}) {
-          const auto model = build(family.make(count, seed), withShape(shape));
-          ASSERT_TRUE(model) << family.name << " " << count << ": " << model.error().describe();
-          const Status status = validateModel(*model, {.randomFronts = 20, .seed = seed});
-          EXPECT_TRUE(status) << family.name << " " << count << " seed " << seed << " " << toString(shape)
-                              << ": " << status.error().describe();
-        }
-}
-
-TEST(BuildPoints, GivesTheSameBytesForAnyNumberOfThreads) {
-  for (const PointFamily& family : pointFamilies()) {
-    const PointHeightfield field = family.make(3000, 9);
-    RunContext context;
-    context.threads = 1;
-    const auto one = build(field, {}, context);
-    ASSERT_TRUE(one) << family.name;
-    for (const int threads : {2, 4}) {
-      context.threads = threads;
-      const auto many = build(field, {}, context);
-      ASSERT_TRUE(many);
-      expectSameArrays(one->mt, many->mt, std::string(family.name));
-    }
-  }
-}
-
-TEST(BuildPoints, KeepsEveryLawByPiecesAndTheSameBytesForAnyNumberOfThreads) {
-  for (const PointFamily& family : pointFamilies())
-    for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity}) {
-      const PointHeightfield field = family.make(3000, 5);
-      RunContext context;
-      context.threads = 1;
-      const auto one = build(field, withPieces(shape, 100), context);
-      ASSERT_TRUE(one) << family.name << ": " << one.error().describe();
-      const Status status = validateModel(*one);
-      EXPECT_TRUE(status) << family.name << ": " << status.error().describe();
-      for (const int threads : {2, 4}) {
-        context.threads = threads;
-        const auto many = build(field, withPieces(shape, 100), context);
-        ASSERT_TRUE(many);
-        expectSameArrays(one->mt, many->mt, std::string(family.name) + " " + std::to_string(threads));
-      }
-    }
-}
-
-TEST(BuildPoints, StoresErrorsThatAreThoseOfAPlainScanRoundedOutwards) {
-  for (const PointFamily& family : pointFamilies())
-    for (const BuildOptions& options : eachWay()) {
-      const PointHeightfield field = family.make(150, 3);
-      const auto model = build(field, options);
-      ASSERT_TRUE(model) << family.name;
-      const MultiTriangulation& mt = model->mt;
-      double magnitude = 0, low = 1e300, high = -1e300;
-      for (const double z : field.heights) {
-        magnitude = std::max(magnitude, std::abs(z));
-        low = std::min(low, z);
-        high = std::max(high, z);
-      }
-      for (std::uint32_t t = 0; t < mt.triangleIdCount(); ++t) {
-        const NodeId creator = mt.creator(TriangleId(t));
-        if (creator.isValid() && mt.remover(TriangleId(t)) == creator) continue;
-        const auto c = mt.corners(TriangleId(t));
-        Vec3 p[3];
-        for (int i = 0; i < 3; ++i) p[i] = mt.position(VertexId(c[i]));
-        const double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
-        double inside = 0, around = 0;  // points well inside; points inside or within rounding of an edge
-        for (std::size_t i = 0; i < field.size(); ++i) {
-          const Vec2 q = field.positions[i];
-          const double u = ((q.x - p[0].x) * (p[2].y - p[0].y) - (q.y - p[0].y) * (p[2].x - p[0].x)) / area;
-          const double w = ((p[1].x - p[0].x) * (q.y - p[0].y) - (p[1].y - p[0].y) * (q.x - p[0].x)) / area;
-          const double least = std::min({u, w, 1 - u - w});
-          const double error =
-              std::abs(p[0].z + u * (p[1].z - p[0].z) + w * (p[2].z - p[0].z) - field.heights[i]);
-          if (least >= 1e-7) inside = std::max(inside, error);
-          if (least >= -1e-7) around = std::max(around, error);
-        }
-        const double slack = 1e-6 * (high - low) + 1e-12 * magnitude;
-        ASSERT_GE(mt.error(TriangleId(t)), inside - slack) << family.name << " triangle " << t;
-        ASSERT_LE(mt.error(TriangleId(t)), around * (1 + 1.0 / 1024) + slack)
-            << family.name << " triangle " << t;
-      }
-    }
-}
-
-TEST(BuildPoints, KeepsEveryLawWherePointsStandInRowsThatDoublesBend) {
-  for (const double slope : {0.37, 0.1, 1.0 / 3}) {
-    PointHeightfield field;
-    for (int i = 1; i <= 160; ++i)
-      for (const double turn : {0.0, 0.1, 0.2}) {  // rows through the origin: not quite straight
-        const double x = 0.7 * i;
-        field.positions.push_back({x, (slope + turn) * x});
-        field.heights.push_back(100 * std::sin(x / 5) + (i * 37 + int(50 * turn)) % 20);
-      }
-    for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity}) {
-      const auto model = build(field, withShape(shape));
-      ASSERT_TRUE(model) << slope << ": " << model.error().describe();
-      const Status valid = validateModel(*model);
-      EXPECT_TRUE(valid) << slope << ": " << valid.error().describe();
-    }
-  }
-}
-
-TEST(BuildPoints, RefusesWhatSpansMoreThanSpheresHold) {
-  PointHeightfield field;
-  for (const double unit : {1e35, 1e200}) {
-    field.positions = {{0, 0}, {unit, 0}, {0, unit}, {unit, unit}, {0.4 * unit, 0.3 * unit}};
-    field.heights = {1, 2, 3, 4, 5};
-    const auto model = build(field);
-    ASSERT_FALSE(model) << unit;
-    EXPECT_EQ(model.error().code, ErrorCode::invalidData);
-    EXPECT_NE(model.error().message.find("spans"), std::string::npos) << model.error().message;
-  }
-}
-
 TEST(BuildRaster, RefusesWhatSpansMoreThanSpheresHold) {
   RasterHeightfield field;
   field.columns = field.rows = 3;
@@ -539,23 +370,6 @@ TEST(BuildRaster, RefusesWhatSpansMoreThanSpheresHold) {
   const auto model = build(field);
   ASSERT_FALSE(model);
   EXPECT_EQ(model.error().code, ErrorCode::invalidData);
-}
-
-TEST(BuildPoints, AnswersDegenerateInputWithASentence) {
-  for (const PointFamily& family : degeneratePointFamilies()) {
-    const auto model = build(family.make(12, 1));
-    ASSERT_FALSE(model) << family.name;
-    EXPECT_EQ(model.error().code, ErrorCode::degenerate) << family.name << ": " << model.error().describe();
-  }
-}
-
-TEST(BuildPoints, NamesBothPointsThatShareAPlaceAndNotAHeight) {
-  PointHeightfield field;
-  field.positions = {{0, 0}, {1, 0}, {0, 1}, {1, 0}};
-  field.heights = {1, 2, 3, 4};
-  const auto model = build(field);
-  ASSERT_FALSE(model);
-  EXPECT_NE(model.error().message.find("points 1 and 3"), std::string::npos) << model.error().message;
 }
 
 }  // namespace

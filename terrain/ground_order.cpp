@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "terrain/ground_order.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+#include "engine/uninitialized_vector.h"
+
+namespace arete {
+namespace {
+
+/// How far along the curve through a square of 2^32 x 2^32 cells a cell is passed.
+std::uint64_t placeOnCurve(std::uint32_t x, std::uint32_t y) {
+  std::uint64_t place = 0;
+  for (int bit = 31; bit >= 0; --bit) {
+    const std::uint32_t right = x >> bit & 1, up = y >> bit & 1;
+    place = place << 2 | ((3 * right) ^ up);
+    // The curve through a quarter is turned: what follows is told as if it were not.
+    if (up == 0) {
+      if (right == 1) {
+        x = ~x;
+        y = ~y;
+      }
+      std::swap(x, y);
+    }
+  }
+  return place;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> groundOrder(std::span<const Vec2> positions) {
+  if (positions.empty()) return {};
+  Vec2 least = positions[0], most = least;
+  for (const Vec2& p : positions) {
+    least = {std::min(least.x, p.x), std::min(least.y, p.y)};
+    most = {std::max(most.x, p.x), std::max(most.y, p.y)};
+  }
+  // Halves, as the whole may be more than a double holds.
+  const double halfSide = std::max(most.x / 2 - least.x / 2, most.y / 2 - least.y / 2);
+  const auto cell = [&](double x, double from) {
+    const double part = halfSide > 0 ? (x / 2 - from / 2) / halfSide : 0;
+    return static_cast<std::uint32_t>(std::min(part * 0x1p32, 0x1p32 - 1));
+  };
+  struct Place {
+    std::uint64_t onCurve;
+    std::uint32_t point;
+  };
+  UninitializedVector<Place> places(positions.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), 1 << 13), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i)
+      places[i] = {placeOnCurve(cell(positions[i].x, least.x), cell(positions[i].y, least.y)),
+                   static_cast<std::uint32_t>(i)};
+  });
+  tbb::parallel_sort(places.begin(), places.end(), [&](const Place& a, const Place& b) {
+    if (a.onCurve != b.onCurve) return a.onCurve < b.onCurve;
+    const Vec2 &p = positions[a.point], &q = positions[b.point];
+    return std::tie(p.x, p.y, a.point) < std::tie(q.x, q.y, b.point);
+  });
+  std::vector<std::uint32_t> order(positions.size());
+  std::ranges::transform(places, order.begin(), &Place::point);
+  return order;
+}
+
+}  // namespace arete

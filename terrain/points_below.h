@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/vec.h"
+
+namespace arete {
+
+/// The points that a hole has below it, laid out for vectors: a triangle of the hole asks of all of them
+/// whether it covers them and how far they are from it. That is told by linear functions in doubles, with
+/// what they can be off by; the few points that it does not decide are for exact predicates (PointError).
+class PointsBelow {
+ public:
+  /// Forgets all. `apex`: the place that the others are told from, a point like them.
+  void clear(const Vec3& apex);
+  void add(std::uint32_t point, const Vec3& position) {
+    points_.push_back(point);
+    x_.push_back(position.x - apex_.x);
+    y_.push_back(position.y - apex_.y);
+    z_.push_back(position.z - apex_.z);
+  }
+  /// When all are there. `reach`: how far any of them, or any corner of a triangle that will be asked about,
+  /// lies from the apex, in x, in y, and from 0 in height.
+  void close(const Vec3& reach);
+
+  std::size_t size() const { return size_; }
+  std::uint32_t operator[](std::size_t k) const { return points_[k]; }
+
+  struct Found {
+    std::size_t place;  ///< size() where there is none
+    bool isCovered;     ///< for certain; else it may be
+  };
+  /// A counter-clockwise triangle over them.
+  class Triangle {
+   public:
+    Triangle(const PointsBelow& below, const Vec3& a, const Vec3& b, const Vec3& c);
+
+    /// The first point from a place on that the triangle may cover and where z_triangle - z may be above
+    /// `above`, or below -`below`. O(points), two at a time.
+    Found next(std::size_t from, double above, double below) const;
+    /// The first that it may cover.
+    Found nextCovered(std::size_t from) const;
+
+   private:
+    /// value = atApex + alongX * x + alongY * y
+    struct Linear {
+      double atApex, alongX, alongY;
+    };
+    /// Twice the area of an edge and a point left of it.
+    Linear leftOf(const Vec3& from, const Vec3& to) const;
+
+    const PointsBelow& below_;
+    Linear edges_[3];
+    double edgeMargin_;  // what those can be off by
+    Linear plane_;       // the height, from the apex's
+    double planeMargin_;
+  };
+
+ private:
+  Vec3 apex_;
+  std::vector<std::uint32_t> points_;
+  std::vector<double> x_, y_, z_;  // from the apex; one more where points are odd in number
+  std::size_t size_ = 0;
+  Vec3 reach_;
+};
+
+}  // namespace arete
