@@ -48,7 +48,10 @@ int measureDems(const Arguments& arguments, const Plan& plan, Report& report) {
   std::vector<DemSource> sources = realDems(arguments.data);
   if (sources.empty())
     fmt::print(stderr, "arete-bench: no real DEMs here (ARETE_DATA or --data names their folder)\n");
-  for (const double millions : arguments.sizes) sources.push_back(generatedDem(millions, plan.scratch));
+  for (const double millions : arguments.sizes) {
+    sources.push_back(generatedDem(millions, plan.scratch));
+    if (sources.back().side <= kLargestInFull) sources.push_back(scattered(sources.back()));
+  }
   std::erase_if(sources, [&](const DemSource& s) { return !isWanted(s.name, arguments.dems); });
   if (sources.empty()) return fail({ErrorCode::usage, "no DEM has that name", "--dem"});
 

@@ -2,6 +2,7 @@
 #include "bench/sources.h"
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -11,6 +12,7 @@
 #include <variant>
 
 #include "bench/figure.h"
+#include "datasets/random.h"
 #include "datasets/terrain_generator.h"
 #include "io/amt_file.h"
 #include "io/dem_reader.h"
@@ -37,6 +39,25 @@ const std::vector<RealDem>& knownDems() {
       {"edinburgh", "dem/lidar_dsm2.5m_edinburgh_bng.tif", {0.5, 2, 10}},
   };
   return known;
+}
+
+/// As many points as the raster has samples, at places of no order, to the centimetre.
+Status writeScattered(const std::string& path, const RasterHeightfield& field) {
+  std::ofstream file(path);
+  fmt::print(file, "x,y,z\n");
+  Random random(1);
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    const double column = random.between(0, field.columns - 1), row = random.between(0, field.rows - 1);
+    const auto c = static_cast<std::uint32_t>(column), r = static_cast<std::uint32_t>(row);
+    const double u = column - c, w = row - r;
+    const double above = field.at(c, r) + u * (field.at(c + 1, r) - field.at(c, r)),
+                 below = field.at(c, r + 1) + u * (field.at(c + 1, r + 1) - field.at(c, r + 1));
+    const Vec2 place = field.georeference.toSource(column, row);
+    fmt::print(file, "{:.2f},{:.2f},{:.2f}\n", place.x, place.y, above + w * (below - above));
+  }
+  file.close();
+  if (!file) return failure(ErrorCode::unreadable, "the points cannot be written", path);
+  return {};
 }
 
 }  // namespace
@@ -93,6 +114,14 @@ DemSource withoutLake(const DemSource& source) {
   return dry;
 }
 
+DemSource scattered(const DemSource& source) {
+  DemSource points = withoutLake(source);
+  points.name = "points" + points.name.substr(points.name.find('-'));
+  points.path = fs::path(points.path).replace_extension().string() + "-points.csv";
+  points.isScattered = true;
+  return points;
+}
+
 Status generateDem(const DemSource& source) {
   std::error_code ignored;
   if (source.side == 0 || fs::exists(source.path, ignored)) return {};
@@ -101,6 +130,7 @@ Status generateDem(const DemSource& source) {
   options.lake = source.hasLake;
   const Result<RasterHeightfield> field = generateTerrain(options);
   if (!field) return tl::unexpected(field.error());
+  if (source.isScattered) return writeScattered(source.path, *field);
   return writeGeoTiff(source.path, field->columns, field->rows, field->heights, field->georeference);
 }
 

@@ -18,7 +18,12 @@ struct DemSource {
   std::vector<double> tolerances;  ///< in its vertical unit, rising: what the cuts are taken at
   std::uint32_t side = 0;          ///< generated: samples along a side; 0 = real
   bool hasLake = true;             ///< generated: a lake of NODATA
+  bool isScattered = false;        ///< generated: points, as many as the raster has samples
 };
+
+/// Of generated terrain with more samples along a side there is no fidelity model and there are no points: a
+/// run would take too long.
+inline constexpr std::uint32_t kLargestInFull = 2000;
 
 /// Triangles that the best greedy insertion leaves at a tolerance, and the DEM they were counted on.
 struct GreedyBaseline {
@@ -42,6 +47,9 @@ DemSource generatedDem(double millions, const std::string& scratch);
 
 /// The same terrain without its lake: no voids. A real DEM stays as it is.
 DemSource withoutLake(const DemSource& source);
+
+/// A generated terrain without its lake, as points at random places, in no order: what lidar leaves of it.
+DemSource scattered(const DemSource& source);
 
 /// Makes the file of a generated source where it is not there. Errors: those of the generator and the writer.
 Status generateDem(const DemSource& source);

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
+#include <variant>
 
 #include "bench/forked.h"
 #include "bench/page_cache.h"
@@ -15,6 +17,7 @@
 #include "bench/stages.h"
 #include "bench/threads.h"
 #include "io/amt_file.h"
+#include "io/dem_reader.h"
 #include "terrain/build.h"
 #include "terrain/fixed_vertices.h"
 
@@ -25,6 +28,27 @@ template <class Work>
 auto inStage(StageClock& clock, const char* stage, const Work& work) {
   const StageClock::Scope scope(&clock, stage);
   return work();
+}
+
+/// The features that stay, and the build. `finest`: of points, their triangulation.
+template <class Heightfield, class... Finest>
+Result<TerrainModel> buildFrom(const Heightfield& field, HoleShape shape, const RunContext& context,
+                               Finest... finest) {
+  const Result<FixedVertices> fixed =
+      inStage(*context.clock, "features", [&] { return chooseFixedVertices(field, finest..., {}, context); });
+  if (!fixed) return tl::unexpected(fixed.error());
+  BuildOptions options;
+  options.shape = shape;
+  options.fixedVertices = fixed->vertices;
+  return build(field, std::move(finest)..., options, context);
+}
+
+Result<TerrainModel> buildOf(const DemHeightfield& dem, HoleShape shape, const RunContext& context) {
+  if (const auto* raster = std::get_if<RasterHeightfield>(&dem)) return buildFrom(*raster, shape, context);
+  const auto& points = std::get<PointHeightfield>(dem);
+  Result<FinestPoints> finest = finestPoints(points, context);
+  if (!finest) return tl::unexpected(finest.error());
+  return buildFrom(points, shape, context, std::move(*finest));
 }
 
 }  // namespace
@@ -63,18 +87,12 @@ Result<Figures> buildOnce(const DemSource& source, HoleShape shape, int threads,
   StageClock clock;
   RunContext context = onThreads(threads);
   context.clock = &clock;
-  Result<RasterHeightfield> field = inStage(clock, "read", [&] { return readField(source); });
-  if (!field) return tl::unexpected(field.error());
-  const double samples = double(field->size());
+  Result<DemRead> dem = inStage(clock, "read", [&] { return readDem(source.path); });
+  if (!dem) return tl::unexpected(dem.error());
+  const double samples = std::visit([](const auto& field) { return double(field.size()); }, dem->heightfield);
 
   const Stopwatch whole;
-  const Result<FixedVertices> fixed =
-      inStage(clock, "features", [&] { return chooseFixedVertices(*field, {}, context); });
-  if (!fixed) return tl::unexpected(fixed.error());
-  BuildOptions options;
-  options.shape = shape;
-  options.fixedVertices = fixed->vertices;
-  const Result<TerrainModel> built = build(*field, options, context);
+  const Result<TerrainModel> built = buildOf(dem->heightfield, shape, context);
   if (!built) return tl::unexpected(built.error());
   const double seconds = whole.seconds(), peak = peakBytes();
   const Status written = inStage(clock, "write", [&] { return writeAmt(model, *built, onThreads(threads)); });

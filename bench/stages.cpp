@@ -19,8 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kLargestFidelitySide = 2000;  // generated; a fidelity build of more takes too long
-
 struct BuildVariant {
   HoleShape shape;
   int threads;  ///< 0 = all
@@ -93,7 +91,7 @@ class DemRun {
     return {};
   }
 
-  bool hasFidelity() const { return source_.side <= kLargestFidelitySide; }
+  bool hasFidelity() const { return source_.side <= kLargestInFull; }
 
   Status buildAll(const std::vector<GreedyBaseline>& baselines) {
     const bool isMeasured = plan_.wants("build");
@@ -125,13 +123,14 @@ class DemRun {
     }
     Status status = add([&]() -> Result<Figures> {
       if (const Status made = generateDem(source_); !made) return tl::unexpected(made.error());
-      return plan_.wants("read") ? readStage(source_, plan_) : Figures{};
+      return plan_.wants("read") && !source_.isScattered ? readStage(source_, plan_) : Figures{};
     });
     if (status) status = buildAll(baselines);
     if (status && plan_.wants("file"))
       status = add([&] { return fileStage(source_, HoleShape::delaunay, delaunay, plan_); });
     if (status && plan_.wants("file") && hasFidelity())
       status = add([&] { return fileStage(source_, HoleShape::fidelity, fidelity, plan_); });
+    if (source_.isScattered) return finished(status);
     if (status && plan_.wants("cut")) status = add([&] { return cutStage(source_, delaunay, plan_); });
     if (status && plan_.wants("follow")) status = add([&] { return followStage(source_, delaunay, plan_); });
     if (status && plan_.wants("height")) status = add([&] { return heightStage(source_, delaunay, plan_); });
@@ -149,6 +148,10 @@ class DemRun {
       if (!figures) return tl::unexpected(figures.error());
       figures_.insert(figures_.end(), figures->begin(), figures->end());
     }
+    return finished(status);
+  }
+
+  Result<Figures> finished(const Status& status) {
     if (!status) return tl::unexpected(status.error());
     return std::move(figures_);
   }

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "cli/arguments.h"
@@ -120,6 +122,40 @@ Status takeShape(BuildArguments& arguments) {
   return {};
 }
 
+/// From a heightfield that has been read to the file. `finest`: of points, their triangulation.
+template <class Heightfield, class... Finest>
+Status buildFrom(BuildArguments& arguments, Session& session, Seconds& seconds, const Heightfield& field,
+                 Finest... finest) {
+  Stopwatch choosing;
+  const auto wishes = fixedOptions(arguments, field.georeference, session);
+  if (!wishes) return tl::unexpected(wishes.error());
+  Result<FixedVertices> fixed = chooseFixedVertices(field, finest..., *wishes, session.context());
+  if (!fixed) return tl::unexpected(fixed.error());
+  if (!wishes->given.empty() && fixed->givenOutside == wishes->given.size())
+    return failure(ErrorCode::invalidData,
+                   fmt::format("none of the {} points lies on the DEM's data", wishes->given.size()),
+                   fmt::format("--fixed {}", arguments.fixedPath));
+  if (fixed->givenOutside > 0)
+    session.warn(fmt::format("--fixed {}: {} of {} points lie beside the DEM's data and are left out",
+                             arguments.fixedPath, fixed->givenOutside, wishes->given.size()));
+  arguments.options.fixedVertices = fixed->vertices;
+  seconds.features = choosing.seconds();
+
+  Stopwatch building;
+  Result<TerrainModel> model = build(field, std::move(finest)..., arguments.options, session.context());
+  if (!model) return tl::unexpected(model.error());
+  seconds.build += building.seconds();
+  model->reading = arguments.dem.reading;
+
+  Stopwatch writing;
+  const AmtWriteOptions options{.isPacked = arguments.isPacked};
+  if (Status written = writeAmt(arguments.output, *model, session.context(), options); !written)
+    return written;
+  seconds.write = writing.seconds();
+  report(session, arguments, *model, *fixed, seconds);
+  return {};
+}
+
 Status runBuild(BuildArguments& arguments, Session& session) {
   if (Status taken = takeShape(arguments); !taken) return taken;
   const std::string extension = text::lowerExtension(arguments.output);
@@ -139,34 +175,15 @@ Status runBuild(BuildArguments& arguments, Session& session) {
   seconds.read = reading.seconds();
   return std::visit(
       [&](const auto& field) -> Status {
-        Stopwatch choosing;
-        const auto wishes = fixedOptions(arguments, field.georeference, session);
-        if (!wishes) return tl::unexpected(wishes.error());
-        Result<FixedVertices> fixed = chooseFixedVertices(field, *wishes, session.context());
-        if (!fixed) return tl::unexpected(fixed.error());
-        if (!wishes->given.empty() && fixed->givenOutside == wishes->given.size())
-          return failure(ErrorCode::invalidData,
-                         fmt::format("none of the {} points lies on the DEM's data", wishes->given.size()),
-                         fmt::format("--fixed {}", arguments.fixedPath));
-        if (fixed->givenOutside > 0)
-          session.warn(fmt::format("--fixed {}: {} of {} points lie beside the DEM's data and are left out",
-                                   arguments.fixedPath, fixed->givenOutside, wishes->given.size()));
-        arguments.options.fixedVertices = fixed->vertices;
-        seconds.features = choosing.seconds();
-
-        Stopwatch building;
-        Result<TerrainModel> model = build(field, arguments.options, session.context());
-        if (!model) return tl::unexpected(model.error());
-        seconds.build = building.seconds();
-        model->reading = arguments.dem.reading;
-
-        Stopwatch writing;
-        const AmtWriteOptions options{.isPacked = arguments.isPacked};
-        if (Status written = writeAmt(arguments.output, *model, session.context(), options); !written)
-          return written;
-        seconds.write = writing.seconds();
-        report(session, arguments, *model, *fixed, seconds);
-        return {};
+        if constexpr (std::is_same_v<decltype(field), const PointHeightfield&>) {
+          Stopwatch triangulating;
+          Result<FinestPoints> finest = finestPoints(field, session.context());
+          if (!finest) return tl::unexpected(finest.error());
+          seconds.build = triangulating.seconds();
+          return buildFrom(arguments, session, seconds, field, std::move(*finest));
+        } else {
+          return buildFrom(arguments, session, seconds, field);
+        }
       },
       dem->heightfield);
 }

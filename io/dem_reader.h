@@ -14,8 +14,10 @@
 
 namespace arete {
 
+using DemHeightfield = std::variant<RasterHeightfield, PointHeightfield>;
+
 struct DemRead {
-  std::variant<RasterHeightfield, PointHeightfield> heightfield;
+  DemHeightfield heightfield;
   std::vector<std::string> warnings;
 };
 

@@ -4,6 +4,7 @@
 #include "engine/result.h"
 #include "engine/run_context.h"
 #include "terrain/build_options.h"
+#include "terrain/finest_points.h"
 #include "terrain/heightfield.h"
 #include "terrain/terrain_model.h"
 
@@ -20,5 +21,8 @@ Result<TerrainModel> build(const RasterHeightfield& heightfield, const BuildOpti
                            const RunContext& context = {});
 Result<TerrainModel> build(const PointHeightfield& heightfield, const BuildOptions& options = {},
                            const RunContext& context = {});
+/// `finest`: finestPoints() of the same points.
+Result<TerrainModel> build(const PointHeightfield& heightfield, FinestPoints finest,
+                           const BuildOptions& options = {}, const RunContext& context = {});
 
 }  // namespace arete

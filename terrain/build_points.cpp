@@ -27,30 +27,25 @@ struct OwnedPoints {
   EncodedHeights heights;
 };
 
-Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions& options,
-                               const RunContext& context) {
-  if (const Status valid = field.validate(); !valid) return tl::unexpected(valid.error());
-  if (const Status valid = checkOptions(options, field.size()); !valid) return tl::unexpected(valid.error());
+/// What is wrong is said before the work begins.
+Status check(const PointHeightfield& field, const BuildOptions& options) {
+  if (Status valid = field.validate(); !valid) return valid;
+  if (Status valid = checkOptions(options, field.size()); !valid) return valid;
   if (options.rimTolerance > 0)
     return failure(ErrorCode::usage, "scattered points have no NODATA rims to simplify", "--rim-tolerance");
-  if (field.size() > LiveMesh::kMostTriangles / 2)
-    return failure(ErrorCode::unsupported,
-                   fmt::format("{} points have more triangles than 32-bit half-edges can name", field.size()),
-                   field.source);
+  return {};
+}
 
+Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints finest,
+                               const BuildOptions& options, const RunContext& context) {
   const PageKeeper keeper;  // what a step no longer needs goes to the next
-  context.report("triangulate", 0);
   std::optional<StageClock::Scope> stage(std::in_place, context.clock, "triangulate");
-  const double stretch = pointMetricStretch(field);
   // From here on points are numbered along the ground: neighbours are near each other in memory.
-  Result<FinestPoints> finest = finestPoints(field, stretch);
-  if (!finest) return tl::unexpected(finest.error());
-  const std::vector<std::uint32_t>& ground = finest->order;
-  const auto finestCount = static_cast<std::uint32_t>(finest->triangles.size());
+  const std::vector<std::uint32_t>& ground = finest.order;
+  const auto finestCount = static_cast<std::uint32_t>(finest.triangles.size());
   const auto pointCount = static_cast<std::uint32_t>(field.size());
   std::vector<std::uint32_t> pinched;
-  LiveMesh mesh = LiveMesh::fromTriangles(std::move(finest->triangles), pointCount, pinched);
-  context.report("triangulate", 1);
+  LiveMesh mesh = LiveMesh::fromTriangles(std::move(finest.triangles), pointCount, pinched);
   stage.emplace(context.clock, "prepare");
 
   TerrainModel model;
@@ -86,6 +81,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
   metric.scale = {step.x, step.y, field.georeference.verticalUnitMetres};
   const Vec3 span{(most.x - least.x) * step.x, (most.y - least.y) * step.y, (*high - *low) * metric.scale.z};
   if (const Status valid = checkSpan(span, field.source); !valid) return tl::unexpected(valid.error());
+  const double stretch = finest.xStretch;
   model.metricP = stretch >= 1 ? static_cast<std::uint32_t>(stretch) : 1;
   model.metricQ = stretch >= 1 ? 1 : static_cast<std::uint32_t>(1 / stretch);
 
@@ -146,7 +142,16 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, const BuildOptions
 
 Result<TerrainModel> build(const PointHeightfield& heightfield, const BuildOptions& options,
                            const RunContext& context) {
-  return withThreads(context, [&] { return buildHere(heightfield, options, context); });
+  if (const Status valid = check(heightfield, options); !valid) return tl::unexpected(valid.error());
+  Result<FinestPoints> finest = finestPoints(heightfield, context);
+  if (!finest) return tl::unexpected(finest.error());
+  return build(heightfield, std::move(*finest), options, context);
+}
+
+Result<TerrainModel> build(const PointHeightfield& heightfield, FinestPoints finest,
+                           const BuildOptions& options, const RunContext& context) {
+  if (const Status valid = check(heightfield, options); !valid) return tl::unexpected(valid.error());
+  return withThreads(context, [&] { return buildHere(heightfield, std::move(finest), options, context); });
 }
 
 }  // namespace arete

@@ -14,7 +14,9 @@
 #include <limits>
 #include <utility>
 
+#include "engine/with_threads.h"
 #include "terrain/ground_order.h"
+#include "terrain/live_mesh.h"
 
 namespace arete {
 namespace {
@@ -62,10 +64,9 @@ struct Extent {
   double xLow = std::numeric_limits<double>::infinity(), xHigh = -xLow, yLow = xLow, yHigh = -xLow;
 };
 
-}  // namespace
-
-Result<FinestPoints> finestPoints(const PointHeightfield& field, double xStretch) {
+Result<FinestPoints> triangulate(const PointHeightfield& field, double xStretch) {
   FinestPoints finest;
+  finest.xStretch = xStretch;
   finest.order = groundOrder(field.positions);
   const auto& p = field.positions;
   std::vector<PlacedPoint> input;
@@ -96,13 +97,27 @@ Result<FinestPoints> finestPoints(const PointHeightfield& field, double xStretch
   return finest;
 }
 
-Result<Triangles> finestTriangulation(const PointHeightfield& field, double xStretch) {
-  Result<FinestPoints> finest = finestPoints(field, xStretch);
-  if (!finest) return tl::unexpected(finest.error());
-  for (auto& triangle : finest->triangles)
-    for (std::uint32_t& corner : triangle) corner = finest->order[corner];
-  sort(finest->triangles);
-  return std::move(finest->triangles);
+}  // namespace
+
+std::vector<std::array<std::uint32_t, 3>> FinestPoints::trianglesOfPoints() const {
+  Triangles ofPoints = triangles;
+  for (auto& triangle : ofPoints)
+    for (std::uint32_t& corner : triangle) corner = order[corner];
+  return ofPoints;
+}
+
+Result<FinestPoints> finestPoints(const PointHeightfield& field, const RunContext& context) {
+  if (const Status valid = field.validate(); !valid) return tl::unexpected(valid.error());
+  if (field.size() > LiveMesh::kMostTriangles / 2)
+    return failure(ErrorCode::unsupported,
+                   fmt::format("{} points have more triangles than 32-bit half-edges can name", field.size()),
+                   field.source);
+  context.report("triangulate", 0);
+  const StageClock::Scope stage(context.clock, "triangulate");
+  Result<FinestPoints> finest =
+      withThreads(context, [&] { return triangulate(field, pointMetricStretch(field)); });
+  context.report("triangulate", 1);
+  return finest;
 }
 
 double pointMetricStretch(const PointHeightfield& field) {

@@ -158,10 +158,18 @@ Result<FixedVertices> chooseFixedVertices(const RasterHeightfield& field, const 
 Result<FixedVertices> chooseFixedVertices(const PointHeightfield& field, const FixedVertexOptions& options,
                                           const RunContext& context) {
   if (wantsNothing(options) || field.size() == 0) return FixedVertices{};
-  const Result<Triangles> triangles = finestTriangulation(field, pointMetricStretch(field));
-  if (!triangles) return tl::unexpected(triangles.error());
+  const Result<FinestPoints> finest = finestPoints(field, context);
+  if (!finest) return tl::unexpected(finest.error());
+  return chooseFixedVertices(field, *finest, options, context);
+}
+
+Result<FixedVertices> chooseFixedVertices(const PointHeightfield& field, const FinestPoints& finest,
+                                          const FixedVertexOptions& options, const RunContext& context) {
+  if (wantsNothing(options)) return FixedVertices{};
+  Triangles triangles;
+  if (!options.given.empty() || options.creaseAngleDegrees) triangles = finest.trianglesOfPoints();
   std::optional<NearestPoint> nearest;
-  if (!options.given.empty()) nearest.emplace(field, inTriangles(*triangles, field.size()));
+  if (!options.given.empty()) nearest.emplace(field, inTriangles(triangles, field.size()));
   const Georeference& georeference = field.georeference;
   Vec2 mean;
   for (const Vec2& p : field.positions) mean = {mean.x + p.x, mean.y + p.y};
@@ -172,9 +180,18 @@ Result<FixedVertices> chooseFixedVertices(const PointHeightfield& field, const F
     const Vec2& p = field.positions[v];
     return Vec3{p.x * step.x, p.y * step.y, field.heights[v] * georeference.verticalUnitMetres};
   };
+  // Along the ground neighbours are near each other, and equal heights are told apart whatever the points'
+  // numbers are.
+  const auto rankedFeatures = [&] {
+    std::vector<double> heights(field.size());
+    std::ranges::transform(finest.order, heights.begin(), [&](std::uint32_t v) { return field.heights[v]; });
+    std::vector<Feature> ranked = rankFeatures(heights, finest.triangles, *options.features, context);
+    for (Feature& feature : ranked) feature.sample = finest.order[feature.sample];
+    return ranked;
+  };
   return choose(
-      field.size(), [&] { return rankFeatures(field.heights, *triangles, *options.features, context); },
-      *triangles, positionOf, [&](Vec2 p) { return (*nearest)(p); }, options, context);
+      field.size(), rankedFeatures, triangles, positionOf, [&](Vec2 p) { return (*nearest)(p); }, options,
+      context);
 }
 
 }  // namespace arete

@@ -10,6 +10,7 @@
 #include "engine/run_context.h"
 #include "engine/vec.h"
 #include "terrain/features.h"
+#include "terrain/finest_points.h"
 #include "terrain/heightfield.h"
 
 namespace arete {
@@ -40,6 +41,9 @@ struct FixedVertices {
 Result<FixedVertices> chooseFixedVertices(const RasterHeightfield& heightfield,
                                           const FixedVertexOptions& options, const RunContext& context = {});
 Result<FixedVertices> chooseFixedVertices(const PointHeightfield& heightfield,
+                                          const FixedVertexOptions& options, const RunContext& context = {});
+/// `finest`: finestPoints() of the same points.
+Result<FixedVertices> chooseFixedVertices(const PointHeightfield& heightfield, const FinestPoints& finest,
                                           const FixedVertexOptions& options, const RunContext& context = {});
 
 }  // namespace arete

@@ -78,12 +78,11 @@ Status law7(const TerrainModel& model) {
 /// its triangles open but not their number, and law 9 is checked on the same front where the shape promises
 /// it.
 Status law8OfPoints(const TerrainModel& model, const Cut& finest) {
-  const double stretch = double(model.metricP) / model.metricQ;
-  const auto expected = finestTriangulation(model.pointSamples(), stretch);
+  const auto expected = finestPoints(model.pointSamples());
   if (!expected) return tl::unexpected(expected.error());
-  if (finest.triangles.size() != expected->size())
+  if (finest.triangles.size() != expected->triangles.size())
     return broken(fmt::format("law 8: the finest front has {} triangles, the points give {}",
-                              finest.triangles.size(), expected->size()));
+                              finest.triangles.size(), expected->triangles.size()));
   std::vector<std::uint8_t> seen(model.mt.vertexCount(), 0);
   for (const auto& t : finest.triangles)
     for (const std::uint32_t v : t) seen[finest.vertices[v]] = 1;

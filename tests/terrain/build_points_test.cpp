@@ -118,8 +118,9 @@ TEST(BuildPoints, StoresBoundsThatContainTheDifferenceEverywhereInATriangle) {
       const PointHeightfield field = family.make(150, 4);
       const auto model = build(field, options);
       ASSERT_TRUE(model) << family.name;
-      const auto finest = finestTriangulation(field, double(model->metricP) / model->metricQ);
+      const auto finest = finestPoints(field);
       ASSERT_TRUE(finest);
+      const auto finestTriangles = finest->trianglesOfPoints();
       double magnitude = 0;
       for (const double z : field.heights) magnitude = std::max(magnitude, std::abs(z));
       /// Weights of the corners at x, y; the last number is twice the area.
@@ -130,7 +131,7 @@ TEST(BuildPoints, StoresBoundsThatContainTheDifferenceEverywhereInATriangle) {
         return std::array{1 - u - w, u, w, area};
       };
       const auto reference = [&](double x, double y) {
-        for (const auto& t : *finest) {
+        for (const auto& t : finestTriangles) {
           std::array<Vec3, 3> p;
           for (std::size_t i = 0; i < 3; ++i)
             p[i] = {field.positions[t[i]].x, field.positions[t[i]].y, field.heights[t[i]]};

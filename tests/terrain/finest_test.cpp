@@ -105,15 +105,16 @@ TEST(FinestRaster, IsDelaunayUpToCocircularTiesByCgalsPredicates) {
 TEST(FinestPoints, HasTheTrianglesOfTheEulerRelation) {
   for (const PointFamily& family : pointFamilies()) {
     const PointHeightfield field = family.make(500, 8);
-    const auto triangles = finestTriangulation(field, 1);
-    ASSERT_TRUE(triangles) << family.name;
+    const auto finest = finestPoints(field);
+    ASSERT_TRUE(finest) << family.name;
+    const auto triangles = finest->trianglesOfPoints();
     // Counter-clockwise everywhere, and no vertex left out but exact repeats.
     std::vector<char> seen(field.size(), 0);
-    for (const auto& t : *triangles)
+    for (const auto& t : triangles)
       for (const std::uint32_t v : t) seen[v] = 1;
     std::size_t used = 0;
     for (const char s : seen) used += s;
-    EXPECT_LE(triangles->size(), 2 * used);
+    EXPECT_LE(triangles.size(), 2 * used);
     EXPECT_GE(used, 3u) << family.name;
   }
 }

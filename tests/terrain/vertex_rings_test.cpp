@@ -15,17 +15,18 @@ namespace {
 TEST(VertexRings, HoldTheNeighboursOfEveryVertexInTheOrderOfItsTriangles) {
   for (const PointFamily& family : pointFamilies()) {
     const PointHeightfield field = family.make(300, 5);
-    const auto triangles = finestTriangulation(field, 1);
-    ASSERT_TRUE(triangles) << family.name;
+    const auto finest = finestPoints(field);
+    ASSERT_TRUE(finest) << family.name;
+    const auto triangles = finest->trianglesOfPoints();
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> after;  // around a vertex
-    for (const auto& [a, b, c] : *triangles) {
+    for (const auto& [a, b, c] : triangles) {
       after[{a, b}] = c;
       after[{b, c}] = a;
       after[{c, a}] = b;
     }
     std::vector<std::uint32_t> pinched;
     const VertexRings rings(
-        LiveMesh::fromTriangles(*triangles, static_cast<std::uint32_t>(field.size()), pinched));
+        LiveMesh::fromTriangles(triangles, static_cast<std::uint32_t>(field.size()), pinched));
     std::size_t edges = 0;
     for (std::uint32_t v = 0; v < field.size(); ++v) {
       const auto ring = rings.of(v);
@@ -48,7 +49,7 @@ TEST(VertexRings, HoldTheNeighboursOfEveryVertexInTheOrderOfItsTriangles) {
         EXPECT_EQ(RingPlace(rings, v, ring[neighbours - 1]).next(), VertexRings::kNone);
       }
     }
-    EXPECT_EQ(edges, 3 * triangles->size()) << family.name;
+    EXPECT_EQ(edges, 3 * triangles.size()) << family.name;
   }
 }
 
