@@ -172,7 +172,10 @@ namespace arete {
 double planTolerancePixels(const MeasureOptions& options, const Georeference& georeference) {
   const auto& g = georeference.geoTransform;
   const double area = std::abs(georeference.determinant());
-  const double x = std::abs(options.planRounding.x), y = std::abs(options.planRounding.y);
+  // Places are doubles: far from the origin a small pixel has few digits left.
+  constexpr double kRounding = 0x1p-51;
+  const double x = std::max(std::abs(options.planRounding.x), kRounding * std::abs(g[0])),
+               y = std::max(std::abs(options.planRounding.y), kRounding * std::abs(g[3]));
   if (!(area > 0)) return options.planTolerancePixels;
   return measuring::raisedTolerance(options, {(x * std::abs(g[5]) + y * std::abs(g[2])) / area,
                                               (x * std::abs(g[4]) + y * std::abs(g[1])) / area});

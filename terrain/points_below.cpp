@@ -6,6 +6,7 @@
 // area all but cancel they mean little, and no height is told: every point that may be covered is found.
 #include "terrain/points_below.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,21 +14,10 @@
 
 namespace arete {
 
-void PointsBelow::clear(const Vec3& apex) {
-  apex_ = apex;
-  points_.clear();
-  x_.clear();
-  y_.clear();
-  z_.clear();
-}
-
-void PointsBelow::close(const Vec3& reach) {
-  reach_ = reach;
-  size_ = points_.size();
-  if (size_ % 2 == 0) return;
-  x_.push_back(0);
-  y_.push_back(0);
-  z_.push_back(0);
+void PointsBelow::grow() {
+  const std::size_t capacity = std::max<std::size_t>(64, 2 * points_.size());
+  points_.resize(capacity);
+  for (std::vector<double>* of : {&x_, &y_, &z_}) of->resize(capacity + 1);
 }
 
 PointsBelow::Triangle::Triangle(const PointsBelow& below, const Vec3& a, const Vec3& b, const Vec3& c)

@@ -15,16 +15,21 @@ namespace arete {
 class PointsBelow {
  public:
   /// Forgets all. `apex`: the place that the others are told from, a point like them.
-  void clear(const Vec3& apex);
+  void clear(const Vec3& apex) {
+    apex_ = apex;
+    size_ = 0;
+  }
   void add(std::uint32_t point, const Vec3& position) {
-    points_.push_back(point);
-    x_.push_back(position.x - apex_.x);
-    y_.push_back(position.y - apex_.y);
-    z_.push_back(position.z - apex_.z);
+    if (size_ == points_.size()) grow();
+    points_[size_] = point;
+    x_[size_] = position.x - apex_.x;
+    y_[size_] = position.y - apex_.y;
+    z_[size_] = position.z - apex_.z;
+    ++size_;
   }
   /// When all are there. `reach`: how far any of them, or any corner of a triangle that will be asked about,
   /// lies from the apex, in x, in y, and from 0 in height.
-  void close(const Vec3& reach);
+  void close(const Vec3& reach) { reach_ = reach; }
 
   std::size_t size() const { return size_; }
   std::uint32_t operator[](std::size_t k) const { return points_[k]; }
@@ -60,11 +65,13 @@ class PointsBelow {
   };
 
  private:
-  Vec3 apex_;
-  std::vector<std::uint32_t> points_;
-  std::vector<double> x_, y_, z_;  // from the apex; one more where points are odd in number
+  void grow();
+
+  Vec3 apex_, reach_;
   std::size_t size_ = 0;
-  Vec3 reach_;
+  // Larger than size_: whoever reads two at a time finds another one, whatever it is.
+  std::vector<std::uint32_t> points_;
+  std::vector<double> x_, y_, z_;  // from the apex
 };
 
 }  // namespace arete

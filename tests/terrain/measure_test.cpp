@@ -278,6 +278,16 @@ TEST(Measure, TakesVerticesOfARoundedMeshToTheirSamples) {
   EXPECT_EQ(planTolerancePixels({}, dem.georeference), MeasureOptions().planTolerancePixels);
 }
 
+TEST(Measure, CoversARasterSoFarAwayThatDoublesRoundItsPlaces) {
+  const auto dem =
+      raster(260, 130, [](double c, double r) { return 3 * c + 2 * r; }, {1e9, 0.01, 0, -3e9, 0, -0.01});
+  const auto report = measure(finest(dem), dem);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->uncovered, 0u);
+  EXPECT_TRUE(keepsPromise(*report, 0));
+  EXPECT_NEAR(planTolerancePixels({}, dem.georeference), 2.7e-4, 1e-5);
+}
+
 TEST(Measure, DoesNotStretchTheToleranceBeyondASharpCorner) {
   // The frame's mitre of this needle reaches 0.2 pixels past its tip; the sample there is not covered.
   const RasterHeightfield dem = raster(12, 3, [](double, double) { return 7.0; });
