@@ -84,6 +84,11 @@ Result<ColdTimes> timeCold(const std::string& model, double tolerance, const Rep
   return times;
 }
 
+/// Those of the DEM, or its points that do not repeat another.
+double samplesOf(const TerrainModel& model) {
+  return model.isRaster ? double(model.columns) * model.rows : double(model.mt.vertexCount());
+}
+
 /// How long it takes to load a file and to take a saturated cut of it.
 double openAndCutMilliseconds(const std::string& path, const AmtLoadOptions& options, double tolerance,
                               const Repetition& repetition) {
@@ -118,7 +123,7 @@ Result<Figures> timePacked(const DemSource& source, HoleShape shape, const std::
   {
     const auto loaded = loadModel(model);
     if (!loaded) return tl::unexpected(loaded.error());
-    samples = double(loaded->columns) * loaded->rows;
+    samples = samplesOf(*loaded);
     const Stopwatch watch;
     if (const Status written = writeAmt(packed, *loaded, {}, {.isPacked = true}); !written)
       return tl::unexpected(written.error());
@@ -138,7 +143,8 @@ Result<Figures> timePacked(const DemSource& source, HoleShape shape, const std::
   AmtLoadOptions enough;
   enough.unpack.wanted = [tolerance](const Box2&) { return tolerance; };
   add("open and cut", openAndCutMilliseconds(packed, enough, tolerance, plan.repetition), "ms");
-  add("open and tell a height", openAndTellHeightMilliseconds(packed, plan.repetition), "ms");
+  if (!source.isScattered)  // of points a packed file is read whole
+    add("open and tell a height", openAndTellHeightMilliseconds(packed, plan.repetition), "ms");
   std::filesystem::remove(packed);
   return figures;
 }
@@ -161,7 +167,7 @@ Result<Figures> fileStage(const DemSource& source, HoleShape shape, const std::s
     const double before = residentBytes();
     const auto loaded = loadAmt(model);  // its checks touch every byte
     if (!loaded) return tl::unexpected(loaded.error());
-    samples = double(loaded->columns) * loaded->rows;
+    samples = samplesOf(*loaded);
     const Result<AmtFile> file = openAmt(model);
     if (!file) return tl::unexpected(file.error());
     add("size", double(file->bytes().size()) / samples, "bytes/sample");

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <tuple>
-#include <utility>
 
 #include "engine/uninitialized_vector.h"
 
@@ -21,14 +20,12 @@ std::uint64_t placeOnCurve(std::uint32_t x, std::uint32_t y) {
   for (int bit = 31; bit >= 0; --bit) {
     const std::uint32_t right = x >> bit & 1, up = y >> bit & 1;
     place = place << 2 | ((3 * right) ^ up);
-    // The curve through a quarter is turned: what follows is told as if it were not.
-    if (up == 0) {
-      if (right == 1) {
-        x = ~x;
-        y = ~y;
-      }
-      std::swap(x, y);
-    }
+    // The curve through a quarter is turned: what follows is told as if it were not. Nobody foresees which
+    // quarter it is, so no branch asks.
+    const std::uint32_t turned = up - 1, mirrored = turned & (0 - right);
+    const std::uint32_t swapped = (x ^ y) & turned;
+    x ^= mirrored ^ swapped;
+    y ^= mirrored ^ swapped;
   }
   return place;
 }

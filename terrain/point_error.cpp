@@ -64,17 +64,17 @@ const PointsBelow& PointError::Hole::below() const {
   const Vec3 apex = errors_.position(apex_);
   below.clear(apex);
   below.add(apex_, apex);
-  Vec3 reach{0, 0, std::abs(apex.z)};
+  Vec3 reach;
   for (const std::uint32_t corner : star_.linkView()) {
     const Vec3& p = errors_.position(corner);
     reach = {std::max(reach.x, std::abs(p.x - apex.x)), std::max(reach.y, std::abs(p.y - apex.y)),
-             std::max(reach.z, std::abs(p.z))};
+             std::max(reach.z, std::abs(p.z - apex.z))};
   }
   for (int i = 0; i < star_.triangleCount; ++i)
     for (std::uint32_t p = errors_.head_[star_.triangle(i)]; p != kNone; p = errors_.next_[p]) {
       const Vec3& position = errors_.position(p);
       below.add(p, position);
-      reach.z = std::max(reach.z, std::abs(position.z));
+      reach.z = std::max(reach.z, std::abs(position.z - apex.z));
     }
   below.close(reach);
   below_ = &below;

@@ -20,8 +20,8 @@ class PointError {
  public:
   static constexpr std::uint32_t kNone = LiveMesh::kNone;
 
-  /// Keeps the rings of the finest triangulation, in which bounds along edges are found. `points`: those of the
-  /// plan, with their heights.
+  /// Keeps the rings of the finest triangulation, in which bounds along edges are found. `points`: those of
+  /// the plan, with their heights.
   PointError(const PointPlan& plan, std::span<const Vec3> points, const LiveMesh& finest)
       : plan_(plan),
         points_(points),
@@ -35,6 +35,7 @@ class PointError {
   }
   [[gnu::always_inline]] void prefetch(const Star& star) const {
     for (int i = 0; i < star.triangleCount; ++i) __builtin_prefetch(&head_[star.triangle(i)]);
+    for (const std::uint32_t u : star.linkView()) finest_.prefetch(u);
   }
   /// RasterError knows a rule for the finest triangulation; for points there is none.
   double costInFinest(std::uint32_t, std::array<std::uint32_t, 3>&) const { return -1; }

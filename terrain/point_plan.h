@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -50,13 +51,37 @@ class PointPlan {
       return static_cast<int>(
           CGAL::side_of_oriented_circle(corners_[i], corners_[j], corners_[m], corners_[n]));
     }
+    /// The larger angle has the smaller cotangent, dot / cross. Told in doubles where that is certain: the
+    /// terms have a few roundings each (Shewchuk 1997, section 4, has the exact constants).
     template <class PrefersLater>
     int third(int i, int j, const PrefersLater& prefersLater) const {
+      constexpr double kCross = 0x1p-51, kGap = 0x1p-49, kVanishing = 0x1p-960;
+      const Point &a = corners_[i], &b = corners_[j];
       int best = -1;
+      double bestDot = 1, bestCross = 0, bestDotTerms = 1, bestCrossTerms = 0;
       for (int m = i + 1; m < j; ++m) {
-        if (orientation(i, m, j) <= 0) continue;
-        const int inside = best < 0 ? 1 : inCircle(i, best, j, m);
-        if (inside > 0 || (inside == 0 && prefersLater(best, m))) best = m;
+        const double ux = a.x() - corners_[m].x(), uy = a.y() - corners_[m].y(), vx = b.x() - corners_[m].x(),
+                     vy = b.y() - corners_[m].y();
+        const double forth = vx * uy, back = vy * ux, cross = forth - back,
+                     crossTerms = std::abs(forth) + std::abs(back);
+        if (!(std::abs(cross) > kCross * crossTerms + kVanishing)) {
+          if (orientation(i, m, j) <= 0) continue;
+        } else if (cross < 0) {
+          continue;
+        }
+        const double dx = ux * vx, dy = uy * vy, dot = dx + dy, dotTerms = std::abs(dx) + std::abs(dy);
+        const double gap = bestDot * cross - dot * bestCross,
+                     gapTerms = bestDotTerms * crossTerms + dotTerms * bestCrossTerms;
+        bool isBetter = gap > 0;
+        if (!(std::abs(gap) > kGap * gapTerms + kVanishing)) {
+          const int inside = best < 0 ? 1 : inCircle(i, best, j, m);
+          isBetter = inside > 0 || (inside == 0 && prefersLater(best, m));
+        }
+        best = isBetter ? m : best;
+        bestDot = isBetter ? dot : bestDot;
+        bestCross = isBetter ? cross : bestCross;
+        bestDotTerms = isBetter ? dotTerms : bestDotTerms;
+        bestCrossTerms = isBetter ? crossTerms : bestCrossTerms;
       }
       return best;
     }

@@ -10,7 +10,7 @@
 namespace arete {
 
 /// The points that a hole has below it, laid out for vectors: a triangle of the hole asks of all of them
-/// whether it covers them and how far they are from it. That is told by linear functions in doubles, with
+/// whether it covers them and how far they are from it. That is told by linear functions in floats, with
 /// what they can be off by; the few points that it does not decide are for exact predicates (PointError).
 class PointsBelow {
  public:
@@ -22,13 +22,13 @@ class PointsBelow {
   void add(std::uint32_t point, const Vec3& position) {
     if (size_ == points_.size()) grow();
     points_[size_] = point;
-    x_[size_] = position.x - apex_.x;
-    y_[size_] = position.y - apex_.y;
-    z_[size_] = position.z - apex_.z;
+    x_[size_] = static_cast<float>(position.x - apex_.x);
+    y_[size_] = static_cast<float>(position.y - apex_.y);
+    z_[size_] = static_cast<float>(position.z - apex_.z);
     ++size_;
   }
   /// When all are there. `reach`: how far any of them, or any corner of a triangle that will be asked about,
-  /// lies from the apex, in x, in y, and from 0 in height.
+  /// lies from the apex at most, in each coordinate.
   void close(const Vec3& reach) { reach_ = reach; }
 
   std::size_t size() const { return size_; }
@@ -44,7 +44,7 @@ class PointsBelow {
     Triangle(const PointsBelow& below, const Vec3& a, const Vec3& b, const Vec3& c);
 
     /// The first point from a place on that the triangle may cover and where z_triangle - z may be above
-    /// `above`, or below -`below`. O(points), two at a time.
+    /// `above`, or below -`below`. O(points), four at a time.
     Found next(std::size_t from, double above, double below) const;
     /// The first that it may cover.
     Found nextCovered(std::size_t from) const;
@@ -52,16 +52,16 @@ class PointsBelow {
    private:
     /// value = atApex + alongX * x + alongY * y
     struct Linear {
-      double atApex, alongX, alongY;
+      float atApex, alongX, alongY;
     };
     /// Twice the area of an edge and a point left of it.
     Linear leftOf(const Vec3& from, const Vec3& to) const;
 
     const PointsBelow& below_;
     Linear edges_[3];
-    double edgeMargin_;  // what those can be off by
-    Linear plane_;       // the height, from the apex's
-    double planeMargin_;
+    float edgeMargin_;  // what those can be off by
+    Linear plane_;      // the height, from the apex's
+    float planeMargin_;
   };
 
  private:
@@ -69,9 +69,9 @@ class PointsBelow {
 
   Vec3 apex_, reach_;
   std::size_t size_ = 0;
-  // Larger than size_: whoever reads two at a time finds another one, whatever it is.
   std::vector<std::uint32_t> points_;
-  std::vector<double> x_, y_, z_;  // from the apex
+  std::vector<float> x_, y_,
+      z_;  // from the apex; a few more, of any value, for those who read four at a time
 };
 
 }  // namespace arete

@@ -77,7 +77,7 @@ TEST_P(PointsBelowTest, MissesNoCoveredPointBeyondTheBoundsAndIsCertainOfNoneOut
     Vec3 reach;
     const auto reachTo = [&](const Vec3& p) {
       reach = {std::max(reach.x, std::abs(p.x - apex.x)), std::max(reach.y, std::abs(p.y - apex.y)),
-               std::max(reach.z, std::abs(p.z))};
+               std::max(reach.z, std::abs(p.z - apex.z))};
     };
     for (std::uint32_t i = 0; i < points.size(); ++i) {
       below.add(i, points[i]);
