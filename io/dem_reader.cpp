@@ -11,9 +11,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <new>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -160,15 +163,33 @@ Extent extentOf(const PointHeightfield& field) {
   return extent;
 }
 
-/// Longitudes and latitudes without a CRS: numbers that a globe has, and heights far beyond the width of the
-/// whole. Nothing but the numbers tells, so it is a warning.
+/// What the places say of the CRS, or of its want. Nothing but the numbers tells, so it is a warning.
 template <class Heightfield>
-bool looksLikeDegrees(const Heightfield& field) {
-  if (!field.georeference.crsWkt.empty()) return false;
+std::optional<std::string> doubtOfCrs(const Heightfield& field) {
   const Extent e = extentOf(field);
+  if (field.georeference.isGeographic) {
+    // A pixel beyond the poles is common, and so are longitudes of more than one turn.
+    constexpr double kMostX = 12.6, kMostY = 1.6;  // radians
+    const double x = std::max(std::abs(e.low.x), std::abs(e.high.x)),
+                 y = std::max(std::abs(e.low.y), std::abs(e.high.y)),
+                 unit = field.georeference.angularUnitRadians;
+    if (!(x * unit > kMostX) && !(y * unit > kMostY)) return std::nullopt;
+    return fmt::format(
+        "its CRS has longitudes and latitudes, but its places reach x {:g} and y {:g}, which no globe has: "
+        "state "
+        "the CRS that they are of",
+        x, y);
+  }
+  // Longitudes and latitudes without a CRS: numbers that a globe has, and heights far beyond the width of the
+  // whole.
   const double width = std::max(e.high.x - e.low.x, e.high.y - e.low.y);
-  return width > 0 && e.low.x >= -180 && e.high.x <= 360 && e.low.y >= -90 && e.high.y <= 90 &&
-         e.highest - e.lowest > 10 * width;
+  const bool looksLikeDegrees = field.georeference.crsWkt.empty() && width > 0 && e.low.x >= -180 &&
+                                e.high.x <= 360 && e.low.y >= -90 && e.high.y <= 90 &&
+                                e.highest - e.lowest > 10 * width;
+  if (!looksLikeDegrees) return std::nullopt;
+  return "has no CRS, and its places look like degrees: they are taken as lengths in the unit of the "
+         "heights; "
+         "state the CRS (EPSG:4326 for longitude and latitude)";
 }
 
 }  // namespace
@@ -176,11 +197,9 @@ bool looksLikeDegrees(const Heightfield& field) {
 Result<DemRead> readDem(const std::string& path, const SourceReading& reading, const RunContext& context) {
   try {
     Result<DemRead> read = readFrom(path, reading, context);
-    if (read && std::visit([](const auto& field) { return looksLikeDegrees(field); }, read->heightfield))
-      read->warnings.push_back(
-          "has no CRS, and its places look like degrees: they are taken as lengths in the unit of the "
-          "heights; "
-          "state the CRS (EPSG:4326 for longitude and latitude)");
+    if (!read) return read;
+    if (auto doubt = std::visit([](const auto& field) { return doubtOfCrs(field); }, read->heightfield))
+      read->warnings.push_back(std::move(*doubt));
     return read;
   } catch (const std::bad_alloc&) {
     return failure(ErrorCode::unsupported, "is larger than the memory that is free", path);

@@ -24,8 +24,8 @@ struct DemRead {
 /// The one door for elevation data: reads a raster or scattered points, whichever the file is; see
 /// readRaster() and readPoints() for how and for the errors. Text whose points fill a regular grid, at least
 /// by half, is a raster (and its heights stay doubles). A reading of the other kind is refused (usage).
-/// Places that look like degrees without a CRS are warned of. LAS, LAZ, COPC and E57 clouds are refused with
-/// what to do instead (unsupported).
+/// Places that look like degrees without a CRS, or that no globe has under one of degrees, are warned of.
+/// LAS, LAZ, COPC and E57 clouds are refused with what to do instead (unsupported).
 Result<DemRead> readDem(const std::string& path, const SourceReading& reading = {},
                         const RunContext& context = {});
 
