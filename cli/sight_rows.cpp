@@ -133,6 +133,8 @@ std::string SightResults::textOf(std::size_t row) const {
     text += fmt::format("Fresnel zone {:.3f} of the first is clear ({} is wanted: {}), at {}\n",
                         a.fresnel->fraction, fresnel, isFresnelClear(a) ? "yes" : "no",
                         placeText(a.fresnel->place));
+  else if (hasFresnel)
+    text += "Fresnel zone none is told: an end is below the ground, or no ground is between the ends\n";
   text += fmt::format("visited      {}\n", grouped(a.sight.visited));
   return text;
 }

@@ -19,6 +19,12 @@ double fresnelRadius(double wavelength, double distance, double length) {
 std::optional<FresnelClearance> leastFresnelClearance(const SightLine& line, const Profile& profile,
                                                       double wavelength) {
   const double length = line.length(), unit = line.heightUnitMetres();
+  // Below the ground the zone of an end is as narrow as one likes, and the fraction has no least value.
+  constexpr double kBelowMetres = 1e-6;
+  for (const ProfileVertex& v : profile.vertices)
+    if ((v.distance <= 0 || v.distance >= length) &&
+        (line.height(v.distance) - v.height) * unit < -kBelowMetres)
+      return std::nullopt;
   std::optional<FresnelClearance> least;
   const auto fractionAt = [&](double s, double z) {
     const double radius = fresnelRadius(wavelength, s, length);

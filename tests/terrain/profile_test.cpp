@@ -241,6 +241,20 @@ TEST(FresnelClearance, OverFlatGroundIsLeastInTheMiddle) {
   EXPECT_FALSE(leastFresnelClearance(SightLine(track, 130, 130), Profile{}, wavelength));
 }
 
+TEST(FresnelClearance, IsNotToldWhereAnEndIsBelowTheGround) {
+  SightTrack track;
+  track.points = {{{0, 0}, 0}, {{10, 0}, 10000}};
+  Profile profile;
+  profile.length = 10000;
+  profile.vertices = {{0, {0, 0}, 100, false}, {3000, {3, 0}, 100, true}, {10000, {10, 0}, 100, true}};
+  const auto found = [&](double from, double to) {
+    return leastFresnelClearance(SightLine(track, from, to), profile, 1);
+  };
+  EXPECT_TRUE(found(100, 130)) << "on the ground";
+  EXPECT_FALSE(found(95, 130));
+  EXPECT_FALSE(found(130, 99.9));
+}
+
 TEST(FresnelClearance, IsTheLeastOfManySamples) {
   Random random(11);
   for (int n = 0; n < 200; ++n) {
