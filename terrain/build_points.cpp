@@ -57,12 +57,9 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
 
   std::vector<std::uint8_t> isFixed(pointCount, 0);
   for (const std::uint32_t v : pinched) isFixed[v] = 1;
-  {
-    std::vector<std::uint32_t> fixed = options.fixedVertices;
-    std::ranges::sort(fixed);
-    for (std::uint32_t v = 0; v < pointCount; ++v)
-      if (std::ranges::binary_search(fixed, ground[v])) isFixed[v] = 1;
-  }
+  std::vector<std::uint8_t> isFixedPoint(pointCount, 0);
+  for (const std::uint32_t p : options.fixedVertices) isFixedPoint[p] = 1;
+  for (std::uint32_t v = 0; v < pointCount; ++v) isFixed[v] |= isFixedPoint[ground[v]];
 
   const auto [low, high] = std::minmax_element(field.heights.begin(), field.heights.end());
   if (!(*high - *low < 1e30))
