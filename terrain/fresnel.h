@@ -27,8 +27,9 @@ struct FresnelClearance {
 };
 
 /// The least clearance / F1 over a path's terrain; nothing where there is none between the ends, or no
-/// length, or where an end is below the ground. An end itself has no zone. O(vertices). The least over each straight stretch of terrain is found
-/// by sections, since clearance is convex and F1 concave: to 1e-9 of the stretch where the line is clear.
+/// length, or where an end is below the ground. An end itself has no zone. O(vertices). The least over each
+/// straight stretch of terrain is found by sections, since clearance is convex and F1 concave: to 1e-9 of the
+/// stretch where the line is clear.
 std::optional<FresnelClearance> leastFresnelClearance(const SightLine& line, const Profile& profile,
                                                       double wavelength);
 
