@@ -80,8 +80,8 @@ struct MeasureOptions {
 /// The largest plan tolerance that rounding can bring about, in pixels.
 inline constexpr double kMostPlanTolerance = 0.1;
 
-/// The plan tolerance that options come to on a grid, in pixels. Where the grid is so far from the origin that
-/// doubles themselves round more, it is raised as for a mesh that is rounded so.
+/// The plan tolerance that options come to on a grid, in pixels. Where the grid is so far from the origin
+/// that doubles themselves round more, it is raised as for a mesh that is rounded so.
 double planTolerancePixels(const MeasureOptions& options, const Georeference& georeference);
 
 /// Rasters that the measurement can hand back besides the report: one value per sample, in sample order.
