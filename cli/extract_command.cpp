@@ -16,6 +16,7 @@
 #include "cli/criterion_arguments.h"
 #include "cli/model_file.h"
 #include "io/extract_tin.h"
+#include "io/longitude_turns.h"
 #include "io/mesh_file.h"
 #include "io/raster_writer.h"
 #include "io/region_argument.h"
@@ -135,6 +136,7 @@ Result<std::optional<Region>> regionOf(const ExtractArguments& arguments, const 
       readRegionArgument(text, model.georeference.crsWkt, arguments.criterion.distance(), session.context());
   if (!read) return tl::unexpected(read.error());
   session.warn(read->warnings, text);
+  LongitudeTurns(model).apply(read->shape);
   Region region = planRegion(std::move(read->shape), model);
   if (region.isEmpty() || !meetsDomain(region, model.mt))
     return failure(ErrorCode::usage, fmt::format("does not meet the data of {}", arguments.model),

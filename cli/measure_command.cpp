@@ -15,6 +15,7 @@
 #include "cli/measure_report_text.h"
 #include "io/crs_names.h"
 #include "io/dem_reader.h"
+#include "io/longitude_turns.h"
 #include "io/mesh_file.h"
 #include "io/raster_writer.h"
 #include "io/region_argument.h"
@@ -78,6 +79,7 @@ Result<std::vector<std::uint8_t>> maskOf(const MeasureArguments& arguments, cons
       readRegionArgument(arguments.region, field.georeference.crsWkt, arguments.distance, session.context());
   if (!read) return tl::unexpected(read.error());
   session.warn(read->warnings, arguments.region);
+  LongitudeTurns(field).apply(read->shape);
   std::vector<std::uint8_t> mask = samplesInside(planRegion(std::move(read->shape), field), field);
   bool any = false;
   for (std::size_t i = 0; i < mask.size() && !any; ++i) any = mask[i] != 0 && !std::isnan(field.heights[i]);

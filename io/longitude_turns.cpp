@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "terrain/plan_box.h"
@@ -32,20 +33,49 @@ LongitudeTurns::LongitudeTurns(const Georeference& georeference, std::uint32_t c
   turn_ = turnOf(georeference);
 }
 
+LongitudeTurns::LongitudeTurns(const RasterHeightfield& field)
+    : LongitudeTurns(field.georeference, field.columns, field.rows) {}
+
+LongitudeTurns::LongitudeTurns(const PointHeightfield& field) {
+  if (!field.georeference.isGeographic) return;
+  for (const Vec2& p : field.positions) add(p.x);
+  turn_ = turnOf(field.georeference);
+}
+
 void LongitudeTurns::add(double x) {
   west_ = std::min(west_, x);
   east_ = std::max(east_, x);
 }
 
+/// Those that bring a longitude nearest to the DEM's middle.
+double LongitudeTurns::turnsOf(double x) const {
+  return turn_ * std::round(((west_ + east_) / 2 - x) / turn_);
+}
+
 Vec2 LongitudeTurns::operator()(Vec2 p) const {
-  if (turn_ > 0 && (p.x < west_ || p.x > east_))
-    p.x += turn_ * std::round(((west_ + east_) / 2 - p.x) / turn_);
+  if (turn_ > 0 && (p.x < west_ || p.x > east_)) p.x += turnsOf(p.x);
   return p;
 }
 
 void LongitudeTurns::apply(std::span<Vec2> positions) const {
   if (turn_ > 0)
     for (Vec2& p : positions) p = (*this)(p);
+}
+
+void LongitudeTurns::apply(RegionShape& shape) const {
+  if (!(turn_ > 0)) return;
+  double west = std::numeric_limits<double>::infinity(), east = -west;
+  for (const auto* chains : {&shape.rings, &shape.lines})
+    for (const auto& chain : *chains)
+      for (const Vec2& p : chain) {
+        west = std::min(west, p.x);
+        east = std::max(east, p.x);
+      }
+  if (!(west <= east) || (west <= east_ && east >= west_)) return;
+  const double turns = turnsOf((west + east) / 2);
+  for (auto* chains : {&shape.rings, &shape.lines})
+    for (auto& chain : *chains)
+      for (Vec2& p : chain) p.x += turns;
 }
 
 }  // namespace arete

@@ -5,7 +5,9 @@
 #include <limits>
 #include <span>
 
+#include "engine/region.h"
 #include "engine/vec.h"
+#include "terrain/heightfield.h"
 #include "terrain/terrain_model.h"
 
 namespace arete {
@@ -20,13 +22,19 @@ class LongitudeTurns {
   explicit LongitudeTurns(const TerrainModel& model);
   /// Those of a raster's pixels, all of which belongs to it. O(1).
   LongitudeTurns(const Georeference& georeference, std::uint32_t columns, std::uint32_t rows);
+  explicit LongitudeTurns(const RasterHeightfield& heightfield);
+  /// O(points).
+  explicit LongitudeTurns(const PointHeightfield& heightfield);
 
   Vec2 operator()(Vec2 p) const;
   /// All of them in place. O(positions).
   void apply(std::span<Vec2> positions) const;
+  /// All of a shape by the same turns, where it lies beside the DEM as a whole. O(positions).
+  void apply(RegionShape& shape) const;
 
  private:
   void add(double x);
+  double turnsOf(double x) const;
 
   double turn_ = 0;  ///< in the unit of the CRS; 0: nothing is turned
   double west_ = std::numeric_limits<double>::infinity(), east_ = -west_;
