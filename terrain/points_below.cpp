@@ -50,23 +50,23 @@ PointsBelow::Triangle::Triangle(const PointsBelow& below, const Vec3& a, const V
   edges_[1] = leftOf(b, c);
   edges_[2] = leftOf(c, a);
   const Vec3& reach = below.reach_;
-  edgeMargin_ =
-      isTold(reach.x) && isTold(reach.y) ? static_cast<float>(0x1p-17 * reach.x * reach.y) : kNothing;
+  const bool isPlanTold = isTold(reach.x) && isTold(reach.y);
+  edgeMargin_ = isPlanTold ? static_cast<float>(0x1p-17 * reach.x * reach.y) : kNothing;
 
   const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y, dzB = b.z - a.z,
                dzC = c.z - a.z;
   const double forth = bx * cy, back = by * cx, area = forth - back;
   plane_ = {0, 0, 0};
   planeMargin_ = kNothing;
-  constexpr double kTrusted = 0x1p-20;
-  if (!(area > kTrusted * (std::abs(forth) + std::abs(back)))) return;
+  constexpr double kTrusted = 0x1p-20, kVanishing = 0x1p-900;  // small products may have lost their digits
+  if (!(area > kTrusted * (std::abs(forth) + std::abs(back)) + kVanishing)) return;
   const double slopeX = (dzB * cy - dzC * by) / area, slopeY = (dzC * bx - dzB * cx) / area;
   const double steepX = (std::abs(dzB * cy) + std::abs(dzC * by)) / area,
                steepY = (std::abs(dzC * bx) + std::abs(dzB * cx)) / area;
   const double most = steepX * reach.x + steepY * reach.y + reach.z;
   if (most == 0) {
     planeMargin_ = 0;  // level, and all points on it
-  } else if (isTold(most)) {
+  } else if (isPlanTold && isTold(most)) {
     const double atApex =
         (a.z - below.apex_.z) - slopeX * (a.x - below.apex_.x) - slopeY * (a.y - below.apex_.y);
     plane_ = {static_cast<float>(atApex), static_cast<float>(slopeX), static_cast<float>(slopeY)};

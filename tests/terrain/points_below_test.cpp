@@ -125,6 +125,8 @@ INSTANTIATE_TEST_SUITE_P(Places, PointsBelowTest,
                                          Case{{4.5e5, 3.8e6, 2000}, 30, 30, 10},
                                          Case{{8.5, 46.5, 1e6}, 1e-4, 1e-4, 100},  // degrees
                                          Case{{1e7, 1e7, 0}, 1e5, 1e-6, 10},       // needles
+                                         Case{{0, 0, 0}, 1e36, 1e36, 1e-11},       // slopes too small
+                                         Case{{0, 0, 0}, 1e-43, 1e-43, 1e-5},      // places too small
                                          Case{{0, 0, 0}, 1e200, 1e200, 10},        // products that overflow
                                          Case{{0, 0, 0}, 1e-200, 1e-200, 10}));    // and that vanish
 
