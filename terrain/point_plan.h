@@ -52,10 +52,11 @@ class PointPlan {
           CGAL::side_of_oriented_circle(corners_[i], corners_[j], corners_[m], corners_[n]));
     }
     /// The larger angle has the smaller cotangent, dot / cross. Told in doubles where that is certain: the
-    /// terms have a few roundings each (Shewchuk 1997, section 4, has the exact constants).
+    /// terms have a few roundings each (Shewchuk 1997, section 4, has the exact constants), and all count as
+    /// larger than they are by what the digits of vanishing products come to.
     template <class PrefersLater>
     int third(int i, int j, const PrefersLater& prefersLater) const {
-      constexpr double kCross = 0x1p-51, kGap = 0x1p-49, kVanishing = 0x1p-960;
+      constexpr double kCross = 0x1p-51, kGap = 0x1p-49, kVanishing = 0x1p-500;
       const Point &a = corners_[i], &b = corners_[j];
       int best = -1;
       double bestDot = 1, bestCross = 0, bestDotTerms = 1, bestCrossTerms = 0;
@@ -63,17 +64,18 @@ class PointPlan {
         const double ux = a.x() - corners_[m].x(), uy = a.y() - corners_[m].y(), vx = b.x() - corners_[m].x(),
                      vy = b.y() - corners_[m].y();
         const double forth = vx * uy, back = vy * ux, cross = forth - back,
-                     crossTerms = std::abs(forth) + std::abs(back);
-        if (!(std::abs(cross) > kCross * crossTerms + kVanishing)) {
+                     crossTerms = std::abs(forth) + std::abs(back) + kVanishing;
+        if (!(std::abs(cross) > kCross * crossTerms)) {
           if (orientation(i, m, j) <= 0) continue;
         } else if (cross < 0) {
           continue;
         }
-        const double dx = ux * vx, dy = uy * vy, dot = dx + dy, dotTerms = std::abs(dx) + std::abs(dy);
+        const double dx = ux * vx, dy = uy * vy, dot = dx + dy,
+                     dotTerms = std::abs(dx) + std::abs(dy) + kVanishing;
         const double gap = bestDot * cross - dot * bestCross,
                      gapTerms = bestDotTerms * crossTerms + dotTerms * bestCrossTerms;
         bool isBetter = gap > 0;
-        if (!(std::abs(gap) > kGap * gapTerms + kVanishing)) {
+        if (!(std::abs(gap) > kGap * gapTerms)) {
           const int inside = best < 0 ? 1 : inCircle(i, best, j, m);
           isBetter = inside > 0 || (inside == 0 && prefersLater(best, m));
         }
