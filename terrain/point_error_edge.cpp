@@ -7,8 +7,9 @@
 // decision is an exact orientation; only the differences at the crossings are computed in doubles.
 //
 // Over the plane that rises along the segment and is level across it, the difference of a vertex is one
-// number, and that of a crossing lies between those of the crossed edge's ends. Where these are far larger
-// than what lies between them digits are lost, which the bound allows for.
+// number, and that of a crossing lies between those of the crossed edge's ends. The bound allows for what
+// rounding can do to it: digits are lost where an end is far away beside the segment, and where both ends are
+// so near it that their sides are rounding the crossing may be anywhere between them.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -21,38 +22,50 @@ namespace arete {
 SignedBound PointError::alongEdge(std::uint32_t a, std::uint32_t b) const {
   SignedBound bound;
   const Vec3 pa = points_[a], pb = points_[b];
-  const double dx = pb.x - pa.x, dy = pb.y - pa.y, rise = (pb.z - pa.z) / (dx * dx + dy * dy);
+  const double dx = pb.x - pa.x, dy = pb.y - pa.y, climb = pb.z - pa.z, squared = dx * dx + dy * dy;
+  // Of a segment so short that its square is none, all heights between its ends are looked at everywhere.
+  const bool isShort = squared < 0x1p-900;
+  const double rise = isShort ? 0 : climb / squared, unsure = isShort ? std::abs(climb) : 0;
   struct End {
     std::uint32_t vertex = kNone;
     int sign = 0;           ///< exact: > 0 left of the segment, < 0 right of it
     double side = 0;        ///< twice the area of the segment and the vertex left of it
+    double sideLost = 0;    ///< what that can be off by
     double difference = 0;  ///< of the plane from the vertex
+    double lost = 0;        ///< what that can be off by, the rounding of heights aside
   };
   const auto endAt = [&](std::uint32_t v) -> End {
     const Vec3& p = points_[v];
     const double x = p.x - pa.x, y = p.y - pa.y, forth = dx * y, back = dy * x, side = forth - back;
-    const double difference = pa.z + (x * dx + y * dy) * rise - p.z;
-    // Each term has three roundings, and so small ones may have lost their digits (Shewchuk 1997, section 4).
-    const double margin = 0x1p-51 * (std::abs(forth) + std::abs(back)) + 0x1p-960;
-    const int sign = int(side > margin) - int(side < -margin);
+    const double alongX = x * dx, alongY = y * dy;
+    const double difference = pa.z + (alongX + alongY) * rise - p.z;
+    // A dozen roundings of each term; of the sides three, and small ones may have lost their digits (Shewchuk
+    // 1997, section 4).
+    const double lost = 0x1p-49 * (std::abs(alongX) + std::abs(alongY)) * std::abs(rise) + unsure;
+    const double sideLost = 0x1p-51 * (std::abs(forth) + std::abs(back)) + 0x1p-960;
+    const int sign = int(side > sideLost) - int(side < -sideLost);
     const bool isCertain = sign != 0 || v == a || v == b;
-    return {v, isCertain ? sign : plan_.orientation(a, b, v), side, difference};
+    return {v, isCertain ? sign : plan_.orientation(a, b, v), side, sideLost, difference, lost};
   };
+  // Of two vertices on the segment.
   const auto isAhead = [&](std::uint32_t from, std::uint32_t v) {
     const Vec3 &p = points_[v], &o = points_[from];
-    return (p.x - o.x) * dx + (p.y - o.y) * dy > 0;
+    return dx != 0 ? (p.x > o.x) == (dx > 0) : (p.y > o.y) == (dy > 0);
+  };
+  const auto include = [&](double difference, double lost) {
+    bound.include({lost - difference, lost + difference});
   };
   // A point on the segment travels with one of the two triangles at the edge; the bound of the other needs
   // it.
   const auto pass = [&](const End& end) {
-    if (end.vertex != b) bound.include(end.difference);
+    if (end.vertex != b) include(end.difference, unsure);
   };
   const auto cross = [&](const End& u, const End& w) {
-    const double su = std::abs(u.side), sw = std::abs(w.side);
-    if (su + sw == 0) return;
-    const double difference = u.difference + su / (su + sw) * (w.difference - u.difference);
-    const double lost = 0x1p-48 * (std::abs(u.difference) + std::abs(w.difference));
-    bound.include({lost - difference, lost + difference});
+    const double su = std::abs(u.side), sw = std::abs(w.side), sides = su + sw,
+                 sidesLost = 2 * (u.sideLost + w.sideLost);
+    const double apart = w.difference - u.difference, part = sides > 0 ? su / sides : 0;
+    const double partLost = sidesLost < sides ? sidesLost / sides : 1;
+    include(u.difference + part * apart, u.lost + w.lost + partLost * std::abs(apart));
   };
 
   for (std::uint32_t at = a; at != b;) {
