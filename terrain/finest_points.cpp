@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <utility>
 
 #include "engine/with_threads.h"
@@ -32,13 +33,24 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 /// The Delaunay triangulation of points that follow the ground. Every 256th point comes before every 16th,
 /// and these before the rest: each is looked for from the one before it, which is near, and flips as few
 /// triangles as in a random order (Amenta, Choi and Rote 2003, "Incremental constructions con BRIO"). It
-/// takes 0.6 of the time of CGAL's own order.
+/// takes 0.6 of the time of CGAL's own order. Empty where all lie on one line.
 Delaunay insertAlongGround(const std::vector<PlacedPoint>& points) {
+  Delaunay delaunay;
+  Delaunay::Face_handle near;
+  // A triangle comes first: while all are on one line, CGAL looks for each among all of them.
+  const auto beside = std::ranges::find_if(points | std::views::drop(2), [&](const PlacedPoint& p) {
+    return !CGAL::collinear(points[0].first, points[1].first, p.first);
+  });
+  if (beside == points.end()) return delaunay;
+  for (const PlacedPoint& corner : {points[0], points[1], *beside}) {
+    const auto vertex = delaunay.insert(corner.first, near);
+    vertex->info() = corner.second;
+    near = vertex->face();
+  }
+
   constexpr std::size_t kRound = 16;
   std::size_t stride = 1;
   while (stride * kRound < points.size()) stride *= kRound;
-  Delaunay delaunay;
-  Delaunay::Face_handle near;
   for (const std::size_t first = stride; stride > 0; stride /= kRound)
     for (std::size_t k = 0; k < points.size(); k += stride) {
       if (stride < first && k % (stride * kRound) == 0) continue;

@@ -119,5 +119,19 @@ TEST(FinestPoints, HasTheTrianglesOfTheEulerRelation) {
   }
 }
 
+TEST(FinestPoints, LooksForNoPointAmongAllOfALine) {
+  PointHeightfield field;  // minutes, if it did
+  for (int i = 0; i < 300'000; ++i) field.positions.push_back({0.25 * i, 0});
+  field.heights.assign(field.positions.size(), 1);
+  const auto line = finestPoints(field);
+  ASSERT_FALSE(line);
+  EXPECT_EQ(line.error().code, ErrorCode::degenerate);
+  field.positions.push_back({80'000, 1});
+  field.heights.push_back(2);
+  const auto fan = finestPoints(field);
+  ASSERT_TRUE(fan);
+  EXPECT_EQ(fan->triangles.size(), 299'999u);
+}
+
 }  // namespace
 }  // namespace arete
