@@ -33,8 +33,9 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 /// The Delaunay triangulation of points that follow the ground. Every 256th point comes before every 16th,
 /// and these before the rest: each is looked for from the one before it, which is near, and flips as few
 /// triangles as in a random order (Amenta, Choi and Rote 2003, "Incremental constructions con BRIO"). It
-/// takes 0.6 of the time of CGAL's own order. Empty where all lie on one line.
-Delaunay insertAlongGround(const std::vector<PlacedPoint>& points) {
+/// takes 0.6 of the time of CGAL's own order. Empty where all lie on one line; not all of it when cancelled.
+Delaunay insertAlongGround(const std::vector<PlacedPoint>& points, const RunContext& context) {
+  constexpr std::size_t kAsk = 1 << 14;  // of so many points one asks whether to go on
   Delaunay delaunay;
   Delaunay::Face_handle near;
   // A triangle comes first: while all are on one line, CGAL looks for each among all of them.
@@ -53,6 +54,7 @@ Delaunay insertAlongGround(const std::vector<PlacedPoint>& points) {
   while (stride * kRound < points.size()) stride *= kRound;
   for (const std::size_t first = stride; stride > 0; stride /= kRound)
     for (std::size_t k = 0; k < points.size(); k += stride) {
+      if (k % kAsk == 0 && context.cancelled()) return delaunay;
       if (stride < first && k % (stride * kRound) == 0) continue;
       const auto vertex = delaunay.insert(points[k].first, near);
       vertex->info() = points[k].second;
@@ -76,7 +78,7 @@ struct Extent {
   double xLow = std::numeric_limits<double>::infinity(), xHigh = -xLow, yLow = xLow, yHigh = -xLow;
 };
 
-Result<FinestPoints> triangulate(const PointHeightfield& field, double xStretch) {
+Result<FinestPoints> triangulate(const PointHeightfield& field, double xStretch, const RunContext& context) {
   FinestPoints finest;
   finest.xStretch = xStretch;
   finest.order = groundOrder(field.positions);
@@ -96,7 +98,8 @@ Result<FinestPoints> triangulate(const PointHeightfield& field, double xStretch)
     input.emplace_back(Kernel::Point_2(p[v].x * xStretch, p[v].y), i);
   }
 
-  const Delaunay delaunay = insertAlongGround(input);
+  const Delaunay delaunay = insertAlongGround(input, context);
+  if (context.cancelled()) return failure(ErrorCode::interrupted, "the triangulation was interrupted");
   if (delaunay.dimension() < 2)
     return failure(ErrorCode::degenerate,
                    input.empty() ? "there is no point"
@@ -127,7 +130,7 @@ Result<FinestPoints> finestPoints(const PointHeightfield& field, const RunContex
   context.report("triangulate", 0);
   const StageClock::Scope stage(context.clock, "triangulate");
   Result<FinestPoints> finest =
-      withThreads(context, [&] { return triangulate(field, pointMetricStretch(field)); });
+      withThreads(context, [&] { return triangulate(field, pointMetricStretch(field), context); });
   context.report("triangulate", 1);
   return finest;
 }

@@ -26,8 +26,8 @@ struct FinestPoints {
 
 /// In the metric of pointMetricStretch(). Whoever asks for more than one thing that rests on it
 /// (chooseFixedVertices(), build()) can have it once. Errors: invalidData; unsupported where there are too
-/// many points; degenerate when two points share x, y and not z (names both), when there is no triangle.
-/// O(n log n) expected.
+/// many points; degenerate when two points share x, y and not z (names both), when there is no triangle;
+/// interrupted. O(n log n) expected.
 Result<FinestPoints> finestPoints(const PointHeightfield& heightfield, const RunContext& context = {});
 
 /// The power of two nearest to the ground aspect (x step over y step) at the centre of the points: 1 for a

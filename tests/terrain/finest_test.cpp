@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "datasets/families.h"
@@ -117,6 +118,15 @@ TEST(FinestPoints, HasTheTrianglesOfTheEulerRelation) {
     EXPECT_LE(triangles.size(), 2 * used);
     EXPECT_GE(used, 3u) << family.name;
   }
+}
+
+TEST(FinestPoints, StopsWhenAsked) {
+  const std::atomic<bool> cancel = true;
+  RunContext context;
+  context.cancel = &cancel;
+  const auto stopped = finestPoints(pointFamilies().front().make(500, 8), context);
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, ErrorCode::interrupted);
 }
 
 TEST(FinestPoints, LooksForNoPointAmongAllOfALine) {
