@@ -124,20 +124,18 @@ Status takeShape(BuildArguments& arguments) {
 
 /// From a heightfield that has been read to the file. `finest`: of points, their triangulation.
 template <class Heightfield, class... Finest>
-Status buildFrom(BuildArguments& arguments, Session& session, Seconds& seconds, const Heightfield& field,
-                 Finest... finest) {
+Status buildFrom(BuildArguments& arguments, const FixedVertexOptions& wishes, Session& session,
+                 Seconds& seconds, const Heightfield& field, Finest... finest) {
   Stopwatch choosing;
-  const auto wishes = fixedOptions(arguments, field.georeference, session);
-  if (!wishes) return tl::unexpected(wishes.error());
-  Result<FixedVertices> fixed = chooseFixedVertices(field, finest..., *wishes, session.context());
+  Result<FixedVertices> fixed = chooseFixedVertices(field, finest..., wishes, session.context());
   if (!fixed) return tl::unexpected(fixed.error());
-  if (!wishes->given.empty() && fixed->givenOutside == wishes->given.size())
+  if (!wishes.given.empty() && fixed->givenOutside == wishes.given.size())
     return failure(ErrorCode::invalidData,
-                   fmt::format("none of the {} points lies on the DEM's data", wishes->given.size()),
+                   fmt::format("none of the {} points lies on the DEM's data", wishes.given.size()),
                    fmt::format("--fixed {}", arguments.fixedPath));
   if (fixed->givenOutside > 0)
     session.warn(fmt::format("--fixed {}: {} of {} points lie beside the DEM's data and are left out",
-                             arguments.fixedPath, fixed->givenOutside, wishes->given.size()));
+                             arguments.fixedPath, fixed->givenOutside, wishes.given.size()));
   arguments.options.fixedVertices = fixed->vertices;
   seconds.features = choosing.seconds();
 
@@ -175,14 +173,16 @@ Status runBuild(BuildArguments& arguments, Session& session) {
   seconds.read = reading.seconds();
   return std::visit(
       [&](const auto& field) -> Status {
+        const auto wishes = fixedOptions(arguments, field.georeference, session);
+        if (!wishes) return tl::unexpected(wishes.error());
         if constexpr (std::is_same_v<decltype(field), const PointHeightfield&>) {
           Stopwatch triangulating;
           Result<FinestPoints> finest = finestPoints(field, session.context());
           if (!finest) return tl::unexpected(finest.error());
           seconds.build = triangulating.seconds();
-          return buildFrom(arguments, session, seconds, field, std::move(*finest));
+          return buildFrom(arguments, *wishes, session, seconds, field, std::move(*finest));
         } else {
-          return buildFrom(arguments, session, seconds, field);
+          return buildFrom(arguments, *wishes, session, seconds, field);
         }
       },
       dem->heightfield);
