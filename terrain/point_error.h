@@ -44,6 +44,7 @@ class PointError {
   void compact(const SlotMap& newSlot);
 
   /// The triangles of one hole, named by corners of its link, against the points of the star and its apex.
+  /// One at a time in each thread: they share the arrays that points are gathered into.
   class Hole {
    public:
     Hole(PointError& errors, const Star& star, std::uint32_t apex)

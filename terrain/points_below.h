@@ -44,7 +44,7 @@ class PointsBelow {
     Triangle(const PointsBelow& below, const Vec3& a, const Vec3& b, const Vec3& c);
 
     /// The first point from a place on that the triangle may cover and where z_triangle - z may be above
-    /// `above`, or below -`below`. O(points), four at a time.
+    /// `above`, or below -`below`. O(points), four at a time. Precondition: neither is negative.
     Found next(std::size_t from, double above, double below) const;
     /// The first that it may cover.
     Found nextCovered(std::size_t from) const;

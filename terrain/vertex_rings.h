@@ -17,7 +17,7 @@ class VertexRings {
   static constexpr std::uint32_t kNone = LiveMesh::kNone;
 
   /// O(vertices), parallel. Precondition: the triangles of each vertex form one fan, or it is passed by no
-  /// walk; fewer than 2^32 edges have either of their directions.
+  /// walk; there are fewer than 2^31 edges, each of which is in two rings.
   explicit VertexRings(const LiveMesh& mesh);
 
   /// Of a vertex its neighbours, counter-clockwise; of one on a border kNone after the last. Empty where it
