@@ -62,6 +62,20 @@ std::vector<std::uint32_t> groundOrder(std::span<const Vec2> positions) {
   });
   std::vector<std::uint32_t> order(positions.size());
   std::ranges::transform(places, order.begin(), &Place::point);
+
+  // Far points make all others share a cell: who does follows a curve through what they have to themselves.
+  // It ends, as the two farthest from each other never share one.
+  constexpr std::size_t kFew = 16;
+  for (std::size_t begin = 0, end = 0; begin != places.size(); begin = end) {
+    while (end != places.size() && places[end].onCurve == places[begin].onCurve) ++end;
+    if (end - begin <= kFew || end - begin == places.size()) continue;
+    const std::vector<std::uint32_t> crowd(order.begin() + static_cast<std::ptrdiff_t>(begin),
+                                           order.begin() + static_cast<std::ptrdiff_t>(end));
+    std::vector<Vec2> there;
+    for (const std::uint32_t point : crowd) there.push_back(positions[point]);
+    const std::vector<std::uint32_t> within = groundOrder(there);
+    for (std::size_t i = 0; i != within.size(); ++i) order[begin + i] = crowd[within[i]];
+  }
   return order;
 }
 

@@ -31,7 +31,7 @@ LiveMesh LiveMesh::fromTriangles(std::vector<Corners> corners, std::uint32_t ver
   std::vector<Corners>().swap(corners);
   mesh.vertexHalfedge.assign(vertexCount, kNone);
 
-  // Chains of outgoing half-edges per vertex find each twin among the few edges that leave its other end.
+  // Chains of outgoing half-edges per vertex find each twin among the few edges that leave one of its ends.
   std::vector<std::uint32_t> nextOutgoing(count * 4);
   std::vector<std::uint8_t> degree(vertexCount, 0);
   for (std::uint32_t t = 0; t < count; ++t) {
@@ -45,12 +45,15 @@ LiveMesh LiveMesh::fromTriangles(std::vector<Corners> corners, std::uint32_t ver
   for (std::uint32_t h = 0; h < 4 * count; ++h) {
     if (sideOf(h) == 3 || mesh.twinOf(h) != kNone) continue;
     const std::uint32_t from = mesh.origin(h), to = mesh.origin(nextInTriangle(h));
-    for (std::uint32_t g = mesh.vertexHalfedge[to]; g != kNone; g = nextOutgoing[g])
-      if (mesh.origin(nextInTriangle(g)) == from) {
-        mesh.setTwin(h, g);
-        mesh.setTwin(g, h);
-        break;
-      }
+    // The twin leaves `to`, and the half-edge after it leaves `from`: the one with fewer of them is asked.
+    const bool isAskedAtEnd = degree[to] <= degree[from];
+    for (std::uint32_t g = mesh.vertexHalfedge[isAskedAtEnd ? to : from]; g != kNone; g = nextOutgoing[g]) {
+      const std::uint32_t twin = isAskedAtEnd ? g : previousInTriangle(g);
+      if (mesh.origin(isAskedAtEnd ? nextInTriangle(g) : twin) != (isAskedAtEnd ? from : to)) continue;
+      mesh.setTwin(h, twin);
+      mesh.setTwin(twin, h);
+      break;
+    }
   }
   for (std::uint32_t v = 0; v < vertexCount; ++v) {
     if (mesh.vertexHalfedge[v] == kNone) continue;

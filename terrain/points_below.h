@@ -70,8 +70,8 @@ class PointsBelow {
   Vec3 apex_, reach_;
   std::size_t size_ = 0;
   std::vector<std::uint32_t> points_;
-  std::vector<float> x_, y_,
-      z_;  // from the apex; a few more, of any value, for those who read four at a time
+  // From the apex; a few more, of any value, for those who read four at a time.
+  std::vector<float> x_, y_, z_;
 };
 
 }  // namespace arete

@@ -34,6 +34,20 @@ TEST(GroundOrder, FollowsTheCurveOfHilbertFromCellToNeighbouringCell) {
   }
 }
 
+TEST(GroundOrder, FollowsTheCurveAmongPointsThatOthersFarAwayMakeSmall) {
+  std::vector<Vec2> points = {{3e15, 1e14}, {-2e15, 5e15}};
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) points.push_back({0.5 + x, 0.25 + y});
+  const std::vector<std::uint32_t> order = groundOrder(points);
+  std::size_t jumps = 0;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const Vec2 &p = points[order[i - 1]], &q = points[order[i]];
+    jumps += std::abs(p.x - q.x) + std::abs(p.y - q.y) != 1;
+  }
+  EXPECT_EQ(order.size(), points.size());
+  EXPECT_LE(jumps, 3u) << "to and from those far away";
+}
+
 TEST(GroundOrder, DependsOnThePlacesAloneAndKeepsPointsAtOnePlaceTogetherByTheirIndices) {
   for (const PointFamily& family : pointFamilies()) {
     const PointHeightfield field = family.make(300, 4);

@@ -53,5 +53,26 @@ TEST(VertexRings, HoldTheNeighboursOfEveryVertexInTheOrderOfItsTriangles) {
   }
 }
 
+TEST(VertexRings, HoldTheNeighboursOfAHubWhicheverOfItsTrianglesComesFirst) {
+  const std::uint32_t spokes = 5000;
+  std::vector<LiveMesh::Corners> triangles;  // around vertex 0
+  for (std::uint32_t i = 0; i < spokes; ++i) triangles.push_back({0, i + 1, (i + 1) % spokes + 1});
+  for (const bool isTurned : {false, true}) {
+    if (isTurned) std::ranges::reverse(triangles);
+    std::vector<std::uint32_t> pinched;
+    const VertexRings rings(LiveMesh::fromTriangles(triangles, spokes + 1, pinched));
+    EXPECT_TRUE(pinched.empty());
+    const auto hub = rings.of(0);
+    ASSERT_EQ(hub.size(), spokes);
+    for (std::uint32_t i = 0; i < spokes; ++i) {
+      EXPECT_EQ(hub[(i + 1) % spokes], hub[i] % spokes + 1);
+      const auto rim = rings.of(hub[i]);  // the next one, the hub, the one before, the border
+      ASSERT_EQ(rim.size(), 4u);
+      EXPECT_EQ(rim[1], 0u);
+      EXPECT_EQ(rim[3], VertexRings::kNone);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace arete
