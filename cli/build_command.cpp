@@ -176,6 +176,7 @@ Status runBuild(BuildArguments& arguments, Session& session) {
         const auto wishes = fixedOptions(arguments, field.georeference, session);
         if (!wishes) return tl::unexpected(wishes.error());
         if constexpr (std::is_same_v<decltype(field), const PointHeightfield&>) {
+          if (Status valid = checkBuild(field, arguments.options); !valid) return valid;
           Stopwatch triangulating;
           Result<FinestPoints> finest = finestPoints(field, session.context());
           if (!finest) return tl::unexpected(finest.error());

@@ -21,6 +21,8 @@ Result<TerrainModel> build(const RasterHeightfield& heightfield, const BuildOpti
                            const RunContext& context = {});
 Result<TerrainModel> build(const PointHeightfield& heightfield, const BuildOptions& options = {},
                            const RunContext& context = {});
+/// What build() refuses at once, for those who have work to do before it. O(points).
+Status checkBuild(const PointHeightfield& heightfield, const BuildOptions& options);
 /// `finest`: finestPoints() of the same points.
 Result<TerrainModel> build(const PointHeightfield& heightfield, FinestPoints finest,
                            const BuildOptions& options = {}, const RunContext& context = {});

@@ -27,15 +27,6 @@ struct OwnedPoints {
   EncodedHeights heights;
 };
 
-/// What is wrong is said before the work begins.
-Status check(const PointHeightfield& field, const BuildOptions& options) {
-  if (Status valid = field.validate(); !valid) return valid;
-  if (Status valid = checkOptions(options, field.size()); !valid) return valid;
-  if (options.rimTolerance > 0)
-    return failure(ErrorCode::usage, "scattered points have no NODATA rims to simplify", "--rim-tolerance");
-  return {};
-}
-
 Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints finest,
                                const BuildOptions& options, const RunContext& context) {
   const PageKeeper keeper;  // what a step no longer needs goes to the next
@@ -137,9 +128,17 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
 
 }  // namespace
 
+Status checkBuild(const PointHeightfield& field, const BuildOptions& options) {
+  if (Status valid = field.validate(); !valid) return valid;
+  if (Status valid = checkOptions(options, field.size()); !valid) return valid;
+  if (options.rimTolerance > 0)
+    return failure(ErrorCode::usage, "scattered points have no NODATA rims to simplify", "--rim-tolerance");
+  return {};
+}
+
 Result<TerrainModel> build(const PointHeightfield& heightfield, const BuildOptions& options,
                            const RunContext& context) {
-  if (const Status valid = check(heightfield, options); !valid) return tl::unexpected(valid.error());
+  if (const Status valid = checkBuild(heightfield, options); !valid) return tl::unexpected(valid.error());
   Result<FinestPoints> finest = finestPoints(heightfield, context);
   if (!finest) return tl::unexpected(finest.error());
   return build(heightfield, std::move(*finest), options, context);
@@ -147,7 +146,7 @@ Result<TerrainModel> build(const PointHeightfield& heightfield, const BuildOptio
 
 Result<TerrainModel> build(const PointHeightfield& heightfield, FinestPoints finest,
                            const BuildOptions& options, const RunContext& context) {
-  if (const Status valid = check(heightfield, options); !valid) return tl::unexpected(valid.error());
+  if (const Status valid = checkBuild(heightfield, options); !valid) return tl::unexpected(valid.error());
   return withThreads(context, [&] { return buildHere(heightfield, std::move(finest), options, context); });
 }
 

@@ -218,6 +218,20 @@ TEST(BuildPoints, KeepsEveryLawWherePointsStandInRowsThatDoublesBend) {
   }
 }
 
+TEST(BuildPoints, RefusesAtOnceWhatPointsDoNotHave) {
+  const PointHeightfield field = pointFamilies().front().make(100, 1);
+  BuildOptions options;
+  EXPECT_TRUE(checkBuild(field, options));
+  options.rimTolerance = 1;
+  const Status status = checkBuild(field, options);
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().code, ErrorCode::usage);
+  EXPECT_EQ(status.error().culprit, "--rim-tolerance");
+  const auto model = build(field, options);
+  ASSERT_FALSE(model);
+  EXPECT_EQ(model.error().describe(), status.error().describe());
+}
+
 TEST(BuildPoints, RefusesWhatSpansMoreThanSpheresHold) {
   PointHeightfield field;
   for (const double unit : {1e35, 1e200}) {
