@@ -175,9 +175,8 @@ std::optional<std::string> doubtOfCrs(const Heightfield& field) {
                  unit = field.georeference.angularUnitRadians;
     if (!(x * unit > kMostX) && !(y * unit > kMostY)) return std::nullopt;
     return fmt::format(
-        "its CRS has longitudes and latitudes, but its places reach x {:g} and y {:g}, which no globe has: "
-        "state "
-        "the CRS that they are of",
+        "its CRS has longitudes and latitudes, but its places reach x {:g} and y {:g}, which no "
+        "globe has: state the CRS that they are of",
         x, y);
   }
   // Longitudes and latitudes without a CRS: numbers that a globe has, and heights far beyond the width of the
@@ -188,8 +187,7 @@ std::optional<std::string> doubtOfCrs(const Heightfield& field) {
                                 e.highest - e.lowest > 10 * width;
   if (!looksLikeDegrees) return std::nullopt;
   return "has no CRS, and its places look like degrees: they are taken as lengths in the unit of the "
-         "heights; "
-         "state the CRS (EPSG:4326 for longitude and latitude)";
+         "heights; state the CRS (EPSG:4326 for longitude and latitude)";
 }
 
 }  // namespace

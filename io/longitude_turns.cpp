@@ -38,7 +38,9 @@ LongitudeTurns::LongitudeTurns(const RasterHeightfield& field)
 
 LongitudeTurns::LongitudeTurns(const PointHeightfield& field) {
   if (!field.georeference.isGeographic) return;
-  for (const Vec2& p : field.positions) add(p.x);
+  const Box2 box = planBox(field.positions);
+  add(box.xMin);
+  add(box.xMax);
   turn_ = turnOf(field.georeference);
 }
 

@@ -15,6 +15,7 @@
 #include "terrain/build_checks.h"
 #include "terrain/finest_points.h"
 #include "terrain/height_encoding.h"
+#include "terrain/plan_box.h"
 #include "terrain/point_error.h"
 #include "terrain/point_plan.h"
 #include "terrain/simplify.h"
@@ -56,18 +57,15 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
   if (!(*high - *low < 1e30))
     return failure(ErrorCode::invalidData, fmt::format("heights from {} to {} span too much", *low, *high),
                    field.source);
-  Vec2 least = field.positions[0], most = least;
-  for (const Vec2& p : field.positions) {
-    least = {std::min(least.x, p.x), std::min(least.y, p.y)};
-    most = {std::max(most.x, p.x), std::max(most.y, p.y)};
-  }
-  const Vec2 centre{(least.x + most.x) / 2, (least.y + most.y) / 2};
+  const Box2 box = planBox(field.positions);
+  const Vec2 centre{(box.xMin + box.xMax) / 2, (box.yMin + box.yMax) / 2};
   const Vec2 grid = field.georeference.toGrid(centre.x, centre.y);
   const Vec2 step = groundStep(field.georeference, grid.x, grid.y);
   MetricFrame metric;
   metric.origin = {centre.x, centre.y, (*low + *high) / 2};
   metric.scale = {step.x, step.y, field.georeference.verticalUnitMetres};
-  const Vec3 span{(most.x - least.x) * step.x, (most.y - least.y) * step.y, (*high - *low) * metric.scale.z};
+  const Vec3 span{(box.xMax - box.xMin) * step.x, (box.yMax - box.yMin) * step.y,
+                  (*high - *low) * metric.scale.z};
   if (const Status valid = checkSpan(span, field.source); !valid) return tl::unexpected(valid.error());
   const double stretch = finest.xStretch;
   model.metricP = stretch >= 1 ? static_cast<std::uint32_t>(stretch) : 1;

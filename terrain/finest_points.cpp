@@ -11,13 +11,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <ranges>
 #include <utility>
 
 #include "engine/with_threads.h"
 #include "terrain/ground_order.h"
 #include "terrain/live_mesh.h"
+#include "terrain/plan_box.h"
 
 namespace arete {
 namespace {
@@ -73,10 +73,6 @@ void sort(Triangles& triangles) {
   });
   tbb::parallel_sort(triangles.begin(), triangles.end());
 }
-
-struct Extent {
-  double xLow = std::numeric_limits<double>::infinity(), xHigh = -xLow, yLow = xLow, yHigh = -xLow;
-};
 
 Result<FinestPoints> triangulate(const PointHeightfield& field, double xStretch, const RunContext& context) {
   FinestPoints finest;
@@ -137,10 +133,8 @@ Result<FinestPoints> finestPoints(const PointHeightfield& field, const RunContex
 
 double pointMetricStretch(const PointHeightfield& field) {
   if (field.size() == 0) return 1;
-  Extent e;
-  for (const Vec2& q : field.positions)
-    e = {std::min(e.xLow, q.x), std::max(e.xHigh, q.x), std::min(e.yLow, q.y), std::max(e.yHigh, q.y)};
-  const Vec2 grid = field.georeference.toGrid((e.xLow + e.xHigh) / 2, (e.yLow + e.yHigh) / 2);
+  const Box2 box = planBox(field.positions);
+  const Vec2 grid = field.georeference.toGrid((box.xMin + box.xMax) / 2, (box.yMin + box.yMax) / 2);
   const Vec2 step = groundStep(field.georeference, grid.x, grid.y);
   const double aspect = step.x / step.y;
   if (!(aspect > 0) || !std::isfinite(aspect)) return 1;

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "engine/uninitialized_vector.h"
+#include "terrain/plan_box.h"
 
 namespace arete {
 namespace {
@@ -34,13 +35,9 @@ std::uint64_t placeOnCurve(std::uint32_t x, std::uint32_t y) {
 
 std::vector<std::uint32_t> groundOrder(std::span<const Vec2> positions) {
   if (positions.empty()) return {};
-  Vec2 least = positions[0], most = least;
-  for (const Vec2& p : positions) {
-    least = {std::min(least.x, p.x), std::min(least.y, p.y)};
-    most = {std::max(most.x, p.x), std::max(most.y, p.y)};
-  }
+  const Box2 box = planBox(positions);
   // Halves, as the whole may be more than a double holds.
-  const double halfSide = std::max(most.x / 2 - least.x / 2, most.y / 2 - least.y / 2);
+  const double halfSide = std::max(box.xMax / 2 - box.xMin / 2, box.yMax / 2 - box.yMin / 2);
   const auto cell = [&](double x, double from) {
     const double part = halfSide > 0 ? (x / 2 - from / 2) / halfSide : 0;
     return static_cast<std::uint32_t>(std::min(part * 0x1p32, 0x1p32 - 1));
@@ -52,7 +49,7 @@ std::vector<std::uint32_t> groundOrder(std::span<const Vec2> positions) {
   UninitializedVector<Place> places(positions.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), 1 << 13), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i)
-      places[i] = {placeOnCurve(cell(positions[i].x, least.x), cell(positions[i].y, least.y)),
+      places[i] = {placeOnCurve(cell(positions[i].x, box.xMin), cell(positions[i].y, box.yMin)),
                    static_cast<std::uint32_t>(i)};
   });
   tbb::parallel_sort(places.begin(), places.end(), [&](const Place& a, const Place& b) {

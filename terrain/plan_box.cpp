@@ -17,4 +17,13 @@ Box2 planBox(const TerrainModel& model) {
   return box;
 }
 
+Box2 planBox(std::span<const Vec2> places) {
+  if (places.empty()) return {0, 0, 0, 0};
+  Box2 box{places[0].x, places[0].y, places[0].x, places[0].y};
+  for (const Vec2& p : places)
+    box = {std::min(box.xMin, p.x), std::min(box.yMin, p.y), std::max(box.xMax, p.x),
+           std::max(box.yMax, p.y)};
+  return box;
+}
+
 }  // namespace arete

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
+
 #include "engine/vec.h"
 #include "terrain/terrain_model.h"
 
@@ -10,5 +12,7 @@ namespace arete {
 /// spans all that is there. Of a model without vertices {0, 0, 0, 0}. O(1) of a raster, O(root vertices) of
 /// points.
 Box2 planBox(const TerrainModel& model);
+/// The least around some places; of none {0, 0, 0, 0}. O(places).
+Box2 planBox(std::span<const Vec2> places);
 
 }  // namespace arete

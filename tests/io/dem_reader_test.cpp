@@ -38,14 +38,16 @@ Error demErrorOf(const std::string& path, const SourceReading& reading = {}) {
   return read ? Error{} : read.error();
 }
 
+std::string warningsUnder(const std::string& crs, const std::string& path) {
+  SourceReading reading;
+  reading.crs = crs;
+  return joined(demOrFail(path, reading).warnings);
+}
+
 TEST(DemReader, WarnsOfPlacesThatLookLikeDegreesWithoutACrs) {
   TemporaryFolder folder;
   const auto isWarnedOf = [&](const std::string& name, const std::string& text, const std::string& crs = {}) {
-    SourceReading reading;
-    reading.crs = crs;
-    std::string all;
-    for (const std::string& warning : demOrFail(folder.write(name, text), reading).warnings) all += warning;
-    return contains(all, "look like degrees");
+    return contains(warningsUnder(crs, folder.write(name, text)), "look like degrees");
   };
   const std::string heights = "310 450\n NaN 1290\n";
   const auto grid = [&](const std::string& corner, const std::string& cell, const std::string& rows) {
@@ -62,11 +64,7 @@ TEST(DemReader, WarnsOfPlacesThatLookLikeDegreesWithoutACrs) {
 TEST(DemReader, WarnsOfPlacesThatNoGlobeHasUnderACrsOfDegrees) {
   TemporaryFolder folder;
   const auto isWarnedOf = [&](const std::string& name, const std::string& text, const std::string& crs) {
-    SourceReading reading;
-    reading.crs = crs;
-    std::string all;
-    for (const std::string& warning : demOrFail(folder.write(name, text), reading).warnings) all += warning;
-    return contains(all, "which no globe has");
+    return contains(warningsUnder(crs, folder.write(name, text)), "which no globe has");
   };
   const auto grid = [&](const std::string& x, const std::string& y, const std::string& cell) {
     return "ncols 2\nnrows 2\nxllcorner " + x + "\nyllcorner " + y + "\ncellsize " + cell + "\n1 2\n3 4\n";

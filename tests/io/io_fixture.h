@@ -111,4 +111,14 @@ inline std::string realData(const std::string& name) {
   return std::filesystem::exists(path) && !realDataFolder().empty() ? path.string() : std::string();
 }
 
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+inline std::string joined(const std::vector<std::string>& warnings) {
+  std::string all;
+  for (const std::string& warning : warnings) all += warning + "\n";
+  return all;
+}
+
 }  // namespace arete::test

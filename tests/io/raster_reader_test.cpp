@@ -15,6 +15,8 @@
 namespace arete {
 namespace {
 
+using test::contains;
+using test::joined;
 using test::RasterSpec;
 using test::TemporaryFolder;
 using test::writeRaster;
@@ -38,16 +40,6 @@ Error errorOf(const std::string& path, const RasterReadOptions& options = {}) {
   auto read = readRaster(path, options);
   if (read) ADD_FAILURE() << path << " was read";
   return read ? Error{} : read.error();
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-std::string joined(const std::vector<std::string>& warnings) {
-  std::string all;
-  for (const std::string& warning : warnings) all += warning + "\n";
-  return all;
 }
 
 void expectHeights(const RasterHeightfield& heightfield, const std::vector<double>& expected) {

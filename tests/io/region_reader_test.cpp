@@ -13,13 +13,10 @@
 namespace arete {
 namespace {
 
+using test::contains;
 using test::TemporaryFolder;
 using ::testing::internal::CaptureStderr;
 using ::testing::internal::GetCapturedStderr;
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// The even-odd rule over all rings.
 bool isInside(const RegionRead& region, double x, double y) {

@@ -11,16 +11,6 @@
 
 namespace arete::test {
 
-inline bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-inline std::string joined(const std::vector<std::string>& warnings) {
-  std::string all;
-  for (const std::string& warning : warnings) all += warning + "\n";
-  return all;
-}
-
 /// A layer of points, or of whatever its features are.
 struct LayerSpec {
   const char* name;

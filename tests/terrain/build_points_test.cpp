@@ -10,6 +10,7 @@
 
 #include "build_fixture.h"
 #include "datasets/families.h"
+#include "datasets/random.h"
 #include "engine/validate.h"
 #include "terrain/build.h"
 #include "terrain/finest_points.h"
@@ -108,11 +109,7 @@ TEST(BuildPoints, StoresErrorsThatAreThoseOfAPlainScanRoundedOutwards) {
 /// The bound over the continuous triangle: random points of random triangles against the finest
 /// triangulation, in which each is looked for among all triangles.
 TEST(BuildPoints, StoresBoundsThatContainTheDifferenceEverywhereInATriangle) {
-  std::uint64_t state = 5;
-  const auto unit = [&] {
-    state = state * 6364136223846793005ull + 1442695040888963407ull;
-    return double(state >> 11) / 9007199254740992.0;
-  };
+  Random random(5);
   for (const PointFamily& family : pointFamilies())
     for (const BuildOptions& options : eachWay()) {
       const PointHeightfield field = family.make(150, 4);
@@ -149,7 +146,7 @@ TEST(BuildPoints, StoresBoundsThatContainTheDifferenceEverywhereInATriangle) {
         std::array<Vec3, 3> p;
         for (std::size_t i = 0; i < 3; ++i) p[i] = mt.position(VertexId(corners[i]));
         for (int k = 0; k < 9; ++k) {
-          double u = unit(), w = unit();
+          double u = random.unit(), w = random.unit();
           if (u + w > 1) u = 1 - u, w = 1 - w;
           if (k % 3 == 0) w *= 1e-3;  // beside an edge
           const double x = p[0].x + u * (p[1].x - p[0].x) + w * (p[2].x - p[0].x);

@@ -12,6 +12,7 @@
 
 #include "build_fixture.h"
 #include "datasets/families.h"
+#include "datasets/random.h"
 #include "engine/validate.h"
 #include "terrain/finest_raster.h"
 #include "terrain/validate_model.h"
@@ -232,11 +233,7 @@ TEST(BuildRaster, StoresErrorsThatAreThoseOfAPlainScanRoundedOutwards) {
 /// The bound over the continuous triangle: random points of random triangles against the finest
 /// triangulation.
 TEST(BuildRaster, StoresBoundsThatContainTheDifferenceEverywhereInATriangle) {
-  std::uint64_t state = 5;
-  const auto unit = [&] {
-    state = state * 6364136223846793005ull + 1442695040888963407ull;
-    return double(state >> 11) / 9007199254740992.0;
-  };
+  Random random(5);
   for (const RasterFamily& family : rasterFamilies())
     for (const double rimTolerance : {0.0, 2.0}) {
       const RasterHeightfield field = family.make(21, 18, 4);
@@ -268,7 +265,7 @@ TEST(BuildRaster, StoresBoundsThatContainTheDifferenceEverywhereInATriangle) {
         Vec3 p[3];
         for (int i = 0; i < 3; ++i) p[i] = mt.position(VertexId(c[i]));
         for (int k = 0; k < 12; ++k) {
-          double u = unit(), w = unit();
+          double u = random.unit(), w = random.unit();
           if (u + w > 1) u = 1 - u, w = 1 - w;
           if (k % 3 == 0) w = 0;
           const double x = p[0].x + u * (p[1].x - p[0].x) + w * (p[2].x - p[0].x);
