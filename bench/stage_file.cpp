@@ -98,20 +98,31 @@ double openAndCutMilliseconds(const std::string& path, const AmtLoadOptions& opt
          });
 }
 
-/// How long it takes to open a packed file for the height at one place, and to tell it.
-double openAndTellHeightMilliseconds(const std::string& packed, const Repetition& repetition) {
+/// How long it takes to open a file for the height at one place, and to tell it.
+double openAndTellHeightMilliseconds(const std::string& model, const Repetition& repetition) {
   return 1000 * medianSeconds(repetition, [&]() -> std::optional<SurfaceHeight> {
-           const auto file = openAmt(packed);
-           if (!file || !checkAmt(*file, AmtVerify::all)) return std::nullopt;
-           const auto outline = file->read({wantedNowhere()});
+           const auto file = openAmt(model);
+           if (!file) return std::nullopt;
+           const auto outline = file->read({.wanted = wantedNowhere()});
            if (!outline) return std::nullopt;
            const Vec2 middle{std::floor(outline->columns / 2.0), std::floor(outline->rows / 2.0)};
            WantedPlaces wanted(*outline);
            wanted.add(middle);
-           const auto model = file->read({wanted.within(0)});
-           if (!model) return std::nullopt;
-           return SurfaceHeights(*model).at(model->toSource(middle));
+           const auto part = file->read({.wanted = wanted.within(0)});
+           if (!part) return std::nullopt;
+           return SurfaceHeights(*part).at(part->toSource(middle));
          });
+}
+
+/// What a question takes that reads its part of a file, with every check.
+template <class Add>
+void timeQuestions(const DemSource& source, const std::string& model, double tolerance,
+                   const Repetition& repetition, const Add& add) {
+  AmtLoadOptions enough;
+  enough.wanted = [tolerance](const Box2&) { return tolerance; };
+  add("open, check and cut", openAndCutMilliseconds(model, enough, tolerance, repetition), "ms");
+  if (!source.isScattered)  // of points all is read
+    add("open, check and tell a height", openAndTellHeightMilliseconds(model, repetition), "ms");
 }
 
 /// The same model packed, in a file beside its own that does not stay.
@@ -140,11 +151,7 @@ Result<Figures> timePacked(const DemSource& source, HoleShape shape, const std::
     add("load with checks, " + threadsText(threads),
         medianSeconds(plan.repetition, [&] { return loadAmt(packed); }), "s");
   }
-  AmtLoadOptions enough;
-  enough.unpack.wanted = [tolerance](const Box2&) { return tolerance; };
-  add("open and cut", openAndCutMilliseconds(packed, enough, tolerance, plan.repetition), "ms");
-  if (!source.isScattered)  // of points a packed file is read whole
-    add("open and tell a height", openAndTellHeightMilliseconds(packed, plan.repetition), "ms");
+  timeQuestions(source, packed, tolerance, plan.repetition, add);
   std::filesystem::remove(packed);
   return figures;
 }
@@ -191,6 +198,7 @@ Result<Figures> fileStage(const DemSource& source, HoleShape shape, const std::s
   AmtLoadOptions trusted;
   trusted.verify = AmtVerify::none;
   add("open and cut", openAndCutMilliseconds(model, trusted, tolerance, plan.repetition), "ms");
+  timeQuestions(source, model, tolerance, plan.repetition, add);
   add("left in the cache", 100 * cold->left, "%", Better::neither);
   if (cold->isCold()) {
     add("open, cold", 1e6 * medianOf(cold->open), "us");

@@ -15,6 +15,7 @@
 #include "cli/arguments.h"
 #include "cli/criterion_arguments.h"
 #include "cli/model_file.h"
+#include "io/extract_part.h"
 #include "io/extract_tin.h"
 #include "io/longitude_turns.h"
 #include "io/mesh_file.h"
@@ -211,42 +212,28 @@ std::string brokenPromise(const ExtractedTin& tin) {
   return sentence;
 }
 
-/// Of a packed file, no more than the TINs can ask for. What is measured is measured against all samples, and
-/// a format that rounds heights may want a smaller error than the one asked for.
-Result<WantedError> wantedFor(const ExtractArguments& arguments, std::span<const ExtractRequest> requests,
-                              const std::optional<Region>& region, const TerrainModel& outline) {
-  const Result<MeshFormat> format = meshFormatOf(arguments.output);
-  const bool isMeasured = arguments.certificateOption->count() > 0 || !arguments.errorRaster.empty();
-  if (!format || !format->holds.isExact || isMeasured) return WantedError();
-  std::vector<ExtractCriterion> criteria;
-  for (const ExtractRequest& request : requests) criteria.push_back(request.criterion);
-  return wantedBy(criteria, region, outline);
-}
-
 Status runExtract(const ExtractArguments& arguments, Session& session) {
   if (Status ok = arguments.criterion.check(); !ok) return ok;
-  const Result<AmtFile> file = openModel(arguments.model, session);
+  const Result<AmtFile> file = openAmt(arguments.model);
   if (!file) return tl::unexpected(file.error());
-  Result<TerrainModel> model =
-      file->read({arguments.criterion.hasCamera() ? WantedError() : wantedNowhere()}, session.context());
+  Result<TerrainModel> model = file->read(
+      {.wanted = arguments.criterion.hasCamera() ? WantedError() : wantedNowhere()}, session.context());
   if (!model) return tl::unexpected(model.error());
   auto requests = requestsOf(arguments, *model);
   if (!requests) return tl::unexpected(requests.error());
   if (Status outputs = checkOutputs(*requests, arguments, *model); !outputs) return outputs;
   const auto region = regionOf(arguments, *model, session);
   if (!region) return tl::unexpected(region.error());
+  for (ExtractRequest& request : *requests) request.region = *region;
   if (!arguments.criterion.hasCamera()) {
-    const auto wanted = wantedFor(arguments, *requests, *region, *model);
-    if (!wanted) return tl::unexpected(wanted.error());
-    model = file->read({*wanted}, session.context());
+    model = readForExtract(*file, *requests, *model, session.context());
     if (!model) return tl::unexpected(model.error());
   }
 
   TinExtractor extractor(*model, arguments.model);
   Json exports = Json::array();
   Status promise;
-  for (ExtractRequest& request : *requests) {
-    request.region = *region;
+  for (const ExtractRequest& request : *requests) {
     const Result<ExtractedTin> tin = extractor.extract(request, session.context());
     if (!tin) return tl::unexpected(tin.error());
     warnOfRounding(*tin, request.output, model->georeference.verticalUnit, session);

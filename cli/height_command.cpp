@@ -99,7 +99,7 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
     if (!isHeightTable(arguments.output))
       return failure(ErrorCode::usage, "a table of heights ends in .csv or .gpkg", culprit);
   }
-  const Result<AmtFile> file = openModel(arguments.model, session);
+  const Result<AmtFile> file = openAmt(arguments.model);
   if (!file) return tl::unexpected(file.error());
   const Result<TerrainModel> outline = outlineOf(*file, session);
   if (!outline) return tl::unexpected(outline.error());

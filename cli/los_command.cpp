@@ -224,7 +224,7 @@ Status tellMany(const LosArguments& a, const SightResults& results, Json json, S
 
 Status runLos(const LosArguments& a, Session& session) {
   if (Status checked = checkArguments(a); !checked) return checked;
-  const Result<AmtFile> file = openModel(a.model, session);
+  const Result<AmtFile> file = openAmt(a.model);
   if (!file) return tl::unexpected(file.error());
   const Result<TerrainModel> outline = outlineOf(*file, session);
   if (!outline) return tl::unexpected(outline.error());

@@ -10,28 +10,21 @@
 
 namespace arete {
 
-/// FILE.amt of a command that reads of a packed one no more than its question needs: opened here, with every
-/// check, then asked for its outline, by which the question's places are known, and read as far as they want.
-inline Result<AmtFile> openModel(const std::string& path, const Session& session) {
-  Result<AmtFile> file = openAmt(path);
-  if (!file) return file;
-  if (Status checked = checkAmt(*file, AmtVerify::all, session.context()); !checked)
-    return tl::unexpected(checked.error());
-  return file;
-}
+/// What a command does that reads no more of a file than its question needs: opened, it is asked for its
+/// outline, by which the question's places are known, and read as far as they want, with every check.
 
-/// All but the terrain itself: of a packed raster the root alone. Of points everything, since what their
-/// coordinates are rounded by is told by how many there are.
+/// All but the terrain itself: of a raster the root alone. Of points everything, since what their coordinates
+/// are rounded by is told by how many there are.
 inline Result<TerrainModel> outlineOf(const AmtFile& file, const Session& session) {
   if (!file.model().isRaster) return file.read({}, session.context());
-  return file.read({wantedNowhere()}, session.context());
+  return file.read({.wanted = wantedNowhere()}, session.context());
 }
 
 /// The model, as far as it is wanted. `outline`: of the file.
 inline Result<TerrainModel> readWanted(const AmtFile& file, const TerrainModel& outline,
                                        const WantedError& wanted, const Session& session) {
   if (!outline.isRaster) return outline;
-  return file.read({wanted}, session.context());
+  return file.read({.wanted = wanted}, session.context());
 }
 
 }  // namespace arete

@@ -272,7 +272,7 @@ Status runProfile(const ProfileArguments& a, Session& session) {
     return failure(ErrorCode::usage, "a profile is written as .csv", "--output " + a.output);
   if (!a.png.empty() && text::lowerExtension(a.png) != "png")
     return failure(ErrorCode::usage, "a picture ends in .png", "--png " + a.png);
-  const Result<AmtFile> amt = openModel(a.model, session);
+  const Result<AmtFile> amt = openAmt(a.model);
   if (!amt) return tl::unexpected(amt.error());
   const Result<TerrainModel> outline = outlineOf(*amt, session);
   if (!outline) return tl::unexpected(outline.error());

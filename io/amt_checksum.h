@@ -15,8 +15,14 @@ namespace arete {
 /// XXH3-64 of some bytes.
 std::uint64_t amtChecksum(std::span<const std::byte> bytes);
 
-/// XXH3-64 of each block of bytes, blocks in parallel, with progress; nothing when the caller asked to stop.
-std::optional<std::vector<std::uint64_t>> amtChecksums(std::span<const std::span<const std::byte>> blocks,
-                                                       std::string_view stage, const RunContext& context);
+struct AmtChecksums {
+  std::vector<std::uint64_t> blocks;
+  std::vector<std::vector<std::uint64_t>> pieces;  ///< of every kAmtPieceBytes of each block
+};
+
+/// XXH3-64 of each block of bytes, and of its pieces, blocks in parallel, with progress; nothing when the
+/// caller asked to stop.
+std::optional<AmtChecksums> amtChecksums(std::span<const std::span<const std::byte>> blocks,
+                                         std::string_view stage, const RunContext& context);
 
 }  // namespace arete

@@ -11,14 +11,16 @@
 #include "engine/run_context.h"
 #include "io/amt_layout.h"
 #include "io/mapped_file.h"
-#include "io/packed_amt.h"
+#include "io/wanted_error.h"
 #include "terrain/terrain_model.h"
 
 namespace arete {
 
+struct AmtMetadata;
+
 /// The .amt file: a multitriangulation on disk, as docs/topics/amt-format.md states it. It is written whole
-/// from a model in memory, and read back by mapping it: the arrays of a loaded model lie in the file, and
-/// only what a question touches is read from the disk.
+/// from a model in memory, and read back by mapping it: the arrays of a loaded model lie in the file. A
+/// question that says what it wants has no more read, from the disk too, than that.
 
 struct AmtWriteOptions {
   std::string writer = {};  ///< names the program in the file; empty = "Arete" and its version
@@ -32,6 +34,15 @@ struct AmtWriteOptions {
 /// Every byte is read twice: for the checksums, which stand in front, in parallel by chunks, and for writing.
 Status writeAmt(const std::string& path, const TerrainModel& model, const RunContext& context = {},
                 const AmtWriteOptions& options = {});
+
+/// What is checked beyond openAmt(). `none` is for files that one's own program has just written.
+enum class AmtVerify { none, indices, all };
+
+struct AmtReadOptions {
+  AmtVerify verify = AmtVerify::all;
+  /// What of the multitriangulation is read: see WantedError. Null reads everything.
+  WantedError wanted = {};
+};
 
 struct AmtOpenOptions {
   /// Questions will touch few places of a large file: the system shall not read their neighbours ahead.
@@ -54,9 +65,24 @@ class AmtFile {
 
   /// Whether the MT is packed: then model() has no MT, read() unpacks it.
   bool isPacked() const { return packedNodes_.data() != nullptr; }
-  /// The model: its multitriangulation points into the mapped file and keeps it mapped, or is unpacked, as
-  /// far as `options` want it. Errors: those of unpackMt(), naming the path. Precondition: checkAmt().
-  Result<TerrainModel> read(const UnpackOptions& options = {}, const RunContext& context = {}) const;
+  /// Whether pieces of its arrays have checksums, so that a part of it can be read alone: all that are not
+  /// packed, but for those of earlier builds of Arete.
+  bool hasPieces() const { return pieceChecksums_.data() != nullptr; }
+  std::span<const std::uint64_t> pieceChecksums() const { return pieceChecksums_; }
+
+  /// What the metadata says.
+  std::uint64_t nodeCount() const { return nodeCount_; }
+  /// About the largest saturated error of all nodes but so many of the largest ones: no node beyond those
+  /// that are read where this is wanted everywhere has more. It is what the file's pages, or the directory of
+  /// its packed nodes, say, unchecked: a guess at what to read. 0 where nothing less than everything is
+  /// known.
+  double errorBeyond(std::uint64_t nodes) const;
+
+  /// The model, as far as the options want it, checked as far as it is read. Its multitriangulation points
+  /// into the mapped file and keeps it mapped, or is a part of it (io/amt_part.h), or unpacked
+  /// (io/packed_amt.h). Errors: those of checkAmt() and unpackMt(), naming the path. O(what is wanted);
+  /// O(triangles) without a wish, or of a file without pieces.
+  Result<TerrainModel> read(const AmtReadOptions& options = {}, const RunContext& context = {}) const;
 
   /// The model without its isolated samples and fixed vertices. Its arrays have the sizes stated in MtArrays;
   /// before checkAmtIndices() nothing else is known of them, so do not walk it.
@@ -69,6 +95,7 @@ class AmtFile {
  private:
   friend class AmtOpener;
   AmtFile() = default;
+  Result<MultiTriangulation> readMt(const AmtReadOptions& options, const RunContext& context) const;
 
   std::string path_, writer_;
   std::shared_ptr<const MappedFile> file_;
@@ -77,6 +104,8 @@ class AmtFile {
   TerrainModel model_;
   std::span<const std::uint32_t> isolatedSamples_, fixedVertices_;
   std::span<const double> isolatedHeights_;
+  std::span<const std::uint64_t> pieceChecksums_;
+  std::uint64_t nodeCount_ = 0;
   std::span<const std::byte> packedDirectory_, packedTables_, packedNodes_;
 };
 
@@ -86,12 +115,11 @@ class AmtFile {
 /// checksum that does not match; chunks out of range or sizes at odds with each other). O(1).
 Result<AmtFile> openAmt(const std::string& path, const AmtOpenOptions& options = {});
 
-/// Every index in range, every link, floor, remover and creator as MtArrays states them, spheres that hold
-/// their children's, every coordinate finite: after this every cut is closed and its front whole, and no
-/// algorithm of the engine reads outside the arrays, whatever the file says. (Of a packed file only what is
-/// not packed is checked: unpacking checks the rest.) Whether the geometry and the errors are right is for
-/// validate() to tell. The first culprit is named, the same for any number of threads. Errors: corrupt,
-/// interrupted. O(triangles), parallel.
+/// checkMtIndices(), and the same of what stands beside the multitriangulation: after this no algorithm of
+/// the engine reads outside the arrays, whatever the file says. (Of a packed file only what is not packed is
+/// checked: unpacking checks the rest.) Whether the geometry and the errors are right is for validate() to
+/// tell. The first culprit is named, the same for any number of threads. Errors: corrupt, interrupted.
+/// O(triangles), parallel.
 Status checkAmtIndices(const AmtFile& file, const RunContext& context = {});
 
 /// The checksum of every chunk, and zeros between the chunks: with these and what openAmt() checks, no byte
@@ -100,19 +128,16 @@ Status checkAmtIndices(const AmtFile& file, const RunContext& context = {});
 /// chunks in parallel.
 Status checkAmtChecksums(const AmtFile& file, const RunContext& context = {});
 
-/// What is checked beyond openAmt(). `none` is for files that one's own program has just written.
-enum class AmtVerify { none, indices, all };
-
 /// All that `verify` asks for, all = checksums and indices. Errors: those of the two.
 Status checkAmt(const AmtFile& file, AmtVerify verify, const RunContext& context = {});
 
 struct AmtLoadOptions {
   AmtVerify verify = AmtVerify::all;
   AmtOpenOptions open;
-  UnpackOptions unpack = {};  ///< of packed files
+  WantedError wanted = {};  ///< see AmtReadOptions
 };
 
-/// Opens, checks and reads. Errors: those of openAmt(), checkAmt() and AmtFile::read().
+/// Opens and reads. Errors: those of openAmt() and AmtFile::read().
 Result<TerrainModel> loadAmt(const std::string& path, const AmtLoadOptions& options = {},
                              const RunContext& context = {});
 

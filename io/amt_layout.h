@@ -19,6 +19,10 @@ inline constexpr std::uint64_t kAmtAlignment = 64;
 inline constexpr std::uint32_t kAmtMaxChunks = 64;
 inline constexpr std::uint64_t kAmtMaxMetadataBytes = std::uint64_t{1} << 20;
 
+/// The arrays have checksums of their own for pieces of so many bytes, so that a part of a file can be read
+/// alone.
+inline constexpr std::uint64_t kAmtPieceBytes = std::uint64_t{1} << 16;
+
 /// As PNG's: a byte beyond ASCII, the name, and line ends of every kind, so that a transfer as text shows.
 inline constexpr std::array<char, 8> kAmtMagic = {'\x89', 'A', 'M', 'T', '\r', '\n', '\x1a', '\n'};
 inline constexpr std::uint32_t kAmtByteOrder = 0x01020304;
@@ -89,7 +93,15 @@ inline constexpr AmtTag kPackedNodes = {'P', 'N', 'O', 'D'};
 inline constexpr AmtTag kIsolatedSamples = {'I', 'S', 'A', 'M'};
 inline constexpr AmtTag kIsolatedHeights = {'I', 'H', 'G', 'T'};
 inline constexpr AmtTag kFixedVertices = {'F', 'I', 'X', 'V'};
+// Of a file that is not packed, the last; those of earlier builds of Arete have none:
+inline constexpr AmtTag kPieceChecksums = {'P', 'S', 'U', 'M'};
 }  // namespace amt_tag
+
+/// Pieces of a chunk; all but the metadata and the checksums of pieces have some.
+constexpr std::uint64_t amtPieceCount(const AmtTag& tag, std::uint64_t bytes) {
+  if (tag == amt_tag::kMetadata || tag == amt_tag::kPieceChecksums) return 0;
+  return (bytes + kAmtPieceBytes - 1) / kAmtPieceBytes;
+}
 
 /// The first multiple of the alignment at or behind `offset`. Precondition: it is not within 63 of 2^64.
 constexpr std::uint64_t amtAligned(std::uint64_t offset) {

@@ -13,9 +13,12 @@
 #include <cstring>
 #include <utility>
 
+#include "engine/node_blocks.h"
 #include "io/amt_checksum.h"
 #include "io/amt_file.h"
 #include "io/amt_metadata.h"
+#include "io/amt_part.h"
+#include "io/packed_amt.h"
 
 namespace arete {
 
@@ -150,6 +153,12 @@ Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
   if (isPacked)
     for (const AmtTag tag : {amt_tag::kPackedDirectory, amt_tag::kPackedTables, amt_tag::kPackedNodes})
       shapes.push_back({tag, AmtScalar::u8, 1, find(tag) == nullptr ? 0 : find(tag)->bytes});
+  const bool hasPieces = find(amt_tag::kPieceChecksums) != nullptr;
+  if (hasPieces) {
+    std::uint64_t pieces = 0;
+    for (const AmtChunk& chunk : file_.chunks_) pieces += amtPieceCount(chunk.tag, chunk.bytes);
+    shapes.push_back(amtPieceShape(pieces));
+  }
   for (const AmtShape& shape : shapes) {
     const AmtChunk* const chunk = find(shape.tag);
     if (chunk == nullptr)
@@ -164,11 +173,13 @@ Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
 
   file_.writer_ = metadata.writer;
   file_.model_ = metadata.model;
+  file_.nodeCount_ = metadata.counts.nodes;
   MtArrays a;
   a.rootVertices = static_cast<std::uint32_t>(metadata.counts.rootVertices);
   place(amt_tag::kIsolatedSamples, file_.isolatedSamples_);
   place(amt_tag::kIsolatedHeights, file_.isolatedHeights_);
   place(amt_tag::kFixedVertices, file_.fixedVertices_);
+  if (hasPieces) place(amt_tag::kPieceChecksums, file_.pieceChecksums_);
   if (isPacked) {
     place(amt_tag::kPackedDirectory, file_.packedDirectory_);
     place(amt_tag::kPackedTables, file_.packedTables_);
@@ -220,14 +231,32 @@ Result<AmtFile> AmtOpener::open(const std::string& path, const AmtOpenOptions& o
   return file;
 }
 
-Result<TerrainModel> AmtFile::read(const UnpackOptions& options, const RunContext& context) const {
+double AmtFile::errorBeyond(std::uint64_t nodes) const {
+  if (isPacked()) return packedErrorBeyond(packedDirectory_, metadata_->scale, nodes);
+  if (!hasPieces()) return 0;
+  const MtArrays& a = model_.mt.arrays();
+  const std::uint64_t page = nodes / MultiTriangulation::kNodesPerPage + 1,
+                      entry = nodeBlockCount(nodeCount_) + page;
+  return entry < a.blockError.size() ? a.scale.decode(a.blockError[entry]) : 0;
+}
+
+Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const RunContext& context) const {
+  const bool isPart = options.wanted && options.verify != AmtVerify::none && !isPacked() && hasPieces();
+  if (isPart) return readAmtPart(*this, options.wanted, options.verify, context);
+  if (Status checked = checkAmt(*this, options.verify, context); !checked)
+    return tl::unexpected(checked.error());
+  if (!isPacked()) return model_.mt;
+  Result<MultiTriangulation> mt =
+      unpackMt(*metadata_, packedDirectory_, packedTables_, packedNodes_, options.wanted, context);
+  if (!mt) return failure(mt.error().code, mt.error().message, path_);
+  return mt;
+}
+
+Result<TerrainModel> AmtFile::read(const AmtReadOptions& options, const RunContext& context) const {
+  Result<MultiTriangulation> mt = readMt(options, context);
+  if (!mt) return tl::unexpected(mt.error());
   TerrainModel model = model_;
-  if (isPacked()) {
-    Result<MultiTriangulation> mt =
-        unpackMt(*metadata_, packedDirectory_, packedTables_, packedNodes_, options, context);
-    if (!mt) return failure(mt.error().code, mt.error().message, path_);
-    model.mt = std::move(*mt);
-  }
+  model.mt = std::move(*mt);
   model.options.fixedVertices.assign(fixedVertices_.begin(), fixedVertices_.end());
   model.isolated.reserve(isolatedSamples_.size());
   for (std::size_t i = 0; i < isolatedSamples_.size(); ++i)
@@ -243,9 +272,7 @@ Result<TerrainModel> loadAmt(const std::string& path, const AmtLoadOptions& opti
                              const RunContext& context) {
   const Result<AmtFile> file = openAmt(path, options.open);
   if (!file) return tl::unexpected(file.error());
-  if (Status checked = checkAmt(*file, options.verify, context); !checked)
-    return tl::unexpected(checked.error());
-  return file->read(options.unpack, context);
+  return file->read({options.verify, options.wanted}, context);
 }
 
 }  // namespace arete

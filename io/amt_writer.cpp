@@ -67,6 +67,7 @@ class AmtWriting {
     }
     addExtras();
     for (const AmtShape& shape : amtShapes(metadata, options.isPacked)) shapes_.push_back(shape);
+    if (!options.isPacked) addPieceChecksums();
     if (Status placed = layOut(); !placed) return placed;
     if (!seal()) return interrupted();
     return write();
@@ -133,6 +134,15 @@ class AmtWriting {
     sources_.push_back(source(amt_tag::kFixedVertices, model_.options.fixedVertices));
   }
 
+  /// Room for them; they are known when everything else is.
+  void addPieceChecksums() {
+    std::uint64_t count = 0;
+    for (const Source& s : sources_) count += amtPieceCount(s.tag, s.bytes.size());
+    pieceChecksums_.resize(count);
+    sources_.push_back(source(amt_tag::kPieceChecksums, pieceChecksums_));
+    shapes_.push_back(amtPieceShape(count));
+  }
+
   /// Header and directory, but for their checksums.
   Status layOut() {
     header_.chunkCount = static_cast<std::uint32_t>(sources_.size());
@@ -160,14 +170,24 @@ class AmtWriting {
   bool seal() {
     std::vector<std::span<const std::byte>> blocks;
     for (const Source& s : sources_) blocks.push_back(s.bytes);
+    const bool hasPieces = !pieceChecksums_.empty();
+    if (hasPieces) blocks.pop_back();
     const auto sums = amtChecksums(blocks, "checksum", context_);
     if (!sums) return false;
-    for (std::size_t i = 0; i < directory_.size(); ++i) directory_[i].checksum = (*sums)[i];
+    for (std::size_t i = 0; i < blocks.size(); ++i) directory_[i].checksum = sums->blocks[i];
+    if (hasPieces) sealPieces(*sums);
     std::vector<std::byte> front(offsetof(AmtHeader, checksum) + header_.directoryBytes);
     std::memcpy(front.data(), &header_, offsetof(AmtHeader, checksum));
     std::memcpy(front.data() + offsetof(AmtHeader, checksum), directory_.data(), header_.directoryBytes);
     header_.checksum = amtChecksum(front);
     return true;
+  }
+
+  void sealPieces(const AmtChecksums& sums) {
+    auto to = pieceChecksums_.begin();
+    for (std::size_t i = 0; i < sums.pieces.size(); ++i)
+      if (sources_[i].tag != amt_tag::kMetadata) to = std::ranges::copy(sums.pieces[i], to).out;
+    directory_.back().checksum = amtChecksum(sources_.back().bytes);
   }
 
   Status write() const {
@@ -198,6 +218,7 @@ class AmtWriting {
   const RunContext& context_;
   std::string json_;  // what the sources below point to, beside the model
   PackedMt packed_;
+  std::vector<std::uint64_t> pieceChecksums_;
   std::vector<std::uint32_t> isolatedSamples_;
   std::vector<double> isolatedHeights_;
   std::vector<Source> sources_;   // the chunks, in the order of the file

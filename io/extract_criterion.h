@@ -12,7 +12,7 @@
 #include "engine/criterion.h"
 #include "engine/cut.h"
 #include "engine/result.h"
-#include "io/packed_amt.h"
+#include "io/wanted_error.h"
 #include "terrain/camera.h"
 #include "terrain/terrain_model.h"
 

@@ -8,6 +8,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "engine/with_threads.h"
@@ -257,7 +258,7 @@ class Unpacker {
 
 Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directoryBytes,
                                     std::span<const std::byte> tableBytes, std::span<const std::byte> nodes,
-                                    const UnpackOptions& options, const RunContext& context) {
+                                    const WantedError& wanted, const RunContext& context) {
   std::string problem;
   auto directory = packed::directoryOf(directoryBytes, problem);
   if (!directory) return failure(ErrorCode::corrupt, "the directory of the packed nodes " + problem);
@@ -280,10 +281,25 @@ Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const
                    "the packed nodes leave more triangles to others than can be numbered");
   const auto tables = packed::tablesOf(tableBytes);
   if (!tables) return failure(ErrorCode::corrupt, "the tables of the packed nodes are damaged");
-  const bool isPart = options.wanted && !packed::keepWanted(*directory, options.wanted, metadata.scale);
+  const bool isPart = wanted && !packed::keepWanted(*directory, wanted, metadata.scale);
   return withThreads(context, [&] {
     return packed::Unpacker(std::move(*directory), *tables, nodes, context, isPart).run(metadata);
   });
+}
+
+double packedErrorBeyond(std::span<const std::byte> directoryBytes, const OutwardScale& scale,
+                         std::uint64_t nodes) {
+  std::string ignored;
+  const auto directory = packed::directoryOf(directoryBytes, ignored);
+  if (!directory) return 0;
+  std::array<std::uint64_t, MultiTriangulation::kBands> nodesOfBand{};
+  for (const packed::Chunk& chunk : directory->chunks)
+    for (const packed::Run& run : chunk.runs) nodesOfBand[run.band] += run.nodes;
+  std::uint64_t sum = 0;
+  for (std::uint32_t band = MultiTriangulation::kBands; band-- > 1;)
+    if ((sum += nodesOfBand[band]) >= nodes)
+      return scale.decode(static_cast<OutwardScale::Code>(band << MultiTriangulation::kBandShift));
+  return 0;
 }
 
 }  // namespace arete

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/vec.h"
-#include "io/packed_amt.h"
+#include "io/wanted_error.h"
 #include "terrain/sight_line.h"
 #include "terrain/terrain_model.h"
 

@@ -2,7 +2,7 @@
 //
 // A file is opened; then its checksums and its indices are checked, each whatever the other says; and where
 // the indices are in range, everything is asked of the model that the commands ask. What a wrong file answers
-// does not matter; that it answers within its arrays does. A packed file is unpacked as a whole and in part.
+// does not matter; that it answers within its arrays does. A file is read as a whole and in part.
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -124,14 +124,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   use(*model, context);
-  if (!file->isPacked()) return 0;
   const auto isCorner = [](const Box2& box) { return box.xMin <= 2 && box.yMin <= 2; };
   constexpr double kNothing = std::numeric_limits<double>::infinity();
   AmtLoadOptions corner, coarse, coarseCorner;
   corner.verify = coarse.verify = coarseCorner.verify = AmtVerify::indices;
-  corner.unpack.wanted = [&](const Box2& box) { return isCorner(box) ? 0 : kNothing; };
-  coarse.unpack.wanted = [](const Box2&) { return 0.5; };
-  coarseCorner.unpack.wanted = [&](const Box2& box) { return isCorner(box) ? 0.5 : 3; };
+  corner.wanted = [&](const Box2& box) { return isCorner(box) ? 0 : kNothing; };
+  coarse.wanted = [](const Box2&) { return 0.5; };
+  coarseCorner.wanted = [&](const Box2& box) { return isCorner(box) ? 0.5 : 3; };
   for (const AmtLoadOptions& options : {corner, coarse, coarseCorner}) {
     const auto part = loadAmt(memory.path(), options, context);
     if (part) {

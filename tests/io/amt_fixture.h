@@ -245,8 +245,9 @@ class AmtBytes {
     std::copy(to.begin(), to.end(), at);
   }
 
-  /// Recomputes the checksums: of the chunks that lie inside the file, and of the header.
+  /// Recomputes the checksums: of pieces, of the chunks that lie inside the file, and of the header.
   void seal() {
+    sealPieces();
     for (std::uint32_t i = 0; i < header().chunkCount; ++i) {
       AmtChunk& c = chunks()[i];
       if (c.offset <= bytes_.size() && c.bytes <= bytes_.size() - c.offset)
@@ -254,11 +255,51 @@ class AmtBytes {
     }
     sealHeader();
   }
+  /// As many as there is room for.
+  void sealPieces() {
+    constexpr std::uint64_t kPiece = 65536;
+    const std::uint32_t last = header().chunkCount - 1;
+    if (last >= kAmtMaxChunks || chunks()[last].tag != amt_tag::kPieceChecksums) return;
+    std::vector<std::uint64_t> sums;
+    for (std::uint32_t i = 0; i < last; ++i) {
+      const AmtChunk& c = chunks()[i];
+      if (c.tag == amt_tag::kMetadata || c.offset > bytes_.size() || c.bytes > bytes_.size() - c.offset)
+        continue;
+      for (std::uint64_t at = 0; at < c.bytes; at += kPiece)
+        sums.push_back(XXH3_64bits(bytes_.data() + c.offset + at, std::min(kPiece, c.bytes - at)));
+    }
+    const auto room = array<std::uint64_t>(amt_tag::kPieceChecksums);
+    std::copy_n(sums.begin(), std::min(sums.size(), room.size()), room.begin());
+  }
   void sealHeader() {
     std::string front(bytes_.data(), offsetof(AmtHeader, checksum));
     front.append(reinterpret_cast<const char*>(chunks()), header().chunkCount * sizeof(AmtChunk));
     header().checksum = XXH3_64bits(front.data(), front.size());
   }
+  /// The same file as earlier builds of Arete wrote it: without its last chunk, the checksums of pieces.
+  AmtBytes withoutPieces() {
+    if (chunks()[header().chunkCount - 1].tag != amt_tag::kPieceChecksums)
+      throw std::runtime_error("no such chunk");
+    AmtHeader shorter = header();
+    --shorter.chunkCount;
+    shorter.directoryBytes = shorter.chunkCount * sizeof(AmtChunk);
+    std::vector<AmtChunk> directory(chunks(), chunks() + shorter.chunkCount);
+    std::string body(sizeof(AmtHeader) + shorter.directoryBytes, '\0');
+    for (AmtChunk& chunk : directory) {
+      body.resize(amtAligned(body.size()));
+      const std::uint64_t from = chunk.offset;
+      chunk.offset = body.size();
+      body.append(bytes_, from, chunk.bytes);
+    }
+    body.resize(amtAligned(body.size()));
+    shorter.fileBytes = body.size();
+    std::memcpy(body.data(), &shorter, sizeof shorter);
+    std::memcpy(body.data() + sizeof shorter, directory.data(), shorter.directoryBytes);
+    AmtBytes without(std::move(body));
+    without.sealHeader();
+    return without;
+  }
+
   const std::string& bytes() const { return bytes_; }
   void save(const std::string& path) const { writeAll(path, bytes_); }
 

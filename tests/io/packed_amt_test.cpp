@@ -230,7 +230,7 @@ TEST(PackedAmt, ReadsARegionAlone) {
   const TerrainModel whole = throughPacked(built(build(familyNamed("fractal").make(700, 500, 7))), path);
   const Box2 box{150, 140, 240, 230};
   AmtLoadOptions options;
-  options.unpack.wanted = in(box, 0);
+  options.wanted = in(box, 0);
   const TerrainModel part = built(loadAmt(path, options));
   EXPECT_LT(part.mt.nodeCount(), whole.mt.nodeCount() / 2);
   const Status laws = validate(part.mt);
@@ -267,7 +267,7 @@ TEST(PackedAmt, ReadsWhatCutsAtAnErrorAskForAlone) {
       std::uint32_t nodesBefore = whole.mt.nodeCount();
       for (const double least : {0.001 * range, 0.01 * range, 0.06 * range, range}) {
         AmtLoadOptions options;
-        options.unpack.wanted = everywhere(least);
+        options.wanted = everywhere(least);
         const TerrainModel part = built(loadAmt(path, options));
         EXPECT_LE(part.mt.nodeCount(), nodesBefore);
         nodesBefore = part.mt.nodeCount();
@@ -298,7 +298,7 @@ TEST(PackedAmt, ReadsWhatCutsAtAnErrorAskForAlone) {
 void expectReadsDownTo(double least, const TerrainModel& whole, const std::string& path) {
   SCOPED_TRACE(least);
   AmtLoadOptions options;
-  options.unpack.wanted = everywhere(least);
+  options.wanted = everywhere(least);
   const TerrainModel part = built(loadAmt(path, options));
   const Status laws = validate(part.mt, {.allowsFills = whole.options.rimTolerance > 0});
   EXPECT_TRUE(laws) << laws.error().describe();
@@ -361,9 +361,9 @@ TEST(PackedAmt, ReadsARegionAtAnErrorAlone) {
   const TerrainModel whole = throughPacked(built(build(familyNamed("fractal").make(500, 400, 9))), path);
   AmtLoadOptions options;
   const double least = 0.1 * whole.mt.arrays().scale.decode(OutwardScale::kMaxCode);
-  options.unpack.wanted = everywhere(least);
+  options.wanted = everywhere(least);
   const TerrainModel coarse = built(loadAmt(path, options));
-  options.unpack.wanted = in({10, 10, 90, 90}, least);
+  options.wanted = in({10, 10, 90, 90}, least);
   const TerrainModel part = built(loadAmt(path, options));
   EXPECT_LT(part.mt.nodeCount(), coarse.mt.nodeCount());
   EXPECT_LT(coarse.mt.nodeCount(), whole.mt.nodeCount() / 2);
@@ -401,7 +401,7 @@ void expectRefusesOrSurvives(const TerrainModel& model, std::size_t step) {
       changed.seal();
       changed.save(folder.file("changed.amt"));
       AmtLoadOptions part;
-      part.unpack.wanted = [](const Box2& box) { return box.xMin < 8 ? 2.0 : 6.0; };
+      part.wanted = [](const Box2& box) { return box.xMin < 8 ? 2.0 : 6.0; };
       if (const Result<TerrainModel> some = loadAmt(folder.file("changed.amt"), part)) {
         ++partsSurvived;
         ASSERT_TRUE(writeAmt(folder.file("part.amt"), *some));

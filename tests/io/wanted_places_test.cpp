@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What is read of a packed model for a question answers it as the whole does: heights, lines of sight, cuts
-// for a region or around a place.
+// What is read of a model, packed or not, for a question answers it as the whole does: heights, lines of
+// sight, cuts for a region or around a place.
 #include "io/wanted_places.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,14 +37,14 @@ const RasterFamily& familyNamed(std::string_view name) {
   return *std::ranges::find(rasterFamilies(), name, &RasterFamily::name);
 }
 
-/// A packed file, its whole model, and its outline.
-struct Packed {
-  Packed(const TerrainModel& model, const std::string& path) {
-    const Status written = writeAmt(path, model, {}, {.isPacked = true});
+/// A file, its whole model, and its outline.
+struct Filed {
+  Filed(const TerrainModel& model, const std::string& path, bool isPacked = true) {
+    const Status written = writeAmt(path, model, {}, {.isPacked = isPacked});
     if (!written) throw std::runtime_error(written.error().describe());
     file = *openAmt(path);
     whole = built(file->read());
-    outline = built(file->read({wantedNowhere()}));
+    outline = built(file->read({.wanted = wantedNowhere()}));
     EXPECT_EQ(outline.mt.nodeCount(), 0u);
     for (std::uint32_t i = 0; i < outline.mt.rootVertexCount(); ++i) {
       const Vec2 p = outline.mt.vertices().planPosition(VertexId(i));
@@ -52,7 +53,7 @@ struct Packed {
     }
   }
   TerrainModel part(const WantedError& wanted) const {
-    TerrainModel model = built(file->read({wanted}));
+    TerrainModel model = built(file->read({.wanted = wanted}));
     const Status laws = validate(model.mt, {.allowsFills = whole.options.rimTolerance > 0});
     EXPECT_TRUE(laws) << laws.error().describe();
     return model;
@@ -85,25 +86,28 @@ std::vector<TerrainModel> modelsOfAllKinds() {
   return models;
 }
 
-/// visit(packed, random) for each of them.
+/// visit(filed, random) for each of them, packed and plain.
 template <class Visit>
 void forAllKinds(const Visit& visit) {
   const TemporaryFolder folder;
   std::uint64_t seed = 0;
   for (const TerrainModel& model : modelsOfAllKinds()) {
-    const Packed packed(model, folder.file("packed.amt"));
-    Random random(++seed);
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    visit(packed, random);
+    ++seed;
+    for (const bool isPacked : {true, false}) {
+      const Filed filed(model, folder.file("model.amt"), isPacked);
+      Random random(seed);
+      SCOPED_TRACE(fmt::format("seed {}, {}", seed, isPacked ? "packed" : "plain"));
+      visit(filed, random);
+    }
   }
 }
 
 TEST(WantedPlaces, AreWantedByEveryBoxThatHoldsOneAndByNoneFarFromAll) {
   const TemporaryFolder folder;
-  const Packed packed(built(build(familyNamed("ramp").make(60, 40, 1))), folder.file("packed.amt"));
+  const Filed filed(built(build(familyNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Random random(seed);
-    WantedPlaces wanted(packed.outline);
+    WantedPlaces wanted(filed.outline);
     std::vector<Vec2> places;
     for (std::uint64_t i = random.below(4); i-- > 0;) {
       const Vec2 from{random.between(0, 59), random.between(0, 39)},
@@ -144,8 +148,8 @@ TEST(WantedPlaces, AreWantedByEveryBoxThatHoldsOneAndByNoneFarFromAll) {
 
 TEST(WantedPlaces, ReachASampleBesideThemOnARaster) {
   const TemporaryFolder folder;
-  const Packed packed(built(build(familyNamed("ramp").make(60, 40, 1))), folder.file("packed.amt"));
-  WantedPlaces wanted(packed.outline);
+  const Filed filed(built(build(familyNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
+  WantedPlaces wanted(filed.outline);
   wanted.addLine({10, 10}, {20, 10});
   const WantedError within = wanted.within(0);
   EXPECT_EQ(within({20.9, 9, 23, 11}), 0);
@@ -155,25 +159,25 @@ TEST(WantedPlaces, ReachASampleBesideThemOnARaster) {
 
 TEST(WantedPlaces, TakeLinesFarBeyondTheTerrain) {
   const TemporaryFolder folder;
-  const Packed packed(built(build(familyNamed("ramp").make(60, 40, 1))), folder.file("packed.amt"));
-  WantedPlaces wanted(packed.outline);
+  const Filed filed(built(build(familyNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
+  WantedPlaces wanted(filed.outline);
   wanted.addLine({-1e12, 20}, {1e12, 20});
   EXPECT_EQ(wanted.within(1)({10, 19, 12, 21}), 1);
 }
 
 TEST(WantedPlaces, HaveTheHeightsOfTheWholeWhenOnlyTheyAreRead) {
-  forAllKinds([](const Packed& packed, Random& random) {
+  forAllKinds([](const Filed& filed, Random& random) {
     for (const std::size_t count : {std::size_t{1}, std::size_t{2}, std::size_t{40}}) {
       std::vector<Vec2> places;
-      WantedPlaces wanted(packed.outline);
+      WantedPlaces wanted(filed.outline);
       for (std::size_t i = 0; i < count; ++i) {
-        const Vec2 plan = packed.placeIn(random);
-        places.push_back(packed.whole.toSource(plan));
-        wanted.add(packed.outline.toPlan(places.back()));
+        const Vec2 plan = filed.placeIn(random);
+        places.push_back(filed.whole.toSource(plan));
+        wanted.add(filed.outline.toPlan(places.back()));
       }
-      const TerrainModel part = packed.part(wanted.within(0));
-      EXPECT_LE(part.mt.nodeCount(), packed.whole.mt.nodeCount());
-      const SurfaceHeights ofWhole(packed.whole), ofPart(part);
+      const TerrainModel part = filed.part(wanted.within(0));
+      EXPECT_LE(part.mt.nodeCount(), filed.whole.mt.nodeCount());
+      const SurfaceHeights ofWhole(filed.whole), ofPart(part);
       for (const Vec2 place : places)
         for (const double maxError : {0.0, 0.3, 20.0}) {
           const auto x = ofWhole.at(place, maxError), y = ofPart.at(place, maxError);
@@ -189,18 +193,18 @@ TEST(WantedPlaces, HaveTheHeightsOfTheWholeWhenOnlyTheyAreRead) {
 }
 
 TEST(WantedPlaces, HaveTheLinesOfSightOfTheWholeWhenOnlyTheyAreRead) {
-  forAllKinds([](const Packed& packed, Random& random) {
-    const auto earth = makePlaneEarth(packed.outline);
+  forAllKinds([](const Filed& filed, Random& random) {
+    const auto earth = makePlaneEarth(filed.outline);
     for (int i = 0; i < 12; ++i) {
-      const Vec2 from = packed.placeIn(random), to = packed.placeIn(random);
+      const Vec2 from = filed.placeIn(random), to = filed.placeIn(random);
       const auto track = earth->track(from, to);
       ASSERT_TRUE(track);
-      WantedPlaces wanted(packed.outline);
+      WantedPlaces wanted(filed.outline);
       wanted.addTrack(*track);
-      const TerrainModel part = packed.part(wanted.within(0));
-      const double middle = packed.whole.mt.position(VertexId(0)).z;
+      const TerrainModel part = filed.part(wanted.within(0));
+      const double middle = filed.whole.mt.position(VertexId(0)).z;
       const SightLine line(*track, middle + random.between(-50, 200), middle + random.between(-50, 200));
-      const auto ofWhole = makeSightDescent(packed.whole), ofPart = makeSightDescent(part);
+      const auto ofWhole = makeSightDescent(filed.whole), ofPart = makeSightDescent(part);
       for (const double maxError : {0.0, 5.0}) {
         const SightAnswer x = ofWhole->answer(line, {.maxError = maxError}),
                           y = ofPart->answer(line, {.maxError = maxError});
@@ -232,36 +236,36 @@ std::vector<double> frontOf(const MultiTriangulation& mt, const Cut& cut) {
 
 TEST(WantedBy, ReadsWhatTheCutsOfARegionOrAFocusAreMadeOf) {
   std::uint64_t nodes = 0, nodesOfParts = 0;
-  forAllKinds([&](const Packed& packed, Random& random) {
-    const double largest = packed.whole.mt.largestError();
+  forAllKinds([&](const Filed& filed, Random& random) {
+    const double largest = filed.whole.mt.largestError();
     for (int i = 0; i < 12; ++i) {
-      const Vec2 p = packed.placeIn(random), q = packed.placeIn(random);
+      const Vec2 p = filed.placeIn(random), q = filed.placeIn(random);
       ExtractCriterion fine;
       fine.maxError = largest * std::pow(random.between(0, 1), 6);
       if (i % 4 != 0) fine.outsideError = *fine.maxError + largest * random.between(0, 1);
       std::optional<Region> region;
       if (i % 2 == 0) {
-        const Vec2 step{(packed.high.x - packed.low.x) * 0.1, (packed.high.y - packed.low.y) * 0.1};
+        const Vec2 step{(filed.high.x - filed.low.x) * 0.1, (filed.high.y - filed.low.y) * 0.1};
         region = i % 3 == 0 ? Region({{p, q, {p.x + step.x, q.y}}})
                             : Region::box({p.x, p.y, p.x + step.x, p.y + step.y});
       } else {
-        fine.focus = ExtractCriterion::Focus{.xy = packed.whole.toSource(p),
+        fine.focus = ExtractCriterion::Focus{.xy = filed.whole.toSource(p),
                                              .growth = largest * random.between(0, 1e-3)};
       }
       ExtractCriterion coarse = fine;
       coarse.maxError = std::min(2 * *fine.maxError, coarse.outsideError);
       const std::vector<ExtractCriterion> criteria = {coarse, fine};
-      const auto wanted = wantedBy(criteria, region, packed.outline);
+      const auto wanted = wantedBy(criteria, region, filed.outline);
       ASSERT_TRUE(wanted && *wanted);
-      const TerrainModel part = packed.part(*wanted);
-      nodes += packed.whole.mt.nodeCount();
+      const TerrainModel part = filed.part(*wanted);
+      nodes += filed.whole.mt.nodeCount();
       nodesOfParts += part.mt.nodeCount();
       for (const ExtractCriterion& criterion : criteria) {
-        const auto ofWhole = engineCriterion(criterion, region, 0, packed.whole),
+        const auto ofWhole = engineCriterion(criterion, region, 0, filed.whole),
                    ofPart = engineCriterion(criterion, region, 0, part);
-        const auto x = takeCut(packed.whole.mt, **ofWhole), y = takeCut(part.mt, **ofPart);
+        const auto x = takeCut(filed.whole.mt, **ofWhole), y = takeCut(part.mt, **ofPart);
         ASSERT_TRUE(x && y);
-        EXPECT_TRUE(frontOf(packed.whole.mt, *x) == frontOf(part.mt, *y)) << i;
+        EXPECT_TRUE(frontOf(filed.whole.mt, *x) == frontOf(part.mt, *y)) << i;
         EXPECT_EQ(x->achievedError, y->achievedError);
       }
     }
@@ -271,9 +275,9 @@ TEST(WantedBy, ReadsWhatTheCutsOfARegionOrAFocusAreMadeOf) {
 
 TEST(WantedBy, IsEverythingWherePixelsFitsBudgetsOrBallsDecide) {
   const TemporaryFolder folder;
-  const Packed packed(built(build(familyNamed("ramp").make(30, 20, 1))), folder.file("packed.amt"));
+  const Filed filed(built(build(familyNamed("ramp").make(30, 20, 1))), folder.file("model.amt"));
   const auto isEverything = [&](const ExtractCriterion& criterion, const std::optional<Region>& region = {}) {
-    const auto wanted = wantedBy(std::vector{criterion}, region, packed.outline);
+    const auto wanted = wantedBy(std::vector{criterion}, region, filed.outline);
     return wanted && !*wanted;
   };
   ExtractCriterion c;
@@ -300,16 +304,16 @@ TEST(WantedBy, IsEverythingWherePixelsFitsBudgetsOrBallsDecide) {
 
 TEST(WantedBy, AsksForTheFinestOfSeveralTolerances) {
   const TemporaryFolder folder;
-  const Packed packed(built(build(familyNamed("ramp").make(30, 20, 1))), folder.file("packed.amt"));
+  const Filed filed(built(build(familyNamed("ramp").make(30, 20, 1))), folder.file("model.amt"));
   std::vector<ExtractCriterion> criteria(3);
   for (std::size_t i = 0; i < criteria.size(); ++i) {
     criteria[i].maxError = 4.0 - static_cast<double>(i);
     criteria[i].outsideError = 10.0 + static_cast<double>(i);
   }
-  const auto everywhere = wantedBy(criteria, std::nullopt, packed.outline);
+  const auto everywhere = wantedBy(criteria, std::nullopt, filed.outline);
   ASSERT_TRUE(everywhere);
   EXPECT_EQ((*everywhere)({20, 10, 21, 11}), 2);
-  const auto corner = wantedBy(criteria, Region::box({0, 0, 3, 3}), packed.outline);
+  const auto corner = wantedBy(criteria, Region::box({0, 0, 3, 3}), filed.outline);
   ASSERT_TRUE(corner);
   EXPECT_EQ((*corner)({1, 1, 2, 2}), 2);
   EXPECT_EQ((*corner)({20, 10, 21, 11}), 10);
