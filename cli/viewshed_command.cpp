@@ -14,12 +14,15 @@
 #include <vector>
 
 #include "cli/arguments.h"
+#include "cli/model_file.h"
 #include "cli/sight_arguments.h"
 #include "io/amt_file.h"
+#include "io/longitude_turns.h"
 #include "io/placed_grid.h"
 #include "io/position_argument.h"
 #include "io/raster_writer.h"
 #include "io/sight_pairs.h"
+#include "io/wanted_places.h"
 #include "terrain/sight_links.h"
 #include "terrain/viewshed.h"
 #include "terrain/viewshed_many.h"
@@ -104,22 +107,23 @@ Status aim(ViewshedField& field, const SightBeam& beam) {
   return {};
 }
 
-Result<std::vector<ViewshedSite>> readObservers(const ViewshedArguments& a, const ViewshedField& field,
-                                                const TerrainModel& model, const SurfaceHeights& heights,
-                                                Session& session) {
-  std::vector<ViewshedSite> observers;
-  const auto add = [&](const PositionArgument& position) -> Status {
-    const auto height = demHeight(position, heights);
-    if (!height) return tl::unexpected(height.error());
-    observers.push_back({{sightPlan(model, position.xy), *height}, field});
-    return {};
-  };
-  const auto toDem = transformOfPlaces(a.sight.lonLat, model);
+/// An observer whose height is still to be told.
+struct PlacedObserver {
+  PositionArgument position;
+  ViewshedField field;
+  std::string culprit;  // the row of a file; none of an option
+};
+
+/// Where they are and where they look, by the outline of the model.
+Result<std::vector<PlacedObserver>> placeObservers(const ViewshedArguments& a, const ViewshedField& field,
+                                                   const TerrainModel& outline, Session& session) {
+  std::vector<PlacedObserver> observers;
+  const auto toDem = transformOfPlaces(a.sight.lonLat, outline);
   if (!toDem) return tl::unexpected(toDem.error());
   for (const std::string& text : a.observer) {
     const auto position = readPositionArgument("--observer", text, *toDem);
     if (!position) return tl::unexpected(position.error());
-    if (Status added = add(*position); !added) return tl::unexpected(added.error());
+    observers.push_back({*position, field, {}});
   }
   if (a.observers.empty()) return observers;
   std::optional<StatedHeight> usual;
@@ -129,11 +133,11 @@ Result<std::vector<ViewshedSite>> readObservers(const ViewshedArguments& a, cons
       return failure(height.error().code, height.error().message, "--observer-height " + a.observerHeight);
     usual = *height;
   }
-  const auto sites = readSightSites(a.observers, model.georeference,
+  const auto sites = readSightSites(a.observers, outline.georeference,
                                     {.layer = a.layer, .lonLat = a.sight.lonLat}, session.context());
   if (!sites) return tl::unexpected(sites.error());
   session.warn(sites->warnings, a.observers);
-  const LongitudeTurns turns(model);
+  const LongitudeTurns turns(outline);
   for (std::size_t i = 0; i < sites->rows.size(); ++i) {
     SightSite site = sites->rows[i][0];
     site.xy = turns(site.xy);
@@ -144,13 +148,40 @@ Result<std::vector<ViewshedSite>> readObservers(const ViewshedArguments& a, cons
       return failure(ErrorCode::invalidData, "has no place that the DEM's CRS can tell", culprit);
     const auto height = site.height ? site.height : usual;
     if (!height) return failure(ErrorCode::usage, "has no height; --observer-height says one", culprit);
-    if (Status added = add({site.xy, height->height, height->kind}); !added)
-      return failure(added.error().code, added.error().message,
-                     fmt::format("{}: {}", culprit, added.error().culprit));
+    observers.push_back({{site.xy, height->height, height->kind}, field, culprit});
     if (Status turned = aim(observers.back().field, sites->beams[i]); !turned)
       return failure(turned.error().code, turned.error().message, culprit);
   }
   return observers;
+}
+
+/// The terrain within sight of all of them; everything where one looks as far as it goes.
+WantedError wantedFor(std::span<const PlacedObserver> observers, const SightEarth& earth,
+                      const TerrainModel& outline) {
+  WantedPlaces places(outline);
+  for (const PlacedObserver& observer : observers) {
+    if (!std::isfinite(observer.field.greatestMetres)) return {};
+    const Vec2 plan = sightPlan(outline, observer.position.xy);
+    places.add(plan);
+    places.addDisc(earth, plan, observer.field.greatestMetres);
+  }
+  return places.within(0);
+}
+
+/// With the heights that they have above the ground.
+Result<std::vector<ViewshedSite>> sitesOf(std::span<const PlacedObserver> observers,
+                                          const TerrainModel& model) {
+  const SurfaceHeights heights(model);
+  std::vector<ViewshedSite> sites;
+  for (const PlacedObserver& observer : observers) {
+    const auto height = demHeight(observer.position, heights);
+    if (!height && observer.culprit.empty()) return tl::unexpected(height.error());
+    if (!height)
+      return failure(height.error().code, height.error().message,
+                     fmt::format("{}: {}", observer.culprit, height.error().culprit));
+    sites.push_back({{sightPlan(model, observer.position.xy), *height}, observer.field});
+  }
+  return sites;
 }
 
 double byteOf(ViewshedCell cell) {
@@ -346,19 +377,25 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
     return failure(ErrorCode::usage, "has no tolerance, so --max-error has no place", "--method sweep");
   const auto options = optionsOf(a);
   if (!options) return tl::unexpected(options.error());
-  const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
-  if (!model) return tl::unexpected(model.error());
-  if (Status output = checkOutput("--output", a.output, {a.model, a.observers, a.like, model->source});
+  const Result<AmtFile> file = openAmt(a.model);
+  if (!file) return tl::unexpected(file.error());
+  const Result<TerrainModel> outline = outlineOf(*file, session);
+  if (!outline) return tl::unexpected(outline.error());
+  if (Status output = checkOutput("--output", a.output, {a.model, a.observers, a.like, outline->source});
       !output)
     return output;
-  const SurfaceHeights heights(*model);
-  const auto observers = readObservers(a, options->field, *model, heights, session);
-  if (!observers) return tl::unexpected(observers.error());
-  if (!isOfOne(a, observers->size()) && (a.mode == Mode::height || a.mode == Mode::horizon))
-    return failure(ErrorCode::usage, fmt::format("is of one observer, and there are {}", observers->size()),
+  const auto placed = placeObservers(a, options->field, *outline, session);
+  if (!placed) return tl::unexpected(placed.error());
+  if (!isOfOne(a, placed->size()) && (a.mode == Mode::height || a.mode == Mode::horizon))
+    return failure(ErrorCode::usage, fmt::format("is of one observer, and there are {}", placed->size()),
                    a.mode == Mode::height ? "--mode height" : "--mode horizon");
-  const auto earth = a.sight.makeEarth(*model, session);
+  const auto earth = a.sight.makeEarth(*outline, session);
   if (!earth) return tl::unexpected(earth.error());
+  const Result<TerrainModel> model =
+      readWanted(*file, *outline, wantedFor(*placed, **earth, *outline), session);
+  if (!model) return tl::unexpected(model.error());
+  const auto observers = sitesOf(*placed, *model);
+  if (!observers) return tl::unexpected(observers.error());
   return answer({a, *model, **earth, *options, *observers}, session);
 }
 

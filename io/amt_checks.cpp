@@ -14,9 +14,11 @@
 #include <vector>
 
 #include "io/amt_checksum.h"
+#include "io/amt_pieces.h"
 #include "io/mt_index_check.h"
 
 namespace arete {
+
 std::uint64_t amtGridSamples(const AmtFile& file) {
   return std::uint64_t{file.model().columns} * file.model().rows;
 }
@@ -56,7 +58,16 @@ Status checkAmtIndices(const AmtFile& file, const RunContext& context) {
   return checkAmtExtras(file);
 }
 
-Status checkAmtChecksums(const AmtFile& file, const RunContext& context) {
+namespace {
+
+tl::unexpected<Error> altered(const AmtFile& file, const AmtChunk& chunk) {
+  return failure(ErrorCode::corrupt,
+                 fmt::format("has been altered: the checksum of chunk {} does not match", chunk.name()),
+                 file.path());
+}
+
+/// By chunks, as there are no pieces.
+Status checkChunks(const AmtFile& file, const RunContext& context) {
   std::vector<const AmtChunk*> chunks;
   std::vector<std::span<const std::byte>> blocks;
   for (const AmtChunk& chunk : file.chunks()) {
@@ -67,22 +78,29 @@ Status checkAmtChecksums(const AmtFile& file, const RunContext& context) {
   const auto sums = amtChecksums(blocks, "check checksums", context);
   if (!sums) return failure(ErrorCode::interrupted, "the check was interrupted", file.path());
   for (std::size_t i = 0; i < blocks.size(); ++i)
-    if (sums->blocks[i] != chunks[i]->checksum)
-      return failure(
-          ErrorCode::corrupt,
-          fmt::format("has been altered: the checksum of chunk {} does not match", chunks[i]->name()),
-          file.path());
-  auto expected = file.pieceChecksums();
-  for (std::size_t i = 0; i < blocks.size() && !expected.empty(); ++i) {
-    const std::size_t count = amtPieceCount(chunks[i]->tag, blocks[i].size());
-    if (!std::ranges::equal(expected.first(count), std::span(sums->pieces[i]).first(count)))
-      return failure(
-          ErrorCode::corrupt,
-          fmt::format("chunk PSUM: the checksums of the pieces of chunk {} are others", chunks[i]->name()),
-          file.path());
-    expected = expected.subspan(count);
-  }
+    if (sums->blocks[i] != chunks[i]->checksum) return altered(file, *chunks[i]);
+  return {};
+}
 
+/// Every chunk but the first of these two has pieces, or is the second.
+Status checkPieces(const AmtFile& file, const RunContext& context) {
+  for (const AmtTag& tag : {amt_tag::kMetadata, amt_tag::kPieceChecksums})
+    if (Status chunk = checkAmtChunk(file, tag); !chunk) return chunk;
+  AmtPieces pieces(file);
+  pieces.touchAll();
+  return pieces.check(context);
+}
+
+}  // namespace
+
+Status checkAmtChunk(const AmtFile& file, const AmtTag& tag) {
+  const auto chunk = std::ranges::find(file.chunks(), tag, &AmtChunk::tag);
+  return amtChecksum(file.bytes(*chunk)) == chunk->checksum ? Status() : altered(file, *chunk);
+}
+
+Status checkAmtChecksums(const AmtFile& file, const RunContext& context) {
+  if (Status sums = file.hasPieces() ? checkPieces(file, context) : checkChunks(file, context); !sums)
+    return sums;
   std::uint64_t end = sizeof(AmtHeader) + file.chunks().size() * sizeof(AmtChunk);
   const auto isZeroUpTo = [&](std::uint64_t begin) {
     const auto padding = file.bytes().subspan(end, begin - end);

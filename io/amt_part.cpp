@@ -20,7 +20,6 @@
 #include "engine/node_blocks.h"
 #include "engine/with_threads.h"
 #include "io/amt_checks.h"
-#include "io/amt_checksum.h"
 #include "io/amt_pieces.h"
 #include "io/mt_index_check.h"
 #include "io/mt_part.h"
@@ -74,11 +73,7 @@ class PartReader {
 
   Status checkPieceChecksums() const {
     if (verify_ != AmtVerify::all) return {};
-    for (const AmtChunk& chunk : file_.chunks())
-      if (chunk.tag == amt_tag::kPieceChecksums && amtChecksum(file_.bytes(chunk)) != chunk.checksum)
-        return failure(ErrorCode::corrupt, "has been altered: the checksum of chunk PSUM does not match",
-                       file_.path());
-    return {};
+    return checkAmtChunk(file_, amt_tag::kPieceChecksums);
   }
 
   /// Which pages may hold a wanted node, and where the last one ends.
@@ -196,7 +191,6 @@ class PartReader {
 
   Status checkPieces() {
     if (verify_ != AmtVerify::all) return {};
-    context_.report("check checksums", 0);
     return pieces_.check(context_);
   }
 

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cassert>
 
+#include "engine/shared_progress.h"
 #include "engine/with_threads.h"
 #include "io/amt_checksum.h"
 
@@ -49,6 +50,10 @@ void AmtPieces::touchAll(Chunk chunk) {
   touch(chunk, 0, c.bytes / c.elementBytes);
 }
 
+void AmtPieces::touchAll() {
+  std::ranges::fill(isTouched_, kWanted);
+}
+
 std::size_t AmtPieces::chunkOf(std::size_t piece) const {
   const auto behind = std::ranges::upper_bound(places_, piece, {}, &Place::first);
   return static_cast<std::size_t>(behind - places_.begin()) - 1;
@@ -59,6 +64,7 @@ Status AmtPieces::check(const RunContext& context) {
   for (std::size_t i = 0; i < isTouched_.size(); ++i)
     if (isTouched_[i] == kWanted) pieces.push_back(i);
   std::atomic<std::size_t> altered = isTouched_.size();
+  SharedProgress progress(context, "check checksums", pieces.size() + 1);
   withThreads(context, [&] {
     tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t i) {
       if (context.cancelled()) return;
@@ -66,6 +72,7 @@ Status AmtPieces::check(const RunContext& context) {
       const auto bytes = file_.bytes(file_.chunks()[c]);
       const std::uint64_t at = (piece - places_[c].first) * kAmtPieceBytes;
       const auto these = bytes.subspan(at, std::min<std::uint64_t>(kAmtPieceBytes, bytes.size() - at));
+      progress.add();
       if (amtChecksum(these) == file_.pieceChecksums()[piece]) {
         isTouched_[piece] = kChecked;
         return;
@@ -75,10 +82,11 @@ Status AmtPieces::check(const RunContext& context) {
       }
     });
   });
+  progress.add();
   if (context.cancelled()) return failure(ErrorCode::interrupted, "the check was interrupted", file_.path());
   if (altered == isTouched_.size()) return {};
   return failure(ErrorCode::corrupt,
-                 fmt::format("has been altered: the checksum of a piece of chunk {} does not match",
+                 fmt::format("has been altered: the checksum of chunk {} does not match",
                              file_.chunks()[chunkOf(altered)].name()),
                  file_.path());
 }

@@ -27,6 +27,7 @@ class AmtPieces {
   /// Elements [begin, end) of the chunk have been, or will be, read. Precondition: there are so many.
   void touch(Chunk chunk, std::uint64_t begin, std::uint64_t end);
   void touchAll(Chunk chunk);
+  void touchAll();
 
   /// Holds what was touched since the last call against its checksums. Errors: corrupt, naming the chunk;
   /// interrupted. Parallel.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A place marks the cell that it lies in and those around it, which is more than any rounding on its way. A
-// line is cut into pieces about as long as a cell, and each marks the cells of its box. A box is asked about
-// by sums of marks over all cells left of and below each (Crow 1984, summed-area tables).
+// line is cut into pieces about as long as a cell, and each marks the cells of its box. A disc along the
+// ground may be of any shape in the plan, and in pieces where the terrain closes around the Earth: a square
+// of cells is in it, out of it or divided, by the distance of its middle and that of its corners from there.
+// A box is asked about by sums of marks over all cells left of and below each (Crow 1984, summed-area
+// tables).
 #include "io/wanted_places.h"
 
 #include <algorithm>
@@ -17,6 +20,11 @@ namespace {
 
 /// A line may reach far beyond the terrain: its pieces are then longer than a cell.
 constexpr double kMostPieces = 1 << 14;
+
+/// Of a disc: squares of more cells are divided unseen, squares of so few are not; how much longer the way to
+/// a rim may be than that to the corners; samples beside it, so that what has none looks the same.
+constexpr int kSurveyable = 64, kFinest = 2;
+constexpr double kBent = 1.25, kBeside = 4;
 
 }  // namespace
 
@@ -70,6 +78,35 @@ void WantedPlaces::addLine(Vec2 from, Vec2 to) {
 void WantedPlaces::addTrack(const SightTrack& track) {
   for (std::size_t i = 1; i < track.points.size(); ++i)
     addLine(track.points[i - 1].plan, track.points[i].plan);
+}
+
+void WantedPlaces::addDisc(const SightEarth& earth, Vec2 centre, double metres) {
+  if (std::isfinite(centre.x + centre.y)) addPart({earth, centre, metres}, 0, 0, kCells);
+}
+
+void WantedPlaces::addPart(const Disc& disc, int column, int row, int size) {
+  const auto at = [&](double columns, double rows) {
+    return Vec2{domain_.xMin + (domain_.xMax - domain_.xMin) * (column + columns) / kCells,
+                domain_.yMin + (domain_.yMax - domain_.yMin) * (row + rows) / kCells};
+  };
+  const Vec2 middle = at(size / 2.0, size / 2.0);
+  constexpr double kInDoubt = std::numeric_limits<double>::infinity();
+  double reach = size > kSurveyable ? kInDoubt : 0;
+  for (const Vec2 corner : {at(0, 0), at(size, 0), at(0, size), at(size, size)}) {
+    if (std::isinf(reach)) break;
+    reach = std::max(reach, disc.earth.distance(middle, corner).value_or(kInDoubt));
+  }
+  reach *= kBent;
+  const double distance = std::isinf(reach) ? 0 : disc.earth.distance(disc.centre, middle).value_or(0);
+  if (distance - reach > disc.metres) return;
+  if (size <= kFinest || distance + reach <= disc.metres) {
+    const Vec2 low = at(0, 0), high = at(size, size);
+    return mark({low.x - kBeside * reach_, low.y - kBeside * reach_},
+                {high.x + kBeside * reach_, high.y + kBeside * reach_});
+  }
+  const int half = size / 2;
+  for (const int down : {0, half})
+    for (const int right : {0, half}) addPart(disc, column + right, row + down, half);
 }
 
 WantedError WantedPlaces::within(double error) const {

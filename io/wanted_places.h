@@ -7,6 +7,7 @@
 
 #include "engine/vec.h"
 #include "io/wanted_error.h"
+#include "terrain/sight_earth.h"
 #include "terrain/sight_line.h"
 #include "terrain/terrain_model.h"
 
@@ -32,6 +33,9 @@ class WantedPlaces {
   void addLine(Vec2 from, Vec2 to);
 
   void addTrack(const SightTrack& track);
+  /// Everything within so many metres of a place along the ground, and some that is in doubt.
+  /// O(cells on its rim) distances.
+  void addDisc(const SightEarth& earth, Vec2 centre, double metres);
 
   /// This error of triangles that may touch one of the places, nothing of others.
   WantedError within(double error) const;
@@ -39,6 +43,13 @@ class WantedPlaces {
  private:
   static constexpr int kCells = 512;  // along each axis
 
+  struct Disc {
+    const SightEarth& earth;
+    Vec2 centre;
+    double metres;
+  };
+  /// The part of a disc that is in a square of cells.
+  void addPart(const Disc& disc, int column, int row, int size);
   void mark(Vec2 low, Vec2 high);
   int columnOf(double x) const;
   int rowOf(double y) const;

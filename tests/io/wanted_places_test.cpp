@@ -19,11 +19,14 @@
 #include "engine/validate.h"
 #include "io/amt_file.h"
 #include "io/amt_fixture.h"
+#include "io/crs_reader.h"
+#include "io/ellipsoid_earth.h"
 #include "io/extract_criterion.h"
 #include "io/io_fixture.h"
 #include "terrain/sight_earth.h"
 #include "terrain/sight_engine.h"
 #include "terrain/surface_height.h"
+#include "terrain/viewshed.h"
 
 namespace arete {
 namespace {
@@ -220,6 +223,94 @@ TEST(WantedPlaces, HaveTheLinesOfSightOfTheWholeWhenOnlyTheyAreRead) {
       }
     }
   });
+}
+
+void expectSameViewshed(const Viewshed& x, const Viewshed& y) {
+  EXPECT_TRUE(x.cells == y.cells);
+  ASSERT_EQ(x.values.size(), y.values.size());
+  for (std::size_t i = 0; i < x.values.size(); ++i)
+    if (!(x.values[i] == y.values[i] || (std::isnan(x.values[i]) && std::isnan(y.values[i])))) {
+      ADD_FAILURE() << "cell " << i << ": " << x.values[i] << " and " << y.values[i];
+      return;
+    }
+  EXPECT_EQ(x.rays, y.rays);
+  EXPECT_EQ(x.method, y.method);
+}
+
+/// From places in the terrain, as far as somebody looks.
+void expectViewshedsOfTheWhole(const Filed& filed, const SightEarth& earth, double metres, Random& random) {
+  const auto ofWhole = ViewshedMaker::make(filed.whole, earth);
+  ASSERT_TRUE(ofWhole);
+  for (const ViewshedValue value :
+       {ViewshedValue::none, ViewshedValue::leastHeight, ViewshedValue::horizon}) {
+    const Vec2 place = filed.placeIn(random);
+    ViewshedOptions options;
+    options.field.greatestMetres = metres * random.between(0, 1);
+    options.targetHeight = random.below(2) == 0 ? 0 : 3;
+    options.value = value;
+    WantedPlaces wanted(filed.outline);
+    wanted.addDisc(earth, place, options.field.greatestMetres);
+    const TerrainModel part = filed.part(wanted.within(0));
+    const auto ofPart = ViewshedMaker::make(part, earth);
+    ASSERT_TRUE(ofPart);
+    const ViewshedObserver observer{place, filed.whole.mt.position(VertexId(0)).z + random.between(-20, 100)};
+    const auto x = ofWhole->from(observer, options), y = ofPart->from(observer, options);
+    ASSERT_EQ(x.has_value(), y.has_value());
+    if (x) expectSameViewshed(*x, *y);
+  }
+}
+
+TEST(WantedPlaces, HaveTheViewshedsOfTheWholeWhenOnlyTheirDiscIsRead) {
+  forAllKinds([](const Filed& filed, Random& random) {
+    if (!filed.whole.isRaster) return;
+    const auto earth = makePlaneEarth(filed.outline);
+    const double across = *earth->distance(filed.low, filed.high);
+    expectViewshedsOfTheWhole(filed, *earth, 0.4 * across, random);
+  });
+}
+
+TEST(WantedPlaces, HaveTheViewshedsOfTheWholeOnAnEllipsoidWhereAParallelIsShort) {
+  const TemporaryFolder folder;
+  RasterHeightfield field = familyNamed("fractal").make(240, 200, 5);
+  for (const double latitude : {0.5, 72.0}) {
+    field.georeference = {};
+    field.georeference.geoTransform = {7, 1.0 / 1200, 0, latitude, 0, -1.0 / 1200};
+    field.georeference.hasGeoTransform = true;
+    const auto crs = crsFromText("EPSG:4326");
+    ASSERT_TRUE(crs && describeCrs(*crs, field.georeference));
+    for (const bool isPacked : {true, false}) {
+      const Filed filed(built(build(field)), folder.file("model.amt"), isPacked);
+      const auto earth = makeEllipsoidEarth(filed.outline, 1.0 / 7);
+      ASSERT_TRUE(earth) << earth.error().describe();
+      Random random(static_cast<std::uint64_t>(latitude));
+      expectViewshedsOfTheWhole(filed, **earth, 9000, random);
+    }
+  }
+}
+
+TEST(WantedPlaces, WantADiscAndLittleBesideIt) {
+  const TemporaryFolder folder;
+  const Filed filed(built(build(familyNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
+  const auto earth = makePlaneEarth(filed.outline);
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Random random(seed);
+    const Vec2 centre = filed.placeIn(random);
+    const double metres = random.between(0, 1.2) * *earth->distance({0, 0}, {20, 0});
+    WantedPlaces wanted(filed.outline);
+    wanted.addDisc(*earth, centre, metres);
+    const WantedError within = wanted.within(0);
+    for (int i = 0; i < 400; ++i) {
+      const Vec2 p{random.between(0, 59), random.between(0, 39)};
+      const double distance = *earth->distance(centre, p), sample = *earth->distance({0, 0}, {1, 1});
+      const double error = within({p.x, p.y, p.x, p.y});
+      if (distance <= metres) {
+        EXPECT_EQ(error, 0) << "seed " << seed;
+      }
+      if (distance > metres + 8 * sample) {
+        EXPECT_EQ(error, kNothing) << "seed " << seed;
+      }
+    }
+  }
 }
 
 /// The front of a cut in the order in which it is written, told without a number of the MT.
