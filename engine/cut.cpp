@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Minimal. The least closed set C such that every triangle whose creator is in C (or that is in the root) and
-// that fails c(t) has its remover in C. It is unique, so the order of the walk does not matter: a stack of
-// nodes to include; each asks for the creators of its floor (its parents) and for the removers of those of
-// its ceiling that fail. With a budget or a deadline the order does matter: refine.cpp.
-//
-// Saturated: saturated_cut.cpp.
+// Minimal: least_cut.cpp; with a budget or a deadline refine.cpp. Saturated: saturated_cut.cpp.
 #include "engine/cut.h"
 
 #include <fmt/format.h>
@@ -16,6 +11,7 @@
 #include <cmath>
 
 #include "engine/front.h"
+#include "engine/least_cut.h"
 #include "engine/refine.h"
 #include "engine/saturated_cut.h"
 #include "engine/with_threads.h"
@@ -23,34 +19,9 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kNone = MultiTriangulation::kNone;
-constexpr std::size_t kCheckEvery = 1 << 12;
-
 tl::unexpected<Error> interrupted() {
   return failure(ErrorCode::interrupted, "the cut was interrupted");
 }
-
-/// Whether a triangle satisfies the criterion; a uniform error is compared as a code, without the virtual
-/// call.
-class Test {
- public:
-  Test(const MultiTriangulation& mt, const Criterion& criterion)
-      : mt_(mt),
-        criterion_(criterion),
-        isUniform_(!std::isnan(criterion.uniformError())),
-        code_(isUniform_ ? mt.arrays().scale.floorCode(criterion.uniformError()) : OutwardScale::Code(0)) {}
-
-  bool passes(std::uint32_t id, NodeId creator) const {
-    if (isUniform_) return mt_.arrays().error[id] <= code_;
-    return isSatisfied(mt_, criterion_, TriangleId(id), mt_.corners(TriangleId(id), creator));
-  }
-
- private:
-  const MultiTriangulation& mt_;
-  const Criterion& criterion_;
-  bool isUniform_;
-  OutwardScale::Code code_;
-};
 
 }  // namespace
 
@@ -66,33 +37,6 @@ Status checkCut(const MultiTriangulation& mt, const Criterion& criterion, CutMet
         ErrorCode::usage,
         "this criterion has no bound over a sphere, so a saturated cut cannot take it; use the minimal cut");
   return {};
-}
-
-std::optional<NodeSet> leastNodes(const MultiTriangulation& mt, const Criterion& criterion,
-                                  const std::function<bool()>& stop) {
-  const MtArrays& a = mt.arrays();
-  const Test test(mt, criterion);
-  const std::uint32_t roots = mt.rootTriangleCount();
-  NodeSet in(mt.nodeCount(), 0);
-  std::vector<std::uint32_t> stack;
-  const auto include = [&](std::uint32_t n) {
-    if (n == kNone || in[n]) return;
-    in[n] = 1;
-    stack.push_back(n);
-  };
-  for (std::uint32_t t = 0; t < roots; ++t)
-    if (a.remover[t] != kNone && !test.passes(t, {})) include(a.remover[t]);
-  for (std::size_t steps = 0; !stack.empty(); ++steps) {
-    if (steps % kCheckEvery == 0 && stop()) return std::nullopt;
-    const std::uint32_t n = stack.back();
-    stack.pop_back();
-    for (const std::uint32_t t : mt.floor(NodeId(n))) include(mt.creator(TriangleId(t)).index());
-    for (std::uint32_t s = a.slotBegin[n]; s < a.slotBegin[n + 1]; ++s) {
-      const std::uint32_t r = a.remover[roots + s];
-      if (r != kNone && !in[r] && !test.passes(roots + s, NodeId(n))) include(r);
-    }
-  }
-  return in;
 }
 
 std::uint32_t closeUpwards(const MultiTriangulation& mt, NodeSet& set) {
@@ -157,9 +101,9 @@ Result<NodeCut> takeNodes(const MultiTriangulation& mt, const Criterion& criteri
       return NodeCut{cut.members.toNodeSet(mt.nodeCount()), cut.isComplete};
     }
     if (options.maxTriangles || options.deadline) return refineWithin(mt, criterion, options, context);
-    std::optional<NodeSet> least = leastNodes(mt, criterion, [&] { return context.cancelled(); });
+    const auto least = leastMembers(mt, criterion, [&] { return context.cancelled(); });
     if (!least) return interrupted();
-    return NodeCut{std::move(*least), true};
+    return NodeCut{least->toNodeSet(mt.nodeCount()), true};
   });
 }
 
@@ -174,7 +118,12 @@ Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, co
       cut.isComplete = taken.isComplete;
       return cut;
     }
-    const Result<NodeCut> nodes = takeNodes(mt, criterion, options, context);
+    if (!options.maxTriangles && !options.deadline) {
+      const auto least = leastMembers(mt, criterion, [&] { return context.cancelled(); });
+      if (!least) return interrupted();
+      return frontOf(mt, *least);
+    }
+    const Result<NodeCut> nodes = refineWithin(mt, criterion, options, context);
     if (!nodes) return tl::unexpected(nodes.error());
     Cut cut = front(mt, nodes->nodes);
     cut.isComplete = nodes->isComplete;

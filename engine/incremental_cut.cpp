@@ -30,6 +30,7 @@
 
 #include "engine/incremental_state.h"
 #include "engine/kinetic_update.h"
+#include "engine/least_cut.h"
 #include "engine/refine.h"
 #include "engine/with_threads.h"
 
@@ -296,25 +297,27 @@ class IncrementalCut::Pass {
 
   /// Nothing hurries: the least cut is found first, and what differs changes.
   void goToLeast() {
-    const std::optional<NodeSet> least = leastNodes(mt_, criterion_, [&] { return mustStop(); });
-    if (!least) return;
+    const auto members = leastMembers(mt_, criterion_, [&] { return mustStop(); });
+    if (!members) return;
+    const MemberSet::Lookup least = members->lookup();
     // Children have larger indices.
     for (std::uint32_t n = mt_.nodeCount(); n-- > 0;) {
-      if (!s_.isIn(n) || (*least)[n]) continue;
+      if (!s_.isIn(n) || least.contains(n)) continue;
       if (mustStop()) return;
       s_.leave(n);
     }
     for (std::uint32_t n = 0; n < mt_.nodeCount(); ++n) {
-      if (s_.isIn(n) || !(*least)[n]) continue;
+      if (s_.isIn(n) || !least.contains(n)) continue;
       if (mustStop()) return;
       s_.enter(n);
     }
   }
 
   void leaveWhatIsNotLeast() {
-    const std::optional<NodeSet> least = leastNodes(mt_, criterion_, [&] { return mustStop(); });
-    if (!least) return;
-    const auto goes = [&](std::uint32_t n) { return s_.isLeaf(n) && !(*least)[n]; };
+    const auto members = leastMembers(mt_, criterion_, [&] { return mustStop(); });
+    if (!members) return;
+    const MemberSet::Lookup least = members->lookup();
+    const auto goes = [&](std::uint32_t n) { return s_.isLeaf(n) && !least.contains(n); };
     std::vector<std::uint32_t> leaving;
     for (const std::uint32_t t : s_.triangles())
       if (const NodeId n = mt_.creator(TriangleId(t));

@@ -16,10 +16,6 @@ namespace arete {
 Status checkCut(const MultiTriangulation& mt, const Criterion& criterion, CutMethod method,
                 std::optional<std::uint32_t> maxTriangles);
 
-/// The least closed set for a criterion; nothing when stop(), asked now and then, said true.
-std::optional<NodeSet> leastNodes(const MultiTriangulation& mt, const Criterion& criterion,
-                                  const std::function<bool()>& stop);
-
 /// The nodes of a minimal cut that a budget or a deadline may end early, refined in the order of the options.
 /// With a budget or a deadline spent worst first, the state handed out is the last one whose worst triangle
 /// was the least (errors are not monotone down the graph: on white noise refining can raise the largest

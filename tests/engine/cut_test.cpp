@@ -11,6 +11,8 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <string_view>
+#include <vector>
 
 #include "engine/cut_promises.h"
 #include "engine/family_models.h"
@@ -75,6 +77,42 @@ TEST(Cuts, KeepWhatEveryCriterionAsks) {
       SCOPED_TRACE(s.name + " " + name);
       expectCutsKept(s.model.mt, *criterion);
     }
+}
+
+TEST(MinimalCut, IsTheLeastClosedSetOfModelsOfManyPages) {
+  for (const char* name : {"noise", "fractal", "nodata holes", "integer"})
+    for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity}) {
+      const auto family = std::ranges::find(rasterFamilies(), std::string_view(name),
+                                            [](const RasterFamily& f) { return std::string_view(f.name); });
+      ASSERT_NE(family, rasterFamilies().end()) << name;
+      const auto model = build(family->make(130, 120, 9), {.shape = shape});
+      ASSERT_TRUE(model);
+      const MultiTriangulation& mt = model->mt;
+      for (const double part : {0.0, 0.003, 0.05, 0.2, 0.5, 0.8}) {
+        const UniformError uniform(part * spanOfErrors(mt));
+        EXPECT_EQ(takeNodes(mt, uniform)->nodes, leastClosedSet(mt, uniform)) << name << " " << part;
+        const RegionError corner(Region::box({20, 20, 60, 50}), mt.arrays().metric, part * spanOfErrors(mt),
+                                 2 * part * spanOfErrors(mt));
+        EXPECT_EQ(takeNodes(mt, corner)->nodes, leastClosedSet(mt, corner)) << name << " " << part;
+      }
+    }
+}
+
+/// Errors as nobody's build makes them, saturated errors smaller than those below them: as a file might hold.
+TEST(MinimalCut, IsTheLeastClosedSetWhereSaturatedErrorsAreNone) {
+  std::mt19937_64 random(31);
+  for (const FamilyModel& s : familyModels()) {
+    MtArrays arrays = s.model.mt.arrays();
+    std::vector<OutwardScale::Code> error(arrays.error.begin(), arrays.error.end());
+    for (OutwardScale::Code& code : error)
+      if (random() % 8 == 0) code = static_cast<OutwardScale::Code>(random());
+    arrays.error = error;
+    const MultiTriangulation mt(arrays, nullptr);
+    for (const double part : {0.0, 0.01, 0.1, 0.4, 1.0}) {
+      const UniformError uniform(part * spanOfErrors(mt));
+      EXPECT_EQ(takeNodes(mt, uniform)->nodes, leastClosedSet(mt, uniform)) << s.name << " " << part;
+    }
+  }
 }
 
 TEST(MinimalCut, TakesAnyPredicateAndSaturatedRefusesIt) {
