@@ -12,8 +12,11 @@
 // Should a node have to be in that the saturated cut does not hold, the walk has the last word.
 #include "engine/least_cut.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/refine.h"
@@ -240,6 +243,60 @@ std::optional<MemberSet> leastMembers(const MultiTriangulation& mt, const Criter
   }
   const std::optional<NodeSet> in = walk(mt, criterion, stop);
   return in ? std::optional(MemberSet(*in)) : std::nullopt;
+}
+
+std::optional<MemberSet> leastMembersWithin(const MultiTriangulation& mt, double least,
+                                            std::uint32_t maxTriangles, const std::function<bool()>& stop) {
+  const auto triangles = [&](const MemberSet& set) {
+    std::uint64_t count = mt.rootTriangleCount();
+    std::array<std::uint32_t, MemberSet::kMostInPiece> members;
+    for (std::uint32_t piece = 0; piece < set.pieces(); ++piece)
+      for (const std::uint32_t n : std::span(members).first(set.list(piece, members.data())))
+        count += mt.isOpen(NodeId(n)) ? 1 : 2;
+    return count;
+  };
+  const OutwardScale& scale = mt.arrays().scale;
+  const std::uint32_t leastCode = scale.floorCode(least);
+  // What is known: the set of code `fits` is small enough, that of any code below `large` is not. (A smaller
+  // error has a larger set.) Both with their triangles.
+  std::uint32_t fits = OutwardScale::kMaxCode, large = leastCode;
+  double ofFits = mt.rootTriangleCount(), ofLarge = 0;
+  std::optional<MemberSet> best = MemberSet::prefix(0);  // no error is beyond the scale
+  const auto look = [&](std::uint32_t code) {
+    auto set = leastMembers(mt, UniformError(scale.decode(static_cast<OutwardScale::Code>(code))), stop);
+    if (!set) return false;
+    const std::uint64_t count = triangles(*set);
+    if (count <= maxTriangles) {
+      fits = code;
+      ofFits = static_cast<double>(count);
+      best = std::move(set);
+    } else {
+      large = code + 1;
+      ofLarge = static_cast<double>(count);
+    }
+    return true;
+  };
+
+  // From the first band at whose end there are nodes for as many triangles, which is nearly always too much,
+  // down to one where it is.
+  std::uint32_t band = MultiTriangulation::kBands - 1;
+  while (band > 0 && 2 * std::uint64_t{mt.bandEnd(band)} < maxTriangles) --band;
+  for (std::uint32_t code = std::max(leastCode, band << MultiTriangulation::kBandShift);;) {
+    if (!look(code)) return std::nullopt;
+    if (fits != code || code == leastCode) break;
+    code -= std::min(code - leastCode, 1u << MultiTriangulation::kBandShift);
+  }
+  // Triangles grow about as a power of the error, and codes are logarithms: between the two by a straight
+  // line, in the middle where that did not halve what is left.
+  for (bool isHalved = true; large < fits;) {
+    const std::uint32_t left = fits - large;
+    const double part = std::log(maxTriangles / ofFits) / std::log(ofLarge / ofFits);
+    const std::uint32_t down =
+        isHalved && part > 0 && part < 1 ? static_cast<std::uint32_t>(part * left) : left / 2;
+    if (!look(fits - 1 - std::min(down, left - 1))) return std::nullopt;
+    isHalved = 2 * (fits - large) <= left;
+  }
+  return best;
 }
 
 }  // namespace arete

@@ -17,4 +17,10 @@ namespace arete {
 std::optional<MemberSet> leastMembers(const MultiTriangulation& mt, const Criterion& criterion,
                                       const std::function<bool()>& stop);
 
+/// The least closed set for the least uniform error, `least` or more, whose front has at most so many
+/// triangles; nothing when stop(), asked now and then, said true. Precondition: the budget holds the root.
+/// O(the nodes of a cut of four times the triangles), some ten times.
+std::optional<MemberSet> leastMembersWithin(const MultiTriangulation& mt, double least,
+                                            std::uint32_t maxTriangles, const std::function<bool()>& stop);
+
 }  // namespace arete

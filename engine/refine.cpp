@@ -7,11 +7,19 @@
 //
 // Worst first, the walk passes through least cuts: when the worst severity left falls below all it was
 // before, to s, every node that is in was asked for by a triangle worse than s, so the set is the least for
-// "severity at most s". That is why the last such state is the answer.
+// "severity at most s". That is why the last such state is the answer. And it is why the walk need not begin
+// at the root where the severity is the error: it would pass through the least set for the least error that
+// the budget holds, which is found faster (least_cut.h).
 #include "engine/refine.h"
 
+#include <array>
+#include <cmath>
 #include <limits>
 #include <queue>
+#include <span>
+#include <utility>
+
+#include "engine/least_cut.h"
 
 namespace arete {
 namespace {
@@ -28,18 +36,30 @@ struct Waiting {
   }
 };
 
+bool isWorstFirst(const CutOptions& options) {
+  return !options.order || dynamic_cast<const WorstFirst*>(options.order.get()) != nullptr;
+}
+
 class Walk {
  public:
   Walk(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options)
       : mt_(mt),
         criterion_(criterion),
         options_(options),
-        isWorstFirst_(!options.order || dynamic_cast<const WorstFirst*>(options.order.get()) != nullptr),
-        cut_{NodeSet(mt.nodeCount(), 0), true} {}
+        isWorstFirst_(isWorstFirst(options)),
+        cut_{{}, true} {}
 
-  Result<NodeCut> run(const RunContext& context) {
-    for (std::uint32_t t = 0; t < mt_.rootTriangleCount(); ++t) offer(t, {});
+  /// From a state that the walk passes through.
+  Result<NodeCut> run(const MemberSet& start, const RunContext& context) {
+    cut_.nodes = start.toNodeSet(mt_.nodeCount());
     std::uint64_t triangles = mt_.rootTriangleCount();
+    for (std::uint32_t t = 0; t < mt_.rootTriangleCount(); ++t) offer(t, {});
+    std::array<std::uint32_t, MemberSet::kMostInPiece> members;
+    for (std::uint32_t piece = 0; piece < start.pieces(); ++piece)
+      for (const std::uint32_t n : std::span(members).first(start.list(piece, members.data()))) {
+        offerCeiling(n);
+        triangles += mt_.isOpen(NodeId(n)) ? 1 : 2;
+      }
     std::vector<std::uint32_t> missing;
     const auto claim = [&](std::uint32_t n) {
       if (cut_.nodes[n] != 0) return false;
@@ -92,6 +112,10 @@ class Walk {
   void enter(std::uint32_t n) {
     cut_.nodes[n] = 1;
     entered_.push_back(n);
+    offerCeiling(n);
+  }
+
+  void offerCeiling(std::uint32_t n) {
     for (std::uint32_t i = 0; i < mt_.ceilingSize(NodeId(n)); ++i)
       offer(mt_.slotTriangle(NodeId(n), i).index(), NodeId(n));
   }
@@ -122,7 +146,14 @@ class Walk {
 
 Result<NodeCut> refineWithin(const MultiTriangulation& mt, const Criterion& criterion,
                              const CutOptions& options, const RunContext& context) {
-  return Walk(mt, criterion, options).run(context);
+  MemberSet start = MemberSet::prefix(0);
+  const double uniform = criterion.uniformError();
+  if (isWorstFirst(options) && options.maxTriangles && !options.deadline && !std::isnan(uniform)) {
+    auto least = leastMembersWithin(mt, uniform, *options.maxTriangles, [&] { return context.cancelled(); });
+    if (!least) return failure(ErrorCode::interrupted, "the cut was interrupted");
+    start = std::move(*least);
+  }
+  return Walk(mt, criterion, options).run(start, context);
 }
 
 }  // namespace arete

@@ -279,6 +279,32 @@ TEST(Budget, IsNeverExceededAndNearlySpent) {
   }
 }
 
+/// The walk from the root, worst first, is what a budget means; where a criterion does not say that its error
+/// is the same everywhere there is nothing else.
+TEST(Budget, OfAUniformErrorIsWhatTheWalkFromTheRootComesTo) {
+  struct Silent final : Criterion {
+    double maxError = 0;
+    bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners&) const override {
+      return mt.error(t) <= maxError;
+    }
+  };
+  for (const FamilyModel& s : familyModels()) {
+    const MultiTriangulation& mt = s.model.mt;
+    const std::uint32_t roots = mt.rootTriangleCount(), finest = mt.finestTriangleCount();
+    for (const double maxError : {0.0, 0.02 * spanOfErrors(mt)})
+      for (int i = 0; i <= 40; ++i) {
+        const std::uint32_t budget = roots + (finest - roots) * static_cast<std::uint32_t>(i) / 40;
+        Silent silent;
+        silent.maxError = maxError;
+        const auto fast = takeNodes(mt, UniformError(maxError), {.maxTriangles = budget}),
+                   walk = takeNodes(mt, silent, {.maxTriangles = budget});
+        ASSERT_TRUE(fast && walk);
+        EXPECT_EQ(fast->nodes, walk->nodes) << s.name << " " << budget;
+        EXPECT_EQ(fast->isComplete, walk->isComplete) << s.name << " " << budget;
+      }
+  }
+}
+
 TEST(Budget, BelowTheRootIsRefusedWithTheCount) {
   const FamilyModel& s = familyModels().front();
   for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
