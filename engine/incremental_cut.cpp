@@ -314,7 +314,8 @@ class IncrementalCut::Pass {
   }
 
   void leaveWhatIsNotLeast() {
-    const auto members = leastMembers(mt_, criterion_, [&] { return mustStop(); });
+    const auto find = o_.deadline ? leastMembersByWalk : leastMembers;
+    const auto members = find(mt_, criterion_, [&] { return mustStop(); });
     if (!members) return;
     const MemberSet::Lookup least = members->lookup();
     const auto goes = [&](std::uint32_t n) { return s_.isLeaf(n) && !least.contains(n); };

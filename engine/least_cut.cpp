@@ -203,9 +203,21 @@ class Sweep {
   bool isBeyond_ = false;
 };
 
-/// From the root, wherever it leads.
-std::optional<NodeSet> walk(const MultiTriangulation& mt, const Criterion& criterion,
-                            const std::function<bool()>& stop) {
+}  // namespace
+
+std::optional<MemberSet> leastMembers(const MultiTriangulation& mt, const Criterion& criterion,
+                                      const std::function<bool()>& stop) {
+  if (criterion.isMonotone()) {
+    const SaturatedMembers saturated = saturatedMembers(mt, criterion, std::nullopt);
+    Sweep sweep(mt, criterion, saturated.members);
+    if (!sweep.run(stop)) return std::nullopt;
+    if (!sweep.isBeyond()) return sweep.members(mt.nodeCount());
+  }
+  return leastMembersByWalk(mt, criterion, stop);
+}
+
+std::optional<MemberSet> leastMembersByWalk(const MultiTriangulation& mt, const Criterion& criterion,
+                                            const std::function<bool()>& stop) {
   const MtArrays& a = mt.arrays();
   const Test test(mt, criterion);
   const std::uint32_t roots = mt.rootTriangleCount();
@@ -228,21 +240,7 @@ std::optional<NodeSet> walk(const MultiTriangulation& mt, const Criterion& crite
       if (r != kNone && !in[r] && !test.passes(roots + s, NodeId(n))) include(r);
     }
   }
-  return in;
-}
-
-}  // namespace
-
-std::optional<MemberSet> leastMembers(const MultiTriangulation& mt, const Criterion& criterion,
-                                      const std::function<bool()>& stop) {
-  if (criterion.isMonotone()) {
-    const SaturatedMembers saturated = saturatedMembers(mt, criterion, std::nullopt);
-    Sweep sweep(mt, criterion, saturated.members);
-    if (!sweep.run(stop)) return std::nullopt;
-    if (!sweep.isBeyond()) return sweep.members(mt.nodeCount());
-  }
-  const std::optional<NodeSet> in = walk(mt, criterion, stop);
-  return in ? std::optional(MemberSet(*in)) : std::nullopt;
+  return MemberSet(in);
 }
 
 std::optional<MemberSet> leastMembersWithin(const MultiTriangulation& mt, double least,

@@ -17,6 +17,11 @@ namespace arete {
 std::optional<MemberSet> leastMembers(const MultiTriangulation& mt, const Criterion& criterion,
                                       const std::function<bool()>& stop);
 
+/// The same by a walk from the root, whatever the criterion, which hears a wish to stop soon. O(least set),
+/// nodes wherever they lie.
+std::optional<MemberSet> leastMembersByWalk(const MultiTriangulation& mt, const Criterion& criterion,
+                                            const std::function<bool()>& stop);
+
 /// The least closed set for the least uniform error, `least` or more, whose front has at most so many
 /// triangles; nothing when stop(), asked now and then, said true. Precondition: the budget holds the root.
 /// O(the nodes of a cut of four times the triangles), some ten times.
