@@ -150,7 +150,7 @@ class Sweep {
     const std::uint32_t roots = mt_.rootTriangleCount(), begin = a_.slotBegin[n], end = a_.slotBegin[n + 1];
     for (std::uint32_t s = begin; s < end; ++s) {
       const std::uint32_t r = a_.remover[roots + s];
-      if (r != n && lookup_.contains(r) && (state_[lookup_.rank(r)] & kIn) != 0) return true;
+      if (r != n && isIn(r)) return true;
     }
     for (std::uint32_t s = begin; s < end; ++s) {
       const std::uint32_t r = a_.remover[roots + s];
@@ -166,9 +166,14 @@ class Sweep {
     const std::uint32_t roots = mt_.rootTriangleCount(), end = a_.slotBegin[n + 1];
     for (std::uint32_t s = a_.slotBegin[n]; s < end; ++s) {
       const std::uint32_t r = a_.remover[roots + s];
-      if (r != kNone && r != n && !test_.passes(roots + s, NodeId(n))) include(r);
+      if (r == kNone || isIn(r)) continue;
+      // Who is no candidate is allowed its saturated error, and with it every triangle that it removes.
+      if (!lookup_.contains(r) && a_.error[roots + s] <= a_.saturatedError[r]) continue;
+      if (!test_.passes(roots + s, NodeId(n))) include(r);
     }
   }
+
+  bool isIn(std::uint32_t n) const { return lookup_.contains(n) && (state_[lookup_.rank(n)] & kIn) != 0; }
 
   /// A remover of what fails, or a parent of one that is in.
   void include(std::uint32_t n) {
