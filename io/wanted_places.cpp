@@ -124,15 +124,15 @@ WantedError WantedPlaces::within(double error) const {
   const auto sums = std::make_shared<std::vector<std::uint32_t>>(std::size_t{kStride} * kStride, 0);
   for (int row = 0; row < kCells; ++row)
     for (int column = 0; column < kCells; ++column) {
-      const auto at = static_cast<std::size_t>((row + 1) * kStride + column + 1);
+      const auto at = static_cast<std::size_t>(row + 1) * kStride + static_cast<std::size_t>(column) + 1;
       (*sums)[at] = (*sums)[at - 1] + (*sums)[at - kStride] - (*sums)[at - kStride - 1] +
-                    isWanted_[static_cast<std::size_t>(row * kCells + column)];
+                    isWanted_[static_cast<std::size_t>(row) * kCells + static_cast<std::size_t>(column)];
     }
   return [places = std::make_shared<const WantedPlaces>(*this), sums, error](const Box2& box) {
     constexpr double kNothing = std::numeric_limits<double>::infinity();
     if (!(box.xMin <= box.xMax && box.yMin <= box.yMax)) return kNothing;
     const auto sum = [&](int row, int column) {
-      return (*sums)[static_cast<std::size_t>(row * kStride + column)];
+      return (*sums)[static_cast<std::size_t>(row) * kStride + static_cast<std::size_t>(column)];
     };
     const int left = places->columnOf(box.xMin), right = places->columnOf(box.xMax) + 1;
     const int bottom = places->rowOf(box.yMin), top = places->rowOf(box.yMax) + 1;
