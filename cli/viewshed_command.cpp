@@ -155,12 +155,16 @@ Result<std::vector<PlacedObserver>> placeObservers(const ViewshedArguments& a, c
   return observers;
 }
 
-/// The terrain within sight of all of them; everything where one looks as far as it goes.
-WantedError wantedFor(std::span<const PlacedObserver> observers, const SightEarth& earth,
-                      const TerrainModel& outline) {
+/// The terrain within sight of all of them; everything where one looks as far as it goes. Errors:
+/// interrupted.
+Result<WantedError> wantedFor(std::span<const PlacedObserver> observers, const SightEarth& earth,
+                              const TerrainModel& outline, const RunContext& context) {
   WantedPlaces places(outline);
-  for (const PlacedObserver& observer : observers) {
-    if (!std::isfinite(observer.field.greatestMetres)) return {};
+  for (std::size_t i = 0; i < observers.size(); ++i) {
+    const PlacedObserver& observer = observers[i];
+    context.report("find what is in range", static_cast<double>(i) / static_cast<double>(observers.size()));
+    if (context.cancelled()) return failure(ErrorCode::interrupted, "the viewshed was stopped");
+    if (!std::isfinite(observer.field.greatestMetres)) return WantedError();
     const Vec2 plan = sightPlan(outline, observer.position.xy);
     places.add(plan);
     places.addDisc(earth, plan, observer.field.greatestMetres);
@@ -391,8 +395,9 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
                    a.mode == Mode::height ? "--mode height" : "--mode horizon");
   const auto earth = a.sight.makeEarth(*outline, session);
   if (!earth) return tl::unexpected(earth.error());
-  const Result<TerrainModel> model =
-      readWanted(*file, *outline, wantedFor(*placed, **earth, *outline), session);
+  const auto wanted = wantedFor(*placed, **earth, *outline, session.context());
+  if (!wanted) return tl::unexpected(wanted.error());
+  const Result<TerrainModel> model = readWanted(*file, *outline, *wanted, session);
   if (!model) return tl::unexpected(model.error());
   const auto observers = sitesOf(*placed, *model);
   if (!observers) return tl::unexpected(observers.error());

@@ -122,10 +122,10 @@ Result<AmtFile> openAmt(const std::string& path, const AmtOpenOptions& options =
 /// O(triangles), parallel.
 Status checkAmtIndices(const AmtFile& file, const RunContext& context = {});
 
-/// The checksum of every chunk, and zeros between the chunks: with these and what openAmt() checks, no byte
-/// of the file has changed since it was written. (Of a packed file the packed nodes are not looked at:
-/// unpacking checks what it reads.) Errors: corrupt, naming the chunk; interrupted. Reads the whole file,
-/// chunks in parallel.
+/// The checksums of all pieces, or of every chunk where there are no pieces, and zeros between the chunks:
+/// with these and what openAmt() checks, no byte of the file has changed since it was written. (Of a packed
+/// file the packed nodes are not looked at: unpacking checks what it reads.) Errors: corrupt, naming the
+/// chunk; interrupted. Reads the whole file, in parallel.
 Status checkAmtChecksums(const AmtFile& file, const RunContext& context = {});
 
 /// All that `verify` asks for, all = checksums and indices. Errors: those of the two.

@@ -31,7 +31,7 @@ constexpr std::uint32_t kNodesPerBlock = MultiTriangulation::kNodesPerBlock,
                         kNodesPerPage = MultiTriangulation::kNodesPerPage,
                         kSlotsPerHint = MultiTriangulation::kSlotsPerHint,
                         kBlocksPerPage = kNodesPerPage / kNodesPerBlock;
-static_assert(kNodesPerBlock == NodeSet::kNodesPerWord);
+static_assert(kNodesPerBlock == RankedNodes::kNodesPerWord);
 
 class PartReader {
  public:
@@ -49,7 +49,7 @@ class PartReader {
     touchBeside();
     choosePages();
     if (isTheSameEverywhere()) return readPrefix();
-    NodeSet nodes = chooseNodes();
+    RankedNodes nodes = chooseNodes();
     if (context_.cancelled()) return interrupted();
     return 2 * std::uint64_t{nodes.size()} >= end_ ? readPrefix() : readSubset(std::move(nodes));
   }
@@ -108,7 +108,7 @@ class PartReader {
     return checked(*part);
   }
 
-  Result<MultiTriangulation> readSubset(NodeSet nodes) {
+  Result<MultiTriangulation> readSubset(RankedNodes nodes) {
     MtSubset part = subsetOfMt(whole_, nodes);
     if (part.problem == MtSubset::Problem::parentMissing && addParents(whole_, nodes)) {
       nodes.rank();
@@ -120,8 +120,8 @@ class PartReader {
     return checked(part.mt);
   }
 
-  NodeSet chooseNodes() {
-    NodeSet nodes(whole_.nodeCount());
+  RankedNodes chooseNodes() {
+    RankedNodes nodes(whole_.nodeCount());
     tbb::parallel_for(std::uint32_t{0}, pages_, [&](std::uint32_t page) {
       if (isPageWanted_[page] == 0 || context_.cancelled()) return;
       const auto end = std::min<std::size_t>((page + 1) * kBlocksPerPage, nodes.wordCount());
@@ -158,7 +158,7 @@ class PartReader {
     touchTriangles(0, a_.rootTriangles.size());
   }
 
-  void touchSubset(const NodeSet& nodes) {
+  void touchSubset(const RankedNodes& nodes) {
     for (std::size_t word = 0; word < nodes.wordCount(); ++word) {
       const std::uint64_t members = nodes.word(word);
       if (members == 0) continue;

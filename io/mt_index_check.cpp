@@ -52,7 +52,7 @@ class MtIndexCheck {
                               &MtIndexCheck::vertices};
     for (std::size_t i = 0; i < std::size(steps); ++i) {
       context_.report("check indices", static_cast<double>(i) / std::size(steps));
-      const Status status = (this->*steps[i])();
+      Status status = (this->*steps[i])();
       if (context_.cancelled()) return failure(ErrorCode::interrupted, "the check was interrupted");
       if (!status) return status;
     }

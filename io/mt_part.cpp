@@ -94,7 +94,7 @@ struct SubsetArrays {
 /// A subset on its way.
 class SubsetCopy {
  public:
-  SubsetCopy(const MultiTriangulation& whole, const NodeSet& nodes)
+  SubsetCopy(const MultiTriangulation& whole, const RankedNodes& nodes)
       : whole_(whole),
         a_(whole.arrays()),
         roots_(whole.rootTriangleCount()),
@@ -247,7 +247,7 @@ class SubsetCopy {
   const MultiTriangulation& whole_;
   const MtArrays& a_;
   std::uint32_t roots_;
-  const NodeSet& nodes_;
+  const RankedNodes& nodes_;
   std::shared_ptr<SubsetArrays> to_;
   std::vector<std::uint32_t> slotsBefore_;  // of each word
   std::uint32_t slots_ = 0;
@@ -300,18 +300,18 @@ std::optional<MultiTriangulation> prefixOfMt(const MultiTriangulation& whole, st
   return MultiTriangulation(a, arrays);
 }
 
-MtSubset subsetOfMt(const MultiTriangulation& whole, const NodeSet& nodes) {
+MtSubset subsetOfMt(const MultiTriangulation& whole, const RankedNodes& nodes) {
   return SubsetCopy(whole, nodes).run();
 }
 
-bool addParents(const MultiTriangulation& whole, NodeSet& nodes) {
+bool addParents(const MultiTriangulation& whole, RankedNodes& nodes) {
   const MtArrays& a = whole.arrays();
   const std::uint32_t roots = whole.rootTriangleCount();
   // Parents have smaller numbers: one way through, from the last node, is all of it.
   for (std::uint32_t n = whole.nodeCount(); n-- > 0;) {
-    if (n % NodeSet::kNodesPerWord == NodeSet::kNodesPerWord - 1 &&
-        nodes.word(n / NodeSet::kNodesPerWord) == 0) {
-      n -= NodeSet::kNodesPerWord - 1;
+    if (n % RankedNodes::kNodesPerWord == RankedNodes::kNodesPerWord - 1 &&
+        nodes.word(n / RankedNodes::kNodesPerWord) == 0) {
+      n -= RankedNodes::kNodesPerWord - 1;
       continue;
     }
     if (!nodes.contains(n)) continue;

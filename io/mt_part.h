@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "engine/multitriangulation.h"
-#include "io/node_set.h"
+#include "io/ranked_nodes.h"
 
 namespace arete {
 
@@ -26,10 +26,10 @@ struct MtSubset {
   MultiTriangulation mt;  ///< where there is none
 };
 /// Precondition: the nodes are ranked. O(nodes of the set), parallel.
-MtSubset subsetOfMt(const MultiTriangulation& whole, const NodeSet& nodes);
+MtSubset subsetOfMt(const MultiTriangulation& whole, const RankedNodes& nodes);
 
 /// Adds the parents of all nodes, their parents and so on. False where the arrays are damaged. O(nodes of the
 /// set), each with a look at places far from it.
-bool addParents(const MultiTriangulation& whole, NodeSet& nodes);
+bool addParents(const MultiTriangulation& whole, RankedNodes& nodes);
 
 }  // namespace arete

@@ -18,7 +18,7 @@ inline WantedError wantedNowhere() {
   return [](const Box2&) { return std::numeric_limits<double>::infinity(); };
 }
 
-/// Places and lines that questions will be about, so that of a packed model no more is read than these need.
+/// Places, lines and discs that questions will be about, so that of a file no more is read than these need.
 /// They are kept as cells of a grid over the terrain, any number of them in little memory; what is wanted of
 /// them is at least what they need. Of a raster that is all that is within a sample's width, for who walks
 /// over cells and asks for all four samples of each.
@@ -34,7 +34,7 @@ class WantedPlaces {
 
   void addTrack(const SightTrack& track);
   /// Everything within so many metres of a place along the ground, and some that is in doubt.
-  /// O(cells on its rim) distances.
+  /// O(cells on its rim that are not wanted yet) distances.
   void addDisc(const SightEarth& earth, Vec2 centre, double metres);
 
   /// This error of triangles that may touch one of the places, nothing of others.
@@ -50,7 +50,13 @@ class WantedPlaces {
   };
   /// The part of a disc that is in a square of cells.
   void addPart(const Disc& disc, int column, int row, int size);
-  void mark(Vec2 low, Vec2 high);
+  /// Those that a box touches, and those beside them.
+  struct Cells {
+    int left, right, bottom, top;  // all of them included
+  };
+  Cells cellsAround(Vec2 low, Vec2 high) const;
+  bool areWanted(const Cells& cells) const;
+  void mark(const Cells& cells);
   int columnOf(double x) const;
   int rowOf(double y) const;
 

@@ -55,5 +55,19 @@ TEST_F(Interrupt, StopsReadingAndRankingToo) {
   }
 }
 
+TEST_F(Interrupt, StopsAViewshedWhileItFindsWhatIsInRangeOfManyObservers) {
+  makeRaster("dem.tif", "noise", 300, 300);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  std::string observers = "x,y,h,range\n";
+  for (int i = 0; i < 20'000; ++i)
+    observers += std::to_string(i % 300) + "," + std::to_string(i / 300) + ",10,5\n";
+  write("observers.csv", observers);
+  const Outcome outcome = run({"viewshed", "dem.amt", "--observers", "observers.csv", "--mode", "count", "-o",
+                               "count.tif", "--progress"},
+                              when("find what is in range ", SIGINT));
+  EXPECT_EQ(outcome.code, 130) << outcome.err;
+  EXPECT_EQ(files(), (std::set<std::string>{"dem.amt", "dem.tif", "observers.csv"}));
+}
+
 }  // namespace
 }  // namespace arete::cli_test

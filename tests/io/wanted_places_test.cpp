@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "datasets/families.h"
@@ -311,6 +312,37 @@ TEST(WantedPlaces, WantADiscAndLittleBesideIt) {
       }
     }
   }
+}
+
+/// A plane that counts how often it is asked for a distance.
+class CountingEarth final : public SightEarth {
+ public:
+  explicit CountingEarth(const TerrainModel& model) : plane_(makePlaneEarth(model)) {}
+  Result<SightTrack> track(Vec2 from, Vec2 to) const override { return plane_->track(from, to); }
+  std::optional<double> distance(Vec2 from, Vec2 to) const override {
+    ++distances;
+    return plane_->distance(from, to);
+  }
+  mutable int distances = 0;
+
+ private:
+  std::unique_ptr<SightEarth> plane_;
+};
+
+TEST(WantedPlaces, AskForNoDistanceWhereADiscIsWantedAlready) {
+  const TemporaryFolder folder;
+  const Filed filed(built(build(familyNamed("ramp").make(60, 40, 1))), folder.file("model.amt"));
+  const CountingEarth earth(filed.outline);
+  const double metres = *earth.distance({0, 0}, {20, 0});
+  WantedPlaces wanted(filed.outline);
+  wanted.addDisc(earth, {30, 20}, 2 * metres);
+  const int first = std::exchange(earth.distances, 0);
+  wanted.addDisc(earth, {31, 21}, metres);
+  EXPECT_LT(earth.distances, first / 10);
+  wanted.addDisc(earth, {30, 20}, 100 * metres);
+  earth.distances = 0;
+  wanted.addDisc(earth, {5, 7}, 100 * metres);
+  EXPECT_EQ(earth.distances, 0);
 }
 
 /// The front of a cut in the order in which it is written, told without a number of the MT.

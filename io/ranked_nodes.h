@@ -10,11 +10,11 @@ namespace arete {
 
 /// Some of the nodes of an MT, a bit for each, and how many come before each: the number that it has among
 /// them alone.
-class NodeSet {
+class RankedNodes {
  public:
   static constexpr std::uint32_t kNodesPerWord = 64;
 
-  explicit NodeSet(std::uint32_t nodes) : words_((nodes + kNodesPerWord - 1) / kNodesPerWord, 0) {}
+  explicit RankedNodes(std::uint32_t nodes) : words_((nodes + kNodesPerWord - 1) / kNodesPerWord, 0) {}
 
   bool contains(std::uint32_t n) const { return (words_[n / kNodesPerWord] >> n % kNodesPerWord & 1) != 0; }
   void add(std::uint32_t n) { words_[n / kNodesPerWord] |= std::uint64_t{1} << n % kNodesPerWord; }
