@@ -63,7 +63,8 @@ class Sweep {
         test_(mt, criterion),
         candidates_(candidates),
         lookup_(candidates.lookup()),
-        state_(std::size_t{candidates.size()} + 1, 0) {}
+        in_(std::size_t{candidates.size()} + 1, 0),
+        lacksParent_(candidates.size(), 0) {}
 
   /// Whether a node had to be in that is no candidate: rounding, or a file whose errors break the laws.
   bool isBeyond() const { return isBeyond_; }
@@ -93,15 +94,14 @@ class Sweep {
     std::array<std::uint32_t, MemberSet::kMostInPiece> members;
     for (std::uint32_t piece = 0; piece < candidates_.pieces(); ++piece) {
       const std::uint32_t count = candidates_.list(piece, members.data());
-      const std::uint8_t* const state = state_.data() + candidates_.before(piece);
+      const std::uint8_t* const isIn = in_.data() + candidates_.before(piece);
       for (std::uint32_t i = 0; i < count; ++i)
-        if ((state[i] & kIn) != 0) in.push_back(members[i]);
+        if (isIn[i] != 0) in.push_back(members[i]);
     }
     return {in, nodes};
   }
 
  private:
-  static constexpr std::uint8_t kIn = 1, kLacksParent = 2;
   static constexpr std::uint32_t kFew = 6;
 
   /// The turns of some members, up to the first that is not in or lacks a parent; returns how many these are.
@@ -113,11 +113,12 @@ class Sweep {
     const std::uint32_t* const slotBegin = a_.slotBegin.data();
     const std::uint32_t* const removers = a_.remover.data() + mt_.rootTriangleCount();
     const OutwardScale::Code* const errors = a_.error.data() + mt_.rootTriangleCount();
-    std::uint8_t* const state = state_.data();
+    std::uint8_t* const in = in_.data();
+    const std::uint8_t* const lacksParent = lacksParent_.data();
     const std::uint32_t nobody = candidates_.size(), code = test_.code();
     const auto slots = static_cast<std::uint32_t>(a_.link.size());
     std::uint32_t beyond = 0, i = 0;
-    for (; i < count && state[turn + i] == kIn; ++i) {
+    for (; i < count && in[turn + i] > lacksParent[turn + i]; ++i) {
       const std::uint32_t begin = slotBegin[members[i]], end = slotBegin[members[i] + 1];
       if (slots - begin < kFew) [[unlikely]]
         break;
@@ -128,7 +129,7 @@ class Sweep {
                                     static_cast<std::uint32_t>(r != kNone);
         const std::uint32_t rank = lookup.rankOr(r, nobody);
         beyond |= fails & static_cast<std::uint32_t>(rank == nobody);
-        state[fails != 0 ? rank : nobody] |= kIn;
+        in[fails != 0 ? rank : nobody] = 1;
       };
       for (std::uint32_t k = 0; k < kFew; ++k) look(begin + k);
       for (std::uint32_t s = begin + kFew; s < end; ++s) look(s);
@@ -138,9 +139,9 @@ class Sweep {
   }
 
   void take(std::uint32_t n) {
-    if ((state_[turn_] & kIn) == 0) {
+    if (in_[turn_] == 0) {
       if (!hasChildIn(n)) return;
-      state_[turn_] |= kIn;
+      in_[turn_] = 1;
     }
     expand(n, turn_);
   }
@@ -154,13 +155,13 @@ class Sweep {
     }
     for (std::uint32_t s = begin; s < end; ++s) {
       const std::uint32_t r = a_.remover[roots + s];
-      if (r != n && lookup_.contains(r)) state_[lookup_.rank(r)] |= kLacksParent;
+      if (r != n && lookup_.contains(r)) lacksParent_[lookup_.rank(r)] = 1;
     }
     return false;
   }
 
   void expand(std::uint32_t n, std::uint32_t rank) {
-    if ((state_[rank] & kLacksParent) != 0)
+    if (lacksParent_[rank] != 0)
       for (const std::uint32_t t : mt_.floor(NodeId(n)))
         if (const NodeId parent = mt_.creator(TriangleId(t)); parent.isValid()) include(parent.index());
     const std::uint32_t roots = mt_.rootTriangleCount(), end = a_.slotBegin[n + 1];
@@ -173,7 +174,7 @@ class Sweep {
     }
   }
 
-  bool isIn(std::uint32_t n) const { return lookup_.contains(n) && (state_[lookup_.rank(n)] & kIn) != 0; }
+  bool isIn(std::uint32_t n) const { return lookup_.contains(n) && in_[lookup_.rank(n)] != 0; }
 
   /// A remover of what fails, or a parent of one that is in.
   void include(std::uint32_t n) {
@@ -182,8 +183,8 @@ class Sweep {
       return;
     }
     const std::uint32_t rank = lookup_.rank(n);
-    if ((state_[rank] & kIn) != 0) return;
-    state_[rank] |= kIn;
+    if (in_[rank] != 0) return;
+    in_[rank] = 1;
     if (rank < turn_) late_.push_back(n);
   }
 
@@ -202,8 +203,9 @@ class Sweep {
   const Test test_;
   const MemberSet& candidates_;
   const MemberSet::Lookup lookup_;
-  std::vector<std::uint8_t> state_;  // by rank, and of nobody
-  std::uint32_t turn_ = 0;           // the rank of the one whose turn it is
+  std::vector<std::uint8_t> in_;           // by rank, and of nobody
+  std::vector<std::uint8_t> lacksParent_;  // by rank
+  std::uint32_t turn_ = 0;                 // the rank of the one whose turn it is
   std::vector<std::uint32_t> late_;
   bool isBeyond_ = false;
 };
