@@ -18,10 +18,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cassert>
 #include <memory>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "engine/vector_clones.h"
 
@@ -53,22 +56,28 @@ class FrontWriter {
         error_(mt.arrays().error.data() + roots_),
         kept_(std::make_unique_for_overwrite<std::uint16_t[]>(set.size())) {}
 
-  /// Marks the slots that members of the piece keep. Returns their number.
+  struct Marked {
+    std::uint32_t kept = 0;  ///< slots
+    std::uint32_t open = 0;  ///< members whose star is
+  };
+  /// Marks the slots that members of the piece keep.
   ARETE_VECTOR_CLONES
-  std::uint32_t mark(std::uint32_t piece) const {
+  Marked mark(std::uint32_t piece) const {
     std::array<std::uint32_t, MemberSet::kMostInPiece + 2 * kAhead> members;
     const std::uint32_t count = list(piece, members.data());
     const std::uint32_t *const slotBegin = slotBegin_, *const removers = remover_;
     std::uint16_t* const kept = kept_.get() + set_.before(piece);
-    std::uint32_t total = 0;
+    std::uint32_t total = 0, open = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
       __builtin_prefetch(slotBegin + members[i + 2 * kAhead]);
       __builtin_prefetch(removers + slotBegin[members[i + kAhead]]);
-      const std::uint64_t bits = keptBy(slotBegin[members[i]], slotBegin[members[i] + 1]);
+      const std::uint32_t end = slotBegin[members[i] + 1];
+      const std::uint64_t bits = keptBy(slotBegin[members[i]], end);
       kept[i] = static_cast<std::uint16_t>(bits);
       total += static_cast<std::uint32_t>(std::popcount(bits));
+      open += static_cast<std::uint32_t>(removers[end - 1] == members[i]);
     }
-    return total;
+    return {total, open};
   }
 
   /// Writes what mark() marked, and the vertices of the members. Returns the largest code of its errors.
@@ -189,9 +198,9 @@ class FrontWriter {
   const std::unique_ptr<std::uint16_t[]> kept_;  // by member: its kept slots, a bit each, where it has few
 };
 
-}  // namespace
-
-Cut frontOf(const MultiTriangulation& mt, const MemberSet& set) {
+/// Nothing where the set is not closed: a member adds two triangles, one on a border, if all that it replaces
+/// are made by members or the root, and more if some are not.
+std::optional<Cut> frontIfClosed(const MultiTriangulation& mt, const MemberSet& set) {
   const MtArrays& a = mt.arrays();
   const std::uint32_t roots = mt.rootTriangleCount(), rootVertices = mt.rootVertexCount();
   const MemberSet::Lookup in = set.lookup();
@@ -203,11 +212,15 @@ Cut frontOf(const MultiTriangulation& mt, const MemberSet& set) {
   // is room for them by the time that they are counted.
   std::vector<std::uint32_t> begin(std::size_t(set.pieces()) + 2, 0);
   const std::size_t most = roots + 2 * std::size_t(set.size());
+  std::atomic<std::uint32_t> open = 0;
   tbb::parallel_invoke(
       [&] {
         for (std::uint32_t t = 0; t < roots; ++t) begin[1] += in.contains(a.remover[t]) ? 0 : 1;
-        tbb::parallel_for(std::uint32_t(0), set.pieces(),
-                          [&](std::uint32_t piece) { begin[piece + 2] = writer.mark(piece); });
+        tbb::parallel_for(std::uint32_t(0), set.pieces(), [&](std::uint32_t piece) {
+          const FrontWriter::Marked marked = writer.mark(piece);
+          begin[piece + 2] = marked.kept;
+          open.fetch_add(marked.open, std::memory_order_relaxed);
+        });
       },
       [&] { cut.triangles.resize(most); },
       [&] {
@@ -215,7 +228,7 @@ Cut frontOf(const MultiTriangulation& mt, const MemberSet& set) {
         cut.vertices.resize(std::size_t(rootVertices) + set.size());
       });
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  assert(begin.back() <= most);
+  if (begin.back() != most - open) return std::nullopt;
   cut.triangles.resize(begin.back());
   cut.ids.resize(begin.back());
 
@@ -235,6 +248,16 @@ Cut frontOf(const MultiTriangulation& mt, const MemberSet& set) {
   });
   cut.achievedError = a.scale.decode(*std::max_element(worst.begin(), worst.end()));
   return cut;
+}
+
+}  // namespace
+
+Cut frontOf(const MultiTriangulation& mt, const MemberSet& set) {
+  std::optional<Cut> cut = frontIfClosed(mt, set);
+  if (cut) return std::move(*cut);
+  NodeSet closed = set.toNodeSet(mt.nodeCount());
+  closeUpwards(mt, closed);
+  return *frontIfClosed(mt, MemberSet(closed));
 }
 
 Cut frontOfPrefix(const MultiTriangulation& mt, std::uint32_t nodes) {

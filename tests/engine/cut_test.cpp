@@ -115,6 +115,31 @@ TEST(MinimalCut, IsTheLeastClosedSetWhereSaturatedErrorsAreNone) {
   }
 }
 
+/// Spheres as nobody's build makes them, which hold nothing: what a saturated cut finds by them lacks
+/// parents, and its front is whole all the same.
+TEST(SaturatedCut, HasAWholeFrontWhereSpheresHoldNobody) {
+  std::mt19937_64 random(32);
+  int unlike = 0;
+  for (const FamilyModel& s : familyModels()) {
+    MtArrays arrays = s.model.mt.arrays();
+    std::vector<Sphere> sphere(arrays.sphere.begin(), arrays.sphere.end());
+    for (Sphere& ball : sphere)
+      if (random() % 2 == 0) ball.radius = 0;
+    arrays.sphere = sphere;
+    const MultiTriangulation mt(arrays, nullptr);
+    const double span = spanOfErrors(mt);
+    for (const double part : {0.0, 0.01, 0.1}) {
+      const RegionError corner(Region::box({3, 3, 9, 8}), arrays.metric, part * span, 4 * part * span + 0.1);
+      const auto cut = takeCut(mt, corner, {.method = CutMethod::saturated}),
+                 before = takeCut(s.model.mt, corner, {.method = CutMethod::saturated});
+      ASSERT_TRUE(cut && before);
+      EXPECT_TRUE(validateFront(mt, *cut, domainExtent(mt))) << s.name << " " << part;
+      unlike += cut->nodes != before->nodes ? 1 : 0;
+    }
+  }
+  EXPECT_GT(unlike, 10);
+}
+
 TEST(MinimalCut, TakesAnyPredicateAndSaturatedRefusesIt) {
   struct Odd final : Criterion {
     bool isFineEnough(const MultiTriangulation&, TriangleId t,
