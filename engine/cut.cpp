@@ -114,7 +114,7 @@ Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, co
   return withThreads(context, [&]() -> Result<Cut> {
     if (options.method == CutMethod::saturated) {
       const SaturatedMembers taken = saturatedMembers(mt, criterion, options.maxTriangles);
-      Cut cut = frontOf(mt, taken.members);
+      Cut cut = frontOfClosure(mt, taken.members);
       cut.isComplete = taken.isComplete;
       return cut;
     }

@@ -198,9 +198,9 @@ class FrontWriter {
   const std::unique_ptr<std::uint16_t[]> kept_;  // by member: its kept slots, a bit each, where it has few
 };
 
-/// Nothing where the set is not closed: a member adds two triangles, one on a border, if all that it replaces
-/// are made by members or the root, and more if some are not.
-std::optional<Cut> frontIfClosed(const MultiTriangulation& mt, const MemberSet& set) {
+/// Nothing where the set has to be closed and is not: a member adds two triangles, one on a border, if all
+/// that it replaces are made by members or the root, and more if some are not.
+std::optional<Cut> writeFront(const MultiTriangulation& mt, const MemberSet& set, bool mustBeClosed) {
   const MtArrays& a = mt.arrays();
   const std::uint32_t roots = mt.rootTriangleCount(), rootVertices = mt.rootVertexCount();
   const MemberSet::Lookup in = set.lookup();
@@ -228,7 +228,7 @@ std::optional<Cut> frontIfClosed(const MultiTriangulation& mt, const MemberSet& 
         cut.vertices.resize(std::size_t(rootVertices) + set.size());
       });
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  if (begin.back() != most - open) return std::nullopt;
+  if (mustBeClosed && begin.back() != most - open) return std::nullopt;
   cut.triangles.resize(begin.back());
   cut.ids.resize(begin.back());
 
@@ -253,11 +253,15 @@ std::optional<Cut> frontIfClosed(const MultiTriangulation& mt, const MemberSet& 
 }  // namespace
 
 Cut frontOf(const MultiTriangulation& mt, const MemberSet& set) {
-  std::optional<Cut> cut = frontIfClosed(mt, set);
+  return *writeFront(mt, set, false);
+}
+
+Cut frontOfClosure(const MultiTriangulation& mt, const MemberSet& set) {
+  std::optional<Cut> cut = writeFront(mt, set, true);
   if (cut) return std::move(*cut);
   NodeSet closed = set.toNodeSet(mt.nodeCount());
   closeUpwards(mt, closed);
-  return *frontIfClosed(mt, MemberSet(closed));
+  return frontOf(mt, MemberSet(closed));
 }
 
 Cut frontOfPrefix(const MultiTriangulation& mt, std::uint32_t nodes) {

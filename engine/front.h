@@ -6,9 +6,10 @@
 
 namespace arete {
 
-/// The front of a closed set; of one that is not, with the parents that it lacks. (Spheres that no build
-/// makes, but a file may hold, can be so far out that a saturated cut by place lacks some.) O(members),
-/// parallel, the same for any thread count.
+/// The front of a closed set. O(members), parallel, the same for any thread count.
 Cut frontOf(const MultiTriangulation& mt, const MemberSet& set);
+/// The same, with the parents that the set lacks. (Spheres that no build makes, but a file may hold, can be
+/// so far out that a saturated cut by place lacks some.)
+Cut frontOfClosure(const MultiTriangulation& mt, const MemberSet& set);
 
 }  // namespace arete
