@@ -10,8 +10,8 @@
 
 namespace arete {
 
-/// What a command does that reads no more of a file than its question needs: opened, it is asked for its
-/// outline, by which the question's places are known, and read as far as they want, with every check.
+// A command that reads no more of a file than its question needs opens it, asks for its outline, by which the
+// question's places are known, and reads as far as they want, with every check.
 
 /// All but the terrain itself: of a raster the root alone. Of points everything, since what their coordinates
 /// are rounded by is told by how many there are.

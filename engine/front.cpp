@@ -252,6 +252,12 @@ std::optional<Cut> writeFront(const MultiTriangulation& mt, const MemberSet& set
 
 }  // namespace
 
+std::uint64_t frontSize(const MultiTriangulation& mt, const MemberSet& set) {
+  std::uint64_t triangles = mt.rootTriangleCount();
+  set.visit([&](std::uint32_t n) { triangles += mt.isOpen(NodeId(n)) ? 1 : 2; });
+  return triangles;
+}
+
 Cut frontOf(const MultiTriangulation& mt, const MemberSet& set) {
   return *writeFront(mt, set, false);
 }

@@ -6,6 +6,8 @@
 
 namespace arete {
 
+/// Triangles of the front of a closed set. O(members).
+std::uint64_t frontSize(const MultiTriangulation& mt, const MemberSet& set);
 /// The front of a closed set. O(members), parallel, the same for any thread count.
 Cut frontOf(const MultiTriangulation& mt, const MemberSet& set);
 /// The same, with the parents that the set lacks. (Spheres that no build makes, but a file may hold, can be

@@ -15,10 +15,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <utility>
 #include <vector>
 
+#include "engine/front.h"
 #include "engine/refine.h"
 #include "engine/saturated_cut.h"
 #include "engine/vector_clones.h"
@@ -91,13 +91,10 @@ class Sweep {
 
   MemberSet members(std::uint32_t nodes) const {
     std::vector<std::uint32_t> in;
-    std::array<std::uint32_t, MemberSet::kMostInPiece> members;
-    for (std::uint32_t piece = 0; piece < candidates_.pieces(); ++piece) {
-      const std::uint32_t count = candidates_.list(piece, members.data());
-      const std::uint8_t* const isIn = in_.data() + candidates_.before(piece);
-      for (std::uint32_t i = 0; i < count; ++i)
-        if (isIn[i] != 0) in.push_back(members[i]);
-    }
+    std::uint32_t rank = 0;
+    candidates_.visit([&](std::uint32_t n) {
+      if (in_[rank++] != 0) in.push_back(n);
+    });
     return {in, nodes};
   }
 
@@ -252,14 +249,6 @@ std::optional<MemberSet> leastMembersByWalk(const MultiTriangulation& mt, const 
 
 std::optional<MemberSet> leastMembersWithin(const MultiTriangulation& mt, double least,
                                             std::uint32_t maxTriangles, const std::function<bool()>& stop) {
-  const auto triangles = [&](const MemberSet& set) {
-    std::uint64_t count = mt.rootTriangleCount();
-    std::array<std::uint32_t, MemberSet::kMostInPiece> members;
-    for (std::uint32_t piece = 0; piece < set.pieces(); ++piece)
-      for (const std::uint32_t n : std::span(members).first(set.list(piece, members.data())))
-        count += mt.isOpen(NodeId(n)) ? 1 : 2;
-    return count;
-  };
   const OutwardScale& scale = mt.arrays().scale;
   const std::uint32_t leastCode = scale.floorCode(least);
   // What is known: the set of code `fits` is small enough, that of any code below `large` is not. (A smaller
@@ -270,7 +259,7 @@ std::optional<MemberSet> leastMembersWithin(const MultiTriangulation& mt, double
   const auto look = [&](std::uint32_t code) {
     auto set = leastMembers(mt, UniformError(scale.decode(static_cast<OutwardScale::Code>(code))), stop);
     if (!set) return false;
-    const std::uint64_t count = triangles(*set);
+    const std::uint64_t count = frontSize(mt, *set);
     if (count <= maxTriangles) {
       fits = code;
       ofFits = static_cast<double>(count);

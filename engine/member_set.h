@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <functional>
@@ -82,6 +83,15 @@ class MemberSet {
   std::uint32_t pieces() const;
   /// Writes the members of a piece, rising; returns how many. Precondition: room for kMostInPiece.
   std::uint32_t list(std::uint32_t piece, std::uint32_t* members) const;
+  /// visit(n) for every member, rising, in one thread.
+  template <class Visit>
+  void visit(const Visit& visit) const {
+    std::array<std::uint32_t, kMostInPiece> members;
+    for (std::uint32_t piece = 0; piece < pieces(); ++piece) {
+      const std::uint32_t count = list(piece, members.data());
+      for (std::uint32_t i = 0; i < count; ++i) visit(members[i]);
+    }
+  }
   /// Members before those of the piece.
   std::uint32_t before(std::uint32_t piece) const { return halves(used_[piece * kWordsPerPiece])[0].before; }
 

@@ -12,13 +12,12 @@
 // the budget holds, which is found faster (least_cut.h).
 #include "engine/refine.h"
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <queue>
-#include <span>
 #include <utility>
 
+#include "engine/front.h"
 #include "engine/least_cut.h"
 
 namespace arete {
@@ -52,14 +51,9 @@ class Walk {
   /// From a state that the walk passes through.
   Result<NodeCut> run(const MemberSet& start, const RunContext& context) {
     cut_.nodes = start.toNodeSet(mt_.nodeCount());
-    std::uint64_t triangles = mt_.rootTriangleCount();
+    std::uint64_t triangles = frontSize(mt_, start);
     for (std::uint32_t t = 0; t < mt_.rootTriangleCount(); ++t) offer(t, {});
-    std::array<std::uint32_t, MemberSet::kMostInPiece> members;
-    for (std::uint32_t piece = 0; piece < start.pieces(); ++piece)
-      for (const std::uint32_t n : std::span(members).first(start.list(piece, members.data()))) {
-        offerCeiling(n);
-        triangles += mt_.isOpen(NodeId(n)) ? 1 : 2;
-      }
+    start.visit([&](std::uint32_t n) { offerCeiling(n); });
     std::vector<std::uint32_t> missing;
     const auto claim = [&](std::uint32_t n) {
       if (cut_.nodes[n] != 0) return false;

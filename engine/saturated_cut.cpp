@@ -173,12 +173,10 @@ SaturatedMembers saturatedMembers(const MultiTriangulation& mt, const Criterion&
   // By falling error in units of the error allowed; equal ones by index.
   std::vector<std::pair<double, std::uint32_t>> order;
   order.reserve(members.size());
-  std::array<std::uint32_t, MemberSet::kMostInPiece> piece;
-  for (std::uint32_t p = 0; p < members.pieces(); ++p)
-    for (const std::uint32_t n : std::span(piece).first(members.list(p, piece.data()))) {
-      const double allowed = criterion.allowedError(a.sphere[n]);
-      order.emplace_back(allowed > 0 ? -error(n) / allowed : -std::numeric_limits<double>::infinity(), n);
-    }
+  members.visit([&](std::uint32_t n) {
+    const double allowed = criterion.allowedError(a.sphere[n]);
+    order.emplace_back(allowed > 0 ? -error(n) / allowed : -std::numeric_limits<double>::infinity(), n);
+  });
   tbb::parallel_sort(order.begin(), order.end());
   std::uint64_t triangles = mt.rootTriangleCount();
   std::size_t kept = 0;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Pages of nodes come by falling error and, within a band, along the ground. So a page's ball and largest
-// error tell whether any of its nodes is wanted: one whose saturated error is larger than what is wanted of
-// the box around its ball. A node's sphere is in those of its parents, whose errors are no smaller; so the
-// wanted ones have their parents among them, but for rounding, which is asked about.
+// A node is wanted whose saturated error is larger than what is wanted of the box around its sphere. Nodes
+// come by falling error, so where the same is wanted everywhere these are the first ones, and some that do no
+// harm. Else the balls and the largest errors of pages, then of blocks, tell which nodes are worth a look. A
+// node's sphere is in those of its parents, whose errors are no smaller; so the wanted ones have their
+// parents among them, but for rounding, which is made good.
 //
 // Nothing that is read is believed before its pieces have been held against their checksums, and nothing is
 // walked before its indices have been checked, which are those of the part alone. A file with damaged indices

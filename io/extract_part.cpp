@@ -18,9 +18,8 @@
 namespace arete {
 namespace {
 
-/// A node adds two triangles, and the least cut at an error has nearly all nodes down to it: these are twice
-/// as many. Where that is too little, it is by far.
-constexpr std::uint64_t kNodesPerTriangle = 1, kTimes = 8;
+/// Where a guess is too little, it is by far.
+constexpr std::uint64_t kTimes = 8;
 
 bool needsAllSamples(const ExtractRequest& request) {
   const Result<MeshFormat> format = meshFormatOf(request.output);
@@ -38,7 +37,9 @@ bool isBudgetAlone(const ExtractRequest& request) {
 Result<TerrainModel> readForBudget(const AmtFile& file, const ExtractCriterion& criterion,
                                    const RunContext& context) {
   const std::uint64_t nodes = file.nodeCount();
-  for (std::uint64_t guess = *criterion.maxTriangles * kNodesPerTriangle; guess < nodes; guess *= kTimes) {
+  // A node adds two triangles, and the least cut at an error has nearly all nodes down to it: these are twice
+  // as many.
+  for (std::uint64_t guess = *criterion.maxTriangles; guess < nodes; guess *= kTimes) {
     const double error = file.errorBeyond(guess);
     if (!(error > 0)) break;
     Result<TerrainModel> part = file.read({.wanted = [error](const Box2&) { return error; }}, context);

@@ -15,6 +15,7 @@
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <random>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -243,6 +244,29 @@ class AmtBytes {
     if (at == text.end() || to.size() > from.size()) throw std::runtime_error("cannot replace " + from);
     to.resize(from.size(), ' ');
     std::copy(to.begin(), to.end(), at);
+  }
+
+  /// Changes a few words behind the metadata: to anything, by one, to another's, in one bit.
+  void spoil(std::mt19937& random) {
+    for (std::uint32_t changes = 1 + random() % 3; changes-- > 0;) {
+      const AmtChunk& chosen = chunks()[1 + random() % (header().chunkCount - 1)];
+      if (chosen.bytes < 4) continue;
+      const auto words = array<std::uint32_t>(chosen.tag);
+      std::uint32_t& word = words[random() % words.size()];
+      switch (random() % 4) {
+        case 0:
+          word = static_cast<std::uint32_t>(random());
+          break;
+        case 1:
+          word += static_cast<std::uint32_t>(random() % 3) - 1;
+          break;
+        case 2:
+          word = words[random() % words.size()];
+          break;
+        default:
+          word ^= 1u << random() % 32;
+      }
+    }
   }
 
   /// Recomputes the checksums: of pieces, of the chunks that lie inside the file, and of the header.

@@ -322,26 +322,7 @@ TEST(HostileAmt, CanBeAskedWithoutHarmOnceItsIndicesPass) {
   int refused = 0, asked = 0;
   for (int round = 0; round < 3000; ++round) {
     AmtBytes bytes = good;
-    const std::uint32_t chunks = bytes.header().chunkCount;
-    for (std::uint32_t changes = 1 + random() % 3; changes-- > 0;) {
-      const AmtChunk& chunk = bytes.chunks()[1 + random() % (chunks - 1)];
-      if (chunk.bytes < 4) continue;
-      const auto words = bytes.array<std::uint32_t>(chunk.tag);
-      std::uint32_t& word = words[random() % words.size()];
-      switch (random() % 4) {
-        case 0:
-          word = random();
-          break;
-        case 1:
-          word += random() % 3 - 1;
-          break;
-        case 2:
-          word = words[random() % words.size()];
-          break;
-        default:
-          word ^= 1u << random() % 32;
-      }
-    }
+    bytes.spoil(random);
     bytes.seal();
     writeAll(path, bytes.bytes());
     const Result<TerrainModel> model = loadAmt(path);

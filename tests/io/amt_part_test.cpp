@@ -227,25 +227,7 @@ TEST(AmtPart, RefusesOrSurvivesWhateverTheBytesAre) {
   int refused = 0, survived = 0;
   for (int round = 0; round < 500; ++round) {
     AmtBytes bytes = good;
-    for (std::uint32_t changes = 1 + random() % 3; changes-- > 0;) {
-      const AmtChunk& chunk = bytes.chunks()[1 + random() % (bytes.header().chunkCount - 1)];
-      if (chunk.bytes < 4 || chunk.tag == amt_tag::kPieceChecksums) continue;
-      const auto words = bytes.array<std::uint32_t>(chunk.tag);
-      std::uint32_t& word = words[random() % words.size()];
-      switch (random() % 4) {
-        case 0:
-          word = static_cast<std::uint32_t>(random());
-          break;
-        case 1:
-          word += static_cast<std::uint32_t>(random() % 3) - 1;
-          break;
-        case 2:
-          word = words[random() % words.size()];
-          break;
-        default:
-          word ^= 1u << random() % 32;
-      }
-    }
+    bytes.spoil(random);
     bytes.seal();
     bytes.save(path);
     for (const WantedError& wanted : wishes) {

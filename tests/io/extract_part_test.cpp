@@ -109,23 +109,18 @@ TEST(ReadForExtract, ReadsEverythingWhereATinIsMeasuredRoundedOrFitted) {
   const auto readsAll = [&](const ExtractRequest& request) {
     return filed.part(request).mt.nodeCount() == filed.whole.mt.nodeCount();
   };
+  using Change = void (*)(ExtractRequest&);
   for (const ExtractRequest& request : {within(error), ofAtMost(200)}) {
     EXPECT_FALSE(readsAll(request));
-    ExtractRequest other = request;
-    other.output = "tin.stl";
-    EXPECT_TRUE(readsAll(other));
-    other = request;
-    other.output = "tin.tif";
-    EXPECT_TRUE(readsAll(other));
-    other = request;
-    other.certificate = "tin.json";
-    EXPECT_TRUE(readsAll(other));
-    other = request;
-    other.errorRaster = "error.tif";
-    EXPECT_TRUE(readsAll(other));
-    other = request;
-    other.criterion.fit = ExtractFit::error;
-    EXPECT_TRUE(readsAll(other));
+    for (const Change change : std::initializer_list<Change>{
+             [](ExtractRequest& r) { r.output = "tin.stl"; }, [](ExtractRequest& r) { r.output = "tin.tif"; },
+             [](ExtractRequest& r) { r.certificate = "tin.json"; },
+             [](ExtractRequest& r) { r.errorRaster = "error.tif"; },
+             [](ExtractRequest& r) { r.criterion.fit = ExtractFit::error; }}) {
+      ExtractRequest other = request;
+      change(other);
+      EXPECT_TRUE(readsAll(other));
+    }
   }
   ExtractRequest saturated = ofAtMost(200);
   saturated.criterion.method = CutMethod::saturated;
