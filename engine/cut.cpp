@@ -121,7 +121,7 @@ Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, co
     if (!options.maxTriangles && !options.deadline) {
       const auto least = leastMembers(mt, criterion, [&] { return context.cancelled(); });
       if (!least) return interrupted();
-      return frontOf(mt, *least);
+      return frontOfClosure(mt, *least);
     }
     const Result<NodeCut> nodes = refineWithin(mt, criterion, options, context);
     if (!nodes) return tl::unexpected(nodes.error());

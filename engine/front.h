@@ -10,8 +10,8 @@ namespace arete {
 std::uint64_t frontSize(const MultiTriangulation& mt, const MemberSet& set);
 /// The front of a closed set. O(members), parallel, the same for any thread count.
 Cut frontOf(const MultiTriangulation& mt, const MemberSet& set);
-/// The same, with the parents that the set lacks. (Spheres that no build makes, but a file may hold, can be
-/// so far out that a saturated cut by place lacks some.)
+/// The same, with the parents that the set lacks. (Spheres and saturated errors that no build makes, but a
+/// file may hold, can be so far out that a cut lacks some.)
 Cut frontOfClosure(const MultiTriangulation& mt, const MemberSet& set);
 
 }  // namespace arete

@@ -10,11 +10,17 @@
 // its turn has to be in when a child is; else its children are told that a parent is missing, and ask for it
 // by their turn if they are in then. Whoever is included after its turn waits on a stack for an extra one.
 // Should a node have to be in that the saturated cut does not hold, the walk has the last word.
+//
+// Where one error is allowed everywhere the saturated cut is not even made: its nodes are those of the first
+// bands, but for some of the last one. Nearly all of these are in, and have their turns run by run.
 #include "engine/least_cut.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -54,90 +60,167 @@ class Test {
   OutwardScale::Code code_;
 };
 
-/// Through the saturated cut, in its order.
-class Sweep {
+/// The candidates of an error allowed everywhere: the nodes before the end of its code's band. Nearly all of
+/// them are in the saturated cut, so that what is kept of one lies by its number.
+class UniformCandidates {
  public:
-  Sweep(const MultiTriangulation& mt, const Criterion& criterion, const MemberSet& candidates)
-      : mt_(mt),
-        a_(mt.arrays()),
-        test_(mt, criterion),
-        candidates_(candidates),
-        lookup_(candidates.lookup()),
-        in_(std::size_t{candidates.size()} + 1, 0),
-        lacksParent_(candidates.size(), 0) {}
+  UniformCandidates(const MultiTriangulation& mt, OutwardScale::Code code)
+      : saturated_(mt.arrays().saturatedError),
+        code_(code),
+        bandBegin_(mt.bandBegin(MultiTriangulation::bandOf(code))),
+        end_(mt.bandEnd(MultiTriangulation::bandOf(code))) {}
 
-  /// Whether a node had to be in that is no candidate: rounding, or a file whose errors break the laws.
-  bool isBeyond() const { return isBeyond_; }
+  std::uint32_t places() const { return end_; }
+  bool contains(std::uint32_t n) const { return n < end_; }
+  std::uint32_t placeOf(std::uint32_t n) const { return n; }
+  /// Whether the saturated cut holds a candidate.
+  bool mayBeIn(std::uint32_t n) const { return saturated_[n] > code_; }
+  /// Whether it holds all that are in.
+  bool mayAllBeIn(const NodeSet& in) const {
+    for (std::uint32_t n = bandBegin_; n < end_; ++n)
+      if (in[n] != 0 && !mayBeIn(n)) return false;
+    return true;
+  }
 
-  /// False when it was stopped.
-  bool run(const std::function<bool()>& stop) {
-    for (std::uint32_t t = 0; t < mt_.rootTriangleCount(); ++t)
-      if (a_.remover[t] != kNone && !test_.passes(t, {})) include(a_.remover[t]);
+  /// visit(first place, end of places, nodeAt(place)) for one piece after the other, until it returns false.
+  template <class Visit>
+  bool forPieces(const Visit& visit) const {
+    constexpr std::uint32_t kInPiece = MemberSet::kMostInPiece;
+    for (std::uint32_t begin = 0; begin < end_; begin += kInPiece)
+      if (!visit(begin, std::min(end_, begin + kInPiece), [](std::uint32_t place) { return place; }))
+        return false;
+    return true;
+  }
+
+  MemberSet members(NodeSet in, std::uint32_t) const {
+    in.resize(end_);
+    return MemberSet(in);
+  }
+
+ private:
+  std::span<const OutwardScale::Code> saturated_;
+  OutwardScale::Code code_;
+  std::uint32_t bandBegin_, end_;
+};
+
+/// Those of any other bound: the saturated cut, by rank.
+class RankedCandidates {
+ public:
+  explicit RankedCandidates(const MemberSet& set) : set_(set), lookup_(set.lookup()) {}
+
+  std::uint32_t places() const { return set_.size(); }
+  bool contains(std::uint32_t n) const { return lookup_.contains(n); }
+  std::uint32_t placeOf(std::uint32_t n) const { return lookup_.rank(n); }
+  bool mayBeIn(std::uint32_t) const { return true; }
+  bool mayAllBeIn(const NodeSet&) const { return true; }
+
+  template <class Visit>
+  bool forPieces(const Visit& visit) const {
     std::array<std::uint32_t, MemberSet::kMostInPiece> members;
-    for (std::uint32_t piece = 0; piece < candidates_.pieces(); ++piece) {
-      if (stop()) return false;
-      const std::uint32_t count = candidates_.list(piece, members.data());
-      const std::uint32_t before = candidates_.before(piece);
-      for (std::uint32_t i = 0; i < count; ++i) {
-        if (test_.isUniform()) i += takeOrdinary(members.data() + i, count - i, before + i);
-        if (i == count) break;
-        turn_ = before + i;
-        take(members[i]);
-        if (!late_.empty() && !takeLate(stop)) return false;
-      }
+    for (std::uint32_t piece = 0; piece < set_.pieces(); ++piece) {
+      const std::uint32_t begin = set_.before(piece), end = begin + set_.list(piece, members.data());
+      if (!visit(begin, end, [&](std::uint32_t place) { return members[place - begin]; })) return false;
     }
     return true;
   }
 
-  MemberSet members(std::uint32_t nodes) const {
-    std::vector<std::uint32_t> in;
+  MemberSet members(const NodeSet& in, std::uint32_t nodes) const {
+    std::vector<std::uint32_t> list;
     std::uint32_t rank = 0;
-    candidates_.visit([&](std::uint32_t n) {
-      if (in_[rank++] != 0) in.push_back(n);
+    set_.visit([&](std::uint32_t n) {
+      if (in[rank++] != 0) list.push_back(n);
     });
-    return {in, nodes};
+    return {list, nodes};
   }
 
  private:
-  static constexpr std::uint32_t kFew = 6;
+  const MemberSet& set_;
+  const MemberSet::Lookup lookup_;
+};
 
-  /// The turns of some members, up to the first that is not in or lacks a parent; returns how many these are.
-  /// Few slots of a node more or less pass, and how many there are cannot be foreseen: all are looked at in
-  /// one way, the first six there or not, and those that pass include one who is nobody.
-  ARETE_VECTOR_CLONES
-  std::uint32_t takeOrdinary(const std::uint32_t* members, std::uint32_t count, std::uint32_t turn) {
-    const MemberSet::Lookup lookup = lookup_;
-    const std::uint32_t* const slotBegin = a_.slotBegin.data();
-    const std::uint32_t* const removers = a_.remover.data() + mt_.rootTriangleCount();
-    const OutwardScale::Code* const errors = a_.error.data() + mt_.rootTriangleCount();
-    std::uint8_t* const in = in_.data();
-    const std::uint8_t* const lacksParent = lacksParent_.data();
-    const std::uint32_t nobody = candidates_.size(), code = test_.code();
-    const auto slots = static_cast<std::uint32_t>(a_.link.size());
-    std::uint32_t beyond = 0, i = 0;
-    for (; i < count && in[turn + i] > lacksParent[turn + i]; ++i) {
-      const std::uint32_t begin = slotBegin[members[i]], end = slotBegin[members[i] + 1];
-      if (slots - begin < kFew) [[unlikely]]
-        break;
-      const auto look = [&](std::uint32_t s) __attribute__((always_inline)) {
-        const std::uint32_t r = removers[s];
-        const std::uint32_t fails = static_cast<std::uint32_t>(errors[s] > code) &
-                                    static_cast<std::uint32_t>(s < end) &
-                                    static_cast<std::uint32_t>(r != kNone);
-        const std::uint32_t rank = lookup.rankOr(r, nobody);
-        beyond |= fails & static_cast<std::uint32_t>(rank == nobody);
-        in[fails != 0 ? rank : nobody] = 1;
-      };
-      for (std::uint32_t k = 0; k < kFew; ++k) look(begin + k);
-      for (std::uint32_t s = begin + kFew; s < end; ++s) look(s);
+/// Through the candidates, in the order of the nodes.
+template <class Candidates>
+class Sweep {
+ public:
+  Sweep(const MultiTriangulation& mt, const Criterion& criterion, const Candidates& candidates)
+      : mt_(mt),
+        a_(mt.arrays()),
+        test_(mt, criterion),
+        candidates_(candidates),
+        in_(std::size_t{candidates.places()} + 1, 0),
+        lacksParent_(candidates.places(), 0) {}
+
+  /// The least set; nothing where a node had to be in that is no candidate (rounding, or a file whose errors
+  /// break the laws), and when it was stopped.
+  std::optional<MemberSet> run(const std::function<bool()>& stop) {
+    for (std::uint32_t t = 0; t < mt_.rootTriangleCount(); ++t)
+      if (a_.remover[t] != kNone && !test_.passes(t, {})) include(a_.remover[t]);
+    const bool isThrough = candidates_.forPieces([&](std::uint32_t begin, std::uint32_t end, auto nodeAt) {
+      if (stop()) return false;
+      for (std::uint32_t place = begin; place < end; ++place) {
+        if constexpr (kIsUniform) place = takeOrdinary(place, end);
+        if (place == end) break;
+        turn_ = place;
+        take(nodeAt(place));
+        if (!late_.empty() && !takeLate(stop)) return false;
+      }
+      return true;
+    });
+    if (!isThrough || isBeyond_ || !candidates_.mayAllBeIn(in_)) return std::nullopt;
+    return candidates_.members(std::move(in_), mt_.nodeCount());
+  }
+
+ private:
+  static constexpr bool kIsUniform = std::is_same_v<Candidates, UniformCandidates>;
+  static constexpr std::uint32_t kMostInRun = 64, kSlotsAtOnce = 512;
+
+  /// The turns from a place on, up to the first of who is not in or lacks a parent; returns whose that is.
+  /// They are told run by run: who is in stays in, and then their slots are one range, that needs no branch.
+  std::uint32_t takeOrdinary(std::uint32_t place, std::uint32_t end) {
+    for (;;) {
+      const std::uint32_t runEnd = ordinaryUntil(place, std::min(end, place + kMostInRun));
+      if (runEnd == place) return place;
+      for (std::uint32_t s = a_.slotBegin[place]; s < a_.slotBegin[runEnd]; s += kSlotsAtOnce)
+        includeRemovers(s, std::min(a_.slotBegin[runEnd], s + kSlotsAtOnce));
+      place = runEnd;
     }
+  }
+
+  /// The first place that is not of an ordinary node.
+  std::uint32_t ordinaryUntil(std::uint32_t place, std::uint32_t end) const {
+    constexpr std::uint64_t kAll = 0x0101010101010101;
+    for (; place + 8 <= end; place += 8) {
+      std::uint64_t in, lacking;
+      std::memcpy(&in, in_.data() + place, 8);
+      std::memcpy(&lacking, lacksParent_.data() + place, 8);
+      if ((in & ~lacking) != kAll) break;
+    }
+    while (place < end && in_[place] > lacksParent_[place]) ++place;
+    return place;
+  }
+
+  /// Includes who removes the triangles of these slots that fail, and has his turn still to come.
+  ARETE_VECTOR_CLONES
+  void includeRemovers(std::uint32_t begin, std::uint32_t end) {
+    const std::uint32_t* const removers = a_.remover.data() + mt_.rootTriangleCount() + begin;
+    const OutwardScale::Code* const errors = a_.error.data() + mt_.rootTriangleCount() + begin;
+    const std::uint32_t nobody = candidates_.places(), code = test_.code(), count = end - begin;
+    std::array<std::uint32_t, kSlotsAtOnce> who;
+    std::uint32_t beyond = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t r = removers[i], here = std::min(r, nobody);
+      const bool fails = errors[i] > code;
+      who[i] = fails ? here : nobody;
+      beyond |= fails && r >= nobody && r != kNone ? 1 : 0;
+    }
+    std::uint8_t* const in = in_.data();
+    for (std::uint32_t i = 0; i < count; ++i) in[who[i]] = 1;
     isBeyond_ = isBeyond_ || beyond != 0;
-    return i;
   }
 
   void take(std::uint32_t n) {
     if (in_[turn_] == 0) {
-      if (!hasChildIn(n)) return;
+      if (!candidates_.mayBeIn(n) || !hasChildIn(n)) return;
       in_[turn_] = 1;
     }
     expand(n, turn_);
@@ -152,37 +235,39 @@ class Sweep {
     }
     for (std::uint32_t s = begin; s < end; ++s) {
       const std::uint32_t r = a_.remover[roots + s];
-      if (r != n && lookup_.contains(r)) lacksParent_[lookup_.rank(r)] = 1;
+      if (r != n && candidates_.contains(r)) lacksParent_[candidates_.placeOf(r)] = 1;
     }
     return false;
   }
 
-  void expand(std::uint32_t n, std::uint32_t rank) {
-    if (lacksParent_[rank] != 0)
+  void expand(std::uint32_t n, std::uint32_t place) {
+    if (lacksParent_[place] != 0)
       for (const std::uint32_t t : mt_.floor(NodeId(n)))
         if (const NodeId parent = mt_.creator(TriangleId(t)); parent.isValid()) include(parent.index());
-    const std::uint32_t roots = mt_.rootTriangleCount(), end = a_.slotBegin[n + 1];
-    for (std::uint32_t s = a_.slotBegin[n]; s < end; ++s) {
+    const std::uint32_t roots = mt_.rootTriangleCount(), begin = a_.slotBegin[n], end = a_.slotBegin[n + 1];
+    if constexpr (kIsUniform)
+      if (place == turn_) return includeRemovers(begin, end);
+    for (std::uint32_t s = begin; s < end; ++s) {
       const std::uint32_t r = a_.remover[roots + s];
       if (r == kNone || isIn(r)) continue;
       // Who is no candidate is allowed its saturated error, and with it every triangle that it removes.
-      if (!lookup_.contains(r) && a_.error[roots + s] <= a_.saturatedError[r]) continue;
+      if (!candidates_.contains(r) && a_.error[roots + s] <= a_.saturatedError[r]) continue;
       if (!test_.passes(roots + s, NodeId(n))) include(r);
     }
   }
 
-  bool isIn(std::uint32_t n) const { return lookup_.contains(n) && in_[lookup_.rank(n)] != 0; }
+  bool isIn(std::uint32_t n) const { return candidates_.contains(n) && in_[candidates_.placeOf(n)] != 0; }
 
   /// A remover of what fails, or a parent of one that is in.
   void include(std::uint32_t n) {
-    if (!lookup_.contains(n)) {
+    if (!candidates_.contains(n)) {
       isBeyond_ = true;
       return;
     }
-    const std::uint32_t rank = lookup_.rank(n);
-    if (in_[rank] != 0) return;
-    in_[rank] = 1;
-    if (rank < turn_) late_.push_back(n);
+    const std::uint32_t place = candidates_.placeOf(n);
+    if (in_[place] != 0) return;
+    in_[place] = 1;
+    if (place < turn_) late_.push_back(n);
   }
 
   bool takeLate(const std::function<bool()>& stop) {
@@ -190,7 +275,7 @@ class Sweep {
       if (steps % kCheckEvery == 0 && stop()) return false;
       const std::uint32_t n = late_.back();
       late_.pop_back();
-      expand(n, lookup_.rank(n));
+      expand(n, candidates_.placeOf(n));
     }
     return true;
   }
@@ -198,25 +283,33 @@ class Sweep {
   const MultiTriangulation& mt_;
   const MtArrays& a_;
   const Test test_;
-  const MemberSet& candidates_;
-  const MemberSet::Lookup lookup_;
-  std::vector<std::uint8_t> in_;           // by rank, and of nobody
-  std::vector<std::uint8_t> lacksParent_;  // by rank
-  std::uint32_t turn_ = 0;                 // the rank of the one whose turn it is
+  const Candidates& candidates_;
+  NodeSet in_;                             // by place, and of nobody
+  std::vector<std::uint8_t> lacksParent_;  // by place
+  std::uint32_t turn_ = 0;                 // the place of the one whose turn it is
   std::vector<std::uint32_t> late_;
   bool isBeyond_ = false;
 };
+
+std::optional<MemberSet> swept(const MultiTriangulation& mt, const Criterion& criterion,
+                               const std::function<bool()>& stop) {
+  const Test test(mt, criterion);
+  if (test.isUniform()) {
+    const UniformCandidates candidates(mt, test.code());
+    return Sweep(mt, criterion, candidates).run(stop);
+  }
+  const SaturatedMembers saturated = saturatedMembers(mt, criterion, std::nullopt);
+  const RankedCandidates candidates(saturated.members);
+  return Sweep(mt, criterion, candidates).run(stop);
+}
 
 }  // namespace
 
 std::optional<MemberSet> leastMembers(const MultiTriangulation& mt, const Criterion& criterion,
                                       const std::function<bool()>& stop) {
-  if (criterion.isMonotone()) {
-    const SaturatedMembers saturated = saturatedMembers(mt, criterion, std::nullopt);
-    Sweep sweep(mt, criterion, saturated.members);
-    if (!sweep.run(stop)) return std::nullopt;
-    if (!sweep.isBeyond()) return sweep.members(mt.nodeCount());
-  }
+  if (criterion.isMonotone())
+    if (auto found = swept(mt, criterion, stop)) return found;
+  // Who was stopped is stopped here too.
   return leastMembersByWalk(mt, criterion, stop);
 }
 

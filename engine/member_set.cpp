@@ -23,9 +23,10 @@ std::uint64_t bitsOf(const std::uint8_t* bytes, std::uint32_t count) {
   for (std::uint32_t at = 0; at < count; at += 8) {
     std::uint64_t eight = 0;
     std::memcpy(&eight, bytes + at, std::min(8u, count - at));
-    if (eight == 0) continue;
-    for (std::uint32_t i = 0; i < 8; ++i)
-      bits |= std::uint64_t((eight >> (8 * i) & 0xFF) != 0 ? 1 : 0) << (at + i);
+    // The lowest bit of each byte says whether any of it was set; the product brings them side by side.
+    constexpr std::uint64_t kLow = 0x7F7F7F7F7F7F7F7F;
+    const std::uint64_t any = (((eight & kLow) + kLow) | eight) >> 7 & 0x0101010101010101;
+    bits |= any * 0x0102040810204080 >> 56 << at;
   }
   return bits;
 }

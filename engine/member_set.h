@@ -60,15 +60,6 @@ class MemberSet {
       return half.before + static_cast<std::uint32_t>(std::popcount(half.bits << (~n % kNodesPerHalf))) - 1;
     }
 
-    /// rank() of a member, `otherwise` of anything else, without a branch.
-    std::uint32_t rankOr(std::uint32_t n, std::uint32_t otherwise) const {
-      const Half half =
-          halves_[begins_[std::min(n / kNodesPerPage, pages_)] + n / kNodesPerHalf % kHalvesPerPage];
-      const std::uint32_t upTo = half.bits << (~n % kNodesPerHalf);
-      const std::uint32_t rank = half.before + static_cast<std::uint32_t>(std::popcount(upTo)) - 1;
-      return upTo >> (kNodesPerHalf - 1) != 0 ? rank : otherwise;
-    }
-
    private:
     friend class MemberSet;
     const std::uint32_t* begins_;

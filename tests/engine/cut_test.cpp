@@ -25,6 +25,13 @@ double spanOfErrors(const MultiTriangulation& mt) {
   return mt.nodeCount() ? mt.largestError() : 1;
 }
 
+/// Of a raster family, so large that its nodes fill many pages.
+TerrainModel modelOfManyPages(std::string_view name, HoleShape shape) {
+  const auto family = std::ranges::find(rasterFamilies(), name,
+                                        [](const RasterFamily& f) { return std::string_view(f.name); });
+  return build(family->make(130, 120, 9), {.shape = shape}).value();
+}
+
 TEST(MinimalCut, IsTheLeastClosedSetForUniformErrors) {
   for (const FamilyModel& s : familyModels())
     for (const double part : {0.0, 0.001, 0.02, 0.1, 0.4, 1.0}) {
@@ -82,12 +89,8 @@ TEST(Cuts, KeepWhatEveryCriterionAsks) {
 TEST(MinimalCut, IsTheLeastClosedSetOfModelsOfManyPages) {
   for (const char* name : {"noise", "fractal", "nodata holes", "integer"})
     for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity}) {
-      const auto family = std::ranges::find(rasterFamilies(), std::string_view(name),
-                                            [](const RasterFamily& f) { return std::string_view(f.name); });
-      ASSERT_NE(family, rasterFamilies().end()) << name;
-      const auto model = build(family->make(130, 120, 9), {.shape = shape});
-      ASSERT_TRUE(model);
-      const MultiTriangulation& mt = model->mt;
+      const TerrainModel model = modelOfManyPages(name, shape);
+      const MultiTriangulation& mt = model.mt;
       for (const double part : {0.0, 0.003, 0.05, 0.2, 0.5, 0.8}) {
         const UniformError uniform(part * spanOfErrors(mt));
         EXPECT_EQ(takeNodes(mt, uniform)->nodes, leastClosedSet(mt, uniform)) << name << " " << part;
@@ -113,6 +116,54 @@ TEST(MinimalCut, IsTheLeastClosedSetWhereSaturatedErrorsAreNone) {
       EXPECT_EQ(takeNodes(mt, uniform)->nodes, leastClosedSet(mt, uniform)) << s.name << " " << part;
     }
   }
+}
+
+/// Saturated errors as nobody's build makes them, of a parent smaller than of its child, though the bands are
+/// in order.
+TEST(MinimalCut, IsTheLeastClosedSetWhereSaturatedErrorsAreOfTheBandAlone) {
+  std::mt19937_64 random(33);
+  for (const char* name : {"noise", "fractal", "integer"}) {
+    const TerrainModel model = modelOfManyPages(name, HoleShape::delaunay);
+    MtArrays arrays = model.mt.arrays();
+    std::vector<OutwardScale::Code> saturated(arrays.saturatedError.begin(), arrays.saturatedError.end());
+    constexpr std::uint32_t kOfBand = (1u << MultiTriangulation::kBandShift) - 1;
+    for (OutwardScale::Code& code : saturated)
+      code = static_cast<OutwardScale::Code>((code & ~kOfBand) | (random() & kOfBand));
+    arrays.saturatedError = saturated;
+    const MultiTriangulation mt(arrays, nullptr);
+    for (int round = 0; round < 20; ++round) {
+      const UniformError uniform(arrays.scale.decode(saturated[random() % mt.nodeCount()]));
+      EXPECT_EQ(takeNodes(mt, uniform)->nodes, leastClosedSet(mt, uniform)) << name << " " << round;
+    }
+  }
+}
+
+/// Parents that only a child asks for, of smaller saturated errors than it: a cut lacks some, and its front
+/// is whole all the same.
+TEST(MinimalCut, HasAWholeFrontWhereParentsAreSaidToErrLess) {
+  int lacking = 0;
+  for (const char* name : {"noise", "fractal", "integer"}) {
+    const TerrainModel model = modelOfManyPages(name, HoleShape::delaunay);
+    MtArrays arrays = model.mt.arrays();
+    for (const double part : {0.003, 0.05, 0.2}) {
+      const UniformError uniform(part * spanOfErrors(model.mt));
+      const OutwardScale::Code code = arrays.scale.floorCode(uniform.uniformError());
+      const std::uint32_t band = MultiTriangulation::bandOf(code);
+      std::vector<OutwardScale::Code> saturated(model.mt.arrays().saturatedError.begin(),
+                                                model.mt.arrays().saturatedError.end());
+      for (std::uint32_t n = model.mt.bandBegin(band); n < model.mt.bandEnd(band); ++n)
+        if (std::ranges::none_of(model.mt.floor(NodeId(n)),
+                                 [&](std::uint32_t t) { return arrays.error[t] > code; }))
+          saturated[n] = static_cast<OutwardScale::Code>(band << MultiTriangulation::kBandShift);
+      arrays.saturatedError = saturated;
+      const MultiTriangulation mt(arrays, nullptr);
+      const auto cut = takeCut(mt, uniform);
+      ASSERT_TRUE(cut);
+      EXPECT_TRUE(validateFront(mt, *cut, domainExtent(mt))) << name << " " << part;
+      lacking += takeNodes(mt, uniform)->nodes != leastClosedSet(mt, uniform) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(lacking, 0);
 }
 
 /// Spheres as nobody's build makes them, which hold nothing: what a saturated cut finds by them lacks
