@@ -42,11 +42,12 @@ constexpr auto kOnes = [] {
   return ones;
 }();
 
+template <class Lookup>
 class FrontWriter {
  public:
-  FrontWriter(const MultiTriangulation& mt, const MemberSet& set)
+  FrontWriter(const MultiTriangulation& mt, const MemberSet& set, const Lookup& in)
       : set_(set),
-        in_(set.lookup()),
+        in_(in),
         roots_(mt.rootTriangleCount()),
         rootVertices_(mt.rootVertexCount()),
         slots_(static_cast<std::uint32_t>(mt.arrays().link.size())),
@@ -148,7 +149,7 @@ class FrontWriter {
 
   /// Bit i: the triangle of slot begin + i is kept.
   [[gnu::always_inline]] std::uint64_t keptBy(std::uint32_t begin, std::uint32_t end) const {
-    const MemberSet::Lookup in = in_;
+    const Lookup in = in_;
     const std::uint32_t* const removers = remover_;
     const std::uint32_t slots = end - begin;
     assert(slots <= kMostSlots);
@@ -169,7 +170,7 @@ class FrontWriter {
     const std::uint32_t* const link = link_;
     const std::uint16_t* const errors = error_;
     const std::uint32_t roots = roots_, rootVertices = rootVertices_;
-    const MemberSet::Lookup in = in_;
+    const Lookup in = in_;
     // Of an MT vertex among those of the front.
     const auto place = [&](std::uint32_t v) {
       return v < rootVertices ? v : rootVertices + in.rank(v - rootVertices);
@@ -191,7 +192,7 @@ class FrontWriter {
   }
 
   const MemberSet& set_;
-  const MemberSet::Lookup in_;
+  const Lookup in_;
   const std::uint32_t roots_, rootVertices_, slots_;
   const std::uint32_t *const slotBegin_, *const link_, *const remover_;
   const std::uint16_t* const error_;
@@ -200,11 +201,12 @@ class FrontWriter {
 
 /// Nothing where the set has to be closed and is not: a member adds two triangles, one on a border, if all
 /// that it replaces are made by members or the root, and more if some are not.
-std::optional<Cut> writeFront(const MultiTriangulation& mt, const MemberSet& set, bool mustBeClosed) {
+template <class Lookup>
+std::optional<Cut> writeFront(const MultiTriangulation& mt, const MemberSet& set, const Lookup& in,
+                              bool mustBeClosed) {
   const MtArrays& a = mt.arrays();
   const std::uint32_t roots = mt.rootTriangleCount(), rootVertices = mt.rootVertexCount();
-  const MemberSet::Lookup in = set.lookup();
-  const FrontWriter writer(mt, set);
+  const FrontWriter writer(mt, set, in);
   Cut cut;
   cut.nodes = set.size();
 
@@ -217,7 +219,7 @@ std::optional<Cut> writeFront(const MultiTriangulation& mt, const MemberSet& set
       [&] {
         for (std::uint32_t t = 0; t < roots; ++t) begin[1] += in.contains(a.remover[t]) ? 0 : 1;
         tbb::parallel_for(std::uint32_t(0), set.pieces(), [&](std::uint32_t piece) {
-          const FrontWriter::Marked marked = writer.mark(piece);
+          const auto marked = writer.mark(piece);
           begin[piece + 2] = marked.kept;
           open.fetch_add(marked.open, std::memory_order_relaxed);
         });
@@ -248,6 +250,11 @@ std::optional<Cut> writeFront(const MultiTriangulation& mt, const MemberSet& set
   });
   cut.achievedError = a.scale.decode(*std::max_element(worst.begin(), worst.end()));
   return cut;
+}
+
+std::optional<Cut> writeFront(const MultiTriangulation& mt, const MemberSet& set, bool mustBeClosed) {
+  return set.isDense() ? writeFront(mt, set, set.denseLookup(), mustBeClosed)
+                       : writeFront(mt, set, set.lookup(), mustBeClosed);
 }
 
 }  // namespace

@@ -3,12 +3,14 @@
 // Runs of pages are filled by different threads; each notes the words with members. Once the runs before one
 // are counted it is known where its words go, and they are put there, in parallel again. So a small cut of a
 // large MT pays for an index a page and for the words of its own pages: what a front looks up stays in the
-// caches nearest to a processor.
+// caches nearest to a processor. Where nearly all pages have members the few others are there as well: then
+// a node's half word is found without the index.
 #include "engine/member_set.h"
 
 #include <tbb/parallel_for.h>
 
 #include <array>
+#include <cassert>
 #include <cstring>
 #include <numeric>
 
@@ -55,8 +57,18 @@ MemberSet::MemberSet(std::uint32_t certain, std::uint32_t end, std::uint32_t pag
   size_ = place.back().members;
   begins_.assign(std::size_t(pages) + 1, 0);
   used_.resize(place.back().used);
-  halves_ = std::make_unique_for_overwrite<Half[]>(std::size_t(place.back().page) * kHalvesPerPage);
+  constexpr std::uint32_t kFewWithout = 8;  // one page in so many, or less, is worth a page of none
+  isDense_ = (1 + pages - place.back().page) * kFewWithout <= pages;
+  if (isDense_) {
+    std::iota(begins_.begin(), begins_.end(), 1u);
+    for (std::uint32_t& begin : begins_) begin *= kHalvesPerPage;
+    for (std::size_t run = 0; run < runs.size(); ++run)
+      place[run + 1].page = 1 + std::min(pages, full + (static_cast<std::uint32_t>(run) + 1) * pagesPerRun);
+  }
+  const std::uint32_t pagesHere = place.back().page + (isDense_ ? 1 : 0);
+  halves_ = std::make_unique_for_overwrite<Half[]>(std::size_t(pagesHere) * kHalvesPerPage);
   std::fill_n(halves_.get(), kHalvesPerPage, Half{});
+  if (isDense_) std::fill_n(halves_.get() + std::size_t(1 + pages) * kHalvesPerPage, kHalvesPerPage, Half{});
   tbb::parallel_for(std::uint32_t(0), full, [&](std::uint32_t page) {
     begins_[page] = (1 + page) * kHalvesPerPage;
     for (std::uint32_t h = page * kHalvesPerPage; h < (page + 1) * kHalvesPerPage; ++h)
@@ -67,7 +79,7 @@ MemberSet::MemberSet(std::uint32_t certain, std::uint32_t end, std::uint32_t pag
   tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t run) {
     Place at = place[run];
     std::fill_n(halves_.get() + std::size_t(at.page) * kHalvesPerPage,
-                std::size_t(runs[run].pages_) * kHalvesPerPage, Half{});
+                std::size_t(place[run + 1].page - at.page) * kHalvesPerPage, Half{});
     for (std::size_t i = 0; i < runs[run].words_.size(); ++i) {
       const std::uint32_t w = runs[run].words_[i];
       if (begins_[w / kWordsPerPage] == 0) begins_[w / kWordsPerPage] = at.page++ * kHalvesPerPage;
@@ -117,6 +129,14 @@ MemberSet::Lookup MemberSet::lookup() const {
   lookup.begins_ = begins_.data();
   lookup.halves_ = halves_.get();
   lookup.pages_ = static_cast<std::uint32_t>(begins_.size() - 1);
+  return lookup;
+}
+
+MemberSet::DenseLookup MemberSet::denseLookup() const {
+  assert(isDense_);
+  DenseLookup lookup;
+  lookup.halves_ = halves_.get() + kHalvesPerPage;
+  lookup.end_ = static_cast<std::uint32_t>(begins_.size() - 1) * kHalvesPerPage;
   return lookup;
 }
 

@@ -45,28 +45,45 @@ class MemberSet {
   };
   static constexpr std::uint32_t kNodesPerHalf = 32, kHalvesPerPage = 2 * kWordsPerPage;
 
+  static bool isSet(Half half, std::uint32_t n) { return (half.bits >> (n % kNodesPerHalf) & 1) != 0; }
+  static std::uint32_t rankIn(Half half, std::uint32_t n) {
+    // What is left are the members up to n, itself among them.
+    return half.before + static_cast<std::uint32_t>(std::popcount(half.bits << (~n % kNodesPerHalf))) - 1;
+  }
+
  public:
   /// What a front asks: whether n is a member, be it a node or none; how many come before it (precondition: n
   /// is a member). Pointers by value, so that nothing a loop writes can change them.
   class Lookup {
    public:
-    bool contains(std::uint32_t n) const {
-      const std::uint32_t begin = begins_[std::min(n / kNodesPerPage, pages_)];
-      return (halves_[begin + n / kNodesPerHalf % kHalvesPerPage].bits >> (n % kNodesPerHalf) & 1) != 0;
-    }
-    std::uint32_t rank(std::uint32_t n) const {
-      const Half half = halves_[begins_[n / kNodesPerPage] + n / kNodesPerHalf % kHalvesPerPage];
-      // What is left are the members up to n, itself among them.
-      return half.before + static_cast<std::uint32_t>(std::popcount(half.bits << (~n % kNodesPerHalf))) - 1;
-    }
+    bool contains(std::uint32_t n) const { return isSet(half(std::min(n / kNodesPerPage, pages_), n), n); }
+    std::uint32_t rank(std::uint32_t n) const { return rankIn(half(n / kNodesPerPage, n), n); }
 
    private:
     friend class MemberSet;
+    Half half(std::uint32_t page, std::uint32_t n) const {
+      return halves_[begins_[page] + n / kNodesPerHalf % kHalvesPerPage];
+    }
     const std::uint32_t* begins_;
     const Half* halves_;
     std::uint32_t pages_;
   };
+  /// The same of a set with members nearly everywhere (isDense()), whose pages are all there, without a look
+  /// at an index.
+  class DenseLookup {
+   public:
+    bool contains(std::uint32_t n) const { return isSet(halves_[std::min(n / kNodesPerHalf, end_)], n); }
+    std::uint32_t rank(std::uint32_t n) const { return rankIn(halves_[n / kNodesPerHalf], n); }
+
+   private:
+    friend class MemberSet;
+    const Half* halves_;
+    std::uint32_t end_;
+  };
   Lookup lookup() const;
+  bool isDense() const { return isDense_; }
+  /// Precondition: isDense().
+  DenseLookup denseLookup() const;
 
   /// Members fall into pieces, in rising order; those of different pieces can be visited by different
   /// threads.
@@ -98,9 +115,10 @@ class MemberSet {
   }
 
   std::uint32_t size_ = 0;
+  bool isDense_ = false;
   std::vector<std::uint32_t> begins_;  // of pages, and of one beyond them: where their halves begin
-  std::unique_ptr<Half[]> halves_;     // the first page is that of none
-  std::vector<std::uint32_t> used_;    // words with members
+  std::unique_ptr<Half[]> halves_;   // the first page is that of none, and so is the last one of a dense set
+  std::vector<std::uint32_t> used_;  // words with members
 };
 
 class MemberSet::Sink {

@@ -19,16 +19,21 @@ std::vector<std::uint32_t> membersOf(const NodeSet& in) {
   return members;
 }
 
-/// What the set says of everything that can be asked, against a byte a node.
-void expectSame(const MemberSet& set, const NodeSet& in) {
-  const std::vector<std::uint32_t> members = membersOf(in);
-  ASSERT_EQ(set.size(), members.size());
-  const MemberSet::Lookup lookup = set.lookup();
+template <class Lookup>
+void expectFinds(const Lookup& lookup, const NodeSet& in, const std::vector<std::uint32_t>& members) {
   for (std::uint32_t n = 0; n < in.size(); ++n) ASSERT_EQ(lookup.contains(n), in[n] != 0) << n;
   for (std::uint32_t beyond = 0; beyond < 5000; beyond += 7)
     ASSERT_FALSE(lookup.contains(static_cast<std::uint32_t>(in.size()) + beyond));
   EXPECT_FALSE(lookup.contains(MultiTriangulation::kNone));
   for (std::uint32_t i = 0; i < members.size(); ++i) ASSERT_EQ(lookup.rank(members[i]), i);
+}
+
+/// What the set says of everything that can be asked, against a byte a node.
+void expectSame(const MemberSet& set, const NodeSet& in) {
+  const std::vector<std::uint32_t> members = membersOf(in);
+  ASSERT_EQ(set.size(), members.size());
+  expectFinds(set.lookup(), in, members);
+  if (set.isDense()) expectFinds(set.denseLookup(), in, members);
 
   std::vector<std::uint32_t> listed, piece(MemberSet::kMostInPiece);
   for (std::uint32_t p = 0; p < set.pieces(); ++p) {
@@ -52,6 +57,25 @@ TEST(MemberSet, IsWhatItWasMadeOfBeItFullSparseOrEmpty) {
         expectSame(MemberSet(membersOf(in), nodes), in);
       }
   }
+}
+
+TEST(MemberSet, IsDenseWhereHardlyAPageIsWithoutMembers) {
+  std::mt19937 random(4);
+  const auto spread = [&](std::uint32_t nodes, double share) {
+    NodeSet in(nodes);
+    for (auto& n : in) n = std::uniform_real_distribution<>()(random) < share;
+    return in;
+  };
+  const NodeSet nearly = spread(100'000, 0.003), thin = spread(100'000, 0.0003);
+  int pagesWithout = 0;
+  for (std::size_t page = 0; page + 1024 <= nearly.size(); page += 1024)
+    pagesWithout += std::all_of(&nearly[page], &nearly[page] + 1024, [](auto n) { return n == 0; }) ? 1 : 0;
+  EXPECT_GT(pagesWithout, 0);
+  EXPECT_TRUE(MemberSet(nearly).isDense());
+  expectSame(MemberSet(nearly), nearly);
+  EXPECT_FALSE(MemberSet(thin).isDense());
+  expectSame(MemberSet(thin), thin);
+  EXPECT_TRUE(MemberSet::prefix(5000).isDense());
 }
 
 TEST(MemberSet, OfAPrefixHasTheFirstNodes) {
