@@ -176,12 +176,15 @@ class Sweep {
 
   /// The turns from a place on, up to the first of who is not in or lacks a parent; returns whose that is.
   /// They are told run by run: who is in stays in, and then their slots are one range, that needs no branch.
-  std::uint32_t takeOrdinary(std::uint32_t place, std::uint32_t end) {
+  std::uint32_t takeOrdinary(std::uint32_t place, std::uint32_t placesEnd) {
     for (;;) {
-      const std::uint32_t runEnd = ordinaryUntil(place, std::min(end, place + kMostInRun));
+      const std::uint32_t runEnd = ordinaryUntil(place, std::min(placesEnd, place + kMostInRun));
       if (runEnd == place) return place;
-      for (std::uint32_t s = a_.slotBegin[place]; s < a_.slotBegin[runEnd]; s += kSlotsAtOnce)
-        includeRemovers(s, std::min(a_.slotBegin[runEnd], s + kSlotsAtOnce));
+      for (std::uint32_t s = a_.slotBegin[place], end = a_.slotBegin[runEnd]; s != end;) {
+        const std::uint32_t next = s + std::min(end - s, kSlotsAtOnce);
+        includeRemovers(s, next);
+        s = next;
+      }
       place = runEnd;
     }
   }
