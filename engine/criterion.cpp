@@ -59,6 +59,12 @@ double DistanceError::allowedError(const Sphere& s) const {
   return allowedAt(std::max(0.0, std::sqrt(dx * dx + dy * dy + dz * dz) - s.radius));
 }
 
+double DistanceError::mostAllowed(const Sphere& s) const {
+  constexpr double kRounding = 1 + 1e-9;
+  const double dx = s.x - o_.place.x, dy = s.y - o_.place.y, dz = o_.inPlan ? 0 : s.z - o_.place.z;
+  return allowedAt((std::sqrt(dx * dx + dy * dy + dz * dz) + s.radius) * kRounding);
+}
+
 bool AllOf::isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
   return std::ranges::all_of(parts_, [&](const auto& part) { return part->isFineEnough(mt, t, corners); });
 }
@@ -77,6 +83,12 @@ bool AllOf::isMonotone() const {
 double AllOf::allowedError(const Sphere& s) const {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& part : parts_) least = std::min(least, part->allowedError(s));
+  return least;
+}
+
+double AllOf::mostAllowed(const Sphere& s) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& part : parts_) least = std::min(least, part->mostAllowed(s));
   return least;
 }
 
@@ -103,6 +115,12 @@ bool AnyOf::isMonotone() const {
 double AnyOf::allowedError(const Sphere& s) const {
   double largest = 0;
   for (const auto& part : parts_) largest = std::max(largest, part->allowedError(s));
+  return largest;
+}
+
+double AnyOf::mostAllowed(const Sphere& s) const {
+  double largest = 0;
+  for (const auto& part : parts_) largest = std::max(largest, part->mostAllowed(s));
   return largest;
 }
 

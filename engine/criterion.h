@@ -44,6 +44,9 @@ class Criterion {
   /// The least error that the criterion allows to any triangle that meets the ball (metric space).
   virtual double allowedError(const Sphere&) const { return 0; }
 
+  /// The most error that it allows to any triangle within the ball; infinite where it does not know.
+  virtual double mostAllowed(const Sphere&) const { return std::numeric_limits<double>::infinity(); }
+
   /// Which of these balls, 64 at most, are allowed less than their error: bit i of the answer is
   /// error[i] > allowedError(ball[i]). What decides about many balls at once may override it.
   /// Precondition: isMonotone().
@@ -79,6 +82,7 @@ class UniformError final : public Criterion {
   }
   bool isMonotone() const override { return true; }
   double allowedError(const Sphere&) const override { return maxError_; }
+  double mostAllowed(const Sphere&) const override { return maxError_; }
   double uniformError() const override { return maxError_; }
 
  private:
@@ -99,6 +103,9 @@ class RegionError final : public Criterion {
   bool isMonotone() const override { return true; }
   double allowedError(const Sphere& s) const override {
     return metricRegion_.meetsDisc({s.x, s.y}, s.radius) ? insideError_ : outsideError_;
+  }
+  double mostAllowed(const Sphere& s) const override {
+    return metricRegion_.holdsDisc({s.x, s.y}, s.radius) ? insideError_ : outsideError_;
   }
   std::uint64_t exceeding(std::span<const Sphere> balls, std::span<const float> errors) const override;
   const Region& region() const { return region_; }
@@ -128,6 +135,7 @@ class DistanceError final : public Criterion {
   double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
   bool isMonotone() const override { return true; }
   double allowedError(const Sphere& s) const override;
+  double mostAllowed(const Sphere& s) const override;
 
  private:
   double allowedFor(const MultiTriangulation& mt, const Corners& corners) const;
@@ -160,6 +168,7 @@ class AllOf final : public Criterion {
   double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
   bool isMonotone() const override;
   double allowedError(const Sphere& s) const override;
+  double mostAllowed(const Sphere& s) const override;
   std::uint64_t exceeding(std::span<const Sphere> balls, std::span<const float> errors) const override;
 
  private:
@@ -177,6 +186,7 @@ class AnyOf final : public Criterion {
   double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
   bool isMonotone() const override;
   double allowedError(const Sphere& s) const override;
+  double mostAllowed(const Sphere& s) const override;
   std::uint64_t exceeding(std::span<const Sphere> balls, std::span<const float> errors) const override;
 
  private:

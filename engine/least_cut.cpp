@@ -48,6 +48,17 @@ class Test {
   bool isUniform() const { return isUniform_; }
   OutwardScale::Code code() const { return code_; }
 
+  /// What is known of all triangles of a star by the ball around it: up to which code they pass, and may.
+  struct Around {
+    OutwardScale::Code passing, mayPass;
+  };
+  Around around(NodeId n) const {
+    if (isUniform_) return {code_, code_};
+    const Sphere& ball = mt_.arrays().sphere[n.index()];
+    const OutwardScale& scale = mt_.arrays().scale;
+    return {scale.floorCode(criterion_.allowedError(ball)), scale.floorCode(criterion_.mostAllowed(ball))};
+  }
+
   bool passes(std::uint32_t id, NodeId creator) const {
     if (isUniform_) return mt_.arrays().error[id] <= code_;
     return isSatisfied(mt_, criterion_, TriangleId(id), mt_.corners(TriangleId(id), creator));
@@ -250,12 +261,15 @@ class Sweep {
     const std::uint32_t roots = mt_.rootTriangleCount(), begin = a_.slotBegin[n], end = a_.slotBegin[n + 1];
     if constexpr (kIsUniform)
       if (place == turn_) return includeRemovers(begin, end);
+    std::optional<Test::Around> around;  // the star
     for (std::uint32_t s = begin; s < end; ++s) {
       const std::uint32_t r = a_.remover[roots + s];
       if (r == kNone || isIn(r)) continue;
       // Who is no candidate is allowed its saturated error, and with it every triangle that it removes.
       if (!candidates_.contains(r) && a_.error[roots + s] <= a_.saturatedError[r]) continue;
-      if (!test_.passes(roots + s, NodeId(n))) include(r);
+      if (!around) around = test_.around(NodeId(n));
+      if (a_.error[roots + s] <= around->passing) continue;
+      if (a_.error[roots + s] > around->mayPass || !test_.passes(roots + s, NodeId(n))) include(r);
     }
   }
 

@@ -138,6 +138,17 @@ bool Region::meetsDisc(Vec2 centre, double radius) const {
   }) || isInRings(p);
 }
 
+bool Region::holdsDisc(Vec2 centre, double radius) const {
+  const Vec2 p = toInner(centre);
+  const auto isAnEdgeWithin = [&](double r) {
+    return r >= 0 && tree_.anyIn(around({p.x, p.y, p.x, p.y}, r),
+                                 [&](const Segment2& e) { return squaredDistance(p, e.a, e.b) <= r * r; });
+  };
+  const double r = radius * (1 + 1e-9);
+  return (shape_.distance > 0 && isAnEdgeWithin(shape_.distance * (1 - 1e-9) - r)) ||
+         (!isAnEdgeWithin(r) && isInRings(p));
+}
+
 Region Region::scaled(const MetricFrame& metric) const {
   RegionShape shape = shape_;
   if (shape.distance == 0)

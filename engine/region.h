@@ -35,6 +35,9 @@ class Region {
   bool meetsTriangle(Vec2 a, Vec2 b, Vec2 c) const;
   /// Errs, if at all, towards true: rounding is covered by widening the disc by one part in 1e9.
   bool meetsDisc(Vec2 centre, double radius) const;
+  /// Whether all of the disc is in the region. Errs towards false: where the disc meets an edge of a ring,
+  /// and by rounding.
+  bool holdsDisc(Vec2 centre, double radius) const;
 
   /// The same region for queries in metric space. Precondition: the metric frame of the constructor, where
   /// there is a distance.

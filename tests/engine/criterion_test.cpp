@@ -9,7 +9,9 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <random>
+#include <string>
 
 #include "engine/cut_promises.h"
 #include "engine/family_models.h"
@@ -94,6 +96,43 @@ void expectSameOfManyAsOfEach(const Criterion& criterion, const Extent& e, std::
         << "ball " << i << " of " << balls.size() << ": " << balls[i % balls.size()].x << " "
         << balls[i % balls.size()].y << " " << balls[i % balls.size()].z << " "
         << balls[i % balls.size()].radius;
+}
+
+/// What a criterion says of a node's ball, held against its triangles, of any errors.
+TEST(Criteria, AllowTrianglesInABallWhatTheySayAtLeastAndAtMost) {
+  std::mt19937_64 random(4);
+  std::map<std::string, std::size_t> failing, passing;
+  for (const FamilyModel& m : familyModels())
+    for (int round = 0; round < 4; ++round) {
+      MtArrays arrays = m.model.mt.arrays();
+      std::vector<OutwardScale::Code> error(arrays.error.size());
+      const OutwardScale::Code largest = arrays.scale.floorCode(2 * spanOf(m.model));
+      for (OutwardScale::Code& code : error)
+        code = static_cast<OutwardScale::Code>(random() % (largest + 1u));
+      arrays.error = error;
+      const MultiTriangulation mt(arrays, nullptr);
+      for (const auto& [name, criterion] : criteriaFor(m.model.mt, random))
+        for (std::uint32_t n = 0; n < mt.nodeCount(); ++n)
+          for (std::uint32_t slot = 0; slot < mt.slotCount(NodeId(n)); ++slot) {
+            const TriangleId t = mt.slotTriangle(NodeId(n), slot);
+            if (mt.remover(t) == NodeId(n)) continue;  // no triangle
+            const auto corners = mt.corners(t, NodeId(n));
+            if (mt.error(t) > criterion->mostAllowed(arrays.sphere[n])) {
+              EXPECT_FALSE(criterion->isFineEnough(mt, t, corners)) << m.name << " " << name << " node " << n;
+              ++failing[name];
+            }
+            // Who could go is satisfied by the bound, though what may stand below it reach beyond the ball.
+            if (!mt.remover(t).isValid() || !criterion->isMonotone() ||
+                mt.error(t) > criterion->allowedError(arrays.sphere[n]))
+              continue;
+            EXPECT_TRUE(isSatisfied(mt, *criterion, t, corners)) << m.name << " " << name << " node " << n;
+            ++passing[name];
+          }
+    }
+  for (const char* name : {"uniform", "region", "corridor", "distance", "any of uniform and distance"}) {
+    EXPECT_GT(failing[name], 1000u) << name;
+    EXPECT_GT(passing[name], 1000u) << name;
+  }
 }
 
 TEST(Criteria, SayOfManyBallsAtOnceWhatTheySayOfEach) {

@@ -68,6 +68,8 @@ TEST(Region, AgreesWithPlainScansOverAllEdgesOnRandomStars) {
       EXPECT_EQ(region.contains(p), inside) << round;
       EXPECT_TRUE(inside || region.meetsDisc(p, nearest * 1.000001)) << round;
       EXPECT_EQ(region.meetsDisc(p, nearest * 0.999999), inside) << round;
+      EXPECT_EQ(region.holdsDisc(p, nearest * 0.999999), inside) << round;
+      EXPECT_FALSE(region.holdsDisc(p, nearest * 1.000001)) << round;
     }
   }
 }
