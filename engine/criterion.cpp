@@ -54,15 +54,18 @@ double DistanceError::severity(const MultiTriangulation& mt, TriangleId t, const
   return allowed > 0 ? mt.error(t) / allowed : std::numeric_limits<double>::infinity();
 }
 
-double DistanceError::allowedError(const Sphere& s) const {
+double DistanceError::distanceToMiddle(const Sphere& s) const {
   const double dx = s.x - o_.place.x, dy = s.y - o_.place.y, dz = o_.inPlan ? 0 : s.z - o_.place.z;
-  return allowedAt(std::max(0.0, std::sqrt(dx * dx + dy * dy + dz * dz) - s.radius));
+  return std::sqrt(dx * dx + dy * dy + dz * dz);
+}
+
+double DistanceError::allowedError(const Sphere& s) const {
+  return allowedAt(std::max(0.0, distanceToMiddle(s) - s.radius));
 }
 
 double DistanceError::mostAllowed(const Sphere& s) const {
   constexpr double kRounding = 1 + 1e-9;
-  const double dx = s.x - o_.place.x, dy = s.y - o_.place.y, dz = o_.inPlan ? 0 : s.z - o_.place.z;
-  return allowedAt((std::sqrt(dx * dx + dy * dy + dz * dz) + s.radius) * kRounding);
+  return allowedAt((distanceToMiddle(s) + s.radius) * kRounding);
 }
 
 bool AllOf::isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {

@@ -23,7 +23,8 @@ namespace arete {
 ///
 /// A criterion that allows an error by place says so through allowedError(): then it can steer the saturated
 /// cut, whose test per node needs a bound over the node's sphere. Any other criterion (isMonotone() false)
-/// steers the minimal cut.
+/// steers the minimal cut. mostAllowed() only saves time: it decides about triangles before they are asked
+/// for.
 class Criterion {
  public:
   using Corners = std::array<std::uint32_t, 3>;  ///< MT vertices
@@ -140,6 +141,7 @@ class DistanceError final : public Criterion {
  private:
   double allowedFor(const MultiTriangulation& mt, const Corners& corners) const;
   double allowedAt(double distance) const;
+  double distanceToMiddle(const Sphere& s) const;
 
   Options o_;
 };

@@ -32,7 +32,7 @@ struct Cut {
 
 /// Two ways to take a cut, both exact (docs/topics/cuts.md).
 enum class CutMethod {
-  minimal,    ///< the least cut for the criterion: a walk from the root, forcing ancestors
+  minimal,    ///< the least cut for the criterion, of a sweep or a walk that forces ancestors
   saturated,  ///< independent tests per node, parallel: a few percent more triangles, no walk
 };
 
@@ -51,8 +51,9 @@ struct CutOptions {
 /// nothing finer. A budget spent worst first leaves the least cut of the severity that it reached: no cut of
 /// as many triangles has a smaller one. Errors: usage when the budget is below the root's count, when the
 /// saturated cut is asked for a criterion without a bound over a sphere, or given a deadline or an order;
-/// interrupted. Minimal: O(triangles visited), visiting the cut and its ancestors; with a budget or a
-/// deadline times log. Saturated: O(N) at most in general, O(size of the cut) for a uniform error.
+/// interrupted. Minimal: O(the saturated cut) where the criterion has a bound, else O(triangles visited);
+/// with a budget or a deadline times log. Saturated: O(N) at most in general, O(size of the cut) for a
+/// uniform error.
 Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options = {},
                     const RunContext& context = {});
 

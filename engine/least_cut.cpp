@@ -103,7 +103,7 @@ class UniformCandidates {
     return true;
   }
 
-  MemberSet members(NodeSet in, std::uint32_t) const {
+  MemberSet members(NodeSet in) const {
     in.resize(end_);
     return MemberSet(in);
   }
@@ -117,7 +117,8 @@ class UniformCandidates {
 /// Those of any other bound: the saturated cut, by rank.
 class RankedCandidates {
  public:
-  explicit RankedCandidates(const MemberSet& set) : set_(set), lookup_(set.lookup()) {}
+  RankedCandidates(const MemberSet& set, std::uint32_t nodes)
+      : set_(set), lookup_(set.lookup()), nodes_(nodes) {}
 
   std::uint32_t places() const { return set_.size(); }
   bool contains(std::uint32_t n) const { return lookup_.contains(n); }
@@ -135,28 +136,29 @@ class RankedCandidates {
     return true;
   }
 
-  MemberSet members(const NodeSet& in, std::uint32_t nodes) const {
+  MemberSet members(const NodeSet& in) const {
     std::vector<std::uint32_t> list;
     std::uint32_t rank = 0;
     set_.visit([&](std::uint32_t n) {
       if (in[rank++] != 0) list.push_back(n);
     });
-    return {list, nodes};
+    return {list, nodes_};
   }
 
  private:
   const MemberSet& set_;
   const MemberSet::Lookup lookup_;
+  const std::uint32_t nodes_;
 };
 
 /// Through the candidates, in the order of the nodes.
 template <class Candidates>
 class Sweep {
  public:
-  Sweep(const MultiTriangulation& mt, const Criterion& criterion, const Candidates& candidates)
+  Sweep(const MultiTriangulation& mt, const Test& test, const Candidates& candidates)
       : mt_(mt),
         a_(mt.arrays()),
-        test_(mt, criterion),
+        test_(test),
         candidates_(candidates),
         in_(std::size_t{candidates.places()} + 1, 0),
         lacksParent_(candidates.places(), 0) {}
@@ -178,7 +180,7 @@ class Sweep {
       return true;
     });
     if (!isThrough || isBeyond_ || !candidates_.mayAllBeIn(in_)) return std::nullopt;
-    return candidates_.members(std::move(in_), mt_.nodeCount());
+    return candidates_.members(std::move(in_));
   }
 
  private:
@@ -299,7 +301,7 @@ class Sweep {
 
   const MultiTriangulation& mt_;
   const MtArrays& a_;
-  const Test test_;
+  const Test& test_;
   const Candidates& candidates_;
   NodeSet in_;                             // by place, and of nobody
   std::vector<std::uint8_t> lacksParent_;  // by place
@@ -313,11 +315,11 @@ std::optional<MemberSet> swept(const MultiTriangulation& mt, const Criterion& cr
   const Test test(mt, criterion);
   if (test.isUniform()) {
     const UniformCandidates candidates(mt, test.code());
-    return Sweep(mt, criterion, candidates).run(stop);
+    return Sweep(mt, test, candidates).run(stop);
   }
   const SaturatedMembers saturated = saturatedMembers(mt, criterion, std::nullopt);
-  const RankedCandidates candidates(saturated.members);
-  return Sweep(mt, criterion, candidates).run(stop);
+  const RankedCandidates candidates(saturated.members, mt.nodeCount());
+  return Sweep(mt, test, candidates).run(stop);
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ namespace arete {
 /// The least closed set C such that every triangle that fails the criterion, and whose creator is in C or
 /// that is in the root, has its remover in C; nothing when stop(), asked now and then, said true. Of a
 /// monotone criterion: O(its saturated cut), with one look at each of its nodes in their order; else O(least
-/// set), nodes wherever they lie.
+/// set), nodes wherever they lie. (Of errors that no build makes, but a file may hold, a monotone criterion's
+/// set can lack parents: frontOfClosure().)
 std::optional<MemberSet> leastMembers(const MultiTriangulation& mt, const Criterion& criterion,
                                       const std::function<bool()>& stop);
 

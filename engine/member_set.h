@@ -14,8 +14,8 @@
 namespace arete {
 
 /// The nodes of a cut, a bit each, 64 to a word, 16 words to a page; a page without members takes an index
-/// and no words. Made in parallel, the same for any number of threads; it knows how many members come before
-/// each, so that a front can number its vertices.
+/// and no words, unless there are hardly any such pages. Made in parallel, the same for any number of
+/// threads; it knows how many members come before each, so that a front can number its vertices.
 class MemberSet {
  public:
   static constexpr std::uint32_t kNodesPerWord = 64, kWordsPerPage = 16;

@@ -48,6 +48,11 @@ Box2 around(const Box2& box, double distance) {
   return {box.xMin - distance, box.yMin - distance, box.xMax + distance, box.yMax + distance};
 }
 
+bool isEdgeWithin(const SegmentTree& edges, Vec2 p, double distance) {
+  return edges.anyIn(around({p.x, p.y, p.x, p.y}, distance),
+                     [&](const Segment2& e) { return squaredDistance(p, e.a, e.b) <= distance * distance; });
+}
+
 void appendEdges(const std::vector<Vec2>& chain, bool isClosed, std::vector<Segment2>& edges) {
   for (std::size_t i = 0; i + (isClosed ? 0 : 1) < chain.size(); ++i) {
     const Vec2 a = chain[i], b = chain[i + 1 < chain.size() ? i + 1 : 0];
@@ -100,9 +105,7 @@ bool Region::contains(Vec2 plan) const {
     return false;
   const Vec2 p = toInner(plan);
   if (isInRings(p)) return true;
-  const double d = shape_.distance;
-  return tree_.anyIn(around({p.x, p.y, p.x, p.y}, d),
-                     [&](const Segment2& e) { return squaredDistance(p, e.a, e.b) <= d * d; });
+  return isEdgeWithin(tree_, p, shape_.distance);
 }
 
 bool Region::meetsInner(Vec2 a, Vec2 b, Vec2 c) const {
@@ -132,21 +135,13 @@ bool Region::meetsTriangle(Vec2 a, Vec2 b, Vec2 c) const {
 
 bool Region::meetsDisc(Vec2 centre, double radius) const {
   const Vec2 p = toInner(centre);
-  const double r = (shape_.distance + radius) * (1 + 1e-9);
-  return tree_.anyIn(around({p.x, p.y, p.x, p.y}, r), [&](const Segment2& e) {
-    return squaredDistance(p, e.a, e.b) <= r * r;
-  }) || isInRings(p);
+  return isEdgeWithin(tree_, p, (shape_.distance + radius) * (1 + 1e-9)) || isInRings(p);
 }
 
 bool Region::holdsDisc(Vec2 centre, double radius) const {
   const Vec2 p = toInner(centre);
-  const auto isAnEdgeWithin = [&](double r) {
-    return r >= 0 && tree_.anyIn(around({p.x, p.y, p.x, p.y}, r),
-                                 [&](const Segment2& e) { return squaredDistance(p, e.a, e.b) <= r * r; });
-  };
-  const double r = radius * (1 + 1e-9);
-  return (shape_.distance > 0 && isAnEdgeWithin(shape_.distance * (1 - 1e-9) - r)) ||
-         (!isAnEdgeWithin(r) && isInRings(p));
+  const double r = radius * (1 + 1e-9), left = shape_.distance * (1 - 1e-9) - r;
+  return (left >= 0 && isEdgeWithin(tree_, p, left)) || (!isEdgeWithin(tree_, p, r) && isInRings(p));
 }
 
 Region Region::scaled(const MetricFrame& metric) const {
