@@ -163,6 +163,15 @@ Status CriterionArguments::checkFit() const {
   return {};
 }
 
+Result<std::optional<Vec2>> CriterionArguments::placeAboveGround(const TerrainModel& outline) const {
+  if (camera_.empty()) return std::nullopt;
+  const auto transform = transformOfPlaces(isLonLat_, outline);
+  if (!transform) return tl::unexpected(transform.error());
+  const auto place = readCameraPlace("--camera", camera_, *transform);
+  if (!place) return tl::unexpected(place.error());
+  return outline.toPlan(*place);
+}
+
 Status CriterionArguments::placeCamera(const TerrainModel& model, ExtractCriterion& c) const {
   const auto transform = transformOfPlaces(isLonLat_, model);
   if (!transform) return tl::unexpected(transform.error());

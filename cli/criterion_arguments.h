@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,12 +21,14 @@ struct CriterionArguments {
 
   /// What can be told without a model: options that contradict each other or say nothing. Errors: usage.
   Status check() const;
-  /// One criterion for each tolerance, or the only one. Of the model the root is enough, but for a camera.
-  /// Precondition: check(). Errors: usage, naming the option; invalidData, a camera above no terrain.
+  /// Where on the terrain something is placed by its height above the ground, in plan coordinates: a camera.
+  /// `outline`: of the model, its root at least. Errors: usage.
+  Result<std::optional<Vec2>> placeAboveGround(const TerrainModel& outline) const;
+  /// One criterion for each tolerance, or the only one. Of the model the root is enough, and what is below
+  /// placeAboveGround(). Precondition: check(). Errors: usage, naming the option; invalidData, a camera above
+  /// no terrain.
   Result<std::vector<ExtractCriterion>> criteria(const TerrainModel& model) const;
 
-  /// A camera is placed on the terrain, so criteria() needs all of it.
-  bool hasCamera() const { return !camera_.empty(); }
   const std::string& region() const { return region_; }
   double distance() const { return distance_; }
   bool hasDeadline() const { return deadline_ > 0; }

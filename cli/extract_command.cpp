@@ -212,12 +212,24 @@ std::string brokenPromise(const ExtractedTin& tin) {
   return sentence;
 }
 
+/// The root, and the terrain wherever something is placed above it.
+Result<TerrainModel> outlineForPlaces(const AmtFile& file, const CriterionArguments& criterion,
+                                      const Session& session) {
+  Result<TerrainModel> root = file.read({.wanted = wantedNowhere()}, session.context());
+  if (!root) return root;
+  const auto place = criterion.placeAboveGround(*root);
+  if (!place) return tl::unexpected(place.error());
+  if (!*place) return root;
+  WantedPlaces wanted(*root);
+  wanted.add(**place);
+  return file.read({.wanted = wanted.within(0)}, session.context());
+}
+
 Status runExtract(const ExtractArguments& arguments, Session& session) {
   if (Status ok = arguments.criterion.check(); !ok) return ok;
   const Result<AmtFile> file = openAmt(arguments.model);
   if (!file) return tl::unexpected(file.error());
-  Result<TerrainModel> model = file->read(
-      {.wanted = arguments.criterion.hasCamera() ? WantedError() : wantedNowhere()}, session.context());
+  Result<TerrainModel> model = outlineForPlaces(*file, arguments.criterion, session);
   if (!model) return tl::unexpected(model.error());
   auto requests = requestsOf(arguments, *model);
   if (!requests) return tl::unexpected(requests.error());
@@ -225,10 +237,8 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   const auto region = regionOf(arguments, *model, session);
   if (!region) return tl::unexpected(region.error());
   for (ExtractRequest& request : *requests) request.region = *region;
-  if (!arguments.criterion.hasCamera()) {
-    model = readForExtract(*file, *requests, *model, session.context());
-    if (!model) return tl::unexpected(model.error());
-  }
+  model = readForExtract(*file, *requests, *model, session.context());
+  if (!model) return tl::unexpected(model.error());
 
   TinExtractor extractor(*model, arguments.model);
   Json exports = Json::array();

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/result.h"
+#include "engine/vec.h"
 #include "io/crs_transform.h"
 #include "terrain/camera.h"
 #include "terrain/surface_height.h"
@@ -23,6 +24,10 @@ struct CameraArgument {
 /// invalidData, a height above ground above no terrain.
 Result<CameraArgument> readCameraArgument(const std::string& option, const std::string& text,
                                           const CrsTransform& toDem, const SurfaceHeights& heights);
+
+/// Where such a camera stands, in the DEM's CRS: below it is what of the terrain a height above ground is
+/// counted from. Errors: usage.
+Result<Vec2> readCameraPlace(const std::string& option, const std::string& text, const CrsTransform& toDem);
 
 /// The text in the DEM's own coordinates that reads back to the camera, to the bit; its picture size is none
 /// of it. An azimuth or pitch that is not finite has no such text.

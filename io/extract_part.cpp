@@ -5,6 +5,11 @@
 // the triangles would reach, and the cut is taken of that. A walk that refines the worst triangle first does
 // the same in a part as in the whole while that triangle's error is beyond what was read; so where the cut
 // comes to such an error it is that of the whole, and the part is enough. Else more is read.
+//
+// Nor does a camera say it to the last triangle: what is allowed to one rests on its corners and bounds. So
+// what the camera is likely to want is read, and the cut taken of that. A walk meets the same triangles in a
+// part as in the whole until it comes to one that is too coarse and that nobody in the part removes. Where
+// there is none, the part is enough. Else everything is read.
 #include "io/extract_part.h"
 
 #include <cstdint>
@@ -12,8 +17,10 @@
 #include <vector>
 
 #include "engine/cut.h"
+#include "engine/view_error.h"
 #include "io/extract_criterion.h"
 #include "io/mesh_file.h"
+#include "io/wanted_view.h"
 
 namespace arete {
 namespace {
@@ -53,6 +60,38 @@ Result<TerrainModel> readForBudget(const AmtFile& file, const ExtractCriterion& 
   return file.read({}, context);
 }
 
+/// Whether the pixels of a camera are all that is asked for.
+bool isViewAlone(const ExtractRequest& request) {
+  const ExtractCriterion& c = request.criterion;
+  return c.camera && c.pixelError && !c.maxTriangles && !c.deadlineMilliseconds &&
+         c.method == CutMethod::minimal && c.fit == ExtractFit::none;
+}
+
+/// Whether a triangle of a cut is too coarse, though nobody removes it.
+bool lacksNodes(const MultiTriangulation& part, const Criterion& criterion, const Cut& cut) {
+  for (std::size_t i = 0; i < cut.ids.size(); ++i) {
+    const TriangleId t(cut.ids[i]);
+    if (part.remover(t).isValid() || part.error(t) == 0) continue;
+    Criterion::Corners corners = cut.triangles[i];
+    for (std::uint32_t& corner : corners) corner = cut.vertices[corner];
+    if (!criterion.isFineEnough(part, t, corners)) return true;
+  }
+  return false;
+}
+
+Result<TerrainModel> readForView(const AmtFile& file, const ExtractCriterion& criterion,
+                                 const TerrainModel& outline, const RunContext& context) {
+  const auto asked = engineCriterion(criterion, std::nullopt, 0, outline);
+  if (!asked) return tl::unexpected(asked.error());
+  const auto& view = static_cast<const ViewError&>(**asked);
+  Result<TerrainModel> part = file.read({.wanted = wantedInView(view, outline)}, context);
+  if (!part) return part;
+  const Result<Cut> cut = takeCut(part->mt, view, {}, context);
+  if (!cut) return tl::unexpected(cut.error());
+  if (!lacksNodes(part->mt, view, *cut)) return part;
+  return file.read({}, context);
+}
+
 }  // namespace
 
 Result<TerrainModel> readForExtract(const AmtFile& file, std::span<const ExtractRequest> requests,
@@ -66,6 +105,8 @@ Result<TerrainModel> readForExtract(const AmtFile& file, std::span<const Extract
   }
   if (requests.size() == 1 && isBudgetAlone(requests[0]))
     return readForBudget(file, requests[0].criterion, context);
+  if (requests.size() == 1 && isViewAlone(requests[0]))
+    return readForView(file, requests[0].criterion, outline, context);
   const Result<WantedError> wanted = wantedBy(criteria, region, outline);
   if (!wanted) return tl::unexpected(wanted.error());
   return file.read({.wanted = *wanted}, context);

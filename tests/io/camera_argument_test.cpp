@@ -46,6 +46,20 @@ TEST(CameraArgument, TakesAPositionAndOnRequestALookAndAField) {
   EXPECT_TRUE(all->statesLook && all->statesFieldOfView);
 }
 
+TEST(CameraArgument, TellsItsPlaceWithoutTheTerrain) {
+  for (const char* text : {"1.5,2,10", "1.5,2,300msl,45,-10", " 1.5 , 2 ,10agl,+45,-90,33"}) {
+    const auto place = readCameraPlace("--camera", text, {});
+    ASSERT_TRUE(place) << place.error().describe();
+    EXPECT_EQ(*place, (Vec2{1.5, 2})) << text;
+  }
+  for (const char* text : {"1,2", "1,2,3,4", "1,east,3"}) {
+    const auto place = readCameraPlace("--camera", text, {});
+    const auto camera = readCameraArgument("--camera", text, {}, SurfaceHeights(slope()));
+    ASSERT_FALSE(place);
+    EXPECT_EQ(place.error().describe(), camera.error().describe());
+  }
+}
+
 TEST(CameraArgument, RefusesWhatIsNoCameraAndNamesIt) {
   const SurfaceHeights heights(slope());
   const struct {

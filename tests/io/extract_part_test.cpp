@@ -8,14 +8,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "datasets/families.h"
+#include "datasets/random.h"
 #include "engine/cut.h"
 #include "io/amt_fixture.h"
 #include "io/io_fixture.h"
+#include "terrain/plan_box.h"
 
 namespace arete {
 namespace {
@@ -100,6 +103,76 @@ TEST(ReadForExtract, HasTheTinOfTheWholeForAnyBudget) {
     }
   EXPECT_GT(nodes, 0u);
   EXPECT_LT(nodesOfParts, nodes / 8);
+}
+
+ExtractRequest seenBy(const Camera& camera, double pixels) {
+  ExtractRequest request;
+  request.criterion.camera = camera;
+  request.criterion.pixelError = pixels;
+  request.output = "tin.ply";
+  return request;
+}
+
+/// Somewhere around the terrain, below it at times, looking anywhere.
+Camera anyCamera(const TerrainModel& model, Random& random) {
+  const Box2 domain = planBox(model);
+  const double width = domain.xMax - domain.xMin, height = domain.yMax - domain.yMin;
+  Camera camera;
+  camera.xy = model.toSource(
+      {domain.xMin + random.between(-0.3, 1.3) * width, domain.yMin + random.between(-0.3, 1.3) * height});
+  const double z = model.mt.position(VertexId(0)).z;
+  camera.height = z + random.between(-0.2, 1) * (width + height) / 4;
+  camera.azimuthDegrees = random.between(0, 360);
+  camera.pitchDegrees = random.between(-90, 30);
+  camera.verticalFieldOfViewDegrees = random.between(5, 120);
+  return camera;
+}
+
+/// The error that no triangle of a view's TIN is beyond, by the view's own bound or that of the ball around
+/// what would come next: what the minimal cut promises.
+bool keepsPixels(const TerrainModel& model, const ExtractRequest& request) {
+  const auto criterion = engineCriterion(request.criterion, request.region, 0, model);
+  const auto cut = takeCut(model.mt, **criterion, *engineOptions(request.criterion, model));
+  for (std::size_t i = 0; i < cut->ids.size(); ++i) {
+    Criterion::Corners corners = cut->triangles[i];
+    for (std::uint32_t& corner : corners) corner = cut->vertices[corner];
+    if (!isSatisfied(model.mt, **criterion, TriangleId(cut->ids[i]), corners)) return false;
+  }
+  return true;
+}
+
+TEST(ReadForExtract, HasTheTinOfTheWholeForAnyCamera) {
+  const TemporaryFolder folder;
+  constexpr std::uint64_t kSeed = 20261123;
+  SCOPED_TRACE(fmt::format("seed {}", kSeed));
+  Random random(kSeed);
+  std::vector<TerrainModel> models;
+  for (const RasterFamily& family : rasterFamilies()) models.push_back(built(build(family.make(90, 80, 8))));
+  for (const PointFamily& family : pointFamilies()) models.push_back(built(build(family.make(3000, 8))));
+  models.push_back(built(build(familyNamed("fractal").make(300, 280, 3), {.shape = HoleShape::fidelity})));
+  std::uint64_t nodes = 0, nodesOfParts = 0, triangles = 0, trianglesOfParts = 0;
+  for (const TerrainModel& model : models)
+    for (const bool isPacked : {false, true}) {
+      const Filed filed(model, folder.file("model.amt"), isPacked);
+      for (int i = 0; i < 20; ++i) {
+        const Camera camera = anyCamera(filed.whole, random);
+        const ExtractRequest request = seenBy(camera, std::pow(2.0, 6 * random.unit() - 1));
+        SCOPED_TRACE(fmt::format("{}, {}, {}, at {},{},{}", model.source, isPacked ? "packed" : "plain", i,
+                                 camera.xy.x, camera.xy.y, camera.height));
+        const TerrainModel part = filed.part(request);
+        const Tin all = tinOf(filed.whole, request), some = tinOf(part, request);
+        EXPECT_TRUE(keepsPixels(part, request));
+        EXPECT_TRUE(isPacked || all == some);
+        EXPECT_LE(some.triangles.size(), all.triangles.size());
+        triangles += all.triangles.size();
+        trianglesOfParts += some.triangles.size();
+        if (filed.whole.mt.finestTriangleCount() < 50'000) continue;
+        nodes += filed.whole.mt.nodeCount();
+        nodesOfParts += part.mt.nodeCount();
+      }
+    }
+  EXPECT_GE(static_cast<double>(trianglesOfParts), 0.9999 * static_cast<double>(triangles));
+  EXPECT_LT(nodesOfParts, nodes / 4);
 }
 
 TEST(ReadForExtract, ReadsEverythingWhereATinIsMeasuredRoundedOrFitted) {
