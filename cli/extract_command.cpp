@@ -240,7 +240,8 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   model = readForExtract(*file, *requests, *model, session.context());
   if (!model) return tl::unexpected(model.error());
 
-  TinExtractor extractor(*model, arguments.model);
+  TinExtractor extractor(*model, arguments.model,
+                         [&file](const RunContext& context) { return file->read({}, context); });
   Json exports = Json::array();
   Status promise;
   for (const ExtractRequest& request : *requests) {

@@ -104,10 +104,7 @@ Result<WantedError> wantedBy(std::span<const ExtractCriterion> criteria, const s
                              const TerrainModel& outline) {
   std::vector<std::shared_ptr<const Criterion>> parts;
   for (const ExtractCriterion& c : criteria) {
-    const bool isByPlace = region || c.focus;
-    if (!c.maxError || c.camera || c.fit != ExtractFit::none ||
-        (isByPlace && c.method == CutMethod::saturated))
-      return WantedError();
+    if (!c.maxError || c.camera || c.fit != ExtractFit::none) return WantedError();
     const auto part = engineCriterion(c, region, 0, outline);
     if (!part) return tl::unexpected(part.error());
     parts.push_back(*part);

@@ -76,9 +76,8 @@ Result<std::shared_ptr<const Criterion>> engineCriterion(const ExtractCriterion&
 
 /// What the cuts of these criteria can ask for of a model, where nothing is taken off their tolerances and
 /// nothing is measured. Null, which is everything, where a camera's pixels decide, or a budget or a
-/// deadline alone; where a fit looks at all samples, or a saturated cut at balls around all descendants.
-/// Errors: usage. Precondition: `outline` is of the model, its root at least. O(1); of what comes back, that
-/// of the region's meetsDisc().
+/// deadline alone, and where a fit looks at all samples. Errors: usage. Precondition: `outline` is of the
+/// model, its root at least. O(1); of what comes back, that of the region's meetsDisc().
 Result<WantedError> wantedBy(std::span<const ExtractCriterion> criteria, const std::optional<Region>& region,
                              const TerrainModel& outline);
 

@@ -29,8 +29,16 @@ namespace {
 constexpr std::uint64_t kTimes = 8;
 
 bool needsAllSamples(const ExtractRequest& request) {
+  return !meshFormatOf(request.output) || !request.certificate.empty() || !request.errorRaster.empty();
+}
+
+/// What is asked for at least, where the format may take something off the tolerance for what it rounds.
+ExtractCriterion readFor(const ExtractRequest& request) {
+  ExtractCriterion criterion = request.criterion;
   const Result<MeshFormat> format = meshFormatOf(request.output);
-  return !format || !format->holds.isExact || !request.certificate.empty() || !request.errorRaster.empty();
+  if (format && !format->holds.isExact && criterion.promisesMaxError())
+    criterion.maxError = (1 - TinExtractor::kReadReserve) * *criterion.maxError;
+  return criterion;
 }
 
 /// Whether a number of triangles is all that is asked for, worst first.
@@ -63,8 +71,7 @@ Result<TerrainModel> readForBudget(const AmtFile& file, const ExtractCriterion& 
 /// Whether the pixels of a camera are all that is asked for.
 bool isViewAlone(const ExtractRequest& request) {
   const ExtractCriterion& c = request.criterion;
-  return c.camera && c.pixelError && !c.maxTriangles && !c.deadlineMilliseconds &&
-         c.method == CutMethod::minimal && c.fit == ExtractFit::none;
+  return c.camera && c.pixelError && !c.maxTriangles && !c.deadlineMilliseconds && c.fit == ExtractFit::none;
 }
 
 /// Whether a triangle of a cut is too coarse, though nobody removes it.
@@ -86,7 +93,7 @@ Result<TerrainModel> readForView(const AmtFile& file, const ExtractCriterion& cr
   const auto& view = static_cast<const ViewError&>(**asked);
   Result<TerrainModel> part = file.read({.wanted = wantedInView(view, outline)}, context);
   if (!part) return part;
-  const Result<Cut> cut = takeCut(part->mt, view, {}, context);
+  const Result<Cut> cut = takeCut(part->mt, view, {.method = criterion.method}, context);
   if (!cut) return tl::unexpected(cut.error());
   if (!lacksNodes(part->mt, view, *cut)) return part;
   return file.read({}, context);
@@ -100,7 +107,7 @@ Result<TerrainModel> readForExtract(const AmtFile& file, std::span<const Extract
   std::optional<Region> region;
   for (const ExtractRequest& request : requests) {
     if (needsAllSamples(request)) return file.read({}, context);
-    criteria.push_back(request.criterion);
+    criteria.push_back(readFor(request));
     region = request.region;
   }
   if (requests.size() == 1 && isBudgetAlone(requests[0]))

@@ -197,6 +197,15 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
   return std::move(written->mesh);
 }
 
+Status TinExtractor::deepen(double maxError, double reserve, const RunContext& context) {
+  if (!readAll_ || reserve <= kReadReserve * maxError) return {};
+  Result<TerrainModel> whole = readAll_(context);
+  if (!whole) return tl::unexpected(whole.error());
+  model_ = std::move(*whole);
+  readAll_ = {};
+  return {};
+}
+
 Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const RunContext& context) {
   ExtractedTin tin;
   Result<TriangleMesh> mesh = cutAndWrite(request, 0, tin, context);
@@ -206,6 +215,7 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
   const double promised = tin.promisedError;
   if (reserve > kForgivenRounding && request.criterion.promisesMaxError() && reserve < promised &&
       tin.storedError + reserve > promised) {
+    if (Status deep = deepen(promised, reserve, context); !deep) return tl::unexpected(deep.error());
     mesh = cutAndWrite(request, reserve, tin, context);
     if (!mesh) return tl::unexpected(mesh.error());
   }

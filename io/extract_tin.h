@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -47,9 +48,15 @@ Status checkExtractOutput(const std::string& path, const TerrainModel& model);
 /// Takes TINs from one model. Keeps the model's samples once a measurement needed them.
 class TinExtractor {
  public:
-  /// `modelPath` is named in certificates. Precondition: the model outlives the extractor.
-  TinExtractor(const TerrainModel& model, std::string modelPath)
-      : model_(model), modelPath_(std::move(modelPath)) {}
+  using ReadAll = std::function<Result<TerrainModel>(const RunContext&)>;
+
+  /// Of a tolerance, what a model is read for beside it so that a format may round (readForExtract()).
+  static constexpr double kReadReserve = 1.0 / 8;
+
+  /// `modelPath` is named in certificates. `readAll`: the whole, where the model is a part, read once a
+  /// format turns out to round by more than kReadReserve.
+  TinExtractor(TerrainModel model, std::string modelPath, ReadAll readAll = {})
+      : model_(std::move(model)), modelPath_(std::move(modelPath)), readAll_(std::move(readAll)) {}
 
   /// Cuts, exports (with a tolerance that is smaller by what the format rounds away, so that the promise
   /// holds for what the file says), and where heights were fitted or a raster or a certificate is wanted
@@ -63,6 +70,8 @@ class TinExtractor {
   using Samples = std::variant<RasterHeightfield, PointHeightfield>;
 
   const Samples& samples();
+  /// Sees to it that the model is enough for a tolerance that is smaller by `reserve`.
+  Status deepen(double maxError, double reserve, const RunContext& context);
   /// Cut, or fitted, with a tolerance smaller than asked for by `reserve`.
   Result<TinExport> takeTin(const ExtractRequest& request, double reserve, ExtractedTin& tin,
                             const RunContext& context) const;
@@ -74,8 +83,9 @@ class TinExtractor {
   Status writeRasters(const ExtractRequest& request, const MeasureRasters& rasters, ExtractedTin& tin,
                       const RunContext& context) const;
 
-  const TerrainModel& model_;
+  TerrainModel model_;
   std::string modelPath_;
+  ReadAll readAll_;
   std::optional<Samples> samples_;
 };
 

@@ -36,8 +36,8 @@ Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context = {
 /// (more than memory holds), interrupted; without a culprit. O(triangles), 35 bytes per node beside the MT.
 ///
 /// `wanted` is asked once for each chunk of nodes, with a box around all their floors and stars, which may be
-/// far larger than each of them. A saturated cut by place of what is read may be a little coarser than that
-/// of the whole, as no sphere holds a node that was not read. Where the same is wanted everywhere, nodes keep
+/// far larger than each of them. A saturated cut by place of what is read may be coarser than that of the
+/// whole, as no sphere holds a node that was not read. Where the same is wanted everywhere, nodes keep
 /// the numbers that they have in the whole. The time is that of the nodes whose saturated errors are not
 /// below half of what is wanted.
 Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directory,

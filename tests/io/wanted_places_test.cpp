@@ -357,8 +357,18 @@ std::vector<double> frontOf(const MultiTriangulation& mt, const Cut& cut) {
   return front;
 }
 
+/// Whether all of a cut's triangles satisfy the criterion.
+bool isFineEnough(const MultiTriangulation& mt, const Criterion& criterion, const Cut& cut) {
+  for (std::size_t i = 0; i < cut.ids.size(); ++i) {
+    Criterion::Corners corners = cut.triangles[i];
+    for (std::uint32_t& corner : corners) corner = cut.vertices[corner];
+    if (!criterion.isFineEnough(mt, TriangleId(cut.ids[i]), corners)) return false;
+  }
+  return true;
+}
+
 TEST(WantedBy, ReadsWhatTheCutsOfARegionOrAFocusAreMadeOf) {
-  std::uint64_t nodes = 0, nodesOfParts = 0;
+  std::uint64_t nodes = 0, nodesOfParts = 0, triangles = 0, trianglesOfParts = 0;
   forAllKinds([&](const Filed& filed, Random& random) {
     const double largest = filed.whole.mt.largestError();
     for (int i = 0; i < 12; ++i) {
@@ -375,6 +385,7 @@ TEST(WantedBy, ReadsWhatTheCutsOfARegionOrAFocusAreMadeOf) {
         fine.focus = ExtractCriterion::Focus{.xy = filed.whole.toSource(p),
                                              .growth = largest * random.between(0, 1e-3)};
       }
+      if (random.below(2) == 0) fine.method = CutMethod::saturated;
       ExtractCriterion coarse = fine;
       coarse.maxError = std::min(2 * *fine.maxError, coarse.outsideError);
       const std::vector<ExtractCriterion> criteria = {coarse, fine};
@@ -386,17 +397,26 @@ TEST(WantedBy, ReadsWhatTheCutsOfARegionOrAFocusAreMadeOf) {
       for (const ExtractCriterion& criterion : criteria) {
         const auto ofWhole = engineCriterion(criterion, region, 0, filed.whole),
                    ofPart = engineCriterion(criterion, region, 0, part);
-        const auto x = takeCut(filed.whole.mt, **ofWhole), y = takeCut(part.mt, **ofPart);
+        const CutOptions options{.method = criterion.method};
+        const auto x = takeCut(filed.whole.mt, **ofWhole, options), y = takeCut(part.mt, **ofPart, options);
         ASSERT_TRUE(x && y);
+        if (filed.file->isPacked() && criterion.method == CutMethod::saturated) {
+          EXPECT_TRUE(isFineEnough(part.mt, **ofPart, *y)) << i;
+          triangles += x->ids.size();
+          trianglesOfParts += y->ids.size();
+          continue;
+        }
         EXPECT_TRUE(frontOf(filed.whole.mt, *x) == frontOf(part.mt, *y)) << i;
         EXPECT_EQ(x->achievedError, y->achievedError);
       }
     }
   });
   EXPECT_LT(nodesOfParts, nodes / 2);
+  EXPECT_LE(trianglesOfParts, triangles) << "smaller balls, coarser cuts";
+  EXPECT_GT(trianglesOfParts, triangles / 5 * 4);
 }
 
-TEST(WantedBy, IsEverythingWherePixelsFitsBudgetsOrBallsDecide) {
+TEST(WantedBy, IsEverythingWherePixelsFitsOrBudgetsDecide) {
   const TemporaryFolder folder;
   const Filed filed(built(build(familyNamed("ramp").make(30, 20, 1))), folder.file("model.amt"));
   const auto isEverything = [&](const ExtractCriterion& criterion, const std::optional<Region>& region = {}) {
@@ -410,9 +430,9 @@ TEST(WantedBy, IsEverythingWherePixelsFitsBudgetsOrBallsDecide) {
   EXPECT_FALSE(isEverything(c, corner));
   c.method = CutMethod::saturated;
   EXPECT_FALSE(isEverything(c));
-  EXPECT_TRUE(isEverything(c, corner));
+  EXPECT_FALSE(isEverything(c, corner));
   c.focus = ExtractCriterion::Focus{};
-  EXPECT_TRUE(isEverything(c));
+  EXPECT_FALSE(isEverything(c));
   c.focus.reset();
   c.camera = Camera{};
   EXPECT_TRUE(isEverything(c));
