@@ -9,9 +9,11 @@
 // Nor does a camera say it to the last triangle: what is allowed to one rests on its corners and bounds. So
 // what the camera is likely to want is read, and the cut taken of that. A walk meets the same triangles in a
 // part as in the whole until it comes to one that is too coarse and that nobody in the part removes. Where
-// there is none, the part is enough. Else everything is read.
+// there is none, the part is enough; under a budget also where all of these are better than the worst
+// triangle that is left, as the walk had not come to them yet. Else more is read, at last everything.
 #include "io/extract_part.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -68,34 +70,58 @@ Result<TerrainModel> readForBudget(const AmtFile& file, const ExtractCriterion& 
   return file.read({}, context);
 }
 
-/// Whether the pixels of a camera are all that is asked for.
+/// Whether the pixels of a camera are asked for, or a number of triangles in its picture, worst first.
 bool isViewAlone(const ExtractRequest& request) {
   const ExtractCriterion& c = request.criterion;
-  return c.camera && c.pixelError && !c.maxTriangles && !c.deadlineMilliseconds && c.fit == ExtractFit::none;
+  const bool isWorstFirst = c.method == CutMethod::minimal && c.order == ExtractOrder::worst;
+  return c.camera && (!c.maxTriangles || isWorstFirst) && !c.deadlineMilliseconds;
 }
 
-/// Whether a triangle of a cut is too coarse, though nobody removes it.
-bool lacksNodes(const MultiTriangulation& part, const Criterion& criterion, const Cut& cut) {
+/// Whether a cut of a part is that of the whole, but for the balls that it asks about.
+bool isEnough(const MultiTriangulation& part, const Criterion& criterion, const Cut& cut) {
+  double worst = 0, worstThatStays = 0;  // of the triangles that are too coarse: removed in the part, or not
   for (std::size_t i = 0; i < cut.ids.size(); ++i) {
     const TriangleId t(cut.ids[i]);
-    if (part.remover(t).isValid() || part.error(t) == 0) continue;
+    const bool stays = !part.remover(t).isValid();
+    if (part.error(t) == 0 || (cut.isComplete && !stays)) continue;
     Criterion::Corners corners = cut.triangles[i];
     for (std::uint32_t& corner : corners) corner = cut.vertices[corner];
-    if (!criterion.isFineEnough(part, t, corners)) return true;
+    if (isSatisfied(part, criterion, t, corners)) continue;
+    double& of = stays ? worstThatStays : worst;
+    of = std::max(of, criterion.severity(part, t, corners));
   }
-  return false;
+  return worstThatStays == 0 || worstThatStays < worst;
 }
 
-Result<TerrainModel> readForView(const AmtFile& file, const ExtractCriterion& criterion,
+/// How many triangles the least cut of a part for some error adds to the root's; nothing where there is none.
+double refinedTriangles(const TerrainModel& part, const Criterion& criterion, const RunContext& context) {
+  const Result<Cut> cut = takeCut(part.mt, criterion, {}, context);
+  return cut ? static_cast<double>(cut->ids.size()) - part.mt.rootTriangleCount() : 0;
+}
+
+Result<TerrainModel> readForView(const AmtFile& file, const ExtractCriterion& asked,
                                  const TerrainModel& outline, const RunContext& context) {
-  const auto asked = engineCriterion(criterion, std::nullopt, 0, outline);
-  if (!asked) return tl::unexpected(asked.error());
-  const auto& view = static_cast<const ViewError&>(**asked);
-  Result<TerrainModel> part = file.read({.wanted = wantedInView(view, outline)}, context);
-  if (!part) return part;
-  const Result<Cut> cut = takeCut(part->mt, view, {.method = criterion.method}, context);
-  if (!cut) return tl::unexpected(cut.error());
-  if (!lacksNodes(part->mt, view, *cut)) return part;
+  // Of a budget alone nobody knows how many pixels it comes to. Half as many take about twice the triangles.
+  constexpr double kFirstGuess = 16, kMore = 1.5, kMost = 1.0 / 16;
+  constexpr int kGuesses = 4;
+  ExtractCriterion guess = asked;
+  guess.pixelError = asked.pixelError.value_or(kFirstGuess);
+  for (int i = 0; i < kGuesses; ++i) {
+    const auto view = engineCriterion(guess, std::nullopt, 0, outline);
+    if (!view) return tl::unexpected(view.error());
+    Result<TerrainModel> part =
+        file.read({.wanted = wantedInView(static_cast<const ViewError&>(**view), outline)}, context);
+    if (!part) return part;
+    const auto criterion = engineCriterion(asked, std::nullopt, 0, *part);
+    const auto options = engineOptions(asked, *part);
+    if (!criterion || !options) break;
+    const Result<Cut> cut = takeCut(part->mt, **criterion, *options, context);
+    if (!cut || isEnough(part->mt, **criterion, *cut)) return part;  // who asks for too little will hear it
+    if (asked.pixelError) break;
+    const double wanted = kMore * (1.0 + *asked.maxTriangles - part->mt.rootTriangleCount());
+    guess.pixelError =
+        *guess.pixelError * std::clamp(refinedTriangles(*part, **view, context) / wanted, kMost, 1 / kMore);
+  }
   return file.read({}, context);
 }
 

@@ -15,8 +15,8 @@ namespace arete {
 /// saturated cuts by place, and any cut for a camera, may have other triangles, less of them as a rule and all
 /// fine enough: they ask about balls around what comes after a node, and of a packed file these hold what was
 /// read. Where a format rounds heights it is enough for a tolerance that is smaller by
-/// TinExtractor::kReadReserve of it. Everything, where a TIN is measured against all samples, a camera has a
-/// budget, a deadline alone decides, or a fit looks at all samples. `outline`: of the file, its root at least.
+/// TinExtractor::kReadReserve of it. Everything, where a TIN is measured against all samples, a deadline
+/// alone decides, or a fit looks at all samples. `outline`: of the file, its root at least.
 /// Errors: usage; those of AmtFile::read().
 Result<TerrainModel> readForExtract(const AmtFile& file, std::span<const ExtractRequest> requests,
                                     const TerrainModel& outline, const RunContext& context = {});

@@ -179,6 +179,46 @@ TEST(ReadForExtract, HasTheTinOfTheWholeForAnyCamera) {
   EXPECT_LT(nodesOfParts, nodes / 4);
 }
 
+TEST(ReadForExtract, HasTheTinOfTheWholeForACameraWithABudget) {
+  const TemporaryFolder folder;
+  constexpr std::uint64_t kSeed = 20261124;
+  SCOPED_TRACE(fmt::format("seed {}", kSeed));
+  Random random(kSeed);
+  std::vector<TerrainModel> models;
+  for (const RasterFamily& family : rasterFamilies()) models.push_back(built(build(family.make(90, 80, 9))));
+  models.push_back(built(build(familyNamed("fractal").make(300, 280, 4))));
+  std::uint64_t nodes = 0, nodesOfParts = 0;
+  for (const TerrainModel& model : models)
+    for (const bool isPacked : {false, true}) {
+      const Filed filed(model, folder.file("model.amt"), isPacked);
+      const std::uint32_t finest = filed.whole.mt.finestTriangleCount();
+      for (int i = 0; i < 12; ++i) {
+        ExtractRequest request = seenBy(anyCamera(filed.whole, random), std::pow(2.0, 6 * random.unit() - 1));
+        ExtractCriterion& c = request.criterion;
+        c.maxTriangles = static_cast<std::uint32_t>(std::pow(random.unit(), 3) * finest);
+        if (i % 2 == 0) c.pixelError.reset();
+        if (i % 3 == 0) c.outsideError = filed.whole.mt.largestError() * random.unit();
+        SCOPED_TRACE(fmt::format("{}, {}, {}, at {},{},{}, {} triangles", model.source,
+                                 isPacked ? "packed" : "plain", i, c.camera->xy.x, c.camera->xy.y,
+                                 c.camera->height, *c.maxTriangles));
+        const TerrainModel part = filed.part(request);
+        const Tin all = tinOf(filed.whole, request), some = tinOf(part, request);
+        if (!isPacked) {
+          EXPECT_TRUE(all == some);
+        } else {
+          EXPECT_EQ(all.refusal.empty(), some.refusal.empty());
+          EXPECT_LE(some.triangles.size(), *c.maxTriangles + 0.0);
+          EXPECT_NEAR(static_cast<double>(some.triangles.size()), static_cast<double>(all.triangles.size()),
+                      4 + 0.001 * static_cast<double>(all.triangles.size()));
+        }
+        if (finest < 50'000) continue;
+        nodes += filed.whole.mt.nodeCount();
+        nodesOfParts += part.mt.nodeCount();
+      }
+    }
+  EXPECT_LT(nodesOfParts, nodes / 2);
+}
+
 TEST(ReadForExtract, IsEnoughForAFormatThatRounds) {
   const TemporaryFolder folder;
   RasterHeightfield field = familyNamed("fractal").make(300, 280, 3);
