@@ -40,6 +40,14 @@ class Criterion {
     return mt.error(t);
   }
 
+  /// Up to which severity every triangle is fine enough; NaN where it is not the severity that decides.
+  virtual double severityLimit() const { return std::numeric_limits<double>::quiet_NaN(); }
+  /// The same criterion up to another severity; null where severityLimit() is NaN. Precondition: > 0.
+  virtual std::unique_ptr<const Criterion> withSeverityLimit(double limit) const {
+    static_cast<void>(limit);
+    return nullptr;
+  }
+
   /// Whether allowedError() is a bound: for every ball inside another it is at least the other's.
   virtual bool isMonotone() const { return false; }
   /// The least error that the criterion allows to any triangle that meets the ball (metric space).

@@ -405,4 +405,45 @@ std::optional<MemberSet> leastMembersWithin(const MultiTriangulation& mt, double
   return best;
 }
 
+std::optional<SetOfSeverity> membersOfSeverityWithin(const MultiTriangulation& mt, const Criterion& criterion,
+                                                     std::uint32_t maxTriangles,
+                                                     const std::function<bool()>& stop) {
+  constexpr double kNearEnough = 0.9, kAimedAt = 0.95, kLargestStep = 1.0 / 16, kLeastPart = 0.05,
+                   kWorthwhile = 1.05;
+  constexpr int kMostLooks = 12;
+  // The worst of the root's that can be told: around an eye severities are infinite.
+  double fits = 0, large = criterion.severityLimit();
+  for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) {
+    const double severity = criterion.severity(mt, TriangleId(t), mt.arrays().rootTriangles[t]);
+    if (std::isfinite(severity)) fits = std::max(fits, severity);
+  }
+  // What the sets add to the root, 1 at least.
+  const double roots = mt.rootTriangleCount(), wanted = std::max(1.0, kAimedAt * maxTriangles - roots);
+  double ofFits = 1, ofLarge = 0;  // 0: nobody has looked
+  SetOfSeverity best{MemberSet::prefix(0)};
+  double limit = fits * kLargestStep;
+  for (int looks = 0; looks < kMostLooks && fits > large && ofFits + roots < kNearEnough * maxTriangles;
+       ++looks) {
+    limit = std::max(limit, large);
+    auto set = leastMembers(mt, *criterion.withSeverityLimit(limit), stop);
+    if (!set) return std::nullopt;
+    const auto count = static_cast<double>(frontSize(mt, *set)), added = std::max(1.0, count - roots);
+    if (count <= maxTriangles) {
+      const bool isAllThereIs = 2 * limit < fits && added < kWorthwhile * ofFits && ofLarge == 0;
+      fits = limit;
+      ofFits = added;
+      best = {std::move(*set), limit};
+      if (isAllThereIs) break;
+    } else {
+      large = limit;
+      ofLarge = added;
+    }
+    // Triangles grow about as a power of the severity, the power -1 while there is but one look to tell.
+    const double part = std::log(wanted / ofFits) / std::log(ofLarge / ofFits);
+    limit = ofLarge == 0 ? fits * std::clamp(ofFits / wanted, kLargestStep, kAimedAt)
+                         : fits * std::pow(large / fits, std::clamp(part, kLeastPart, 1 - kLeastPart));
+  }
+  return best;
+}
+
 }  // namespace arete

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "engine/criterion.h"
@@ -28,5 +29,18 @@ std::optional<MemberSet> leastMembersByWalk(const MultiTriangulation& mt, const 
 /// O(the nodes of a cut of four times the triangles), some ten times.
 std::optional<MemberSet> leastMembersWithin(const MultiTriangulation& mt, double least,
                                             std::uint32_t maxTriangles, const std::function<bool()>& stop);
+
+/// A closed set that is part of the least one for a severity: of that for the criterion with this limit, or
+/// the root alone.
+struct SetOfSeverity {
+  MemberSet members;
+  double severity = std::numeric_limits<double>::infinity();
+};
+/// One whose front has no more than so many triangles, and most often nine tenths of them; nothing when
+/// stop(), asked now and then, said true. Preconditions: the criterion is monotone and has a severityLimit();
+/// the budget holds the root. O(the saturated cut for four times the triangles), some ten times.
+std::optional<SetOfSeverity> membersOfSeverityWithin(const MultiTriangulation& mt, const Criterion& criterion,
+                                                     std::uint32_t maxTriangles,
+                                                     const std::function<bool()>& stop);
 
 }  // namespace arete

@@ -9,7 +9,10 @@
 // before, to s, every node that is in was asked for by a triangle worse than s, so the set is the least for
 // "severity at most s". That is why the last such state is the answer. And it is why the walk need not begin
 // at the root where the severity is the error: it would pass through the least set for the least error that
-// the budget holds, which is found faster (least_cut.h).
+// the budget holds, which is found faster (least_cut.h). Where a criterion has a limit of severity the walk
+// begins at the least set for some s that the budget holds: those of all smaller s hold that set. (A bound
+// over a ball may have passed a triangle worse than s: then the set is smaller, and the walk goes on from
+// it.)
 #include "engine/refine.h"
 
 #include <cmath>
@@ -26,6 +29,8 @@ namespace {
 constexpr std::uint32_t kNone = MultiTriangulation::kNone;
 constexpr std::size_t kCheckEvery = 1 << 12;
 constexpr std::uint8_t kClaimed = 2;  // about to enter
+/// A walk to fewer triangles than one for so many nodes takes no longer than the looks that would shorten it.
+constexpr std::uint64_t kShortWalk = 256;
 
 struct Waiting {
   RefineKey key;
@@ -88,6 +93,9 @@ class Walk {
     return std::move(cut_);
   }
 
+  /// The worst severity that its answer leaves; of no order but worst first.
+  double leastWorst() const { return leastWorst_; }
+
  private:
   bool isIn(std::uint32_t n) const { return cut_.nodes[n] == 1; }
 
@@ -140,14 +148,24 @@ class Walk {
 
 Result<NodeCut> refineWithin(const MultiTriangulation& mt, const Criterion& criterion,
                              const CutOptions& options, const RunContext& context) {
-  MemberSet start = MemberSet::prefix(0);
-  const double uniform = criterion.uniformError();
-  if (isWorstFirst(options) && options.maxTriangles && !options.deadline && !std::isnan(uniform)) {
-    auto least = leastMembersWithin(mt, uniform, *options.maxTriangles, [&] { return context.cancelled(); });
-    if (!least) return failure(ErrorCode::interrupted, "the cut was interrupted");
-    start = std::move(*least);
+  if (!isWorstFirst(options) || !options.maxTriangles || options.deadline)
+    return Walk(mt, criterion, options).run(MemberSet::prefix(0), context);
+  const auto stop = [&] { return context.cancelled(); };
+  const auto interrupted = [] { return failure(ErrorCode::interrupted, "the cut was interrupted"); };
+  if (const double uniform = criterion.uniformError(); !std::isnan(uniform)) {
+    const auto least = leastMembersWithin(mt, uniform, *options.maxTriangles, stop);
+    if (!least) return interrupted();
+    return Walk(mt, criterion, options).run(*least, context);
   }
-  return Walk(mt, criterion, options).run(start, context);
+  const bool isLong = kShortWalk * std::uint64_t{*options.maxTriangles} > mt.nodeCount();
+  if (isLong && criterion.isMonotone() && !std::isnan(criterion.severityLimit())) {
+    const auto start = membersOfSeverityWithin(mt, criterion, *options.maxTriangles, stop);
+    if (!start) return interrupted();
+    Walk walk(mt, criterion, options);
+    Result<NodeCut> cut = walk.run(start->members, context);
+    if (!cut || walk.leastWorst() <= start->severity) return cut;
+  }
+  return Walk(mt, criterion, options).run(MemberSet::prefix(0), context);
 }
 
 }  // namespace arete

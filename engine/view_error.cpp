@@ -23,6 +23,7 @@ std::array<Vec3, 6> prismOf(const MultiTriangulation& mt, TriangleId t, const Cr
 
 ViewError::ViewError(const Options& options, const MetricFrame& metric)
     : o_(options),
+      metric_(metric),
       frustum_(options.view),
       errorPerReach_(options.pixels / frustum_.pixelsPerUnit() / std::abs(metric.scale.z)),
       filter_(options.view, errorPerReach_, options.outsideError) {}
@@ -52,6 +53,13 @@ bool ViewError::isFineEnough(const MultiTriangulation& mt, TriangleId t, const C
 double ViewError::severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
   const double error = mt.error(t);
   return error == 0 ? 0 : o_.pixels * error / allowedFor(mt, t, corners);
+}
+
+std::unique_ptr<const Criterion> ViewError::withSeverityLimit(double pixels) const {
+  Options options = o_;
+  options.pixels = pixels;
+  options.outsideError *= pixels / o_.pixels;
+  return std::make_unique<ViewError>(options, metric_);
 }
 
 std::uint64_t ViewError::decide(const FrustumFilter::Verdicts& filtered, std::span<const Sphere> balls,

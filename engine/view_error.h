@@ -29,6 +29,8 @@ class ViewError final : public Criterion {
   bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
   /// Its projected error in pixels; out of sight, in the ratio to the error allowed there.
   double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
+  double severityLimit() const override { return o_.pixels; }
+  std::unique_ptr<const Criterion> withSeverityLimit(double pixels) const override;
   bool isMonotone() const override { return true; }
   double allowedError(const Sphere& s) const override;
   std::uint64_t exceeding(std::span<const Sphere> balls, std::span<const float> errors) const override;
@@ -47,6 +49,7 @@ class ViewError final : public Criterion {
   double allowedFor(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const;
 
   Options o_;
+  MetricFrame metric_;
   Frustum frustum_;
   double errorPerReach_;  // unit of heights per metric unit of reach
   FrustumFilter filter_;

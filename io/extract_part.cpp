@@ -119,8 +119,7 @@ Result<TerrainModel> readForView(const AmtFile& file, const ExtractCriterion& as
     if (!cut || isEnough(part->mt, **criterion, *cut)) return part;  // who asks for too little will hear it
     if (asked.pixelError) break;
     const double wanted = kMore * (1.0 + *asked.maxTriangles - part->mt.rootTriangleCount());
-    guess.pixelError =
-        *guess.pixelError * std::clamp(refinedTriangles(*part, **view, context) / wanted, kMost, 1 / kMore);
+    *guess.pixelError *= std::clamp(refinedTriangles(*part, **view, context) / wanted, kMost, 1 / kMore);
   }
   return file.read({}, context);
 }

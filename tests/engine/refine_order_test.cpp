@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "engine/cut_promises.h"
@@ -98,6 +99,70 @@ TEST(WorstFirst, LeavesUnderABudgetWhatNoUniformCutOfThatSizeBetters) {
       if (!std::isfinite(pixels)) continue;  // around the eye no budget is enough
       for (double p = pixels * 0.89; p > 1e-3; p *= 0.5)
         EXPECT_GT(takeCut(mt, inView(p))->triangles.size(), budget) << m.name << " " << pixels << " " << p;
+    }
+  }
+}
+
+/// A view that keeps to itself what its severity decides: the walk begins at the root.
+class SilentView final : public Criterion {
+ public:
+  explicit SilentView(const ViewError& view) : view_(view) {}
+  bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override {
+    return view_.isFineEnough(mt, t, corners);
+  }
+  double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override {
+    return view_.severity(mt, t, corners);
+  }
+  bool isMonotone() const override { return true; }
+  double allowedError(const Sphere& s) const override { return view_.allowedError(s); }
+
+ private:
+  const ViewError& view_;
+};
+
+TEST(WorstFirst, ComesInAViewToWhatTheWalkFromTheRootDoes) {
+  std::mt19937_64 random(5);
+  std::uint64_t binding = 0;
+  for (const FamilyModel& m : familyModels()) {
+    const MultiTriangulation& mt = m.model.mt;
+    for (int i = 0; i < 12; ++i) {
+      ViewError::Options options{.view = randomView(Extent(mt), random),
+                                 .pixels = std::pow(10, -static_cast<double>(random() % 10))};
+      if (i % 3 == 0) options.outsideError = mt.largestError() / static_cast<double>(1 + random() % 20);
+      const ViewError view(options, mt.arrays().metric);
+      const SilentView silent(view);
+      const std::uint32_t roots = mt.rootTriangleCount(), finest = mt.finestTriangleCount();
+      for (int k = 0; k < 8; ++k) {
+        const std::uint32_t budget =
+            roots + static_cast<std::uint32_t>(random() % (finest - roots + 1)) / (1 + k);
+        const auto fast = takeNodes(mt, view, {.maxTriangles = budget}),
+                   walk = takeNodes(mt, silent, {.maxTriangles = budget});
+        ASSERT_TRUE(fast && walk);
+        EXPECT_EQ(fast->nodes, walk->nodes) << m.name << " " << i << " " << budget;
+        EXPECT_EQ(fast->isComplete, walk->isComplete) << m.name << " " << i << " " << budget;
+        binding += fast->isComplete ? 0 : 1;
+      }
+    }
+  }
+  EXPECT_GT(binding, 100u);
+}
+
+TEST(ViewErrorLimit, IsTheSeverityUpToWhichTrianglesAreFineEnough) {
+  std::mt19937_64 random(6);
+  for (const FamilyModel& m : familyModels()) {
+    const MultiTriangulation& mt = m.model.mt;
+    const ViewError view({.view = randomView(Extent(mt), random), .pixels = 3, .outsideError = 2},
+                         mt.arrays().metric);
+    EXPECT_EQ(view.severityLimit(), 3);
+    const auto other = view.withSeverityLimit(0.25);
+    EXPECT_EQ(other->severityLimit(), 0.25);
+    for (std::uint32_t t = 0; t < mt.triangleIdCount(); ++t) {
+      const NodeId creator = mt.creator(TriangleId(t));
+      if (mt.remover(TriangleId(t)) == creator) continue;  // no triangle
+      const auto corners = mt.corners(TriangleId(t), creator);
+      const double severity = view.severity(mt, TriangleId(t), corners);
+      if (std::abs(severity - 0.25) < 1e-7) continue;
+      EXPECT_EQ(other->isFineEnough(mt, TriangleId(t), corners), severity < 0.25);
     }
   }
 }
