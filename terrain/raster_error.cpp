@@ -166,7 +166,7 @@ template <class Differences>
     return;
   }
 
-  constexpr double kFewWideRows = 16;  // from so many on it is looked at by blocks of samples
+  constexpr double kFewWideRows = 48;  // from so many on it is looked at by blocks of samples
   const TriangleRows rows(ab, ac, roundUp_);
   if (rows.last() - rows.first() >= kFewWideRows) return compareByBlocks(a, b, c, rows, plane, differences);
   for (double y = rows.first(); y <= rows.last(); y += 1) {

@@ -111,7 +111,8 @@ TEST(RasterError, ErrorsOfWideTrianglesAreThoseOfEverySampleToo) {
     for (const double noise : {0.0, 0.5, 40.0})
       for (const unsigned voidIn : {3u, 1000u, 1000000u}) {
         std::mt19937 random(seed);
-        const std::uint32_t columns = 2 + random() % 90, rows = 2 + random() % 90, reach = 1 + random() % 90;
+        const std::uint32_t columns = 2 + random() % 150, rows = 2 + random() % 150,
+                            reach = 1 + random() % 150;
         expectErrorsOfEverySample(curved(columns, rows, noise, voidIn, random), reach, 25, seed, random);
       }
 }
