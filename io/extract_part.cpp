@@ -34,6 +34,13 @@ bool needsAllSamples(const ExtractRequest& request) {
   return !meshFormatOf(request.output) || !request.certificate.empty() || !request.errorRaster.empty();
 }
 
+/// Whether balls decide about the triangles: a packed file has none, and of a part smaller ones would be
+/// made.
+bool asksAboutBalls(const ExtractRequest& request) {
+  const ExtractCriterion& c = request.criterion;
+  return c.method == CutMethod::saturated && (c.camera || c.focus || request.region);
+}
+
 /// What is asked for at least, where the format may take something off the tolerance for what it rounds.
 ExtractCriterion readFor(const ExtractRequest& request) {
   ExtractCriterion criterion = request.criterion;
@@ -131,7 +138,8 @@ Result<TerrainModel> readForExtract(const AmtFile& file, std::span<const Extract
   std::vector<ExtractCriterion> criteria;
   std::optional<Region> region;
   for (const ExtractRequest& request : requests) {
-    if (needsAllSamples(request)) return file.read({}, context);
+    if (needsAllSamples(request) || (file.isPacked() && asksAboutBalls(request)))
+      return file.read({}, context);
     criteria.push_back(readFor(request));
     region = request.region;
   }

@@ -12,11 +12,11 @@
 namespace arete {
 
 /// The model of a file, as far as these requests can ask for it: their TINs are those of the whole, but
-/// that saturated cuts by place, and any cut for a camera, may have other triangles, less of them as a rule
-/// and all fine enough: they ask about balls around what comes after a node, and of a packed file these
-/// hold what was read. Where a format rounds heights it is enough for a tolerance that is smaller by
+/// that a camera's minimal cut of a packed file may have other triangles, a few less as a rule and all fine
+/// enough: it asks about balls around what comes after a node, and of a packed file these hold what was
+/// read. Where a format rounds heights it is enough for a tolerance that is smaller by
 /// TinExtractor::kReadReserve of it. Everything, where a TIN is measured against all samples, a deadline
-/// alone decides, or a fit looks at all samples. `outline`: of the file, its root at least. Errors: usage;
+/// alone decides, a fit looks at all samples, or a saturated cut asks a packed file by place. `outline`: of the file, its root at least. Errors: usage;
 /// those of AmtFile::read().
 Result<TerrainModel> readForExtract(const AmtFile& file, std::span<const ExtractRequest> requests,
                                     const TerrainModel& outline, const RunContext& context = {});
