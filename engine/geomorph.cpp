@@ -32,6 +32,8 @@ double cross(const Vec2& a, const Vec2& b) {
   return a.x * b.y - a.y * b.x;
 }
 
+}  // namespace
+
 MorphNode morphNode(const MultiTriangulation& mt, NodeId n) {
   const VertexArrays& vertices = mt.vertices();
   const VertexId apex = mt.apex(n);
@@ -65,8 +67,6 @@ MorphNode morphNode(const MultiTriangulation& mt, NodeId n) {
           {static_cast<float>(w0), static_cast<float>(w1)},
           static_cast<float>(vertices.height(apex) - z2 - floor)};
 }
-
-}  // namespace
 
 std::vector<MorphNode> makeMorphNodes(const MultiTriangulation& mt, const RunContext& context) {
   std::vector<MorphNode> made(mt.nodeCount());

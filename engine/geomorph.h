@@ -26,6 +26,8 @@ struct MorphNode {
 };
 static_assert(sizeof(MorphNode) == 24);
 
+/// Of one node. O(k), k the vertex's degree.
+MorphNode morphNode(const MultiTriangulation& mt, NodeId n);
 /// Of every node. O(N), parallel, the same for any number of threads.
 std::vector<MorphNode> makeMorphNodes(const MultiTriangulation& mt, const RunContext& context = {});
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Members are listed in the order in which they came, which has parents before children: what goes has no
-// children left, and what comes, comes last. One pass over the list computes the scale of every member's
-// ball, in parallel; a second, in order, moves those that are not at rest.
+// children left, and what comes, comes last. Where a member's vertex lies on the floor is found when it
+// comes, so nothing is made of nodes that no camera has seen. One pass over the list computes the scale of
+// every member's ball, in parallel; a second, in order, moves those that are not at rest.
 //
 // Jumps. What left is given the offset that it would have now, and so the cut before and the cut after are
 // surfaces over the same moved vertices, and differ where nodes came or went. At any place the triangle that
@@ -27,17 +28,14 @@
 namespace arete {
 namespace {
 
-constexpr std::size_t kMembersPerTask = 2048, kChangesPerTask = 64, kAhead = 16;
+constexpr std::size_t kMembersPerTask = 2048, kChangesPerTask = 64;
 
 }  // namespace
 
 class MovingSurface::State {
  public:
-  State(MultiTriangulation multitriangulation, const RunContext& context)
-      : mt(std::move(multitriangulation)),
-        nodes(makeMorphNodes(mt, context)),
-        offsets_(mt.nodeCount(), 0),
-        isMember_(mt.nodeCount(), false) {}
+  explicit State(MultiTriangulation multitriangulation)
+      : mt(std::move(multitriangulation)), offsets_(mt.nodeCount(), 0), isMember_(mt.nodeCount(), false) {}
 
   Update update(const MorphCamera& given, const IncrementalCut& cut, bool budgetBinds) {
     changes.clear();
@@ -66,42 +64,80 @@ class MovingSurface::State {
   }
 
   const MultiTriangulation mt;
-  const std::vector<MorphNode> nodes;
   std::vector<Change> changes;
 
  private:
+  /// Nodes and where their vertices lie on their floors, one beside the other.
+  struct Nodes {
+    std::vector<std::uint32_t> ids;
+    std::vector<MorphNode> morphs;
+    std::size_t size() const { return ids.size(); }
+  };
+  struct NodesView {
+    std::span<const std::uint32_t> ids;
+    std::span<const MorphNode> morphs;
+  };
+
   void takeSteps(const IncrementalCut& cut) {
-    entered_.clear();
-    left_.clear();
+    left_ = {};
+    std::vector<std::uint32_t> entered;
+    bool haveLeft = false;
     for (const CutStep& step : cut.lastSteps()) {
       const std::uint32_t n = step.node.index();
       const bool isIn = cut.contains(step.node);
       if (isIn == isMember_[n]) continue;
       isMember_[n] = isIn;
-      (isIn ? entered_ : left_).push_back(n);
+      if (isIn)
+        entered.push_back(n);
+      else
+        haveLeft = true;
     }
-    std::ranges::reverse(left_);  // parents first
-    if (!left_.empty()) {
-      std::size_t kept = 0;
-      for (std::size_t i = 0; i < members_.size(); ++i) {
-        if (!isMember_[members_[i]]) continue;
-        members_[kept] = members_[i];
-        balls_[kept] = balls_[i];
-        errors_[kept++] = errors_[i];
+    if (haveLeft) dropLeft();
+    entered_ = entered.size();
+    enter(entered);
+  }
+
+  /// Those that are no members any more go from the list to left_, in their order.
+  void dropLeft() {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      if (!isMember_[members_.ids[i]]) {
+        left_.ids.push_back(members_.ids[i]);
+        left_.morphs.push_back(members_.morphs[i]);
+        continue;
       }
-      members_.resize(kept);
-      balls_.resize(kept);
-      errors_.resize(kept);
+      members_.ids[kept] = members_.ids[i];
+      members_.morphs[kept] = members_.morphs[i];
+      balls_[kept] = balls_[i];
+      errors_[kept++] = errors_[i];
     }
-    for (const std::uint32_t n : entered_) {
-      members_.push_back(n);
+    members_.ids.resize(kept);
+    members_.morphs.resize(kept);
+    balls_.resize(kept);
+    errors_.resize(kept);
+  }
+
+  void enter(const std::vector<std::uint32_t>& entered) {
+    for (const std::uint32_t n : entered) {
+      members_.ids.push_back(n);
       balls_.push_back(mt.arrays().sphere[n]);
       errors_.push_back(static_cast<float>(mt.saturatedError(NodeId(n))));
     }
+    const std::size_t first = members_.morphs.size();
+    members_.morphs.resize(first + entered.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, entered.size(), kChangesPerTask),
+                      [&](const auto& range) {
+                        for (std::size_t i = range.begin(); i < range.end(); ++i)
+                          members_.morphs[first + i] = morphNode(mt, NodeId(entered[i]));
+                      });
   }
 
-  float offsetOf(const MorphCamera& camera, std::uint32_t n, double rho, double pixelsPerHeight) const {
-    const MorphNode& m = nodes[n];
+  NodesView left() const { return {left_.ids, left_.morphs}; }
+  NodesView entered() const {
+    return {std::span(members_.ids).last(entered_), std::span(members_.morphs).last(entered_)};
+  }
+
+  float offsetOf(const MorphCamera& camera, const MorphNode& m, double rho, double pixelsPerHeight) const {
     return static_cast<float>(camera.offset(m, rho, pixelsPerHeight, offset(m.corner[0]), offset(m.corner[1]),
                                             offset(m.corner[2])));
   }
@@ -110,12 +146,11 @@ class MovingSurface::State {
     std::uint32_t moving = 0;
     const std::size_t count = members_.size();
     for (std::size_t i = 0; i < count; ++i) {
-      if (i + kAhead < count) __builtin_prefetch(&nodes[members_[i + kAhead]]);
-      const std::uint32_t n = members_[i];
+      const std::uint32_t n = members_.ids[i];
       const double rho = errors_[i] * pixels_[i];
       float now = 0;
       if (camera.share(rho) > 0) {
-        now = offsetOf(camera, n, rho, pixels_[i]);
+        now = offsetOf(camera, members_.morphs[i], rho, pixels_[i]);
         ++moving;
       }
       if (now == offsets_[n]) continue;
@@ -128,13 +163,14 @@ class MovingSurface::State {
   double jump(const MorphCamera& camera) {
     // Offsets of what left are not handed out: they are put back.
     std::vector<float> before;
-    for (const std::uint32_t n : left_) {
+    for (std::size_t i = 0; i < left_.size(); ++i) {
+      const std::uint32_t n = left_.ids[i];
       before.push_back(offsets_[n]);
       const double pixels = camera.pixelsPerHeight(mt.arrays().sphere[n]);
-      offsets_[n] = offsetOf(camera, n, mt.saturatedError(NodeId(n)) * pixels, pixels);
+      offsets_[n] = offsetOf(camera, left_.morphs[i], mt.saturatedError(NodeId(n)) * pixels, pixels);
     }
-    const double most = std::max(chained(camera, entered_), chained(camera, left_));
-    for (std::size_t i = 0; i < left_.size(); ++i) offsets_[left_[i]] = before[i];
+    const double most = std::max(chained(camera, entered()), chained(camera, left()));
+    for (std::size_t i = 0; i < left_.size(); ++i) offsets_[left_.ids[i]] = before[i];
     return most;
   }
 
@@ -161,7 +197,8 @@ class MovingSurface::State {
   };
 
   /// The most pixels of a jump where these nodes, parents first, all came or all went.
-  double chained(const MorphCamera& camera, const std::vector<std::uint32_t>& ids) const {
+  double chained(const MorphCamera& camera, const NodesView& nodes) const {
+    const std::span<const std::uint32_t> ids = nodes.ids;
     std::vector<Changed> changed(ids.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ids.size(), kChangesPerTask),
                       [&](const auto& range) {
@@ -187,13 +224,13 @@ class MovingSurface::State {
       const auto [child, parent] = *pair;
       changed[parent].isNeeded = changed[parent].isNeeded || changed[child].isNeeded;
     }
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, ids.size(), kChangesPerTask), [&](const auto& range) {
-          for (std::size_t i = range.begin(); i < range.end(); ++i)
-            if (changed[i].isNeeded)
-              changed[i].own =
-                  surfaceJump(mt, NodeId(ids[i]), nodes[ids[i]], [&](std::uint32_t v) { return offset(v); });
-        });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ids.size(), kChangesPerTask),
+                      [&](const auto& range) {
+                        for (std::size_t i = range.begin(); i < range.end(); ++i)
+                          if (changed[i].isNeeded)
+                            changed[i].own = surfaceJump(mt, NodeId(ids[i]), nodes.morphs[i],
+                                                         [&](std::uint32_t v) { return offset(v); });
+                      });
     for (const auto& [child, parent] : pairs)
       changed[child].before = std::max(changed[child].before, changed[parent].before + changed[parent].own);
     double most = 0;
@@ -209,14 +246,15 @@ class MovingSurface::State {
 
   std::vector<float> offsets_;  // by node
   std::vector<bool> isMember_;
-  std::vector<std::uint32_t> members_, entered_, left_;
+  Nodes members_;               // in the order in which they came
+  std::size_t entered_ = 0;     // of members: the last that came in the last update
+  Nodes left_;                  // in the last update, parents first
   std::vector<Sphere> balls_;   // of members
   std::vector<float> errors_;   // of members
   std::vector<double> pixels_;  // of members: per unit of height
 };
 
-MovingSurface::MovingSurface(MultiTriangulation mt, const RunContext& context)
-    : state_(std::make_unique<State>(std::move(mt), context)) {}
+MovingSurface::MovingSurface(MultiTriangulation mt) : state_(std::make_unique<State>(std::move(mt))) {}
 MovingSurface::~MovingSurface() = default;
 MovingSurface::MovingSurface(MovingSurface&&) noexcept = default;
 MovingSurface& MovingSurface::operator=(MovingSurface&&) noexcept = default;
@@ -236,10 +274,6 @@ std::span<const MovingSurface::Change> MovingSurface::changes() const {
 
 const MultiTriangulation& MovingSurface::mt() const {
   return state_->mt;
-}
-
-std::span<const MorphNode> MovingSurface::nodes() const {
-  return state_->nodes;
 }
 
 }  // namespace arete

@@ -11,12 +11,12 @@
 namespace arete {
 
 /// The heights of the vertices of a cut that follows a camera, on their way (engine/geomorph.h), and the
-/// jumps that remain. Holds 28 bytes per node of the MT, and some 40 per member of the cut. Not thread-safe;
+/// jumps that remain. Holds 4 bytes per node of the MT, and some 70 per member of the cut. Not thread-safe;
 /// works in parallel inside.
 class MovingSurface {
  public:
   /// Starts at the root. O(nodes).
-  explicit MovingSurface(MultiTriangulation mt, const RunContext& context = {});
+  explicit MovingSurface(MultiTriangulation mt);
   ~MovingSurface();
   MovingSurface(MovingSurface&&) noexcept;
   MovingSurface& operator=(MovingSurface&&) noexcept;
@@ -45,7 +45,6 @@ class MovingSurface {
   std::span<const Change> changes() const;
 
   const MultiTriangulation& mt() const;
-  std::span<const MorphNode> nodes() const;
 
  private:
   class State;

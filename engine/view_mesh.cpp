@@ -27,8 +27,7 @@ constexpr std::uint32_t kMostBetween = 8;  // unchanged places that do not end a
 
 class ViewMesh::State {
  public:
-  State(MultiTriangulation mt, const RunContext& context)
-      : cut_(mt), surface_(std::move(mt), context), origin_(middle()) {
+  explicit State(MultiTriangulation mt) : cut_(mt), surface_(std::move(mt)), origin_(middle()) {
     takeTriangles();
     places_.assign(1, {0, static_cast<std::uint32_t>(triangles_.size())});
   }
@@ -139,11 +138,11 @@ class ViewMesh::State {
   std::vector<HeightChange> heights_;
 };
 
-Result<ViewMesh> ViewMesh::create(MultiTriangulation mt, const Options& options, const RunContext& context) {
+Result<ViewMesh> ViewMesh::create(MultiTriangulation mt, const Options& options) {
   if (!(options.heightScale > 0 && std::isfinite(options.heightScale)))
     return failure(ErrorCode::usage, "heights can be multiplied by a number above 0 only", "view mesh");
   if (options.heightScale != 1) mt = stretched(mt, options.heightScale);
-  return ViewMesh(std::make_unique<State>(std::move(mt), context));
+  return ViewMesh(std::make_unique<State>(std::move(mt)));
 }
 
 ViewMesh::ViewMesh(std::unique_ptr<State> state) : state_(std::move(state)) {}

@@ -16,8 +16,8 @@ namespace arete {
 /// enough: it asks about balls around what comes after a node, and of a packed file these hold what was
 /// read. Where a format rounds heights it is enough for a tolerance that is smaller by
 /// TinExtractor::kReadReserve of it. Everything, where a TIN is measured against all samples, a deadline
-/// alone decides, a fit looks at all samples, or a saturated cut asks a packed file by place. `outline`: of the file, its root at least. Errors: usage;
-/// those of AmtFile::read().
+/// alone decides, a fit looks at all samples, or a saturated cut asks a packed file by place. `outline`: of
+/// the file, its root at least. Errors: usage; those of AmtFile::read().
 Result<TerrainModel> readForExtract(const AmtFile& file, std::span<const ExtractRequest> requests,
                                     const TerrainModel& outline, const RunContext& context = {});
 

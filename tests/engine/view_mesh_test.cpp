@@ -179,7 +179,7 @@ TEST(ViewMesh, IsTheSameForAnyNumberOfThreads) {
     RunContext context;
     context.threads = threads;
     std::mt19937_64 random(73);
-    auto mesh = ViewMesh::create(mt, {}, context);
+    auto mesh = ViewMesh::create(mt);
     ASSERT_TRUE(mesh);
     for (int round = 0; round < 10; ++round)
       ASSERT_TRUE(mesh->update(randomView(Extent(mt), random), {.pixels = 3}, context));

@@ -110,12 +110,12 @@ void ComputeFront::cut(const TerrainOnGpu& t, bool isMorphing, int morphSteps) {
   dispatchBy(roots_, offsetof(State, roots));
   bind<1>({t.links});
   dispatchBy(stars_, offsetof(State, blocks));
-  if (isMorphing && t.hasMorphs) {
+  if (isMorphing && t.nodeCount > 0) {
     bind<7>({t.nodeBalls, t.nodes, members_, t.morphs, t.rises, moving_, blockList_});
     dispatchBy(list_, offsetof(State, blocks));
   }
   dispatch(publish_, 1);
-  if (isMorphing && t.hasMorphs)
+  if (isMorphing && t.nodeCount > 0)
     for (int i = 0; i < morphSteps; ++i) dispatchBy(step_, offsetof(State, moving));
   glMemoryBarrier(GL_ELEMENT_ARRAY_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
                   GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/geomorph.h"
 #include "engine/node_blocks.h"
 
 namespace arete {
@@ -58,8 +59,8 @@ std::string whyNot(const MultiTriangulation& mt) {
 
 }  // namespace
 
-TerrainOnGpu uploadTerrain(const MultiTriangulation& mt, std::span<const MorphNode> morphs,
-                           const MultiTriangulation* flat) {
+TerrainOnGpu uploadTerrain(const MultiTriangulation& mt, const MultiTriangulation* flat,
+                           const RunContext& context) {
   const MtArrays& a = mt.arrays();
   TerrainOnGpu t;
   t.vertices = mt.vertexCount();
@@ -84,8 +85,7 @@ TerrainOnGpu uploadTerrain(const MultiTriangulation& mt, std::span<const MorphNo
   t.blockErrors = makeBuffer(std::span<const float>(errors));
   t.links = makeBuffer(a.link);
   t.removers = makeBuffer(a.remover);
-  t.hasMorphs = !morphs.empty();
-  t.morphs = makeBuffer(morphs);
+  t.morphs = makeBuffer(std::span<const MorphNode>(makeMorphNodes(mt, context)));
   return t;
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <span>
 #include <string>
 
-#include "engine/geomorph.h"
 #include "engine/multitriangulation.h"
+#include "engine/run_context.h"
 #include "viewer/gl/gl_objects.h"
 
 namespace arete {
@@ -24,13 +23,12 @@ struct TerrainOnGpu {
   std::string refusal;
 
   std::uint32_t vertices = 0, nodeCount = 0, rootTriangles = 0, rootVertices = 0, blocks = 0, pages = 0;
-  bool hasMorphs = false;
 };
 
-/// `morphs`: of every node, or none. `flat`: the MT that a bent one (engine/bent_mt.h) was made of. The
-/// vertices go there whatever the device can. O(size of the MT).
-TerrainOnGpu uploadTerrain(const MultiTriangulation& mt, std::span<const MorphNode> morphs,
-                           const MultiTriangulation* flat = nullptr);
+/// `flat`: the MT that a bent one (engine/bent_mt.h) was made of. The vertices go there whatever the device
+/// can. O(size of the MT).
+TerrainOnGpu uploadTerrain(const MultiTriangulation& mt, const MultiTriangulation* flat = nullptr,
+                           const RunContext& context = {});
 
 /// Of all triangles: 2 bytes each.
 void uploadErrors(TerrainOnGpu& terrain, const MultiTriangulation& mt);

@@ -52,7 +52,7 @@ struct TerrainView::State {
     std::string refusal = std::move(terrain.refusal);
     terrain = {};
     mt = std::move(wanted);
-    terrain = uploadTerrain(mt, makeMorphNodes(mt), settings.isCurved ? &model->mt : nullptr);
+    terrain = uploadTerrain(mt, settings.isCurved ? &model->mt : nullptr);
     terrain.refusal = std::move(refusal);
     hasRises = false;
     isBent = settings.isCurved;
@@ -65,10 +65,9 @@ Result<TerrainView> TerrainView::create(const TerrainModel& model, const Options
                                         const RunContext& context) {
   Result<TerrainPainter> painter = TerrainPainter::create(model);
   if (!painter) return tl::unexpected(painter.error());
-  const std::vector<MorphNode> morphs = makeMorphNodes(model.mt, context);
   auto state = std::make_unique<State>(State{.model = &model,
                                              .mt = model.mt,
-                                             .terrain = uploadTerrain(model.mt, morphs),
+                                             .terrain = uploadTerrain(model.mt, nullptr, context),
                                              .painter = std::move(*painter)});
   state->drawn = options.path;
   if (state->terrain.refusal.empty()) {
@@ -130,7 +129,7 @@ Result<FrameFigures> TerrainView::cut(const Camera& camera, const ViewSettings& 
     s.processor.reset();
     s.painter.setFrame(*frame);
     s.device->cut(s.terrain, settings.isGeomorphed);
-    s.hasRises = settings.isGeomorphed && s.terrain.hasMorphs;
+    s.hasRises = settings.isGeomorphed && s.terrain.nodeCount > 0;
     const ComputeFront::Counts counts = settings.waits ? s.device->counts() : s.device->lateCounts();
     figures.triangles = counts.drawn;
     figures.asked = counts.triangles;
