@@ -11,7 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <span>
 #include <utility>
 
 #include "engine/with_threads.h"
@@ -39,10 +39,11 @@ Delaunay insertAlongGround(const std::vector<PlacedPoint>& points, const RunCont
   Delaunay delaunay;
   Delaunay::Face_handle near;
   // A triangle comes first: while all are on one line, CGAL looks for each among all of them.
-  const auto beside = std::ranges::find_if(points | std::views::drop(2), [&](const PlacedPoint& p) {
+  const std::span others = std::span(points).subspan(std::min<std::size_t>(2, points.size()));
+  const auto beside = std::ranges::find_if(others, [&](const PlacedPoint& p) {
     return !CGAL::collinear(points[0].first, points[1].first, p.first);
   });
-  if (beside == points.end()) return delaunay;
+  if (beside == others.end()) return delaunay;
   for (const PlacedPoint& corner : {points[0], points[1], *beside}) {
     const auto vertex = delaunay.insert(corner.first, near);
     vertex->info() = corner.second;
