@@ -185,7 +185,7 @@ class Front {
       const Side across = floor.outer[triangles];
       if ((across & kForeign) == 0) pool[across >> 2].across[across & 3] = kNoSide;
     }
-    a_.slotBegin[node] = slot;
+    std::atomic_ref(a_.slotBegin[node]).store(slot, std::memory_order_relaxed);
     a_.star[node] = static_cast<std::uint8_t>(size | (isOpen ? Arrays::kOpen : 0));
     return records;
   }
@@ -240,9 +240,11 @@ class Front {
       if (Arrays::isLeft(remover)) {
         prefetchBorder(remover & ~Arrays::kMarks);
       } else if (remover < a_.nodes) {
+        // It may be of a chunk that is at work, as nobody has asked for it yet: some slot is asked for then.
+        const std::uint32_t slot = std::atomic_ref(a_.slotBegin[remover]).load(std::memory_order_relaxed);
         __builtin_prefetch(&a_.star[remover]);
-        __builtin_prefetch(&a_.link[a_.slotBegin[remover]]);
-        __builtin_prefetch(&a_.remover[a_.roots + a_.slotBegin[remover]], 1);
+        __builtin_prefetch(&a_.link[slot]);
+        __builtin_prefetch(&a_.remover[a_.roots + slot], 1);
       }
     }
   }
