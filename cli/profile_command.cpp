@@ -229,7 +229,7 @@ Result<Answer> answerWay(const Way& way, const ProfileArguments& a, const SightE
   if (!seen) return tl::unexpected(seen.error());
   answer.profile = profiles.along(line->track(), a.maxError);
   answer.line = std::move(*line);
-  answer.link = std::move(*seen);
+  answer.link = *seen;
   return answer;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <compare>
 #include <cstdint>
 
 #include "engine/criterion.h"
@@ -14,7 +13,10 @@ namespace arete {
 struct RefineKey {
   std::uint32_t queue = 0;
   double rank = 0;
-  auto operator<=>(const RefineKey&) const = default;
+  bool operator==(const RefineKey&) const = default;
+  bool operator>(const RefineKey& other) const {
+    return queue != other.queue ? queue > other.queue : rank > other.rank;
+  }
 };
 
 /// The strategies of the explicit multitriangulation (Fornous 2003, 2.4.3). Where neither a budget nor a

@@ -408,7 +408,7 @@ std::vector<AmtShape> amtShapes(const AmtMetadata& m, bool isPacked) {
   const AmtCounts& c = m.counts;
   const std::uint64_t triangles = c.rootTriangles + c.slots, vertices = c.rootVertices + c.nodes;
   constexpr std::uint64_t kSlotsPerHint = MultiTriangulation::kSlotsPerHint;
-  const std::vector<AmtShape> extras = {
+  std::vector<AmtShape> extras = {
       {amt_tag::kIsolatedSamples, AmtScalar::u32, 4, c.isolated},
       {amt_tag::kIsolatedHeights, AmtScalar::f64, 8, c.isolated},
       {amt_tag::kFixedVertices, AmtScalar::u32, 4, c.fixedVertices},

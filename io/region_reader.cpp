@@ -87,7 +87,7 @@ Status collectLayer(OGRLayer& layer, Shapes& all, std::vector<std::string>& warn
 }
 
 /// The union of the polygons, or the polygons themselves, with a warning, where GEOS cannot make it.
-OGRMultiPolygon unite(OGRMultiPolygon all, std::vector<std::string>& warnings) {
+OGRMultiPolygon unite(const OGRMultiPolygon& all, std::vector<std::string>& warnings) {
   if (all.getNumGeometries() < 2) return all;
   GdalErrors quiet;
   const std::unique_ptr<OGRGeometry> united(OGRGeometryFactory::haveGEOS() ? all.UnionCascaded() : nullptr);
@@ -181,7 +181,7 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
   Shapes shapes{.takesLines = options.takesLines};
   if (Status status = collectLayer(**layer, shapes, read.warnings, context); !status)
     return tl::unexpected(status.error());
-  const OGRMultiPolygon polygons = unite(std::move(shapes.polygons), read.warnings);
+  const OGRMultiPolygon polygons = unite(shapes.polygons, read.warnings);
 
   auto source = chooseCrs((*layer)->GetSpatialRef(), options.crs, read.warnings);
   if (!source) return tl::unexpected(source.error());

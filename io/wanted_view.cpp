@@ -44,11 +44,12 @@ WantedError wantedInView(const ViewError& view, const TerrainModel& outline) {
     const double balls = std::clamp(std::ceil(up / std::max(across, 1e-300)), 1.0, kMostBalls);
     const double radius = kWider * std::hypot(across, up / balls) / 2;
     double least = std::numeric_limits<double>::infinity();
-    for (double ball = 0.5; ball < balls; ++ball)
-      least = std::min(
-          least, view.allowedError(
-                     {static_cast<float>((low.x + high.x) / 2), static_cast<float>((low.y + high.y) / 2),
-                      static_cast<float>(heights.low + ball * up / balls), static_cast<float>(radius)}));
+    for (int i = 0; i < balls; ++i) {
+      const double middle = heights.low + (i + 0.5) * up / balls;
+      least = std::min(least, view.allowedError({static_cast<float>((low.x + high.x) / 2),
+                                                 static_cast<float>((low.y + high.y) / 2),
+                                                 static_cast<float>(middle), static_cast<float>(radius)}));
+    }
     return least;
   };
 }

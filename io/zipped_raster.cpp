@@ -49,7 +49,8 @@ Result<std::string> findZippedRaster(const std::string& archive) {
   for (int i = 0; i < names.Count(); ++i) {
     const std::string name = names[i];
     if (name.back() == '/' || isSidecar(name)) continue;
-    GDALDriverH driver = GDALIdentifyDriverEx((root + "/" + name).c_str(), GDAL_OF_RASTER, nullptr, nullptr);
+    GDALDriverH driver =
+        GDALIdentifyDriverEx(fmt::format("{}/{}", root, name).c_str(), GDAL_OF_RASTER, nullptr, nullptr);
     if (driver) (isTextDriver(driver) ? texts : rasters).push_back(name);
   }
   if (rasters.empty()) rasters = std::move(texts);

@@ -5,8 +5,9 @@
 #include <tbb/parallel_for.h>
 
 #include <atomic>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 
 namespace arete {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 constexpr std::size_t kAhead = 16;
 
 bool isSameBits(double a, double b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
 template <class Raw, class ToRaw>

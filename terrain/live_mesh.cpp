@@ -74,7 +74,7 @@ LiveMesh LiveMesh::fromTriangles(std::vector<Corners> corners, std::uint32_t ver
 }
 
 SlotMap LiveMesh::compact(std::span<const std::uint32_t> vertices) {
-  const SlotMap newSlot(triangles.size(), [&](std::size_t t) { return !triangles[t].isDead(); });
+  SlotMap newSlot(triangles.size(), [&](std::size_t t) { return !triangles[t].isDead(); });
   const auto moved = [&](std::uint32_t h) {
     return h == kNone ? kNone : halfedge(newSlot.ofLive(triangleOf(h)), sideOf(h));
   };

@@ -5,8 +5,6 @@
 // there is nothing to tell.
 #include "terrain/short_edges.h"
 
-#include <cstdlib>
-
 namespace arete {
 namespace {
 
@@ -30,7 +28,8 @@ ShortEdges::ShortEdges(std::uint32_t columns) {
   const auto sample = [&](int x, int y) { return y * static_cast<std::int32_t>(columns) + x; };
   /// visit(k) for the whole numbers between 0 and `end`.
   const auto forBetween = [](int end, const auto& visit) {
-    for (int k = 1; k < std::abs(end); ++k) visit(end > 0 ? k : -k);
+    const int step = end > 0 ? 1 : -1;
+    for (int k = step; k * step < end * step; k += step) visit(k);
   };
   first_[0] = 0;
   for (int dy = -kReach; dy <= kReach; ++dy)

@@ -38,7 +38,7 @@ class ShortEdges {
     return static_cast<std::uint32_t>(x + kReach) < static_cast<std::uint32_t>(kSide);
   }
   static std::size_t place(std::int32_t dx, std::int32_t dy) {
-    return static_cast<std::size_t>((dy + kReach) * kSide + dx + kReach);
+    return static_cast<std::size_t>(dy + kReach) * kSide + static_cast<std::size_t>(dx + kReach);
   }
 
   std::array<std::uint32_t, std::size_t(kSide) * kSide + 1> first_;  // per edge

@@ -35,7 +35,8 @@ class SmallTriangles {
   static constexpr int kReach = 4, kSide = 2 * kReach + 1;
   static bool isReached(int x) { return static_cast<unsigned>(x + kReach) < static_cast<unsigned>(kSide); }
   static std::size_t place(int bx, int by, int cx, int cy) {
-    return static_cast<std::size_t>(((bx * kSide + by) * kSide + cx) * kSide + cy + kMiddle);
+    const int at = ((bx * kSide + by) * kSide + cx) * kSide + cy + kMiddle;
+    return static_cast<std::size_t>(at);
   }
   static constexpr int kMiddle = kReach * (((kSide + 1) * kSide + 1) * kSide + 1);
 

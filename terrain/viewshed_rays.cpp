@@ -43,7 +43,7 @@ Status forRows(std::uint32_t rows, const RunContext& context, const Body& body) 
 Status viewshedRays(const ViewshedTask& task, const RunContext& context, Viewshed& result) {
   const std::uint32_t columns = task.grid.columns(), rows = task.grid.rows();
   std::vector<std::uint64_t> counts(rows);
-  const Status status = forRows(rows, context, [&](std::uint32_t row) -> Status {
+  Status status = forRows(rows, context, [&](std::uint32_t row) -> Status {
     const double* heights = task.grid.row(row);
     for (std::uint32_t column = 0; column < columns; ++column) {
       const auto answer = task.exact.at({double(column), double(row)}, heights[column]);
