@@ -67,74 +67,53 @@ class MovingSurface::State {
   std::vector<Change> changes;
 
  private:
-  /// Nodes and where their vertices lie on their floors, one beside the other.
-  struct Nodes {
-    std::vector<std::uint32_t> ids;
-    std::vector<MorphNode> morphs;
-    std::size_t size() const { return ids.size(); }
-  };
-  struct NodesView {
-    std::span<const std::uint32_t> ids;
-    std::span<const MorphNode> morphs;
+  struct Member {
+    std::uint32_t node;
+    MorphNode morph;
   };
 
   void takeSteps(const IncrementalCut& cut) {
-    left_ = {};
-    std::vector<std::uint32_t> entered;
+    left_.clear();
+    entered_ = 0;
     bool haveLeft = false;
     for (const CutStep& step : cut.lastSteps()) {
       const std::uint32_t n = step.node.index();
       const bool isIn = cut.contains(step.node);
       if (isIn == isMember_[n]) continue;
       isMember_[n] = isIn;
-      if (isIn)
-        entered.push_back(n);
-      else
+      if (!isIn) {
         haveLeft = true;
+        continue;
+      }
+      members_.push_back({n, {}});
+      balls_.push_back(mt.arrays().sphere[n]);
+      errors_.push_back(static_cast<float>(mt.saturatedError(step.node)));
+      ++entered_;
     }
     if (haveLeft) dropLeft();
-    entered_ = entered.size();
-    enter(entered);
+    const std::span<Member> entered = std::span(members_).last(entered_);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, entered.size(), kChangesPerTask),
+                      [&](const auto& range) {
+                        for (std::size_t i = range.begin(); i < range.end(); ++i)
+                          entered[i].morph = morphNode(mt, NodeId(entered[i].node));
+                      });
   }
 
   /// Those that are no members any more go from the list to left_, in their order.
   void dropLeft() {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < members_.size(); ++i) {
-      if (!isMember_[members_.ids[i]]) {
-        left_.ids.push_back(members_.ids[i]);
-        left_.morphs.push_back(members_.morphs[i]);
+      if (!isMember_[members_[i].node]) {
+        left_.push_back(members_[i]);
         continue;
       }
-      members_.ids[kept] = members_.ids[i];
-      members_.morphs[kept] = members_.morphs[i];
+      members_[kept] = members_[i];
       balls_[kept] = balls_[i];
       errors_[kept++] = errors_[i];
     }
-    members_.ids.resize(kept);
-    members_.morphs.resize(kept);
+    members_.resize(kept);
     balls_.resize(kept);
     errors_.resize(kept);
-  }
-
-  void enter(const std::vector<std::uint32_t>& entered) {
-    for (const std::uint32_t n : entered) {
-      members_.ids.push_back(n);
-      balls_.push_back(mt.arrays().sphere[n]);
-      errors_.push_back(static_cast<float>(mt.saturatedError(NodeId(n))));
-    }
-    const std::size_t first = members_.morphs.size();
-    members_.morphs.resize(first + entered.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, entered.size(), kChangesPerTask),
-                      [&](const auto& range) {
-                        for (std::size_t i = range.begin(); i < range.end(); ++i)
-                          members_.morphs[first + i] = morphNode(mt, NodeId(entered[i]));
-                      });
-  }
-
-  NodesView left() const { return {left_.ids, left_.morphs}; }
-  NodesView entered() const {
-    return {std::span(members_.ids).last(entered_), std::span(members_.morphs).last(entered_)};
   }
 
   float offsetOf(const MorphCamera& camera, const MorphNode& m, double rho, double pixelsPerHeight) const {
@@ -146,11 +125,11 @@ class MovingSurface::State {
     std::uint32_t moving = 0;
     const std::size_t count = members_.size();
     for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t n = members_.ids[i];
+      const auto& [n, morph] = members_[i];
       const double rho = errors_[i] * pixels_[i];
       float now = 0;
       if (camera.share(rho) > 0) {
-        now = offsetOf(camera, members_.morphs[i], rho, pixels_[i]);
+        now = offsetOf(camera, morph, rho, pixels_[i]);
         ++moving;
       }
       if (now == offsets_[n]) continue;
@@ -163,14 +142,13 @@ class MovingSurface::State {
   double jump(const MorphCamera& camera) {
     // Offsets of what left are not handed out: they are put back.
     std::vector<float> before;
-    for (std::size_t i = 0; i < left_.size(); ++i) {
-      const std::uint32_t n = left_.ids[i];
+    for (const auto& [n, morph] : left_) {
       before.push_back(offsets_[n]);
       const double pixels = camera.pixelsPerHeight(mt.arrays().sphere[n]);
-      offsets_[n] = offsetOf(camera, left_.morphs[i], mt.saturatedError(NodeId(n)) * pixels, pixels);
+      offsets_[n] = offsetOf(camera, morph, mt.saturatedError(NodeId(n)) * pixels, pixels);
     }
-    const double most = std::max(chained(camera, entered()), chained(camera, left()));
-    for (std::size_t i = 0; i < left_.size(); ++i) offsets_[left_.ids[i]] = before[i];
+    const double most = std::max(chained(camera, std::span(members_).last(entered_)), chained(camera, left_));
+    for (std::size_t i = 0; i < left_.size(); ++i) offsets_[left_[i].node] = before[i];
     return most;
   }
 
@@ -197,23 +175,22 @@ class MovingSurface::State {
   };
 
   /// The most pixels of a jump where these nodes, parents first, all came or all went.
-  double chained(const MorphCamera& camera, const NodesView& nodes) const {
-    const std::span<const std::uint32_t> ids = nodes.ids;
-    std::vector<Changed> changed(ids.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ids.size(), kChangesPerTask),
+  double chained(const MorphCamera& camera, std::span<const Member> nodes) const {
+    std::vector<Changed> changed(nodes.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes.size(), kChangesPerTask),
                       [&](const auto& range) {
                         std::vector<Vec3> hull;
                         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                          hullOf(ids[i], 0, hull);
+                          hullOf(nodes[i].node, 0, hull);
                           changed[i].isSeen = camera.mayMeet(hull);
                         }
                       });
     tsl::robin_map<std::uint32_t, std::size_t, ScatteredId> place;
-    place.reserve(ids.size());
-    for (std::size_t i = 0; i < ids.size(); ++i) place[ids[i]] = i;
+    place.reserve(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) place[nodes[i].node] = i;
     std::vector<std::pair<std::size_t, std::size_t>> pairs;  // child and parent, by child
-    for (std::size_t i = 0; i < ids.size(); ++i)
-      for (const std::uint32_t t : mt.floor(NodeId(ids[i])))
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (const std::uint32_t t : mt.floor(NodeId(nodes[i].node)))
         if (const NodeId parent = mt.creator(TriangleId(t)); parent.isValid())
           if (const auto at = place.find(parent.index()); at != place.end())
             pairs.emplace_back(i, at->second);
@@ -224,21 +201,21 @@ class MovingSurface::State {
       const auto [child, parent] = *pair;
       changed[parent].isNeeded = changed[parent].isNeeded || changed[child].isNeeded;
     }
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ids.size(), kChangesPerTask),
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes.size(), kChangesPerTask),
                       [&](const auto& range) {
                         for (std::size_t i = range.begin(); i < range.end(); ++i)
                           if (changed[i].isNeeded)
-                            changed[i].own = surfaceJump(mt, NodeId(ids[i]), nodes.morphs[i],
+                            changed[i].own = surfaceJump(mt, NodeId(nodes[i].node), nodes[i].morph,
                                                          [&](std::uint32_t v) { return offset(v); });
                       });
     for (const auto& [child, parent] : pairs)
       changed[child].before = std::max(changed[child].before, changed[parent].before + changed[parent].own);
     double most = 0;
     std::vector<Vec3> hull;
-    for (std::size_t i = 0; i < ids.size(); ++i) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
       const Changed& c = changed[i];
       if (!c.isSeen || c.own + c.before == 0) continue;
-      hullOf(ids[i], c.before, hull);
+      hullOf(nodes[i].node, c.before, hull);
       most = std::max(most, camera.pixelsOf(c.own + c.before, camera.pixelsPerHeight(hull)));
     }
     return most;
@@ -246,12 +223,12 @@ class MovingSurface::State {
 
   std::vector<float> offsets_;  // by node
   std::vector<bool> isMember_;
-  Nodes members_;               // in the order in which they came
-  std::size_t entered_ = 0;     // of members: the last that came in the last update
-  Nodes left_;                  // in the last update, parents first
-  std::vector<Sphere> balls_;   // of members
-  std::vector<float> errors_;   // of members
-  std::vector<double> pixels_;  // of members: per unit of height
+  std::vector<Member> members_;  // in the order in which they came
+  std::size_t entered_ = 0;      // of members, the last of them: who came in the last update
+  std::vector<Member> left_;     // in the last update, parents first
+  std::vector<Sphere> balls_;    // of members
+  std::vector<float> errors_;    // of members
+  std::vector<double> pixels_;   // of members: per unit of height
 };
 
 MovingSurface::MovingSurface(MultiTriangulation mt) : state_(std::make_unique<State>(std::move(mt))) {}

@@ -12,8 +12,9 @@
 // chunk ended and never changed afterwards. What it says of a triangle across may have been removed since:
 // then the star that removed it has the edge in its link (the edge is still there), and the triangle at that
 // slot is the next one to look at. All nodes on this way are ancestors of whoever asks, so chunks that do not
-// lean on each other never look at what the other one writes; in a damaged file they may, and then read some
-// value, which is checked before it is used. A mark that names a border record is written after the record.
+// lean on each other never look at what the other one writes, but to ask for it ahead; in a damaged file they
+// may, and then read some value, which is checked before it is used. A mark that names a border record is
+// written after the record.
 
 #include <algorithm>
 #include <array>
