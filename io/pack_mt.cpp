@@ -4,6 +4,7 @@
 // chunks have been walked it knows how often each table saw each symbol; that makes the tables, and then
 // every chunk is coded. Chunks are walked in parallel, as they are read.
 #include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -27,28 +28,47 @@ struct Walk {
   const TerrainModel& model;
   const Plan& plan;
   Arrays& arrays;
-  std::vector<std::uint32_t> oldNode;      ///< per new node
-  std::vector<std::uint32_t> newNode;      ///< per node of the model
-  std::vector<std::uint32_t> oldTriangle;  ///< per new slot
-  std::vector<std::uint32_t> newSlot;      ///< per slot of the model
-  std::vector<std::uint8_t> ownParentsLeft;
+  UninitializedVector<std::uint32_t> oldNode;      ///< per new node
+  UninitializedVector<std::uint32_t> newNode;      ///< per node of the model
+  UninitializedVector<std::uint32_t> oldTriangle;  ///< per new slot
+  UninitializedVector<std::uint8_t> turn;          ///< per new node: which of the old slots its first one was
+  UninitializedVector<std::uint8_t> ownParentsLeft;
+};
+
+/// What is told of a chunk.
+struct Streams {
+  std::array<std::vector<RansSymbol>, kStreams> symbols;
+  std::vector<std::byte> boundBytes, rawBits;
+
+  /// Keeps the memory.
+  void clear() {
+    for (auto& s : symbols) s.clear();
+    boundBytes.clear();
+    rawBits.clear();
+  }
 };
 
 class WriterIo {
  public:
-  WriterIo(Walk& walk, std::uint32_t chunk)
-      : w_(walk), mt_(walk.model.mt), a_(mt_.arrays()), roots_(mt_.rootTriangleCount()), chunk_(chunk) {
-    for (const std::uint32_t n : w_.plan.listed[chunk]) listed_[bandOf(n)].push_back(n);
+  /// `told` receives all but the raw bits.
+  WriterIo(Walk& walk, std::uint32_t chunk, Streams& told)
+      : w_(walk),
+        mt_(walk.model.mt),
+        a_(mt_.arrays()),
+        roots_(mt_.rootTriangleCount()),
+        chunk_(chunk),
+        told_(told) {
+    for (const std::uint32_t n : w_.plan.listed[chunk]) listed_[w_.plan.band[n]].push_back(n);
   }
 
-  std::array<std::vector<RansSymbol>, kStreams> symbols;
-  std::vector<std::byte> boundBytes;
   BitWriter rawBits;
+
+  static constexpr bool kKeepsValues = false;
 
   template <class Actual>
   unsigned code(Stream stream, unsigned table, const Actual& actual) {
     const unsigned symbol = actual();
-    symbols[stream].push_back({static_cast<std::uint16_t>(table), static_cast<std::uint8_t>(symbol)});
+    told_.symbols[stream].push_back({static_cast<std::uint8_t>(table), static_cast<std::uint8_t>(symbol)});
     return symbol;
   }
   std::uint64_t raw(int bits, std::uint64_t actual) {
@@ -91,7 +111,7 @@ class WriterIo {
     for (int i = 0; i < floorSize_; ++i) {
       const std::uint32_t t = floor[static_cast<std::size_t>(i)];
       const auto corners =
-          mt_.corners(TriangleId(t), NodeId(t < roots_ ? kNone : w_.plan.creator[t - roots_]));
+          mt_.corners(TriangleId(t), NodeId(t < roots_ ? kNone : w_.plan.owners.of(t - roots_)));
       for (std::size_t c = 0; c < 3; ++c) corners_[i][c] = newVertex(corners[c]);
       isFound_[i] = t == oldIdOf(seed);
     }
@@ -148,8 +168,8 @@ class WriterIo {
       const std::uint32_t j = (i + turn) % size;
       if (newVertex(link[j]) != floor.link[i]) return false;
       w_.oldTriangle[slot + i] = roots_ + a_.slotBegin[old_] + j;
-      w_.newSlot[a_.slotBegin[old_] + j] = slot + i;
     }
+    w_.turn[number_] = static_cast<std::uint8_t>(turn);
     return true;
   }
 
@@ -189,8 +209,8 @@ class WriterIo {
     const std::uint32_t t = oldIdOf(id);
     const BoundBytes bytes =
         bytesOf(roundedBounds(boundStep(a_.below[t]), boundStep(a_.above[t])), reference);
-    boundBytes.push_back(static_cast<std::byte>(bytes.first));
-    if (bytes.isFar()) boundBytes.push_back(static_cast<std::byte>(bytes.second));
+    told_.boundBytes.push_back(static_cast<std::byte>(bytes.first));
+    if (bytes.isFar()) told_.boundBytes.push_back(static_cast<std::byte>(bytes.second));
     return bytes;
   }
 
@@ -199,7 +219,7 @@ class WriterIo {
     const std::uint32_t remover = a_.remover[w_.oldTriangle[slot]];
     if (remover == kNone || w_.plan.chunkOf[remover] != chunk_ || --w_.ownParentsLeft[remover] != 0)
       return std::nullopt;
-    return band - bandOf(remover);
+    return band - w_.plan.band[remover];
   }
   /// Whether a node of another chunk removes the triangle.
   bool isLeft(std::uint32_t slot) const {
@@ -208,9 +228,6 @@ class WriterIo {
   }
 
  private:
-  std::uint32_t bandOf(std::uint32_t oldNode) const {
-    return MultiTriangulation::bandOf(w_.plan.saturatedError[oldNode]);
-  }
   std::uint32_t newVertex(std::uint32_t old) const {
     return old < a_.rootVertices ? old : a_.rootVertices + w_.newNode[old - a_.rootVertices];
   }
@@ -223,14 +240,22 @@ class WriterIo {
   };
   Entry entryOf(std::uint32_t triangle) const {
     if (triangle < roots_) return {0, triangle, triangle};
-    const std::uint32_t c = w_.plan.chunkOf[w_.plan.creator[triangle - roots_]];
+    const std::uint32_t owner = w_.plan.owners.of(triangle - roots_), c = w_.plan.chunkOf[owner];
     const Chunk& chunk = w_.plan.directory.chunks[c];
     const auto& leansOn = w_.plan.directory.chunks[chunk_].leansOn;
     const auto from = std::lower_bound(leansOn.begin(), leansOn.end(), c) - leansOn.begin();
     // The node that removes it is this chunk's and has not come yet.
-    const std::uint32_t border = w_.arrays.remover[roots_ + w_.newSlot[triangle - roots_]] & ~Arrays::kMarks;
+    const std::uint32_t border =
+        w_.arrays.remover[roots_ + newSlot(triangle - roots_, owner)] & ~Arrays::kMarks;
     return {static_cast<std::uint32_t>(from) + 1,
             static_cast<std::uint32_t>(border - roots_ - chunk.firstBorder), border};
+  }
+
+  /// Of a slot of the model. Precondition: its owner has come.
+  std::uint32_t newSlot(std::uint32_t slot, std::uint32_t owner) const {
+    const std::uint32_t number = w_.newNode[owner], size = mt_.slotCount(NodeId(owner));
+    const std::uint32_t at = slot - a_.slotBegin[owner] + size - w_.turn[number];
+    return w_.arrays.slotBegin[number] + (at < size ? at : at - size);
   }
 
   /// Whether a triangle of the floor that was not found yet lies across an edge.
@@ -255,6 +280,7 @@ class WriterIo {
   const MultiTriangulation& mt_;
   const MtArrays& a_;
   std::uint32_t roots_, chunk_;
+  Streams& told_;
   std::array<std::vector<std::uint32_t>, MultiTriangulation::kBands> listed_;
 
   // Of the node being told.
@@ -263,11 +289,6 @@ class WriterIo {
   std::array<std::array<std::uint32_t, 3>, kMaxFloor> corners_;
   std::array<bool, kMaxFloor> isFound_;
   std::uint64_t shapeBits_ = 0;
-};
-
-struct Streams {
-  std::array<std::vector<RansSymbol>, kStreams> symbols;
-  std::vector<std::byte> boundBytes, rawBits;
 };
 
 class Packer {
@@ -293,16 +314,22 @@ class Packer {
     if (problem)
       return failure(ErrorCode::invalidData,
                      fmt::format("chunk {} of its nodes {}", problem->chunk, problem->what));
+    giveWalkBack();
     const std::vector<RansTable> tables = tablesFor(streams);
     std::vector<std::vector<std::byte>> bytes(chunks.size());
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t i) {
       if (!context_.cancelled()) bytes[i] = encode(plan_.directory.chunks[i], streams[i], tables, i == 0);
     });
     if (context_.cancelled()) return failure(ErrorCode::interrupted, "packing was interrupted");
+    plan_.directory.number();
     PackedMt packed;
     packed.directory = toBytes(plan_.directory);
     packed.tables = toBytes(tables);
-    for (const auto& b : bytes) packed.nodes.insert(packed.nodes.end(), b.begin(), b.end());
+    packed.nodes.reserve(chunks.back().offset + chunks.back().bytes());
+    for (auto& b : bytes) {
+      packed.nodes.insert(packed.nodes.end(), b.begin(), b.end());
+      b = {};
+    }
     context_.report("pack", 1);
     return packed;
   }
@@ -332,26 +359,38 @@ class Packer {
     walk_.oldNode.resize(model.mt.nodeCount());
     walk_.newNode.assign(model.mt.nodeCount(), kNone);
     walk_.oldTriangle.resize(from.link.size());
-    walk_.newSlot.resize(from.link.size());
-    walk_.ownParentsLeft = plan_.ownParents;
+    walk_.turn.resize(model.mt.nodeCount());
+    walk_.ownParentsLeft = std::move(plan_.ownParents);
     return true;
   }
 
+  /// The memory that only the walk needs.
+  void giveWalkBack() {
+    arrays_ = {};
+    walk_.oldNode = {};
+    walk_.newNode = {};
+    walk_.oldTriangle = {};
+    walk_.turn = {};
+    walk_.ownParentsLeft = {};
+    spaces_.clear();
+  }
+
   std::optional<std::string> walkChunk(std::size_t i, Streams& streams) {
-    WriterIo io(walk_, static_cast<std::uint32_t>(i));
+    Streams& told = spaces_.local().told;
+    told.clear();
+    WriterIo io(walk_, static_cast<std::uint32_t>(i), told);
     std::optional<std::string> bad =
         arrays_.holdsFloats() ? walkNodes<float>(i, io) : walkNodes<double>(i, io);
-    streams.symbols = std::move(io.symbols);
-    streams.boundBytes = std::move(io.boundBytes);
-    streams.rawBits = io.rawBits.take();
+    told.rawBits = io.rawBits.take();
+    streams = told;  // a copy has no room to grow, which this one keeps
     return bad;
   }
 
   template <class Real>
   std::optional<std::string> walkNodes(std::size_t i, WriterIo& io) {
     if (i == 0 && !codeRoot<Real>(arrays_, io)) return "come after a root that makes no sense";
-    CoderSpace space;
-    NodeCoder<Real, WriterIo> coder(arrays_, plan_.directory, plan_.directory.chunks[i], io, space);
+    NodeCoder<Real, WriterIo> coder(arrays_, plan_.directory, plan_.directory.chunks[i], io,
+                                    spaces_.local().coder);
     if (!coder.run()) return coder.problem();
     return std::nullopt;
   }
@@ -377,8 +416,9 @@ class Packer {
     }
     chunk.streamBytes[kBoundBytes] = static_cast<std::uint32_t>(streams.boundBytes.size());
     bytes.insert(bytes.end(), streams.boundBytes.begin(), streams.boundBytes.end());
-    const std::uint64_t things =
-        chunk.nodes + (isFirst ? std::uint64_t{arrays_.rootVertices} + arrays_.roots : 0);
+    const MultiTriangulation& mt = walk_.model.mt;
+    const std::uint64_t roots = std::uint64_t{mt.arrays().rootVertices} + mt.rootTriangleCount();
+    const std::uint64_t things = chunk.nodes + (isFirst ? roots : 0);
     const std::uint64_t least = leastBytes(things);
     if (bytes.size() + streams.rawBits.size() < least) streams.rawBits.resize(least - bytes.size());
     chunk.streamBytes[kRawBits] = static_cast<std::uint32_t>(streams.rawBits.size());
@@ -387,10 +427,17 @@ class Packer {
     return bytes;
   }
 
+  /// Of a thread, from chunk to chunk.
+  struct Space {
+    Streams told;
+    CoderSpace coder;
+  };
+
   const RunContext& context_;
   Plan plan_;
   Arrays arrays_;
   Walk walk_;
+  tbb::enumerable_thread_specific<Space> spaces_;
 };
 
 }  // namespace

@@ -10,14 +10,22 @@
 //
 // Chunks of one class come in Morton order of the last corner of their rectangles, which is not before that
 // of a part of it; so a chunk comes soon after those that it leans on.
+//
+// All that nodes take from their parents, or parents from their children, is from places all over the arrays:
+// it is asked for ahead (slot_owners.h). The rest goes chunk by chunk, in parallel.
 #include "io/pack_plan.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <tuple>
 
 #include "engine/morton.h"
+#include "engine/uninitialized_vector.h"
 
 namespace arete::packed {
 namespace {
@@ -31,10 +39,19 @@ constexpr double kReachesPerTile = 8;
 constexpr int kClassStep = 4, kLevelsPerClass = 2;
 constexpr int kMostClasses = 12;
 
+void include(Box2& box, Vec2 p) {
+  box.xMin = std::min(box.xMin, p.x);
+  box.yMin = std::min(box.yMin, p.y);
+  box.xMax = std::max(box.xMax, p.x);
+  box.yMax = std::max(box.yMax, p.y);
+}
+
 struct Tiles {
   std::int32_t row = 0, column = 0, rowEnd = 0, columnEnd = 0;
   std::int32_t level = 0;
   std::uint8_t reach = 0;  ///< class
+
+  bool operator==(const Tiles&) const = default;
 
   void include(const Tiles& t) {
     level = std::max(level, t.level);
@@ -69,20 +86,6 @@ struct Tiling {
   int classes = 0;                ///< below that of chunk 0
 };
 
-/// As the recorder has them: the largest of the floor's errors and the children's saturated errors.
-void findSaturatedErrors(const MultiTriangulation& mt, Plan& plan) {
-  plan.saturatedError.assign(mt.nodeCount(), 0);
-  for (std::uint32_t n = mt.nodeCount(); n-- > 0;) {
-    std::uint16_t& own = plan.saturatedError[n];
-    for (const std::uint32_t t : mt.floor(NodeId(n))) own = std::max(own, mt.arrays().error[t]);
-    for (const std::uint32_t t : mt.floor(NodeId(n)))
-      if (t >= mt.rootTriangleCount()) {
-        std::uint16_t& parent = plan.saturatedError[plan.creator[t - mt.rootTriangleCount()]];
-        parent = std::max(parent, own);
-      }
-  }
-}
-
 /// Classes of about as many nodes each; nodes without error are one of their own.
 void findBandClasses(const std::array<std::uint32_t, MultiTriangulation::kBands>& perBand,
                      std::uint32_t nodes, Directory& directory) {
@@ -103,17 +106,12 @@ Tiling tilingOf(const TerrainModel& model) {
   } else {
     const auto plan = model.mt.vertices().plan;
     if (plan.empty()) return tiling;
-    double xMax = plan[0].x, yMax = plan[0].y;
-    tiling.x = xMax;
-    tiling.y = yMax;
-    for (const Vec2& p : plan) {
-      tiling.x = std::min(tiling.x, p.x);
-      tiling.y = std::min(tiling.y, p.y);
-      xMax = std::max(xMax, p.x);
-      yMax = std::max(yMax, p.y);
-    }
-    width = xMax - tiling.x;
-    height = yMax - tiling.y;
+    Box2 box{plan[0].x, plan[0].y, plan[0].x, plan[0].y};
+    for (const Vec2& p : plan) include(box, p);
+    tiling.x = box.xMin;
+    tiling.y = box.yMin;
+    width = box.xMax - box.xMin;
+    height = box.yMax - box.yMin;
     const double fit = std::sqrt(width * height / static_cast<double>(plan.size())) * kTileSamples;
     // Long thin clouds: never more than a million tiles along a side.
     const double size = std::fmax(fit, std::fmax(width, height) / 1e6);
@@ -126,125 +124,232 @@ Tiling tilingOf(const TerrainModel& model) {
   return tiling;
 }
 
-/// Per node, its class.
-std::vector<std::uint8_t> reachesOf(const MultiTriangulation& mt, const std::vector<std::uint32_t>& creator,
-                                    const Tiling& tiling) {
-  const auto& vertices = mt.arrays().vertices;
-  std::vector<std::uint8_t> reaches(mt.nodeCount(), 0);
-  for (std::uint32_t n = mt.nodeCount(); n-- > 0;) {
-    const Vec2 apex = vertices.planPosition(mt.apex(NodeId(n)));
-    double xMin = apex.x, yMin = apex.y, xMax = apex.x, yMax = apex.y;
-    for (const std::uint32_t v : mt.link(NodeId(n))) {
-      const Vec2 p = vertices.planPosition(VertexId(v));
-      xMin = std::min(xMin, p.x);
-      yMin = std::min(yMin, p.y);
-      xMax = std::max(xMax, p.x);
-      yMax = std::max(yMax, p.y);
-    }
-    const double width = std::max(xMax - xMin, yMax - yMin);
-    double most = tiling.size / kReachesPerTile;
-    std::uint8_t own = 0;
-    for (; own < tiling.classes && width > most; most *= kClassStep) ++own;
-    reaches[n] = std::max(reaches[n], own);
-    for (const std::uint32_t t : mt.floor(NodeId(n)))
-      if (t >= mt.rootTriangleCount()) {
-        std::uint8_t& parent = reaches[creator[t - mt.rootTriangleCount()]];
-        parent = std::max(parent, reaches[n]);
-      }
-  }
-  return reaches;
+/// What a node has of its own star and floor, and what it takes over from its children.
+struct Descent {
+  std::uint16_t error = 0;  ///< saturated, as the recorder has it: the largest of its floor's and theirs
+  std::uint8_t reach = 0;   ///< class
+};
+
+/// A node's own.
+Descent ownOf(const MultiTriangulation& mt, NodeId n, const Tiling& tiling) {
+  const MtArrays& a = mt.arrays();
+  Descent own;
+  for (const std::uint32_t t : mt.floor(n)) own.error = std::max(own.error, a.error[t]);
+  const Vec2 apex = a.vertices.planPosition(mt.apex(n));
+  Box2 box{apex.x, apex.y, apex.x, apex.y};
+  for (const std::uint32_t v : mt.link(n)) include(box, a.vertices.planPosition(VertexId(v)));
+  const double width = std::max(box.xMax - box.xMin, box.yMax - box.yMin);
+  double most = tiling.size / kReachesPerTile;
+  for (; own.reach < tiling.classes && width > most; most *= kClassStep) ++own.reach;
+  return own;
 }
+
+/// What nodes take from their parents, or give to them, one floor after the other: asks ahead for it.
+class Parents {
+ public:
+  Parents(const MultiTriangulation& mt, const SlotOwners& owners)
+      : floor_(mt.arrays().floor),
+        owners_(owners),
+        roots_(mt.rootTriangleCount()),
+        slots_(static_cast<std::uint32_t>(mt.arrays().link.size())) {}
+
+  /// Calls visit(parent) of the i-th entry of all floors, unless that is a triangle of the root. `ofParents`:
+  /// what visit() reads by parent; it will be asked for of the entries on the way, a step of 1 or -1.
+  template <class T, class Visit>
+  [[gnu::always_inline]] void at(std::uint32_t i, int step, const T* ofParents, const Visit& visit) const {
+    const std::uint32_t far = slotAt(i + kFarAhead * step), near = slotAt(i + kAhead * step);
+    if (far < slots_) owners_.prefetch(far);
+    if (near < slots_) __builtin_prefetch(ofParents + owners_.of(near));
+    if (const std::uint32_t slot = slotAt(i); slot < slots_) visit(owners_.of(slot));
+  }
+
+ private:
+  /// Not below slots_ for a triangle of the root, and beyond either end.
+  std::uint32_t slotAt(std::int64_t i) const {
+    if (i < 0 || i >= static_cast<std::int64_t>(floor_.size())) return ~0u;
+    return floor_[static_cast<std::size_t>(i)] - roots_;
+  }
+
+  static constexpr std::int64_t kAhead = 32, kFarAhead = 64;  // entries of floors
+  std::span<const std::uint32_t> floor_;
+  const SlotOwners& owners_;
+  std::uint32_t roots_, slots_;
+};
+
+std::uint32_t floorBegin(const MtArrays& a, std::uint32_t n) {
+  return a.slotBegin[n] - 2 * n;
+}
+
+/// Of all nodes.
+UninitializedVector<Descent> descentsOf(const MultiTriangulation& mt, const Parents& parents,
+                                        const Tiling& tiling) {
+  UninitializedVector<Descent> descents(mt.nodeCount());
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, mt.nodeCount(), 4096), [&](const auto& range) {
+    for (std::uint32_t n = range.begin(); n != range.end(); ++n) descents[n] = ownOf(mt, NodeId(n), tiling);
+  });
+  for (std::uint32_t n = mt.nodeCount(); n-- > 0;)
+    for (std::uint32_t i = floorBegin(mt.arrays(), n + 1); i-- > floorBegin(mt.arrays(), n);)
+      parents.at(i, -1, descents.data(), [&](std::uint32_t parent) {
+        Descent& d = descents[parent];
+        d.error = std::max(d.error, descents[n].error);
+        d.reach = std::max(d.reach, descents[n].reach);
+      });
+  return descents;
+}
+
+/// Finds the rectangle of every node, and numbers rectangles as they come.
+class Tiler {
+ public:
+  Tiler(const MultiTriangulation& mt, const Parents& parents, const Tiling& tiling)
+      : a_(mt.arrays()), parents_(parents), tiling_(tiling), rectangleOf_(mt.nodeCount()) {
+    rectangles_.push_back({.reach = static_cast<std::uint8_t>(tiling.classes)});
+    numbers_[rectangles_[0].key()] = 0;
+  }
+
+  void run(std::span<const Descent> descents) {
+    for (std::uint32_t n = 0; n < descents.size(); ++n)
+      rectangleOf_[n] = descents[n].reach == tiling_.classes ? 0 : rectangleOf(n, descents[n].reach);
+  }
+  /// Per rectangle, which one in the order of keys it is.
+  std::vector<std::uint32_t> order() const {
+    std::vector<std::uint32_t> order(rectangles_.size());
+    std::uint32_t next = 0;
+    for (const auto& [key, number] : numbers_) order[number] = next++;
+    return order;
+  }
+  /// Per node. Leaves nothing.
+  UninitializedVector<std::uint32_t> take() { return std::move(rectangleOf_); }
+
+ private:
+  std::uint32_t rectangleOf(std::uint32_t n, std::uint8_t reach) {
+    const Vec2 p = a_.vertices.planPosition(VertexId(a_.rootVertices + n));
+    const auto row = static_cast<std::int32_t>((p.y - tiling_.y) / tiling_.size);
+    const auto column = static_cast<std::int32_t>((p.x - tiling_.x) / tiling_.size);
+    Tiles tiles{row, column, row + 1, column + 1, kLevelsPerClass * reach, reach};
+    std::uint32_t likely = last_;
+    for (std::uint32_t i = floorBegin(a_, n); i != floorBegin(a_, n + 1); ++i)
+      parents_.at(i, 1, rectangleOf_.data(), [&](std::uint32_t parent) {
+        const Tiles& parentTiles = rectangles_[rectangleOf_[parent]];
+        if (parentTiles.reach != reach) return;
+        tiles.include(parentTiles);
+        likely = rectangleOf_[parent];
+      });
+    tiles.round();
+    if (rectangles_[likely] != tiles) likely = numberOf(tiles);
+    return last_ = likely;
+  }
+  std::uint32_t numberOf(const Tiles& tiles) {
+    const auto [at, isNew] =
+        numbers_.try_emplace(tiles.key(), static_cast<std::uint32_t>(rectangles_.size()));
+    if (isNew) rectangles_.push_back(tiles);
+    return at->second;
+  }
+
+  const MtArrays& a_;
+  const Parents& parents_;
+  const Tiling& tiling_;
+  UninitializedVector<std::uint32_t> rectangleOf_;
+  std::vector<Tiles> rectangles_;
+  std::map<decltype(Tiles().key()), std::uint32_t> numbers_;
+  std::uint32_t last_ = 0;
+};
+
+/// Nodes by chunk, those of each rising.
+struct NodesByChunk {
+  UninitializedVector<std::uint32_t> nodes;
+  std::vector<std::uint32_t> begin;  ///< per chunk, and the end
+
+  NodesByChunk(std::span<const std::uint32_t> chunkOf, std::size_t chunks)
+      : nodes(chunkOf.size()), begin(chunks + 1, 0) {
+    for (const std::uint32_t c : chunkOf) ++begin[c + 1];
+    for (std::size_t c = 0; c < chunks; ++c) begin[c + 1] += begin[c];
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    for (std::uint32_t n = 0; n < chunkOf.size(); ++n) nodes[next[chunkOf[n]]++] = n;
+  }
+  std::span<const std::uint32_t> of(std::size_t chunk) const {
+    return std::span(nodes).subspan(begin[chunk], begin[chunk + 1] - begin[chunk]);
+  }
+};
 
 void leanOn(Chunk& chunk, std::uint32_t other) {
   const auto at = std::ranges::lower_bound(chunk.leansOn, other);
   if (at == chunk.leansOn.end() || *at != other) chunk.leansOn.insert(at, other);
 }
 
-}  // namespace
-
-Plan planChunks(const TerrainModel& model) {
-  const MultiTriangulation& mt = model.mt;
+/// All that the plan says of a chunk and its nodes. Counts borders of the chunks that it leans on.
+void describe(const MultiTriangulation& mt, std::uint32_t c, std::span<const std::uint32_t> nodes,
+              Plan& plan) {
   const MtArrays& a = mt.arrays();
-  const std::uint32_t nodes = mt.nodeCount(), roots = mt.rootTriangleCount();
-  Plan plan;
-  plan.creator.resize(a.link.size());
-  for (std::uint32_t n = 0; n < nodes; ++n)
-    std::fill(plan.creator.begin() + a.slotBegin[n], plan.creator.begin() + a.slotBegin[n + 1], n);
-  findSaturatedErrors(mt, plan);
-
-  std::array<std::uint32_t, MultiTriangulation::kBands> perBand{};
-  for (const std::uint16_t code : plan.saturatedError) ++perBand[MultiTriangulation::bandOf(code)];
-  findBandClasses(perBand, nodes, plan.directory);
-
-  const Tiling tiling = tilingOf(model);
-  const std::vector<std::uint8_t> reaches = reachesOf(mt, plan.creator, tiling);
-  std::vector<Tiles> tiles(nodes);
-  std::map<decltype(Tiles().key()), std::uint32_t> chunks;
-  const Tiles first{.reach = static_cast<std::uint8_t>(tiling.classes)};
-  chunks[first.key()] = 0;
-  for (std::uint32_t n = 0; n < nodes; ++n) {
-    if (reaches[n] == tiling.classes) {
-      tiles[n] = first;
-      continue;
-    }
-    const Vec2 p = a.vertices.planPosition(mt.apex(NodeId(n)));
-    const auto row = static_cast<std::int32_t>((p.y - tiling.y) / tiling.size);
-    const auto column = static_cast<std::int32_t>((p.x - tiling.x) / tiling.size);
-    tiles[n] = {row, column, row + 1, column + 1, kLevelsPerClass * reaches[n], reaches[n]};
-    for (const std::uint32_t t : mt.floor(NodeId(n)))
-      if (t >= roots && reaches[plan.creator[t - roots]] == reaches[n])
-        tiles[n].include(tiles[plan.creator[t - roots]]);
-    tiles[n].round();
-    chunks[tiles[n].key()] = 0;
-  }
-  for (auto& [key, index] : chunks) {
-    index = static_cast<std::uint32_t>(plan.directory.chunks.size());
-    Chunk& chunk = plan.directory.chunks.emplace_back();
-    if (index > 0) chunk.leansOn.push_back(0);
-    chunk.xMin = chunk.yMin = HUGE_VAL;
-    chunk.xMax = chunk.yMax = -HUGE_VAL;
-  }
-
-  plan.chunkOf.resize(nodes);
-  for (std::uint32_t n = 0; n < nodes; ++n) plan.chunkOf[n] = chunks[tiles[n].key()];
-  plan.ownParents.assign(nodes, 0);
-  plan.listed.resize(plan.directory.chunks.size());
-  std::vector<std::array<Run, MultiTriangulation::kBands>> runs(plan.directory.chunks.size());
-  for (std::uint32_t n = 0; n < nodes; ++n) {
-    const std::uint32_t c = plan.chunkOf[n];
+  const std::uint32_t roots = mt.rootTriangleCount();
+  Chunk& chunk = plan.directory.chunks[c];
+  if (c > 0) chunk.leansOn.push_back(0);
+  Box2 box{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  std::array<Run, MultiTriangulation::kBands> runs;
+  for (const std::uint32_t n : nodes) {
+    plan.ownParents[n] = 0;
     for (const std::uint32_t t : mt.floor(NodeId(n))) {
       if (t < roots) continue;
-      const std::uint32_t parent = plan.chunkOf[plan.creator[t - roots]];
+      const std::uint32_t parent = plan.chunkOf[plan.owners.of(t - roots)];
       if (parent == c) {
         ++plan.ownParents[n];
       } else {
-        leanOn(plan.directory.chunks[c], parent);
-        ++plan.directory.chunks[parent].borders;
+        leanOn(chunk, parent);
+        std::atomic_ref(plan.directory.chunks[parent].borders).fetch_add(1, std::memory_order_relaxed);
       }
     }
-    Run& run = runs[c][MultiTriangulation::bandOf(plan.saturatedError[n])];
+    Run& run = runs[plan.band[n]];
     ++run.nodes;
     run.slots += mt.slotCount(NodeId(n));
     if (plan.ownParents[n] == 0) {
       ++run.listed;
       plan.listed[c].push_back(n);
     }
-    Chunk& chunk = plan.directory.chunks[c];
-    const auto include = [&](Vec2 p) {
-      chunk.xMin = std::min(chunk.xMin, p.x);
-      chunk.yMin = std::min(chunk.yMin, p.y);
-      chunk.xMax = std::max(chunk.xMax, p.x);
-      chunk.yMax = std::max(chunk.yMax, p.y);
-    };
-    include(a.vertices.planPosition(mt.apex(NodeId(n))));
-    for (const std::uint32_t v : mt.link(NodeId(n))) include(a.vertices.planPosition(VertexId(v)));
+    include(box, a.vertices.planPosition(mt.apex(NodeId(n))));
+    for (const std::uint32_t v : mt.link(NodeId(n))) include(box, a.vertices.planPosition(VertexId(v)));
   }
-  for (std::size_t c = 0; c < runs.size(); ++c)
-    for (std::uint32_t band = MultiTriangulation::kBands; band-- > 0;) {
-      if (runs[c][band].nodes == 0) continue;
-      runs[c][band].band = band;
-      plan.directory.chunks[c].runs.push_back(runs[c][band]);
+  chunk.xMin = box.xMin;
+  chunk.yMin = box.yMin;
+  chunk.xMax = box.xMax;
+  chunk.yMax = box.yMax;
+  for (std::uint32_t band = MultiTriangulation::kBands; band-- > 0;) {
+    if (runs[band].nodes == 0) continue;
+    runs[band].band = band;
+    chunk.runs.push_back(runs[band]);
+  }
+}
+
+}  // namespace
+
+Plan planChunks(const TerrainModel& model) {
+  const MultiTriangulation& mt = model.mt;
+  const std::uint32_t nodes = mt.nodeCount();
+  Plan plan(mt.arrays());
+  std::vector<std::uint32_t> order;
+  {
+    const Tiling tiling = tilingOf(model);
+    const Parents parents(mt, plan.owners);
+    const auto descents = descentsOf(mt, parents, tiling);
+    plan.band.resize(nodes);
+    std::array<std::uint32_t, MultiTriangulation::kBands> perBand{};
+    for (std::uint32_t n = 0; n < nodes; ++n) {
+      plan.band[n] = static_cast<std::uint8_t>(MultiTriangulation::bandOf(descents[n].error));
+      ++perBand[plan.band[n]];
     }
+    findBandClasses(perBand, nodes, plan.directory);
+    Tiler tiler(mt, parents, tiling);
+    tiler.run(descents);
+    order = tiler.order();
+    plan.chunkOf = tiler.take();
+  }
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, nodes, 1 << 14), [&](const auto& range) {
+    for (std::uint32_t n = range.begin(); n != range.end(); ++n) plan.chunkOf[n] = order[plan.chunkOf[n]];
+  });
+  plan.directory.chunks.resize(order.size());
+  plan.ownParents.resize(nodes);
+  plan.listed.resize(order.size());
+  const NodesByChunk nodesBy(plan.chunkOf, order.size());
+  tbb::parallel_for(std::size_t{0}, order.size(),
+                    [&](std::size_t c) { describe(mt, static_cast<std::uint32_t>(c), nodesBy.of(c), plan); });
   plan.directory.number();
   return plan;
 }

@@ -25,7 +25,7 @@ struct PackedMt {
 /// quarters of an octave (the lesser of the two to more where it is far below the greater one). Saturated
 /// errors are the least ones, which are those of a build; spheres are computed anew. Packing what was
 /// unpacked gives the same bytes, whatever the number of threads. Errors: invalidData (an MT that breaks the
-/// laws 1 to 4, or holds an error beyond its scale), interrupted. O(triangles) time, and about 350 bytes per
+/// laws 1 to 4, or holds an error beyond its scale), interrupted. O(triangles) time, and about 150 bytes per
 /// node beside the model.
 Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context = {});
 

@@ -79,7 +79,7 @@ class Geometry {
     const std::uint32_t* const link = a_.link.get() + slot_;
     for (int i = 0; i < corners; ++i) std::memcpy(&at[i], &place_[link[i]], sizeof at[i]);
     if (!place<kCorners>(at)) return false;
-    ball<kCorners>(at);
+    if constexpr (Io::kKeepsValues) ball<kCorners>(at);
     return true;
   }
 

@@ -4,7 +4,8 @@
 // The walk that the writer and the reader of a packed .amt share. Both grow the same MT node by node; `Io` is
 // what tells them apart: Io::code(stream, table, actual) gives the next symbol, which the reader decodes and
 // the writer gets from actual() and notes down. So the two cannot disagree on what is known when a symbol is
-// coded.
+// coded. What the walk does not look at again (floors, spheres, errors and bounds) is kept by the reader
+// alone, Io::kKeepsValues.
 //
 // A node is told like this.
 //   Its seed, one of the triangles of its floor. The last triangle of the floor that the chunk creates is the
@@ -108,7 +109,7 @@ class NodeCoder {
       if (!geometry_.run(run, class_, space_.shapesOf, space_.areas.data()))
         return fail("has a vertex outside of its grid or without a height");
       values();
-      floorErrors(run);
+      if constexpr (Io::kKeepsValues) floorErrors(run);
     }
     if (!front_.finish(!chunk_.isCut)) return fail("leaves another number of triangles than announced");
     return true;
@@ -156,9 +157,11 @@ class NodeCoder {
     if ((left & staying) != 0 || left >> made != 0) return fail("leaves triangles that it cannot leave");
     const std::uint32_t* const records =
         front_.template addStar<kCorners>(node_, slot_, floor_, staying, left);
-    std::uint32_t* const ids = a_.floor.get() + (slot_ - 2 * node_);
-    const int triangles = corners<kCorners>() - 2;
-    for (int i = 0; i < triangles; ++i) ids[i] = floor_.id(i);
+    if constexpr (Io::kKeepsValues) {
+      std::uint32_t* const ids = a_.floor.get() + (slot_ - 2 * node_);
+      const int triangles = corners<kCorners>() - 2;
+      for (int i = 0; i < triangles; ++i) ids[i] = floor_.id(i);
+    }
     for (int i = 0; i < made; ++i) {
       *nextPassing_ = slot_ - firstSlot_ + static_cast<std::uint32_t>(i);
       nextPassing_ += ~staying >> i & 1;
@@ -272,10 +275,13 @@ class NodeCoder {
     forEach([&](std::uint32_t id, unsigned shown) {
       const std::uint32_t code = triangleError<kIsWhole>(io, id, shown, bandClass, top);
       const std::uint32_t reference = code != 0 ? boundStep(code) : withoutError;
-      const BoundSteps bounds = boundsOf(io.bounds(id, reference), reference);
-      error[id] = static_cast<std::uint16_t>(code);
-      below[id] = boundCode(bounds.below);
-      above[id] = boundCode(bounds.above);
+      const BoundBytes bytes = io.bounds(id, reference);
+      if constexpr (Io::kKeepsValues) {
+        const BoundSteps bounds = boundsOf(bytes, reference);
+        error[id] = static_cast<std::uint16_t>(code);
+        below[id] = boundCode(bounds.below);
+        above[id] = boundCode(bounds.above);
+      }
     });
     io_.putBack(io);
   }

@@ -48,6 +48,7 @@ enum Table : unsigned {
   kRootHeightTable,
   kTables
 };
+static_assert(kTables <= 256);  // RansSymbol
 
 /// What becomes of a star's triangles is told of eight at a time; of `more` it is still to be told.
 inline unsigned starClass(std::uint32_t more) {

@@ -43,13 +43,14 @@ class RansTable {
   std::vector<std::uint16_t> shares_, begins_;
 };
 
+/// Small, as a coder that makes its tables of what it codes holds all symbols first.
 struct RansSymbol {
-  std::uint16_t table = 0;
+  std::uint8_t table = 0;
   std::uint8_t symbol = 0;
 };
 
 /// The bytes that RansDecoder turns back into these symbols; a multiple of four of them.
-/// Precondition: every symbol has a share in its table.
+/// Precondition: at most 256 tables; every symbol has a share in its own.
 std::vector<std::byte> ransEncode(std::span<const RansSymbol> symbols, std::span<const RansTable> tables);
 
 /// Decodes one stream. Reading beyond its end gives some symbols and is noticed by isAtEnd().

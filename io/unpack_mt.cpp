@@ -67,6 +67,8 @@ class ReaderIo {
     }
   }
 
+  static constexpr bool kKeepsValues = true;
+
   template <class Actual>
   unsigned code(Stream stream, unsigned table, const Actual&) {
     return streams_[stream].decode(tables_ + table * RansTable::kEntries);
