@@ -21,6 +21,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/front_edges.h"
 #include "engine/node_blocks.h"
 
 namespace arete {
@@ -253,50 +254,58 @@ namespace {
 struct FrontExtent {
   DomainExtent extent;
   double areaUncertainty = 0;
-  std::string violation;
+  std::string violation;  ///< the first
 };
 
+FrontExtent joined(FrontExtent x, const FrontExtent& y) {
+  x.extent.area += y.extent.area;
+  x.extent.borderLength += y.extent.borderLength;
+  x.areaUncertainty += y.areaUncertainty;
+  if (x.violation.empty()) x.violation = y.violation;
+  return x;
+}
+
+/// The sum over [0, count), add(i, sum) for each until there is a violation: the same for any number of
+/// threads.
+template <class Add>
+FrontExtent sumOf(std::size_t count, const Add& add) {
+  return tbb::parallel_deterministic_reduce(
+      tbb::blocked_range<std::size_t>(0, count, 1 << 14), FrontExtent{},
+      [&](const auto& range, FrontExtent sum) {
+        for (std::size_t i = range.begin(); i != range.end() && sum.violation.empty(); ++i)
+          add(static_cast<std::uint32_t>(i), sum);
+        return sum;
+      },
+      joined);
+}
+
 FrontExtent frontExtent(const MultiTriangulation& mt, const Cut& cut) {
-  FrontExtent result;
   const auto plan = [&](std::uint32_t i) { return mt.vertices().planPosition(VertexId(cut.vertices[i])); };
-  struct HalfEdge {
-    std::uint32_t low, high, triangle;
-    bool forward;
-  };
-  std::vector<HalfEdge> edges;
-  edges.reserve(cut.triangles.size() * 3);
-  for (std::uint32_t t = 0; t < cut.triangles.size(); ++t) {
+  const FrontExtent triangles = sumOf(cut.triangles.size(), [&](std::uint32_t t, FrontExtent& sum) {
     const auto& c = cut.triangles[t];
     const PlanArea area = twiceArea(plan(c[0]), plan(c[1]), plan(c[2]));
-    if (area.twice < -area.uncertainty || c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) {
-      result.violation = fmt::format("law 5: triangle {} of the front is turned over", cut.ids[t]);
-      return result;
-    }
-    result.extent.area += area.twice / 2;
-    result.areaUncertainty += area.uncertainty;
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t u = c[i], v = c[(i + 1) % 3];
-      edges.push_back({std::min(u, v), std::max(u, v), t, u < v});
-    }
-  }
-  std::sort(edges.begin(), edges.end(), [](const HalfEdge& x, const HalfEdge& y) {
-    return x.low != y.low ? x.low < y.low : x.high != y.high ? x.high < y.high : x.triangle < y.triangle;
+    if (area.twice < -area.uncertainty || c[0] == c[1] || c[1] == c[2] || c[2] == c[0])
+      sum.violation = fmt::format("law 5: triangle {} of the front is turned over", cut.ids[t]);
+    sum.extent.area += area.twice / 2;
+    sum.areaUncertainty += area.uncertainty;
   });
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t j = i + 1;
-    while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) ++j;
-    if (j - i > 2 || (j - i == 2 && edges[i].forward == edges[i + 1].forward)) {
-      result.violation = fmt::format("law 5: edge {}-{} has {} triangles{}", cut.vertices[edges[i].low],
-                                     cut.vertices[edges[i].high], j - i, j - i == 2 ? " on one side" : "");
-      return result;
-    }
-    if (j - i == 1) {
-      const Vec2 p = plan(edges[i].low), q = plan(edges[i].high);
-      result.extent.borderLength += std::hypot(q.x - p.x, q.y - p.y);
-    }
-    i = j;
-  }
-  return result;
+  if (!triangles.violation.empty()) return triangles;
+  const FrontEdges edges(cut);
+  const auto isForward = [&](const FrontEdges::Side& side) {
+    return cut.triangles[side.triangle()][(side.corner() + 1) % 3] == side.high;
+  };
+  return joined(triangles, sumOf(edges.vertices(), [&](std::uint32_t low, FrontExtent& sum) {
+                  edges.visitFrom(low, [&](std::span<const FrontEdges::Side> sides) {
+                    const bool isOneSided = sides.size() == 2 && isForward(sides[0]) == isForward(sides[1]);
+                    if ((sides.size() > 2 || isOneSided) && sum.violation.empty())
+                      sum.violation = fmt::format("law 5: edge {}-{} has {} triangles{}", cut.vertices[low],
+                                                  cut.vertices[sides[0].high], sides.size(),
+                                                  isOneSided ? " on one side" : "");
+                    if (sides.size() > 1) return;
+                    const Vec2 p = plan(low), q = plan(sides[0].high);
+                    sum.extent.borderLength += std::hypot(q.x - p.x, q.y - p.y);
+                  });
+                }));
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ DomainExtent domainExtent(const MultiTriangulation& mt);
 
 /// Law 5 on one front: every triangle positively oriented; every edge with one or two triangles, in opposite
 /// directions; areas that sum to the domain's, borders as long as the domain's (so no T-junction and no
-/// overlap). O(triangles log triangles).
+/// overlap). O(triangles), parallel.
 Status validateFront(const MultiTriangulation& mt, const Cut& cut, const DomainExtent& domain,
                      const ValidateOptions& options = {});
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -106,8 +107,8 @@ Status law8(const TerrainModel& model) {
     found.push_back(t);
   }
   for (auto& t : expected) smallestFirst(t);
-  std::sort(found.begin(), found.end());
-  std::sort(expected.begin(), expected.end());
+  tbb::parallel_sort(found.begin(), found.end());
+  tbb::parallel_sort(expected.begin(), expected.end());
   if (found.size() != expected.size())
     return broken(fmt::format("law 8: the finest front has {} triangles, the samples give {}", found.size(),
                               expected.size()));

@@ -29,7 +29,7 @@ Status validateModel(const TerrainModel& model, const ValidateModelOptions& opti
                      const RunContext& context = {});
 
 /// Law 9 on one front, by CGAL's exact predicates: every triangle counter-clockwise, every edge with two
-/// triangles locally Delaunay in the build's metric (cocircular ties allowed). O(triangles log triangles).
+/// triangles locally Delaunay in the build's metric (cocircular ties allowed). O(triangles), parallel.
 Status validateDelaunayFront(const TerrainModel& model, const Cut& cut);
 
 /// A closed node set grown from random nodes (a fraction of all of them, then their ancestors).
