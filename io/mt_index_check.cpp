@@ -27,6 +27,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/first_bad.h"
 #include "engine/node_blocks.h"
 #include "engine/with_threads.h"
 #include "io/amt_layout.h"
@@ -67,24 +68,9 @@ class MtIndexCheck {
   }
 
  private:
-  /// The least i in [0, size) for which isBad(i).
   template <class IsBad>
   std::optional<std::uint32_t> firstBad(std::size_t size, const IsBad& isBad) const {
-    std::atomic<std::size_t> first = size;
-    const std::size_t blocks = (size + kBlock - 1) / kBlock;
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-      const std::size_t begin = block * kBlock, end = std::min(size, begin + kBlock);
-      if (context_.cancelled() || begin > first.load(std::memory_order_relaxed)) return;
-      for (std::size_t i = begin; i < end; ++i) {
-        if (!isBad(static_cast<std::uint32_t>(i))) continue;
-        std::size_t known = first;
-        while (i < known && !first.compare_exchange_weak(known, i)) {
-        }
-        return;
-      }
-    });
-    if (first == size) return std::nullopt;
-    return static_cast<std::uint32_t>(first.load());
+    return arete::firstBad(size, context_, isBad);
   }
 
   Status refuse(const AmtTag& tag, const std::string& what) const {

@@ -25,7 +25,7 @@ struct Plan {
 };
 
 /// Precondition: the indices of the model's MT are in range, parents come first (checkAmtIndices).
-/// O(triangles), 26 bytes per node, of which 12 stay.
+/// O(triangles), 16 bytes per node, of which 12 stay.
 Plan planChunks(const TerrainModel& model);
 
 }  // namespace arete::packed
