@@ -11,11 +11,10 @@
 
 namespace arete {
 
-/// An array that grows without moving what it holds and without a doubled peak: blocks of 2^17 elements.
-/// Elements are uninitialised until written. Different elements may be written by different threads, also
+/// An array that grows without moving what it holds and without a doubled peak, by blocks. Elements are uninitialised until written. Different elements may be written by different threads, also
 /// while another grows the array, within what was reserved; who reads must know of the growth.
 ///
-/// Blocks are pages (engine/pages.h): a build frees one such array to make room for the next.
+/// Blocks are whole pieces of pages (engine/pages.h): a build frees one such array to make room for the next.
 template <class T>
 class ChunkedArray {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -37,7 +36,13 @@ class ChunkedArray {
   }
 
  private:
-  static constexpr std::size_t kShift = 17, kBlock = std::size_t(1) << kShift;
+  /// The least power of two whose elements fill whole pieces.
+  static constexpr std::size_t kShift = [] {
+    std::size_t shift = 0;
+    while ((sizeof(T) << shift) % kPieceOfPages != 0) ++shift;
+    return shift;
+  }();
+  static constexpr std::size_t kBlock = std::size_t(1) << kShift;
 
   struct GiveBack {
     void operator()(T* block) const { givePagesBack(block, kBlock * sizeof(T)); }

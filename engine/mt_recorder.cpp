@@ -43,7 +43,8 @@ struct OwnedMt {
 
 constexpr std::size_t kGrain = 1 << 13, kBatchesAtOnce = 64;
 constexpr std::uint32_t kAhead = 16,
-                        kNearAhead = 6;  // nodes whose stars are asked for before they are needed
+                        kNearAhead = 6;    // nodes whose stars are asked for before they are needed
+constexpr std::uint32_t kSlotsAhead = 32;  // whose codes are
 
 template <class Body>
 void forRange(std::size_t size, const Body& body) {
@@ -229,19 +230,11 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
   // Of births that removals bore; nobody asks where the finest triangles went.
   UninitializedVector<std::uint32_t> idOfBirth(born);
   owned->remover.resize(ids);
-  owned->error.resize(ids);
-  owned->below.resize(ids);
-  owned->above.resize(ids);
+  // Until a triangle's codes are there, its birth stands where its remover will: so what the recorder holds
+  // of ceilings goes before they come.
   const auto place = [&](std::uint32_t id, std::uint32_t birth) {
-    owned->remover[id] = kNone;
-    FloorCodes codes;
-    if (birth >= finestTriangles_) {
-      idOfBirth[birth - finestTriangles_] = id;
-      codes = floor_[birth - finestTriangles_];
-    }
-    owned->error[id] = codes.error;
-    owned->below[id] = codes.below;
-    owned->above[id] = codes.above;
+    owned->remover[id] = birth;
+    if (birth - finestTriangles_ < born) idOfBirth[birth - finestTriangles_] = id;
   };
   for (std::uint32_t i = 0; i < roots; ++i) place(i, surviving[i].birth);
   forRange(nodes, [&](std::uint32_t n) {
@@ -250,20 +243,37 @@ MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertice
         n + kNearAhead, [&](std::uint32_t slot) __attribute__((always_inline)) {
           const std::uint32_t birth = ceiling_[slot] - finestTriangles_, known = birth < born ? birth : 0;
           __builtin_prefetch(&idOfBirth[known], 1);
-          __builtin_prefetch(&floor_[known]);
         });
     const std::uint32_t from = slotBegin_[removalOf[n]], to = owned->slotBegin[n];
-    for (std::uint32_t i = 0; i < owned->slotBegin[n + 1] - to; ++i) {
-      const std::uint32_t birth = ceiling_[from + i], id = roots + to + i;
-      if (birth != kNone) {
-        place(id, birth);
-      } else {
-        owned->remover[id] = n;
-        owned->error[id] = owned->below[id] = owned->above[id] = 0;
-      }
-    }
+    for (std::uint32_t i = 0; i < owned->slotBegin[n + 1] - to; ++i)
+      place(roots + to + i, ceiling_[from + i]);
   });
   ceiling_.clear();
+
+  owned->error.resize(ids);
+  owned->below.resize(ids);
+  owned->above.resize(ids);
+  // Where a node's star is open, the triangle that it has not stands at its last slot: the node "removes" it.
+  const auto tellCodes = [&](std::uint32_t id, std::uint32_t ifNone) {
+    const std::uint32_t birth = owned->remover[id];
+    const FloorCodes codes =
+        birth - finestTriangles_ < born ? floor_[birth - finestTriangles_] : FloorCodes{};
+    owned->remover[id] = birth == kNone ? ifNone : kNone;
+    owned->error[id] = codes.error;
+    owned->below[id] = codes.below;
+    owned->above[id] = codes.above;
+  };
+  for (std::uint32_t i = 0; i < roots; ++i) tellCodes(i, kNone);
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, nodes, kGrain), [&](const auto& range) {
+    const std::uint32_t end = owned->slotBegin[range.end()];
+    for (std::uint32_t n = range.begin(); n != range.end(); ++n)
+      for (std::uint32_t slot = owned->slotBegin[n]; slot != owned->slotBegin[n + 1]; ++slot) {
+        const std::uint32_t ahead =
+            owned->remover[roots + std::min(slot + kSlotsAhead, end - 1)] - finestTriangles_;
+        if (ahead < born) __builtin_prefetch(&floor_[ahead]);
+        tellCodes(roots + slot, n);
+      }
+  });
   floor_.clear();
 
   stage.emplace(clock, "finish: floors");

@@ -51,7 +51,7 @@ struct SurvivingTriangle {
 /// each other by their BatchOrder, and on the order in which each lists its removals. Births: the finest
 /// triangulation's triangles are 0 .. F-1, each removal bears link.size() - 2 more.
 ///
-/// Memory: about 95 bytes per removal while recording, about 190 at most while finishing, the result of
+/// Memory: about 95 bytes per removal while recording, about 165 at most while finishing, the result of
 /// 130 among them.
 class MtRecorder {
  public:

@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Kept pages are laid into the range of addresses that the taker gets, a piece at a time: the system moves
-// them from one address to another (mremap) in a fraction of the time that it takes to clear them. A piece
-// lies within one mapping, as ranges are put together from whole ones; what is left of a range behind its
-// last piece is not kept. A piece that was moved may stay a mapping of its own, and a process can have some
-// 65 000, so only so many are moved; after them, or once the system refuses to move one, nothing is kept any
-// more.
+// them from one address to another (mremap). A piece is what one table of pages tells of, and begins where it
+// does, so it is one entry that moves. What is left of a range smaller than a piece is not kept. A piece
+// that was moved may stay a mapping of its own, and a process can have some 65 000, so only so many are
+// moved; after them, or once the system refuses to move one, nothing is kept any more.
 #include "engine/pages.h"
 
 #include <sys/mman.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cstdint>
 #include <mutex>
 #include <new>
 #include <span>
 #include <utility>
 #include <vector>
+
+#include "engine/page_choice.h"
 
 namespace arete {
 namespace {
@@ -35,14 +38,28 @@ Stock& stock() {
   return one;
 }
 
-char* mapFresh(std::size_t bytes) {
-  void* const pages = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  return pages == MAP_FAILED ? nullptr : static_cast<char*>(pages);
+/// What a range takes of the addresses.
+std::size_t wholePieces(std::size_t bytes) {
+  return bytes < kPiece ? bytes : (bytes + kPiece - 1) / kPiece * kPiece;
 }
 
 void unmap(char* pages, std::size_t bytes) {
   if (bytes == 0 || munmap(pages, bytes) == 0) return;
   madvise(pages, bytes, MADV_DONTNEED);  // there are too many mappings to split one: the addresses stay
+}
+
+/// Whole pieces begin where a large page can.
+char* mapFresh(std::size_t bytes) {
+  const std::size_t spare = bytes < kPiece ? 0 : kPiece;
+  void* const mapped =
+      mmap(nullptr, bytes + spare, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (mapped == MAP_FAILED) return nullptr;
+  char* const begin = static_cast<char*>(mapped);
+  if (spare == 0) return begin;
+  const std::size_t before = (kPiece - reinterpret_cast<std::uintptr_t>(begin) % kPiece) % kPiece;
+  unmap(begin, before);
+  unmap(begin + before + bytes, spare - before);
+  return begin + before;
 }
 
 void unmapPieces(std::span<char* const> pieces) {
@@ -104,26 +121,41 @@ bool layOver(char* fresh, char* piece) {
 }
 #endif
 
+std::atomic<std::size_t> takenBytes = 0;  // that somebody has
+
+/// What is taken now, or nothing; those behind the kept ones are fresh.
+char* chosen(char* pages, std::size_t kept, std::size_t bytes) {
+  if (pages == nullptr) return nullptr;
+  takenBytes += bytes;
+  if (bytes >= kPiece) choosePages(pages + kept, bytes - kept, bytes, takenBytes);
+  return pages;
+}
+
 }  // namespace
 
 void* takeZeroPages(std::size_t bytes) {
-  return mapOrMakeRoom(bytes);
+  const std::size_t whole = wholePieces(bytes);
+  return chosen(mapOrMakeRoom(whole), 0, whole);
 }
 
 void giveZeroPagesBack(void* pages, std::size_t bytes) {
-  unmap(static_cast<char*>(pages), bytes);
+  const std::size_t whole = wholePieces(bytes);
+  takenBytes -= whole;
+  unmap(static_cast<char*>(pages), whole);
 }
 
 void* takePages(std::size_t bytes) {
+  bytes = wholePieces(bytes);
 #ifdef MREMAP_FIXED
-  if (bytes < kPiece) return mapOrMakeRoom(bytes);
+  if (bytes < kPiece) return chosen(mapOrMakeRoom(bytes), 0, bytes);
   std::vector<char*> pieces = takePieces(bytes / kPiece);
+  const std::size_t kept = pieces.size() * kPiece;
   // No more are to be had, or to be moved: these would be kept for nobody.
   if (pieces.size() < bytes / kPiece) unmapPieces(emptyStock());
   char* const pages = mapFresh(bytes);
   if (pages == nullptr) {
     unmapPieces(pieces);
-    return mapOrMakeRoom(bytes);
+    return chosen(mapOrMakeRoom(bytes), 0, bytes);
   }
   for (char* at = pages; !pieces.empty(); at += kPiece, pieces.pop_back()) {
     if (layOver(at, pieces.back())) continue;
@@ -133,15 +165,17 @@ void* takePages(std::size_t bytes) {
     stopKeeping();
     unmap(pages, static_cast<std::size_t>(at - pages));
     unmap(at + kPiece, static_cast<std::size_t>(pages + bytes - (at + kPiece)));
-    return mapOrMakeRoom(bytes);
+    return chosen(mapOrMakeRoom(bytes), 0, bytes);
   }
-  return pages;
+  return chosen(pages, kept, bytes);
 #else
-  return mapOrMakeRoom(bytes);
+  return chosen(mapOrMakeRoom(bytes), 0, bytes);
 #endif
 }
 
 void givePagesBack(void* pages, std::size_t bytes) noexcept {
+  bytes = wholePieces(bytes);
+  takenBytes -= bytes;
   char* const begin = static_cast<char*>(pages);
 #ifdef MREMAP_FIXED
   // The first piece shall be the next to be taken: what was side by side stays so, in one mapping.

@@ -11,10 +11,12 @@ void* takeZeroPages(std::size_t bytes);
 /// `bytes` as they were taken.
 void giveZeroPagesBack(void* pages, std::size_t bytes);
 
-/// What is kept is kept in pieces of so many bytes. Arrays that are smaller do better on the heap.
-inline constexpr std::size_t kPieceOfPages = std::size_t{1} << 19;
+/// Pages come, and are kept, in pieces of so many bytes: a large page, or a whole table of small ones. Arrays
+/// that are smaller do better on the heap.
+inline constexpr std::size_t kPieceOfPages = std::size_t{1} << 21;
 
-/// The same, but what is in them may be anything, as kept pages are taken first (PageKeeper).
+/// The same, but what is in them may be anything, as kept pages are taken first (PageKeeper). Up to the next
+/// whole piece there is room, and memory where it is touched.
 void* takePages(std::size_t bytes);
 /// To the system, or to be kept. `bytes` as they were taken.
 void givePagesBack(void* pages, std::size_t bytes) noexcept;

@@ -222,7 +222,7 @@ LiveMesh finestMesh(const RasterHeightfield& heightfield, std::vector<std::uint3
   if (!hasCells(heightfield)) return mesh;
   const Cells cells(heightfield);
   const MeshLayout layout(heightfield, cells);
-  mesh.triangles.resize(layout.triangleCount());
+  mesh.triangles = PagedArray<LiveMesh::Triangle>(layout.triangleCount());
   mesh.vertexHalfedge.resize(heightfield.size());
   forRanges(LoopThreads::all, heightfield.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
     std::fill(&mesh.vertexHalfedge[begin], &mesh.vertexHalfedge[begin] + (end - begin), kNone);

@@ -26,7 +26,7 @@ LiveMesh LiveMesh::fromTriangles(std::vector<Corners> corners, std::uint32_t ver
   LiveMesh mesh;
   const std::size_t count = corners.size();
   assert(count <= kMostTriangles);
-  mesh.triangles.resize(count);
+  mesh.triangles = PagedArray<Triangle>(count);
   for (std::uint32_t t = 0; t < count; ++t) mesh.triangles[t] = {corners[t], {kNone, kNone, kNone}, t, kNone};
   std::vector<Corners>().swap(corners);
   mesh.vertexHalfedge.assign(vertexCount, kNone);
@@ -78,15 +78,14 @@ SlotMap LiveMesh::compact(std::span<const std::uint32_t> vertices) {
   const auto moved = [&](std::uint32_t h) {
     return h == kNone ? kNone : halfedge(newSlot.ofLive(triangleOf(h)), sideOf(h));
   };
-  UninitializedVector<Triangle> kept(newSlot.liveCount());
-  newSlot.forLive([&](std::size_t from, std::uint32_t to) {
-    const Triangle& triangle = triangles[from];
-    kept[to] = {triangle.corners,
-                {moved(triangle.twin[0]), moved(triangle.twin[1]), moved(triangle.twin[2])},
-                triangle.birth,
-                triangle.bearer};
+  newSlot.forLiveInPlace([&](std::size_t from, std::uint32_t to) {
+    const Triangle triangle = triangles[from];
+    triangles[to] = {triangle.corners,
+                     {moved(triangle.twin[0]), moved(triangle.twin[1]), moved(triangle.twin[2])},
+                     triangle.birth,
+                     triangle.bearer};
   });
-  triangles = std::move(kept);
+  triangles.shrink(newSlot.liveCount());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices.size(), 4096), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i)
       if (vertices[i] != kNone) vertexHalfedge[vertices[i]] = moved(vertexHalfedge[vertices[i]]);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/mt_recorder.h"
+#include "engine/paged_array.h"
 #include "engine/uninitialized_vector.h"
 #include "terrain/floor_joins.h"
 #include "terrain/hole.h"
@@ -35,7 +36,7 @@ struct LiveMesh {
     std::uint32_t bearer;  ///< the removal that bore it, or kNone; of a dead slot: the removal that left it
     bool isDead() const { return corners[0] == kNone; }
   };
-  UninitializedVector<Triangle> triangles;
+  PagedArray<Triangle> triangles;
   UninitializedVector<std::uint32_t> vertexHalfedge;  ///< per vertex, kNone for a vertex in no triangle
 
   /// Half-edges and births for counter-clockwise triangles. `pinched` receives the vertices whose triangles

@@ -48,16 +48,43 @@ class SlotMap {
   /// visit(slot, new slot) for every live one. Parallel.
   template <class Visit>
   void forLive(const Visit& visit) const {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, words_.size(), 128), [&](const auto& range) {
-      for (std::size_t w = range.begin(); w != range.end(); ++w) {
-        std::uint32_t to = words_[w].before;
-        for (std::uint32_t live = words_[w].live; live != 0; live &= live - 1)
-          visit(kBits * w + static_cast<std::size_t>(std::countr_zero(live)), to++);
+    forLive(0, words_.size(), visit);
+  }
+  /// The same for who moves what is there: nobody has still to visit what a new slot holds. Parallel in
+  /// waves, each as far as the new slots of its last one lie before its first one: if every other slot is
+  /// dead, each goes twice as far as the one before.
+  template <class Visit>
+  void forLiveInPlace(const Visit& visit) const {
+    constexpr std::size_t kFewWords = 128;
+    for (std::size_t begin = 0, end = 0; begin != words_.size(); begin = end) {
+      const auto isBeyond = [&](const Word& word) { return word.before + count(word.live) > kBits * begin; };
+      end = static_cast<std::size_t>(std::partition_point(words_.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                          words_.end(),
+                                                          [&](const Word& word) { return !isBeyond(word); }) -
+                                     words_.begin());
+      if (end >= begin + kFewWords) {
+        forLive(begin, end, visit);
+      } else {
+        end = std::min(begin + kFewWords, words_.size());
+        for (std::size_t w = begin; w != end; ++w) forLiveOf(w, visit);
       }
-    });
+    }
   }
 
  private:
+  template <class Visit>
+  void forLive(std::size_t begin, std::size_t end, const Visit& visit) const {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 128), [&](const auto& range) {
+      for (std::size_t w = range.begin(); w != range.end(); ++w) forLiveOf(w, visit);
+    });
+  }
+  template <class Visit>
+  void forLiveOf(std::size_t w, const Visit& visit) const {
+    std::uint32_t to = words_[w].before;
+    for (std::uint32_t live = words_[w].live; live != 0; live &= live - 1)
+      visit(kBits * w + static_cast<std::size_t>(std::countr_zero(live)), to++);
+  }
+
   static constexpr std::size_t kBits = 32;
   struct Word {
     std::uint32_t live;

@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "engine/paged_array.h"
 #include "engine/uninitialized_vector.h"
 
 /// How often the system still moves pages before it refuses; then it has taken away what was there.
@@ -64,19 +65,19 @@ void giveSevensBack() {
 TEST(Pages, WhatIsGivenBackIsTakenAgainWhileThereIsAKeeper) {
   const PageKeeper keeper;
   giveSevensBack();
-  void* const second = takePages(3 * kMiB);
-  void* const third = takePages(3 * kMiB);
-  EXPECT_TRUE(isAll(bytesOf(second, 3 * kMiB), 7));
-  EXPECT_TRUE(isAll(bytesOf(third, kMiB), 7)) << "what was left";
-  EXPECT_TRUE(isAll(bytesOf(third, 3 * kMiB).subspan(kMiB), 0)) << "there was no more";
-  givePagesBack(second, 3 * kMiB);
-  givePagesBack(third, 3 * kMiB);
+  void* const second = takePages(2 * kMiB);
+  void* const third = takePages(5 * kMiB);
+  EXPECT_TRUE(isAll(bytesOf(second, 2 * kMiB), 7));
+  EXPECT_TRUE(isAll(bytesOf(third, 2 * kMiB), 7)) << "what was left";
+  EXPECT_TRUE(isAll(bytesOf(third, 5 * kMiB).subspan(2 * kMiB), 0)) << "there was no more";
+  givePagesBack(second, 2 * kMiB);
+  givePagesBack(third, 5 * kMiB);
 }
 
 TEST(Pages, AreFreshWhenTheSystemMovesNoMoreAndNobodyElsesAreTouched) {
   const PageKeeper keeper;
   giveSevensBack();
-  movesLeft = 3;
+  movesLeft = 1;
   void* const second = takePages(4 * kMiB);
   movesLeft = std::numeric_limits<int>::max();
   ASSERT_NE(second, nullptr);
@@ -118,6 +119,34 @@ TEST(Pages, ZerosAreZerosWhateverIsKept) {
   EXPECT_TRUE(isAll(bytesOf(again, 4 * kMiB), 7));
   EXPECT_TRUE(isAll(bytesOf(again, 8 * kMiB).subspan(4 * kMiB), 0)) << "who asked for zeros keeps nothing";
   givePagesBack(again, 8 * kMiB);
+}
+
+TEST(Pages, AreZerosOfWhicheverKindTheyAre) {
+  // Enough for either kind to be tried some times.
+  constexpr std::size_t kMany = 160 * kMiB + 123;
+  void* const zeros = takeZeroPages(kMany);
+  ASSERT_NE(zeros, nullptr);
+  EXPECT_TRUE(isAll(bytesOf(zeros, kMany), 0));
+  giveZeroPagesBack(zeros, kMany);
+}
+
+TEST(Pages, AnArrayThatShrinksLeavesWholePiecesToTheNextAndKeepsTheRest) {
+  const PageKeeper keeper;
+  PagedArray<std::uint32_t> numbers(3'000'000);
+  for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i + 1;
+  numbers.shrink(1'000'000);
+  PagedArray<std::uint32_t> next(1'500'000);
+  EXPECT_TRUE(std::ranges::all_of(next, [](std::uint32_t n) { return n > 1'000'000; }))
+      << "pages that were left";
+  std::ranges::fill(next, 0u);
+  numbers.shrink(10);
+  numbers.shrink(10);
+  numbers.shrink(0);
+  EXPECT_TRUE(numbers.empty());
+  PagedArray<std::uint32_t> rest = std::move(next);
+  EXPECT_EQ(rest.size(), 1'500'000u);
+  rest = PagedArray<std::uint32_t>(5);
+  EXPECT_EQ(rest.size(), 5u);
 }
 
 TEST(Pages, AreFreshWhenSoManyWereMovedThatMappingsMightRunOut) {
@@ -162,10 +191,10 @@ TEST(Pages, WhatWasPutTogetherFromKeptOnesOutlivesTheKeeper) {
   {
     const PageKeeper keeper;
     // Of sizes that are no whole number of pieces.
-    UninitializedVector<std::uint32_t> a(300'001, 1), b(700'003, 2), c(123, 3);
+    UninitializedVector<std::uint32_t> a(900'001, 1), b(2'100'003, 2), c(123, 3);
     UninitializedVector<std::uint32_t>().swap(a);
     UninitializedVector<std::uint32_t>().swap(b);
-    numbers.resize(1'200'007);
+    numbers.resize(3'600'007);
     for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
   }
   for (std::uint32_t i = 0; i < numbers.size(); ++i) ASSERT_EQ(numbers[i], i);
@@ -180,7 +209,7 @@ TEST(Pages, NoTwoHaveTheSameWhoeverTakesThem) {
       std::mt19937 random(t);
       bool isMine = true;
       for (int round = 0; round < 50; ++round) {
-        UninitializedVector<std::uint8_t> pages(kMiB / 4 + random() % (4 * kMiB));
+        UninitializedVector<std::uint8_t> pages(kMiB / 4 + random() % (12 * kMiB));
         std::ranges::fill(pages, t);
         isMine = isMine && isAll(pages, t);
       }

@@ -92,7 +92,7 @@ TEST(IndependentSet, DecidesAChainLongerThanItsDepth) {
 }
 
 TEST(IndependentSet, TakenInTurnItIsTheSameWhereNothingIsRefused) {
-  Grid one = someGrid(23, 17, 5, 3), other = one;
+  Grid one = someGrid(23, 17, 5, 3), other = someGrid(23, 17, 5, 3);
   IndependentSet set(one.mesh, one.notes), inTurn(other.mesh, other.notes);
   for (const std::uint32_t v : one.candidates) {
     set.enter(v, 2);

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -28,6 +31,28 @@ TEST(SlotMap, MovesLiveSlotsUpInTheirOrder) {
         ASSERT_EQ(visited[slot], map[slot]) << "slot " << slot;
         ASSERT_EQ(isLive[slot] ? map.ofLive(slot) : SlotMap::kNone, map[slot]) << "slot " << slot;
       }
+    }
+}
+
+TEST(SlotMap, WhatIsMovedInPlaceIsVisitedBeforeItIsOverwritten) {
+  for (const std::uint32_t seed : {1u, 2u, 3u, 4u})
+    for (const std::size_t size : {0, 1, 31, 32, 33, 5000, 100'000, 300'001}) {
+      // Stretches that are all live, all dead, or mixed in some share.
+      std::mt19937 random(seed);
+      std::vector<std::uint8_t> isLive(size);
+      for (std::size_t begin = 0; begin < size;) {
+        const std::size_t end = std::min<std::size_t>(size, begin + 1 + random() % 40'000);
+        const std::uint32_t share = random() % 5;
+        for (; begin < end; ++begin) isLive[begin] = random() % 4 < share ? 1 : 0;
+      }
+      const SlotMap map(size, [&](std::size_t slot) { return isLive[slot] != 0; });
+      std::vector<std::uint32_t> kept, moved(size);
+      std::iota(moved.begin(), moved.end(), 0u);
+      for (std::uint32_t slot = 0; slot < size; ++slot)
+        if (isLive[slot] != 0) kept.push_back(slot);
+      map.forLiveInPlace([&](std::size_t from, std::uint32_t to) { moved[to] = moved[from]; });
+      moved.resize(map.liveCount());
+      ASSERT_EQ(moved, kept) << "seed " << seed << ", size " << size;
     }
 }
 

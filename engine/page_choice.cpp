@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The kind that costs less is asked for (page_prices.h). One piece of fresh memory in eight is touched before
+// its taker does, and the time that this takes is the price of the kind that it is made of.
+#include "engine/page_choice.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <mutex>
+
+#include "engine/page_prices.h"
+#include "engine/pages.h"
+#include "engine/stopwatch.h"
+
+namespace arete {
+namespace {
+
+using Kind = PagePrices::Kind;
+
+/// Of smaller arrays in a process that has less, the unused ends of large pages would count.
+constexpr std::size_t kLargeArray = std::size_t{16} << 20, kLargeProcess = std::size_t{48} << 20;
+constexpr std::size_t kUntried = 7;         // pieces between two that are tried
+constexpr std::size_t kTrustedPieces = 64;  // that a choice is made for
+
+struct Choice {
+  std::mutex choosing;
+  PagePrices prices;
+  std::size_t untried = 0;  // pieces that are still to come before one is tried
+};
+
+Choice& choice() {
+  static Choice one;
+  return one;
+}
+
+/// A system that does not know of kinds has one.
+void advise([[maybe_unused]] char* pages, [[maybe_unused]] std::size_t bytes, [[maybe_unused]] Kind kind) {
+#ifdef MADV_HUGEPAGE
+  madvise(pages, bytes, kind == Kind::large ? MADV_HUGEPAGE : MADV_NOHUGEPAGE);
+#endif
+}
+
+double secondsToTouch(char* pages, std::size_t bytes) {
+  static const auto step = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const Stopwatch watch;
+  for (std::size_t at = 0; at < bytes; at += step) static_cast<volatile char*>(pages)[at] = 0;
+  return watch.seconds();
+}
+
+}  // namespace
+
+void choosePages(char* pages, std::size_t bytes, std::size_t arrayBytes, std::size_t processBytes) {
+  if (arrayBytes < kLargeArray && processBytes < kLargeProcess) return;
+  Choice& c = choice();
+  const std::lock_guard lock(c.choosing);
+  while (bytes != 0) {
+    std::size_t some = kPieceOfPages;
+    if (c.untried == 0) {
+      const Kind kind = c.prices.toTry();
+      advise(pages, some, kind);
+      c.prices.note(kind, secondsToTouch(pages, some));
+      c.untried = c.prices.areKnown() ? kUntried : 0;
+    } else {
+      some = std::min(bytes, kTrustedPieces * kPieceOfPages);
+      advise(pages, some, c.prices.cheaper());
+      c.untried -= std::min(c.untried, some / kPieceOfPages);
+    }
+    pages += some;
+    bytes -= some;
+  }
+}
+
+}  // namespace arete
