@@ -150,7 +150,7 @@ UninitializedVector<std::uint32_t> MtRecorder::byFallingBand() {
 MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertices,
                                       std::span<const SurvivingTriangle> surviving,
                                       std::uint32_t callerVertexCount,
-                                      std::vector<std::uint32_t>& vertexOrder, StageClock* clock) {
+                                      UninitializedVector<std::uint32_t>& vertexOrder, StageClock* clock) {
   std::optional<StageClock::Scope> stage(std::in_place, clock, "finish: order");
   const std::uint32_t nodes = removals_;
   const std::uint32_t slots = slotBegin_[removals_];

@@ -104,7 +104,7 @@ class MtRecorder {
   /// recorder empty. O(triangles), parallel; deterministic. `clock` may be null: see RunContext.
   MultiTriangulation finish(std::span<const std::uint32_t> rootVertices,
                             std::span<const SurvivingTriangle> surviving, std::uint32_t callerVertexCount,
-                            std::vector<std::uint32_t>& vertexOrder, StageClock* clock = nullptr);
+                            UninitializedVector<std::uint32_t>& vertexOrder, StageClock* clock = nullptr);
 
  private:
   /// The removals in the order of nodes: by falling band, of one the later ones first. Parallel.

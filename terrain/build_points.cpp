@@ -102,7 +102,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
 
   context.report("finish", 0);
   stage.emplace(context.clock, "finish");
-  std::vector<std::uint32_t> order;
+  UninitializedVector<std::uint32_t> order;
   const MultiTriangulation bare =
       recorder.finish(root.vertices, root.triangles, pointCount, order, context.clock);
   // From here on they go by their MT vertices.
@@ -118,7 +118,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
   VertexArrays vertices;
   vertices.plan = owned->plan;
   vertices.encoding = owned->heights.encoding;
-  vertices.rawHeights = {owned->heights.bytes.get(), owned->heights.size};
+  vertices.rawHeights = owned->heights.bytes;
   model.mt = withVertices(bare, vertices, owned);
   context.report("finish", 1);
   return model;

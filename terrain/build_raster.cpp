@@ -14,6 +14,7 @@
 
 #include "engine/pages.h"
 #include "engine/parallel_filter.h"
+#include "engine/uninitialized_vector.h"
 #include "engine/with_threads.h"
 #include "terrain/build.h"
 #include "terrain/build_checks.h"
@@ -86,7 +87,7 @@ std::vector<std::uint32_t> isolatedSamples(const RasterHeightfield& field, const
 }
 
 struct OwnedVertices {
-  std::vector<std::uint32_t> samples;
+  UninitializedVector<std::uint32_t> samples;
   EncodedHeights heights;
 };
 
@@ -184,7 +185,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   vertices.samples = owned->samples;
   vertices.columns = field.columns;
   vertices.encoding = owned->heights.encoding;
-  vertices.rawHeights = {owned->heights.bytes.get(), owned->heights.size};
+  vertices.rawHeights = owned->heights.bytes;
   model.mt = withVertices(bare, vertices, owned);
   context.report("finish", 1);
   return model;

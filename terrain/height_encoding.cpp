@@ -22,9 +22,8 @@ template <class Raw, class ToRaw>
 bool tryEncode(std::span<const double> heights, std::span<const std::uint32_t> order, HeightEncoding encoding,
                const ToRaw& toRaw, EncodedHeights& out) {
   out.encoding = encoding;
-  out.size = order.size() * sizeof(Raw);
-  out.bytes = std::make_unique_for_overwrite<std::byte[]>(out.size);
-  Raw* raw = reinterpret_cast<Raw*>(out.bytes.get());
+  out.bytes = UninitializedVector<std::byte>(order.size() * sizeof(Raw));
+  Raw* raw = reinterpret_cast<Raw*>(out.bytes.data());
   std::atomic<bool> fits = true;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 8192), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end() && fits.load(std::memory_order_relaxed); ++i) {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <span>
 
+#include "engine/uninitialized_vector.h"
 #include "engine/vertex_arrays.h"
 
 namespace arete {
@@ -12,8 +12,7 @@ namespace arete {
 /// Heights in their smallest exact form, in an order of the caller's.
 struct EncodedHeights {
   HeightEncoding encoding;
-  std::unique_ptr<std::byte[]> bytes;
-  std::size_t size = 0;  ///< in bytes
+  UninitializedVector<std::byte> bytes;
 };
 
 /// Encodes heights[order[i]]: as 16-bit integers under the band's own scale and offset, as floats, or as
