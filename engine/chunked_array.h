@@ -11,8 +11,9 @@
 
 namespace arete {
 
-/// An array that grows without moving what it holds and without a doubled peak, by blocks. Elements are uninitialised until written. Different elements may be written by different threads, also
-/// while another grows the array, within what was reserved; who reads must know of the growth.
+/// An array that grows without moving what it holds and without a doubled peak, by blocks. Elements are
+/// uninitialised until written. Different elements may be written by different threads, also while another
+/// grows the array, within what was reserved; who reads must know of the growth.
 ///
 /// Blocks are whole pieces of pages (engine/pages.h): a build frees one such array to make room for the next.
 template <class T>
