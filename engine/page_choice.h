@@ -5,9 +5,9 @@
 
 namespace arete {
 
-/// Chooses small or large pages for fresh memory, whole pieces (engine/pages.h) that nobody has touched, of an
-/// array of `arrayBytes` in a process that has taken so many. To learn what either kind costs it touches a
-/// piece now and then, which stays zero. Thread-safe.
+/// Chooses small or large pages for fresh memory: whole pieces (engine/pages.h) that nobody has touched, of
+/// an array of `arrayBytes` in a process that has taken so many. To learn what either kind costs it touches
+/// a piece now and then, which stays zero. Thread-safe.
 void choosePages(char* pages, std::size_t bytes, std::size_t arrayBytes, std::size_t processBytes);
 
 }  // namespace arete
