@@ -26,6 +26,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/page_choice.h"
 #include "engine/vector_clones.h"
 
 namespace arete {
@@ -224,9 +225,14 @@ std::optional<Cut> writeFront(const MultiTriangulation& mt, const MemberSet& set
           open.fetch_add(marked.open, std::memory_order_relaxed);
         });
       },
-      [&] { cut.triangles.resize(most); },
       [&] {
+        reserveInPages(cut.triangles, most);
+        cut.triangles.resize(most);
+      },
+      [&] {
+        reserveInPages(cut.ids, most);
         cut.ids.resize(most);
+        reserveInPages(cut.vertices, std::size_t(rootVertices) + set.size());
         cut.vertices.resize(std::size_t(rootVertices) + set.size());
       });
   std::partial_sum(begin.begin(), begin.end(), begin.begin());

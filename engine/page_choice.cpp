@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <mutex>
 
 #include "engine/page_prices.h"
@@ -21,6 +22,8 @@ using Kind = PagePrices::Kind;
 
 /// Of smaller arrays in a process that has less, the unused ends of large pages would count.
 constexpr std::size_t kLargeArray = std::size_t{16} << 20, kLargeProcess = std::size_t{48} << 20;
+/// Of what is larger the heap asks the system (M_MMAP_THRESHOLD grows no further).
+constexpr std::size_t kLargestOfHeap = std::size_t{32} << 20;
 constexpr std::size_t kUntried = 7;         // pieces between two that are tried
 constexpr std::size_t kTrustedPieces = 64;  // that a choice is made for
 
@@ -70,6 +73,19 @@ void choosePages(char* pages, std::size_t bytes, std::size_t arrayBytes, std::si
     pages += some;
     bytes -= some;
   }
+}
+
+void choosePagesOfHeap(void* memory, std::size_t bytes) {
+  if (bytes < kLargeArray) return;
+  const std::size_t before =
+      (kPieceOfPages - reinterpret_cast<std::uintptr_t>(memory) % kPieceOfPages) % kPieceOfPages;
+  char* const pages = static_cast<char*>(memory) + before;
+  const std::size_t whole = (bytes - before) / kPieceOfPages * kPieceOfPages;
+  if (bytes > kLargestOfHeap) return choosePages(pages, whole, bytes, bytes);
+  // Perhaps it is not fresh, so its price would tell nothing.
+  Choice& c = choice();
+  const std::lock_guard lock(c.choosing);
+  if (c.prices.areKnown()) advise(pages, whole, c.prices.cheaper());
 }
 
 }  // namespace arete

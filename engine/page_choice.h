@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 namespace arete {
 
@@ -9,5 +10,15 @@ namespace arete {
 /// an array of `arrayBytes` in a process that has taken so many. To learn what either kind costs it touches
 /// a piece now and then, which stays zero. Thread-safe.
 void choosePages(char* pages, std::size_t bytes, std::size_t arrayBytes, std::size_t processBytes);
+
+/// The same for memory that the heap has just given, and that nobody has touched since.
+void choosePagesOfHeap(void* memory, std::size_t bytes);
+
+/// Room in a vector that is empty, of the pages that cost less.
+template <class T>
+void reserveInPages(std::vector<T>& empty, std::size_t size) {
+  empty.reserve(size);
+  choosePagesOfHeap(empty.data(), empty.capacity() * sizeof(T));
+}
 
 }  // namespace arete

@@ -18,6 +18,7 @@
 #include <limits>
 #include <span>
 
+#include "engine/page_choice.h"
 #include "io/gdal_support.h"
 
 namespace arete {
@@ -185,7 +186,7 @@ Result<BandHeights> readBandHeights(GDALRasterBand& band, std::optional<double> 
 
   const std::size_t columns = std::size_t(band.GetXSize());
   const int rows = band.GetYSize(), stripRows = rowsPerStrip(band);
-  result.heights.reserve(columns * std::size_t(rows));
+  reserveInPages(result.heights, columns * std::size_t(rows));
   StripReader reader(band, nodata);
   std::size_t infinite = 0, huge = 0;
   double hugeExample = 0;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/page_choice.h"
 #include "io/local_origin.h"
 
 namespace arete {
@@ -16,12 +17,13 @@ TinExport exportTin(const TerrainModel& model, const Cut& cut) {
     const Vec2 xy = model.toSource({p.x, p.y});
     return Vec3{xy.x, xy.y, p.z};
   };
-  tin.mesh.positions.reserve(cut.vertices.size());
+  reserveInPages(tin.mesh.positions, cut.vertices.size());
   for (const std::uint32_t v : cut.vertices) tin.mesh.positions.push_back(toSource(v));
+  reserveInPages(tin.mesh.triangles, cut.triangles.size());
   tin.mesh.triangles = cut.triangles;
   if (model.isFlipped())
     for (auto& t : tin.mesh.triangles) std::swap(t[1], t[2]);
-  tin.errors.reserve(cut.ids.size());
+  reserveInPages(tin.errors, cut.ids.size());
   for (const std::uint32_t t : cut.ids)
     tin.errors.push_back(static_cast<float>(model.mt.error(TriangleId(t))));
   // Of the root, which is in every cut.
