@@ -57,11 +57,11 @@ class SlotMap {
   void forLiveInPlace(const Visit& visit) const {
     constexpr std::size_t kFewWords = 128;
     for (std::size_t begin = 0, end = 0; begin != words_.size(); begin = end) {
-      const auto isBeyond = [&](const Word& word) { return word.before + count(word.live) > kBits * begin; };
-      end = static_cast<std::size_t>(std::partition_point(words_.begin() + static_cast<std::ptrdiff_t>(begin),
-                                                          words_.end(),
-                                                          [&](const Word& word) { return !isBeyond(word); }) -
-                                     words_.begin());
+      const auto movesBefore = [&](const Word& word) {
+        return word.before + count(word.live) <= kBits * begin;
+      };
+      const auto first = words_.begin() + static_cast<std::ptrdiff_t>(begin);
+      end = begin + static_cast<std::size_t>(std::partition_point(first, words_.end(), movesBefore) - first);
       if (end >= begin + kFewWords) {
         forLive(begin, end, visit);
       } else {
