@@ -216,6 +216,10 @@ std::optional<Cut> writeFront(const MultiTriangulation& mt, const MemberSet& set
   std::vector<std::uint32_t> begin(std::size_t(set.pieces()) + 2, 0);
   const std::size_t most = roots + 2 * std::size_t(set.size());
   std::atomic<std::uint32_t> open = 0;
+  const auto makeRoom = [](auto& empty, std::size_t size) {
+    reserveInPages(empty, size);
+    empty.resize(size);
+  };
   tbb::parallel_invoke(
       [&] {
         for (std::uint32_t t = 0; t < roots; ++t) begin[1] += in.contains(a.remover[t]) ? 0 : 1;
@@ -225,15 +229,10 @@ std::optional<Cut> writeFront(const MultiTriangulation& mt, const MemberSet& set
           open.fetch_add(marked.open, std::memory_order_relaxed);
         });
       },
+      [&] { makeRoom(cut.triangles, most); },
       [&] {
-        reserveInPages(cut.triangles, most);
-        cut.triangles.resize(most);
-      },
-      [&] {
-        reserveInPages(cut.ids, most);
-        cut.ids.resize(most);
-        reserveInPages(cut.vertices, std::size_t(rootVertices) + set.size());
-        cut.vertices.resize(std::size_t(rootVertices) + set.size());
+        makeRoom(cut.ids, most);
+        makeRoom(cut.vertices, std::size_t(rootVertices) + set.size());
       });
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   if (mustBeClosed && begin.back() != most - open) return std::nullopt;

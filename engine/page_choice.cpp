@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The kind that costs less is asked for (page_prices.h). One piece of fresh memory in eight is touched before
-// its taker does, and the time that this takes is the price of the kind that it is made of.
+// its taker does (one in 65 of an array that is taken at once: its taker's threads share the rest), and the
+// time that this takes is the price of the kind that it is made of.
 #include "engine/page_choice.h"
 
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <mutex>
 
 #include "engine/page_prices.h"
@@ -77,8 +77,7 @@ void choosePages(char* pages, std::size_t bytes, std::size_t arrayBytes, std::si
 
 void choosePagesOfHeap(void* memory, std::size_t bytes) {
   if (bytes < kLargeArray) return;
-  const std::size_t before =
-      (kPieceOfPages - reinterpret_cast<std::uintptr_t>(memory) % kPieceOfPages) % kPieceOfPages;
+  const std::size_t before = bytesToPiece(memory);
   char* const pages = static_cast<char*>(memory) + before;
   const std::size_t whole = (bytes - before) / kPieceOfPages * kPieceOfPages;
   if (bytes > kLargestOfHeap) return choosePages(pages, whole, bytes, bytes);

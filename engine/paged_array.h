@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <new>
@@ -47,12 +46,7 @@ class PagedArray {
   void shrink(std::size_t size) {
     assert(size <= size_);
     size_ = size;
-    // Pages are taken by whole pieces, or there are few.
-    const auto pieces = [](std::size_t bytes) { return (bytes + kPieceOfPages - 1) / kPieceOfPages; };
-    const std::size_t needed = std::max<std::size_t>(pieces(size * sizeof(T)), 1) * kPieceOfPages;
-    if (bytes_ <= needed) return;
-    givePagesBack(reinterpret_cast<char*>(data_) + needed, pieces(bytes_) * kPieceOfPages - needed);
-    bytes_ = needed;
+    if (data_ != nullptr) bytes_ = giveTailBack(data_, bytes_, size * sizeof(T));
   }
 
  private:

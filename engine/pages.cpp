@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cstdint>
 #include <mutex>
 #include <new>
 #include <span>
@@ -56,7 +55,7 @@ char* mapFresh(std::size_t bytes) {
   if (mapped == MAP_FAILED) return nullptr;
   char* const begin = static_cast<char*>(mapped);
   if (spare == 0) return begin;
-  const std::size_t before = (kPiece - reinterpret_cast<std::uintptr_t>(begin) % kPiece) % kPiece;
+  const std::size_t before = bytesToPiece(begin);
   unmap(begin, before);
   unmap(begin + before + bytes, spare - before);
   return begin + before;
@@ -192,6 +191,13 @@ void givePagesBack(void* pages, std::size_t bytes) noexcept {
 #else
   unmap(begin, bytes);
 #endif
+}
+
+std::size_t giveTailBack(void* pages, std::size_t bytes, std::size_t needed) noexcept {
+  const std::size_t taken = wholePieces(bytes), kept = wholePieces(std::max(needed, kPiece));
+  if (taken <= kept) return bytes;
+  givePagesBack(static_cast<char*>(pages) + kept, taken - kept);
+  return kept;
 }
 
 PageKeeper::PageKeeper() {

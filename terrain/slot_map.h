@@ -45,17 +45,11 @@ class SlotMap {
   }
   std::uint32_t liveCount() const { return liveCount_; }
 
-  /// visit(slot, new slot) for every live one. Parallel.
-  template <class Visit>
-  void forLive(const Visit& visit) const {
-    forLive(0, words_.size(), visit);
-  }
-  /// The same for who moves what is there: nobody has still to visit what a new slot holds. Parallel in
-  /// waves, each as far as the new slots of its last one lie before its first one: if every other slot is
-  /// dead, each goes twice as far as the one before.
+  /// visit(slot, new slot) for every live one, for who moves what is there: nobody has still to visit what a
+  /// new slot holds. Parallel in waves, each as far as the new slots of its last one lie before its first
+  /// one: if every other slot is dead, each goes twice as far as the one before.
   template <class Visit>
   void forLiveInPlace(const Visit& visit) const {
-    constexpr std::size_t kFewWords = 128;
     for (std::size_t begin = 0, end = 0; begin != words_.size(); begin = end) {
       const auto movesBefore = [&](const Word& word) {
         return word.before + count(word.live) <= kBits * begin;
@@ -74,7 +68,7 @@ class SlotMap {
  private:
   template <class Visit>
   void forLive(std::size_t begin, std::size_t end, const Visit& visit) const {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 128), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, kFewWords), [&](const auto& range) {
       for (std::size_t w = range.begin(); w != range.end(); ++w) forLiveOf(w, visit);
     });
   }
@@ -85,7 +79,7 @@ class SlotMap {
       visit(kBits * w + static_cast<std::size_t>(std::countr_zero(live)), to++);
   }
 
-  static constexpr std::size_t kBits = 32;
+  static constexpr std::size_t kBits = 32, kFewWords = 128;
   struct Word {
     std::uint32_t live;
     std::uint32_t before;  ///< live slots in the words before

@@ -26,7 +26,7 @@ TEST(SlotMap, MovesLiveSlotsUpInTheirOrder) {
       EXPECT_EQ(map.liveCount(), next);
 
       std::vector<std::uint32_t> visited(size, SlotMap::kNone);
-      map.forLive([&](std::size_t slot, std::uint32_t to) { visited[slot] = to; });
+      map.forLiveInPlace([&](std::size_t slot, std::uint32_t to) { visited[slot] = to; });
       for (std::size_t slot = 0; slot < size; ++slot) {
         ASSERT_EQ(visited[slot], map[slot]) << "slot " << slot;
         ASSERT_EQ(isLive[slot] ? map.ofLive(slot) : SlotMap::kNone, map[slot]) << "slot " << slot;
