@@ -7,6 +7,7 @@
 // moved; after them, or once the system refuses to move one, nothing is kept any more.
 #include "engine/pages.h"
 
+#include <malloc.h>
 #include <sys/mman.h>
 
 #include <algorithm>
@@ -198,6 +199,12 @@ std::size_t giveTailBack(void* pages, std::size_t bytes, std::size_t needed) noe
   if (taken <= kept) return bytes;
   givePagesBack(static_cast<char*>(pages) + kept, taken - kept);
   return kept;
+}
+
+void giveFreeHeapBack() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 PageKeeper::PageKeeper() {

@@ -28,6 +28,10 @@ void givePagesBack(void* pages, std::size_t bytes) noexcept;
 /// Gives back the whole pieces behind the first `needed` bytes. Returns how many are taken still.
 std::size_t giveTailBack(void* pages, std::size_t bytes, std::size_t needed) noexcept;
 
+/// Gives the system what the heap holds and nobody uses. Worth it after work in many small blocks, most of
+/// which are freed: large arrays take pages of their own, which the heap's free ones would stand beside.
+void giveFreeHeapBack();
+
 /// While there is one, pages given back are kept for those who take some next: a page from the system has to
 /// be found and cleared at its first touch, which takes about as long as filling it ten times over. When the
 /// last one goes, the system gets what is left, and so it does when it has no more to give. Pages are kept by

@@ -16,6 +16,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/pages.h"
 #include "io/crs_reader.h"
 #include "io/feature_rows.h"
 #include "io/gdal_support.h"
@@ -189,6 +190,8 @@ Result<PointRead> finish(PointRows rows, std::string_view originName, const OGRS
   if (!chosen) return tl::unexpected(chosen.error());
   if (Status status = describeCrs(*chosen, points.georeference); !status)
     return tl::unexpected(status.error());
+  rows.positions.shrink_to_fit();
+  rows.heights.shrink_to_fit();
   points.positions = std::move(rows.positions);
   points.heights = std::move(rows.heights);
   points.source = path;
@@ -230,6 +233,7 @@ Result<PointRead> readPoints(const std::string& path, const PointReadOptions& op
                              const RunContext& context) {
   try {
     auto read = readFrom(path, options, context);
+    giveFreeHeapBack();  // rows that were moved as they became more
     if (!read && read.error().culprit.empty()) read.error().culprit = path;
     return read;
   } catch (const std::bad_alloc&) {

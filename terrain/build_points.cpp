@@ -24,7 +24,7 @@ namespace arete {
 namespace {
 
 struct OwnedPoints {
-  std::vector<Vec2> plan;
+  UninitializedVector<Vec2> plan;
   EncodedHeights heights;
 };
 
@@ -38,6 +38,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
   const auto pointCount = static_cast<std::uint32_t>(field.size());
   std::vector<std::uint32_t> pinched;
   LiveMesh mesh = LiveMesh::fromTriangles(std::move(finest.triangles), pointCount, pinched);
+  giveFreeHeapBack();  // the triangles that it took
   stage.emplace(context.clock, "prepare");
 
   TerrainModel model;
@@ -71,16 +72,16 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
   model.metricP = stretch >= 1 ? static_cast<std::uint32_t>(stretch) : 1;
   model.metricQ = stretch >= 1 ? 1 : static_cast<std::uint32_t>(1 / stretch);
 
-  UninitializedVector<Vec3> points(pointCount);
-  for (std::uint32_t v = 0; v < pointCount; ++v) {
-    const Vec2 p = field.positions[ground[v]];
-    points[v] = {p.x, p.y, field.heights[ground[v]]};
-  }
-  const PointPlan plan(points, stretch);
   MtRecorder recorder(finestCount, pointCount, OutwardScale(*high - *low), metric);
   SimplifiedRoot root;
   stage.emplace(context.clock, "simplify");
   {
+    UninitializedVector<Vec3> points(pointCount);
+    for (std::uint32_t v = 0; v < pointCount; ++v) {
+      const Vec2 p = field.positions[ground[v]];
+      points[v] = {p.x, p.y, field.heights[ground[v]]};
+    }
+    const PointPlan plan(points, stretch);
     PointError errors(plan, points, mesh);
     const double slack = roundingSlack(*low, *high);
     SimplifyState<PointPlan, PointError> state{.mesh = mesh,
@@ -112,8 +113,8 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
   for (std::uint32_t& v : order) v = ground[v];
   model.options.fixedVertices = std::move(fixed);
   auto owned = std::make_shared<OwnedPoints>();
-  owned->plan.reserve(order.size());
-  for (const std::uint32_t v : order) owned->plan.push_back(field.positions[v]);
+  owned->plan.resize(order.size());
+  std::ranges::transform(order, owned->plan.begin(), [&](std::uint32_t v) { return field.positions[v]; });
   owned->heights = encodeHeights(field.heights, order, 1, 0);
   VertexArrays vertices;
   vertices.plan = owned->plan;

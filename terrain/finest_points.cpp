@@ -14,6 +14,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/pages.h"
 #include "engine/with_threads.h"
 #include "terrain/ground_order.h"
 #include "terrain/live_mesh.h"
@@ -128,6 +129,7 @@ Result<FinestPoints> finestPoints(const PointHeightfield& field, const RunContex
   const StageClock::Scope stage(context.clock, "triangulate");
   Result<FinestPoints> finest =
       withThreads(context, [&] { return triangulate(field, pointMetricStretch(field), context); });
+  giveFreeHeapBack();  // CGAL's triangulation was as large as half a build
   context.report("triangulate", 1);
   return finest;
 }

@@ -147,10 +147,8 @@ void PointError::Hole::settle(const HoleTriangulation& floor) {
 }
 
 void PointError::compact(const SlotMap& newSlot) {
-  std::vector<std::uint32_t> moved(newSlot.liveCount(), kNone);
-  for (std::size_t t = 0; t < head_.size(); ++t)
-    if (newSlot[t] != kNone) moved[newSlot[t]] = head_[t];
-  head_ = std::move(moved);
+  newSlot.forLiveInPlace([&](std::size_t from, std::uint32_t to) { head_[to] = head_[from]; });
+  head_.shrink(newSlot.liveCount());
 }
 
 }  // namespace arete

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "engine/paged_array.h"
+#include "engine/uninitialized_vector.h"
 #include "terrain/live_mesh.h"
 #include "terrain/point_plan.h"
 #include "terrain/points_below.h"
@@ -23,11 +25,9 @@ class PointError {
   /// Keeps the rings of the finest triangulation, in which bounds along edges are found. `points`: those of
   /// the plan, with their heights.
   PointError(const PointPlan& plan, std::span<const Vec3> points, const LiveMesh& finest)
-      : plan_(plan),
-        points_(points),
-        finest_(finest),
-        head_(finest.triangles.size(), kNone),
-        next_(points.size(), kNone) {}
+      : plan_(plan), points_(points), finest_(finest), head_(finest.triangles.size()), next_(points.size()) {
+    std::ranges::fill(head_, kNone);
+  }
 
   const Vec3& position(std::uint32_t point) const { return points_[point]; }
   [[gnu::always_inline]] void prefetch(std::uint32_t point) const {
@@ -40,6 +40,8 @@ class PointError {
   /// RasterError knows a rule for the finest triangulation; for points there is none.
   double costInFinest(std::uint32_t, std::array<std::uint32_t, 3>&) const { return -1; }
   double boundInFinest(std::uint32_t) const { return -1; }
+  /// See RasterError. Of points the levels are where a build takes most memory.
+  static constexpr double kLeastLive = 0.75;
   /// The live mesh has moved its triangles (LiveMesh::compact): their points move with them.
   void compact(const SlotMap& newSlot);
 
@@ -93,8 +95,8 @@ class PointError {
   const PointPlan& plan_;
   std::span<const Vec3> points_;
   const VertexRings finest_;
-  std::vector<std::uint32_t> head_;  // per triangle slot: its first point
-  std::vector<std::uint32_t> next_;  // per point
+  PagedArray<std::uint32_t> head_;           // per triangle slot: its first point
+  UninitializedVector<std::uint32_t> next_;  // per point that a triangle has
 };
 
 }  // namespace arete

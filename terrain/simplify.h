@@ -68,7 +68,7 @@ class Simplifier {
         threshold = std::max(threshold, pending);
       }
       threshold = std::min(threshold, kLargest);
-      if (s_.liveTriangles < s_.mesh.triangles.size() / 2)
+      if (double(s_.liveTriangles) < Errors::kLeastLive * double(s_.mesh.triangles.size()))
         s_.errors.compact(s_.mesh.compact(s_.waiting.vertices()));
     }
     context_.report("simplify", 1);
