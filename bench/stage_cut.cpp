@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kViewTriangles = 200'000;
+constexpr std::size_t kViewTriangles = 200'000, kUniformTriangles[] = {100'000, 1'000'000};
 constexpr Repetition kShort = {9, 20};  // for what takes milliseconds
 
 /// A box of a tenth of the raster in its middle.
@@ -50,6 +50,8 @@ class CutStage {
         saturated(fmt::format("saturated, {:g}, {}", e, threadsText(threads)), e);
       saturated(fmt::format("saturated, finest, {}", threadsText(threads)), 0);
     }
+    for (const std::size_t triangles : kUniformTriangles)
+      if (const Status s = ofSize(triangles); !s) return tl::unexpected(s.error());
     for (const double e : source_.tolerances)
       if (const Status s = general(fmt::format("minimal, {:g}", e), UniformError(e), {}); !s)
         return tl::unexpected(s.error());
@@ -91,6 +93,34 @@ class CutStage {
     add(variant, "triangles", double(cut->triangles.size()), "", Better::neither);
     add(variant, "time", seconds * 1e3, "ms", Better::lower);
     add(variant, "tested", tested / seconds / 1e6, "million/s", Better::higher);
+  }
+
+  /// Uniform cuts of as nearly so many triangles as some tolerance makes, if the model has a few more.
+  Status ofSize(std::size_t triangles) {
+    if (model_.mt.finestTriangleCount() < 2 * triangles) return {};
+    for (const CutMethod method : {CutMethod::saturated, CutMethod::minimal}) {
+      const CutOptions options{.method = method};
+      double fine = 1e-6, coarse = 1e6;
+      for (int step = 0; step < 30; ++step) {
+        const double error = std::sqrt(fine * coarse);
+        const Result<Cut> cut = takeCut(model_.mt, UniformError(error), options);
+        if (!cut) return tl::unexpected(cut.error());
+        (cut->triangles.size() > triangles ? fine : coarse) = error;
+      }
+      const UniformError criterion(coarse);
+      const Result<Cut> cut = takeCut(model_.mt, criterion, options);
+      if (!cut) return tl::unexpected(cut.error());
+      const char* const name = method == CutMethod::saturated ? "saturated" : "minimal";
+      for (const int threads : {1, 0}) {
+        const auto limit = limitTo(threads);
+        const double seconds = medianSeconds(kShort, [&] { return takeCut(model_.mt, criterion, options); });
+        const std::string variant =
+            fmt::format("{}, {} triangles, {}", name, triangles, threadsText(threads));
+        add(variant, "triangles", double(cut->triangles.size()), "", Better::neither);
+        add(variant, "time", seconds * 1e3, "ms", Better::lower);
+      }
+    }
+    return {};
   }
 
   /// From 300 m above the middle, with the pixels of error that make a cut of kViewTriangles.
