@@ -149,7 +149,6 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   if (const Status valid = checkSpan(span, field.source); !valid) return tl::unexpected(valid.error());
 
   const LatticePlan plan(field.columns, ratio.p, ratio.q);
-  RasterError errors(plan, field.heights, options.rimTolerance > 0);
   MtRecorder recorder(finestCount, sampleCount, OutwardScale(high - low), metric);
   std::unique_ptr<Rim> rim;
   if (options.rimTolerance > 0) rim = std::make_unique<Rim>(mesh, plan, options.rimTolerance);
@@ -157,6 +156,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   SimplifiedRoot root;
   stage.emplace(context.clock, "simplify");
   {
+    RasterError errors(plan, field.heights, options.rimTolerance > 0);
     SimplifyState<LatticePlan, RasterError> state{
         .mesh = mesh,
         .plan = plan,

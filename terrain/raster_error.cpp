@@ -87,15 +87,16 @@ struct SignedDifferences {
 }
 
 /// z_plane - z at samples below a triangle, by columns and rows from corner a, which anchors the plane.
-template <class Differences>
+template <class Height, class Differences>
 class RasterError::PlaneDifferences {
  public:
-  [[gnu::always_inline]] PlaneDifferences(const RasterError& errors, const Corner& a, double dzB, double dzC,
-                                          Two ab, Two ac, Differences& differences)
+  /// heights: of the errors' samples.
+  [[gnu::always_inline]] PlaneDifferences(const RasterError& errors, const Height* heights, const Corner& a,
+                                          double dzB, double dzC, Two ab, Two ac, Differences& differences)
       : differences_(differences),
-        end_(errors.heights_.data() + errors.heights_.size()),
+        end_(heights + errors.heights_.size()),
         columns_(errors.plan_.columns()),
-        origin_(errors.heights_.data() + (a.y * columns_ + a.x)),
+        origin_(heights + (a.y * columns_ + a.x)),
         z_(a.z) {
     const Two crossed = ab * swapped(ac);
     const double inverse = 1.0 / (crossed[0] - crossed[1]);
@@ -115,7 +116,7 @@ class RasterError::PlaneDifferences {
   /// The same of any number.
   [[gnu::always_inline]] void includeRow(double y, double left, double count) {
     const Two z = planeAt(left, y);
-    const double* heights = origin_ + static_cast<std::ptrdiff_t>(y * double(columns_) + left);
+    const Height* heights = origin_ + static_cast<std::ptrdiff_t>(y * double(columns_) + left);
     Two x[2] = {kFirstFour[0], kFirstFour[1]};
     for (; count > 4; count -= 4, heights += 4)
       for (int k = 0; k < 2; ++k) {
@@ -129,8 +130,8 @@ class RasterError::PlaneDifferences {
   static constexpr Two kFirstFour[2] = {{0, 1}, {2, 3}};
 
   /// Of the samples from `heights` on the first `count`, by their columns from where the plane is z.
-  [[gnu::always_inline]] void includeFew(Two z, const Two (&x)[2], const double* heights, double count) {
-    std::array<double, 4> copy;
+  [[gnu::always_inline]] void includeFew(Two z, const Two (&x)[2], const Height* heights, double count) {
+    std::array<Height, 4> copy;
     if (end_ - heights < 4) {
       copy.fill(0);
       std::copy(heights, end_, copy.begin());
@@ -143,9 +144,9 @@ class RasterError::PlaneDifferences {
   }
 
   Differences& differences_;
-  const double* end_;
+  const Height* end_;
   std::ptrdiff_t columns_;
-  const double* origin_;
+  const Height* origin_;
   double z_, stepX_, stepY_;
 };
 
@@ -154,8 +155,15 @@ class RasterError::PlaneDifferences {
 template <class Differences>
 [[gnu::always_inline]] inline void RasterError::compare(const Corner& a, const Corner& b, const Corner& c,
                                                         Differences& differences) const {
+  heights_.with([&](const auto* heights) { compareWith(heights, a, b, c, differences); });
+}
+
+template <class Height, class Differences>
+[[gnu::always_inline]] inline void RasterError::compareWith(const Height* heights, const Corner& a,
+                                                            const Corner& b, const Corner& c,
+                                                            Differences& differences) const {
   const Two ab = {double(b.x - a.x), double(b.y - a.y)}, ac = {double(c.x - a.x), double(c.y - a.y)};
-  PlaneDifferences<Differences> plane(*this, a, b.z - a.z, c.z - a.z, ab, ac, differences);
+  PlaneDifferences<Height, Differences> plane(*this, heights, a, b.z - a.z, c.z - a.z, ab, ac, differences);
 
   const auto& few = small_.rows(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
   if (few.count >= 0) {
@@ -177,10 +185,10 @@ template <class Differences>
 }
 
 /// The same of a wide triangle, one row of blocks after the other.
-template <class Differences>
+template <class Height, class Differences>
 [[gnu::always_inline]] inline void RasterError::compareByBlocks(const Corner& a, const Corner& b,
                                                                 const Corner& c, const TriangleRows& triangle,
-                                                                PlaneDifferences<Differences>& plane,
+                                                                PlaneDifferences<Height, Differences>& plane,
                                                                 Differences& differences) const {
   constexpr int kSide = HeightBlocks::kSide;
   constexpr double kMiddle = (kSide - 1) / 2.0, kRounding = 0x1p-46, kFar = TriangleRows::kFar;

@@ -10,6 +10,7 @@
 #include "terrain/height_blocks.h"
 #include "terrain/lattice_plan.h"
 #include "terrain/live_mesh.h"
+#include "terrain/sample_heights.h"
 #include "terrain/short_edges.h"
 #include "terrain/signed_bound.h"
 #include "terrain/small_triangles.h"
@@ -141,6 +142,7 @@ class RasterError {
   /// `reachesBeyondRims`: triangles may reach beyond the rim of the domain (a rim tolerance is in use).
   RasterError(const LatticePlan& plan, std::span<const double> heights, bool reachesBeyondRims)
       : plan_(plan),
+        all_(heights),
         heights_(heights),
         rows_(static_cast<std::uint32_t>(heights.size() / plan.columns())),
         reachesBeyondRims_(reachesBeyondRims),
@@ -158,9 +160,9 @@ class RasterError {
   /// Asks for the heights around a vertex that is soon to be evaluated.
   [[gnu::always_inline]] void prefetch(std::uint32_t sample) const {
     const std::size_t columns = plan_.columns();
-    __builtin_prefetch(heights_.data() + sample);
-    if (sample >= columns) __builtin_prefetch(heights_.data() + sample - columns);
-    if (sample + columns < heights_.size()) __builtin_prefetch(heights_.data() + sample + columns);
+    heights_.prefetch(sample);
+    if (sample >= columns) heights_.prefetch(sample - columns);
+    if (sample + columns < heights_.size()) heights_.prefetch(sample + columns);
   }
   /// Asks for the heights under a star whose vertex is soon to be removed.
   [[gnu::always_inline]] void prefetch(const Star& star) const {
@@ -172,10 +174,9 @@ class RasterError {
       least = {std::min(least.column, cell.column), std::min(least.row, cell.row)};
       most = {std::max(most.column, cell.column), std::max(most.row, cell.row)};
     }
-    const double* row =
-        heights_.data() + std::size_t(least.row) * plan_.columns() + (least.column + most.column) / 2;
-    for (std::uint32_t i = 0; i <= std::min(most.row - least.row, kMostRows); ++i, row += plan_.columns())
-      __builtin_prefetch(row);
+    std::size_t sample = std::size_t(least.row) * plan_.columns() + (least.column + most.column) / 2;
+    for (std::uint32_t i = 0; i <= std::min(most.row - least.row, kMostRows); ++i, sample += plan_.columns())
+      heights_.prefetch(sample);
   }
 
   /// What it costs to remove a sample from the finest triangulation, where its six neighbours there are
@@ -186,7 +187,7 @@ class RasterError {
     const std::uint32_t columns = plan_.columns();
     const LatticePlan::Cell cell = plan_.cell(sample);
     if (cell.column == 0 || cell.row == 0 || cell.column + 1 == columns || cell.row + 1 == rows_) return -1;
-    const double* z = &heights_[sample];
+    const double* z = &all_[sample];
     const std::ptrdiff_t down = columns;
     const double along = std::abs(z[0] - (z[-1] + z[1]) / 2),
                  across = std::abs(z[0] - (z[-down] + z[down]) / 2);
@@ -205,7 +206,7 @@ class RasterError {
     const std::uint32_t columns = plan_.columns();
     const LatticePlan::Cell cell = plan_.cell(sample);
     if (cell.column == 0 || cell.row == 0 || cell.column + 1 == columns || cell.row + 1 == rows_) return -1;
-    const double* z = &heights_[sample];
+    const double* z = &all_[sample];
     const std::ptrdiff_t down = columns;
     const double right = z[1] - z[0], rightBelow = z[down + 1] - z[0], below = z[down] - z[0],
                  left = z[-1] - z[0], leftAbove = z[-down - 1] - z[0], above = z[-down] - z[0];
@@ -216,8 +217,8 @@ class RasterError {
         {facing / 2, std::abs(right + below + leftAbove) / 3, std::abs(rightBelow + left + above) / 3});
   }
 
-  /// When so many of the live mesh's slots are left it is to be made smaller: 2 to 5 % of a build's time would
-  /// be its price sooner, for memory that is not missing at the peak, which is MtRecorder::finish()'s.
+  /// When so many of the live mesh's slots are left it is to be made smaller: 2 to 5 % of a build's time
+  /// would be its price sooner, for memory that is not missing at the peak, which is MtRecorder::finish()'s.
   static constexpr double kLeastLive = 0.5;
   /// The live mesh has moved its triangles: nothing here hangs on them.
   void compact(const SlotMap&) {}
@@ -242,16 +243,20 @@ class RasterError {
   SignedBound alongShortEdge(const Corner& a, const Corner& b) const;
   SignedBound alongLongEdge(const Corner& a, const Corner& b) const;
   bool isSmall(const Corner& a, const Corner& b, const Corner& c, double& difference) const;
-  template <class Differences>
+  template <class Height, class Differences>
   class PlaneDifferences;
   template <class Differences>
   void compare(const Corner& a, const Corner& b, const Corner& c, Differences& differences) const;
-  template <class Differences>
+  template <class Height, class Differences>
+  void compareWith(const Height* heights, const Corner& a, const Corner& b, const Corner& c,
+                   Differences& differences) const;
+  template <class Height, class Differences>
   void compareByBlocks(const Corner& a, const Corner& b, const Corner& c, const TriangleRows& rows,
-                       PlaneDifferences<Differences>& plane, Differences& differences) const;
+                       PlaneDifferences<Height, Differences>& plane, Differences& differences) const;
 
   const LatticePlan& plan_;
-  std::span<const double> heights_;
+  std::span<const double> all_;  // those that are read in their order
+  SampleHeights heights_;
   std::uint32_t rows_;
   bool reachesBeyondRims_;
   double roundUp_;  // to the next whole number, as nearest number to the sum: of fractions of a rise in rows

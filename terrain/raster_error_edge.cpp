@@ -17,9 +17,10 @@ namespace arete {
 namespace {
 
 /// The segment's height minus that of the finest triangulation where it crosses lines of the lattice.
+template <class Height>
 class LongEdge {
  public:
-  LongEdge(const RasterError::Corner& a, const RasterError::Corner& b, const double* heights,
+  LongEdge(const RasterError::Corner& a, const RasterError::Corner& b, const Height* heights,
            std::size_t columns, std::uint32_t rows)
       : x0_(a.x),
         y0_(a.y),
@@ -34,14 +35,14 @@ class LongEdge {
   /// Precondition: the segment does not run along a column.
   void crossColumns() {
     crossLines(dx_, y0_, dy_, [&](double t, std::int64_t k, std::int64_t row, double f) {
-      const double* h = sample(row, x0_ + k);
+      const Height* h = sample(row, x0_ + k);
       include(t, h[0], h[columns_], f);
     });
   }
   /// Precondition: nor along a row.
   void crossRows() {
     crossLines(dy_, x0_, dx_, [&](double t, std::int64_t k, std::int64_t column, double f) {
-      const double* h = sample(y0_ + k, column);
+      const Height* h = sample(y0_ + k, column);
       include(t, h[0], h[1], f);
     });
   }
@@ -50,14 +51,14 @@ class LongEdge {
     // On the diagonal both fractions are the same; take the one that is exact more often.
     crossDiagonals(
         dx_ - dy_, [](double f) { return f; },
-        [&](double t, const double* h, double f) { include(t, h[0], h[columns_ + 1], f); });
+        [&](double t, const Height* h, double f) { include(t, h[0], h[columns_ + 1], f); });
   }
   /// column + row = constant: edges of the finest triangulation in half cells only, from the lower-left to
   /// the upper-right sample.
   void crossDiagonalsOfHalfCells() {
     crossDiagonals(
         dx_ + dy_, [](double f) { return 1 - f; },
-        [&](double t, const double* h, double f) {
+        [&](double t, const Height* h, double f) {
           const bool isHalfCell = std::isnan(h[0]) != std::isnan(h[columns_ + 1]);
           if (isHalfCell) include(t, h[columns_], h[1], f);
         });
@@ -95,7 +96,7 @@ class LongEdge {
     }
   }
 
-  const double* sample(std::int64_t row, std::int64_t column) const {
+  const Height* sample(std::int64_t row, std::int64_t column) const {
     return heights_ + std::size_t(row) * columns_ + std::size_t(column);
   }
   /// At the part t of the segment, and f of the way between two samples.
@@ -107,7 +108,7 @@ class LongEdge {
 
   std::int64_t x0_, y0_, dx_, dy_;
   double z0_, dz_;
-  const double* heights_;
+  const Height* heights_;
   std::size_t columns_;
   std::uint32_t rows_;
   double high_ = 0, low_ = 0;
@@ -117,14 +118,17 @@ class LongEdge {
 
 SignedBound RasterError::alongShortEdge(const Corner& a, const Corner& b) const {
   const double dz = b.z - a.z;
-  const double* heights = heights_.data() + (std::size_t(a.y) * plan_.columns() + std::size_t(a.x));
+  const std::size_t start = std::size_t(a.y) * plan_.columns() + std::size_t(a.x);
   double high = 0, low = 0;
-  for (const ShortEdges::Crossing& crossing : shortEdges_.of(b.x - a.x, b.y - a.y)) {
-    const double from = heights[crossing.from], to = heights[crossing.to];
-    const double difference = a.z + dz * crossing.along - (from + crossing.between * (to - from));
-    high = difference > high ? difference : high;  // false for NODATA
-    low = difference < low ? difference : low;
-  }
+  heights_.with([&](const auto* heights) {
+    heights += start;
+    for (const ShortEdges::Crossing& crossing : shortEdges_.of(b.x - a.x, b.y - a.y)) {
+      const double from = heights[crossing.from], to = heights[crossing.to];
+      const double difference = a.z + dz * crossing.along - (from + crossing.between * (to - from));
+      high = difference > high ? difference : high;  // false for NODATA
+      low = difference < low ? difference : low;
+    }
+  });
   return {0 - low, high};  // not -low: that would be -0
 }
 
@@ -132,12 +136,14 @@ SignedBound RasterError::alongLongEdge(const Corner& a, const Corner& b) const {
   const std::int32_t dx = b.x - a.x, dy = b.y - a.y;
   // Along a column, a row or a diagonal it crosses edges of the finest triangulation at samples only.
   if (dx == 0 || dy == 0 || (dx == dy && !reachesBeyondRims_)) return {};
-  LongEdge edge(a, b, heights_.data(), plan_.columns(), rows_);
-  edge.crossColumns();
-  edge.crossRows();
-  edge.crossDiagonals();
-  if (reachesBeyondRims_) edge.crossDiagonalsOfHalfCells();
-  return edge.bound();
+  return heights_.with([&](const auto* heights) {
+    LongEdge edge(a, b, heights, plan_.columns(), rows_);
+    edge.crossColumns();
+    edge.crossRows();
+    edge.crossDiagonals();
+    if (reachesBeyondRims_) edge.crossDiagonalsOfHalfCells();
+    return edge.bound();
+  });
 }
 
 }  // namespace arete

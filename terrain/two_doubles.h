@@ -36,6 +36,10 @@ inline double smallest(Two x) {
 inline Two load(const double* x) {
   return Two{x[0], x[1]};
 }
+inline Two load(const float* x) {
+  using TwoFloats = float __attribute__((vector_size(8)));
+  return __builtin_convertvector((TwoFloats{x[0], x[1]}), Two);
+}
 /// The nearest whole numbers, of less than 2^51.
 inline Two nearest(Two x) {
   const Two shift = both(0x1.8p52);

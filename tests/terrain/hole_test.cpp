@@ -230,8 +230,6 @@ TEST(HoleTriangulation, MeasuresATriangleAsALookAtEverySampleDoes) {
     std::vector<double> heights(std::size_t(kColumns) * kRows);
     for (double& z : heights)
       z = random() % 50 == 0 ? std::nan("") : static_cast<double>(random() % 1000) / 8;
-    const LatticePlan plan(kColumns, 1, 1);
-    const RasterError errors(plan, heights, false);
     const int reach = 2 + run % 9;
     std::array<std::array<int, 2>, 3> c;
     for (auto& p : c)
@@ -259,6 +257,8 @@ TEST(HoleTriangulation, MeasuresATriangleAsALookAtEverySampleDoes) {
         above = std::max(above, plane - z);
         below = std::max(below, z - plane);
       }
+    const LatticePlan plan(kColumns, 1, 1);
+    const RasterError errors(plan, heights, false);
     const RasterError::Hole hole(errors, star, star.link[0]);
     SignedBound bound;
     EXPECT_NEAR(hole.maximum(0, 1, 2, 1e9, bound), std::max(above, below), 1e-9) << "run " << run;
