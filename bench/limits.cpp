@@ -51,9 +51,16 @@ constexpr Need kBuild[] = {
     {"simplify: evaluate", 36 + 4.1 * (8 + 32) + 3.6 * (4 + 2 * 32 + 8), 0, 20 + 3.6 * 420},
     // Note, half-edge, share of the star, notes of the link.
     {"simplify: choose", 1.6 * (4 + 16 + 4 + 64 + 96), 0, 1.6 * 48},
-    // The star read and written, the record written, notes and half-edges of the link; seams. Far: saturated
-    // error and sphere of three children, removed in levels of their own.
-    {"simplify: remove", 870, 6, 1360},
+    // The star read and written, the record written, notes and half-edges of the link; seams.
+    {"simplify: remove", 648, 0, 970},
+    // Two heights for each of two crossings of three diagonals and of 2.6 edges of the rim, codes of the
+    // star's
+    // triangles, codes out; a crossing is 6 operations, a code 8.
+    {"simplify: bounds", 5.6 * 2 * 8 + 36 + 24, 0, 5.6 * 2 * 6 + 17 * 8 + 27},
+    // The box of seven places, the farthest from its middle. Far: saturated error and sphere of three
+    // children,
+    // removed in levels of their own.
+    {"simplify: saturate", 4 * 18, 6, 7 * 14 + 3 * 16 + 14},
     // Seams, the new triangles and those across the rim, read and written.
     {"simplify: sew", 650, 0, 60},
     {"finish: order", 26, 2, 20},

@@ -90,7 +90,7 @@ std::uint32_t MtRecorder::beginBatch(BatchOrder order, std::span<const std::uint
   return first;
 }
 
-void MtRecorder::record(std::uint32_t removal, const VertexRemoval& what) {
+void MtRecorder::keep(std::uint32_t removal, const VertexRemoval& what) {
   const std::uint32_t begin = slotBegin_[removal];
   const std::size_t slots = what.link.size();
   assert(slots == slotBegin_[removal + 1] - begin && slots >= 3);
@@ -102,13 +102,13 @@ void MtRecorder::record(std::uint32_t removal, const VertexRemoval& what) {
     ceiling_[begin + i] = i < what.ceiling.size() ? what.ceiling[i] : kNone;
   }
 
-  std::uint16_t saturated = 0;
   const std::size_t firstFloor = begin - 2 * std::size_t(removal);
-  for (std::size_t i = 0; i < slots - 2; ++i) {
-    floor_[firstFloor + i] = what.floor[i];
-    saturated = std::max(saturated, what.floor[i].error);
-  }
+  for (std::size_t i = 0; i < slots - 2; ++i) floor_[firstFloor + i] = what.floor[i];
+}
 
+void MtRecorder::saturate(std::uint32_t removal, const VertexRemoval& what) {
+  std::uint16_t saturated = 0;
+  for (const FloorCodes& codes : what.floor) saturated = std::max(saturated, codes.error);
   EnclosingBall ball = EnclosingBall::around(what.metricPositions);
   for (const std::uint32_t child : what.ceilingBearer) {
     if (child == kNone) continue;

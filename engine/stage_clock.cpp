@@ -42,6 +42,17 @@ void StageClock::leave() {
   open_.pop_back();
 }
 
+void StageClock::moveShare(std::string_view from, std::string_view to, double share) {
+  const StageTime moved = timeOf(from);
+  StageTime& other = timeOf(to);
+  other.seconds += share * moved.seconds;
+  other.cpuSeconds += share * moved.cpuSeconds;
+  other.times = moved.times;
+  StageTime& left = timeOf(from);
+  left.seconds -= share * moved.seconds;
+  left.cpuSeconds -= share * moved.cpuSeconds;
+}
+
 void StageClock::shareOut(std::span<StageClock* const> workers) {
   double total = 0;
   for (const StageClock* worker : workers)

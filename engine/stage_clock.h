@@ -46,6 +46,10 @@ class StageClock {
   /// in proportion: each worker's tells what one of the threads did meanwhile. They are emptied.
   void shareOut(std::span<StageClock* const> workers);
 
+  /// So much of the time of a stage (0 .. 1) becomes that of another: of parts that are too short for scopes
+  /// and were timed now and then. `times` of the other: as often as the stage.
+  void moveShare(std::string_view from, std::string_view to, double share);
+
   /// The stages in the order in which they were first entered. Precondition: no scope is open.
   const std::vector<StageTime>& times() const { return times_; }
 

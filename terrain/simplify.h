@@ -23,14 +23,17 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <vector>
 
 #include "engine/result.h"
 #include "engine/run_context.h"
 #include "engine/shared_progress.h"
+#include "terrain/removal_times.h"
 #include "terrain/simplify_level.h"
 #include "terrain/simplify_piece.h"
 #include "terrain/simplify_state.h"
@@ -71,6 +74,7 @@ class Simplifier {
       if (double(s_.liveTriangles) < Errors::kLeastLive * double(s_.mesh.triangles.size()))
         s_.errors.compact(s_.mesh.compact(s_.waiting.vertices()));
     }
+    if (context_.clock != nullptr) tellRemovals(*context_.clock);
     context_.report("simplify", 1);
     return root();
   }
@@ -179,6 +183,20 @@ class Simplifier {
     for (std::uint32_t k = 0; k < levels && !context_.cancelled(); ++k)
       progress_->add(together_.levelOf(some, thresholds[k], ++numbers_, {groups_, pieces}));
     return thresholds.back();
+  }
+
+  /// What bounds and saturation take of all removals, by those of the pieces that were timed.
+  void tellRemovals(StageClock& clock) {
+    std::array<double, RemovalTimes::kParts> seconds{};
+    for (const OneWorker& one : workers_)
+      for (std::size_t part = 0; part < seconds.size(); ++part)
+        seconds[part] += one.worker.removalTimes().seconds()[part];
+    const double all = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+    if (!(all > 0)) return;
+    const double bounds = seconds[RemovalTimes::bounds] / all,
+                 saturation = seconds[RemovalTimes::saturation] / all;
+    clock.moveShare("simplify: remove", "simplify: bounds", bounds);
+    clock.moveShare("simplify: remove", "simplify: saturate", saturation / (1 - bounds));
   }
 
   SimplifiedRoot root() const {

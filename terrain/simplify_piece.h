@@ -21,6 +21,7 @@
 #include "engine/stage_clock.h"
 #include "engine/uninitialized_vector.h"
 #include "terrain/measured_floor.h"
+#include "terrain/removal_times.h"
 #include "terrain/simplify_cost.h"
 #include "terrain/simplify_removal.h"
 #include "terrain/simplify_state.h"
@@ -36,7 +37,11 @@ class PieceWorker {
   using Piece = WaitingList::Piece;
 
   /// `clock` may be null.
-  PieceWorker(State& state, StageClock* clock) : s_(state), cost_(state), remover_(state), clock_(clock) {}
+  PieceWorker(State& state, StageClock* clock)
+      : s_(state), cost_(state), remover_(state, clock != nullptr ? &times_ : nullptr), clock_(clock) {}
+  // Its remover tells its times, where they are.
+  PieceWorker(const PieceWorker&) = delete;
+  PieceWorker& operator=(const PieceWorker&) = delete;
 
   /// A level of those of the piece that may go. `number`: of the level, none of a vertex's levels has the
   /// same. Returns how many went.
@@ -52,6 +57,9 @@ class PieceWorker {
 
   /// The vertices that were held since the last call, in no order, some more than once. They are due never.
   std::vector<std::uint32_t>& held() { return held_; }
+
+  /// Of its removals; nothing without a clock.
+  const RemovalTimes& removalTimes() const { return times_; }
 
  private:
   using Note = VertexNote::State;
@@ -119,6 +127,7 @@ class PieceWorker {
   static constexpr std::size_t kStarsAhead = 3;
 
   State& s_;
+  RemovalTimes times_;
   RemovalCost<Plan, Errors> cost_;
   VertexRemover<Plan, Errors> remover_;
   StageClock* clock_;

@@ -15,6 +15,7 @@
 #include "terrain/floor_joins.h"
 #include "terrain/hole.h"
 #include "terrain/measured_floor.h"
+#include "terrain/removal_times.h"
 #include "terrain/simplify_state.h"
 
 namespace arete {
@@ -23,7 +24,9 @@ namespace arete {
 template <class Plan, class Errors>
 class VertexRemover {
  public:
-  explicit VertexRemover(SimplifyState<Plan, Errors>& state) : s_(state) {}
+  /// `times` may be null.
+  explicit VertexRemover(SimplifyState<Plan, Errors>& state, RemovalTimes* times = nullptr)
+      : s_(state), times_(times) {}
 
   /// Asks for what remove() will read.
   [[gnu::always_inline]] void prefetch(const Star& star) const {
@@ -44,15 +47,23 @@ class VertexRemover {
   /// link, to be sewn.
   void remove(std::uint32_t v, const Star& star, MeasuredFloor& floor, std::uint32_t removal,
               std::span<Seam> seams) {
+    RemovalTimes::Lap lap(times_);
     typename Errors::Hole hole(s_.errors, star, v);
     if (floor.isEmpty()) fill(v, star, hole, floor);
     const FloorJoins joins(floor.triangulation);
+    lap.was(RemovalTimes::rewriting);
     encodeBounds(star, hole, joins, floor);
-    record(v, star, hole, floor.triangulation.size, removal);
+    lap.was(RemovalTimes::bounds);
+    const VertexRemoval what = describe(v, star, hole, floor.triangulation.size);
+    s_.recorder.keep(removal, what);
+    lap.was(RemovalTimes::rewriting);
+    s_.recorder.saturate(removal, what);
+    lap.was(RemovalTimes::saturation);
     refill(s_.mesh, star, floor.triangulation, joins, s_.recorder.firstBirth(removal), removal, seams);
     hole.settle(floor.triangulation);
     tellLink(v, star);
     s_.mesh.vertexHalfedge[v] = LiveMesh::kNone;
+    lap.was(RemovalTimes::rewriting);
   }
 
  private:
@@ -104,8 +115,8 @@ class VertexRemover {
     }
   }
 
-  void record(std::uint32_t v, const Star& star, const typename Errors::Hole& hole, int floorSize,
-              std::uint32_t removal) {
+  VertexRemoval describe(std::uint32_t v, const Star& star, const typename Errors::Hole& hole,
+                         int floorSize) {
     for (int i = 0; i < star.triangleCount; ++i) {
       ceiling_[i] = s_.mesh.triangles[star.triangle(i)].birth;
       bearer_[i] = s_.mesh.triangles[star.triangle(i)].bearer;
@@ -123,7 +134,7 @@ class VertexRemover {
     what.ceiling = {ceiling_.data(), size(star.triangleCount)};
     what.ceilingBearer = {bearer_.data(), size(star.triangleCount)};
     what.floor = {codes_.data(), size(floorSize)};
-    s_.recorder.record(removal, what);
+    return what;
   }
 
   /// Two stars can share a link vertex: both write the same value. What a neighbour must forget cannot be
@@ -150,6 +161,7 @@ class VertexRemover {
   double withoutRounding(double x) const { return std::max(0.0, x - s_.roundingSlack); }
 
   SimplifyState<Plan, Errors>& s_;
+  RemovalTimes* times_;
   // Kept for the next removal, as clearing them takes longer than many a step.
   std::array<FloorCodes, kMaxHoleCorners> codes_;
   std::array<std::uint32_t, kMaxHoleCorners> ceiling_, bearer_;

@@ -87,6 +87,23 @@ TEST(StageClock, SharesWhatHasPassedAmongTheStagesThatWorkersTellOf) {
   EXPECT_LE(clock.times()[0].seconds, 0.010) << "what was shared out is no longer the outer stage's";
 }
 
+TEST(StageClock, MovesAShareOfAStageToAnotherAndLosesNothing) {
+  StageClock clock;
+  for (int i = 0; i < 2; ++i) {
+    const StageClock::Scope scope(&clock, "remove");
+    pass(4);
+  }
+  const StageTime whole = clock.times()[0];
+  clock.moveShare("remove", "bounds", 0.25);
+  ASSERT_EQ(clock.times().size(), 2u);
+  const StageTime &left = clock.times()[0], &moved = clock.times()[1];
+  EXPECT_EQ(moved.stage, "bounds");
+  EXPECT_EQ(moved.times, 2u);
+  EXPECT_NEAR(moved.seconds, 0.25 * whole.seconds, 1e-12);
+  EXPECT_NEAR(left.seconds + moved.seconds, whole.seconds, 1e-12);
+  EXPECT_NEAR(left.cpuSeconds + moved.cpuSeconds, whole.cpuSeconds, 1e-12);
+}
+
 TEST(StageClock, IsOptional) {
   const StageClock::Scope scope(nullptr, "nobody listens");
 }
