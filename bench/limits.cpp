@@ -54,12 +54,10 @@ constexpr Need kBuild[] = {
     // The star read and written, the record written, notes and half-edges of the link; seams.
     {"simplify: remove", 648, 0, 970},
     // Two heights for each of two crossings of three diagonals and of 2.6 edges of the rim, codes of the
-    // star's
-    // triangles, codes out; a crossing is 6 operations, a code 8.
+    // triangles of the star, codes out; a crossing is 6 operations, a code 8.
     {"simplify: bounds", 5.6 * 2 * 8 + 36 + 24, 0, 5.6 * 2 * 6 + 17 * 8 + 27},
     // The box of seven places, the farthest from its middle. Far: saturated error and sphere of three
-    // children,
-    // removed in levels of their own.
+    // children, removed in levels of their own.
     {"simplify: saturate", 4 * 18, 6, 7 * 14 + 3 * 16 + 14},
     // Seams, the new triangles and those across the rim, read and written.
     {"simplify: sew", 650, 0, 60},

@@ -95,7 +95,7 @@ class CutStage {
     add(variant, "tested", tested / seconds / 1e6, "million/s", Better::higher);
   }
 
-  /// Uniform cuts of as nearly so many triangles as some tolerance makes, if the model has a few more.
+  /// Uniform cuts of as nearly so many triangles as some tolerance makes, if the model has twice as many.
   Status ofSize(std::size_t triangles) {
     if (model_.mt.finestTriangleCount() < 2 * triangles) return {};
     for (const CutMethod method : {CutMethod::saturated, CutMethod::minimal}) {

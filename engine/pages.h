@@ -30,6 +30,7 @@ std::size_t giveTailBack(void* pages, std::size_t bytes, std::size_t needed) noe
 
 /// Gives the system what the heap holds and nobody uses. Worth it after work in many small blocks, most of
 /// which are freed: large arrays take pages of their own, which the heap's free ones would stand beside.
+/// Does nothing where the C library has no way to.
 void giveFreeHeapBack();
 
 /// While there is one, pages given back are kept for those who take some next: a page from the system has to

@@ -115,6 +115,7 @@ class VertexRemover {
     }
   }
 
+  /// In lists of this remover's, until the next removal.
   VertexRemoval describe(std::uint32_t v, const Star& star, const typename Errors::Hole& hole,
                          int floorSize) {
     for (int i = 0; i < star.triangleCount; ++i) {
