@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <random>
 #include <type_traits>
@@ -29,8 +29,8 @@ void expectSame(const SampleHeights& heights, const std::vector<double>& expecte
                  other = heights.with([i](const auto*first) { return static_cast<double>(first[i]); });
     ASSERT_EQ(std::isnan(one), std::isnan(expected[i])) << i;
     if (std::isnan(expected[i])) continue;
-    ASSERT_EQ(std::memcmp(&one, &expected[i], sizeof one), 0) << i;
-    ASSERT_EQ(std::memcmp(&other, &expected[i], sizeof other), 0) << i;
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(one), std::bit_cast<std::uint64_t>(expected[i])) << i;
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(other), std::bit_cast<std::uint64_t>(expected[i])) << i;
   }
 }
 
@@ -39,9 +39,7 @@ std::vector<double> ofFloats(std::uint32_t seed) {
   std::mt19937 random(seed);
   std::vector<double> heights(kSamples);
   for (double& z : heights) {
-    const auto bits = static_cast<std::uint32_t>(random());
-    float any;
-    std::memcpy(&any, &bits, sizeof any);
+    const auto any = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
     const double kinds[] = {double(int(random() % 9000) - 400), std::isfinite(any) ? double(any) : 1.5, -0.0,
                             kVoid};
     z = kinds[random() % 4];
