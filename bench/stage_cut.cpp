@@ -51,7 +51,7 @@ class CutStage {
       saturated(fmt::format("saturated, finest, {}", threadsText(threads)), 0);
     }
     for (const std::size_t triangles : kUniformTriangles)
-      if (const Status s = ofSize(triangles); !s) return tl::unexpected(s.error());
+      if (const Status s = uniform(triangles); !s) return tl::unexpected(s.error());
     for (const double e : source_.tolerances)
       if (const Status s = general(fmt::format("minimal, {:g}", e), UniformError(e), {}); !s)
         return tl::unexpected(s.error());
@@ -95,30 +95,14 @@ class CutStage {
     add(variant, "tested", tested / seconds / 1e6, "million/s", Better::higher);
   }
 
-  /// Uniform cuts of as nearly so many triangles as some tolerance makes, if the model has twice as many.
-  Status ofSize(std::size_t triangles) {
+  /// Uniform cuts of so many triangles, if the model has twice as many.
+  Status uniform(std::size_t triangles) {
     if (model_.mt.finestTriangleCount() < 2 * triangles) return {};
+    const auto within = [](double error) { return UniformError(error); };
     for (const CutMethod method : {CutMethod::saturated, CutMethod::minimal}) {
-      const CutOptions options{.method = method};
-      double fine = 1e-6, coarse = 1e6;
-      for (int step = 0; step < 30; ++step) {
-        const double error = std::sqrt(fine * coarse);
-        const Result<Cut> cut = takeCut(model_.mt, UniformError(error), options);
-        if (!cut) return tl::unexpected(cut.error());
-        (cut->triangles.size() > triangles ? fine : coarse) = error;
-      }
-      const UniformError criterion(coarse);
-      const Result<Cut> cut = takeCut(model_.mt, criterion, options);
-      if (!cut) return tl::unexpected(cut.error());
       const char* const name = method == CutMethod::saturated ? "saturated" : "minimal";
-      for (const int threads : {1, 0}) {
-        const auto limit = limitTo(threads);
-        const double seconds = medianSeconds(kShort, [&] { return takeCut(model_.mt, criterion, options); });
-        const std::string variant =
-            fmt::format("{}, {} triangles, {}", name, triangles, threadsText(threads));
-        add(variant, "triangles", double(cut->triangles.size()), "", Better::neither);
-        add(variant, "time", seconds * 1e3, "ms", Better::lower);
-      }
+      const std::string variant = fmt::format("{}, {} triangles", name, triangles);
+      if (Status s = ofSize(variant, triangles, {.method = method}, 1e-6, 1e6, within); !s) return s;
     }
     return {};
   }
@@ -131,25 +115,32 @@ class CutStage {
     camera.height = (ground ? ground->height : 0) + 300 / model_.georeference.verticalUnitMetres;
     const Result<View> seen = viewOf(camera, model_);
     if (!seen) return tl::unexpected(seen.error());
-    const CutOptions options{.method = CutMethod::saturated};
     const auto withPixels = [&](double pixels) {
       return ViewError({.view = *seen, .pixels = pixels}, model_.mt.arrays().metric);
     };
-    double fine = 1e-3, coarse = 1e3;
+    return ofSize("saturated, view", kViewTriangles, {.method = CutMethod::saturated}, 1e-3, 1e3, withPixels);
+  }
+
+  /// Cuts of no more than so many triangles, by each number of threads. criterionOf(bound): the least bound
+  /// is looked for, between a fine one that takes more triangles and a coarse one that does not.
+  template <class CriterionOf>
+  Status ofSize(const std::string& variant, std::size_t triangles, const CutOptions& options, double fine,
+                double coarse, const CriterionOf& criterionOf) {
     for (int step = 0; step < 30; ++step) {
-      const double pixels = std::sqrt(fine * coarse);
-      const Result<Cut> cut = takeCut(model_.mt, withPixels(pixels), options);
+      const double bound = std::sqrt(fine * coarse);
+      const Result<Cut> cut = takeCut(model_.mt, criterionOf(bound), options);
       if (!cut) return tl::unexpected(cut.error());
-      (cut->triangles.size() > kViewTriangles ? fine : coarse) = pixels;
+      (cut->triangles.size() > triangles ? fine : coarse) = bound;
     }
-    const ViewError criterion = withPixels(coarse);
+    const auto criterion = criterionOf(coarse);
     const Result<Cut> cut = takeCut(model_.mt, criterion, options);
+    if (!cut) return tl::unexpected(cut.error());
     for (const int threads : {1, 0}) {
       const auto limit = limitTo(threads);
       const double seconds = medianSeconds(kShort, [&] { return takeCut(model_.mt, criterion, options); });
-      const std::string variant = fmt::format("saturated, view, {}", threadsText(threads));
-      add(variant, "triangles", double(cut->triangles.size()), "", Better::neither);
-      add(variant, "time", seconds * 1e3, "ms", Better::lower);
+      const std::string byThreads = fmt::format("{}, {}", variant, threadsText(threads));
+      add(byThreads, "triangles", double(cut->triangles.size()), "", Better::neither);
+      add(byThreads, "time", seconds * 1e3, "ms", Better::lower);
     }
     return {};
   }

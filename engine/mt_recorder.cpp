@@ -90,7 +90,7 @@ std::uint32_t MtRecorder::beginBatch(BatchOrder order, std::span<const std::uint
   return first;
 }
 
-void MtRecorder::keep(std::uint32_t removal, const VertexRemoval& what) {
+void MtRecorder::record(std::uint32_t removal, const VertexRemoval& what) {
   const std::uint32_t begin = slotBegin_[removal];
   const std::size_t slots = what.link.size();
   assert(slots == slotBegin_[removal + 1] - begin && slots >= 3);

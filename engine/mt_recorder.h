@@ -86,17 +86,13 @@ class MtRecorder {
   FloorCodes codes(std::uint32_t birth) const {
     return birth < finestTriangles_ ? FloorCodes{} : floor_[birth - finestTriangles_];
   }
-  /// Records an announced removal. Thread-safe for different removals of a batch; the removals that bore its
-  /// ceiling are of earlier batches. Precondition: link.size() as announced, 3 <= size.
-  void record(std::uint32_t removal, const VertexRemoval& what) {
-    keep(removal, what);
-    saturate(removal, what);
-  }
-  /// The two parts of it: what the removal is; and, once that is kept, its saturated error and sphere.
-  void keep(std::uint32_t removal, const VertexRemoval& what);
+  /// Records an announced removal: first what it is, then its saturated error and sphere. Thread-safe for
+  /// different removals of a batch; the removals that bore its ceiling are of earlier batches. Precondition:
+  /// link.size() as announced, 3 <= size.
+  void record(std::uint32_t removal, const VertexRemoval& what);
   void saturate(std::uint32_t removal, const VertexRemoval& what);
 
-  /// Asks for what record() and codes() read of a triangle of the ceiling and of the removal that bore it.
+  /// Asks for what saturate() and codes() read of a triangle of the ceiling and of the removal that bore it.
   [[gnu::always_inline]] void prefetch(std::uint32_t bearer, std::uint32_t birth) const {
     if (bearer == kNone) return;
     __builtin_prefetch(&saturated_[bearer]);

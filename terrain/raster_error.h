@@ -142,7 +142,6 @@ class RasterError {
   /// `reachesBeyondRims`: triangles may reach beyond the rim of the domain (a rim tolerance is in use).
   RasterError(const LatticePlan& plan, std::span<const double> heights, bool reachesBeyondRims)
       : plan_(plan),
-        all_(heights),
         heights_(heights),
         rows_(static_cast<std::uint32_t>(heights.size() / plan.columns())),
         reachesBeyondRims_(reachesBeyondRims),
@@ -187,7 +186,7 @@ class RasterError {
     const std::uint32_t columns = plan_.columns();
     const LatticePlan::Cell cell = plan_.cell(sample);
     if (cell.column == 0 || cell.row == 0 || cell.column + 1 == columns || cell.row + 1 == rows_) return -1;
-    const double* z = &all_[sample];
+    const double* z = &heights_.given()[sample];
     const std::ptrdiff_t down = columns;
     const double along = std::abs(z[0] - (z[-1] + z[1]) / 2),
                  across = std::abs(z[0] - (z[-down] + z[down]) / 2);
@@ -206,7 +205,7 @@ class RasterError {
     const std::uint32_t columns = plan_.columns();
     const LatticePlan::Cell cell = plan_.cell(sample);
     if (cell.column == 0 || cell.row == 0 || cell.column + 1 == columns || cell.row + 1 == rows_) return -1;
-    const double* z = &all_[sample];
+    const double* z = &heights_.given()[sample];
     const std::ptrdiff_t down = columns;
     const double right = z[1] - z[0], rightBelow = z[down + 1] - z[0], below = z[down] - z[0],
                  left = z[-1] - z[0], leftAbove = z[-down - 1] - z[0], above = z[-down] - z[0];
@@ -255,7 +254,6 @@ class RasterError {
                        PlaneDifferences<Height, Differences>& plane, Differences& differences) const;
 
   const LatticePlan& plan_;
-  std::span<const double> all_;  // those that are read in their order
   SampleHeights heights_;
   std::uint32_t rows_;
   bool reachesBeyondRims_;

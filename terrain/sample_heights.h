@@ -17,6 +17,8 @@ class SampleHeights {
   explicit SampleHeights(std::span<const double> heights);
 
   std::size_t size() const { return doubles_.size(); }
+  /// As they were given, for who reads them in their order.
+  std::span<const double> given() const { return doubles_; }
   double operator[](std::size_t sample) const {
     return areFloats_ ? static_cast<double>(floats_[sample]) : doubles_[sample];
   }

@@ -55,7 +55,7 @@ class VertexRemover {
     encodeBounds(star, hole, joins, floor);
     lap.was(RemovalTimes::bounds);
     const VertexRemoval what = describe(v, star, hole, floor.triangulation.size);
-    s_.recorder.keep(removal, what);
+    s_.recorder.record(removal, what);
     lap.was(RemovalTimes::rewriting);
     s_.recorder.saturate(removal, what);
     lap.was(RemovalTimes::saturation);

@@ -15,8 +15,6 @@ namespace arete {
 /// Where the slots of an array went when the dead ones were dropped; the others kept their order.
 class SlotMap {
  public:
-  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
-
   /// isLive(slot), for slots below size. O(size), parallel.
   template <class IsLive>
   SlotMap(std::size_t size, const IsLive& isLive) : words_(size / kBits + 1) {
@@ -34,11 +32,7 @@ class SlotMap {
     }
   }
 
-  /// The new slot of an old one; kNone: dropped.
-  std::uint32_t operator[](std::size_t slot) const {
-    return (words_[slot / kBits].live >> slot % kBits & 1) != 0 ? ofLive(slot) : kNone;
-  }
-  /// The same of one that is known to be live.
+  /// The new slot of a live one.
   std::uint32_t ofLive(std::size_t slot) const {
     const Word& word = words_[slot / kBits];
     return word.before + count(word.live & ((std::uint32_t{1} << slot % kBits) - 1));
