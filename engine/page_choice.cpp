@@ -54,8 +54,11 @@ double secondsToTouch(char* pages, std::size_t bytes) {
 
 }  // namespace
 
-void choosePages(char* pages, std::size_t bytes, std::size_t arrayBytes, std::size_t processBytes) {
-  if (arrayBytes < kLargeArray && processBytes < kLargeProcess) return;
+bool canHaveUnusedEnds(std::size_t arrayBytes, std::size_t processBytes) {
+  return arrayBytes >= kLargeArray || processBytes >= kLargeProcess;
+}
+
+void choosePages(char* pages, std::size_t bytes) {
   Choice& c = choice();
   const std::lock_guard lock(c.choosing);
   while (bytes != 0) {
@@ -80,7 +83,7 @@ void choosePagesOfHeap(void* memory, std::size_t bytes) {
   const std::size_t before = bytesToPiece(memory);
   char* const pages = static_cast<char*>(memory) + before;
   const std::size_t whole = (bytes - before) / kPieceOfPages * kPieceOfPages;
-  if (bytes > kLargestOfHeap) return choosePages(pages, whole, bytes, bytes);
+  if (bytes > kLargestOfHeap) return choosePages(pages, whole);
   // Perhaps it is not fresh, so its price would tell nothing.
   Choice& c = choice();
   const std::lock_guard lock(c.choosing);

@@ -6,10 +6,13 @@
 
 namespace arete {
 
-/// Chooses small or large pages for fresh memory: whole pieces (engine/pages.h) that nobody has touched, of
-/// an array of `arrayBytes` in a process that has taken so many. To learn what either kind costs it touches
-/// a piece now and then, which stays zero. Thread-safe.
-void choosePages(char* pages, std::size_t bytes, std::size_t arrayBytes, std::size_t processBytes);
+/// Chooses small or large pages for fresh memory: whole pieces (engine/pages.h) that nobody has touched. To
+/// learn what either kind costs it touches a piece now and then, which stays zero. Thread-safe.
+void choosePages(char* pages, std::size_t bytes);
+
+/// Whether what an array may leave unused of large pages is little, in a process that has taken so many
+/// bytes.
+bool canHaveUnusedEnds(std::size_t arrayBytes, std::size_t processBytes);
 
 /// The same for memory that the heap has just given, and that nobody has touched since.
 void choosePagesOfHeap(void* memory, std::size_t bytes);

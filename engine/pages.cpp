@@ -123,11 +123,13 @@ bool layOver(char* fresh, char* piece) {
 
 std::atomic<std::size_t> takenBytes = 0;  // that somebody has
 
-/// What is taken now, or nothing; those behind the kept ones are fresh.
-char* chosen(char* pages, std::size_t kept, std::size_t bytes) {
+/// What is taken now, or nothing, and the kind of pages for what is fresh of it, behind the kept ones. The
+/// end of the last piece that is not asked for is no reason for a large page, unless there are many others.
+char* chosen(char* pages, std::size_t kept, std::size_t bytes, std::size_t asked) {
   if (pages == nullptr) return nullptr;
   takenBytes += bytes;
-  if (bytes >= kPiece) choosePages(pages + kept, bytes - kept, bytes, takenBytes);
+  const std::size_t end = (canHaveUnusedEnds(bytes, takenBytes) ? bytes : asked) / kPiece * kPiece;
+  if (end > kept) choosePages(pages + kept, end - kept);
   return pages;
 }
 
@@ -135,7 +137,7 @@ char* chosen(char* pages, std::size_t kept, std::size_t bytes) {
 
 void* takeZeroPages(std::size_t bytes) {
   const std::size_t whole = wholePieces(bytes);
-  return chosen(mapOrMakeRoom(whole), 0, whole);
+  return chosen(mapOrMakeRoom(whole), 0, whole, bytes);
 }
 
 void giveZeroPagesBack(void* pages, std::size_t bytes) {
@@ -145,9 +147,10 @@ void giveZeroPagesBack(void* pages, std::size_t bytes) {
 }
 
 void* takePages(std::size_t bytes) {
+  const std::size_t asked = bytes;
   bytes = wholePieces(bytes);
 #ifdef MREMAP_FIXED
-  if (bytes < kPiece) return chosen(mapOrMakeRoom(bytes), 0, bytes);
+  if (bytes < kPiece) return chosen(mapOrMakeRoom(bytes), 0, bytes, asked);
   std::vector<char*> pieces = takePieces(bytes / kPiece);
   const std::size_t kept = pieces.size() * kPiece;
   // No more are to be had, or to be moved: these would be kept for nobody.
@@ -155,7 +158,7 @@ void* takePages(std::size_t bytes) {
   char* const pages = mapFresh(bytes);
   if (pages == nullptr) {
     unmapPieces(pieces);
-    return chosen(mapOrMakeRoom(bytes), 0, bytes);
+    return chosen(mapOrMakeRoom(bytes), 0, bytes, asked);
   }
   for (char* at = pages; !pieces.empty(); at += kPiece, pieces.pop_back()) {
     if (layOver(at, pieces.back())) continue;
@@ -165,11 +168,11 @@ void* takePages(std::size_t bytes) {
     stopKeeping();
     unmap(pages, static_cast<std::size_t>(at - pages));
     unmap(at + kPiece, static_cast<std::size_t>(pages + bytes - (at + kPiece)));
-    return chosen(mapOrMakeRoom(bytes), 0, bytes);
+    return chosen(mapOrMakeRoom(bytes), 0, bytes, asked);
   }
-  return chosen(pages, kept, bytes);
+  return chosen(pages, kept, bytes, asked);
 #else
-  return chosen(mapOrMakeRoom(bytes), 0, bytes);
+  return chosen(mapOrMakeRoom(bytes), 0, bytes, asked);
 #endif
 }
 

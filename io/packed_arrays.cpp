@@ -15,25 +15,11 @@
 #include <cmath>
 
 #include "engine/enclosing_ball.h"
-#include "engine/pages.h"
 
 namespace arete::packed {
 
 constexpr std::uint32_t kNone = MultiTriangulation::kNone;
 constexpr std::uint32_t kAhead = 8;
-constexpr std::size_t kWorthAMapping = std::size_t{1} << 20;
-
-void* takeZeros(std::size_t bytes) {
-  if (bytes < kWorthAMapping) return std::calloc(bytes, 1);
-  return takeZeroPages(bytes);
-}
-
-void giveZerosBack(void* zeros, std::size_t bytes) {
-  if (bytes < kWorthAMapping)
-    std::free(zeros);
-  else
-    giveZeroPagesBack(zeros, bytes);
-}
 
 bool Arrays::allocate(const AmtCounts& counts, std::uint64_t borders) {
   rootVertices = static_cast<std::uint32_t>(counts.rootVertices);
@@ -41,34 +27,34 @@ bool Arrays::allocate(const AmtCounts& counts, std::uint64_t borders) {
   nodes = static_cast<std::uint32_t>(counts.nodes);
   slots = static_cast<std::uint32_t>(counts.slots);
   const std::size_t n = nodes, s = slots, ids = std::size_t{roots} + s, v = std::size_t{rootVertices} + n;
-  rootTriangles = ZeroArray<std::array<std::uint32_t, 3>>(roots);
-  slotBegin = ZeroArray<std::uint32_t>(n + 1);
-  link = ZeroArray<std::uint32_t>(s);
-  remover = ZeroArray<std::uint32_t>(ids);
-  floor = ZeroArray<std::uint32_t>(s - 2 * n);
   constexpr std::size_t k = MultiTriangulation::kSlotsPerHint;
-  creatorHint = ZeroArray<std::uint32_t>((s + k - 1) / k);
-  error = ZeroArray<std::uint16_t>(ids);
-  below = ZeroArray<std::uint16_t>(ids);
-  above = ZeroArray<std::uint16_t>(ids);
-  saturatedError = ZeroArray<std::uint16_t>(n);
-  sphere = ZeroArray<Sphere>(n);
-  samples = ZeroArray<std::uint32_t>(isLattice ? v : 0);
-  plan = ZeroArray<Vec2>(isLattice ? 0 : v);
-  rawHeights = ZeroArray<std::byte>(v * encoding.bytesPerHeight());
-  floatPlaces = ZeroArray<Place<float>>(holdsFloats() ? v : 0);
-  doublePlaces = ZeroArray<Place<double>>(holdsFloats() ? 0 : v);
-  star = ZeroArray<std::uint8_t>(n);
-  border = ZeroArray<Border>(roots + borders);
+  const bool hasMemory = stays.lay([&](const auto& array) {
+    array(rootTriangles, roots);
+    array(slotBegin, n + 1);
+    array(link, s);
+    array(remover, ids);
+    array(floor, s - 2 * n);
+    array(creatorHint, (s + k - 1) / k);
+    array(error, ids);
+    array(below, ids);
+    array(above, ids);
+    array(saturatedError, n);
+    array(sphere, n);
+    array(samples, isLattice ? v : 0);
+    array(plan, isLattice ? 0 : v);
+    array(rawHeights, v * encoding.bytesPerHeight());
+  }) && goes.lay([&](const auto& array) {
+    array(floatPlaces, holdsFloats() ? v : 0);
+    array(doublePlaces, holdsFloats() ? 0 : v);
+    array(star, n);
+    array(border, roots + borders);
+  });
+  if (!hasMemory) return false;
   wholeErrors.assign((kLatticeErrorArea + 1) * 16, 0);
   for (unsigned area = 1; area <= kLatticeErrorArea; ++area)
     for (unsigned whole = 0; whole < 16; ++whole)
       wholeErrors[area * 16 + whole] = wholeErrorCode(scale, encoding, whole, area);
-  return rootTriangles.isThere() && slotBegin.isThere() && link.isThere() && remover.isThere() &&
-         floor.isThere() && creatorHint.isThere() && error.isThere() && below.isThere() && above.isThere() &&
-         saturatedError.isThere() && sphere.isThere() && samples.isThere() && plan.isThere() &&
-         rawHeights.isThere() && floatPlaces.isThere() && doublePlaces.isThere() && star.isThere() &&
-         border.isThere();
+  return true;
 }
 
 void Arrays::joinRoot() {
@@ -113,6 +99,7 @@ MultiTriangulation Arrays::model(std::shared_ptr<Arrays> arrays) {
   from.doublePlaces = {};
   from.star = {};
   from.border = {};
+  from.goes = {};
   from.blocks = makeNodeBlocks(from.saturatedError.view(), from.sphere.view());
   MtArrays a;
   a.rootVertices = from.rootVertices;

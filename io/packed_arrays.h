@@ -2,9 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
-#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -13,37 +11,9 @@
 #include "io/amt_metadata.h"
 #include "io/packed_layout.h"
 #include "io/packed_symbols.h"
+#include "io/zero_block.h"
 
 namespace arete::packed {
-
-/// Zeros; of many, pages of the system. nullptr when there is not enough memory.
-void* takeZeros(std::size_t bytes);
-void giveZerosBack(void* zeros, std::size_t bytes);
-
-/// An array of zeros, whose memory comes page by page as they are touched. There are some more behind its
-/// end, so that looking ahead needs no test.
-template <class T>
-class ZeroArray {
-  static constexpr std::size_t kSpare = 8;
-
- public:
-  ZeroArray() = default;
-  /// Not there when there is not enough memory.
-  explicit ZeroArray(std::size_t size)
-      : data_(static_cast<T*>(takeZeros((size + kSpare) * sizeof(T))), Free{size}) {}
-  T* get() const { return data_.get(); }
-  T& operator[](std::size_t i) const { return data_.get()[i]; }
-  std::size_t size() const { return isThere() ? data_.get_deleter().size : 0; }
-  std::span<const T> view() const { return {data_.get(), size()}; }
-  bool isThere() const { return data_ != nullptr; }
-
- private:
-  struct Free {
-    std::size_t size = 0;
-    void operator()(T* p) const { giveZerosBack(p, (size + kSpare) * sizeof(T)); }
-  };
-  std::unique_ptr<T, Free> data_;
-};
 
 /// A triangle of the root, or one that a chunk leaves to others: all that they need to take it away, in one
 /// place. The first corner is the apex; `across` has what lay across each edge when the chunk ended (the id
@@ -74,6 +44,8 @@ struct Arrays {
   OutwardScale scale;
   MetricFrame metric;
 
+  /// Those that stay, and those that go when all is read.
+  ZeroBlock stays, goes;
   ZeroArray<std::array<std::uint32_t, 3>> rootTriangles;
   ZeroArray<std::uint32_t> slotBegin, link, remover, floor, creatorHint;
   ZeroArray<std::uint16_t> error, below, above, saturatedError;
