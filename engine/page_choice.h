@@ -10,12 +10,12 @@ namespace arete {
 /// learn what either kind costs it touches a piece now and then, which stays zero. Thread-safe.
 void choosePages(char* pages, std::size_t bytes);
 
+/// The same for memory that the heap has just given, and that nobody has touched since.
+void choosePagesOfHeap(void* memory, std::size_t bytes);
+
 /// Whether what an array may leave unused of large pages is little, in a process that has taken so many
 /// bytes.
 bool canHaveUnusedEnds(std::size_t arrayBytes, std::size_t processBytes);
-
-/// The same for memory that the heap has just given, and that nobody has touched since.
-void choosePagesOfHeap(void* memory, std::size_t bytes);
 
 /// Room in a vector that is empty, of the pages that cost less.
 template <class T>

@@ -3,6 +3,18 @@
 
 #include "engine/pages.h"
 
+#ifdef __has_feature
+#if __has_feature(address_sanitizer)
+#define ARETE_HAS_FENCES
+#endif
+#endif
+#ifdef __SANITIZE_ADDRESS__
+#define ARETE_HAS_FENCES
+#endif
+#ifdef ARETE_HAS_FENCES
+#include <sanitizer/asan_interface.h>
+#endif
+
 namespace arete::packed {
 
 bool ZeroBlock::take(std::size_t bytes) {
@@ -11,7 +23,16 @@ bool ZeroBlock::take(std::size_t bytes) {
   return memory_ != nullptr;
 }
 
+void ZeroBlock::fence([[maybe_unused]] std::byte* from) {
+#ifdef ARETE_HAS_FENCES
+  ASAN_POISON_MEMORY_REGION(from, kFence);
+#endif
+}
+
 void ZeroBlock::Free::operator()(std::byte* memory) const {
+#ifdef ARETE_HAS_FENCES
+  ASAN_UNPOISON_MEMORY_REGION(memory, bytes);
+#endif
   giveZeroPagesBack(memory, bytes);
 }
 

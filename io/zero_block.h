@@ -41,20 +41,23 @@ class ZeroBlock {
     forEach([&]<class T>(ZeroArray<T>& array, std::size_t size) {
       array = {reinterpret_cast<T*>(next), size};
       next += bytesOf(array, size);
+      fence(next - kFence);
     });
     return true;
   }
 
  private:
-  static constexpr std::size_t kSpare = 8, kLine = 64;
+  static constexpr std::size_t kSpare = 8, kLine = 64, kFence = kLine;
 
   template <class T>
   static std::size_t bytesOf(const ZeroArray<T>&, std::size_t size) {
     static_assert(std::is_trivially_copyable_v<T> && kLine % alignof(T) == 0);
-    return ((size + kSpare) * sizeof(T) + kLine - 1) / kLine * kLine;
+    return ((size + kSpare) * sizeof(T) + kLine - 1) / kLine * kLine + kFence;
   }
 
   bool take(std::size_t bytes);
+  /// The address sanitizer is to report whoever touches these kFence bytes, behind an array.
+  static void fence(std::byte* from);
 
   struct Free {
     std::size_t bytes;
