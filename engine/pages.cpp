@@ -125,8 +125,9 @@ std::atomic<std::size_t> takenBytes = 0;  // that somebody has
 
 /// What is taken now, or nothing, and the kind of pages for what is fresh of it, behind the kept ones. The
 /// end of the last piece that is not asked for is no reason for a large page, unless there are many others.
-char* chosen(char* pages, std::size_t kept, std::size_t bytes, std::size_t asked) {
+char* chosen(char* pages, std::size_t kept, std::size_t asked) {
   if (pages == nullptr) return nullptr;
+  const std::size_t bytes = wholePieces(asked);
   takenBytes += bytes;
   const std::size_t end = (canHaveUnusedEnds(bytes, takenBytes) ? bytes : asked) / kPiece * kPiece;
   if (end > kept) choosePages(pages + kept, end - kept);
@@ -136,8 +137,7 @@ char* chosen(char* pages, std::size_t kept, std::size_t bytes, std::size_t asked
 }  // namespace
 
 void* takeZeroPages(std::size_t bytes) {
-  const std::size_t whole = wholePieces(bytes);
-  return chosen(mapOrMakeRoom(whole), 0, whole, bytes);
+  return chosen(mapOrMakeRoom(wholePieces(bytes)), 0, bytes);
 }
 
 void giveZeroPagesBack(void* pages, std::size_t bytes) {
@@ -147,18 +147,17 @@ void giveZeroPagesBack(void* pages, std::size_t bytes) {
 }
 
 void* takePages(std::size_t bytes) {
-  const std::size_t asked = bytes;
-  bytes = wholePieces(bytes);
+  const std::size_t whole = wholePieces(bytes);
 #ifdef MREMAP_FIXED
-  if (bytes < kPiece) return chosen(mapOrMakeRoom(bytes), 0, bytes, asked);
-  std::vector<char*> pieces = takePieces(bytes / kPiece);
+  if (whole < kPiece) return chosen(mapOrMakeRoom(whole), 0, bytes);
+  std::vector<char*> pieces = takePieces(whole / kPiece);
   const std::size_t kept = pieces.size() * kPiece;
   // No more are to be had, or to be moved: these would be kept for nobody.
-  if (pieces.size() < bytes / kPiece) unmapPieces(emptyStock());
-  char* const pages = mapFresh(bytes);
+  if (pieces.size() < whole / kPiece) unmapPieces(emptyStock());
+  char* const pages = mapFresh(whole);
   if (pages == nullptr) {
     unmapPieces(pieces);
-    return chosen(mapOrMakeRoom(bytes), 0, bytes, asked);
+    return chosen(mapOrMakeRoom(whole), 0, bytes);
   }
   for (char* at = pages; !pieces.empty(); at += kPiece, pieces.pop_back()) {
     if (layOver(at, pieces.back())) continue;
@@ -167,12 +166,12 @@ void* takePages(std::size_t bytes) {
     unmapPieces(pieces);
     stopKeeping();
     unmap(pages, static_cast<std::size_t>(at - pages));
-    unmap(at + kPiece, static_cast<std::size_t>(pages + bytes - (at + kPiece)));
-    return chosen(mapOrMakeRoom(bytes), 0, bytes, asked);
+    unmap(at + kPiece, static_cast<std::size_t>(pages + whole - (at + kPiece)));
+    return chosen(mapOrMakeRoom(whole), 0, bytes);
   }
-  return chosen(pages, kept, bytes, asked);
+  return chosen(pages, kept, bytes);
 #else
-  return chosen(mapOrMakeRoom(bytes), 0, bytes, asked);
+  return chosen(mapOrMakeRoom(whole), 0, bytes);
 #endif
 }
 
