@@ -202,10 +202,7 @@ class IncrementalCut::Pass {
   }
 
   void leave(std::uint32_t n) {
-    s_.leave(n);
-    for (const std::uint32_t t : mt_.floor(NodeId(n)))
-      if (const NodeId parent = mt_.creator(TriangleId(t)); parent.isValid() && s_.isLeaf(parent.index()))
-        lookAtLeaf(parent.index(), fresh_);
+    s_.leave(n, [&](std::uint32_t leaf) { lookAtLeaf(leaf, fresh_); });
     take(fresh_);
   }
 
@@ -328,11 +325,9 @@ class IncrementalCut::Pass {
       if (mustStop()) return;
       const NodeId n(leaving.back());
       leaving.pop_back();
-      if (!s_.isLeaf(n.index())) continue;  // a parent of several, come before
-      s_.leave(n.index());
-      for (const std::uint32_t t : mt_.floor(n))
-        if (const NodeId parent = mt_.creator(TriangleId(t)); parent.isValid() && goes(parent.index()))
-          leaving.push_back(parent.index());
+      s_.leave(n.index(), [&](std::uint32_t leaf) {
+        if (goes(leaf)) leaving.push_back(leaf);
+      });
     }
   }
 

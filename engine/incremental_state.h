@@ -47,8 +47,10 @@ class IncrementalCut::State {
   const std::vector<std::uint32_t>& triangles() const { return triangles_; }
   bool hasTriangle(std::uint32_t t) const { return place_.contains(t); }
 
-  /// Precondition: n is out and its floor in the front.
-  void enter(std::uint32_t n) {
+  /// canChange(node): of every node that can enter now and could not before. Precondition: n is out and its
+  /// floor in the front.
+  template <class CanChange>
+  void enter(std::uint32_t n, const CanChange& canChange) {
     const NodeId node(n);
     for (const std::uint32_t t : mt.floor(node)) {
       removeTriangle(t);
@@ -56,15 +58,19 @@ class IncrementalCut::State {
     }
     forCeiling(node, [&](std::uint32_t t, std::uint32_t remover) {
       addTriangle(t);
-      if (remover != MultiTriangulation::kNone) --marks_[remover];
+      if (remover == MultiTriangulation::kNone) return;
+      --marks_[remover];
+      if (canEnter(remover)) canChange(remover);
     });
+    fillGaps();
     marks_[n] |= kIn;
     ++nodes_;
     steps.push_back({node, true});
   }
 
-  /// Precondition: n is a leaf.
-  void leave(std::uint32_t n) {
+  /// canChange(node): of every node that is a leaf now and was none before. Precondition: n is a leaf.
+  template <class CanChange>
+  void leave(std::uint32_t n, const CanChange& canChange) {
     const NodeId node(n);
     forCeiling(node, [&](std::uint32_t t, std::uint32_t remover) {
       removeTriangle(t);
@@ -72,11 +78,31 @@ class IncrementalCut::State {
     });
     for (const std::uint32_t t : mt.floor(node)) {
       addTriangle(t);
-      if (const NodeId parent = mt.creator(TriangleId(t)); parent.isValid()) --marks_[parent.index()];
+      const NodeId parent = mt.creator(TriangleId(t));
+      if (!parent.isValid()) continue;
+      --marks_[parent.index()];
+      if (isLeaf(parent.index())) canChange(parent.index());
     }
+    fillGaps();
     marks_[n] &= ~kIn;
     --nodes_;
     steps.push_back({node, false});
+  }
+
+  /// The same, whoever can change then.
+  void enter(std::uint32_t n) {
+    enter(n, [](std::uint32_t) {});
+  }
+  void leave(std::uint32_t n) {
+    leave(n, [](std::uint32_t) {});
+  }
+
+  /// Asks for what a change of the node reads first, where its slots begin; then, when that is there, for its
+  /// floor and for what removes its ceiling. What it reads later is nearer.
+  void prefetchSlots(std::uint32_t n) const { __builtin_prefetch(&mt.arrays().slotBegin[n]); }
+  void prefetchTriangles(std::uint32_t n) const {
+    __builtin_prefetch(mt.floor(NodeId(n)).data());
+    __builtin_prefetch(&mt.arrays().remover[mt.slotTriangle(NodeId(n), 0).index()]);
   }
 
   /// visit(triangle, the node that removes it or kNone).
@@ -123,22 +149,35 @@ class IncrementalCut::State {
     return mt.nodeCount() == 0 ? 1 : std::max(1e-6 * double(mt.arrays().sphere[0].radius), 1e-12);
   }
 
+  /// Takes a gap, where one was left.
   void addTriangle(std::uint32_t t) {
-    place_.insert(t, static_cast<std::uint32_t>(triangles_.size()));
-    triangles_.push_back(t);
+    if (gaps_.empty()) {
+      place_.insert(t, static_cast<std::uint32_t>(triangles_.size()));
+      triangles_.push_back(t);
+      return;
+    }
+    place_.insert(t, gaps_.back());
+    triangles_[gaps_.back()] = t;
+    gaps_.pop_back();
   }
-  void removeTriangle(std::uint32_t t) {
-    const std::uint32_t place = place_.erase(t), last = triangles_.back();
-    triangles_.pop_back();
-    if (last == t) return;
-    triangles_[place] = last;
-    place_[last] = place;
+  void removeTriangle(std::uint32_t t) { gaps_.push_back(place_.erase(t)); }
+  /// The last triangles go to the gaps that are left.
+  void fillGaps() {
+    std::sort(gaps_.begin(), gaps_.end());
+    for (; !gaps_.empty(); gaps_.pop_back()) {
+      const std::uint32_t last = triangles_.back();
+      triangles_.pop_back();
+      if (gaps_.back() == triangles_.size()) continue;
+      triangles_[gaps_.back()] = last;
+      place_[last] = gaps_.back();
+    }
   }
 
   std::vector<std::uint32_t> marks_;
   std::uint32_t nodes_ = 0;
   std::vector<std::uint32_t> triangles_;
   PlaceTable place_;
+  std::vector<std::uint32_t> gaps_;  ///< places of triangles that the running modification has removed
 };
 
 }  // namespace arete

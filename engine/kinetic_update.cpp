@@ -127,12 +127,13 @@ void IncrementalCut::KineticUpdate::settle(const Block& block, const Answers& an
     } else if (isIn == isWanted) {
       s_.calendar.add(block.balls[i], block.errors[i], n, answers.units[i]);
     } else if (isIn) {
-      leaving_.push_back({n, answers.units[i], 0});
+      leaving_.push_back({n, answers.units[i], 0, block.balls[i], block.errors[i]});
     } else {
       const double allowed = o_.deadline ? criterion_.allowedError(block.balls[i]) : 0;
       entering_.push_back(
           {n, answers.units[i],
-           allowed > 0 ? double(block.errors[i]) / allowed : std::numeric_limits<double>::infinity()});
+           allowed > 0 ? double(block.errors[i]) / allowed : std::numeric_limits<double>::infinity(),
+           block.balls[i], block.errors[i]});
       if (o_.deadline) std::push_heap(entering_.begin(), entering_.end());
     }
   }
@@ -140,15 +141,21 @@ void IncrementalCut::KineticUpdate::settle(const Block& block, const Answers& an
 
 /// The change is made: from now on the node stays as it is.
 void IncrementalCut::KineticUpdate::keep(const Change& change) {
-  const MtArrays& a = s_.mt.arrays();
-  s_.calendar.add(a.sphere[change.node], a.scale.decode(a.saturatedError[change.node]), change.node,
-                  change.units);
+  s_.calendar.add(change.ball, change.error, change.node, change.units);
+}
+
+/// Changes are taken from the end.
+void IncrementalCut::KineticUpdate::prefetchNext(const std::vector<Change>& changes) const {
+  constexpr std::size_t kAhead = 6;
+  if (changes.size() > 2 * kAhead) s_.prefetchSlots(changes[changes.size() - 1 - 2 * kAhead].node);
+  if (changes.size() > kAhead) s_.prefetchTriangles(changes[changes.size() - 1 - kAhead].node);
 }
 
 void IncrementalCut::KineticUpdate::coarsen(double millisecondsToLeave) {
   while (!leaving_.empty()) {
     if (millisecondsToLeave > 0 && o_.deadline->millisecondsLeft() < millisecondsToLeave) return;
     if (mustStop()) return;
+    prefetchNext(leaving_);
     const Change change = leaving_.back();
     leaving_.pop_back();
     leave(change);
@@ -159,18 +166,18 @@ void IncrementalCut::KineticUpdate::coarsen(double millisecondsToLeave) {
 
 void IncrementalCut::KineticUpdate::leave(const Change& change) {
   if (!s_.isLeaf(change.node)) return s_.unwatch(change.node);
-  s_.leave(change.node);
+  s_.leave(change.node, [&](std::uint32_t leaf) { s_.watch(leaf); });
   keep(change);
-  for (const std::uint32_t t : s_.mt.floor(NodeId(change.node)))
-    if (const NodeId parent = s_.mt.creator(TriangleId(t)); parent.isValid() && s_.isLeaf(parent.index()))
-      s_.watch(parent.index());
 }
 
 void IncrementalCut::KineticUpdate::refine() {
   const std::size_t many = o_.deadline ? kFewUnasked : Block::kMost;
   while (!entering_.empty() && !isOverBudget_) {
     if (mustStop()) return;
-    if (o_.deadline) std::pop_heap(entering_.begin(), entering_.end());
+    if (o_.deadline)
+      std::pop_heap(entering_.begin(), entering_.end());
+    else
+      prefetchNext(entering_);
     const Change change = entering_.back();
     entering_.pop_back();
     enter(change);
@@ -187,11 +194,8 @@ void IncrementalCut::KineticUpdate::enter(const Change& change) {
     entering_.push_back(change);
     return;
   }
-  s_.enter(change.node);
+  s_.enter(change.node, [&](std::uint32_t next) { s_.watch(next); });
   keep(change);
-  s_.forCeiling(node, [&](std::uint32_t, std::uint32_t remover) {
-    if (remover != MultiTriangulation::kNone && s_.canEnter(remover)) s_.watch(remover);
-  });
 }
 
 }  // namespace arete

@@ -27,11 +27,14 @@ class IncrementalCut::KineticUpdate {
 
  private:
   struct Answers;
-  /// A watched node that does not stay as it is, how long that is so, and how much it matters.
+  /// A watched node that does not stay as it is, how long that is so, how much it matters, and what was asked
+  /// about: by now its ball and error are here, in the MT they are far away.
   struct Change {
     std::uint32_t node;
     float units;
     double ratio;
+    Sphere ball;
+    float error;
     bool operator<(const Change& other) const {
       return ratio != other.ratio ? ratio < other.ratio : node > other.node;
     }
@@ -44,6 +47,7 @@ class IncrementalCut::KineticUpdate {
   void askDue();
   void settle(const WatchCalendar::Block& block, const Answers& answers);
   void keep(const Change& change);
+  void prefetchNext(const std::vector<Change>& changes) const;
   void coarsen(double millisecondsToLeave);
   void leave(const Change& change);
   void refine();
