@@ -82,7 +82,8 @@ class FollowStage {
     add("minimal, followed", "excess, worst", quantile(excess, 1), "%", Better::lower);
     follow("saturated, followed", [&] { return followed; });
     add("saturated, followed", "times as fast as from scratch", scratch / median_, "", Better::higher);
-    add("saturated, followed", "times as fast as with the front", scratchFront / median_, "", Better::higher);
+    add("saturated, followed", "times as fast as from scratch with its front", scratchFront / median_, "",
+        Better::higher);
     add("saturated, followed", "frames unlike from scratch", unlike(saturated, followed), "", Better::lower);
     for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated})
       follow(method == CutMethod::minimal ? "minimal, followed, 4 ms" : "saturated, followed, 4 ms", [&] {

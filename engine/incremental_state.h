@@ -105,13 +105,6 @@ class IncrementalCut::State {
     __builtin_prefetch(&mt.arrays().remover[mt.slotTriangle(NodeId(n), 0).index()]);
   }
 
-  /// visit(triangle, the node that removes it or kNone).
-  template <class Visit>
-  void forCeiling(NodeId n, const Visit& visit) const {
-    const std::uint32_t first = mt.slotTriangle(n, 0).index(), size = mt.ceilingSize(n);
-    for (std::uint32_t t = first; t < first + size; ++t) visit(t, mt.arrays().remover[t]);
-  }
-
   const MultiTriangulation mt;
   std::vector<CutStep> steps;  ///< of the running or the last update
   std::size_t cursor = 0;      ///< where a scan that ran out of time goes on
@@ -147,6 +140,13 @@ class IncrementalCut::State {
   /// A millionth of the size of the largest region: no travel worth a clock's while.
   static double leastTravel(const MultiTriangulation& mt) {
     return mt.nodeCount() == 0 ? 1 : std::max(1e-6 * double(mt.arrays().sphere[0].radius), 1e-12);
+  }
+
+  /// visit(triangle, the node that removes it or kNone).
+  template <class Visit>
+  void forCeiling(NodeId n, const Visit& visit) const {
+    const std::uint32_t first = mt.slotTriangle(n, 0).index(), size = mt.ceilingSize(n);
+    for (std::uint32_t t = first; t < first + size; ++t) visit(t, mt.arrays().remover[t]);
   }
 
   /// Takes a gap, where one was left.
