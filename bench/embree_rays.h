@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "terrain/sight_earth.h"
-#include "terrain/sight_grid.h"
-#include "terrain/viewshed.h"
+#include "terrain/sight/earth.h"
+#include "terrain/sight/grid.h"
+#include "terrain/viewshed/viewshed.h"
 
 namespace arete::bench {
 

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "bench/figure.h"
-#include "engine/result.h"
+#include "engine/base/result.h"
 
 namespace arete::bench {
 

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "bench/figure.h"
-#include "engine/result.h"
-#include "terrain/heightfield.h"
+#include "engine/base/result.h"
+#include "terrain/model/heightfield.h"
 
 namespace arete::bench {
 

@@ -16,7 +16,7 @@
 #include "bench/figure.h"
 #include "bench/limits.h"
 #include "bench/sources.h"
-#include "bench/stages.h"
+#include "bench/stages/stages.h"
 
 namespace arete::bench {
 namespace {

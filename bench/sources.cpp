@@ -14,9 +14,9 @@
 #include "bench/figure.h"
 #include "datasets/random.h"
 #include "datasets/terrain_generator.h"
-#include "io/amt_file.h"
-#include "io/dem_reader.h"
-#include "io/raster_writer.h"
+#include "io/amt/file.h"
+#include "io/dem/dem_reader.h"
+#include "io/dem/raster_writer.h"
 
 namespace arete::bench {
 namespace {

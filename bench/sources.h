@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/result.h"
-#include "terrain/heightfield.h"
-#include "terrain/terrain_model.h"
+#include "engine/base/result.h"
+#include "terrain/model/heightfield.h"
+#include "terrain/model/terrain_model.h"
 
 namespace arete::bench {
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "engine/run_context.h"
+#include "engine/parallel/run_context.h"
 
 namespace arete::bench {
 

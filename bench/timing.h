@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/stopwatch.h"
+#include "engine/base/stopwatch.h"
 
 namespace arete::bench {
 

@@ -11,21 +11,21 @@
 #include <string>
 #include <string_view>
 
-#include "cli/build_command.h"
-#include "cli/convert_command.h"
-#include "cli/demo_command.h"
-#include "cli/exit_code.h"
-#include "cli/extract_command.h"
-#include "cli/height_command.h"
-#include "cli/info_command.h"
-#include "cli/interrupt.h"
-#include "cli/los_command.h"
-#include "cli/measure_command.h"
-#include "cli/profile_command.h"
-#include "cli/session.h"
-#include "cli/validate_command.h"
-#include "cli/view_command.h"
-#include "cli/viewshed_command.h"
+#include "cli/commands/build.h"
+#include "cli/commands/convert.h"
+#include "cli/commands/demo.h"
+#include "cli/commands/extract.h"
+#include "cli/commands/height.h"
+#include "cli/commands/info.h"
+#include "cli/commands/measure.h"
+#include "cli/commands/validate.h"
+#include "cli/commands/view.h"
+#include "cli/session/exit_code.h"
+#include "cli/session/interrupt.h"
+#include "cli/session/session.h"
+#include "cli/sight/los.h"
+#include "cli/sight/profile.h"
+#include "cli/sight/viewshed.h"
 
 namespace arete {
 namespace {

@@ -1,20 +1,18 @@
 # What `cmake --install` leaves behind: the program, and Arete as a library.
 #
 #   bin/arete
-#   lib/libarete_{engine,terrain,io}.a      the layers with public headers (arete_layer HEADERS)
-#   include/arete/<layer>/<header>.h        users write #include <arete/engine/cut.h>
+#   lib/libarete_{engine,terrain,io}.a      the layers of the library
+#   include/arete/<room>/<header>.h         users write #include <arete/engine/cut/cut.h>
 #   lib/cmake/Arete/                        find_package(Arete) gives Arete::engine, Arete::terrain, Arete::io
 #
-# In the source tree headers include each other as "engine/cut.h"; on the way to include/arete that becomes
-# "arete/engine/cut.h" (install_headers.cmake), so that no folder named engine or io gets into anybody's include path.
+# In the source tree headers include each other as "engine/cut/cut.h"; on the way to include/arete that becomes
+# "arete/engine/cut/cut.h" (install_headers.cmake), so that no folder named engine or io gets into anybody's include path.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set_property(GLOBAL PROPERTY ARETE_PUBLIC_HEADERS "")
 
 function(arete_install_layer NAME)
-  list(TRANSFORM ARGN PREPEND "${NAME}/")
-  set_property(GLOBAL APPEND PROPERTY ARETE_PUBLIC_HEADERS ${ARGN})
   set_target_properties(arete_${NAME} PROPERTIES EXPORT_NAME ${NAME})
   install(TARGETS arete_${NAME} EXPORT AreteTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
           INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")

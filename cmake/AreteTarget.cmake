@@ -1,11 +1,16 @@
-# arete_layer(NAME [HEADERS ...] SOURCES ... PUBLIC ... PRIVATE ...): one layer of the house.
+# arete_layer(NAME [PUBLIC ...] [PRIVATE ...] ROOMS ...): one layer of the house, made of rooms (its sub-folders).
 #
-# A layer may include the layers it links and nothing else: each layer's headers are reached through
-# an include folder of its own in the build tree (build/.../include/<layer>/<layer> -> source/<layer>),
-# so that an include of a layer that is not linked does not compile.
+# A layer may include the layers it links and nothing else: each layer's headers are reached through an include folder
+# of its own in the build tree (build/.../include/<layer>/<layer> -> source/<layer>), so that an include of a layer that
+# is not linked does not compile.
 #
-# A layer with HEADERS is part of the library that others install (cmake/AreteInstall.cmake): HEADERS are its public
-# headers. What they include is installed with them; a header that is not listed may change any day all the same.
+# arete_room(PATH MAY_INCLUDE ... [HEADERS ...] SOURCES ... [CGAL_SOURCES ...]), in PATH/CMakeLists.txt: one room.
+#
+# MAY_INCLUDE names the rooms, of its own layer and of those below, whose headers its files may include; tests/house
+# walks all includes and fails on any other (rooms.txt in the build folder is what it reads). HEADERS are public: part of
+# the library that others install (cmake/AreteInstall.cmake). What they include is installed with them; a header that is
+# not listed may change any day all the same. CGAL_SOURCES are compiled with the flags that CGAL asks for, of which
+# -frounding-math would slow down everything else.
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -46,15 +51,41 @@ function(arete_include_root LAYER)
   set(ARETE_INCLUDE_ROOT "${root}" PARENT_SCOPE)
 endfunction()
 
+set_property(GLOBAL PROPERTY ARETE_ROOMS "")
+
 function(arete_layer NAME)
-  cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "ROOMS;PUBLIC;PRIVATE" ${ARGN})
   arete_include_root(${NAME})
-  add_library(arete_${NAME} STATIC ${ARG_SOURCES})
+  add_library(arete_${NAME} STATIC)
   add_library(arete::${NAME} ALIAS arete_${NAME})
   target_include_directories(arete_${NAME} PUBLIC "$<BUILD_INTERFACE:${ARETE_INCLUDE_ROOT}>")
   target_compile_features(arete_${NAME} PUBLIC cxx_std_20)
   target_link_libraries(arete_${NAME} PUBLIC ${ARG_PUBLIC} PRIVATE $<BUILD_INTERFACE:arete_options> ${ARG_PRIVATE})
-  if(ARG_HEADERS)
-    arete_install_layer(${NAME} ${ARG_HEADERS})
+  foreach(room IN LISTS ARG_ROOMS)
+    add_subdirectory(${room})
+  endforeach()
+endfunction()
+
+function(arete_room PATH)
+  cmake_parse_arguments(ARG "" "" "MAY_INCLUDE;HEADERS;SOURCES;CGAL_SOURCES" ${ARGN})
+  string(REGEX REPLACE "/.*" "" layer "${PATH}")
+  list(TRANSFORM ARG_SOURCES PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
+  target_sources(arete_${layer} PRIVATE ${ARG_SOURCES})
+  if(ARG_CGAL_SOURCES)
+    list(TRANSFORM ARG_CGAL_SOURCES PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
+    target_sources(arete_${layer}_cgal PRIVATE ${ARG_CGAL_SOURCES})
   endif()
+  string(REPLACE ";" " " may_include "${ARG_MAY_INCLUDE}")
+  set_property(GLOBAL APPEND PROPERTY ARETE_ROOMS "${PATH}: ${may_include}")
+  if(ARG_HEADERS)
+    list(TRANSFORM ARG_HEADERS PREPEND "${PATH}/")
+    set_property(GLOBAL APPEND PROPERTY ARETE_PUBLIC_HEADERS ${ARG_HEADERS})
+  endif()
+endfunction()
+
+# Once all rooms are declared: build/rooms.txt has a line for each, "room: rooms it may include".
+function(arete_write_rooms)
+  get_property(rooms GLOBAL PROPERTY ARETE_ROOMS)
+  list(JOIN rooms "\n" text)
+  file(WRITE "${CMAKE_BINARY_DIR}/rooms.txt" "${text}\n")
 endfunction()

@@ -1,4 +1,4 @@
-# Installs the public headers ARETE_HEADERS ("engine/cut.h", ...) of ARETE_SOURCE, and what they include, into
+# Installs the public headers ARETE_HEADERS ("engine/cut/cut.h", ...) of ARETE_SOURCE, and what they include, into
 # ARETE_DESTINATION, by way of ARETE_STAGE. Run by `cmake --install`. Fails where a public header includes something
 # that is not of a layer of the library, or a library that is to stay behind the .cpp files.
 file(REMOVE_RECURSE "${ARETE_STAGE}")
@@ -18,7 +18,7 @@ while(todo)
       message(FATAL_ERROR "${header} is public or included by a public header, and includes <${included}>")
     elseif(include MATCHES "\"" AND NOT included MATCHES "^(${layers})/")
       message(FATAL_ERROR "${header} is public or included by a public header, and includes ${included}, "
-                          "which is in no layer of the library (HEADERS of arete_layer)")
+                          "which is in no layer of the library (HEADERS of arete_room)")
     elseif(include MATCHES "\"")
       list(APPEND todo "${included}")
     endif()

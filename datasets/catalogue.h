@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/result.h"
-#include "engine/vec.h"
+#include "engine/base/result.h"
+#include "engine/base/vec.h"
 
 namespace arete {
 

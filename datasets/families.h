@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "terrain/heightfield.h"
+#include "terrain/model/heightfield.h"
 
 namespace arete {
 

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "io/gdal_support.h"
+#include "io/gdal/support.h"
 
 namespace arete {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "datasets/catalogue.h"
-#include "engine/run_context.h"
+#include "engine/parallel/run_context.h"
 
 namespace arete {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "engine/vec.h"
+#include "engine/base/vec.h"
 
 namespace arete {
 

@@ -14,7 +14,7 @@
 #include "datasets/catalogue.h"
 #include "datasets/fetch.h"
 #include "datasets/terrain_generator.h"
-#include "io/raster_writer.h"
+#include "io/dem/raster_writer.h"
 
 namespace arete {
 namespace {

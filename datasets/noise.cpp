@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "datasets/random.h"
-#include "engine/vec.h"
+#include "engine/base/vec.h"
 
 namespace arete {
 namespace {

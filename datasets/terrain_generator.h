@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "engine/result.h"
-#include "engine/run_context.h"
-#include "terrain/heightfield.h"
+#include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
+#include "terrain/model/heightfield.h"
 
 namespace arete {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // cut FILE.amt E OUT.ply: the least cut of a multitriangulation that is within E of every sample, as a TIN.
-#include <arete/engine/cut.h>
-#include <arete/io/amt_file.h>
-#include <arete/io/export_tin.h>
-#include <arete/io/mesh_file.h>
+#include <arete/engine/cut/cut.h>
+#include <arete/io/amt/file.h>
+#include <arete/io/exchange/export_tin.h>
+#include <arete/io/exchange/mesh_formats.h>
 
 #include <cstdlib>
 #include <iostream>

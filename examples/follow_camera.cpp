@@ -2,11 +2,11 @@
 //
 // follow_camera FILE.amt FRAMES: flies across a terrain and keeps a conforming triangulation of at most a
 // pixel of error in view, within 10 ms a frame: what a renderer of your own would draw.
-#include <arete/engine/incremental_cut.h>
-#include <arete/engine/view_error.h>
-#include <arete/io/amt_file.h>
-#include <arete/terrain/camera.h>
-#include <arete/terrain/surface_height.h>
+#include <arete/engine/criteria/view_error.h>
+#include <arete/engine/follow/incremental_cut.h>
+#include <arete/io/amt/file.h>
+#include <arete/terrain/locate/surface_height.h>
+#include <arete/terrain/model/camera.h>
 
 #include <chrono>
 #include <cstdlib>

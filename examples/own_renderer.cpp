@@ -3,10 +3,10 @@
 // own_renderer FILE.amt FRAMES OUT.pgm: flies across a terrain with a renderer that knows nothing of Arete
 // but the buffers it is told: positions once, then what changes. The last frame is drawn, in grey, into
 // OUT.pgm.
-#include <arete/engine/view_mesh.h>
-#include <arete/io/amt_file.h>
-#include <arete/terrain/camera.h>
-#include <arete/terrain/surface_height.h>
+#include <arete/engine/morph/view_mesh.h>
+#include <arete/io/amt/file.h>
+#include <arete/terrain/locate/surface_height.h>
+#include <arete/terrain/model/camera.h>
 
 #include <algorithm>
 #include <array>

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "engine/multitriangulation.h"
-#include "engine/node_blocks.h"
+#include "engine/mt/multitriangulation.h"
+#include "engine/mt/node_blocks.h"
 
 namespace arete {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/cut.h"
-#include "engine/validate.h"
-#include "engine/view_error.h"
+#include "engine/criteria/view_error.h"
+#include "engine/cut/cut.h"
+#include "engine/laws/validate.h"
 
 namespace arete {
 

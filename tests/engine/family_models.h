@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "datasets/families.h"
-#include "terrain/build.h"
+#include "terrain/build/build.h"
 
 namespace arete {
 
@@ -22,7 +22,7 @@ inline const std::vector<FamilyModel>& familyModels() {
   static const std::vector<FamilyModel> all = [] {
     std::vector<FamilyModel> made;
     for (const RasterFamily& family : rasterFamilies())
-      for (const HoleShape shape : {HoleShape::delaunay, HoleShape::fidelity}) {
+      for (const HoleShape shape : {HoleShape::delaunay, HoleShape::dataDependent}) {
         BuildOptions options;
         options.shape = shape;
         Result<TerrainModel> model = build(family.make(30, 25, 3), options);

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/view_error.h"
-#include "terrain/terrain_model.h"
+#include "engine/criteria/view_error.h"
+#include "terrain/model/terrain_model.h"
 
 /// Geomorphing written a second time, plainly: recursion by the definition, a camera of the tests' own.
 namespace arete {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "fuzz/harness.h"
-#include "io/amt_checksum.h"
-#include "io/amt_layout.h"
-#include "io/packed_layout.h"
+#include "io/format/checksum.h"
+#include "io/format/layout.h"
+#include "io/packed/layout.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>

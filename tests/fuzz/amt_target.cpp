@@ -7,15 +7,15 @@
 #include <limits>
 #include <vector>
 
-#include "engine/criterion.h"
-#include "engine/cut.h"
-#include "engine/incremental_cut.h"
+#include "engine/criteria/criterion.h"
+#include "engine/cut/cut.h"
+#include "engine/follow/incremental_cut.h"
 #include "fuzz/harness.h"
-#include "io/amt_file.h"
-#include "io/export_tin.h"
-#include "terrain/error_curve.h"
-#include "terrain/surface_height.h"
-#include "terrain/validate_model.h"
+#include "io/amt/file.h"
+#include "io/exchange/export_tin.h"
+#include "terrain/laws/validate_model.h"
+#include "terrain/locate/surface_height.h"
+#include "terrain/model/error_curve.h"
 
 namespace {
 

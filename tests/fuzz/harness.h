@@ -6,9 +6,9 @@
 #include <span>
 #include <string>
 
-#include "engine/result.h"
-#include "engine/run_context.h"
-#include "io/mesh_file.h"
+#include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
+#include "io/exchange/mesh_formats.h"
 
 /// What a fuzz program and the replay of its kept inputs call: reads the bytes, uses what was read, and ends
 /// the program where a promise does not hold.

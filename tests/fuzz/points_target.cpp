@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "fuzz/harness.h"
-#include "io/gridded_points.h"
-#include "io/point_attributes.h"
-#include "io/point_reader.h"
-#include "io/point_text.h"
+#include "io/dem/gridded_points.h"
+#include "io/dem/point_reader.h"
+#include "io/table/point_attributes.h"
+#include "io/table/point_text.h"
 
 namespace {
 

@@ -12,11 +12,11 @@
 #include <string>
 
 #include "datasets/families.h"
-#include "engine/cut.h"
-#include "io/amt_file.h"
-#include "io/export_tin.h"
-#include "io/mesh_file.h"
-#include "terrain/build.h"
+#include "engine/cut/cut.h"
+#include "io/amt/file.h"
+#include "io/exchange/export_tin.h"
+#include "io/exchange/mesh_formats.h"
+#include "terrain/build/build.h"
 
 namespace {
 
@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
     const RasterHeightfield raster = family.make(kSide, kSide, 1);
     const std::string name = fileName(family.name);
     writeModel(folder, name, build(raster));
-    writeModel(folder, name + "-fidelity", build(raster, {.shape = HoleShape::fidelity}));
+    writeModel(folder, name + "-fidelity", build(raster, {.shape = HoleShape::dataDependent}));
     writeModel(folder, name + "-rims", build(raster, {.rimTolerance = 1}));
   }
   // Packed in several chunks, which only long rasters are; plain it is more than a fuzzer likes.

@@ -24,9 +24,9 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "engine/node_blocks.h"
-#include "io/amt_file.h"
-#include "terrain/build.h"
+#include "engine/mt/node_blocks.h"
+#include "io/amt/file.h"
+#include "terrain/build/build.h"
 
 namespace arete::test {
 

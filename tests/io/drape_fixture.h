@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "io/dem/raster_reader.h"
 #include "io/io_fixture.h"
-#include "io/raster_reader.h"
-#include "terrain/build.h"
+#include "terrain/build/build.h"
 
 namespace arete::test {
 

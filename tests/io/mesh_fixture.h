@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "datasets/families.h"
-#include "engine/triangle_mesh.h"
+#include "engine/base/triangle_mesh.h"
+#include "io/exchange/mesh_formats.h"
 #include "io/io_fixture.h"
-#include "io/mesh_file.h"
 
 namespace arete::test {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/multitriangulation.h"
+#include "engine/mt/multitriangulation.h"
 #include "full_run.h"
-#include "terrain/build_options.h"
+#include "terrain/model/build_options.h"
 
 namespace arete {
 
@@ -34,8 +34,8 @@ inline BuildOptions withPieces(HoleShape shape, std::uint32_t vertices) {
 
 /// Both shapes, together and by pieces.
 inline std::vector<BuildOptions> eachWay() {
-  return {withShape(HoleShape::delaunay), withShape(HoleShape::fidelity), withPieces(HoleShape::delaunay, 30),
-          withPieces(HoleShape::fidelity, 30)};
+  return {withShape(HoleShape::delaunay), withShape(HoleShape::dataDependent),
+          withPieces(HoleShape::delaunay, 30), withPieces(HoleShape::dataDependent, 30)};
 }
 
 template <class T>

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "terrain/measure.h"
+#include "terrain/measure/measure.h"
 
 namespace arete::measuring_test {
 

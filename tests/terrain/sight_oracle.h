@@ -10,9 +10,9 @@
 #include <optional>
 #include <vector>
 
-#include "engine/cut.h"
-#include "terrain/heightfield.h"
-#include "terrain/sight_line.h"
+#include "engine/cut/cut.h"
+#include "terrain/model/heightfield.h"
+#include "terrain/sight/line.h"
 
 namespace arete::test {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "datasets/random.h"
-#include "terrain/sight_engine.h"
+#include "terrain/sight/engine.h"
 #include "terrain/sight_oracle.h"
 
 namespace arete::test {

@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <string>
 
-#include "terrain/sight_earth.h"
-#include "terrain/sight_engine.h"
-#include "terrain/viewshed.h"
+#include "terrain/sight/earth.h"
+#include "terrain/sight/engine.h"
+#include "terrain/viewshed/viewshed.h"
 
 namespace arete::test {
 

@@ -15,8 +15,8 @@
 
 #include "datasets/families.h"
 #include "datasets/random.h"
-#include "terrain/build.h"
-#include "terrain/camera.h"
+#include "terrain/build/build.h"
+#include "terrain/model/camera.h"
 
 namespace arete::test {
 

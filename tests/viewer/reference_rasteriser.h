@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "terrain/camera.h"
+#include "terrain/model/camera.h"
 
 namespace arete::test {
 

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "datasets/random.h"
-#include "terrain/build.h"
-#include "terrain/camera.h"
+#include "terrain/build/build.h"
+#include "terrain/model/camera.h"
 
 namespace arete::test {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "engine/vec.h"
-#include "terrain/camera.h"
-#include "terrain/terrain_model.h"
+#include "engine/base/vec.h"
+#include "terrain/model/camera.h"
+#include "terrain/model/terrain_model.h"
 
 namespace arete {
 
@@ -13,9 +13,9 @@ struct Look {
   double pitchDegrees = 0;    ///< above the horizon
 };
 
-/// The metric space of a model (terrain/camera.h), in which cameras move, there and back: metres (source
-/// units without a CRS), z up. Directions agree with viewOf(). The space may be mirrored against the map;
-/// right() is on the right of the map all the same. A small value without ties to the model.
+/// The metric space of a model (terrain/model/camera.h), in which cameras move, there and back: metres
+/// (source units without a CRS), z up. Directions agree with viewOf(). The space may be mirrored against the
+/// map; right() is on the right of the map all the same. A small value without ties to the model.
 class CameraSpace {
  public:
   explicit CameraSpace(const TerrainModel& model);

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/result.h"
+#include "engine/base/result.h"
 #include "viewer/camera/camera_space.h"
 #include "viewer/camera/monotone_curve.h"
 #include "viewer/camera/path_curve.h"

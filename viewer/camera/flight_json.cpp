@@ -14,9 +14,9 @@
 #include <optional>
 #include <utility>
 
-#include "io/crs_names.h"
-#include "io/file_bytes.h"
-#include "io/file_writer.h"
+#include "io/crs/names.h"
+#include "io/file/file_bytes.h"
+#include "io/file/file_writer.h"
 
 namespace arete {
 namespace {

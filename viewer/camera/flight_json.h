@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/result.h"
-#include "terrain/georeference.h"
+#include "engine/base/result.h"
+#include "terrain/model/georeference.h"
 #include "viewer/camera/flight.h"
 
 namespace arete {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "terrain/surface_height.h"
+#include "terrain/locate/surface_height.h"
 #include "viewer/camera/camera_space.h"
 
 namespace arete {

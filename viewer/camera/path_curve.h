@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/vec.h"
+#include "engine/base/vec.h"
 
 namespace arete {
 

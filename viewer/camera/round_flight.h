@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
-#include "engine/result.h"
-#include "terrain/surface_height.h"
+#include "engine/base/result.h"
+#include "terrain/locate/surface_height.h"
 #include "viewer/camera/flight.h"
 #include "viewer/camera/home_view.h"
 

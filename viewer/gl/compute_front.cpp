@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Pages of nodes are tested first, then the blocks of the pages that may have members, then the nodes of
-// those blocks, as the CPU does (engine/saturated_cut.cpp). Members are bits. How many triangles the front
-// has is known from the members alone, each adds two, or one on a border; so before anything is written it is
-// known whether it fits. Then the root's triangles and the members' stars are written, those that no member
-// removes, into the half of the index buffer that is not drawn, and the draw command is set to it.
+// those blocks, as the CPU does (engine/cut/saturated_cut.cpp). Members are bits. How many triangles the
+// front has is known from the members alone, each adds two, or one on a border; so before anything is written
+// it is known whether it fits. Then the root's triangles and the members' stars are written, those that no
+// member removes, into the half of the index buffer that is not drawn, and the draw command is set to it.
 //
 //   begin -> pages -> nodes -> plan -> roots, stars -> publish -> [list -> step x n] -> draw
 #include "viewer/gl/compute_front.h"

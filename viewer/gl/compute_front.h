@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/result.h"
+#include "engine/base/result.h"
 #include "viewer/gl/drawn_front.h"
 #include "viewer/gl/frame_block.h"
 #include "viewer/gl/gl_objects.h"

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/result.h"
-#include "engine/run_context.h"
-#include "engine/vec.h"
-#include "io/drape_reader.h"
+#include "engine/base/result.h"
+#include "engine/base/vec.h"
+#include "engine/parallel/run_context.h"
+#include "io/drape/reader.h"
 #include "viewer/gl/gl_objects.h"
 
 namespace arete {

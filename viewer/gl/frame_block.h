@@ -3,8 +3,8 @@
 
 #include <glm/vec4.hpp>
 
-#include "engine/multitriangulation.h"
-#include "engine/view.h"
+#include "engine/criteria/view.h"
+#include "engine/mt/multitriangulation.h"
 
 namespace arete {
 
@@ -16,7 +16,7 @@ struct FrameView {
   double pixels = 1;        ///< of the cut: what vertices rest within
   double morphPixels = 0;   ///< that moving vertices may be off beside that; 0 = none moves
   Vec2 eyeGround;           ///< x and y of the eye in the flat metric space
-  double earthRadius = 0;   ///< metres, on a CurvedGround, whose places are stretched already; 0 = flat
+  double earthRadius = 0;   ///< metres, on a CurvedGround, whose places are exaggerated already; 0 = flat
   double drawnNear = 0.1;   ///< depth of the near plane that clips what is drawn, metric units, > 0
 };
 

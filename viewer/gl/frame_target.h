@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/result.h"
+#include "engine/base/result.h"
 #include "viewer/gl/gl_objects.h"
-#include "viewer/picture.h"
+#include "viewer/picture/picture.h"
 
 namespace arete {
 

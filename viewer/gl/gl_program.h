@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "engine/result.h"
+#include "engine/base/result.h"
 #include "viewer/gl/gl_objects.h"
 
 namespace arete {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "engine/result.h"
+#include "engine/base/result.h"
 
 namespace arete {
 

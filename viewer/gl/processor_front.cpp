@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/stopwatch.h"
+#include "engine/base/stopwatch.h"
 #include "viewer/gl/gl_program.h"
 
 namespace arete {
@@ -63,9 +63,9 @@ struct ProcessorFront::State {
   std::vector<Rise> risesOf(std::span<const ViewMesh::HeightChange> changes) const {
     std::vector<Rise> rises;
     rises.reserve(changes.size());
-    const MetricFrame& stretched = mesh.mt().arrays().metric;
+    const MetricFrame& exaggerated = mesh.mt().arrays().metric;
     for (const ViewMesh::HeightChange& c : changes) {
-      const double height = (double(c.height) + mesh.origin().z) / stretched.scale.z + stretched.origin.z;
+      const double height = (double(c.height) + mesh.origin().z) / exaggerated.scale.z + exaggerated.origin.z;
       const double rise = height - mesh.mt().vertices().height(VertexId(c.vertex));
       rises.push_back({c.vertex, std::bit_cast<std::uint32_t>(float(rise))});
     }

@@ -3,15 +3,15 @@
 
 #include <memory>
 
-#include "engine/result.h"
-#include "engine/view_mesh.h"
+#include "engine/base/result.h"
+#include "engine/morph/view_mesh.h"
 #include "viewer/gl/drawn_front.h"
 #include "viewer/gl/terrain_on_gpu.h"
 
 namespace arete {
 
-/// Cuts for a view, taken by the processor on a thread of its own (engine/view_mesh.h): each frame asks for
-/// its view and draws what there is by then; what changed goes to the device.
+/// Cuts for a view, taken by the processor on a thread of its own (engine/morph/view_mesh.h): each frame asks
+/// for its view and draws what there is by then; what changed goes to the device.
 class ProcessorFront {
  public:
   /// Starts at the root. `stretch`: vertical exaggeration. Errors: those of ViewMesh; unsupported, by the

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/geomorph.h"
-#include "engine/node_blocks.h"
+#include "engine/morph/geomorph.h"
+#include "engine/mt/node_blocks.h"
 
 namespace arete {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "engine/multitriangulation.h"
-#include "engine/run_context.h"
+#include "engine/mt/multitriangulation.h"
+#include "engine/parallel/run_context.h"
 #include "viewer/gl/gl_objects.h"
 
 namespace arete {
@@ -25,8 +25,8 @@ struct TerrainOnGpu {
   std::uint32_t vertices = 0, nodeCount = 0, rootTriangles = 0, rootVertices = 0, blocks = 0, pages = 0;
 };
 
-/// `flat`: the MT that a bent one (engine/bent_mt.h) was made of. The vertices go there whatever the device
-/// can. O(size of the MT).
+/// `flat`: the MT that a curved one (engine/mt/curved_mt.h) was made of. The vertices go there whatever the
+/// device can. O(size of the MT).
 TerrainOnGpu uploadTerrain(const MultiTriangulation& mt, const MultiTriangulation* flat = nullptr,
                            const RunContext& context = {});
 

@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include "terrain/camera.h"
-#include "viewer/color_ramp.h"
+#include "terrain/model/camera.h"
 #include "viewer/gl/drape_on_gpu.h"
 #include "viewer/gl/gl_program.h"
+#include "viewer/picture/color_ramp.h"
 
 namespace arete {
 

@@ -4,13 +4,13 @@
 #include <array>
 #include <optional>
 
-#include "engine/result.h"
-#include "terrain/terrain_model.h"
+#include "engine/base/result.h"
+#include "terrain/model/terrain_model.h"
 #include "viewer/gl/drawn_front.h"
 #include "viewer/gl/frame_block.h"
 #include "viewer/gl/gl_objects.h"
 #include "viewer/gl/terrain_on_gpu.h"
-#include "viewer/picture.h"
+#include "viewer/picture/picture.h"
 #include "viewer/scene/view_look.h"
 
 namespace arete {

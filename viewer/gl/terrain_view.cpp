@@ -3,15 +3,15 @@
 
 #include <algorithm>
 
-#include "engine/geomorph.h"
-#include "engine/stopwatch.h"
+#include "engine/base/stopwatch.h"
+#include "engine/morph/geomorph.h"
 #include "viewer/gl/processor_front.h"
 #include "viewer/scene/curved_ground.h"
 
 namespace arete {
 struct TerrainView::State {
   const TerrainModel* model = nullptr;
-  MultiTriangulation mt;  // what is drawn, the model's or a bent one
+  MultiTriangulation mt;  // what is drawn, the model's or a curved one
   TerrainOnGpu terrain;
   TerrainPainter painter;
   std::optional<ComputeFront> device = {};
@@ -44,9 +44,9 @@ struct TerrainView::State {
     if (settings.isCurved) {
       const Result<const CurvedGround*> curved = curvedGround();
       if (!curved) return tl::unexpected(curved.error());
-      Result<MultiTriangulation> bent = (*curved)->bentMt(settings.stretch);
-      if (!bent) return tl::unexpected(bent.error());
-      wanted = std::move(*bent);
+      Result<MultiTriangulation> curved = (*curved)->curvedMt(settings.stretch);
+      if (!curved) return tl::unexpected(curved.error());
+      wanted = std::move(*curved);
     }
     processor.reset();
     std::string refusal = std::move(terrain.refusal);
@@ -104,10 +104,10 @@ Result<FrameView> TerrainView::frameOf(const Camera& camera, const ViewSettings&
   frame.eyeGround = {ground.x, ground.y};
   frame.isMirrored = state_->model->isFlipped();
   frame.stretch = settings.stretch;
-  MetricFrame stretched = state_->model->mt.arrays().metric;
-  stretched.scale.z *= settings.stretch;
+  MetricFrame exaggerated = state_->model->mt.arrays().metric;
+  exaggerated.scale.z *= settings.stretch;
   const MorphCamera morph({.view = frame.view, .pixels = settings.pixels, .moves = settings.isGeomorphed},
-                          stretched);
+                          exaggerated);
   frame.pixels = morph.tolerance().cut;
   frame.morphPixels = morph.tolerance().offset;
   return frame;
@@ -137,7 +137,7 @@ Result<FrameFigures> TerrainView::cut(const Camera& camera, const ViewSettings& 
     figures.isComplete = counts.isComplete;
     s.drawn = CutPath::device;
   } else {
-    const double stretch = s.isBent ? 1 : settings.stretch;  // a bent one is stretched already
+    const double stretch = s.isBent ? 1 : settings.stretch;  // a curved one is exaggerated already
     if (!s.processor || s.processorStretch != stretch) {
       s.processor.reset();
       Result<ProcessorFront> made = ProcessorFront::create(s.mt, stretch);

@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
-#include "engine/result.h"
-#include "engine/run_context.h"
-#include "terrain/camera.h"
-#include "terrain/terrain_model.h"
+#include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
+#include "terrain/model/camera.h"
+#include "terrain/model/terrain_model.h"
 #include "viewer/gl/compute_front.h"
 #include "viewer/gl/drape_on_gpu.h"
 #include "viewer/gl/terrain_painter.h"
@@ -85,7 +85,7 @@ class TerrainView {
   Result<FrameView> frameOf(const Camera& camera, const ViewSettings& settings) const;
   /// Where a place of the map is drawn with these settings, as TerrainPainter::drawLines() wants it.
   Result<Vec3> drawnPosition(Vec2 xy, double height, const ViewSettings& settings) const;
-  /// The multitriangulation that is cut: the model's or a bent one.
+  /// The multitriangulation that is cut: the model's or a curved one.
   const MultiTriangulation& mt() const;
   const TerrainModel& model() const;
   /// Of the device's last cut: for tests.

@@ -18,10 +18,10 @@
 #include <utility>
 #include <vector>
 
-#include "engine/bent_mt.h"
-#include "engine/with_threads.h"
-#include "io/crs_lonlat.h"
-#include "terrain/local_frame.h"
+#include "engine/mt/curved_mt.h"
+#include "engine/parallel/with_threads.h"
+#include "io/crs/lonlat.h"
+#include "terrain/model/local_frame.h"
 
 namespace arete {
 namespace {
@@ -70,9 +70,9 @@ struct CurvedGround::State {
   LocalFrame frame;
   MetricFrame metric;                     // the model's
   Vec2 alongX = {1, 0}, alongY = {0, 1};  // of the local frame (east, north): the axes of this space
-  double curvature = 0, turning = 0;      // engine/bent_mt.h
+  double curvature = 0, turning = 0;      // engine/mt/curved_mt.h
 
-  double stretched(double height, double stretch) const {
+  double exaggerated(double height, double stretch) const {
     return stretch == 1 ? height : metric.origin.z + (height - metric.origin.z) * stretch;
   }
   /// Longitude and latitude in degrees.
@@ -191,7 +191,7 @@ Result<CurvedGround> CurvedGround::create(const TerrainModel& model) {
 CurvedGround::CurvedGround(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 
 Vec3 CurvedGround::position(Vec2 xy, double height, double stretch) const {
-  return state_->position(xy, state_->stretched(height, stretch));
+  return state_->position(xy, state_->exaggerated(height, stretch));
 }
 
 Vec3 CurvedGround::source(const Vec3& p, double stretch) const {
@@ -207,7 +207,7 @@ Result<View> CurvedGround::viewOf(const Camera& camera, double stretch) const {
   const State& s = *state_;
   Result<View> view = arete::viewOf(camera, *s.model);  // for what it checks
   if (!view) return view;
-  const double height = s.stretched(camera.height, stretch);
+  const double height = s.exaggerated(camera.height, stretch);
   const State::Level there = s.level(camera.xy, height);
   if (!there.isThere()) return cameraIsBeyondTheCrs();
 
@@ -226,7 +226,7 @@ Result<Camera> CurvedGround::cameraAt(const Vec3& eye, const PictureAxes& axes, 
   Camera camera = picture;
   camera.xy = {place.x, place.y};
   camera.height = place.z;
-  const State::Level there = s.level(camera.xy, s.stretched(camera.height, stretch));
+  const State::Level there = s.level(camera.xy, s.exaggerated(camera.height, stretch));
   if (!isFinite(place) || !there.isThere()) return cameraIsBeyondTheCrs();
   const double rise = dot(axes.ahead, there.up);
   Vec3 along = plus(axes.ahead, there.up, -rise);
@@ -245,7 +245,7 @@ Result<Camera> CurvedGround::cameraAt(const Vec3& eye, const PictureAxes& axes, 
   return camera;
 }
 
-Result<MultiTriangulation> CurvedGround::bentMt(double stretch, const RunContext& context) const {
+Result<MultiTriangulation> CurvedGround::curvedMt(double stretch, const RunContext& context) const {
   const State& s = *state_;
   const MultiTriangulation& mt = s.model->mt;
   Bending bending;
@@ -268,7 +268,7 @@ Result<MultiTriangulation> CurvedGround::bentMt(double stretch, const RunContext
           s.lonLat.toLonLat(places);
           for (std::uint32_t v = range.begin(); v < range.end(); ++v) {
             const Vec3 p =
-                s.onEllipsoid(bending.plan[v], s.stretched(mt.vertices().height(VertexId(v)), stretch));
+                s.onEllipsoid(bending.plan[v], s.exaggerated(mt.vertices().height(VertexId(v)), stretch));
             if (!isFinite(p)) isWhole = false;
             bending.plan[v] = {p.x, p.y};
             bending.heights[v] = p.z / bending.metric.scale.z;
@@ -280,7 +280,7 @@ Result<MultiTriangulation> CurvedGround::bentMt(double stretch, const RunContext
   if (!isWhole)
     return failure(ErrorCode::invalidData, "parts of the DEM have no longitude and latitude in its CRS",
                    kCulprit);
-  return bent(mt, std::move(bending));
+  return curved(mt, std::move(bending));
 }
 
 double CurvedGround::radius() const {

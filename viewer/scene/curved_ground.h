@@ -3,20 +3,20 @@
 
 #include <memory>
 
-#include "engine/multitriangulation.h"
-#include "engine/result.h"
-#include "engine/run_context.h"
-#include "engine/view.h"
-#include "terrain/camera.h"
-#include "terrain/terrain_model.h"
+#include "engine/base/result.h"
+#include "engine/criteria/view.h"
+#include "engine/mt/multitriangulation.h"
+#include "engine/parallel/run_context.h"
+#include "terrain/model/camera.h"
+#include "terrain/model/terrain_model.h"
 #include "viewer/camera/home_view.h"
 
 namespace arete {
 
 /// The ground of a model as it lies on the ellipsoid of its CRS, in a Cartesian space of metres: its origin
 /// is the middle of the DEM at the middle of its heights, where z is up and the columns of the raster (the x
-/// axis of points) run along x. Near there it is the flat metric space of the model (terrain/camera.h); it is
-/// mirrored against the map where that one is.
+/// axis of points) run along x. Near there it is the flat metric space of the model (terrain/model/camera.h);
+/// it is mirrored against the map where that one is.
 ///
 /// Heights count as heights above the ellipsoid, whatever their datum: a geoid moves everything by tens of
 /// metres, and bends nothing that is seen. Exaggeration multiplies heights above the origin's, along each
@@ -43,9 +43,9 @@ class CurvedGround {
   Result<Camera> cameraAt(const Vec3& eye, const PictureAxes& axes, const Camera& picture = {},
                           double stretch = 1) const;
 
-  /// The model's multitriangulation there (engine/bent_mt.h). Errors: invalidData for a vertex that the CRS
-  /// does not reach; interrupted. O(vertices) of PROJ for a projected CRS, in parallel.
-  Result<MultiTriangulation> bentMt(double stretch = 1, const RunContext& context = {}) const;
+  /// The model's multitriangulation there (engine/mt/curved_mt.h). Errors: invalidData for a vertex that the
+  /// CRS does not reach; interrupted. O(vertices) of PROJ for a projected CRS, in parallel.
+  Result<MultiTriangulation> curvedMt(double stretch = 1, const RunContext& context = {}) const;
 
   /// The radius of the sphere that touches the ellipsoid in the middle: half way, by directions, between its
   /// two radii of curvature. Metres.

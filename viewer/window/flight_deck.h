@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "engine/result.h"
-#include "terrain/georeference.h"
+#include "engine/base/result.h"
+#include "terrain/model/georeference.h"
 #include "viewer/camera/flight.h"
 
 namespace arete {

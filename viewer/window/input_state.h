@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "engine/vec.h"
+#include "engine/base/vec.h"
 
 namespace arete {
 

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "terrain/profile.h"
-#include "terrain/sight_earth.h"
+#include "terrain/sight/earth.h"
+#include "terrain/sight/profile.h"
 #include "viewer/camera/camera_space.h"
 #include "viewer/camera/home_view.h"
 #include "viewer/scene/curved_ground.h"

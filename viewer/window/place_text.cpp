@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "io/position_argument.h"
+#include "io/crs/position_argument.h"
 
 namespace arete {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "io/crs_lonlat.h"
-#include "terrain/surface_height.h"
+#include "io/crs/lonlat.h"
+#include "terrain/locate/surface_height.h"
 
 namespace arete {
 
@@ -29,7 +29,7 @@ class PlaceText {
     double ground = 0;  ///< height of the terrain there; the middle of the DEM's where there is none
     std::optional<double> height;  ///< as the DEM's heights; nothing: a place on the ground was asked for
   };
-  /// "X,Y" or "X,Y,H", H as io/position_argument.h has it; a longitude may be whole turns off. Errors:
+  /// "X,Y" or "X,Y,H", H as io/crs/position_argument.h has it; a longitude may be whole turns off. Errors:
   /// usage, invalidData, naming what was typed;
   /// a place outside of the terrain has none without a height.
   Result<Goal> read(const std::string& text, bool isLonLat) const;

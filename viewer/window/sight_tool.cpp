@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "io/crs_lonlat.h"
-#include "io/ellipsoid_earth.h"
+#include "io/crs/ellipsoid_earth.h"
+#include "io/crs/lonlat.h"
 
 namespace arete {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "terrain/sight_links.h"
+#include "terrain/sight/links.h"
 #include "viewer/window/picking.h"
 
 namespace arete {

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "terrain/viewshed.h"
+#include "terrain/viewshed/viewshed.h"
 
 namespace arete {
 

@@ -24,8 +24,8 @@
 #include <vector>
 
 #include "viewer/gl/frame_target.h"
-#include "viewer/headless.h"
-#include "viewer/picture.h"
+#include "viewer/headless/headless.h"
+#include "viewer/picture/picture.h"
 #include "viewer/window/glfw_window.h"
 #include "viewer/window/memory_use.h"
 #include "viewer/window/panel.h"

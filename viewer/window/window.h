@@ -5,8 +5,8 @@
 #include <functional>
 #include <string>
 
-#include "engine/result.h"
-#include "engine/run_context.h"
+#include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
 #include "viewer/window/viewer_session.h"
 
 namespace arete {

@@ -1,4 +1,4 @@
-// Whether an error exceeds what the view allows over a ball: engine/frustum_filter.cpp and engine/view.cpp
+// Whether an error exceeds what the view allows over a ball: engine/criteria/frustum_filter.cpp and engine/criteria/view.cpp
 // say how and why. Single precision decides where its windows allow, double precision the rest, by the very
 // formulas of the CPU, so that the cut is closed however a device rounds.
 bool exceedsExactly(vec4 ball, float error) {

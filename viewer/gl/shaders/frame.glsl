@@ -4,7 +4,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 eyeHigh, eyeLow;         // the eye as the sum of two floats
   vec4 right, up, forward;      // unit vectors; right is right on the screen
   vec4 lens;                    // 1 / slopeX, 1 / slopeY, depth of the near plane, stretch (1 on a curved Earth)
-  vec4 sides;                   // slopeX, slopeY, lengthX, lengthY (engine/view.h)
+  vec4 sides;                   // slopeX, slopeY, lengthX, lengthY (engine/criteria/view.h)
   vec4 reach;                   // near, far, least cosine, error per reach
   vec4 morph;                   // pixels of the cut, pixels to move by, pixels per unit of height and reach, 1 = on
   vec4 earth;                   // vertical exaggeration, the Earth's radius or 0 where it is flat

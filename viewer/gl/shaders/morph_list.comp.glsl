@@ -1,4 +1,4 @@
-// Which members move (engine/geomorph.h): those of less than twice the cut's pixels. The others rest.
+// Which members move (engine/morph/geomorph.h): those of less than twice the cut's pixels. The others rest.
 layout(std430, binding = 0) readonly buffer NodeBalls { vec4 nodeBall[]; };
 layout(std430, binding = 1) readonly buffer Nodes { uvec2 node[]; };
 layout(std430, binding = 2) readonly buffer Members { uint member[]; };

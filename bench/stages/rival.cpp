@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One run of hmm at the finest tolerance against one build for all of them, on one core, the same, by turns:
+// what disturbs the machine for a while disturbs both. hmm's time is that of its whole program, from PNG to
+// STL, which goes nowhere. Arete's is stated both ways: the build in memory, features included (what the
+// mark is about), and file to file, the DEM's reading and the .amt's writing included.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <string>
+#include <variant>
+
+#include "bench/forked.h"
+#include "bench/hmm.h"
+#include "bench/stages/stages.h"
+#include "io/dem/dem_reader.h"
+
+namespace arete::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Made, the DEM too where it is a generated one, by a process of its own: GDAL may start threads.
+Result<HmmInput> makeInput(const DemSource& source, const std::string& png) {
+  const Result<Json> made = runForked([&]() -> Result<Json> {
+    if (const Status generated = generateDem(source); !generated) return tl::unexpected(generated.error());
+    const Result<DemRead> dem = readDem(source.path);
+    if (!dem) return tl::unexpected(dem.error());
+    const auto* field = std::get_if<RasterHeightfield>(&dem->heightfield);
+    if (field == nullptr) return failure(ErrorCode::unsupported, "not a raster", source.path);
+    const Result<HmmInput> input = writeHmmInput(*field, png);
+    if (!input) return tl::unexpected(input.error());
+    return Json(input->unit);
+  });
+  if (!made) return tl::unexpected(made.error());
+  return HmmInput{png, made->get<double>()};
+}
+
+Result<Figures> buildPinned(const DemSource& source, const std::string& model) {
+  const Result<Json> built = runForked([&]() -> Result<Json> {
+    if (const Status pinned = stayOnOneCore(); !pinned) return tl::unexpected(pinned.error());
+    const Result<Figures> figures = buildOnce(source, HoleShape::delaunay, 1, model);
+    if (!figures) return tl::unexpected(figures.error());
+    return toJson(*figures);
+  });
+  if (!built) return tl::unexpected(built.error());
+  return figuresFromJson(*built);
+}
+
+double valueOf(const Figures& figures, const std::string& stage, const std::string& name) {
+  for (const Figure& f : figures)
+    if (f.stage == stage && f.name == name) return f.value;
+  return 0;
+}
+
+struct Round {
+  HmmRun hmm;
+  double build = 0, buildProcessor = 0, fileToFile = 0, peakPerSample = 0, samples = 0;
+};
+
+Result<Round> oneRound(const DemSource& source, const Plan& plan, const HmmInput& input,
+                       const std::string& model) {
+  const Result<HmmRun> hmm = runHmm(plan.hmm, input, source.tolerances.front());
+  if (!hmm) return tl::unexpected(hmm.error());
+  const Result<Figures> built = buildPinned(source, model);
+  if (!built) return tl::unexpected(built.error());
+  Round round;
+  round.hmm = *hmm;
+  round.samples = valueOf(*built, "build", "samples");
+  round.build = valueOf(*built, "build", "time");
+  round.buildProcessor = valueOf(*built, "build", "processor time");
+  round.peakPerSample = valueOf(*built, "build", "peak memory");
+  round.fileToFile =
+      round.build + 1e-9 * round.samples *
+                        (valueOf(*built, "build parts", "read") + valueOf(*built, "build parts", "write"));
+  return round;
+}
+
+}  // namespace
+
+Result<Figures> rivalStage(const DemSource& wet, const Plan& plan) {
+  const DemSource source = withoutLake(wet);
+  const std::string png = (fs::path(plan.scratch) / (source.name + "-hmm.png")).string();
+  const std::string model = (fs::path(plan.scratch) / (source.name + "-rival.amt")).string();
+  const auto removeBoth = [&] {
+    std::error_code ignored;
+    for (const std::string& path : {png, png + ".aux.xml", model}) fs::remove(path, ignored);
+  };
+  const Result<HmmInput> input = makeInput(source, png);
+  if (!input) {
+    removeBoth();
+    if (input.error().code == ErrorCode::unsupported) return Figures{};  // voids: no contest
+    return tl::unexpected(input.error());
+  }
+  std::vector<Round> rounds;
+  const Stopwatch watch;
+  do {
+    const Result<Round> round = oneRound(source, plan, *input, model);
+    if (!round) {
+      removeBoth();
+      return tl::unexpected(round.error());
+    }
+    rounds.push_back(*round);
+  } while (int(rounds.size()) < plan.repetition.most && watch.seconds() < plan.repetition.enoughSeconds);
+  removeBoth();
+
+  const auto median = [&](const auto& of) {
+    std::vector<double> values;
+    for (const Round& round : rounds) values.push_back(of(round));
+    return medianOf(values);
+  };
+  Figures figures;
+  const std::string variant = fmt::format("delaunay, 1 core; hmm at {:g}", source.tolerances.front());
+  const auto add = [&](const char* name, double value, const char* unit, Better better) {
+    figures.push_back({source.name, "rival", variant, name, value, unit, better});
+  };
+  const double samples = rounds.front().samples;
+  add("samples", samples, "", Better::neither);
+  add("hmm's triangles", rounds.front().hmm.triangles, "", Better::neither);
+  add("hmm", median([](const Round& r) { return r.hmm.seconds; }), "s", Better::neither);
+  add("hmm, triangulating", median([](const Round& r) { return r.hmm.triangulateSeconds; }), "s",
+      Better::neither);
+  add("build", median([](const Round& r) { return r.build; }), "s", Better::lower);
+  add("file to file", median([](const Round& r) { return r.fileToFile; }), "s", Better::lower);
+  add("rate by hmm's", median([](const Round& r) { return r.hmm.seconds / r.build; }), "", Better::higher);
+  add("in processor time", median([](const Round& r) { return r.hmm.processorSeconds / r.buildProcessor; }),
+      "", Better::higher);
+  add("file to file by hmm's", median([](const Round& r) { return r.hmm.seconds / r.fileToFile; }), "",
+      Better::higher);
+  add("by hmm's triangulating", median([](const Round& r) { return r.hmm.triangulateSeconds / r.build; }), "",
+      Better::higher);
+  add("peak memory", median([](const Round& r) { return r.peakPerSample; }), "bytes/sample", Better::lower);
+  add("hmm's", median([](const Round& r) { return r.hmm.peakBytes / r.samples; }), "bytes/sample",
+      Better::neither);
+  return figures;
+}
+
+}  // namespace arete::bench

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/arguments/arguments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "io/file/output_file.h"
+
+namespace arete {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<double> numberOf(std::string_view text) {
+  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::vector<std::string> splitAtCommas(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ',')
+      parts.emplace_back();
+    else if (c != ' ')
+      parts.back() += c;
+  }
+  return parts;
+}
+
+std::string toleranceProblem(const std::string& text) {
+  const std::optional<double> value = numberOf(text);
+  if (!value || std::isnan(*value)) return fmt::format("'{}' is not a number", text);
+  if (*value < 0) return fmt::format("an error cannot be below zero, as {} is", text);
+  return {};
+}
+
+CLI::Validator validator(std::function<std::string(std::string&)> check) {
+  return CLI::Validator(std::move(check), "");
+}
+
+}  // namespace
+
+CLI::Validator wholeNumber(std::int64_t least, std::int64_t most) {
+  return validator([least, most](std::string& text) -> std::string {
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc::invalid_argument || end != text.data() + text.size())
+      return fmt::format("'{}' is not a whole number", text);
+    if (error != std::errc{} || value < least || value > most)
+      return fmt::format("must be from {} to {}, not {}", least, most, text);
+    return {};
+  });
+}
+
+CLI::Validator realNumber() {
+  return validator([](std::string& text) -> std::string {
+    const std::optional<double> value = numberOf(text);
+    return value && !std::isnan(*value) ? "" : fmt::format("'{}' is not a number", text);
+  });
+}
+
+CLI::Validator finiteAtLeast(double least) {
+  return validator([least](std::string& text) -> std::string {
+    const std::optional<double> value = numberOf(text);
+    if (!value || !std::isfinite(*value)) return fmt::format("'{}' is not a finite number", text);
+    return *value >= least ? "" : fmt::format("must be {} or more, not {}", least, text);
+  });
+}
+
+CLI::Validator finiteAbove(double bound) {
+  return validator([bound](std::string& text) -> std::string {
+    const std::optional<double> value = numberOf(text);
+    if (!value || !std::isfinite(*value)) return fmt::format("'{}' is not a finite number", text);
+    return *value > bound ? "" : fmt::format("must be above {}, not {}", bound, text);
+  });
+}
+
+CLI::Validator finiteBetween(double least, double most) {
+  return validator([least, most](std::string& text) -> std::string {
+    const std::optional<double> value = numberOf(text);
+    if (!value || !std::isfinite(*value)) return fmt::format("'{}' is not a finite number", text);
+    return *value >= least && *value <= most
+               ? ""
+               : fmt::format("must be from {} to {}, not {}", least, most, text);
+  });
+}
+
+CLI::Validator oneOf(std::vector<std::string> words) {
+  return validator([words = std::move(words)](std::string& text) -> std::string {
+    if (std::find(words.begin(), words.end(), text) != words.end()) return {};
+    return fmt::format("'{}' is none of {}", text, fmt::join(words, ", "));
+  });
+}
+
+CLI::Validator oneOfNumbered(std::vector<std::pair<std::string, int>> words) {
+  return validator([words = std::move(words)](std::string& text) -> std::string {
+    std::vector<std::string> known;
+    for (const auto& [word, number] : words) {
+      if (CLI::detail::to_lower(text) == word) {
+        text = std::to_string(number);
+        return {};
+      }
+      known.push_back(word);
+    }
+    return fmt::format("'{}' is none of {}", text, fmt::join(known, ", "));
+  });
+}
+
+CLI::Validator tolerance() {
+  return validator([](std::string& text) { return toleranceProblem(text); });
+}
+
+CLI::Validator tolerances() {
+  return validator([](std::string& text) -> std::string {
+    for (const std::string& part : splitAtCommas(text))
+      if (std::string problem = toleranceProblem(part); !problem.empty()) return problem;
+    return {};
+  });
+}
+
+Result<std::vector<double>> parseNumbers(const std::string& option, const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string& part : splitAtCommas(text)) {
+    const std::optional<double> value = numberOf(part);
+    if (!value || std::isnan(*value))
+      return failure(ErrorCode::usage, fmt::format("'{}' is not a number", part), option);
+    numbers.push_back(*value);
+  }
+  return numbers;
+}
+
+Result<std::pair<double, double>> twoNumbers(const std::string& option, std::string text, char separator) {
+  const std::string culprit = fmt::format("{} {}", option, text);
+  std::ranges::replace(text, separator, ',');
+  const auto numbers = parseNumbers(option, text);
+  if (!numbers) return tl::unexpected(numbers.error());
+  if (numbers->size() != 2)
+    return failure(ErrorCode::usage, fmt::format("has two numbers, not {}", numbers->size()), culprit);
+  return std::pair((*numbers)[0], (*numbers)[1]);
+}
+
+void DemArguments::addTo(CLI::App& command) {
+  const std::string group = "Reading the DEM";
+  command.add_option("--band", reading.band, "Band of a raster (default: its first)")
+      ->check(wholeNumber(1, 65535))
+      ->type_name("N")
+      ->group(group);
+  command.add_option("--layer", reading.layer, "Layer of a file of points with several")
+      ->type_name("NAME")
+      ->group(group);
+  command.add_option("--z-field", reading.zField, "Field or column of points that holds the height")
+      ->type_name("NAME")
+      ->group(group);
+  command.add_option("--nodata", reading.nodata, "Raw value that means NODATA, instead of the file's own")
+      ->check(realNumber())
+      ->type_name("VALUE")
+      ->group(group);
+  command
+      .add_option("--crs", reading.crs,
+                  "CRS of the coordinates, where the file has none or another one (EPSG:32611, WKT, ...)")
+      ->type_name("CRS")
+      ->group(group);
+}
+
+Result<CrsTransform> transformOfPlaces(bool lonLat, const TerrainModel& model) {
+  Result<CrsTransform> toDem = lonLat ? CrsTransform::fromLonLat(model.georeference) : CrsTransform();
+  if (!toDem && toDem.error().culprit.empty()) toDem.error().culprit = "--lonlat";
+  if (toDem) toDem->setTurns(LongitudeTurns(model));
+  return toDem;
+}
+
+Result<DemRead> DemArguments::read(const Session& session) const {
+  Result<DemRead> dem = readDem(path, reading, session.context());
+  if (dem)
+    session.warn(dem->warnings, path);
+  else if (!reading.crs.empty() && dem.error().culprit == reading.crs)
+    dem.error().culprit = fmt::format("--crs {}", reading.crs);
+  return dem;
+}
+
+Status checkOutput(const std::string& option, const std::string& path, const std::vector<std::string>& inputs,
+                   const std::vector<std::string>& outputs) {
+  const std::string culprit = fmt::format("{} {}", option, path);
+  const auto isSame = [&](const std::string& other) {
+    std::error_code ignored;
+    return path == other || fs::equivalent(path, other, ignored);
+  };
+  if (std::ranges::any_of(inputs, isSame))
+    return failure(ErrorCode::usage, "is the input; writing would destroy it", culprit);
+  if (std::ranges::any_of(outputs, isSame))
+    return failure(ErrorCode::usage, "is written by this command already, as something else", culprit);
+  const Result<OutputFile> file = OutputFile::create(path);
+  if (!file) return failure(file.error().code, file.error().message, culprit);
+  return {};
+}
+
+std::string grouped(std::uint64_t count) {
+  std::string text = std::to_string(count);
+  for (std::size_t i = text.size(); i > 3;) text.insert(i -= 3, 1, ' ');
+  return text;
+}
+
+std::string withUnit(double value, const std::string& unit) {
+  return unit.empty() ? fmt::format("{:.6g}", value) : fmt::format("{:.6g} {}", value, unit);
+}
+
+std::string byteCount(std::uint64_t bytes) {
+  if (bytes < 1000) return fmt::format("{} bytes", bytes);
+  if (bytes < 1'000'000) return fmt::format("{:.1f} kB", static_cast<double>(bytes) / 1e3);
+  if (bytes < 1'000'000'000) return fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
+  return fmt::format("{:.2f} GB", static_cast<double>(bytes) / 1e9);
+}
+
+}  // namespace arete

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "io/extract/criterion.h"
+#include "terrain/model/terrain_model.h"
+
+namespace arete {
+
+/// The options that say how fine a TIN shall be: everywhere, in a region, around a place, in a camera's view;
+/// under a budget or a deadline.
+struct CriterionArguments {
+  void addTo(CLI::App& command);
+
+  /// What can be told without a model: options that contradict each other or say nothing. Errors: usage.
+  Status check() const;
+  /// Where on the terrain something is placed by its height above the ground, in plan coordinates: a camera.
+  /// `outline`: of the model, its root at least. Errors: usage.
+  Result<std::optional<Vec2>> placeAboveGround(const TerrainModel& outline) const;
+  /// One criterion for each tolerance, or the only one. Of the model the root is enough, and what is below
+  /// placeAboveGround(). Precondition: check(). Errors: usage, naming the option; invalidData, a camera above
+  /// no terrain.
+  Result<std::vector<ExtractCriterion>> criteria(const TerrainModel& model) const;
+
+  const std::string& region() const { return region_; }
+  double distance() const { return distance_; }
+  bool hasDeadline() const { return deadline_ > 0; }
+
+ private:
+  static constexpr double kUnstated = std::numeric_limits<double>::quiet_NaN();
+
+  Status checkFit() const;
+  Status placeCamera(const TerrainModel& model, ExtractCriterion& criterion) const;
+  Status placeFocus(const TerrainModel& model, ExtractCriterion& criterion) const;
+
+  std::string maxErrors_;
+  std::int64_t maxTriangles_ = -1;  // < 0: not stated
+  std::string method_ = "minimal", order_ = "worst";
+  std::string region_;
+  double distance_ = 0, outsideError_ = kUnstated;
+  std::string focus_;
+  double growth_ = kUnstated;
+  std::string camera_, look_, viewport_;
+  double fieldOfView_ = kUnstated, pixelError_ = kUnstated;
+  bool isLonLat_ = false;
+  double deadline_ = 0;  // 0: none
+  std::string fit_ = "none";
+};
+
+}  // namespace arete

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/commands/build.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "cli/arguments/arguments.h"
+#include "engine/base/stopwatch.h"
+#include "io/amt/file.h"
+#include "io/crs/names.h"
+#include "io/dem/dem_reader.h"
+#include "io/file/text_scan.h"
+#include "io/table/plan_point_reader.h"
+#include "terrain/build/build.h"
+#include "terrain/features/fixed_vertices.h"
+
+namespace arete {
+namespace {
+
+struct BuildArguments {
+  DemArguments dem;
+  std::string output;
+  BuildOptions options;
+  std::string shape = "delaunay";
+  std::size_t featureCount = FeatureOptions{}.count;
+  double featurePersistence = -1;  // < 0: not stated
+  bool noFeatures = false;
+  bool isPacked = false;
+  std::string fixedPath;
+  double creaseAngleDegrees = -1;  // < 0: not stated
+  double minimumAspect = -1;       // < 0: not stated
+};
+
+struct Seconds {
+  double read = 0, features = 0, build = 0, write = 0;
+};
+
+Result<FixedVertexOptions> fixedOptions(const BuildArguments& arguments, const Georeference& georeference,
+                                        Session& session) {
+  FixedVertexOptions fixed;
+  fixed.features->count = arguments.featureCount;
+  if (arguments.featurePersistence >= 0) {
+    fixed.features->count = std::numeric_limits<std::size_t>::max();
+    fixed.features->minimumPersistence = arguments.featurePersistence;
+  }
+  if (arguments.noFeatures) fixed.features.reset();
+  if (arguments.creaseAngleDegrees >= 0) fixed.creaseAngleDegrees = arguments.creaseAngleDegrees;
+  if (!arguments.fixedPath.empty()) {
+    auto points = readPlanPoints(arguments.fixedPath, georeference.crsWkt, session.context());
+    if (!points) return tl::unexpected(points.error());
+    session.warn(points->warnings, arguments.fixedPath);
+    fixed.given = std::move(points->positions);
+  }
+  return fixed;
+}
+
+void report(Session& session, const BuildArguments& arguments, const TerrainModel& model,
+            const FixedVertices& fixed, const Seconds& seconds) {
+  const MultiTriangulation& mt = model.mt;
+  const std::uint64_t samples = std::uint64_t(mt.vertexCount()) + model.isolated.size();
+  std::error_code error;
+  const auto size = std::filesystem::file_size(arguments.output, error);
+  const std::uint64_t bytes = error ? 0 : size;
+  const double count = static_cast<double>(samples), rate = count / seconds.build;
+  const double bytesPerSample = static_cast<double>(bytes) / count;
+  if (session.wantsJson()) {
+    session.answer({{"file", arguments.output},
+                    {"source", model.source},
+                    {"sourceChecksum", model.sourceChecksum},
+                    {"crs", crsName(model.georeference.crsWkt)},
+                    {"samples", samples},
+                    {"isolated", model.isolated.size()},
+                    {"vertices", mt.vertexCount()},
+                    {"triangles", mt.triangleCount()},
+                    {"finestTriangles", mt.finestTriangleCount()},
+                    {"rootTriangles", mt.rootTriangleCount()},
+                    {"rootVertices", mt.rootVertexCount()},
+                    {"levels", model.levels},
+                    {"fixedVertices", fixed.vertices.size()},
+                    {"features", fixed.features},
+                    {"given", fixed.given},
+                    {"creaseVertices", fixed.creases},
+                    {"shape", toString(model.options.shape)},
+                    {"seconds",
+                     {{"read", seconds.read},
+                      {"features", seconds.features},
+                      {"build", seconds.build},
+                      {"write", seconds.write}}},
+                    {"samplesPerSecond", rate},
+                    {"bytes", bytes},
+                    {"bytesPerSample", bytesPerSample}});
+    return;
+  }
+  session.say(fmt::format(
+      "{}\n"
+      "  samples    {}{}\n"
+      "  triangles  {} at the finest, {} in the multitriangulation\n"
+      "  root       {} triangles, {} vertices ({} fixed), {} levels\n"
+      "  built in   {:.2f} s, {} samples/s (read {:.2f} s, features {:.2f} s, write {:.2f} s)\n"
+      "  size       {}, {:.0f} bytes a sample\n",
+      arguments.output, grouped(samples),
+      model.isolated.empty() ? "" : fmt::format(", {} of them isolated", grouped(model.isolated.size())),
+      grouped(mt.finestTriangleCount()), grouped(mt.triangleCount()), grouped(mt.rootTriangleCount()),
+      grouped(mt.rootVertexCount()), grouped(fixed.vertices.size()), model.levels, seconds.build,
+      grouped(static_cast<std::uint64_t>(rate)), seconds.read, seconds.features, seconds.write,
+      byteCount(bytes), bytesPerSample));
+}
+
+Status takeShape(BuildArguments& arguments) {
+  if (arguments.shape == "fidelity") arguments.options.shape = HoleShape::dataDependent;
+  if (arguments.minimumAspect < 0) return {};
+  if (arguments.options.shape != HoleShape::dataDependent)
+    return failure(ErrorCode::usage, "means something only with --shape fidelity", "--min-aspect");
+  arguments.options.minimumAspect = arguments.minimumAspect;
+  return {};
+}
+
+/// From a heightfield that has been read to the file. `finest`: of points, their triangulation.
+template <class Heightfield, class... Finest>
+Status buildFrom(BuildArguments& arguments, const FixedVertexOptions& wishes, Session& session,
+                 Seconds& seconds, const Heightfield& field, Finest... finest) {
+  Stopwatch choosing;
+  Result<FixedVertices> fixed = chooseFixedVertices(field, finest..., wishes, session.context());
+  if (!fixed) return tl::unexpected(fixed.error());
+  if (!wishes.given.empty() && fixed->givenOutside == wishes.given.size())
+    return failure(ErrorCode::invalidData,
+                   fmt::format("none of the {} points lies on the DEM's data", wishes.given.size()),
+                   fmt::format("--fixed {}", arguments.fixedPath));
+  if (fixed->givenOutside > 0)
+    session.warn(fmt::format("--fixed {}: {} of {} points lie beside the DEM's data and are left out",
+                             arguments.fixedPath, fixed->givenOutside, wishes.given.size()));
+  arguments.options.fixedVertices = fixed->vertices;
+  seconds.features = choosing.seconds();
+
+  Stopwatch building;
+  Result<TerrainModel> model = build(field, std::move(finest)..., arguments.options, session.context());
+  if (!model) return tl::unexpected(model.error());
+  seconds.build += building.seconds();
+  model->reading = arguments.dem.reading;
+
+  Stopwatch writing;
+  const AmtWriteOptions options{.isPacked = arguments.isPacked};
+  if (Status written = writeAmt(arguments.output, *model, session.context(), options); !written)
+    return written;
+  seconds.write = writing.seconds();
+  report(session, arguments, *model, *fixed, seconds);
+  return {};
+}
+
+Status runBuild(BuildArguments& arguments, Session& session) {
+  if (Status taken = takeShape(arguments); !taken) return taken;
+  const std::string extension = text::lowerExtension(arguments.output);
+  if (!extension.empty() && extension != "amt")
+    return failure(
+        ErrorCode::usage,
+        fmt::format("a multitriangulation is an .amt file, not a .{}; arete extract makes others of it",
+                    extension),
+        fmt::format("--output {}", arguments.output));
+  if (Status output = checkOutput("--output", arguments.output, {arguments.dem.path, arguments.fixedPath});
+      !output)
+    return output;
+  Seconds seconds;
+  Stopwatch reading;
+  Result<DemRead> dem = arguments.dem.read(session);
+  if (!dem) return tl::unexpected(dem.error());
+  seconds.read = reading.seconds();
+  return std::visit(
+      [&](const auto& field) -> Status {
+        const auto wishes = fixedOptions(arguments, field.georeference, session);
+        if (!wishes) return tl::unexpected(wishes.error());
+        if constexpr (std::is_same_v<decltype(field), const PointHeightfield&>) {
+          if (Status valid = checkBuild(field, arguments.options); !valid) return valid;
+          Stopwatch triangulating;
+          Result<FinestPoints> finest = finestPoints(field, session.context());
+          if (!finest) return tl::unexpected(finest.error());
+          seconds.build = triangulating.seconds();
+          return buildFrom(arguments, *wishes, session, seconds, field, std::move(*finest));
+        } else {
+          return buildFrom(arguments, *wishes, session, seconds, field);
+        }
+      },
+      dem->heightfield);
+}
+
+}  // namespace
+
+void addBuildCommand(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<BuildArguments>();
+  CLI::App* command =
+      session.addCommand(app, "build", "Turn a DEM into a multitriangulation, once",
+                         "  arete build dem.tif -o dem.amt\n"
+                         "  arete build N46E008.hgt.zip -o alps.amt --shape fidelity\n"
+                         "  arete build points.csv -o points.amt --crs EPSG:32611 --fixed peaks.gpkg\n"
+                         "  arete build dem.tif -o dem.amt --feature-persistence 100 --rim-tolerance 2",
+                         [arguments](Session& s) { return runBuild(*arguments, s); });
+  command
+      ->add_option("DEM", arguments->dem.path,
+                   "Raster or scattered points: whatever GDAL reads, zipped too, or text (CSV, XYZ)")
+      ->required()
+      ->type_name("");
+  command->add_option("-o,--output", arguments->output, "Multitriangulation to write (.amt)")
+      ->required()
+      ->type_name("FILE.amt");
+  command->add_flag(
+      "--packed", arguments->isPacked,
+      "Write the compressed form: a ninth to a fifteenth of the size, unpacked into memory when it is read");
+  command
+      ->add_option("--shape", arguments->shape,
+                   "delaunay: well-shaped triangles (default); fidelity: far fewer triangles at a bound")
+      ->check(oneOf({"delaunay", "fidelity"}))
+      ->type_name("NAME");
+  command
+      ->add_option("--ratio", arguments->options.thresholdRatio,
+                   "Growth of the error threshold from the first level to the second; it falls as\n"
+                   "fewer vertices are left (default 1.17)")
+      ->check(finiteAbove(1))
+      ->type_name("R");
+  command
+      ->add_option("--max-degree", arguments->options.maxDegree,
+                   "Vertices with more neighbours wait (default 14)")
+      ->check(wholeNumber(6, 32))
+      ->type_name("D");
+  command
+      ->add_option("--min-aspect", arguments->minimumAspect,
+                   "Fidelity: least altitude of a triangle by its longest edge (default 0.02)")
+      ->check(finiteAtLeast(0))
+      ->type_name("A");
+  command
+      ->add_option("--rim-tolerance", arguments->options.rimTolerance,
+                   "Samples by which the rims of NODATA may be simplified (default 0: exact)")
+      ->check(finiteAtLeast(0))
+      ->type_name("SAMPLES");
+  const std::string keeping = "Vertices that stay at every tolerance";
+  CLI::Option* count = command
+                           ->add_option("--features", arguments->featureCount,
+                                        "So many of the most persistent peaks, pits and passes (default 64)")
+                           ->check(wholeNumber(0, 100'000'000))
+                           ->type_name("N")
+                           ->group(keeping);
+  CLI::Option* persistence = command
+                                 ->add_option("--feature-persistence", arguments->featurePersistence,
+                                              "All peaks, pits and passes at least this persistent")
+                                 ->check(finiteAtLeast(0))
+                                 ->type_name("P")
+                                 ->group(keeping);
+  CLI::Option* none =
+      command->add_flag("--no-features", arguments->noFeatures, "No features")->group(keeping);
+  count->excludes(persistence)->excludes(none);
+  persistence->excludes(none);
+  command
+      ->add_option("--fixed", arguments->fixedPath,
+                   "Points (GeoPackage, CSV, ...): the sample nearest to each stays")
+      ->type_name("FILE")
+      ->group(keeping);
+  command
+      ->add_option("--crease-angle", arguments->creaseAngleDegrees,
+                   "Vertices on creases sharper than this stay (classes corner and interior edge)")
+      ->check(finiteBetween(0, 180))
+      ->type_name("DEGREES")
+      ->group(keeping);
+  arguments->dem.addTo(*command);
+}
+
+}  // namespace arete

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/commands/convert.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "cli/arguments/arguments.h"
+#include "io/amt/file.h"
+#include "io/crs/names.h"
+#include "io/exchange/convert.h"
+#include "io/exchange/mesh_formats.h"
+#include "io/file/text_scan.h"
+
+namespace arete {
+namespace {
+
+struct ConvertArguments {
+  std::string input, output, crs;
+  bool isPacked = false;
+};
+
+Json roundingJson(const Vec3& rounding) {
+  return {rounding.x, rounding.y, rounding.z};
+}
+
+bool isAmt(const std::string& path) {
+  return text::lowerExtension(path) == "amt";
+}
+
+/// A multitriangulation into its packed form or out of it.
+Status convertAmt(const ConvertArguments& arguments, Session& session) {
+  if (!isAmt(arguments.output))
+    return failure(ErrorCode::usage,
+                   "a multitriangulation becomes another .amt here; arete extract makes meshes of it",
+                   fmt::format("--output {}", arguments.output));
+  if (!arguments.crs.empty())
+    return failure(ErrorCode::usage, "an .amt has the CRS of its DEM",
+                   fmt::format("--crs {}", arguments.crs));
+  if (Status output = checkOutput("--output", arguments.output, {arguments.input}); !output) return output;
+  const Result<TerrainModel> model = loadAmt(arguments.input, {}, session.context());
+  if (!model) return tl::unexpected(model.error());
+  const AmtWriteOptions options{.isPacked = arguments.isPacked};
+  if (Status written = writeAmt(arguments.output, *model, session.context(), options); !written)
+    return written;
+  std::error_code error;
+  const auto size = std::filesystem::file_size(arguments.output, error);
+  const std::uint64_t bytes = error ? 0 : size, samples = model->mt.vertexCount() + model->isolated.size();
+  const double perSample = static_cast<double>(bytes) / static_cast<double>(samples);
+  session.say(fmt::format("{}: {}, {:.1f} bytes a sample\n", arguments.output, byteCount(bytes), perSample));
+  session.answer({{"input", arguments.input},
+                  {"output", arguments.output},
+                  {"format", "AMT"},
+                  {"isPacked", arguments.isPacked},
+                  {"bytes", bytes},
+                  {"bytesPerSample", perSample}});
+  return {};
+}
+
+Status runConvert(const ConvertArguments& arguments, Session& session) {
+  if (isAmt(arguments.input)) return convertAmt(arguments, session);
+  if (arguments.isPacked)
+    return failure(ErrorCode::usage, "is for multitriangulations (.amt), not for meshes", "--packed");
+  const Result<MeshFormat> format = meshFormatOf(arguments.output);
+  if (!format)
+    return failure(ErrorCode::usage, format.error().message, fmt::format("--output {}", arguments.output));
+  if (Status output = checkOutput("--output", arguments.output, {arguments.input}); !output) return output;
+  Result<MeshFile> mesh = readMesh(arguments.input, session.context());
+  if (!mesh) return tl::unexpected(mesh.error());
+  const std::uint64_t triangles = mesh->mesh.triangles.size(), vertices = mesh->mesh.positions.size();
+  const Result<ConvertedMesh> converted =
+      convertMesh(std::move(*mesh), arguments.output, {.crs = arguments.crs}, session.context());
+  if (!converted) {
+    Error error = converted.error();
+    if (error.code == ErrorCode::usage) error.culprit = fmt::format("--crs {}", arguments.crs);
+    return tl::unexpected(std::move(error));
+  }
+  session.warn(converted->warnings, arguments.input);
+  if (!converted->lost.empty())
+    session.warn(fmt::format("{} cannot hold {}", format->name, fmt::join(converted->lost, ", or ")));
+  session.say(fmt::format("{}: {} triangles, {} vertices\n", arguments.output, grouped(triangles),
+                          grouped(vertices)));
+  session.answer({{"input", arguments.input},
+                  {"output", arguments.output},
+                  {"format", format->name},
+                  {"triangles", triangles},
+                  {"vertices", vertices},
+                  {"crs", crsName(converted->crsWkt)},
+                  {"verticalUnit", converted->verticalUnit},
+                  {"rounding", roundingJson(converted->frame.rounding)},
+                  {"lost", converted->lost}});
+  return {};
+}
+
+}  // namespace
+
+void addConvertCommand(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<ConvertArguments>();
+  CLI::App* command = session.addCommand(
+      app, "convert",
+      "Write a mesh in another format, with its CRS, unit and errors where that can hold them",
+      "  arete convert tin.ply -o tin.glb\n"
+      "  arete convert tin.stl -o tin.gpkg --crs EPSG:32611\n"
+      "  arete convert tin.gpkg -o tin.2dm --json\n"
+      "  arete convert dem.amt -o small.amt --packed",
+      [arguments](Session& s) { return runConvert(*arguments, s); });
+  command->add_option("MESH", arguments->input, "A triangle mesh: " + readableMeshExtensions() + "; or .amt")
+      ->required()
+      ->type_name("");
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "File to write: " + writableMeshExtensions() + "; .amt of .amt")
+      ->required()
+      ->type_name("FILE");
+  command->add_flag("--packed", arguments->isPacked,
+                    "Of an .amt: write the compressed form (without it, the plain one)");
+  command
+      ->add_option("--crs", arguments->crs,
+                   "The CRS of the coordinates, where the file does not say it (nothing is reprojected)")
+      ->type_name("CRS");
+}
+
+}  // namespace arete

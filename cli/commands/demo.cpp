@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/commands/demo.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+#include "cli/arguments/arguments.h"
+#include "viewer/headless/demo.h"
+
+namespace arete {
+namespace {
+
+struct DemoArguments {
+  DemArguments dem;
+  DemoOptions options;
+  std::string maxErrors;
+};
+
+Json answerOf(const DemoReport& report) {
+  Json results = Json::array(), curve = Json::array();
+  for (const DemoResult& r : report.results)
+    results.push_back({{"maxError", r.maxError},
+                       {"triangles", r.triangles},
+                       {"percentOfFinest", r.percentOfFinest},
+                       {"measuredMax", r.measuredMax},
+                       {"measuredRms", r.measuredRms},
+                       {"uncovered", r.uncovered},
+                       {"cutSeconds", r.cutSeconds},
+                       {"kept", r.isKept}});
+  for (const CurvePoint& p : report.curve)
+    curve.push_back({{"maxError", p.maxError},
+                     {"minimalTriangles", p.minimalTriangles},
+                     {"saturatedTriangles", p.saturatedTriangles}});
+  return {{"dem", report.dem},
+          {"columns", report.columns},
+          {"rows", report.rows},
+          {"unit", report.unit},
+          {"finestTriangles", report.finestTriangles},
+          {"isolated", report.isolated},
+          {"buildSeconds", report.buildSeconds},
+          {"totalSeconds", report.totalSeconds},
+          {"results", results},
+          {"curve", curve},
+          {"files", report.files}};
+}
+
+std::string textOf(const DemoReport& report) {
+  std::string text = fmt::format(
+      "{}: {} x {} samples, {} triangles at full resolution, built in {:.1f} s\n\n{}\n", report.dem,
+      report.columns, report.rows, grouped(report.finestTriangles), report.buildSeconds, demoTable(report));
+  if (report.isolated > 0)
+    text += fmt::format("{} isolated samples are in no triangle and in no column.\n", report.isolated);
+  text += fmt::format("Written in {:.1f} s:\n", report.totalSeconds);
+  for (const std::string& file : report.files) text += "  " + file + "\n";
+  return text;
+}
+
+Status demonstrate(DemoArguments& arguments, Session& session) {
+  arguments.options.reading = arguments.dem.reading;
+  if (!arguments.maxErrors.empty()) {
+    Result<std::vector<double>> errors = parseNumbers("--max-error", arguments.maxErrors);
+    if (!errors) return tl::unexpected(errors.error());
+    arguments.options.maxErrors = std::move(*errors);
+  }
+  const Result<DemoReport> report = runDemo(arguments.dem.path, arguments.options, session.context());
+  if (!report) return tl::unexpected(report.error());
+  session.warn(report->warnings, arguments.dem.path);
+  session.say(textOf(*report));
+  session.answer(answerOf(*report));
+  return {};
+}
+
+}  // namespace
+
+void addDemoCommand(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<DemoArguments>();
+  CLI::App* command =
+      session.addCommand(app, "demo", "Build, extract, measure and draw one DEM, to see what comes out",
+                         "  arete demo dem.tif -o demo\n"
+                         "  arete demo dem.tif -o demo --max-error 2,10,50 --shape fidelity",
+                         [arguments](Session& s) { return demonstrate(*arguments, s); });
+  command->add_option("DEM", arguments->dem.path, "Any raster GDAL reads")->required();
+  command->add_option("-o,--output", arguments->options.folder, "Folder for the files, made where missing")
+      ->required();
+  command
+      ->add_option("--max-error", arguments->maxErrors,
+                   "Tolerances, with commas between (default: chosen from the data)")
+      ->check(tolerances())
+      ->type_name("E[,E...]");
+  command
+      ->add_option("--shape", arguments->options.build.shape,
+                   "delaunay: well-shaped triangles (default); fidelity: far fewer triangles at a bound")
+      ->transform(
+          oneOf<HoleShape>({{"delaunay", HoleShape::delaunay}, {"fidelity", HoleShape::dataDependent}}))
+      ->type_name("NAME");
+  arguments->dem.addTo(*command);
+}
+
+}  // namespace arete

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/commands/extract.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments/arguments.h"
+#include "cli/arguments/criterion.h"
+#include "cli/session/model_file.h"
+#include "io/crs/longitude_turns.h"
+#include "io/dem/raster_writer.h"
+#include "io/exchange/mesh_formats.h"
+#include "io/extract/part.h"
+#include "io/extract/region_argument.h"
+#include "io/extract/report_json.h"
+#include "io/extract/tin.h"
+#include "terrain/model/plan_region.h"
+
+namespace arete {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPlaceholder = "{}";
+
+/// An option with an optional value takes what follows it: FILE.amt, when that comes last.
+CLI::Validator notTheModel() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        if (fs::path(text).extension() != ".amt") return {};
+        return fmt::format("'{}' cannot be its name; put FILE.amt before --certificate", text);
+      },
+      "");
+}
+
+struct ExtractArguments {
+  std::string model, output;
+  CriterionArguments criterion;
+  std::string certificate, errorRaster;
+  CLI::Option* certificateOption = nullptr;
+};
+
+/// The name for one tolerance: wherever the placeholder is, or, where there are several, "_5" before the
+/// extension.
+std::string named(const std::string& pattern, const std::string& tag, bool several) {
+  if (pattern.find(kPlaceholder) != std::string::npos) {
+    std::string name = pattern;
+    for (std::size_t at = 0; (at = name.find(kPlaceholder, at)) != std::string::npos; at += tag.size())
+      name.replace(at, kPlaceholder.size(), tag);
+    return name;
+  }
+  if (!several) return pattern;
+  const fs::path path = pattern;
+  return (path.parent_path() / fmt::format("{}_{}{}", path.stem().string(), tag, path.extension().string()))
+      .string();
+}
+
+std::string certificateBeside(const std::string& output) {
+  return fs::path(output).replace_extension(".certificate.json").string();
+}
+
+/// What stands for a criterion in the name of its file.
+std::string tagOf(const ExtractCriterion& criterion) {
+  if (criterion.maxError) return fmt::format("{}", *criterion.maxError);
+  if (criterion.maxTriangles) return std::to_string(*criterion.maxTriangles);
+  if (criterion.pixelError) return fmt::format("{}px", *criterion.pixelError);
+  return fmt::format("{}ms", criterion.deadlineMilliseconds.value_or(0));
+}
+
+Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments, const TerrainModel& model) {
+  auto criteria = arguments.criterion.criteria(model);
+  if (!criteria) return tl::unexpected(criteria.error());
+  std::vector<ExtractRequest> requests;
+  const bool wantsCertificate = arguments.certificateOption->count() > 0;
+  const bool several = criteria->size() > 1;
+  for (ExtractCriterion& criterion : *criteria) {
+    ExtractRequest request;
+    request.criterion = std::move(criterion);
+    const std::string tag = tagOf(request.criterion);
+    request.output = named(arguments.output, tag, several);
+    if (wantsCertificate)
+      request.certificate = arguments.certificate.empty() ? certificateBeside(request.output)
+                                                          : named(arguments.certificate, tag, several);
+    if (!arguments.errorRaster.empty()) request.errorRaster = named(arguments.errorRaster, tag, several);
+    requests.push_back(std::move(request));
+  }
+  for (const ExtractRequest& request : requests) {
+    if (Status known = checkExtractOutput(request.output, model); !known)
+      return failure(known.error().code, known.error().message, fmt::format("--output {}", request.output));
+    if (arguments.criterion.hasDeadline() && isGeoTiffName(request.output))
+      return failure(
+          ErrorCode::usage,
+          "a TIN that a deadline ended cannot be taken a second time to check the raster; write a mesh",
+          fmt::format("--output {}", request.output));
+    if (request.errorRaster.empty()) continue;
+    if (!isGeoTiffName(request.errorRaster))
+      return failure(ErrorCode::usage, "the error raster is a GeoTIFF: its name ends in .tif",
+                     fmt::format("--error-raster {}", request.errorRaster));
+    if (Status known = checkExtractOutput(request.errorRaster, model); !known)
+      return failure(known.error().code, known.error().message,
+                     fmt::format("--error-raster {}", request.errorRaster));
+  }
+  return requests;
+}
+
+Status checkOutputs(const std::vector<ExtractRequest>& requests, const ExtractArguments& arguments,
+                    const TerrainModel& model) {
+  std::vector<std::string> inputs = {arguments.model, model.source}, outputs;
+  if (fs::exists(arguments.criterion.region())) inputs.push_back(arguments.criterion.region());
+  const auto check = [&](const char* option, const std::string& path) -> Status {
+    if (path.empty()) return {};
+    if (Status output = checkOutput(option, path, inputs, outputs); !output) return output;
+    outputs.push_back(path);
+    return {};
+  };
+  for (const ExtractRequest& request : requests) {
+    if (Status status = check("--output", request.output); !status) return status;
+    if (Status status = check("--certificate", request.certificate); !status) return status;
+    if (Status status = check("--error-raster", request.errorRaster); !status) return status;
+  }
+  return {};
+}
+
+Result<std::optional<Region>> regionOf(const ExtractArguments& arguments, const TerrainModel& model,
+                                       Session& session) {
+  const std::string& text = arguments.criterion.region();
+  if (text.empty()) return std::nullopt;
+  auto read =
+      readRegionArgument(text, model.georeference.crsWkt, arguments.criterion.distance(), session.context());
+  if (!read) return tl::unexpected(read.error());
+  session.warn(read->warnings, text);
+  LongitudeTurns(model).apply(read->shape);
+  Region region = planRegion(std::move(read->shape), model);
+  if (region.isEmpty() || !meetsDomain(region, model.mt))
+    return failure(ErrorCode::usage, fmt::format("does not meet the data of {}", arguments.model),
+                   fmt::format("--region {}", text));
+  return std::optional<Region>(std::move(region));
+}
+
+Json jsonOf(const ExtractRequest& request, const ExtractedTin& tin, bool isRaster) {
+  Json json = {{"file", request.output}};
+  if (request.criterion.maxError)
+    json["maxError"] =
+        std::isfinite(*request.criterion.maxError) ? Json(*request.criterion.maxError) : Json();
+  if (request.criterion.maxTriangles) json["maxTriangles"] = *request.criterion.maxTriangles;
+  if (request.criterion.pixelError) json["pixelError"] = *request.criterion.pixelError;
+  if (request.criterion.deadlineMilliseconds) json["deadline"] = *request.criterion.deadlineMilliseconds;
+  json["complete"] = tin.isComplete;
+  json["triangles"] = tin.triangles;
+  json["vertices"] = tin.vertices;
+  json["storedError"] = tin.storedError;
+  if (tin.pixels) json["pixels"] = std::isfinite(*tin.pixels) ? Json(*tin.pixels) : Json();
+  json["promisedError"] = std::isfinite(tin.promisedError) ? Json(tin.promisedError) : Json();
+  if (!request.certificate.empty()) json["certificate"] = request.certificate;
+  if (!request.errorRaster.empty()) json["errorRaster"] = request.errorRaster;
+  if (tin.fit)
+    json["fit"] = {{"for", fitName(request.criterion.fit)},
+                   {"trianglesBefore", tin.fit->trianglesBefore},
+                   {"errorBefore", tin.fit->errorBefore}};
+  if (tin.measured) json["measured"] = toJson(*tin.measured, isRaster);
+  if (tin.measuredInside) json["measuredInside"] = toJson(*tin.measuredInside, isRaster);
+  if (tin.measured) json["kept"] = tin.isKept;
+  return json;
+}
+
+std::string textOf(const ExtractRequest& request, const ExtractedTin& tin, const std::string& unit) {
+  std::string text =
+      fmt::format("{}: {} triangles, {} vertices, error at most {}", request.output, grouped(tin.triangles),
+                  grouped(tin.vertices), withUnit(tin.storedError, unit));
+  if (!request.criterion.region.empty())
+    text += fmt::format(" (in the region {})", withUnit(tin.promisedError, unit));
+  if (tin.pixels && std::isfinite(*tin.pixels))
+    text += fmt::format(", {:.3g} pixels in the camera's picture", *tin.pixels);
+  else if (tin.pixels)
+    text += ", its pixels around the camera's eye not known";
+  if (!tin.isComplete && request.criterion.deadlineMilliseconds) text += "; ended by the deadline";
+  if (tin.fit && request.criterion.fit == ExtractFit::triangles)
+    text += fmt::format("; {} triangles before the fit", grouped(tin.fit->trianglesBefore));
+  else if (tin.fit)
+    text += fmt::format("; {} before the fit", withUnit(tin.fit->errorBefore, unit));
+  if (tin.measured) text += fmt::format("; measured {}", withUnit(tin.measured->maxAbsError, unit));
+  if (tin.measuredInside) text += fmt::format(", {} inside", withUnit(tin.measuredInside->maxAbsError, unit));
+  if (!request.certificate.empty()) text += fmt::format("\n  certificate {}", request.certificate);
+  if (!request.errorRaster.empty()) text += fmt::format("\n  error raster {}", request.errorRaster);
+  return text + "\n";
+}
+
+/// A promise below what the numbers of the format can hold is not kept to the last digit.
+void warnOfRounding(const ExtractedTin& tin, const std::string& output, const std::string& unit,
+                    const Session& session) {
+  const double rounding = tin.format.heightRounding;
+  constexpr double kForgiven = 1e-6;
+  if (!tin.measured && rounding > kForgiven && tin.storedError + rounding > tin.promisedError + kForgiven)
+    session.warn(fmt::format("{}: {} rounds heights by up to {}, which a promise of {} does not allow for",
+                             output, tin.format.name, withUnit(rounding, unit),
+                             withUnit(tin.promisedError, unit)));
+}
+
+std::string brokenPromise(const ExtractedTin& tin) {
+  std::string sentence =
+      fmt::format("the measurement of the exported TIN contradicts the promised error {}", tin.promisedError);
+  if (tin.format.heightRounding > 0)
+    sentence += fmt::format("; {} rounds heights by up to {}", tin.format.name, tin.format.heightRounding);
+  return sentence;
+}
+
+/// The root, and the terrain wherever something is placed above it.
+Result<TerrainModel> outlineForPlaces(const AmtFile& file, const CriterionArguments& criterion,
+                                      const Session& session) {
+  Result<TerrainModel> root = file.read({.wanted = requiredNowhere()}, session.context());
+  if (!root) return root;
+  const auto place = criterion.placeAboveGround(*root);
+  if (!place) return tl::unexpected(place.error());
+  if (!*place) return root;
+  QueryFootprint wanted(*root);
+  wanted.add(**place);
+  return file.read({.wanted = wanted.within(0)}, session.context());
+}
+
+Status runExtract(const ExtractArguments& arguments, Session& session) {
+  if (Status ok = arguments.criterion.check(); !ok) return ok;
+  const Result<AmtFile> file = openAmt(arguments.model);
+  if (!file) return tl::unexpected(file.error());
+  Result<TerrainModel> model = outlineForPlaces(*file, arguments.criterion, session);
+  if (!model) return tl::unexpected(model.error());
+  auto requests = requestsOf(arguments, *model);
+  if (!requests) return tl::unexpected(requests.error());
+  if (Status outputs = checkOutputs(*requests, arguments, *model); !outputs) return outputs;
+  const auto region = regionOf(arguments, *model, session);
+  if (!region) return tl::unexpected(region.error());
+  for (ExtractRequest& request : *requests) request.region = *region;
+  model = readForExtract(*file, *requests, *model, session.context());
+  if (!model) return tl::unexpected(model.error());
+
+  TinExtractor extractor(*model, arguments.model,
+                         [&file](const RunContext& context) { return file->read({}, context); });
+  Json exports = Json::array();
+  Status promise;
+  for (const ExtractRequest& request : *requests) {
+    const Result<ExtractedTin> tin = extractor.extract(request, session.context());
+    if (!tin) return tl::unexpected(tin.error());
+    warnOfRounding(*tin, request.output, model->georeference.verticalUnit, session);
+    session.say(textOf(request, *tin, model->georeference.verticalUnit));
+    exports.push_back(jsonOf(request, *tin, model->isRaster));
+    if (!tin->isKept && promise)
+      promise = failure(ErrorCode::brokenPromise, brokenPromise(*tin), request.output);
+  }
+  session.answer({{"model", arguments.model},
+                  {"verticalUnit", model->georeference.verticalUnit},
+                  {"exports", std::move(exports)}});
+  return promise;
+}
+
+}  // namespace
+
+void addExtractCommand(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<ExtractArguments>();
+  CLI::App* command = session.addCommand(
+      app, "extract", "Take TINs from a multitriangulation: by tolerance, budget, region or view",
+      "  arete extract dem.amt -o tin.ply --max-error 5\n"
+      "  arete extract dem.amt -o tin.ply --max-error 1,5,20      tin_1.ply, tin_5.ply, tin_20.ply\n"
+      "  arete extract dem.amt -o 'out/{}m.obj' --max-error 5     out/5m.obj\n"
+      "  arete extract dem.amt -o tin.ply --max-error 5 --fit triangles\n"
+      "  arete extract dem.amt -o tin.ply --max-triangles 50000 --certificate\n"
+      "  arete extract dem.amt -o tin.ply --max-error 1 --region park.gpkg --outside-error 20\n"
+      "  arete extract dem.amt -o tin.ply --max-error 1 --region road.gpkg --distance 500\n"
+      "  arete extract dem.amt -o tin.ply --camera 384000,3800000,50 --look 120,-10 --pixel-error 2\n"
+      "  arete extract dem.amt -o smooth.tif --max-error 5 --error-raster error.tif",
+      [arguments](Session& s) { return runExtract(*arguments, s); });
+  command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "File to write: " + writableMeshExtensions() +
+                       ", or .tif (the TIN sampled on the source grid). {} in the name is the tolerance; "
+                       "with several and no {}, _E goes before the extension")
+      ->required()
+      ->type_name("FILE");
+  arguments->criterion.addTo(*command);
+  arguments->certificateOption =
+      command
+          ->add_option("--certificate", arguments->certificate,
+                       "Measure the TIN and write what is promised, found, and how to check it as JSON "
+                       "(default name: the output's, .certificate.json)")
+          ->expected(0, 1)
+          ->check(notTheModel())
+          ->type_name("[FILE]");
+  command
+      ->add_option("--error-raster", arguments->errorRaster,
+                   "Also write TIN height minus DEM height, a GeoTIFF on the source grid")
+      ->type_name("FILE");
+}
+
+}  // namespace arete

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/commands/height.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments/arguments.h"
+#include "cli/session/model_file.h"
+#include "io/crs/position_argument.h"
+#include "io/crs/transform.h"
+#include "io/table/height_table.h"
+#include "io/table/point_table.h"
+#include "terrain/locate/surface_height.h"
+
+namespace arete {
+namespace {
+
+struct HeightArguments {
+  std::string model;
+  std::vector<std::string> at;
+  std::string points, layer, output;
+  bool lonLat = false;
+  double maxError = 0;
+};
+
+using Heights = std::vector<std::optional<SurfaceHeight>>;
+
+/// The places of --at, as they were typed and in the DEM's CRS.
+Result<PointTable> statedPlaces(const HeightArguments& arguments, const TerrainModel& model) {
+  PointTable table;
+  const auto toDem = transformOfPlaces(arguments.lonLat, model);
+  if (!toDem) return tl::unexpected(toDem.error());
+  table.crsWkt = arguments.lonLat ? toDem->sourceWkt() : model.georeference.crsWkt;
+  for (const std::string& text : arguments.at) {
+    const auto stated = readPlaceArgument("--at", text, CrsTransform());
+    if (!stated) return tl::unexpected(stated.error());
+    const auto place = readPlaceArgument("--at", text, *toDem);
+    if (!place) return tl::unexpected(place.error());
+    table.stated.push_back(*stated);
+    table.positions.push_back(*place);
+  }
+  return table;
+}
+
+Result<PointTable> readPlaces(const HeightArguments& arguments, const TerrainModel& model, Session& session) {
+  if (arguments.points.empty()) return statedPlaces(arguments, model);
+  auto table = readPointTable(arguments.points, model.georeference,
+                              {.layer = arguments.layer, .lonLat = arguments.lonLat}, session.context());
+  if (!table) return table;
+  session.warn(table->warnings, arguments.points);
+  LongitudeTurns(model).apply(table->positions);
+  return table;
+}
+
+std::string textOf(const HeightArguments& arguments, const PointTable& table, const Heights& heights) {
+  std::string text;
+  if (!arguments.points.empty()) {
+    forCsvLines(table, heights, [&](std::string_view line) { text += line; });
+    return text;
+  }
+  for (std::size_t i = 0; i < heights.size(); ++i)
+    text += fmt::format("{},{},{}\n", table.stated[i].x, table.stated[i].y,
+                        heights[i] ? heightText(heights[i]->height) : "");
+  return text;
+}
+
+Json numberOrNull(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+Json jsonOf(const PointTable& table, const Heights& heights) {
+  Json points = Json::array();
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    Json point = {{"x", numberOrNull(table.stated[i].x)}, {"y", numberOrNull(table.stated[i].y)}};
+    point["height"] = heights[i] ? Json(heights[i]->height) : Json();
+    if (heights[i]) {
+      point["below"] = heights[i]->below;
+      point["above"] = heights[i]->above;
+      point["nodesVisited"] = heights[i]->nodesVisited;
+    }
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+Status runHeight(const HeightArguments& arguments, Session& session) {
+  if (arguments.at.empty() == arguments.points.empty())
+    return failure(ErrorCode::usage, "either --at or --points says where");
+  if (!arguments.layer.empty() && arguments.points.empty())
+    return failure(ErrorCode::usage, "means something only with --points", "--layer");
+  if (!arguments.output.empty()) {
+    const std::string culprit = fmt::format("--output {}", arguments.output);
+    if (!isHeightTable(arguments.output))
+      return failure(ErrorCode::usage, "a table of heights ends in .csv or .gpkg", culprit);
+  }
+  const Result<AmtFile> file = openAmt(arguments.model);
+  if (!file) return tl::unexpected(file.error());
+  const Result<TerrainModel> outline = outlineOf(*file, session);
+  if (!outline) return tl::unexpected(outline.error());
+  if (!arguments.output.empty())
+    if (Status output =
+            checkOutput("--output", arguments.output, {arguments.model, arguments.points, outline->source});
+        !output)
+      return output;
+  const auto table = readPlaces(arguments, *outline, session);
+  if (!table) return tl::unexpected(table.error());
+  QueryFootprint wanted(*outline);
+  for (const Vec2 place : table->positions) wanted.add(outline->toPlan(place));
+  const Result<TerrainModel> model = readWanted(*file, *outline, wanted.within(0), session);
+  if (!model) return tl::unexpected(model.error());
+  const auto heights = SurfaceHeights(*model).at(table->positions, arguments.maxError, session.context());
+  if (!heights) return tl::unexpected(heights.error());
+
+  const auto found = static_cast<std::size_t>(
+      std::count_if(heights->begin(), heights->end(), [](const auto& h) { return h.has_value(); }));
+  Json json = {{"model", arguments.model},
+               {"verticalUnit", model->georeference.verticalUnit},
+               {"maxError", numberOrNull(arguments.maxError)},
+               {"places", heights->size()},
+               {"onTerrain", found}};
+  if (arguments.output.empty()) {
+    session.say(textOf(arguments, *table, *heights));
+    json["points"] = jsonOf(*table, *heights);
+  } else {
+    if (Status written = writeHeightTable(arguments.output, *table, *heights, session.context()); !written)
+      return written;
+    session.say(fmt::format("{}: {} of {} places have a height\n", arguments.output, grouped(found),
+                            grouped(heights->size())));
+    json["file"] = arguments.output;
+  }
+  session.answer(json);
+  if (found == 0)
+    return failure(
+        ErrorCode::invalidData,
+        fmt::format("has no terrain at {}; X,Y are coordinates of its CRS, or longitude,latitude "
+                    "with --lonlat",
+                    heights->size() == 1 ? std::string("this place")
+                                         : fmt::format("any of the {} places", grouped(heights->size()))),
+        arguments.model);
+  if (found < heights->size())
+    session.warn(fmt::format("{} of {} places have no height: outside the DEM, or on NODATA",
+                             grouped(heights->size() - found), grouped(heights->size())));
+  return {};
+}
+
+}  // namespace
+
+void addHeightCommand(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<HeightArguments>();
+  CLI::App* command = session.addCommand(
+      app, "height", "Tell the height of the terrain at places",
+      "  arete height dem.amt --at 409050,3801450              409050,3801450,1815.74828193\n"
+      "  arete height dem.amt --at -118.05,34.35 --lonlat\n"
+      "  arete height dem.amt --points huts.gpkg -o huts_with_heights.gpkg\n"
+      "  arete height dem.amt --points places.csv --max-error 2 -o heights.csv\n"
+      "\n"
+      "A place outside the DEM or on NODATA has an empty height; where no place has one the exit code is 4.",
+      [arguments](Session& s) { return runHeight(*arguments, s); });
+  command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
+  CLI::Option* at = command
+                        ->add_option("--at", arguments->at,
+                                     "A place in the DEM's CRS; may be repeated. The answer is X,Y,height")
+                        ->type_size(1)
+                        ->expected(1)
+                        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+                        ->type_name("X,Y");
+  command
+      ->add_option("--points", arguments->points,
+                   "Places from a file: CSV or XYZ in the DEM's CRS, or a layer of points (any vector file)")
+      ->type_name("FILE")
+      ->excludes(at);
+  command->add_option("--layer", arguments->layer, "Layer of a file of points with several")
+      ->type_name("NAME");
+  command
+      ->add_option(
+          "-o,--output", arguments->output,
+          "Write a table (.csv or .gpkg): the columns of the file, x, y, height and its bounds below, "
+          "above (default: CSV on stdout)")
+      ->type_name("FILE");
+  command
+      ->add_option(
+          "--max-error", arguments->maxError,
+          "How far from full resolution a height may be, in the DEM's unit (default 0: full resolution)")
+      ->check(tolerance())
+      ->type_name("E");
+  command->add_flag("--lonlat", arguments->lonLat, "X,Y are longitude, latitude in degrees (WGS 84)");
+}
+
+}  // namespace arete

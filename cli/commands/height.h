@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cli/session/session.h"
+
+namespace arete {
+
+/// `arete height FILE.amt --at X,Y` or `--points FILE`: how high the terrain is, at full resolution or within
+/// a tolerance.
+void addHeightCommand(CLI::App& app, Session& session);
+
+}  // namespace arete

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/commands/info.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "cli/arguments/arguments.h"
+#include "io/amt/file.h"
+#include "io/crs/names.h"
+#include "terrain/model/error_curve.h"
+
+namespace arete {
+namespace {
+
+struct InfoArguments {
+  std::string model;
+  std::size_t curvePoints = 12;
+  std::string at;
+};
+
+struct Facts {
+  std::uint64_t bytes = 0;
+  bool isPacked = false;
+  std::string writer;
+  double rootError = 0;
+  std::vector<CurvePoint> curve;
+};
+
+double largestRootError(const MultiTriangulation& mt) {
+  double largest = 0;
+  for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t)
+    largest = std::max(largest, mt.error(TriangleId(t)));
+  return largest;
+}
+
+std::string gridText(const TerrainModel& model) {
+  if (!model.isRaster) return fmt::format("{} scattered points", grouped(model.mt.vertexCount()));
+  const auto& g = model.georeference.geoTransform;
+  std::string text = fmt::format("{} columns x {} rows", model.columns, model.rows);
+  if (!model.georeference.hasGeoTransform) return text + ", not placed";
+  const bool rotated = g[2] != 0 || g[4] != 0;
+  return text + fmt::format(", pixel {:.9g} x {:.9g}{}, corner {:.9g}, {:.9g}", std::hypot(g[1], g[4]),
+                            std::hypot(g[2], g[5]), rotated ? " (rotated)" : "", g[0], g[3]);
+}
+
+std::string heightText(const Georeference& georeference) {
+  const std::string unit = georeference.verticalUnit.empty() ? "not stated" : georeference.verticalUnit;
+  return georeference.verticalDatum.empty() ? unit : fmt::format("{}, {}", unit, georeference.verticalDatum);
+}
+
+void sayFacts(const InfoArguments& arguments, const TerrainModel& model, const Facts& facts,
+              const Session& session) {
+  const MultiTriangulation& mt = model.mt;
+  const BuildOptions& o = model.options;
+  const double bytesPerSample = static_cast<double>(facts.bytes) /
+                                static_cast<double>(std::uint64_t{mt.vertexCount()} + model.isolated.size());
+  std::string text = fmt::format(
+      "{}: {}{}, written by {}\n", arguments.model, byteCount(facts.bytes),
+      facts.isPacked ? fmt::format(", packed ({:.1f} bytes a sample)", bytesPerSample) : "", facts.writer);
+  const auto line = [&](const char* what, const std::string& value) {
+    text += fmt::format("  {:<14} {}\n", what, value);
+  };
+  line("source", model.source);
+  line("checksum", model.sourceChecksum);
+  line("CRS", crsName(model.georeference.crsWkt));
+  line("heights", heightText(model.georeference));
+  line("grid", gridText(model));
+  line("samples", fmt::format("{}{}", grouped(mt.vertexCount() + model.isolated.size()),
+                              model.isolated.empty()
+                                  ? ""
+                                  : fmt::format(", {} of them isolated", grouped(model.isolated.size()))));
+  line("triangles", fmt::format("{} at the finest, {} in all", grouped(mt.finestTriangleCount()),
+                                grouped(mt.triangleCount())));
+  line("root", fmt::format("{} triangles, {} vertices ({} fixed)", grouped(mt.rootTriangleCount()),
+                           grouped(mt.rootVertexCount()), grouped(o.fixedVertices.size())));
+  line("levels", std::to_string(model.levels));
+  line("built with",
+       fmt::format(
+           "--shape {} --ratio {} --max-degree {}{}{}", toString(o.shape), o.thresholdRatio, o.maxDegree,
+           o.shape == HoleShape::dataDependent ? fmt::format(" --min-aspect {}", o.minimumAspect) : "",
+           o.rimTolerance > 0 ? fmt::format(" --rim-tolerance {}", o.rimTolerance) : ""));
+  const std::string& unit = model.georeference.verticalUnit;
+  text += fmt::format("\n  {:>12}  {:>13}  {:>13}\n",
+                      unit.empty() ? std::string("error") : fmt::format("error ({})", unit), "minimal",
+                      "saturated");
+  const auto row = [&](const std::string& error, std::uint64_t minimal, std::uint64_t saturated) {
+    text += fmt::format("  {:>12}  {:>13}  {:>13}\n", error, grouped(minimal), grouped(saturated));
+  };
+  if (arguments.at.empty()) row("0 (finest)", mt.finestTriangleCount(), mt.finestTriangleCount());
+  for (const CurvePoint& point : facts.curve)
+    row(fmt::format("{:g}", point.maxError), point.minimalTriangles, point.saturatedTriangles);
+  if (arguments.at.empty())
+    row(fmt::format("{:.4g} (root)", facts.rootError), mt.rootTriangleCount(), mt.rootTriangleCount());
+  session.say(text);
+}
+
+Json factsJson(const InfoArguments& arguments, const TerrainModel& model, const Facts& facts) {
+  const MultiTriangulation& mt = model.mt;
+  const Georeference& g = model.georeference;
+  Json grid = nullptr;
+  if (model.isRaster)
+    grid = {{"columns", model.columns},
+            {"rows", model.rows},
+            {"geoTransform", g.hasGeoTransform ? Json(g.geoTransform) : Json()}};
+  Json curve = Json::array();
+  for (const CurvePoint& point : facts.curve)
+    curve.push_back({{"maxError", std::isfinite(point.maxError) ? Json(point.maxError) : Json()},
+                     {"minimal", point.minimalTriangles},
+                     {"saturated", point.saturatedTriangles}});
+  return {{"file", arguments.model},
+          {"bytes", facts.bytes},
+          {"isPacked", facts.isPacked},
+          {"writer", facts.writer},
+          {"source", {{"path", model.source}, {"checksum", model.sourceChecksum}}},
+          {"crs", crsName(g.crsWkt)},
+          {"crsWkt", g.crsWkt},
+          {"verticalUnit", g.verticalUnit},
+          {"verticalDatum", g.verticalDatum},
+          {"kind", model.isRaster ? "raster" : "points"},
+          {"grid", std::move(grid)},
+          {"samples", mt.vertexCount() + model.isolated.size()},
+          {"isolated", model.isolated.size()},
+          {"vertices", mt.vertexCount()},
+          {"triangles", mt.triangleCount()},
+          {"finestTriangles", mt.finestTriangleCount()},
+          {"rootTriangles", mt.rootTriangleCount()},
+          {"rootVertices", mt.rootVertexCount()},
+          {"rootError", facts.rootError},
+          {"fixedVertices", model.options.fixedVertices.size()},
+          {"levels", model.levels},
+          {"options",
+           {{"shape", toString(model.options.shape)},
+            {"ratio", model.options.thresholdRatio},
+            {"maxDegree", model.options.maxDegree},
+            {"minAspect", model.options.minimumAspect},
+            {"rimTolerance", model.options.rimTolerance}}},
+          {"curve", std::move(curve)}};
+}
+
+Status runInfo(const InfoArguments& arguments, Session& session) {
+  const Result<AmtFile> file = openAmt(arguments.model);
+  if (!file) return tl::unexpected(file.error());
+  const Result<TerrainModel> model = loadAmt(arguments.model, {}, session.context());
+  if (!model) return tl::unexpected(model.error());
+  Facts facts;
+  facts.bytes = file->bytes().size();
+  facts.writer = file->writer();
+  facts.isPacked = file->isPacked();
+  facts.rootError = largestRootError(model->mt);
+  std::vector<double> tolerances = toleranceLadder(model->mt, arguments.curvePoints);
+  if (!arguments.at.empty()) {
+    auto stated = parseNumbers("--at", arguments.at);
+    if (!stated) return tl::unexpected(stated.error());
+    tolerances = std::move(*stated);
+  }
+  auto curve = errorCurve(model->mt, tolerances, session.context());
+  if (!curve) return tl::unexpected(curve.error());
+  facts.curve = std::move(*curve);
+  sayFacts(arguments, *model, facts, session);
+  session.answer(factsJson(arguments, *model, facts));
+  return {};
+}
+
+}  // namespace
+
+void addInfoCommand(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<InfoArguments>();
+  CLI::App* command = session.addCommand(app, "info", "Tell what is in a multitriangulation, and its curve",
+                                         "  arete info dem.amt\n"
+                                         "  arete info dem.amt --at 1,5,20\n"
+                                         "  arete info dem.amt --json | jq '.curve'",
+                                         [arguments](Session& s) { return runInfo(*arguments, s); });
+  command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
+  CLI::Option* points = command
+                            ->add_option("--curve", arguments->curvePoints,
+                                         "Steps 1, 2, 5, 10 ... of the curve, the coarsest (default 12)")
+                            ->check(wholeNumber(0, 1000))
+                            ->type_name("N");
+  command->add_option("--at", arguments->at, "The curve at these errors")
+      ->check(tolerances())
+      ->type_name("E[,E...]")
+      ->excludes(points);
+}
+
+}  // namespace arete

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/commands/measure.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "cli/arguments/arguments.h"
+#include "cli/commands/measure_meshes.h"
+#include "cli/commands/measure_report_text.h"
+#include "io/crs/longitude_turns.h"
+#include "io/crs/names.h"
+#include "io/dem/dem_reader.h"
+#include "io/dem/raster_writer.h"
+#include "io/exchange/mesh_formats.h"
+#include "io/extract/region_argument.h"
+#include "io/extract/report_json.h"
+#include "terrain/measure/measure.h"
+#include "terrain/model/plan_region.h"
+
+namespace arete {
+namespace {
+
+struct MeasureArguments {
+  std::string tin;
+  DemArguments dem;
+  double expect = std::numeric_limits<double>::quiet_NaN();  // NaN: not stated
+  std::string region, errorRaster;
+  double distance = 0;
+  bool allowCoveredNodata = false;
+  std::int64_t samples = 0, seed = -1;  // of another mesh; not stated
+  std::string errorMesh;
+};
+
+/// Options that make sense against a DEM only, or against a mesh only, and were given with the other.
+Status checkKind(const MeasureArguments& arguments, bool isMesh) {
+  const SourceReading& reading = arguments.dem.reading;
+  const auto check = [&](const char* option, bool isGiven, bool isForMesh) -> Status {
+    if (!isGiven || isForMesh == isMesh) return {};
+    return failure(ErrorCode::usage,
+                   isMesh ? fmt::format("is about a DEM, and {} is a mesh", arguments.dem.path)
+                          : fmt::format("is about another mesh, and {} is a DEM", arguments.dem.path),
+                   option);
+  };
+  for (const Status& ok :
+       {check("--region", !arguments.region.empty(), false),
+        check("--error-raster", !arguments.errorRaster.empty(), false),
+        check("--allow-covered-nodata", arguments.allowCoveredNodata, false),
+        check("--band", reading.band.has_value(), false), check("--layer", !reading.layer.empty(), false),
+        check("--z-field", !reading.zField.empty(), false),
+        check("--nodata", reading.nodata.has_value(), false), check("--crs", !reading.crs.empty(), false),
+        check("--samples", arguments.samples != 0, true), check("--seed", arguments.seed >= 0, true),
+        check("--error-mesh", !arguments.errorMesh.empty(), true)})
+    if (!ok) return ok;
+  return {};
+}
+
+void compareFrames(const MeshFile& tin, const Georeference& georeference, const Session& session) {
+  if (compareCrs(tin.crsWkt, georeference.crsWkt) == CrsAgreement::different)
+    session.warn(fmt::format("the TIN is in {}, the DEM in {}: they are compared as if they were in one",
+                             crsName(tin.crsWkt), crsName(georeference.crsWkt)));
+  if (!tin.verticalUnit.empty() && !georeference.verticalUnit.empty() &&
+      tin.verticalUnit != georeference.verticalUnit)
+    session.warn(
+        fmt::format("the TIN's heights are in '{}', the DEM's in '{}': they are compared as they are",
+                    tin.verticalUnit, georeference.verticalUnit));
+}
+
+template <class Heightfield>
+Result<std::vector<std::uint8_t>> maskOf(const MeasureArguments& arguments, const Heightfield& field,
+                                         Session& session) {
+  if (arguments.region.empty()) return std::vector<std::uint8_t>();
+  auto read =
+      readRegionArgument(arguments.region, field.georeference.crsWkt, arguments.distance, session.context());
+  if (!read) return tl::unexpected(read.error());
+  session.warn(read->warnings, arguments.region);
+  LongitudeTurns(field).apply(read->shape);
+  std::vector<std::uint8_t> mask = samplesInside(planRegion(std::move(read->shape), field), field);
+  bool any = false;
+  for (std::size_t i = 0; i < mask.size() && !any; ++i) any = mask[i] != 0 && !std::isnan(field.heights[i]);
+  if (!any)
+    return failure(ErrorCode::usage, fmt::format("holds no sample of {}", arguments.dem.path),
+                   fmt::format("--region {}", arguments.region));
+  return mask;
+}
+
+Status writeErrors(const MeasureArguments& arguments, const RasterHeightfield& field,
+                   const MeasureRasters& rasters, Session& session) {
+  GeoTiffOptions options;
+  options.description = "TIN height minus DEM height";
+  return writeGeoTiff(arguments.errorRaster, field.columns, field.rows, rasters.errors, field.georeference,
+                      options, session.context());
+}
+
+Status writeErrors(const MeasureArguments& arguments, const PointHeightfield&, const MeasureRasters&,
+                   Session&) {
+  return failure(ErrorCode::usage, "the DEM is a set of scattered points, which have no grid",
+                 fmt::format("--error-raster {}", arguments.errorRaster));
+}
+
+template <class Heightfield>
+Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Heightfield& field,
+               Session& session) {
+  constexpr bool isRaster = std::is_same_v<Heightfield, RasterHeightfield>;
+  const Georeference& georeference = field.georeference;
+  compareFrames(tin, georeference, session);
+  const auto mask = maskOf(arguments, field, session);
+  if (!mask) return tl::unexpected(mask.error());
+  MeasureOptions options;
+  options.mask = *mask;
+  options.planRounding = {tin.frame.rounding.x, tin.frame.rounding.y};
+  MeasureRasters rasters;
+  const Result<MeasureReport> report = measure(tin.mesh, field, options, session.context(),
+                                               arguments.errorRaster.empty() ? nullptr : &rasters);
+  if (!report) return tl::unexpected(report.error());
+  if (!arguments.errorRaster.empty())
+    if (Status written = writeErrors(arguments, field, rasters, session); !written) return written;
+
+  const bool expects = !std::isnan(arguments.expect);
+  const Status promise =
+      expects ? checkPromise(*report, arguments.expect, {.allowCoveredNodata = arguments.allowCoveredNodata})
+              : Status();
+  session.say(fmt::format("{} against {}{}\n{}", arguments.tin, arguments.dem.path,
+                          arguments.region.empty() ? "" : fmt::format(" in {}", arguments.region),
+                          measureReportText(*report, georeference.verticalUnit, isRaster)));
+  if (expects && promise)
+    session.say(
+        fmt::format("kept: nowhere more than {}\n", withUnit(arguments.expect, georeference.verticalUnit)));
+  Json json = {{"tin", {{"path", arguments.tin}, {"crs", crsName(tin.crsWkt)}}},
+               {"dem",
+                {{"path", arguments.dem.path},
+                 {"checksum", field.sourceChecksum},
+                 {"crs", crsName(georeference.crsWkt)},
+                 {"verticalUnit", georeference.verticalUnit}}}};
+  if (!arguments.region.empty()) json["region"] = arguments.region;
+  json.update(toJson(*report, isRaster));
+  if (expects) {
+    json["expect"] = std::isfinite(arguments.expect) ? Json(arguments.expect) : Json();
+    json["kept"] = promise.has_value();
+    if (!promise) json["broken"] = promise.error().message;
+  }
+  session.answer(json);
+  if (!promise) return failure(promise.error().code, promise.error().message, arguments.tin);
+  if (report->covered == 0 && report->valid > 0)
+    return failure(ErrorCode::invalidData,
+                   fmt::format("covers no sample of {}, so there is nothing to compare", arguments.dem.path),
+                   arguments.tin);
+  return {};
+}
+
+Status runMeasure(const MeasureArguments& arguments, Session& session) {
+  const bool isAgainstMesh = isMeshFile(arguments.dem.path);
+  if (Status kind = checkKind(arguments, isAgainstMesh); !kind) return kind;
+  if (isAgainstMesh) {
+    MeasureMeshesArguments meshes;
+    meshes.first = arguments.tin;
+    meshes.second = arguments.dem.path;
+    meshes.expect = arguments.expect;
+    meshes.samples = arguments.samples;
+    if (arguments.seed >= 0) meshes.seed = arguments.seed;
+    meshes.errorMesh = arguments.errorMesh;
+    return measureMeshes(meshes, session);
+  }
+  if (!arguments.errorRaster.empty()) {
+    if (!isGeoTiffName(arguments.errorRaster))
+      return failure(ErrorCode::usage, "the error raster is a GeoTIFF: its name ends in .tif",
+                     fmt::format("--error-raster {}", arguments.errorRaster));
+    if (Status output =
+            checkOutput("--error-raster", arguments.errorRaster, {arguments.tin, arguments.dem.path});
+        !output)
+      return output;
+  }
+  const Result<MeshFile> tin = readMesh(arguments.tin, session.context());
+  if (!tin) return tl::unexpected(tin.error());
+  const Result<DemRead> dem = arguments.dem.read(session);
+  if (!dem) return tl::unexpected(dem.error());
+  return std::visit([&](const auto& field) { return compare(arguments, *tin, field, session); },
+                    dem->heightfield);
+}
+
+}  // namespace
+
+void addMeasureCommand(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<MeasureArguments>();
+  CLI::App* command = session.addCommand(
+      app, "measure", "Measure any TIN against any DEM, or any mesh against another",
+      "  arete measure tin.ply dem.tif\n"
+      "  arete measure tin.ply dem.tif --expect 5         exit code 5 when the promise is broken\n"
+      "  arete measure tin.obj dem.tif --json --error-raster error.tif\n"
+      "  arete measure tin.ply dem.tif --expect 1 --region park.gpkg\n"
+      "  arete measure small.ply original.obj             distances in space: Hausdorff, mean, RMS, both "
+      "ways\n"
+      "  arete measure small.ply original.obj --error-mesh distances.ply",
+      [arguments](Session& s) { return runMeasure(*arguments, s); });
+  command->add_option("TIN", arguments->tin, "A triangle mesh: " + readableMeshExtensions())
+      ->required()
+      ->type_name("");
+  command->add_option("DEM", arguments->dem.path, "What it shall be near to: a DEM, or another mesh")
+      ->required()
+      ->type_name("");
+  command
+      ->add_option("--expect", arguments->expect,
+                   "The promise: every sample covered once, no NODATA covered, no error above this; between "
+                   "meshes, no distance above this, both ways")
+      ->check(tolerance())
+      ->type_name("E");
+  command->add_flag("--allow-covered-nodata", arguments->allowCoveredNodata,
+                    "Covered NODATA breaks no promise (a build with --rim-tolerance)");
+  CLI::Option* region = command
+                            ->add_option("--region", arguments->region,
+                                         "Only the samples in there: polygons, with --distance lines too, or "
+                                         "xmin,ymin,xmax,ymax in the DEM's CRS")
+                            ->type_name("FILE|BOX");
+  command
+      ->add_option("--distance", arguments->distance,
+                   "And all samples within so many metres of it (without a CRS: the DEM's units)")
+      ->check(finiteAbove(0))
+      ->needs(region)
+      ->type_name("D");
+  command
+      ->add_option("--error-raster", arguments->errorRaster,
+                   "Write TIN height minus DEM height, a GeoTIFF on the DEM's grid")
+      ->type_name("FILE");
+  const std::string group = "Against another mesh";
+  command
+      ->add_option("--samples", arguments->samples,
+                   "Samples on each mesh (default: 10 for each triangle of the larger, at least 1 000 000)")
+      ->check(wholeNumber(1, 100'000'000'000))
+      ->type_name("N")
+      ->group(group);
+  command->add_option("--seed", arguments->seed, "Where the samples fall (default 1)")
+      ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()))
+      ->type_name("S")
+      ->group(group);
+  command
+      ->add_option("--error-mesh", arguments->errorMesh,
+                   "Write the first mesh as a PLY whose vertices have their distance as 'quality' and colour")
+      ->type_name("FILE")
+      ->group(group);
+  arguments->dem.addTo(*command);
+}
+
+}  // namespace arete

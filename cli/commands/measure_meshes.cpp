@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/commands/measure_meshes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments/arguments.h"
+#include "cli/commands/mesh_distance_text.h"
+#include "io/crs/names.h"
+#include "io/exchange/mesh_formats.h"
+#include "io/exchange/metric_mesh.h"
+#include "io/extract/report_json.h"
+#include "terrain/measure/mesh_distance.h"
+#include "viewer/picture/color_ramp.h"
+
+namespace arete {
+namespace {
+
+void compareFrames(const MeshFile& first, const MeshFile& second, const Session& session) {
+  if (compareCrs(first.crsWkt, second.crsWkt) == CrsAgreement::different)
+    session.warn(
+        fmt::format("the first mesh is in {}, the second in {}: they are compared as if they were in one",
+                    crsName(first.crsWkt), crsName(second.crsWkt)));
+}
+
+bool areDegrees(const MeshFile& first, const MeshFile& second) {
+  return isGeographicCrs(first.crsWkt) && isGeographicCrs(second.crsWkt);
+}
+
+/// The meshes in metres where both are in degrees, else nothing: they are compared as they are. Distances
+/// between degrees and heights would say nothing, and the search for them would not end: no triangle is
+/// nearer than others.
+Result<std::optional<MetricMeshes>> inMetres(const MeshFile& first, const MeshFile& second,
+                                             const Session& session) {
+  if (areDegrees(first, second)) {
+    Result<MetricMeshes> metric = toMetres(first, second);
+    if (!metric) return tl::unexpected(metric.error());
+    session.warn(fmt::format(
+        "x and y are degrees: they are compared in metres, by the size of a degree at latitude {:.4g}",
+        metric->latitude));
+    return std::move(*metric);
+  }
+  if (isGeographicCrs(first.crsWkt) || isGeographicCrs(second.crsWkt))
+    return failure(ErrorCode::invalidData,
+                   fmt::format("its x and y are degrees and those of the {} mesh are not",
+                               isGeographicCrs(first.crsWkt) ? "second" : "first"),
+                   isGeographicCrs(first.crsWkt) ? "first" : "second");
+  return std::nullopt;
+}
+
+/// Where something is, in the coordinates of the files.
+void sayPlacesAsFilesDo(MeshDistanceReport& report, const MetricMeshes& meshes) {
+  const auto divide = [](Vec3& place, const Vec3& units) {
+    place = {place.x / units.x, place.y / units.y, place.z / units.z};
+  };
+  divide(report.forward.worst, meshes.firstUnits);
+  divide(report.forward.worstNearest, meshes.secondUnits);
+  divide(report.backward.worst, meshes.secondUnits);
+  divide(report.backward.worstNearest, meshes.firstUnits);
+}
+
+/// The unit of the distances, where both files say one and the same.
+std::string unitOf(const MeshFile& first, const MeshFile& second) {
+  if (areDegrees(first, second)) return "metre";
+  return first.verticalUnit == second.verticalUnit ? first.verticalUnit : "";
+}
+
+Status writeDistances(const std::string& path, const MeshFile& mesh, const std::string& reference,
+                      const std::vector<double>& distances, const Session& session) {
+  const double largest = *std::ranges::max_element(distances);
+  std::vector<float> qualities;
+  std::vector<std::array<std::uint8_t, 3>> colors;
+  qualities.reserve(distances.size());
+  colors.reserve(distances.size());
+  for (const double distance : distances) {
+    qualities.push_back(static_cast<float>(distance));
+    const double fraction = largest > 0 ? distance / largest : 0;
+    const Rgb color = rampColor(divergingRamp(), 0.5 + 0.5 * fraction);  // its upper half: zero is near-white
+    colors.push_back({color.r, color.g, color.b});
+  }
+  MeshWriteOptions options;
+  options.crsWkt = mesh.crsWkt;
+  options.verticalUnit = mesh.verticalUnit;
+  options.vertexQualities = qualities;
+  options.vertexColors = colors;
+  options.notes = {
+      fmt::format("quality is the distance to {}, colours are from 0 to {}", reference, largest)};
+  return writeMesh(mesh.mesh, path, options, session.context());
+}
+
+/// The library knows the meshes as the first and the second.
+Error named(Error error, const MeasureMeshesArguments& arguments) {
+  if (error.culprit == "first") error.culprit = arguments.first;
+  if (error.culprit == "second") error.culprit = arguments.second;
+  return error;
+}
+
+}  // namespace
+
+Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) {
+  if (!arguments.errorMesh.empty()) {
+    const auto format = meshFormatOf(arguments.errorMesh);
+    if (!format || !format->holds.holdsQualities)
+      return failure(ErrorCode::usage, "the mesh of distances is a PLY: its name ends in .ply",
+                     fmt::format("--error-mesh {}", arguments.errorMesh));
+    if (Status output = checkOutput("--error-mesh", arguments.errorMesh, {arguments.first, arguments.second});
+        !output)
+      return output;
+  }
+  const Result<MeshFile> first = readMesh(arguments.first, session.context());
+  if (!first) return tl::unexpected(first.error());
+  const Result<MeshFile> second = readMesh(arguments.second, session.context());
+  if (!second) return tl::unexpected(second.error());
+  compareFrames(*first, *second, session);
+
+  const Result<std::optional<MetricMeshes>> metric = inMetres(*first, *second, session);
+  if (!metric) return tl::unexpected(named(metric.error(), arguments));
+  MeshDistanceOptions options;
+  options.samples = static_cast<std::uint64_t>(arguments.samples);
+  options.seed = static_cast<std::uint64_t>(arguments.seed);
+  std::vector<double> distances;
+  Result<MeshDistanceReport> report =
+      measureDistance(*metric ? (*metric)->first : first->mesh, *metric ? (*metric)->second : second->mesh,
+                      options, session.context(), arguments.errorMesh.empty() ? nullptr : &distances);
+  if (!report) return tl::unexpected(named(report.error(), arguments));
+  if (*metric) sayPlacesAsFilesDo(*report, **metric);
+  if (!arguments.errorMesh.empty())
+    if (Status written = writeDistances(arguments.errorMesh, *first, arguments.second, distances, session);
+        !written)
+      return written;
+
+  const std::string unit = unitOf(*first, *second);
+  const bool expects = !std::isnan(arguments.expect);
+  const Status promise = expects ? checkDistance(*report, arguments.expect) : Status();
+  session.say(
+      fmt::format("{} against {}\n{}", arguments.first, arguments.second, meshDistanceText(*report, unit)));
+  if (expects && promise)
+    session.say(isProven(*report, arguments.expect)
+                    ? fmt::format("kept: nowhere farther than {}\n", withUnit(arguments.expect, unit))
+                    : fmt::format("kept as far as found: nothing is known to be farther than {}\n",
+                                  withUnit(arguments.expect, unit)));
+  Json json = {{"first", {{"path", arguments.first}, {"crs", crsName(first->crsWkt)}}},
+               {"second", {{"path", arguments.second}, {"crs", crsName(second->crsWkt)}}},
+               {"unit", unit}};
+  const Json found = toJson(*report);
+  for (const char* which : {"first", "second"}) json[which].update(found[which]);
+  for (const auto& [key, value] : found.items())
+    if (!json.contains(key)) json[key] = value;
+  if (expects) {
+    json["expect"] = std::isfinite(arguments.expect) ? Json(arguments.expect) : Json();
+    json["kept"] = promise.has_value();
+    json["proven"] = !promise || isProven(*report, arguments.expect);
+    if (!promise) json["broken"] = promise.error().message;
+  }
+  session.answer(json);
+  if (!promise) return failure(promise.error().code, promise.error().message, arguments.first);
+  return {};
+}
+
+}  // namespace arete

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "cli/session/session.h"
+
+namespace arete {
+
+/// What `arete measure MESH MESH` is asked.
+struct MeasureMeshesArguments {
+  std::string first, second;
+  double expect = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not stated
+  std::int64_t samples = 0;                                  ///< 0: as many as the library thinks right
+  std::int64_t seed = 1;
+  std::string errorMesh;  ///< empty: none
+};
+
+/// The distance between two meshes, both ways, as text and JSON; with `errorMesh` the first one's vertices
+/// with their distances, as a PLY.
+Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session);
+
+}  // namespace arete

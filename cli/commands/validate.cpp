@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/commands/validate.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <limits>
+#include <memory>
+
+#include "cli/arguments/arguments.h"
+#include "io/amt/file.h"
+#include "terrain/laws/validate_model.h"
+
+namespace arete {
+namespace {
+
+struct ValidateArguments {
+  std::string model;
+  ValidateModelOptions options;
+};
+
+struct Law {
+  int number;
+  const char* says;
+};
+
+constexpr std::array kLaws = {
+    Law{1, "every parent is older than its child"},
+    Law{2, "a node's floor and ceiling cover the same region"},
+    Law{3, "a triangle has one creator, at most one remover, and occurs once"},
+    Law{4, "no part of a node is a modification by itself"},
+    Law{5, "every front is a conforming triangulation of the domain"},
+    Law{6, "saturated errors and spheres contain those of the children"},
+    Law{7, "fixed vertices are in the root"},
+    Law{8, "the finest front is the source's samples"},
+    Law{9, "every front is Delaunay"},
+};
+
+/// Law 9 is claimed for the Delaunay shape with exact rims only.
+bool isClaimed(const Law& law, const TerrainModel& model) {
+  return law.number != 9 || (model.options.shape == HoleShape::delaunay && model.options.rimTolerance == 0);
+}
+
+Status runValidate(const ValidateArguments& arguments, Session& session) {
+  const Result<TerrainModel> model = loadAmt(arguments.model, {}, session.context());
+  if (!model) return tl::unexpected(model.error());
+  const Status valid = validateModel(*model, arguments.options, session.context());
+  if (!valid && valid.error().code == ErrorCode::interrupted) return valid;
+  if (valid) {
+    std::string text = fmt::format("{}: checksums, indices and every law hold\n", arguments.model);
+    for (const Law& law : kLaws)
+      text += fmt::format("  law {}  {}  {}\n", law.number,
+                          isClaimed(law, *model) ? "holds" : "is not claimed", law.says);
+    session.say(text);
+  }
+  Json laws = Json::array();
+  for (const Law& law : kLaws)
+    if (valid) laws.push_back({{"law", law.number}, {"says", law.says}, {"claimed", isClaimed(law, *model)}});
+  Json json = {{"file", arguments.model},
+               {"holds", valid.has_value()},
+               {"randomFronts", arguments.options.randomFronts},
+               {"seed", arguments.options.seed}};
+  if (valid)
+    json["laws"] = std::move(laws);
+  else
+    json["violation"] = valid.error().message;
+  session.answer(json);
+  if (!valid) return failure(valid.error().code, valid.error().message, arguments.model);
+  return {};
+}
+
+}  // namespace
+
+void addValidateCommand(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<ValidateArguments>();
+  CLI::App* command = session.addCommand(app, "validate", "Check every law of a multitriangulation",
+                                         "  arete validate dem.amt\n"
+                                         "  arete validate dem.amt --fronts 100 --seed 7",
+                                         [arguments](Session& s) { return runValidate(*arguments, s); });
+  command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
+  command
+      ->add_option("--fronts", arguments->options.randomFronts,
+                   "Fronts of random node sets to check, beside the uniform ones (default 8)")
+      ->check(wholeNumber(0, 1'000'000))
+      ->type_name("N");
+  command->add_option("--seed", arguments->options.seed, "Which random node sets (default 1)")
+      ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()))
+      ->type_name("N");
+}
+
+}  // namespace arete

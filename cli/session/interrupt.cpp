@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/session/interrupt.h"
+
+#include <csignal>
+
+namespace arete {
+namespace {
+
+std::atomic<bool> gInterrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only use lock-free atomics");
+
+extern "C" void setInterrupted(int) {
+  gInterrupted.store(true, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+void catchInterrupts() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action = {};
+    if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) continue;
+    action = {};
+    action.sa_handler = setInterrupted;
+    sigemptyset(&action.sa_mask);
+    // After the first, the default is back; and what the signal interrupts goes on.
+    action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+const std::atomic<bool>& interruptFlag() {
+  return gInterrupted;
+}
+
+}  // namespace arete

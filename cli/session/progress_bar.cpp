@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/session/progress_bar.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace arete {
+namespace {
+
+constexpr int kTicks = 40;  // a number every four: 0...10...20
+
+}  // namespace
+
+void ProgressBar::report(std::string_view stage, double fraction) {
+  const int now = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kTicks);
+  if (stage == stage_ && ticks_ == kTicks && now > 0) return;
+  if (stage != stage_ || (now == 0 && ticks_ > 0)) {
+    finishLine();
+    stage_ = stage;
+    ticks_ = -1;
+  }
+  advance(now);
+}
+
+void ProgressBar::advance(int ticks) {
+  if (ticks <= ticks_) return;
+  if (ticks_ < 0) fmt::print(out_, "{} ", stage_);
+  while (ticks_ < ticks) {
+    ++ticks_;
+    if (ticks_ % 4 == 0)
+      fmt::print(out_, "{}", ticks_ * 100 / kTicks);
+    else
+      std::fputc('.', out_);
+  }
+  if (ticks_ == kTicks) std::fputs(" - done.\n", out_);
+  std::fflush(out_);
+}
+
+void ProgressBar::finishLine() {
+  if (ticks_ >= 0) advance(kTicks);
+}
+
+void ProgressBar::endLine() {
+  if (ticks_ < 0 || ticks_ == kTicks) return;
+  std::fputc('\n', out_);
+  ticks_ = -1;
+  stage_.clear();
+}
+
+}  // namespace arete

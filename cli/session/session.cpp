@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/session/session.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+#include <new>
+#include <utility>
+
+#include "cli/session/interrupt.h"
+#include "cli/session/progress_bar.h"
+
+namespace arete {
+namespace {
+
+/// What is being said on stderr must not land in the middle of a progress line.
+ProgressBar& progressBar() {
+  static ProgressBar bar(stderr);
+  return bar;
+}
+
+/// What stdout does not take it remembers, and is asked for in the end.
+void print(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+/// Names and texts come out of files: none of them may move the cursor of a terminal or name its window.
+std::string withoutControls(std::string text) {
+  for (char& c : text)
+    if ((static_cast<unsigned char>(c) < 32 && c != '\n' && c != '\t') || c == 127) c = '?';
+  return text;
+}
+
+}  // namespace
+
+CLI::App* Session::addCommand(CLI::App& app, const std::string& name, const std::string& summary,
+                              const std::string& examples, Run run) {
+  CLI::App* command = app.add_subcommand(name, summary);
+  command->footer("Examples:\n" + examples);
+  command->add_flag("--json", json_, "Answer on stdout as one JSON object")->group("Speaking");
+  command->add_flag("-q,--quiet", quiet_, "Say nothing but errors (and --json's object)")->group("Speaking");
+  command->add_flag("--progress", progress_, "Progress on stderr, also where that is no terminal")
+      ->group("Speaking");
+  command->add_option("--threads", threads_, "Threads to use (default: all); no result depends on it")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N")
+      ->group("Speaking");
+  command->callback([this, run = std::move(run)] { run_ = run; });
+  return command;
+}
+
+ExitCode Session::runParsed() {
+  std::unique_ptr<tbb::global_control> limit;
+  if (threads_ > 0)
+    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                  static_cast<std::size_t>(threads_));
+  ExitCode code = ExitCode::ok;
+  try {
+    const Status status = run_(*this);
+    if (status)
+      progressBar().finishLine();
+    else
+      code = fail(status.error());
+  } catch (const std::bad_alloc&) {
+    progressBar().endLine();
+    fmt::print(stderr, "arete: there is not enough memory for this\n");
+    return ExitCode::internal;
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    fmt::print(stderr, "arete: stdout cannot be written to\n");
+    return ExitCode::file;
+  }
+  return code;
+}
+
+RunContext Session::context() const {
+  RunContext context;
+  context.cancel = &interruptFlag();
+  context.threads = threads_;
+  if (progress_ || (!quiet_ && isatty(STDERR_FILENO) != 0))
+    context.progress = [](std::string_view stage, double fraction) { progressBar().report(stage, fraction); };
+  return context;
+}
+
+void Session::say(const std::string& text) const {
+  if (json_ || quiet_) return;
+  progressBar().finishLine();
+  print(withoutControls(text));
+  std::fflush(stdout);
+}
+
+void Session::answer(const Json& object) {
+  if (!json_) return;
+  progressBar().finishLine();
+  answered_ = true;
+  // A path need not be UTF-8: what is not is replaced rather than thrown over.
+  print(object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void Session::warn(const std::string& sentence) const {
+  if (quiet_) return;
+  progressBar().endLine();
+  fmt::print(stderr, "arete: warning: {}\n", withoutControls(sentence));
+}
+
+void Session::warn(const std::vector<std::string>& sentences, const std::string& culprit) const {
+  for (const std::string& sentence : sentences) warn(fmt::format("{}: {}", culprit, sentence));
+}
+
+ExitCode Session::fail(const Error& error) {
+  progressBar().endLine();
+  const ExitCode code = exitCodeOf(error.code);
+  fmt::print(stderr, "arete: {}\n", withoutControls(error.describe()));
+  answerError(error, code);
+  return code;
+}
+
+ExitCode Session::refuse(const std::string& sentence, const std::string& help, bool wantsJson) {
+  json_ = wantsJson;
+  fmt::print(stderr, "arete: {}\nSee {} --help.\n", withoutControls(sentence), help);
+  answerError({ErrorCode::usage, sentence, ""}, ExitCode::usage);
+  return ExitCode::usage;
+}
+
+void Session::answerError(const Error& error, ExitCode code) {
+  if (answered_) return;
+  answer({{"error",
+           {{"code", toString(error.code)},
+            {"message", error.message},
+            {"culprit", error.culprit},
+            {"exitCode", static_cast<int>(code)}}}});
+}
+
+}  // namespace arete

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "cli/session/session.h"
+#include "engine/base/result.h"
+#include "io/crs/ellipsoid_earth.h"
+#include "terrain/sight/answer.h"
+#include "terrain/sight/earth.h"
+#include "terrain/sight/engine.h"
+
+namespace arete {
+
+/// What los, profile and viewshed are told alike.
+struct SightArguments {
+  std::string earth;  ///< "ellipsoid", "plane" or empty: the ellipsoid where the DEM's CRS has one
+  double refraction = kUsualRefraction;
+  bool statesRefraction = false;  ///< else it is the usual one
+  NodataSight nodata = NodataSight::unknown;
+  bool lonLat = false;
+
+  CLI::Option* nodataOption = nullptr;
+
+  bool statesNodata() const { return nodataOption != nullptr && nodataOption->count() > 0; }
+  void addEarthTo(CLI::App& command);
+  void addNodataTo(CLI::App& command);
+  void addLonLatTo(CLI::App& command);
+
+  /// The Earth as asked for. Errors name the option.
+  Result<std::unique_ptr<SightEarth>> makeEarth(const TerrainModel& model, Session& session) const;
+  /// Which one that is, for answers.
+  std::string earthName(const TerrainModel& model) const;
+  /// For answers; null where the Earth is a plane, over which no line bends.
+  Json refractionJson(const TerrainModel& model) const;
+};
+
+std::string_view toString(NodataSight nodata);
+std::string_view toString(SightVerdict verdict);
+
+}  // namespace arete

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Whatever states the ends (two positions, a position and a file of sites, a file of pairs) becomes rows of
+// SightPairs; each row becomes a link, or a reason why it is none; answers go out in the order of the rows.
+#include "cli/sight/los.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments/arguments.h"
+#include "cli/session/model_file.h"
+#include "cli/sight/arguments.h"
+#include "cli/sight/rows.h"
+#include "io/crs/transform.h"
+#include "io/dem/clutter_raster.h"
+#include "io/file/file_writer.h"
+#include "io/file/text_scan.h"
+#include "io/table/line_table.h"
+#include "io/table/sight_pairs.h"
+#include "terrain/sight/links.h"
+
+namespace arete {
+namespace {
+
+struct LosArguments {
+  std::string model, from, to, pairs, points, layer, output, observerHeight, targetHeight, clutter;
+  SightArguments sight;
+  SightMethod method = SightMethod::automatic;
+  double maxError = 0, frequency = 0, fresnel = kUsualFresnel, clutterFree = 100;
+};
+
+bool isJson(const std::string& path) {
+  return text::lowerExtension(path) == "json";
+}
+
+Status checkArguments(const LosArguments& a) {
+  const auto usage = [](std::string sentence, std::string culprit = {}) {
+    return failure(ErrorCode::usage, std::move(sentence), std::move(culprit));
+  };
+  const int ends = !a.from.empty() + !a.to.empty();
+  if (!a.pairs.empty() && (ends > 0 || !a.points.empty()))
+    return usage("says both ends of every line, so --from, --to and --points have no place", "--pairs");
+  if (a.pairs.empty() && a.points.empty() && ends < 2)
+    return usage("--from and --to say where, or --pairs, or one of the two and --points");
+  if (!a.points.empty() && ends != 1)
+    return usage("needs either --from or --to for the other end of every line", "--points");
+  if (!a.layer.empty() && a.pairs.empty() && a.points.empty())
+    return usage("means something only with --pairs or --points", "--layer");
+  for (const auto& [option, height] :
+       {std::pair{"--observer-height", a.observerHeight}, {"--target-height", a.targetHeight}})
+    if (!height.empty() && a.pairs.empty() && a.points.empty())
+      return usage("is of ends from a file; of --from and --to it is the H of X,Y,H", option);
+  if (!a.output.empty() && !isLineTable(a.output) && !isJson(a.output))
+    return usage("a table of lines of sight ends in .csv, .gpkg or .json", "--output " + a.output);
+  if (!a.clutter.empty() && a.maxError > 0)
+    return usage("needs full resolution, so --max-error has no place", "--clutter");
+  return {};
+}
+
+/// The end of "X,Y,H" as a site; its stated place is what was typed.
+Result<SightSite> siteOf(const std::string& option, const std::string& text, const CrsTransform& toDem) {
+  const auto stated = readPositionArgument(option, text, CrsTransform());
+  if (!stated) return tl::unexpected(stated.error());
+  const auto position = readPositionArgument(option, text, toDem);
+  if (!position) return tl::unexpected(position.error());
+  return SightSite{stated->xy, position->xy, StatedHeight{position->height, position->kind}};
+}
+
+/// Of rows from a file, in place.
+void turnLongitudes(SightPairs& pairs, const TerrainModel& model) {
+  const LongitudeTurns turns(model);
+  for (auto& row : pairs.rows)
+    for (SightSite& site : row) site.xy = turns(site.xy);
+}
+
+Result<SightPairs> readRows(const LosArguments& a, const TerrainModel& model, Session& session) {
+  const Georeference& dem = model.georeference;
+  const PointTableOptions options{.layer = a.layer, .lonLat = a.sight.lonLat};
+  if (!a.pairs.empty()) {
+    auto pairs = readSightPairs(a.pairs, dem, options, session.context());
+    if (!pairs) return pairs;
+    session.warn(pairs->warnings, a.pairs);
+    turnLongitudes(*pairs, model);
+    return pairs;
+  }
+  const auto toDem = transformOfPlaces(a.sight.lonLat, model);
+  if (!toDem) return tl::unexpected(toDem.error());
+  std::optional<SightSite> from, to;
+  for (const auto& [option, text, site] : {std::tuple{"--from", &a.from, &from}, {"--to", &a.to, &to}}) {
+    if (text->empty()) continue;
+    auto read = siteOf(option, *text, *toDem);
+    if (!read) return tl::unexpected(read.error());
+    *site = *read;
+  }
+  if (a.points.empty()) {
+    SightPairs one;
+    one.crsWkt = a.sight.lonLat ? toDem->sourceWkt() : dem.crsWkt;
+    one.rows.push_back({*from, *to});
+    return one;
+  }
+  auto sites = readSightSites(a.points, dem, options, session.context());
+  if (!sites) return sites;
+  session.warn(sites->warnings, a.points);
+  turnLongitudes(*sites, model);
+  // The one end is stated in the DEM's CRS, or in WGS 84; the sites in their own.
+  SightSite fixed = from ? *from : *to;
+  if (sites->crsWkt != (a.sight.lonLat ? toDem->sourceWkt() : dem.crsWkt)) {
+    const auto there = CrsTransform::between(dem.crsWkt, sites->crsWkt);
+    const auto stated = there ? (*there)(fixed.xy) : std::nullopt;
+    fixed.stated = stated.value_or(Vec2{std::nan(""), std::nan("")});
+  }
+  for (auto& row : sites->rows) row = from ? std::array{fixed, row[0]} : std::array{row[0], fixed};
+  return sites;
+}
+
+/// Where a row says no height the options may.
+Status addUsualHeights(const LosArguments& a, SightPairs& pairs) {
+  for (const auto& [end, option, text] :
+       {std::tuple{0, "--observer-height", &a.observerHeight}, {1, "--target-height", &a.targetHeight}}) {
+    if (text->empty()) continue;
+    const auto height = readHeightText(*text);
+    if (!height)
+      return failure(height.error().code, height.error().message, fmt::format("{} {}", option, *text));
+    for (auto& row : pairs.rows)
+      if (!row[end].height) row[end].height = *height;
+  }
+  return {};
+}
+
+Result<SightLinkOptions> optionsOf(const LosArguments& a, const TerrainModel& model, Session& session) {
+  SightLinkOptions options;
+  options.sight.nodata = a.sight.nodata;
+  options.sight.maxError = a.maxError;
+  options.frequencyMegahertz = a.frequency;
+  if (a.clutter.empty()) return options;
+  auto clutter = readClutter(a.clutter, model, session.context());
+  if (!clutter) return tl::unexpected(clutter.error());
+  options.clutter = std::move(*clutter);
+  options.clutter.freeMetres = a.clutterFree;
+  return options;
+}
+
+/// What lines of sight need of a packed model, whichever heights they have: all around their ends, and below
+/// them. All of it where a method looks at the samples as a whole.
+RequiredError wantedFor(const LosArguments& a, const SightPairs& pairs, const SightEarth& earth,
+                        const TerrainModel& outline) {
+  if (bestMethod(a.method, a.maxError, pairs.rows.size(), outline) != SightMethod::descent) return {};
+  QueryFootprint wanted(outline);
+  for (const auto& [first, second] : pairs.rows) {
+    const Vec2 from = sightPlan(outline, first.xy), to = sightPlan(outline, second.xy);
+    for (const auto& [site, plan] : {std::pair{first, from}, {second, to}}) {
+      wanted.add(plan);
+      wanted.add(outline.toPlan(site.xy));
+    }
+    if (!std::isfinite(from.x + from.y + to.x + to.y)) continue;
+    if (const auto track = earth.track(from, to)) wanted.addTrack(*track);  // else its answer says why
+  }
+  return wanted.within(0);
+}
+
+Status tellOne(const SightResults& results, Json json, Session& session) {
+  if (const Error* error = results.errorOf(0)) return tl::unexpected(*error);
+  json.update(results.jsonOf(0));
+  session.say(results.textOf(0));
+  session.answer(json);
+  return {};
+}
+
+Status writeAnswers(const std::string& path, const LineTable& table, const Json& json, Session& session) {
+  if (!isJson(path)) return writeLineTable(path, table, session.context());
+  auto file = FileWriter::create(path);
+  if (!file) return tl::unexpected(file.error());
+  file->write(json.dump(1) + "\n");
+  return file->finish();
+}
+
+Status tellMany(const LosArguments& a, const SightResults& results, Json json, Session& session) {
+  const std::size_t lines = results.rows.count();
+  const SightCounts counts = results.counts();
+  json["lines"] = lines;
+  json["visible"] = counts.visible;
+  json["blocked"] = counts.blocked;
+  json["unknown"] = counts.unknown;
+  json["undecided"] = counts.undecided;
+  json["failed"] = counts.failed;
+  const PointAttributes columns = results.columns();
+  const auto ends = results.ends();
+  const LineTable table{.layer = "sight",
+                        .crsWkt = results.pairs.crsWkt,
+                        .ends = ends,
+                        .inputs = &results.pairs.attributes,
+                        .results = &columns};
+  if (a.output.empty() || isJson(a.output)) {
+    Json all = Json::array();
+    for (std::size_t i = 0; i < lines; ++i) all.push_back(results.jsonOf(i));
+    json["answers"] = std::move(all);
+  }
+  if (a.output.empty()) {
+    std::string text;
+    forCsvLines(table, [&](std::string_view line) { text += line; });
+    session.say(text);
+  } else {
+    if (Status written = writeAnswers(a.output, table, json, session); !written) return written;
+    json.erase("answers");
+    json["file"] = a.output;
+    session.say(fmt::format("{}: {} line{} of sight: {}\n", a.output, grouped(lines), lines == 1 ? "" : "s",
+                            counts.text()));
+  }
+  session.answer(json);
+  if (counts.failed == lines)
+    return failure(ErrorCode::invalidData,
+                   fmt::format("no line of sight has both ends: {}", results.errorOf(0)->describe()));
+  if (counts.failed > 0)
+    session.warn(fmt::format("{} of {} lines have no answer; the column error says why",
+                             grouped(counts.failed), grouped(lines)));
+  return {};
+}
+
+Status runLos(const LosArguments& a, Session& session) {
+  if (Status checked = checkArguments(a); !checked) return checked;
+  const Result<AmtFile> file = openAmt(a.model);
+  if (!file) return tl::unexpected(file.error());
+  const Result<TerrainModel> outline = outlineOf(*file, session);
+  if (!outline) return tl::unexpected(outline.error());
+  if (!a.output.empty())
+    if (Status output =
+            checkOutput("--output", a.output, {a.model, a.pairs, a.points, a.clutter, outline->source});
+        !output)
+      return output;
+  auto pairs = readRows(a, *outline, session);
+  if (!pairs) return tl::unexpected(pairs.error());
+  if (Status added = addUsualHeights(a, *pairs); !added) return added;
+  const auto options = optionsOf(a, *outline, session);
+  if (!options) return tl::unexpected(options.error());
+  const auto earth = a.sight.makeEarth(*outline, session);
+  if (!earth) return tl::unexpected(earth.error());
+  const Result<TerrainModel> model =
+      readWanted(*file, *outline, wantedFor(a, *pairs, **earth, *outline), session);
+  if (!model) return tl::unexpected(model.error());
+  // Whole profiles at full resolution are walks over the cells of a raster.
+  const bool hasProfiles = options->frequencyMegahertz > 0 || options->clutter.height;
+  const auto grid = hasProfiles && model->isRaster ? std::make_shared<const SightGrid>(*model) : nullptr;
+  const Profiles profiles(*model, grid);
+  const SightRows rows = SightRows::of(*pairs, profiles.heights());
+  const SightMethod method = bestMethod(a.method, a.maxError, rows.links.size(), *model);
+  if (!model->isRaster && method != SightMethod::descent)
+    return failure(ErrorCode::usage, fmt::format("is for rasters, and {} is of points", a.model),
+                   fmt::format("--method {}", toString(method)));
+  const auto engine = makeSightEngine(method, *model, grid, session.context());
+  if (!engine) return tl::unexpected(engine.error());
+  const auto answers = answerLinks(rows.links, **earth, **engine, profiles, *options, session.context());
+  if (!answers) return tl::unexpected(answers.error());
+
+  const SightResults results{.pairs = *pairs,
+                             .rows = rows,
+                             .answers = *answers,
+                             .model = *model,
+                             .hasFresnel = a.frequency > 0,
+                             .hasTolerance = a.maxError > 0,
+                             .fresnel = a.fresnel};
+  Json json = {{"model", a.model},
+               {"verticalUnit", model->georeference.verticalUnit},
+               {"earth", a.sight.earthName(*model)},
+               {"refraction", a.sight.refractionJson(*model)},
+               {"nodata", std::string(toString(a.sight.nodata))},
+               {"maxError", a.maxError},
+               {"method", std::string(toString(method))}};
+  const bool isOne = a.pairs.empty() && a.points.empty() && a.output.empty();
+  return isOne ? tellOne(results, std::move(json), session) : tellMany(a, results, std::move(json), session);
+}
+
+}  // namespace
+
+void addLosCommand(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<LosArguments>();
+  CLI::App* command = session.addCommand(
+      app, "los", "Tell whether places see each other",
+      "  arete los dem.amt --from 409050,3801450,10 --to 411000,3795000,1500msl\n"
+      "  arete los dem.amt --from 8.55,46.6,30 --to 8.7,46.55,10 --lonlat --frequency 2400\n"
+      "  arete los dem.amt --pairs links.gpkg -o answers.gpkg --observer-height 30 --target-height 10\n"
+      "  arete los dem.amt --from 409050,3801450,10 --points huts.gpkg --target-height 2 -o seen.csv\n"
+      "\n"
+      "The answer is that of full resolution. H is in the DEM's unit: above ground (agl), msl or ell.\n"
+      "docs/topics/visibility.md says what is true when.",
+      [arguments](Session& s) { return runLos(*arguments, s); });
+  command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
+  command->add_option("--from", arguments->from, "Where the observer is, in the DEM's CRS")
+      ->type_name("X,Y,H");
+  command->add_option("--to", arguments->to, "Where the target is")->type_name("X,Y,H");
+  command
+      ->add_option(
+          "--pairs", arguments->pairs,
+          "Both ends from a file: a layer of lines, or a table with x1,y1,h1,x2,y2,h2; or x1,y1,h1 (or "
+          "points), azimuth (degrees) and range (metres)")
+      ->type_name("FILE");
+  command
+      ->add_option("--points", arguments->points,
+                   "The other end of --from or --to, many times, from a file: CSV or a layer of points")
+      ->type_name("FILE");
+  command->add_option("--layer", arguments->layer, "Layer of a file with several")->type_name("NAME");
+  command
+      ->add_option("--observer-height", arguments->observerHeight,
+                   "Height of first ends that the file has none for")
+      ->type_name("H");
+  command
+      ->add_option("--target-height", arguments->targetHeight,
+                   "Height of second ends that the file has none for")
+      ->type_name("H");
+  command
+      ->add_option(
+          "-o,--output", arguments->output,
+          "Write the answers (.csv, .gpkg or .json): the columns of the file, verdict, distance, azimuth, "
+          "elevation, clearance, obstruction (default: CSV on stdout)")
+      ->type_name("FILE");
+  arguments->sight.addLonLatTo(*command);
+  arguments->sight.addNodataTo(*command);
+  command
+      ->add_option("--max-error", arguments->maxError,
+                   "Stop at this detail, in the DEM's unit; the answer may then be undecided (default 0)")
+      ->check(finiteAtLeast(0))
+      ->type_name("E");
+  command
+      ->add_option(
+          "--method", arguments->method,
+          "How to find out; all give the same answer: auto (default), descent, pyramid, scan, embree")
+      ->transform(oneOf<SightMethod>({{"auto", SightMethod::automatic},
+                                      {"descent", SightMethod::descent},
+                                      {"pyramid", SightMethod::pyramid},
+                                      {"scan", SightMethod::scan},
+                                      {"embree", SightMethod::embree}}))
+      ->type_name("METHOD");
+  arguments->sight.addEarthTo(*command);
+  const std::string radio = "Radio";
+  CLI::Option* frequency =
+      command
+          ->add_option("--frequency", arguments->frequency,
+                       "Tell how much of the first Fresnel zone is clear at this frequency")
+          ->check(finiteAbove(0))
+          ->type_name("MHZ")
+          ->group(radio);
+  command->add_option("--fresnel", arguments->fresnel, "The part of it that a link needs clear (default 0.6)")
+      ->check(finiteAtLeast(0))
+      ->needs(frequency)
+      ->type_name("PART")
+      ->group(radio);
+  CLI::Option* clutter =
+      command
+          ->add_option(
+              "--clutter", arguments->clutter,
+              "What stands on the terrain: a height everywhere, or a raster of heights, in the DEM's unit")
+          ->type_name("H|RASTER")
+          ->group(radio);
+  command
+      ->add_option("--clutter-free", arguments->clutterFree,
+                   "Metres about either end without clutter (default 100)")
+      ->check(finiteAtLeast(0))
+      ->needs(clutter)
+      ->type_name("METRES")
+      ->group(radio);
+}
+
+}  // namespace arete

@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/sight/profile.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments/arguments.h"
+#include "cli/session/model_file.h"
+#include "cli/sight/arguments.h"
+#include "io/crs/position_argument.h"
+#include "io/crs/transform.h"
+#include "io/extract/region_reader.h"
+#include "io/file/file_writer.h"
+#include "io/file/text_scan.h"
+#include "terrain/sight/fresnel.h"
+#include "terrain/sight/links.h"
+#include "terrain/sight/profile.h"
+#include "viewer/picture/profile_chart.h"
+
+namespace arete {
+namespace {
+
+struct ProfileArguments {
+  std::string model, along, layer, output, png;
+  SightArguments sight;
+  bool csv = false;
+  double maxError = 0, frequency = 0, fresnel = kUsualFresnel;
+};
+
+/// A line to take the profile along, in the DEM's CRS; of two positions with heights, the line of sight too.
+struct Way {
+  std::vector<Vec2> vertices;
+  std::optional<std::array<PositionArgument, 2>> ends;
+};
+
+bool isFile(const std::string& text) {
+  std::error_code ignored;
+  return std::filesystem::exists(text, ignored) || text.rfind("/vsi", 0) == 0;
+}
+
+std::vector<std::string> splitAtColons(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ':')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+Result<Way> typedWay(const std::string& text, const CrsTransform& toDem) {
+  Way way;
+  const std::vector<std::string> parts = splitAtColons(text);
+  if (parts.size() < 2)
+    return failure(ErrorCode::usage, "is no file and no line: two or more places, X,Y:X,Y",
+                   "--along " + text);
+  std::vector<PositionArgument> positions;
+  for (const std::string& part : parts) {
+    if (std::count(part.begin(), part.end(), ',') == 2) {
+      const auto position = readPositionArgument("--along", part, toDem);
+      if (!position) return tl::unexpected(position.error());
+      positions.push_back(*position);
+      way.vertices.push_back(position->xy);
+      continue;
+    }
+    const auto place = readPlaceArgument("--along", part, toDem);
+    if (!place) return tl::unexpected(place.error());
+    way.vertices.push_back(*place);
+  }
+  if (positions.size() == 2 && parts.size() == 2)
+    way.ends = {positions[0], positions[1]};
+  else if (!positions.empty())
+    return failure(ErrorCode::usage, "heights make a line of sight of two places, X,Y,H:X,Y,H",
+                   "--along " + text);
+  return way;
+}
+
+Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference& dem,
+                                  const Result<CrsTransform>& toDem, Session& session) {
+  if (!isFile(a.along)) {
+    if (!a.layer.empty())
+      return failure(ErrorCode::usage, "means something only with --along FILE", "--layer");
+    auto way = typedWay(a.along, *toDem);
+    if (!way) return tl::unexpected(way.error());
+    return std::vector<Way>{std::move(*way)};
+  }
+  if (a.sight.lonLat)
+    return failure(ErrorCode::usage, "says what X,Y of --along are; a file says its CRS itself", "--lonlat");
+  auto read = readRegion(a.along, dem.crsWkt, {.layer = a.layer, .takesLines = true}, session.context());
+  if (!read) return tl::unexpected(read.error());
+  session.warn(read->warnings, a.along);
+  if (read->lines.empty()) return failure(ErrorCode::invalidData, "holds no line", a.along);
+  std::vector<Way> ways;
+  for (auto& line : read->lines) ways.push_back({std::move(line), std::nullopt});
+  return ways;
+}
+
+/// One track along all of a way.
+Result<SightTrack> trackAlong(const Way& way, const SightEarth& earth, const TerrainModel& model) {
+  SightTrack whole;
+  for (std::size_t i = 1; i < way.vertices.size(); ++i) {
+    auto part = earth.track(sightPlan(model, way.vertices[i - 1]), sightPlan(model, way.vertices[i]));
+    if (!part) return part;
+    if (whole.points.empty()) {
+      whole = std::move(*part);
+      continue;
+    }
+    const double before = whole.points.back().distance;
+    for (std::size_t k = 1; k < part->points.size(); ++k)
+      whole.points.push_back({part->points[k].plan, before + part->points[k].distance});
+  }
+  return whole;
+}
+
+/// The profile of one way and what is seen over it.
+struct Answer {
+  Profile profile;
+  std::optional<SightLine> line;
+  SightLinkAnswer link;
+};
+
+class ProfileTable {
+ public:
+  ProfileTable(const TerrainModel& model, const std::string& statedCrs, double wavelength)
+      : model_(model), wavelength_(wavelength) {
+    if (statedCrs != model.georeference.crsWkt)
+      if (auto made = CrsTransform::between(model.georeference.crsWkt, statedCrs))
+        toStated_ = std::move(*made);
+  }
+
+  std::string csv(const std::vector<Answer>& answers) const {
+    const bool hasLine = answers.front().line.has_value();
+    std::string text = "line,part,distance,x,y,height";
+    if (hasLine) text += ",line_height,clearance";
+    if (hasLine && wavelength_ > 0) text += ",fresnel_radius";
+    text += '\n';
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      int part = 0;
+      for (const ProfileVertex& v : answers[i].profile.vertices) {
+        part += !v.isJoined;
+        const Vec2 xy = placeOf(v);
+        fmt::format_to(std::back_inserter(text), "{},{},{:.12g},{:.12g},{:.12g},{:.12g}", i + 1, part,
+                       v.distance, xy.x, xy.y, v.height);
+        if (const auto& line = answers[i].line) {
+          const double z = line->height(v.distance);
+          fmt::format_to(std::back_inserter(text), ",{:.12g},{:.12g}", z, z - v.height);
+          if (wavelength_ > 0)
+            fmt::format_to(std::back_inserter(text), ",{:.12g}", radiusAt(*line, v.distance));
+        }
+        text += '\n';
+      }
+    }
+    return text;
+  }
+
+  Json json(const Answer& answer) const {
+    Json vertices = Json::array();
+    for (const ProfileVertex& v : answer.profile.vertices) {
+      const Vec2 xy = placeOf(v);
+      Json vertex = {
+          {"distance", v.distance}, {"x", xy.x}, {"y", xy.y}, {"height", v.height}, {"joined", v.isJoined}};
+      if (answer.line) vertex["lineHeight"] = answer.line->height(v.distance);
+      if (answer.line && wavelength_ > 0) vertex["fresnelRadius"] = radiusAt(*answer.line, v.distance);
+      vertices.push_back(std::move(vertex));
+    }
+    Json json = {{"length", answer.profile.length}, {"gap", answer.profile.gapMetres}};
+    if (answer.line) {
+      const SightAnswer& sight = answer.link.sight;
+      json["verdict"] = std::string(toString(sight.verdict));
+      json["azimuth"] = answer.link.azimuthDegrees;
+      json["elevation"] = answer.link.elevationDegrees;
+      json["clearance"] = sight.clearance ? Json(*sight.clearance) : Json();
+      json["obstructionDistance"] = sight.obstruction ? Json(sight.obstruction->distance) : Json();
+      if (wavelength_ > 0)
+        json["fresnel"] = answer.link.fresnel ? Json(answer.link.fresnel->fraction) : Json();
+    }
+    json["vertices"] = std::move(vertices);
+    return json;
+  }
+
+ private:
+  Vec2 placeOf(const ProfileVertex& v) const {
+    const Vec2 xy = model_.toSource(v.plan);
+    return toStated_(xy).value_or(xy);
+  }
+  /// In the unit of heights.
+  double radiusAt(const SightLine& line, double s) const {
+    return fresnelRadius(wavelength_, s, line.length()) / line.heightUnitMetres();
+  }
+
+  const TerrainModel& model_;
+  double wavelength_;
+  CrsTransform toStated_;
+};
+
+Result<Answer> answerWay(const Way& way, const ProfileArguments& a, const SightEarth& earth,
+                         const Profiles& profiles) {
+  const TerrainModel& model = profiles.heights().model();
+  Answer answer;
+  if (!way.ends) {
+    const auto track = trackAlong(way, earth, model);
+    if (!track) return tl::unexpected(track.error());
+    answer.profile = profiles.along(*track, a.maxError);
+    return answer;
+  }
+  SightLink link{sightPlan(model, way.vertices[0]), sightPlan(model, way.vertices[1])};
+  for (int end = 0; end < 2; ++end) {
+    const auto height = demHeight((*way.ends)[end], profiles.heights());
+    if (!height) return tl::unexpected(height.error());
+    (end == 0 ? link.fromHeight : link.toHeight) = *height;
+  }
+  auto line = sightLine(link, earth, model);
+  if (!line) return tl::unexpected(line.error());
+  const auto engine = makeSightDescent(model);
+  SightLinkOptions options;
+  options.sight.nodata = a.sight.nodata;
+  options.frequencyMegahertz = a.frequency;
+  auto seen = answerLink(link, earth, *engine, profiles, options);  // always of full resolution
+  if (!seen) return tl::unexpected(seen.error());
+  answer.profile = profiles.along(line->track(), a.maxError);
+  answer.line = std::move(*line);
+  answer.link = *seen;
+  return answer;
+}
+
+/// What is below the ways, of a packed model.
+RequiredError wantedFor(const std::vector<Way>& ways, const SightEarth& earth, const TerrainModel& outline) {
+  QueryFootprint wanted(outline);
+  for (const Way& way : ways) {
+    for (const Vec2 vertex : way.vertices) wanted.add(outline.toPlan(vertex));
+    if (const auto track = trackAlong(way, earth, outline))
+      wanted.addTrack(*track);  // else its answer says why
+  }
+  return wanted.within(0);
+}
+
+Status drawPng(const ProfileArguments& a, const Answer& answer, const TerrainModel& model,
+               double wavelength) {
+  ProfileChartOptions options;
+  options.unit = model.georeference.verticalUnit;
+  std::optional<ProfileSight> sight;
+  options.title = fmt::format("{}, {:.6g} km", std::filesystem::path(a.model).filename().string(),
+                              answer.profile.length / 1000);
+  if (answer.line) {
+    const SightAnswer& s = answer.link.sight;
+    sight.emplace(ProfileSight{*answer.line, s, wavelength, a.fresnel, answer.link.fresnel});
+    options.title += fmt::format(": {}", toString(s.verdict));
+    if (s.clearance) options.subtitle = "clearance " + withUnit(*s.clearance, options.unit);
+    if (answer.link.fresnel)
+      options.subtitle += fmt::format(", {:.2f} of the first Fresnel zone at {:g} MHz",
+                                      answer.link.fresnel->fraction, a.frequency);
+    if (a.sight.earthName(model) == "ellipsoid")
+      options.subtitle += fmt::format("; effective Earth's radius R / (1 - {:.4g})", a.sight.refraction);
+  }
+  const auto canvas = drawProfile(answer.profile, sight, options);
+  if (!canvas) return tl::unexpected(canvas.error());
+  return canvas->savePng(a.png);
+}
+
+Status runProfile(const ProfileArguments& a, Session& session) {
+  if (!a.output.empty() && text::lowerExtension(a.output) != "csv")
+    return failure(ErrorCode::usage, "a profile is written as .csv", "--output " + a.output);
+  if (!a.png.empty() && text::lowerExtension(a.png) != "png")
+    return failure(ErrorCode::usage, "a picture ends in .png", "--png " + a.png);
+  const Result<AmtFile> amt = openAmt(a.model);
+  if (!amt) return tl::unexpected(amt.error());
+  const Result<TerrainModel> outline = outlineOf(*amt, session);
+  if (!outline) return tl::unexpected(outline.error());
+  for (const auto& [option, path] : {std::pair{"--output", a.output}, {"--png", a.png}})
+    if (!path.empty())
+      if (Status output = checkOutput(option, path, {a.model, a.along, outline->source}); !output)
+        return output;
+  const Georeference& dem = outline->georeference;
+  const auto toDem = transformOfPlaces(a.sight.lonLat, *outline);
+  if (!toDem) return tl::unexpected(toDem.error());
+  const auto ways = readWays(a, dem, toDem, session);
+  if (!ways) return tl::unexpected(ways.error());
+  if (a.frequency > 0 && !ways->front().ends)
+    return failure(ErrorCode::usage, "needs a line of sight: --along X,Y,H:X,Y,H", "--frequency");
+  if (a.sight.statesNodata() && !ways->front().ends)
+    return failure(ErrorCode::usage, "is for a line of sight: --along X,Y,H:X,Y,H", "--nodata");
+  if (!a.png.empty() && ways->size() > 1)
+    return failure(ErrorCode::usage, fmt::format("draws one line, and there are {}", ways->size()), "--png");
+  const auto earth = a.sight.makeEarth(*outline, session);
+  if (!earth) return tl::unexpected(earth.error());
+  const Result<TerrainModel> model = readWanted(*amt, *outline, wantedFor(*ways, **earth, *outline), session);
+  if (!model) return tl::unexpected(model.error());
+
+  const bool isFull = a.maxError == 0 || a.frequency > 0;
+  const Profiles profiles(*model,
+                          isFull && model->isRaster ? std::make_shared<const SightGrid>(*model) : nullptr);
+  const double wavelength = a.frequency > 0 ? wavelengthMetres(a.frequency) : 0;
+  std::vector<Answer> answers;
+  std::size_t vertices = 0;
+  for (std::size_t i = 0; i < ways->size(); ++i) {
+    if (session.context().cancelled()) return failure(ErrorCode::interrupted, "the query was stopped");
+    auto answer = answerWay((*ways)[i], a, **earth, profiles);
+    if (!answer) return tl::unexpected(answer.error());
+    vertices += answer->profile.vertices.size();
+    answers.push_back(std::move(*answer));
+  }
+  if (vertices == 0)
+    return failure(
+        ErrorCode::invalidData,
+        "has no terrain there; X,Y are coordinates of its CRS, or longitude,latitude with --lonlat", a.model);
+  const ProfileTable table(*model, a.sight.lonLat && !isFile(a.along) ? toDem->sourceWkt() : dem.crsWkt,
+                           wavelength);
+  Json json = {{"model", a.model},
+               {"verticalUnit", dem.verticalUnit},
+               {"earth", a.sight.earthName(*model)},
+               {"refraction", a.sight.refractionJson(*model)},
+               {"maxError", a.maxError}};
+  Json lines = Json::array();
+  if (session.wantsJson())
+    for (const Answer& answer : answers) lines.push_back(table.json(answer));
+  json["lines"] = std::move(lines);
+  if (!a.output.empty()) {
+    auto file = FileWriter::create(a.output);
+    if (!file) return tl::unexpected(file.error());
+    file->write(table.csv(answers));
+    if (Status finished = file->finish(); !finished) return finished;
+    session.say(fmt::format("{}: {} vertices of {} line{}\n", a.output, grouped(vertices), answers.size(),
+                            answers.size() == 1 ? "" : "s"));
+    json["file"] = a.output;
+  }
+  if (!a.png.empty()) {
+    if (Status drawn = drawPng(a, answers.front(), *model, wavelength); !drawn) return drawn;
+    json["picture"] = a.png;
+  }
+  if (a.csv || (a.output.empty() && a.png.empty())) session.say(table.csv(answers));
+  session.answer(json);
+  return {};
+}
+
+}  // namespace
+
+void addProfileCommand(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<ProfileArguments>();
+  CLI::App* command = session.addCommand(
+      app, "profile", "Give the terrain along a line",
+      "  arete profile dem.amt --along 409050,3801450:411000,3795000 > profile.csv\n"
+      "  arete profile dem.amt --along road.gpkg --max-error 1 -o road.csv\n"
+      "  arete profile dem.amt --along 409050,3801450,10:411000,3795000,30 --frequency 2400 --png link.png\n"
+      "\n"
+      "Between two places the line is the geodesic. At full resolution every edge that it crosses is a "
+      "vertex.\n"
+      "Parts of a line are counted from 1; between them there is no terrain.",
+      [arguments](Session& s) { return runProfile(*arguments, s); });
+  command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
+  command
+      ->add_option(
+          "--along", arguments->along,
+          "The line: a layer of lines, or places; with the heights of two places, X,Y,H:X,Y,H, the line of "
+          "sight as well")
+      ->required()
+      ->type_name("FILE|X,Y:X,Y[:...]");
+  command->add_option("--layer", arguments->layer, "Layer of a file with several")->type_name("NAME");
+  command
+      ->add_option("--max-error", arguments->maxError,
+                   "How far from full resolution the profile may be, in the DEM's unit (default 0)")
+      ->check(tolerance())
+      ->type_name("E");
+  command->add_flag("--csv", arguments->csv, "CSV on stdout (default where nothing is written)");
+  command->add_option("-o,--output", arguments->output, "Write the profile as .csv")->type_name("FILE");
+  command->add_option("--png", arguments->png, "Draw the profile, the line of sight and its Fresnel zone")
+      ->type_name("FILE");
+  arguments->sight.addLonLatTo(*command);
+  arguments->sight.addNodataTo(*command);
+  arguments->sight.addEarthTo(*command);
+  const std::string radio = "Radio";
+  CLI::Option* frequency =
+      command->add_option("--frequency", arguments->frequency, "The first Fresnel zone of the line of sight")
+          ->check(finiteAbove(0))
+          ->type_name("MHZ")
+          ->group(radio);
+  command->add_option("--fresnel", arguments->fresnel, "The part of it that is drawn inside (default 0.6)")
+      ->check(finiteAtLeast(0))
+      ->needs(frequency)
+      ->type_name("PART")
+      ->group(radio);
+}
+
+}  // namespace arete

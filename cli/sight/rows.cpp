@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/sight/rows.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "cli/arguments/arguments.h"
+#include "cli/sight/arguments.h"
+
+namespace arete {
+namespace {
+
+/// Beyond this many lines the samples of a raster are worth reading.
+constexpr std::size_t kManyLines = 1000;
+
+Result<SightLink> linkOf(const std::array<SightSite, 2>& row, const SurfaceHeights& heights) {
+  constexpr const char* kEnds[2] = {"the first end", "the second end"};
+  constexpr const char* kOptions[2] = {"--observer-height", "--target-height"};
+  SightLink link;
+  for (int end = 0; end < 2; ++end) {
+    const SightSite& site = row[end];
+    if (!std::isfinite(site.xy.x + site.xy.y) && !std::isfinite(site.stated.x + site.stated.y))
+      return failure(ErrorCode::invalidData, "has no place", kEnds[end]);
+    if (!std::isfinite(site.xy.x + site.xy.y))
+      return failure(ErrorCode::invalidData, "has no place that the DEM's CRS can tell", kEnds[end]);
+    if (!site.height)
+      return failure(ErrorCode::usage, fmt::format("has no height; {} says one", kOptions[end]), kEnds[end]);
+    const auto height = demHeight({site.xy, site.height->height, site.height->kind}, heights);
+    if (!height) return tl::unexpected(height.error());
+    (end == 0 ? link.from : link.to) = sightPlan(heights.model(), site.xy);
+    (end == 0 ? link.fromHeight : link.toHeight) = *height;
+  }
+  return link;
+}
+
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.12g}", value) : std::string();
+}
+
+Json numberOrNull(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+}  // namespace
+
+SightRows SightRows::of(const SightPairs& pairs, const SurfaceHeights& heights) {
+  SightRows all;
+  all.rows.reserve(pairs.rows.size());
+  for (const auto& row : pairs.rows) {
+    auto link = linkOf(row, heights);
+    if (link) {
+      all.rows.push_back({all.links.size(), std::nullopt});
+      all.links.push_back(*link);
+    } else {
+      all.rows.push_back({0, std::move(link.error())});
+    }
+  }
+  return all;
+}
+
+SightMethod bestMethod(SightMethod asked, double maxError, std::size_t lines, const TerrainModel& model) {
+  if (asked != SightMethod::automatic) return asked;
+  return maxError > 0 || !model.isRaster || lines < kManyLines ? SightMethod::descent : SightMethod::pyramid;
+}
+
+std::string SightCounts::text() const {
+  std::string text =
+      fmt::format("{} visible, {} blocked, {} unknown", grouped(visible), grouped(blocked), grouped(unknown));
+  if (undecided > 0) text += fmt::format(", {} undecided", grouped(undecided));
+  if (failed > 0) text += fmt::format(", {} without an answer", grouped(failed));
+  return text;
+}
+
+const Error* SightResults::errorOf(std::size_t row) const {
+  if (rows.rows[row].error) return &*rows.rows[row].error;
+  const auto& answer = answers[rows.rows[row].link];
+  return answer ? nullptr : &answer.error();
+}
+
+SightCounts SightResults::counts() const {
+  SightCounts counts;
+  for (std::size_t i = 0; i < rows.count(); ++i) {
+    if (errorOf(i)) {
+      ++counts.failed;
+      continue;
+    }
+    switch (answerOf(i).sight.verdict) {
+      case SightVerdict::visible:
+        ++counts.visible;
+        break;
+      case SightVerdict::blocked:
+        ++counts.blocked;
+        break;
+      case SightVerdict::unknown:
+        ++counts.unknown;
+        break;
+      default:
+        ++counts.undecided;
+    }
+  }
+  return counts;
+}
+
+std::string SightResults::textOf(std::size_t row) const {
+  const SightLinkAnswer& a = answerOf(row);
+  const std::string& unit = model.georeference.verticalUnit;
+  const auto placeText = [&](const SightPlace& place) {
+    const Vec2 xy = model.toSource(place.plan);
+    return fmt::format("{:.10g},{:.10g}, {:.1f} m away", xy.x, xy.y, place.distance);
+  };
+  std::string text = fmt::format("{}{}\n", toString(a.sight.verdict), a.sight.isTouching ? ", touching" : "");
+  text += fmt::format("distance     {:.3f} m\nazimuth      {:.6f} degrees\nelevation    {:.6f} degrees\n",
+                      a.distanceMetres, a.azimuthDegrees, a.elevationDegrees);
+  if (a.sight.clearance) {
+    text +=
+        fmt::format("clearance    {} at {}\n", withUnit(*a.sight.clearance, unit), placeText(a.sight.least));
+    if (a.sight.clearanceWithin > 0)
+      text += fmt::format("             within {}\n", withUnit(a.sight.clearanceWithin, unit));
+  }
+  if (a.sight.obstruction)
+    text += fmt::format("obstruction  {} at {}\n",
+                        std::isnan(a.sight.obstruction->terrainHeight)
+                            ? "NODATA"
+                            : "terrain of " + withUnit(a.sight.obstruction->terrainHeight, unit),
+                        placeText(*a.sight.obstruction));
+  if (a.sight.isObstructionLatest)
+    text += "             of the approximate terrain; the first is there or nearer\n";
+  if (a.sight.gapMetres > 0)
+    text += fmt::format("no terrain   below {:.1f} m of the line\n", a.sight.gapMetres);
+  if (a.fresnel)
+    text += fmt::format("Fresnel zone {:.3f} of the first is clear ({} is wanted: {}), at {}\n",
+                        a.fresnel->fraction, fresnel, isFresnelClear(a) ? "yes" : "no",
+                        placeText(a.fresnel->place));
+  else if (hasFresnel)
+    text += "Fresnel zone none is told: an end is below the ground, or no ground is between the ends\n";
+  text += fmt::format("visited      {}\n", grouped(a.sight.visited));
+  return text;
+}
+
+Json SightResults::jsonOf(std::size_t row) const {
+  const auto& [from, to] = pairs.rows[row];
+  Json json = {{"from", {numberOrNull(from.stated.x), numberOrNull(from.stated.y)}},
+               {"to", {numberOrNull(to.stated.x), numberOrNull(to.stated.y)}}};
+  if (const Error* error = errorOf(row)) {
+    json["verdict"] = Json();
+    json["error"] = error->describe();
+    return json;
+  }
+  const SightLinkAnswer& a = answerOf(row);
+  const SightLink& link = rows.links[rows.rows[row].link];
+  const auto placeJson = [&](const SightPlace& place) {
+    const Vec2 xy = model.toSource(place.plan);
+    return Json{{"x", xy.x},
+                {"y", xy.y},
+                {"distance", place.distance},
+                {"terrainHeight", numberOrNull(place.terrainHeight)},
+                {"lineHeight", place.sightHeight}};
+  };
+  json["fromHeight"] = link.fromHeight;
+  json["toHeight"] = link.toHeight;
+  json["verdict"] = std::string(toString(a.sight.verdict));
+  json["touching"] = a.sight.isTouching;
+  json["distance"] = a.distanceMetres;
+  json["azimuth"] = a.azimuthDegrees;
+  json["elevation"] = a.elevationDegrees;
+  json["clearance"] = a.sight.clearance ? Json(*a.sight.clearance) : Json();
+  json["clearanceWithin"] = a.sight.clearanceWithin;
+  json["least"] = a.sight.clearance ? placeJson(a.sight.least) : Json();
+  json["obstruction"] = a.sight.obstruction ? placeJson(*a.sight.obstruction) : Json();
+  if (a.sight.obstruction) json["obstruction"]["approximate"] = a.sight.isObstructionLatest;
+  json["gap"] = a.sight.gapMetres;
+  json["visited"] = a.sight.visited;
+  if (hasFresnel) {
+    json["fresnel"] = a.fresnel ? Json(a.fresnel->fraction) : Json();
+    json["fresnelAt"] = a.fresnel ? placeJson(a.fresnel->place) : Json();
+    json["fresnelClear"] = isFresnelClear(a);
+  }
+  return json;
+}
+
+PointAttributes SightResults::columns() const {
+  using Kind = PointAttributes::Kind;
+  PointAttributes table;
+  for (const char* name : {"x1", "y1", "height1", "x2", "y2", "height2"})
+    table.columns.push_back({name, Kind::real});
+  table.columns.push_back({"verdict", Kind::text});
+  for (const char* name :
+       {"distance", "azimuth", "elevation", "clearance", "clearance_within", "obstruction_x", "obstruction_y",
+        "obstruction_height", "obstruction_distance", "gap"})
+    table.columns.push_back({name, Kind::real});
+  if (hasTolerance) table.columns.push_back({"obstruction_approximate", Kind::integer});
+  table.columns.push_back({"visited", Kind::integer});
+  if (hasFresnel) {
+    table.columns.push_back({"fresnel", Kind::real});
+    table.columns.push_back({"fresnel_clear", Kind::integer});
+  }
+  table.columns.push_back({"error", Kind::text});
+
+  // Obstructions lie where the ends are stated.
+  CrsTransform toStated;
+  if (pairs.crsWkt != model.georeference.crsWkt)
+    if (auto made = CrsTransform::between(model.georeference.crsWkt, pairs.crsWkt))
+      toStated = std::move(*made);
+  for (std::size_t i = 0; i < rows.count(); ++i) {
+    const auto& [from, to] = pairs.rows[i];
+    const Error* error = errorOf(i);
+    const SightLink link = error ? SightLink{} : rows.links[rows.rows[i].link];
+    table.add(number(from.stated.x));
+    table.add(number(from.stated.y));
+    table.add(error ? "" : number(link.fromHeight));
+    table.add(number(to.stated.x));
+    table.add(number(to.stated.y));
+    table.add(error ? "" : number(link.toHeight));
+    if (error) {
+      for (int k = 0; k < 12 + (hasTolerance ? 1 : 0) + (hasFresnel ? 2 : 0); ++k) table.add({});
+      table.add(error->describe());
+      continue;
+    }
+    const SightLinkAnswer& a = answerOf(i);
+    const auto& obstruction = a.sight.obstruction;
+    const Vec2 xy =
+        obstruction ? toStated(model.toSource(obstruction->plan)).value_or(Vec2{NAN, NAN}) : Vec2{};
+    table.add(toString(a.sight.verdict));
+    table.add(number(a.distanceMetres));
+    table.add(number(a.azimuthDegrees));
+    table.add(number(a.elevationDegrees));
+    table.add(a.sight.clearance ? number(*a.sight.clearance) : "");
+    table.add(a.sight.clearance ? number(a.sight.clearanceWithin) : "");
+    table.add(obstruction ? number(xy.x) : "");
+    table.add(obstruction ? number(xy.y) : "");
+    table.add(obstruction ? number(obstruction->terrainHeight) : "");
+    table.add(obstruction ? number(obstruction->distance) : "");
+    table.add(number(a.sight.gapMetres));
+    if (hasTolerance) table.add(obstruction ? a.sight.isObstructionLatest ? "1" : "0" : "");
+    table.add(fmt::format("{}", a.sight.visited));
+    if (hasFresnel) {
+      table.add(a.fresnel ? number(a.fresnel->fraction) : "");
+      table.add(isFresnelClear(a) ? "1" : "0");
+    }
+    table.add({});
+  }
+  return table;
+}
+
+std::vector<std::array<Vec2, 2>> SightResults::ends() const {
+  std::vector<std::array<Vec2, 2>> all;
+  all.reserve(pairs.rows.size());
+  for (const auto& [from, to] : pairs.rows) all.push_back({from.stated, to.stated});
+  return all;
+}
+
+}  // namespace arete

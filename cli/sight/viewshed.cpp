@@ -1,0 +1,501 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/sight/viewshed.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments/arguments.h"
+#include "cli/session/model_file.h"
+#include "cli/sight/arguments.h"
+#include "io/amt/file.h"
+#include "io/crs/longitude_turns.h"
+#include "io/crs/position_argument.h"
+#include "io/dem/placed_grid.h"
+#include "io/dem/raster_writer.h"
+#include "io/extract/query_footprint.h"
+#include "io/table/sight_pairs.h"
+#include "terrain/sight/links.h"
+#include "terrain/viewshed/many.h"
+#include "terrain/viewshed/viewshed.h"
+
+namespace arete {
+namespace {
+
+enum class Mode { seen, height, horizon, count, server };
+
+/// What a Byte says.
+constexpr double kSeen = 255, kHidden = 0, kUnknown = 100, kUndecided = 200, kOutside = 1;
+
+struct ViewshedArguments {
+  std::string model, observers, layer, output, observerHeight, azimuths, elevations, like;
+  std::vector<std::string> observer;
+  SightArguments sight;
+  Mode mode = Mode::seen;
+  ViewshedMethod method = ViewshedMethod::automatic;
+  double targetHeight = 0, radius = std::numeric_limits<double>::infinity(), least = 0, maxError = 0;
+};
+
+Result<ViewshedOptions> optionsOf(const ViewshedArguments& a) {
+  ViewshedOptions options;
+  options.targetHeight = a.targetHeight;
+  options.nodata = a.sight.nodata;
+  options.maxError = a.maxError;
+  options.method = a.method;
+  options.field.leastMetres = a.least;
+  options.field.greatestMetres = a.radius;
+  if (a.least > a.radius)
+    return failure(ErrorCode::usage, fmt::format("is beyond --radius {}", a.radius),
+                   fmt::format("--min-distance {}", a.least));
+  options.value = a.mode == Mode::height    ? ViewshedValue::leastHeight
+                  : a.mode == Mode::horizon ? ViewshedValue::horizon
+                                            : ViewshedValue::none;
+  const auto two = [](const std::string& option,
+                      const std::string& text) -> Result<std::pair<double, double>> {
+    const auto numbers = parseNumbers(option, text);
+    if (!numbers) return tl::unexpected(numbers.error());
+    if (numbers->size() != 2 || !std::isfinite((*numbers)[0] + (*numbers)[1]))
+      return failure(ErrorCode::usage, "is two numbers with a comma between",
+                     fmt::format("{} {}", option, text));
+    return std::pair{(*numbers)[0], (*numbers)[1]};
+  };
+  if (!a.azimuths.empty()) {
+    const auto range = two("--azimuth", a.azimuths);
+    if (!range) return tl::unexpected(range.error());
+    const auto turned = [](double v) { return v - 360 * std::floor(v / 360); };
+    options.field.fromAzimuth = turned(range->first);
+    const double span = range->second - range->first;
+    options.field.azimuthSpan = span >= 360 ? 360 : turned(span);
+    if (!(options.field.azimuthSpan > 0))
+      return failure(ErrorCode::usage, "is no field of view: from A clockwise to B there is nothing",
+                     "--azimuth " + a.azimuths);
+  }
+  if (!a.elevations.empty()) {
+    const auto range = two("--elevation", a.elevations);
+    if (!range) return tl::unexpected(range.error());
+    if (!(range->first <= range->second && range->first >= -90 && range->second <= 90))
+      return failure(ErrorCode::usage, "is two angles from -90 to 90, the lower first",
+                     "--elevation " + a.elevations);
+    options.field.lowest = range->first;
+    options.field.highest = range->second;
+  }
+  return options;
+}
+
+/// What a site's own columns say goes before the options.
+Status aim(ViewshedField& field, const SightBeam& beam) {
+  if (std::isfinite(beam.range)) {
+    if (!(beam.range > 0)) return failure(ErrorCode::invalidData, "has a range that is not above 0");
+    if (beam.range < field.leastMetres)
+      return failure(ErrorCode::invalidData,
+                     fmt::format("has a range below --min-distance {}", field.leastMetres));
+    field.greatestMetres = beam.range;
+  }
+  if (!std::isfinite(beam.azimuth) || !std::isfinite(beam.beamwidth)) return {};
+  if (!(beam.beamwidth > 0)) return failure(ErrorCode::invalidData, "has a beamwidth that is not above 0");
+  const double from = beam.azimuth - beam.beamwidth / 2;
+  field.fromAzimuth = from - 360 * std::floor(from / 360);
+  field.azimuthSpan = std::min(beam.beamwidth, 360.0);
+  return {};
+}
+
+/// An observer whose height is still to be told.
+struct PlacedObserver {
+  PositionArgument position;
+  ViewshedField field;
+  std::string culprit;  // the row of a file; none of an option
+};
+
+/// Where they are and where they look, by the outline of the model.
+Result<std::vector<PlacedObserver>> placeObservers(const ViewshedArguments& a, const ViewshedField& field,
+                                                   const TerrainModel& outline, Session& session) {
+  std::vector<PlacedObserver> observers;
+  const auto toDem = transformOfPlaces(a.sight.lonLat, outline);
+  if (!toDem) return tl::unexpected(toDem.error());
+  for (const std::string& text : a.observer) {
+    const auto position = readPositionArgument("--observer", text, *toDem);
+    if (!position) return tl::unexpected(position.error());
+    observers.push_back({*position, field, {}});
+  }
+  if (a.observers.empty()) return observers;
+  std::optional<StatedHeight> usual;
+  if (!a.observerHeight.empty()) {
+    const auto height = readHeightText(a.observerHeight);
+    if (!height)
+      return failure(height.error().code, height.error().message, "--observer-height " + a.observerHeight);
+    usual = *height;
+  }
+  const auto sites = readSightSites(a.observers, outline.georeference,
+                                    {.layer = a.layer, .lonLat = a.sight.lonLat}, session.context());
+  if (!sites) return tl::unexpected(sites.error());
+  session.warn(sites->warnings, a.observers);
+  const LongitudeTurns turns(outline);
+  for (std::size_t i = 0; i < sites->rows.size(); ++i) {
+    SightSite site = sites->rows[i][0];
+    site.xy = turns(site.xy);
+    const std::string culprit = fmt::format("{}, row {}", a.observers, i + 1);
+    if (!std::isfinite(site.stated.x + site.stated.y))
+      return failure(ErrorCode::invalidData, "has no place", culprit);
+    if (!std::isfinite(site.xy.x + site.xy.y))
+      return failure(ErrorCode::invalidData, "has no place that the DEM's CRS can tell", culprit);
+    const auto height = site.height ? site.height : usual;
+    if (!height) return failure(ErrorCode::usage, "has no height; --observer-height says one", culprit);
+    observers.push_back({{site.xy, height->height, height->kind}, field, culprit});
+    if (Status turned = aim(observers.back().field, sites->beams[i]); !turned)
+      return failure(turned.error().code, turned.error().message, culprit);
+  }
+  return observers;
+}
+
+/// The terrain within sight of all of them; everything where one looks as far as it goes. Errors:
+/// interrupted.
+Result<RequiredError> wantedFor(std::span<const PlacedObserver> observers, const SightEarth& earth,
+                                const TerrainModel& outline, const RunContext& context) {
+  QueryFootprint places(outline);
+  for (std::size_t i = 0; i < observers.size(); ++i) {
+    const PlacedObserver& observer = observers[i];
+    context.report("find what is in range", static_cast<double>(i) / static_cast<double>(observers.size()));
+    if (context.cancelled()) return failure(ErrorCode::interrupted, "the viewshed was stopped");
+    if (!std::isfinite(observer.field.greatestMetres)) return RequiredError();
+    const Vec2 plan = sightPlan(outline, observer.position.xy);
+    places.add(plan);
+    places.addDisc(earth, plan, observer.field.greatestMetres);
+  }
+  return places.within(0);
+}
+
+/// With the heights that they have above the ground.
+Result<std::vector<ViewshedSite>> sitesOf(std::span<const PlacedObserver> observers,
+                                          const TerrainModel& model) {
+  const SurfaceHeights heights(model);
+  std::vector<ViewshedSite> sites;
+  for (const PlacedObserver& observer : observers) {
+    const auto height = demHeight(observer.position, heights);
+    if (!height && observer.culprit.empty()) return tl::unexpected(height.error());
+    if (!height)
+      return failure(height.error().code, height.error().message,
+                     fmt::format("{}: {}", observer.culprit, height.error().culprit));
+    sites.push_back({{sightPlan(model, observer.position.xy), *height}, observer.field});
+  }
+  return sites;
+}
+
+double byteOf(ViewshedCell cell) {
+  switch (cell) {
+    case ViewshedCell::seen:
+      return kSeen;
+    case ViewshedCell::hidden:
+      return kHidden;
+    case ViewshedCell::unknown:
+      return kUnknown;
+    case ViewshedCell::undecided:
+      return kUndecided;
+    default:
+      return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+struct Picture {
+  std::vector<double> values;
+  GeoTiffOptions options;
+  bool isHeight = false;
+};
+
+Picture pictureOfOne(Mode mode, const Viewshed& viewshed) {
+  Picture picture;
+  picture.values.reserve(viewshed.cells.size());
+  if (mode == Mode::seen) {
+    picture.options = {.sample = GeoTiffOptions::Sample::uint8, .nodata = kOutside};
+    for (const ViewshedCell cell : viewshed.cells) picture.values.push_back(byteOf(cell));
+    return picture;
+  }
+  picture.isHeight = mode == Mode::height;
+  for (std::size_t i = 0; i < viewshed.cells.size(); ++i) {
+    double value = viewshed.cells[i] == ViewshedCell::outside ? std::nan("") : double(viewshed.values[i]);
+    if (mode == Mode::horizon) value = std::atan(value) * 180 / std::numbers::pi;
+    picture.values.push_back(value);
+  }
+  return picture;
+}
+
+Picture pictureOfMany(Mode mode, const ViewshedOfMany& all) {
+  Picture picture;
+  picture.options = {
+      .sample = mode == Mode::seen ? GeoTiffOptions::Sample::uint8 : GeoTiffOptions::Sample::uint16,
+      .nodata = mode == Mode::seen ? kOutside : 65535};
+  picture.values.reserve(all.cells.size());
+  for (std::size_t i = 0; i < all.cells.size(); ++i) {
+    const bool isOutside = all.cells[i] == ViewshedCell::outside;
+    picture.values.push_back(mode == Mode::seen    ? byteOf(all.cells[i])
+                             : isOutside           ? std::nan("")
+                             : mode == Mode::count ? all.count[i]
+                                                   : all.server[i]);
+  }
+  return picture;
+}
+
+const char* descriptionOf(Mode mode) {
+  switch (mode) {
+    case Mode::height:
+      return "least height above the terrain that is seen; infinite = none";
+    case Mode::horizon:
+      return "elevation of the horizon, degrees";
+    case Mode::count:
+      return "observers that see it; 65533 unknown, 65534 undecided";
+    case Mode::server:
+      return "nearest observer that sees it, from 1; 0 = none, 65533 unknown, 65534 undecided";
+    default:
+      return "255 seen, 0 hidden, 100 unknown, 200 undecided";
+  }
+}
+
+/// One observer, and what it sees: no counts, no servers.
+bool isOfOne(const ViewshedArguments& a, std::size_t observers) {
+  return observers == 1 && a.mode != Mode::count && a.mode != Mode::server;
+}
+
+/// What is known before the first cell.
+struct Question {
+  const ViewshedArguments& arguments;
+  const TerrainModel& model;
+  const SightEarth& earth;
+  const ViewshedOptions& options;
+  std::span<const ViewshedSite> observers;
+
+  bool isOfOne() const { return arete::isOfOne(arguments, observers.size()); }
+};
+
+/// The grid that is asked for: the DEM's own, with no places, or that of --like.
+Result<PlacedGrid> gridOf(const Question& q, Session& session) {
+  const ViewshedArguments& a = q.arguments;
+  if (a.like.empty()) return PlacedGrid{q.model.columns, q.model.rows, q.model.georeference, {}};
+  if (!q.isOfOne())
+    return failure(ErrorCode::usage, "is for one observer and what it sees, not for counts and servers",
+                   "--like");
+  std::vector<std::string> warnings;
+  auto grid = readPlacedGrid(a.like, q.model, warnings, session.context());
+  session.warn(warnings, a.like);
+  if (!grid && grid.error().code == ErrorCode::usage) grid.error().culprit = "--like " + a.like;
+  return grid;
+}
+
+struct Answer {
+  Picture picture;
+  std::vector<ViewshedCell> cells;
+};
+
+Result<Answer> answerOne(const Question& q, const ViewshedMaker& maker, const PlacedGrid& grid,
+                         const RunContext& context, Json& json) {
+  ViewshedOptions options = q.options;
+  options.field = q.observers.front().field;
+  const ViewshedObserver& observer = q.observers.front().observer;
+  auto viewshed = q.arguments.like.empty() ? maker.from(observer, options, context)
+                                           : maker.of(grid.places, observer, options, context);
+  if (!viewshed) return tl::unexpected(viewshed.error());
+  json["method"] = std::string(toString(viewshed->method));
+  json["rays"] = viewshed->rays;
+  return Answer{pictureOfOne(q.arguments.mode, *viewshed), std::move(viewshed->cells)};
+}
+
+Result<Answer> answerMany(const Question& q, const ViewshedMaker& maker, const RunContext& context) {
+  const Mode mode = q.arguments.mode;
+  auto all = viewshedOfMany(maker, q.model, q.earth, q.observers, q.options, mode == Mode::server, context);
+  if (!all) return tl::unexpected(all.error());
+  return Answer{pictureOfMany(mode, *all), std::move(all->cells)};
+}
+
+/// The last words: how many cells are what.
+void tellCounts(const ViewshedArguments& a, const std::vector<ViewshedCell>& cells, Json json,
+                Session& session) {
+  const auto count = [&](ViewshedCell which) {
+    return static_cast<std::uint64_t>(std::count(cells.begin(), cells.end(), which));
+  };
+  const std::uint64_t seen = count(ViewshedCell::seen), hidden = count(ViewshedCell::hidden),
+                      unknown = count(ViewshedCell::unknown), undecided = count(ViewshedCell::undecided);
+  json["seen"] = seen;
+  json["hidden"] = hidden;
+  json["unknown"] = unknown;
+  json["undecided"] = undecided;
+  json["outside"] = count(ViewshedCell::outside);
+  json["file"] = a.output;
+  std::string text = fmt::format("{}: {} samples seen, {} hidden, {} unknown", a.output, grouped(seen),
+                                 grouped(hidden), grouped(unknown));
+  if (undecided > 0) text += fmt::format(", {} undecided", grouped(undecided));
+  session.say(text + "\n");
+  session.answer(json);
+}
+
+Status answer(const Question& q, Session& session) {
+  const ViewshedArguments& a = q.arguments;
+  if (!q.model.isRaster)
+    return failure(ErrorCode::usage, "a viewshed is for rasters, and this model is of points", a.model);
+  const auto maker = ViewshedMaker::make(q.model, q.earth, {}, session.context());
+  if (!maker) return tl::unexpected(maker.error());
+  auto grid = gridOf(q, session);
+  if (!grid) return tl::unexpected(grid.error());
+  Json json = {{"model", a.model},
+               {"observers", q.observers.size()},
+               {"targetHeight", a.targetHeight},
+               {"earth", a.sight.earthName(q.model)},
+               {"refraction", a.sight.refractionJson(q.model)},
+               {"nodata", std::string(toString(a.sight.nodata))},
+               {"maxError", a.maxError}};
+  if (!a.like.empty()) json["like"] = a.like;
+  auto made = q.isOfOne() ? answerOne(q, *maker, *grid, session.context(), json)
+                          : answerMany(q, *maker, session.context());
+  // What a method cannot do is no fault of a file: another option answers.
+  if (!made && made.error().code == ErrorCode::unsupported && a.method == ViewshedMethod::sweep)
+    return failure(ErrorCode::usage, made.error().message, "--method sweep");
+  if (!made) return tl::unexpected(made.error());
+  Picture& picture = made->picture;
+  picture.options.description = descriptionOf(a.mode);
+  grid->georeference.verticalUnit = picture.isHeight ? q.model.georeference.verticalUnit : "";
+  if (Status written = writeGeoTiff(a.output, grid->columns, grid->rows, picture.values, grid->georeference,
+                                    picture.options, session.context());
+      !written)
+    return written;
+  tellCounts(a, made->cells, std::move(json), session);
+  return {};
+}
+
+Status runViewshed(const ViewshedArguments& a, Session& session) {
+  if (a.observer.empty() && a.observers.empty())
+    return failure(ErrorCode::usage, "--observer or --observers says from where");
+  if (!isGeoTiffName(a.output))
+    return failure(ErrorCode::usage, "a viewshed is a GeoTIFF and ends in .tif or .tiff",
+                   "--output " + a.output);
+  if (!a.layer.empty() && a.observers.empty())
+    return failure(ErrorCode::usage, "means something only with --observers", "--layer");
+  if (!a.observerHeight.empty() && a.observers.empty())
+    return failure(ErrorCode::usage, "is of --observers; of --observer it is the H of X,Y,H",
+                   "--observer-height");
+  if (a.method == ViewshedMethod::sweep && a.maxError > 0)
+    return failure(ErrorCode::usage, "has no tolerance, so --max-error has no place", "--method sweep");
+  const auto options = optionsOf(a);
+  if (!options) return tl::unexpected(options.error());
+  const Result<AmtFile> file = openAmt(a.model);
+  if (!file) return tl::unexpected(file.error());
+  const Result<TerrainModel> outline = outlineOf(*file, session);
+  if (!outline) return tl::unexpected(outline.error());
+  if (Status output = checkOutput("--output", a.output, {a.model, a.observers, a.like, outline->source});
+      !output)
+    return output;
+  const auto placed = placeObservers(a, options->field, *outline, session);
+  if (!placed) return tl::unexpected(placed.error());
+  if (!isOfOne(a, placed->size()) && (a.mode == Mode::height || a.mode == Mode::horizon))
+    return failure(ErrorCode::usage, fmt::format("is of one observer, and there are {}", placed->size()),
+                   a.mode == Mode::height ? "--mode height" : "--mode horizon");
+  const auto earth = a.sight.makeEarth(*outline, session);
+  if (!earth) return tl::unexpected(earth.error());
+  const auto wanted = wantedFor(*placed, **earth, *outline, session.context());
+  if (!wanted) return tl::unexpected(wanted.error());
+  const Result<TerrainModel> model = readWanted(*file, *outline, *wanted, session);
+  if (!model) return tl::unexpected(model.error());
+  const auto observers = sitesOf(*placed, *model);
+  if (!observers) return tl::unexpected(observers.error());
+  return answer({a, *model, **earth, *options, *observers}, session);
+}
+
+}  // namespace
+
+void addViewshedCommand(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<ViewshedArguments>();
+  CLI::App* command = session.addCommand(
+      app, "viewshed", "Tell what can be seen from places",
+      "  arete viewshed dem.amt --observer 409050,3801450,10 --target-height 2 --radius 20000 -o seen.tif\n"
+      "  arete viewshed dem.amt --observer 409050,3801450,10 --mode height -o least_height.tif\n"
+      "  arete viewshed dem.amt --observers masts.gpkg --observer-height 30 --mode count -o count.tif\n"
+      "\n"
+      "A raster on the grid of the DEM, or of another raster (--like). seen: 255 seen, 0 hidden, 100 "
+      "unknown\n"
+      "(NODATA in between), 200 undecided (--max-error), 1 = NODATA: no sample, too far, out of the field "
+      "of\n"
+      "view. Every sample has the answer that arete los gives for it. count, server: 65533 unknown, 65534\n"
+      "undecided, 65535 = NODATA. height: infinite where nothing would be seen, NODATA where it is unknown.",
+      [arguments](Session& s) { return runViewshed(*arguments, s); });
+  command->add_option("FILE.amt", arguments->model, "Multitriangulation of a raster")
+      ->required()
+      ->type_name("");
+  command->add_option("-o,--output", arguments->output, "GeoTIFF")->required()->type_name("FILE.tif");
+  command
+      ->add_option("--observer", arguments->observer,
+                   "Where the observer is, in the DEM's CRS; may be repeated")
+      ->type_size(1)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("X,Y,H");
+  command
+      ->add_option(
+          "--observers", arguments->observers,
+          "Observers from a file: CSV or a layer of points; the columns h, range (metres), azimuth and "
+          "beamwidth (degrees) say what differs between them")
+      ->type_name("FILE");
+  command->add_option("--layer", arguments->layer, "Layer of a file with several")->type_name("NAME");
+  command
+      ->add_option("--like", arguments->like,
+                   "Answer for the samples of this raster's grid, in its CRS, instead of the DEM's")
+      ->type_name("RASTER");
+  command
+      ->add_option("--observer-height", arguments->observerHeight,
+                   "Height of observers that the file has none for")
+      ->type_name("H");
+  command
+      ->add_option("--target-height", arguments->targetHeight,
+                   "Height of what is looked for above the terrain, in the DEM's unit (default 0)")
+      ->check(finiteAtLeast(0))
+      ->type_name("H");
+  command
+      ->add_option(
+          "--mode", arguments->mode,
+          "seen (default); height: the least height above the terrain that would be seen; horizon: its "
+          "elevation, degrees; count: how many observers see it; server: the nearest that does")
+      ->transform(oneOf<Mode>({{"seen", Mode::seen},
+                               {"height", Mode::height},
+                               {"horizon", Mode::horizon},
+                               {"count", Mode::count},
+                               {"server", Mode::server}}))
+      ->type_name("MODE");
+  const std::string field = "The field of view";
+  command->add_option("--radius", arguments->radius, "Greatest distance along the ground")
+      ->check(finiteAbove(0))
+      ->type_name("METRES")
+      ->group(field);
+  command->add_option("--min-distance", arguments->least, "Least distance along the ground (default 0)")
+      ->check(finiteAtLeast(0))
+      ->type_name("METRES")
+      ->group(field);
+  command
+      ->add_option("--azimuth", arguments->azimuths,
+                   "From the first azimuth clockwise to the second, degrees")
+      ->type_name("A,B")
+      ->group(field);
+  command
+      ->add_option("--elevation", arguments->elevations,
+                   "From the lowest to the highest elevation of the target, degrees above the horizontal")
+      ->type_name("A,B")
+      ->group(field);
+  arguments->sight.addLonLatTo(*command);
+  arguments->sight.addNodataTo(*command);
+  command
+      ->add_option("--max-error", arguments->maxError,
+                   "Stop at this detail, in the DEM's unit: samples that it does not decide are undecided")
+      ->check(finiteAtLeast(0))
+      ->type_name("E");
+  command
+      ->add_option("--method", arguments->method, "auto (default), sweep or rays; all give the same answer")
+      ->transform(oneOf<ViewshedMethod>({{"auto", ViewshedMethod::automatic},
+                                         {"sweep", ViewshedMethod::sweep},
+                                         {"rays", ViewshedMethod::rays}}))
+      ->type_name("METHOD");
+  arguments->sight.addEarthTo(*command);
+}
+
+}  // namespace arete

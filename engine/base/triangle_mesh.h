@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/base/vec.h"
+
+namespace arete {
+
+/// An indexed triangle mesh by value: what a cut hands out and what mesh files hold.
+/// Triangles are counter-clockwise seen from +z in the frame of the positions.
+struct TriangleMesh {
+  std::vector<Vec3> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+
+  /// Every index names a position and every coordinate is finite. O(size).
+  Status validate() const;
+};
+
+}  // namespace arete

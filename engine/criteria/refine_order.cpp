@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/criteria/refine_order.h"
+
+#include <cmath>
+
+#include "engine/base/triangle_distance.h"
+#include "engine/criteria/view_error.h"
+
+namespace arete {
+
+RefineKey TwoQueues::key(const MultiTriangulation& mt, const Criterion&, TriangleId t,
+                         const Criterion::Corners& corners, std::uint64_t) const {
+  std::array<Vec3, 6> prism = prismOf(mt, t, corners);
+  for (Vec3& p : prism) p = frustum_.toView(p);
+  if (frustum_.mayMeet(prism)) {
+    const MetricFrame& metric = mt.arrays().metric;
+    const auto corner = [&](int i) { return metric.toMetric(mt.position(VertexId(corners[i]))); };
+    return {0, distanceToTriangle(o_.view.eye, corner(0), corner(1), corner(2))};
+  }
+  const NodeId remover = mt.remover(t);
+  if (!remover.isValid()) return {1, 0};
+  const Vec3 p = frustum_.toView(mt.arrays().metric.toMetric(mt.position(mt.apex(remover))));
+  const double fromAxis = std::hypot(p.x, p.y), fromEye = std::hypot(fromAxis, p.z);
+  const double sum = o_.axisWeight * fromAxis + o_.distanceWeight * fromEye;
+  return {1, p.z < 0 ? sum * o_.behindFactor : sum};
+}
+
+}  // namespace arete

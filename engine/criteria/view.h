@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "engine/base/result.h"
+#include "engine/base/vec.h"
+#include "engine/mt/multitriangulation.h"
+
+namespace arete {
+
+/// A perspective view as plain numbers, in the metric space of an MT (MetricFrame::toMetric). That space may
+/// be mirrored against the map's: a view is not, it has no left and right.
+struct View {
+  Vec3 eye;
+  Vec3 forward = {0, 1, 0};                         ///< of any length but 0
+  Vec3 up = {0, 0, 1};                              ///< not along forward
+  double verticalFieldOfView = 1.0471975511965976;  ///< radians, below pi
+  double widthPixels = 1920, heightPixels = 1080;
+  double nearDistance = 0;  ///< depths along forward, in metric units
+  double farDistance = std::numeric_limits<double>::infinity();
+
+  /// Errors: usage, naming the number that makes no sense.
+  Status validate() const;
+};
+
+/// What of space a view sees: the points (x, y, z), z forward, with near <= z <= far and |x|, |y| at most so
+/// much of z.
+class Frustum {
+ public:
+  /// Precondition: the view validates.
+  explicit Frustum(const View& view);
+
+  /// Right, up and forward of the eye.
+  Vec3 toView(const Vec3& p) const {
+    const Vec3 d{p.x - eye_.x, p.y - eye_.y, p.z - eye_.z};
+    return {d.x * right_.x + d.y * right_.y + d.z * right_.z, d.x * up_.x + d.y * up_.y + d.z * up_.z,
+            d.x * forward_.x + d.y * forward_.y + d.z * forward_.z};
+  }
+  /// False when all of the points, given by toView(), are beyond one of the planes, as then is everything
+  /// between them.
+  bool mayMeet(std::span<const Vec3> inView) const;
+  /// False when the ball lies beyond one of the planes.
+  bool mayMeet(const Sphere& ball) const { return mayMeet(toView({ball.x, ball.y, ball.z}), ball.radius); }
+  /// The same of a ball whose centre is given by toView().
+  bool mayMeet(const Vec3& centre, double radius) const {
+    return std::abs(centre.x) - slopeX_ * centre.z <= radius * lengthX_ &&
+           std::abs(centre.y) - slopeY_ * centre.z <= radius * lengthY_ && centre.z + radius >= near_ &&
+           centre.z - radius <= far_;
+  }
+
+  /// A lower bound of depth^2 / distance over what the ball has in the frustum (see ViewError): a
+  /// displacement e there moves nothing by more than e * pixelsPerUnit / reach on the screen. 0 around the
+  /// eye.
+  double reach(const Vec3& centre, double radius, double leastDepth) const;
+  /// At most reach(): what the least depth says of it.
+  double reachByDepth(double leastDepth) const { return std::max(leastDepth, near_) * leastCosine_; }
+  double pixelsPerUnit() const { return pixelsPerUnit_; }
+  double nearDistance() const { return near_; }
+  double farDistance() const { return far_; }
+  const Vec3& eye() const { return eye_; }
+
+  /// The directions of the eye; side planes |x| = slopeX z, |y| = slopeY z and the lengths of their normals;
+  /// the cosine at the corner.
+  struct Planes {
+    Vec3 right, up, forward;
+    double slopeX, slopeY, lengthX, lengthY, leastCosine;
+  };
+  Planes planes() const {
+    return {right_, up_, forward_, slopeX_, slopeY_, lengthX_, lengthY_, leastCosine_};
+  }
+
+ private:
+  Vec3 eye_, right_, up_, forward_;
+  double slopeX_, slopeY_;    // of the side planes
+  double lengthX_, lengthY_;  // of their normals
+  double near_, far_;
+  double leastCosine_;  // of the angle between forward and a direction in the frustum
+  double pixelsPerUnit_;
+};
+
+}  // namespace arete

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/criteria/view_error.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+namespace arete {
+
+std::array<Vec3, 6> prismOf(const MultiTriangulation& mt, TriangleId t, const Criterion::Corners& corners) {
+  const MtArrays& a = mt.arrays();
+  const double above = a.scale.decode(a.above[t.index()]), below = a.scale.decode(a.below[t.index()]);
+  std::array<Vec3, 6> prism;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 p = mt.position(VertexId(corners[i]));
+    // z_TIN - z_reference lies in [-below, above].
+    prism[i] = a.metric.toMetric({p.x, p.y, p.z - above});
+    prism[i + 3] = a.metric.toMetric({p.x, p.y, p.z + below});
+  }
+  return prism;
+}
+
+ViewError::ViewError(const Options& options, const MetricFrame& metric)
+    : o_(options),
+      metric_(metric),
+      frustum_(options.view),
+      errorPerReach_(options.pixels / frustum_.pixelsPerUnit() / std::abs(metric.scale.z)),
+      filter_(options.view, errorPerReach_, options.outsideError) {}
+
+double ViewError::allowedFor(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
+  std::array<Vec3, 6> prism = prismOf(mt, t, corners);
+  for (Vec3& p : prism) p = frustum_.toView(p);
+  if (!frustum_.mayMeet(prism)) return o_.outsideError;
+  Vec3 low = prism[0], high = prism[0];
+  for (const Vec3& p : prism) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const Vec3 centre{(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
+  double squared = 0;
+  for (const Vec3& p : prism)
+    squared = std::max(squared, (p.x - centre.x) * (p.x - centre.x) + (p.y - centre.y) * (p.y - centre.y) +
+                                    (p.z - centre.z) * (p.z - centre.z));
+  return std::min(errorPerReach_ * frustum_.reach(centre, std::sqrt(squared), low.z), o_.outsideError);
+}
+
+bool ViewError::isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
+  const double error = mt.error(t);
+  return error == 0 || error <= allowedFor(mt, t, corners);
+}
+
+double ViewError::severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
+  const double error = mt.error(t);
+  return error == 0 ? 0 : o_.pixels * error / allowedFor(mt, t, corners);
+}
+
+std::unique_ptr<const Criterion> ViewError::withSeverityLimit(double pixels) const {
+  Options options = o_;
+  options.pixels = pixels;
+  options.outsideError *= pixels / o_.pixels;
+  return std::make_unique<ViewError>(options, metric_);
+}
+
+std::uint64_t ViewError::decide(const FrustumFilter::Verdicts& filtered, std::span<const Sphere> balls,
+                                std::span<const float> errors) const {
+  std::uint64_t exceeds = filtered.exceeds;
+  for (std::uint64_t unsure = filtered.unsure; unsure != 0; unsure &= unsure - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(unsure));
+    if (errors[i] > allowedError(balls[i])) exceeds |= std::uint64_t(1) << i;
+  }
+  return exceeds;
+}
+
+std::uint64_t ViewError::exceeding(std::span<const Sphere> balls, std::span<const float> errors) const {
+  return decide(filter_.test(balls, errors), balls, errors);
+}
+
+std::uint64_t ViewError::exceedingFor(std::span<const Sphere> balls, std::span<const float> errors,
+                                      const Motion& rate, std::span<float> units) const {
+  return decide(filter_.testFor(balls, errors, rate, units), balls, errors);
+}
+
+std::optional<Motion> ViewError::motionSince(const Criterion& before) const {
+  const auto* old = dynamic_cast<const ViewError*>(&before);
+  if (old == nullptr || old->o_.view.nearDistance != o_.view.nearDistance ||
+      old->o_.view.farDistance != o_.view.farDistance || old->o_.outsideError != o_.outsideError)
+    return {};
+  const Frustum::Planes a = old->frustum_.planes(), b = frustum_.planes();
+  const auto squared = [](const Vec3& p, const Vec3& q) {
+    return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y) + (p.z - q.z) * (p.z - q.z);
+  };
+  // Axes turned by an angle have moved by 2 sqrt(2) sin(angle / 2) in all.
+  const double axes =
+      std::sqrt(squared(a.right, b.right) + squared(a.up, b.up) + squared(a.forward, b.forward));
+  const double planes = std::max(std::abs(std::atan(a.slopeX) - std::atan(b.slopeX)),
+                                 std::abs(std::atan(a.slopeY) - std::atan(b.slopeY)));
+  constexpr double kWiden = 1 + 1e-9;
+  return Motion{.travel = kWiden * std::sqrt(squared(old->o_.view.eye, o_.view.eye)),
+                .turn = kWiden * (2 * std::asin(std::min(1.0, axes / (2 * std::numbers::sqrt2))) + planes),
+                // The cosine at the corner counts twice: the error allowed grows with its square at most.
+                .scale = kWiden * (std::abs(std::log(errorPerReach_ / old->errorPerReach_)) +
+                                   2 * std::abs(std::log(b.leastCosine / a.leastCosine)))};
+}
+
+double ViewError::allowedError(const Sphere& s) const {
+  if (!frustum_.mayMeet(s)) return o_.outsideError;
+  const Vec3 centre = frustum_.toView({s.x, s.y, s.z});
+  const double reach = frustum_.reach(centre, s.radius, centre.z - s.radius);
+  return std::min(errorPerReach_ * reach, o_.outsideError);
+}
+
+}  // namespace arete

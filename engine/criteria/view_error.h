@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <limits>
+
+#include "engine/criteria/criterion.h"
+#include "engine/criteria/frustum_filter.h"
+#include "engine/criteria/view.h"
+
+namespace arete {
+
+/// At most so many pixels of error on the screen of a view: what a triangle's vertical error can move on it,
+/// from wherever in the frustum, stays within the tolerance. A triangle is out of sight when nothing of it,
+/// nor of the terrain that it stands for (its signed bound), meets the frustum.
+///
+/// The bound holds for the vertical error in whatever direction it is seen, so it is conservative from above.
+/// Precondition: the view validates.
+class ViewError final : public Criterion {
+ public:
+  struct Options {
+    View view;
+    double pixels = 1;  ///< > 0
+    /// Allowed out of sight, in the unit of heights.
+    double outsideError = std::numeric_limits<double>::infinity();
+  };
+  /// `metric`: the frame of the MT that is asked about.
+  ViewError(const Options& options, const MetricFrame& metric);
+
+  bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
+  /// Its projected error in pixels; out of sight, in the ratio to the error allowed there.
+  double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
+  double severityLimit() const override { return o_.pixels; }
+  std::unique_ptr<const Criterion> withSeverityLimit(double pixels) const override;
+  bool isMonotone() const override { return true; }
+  double allowedError(const Sphere& s) const override;
+  std::uint64_t exceeding(std::span<const Sphere> balls, std::span<const float> errors) const override;
+  std::unique_ptr<const Criterion> remembered() const override { return std::make_unique<ViewError>(*this); }
+  /// Known from view to view, of any field of view, size and tolerance; not where the near or the far
+  /// distance or the error allowed out of sight are others.
+  std::optional<Motion> motionSince(const Criterion& before) const override;
+  std::uint64_t exceedingFor(std::span<const Sphere> balls, std::span<const float> errors, const Motion& rate,
+                             std::span<float> units) const override;
+
+  const Frustum& frustum() const { return frustum_; }
+
+ private:
+  std::uint64_t decide(const FrustumFilter::Verdicts& filtered, std::span<const Sphere> balls,
+                       std::span<const float> errors) const;
+  double allowedFor(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const;
+
+  Options o_;
+  MetricFrame metric_;
+  Frustum frustum_;
+  double errorPerReach_;  // unit of heights per metric unit of reach
+  FrustumFilter filter_;
+};
+
+/// The corners of a triangle, each at the lowest and at the highest place that the terrain can have over it,
+/// in metric space: nothing of the triangle or of the terrain there lies outside their convex hull.
+std::array<Vec3, 6> prismOf(const MultiTriangulation& mt, TriangleId t, const Criterion::Corners& corners);
+
+}  // namespace arete

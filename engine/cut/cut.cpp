@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Minimal: least_cut.cpp; with a budget or a deadline refine.cpp. Saturated: saturated_cut.cpp.
+#include "engine/cut/cut.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/cut/front.h"
+#include "engine/cut/least_cut.h"
+#include "engine/cut/refine.h"
+#include "engine/cut/saturated_cut.h"
+#include "engine/parallel/with_threads.h"
+
+namespace arete {
+namespace {
+
+tl::unexpected<Error> interrupted() {
+  return failure(ErrorCode::interrupted, "the cut was interrupted");
+}
+
+}  // namespace
+
+Status checkCut(const MultiTriangulation& mt, const Criterion& criterion, CutMethod method,
+                std::optional<std::uint32_t> maxTriangles) {
+  if (maxTriangles && *maxTriangles < mt.rootTriangleCount())
+    return failure(ErrorCode::usage,
+                   fmt::format("{} triangles are fewer than the {} of the root, the coarsest there is",
+                               *maxTriangles, mt.rootTriangleCount()),
+                   "--max-triangles");
+  if (method == CutMethod::saturated && !criterion.isMonotone())
+    return failure(
+        ErrorCode::usage,
+        "this criterion has no bound over a sphere, so a saturated cut cannot take it; use the minimal cut");
+  return {};
+}
+
+std::uint32_t closeUpwards(const MultiTriangulation& mt, NodeSet& set) {
+  // Parents have smaller indices: one backward sweep reaches every ancestor.
+  std::uint32_t members = 0;
+  for (std::uint32_t n = mt.nodeCount(); n-- > 0;) {
+    if (!set[n]) continue;
+    ++members;
+    for (const std::uint32_t t : mt.floor(NodeId(n))) {
+      const NodeId parent = mt.creator(TriangleId(t));
+      if (parent.isValid()) set[parent.index()] = 1;
+    }
+  }
+  return members;
+}
+
+bool isSatisfied(const MultiTriangulation& mt, const Criterion& criterion, TriangleId t,
+                 const Criterion::Corners& corners) {
+  // The bound is the cheaper test, and passes most.
+  if (const NodeId remover = mt.remover(t); remover.isValid() && criterion.isMonotone()) {
+    const double allowed = criterion.allowedError(mt.arrays().sphere[remover.index()]);
+    if (mt.error(t) <= allowed) return true;
+  }
+  return criterion.isFineEnough(mt, t, corners);
+}
+
+double worstSeverity(const MultiTriangulation& mt, const Criterion& criterion, const Cut& cut) {
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, cut.ids.size(), 4096), 0.0,
+      [&](const auto& range, double worst) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+          Criterion::Corners corners = cut.triangles[i];
+          for (std::uint32_t& corner : corners) corner = cut.vertices[corner];
+          worst = std::max(worst, criterion.severity(mt, TriangleId(cut.ids[i]), corners));
+        }
+        return worst;
+      },
+      [](double a, double b) { return std::max(a, b); });
+}
+
+namespace {
+
+Status checkOptions(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options) {
+  if (Status ok = checkCut(mt, criterion, options.method, options.maxTriangles); !ok) return ok;
+  if (options.method == CutMethod::minimal) return {};
+  if (options.deadline || options.order)
+    return failure(ErrorCode::usage,
+                   "a saturated cut is one test per node, in no order and with no time to stop at; use the "
+                   "minimal cut for a deadline or an order");
+  return {};
+}
+
+}  // namespace
+
+Result<NodeCut> takeNodes(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options,
+                          const RunContext& context) {
+  if (const Status ok = checkOptions(mt, criterion, options); !ok) return tl::unexpected(ok.error());
+  if (context.cancelled()) return interrupted();
+  return withThreads(context, [&]() -> Result<NodeCut> {
+    if (options.method == CutMethod::saturated) {
+      const SaturatedMembers cut = saturatedMembers(mt, criterion, options.maxTriangles);
+      return NodeCut{cut.members.toNodeSet(mt.nodeCount()), cut.isComplete};
+    }
+    if (options.maxTriangles || options.deadline) return refineWithin(mt, criterion, options, context);
+    const auto least = leastMembers(mt, criterion, [&] { return context.cancelled(); });
+    if (!least) return interrupted();
+    return NodeCut{least->toNodeSet(mt.nodeCount()), true};
+  });
+}
+
+Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options,
+                    const RunContext& context) {
+  if (const Status ok = checkOptions(mt, criterion, options); !ok) return tl::unexpected(ok.error());
+  if (context.cancelled()) return interrupted();
+  return withThreads(context, [&]() -> Result<Cut> {
+    if (options.method == CutMethod::saturated) {
+      const SaturatedMembers taken = saturatedMembers(mt, criterion, options.maxTriangles);
+      Cut cut = frontOfClosure(mt, taken.members);
+      cut.isComplete = taken.isComplete;
+      return cut;
+    }
+    if (!options.maxTriangles && !options.deadline) {
+      const auto least = leastMembers(mt, criterion, [&] { return context.cancelled(); });
+      if (!least) return interrupted();
+      return frontOfClosure(mt, *least);
+    }
+    const Result<NodeCut> nodes = refineWithin(mt, criterion, options, context);
+    if (!nodes) return tl::unexpected(nodes.error());
+    Cut cut = front(mt, nodes->nodes);
+    cut.isComplete = nodes->isComplete;
+    return cut;
+  });
+}
+
+}  // namespace arete

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/criteria/criterion.h"
+#include "engine/criteria/refine_order.h"
+#include "engine/mt/multitriangulation.h"
+#include "engine/parallel/deadline.h"
+#include "engine/parallel/run_context.h"
+
+namespace arete {
+
+/// A set of nodes, one byte each: 0 = out. Closed when the creators of every member's floor are members too.
+using NodeSet = std::vector<std::uint8_t>;
+
+/// The front of a cut: a conforming, positively oriented triangulation of the whole domain (law 5).
+struct Cut {
+  std::vector<std::uint32_t> vertices;  ///< MT vertex of each vertex of the front
+  std::vector<std::array<std::uint32_t, 3>>
+      triangles;                   ///< indices into `vertices`, counter-clockwise in the plan
+  std::vector<std::uint32_t> ids;  ///< MT triangle of each triangle
+  double achievedError = 0;        ///< largest error of its triangles, as stored (outwards)
+  std::uint32_t nodes = 0;         ///< nodes in the cut
+  /// False when a budget or a deadline ended the walk before the criterion was met wherever it can be.
+  bool isComplete = true;
+};
+
+/// Two ways to take a cut, both exact (docs/topics/cuts.md).
+enum class CutMethod {
+  minimal,    ///< the least cut for the criterion, of a sweep or a walk that forces ancestors
+  saturated,  ///< independent tests per node, parallel: a few percent more triangles, no walk
+};
+
+struct CutOptions {
+  CutMethod method = CutMethod::minimal;
+  /// At most this many triangles, spent where the criterion's severity is worst; the criterion may stay
+  /// unmet.
+  std::optional<std::uint32_t> maxTriangles{};
+  /// Of a minimal cut: the walk ends here, between two modifications, and the criterion may stay unmet.
+  std::optional<Deadline> deadline{};
+  /// Of a minimal cut under a budget or a deadline: what is refined first. Worst first when null.
+  std::shared_ptr<const RefineOrder> order{};
+};
+
+/// The front of the least cut (or of the saturated cut) whose triangles all satisfy the criterion, or have
+/// nothing finer. A budget spent worst first leaves the least cut of the severity that it reached: no cut of
+/// as many triangles has a smaller one. Errors: usage when the budget is below the root's count, when the
+/// saturated cut is asked for a criterion without a bound over a sphere, or given a deadline or an order;
+/// interrupted. Minimal: O(the saturated cut) where the criterion has a bound, else O(triangles visited);
+/// with a budget or a deadline times log. Saturated: O(N) at most in general, O(size of the cut) for a
+/// uniform error.
+Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options = {},
+                    const RunContext& context = {});
+
+/// The nodes of a cut, without its front.
+struct NodeCut {
+  NodeSet nodes;
+  bool isComplete = true;  ///< as of a Cut
+};
+Result<NodeCut> takeNodes(const MultiTriangulation& mt, const Criterion& criterion,
+                          const CutOptions& options = {}, const RunContext& context = {});
+
+/// Whether t may stay in a front of the minimal cut: it satisfies the criterion, or all of its remover's
+/// region does by the criterion's own bound (so that the minimal cut is never larger than the saturated one).
+bool isSatisfied(const MultiTriangulation& mt, const Criterion& criterion, TriangleId t,
+                 const Criterion::Corners& corners);
+
+/// The worst severity among the triangles of a front. O(front), parallel.
+double worstSeverity(const MultiTriangulation& mt, const Criterion& criterion, const Cut& cut);
+
+/// Triangles of the saturated cut for an error of E everywhere, without taking it. O(nodes in it).
+std::uint32_t uniformTriangleCount(const MultiTriangulation& mt, double maxError);
+
+/// The front of a closed set; of the first n nodes (closed by their order). Parallel, the same for any thread
+/// count. Precondition: the set is closed.
+Cut front(const MultiTriangulation& mt, const NodeSet& closed);
+Cut frontOfPrefix(const MultiTriangulation& mt, std::uint32_t nodes);
+
+/// Adds the ancestors of every member. Returns the number of members. O(members).
+std::uint32_t closeUpwards(const MultiTriangulation& mt, NodeSet& set);
+
+}  // namespace arete

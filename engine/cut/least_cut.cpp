@@ -1,0 +1,449 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The least set is unique, so the order of the walk does not matter for what it finds, only for how long it
+// takes.
+//
+// A walk from the root, a stack of nodes to include, goes wherever their triangles and parents lie: it waits
+// for memory at each. So where the criterion has a bound the walk goes once through the saturated cut, which
+// holds the least one but for a few per cent, in the order of the nodes, parents first. A node that is in by
+// its turn has the removers of its failing triangles included, whose turn comes. One that is not yet in by
+// its turn has to be in when a child is; else its children are told that a parent is missing, and ask for it
+// by their turn if they are in then. Whoever is included after its turn waits on a stack for an extra one.
+// Should a node have to be in that the saturated cut does not hold, the walk has the last word.
+//
+// Where one error is allowed everywhere the saturated cut is not even made: its nodes are those of the first
+// bands, but for some of the last one. Nearly all of these are in, and have their turns run by run.
+#include "engine/cut/least_cut.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "engine/base/vector_clones.h"
+#include "engine/cut/front.h"
+#include "engine/cut/refine.h"
+#include "engine/cut/saturated_cut.h"
+
+namespace arete {
+namespace {
+
+constexpr std::uint32_t kNone = MultiTriangulation::kNone;
+constexpr std::size_t kCheckEvery = 1 << 12;
+
+/// Whether a triangle satisfies the criterion; a uniform error is compared as a code, without the virtual
+/// call.
+class Test {
+ public:
+  Test(const MultiTriangulation& mt, const Criterion& criterion)
+      : mt_(mt),
+        criterion_(criterion),
+        isUniform_(!std::isnan(criterion.uniformError())),
+        code_(isUniform_ ? mt.arrays().scale.floorCode(criterion.uniformError()) : OutwardScale::Code(0)) {}
+
+  bool isUniform() const { return isUniform_; }
+  OutwardScale::Code code() const { return code_; }
+
+  /// What is known of all triangles of a star by the ball around it: up to which code they pass, and may.
+  struct Around {
+    OutwardScale::Code passing, mayPass;
+  };
+  Around around(NodeId n) const {
+    if (isUniform_) return {code_, code_};
+    const Sphere& ball = mt_.arrays().sphere[n.index()];
+    const OutwardScale& scale = mt_.arrays().scale;
+    return {scale.floorCode(criterion_.allowedError(ball)), scale.floorCode(criterion_.mostAllowed(ball))};
+  }
+
+  bool passes(std::uint32_t id, NodeId creator) const {
+    if (isUniform_) return mt_.arrays().error[id] <= code_;
+    return isSatisfied(mt_, criterion_, TriangleId(id), mt_.corners(TriangleId(id), creator));
+  }
+
+ private:
+  const MultiTriangulation& mt_;
+  const Criterion& criterion_;
+  bool isUniform_;
+  OutwardScale::Code code_;
+};
+
+/// The candidates of an error allowed everywhere: the nodes before the end of its code's band. Nearly all of
+/// them are in the saturated cut, so that what is kept of one lies by its number.
+class UniformCandidates {
+ public:
+  UniformCandidates(const MultiTriangulation& mt, OutwardScale::Code code)
+      : saturated_(mt.arrays().saturatedError),
+        code_(code),
+        bandBegin_(mt.bandBegin(MultiTriangulation::bandOf(code))),
+        end_(mt.bandEnd(MultiTriangulation::bandOf(code))) {}
+
+  std::uint32_t places() const { return end_; }
+  bool contains(std::uint32_t n) const { return n < end_; }
+  std::uint32_t placeOf(std::uint32_t n) const { return n; }
+  /// Whether the saturated cut holds a candidate.
+  bool mayBeIn(std::uint32_t n) const { return saturated_[n] > code_; }
+  /// Whether it holds all that are in.
+  bool mayAllBeIn(const NodeSet& in) const {
+    for (std::uint32_t n = bandBegin_; n < end_; ++n)
+      if (in[n] != 0 && !mayBeIn(n)) return false;
+    return true;
+  }
+
+  /// visit(first place, end of places, nodeAt(place)) for one piece after the other, until it returns false.
+  template <class Visit>
+  bool forPieces(const Visit& visit) const {
+    constexpr std::uint32_t kInPiece = MemberSet::kMostInPiece;
+    for (std::uint32_t begin = 0; begin < end_; begin += kInPiece)
+      if (!visit(begin, std::min(end_, begin + kInPiece), [](std::uint32_t place) { return place; }))
+        return false;
+    return true;
+  }
+
+  MemberSet members(NodeSet in) const {
+    in.resize(end_);
+    return MemberSet(in);
+  }
+
+ private:
+  std::span<const OutwardScale::Code> saturated_;
+  OutwardScale::Code code_;
+  std::uint32_t bandBegin_, end_;
+};
+
+/// Those of any other bound: the saturated cut, by rank.
+class RankedCandidates {
+ public:
+  RankedCandidates(const MemberSet& set, std::uint32_t nodes)
+      : set_(set), lookup_(set.lookup()), nodes_(nodes) {}
+
+  std::uint32_t places() const { return set_.size(); }
+  bool contains(std::uint32_t n) const { return lookup_.contains(n); }
+  std::uint32_t placeOf(std::uint32_t n) const { return lookup_.rank(n); }
+  bool mayBeIn(std::uint32_t) const { return true; }
+  bool mayAllBeIn(const NodeSet&) const { return true; }
+
+  template <class Visit>
+  bool forPieces(const Visit& visit) const {
+    std::array<std::uint32_t, MemberSet::kMostInPiece> members;
+    for (std::uint32_t piece = 0; piece < set_.pieces(); ++piece) {
+      const std::uint32_t begin = set_.before(piece), end = begin + set_.list(piece, members.data());
+      if (!visit(begin, end, [&](std::uint32_t place) { return members[place - begin]; })) return false;
+    }
+    return true;
+  }
+
+  MemberSet members(const NodeSet& in) const {
+    std::vector<std::uint32_t> list;
+    std::uint32_t rank = 0;
+    set_.visit([&](std::uint32_t n) {
+      if (in[rank++] != 0) list.push_back(n);
+    });
+    return {list, nodes_};
+  }
+
+ private:
+  const MemberSet& set_;
+  const MemberSet::Lookup lookup_;
+  const std::uint32_t nodes_;
+};
+
+/// Through the candidates, in the order of the nodes.
+template <class Candidates>
+class Sweep {
+ public:
+  Sweep(const MultiTriangulation& mt, const Test& test, const Candidates& candidates)
+      : mt_(mt),
+        a_(mt.arrays()),
+        test_(test),
+        candidates_(candidates),
+        in_(std::size_t{candidates.places()} + 1, 0),
+        lacksParent_(candidates.places(), 0) {}
+
+  /// The least set; nothing where a node had to be in that is no candidate (rounding, or a file whose errors
+  /// break the laws), and when it was stopped.
+  std::optional<MemberSet> run(const std::function<bool()>& stop) {
+    for (std::uint32_t t = 0; t < mt_.rootTriangleCount(); ++t)
+      if (a_.remover[t] != kNone && !test_.passes(t, {})) include(a_.remover[t]);
+    const bool isThrough = candidates_.forPieces([&](std::uint32_t begin, std::uint32_t end, auto nodeAt) {
+      if (stop()) return false;
+      for (std::uint32_t place = begin; place < end; ++place) {
+        if constexpr (kIsUniform) place = takeOrdinary(place, end);
+        if (place == end) break;
+        turn_ = place;
+        take(nodeAt(place));
+        if (!late_.empty() && !takeLate(stop)) return false;
+      }
+      return true;
+    });
+    if (!isThrough || isBeyond_ || !candidates_.mayAllBeIn(in_)) return std::nullopt;
+    return candidates_.members(std::move(in_));
+  }
+
+ private:
+  static constexpr bool kIsUniform = std::is_same_v<Candidates, UniformCandidates>;
+  static constexpr std::uint32_t kMostInRun = 64, kSlotsAtOnce = 512;
+
+  /// The turns from a place on, up to the first of who is not in or lacks a parent; returns whose that is.
+  /// They are told run by run: who is in stays in, and then their slots are one range, that needs no branch.
+  std::uint32_t takeOrdinary(std::uint32_t place, std::uint32_t placesEnd) {
+    for (;;) {
+      const std::uint32_t runEnd = ordinaryUntil(place, std::min(placesEnd, place + kMostInRun));
+      if (runEnd == place) return place;
+      for (std::uint32_t s = a_.slotBegin[place], end = a_.slotBegin[runEnd]; s != end;) {
+        const std::uint32_t next = s + std::min(end - s, kSlotsAtOnce);
+        includeRemovers(s, next);
+        s = next;
+      }
+      place = runEnd;
+    }
+  }
+
+  /// The first place that is not of an ordinary node.
+  std::uint32_t ordinaryUntil(std::uint32_t place, std::uint32_t end) const {
+    constexpr std::uint64_t kAll = 0x0101010101010101;
+    for (; place + 8 <= end; place += 8) {
+      std::uint64_t in, lacking;
+      std::memcpy(&in, in_.data() + place, 8);
+      std::memcpy(&lacking, lacksParent_.data() + place, 8);
+      if ((in & ~lacking) != kAll) break;
+    }
+    while (place < end && in_[place] > lacksParent_[place]) ++place;
+    return place;
+  }
+
+  /// Includes who removes the triangles of these slots that fail, and has his turn still to come.
+  ARETE_VECTOR_CLONES
+  void includeRemovers(std::uint32_t begin, std::uint32_t end) {
+    const std::uint32_t* const removers = a_.remover.data() + mt_.rootTriangleCount() + begin;
+    const OutwardScale::Code* const errors = a_.error.data() + mt_.rootTriangleCount() + begin;
+    const std::uint32_t nobody = candidates_.places(), code = test_.code(), count = end - begin;
+    std::array<std::uint32_t, kSlotsAtOnce> who;
+    std::uint32_t beyond = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t r = removers[i], here = std::min(r, nobody);
+      const bool fails = errors[i] > code;
+      who[i] = fails ? here : nobody;
+      beyond |= fails && r >= nobody && r != kNone ? 1 : 0;
+    }
+    std::uint8_t* const in = in_.data();
+    for (std::uint32_t i = 0; i < count; ++i) in[who[i]] = 1;
+    isBeyond_ = isBeyond_ || beyond != 0;
+  }
+
+  void take(std::uint32_t n) {
+    if (in_[turn_] == 0) {
+      if (!candidates_.mayBeIn(n) || !hasChildIn(n)) return;
+      in_[turn_] = 1;
+    }
+    expand(n, turn_);
+  }
+
+  /// Whether a child is in; where none is, all of them are told that this parent is not.
+  bool hasChildIn(std::uint32_t n) {
+    const std::uint32_t roots = mt_.rootTriangleCount(), begin = a_.slotBegin[n], end = a_.slotBegin[n + 1];
+    for (std::uint32_t s = begin; s < end; ++s) {
+      const std::uint32_t r = a_.remover[roots + s];
+      if (r != n && isIn(r)) return true;
+    }
+    for (std::uint32_t s = begin; s < end; ++s) {
+      const std::uint32_t r = a_.remover[roots + s];
+      if (r != n && candidates_.contains(r)) lacksParent_[candidates_.placeOf(r)] = 1;
+    }
+    return false;
+  }
+
+  void expand(std::uint32_t n, std::uint32_t place) {
+    if (lacksParent_[place] != 0)
+      for (const std::uint32_t t : mt_.floor(NodeId(n)))
+        if (const NodeId parent = mt_.creator(TriangleId(t)); parent.isValid()) include(parent.index());
+    const std::uint32_t roots = mt_.rootTriangleCount(), begin = a_.slotBegin[n], end = a_.slotBegin[n + 1];
+    if constexpr (kIsUniform)
+      if (place == turn_) return includeRemovers(begin, end);
+    std::optional<Test::Around> around;  // the star
+    for (std::uint32_t s = begin; s < end; ++s) {
+      const std::uint32_t r = a_.remover[roots + s];
+      if (r == kNone || isIn(r)) continue;
+      // Who is no candidate is allowed its saturated error, and with it every triangle that it removes.
+      if (!candidates_.contains(r) && a_.error[roots + s] <= a_.saturatedError[r]) continue;
+      if (!around) around = test_.around(NodeId(n));
+      if (a_.error[roots + s] <= around->passing) continue;
+      if (a_.error[roots + s] > around->mayPass || !test_.passes(roots + s, NodeId(n))) include(r);
+    }
+  }
+
+  bool isIn(std::uint32_t n) const { return candidates_.contains(n) && in_[candidates_.placeOf(n)] != 0; }
+
+  /// A remover of what fails, or a parent of one that is in.
+  void include(std::uint32_t n) {
+    if (!candidates_.contains(n)) {
+      isBeyond_ = true;
+      return;
+    }
+    const std::uint32_t place = candidates_.placeOf(n);
+    if (in_[place] != 0) return;
+    in_[place] = 1;
+    if (place < turn_) late_.push_back(n);
+  }
+
+  bool takeLate(const std::function<bool()>& stop) {
+    for (std::size_t steps = 1; !late_.empty(); ++steps) {
+      if (steps % kCheckEvery == 0 && stop()) return false;
+      const std::uint32_t n = late_.back();
+      late_.pop_back();
+      expand(n, candidates_.placeOf(n));
+    }
+    return true;
+  }
+
+  const MultiTriangulation& mt_;
+  const MtArrays& a_;
+  const Test& test_;
+  const Candidates& candidates_;
+  NodeSet in_;                             // by place, and of nobody
+  std::vector<std::uint8_t> lacksParent_;  // by place
+  std::uint32_t turn_ = 0;                 // the place of the one whose turn it is
+  std::vector<std::uint32_t> late_;
+  bool isBeyond_ = false;
+};
+
+std::optional<MemberSet> swept(const MultiTriangulation& mt, const Criterion& criterion,
+                               const std::function<bool()>& stop) {
+  const Test test(mt, criterion);
+  if (test.isUniform()) {
+    const UniformCandidates candidates(mt, test.code());
+    return Sweep(mt, test, candidates).run(stop);
+  }
+  const SaturatedMembers saturated = saturatedMembers(mt, criterion, std::nullopt);
+  const RankedCandidates candidates(saturated.members, mt.nodeCount());
+  return Sweep(mt, test, candidates).run(stop);
+}
+
+}  // namespace
+
+std::optional<MemberSet> leastMembers(const MultiTriangulation& mt, const Criterion& criterion,
+                                      const std::function<bool()>& stop) {
+  if (criterion.isMonotone())
+    if (auto found = swept(mt, criterion, stop)) return found;
+  // Who was stopped is stopped here too.
+  return leastMembersByWalk(mt, criterion, stop);
+}
+
+std::optional<MemberSet> leastMembersByWalk(const MultiTriangulation& mt, const Criterion& criterion,
+                                            const std::function<bool()>& stop) {
+  const MtArrays& a = mt.arrays();
+  const Test test(mt, criterion);
+  const std::uint32_t roots = mt.rootTriangleCount();
+  NodeSet in(mt.nodeCount(), 0);
+  std::vector<std::uint32_t> stack;
+  const auto include = [&](std::uint32_t n) {
+    if (n == kNone || in[n]) return;
+    in[n] = 1;
+    stack.push_back(n);
+  };
+  for (std::uint32_t t = 0; t < roots; ++t)
+    if (a.remover[t] != kNone && !test.passes(t, {})) include(a.remover[t]);
+  for (std::size_t steps = 0; !stack.empty(); ++steps) {
+    if (steps % kCheckEvery == 0 && stop()) return std::nullopt;
+    const std::uint32_t n = stack.back();
+    stack.pop_back();
+    for (const std::uint32_t t : mt.floor(NodeId(n))) include(mt.creator(TriangleId(t)).index());
+    for (std::uint32_t s = a.slotBegin[n]; s < a.slotBegin[n + 1]; ++s) {
+      const std::uint32_t r = a.remover[roots + s];
+      if (r != kNone && !in[r] && !test.passes(roots + s, NodeId(n))) include(r);
+    }
+  }
+  return MemberSet(in);
+}
+
+std::optional<MemberSet> leastMembersWithin(const MultiTriangulation& mt, double least,
+                                            std::uint32_t maxTriangles, const std::function<bool()>& stop) {
+  const OutwardScale& scale = mt.arrays().scale;
+  const std::uint32_t leastCode = scale.floorCode(least);
+  // What is known: the set of code `fits` is small enough, that of any code below `large` is not. (A smaller
+  // error has a larger set.) Both with their triangles.
+  std::uint32_t fits = OutwardScale::kMaxCode, large = leastCode;
+  double ofFits = mt.rootTriangleCount(), ofLarge = 0;
+  std::optional<MemberSet> best = MemberSet::prefix(0);  // no error is beyond the scale
+  const auto look = [&](std::uint32_t code) {
+    auto set = leastMembers(mt, UniformError(scale.decode(static_cast<OutwardScale::Code>(code))), stop);
+    if (!set) return false;
+    const std::uint64_t count = frontSize(mt, *set);
+    if (count <= maxTriangles) {
+      fits = code;
+      ofFits = static_cast<double>(count);
+      best = std::move(set);
+    } else {
+      large = code + 1;
+      ofLarge = static_cast<double>(count);
+    }
+    return true;
+  };
+
+  // From the first band at whose end there are nodes for as many triangles, which is nearly always too much,
+  // down to one where it is.
+  std::uint32_t band = MultiTriangulation::kBands - 1;
+  while (band > 0 && 2 * std::uint64_t{mt.bandEnd(band)} < maxTriangles) --band;
+  for (std::uint32_t code = std::max(leastCode, band << MultiTriangulation::kBandShift);;) {
+    if (!look(code)) return std::nullopt;
+    if (fits != code || code == leastCode) break;
+    code -= std::min(code - leastCode, 1u << MultiTriangulation::kBandShift);
+  }
+  // Triangles grow about as a power of the error, and codes are logarithms: between the two by a straight
+  // line, in the middle where that did not halve what is left.
+  for (bool isHalved = true; large < fits;) {
+    const std::uint32_t left = fits - large;
+    const double part = std::log(maxTriangles / ofFits) / std::log(ofLarge / ofFits);
+    const std::uint32_t down =
+        isHalved && part > 0 && part < 1 ? static_cast<std::uint32_t>(part * left) : left / 2;
+    if (!look(fits - 1 - std::min(down, left - 1))) return std::nullopt;
+    isHalved = 2 * (fits - large) <= left;
+  }
+  return best;
+}
+
+std::optional<SetOfSeverity> membersOfSeverityWithin(const MultiTriangulation& mt, const Criterion& criterion,
+                                                     std::uint32_t maxTriangles,
+                                                     const std::function<bool()>& stop) {
+  constexpr double kNearEnough = 0.9, kAimedAt = 0.95, kLargestStep = 1.0 / 16, kLeastPart = 0.05,
+                   kWorthwhile = 1.05;
+  constexpr int kMostLooks = 12;
+  // The worst of the root's that can be told: around an eye severities are infinite.
+  double fits = 0, large = criterion.severityLimit();
+  for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) {
+    const double severity = criterion.severity(mt, TriangleId(t), mt.arrays().rootTriangles[t]);
+    if (std::isfinite(severity)) fits = std::max(fits, severity);
+  }
+  // What the sets add to the root, 1 at least.
+  const double roots = mt.rootTriangleCount(), wanted = std::max(1.0, kAimedAt * maxTriangles - roots);
+  double ofFits = 1, ofLarge = 0;  // 0: nobody has looked
+  SetOfSeverity best{MemberSet::prefix(0)};
+  double limit = fits * kLargestStep;
+  for (int looks = 0; looks < kMostLooks && fits > large && ofFits + roots < kNearEnough * maxTriangles;
+       ++looks) {
+    limit = std::max(limit, large);
+    auto set = leastMembers(mt, *criterion.withSeverityLimit(limit), stop);
+    if (!set) return std::nullopt;
+    const auto count = static_cast<double>(frontSize(mt, *set)), added = std::max(1.0, count - roots);
+    if (count <= maxTriangles) {
+      const bool isAllThereIs = 2 * limit < fits && added < kWorthwhile * ofFits && ofLarge == 0;
+      fits = limit;
+      ofFits = added;
+      best = {std::move(*set), limit};
+      if (isAllThereIs) break;
+    } else {
+      large = limit;
+      ofLarge = added;
+    }
+    // Triangles grow about as a power of the severity, the power -1 while there is but one look to tell.
+    const double part = std::log(wanted / ofFits) / std::log(ofLarge / ofFits);
+    limit = ofLarge == 0 ? fits * std::clamp(ofFits / wanted, kLargestStep, kAimedAt)
+                         : fits * std::pow(large / fits, std::clamp(part, kLeastPart, 1 - kLeastPart));
+  }
+  return best;
+}
+
+}  // namespace arete

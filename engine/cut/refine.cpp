@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The triangles of the growing front that fail the criterion wait in a heap, keyed by the order. The first
+// one's remover enters, and before it the ancestors still missing, one modification at a time: parents have
+// smaller indices, so a rising list keeps the set closed after each. Nodes are counted before they enter (a
+// node adds two triangles, one on a border), so the budget is never exceeded.
+//
+// Worst first, the walk passes through least cuts: when the worst severity left falls below all it was
+// before, to s, every node that is in was asked for by a triangle worse than s, so the set is the least for
+// "severity at most s". That is why the last such state is the answer. And it is why the walk need not begin
+// at the root where the severity is the error: it would pass through the least set for the least error that
+// the budget holds, which is found faster (least_cut.h). Where a criterion has a limit of severity the walk
+// begins at the least set for some s that the budget holds: those of all smaller s hold that set. (A bound
+// over a ball may have passed a triangle worse than s: then the set is smaller, and the walk goes on from
+// it.)
+#include "engine/cut/refine.h"
+
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include "engine/cut/front.h"
+#include "engine/cut/least_cut.h"
+
+namespace arete {
+namespace {
+
+constexpr std::uint32_t kNone = MultiTriangulation::kNone;
+constexpr std::size_t kCheckEvery = 1 << 12;
+constexpr std::uint8_t kClaimed = 2;  // about to enter
+/// A walk to fewer triangles than one for so many nodes takes no longer than the looks that would shorten it.
+constexpr std::uint64_t kShortWalk = 256;
+
+struct Waiting {
+  RefineKey key;
+  std::uint32_t triangle;
+  bool operator<(const Waiting& other) const {  // the top of the heap is the smallest key
+    return key != other.key ? key > other.key : triangle > other.triangle;
+  }
+};
+
+bool isWorstFirst(const CutOptions& options) {
+  return !options.order || dynamic_cast<const WorstFirst*>(options.order.get()) != nullptr;
+}
+
+class Walk {
+ public:
+  Walk(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options)
+      : mt_(mt),
+        criterion_(criterion),
+        options_(options),
+        isWorstFirst_(isWorstFirst(options)),
+        cut_{{}, true} {}
+
+  /// From a state that the walk passes through.
+  Result<NodeCut> run(const MemberSet& start, const RunContext& context) {
+    cut_.nodes = start.toNodeSet(mt_.nodeCount());
+    std::uint64_t triangles = frontSize(mt_, start);
+    for (std::uint32_t t = 0; t < mt_.rootTriangleCount(); ++t) offer(t, {});
+    start.visit([&](std::uint32_t n) { offerCeiling(n); });
+    std::vector<std::uint32_t> missing;
+    const auto claim = [&](std::uint32_t n) {
+      if (cut_.nodes[n] != 0) return false;
+      cut_.nodes[n] = kClaimed;
+      return true;
+    };
+    for (std::size_t steps = 0;; ++steps) {
+      if (steps % kCheckEvery == 0 && context.cancelled())
+        return failure(ErrorCode::interrupted, "the cut was interrupted");
+      while (!heap_.empty() && isIn(mt_.arrays().remover[heap_.top().triangle])) heap_.pop();
+      noteState();
+      if (heap_.empty()) break;
+      collectMissing(mt_, mt_.arrays().remover[heap_.top().triangle], claim, missing);
+      heap_.pop();
+      std::uint64_t added = 0;
+      for (const std::uint32_t n : missing) added += mt_.isOpen(NodeId(n)) ? 1 : 2;
+      // What is worst cannot be bettered within the budget; what is left of it would only hide that.
+      cut_.isComplete = !(options_.maxTriangles && triangles + added > *options_.maxTriangles);
+      for (std::size_t i = 0; cut_.isComplete && i < missing.size(); ++i) {
+        cut_.isComplete = !(options_.deadline && options_.deadline->isOver());
+        if (cut_.isComplete) enter(missing[i]);
+      }
+      if (!cut_.isComplete) {
+        for (const std::uint32_t n : missing)
+          if (!isIn(n)) cut_.nodes[n] = 0;
+        break;
+      }
+      triangles += added;
+    }
+    if (!isWorstFirst_) best_ = entered_.size();
+    for (std::size_t i = best_; i < entered_.size(); ++i) cut_.nodes[entered_[i]] = 0;
+    return std::move(cut_);
+  }
+
+  /// The worst severity that its answer leaves; of no order but worst first.
+  double leastWorst() const { return leastWorst_; }
+
+ private:
+  bool isIn(std::uint32_t n) const { return cut_.nodes[n] == 1; }
+
+  void offer(std::uint32_t id, NodeId creator) {
+    const TriangleId t(id);
+    const std::uint32_t remover = mt_.arrays().remover[id];
+    if (remover == kNone || isIn(remover)) return;
+    const Criterion::Corners corners = mt_.corners(t, creator);
+    if (isSatisfied(mt_, criterion_, t, corners)) return;
+    const RefineKey key = options_.order ? options_.order->key(mt_, criterion_, t, corners, arrivals_)
+                                         : worstFirst_.key(mt_, criterion_, t, corners, arrivals_);
+    heap_.push({key, id});
+    ++arrivals_;
+  }
+
+  void enter(std::uint32_t n) {
+    cut_.nodes[n] = 1;
+    entered_.push_back(n);
+    offerCeiling(n);
+  }
+
+  void offerCeiling(std::uint32_t n) {
+    for (std::uint32_t i = 0; i < mt_.ceilingSize(NodeId(n)); ++i)
+      offer(mt_.slotTriangle(NodeId(n), i).index(), NodeId(n));
+  }
+
+  /// Remembers the state where it is the best seen.
+  void noteState() {
+    if (!isWorstFirst_) return;
+    const double worst = heap_.empty() ? -std::numeric_limits<double>::infinity() : -heap_.top().key.rank;
+    if (worst > leastWorst_) return;
+    leastWorst_ = worst;
+    best_ = entered_.size();
+  }
+
+  const MultiTriangulation& mt_;
+  const Criterion& criterion_;
+  const CutOptions& options_;
+  const WorstFirst worstFirst_;
+  const bool isWorstFirst_;
+  NodeCut cut_;
+  std::priority_queue<Waiting> heap_;
+  std::vector<std::uint32_t> entered_;
+  std::size_t best_ = 0;
+  double leastWorst_ = std::numeric_limits<double>::infinity();
+  std::uint64_t arrivals_ = 0;
+};
+
+}  // namespace
+
+Result<NodeCut> refineWithin(const MultiTriangulation& mt, const Criterion& criterion,
+                             const CutOptions& options, const RunContext& context) {
+  if (!isWorstFirst(options) || !options.maxTriangles || options.deadline)
+    return Walk(mt, criterion, options).run(MemberSet::prefix(0), context);
+  const auto stop = [&] { return context.cancelled(); };
+  const auto interrupted = [] { return failure(ErrorCode::interrupted, "the cut was interrupted"); };
+  if (const double uniform = criterion.uniformError(); !std::isnan(uniform)) {
+    const auto least = leastMembersWithin(mt, uniform, *options.maxTriangles, stop);
+    if (!least) return interrupted();
+    return Walk(mt, criterion, options).run(*least, context);
+  }
+  const bool isLong = kShortWalk * std::uint64_t{*options.maxTriangles} > mt.nodeCount();
+  if (isLong && criterion.isMonotone() && !std::isnan(criterion.severityLimit())) {
+    const auto start = membersOfSeverityWithin(mt, criterion, *options.maxTriangles, stop);
+    if (!start) return interrupted();
+    Walk walk(mt, criterion, options);
+    Result<NodeCut> cut = walk.run(start->members, context);
+    if (!cut || walk.leastWorst() <= start->severity) return cut;
+  }
+  return Walk(mt, criterion, options).run(MemberSet::prefix(0), context);
+}
+
+}  // namespace arete

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Node n is in iff its saturated error exceeds what the criterion allows over its sphere. A parent's
+// saturated error and sphere contain its child's (law 6), so the set is closed as it comes.
+//
+// An error allowed everywhere is a comparison of codes: all of the bands above the code's are in, all of
+// those below are out, and only the nodes of its own band are looked at.
+//
+// With a budget the members are taken by falling ratio of the two, parents first: what of that order fits is
+// closed too. Where the error allowed is the same everywhere that is the order of the codes, and counting the
+// triangles of each code finds the one at which the budget ends.
+#include "engine/cut/saturated_cut.h"
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/base/vector_clones.h"
+#include "engine/mt/node_blocks.h"
+
+namespace arete {
+namespace {
+
+using Code = OutwardScale::Code;
+constexpr std::uint32_t kPerWord = MemberSet::kNodesPerWord;
+constexpr std::uint32_t kPagesPerRun = 4;
+
+std::uint32_t added(const MultiTriangulation& mt, std::uint32_t n) {
+  return mt.isOpen(NodeId(n)) ? 1 : 2;
+}
+
+/// The nodes before `end` for which isIn(n), of which those before `certain` are known to be.
+template <class IsIn>
+MemberSet membersFor(std::uint32_t certain, std::uint32_t end, const IsIn& isIn) {
+  return MemberSet(certain, end, kPagesPerRun,
+                   [&](std::uint32_t first, std::uint32_t last, MemberSet::Sink& sink) {
+                     for (std::uint32_t word = first; word < last; ++word) {
+                       std::uint64_t bits = 0;
+                       const std::uint32_t from = word * kPerWord, to = std::min(end, from + kPerWord);
+                       for (std::uint32_t n = from; n < to; ++n) bits |= std::uint64_t(isIn(n)) << (n - from);
+                       sink.put(word, bits);
+                     }
+                   });
+}
+
+/// The nodes of a larger code, and those of this code before `tiesEnd`.
+MemberSet uniformMembers(const MultiTriangulation& mt, Code code, std::uint32_t tiesEnd) {
+  const auto& saturated = mt.arrays().saturatedError;
+  const std::uint32_t band = MultiTriangulation::bandOf(code);
+  return membersFor(mt.bandBegin(band), mt.bandEnd(band), [&](std::uint32_t n) {
+    return saturated[n] > code || (saturated[n] == code && n < tiesEnd);
+  });
+}
+
+SaturatedMembers uniformCut(const MultiTriangulation& mt, double maxError,
+                            std::optional<std::uint32_t> maxTriangles) {
+  const auto& saturated = mt.arrays().saturatedError;
+  const Code code = mt.arrays().scale.floorCode(maxError);
+  if (!maxTriangles) return {uniformMembers(mt, code, 0), true};
+  const std::uint32_t end = mt.bandEnd(MultiTriangulation::bandOf(code));
+  std::vector<std::uint32_t> addedBy(std::size_t(OutwardScale::kMaxCode) + 1, 0);
+  for (std::uint32_t n = 0; n < end; ++n) addedBy[saturated[n]] += added(mt, n);
+  std::uint32_t left = *maxTriangles - mt.rootTriangleCount();
+  Code last = OutwardScale::kMaxCode;  // of which some may enter
+  for (; last > code && addedBy[last] <= left; --last) left -= addedBy[last];
+  if (last == code) return {uniformMembers(mt, code, 0), true};
+  std::uint32_t n = mt.bandBegin(MultiTriangulation::bandOf(last));
+  for (;; ++n) {
+    if (saturated[n] != last) continue;
+    if (added(mt, n) > left) break;
+    left -= added(mt, n);
+  }
+  return {uniformMembers(mt, last, n), false};
+}
+
+/// By pages, by the blocks of those pages that may have members, by the nodes of those blocks. What is looked
+/// into lies wherever it lies, so its memory is asked for some time before it is looked at.
+class PlaceSearch {
+ public:
+  PlaceSearch(const MultiTriangulation& mt, const Criterion& criterion)
+      : a_(mt.arrays()),
+        criterion_(criterion),
+        nodes_(mt.nodeCount()),
+        blocks_(static_cast<std::uint32_t>(nodeBlockCount(nodes_))) {}
+
+  MemberSet members() const {
+    return MemberSet(
+        0, nodes_, kPagesPerRun,
+        [&](std::uint32_t first, std::uint32_t last, MemberSet::Sink& sink) { search(first, last, sink); });
+  }
+
+ private:
+  static constexpr std::uint32_t kPerBlock = MultiTriangulation::kNodesPerBlock,
+                                 kBlocksPerPage = MultiTriangulation::kNodesPerPage / kPerBlock,
+                                 kPagesPerRun = 64, kBlocksAhead = 2;
+  static_assert(kPerBlock == kPerWord && kBlocksPerPage == MemberSet::kWordsPerPage);
+
+  /// Of pages or blocks, at most as many as a run has.
+  struct List {
+    std::array<std::uint32_t, kPagesPerRun * kBlocksPerPage> at;
+    std::uint32_t count = 0;
+    void add(std::uint32_t first, std::uint64_t bits) {
+      for (; bits != 0; bits &= bits - 1)
+        at[count++] = first + static_cast<std::uint32_t>(std::countr_zero(bits));
+    }
+  };
+
+  std::uint64_t exceeding(std::span<const Sphere> spheres, std::span<const Code> codes, std::uint32_t begin,
+                          std::uint32_t count) const {
+    std::array<float, 64> errors;
+    decode(codes.data() + begin, count, errors.data());
+    return criterion_.exceeding(spheres.subspan(begin, count), std::span(errors).first(count));
+  }
+
+  ARETE_VECTOR_CLONES
+  void decode(const Code* codes, std::uint32_t count, float* errors) const {
+    const OutwardScale scale = a_.scale;
+    for (std::uint32_t i = 0; i < count; ++i) errors[i] = scale.decode(codes[i]);
+  }
+
+  void search(std::uint32_t firstBlock, std::uint32_t lastBlock, MemberSet::Sink& sink) const {
+    const std::uint32_t from = firstBlock / kBlocksPerPage,
+                        to = (lastBlock + kBlocksPerPage - 1) / kBlocksPerPage;
+    List pages, blocks;
+    pages.add(from, exceeding(a_.blockSphere, a_.blockError, blocks_ + from, to - from));
+    for (std::uint32_t i = 0; i < pages.count; ++i)
+      prefetch(a_.blockSphere, a_.blockError, pages.at[i] * kBlocksPerPage, kBlocksPerPage);
+    for (std::uint32_t i = 0; i < pages.count; ++i) {
+      const std::uint32_t first = pages.at[i] * kBlocksPerPage;
+      blocks.add(first,
+                 exceeding(a_.blockSphere, a_.blockError, first, std::min(kBlocksPerPage, blocks_ - first)));
+    }
+    for (std::uint32_t i = 0; i < blocks.count; ++i) {
+      if (i + kBlocksAhead < blocks.count)
+        prefetch(a_.sphere, a_.saturatedError, blocks.at[i + kBlocksAhead] * kPerBlock, kPerBlock);
+      const std::uint32_t begin = blocks.at[i] * kPerBlock;
+      sink.put(blocks.at[i],
+               exceeding(a_.sphere, a_.saturatedError, begin, std::min(kPerBlock, nodes_ - begin)));
+    }
+  }
+
+  // Inlined by force: GCC drops calls of functions that only prefetch.
+  [[gnu::always_inline]] static void prefetch(std::span<const Sphere> spheres, std::span<const Code> codes,
+                                              std::uint32_t begin, std::uint32_t count) {
+    constexpr std::uint32_t kLine = 64;
+    count = std::min(count, static_cast<std::uint32_t>(spheres.size()) - begin);
+    for (std::uint32_t i = 0; i < count; i += kLine / sizeof(Sphere))
+      __builtin_prefetch(spheres.data() + begin + i);
+    for (std::uint32_t i = 0; i < count; i += kLine / sizeof(Code))
+      __builtin_prefetch(codes.data() + begin + i);
+  }
+
+  const MtArrays& a_;
+  const Criterion& criterion_;
+  const std::uint32_t nodes_, blocks_;
+};
+
+}  // namespace
+
+SaturatedMembers saturatedMembers(const MultiTriangulation& mt, const Criterion& criterion,
+                                  std::optional<std::uint32_t> maxTriangles) {
+  if (!std::isnan(criterion.uniformError())) return uniformCut(mt, criterion.uniformError(), maxTriangles);
+  const MtArrays& a = mt.arrays();
+  const auto error = [&](std::uint32_t n) { return double(a.scale.decode(a.saturatedError[n])); };
+  MemberSet members = PlaceSearch(mt, criterion).members();
+  if (!maxTriangles) return {std::move(members), true};
+
+  // By falling error in units of the error allowed; equal ones by index.
+  std::vector<std::pair<double, std::uint32_t>> order;
+  order.reserve(members.size());
+  members.visit([&](std::uint32_t n) {
+    const double allowed = criterion.allowedError(a.sphere[n]);
+    order.emplace_back(allowed > 0 ? -error(n) / allowed : -std::numeric_limits<double>::infinity(), n);
+  });
+  tbb::parallel_sort(order.begin(), order.end());
+  std::uint64_t triangles = mt.rootTriangleCount();
+  std::size_t kept = 0;
+  for (; kept < order.size(); ++kept) {
+    triangles += added(mt, order[kept].second);
+    if (triangles > *maxTriangles) break;
+  }
+  if (kept == order.size()) return {std::move(members), true};
+  std::vector<std::uint32_t> in;
+  for (std::size_t i = 0; i < kept; ++i) in.push_back(order[i].second);
+  std::ranges::sort(in);
+  return {MemberSet(in, mt.nodeCount()), false};
+}
+
+std::uint32_t uniformTriangleCount(const MultiTriangulation& mt, double maxError) {
+  const auto& saturated = mt.arrays().saturatedError;
+  const Code code = mt.arrays().scale.floorCode(maxError);
+  const std::uint32_t band = MultiTriangulation::bandOf(code), certain = mt.bandBegin(band);
+  std::uint32_t count = mt.prefixTriangleCount(certain);
+  for (std::uint32_t n = certain; n < mt.bandEnd(band); ++n)
+    if (saturated[n] > code) count += added(mt, n);
+  return count;
+}
+
+}  // namespace arete

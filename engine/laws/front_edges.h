@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "engine/cut/cut.h"
+#include "engine/memory/uninitialized_vector.h"
+
+namespace arete {
+
+/// The edges of a front, each with the triangles that have it: what conformity and the Delaunay property are
+/// judged by. 8 bytes a side of a triangle.
+class FrontEdges {
+ public:
+  /// Side i of triangle t of the front, from corner i to the next one, is number 3 t + i.
+  struct Side {
+    std::uint32_t high;  ///< the greater of its ends
+    std::uint32_t number;
+
+    std::uint32_t triangle() const { return number / 3; }
+    std::uint32_t corner() const { return number % 3; }
+    bool operator<(const Side& other) const {
+      return high != other.high ? high < other.high : number < other.number;
+    }
+  };
+
+  /// Of whatever triangles, so long as their corners are vertices of the front. Precondition: fewer sides
+  /// than 2^32, which no MT exceeds. O(triangles) for fronts whose vertices have few edges, parallel.
+  explicit FrontEdges(const Cut& front);
+
+  std::uint32_t vertices() const { return static_cast<std::uint32_t>(begin_.size() - 1); }
+  /// Calls visit(sides) for every edge whose lesser end is `low`: sides of one edge, of rising triangles;
+  /// edges by their greater end.
+  template <class Visit>
+  void visitFrom(std::uint32_t low, const Visit& visit) const {
+    const std::span<const Side> all(sides_.data() + begin_[low], begin_[low + 1] - begin_[low]);
+    for (std::size_t i = 0, j; i < all.size(); i = j) {
+      for (j = i + 1; j < all.size() && all[j].high == all[i].high;) ++j;
+      visit(all.subspan(i, j - i));
+    }
+  }
+
+ private:
+  UninitializedVector<std::uint32_t> begin_;  ///< per vertex, and the end
+  UninitializedVector<Side> sides_;
+};
+
+}  // namespace arete

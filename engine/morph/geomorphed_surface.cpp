@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Members are listed in the order in which they came, which has parents before children: what goes has no
+// children left, and what comes, comes last. Where a member's vertex lies on the floor is found when it
+// comes, so nothing is made of nodes that no camera has seen. One pass over the list computes the scale of
+// every member's ball, in parallel; a second, in order, moves those that are not at rest.
+//
+// Jumps. What left is given the offset that it would have now, and so the cut before and the cut after are
+// surfaces over the same moved vertices, and differ where nodes came or went. At any place the triangle that
+// both cuts have or refine has one remover, so there either all came or all went, one after the other, and
+// the distances of their floors and ceilings add up along the chain: what came to a node is its own distance
+// plus the most that came to one of its parents in the same update. On the screen that is seen from within
+// the ball of the last of the chain, widened by the vertices' offsets and by the way itself.
+#include "engine/morph/geomorphed_surface.h"
+
+#include <tbb/parallel_for.h>
+#include <tsl/robin_map.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "engine/follow/incremental_state.h"
+#include "engine/morph/popping_bound.h"
+
+namespace arete {
+namespace {
+
+constexpr std::size_t kMembersPerTask = 2048, kChangesPerTask = 64;
+
+}  // namespace
+
+class GeomorphedSurface::State {
+ public:
+  explicit State(MultiTriangulation multitriangulation)
+      : mt(std::move(multitriangulation)), offsets_(mt.nodeCount(), 0), isMember_(mt.nodeCount(), false) {}
+
+  Update update(const MorphCamera& given, const IncrementalCut& cut, bool budgetBinds) {
+    changes.clear();
+    takeSteps(cut);
+    pixels_.resize(members_.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, members_.size(), kMembersPerTask),
+                      [&](const auto& range) {
+                        given.pixelsPerHeight(std::span(balls_).subspan(range.begin(), range.size()),
+                                              std::span(pixels_).subspan(range.begin(), range.size()));
+                      });
+    MorphCamera camera = given;
+    if (budgetBinds) {
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < members_.size(); ++i) least = std::min(least, errors_[i] * pixels_[i]);
+      if (std::isfinite(least) && least > camera.tolerance().cut) camera.widen(least);
+    }
+    Update made;
+    made.cutPixels = camera.tolerance().cut;
+    made.moving = move(camera);
+    made.jumpPixels = jump(camera);
+    return made;
+  }
+
+  double offset(std::uint32_t v) const {
+    return v < mt.rootVertexCount() ? 0 : offsets_[v - mt.rootVertexCount()];
+  }
+
+  const MultiTriangulation mt;
+  std::vector<Change> changes;
+
+ private:
+  struct Member {
+    std::uint32_t node;
+    MorphNode morph;
+  };
+
+  void takeSteps(const IncrementalCut& cut) {
+    left_.clear();
+    entered_ = 0;
+    bool haveLeft = false;
+    for (const CutStep& step : cut.lastSteps()) {
+      const std::uint32_t n = step.node.index();
+      const bool isIn = cut.contains(step.node);
+      if (isIn == isMember_[n]) continue;
+      isMember_[n] = isIn;
+      if (!isIn) {
+        haveLeft = true;
+        continue;
+      }
+      members_.push_back({n, {}});
+      balls_.push_back(mt.arrays().sphere[n]);
+      errors_.push_back(static_cast<float>(mt.saturatedError(step.node)));
+      ++entered_;
+    }
+    if (haveLeft) dropLeft();
+    const std::span<Member> entered = std::span(members_).last(entered_);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, entered.size(), kChangesPerTask),
+                      [&](const auto& range) {
+                        for (std::size_t i = range.begin(); i < range.end(); ++i)
+                          entered[i].morph = morphNode(mt, NodeId(entered[i].node));
+                      });
+  }
+
+  /// Those that are no members any more go from the list to left_, in their order.
+  void dropLeft() {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      if (!isMember_[members_[i].node]) {
+        left_.push_back(members_[i]);
+        continue;
+      }
+      members_[kept] = members_[i];
+      balls_[kept] = balls_[i];
+      errors_[kept++] = errors_[i];
+    }
+    members_.resize(kept);
+    balls_.resize(kept);
+    errors_.resize(kept);
+  }
+
+  float offsetOf(const MorphCamera& camera, const MorphNode& m, double rho, double pixelsPerHeight) const {
+    return static_cast<float>(camera.offset(m, rho, pixelsPerHeight, offset(m.corner[0]), offset(m.corner[1]),
+                                            offset(m.corner[2])));
+  }
+
+  std::uint32_t move(const MorphCamera& camera) {
+    std::uint32_t moving = 0;
+    const std::size_t count = members_.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto& [n, morph] = members_[i];
+      const double rho = errors_[i] * pixels_[i];
+      float now = 0;
+      if (camera.share(rho) > 0) {
+        now = offsetOf(camera, morph, rho, pixels_[i]);
+        ++moving;
+      }
+      if (now == offsets_[n]) continue;
+      offsets_[n] = now;
+      changes.push_back({mt.apex(NodeId(n)), now});
+    }
+    return moving;
+  }
+
+  double jump(const MorphCamera& camera) {
+    // Offsets of what left are not handed out: they are put back.
+    std::vector<float> before;
+    for (const auto& [n, morph] : left_) {
+      before.push_back(offsets_[n]);
+      const double pixels = camera.pixelsPerHeight(mt.arrays().sphere[n]);
+      offsets_[n] = offsetOf(camera, morph, mt.saturatedError(NodeId(n)) * pixels, pixels);
+    }
+    const double most = std::max(chained(camera, std::span(members_).last(entered_)), chained(camera, left_));
+    for (std::size_t i = 0; i < left_.size(); ++i) offsets_[left_[i].node] = before[i];
+    return most;
+  }
+
+  /// The star of a node over moved vertices, in metric space, and the same so much higher and lower.
+  void hullOf(std::uint32_t n, double room, std::vector<Vec3>& hull) const {
+    hull.clear();
+    const MetricFrame& metric = mt.arrays().metric;
+    const auto add = [&](std::uint32_t v) {
+      Vec3 p = mt.position(VertexId(v));
+      p.z += offset(v);
+      hull.push_back(metric.toMetric({p.x, p.y, p.z - room}));
+      if (room > 0) hull.push_back(metric.toMetric({p.x, p.y, p.z + room}));
+    };
+    add(mt.apex(NodeId(n)).index());
+    for (const std::uint32_t v : mt.link(NodeId(n))) add(v);
+  }
+
+  /// What is known of a changed node.
+  struct Changed {
+    double own = 0;         ///< distance of its floor and ceiling
+    double before = 0;      ///< the most that came to one of its parents
+    bool isSeen = false;    ///< it or one that came before it
+    bool isNeeded = false;  ///< it or one that came after it is seen
+  };
+
+  /// The most pixels of a jump where these nodes, parents first, all came or all went.
+  double chained(const MorphCamera& camera, std::span<const Member> nodes) const {
+    std::vector<Changed> changed(nodes.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes.size(), kChangesPerTask),
+                      [&](const auto& range) {
+                        std::vector<Vec3> hull;
+                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                          hullOf(nodes[i].node, 0, hull);
+                          changed[i].isSeen = camera.mayMeet(hull);
+                        }
+                      });
+    tsl::robin_map<std::uint32_t, std::size_t, ScatteredId> place;
+    place.reserve(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) place[nodes[i].node] = i;
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;  // child and parent, by child
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (const std::uint32_t t : mt.floor(NodeId(nodes[i].node)))
+        if (const NodeId parent = mt.creator(TriangleId(t)); parent.isValid())
+          if (const auto at = place.find(parent.index()); at != place.end())
+            pairs.emplace_back(i, at->second);
+    for (const auto& [child, parent] : pairs)
+      changed[child].isSeen = changed[child].isSeen || changed[parent].isSeen;
+    for (Changed& c : changed) c.isNeeded = c.isSeen;
+    for (auto pair = pairs.rbegin(); pair != pairs.rend(); ++pair) {
+      const auto [child, parent] = *pair;
+      changed[parent].isNeeded = changed[parent].isNeeded || changed[child].isNeeded;
+    }
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes.size(), kChangesPerTask),
+                      [&](const auto& range) {
+                        for (std::size_t i = range.begin(); i < range.end(); ++i)
+                          if (changed[i].isNeeded)
+                            changed[i].own = poppingBound(mt, NodeId(nodes[i].node), nodes[i].morph,
+                                                          [&](std::uint32_t v) { return offset(v); });
+                      });
+    for (const auto& [child, parent] : pairs)
+      changed[child].before = std::max(changed[child].before, changed[parent].before + changed[parent].own);
+    double most = 0;
+    std::vector<Vec3> hull;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const Changed& c = changed[i];
+      if (!c.isSeen || c.own + c.before == 0) continue;
+      hullOf(nodes[i].node, c.before, hull);
+      most = std::max(most, camera.pixelsOf(c.own + c.before, camera.pixelsPerHeight(hull)));
+    }
+    return most;
+  }
+
+  std::vector<float> offsets_;  // by node
+  std::vector<bool> isMember_;
+  std::vector<Member> members_;  // in the order in which they came
+  std::size_t entered_ = 0;      // of members, the last of them: who came in the last update
+  std::vector<Member> left_;     // in the last update, parents first
+  std::vector<Sphere> balls_;    // of members
+  std::vector<float> errors_;    // of members
+  std::vector<double> pixels_;   // of members: per unit of height
+};
+
+GeomorphedSurface::GeomorphedSurface(MultiTriangulation mt)
+    : state_(std::make_unique<State>(std::move(mt))) {}
+GeomorphedSurface::~GeomorphedSurface() = default;
+GeomorphedSurface::GeomorphedSurface(GeomorphedSurface&&) noexcept = default;
+GeomorphedSurface& GeomorphedSurface::operator=(GeomorphedSurface&&) noexcept = default;
+
+GeomorphedSurface::Update GeomorphedSurface::update(const MorphCamera& camera, const IncrementalCut& cut,
+                                                    bool budgetBinds) {
+  return state_->update(camera, cut, budgetBinds);
+}
+
+double GeomorphedSurface::offset(VertexId v) const {
+  return state_->offset(v.index());
+}
+
+std::span<const GeomorphedSurface::Change> GeomorphedSurface::changes() const {
+  return state_->changes;
+}
+
+const MultiTriangulation& GeomorphedSurface::mt() const {
+  return state_->mt;
+}
+
+}  // namespace arete

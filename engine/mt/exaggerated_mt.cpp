@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Every node's ball is made anew, as a build makes it: around its star, grown to hold its children's. Scaling
+// the balls that are there would be simpler, and worse twice over: a ball around a exaggerated ball is larger
+// than one around what is in it, and the rounding of centres, which is of the size of the coordinates, could
+// push a small ball out of its parent.
+#include "engine/mt/exaggerated_mt.h"
+
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+#include "engine/mt/node_blocks.h"
+#include "engine/mt/saturated_balls.h"
+
+namespace arete {
+namespace {
+
+struct Owner {
+  MultiTriangulation original;
+  std::vector<Sphere> sphere;
+  NodeBlocks blocks;
+};
+
+}  // namespace
+
+MultiTriangulation exaggerated(const MultiTriangulation& mt, double factor) {
+  assert(std::isfinite(factor) && factor > 0);
+  auto owner = std::make_shared<Owner>();
+  owner->original = mt;
+  MtArrays a = mt.arrays();
+  a.metric.scale.z *= factor;
+  owner->sphere =
+      saturatedBalls(mt, [&](std::uint32_t v) { return a.metric.toMetric(mt.position(VertexId(v))); });
+  owner->blocks = makeNodeBlocks(a.saturatedError, owner->sphere);
+  a.sphere = owner->sphere;
+  a.blockSphere = owner->blocks.sphere;
+  a.blockError = owner->blocks.error;
+  return MultiTriangulation(a, owner);
+}
+
+}  // namespace arete

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "engine/base/ids.h"
+#include "engine/base/vec.h"
+
+namespace arete {
+
+/// How heights are stored: height = raw * scale + offset, exactly, raw being of the given type.
+struct HeightEncoding {
+  enum class Type : std::uint32_t { int16 = 1, float32 = 2, float64 = 3 };
+  Type type = Type::float64;
+  double scale = 1;
+  double offset = 0;
+
+  std::size_t bytesPerHeight() const { return type == Type::int16 ? 2 : type == Type::float32 ? 4 : 8; }
+};
+
+/// Vertex positions in plan coordinates and height, in the smallest form that is exact. Vertices of a raster
+/// are sample indices (4 bytes) and raw heights (2 to 8 bytes); others keep their plan coordinates as
+/// doubles.
+struct VertexArrays {
+  /// Raster: the sample index, row * columns + column. Plan coordinates are (column, row).
+  std::span<const std::uint32_t> samples;
+  std::uint32_t columns = 0;
+  /// Otherwise: plan coordinates. Exactly one of `samples` and `plan` is in use.
+  std::span<const Vec2> plan;
+
+  HeightEncoding encoding;
+  std::span<const std::byte> rawHeights;  ///< size() * encoding.bytesPerHeight(), aligned to its type
+
+  std::uint32_t size() const {
+    return static_cast<std::uint32_t>(columns != 0 ? samples.size() : plan.size());
+  }
+  bool isLattice() const { return columns != 0; }
+
+  Vec2 planPosition(VertexId v) const {
+    if (!isLattice()) return plan[v.index()];
+    const std::uint32_t s = samples[v.index()];
+    return {static_cast<double>(s % columns), static_cast<double>(s / columns)};
+  }
+
+  double height(VertexId v) const {
+    const std::size_t i = v.index();
+    switch (encoding.type) {
+      case HeightEncoding::Type::int16:
+        return reinterpret_cast<const std::int16_t*>(rawHeights.data())[i] * encoding.scale + encoding.offset;
+      case HeightEncoding::Type::float32:
+        return reinterpret_cast<const float*>(rawHeights.data())[i] * encoding.scale + encoding.offset;
+      default:
+        return reinterpret_cast<const double*>(rawHeights.data())[i] * encoding.scale + encoding.offset;
+    }
+  }
+
+  Vec3 position(VertexId v) const {
+    const Vec2 p = planPosition(v);
+    return {p.x, p.y, height(v)};
+  }
+};
+
+}  // namespace arete

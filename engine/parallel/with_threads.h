@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tbb/task_arena.h>
+
+#include "engine/parallel/run_context.h"
+
+namespace arete {
+
+/// Runs body() on as many threads as the context allows, and returns what it returns.
+template <class Body>
+auto withThreads(const RunContext& context, const Body& body) {
+  if (context.threads <= 0) return body();
+  tbb::task_arena arena(context.threads);
+  return arena.execute(body);
+}
+
+}  // namespace arete

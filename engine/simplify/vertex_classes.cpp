@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Each triangle files its three edges under the lower vertex of each (a counting sort), together with its own
+// number. A vertex's file is short; sorted by the other end it brings the triangles of one edge side by side:
+// one is a border, two are compared by their normals. The counts of creases and borders at both ends then
+// name the class.
+#include "engine/simplify/vertex_classes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+namespace arete {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+struct EdgeUse {
+  std::uint32_t otherEnd = 0;
+  std::uint32_t triangle = 0;
+  auto operator<=>(const EdgeUse&) const = default;
+};
+
+/// What is known of a vertex while its edges are counted.
+struct Tally {
+  static constexpr std::uint8_t kMany = 3;
+  std::uint8_t creases = 0;  ///< up to kMany
+  bool used = false;
+  bool onBorder = false;
+  bool nonManifold = false;
+
+  void addCrease() { creases = std::uint8_t(std::min<int>(creases + 1, kMany)); }
+};
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+double dot(const Vec3& a, const Vec3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+Vec3 minus(const Vec3& a, const Vec3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+VertexClass classOf(const Tally& tally) {
+  if (!tally.used) return VertexClass::isolated;
+  if (tally.nonManifold) return VertexClass::corner;
+  if (tally.onBorder) return VertexClass::boundary;
+  if (tally.creases == 0) return VertexClass::simple;
+  return tally.creases == 2 ? VertexClass::interiorEdge : VertexClass::corner;
+}
+
+template <class Position>
+std::vector<VertexClass> classify(std::size_t vertexCount, const Position& positionOf,
+                                  std::span<const Triangle> triangles, double creaseAngleDegrees) {
+  const double creaseAngle = creaseAngleDegrees * std::numbers::pi / 180;
+  const auto normalOf = [&](std::uint32_t triangle) {
+    const Triangle& t = triangles[triangle];
+    const Vec3 origin = positionOf(t[0]);
+    return cross(minus(positionOf(t[1]), origin), minus(positionOf(t[2]), origin));
+  };
+  // The angle by its tangent: an arc cosine would lose half the digits on nearly flat ground.
+  const auto isCrease = [&](std::uint32_t a, std::uint32_t b) {
+    const Vec3 m = normalOf(a), n = normalOf(b), sine = cross(m, n);
+    return std::atan2(std::sqrt(dot(sine, sine)), dot(m, n)) > creaseAngle;
+  };
+
+  std::vector<std::size_t> begin(vertexCount + 2, 0);
+  for (const Triangle& t : triangles) {
+    for (int i = 0; i < 3; ++i) ++begin[std::min(t[i], t[(i + 1) % 3]) + std::size_t(2)];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<EdgeUse> uses(triangles.size() * 3);
+  for (std::uint32_t triangle = 0; triangle < triangles.size(); ++triangle) {
+    const Triangle& t = triangles[triangle];
+    for (int i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
+      uses[begin[low + std::size_t(1)]++] = {high, triangle};
+    }
+  }
+
+  std::vector<Tally> tallies(vertexCount);
+  for (std::uint32_t low = 0; low < vertexCount; ++low) {
+    const auto last = uses.begin() + std::ptrdiff_t(begin[low + 1]);
+    auto edge = uses.begin() + std::ptrdiff_t(begin[low]);
+    std::sort(edge, last);
+    while (edge != last) {
+      const auto next =
+          std::find_if(edge, last, [&](const EdgeUse& use) { return use.otherEnd != edge->otherEnd; });
+      const auto sharing = next - edge;
+      const bool crease = sharing == 2 && isCrease(edge[0].triangle, edge[1].triangle);
+      for (Tally* end : {&tallies[low], &tallies[edge->otherEnd]}) {
+        end->used = true;
+        end->onBorder |= sharing == 1;
+        end->nonManifold |= sharing > 2;
+        if (crease) end->addCrease();
+      }
+      edge = next;
+    }
+  }
+  std::vector<VertexClass> classes(vertexCount);
+  std::transform(tallies.begin(), tallies.end(), classes.begin(), classOf);
+  return classes;
+}
+
+}  // namespace
+
+std::vector<VertexClass> classifyVertices(std::span<const Vec3> positions,
+                                          std::span<const Triangle> triangles, double creaseAngleDegrees) {
+  return classify(
+      positions.size(), [&](std::uint32_t v) -> const Vec3& { return positions[v]; }, triangles,
+      creaseAngleDegrees);
+}
+
+std::vector<VertexClass> classifyVertices(std::size_t vertexCount, const PositionOf& positionOf,
+                                          std::span<const Triangle> triangles, double creaseAngleDegrees) {
+  return classify(vertexCount, positionOf, triangles, creaseAngleDegrees);
+}
+
+}  // namespace arete

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Indices of the arrays are the business of io/amt/index_check.h. What stands beside the multitriangulation,
+// isolated samples and fixed vertices, is few numbers: one after the other.
+#include "io/amt/checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/amt/index_check.h"
+#include "io/amt/pieces.h"
+#include "io/format/checksum.h"
+
+namespace arete {
+
+std::uint64_t amtGridSamples(const AmtFile& file) {
+  return std::uint64_t{file.model().columns} * file.model().rows;
+}
+
+Status checkAmtExtras(const AmtFile& file) {
+  const auto refuse = [&](const AmtTag& tag, const std::string& what) {
+    return failure(ErrorCode::corrupt,
+                   fmt::format("chunk {}: {}", std::string_view(tag.data(), tag.size()), what), file.path());
+  };
+  const TerrainModel& model = file.model();
+  const std::uint64_t gridSamples = amtGridSamples(file);
+  const auto samples = file.isolatedSamples();
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (samples[i] >= gridSamples || (i > 0 && samples[i] <= samples[i - 1]))
+      return refuse(amt_tag::kIsolatedSamples,
+                    fmt::format("entry {} is sample {} of {}, or not above the one before it", i, samples[i],
+                                gridSamples));
+  const auto heights = file.isolatedHeights();
+  for (std::size_t i = 0; i < heights.size(); ++i)
+    if (!std::isfinite(heights[i]))
+      return refuse(amt_tag::kIsolatedHeights, fmt::format("entry {} is not finite", i));
+  const auto fixed = file.fixedVertices();
+  const std::uint64_t bound = model.isRaster ? gridSamples : model.mt.rootVertexCount();
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    if (fixed[i] >= bound)
+      return refuse(amt_tag::kFixedVertices,
+                    model.isRaster
+                        ? fmt::format("entry {} is sample {} of {}", i, fixed[i], bound)
+                        : fmt::format("entry {} is vertex {}, the root has {}", i, fixed[i], bound));
+  return {};
+}
+
+Status checkAmtIndices(const AmtFile& file, const RunContext& context) {
+  if (!file.isPacked())
+    if (Status indices = checkMtIndices(file.model().mt, amtGridSamples(file), context); !indices)
+      return failure(indices.error().code, indices.error().message, file.path());
+  return checkAmtExtras(file);
+}
+
+namespace {
+
+tl::unexpected<Error> altered(const AmtFile& file, const AmtChunk& chunk) {
+  return failure(ErrorCode::corrupt,
+                 fmt::format("has been altered: the checksum of chunk {} does not match", chunk.name()),
+                 file.path());
+}
+
+/// By chunks, as there are no pieces.
+Status checkChunks(const AmtFile& file, const RunContext& context) {
+  std::vector<const AmtChunk*> chunks;
+  std::vector<std::span<const std::byte>> blocks;
+  for (const AmtChunk& chunk : file.chunks()) {
+    if (chunk.tag == amt_tag::kPackedNodes) continue;
+    chunks.push_back(&chunk);
+    blocks.push_back(file.bytes(chunk));
+  }
+  const auto sums = amtChecksums(blocks, "check checksums", context);
+  if (!sums) return failure(ErrorCode::interrupted, "the check was interrupted", file.path());
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    if (sums->blocks[i] != chunks[i]->checksum) return altered(file, *chunks[i]);
+  return {};
+}
+
+/// Every chunk but the first of these two has pieces, or is the second.
+Status checkPieces(const AmtFile& file, const RunContext& context) {
+  for (const AmtTag& tag : {amt_tag::kMetadata, amt_tag::kPieceChecksums})
+    if (Status chunk = checkAmtChunk(file, tag); !chunk) return chunk;
+  AmtPieces pieces(file);
+  pieces.touchAll();
+  return pieces.check(context);
+}
+
+}  // namespace
+
+Status checkAmtChunk(const AmtFile& file, const AmtTag& tag) {
+  const auto chunk = std::ranges::find(file.chunks(), tag, &AmtChunk::tag);
+  return amtChecksum(file.bytes(*chunk)) == chunk->checksum ? Status() : altered(file, *chunk);
+}
+
+Status checkAmtChecksums(const AmtFile& file, const RunContext& context) {
+  if (Status sums = file.hasPieces() ? checkPieces(file, context) : checkChunks(file, context); !sums)
+    return sums;
+  std::uint64_t end = sizeof(AmtHeader) + file.chunks().size() * sizeof(AmtChunk);
+  const auto isZeroUpTo = [&](std::uint64_t begin) {
+    const auto padding = file.bytes().subspan(end, begin - end);
+    return std::ranges::all_of(padding, [](std::byte b) { return b == std::byte{0}; });
+  };
+  for (std::size_t i = 0; i <= file.chunks().size(); ++i) {
+    const bool isLast = i == file.chunks().size();
+    if (!isZeroUpTo(isLast ? file.bytes().size() : file.chunks()[i].offset))
+      return failure(ErrorCode::corrupt,
+                     fmt::format("has been altered: the bytes at {}, between its chunks, are not zero", end),
+                     file.path());
+    if (!isLast) end = file.chunks()[i].offset + file.chunks()[i].bytes;
+  }
+  return {};
+}
+
+Status checkAmt(const AmtFile& file, AmtVerify verify, const RunContext& context) {
+  Status status;
+  if (verify == AmtVerify::all) status = checkAmtChecksums(file, context);
+  if (status && verify != AmtVerify::none) status = checkAmtIndices(file, context);
+  return status;
+}
+
+}  // namespace arete

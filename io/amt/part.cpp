@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A node is wanted whose saturated error is larger than what is wanted of the box around its sphere. Nodes
+// come by falling error, so where the same is wanted everywhere these are the first ones, and some that do no
+// harm. Else the balls and the largest errors of pages, then of blocks, tell which nodes are worth a look. A
+// node's sphere is in those of its parents, whose errors are no smaller; so the wanted ones have their
+// parents among them, but for rounding, which is made good.
+//
+// Nothing that is read is believed before its pieces have been held against their checksums, and nothing is
+// walked before its indices have been checked, which are those of the part alone. A file with damaged indices
+// is looked at as a whole, to name the culprit by the number that it has there.
+#include "io/amt/part.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include "engine/mt/node_blocks.h"
+#include "engine/parallel/with_threads.h"
+#include "io/amt/checks.h"
+#include "io/amt/index_check.h"
+#include "io/amt/mt_part.h"
+#include "io/amt/pieces.h"
+
+namespace arete {
+namespace {
+
+constexpr std::uint32_t kNodesPerBlock = MultiTriangulation::kNodesPerBlock,
+                        kNodesPerPage = MultiTriangulation::kNodesPerPage,
+                        kSlotsPerHint = MultiTriangulation::kSlotsPerHint,
+                        kBlocksPerPage = kNodesPerPage / kNodesPerBlock;
+static_assert(kNodesPerBlock == RankedNodes::kNodesPerWord);
+
+class PartReader {
+ public:
+  PartReader(const AmtFile& file, const RequiredError& wanted, AmtVerify verify, const RunContext& context)
+      : file_(file),
+        whole_(file.model().mt),
+        a_(whole_.arrays()),
+        wanted_(wanted),
+        verify_(verify),
+        context_(context),
+        pieces_(file) {}
+
+  Result<MultiTriangulation> run() {
+    if (Status checksums = checkPieceChecksums(); !checksums) return tl::unexpected(checksums.error());
+    touchBeside();
+    choosePages();
+    if (isTheSameEverywhere()) return readPrefix();
+    RankedNodes nodes = chooseNodes();
+    if (context_.cancelled()) return interrupted();
+    return 2 * std::uint64_t{nodes.size()} >= end_ ? readPrefix() : readSubset(std::move(nodes));
+  }
+
+ private:
+  bool isWanted(OutwardScale::Code saturatedError, double error) const {
+    return !(error > 0) || a_.scale.decode(saturatedError) > error;
+  }
+
+  /// What is wanted of the box around a ball. All, where that is no box.
+  double wantedOf(const Sphere& ball) const {
+    const MetricFrame& metric = a_.metric;
+    const double reach = ball.radius * (1 + 1e-6) + 1e-6 * (std::fabs(ball.x) + std::fabs(ball.y));
+    const double x[2] = {(ball.x - reach) / metric.scale.x + metric.origin.x,
+                         (ball.x + reach) / metric.scale.x + metric.origin.x};
+    const double y[2] = {(ball.y - reach) / metric.scale.y + metric.origin.y,
+                         (ball.y + reach) / metric.scale.y + metric.origin.y};
+    if (!std::isfinite(x[0] + x[1] + y[0] + y[1])) return 0;
+    return wanted_({std::min(x[0], x[1]), std::min(y[0], y[1]), std::max(x[0], x[1]), std::max(y[0], y[1])});
+  }
+
+  Status checkPieceChecksums() const {
+    if (verify_ != AmtVerify::all) return {};
+    return checkAmtChunk(file_, amt_tag::kPieceChecksums);
+  }
+
+  /// Which pages may hold a wanted node, and where the last one ends.
+  void choosePages() {
+    const std::uint32_t blocks = static_cast<std::uint32_t>(nodeBlockCount(whole_.nodeCount()));
+    const std::uint32_t all = static_cast<std::uint32_t>(a_.blockError.size()) - blocks;
+    isPageWanted_.resize(all);
+    tbb::parallel_for(std::uint32_t{0}, all, [&](std::uint32_t page) {
+      isPageWanted_[page] = isWanted(a_.blockError[blocks + page], wantedOf(a_.blockSphere[blocks + page]));
+    });
+    for (std::uint32_t page = 0; page < all; ++page)
+      if (isPageWanted_[page] != 0) pages_ = page + 1;
+    end_ = std::min(whole_.nodeCount(), pages_ * kNodesPerPage);
+  }
+
+  /// Whether, by the looks of the first block of each page, no place wants more than another: then nodes need
+  /// not be asked one by one.
+  bool isTheSameEverywhere() const {
+    std::vector<double> wants(pages_);
+    tbb::parallel_for(std::uint32_t{0}, pages_, [&](std::uint32_t page) {
+      wants[page] = wantedOf(a_.blockSphere[std::size_t{page} * kBlocksPerPage]);
+    });
+    return std::ranges::adjacent_find(wants, [](double x, double y) { return x != y && (x > 0 || y > 0); }) ==
+           wants.end();
+  }
+
+  Result<MultiTriangulation> readPrefix() {
+    const auto part = prefixOfMt(whole_, end_);
+    if (!part) return culprit();
+    touchNodes(0, end_, 0, part->arrays().link.size());
+    if (Status whole = checkPieces(); !whole) return tl::unexpected(whole.error());
+    return checked(*part);
+  }
+
+  Result<MultiTriangulation> readSubset(RankedNodes nodes) {
+    MtSubset part = subsetOfMt(whole_, nodes);
+    if (part.problem == MtSubset::Problem::parentMissing && addParents(whole_, nodes)) {
+      nodes.rank();
+      part = subsetOfMt(whole_, nodes);
+    }
+    if (part.problem != MtSubset::Problem::none) return culprit();
+    touchSubset(nodes);
+    if (Status whole = checkPieces(); !whole) return tl::unexpected(whole.error());
+    return checked(part.mt);
+  }
+
+  RankedNodes chooseNodes() {
+    RankedNodes nodes(whole_.nodeCount());
+    tbb::parallel_for(std::uint32_t{0}, pages_, [&](std::uint32_t page) {
+      if (isPageWanted_[page] == 0 || context_.cancelled()) return;
+      const auto end = std::min<std::size_t>((page + 1) * kBlocksPerPage, nodes.wordCount());
+      for (std::size_t block = page * kBlocksPerPage; block < end; ++block)
+        if (isWanted(a_.blockError[block], wantedOf(a_.blockSphere[block])))
+          nodes.setWord(block, wantedNodesOf(block));
+    });
+    nodes.rank();
+    for (std::uint32_t page = 0; page < pages_; ++page) {
+      if (isPageWanted_[page] == 0) continue;
+      const std::uint64_t begin = std::uint64_t{page} * kNodesPerPage,
+                          end = std::min<std::uint64_t>(begin + kNodesPerPage, whole_.nodeCount());
+      pieces_.touch(saturatedError_, begin, end);
+      pieces_.touch(sphere_, begin, end);
+    }
+    return nodes;
+  }
+
+  std::uint64_t wantedNodesOf(std::size_t block) const {
+    const auto begin = static_cast<std::uint32_t>(block) * kNodesPerBlock,
+               end = std::min(begin + kNodesPerBlock, whole_.nodeCount());
+    std::uint64_t members = 0;
+    for (std::uint32_t n = begin; n < end; ++n)
+      members |= std::uint64_t{isWanted(a_.saturatedError[n], wantedOf(a_.sphere[n]))} << (n - begin);
+    return members;
+  }
+
+  /// What is there once, and what is known of blocks.
+  void touchBeside() {
+    for (const AmtTag& tag : {amt_tag::kRootTriangles, amt_tag::kBlockError, amt_tag::kBlockSphere,
+                              amt_tag::kIsolatedSamples, amt_tag::kIsolatedHeights, amt_tag::kFixedVertices})
+      pieces_.touchAll(pieces_.of(tag));
+    touchVertices(0, a_.rootVertices);
+    touchTriangles(0, a_.rootTriangles.size());
+  }
+
+  void touchSubset(const RankedNodes& nodes) {
+    for (std::size_t word = 0; word < nodes.wordCount(); ++word) {
+      const std::uint64_t members = nodes.word(word);
+      if (members == 0) continue;
+      const auto first = static_cast<std::uint32_t>(word) * kNodesPerBlock;
+      const std::uint32_t begin = first + static_cast<std::uint32_t>(std::countr_zero(members)),
+                          end =
+                              first + kNodesPerBlock - static_cast<std::uint32_t>(std::countl_zero(members));
+      touchNodes(begin, end, a_.slotBegin[begin], a_.slotBegin[end]);
+    }
+  }
+
+  /// All that there is of nodes [begin, end), whose slots are [slots, slotsEnd).
+  void touchNodes(std::uint64_t begin, std::uint64_t end, std::uint64_t slots, std::uint64_t slotsEnd) {
+    pieces_.touch(slotBegin_, begin, end + 1);
+    pieces_.touch(link_, slots, slotsEnd);
+    pieces_.touch(floor_, slots - 2 * begin, slotsEnd - 2 * end);
+    pieces_.touch(saturatedError_, begin, end);
+    pieces_.touch(sphere_, begin, end);
+    pieces_.touch(creatorHint_, slots / kSlotsPerHint, (slotsEnd + kSlotsPerHint - 1) / kSlotsPerHint);
+    touchTriangles(a_.rootTriangles.size() + slots, a_.rootTriangles.size() + slotsEnd);
+    touchVertices(a_.rootVertices + begin, a_.rootVertices + end);
+  }
+  void touchTriangles(std::uint64_t begin, std::uint64_t end) {
+    for (const AmtPieces::Chunk chunk : {remover_, error_, below_, above_}) pieces_.touch(chunk, begin, end);
+  }
+  void touchVertices(std::uint64_t begin, std::uint64_t end) {
+    pieces_.touch(place_, begin, end);
+    pieces_.touch(height_, begin, end);
+  }
+
+  Status checkPieces() {
+    if (verify_ != AmtVerify::all) return {};
+    return pieces_.check(context_);
+  }
+
+  Result<MultiTriangulation> checked(const MultiTriangulation& part) const {
+    const Status indices = checkMtIndices(part, amtGridSamples(file_), context_);
+    if (!indices && indices.error().code == ErrorCode::interrupted) return interrupted();
+    if (!indices) return culprit();
+    if (Status extras = checkAmtExtras(file_); !extras) return tl::unexpected(extras.error());
+    return part;
+  }
+
+  tl::unexpected<Error> culprit() const {
+    if (const Status all = checkAmt(file_, verify_, context_); !all) return tl::unexpected(all.error());
+    return failure(ErrorCode::corrupt, "has nodes that do not hold together", file_.path());
+  }
+  tl::unexpected<Error> interrupted() const {
+    return failure(ErrorCode::interrupted, "the check was interrupted", file_.path());
+  }
+
+  const AmtFile& file_;
+  const MultiTriangulation& whole_;
+  const MtArrays& a_;
+  const RequiredError& wanted_;
+  AmtVerify verify_;
+  const RunContext& context_;
+  AmtPieces pieces_;
+  const AmtPieces::Chunk slotBegin_ = pieces_.of(amt_tag::kSlotBegin), link_ = pieces_.of(amt_tag::kLink),
+                         remover_ = pieces_.of(amt_tag::kRemover), error_ = pieces_.of(amt_tag::kError),
+                         below_ = pieces_.of(amt_tag::kBelow), above_ = pieces_.of(amt_tag::kAbove),
+                         floor_ = pieces_.of(amt_tag::kFloor),
+                         saturatedError_ = pieces_.of(amt_tag::kSaturatedError),
+                         sphere_ = pieces_.of(amt_tag::kSphere),
+                         creatorHint_ = pieces_.of(amt_tag::kCreatorHint),
+                         place_ = pieces_.of(file_.model().isRaster ? amt_tag::kSamples : amt_tag::kPlan),
+                         height_ = pieces_.of(amt_tag::kHeights);
+  std::vector<std::uint8_t> isPageWanted_;
+  std::uint32_t pages_ = 0, end_ = 0;  // up to the end of the last wanted one; in nodes
+};
+
+}  // namespace
+
+Result<MultiTriangulation> readAmtPart(const AmtFile& file, const RequiredError& wanted, AmtVerify verify,
+                                       const RunContext& context) {
+  return withThreads(context, [&] { return PartReader(file, wanted, verify, context).run(); });
+}
+
+}  // namespace arete

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/amt/pieces.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+
+#include "engine/parallel/shared_progress.h"
+#include "engine/parallel/with_threads.h"
+#include "io/format/checksum.h"
+
+namespace arete {
+namespace {
+
+// What has been found whole.
+constexpr std::uint8_t kWanted = 1, kChecked = 2;
+
+}  // namespace
+
+AmtPieces::AmtPieces(const AmtFile& file) : file_(file) {
+  std::size_t pieces = 0;
+  for (const AmtChunk& chunk : file.chunks()) {
+    places_.push_back({pieces, chunk.elementBytes});
+    pieces += amtPieceCount(chunk.tag, chunk.bytes);
+  }
+  places_.push_back({pieces, 1});
+  isTouched_.resize(pieces);
+}
+
+AmtPieces::Chunk AmtPieces::of(const AmtTag& tag) const {
+  const auto chunks = file_.chunks();
+  const auto found = std::ranges::find(chunks, tag, &AmtChunk::tag);
+  assert(found != chunks.end());
+  return {static_cast<std::size_t>(found - chunks.begin())};
+}
+
+void AmtPieces::touch(Chunk chunk, std::uint64_t begin, std::uint64_t end) {
+  if (begin >= end) return;
+  const Place& place = places_[chunk.index];
+  const std::uint64_t first = begin * place.elementBytes / kAmtPieceBytes,
+                      last = (end * place.elementBytes - 1) / kAmtPieceBytes;
+  for (std::uint64_t i = first; i <= last; ++i) isTouched_[place.first + i] |= kWanted;
+}
+
+void AmtPieces::touchAll(Chunk chunk) {
+  const AmtChunk& c = file_.chunks()[chunk.index];
+  touch(chunk, 0, c.bytes / c.elementBytes);
+}
+
+void AmtPieces::touchAll() {
+  std::ranges::fill(isTouched_, kWanted);
+}
+
+std::size_t AmtPieces::chunkOf(std::size_t piece) const {
+  const auto behind = std::ranges::upper_bound(places_, piece, {}, &Place::first);
+  return static_cast<std::size_t>(behind - places_.begin()) - 1;
+}
+
+Status AmtPieces::check(const RunContext& context) {
+  std::vector<std::size_t> pieces;
+  for (std::size_t i = 0; i < isTouched_.size(); ++i)
+    if (isTouched_[i] == kWanted) pieces.push_back(i);
+  std::atomic<std::size_t> altered = isTouched_.size();
+  SharedProgress progress(context, "check checksums", pieces.size() + 1);
+  withThreads(context, [&] {
+    tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t i) {
+      if (context.cancelled()) return;
+      const std::size_t piece = pieces[i], c = chunkOf(piece);
+      const auto bytes = file_.bytes(file_.chunks()[c]);
+      const std::uint64_t at = (piece - places_[c].first) * kAmtPieceBytes;
+      const auto these = bytes.subspan(at, std::min<std::uint64_t>(kAmtPieceBytes, bytes.size() - at));
+      progress.add();
+      if (amtChecksum(these) == file_.pieceChecksums()[piece]) {
+        isTouched_[piece] = kChecked;
+        return;
+      }
+      std::size_t known = altered;
+      while (piece < known && !altered.compare_exchange_weak(known, piece)) {
+      }
+    });
+  });
+  progress.add();
+  if (context.cancelled()) return failure(ErrorCode::interrupted, "the check was interrupted", file_.path());
+  if (altered == isTouched_.size()) return {};
+  return failure(ErrorCode::corrupt,
+                 fmt::format("has been altered: the checksum of chunk {} does not match",
+                             file_.chunks()[chunkOf(altered)].name()),
+                 file_.path());
+}
+
+}  // namespace arete

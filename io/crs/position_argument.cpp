@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/crs/position_argument.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace arete {
+namespace {
+
+constexpr std::array kWords = {std::pair{std::string_view("agl"), HeightKind::aboveGround},
+                               std::pair{std::string_view("msl"), HeightKind::seaLevel},
+                               std::pair{std::string_view("ell"), HeightKind::ellipsoidal}};
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
+}
+
+std::optional<double> numberOf(std::string_view text) {
+  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::vector<std::string_view> fieldsOf(std::string_view text) {
+  std::vector<std::string_view> fields;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    fields.push_back(trimmed(text.substr(at, end - at)));
+    at = end + 1;
+  }
+  return fields;
+}
+
+Result<Vec2> placeOf(std::string_view x, std::string_view y, const CrsTransform& toDem,
+                     const std::string& culprit) {
+  Vec2 place;
+  for (const auto& [field, value] : {std::pair{x, &place.x}, std::pair{y, &place.y}}) {
+    const auto number = readNumberText(field);
+    if (!number) return failure(number.error().code, number.error().message, culprit);
+    *value = *number;
+  }
+  const auto known = toDem(place);
+  if (!known)
+    return failure(
+        ErrorCode::usage,
+        "is no longitude and latitude (in degrees, longitude first) that the CRS of the DEM can tell",
+        culprit);
+  return *known;
+}
+
+/// Takes the word off the end of "120.5msl".
+HeightKind takeKind(std::string_view& height) {
+  for (const auto& [word, kind] : kWords) {
+    if (height.size() < word.size()) continue;
+    const std::string_view end = height.substr(height.size() - word.size());
+    const bool isWord = std::equal(end.begin(), end.end(), word.begin(), [](char a, char b) {
+      return std::tolower(static_cast<unsigned char>(a)) == b;
+    });
+    if (!isWord) continue;
+    height = trimmed(height.substr(0, height.size() - word.size()));
+    return kind;
+  }
+  return HeightKind::aboveGround;
+}
+
+}  // namespace
+
+std::string_view toString(HeightKind kind) {
+  for (const auto& [word, k] : kWords)
+    if (k == kind) return word;
+  return "unknown";
+}
+
+Result<double> readNumberText(std::string_view text) {
+  const auto number = numberOf(trimmed(text));
+  if (!number) return failure(ErrorCode::usage, fmt::format("'{}' is not a number", text));
+  return *number;
+}
+
+Result<StatedHeight> readHeightText(std::string_view text) {
+  std::string_view height = trimmed(text);
+  const HeightKind kind = takeKind(height);
+  const auto value = numberOf(height);
+  if (!value)
+    return failure(
+        ErrorCode::usage,
+        fmt::format("'{}' is not a height: a number, with agl, msl or ell behind it or nothing", text));
+  return StatedHeight{*value, kind};
+}
+
+Result<Vec2> readPlaceArgument(const std::string& option, const std::string& text,
+                               const CrsTransform& toDem) {
+  const std::string culprit = fmt::format("{} {}", option, text);
+  const auto fields = fieldsOf(text);
+  if (fields.size() != 2)
+    return failure(ErrorCode::usage, fmt::format("a place is two numbers, X,Y, not {}", fields.size()),
+                   culprit);
+  return placeOf(fields[0], fields[1], toDem, culprit);
+}
+
+Result<PositionArgument> readPositionArgument(const std::string& option, const std::string& text,
+                                              const CrsTransform& toDem) {
+  const std::string culprit = fmt::format("{} {}", option, text);
+  const auto fields = fieldsOf(text);
+  if (fields.size() != 3)
+    return failure(
+        ErrorCode::usage,
+        fmt::format("a position is X,Y,H with agl, msl or ell behind H, not {} fields", fields.size()),
+        culprit);
+  PositionArgument position;
+  const auto height = readHeightText(fields[2]);
+  if (!height) return failure(height.error().code, height.error().message, culprit);
+  position.height = height->height;
+  position.kind = height->kind;
+  const auto place = placeOf(fields[0], fields[1], toDem, culprit);
+  if (!place) return tl::unexpected(place.error());
+  position.xy = *place;
+  return position;
+}
+
+Result<double> demHeight(const PositionArgument& position, const SurfaceHeights& heights) {
+  const std::string culprit =
+      fmt::format("{},{},{}{}", position.xy.x, position.xy.y, position.height, toString(position.kind));
+  if (position.kind == HeightKind::aboveGround) {
+    const auto ground = heights.at(position.xy);
+    if (!ground)
+      return failure(ErrorCode::invalidData, "is above no terrain: outside the DEM, or on NODATA", culprit);
+    return ground->height + position.height;
+  }
+  const bool isDemEllipsoidal = heights.model().georeference.verticalDatum == "ellipsoid";
+  if (isDemEllipsoidal != (position.kind == HeightKind::ellipsoidal))
+    return failure(
+        ErrorCode::usage,
+        isDemEllipsoidal
+            ? "the DEM's heights are ellipsoidal, so a height above sea level needs a geoid; say ell or agl"
+            : "the DEM does not say that its heights are ellipsoidal, so this needs a geoid; say msl or agl",
+        culprit);
+  return position.height;
+}
+
+}  // namespace arete

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/dem/clutter_raster.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "io/crs/longitude_turns.h"
+#include "io/crs/transform.h"
+#include "io/dem/raster_reader.h"
+#include "terrain/model/plan_box.h"
+
+namespace arete {
+namespace {
+
+struct Extent {
+  double xMin = std::numeric_limits<double>::infinity(), yMin = xMin, xMax = -xMin, yMax = -xMin;
+
+  void add(Vec2 p) {
+    xMin = std::min(xMin, p.x);
+    yMin = std::min(yMin, p.y);
+    xMax = std::max(xMax, p.x);
+    yMax = std::max(yMax, p.y);
+  }
+};
+
+Extent extentOf(const TerrainModel& model) {
+  Extent extent;
+  const Box2 box = planBox(model);
+  for (const double x : {box.xMin, box.xMax})
+    for (const double y : {box.yMin, box.yMax}) extent.add(model.toSource({x, y}));
+  return extent;
+}
+
+/// Of the pixels, which reach half a step beyond their middles.
+Extent extentOf(const RasterHeightfield& raster) {
+  Extent extent;
+  for (const double column : {-0.5, raster.columns - 0.5})
+    for (const double row : {-0.5, raster.rows - 0.5}) extent.add(raster.georeference.toSource(column, row));
+  return extent;
+}
+
+/// As far as their extents tell, a rotated raster's being larger than itself.
+bool mayOverlap(const TerrainModel& model, const RasterHeightfield& raster) {
+  const Extent dem = extentOf(model), own = extentOf(raster);
+  if (!(own.yMin <= dem.yMax && dem.yMin <= own.yMax)) return false;
+  // The DEM's middle may be a turn away from the raster's, and either may be the wider.
+  const double middle = dem.xMin / 2 + dem.xMax / 2;
+  const double turned =
+      LongitudeTurns(raster.georeference, raster.columns, raster.rows)({middle, own.yMin}).x;
+  return own.xMin <= turned + (dem.xMax - middle) && turned - (middle - dem.xMin) <= own.xMax;
+}
+
+}  // namespace
+
+Result<SightClutter> readClutter(const std::string& text, const TerrainModel& model,
+                                 const RunContext& context) {
+  SightClutter clutter;
+  double height = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), height);
+  if (error == std::errc{} && end == text.data() + text.size()) {
+    if (!(height >= 0) || !std::isfinite(height))
+      return failure(ErrorCode::usage, "is no height of what stands on the terrain", "--clutter " + text);
+    clutter.height = [height](Vec2) { return height; };
+    return clutter;
+  }
+  auto read = readRaster(text, {}, context);
+  if (!read) return tl::unexpected(read.error());
+  const Georeference& own = read->heightfield.georeference;
+  const Georeference& dem = model.georeference;
+  if (own.crsWkt.empty() != dem.crsWkt.empty() || (!own.crsWkt.empty() && own.crsWkt != dem.crsWkt && [&] {
+        const auto way = CrsTransform::between(own.crsWkt, dem.crsWkt);
+        return !way || !way->isIdentity();
+      }()))
+    return failure(ErrorCode::usage, "is in another CRS than the DEM; gdalwarp brings it there", text);
+  if (!mayOverlap(model, read->heightfield))
+    return failure(ErrorCode::usage, "lies nowhere over the DEM", text);
+  const Vec2 step = groundStep(own, read->heightfield.columns / 2.0, read->heightfield.rows / 2.0);
+  clutter.stepMetres = std::min(step.x, step.y) / 2;
+  const double scale = own.verticalUnit.empty() || dem.verticalUnit.empty()
+                           ? 1
+                           : own.verticalUnitMetres / dem.verticalUnitMetres;
+  const auto samples = std::make_shared<const RasterHeightfield>(std::move(read->heightfield));
+  const auto place = std::make_shared<const Georeference>(dem);
+  const bool isRaster = model.isRaster;
+  const LongitudeTurns turns(samples->georeference, samples->columns, samples->rows);
+  clutter.height = [samples, place, isRaster, scale, turns](Vec2 plan) {
+    const Vec2 xy = turns(isRaster ? place->toSource(plan.x, plan.y) : plan);
+    const Vec2 at = samples->georeference.toGrid(xy.x, xy.y);
+    const double column = std::floor(at.x + 0.5), row = std::floor(at.y + 0.5);
+    if (!(column >= 0 && row >= 0 && column < samples->columns && row < samples->rows)) return 0.0;
+    const double z = samples->at(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
+    return std::isnan(z) ? 0.0 : std::max(0.0, z * scale);
+  };
+  return clutter;
+}
+
+}  // namespace arete

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The file decides, not its name, except for text: a raster driver that recognises it makes it a raster,
+// unless that is GDAL's "XYZ", which takes any text of numbers for one, or a container (GeoPackage, ...) that
+// turns out to hold no raster. Text and vector layers are points.
+#include "io/dem/dem_reader.h"
+
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "io/dem/gridded_points.h"
+#include "io/file/text_scan.h"
+#include "io/gdal/support.h"
+#include "io/gdal/zipped_raster.h"
+#include "io/table/point_text.h"
+
+namespace arete {
+namespace {
+
+bool isPointCloud(const std::string& path) {
+  constexpr std::array<std::string_view, 3> kExtensions = {"las", "laz", "e57"};
+  if (std::find(kExtensions.begin(), kExtensions.end(), text::lowerExtension(path)) != kExtensions.end())
+    return true;
+  std::array<char, 4> magic{};
+  VSILFILE* file = VSIFOpenL(path.c_str(), "rb");
+  if (!file) return false;
+  const bool whole = VSIFReadL(magic.data(), 1, magic.size(), file) == magic.size();
+  VSIFCloseL(file);
+  return whole && std::memcmp(magic.data(), "LASF", magic.size()) == 0;
+}
+
+/// What the file is, as far as GDAL's raster drivers can tell.
+bool isRaster(const std::string& path, bool& opensAsVector) {
+  GdalErrors quiet;
+  GDALDriverH driver = GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
+  const bool identified = driver && !isTextDriver(driver);
+  if (identified) {
+    const GdalDatasetPtr dataset = openGdal(path, GDAL_OF_RASTER);
+    if (dataset && (dataset->GetRasterCount() > 0 || dataset->GetMetadata("SUBDATASETS"))) return true;
+  }
+  opensAsVector = openGdal(path, GDAL_OF_VECTOR) != nullptr;
+  return identified && !opensAsVector;
+}
+
+Result<DemRead> readAsRaster(const std::string& path, const SourceReading& reading,
+                             const RunContext& context) {
+  if (!reading.layer.empty())
+    return failure(ErrorCode::usage, fmt::format("is a raster, which has no layer '{}'", reading.layer),
+                   path);
+  if (!reading.zField.empty())
+    return failure(ErrorCode::usage,
+                   fmt::format("is a raster, which has bands and no field '{}'", reading.zField), path);
+  RasterReadOptions rasterOptions;
+  if (reading.band) rasterOptions.band = static_cast<int>(*reading.band);
+  rasterOptions.crs = reading.crs;
+  rasterOptions.nodata = reading.nodata;
+  auto read = readRaster(path, rasterOptions, context);
+  if (!read) return tl::unexpected(read.error());
+  return DemRead{std::move(read->heightfield), std::move(read->warnings)};
+}
+
+Result<DemRead> readAsPoints(const std::string& path, bool text, const SourceReading& reading,
+                             const RunContext& context) {
+  if (reading.band)
+    return failure(ErrorCode::usage, fmt::format("holds points, which have no band {}", *reading.band), path);
+  PointReadOptions pointOptions;
+  pointOptions.layer = reading.layer;
+  pointOptions.zField = reading.zField;
+  pointOptions.crs = reading.crs;
+  pointOptions.nodata = reading.nodata;
+  auto read = readPoints(path, pointOptions, context);
+  if (!read) return tl::unexpected(read.error());
+  if (text) {
+    if (auto raster = asRaster(read->heightfield)) {
+      read->warnings.push_back(
+          fmt::format("the points fill a grid of {} columns and {} rows: read as a raster", raster->columns,
+                      raster->rows));
+      return DemRead{std::move(*raster), std::move(read->warnings)};
+    }
+  }
+  return DemRead{std::move(read->heightfield), std::move(read->warnings)};
+}
+
+bool isTextOfNumbers(const std::string& path) {
+  GdalErrors quiet;
+  return isTextDriver(GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr));
+}
+
+/// The one raster in an archive, or the one text of points.
+Result<DemRead> readZipped(const std::string& archive, const SourceReading& reading,
+                           const RunContext& context) {
+  const Result<std::string> inside = findZippedRaster(archive);
+  if (!inside) return tl::unexpected(inside.error());
+  if (isTextOfNumbers(*inside)) return readAsPoints(*inside, true, reading, context);
+  return readAsRaster(archive, reading, context);
+}
+
+Result<DemRead> readFrom(const std::string& path, const SourceReading& reading, const RunContext& context) {
+  registerGdal();
+  if (isPointCloud(path))
+    if (VSIStatBufL status; VSIStatL(path.c_str(), &status) == 0)
+      return failure(
+          ErrorCode::unsupported,
+          "is a point cloud, which is not read; make a DEM of it first, or a text of its ground points, for "
+          "instance with PDAL: pdal translate IN.laz ground.csv -f filters.range "
+          "--filters.range.limits='Classification[2:2]'",
+          path);
+  if (isPlainZip(path)) return readZipped(path, reading, context);
+  bool opensAsVector = false;
+  if (isRaster(path, opensAsVector)) return readAsRaster(path, reading, context);
+
+  GdalErrors errors;
+  if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
+  const bool text = looksLikePointText(path);
+  if (text || opensAsVector) return readAsPoints(path, text, reading, context);
+  openGdal(path, GDAL_OF_RASTER | GDAL_OF_VECTOR);
+  return tl::unexpected(explainOpenFailure(path, "DEM", errors));
+}
+
+/// Where the places of a heightfield lie, and its heights.
+struct Extent {
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+  Vec2 low{kNone, kNone}, high{-kNone, -kNone};
+  double lowest = kNone, highest = -kNone;
+
+  void take(Vec2 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+};
+
+Extent extentOf(const std::vector<double>& heights, Extent extent = {}) {
+  for (const double z : heights) {
+    extent.lowest = z < extent.lowest ? z : extent.lowest;  // false of NODATA
+    extent.highest = z > extent.highest ? z : extent.highest;
+  }
+  return extent;
+}
+
+Extent extentOf(const RasterHeightfield& field) {
+  Extent extent = extentOf(field.heights);
+  for (const double column : {0.0, double(field.columns) - 1})
+    for (const double row : {0.0, double(field.rows) - 1})
+      extent.take(field.georeference.toSource(column, row));
+  return extent;
+}
+
+Extent extentOf(const PointHeightfield& field) {
+  Extent extent = extentOf(field.heights);
+  for (const Vec2& p : field.positions) extent.take(p);
+  return extent;
+}
+
+/// What the places say of the CRS, or of its want. Nothing but the numbers tells, so it is a warning.
+template <class Heightfield>
+std::optional<std::string> doubtOfCrs(const Heightfield& field) {
+  const Extent e = extentOf(field);
+  if (field.georeference.isGeographic) {
+    // A pixel beyond the poles is common, and so are longitudes of more than one turn.
+    constexpr double kMostX = 12.6, kMostY = 1.6;  // radians
+    const double x = std::max(std::abs(e.low.x), std::abs(e.high.x)),
+                 y = std::max(std::abs(e.low.y), std::abs(e.high.y)),
+                 unit = field.georeference.angularUnitRadians;
+    if (!(x * unit > kMostX) && !(y * unit > kMostY)) return std::nullopt;
+    return fmt::format(
+        "its CRS has longitudes and latitudes, but its places reach x {:g} and y {:g}, which no "
+        "globe has: state the CRS that they are of",
+        x, y);
+  }
+  // Longitudes and latitudes without a CRS: numbers that a globe has, and heights far beyond the width of the
+  // whole.
+  const double width = std::max(e.high.x - e.low.x, e.high.y - e.low.y);
+  const bool looksLikeDegrees = field.georeference.crsWkt.empty() && width > 0 && e.low.x >= -180 &&
+                                e.high.x <= 360 && e.low.y >= -90 && e.high.y <= 90 &&
+                                e.highest - e.lowest > 10 * width;
+  if (!looksLikeDegrees) return std::nullopt;
+  return "has no CRS, and its places look like degrees: they are taken as lengths in the unit of the "
+         "heights; state the CRS (EPSG:4326 for longitude and latitude)";
+}
+
+}  // namespace
+
+Result<DemRead> readDem(const std::string& path, const SourceReading& reading, const RunContext& context) {
+  try {
+    Result<DemRead> read = readFrom(path, reading, context);
+    if (!read) return read;
+    if (auto doubt = std::visit([](const auto& field) { return doubtOfCrs(field); }, read->heightfield))
+      read->warnings.push_back(std::move(*doubt));
+    return read;
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorCode::unsupported, "is larger than the memory that is free", path);
+  }
+}
+
+}  // namespace arete

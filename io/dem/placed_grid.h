@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
+#include "terrain/model/terrain_model.h"
+
+namespace arete {
+
+/// The grid of a raster, and where its samples stand in the plan of a model.
+struct PlacedGrid {
+  std::uint32_t columns = 0, rows = 0;
+  Georeference georeference;
+  std::vector<Vec2> places;  ///< row by row; NaN where nobody can tell
+};
+
+/// What the samples of the raster are does not matter: it may be a picture. Errors: those of readRaster() for
+/// its first band; invalidData (only one of the two has a CRS); usage (no sample is within the
+/// borders of the model); those of CrsTransform. Precondition: the model is of a raster. O(samples).
+Result<PlacedGrid> readPlacedGrid(const std::string& path, const TerrainModel& model,
+                                  std::vector<std::string>& warnings, const RunContext& context = {});
+
+}  // namespace arete

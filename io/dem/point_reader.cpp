@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Text is parsed here, everything else comes through OGR; both give rows, which are then sorted by position
+// to find the equal ones. Which points stay, and which conflict is reported, depends on the order of the file
+// alone.
+#include "io/dem/point_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <new>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "engine/memory/pages.h"
+#include "io/crs/reader.h"
+#include "io/gdal/support.h"
+#include "io/gdal/vector_layer.h"
+#include "io/table/feature_rows.h"
+#include "io/table/point_rows.h"
+#include "io/table/point_text.h"
+
+namespace arete {
+namespace {
+
+constexpr std::size_t kPointLimit = (std::size_t(1) << 32) - 2;
+
+std::string fieldNames(const OGRFeatureDefn& definition) {
+  std::vector<std::string> names;
+  for (int i = 0; i < definition.GetFieldCount(); ++i)
+    names.emplace_back(definition.GetFieldDefn(i)->GetNameRef());
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Collects the points of features, one after the other.
+class FeatureCollector {
+ public:
+  FeatureCollector(OGRLayer& layer, int zField) : layer_(layer), zField_(zField) {}
+
+  Status add(OGRFeature& feature) {
+    const OGRGeometry* geometry = feature.GetGeometryRef();
+    if (!geometry || geometry->IsEmpty() || (zField_ >= 0 && !feature.IsFieldSetAndNotNull(zField_))) {
+      ++skipped;
+      return {};
+    }
+    const OGRwkbGeometryType type = wkbFlatten(geometry->getGeometryType());
+    if (type == wkbPoint) return addPoint(feature, *geometry->toPoint());
+    if (type == wkbMultiPoint) {
+      for (const OGRPoint* point : *geometry->toMultiPoint())
+        if (Status status = addPoint(feature, *point); !status) return status;
+      return {};
+    }
+    return failure(ErrorCode::unsupported,
+                   fmt::format("feature {} of the layer '{}' is a {}, not a point", feature.GetFID(),
+                               layer_.GetName(), geometry->getGeometryName()));
+  }
+
+  PointRows rows;
+  std::size_t skipped = 0;
+
+ private:
+  Status addPoint(const OGRFeature& feature, const OGRPoint& point) {
+    if (zField_ < 0 && !point.Is3D())
+      return failure(
+          ErrorCode::invalidData,
+          fmt::format("feature {} of the layer '{}' has no height; --z-field names the field that has it "
+                      "(the fields: {})",
+                      feature.GetFID(), layer_.GetName(), fieldNames(*layer_.GetLayerDefn())));
+    const double z = zField_ < 0 ? point.getZ() : feature.GetFieldAsDouble(zField_);
+    for (const double value : {point.getX(), point.getY(), z})
+      if (!std::isfinite(value))
+        return failure(ErrorCode::invalidData,
+                       fmt::format("feature {} of the layer '{}' has the coordinate {}", feature.GetFID(),
+                                   layer_.GetName(), value));
+    rows.add(point.getX(), point.getY(), z, std::uint64_t(feature.GetFID()));
+    return {};
+  }
+
+  OGRLayer& layer_;
+  int zField_;
+};
+
+Result<int> findZField(OGRLayer& layer, const std::string& name) {
+  if (name.empty()) return -1;
+  const OGRFeatureDefn& definition = *layer.GetLayerDefn();
+  const int index = definition.GetFieldIndex(name.c_str());
+  if (index < 0)
+    return failure(ErrorCode::usage, fmt::format("the layer '{}' has no field '{}'; its fields: {}",
+                                                 layer.GetName(), name, fieldNames(definition)));
+  const OGRFieldType type = definition.GetFieldDefn(index)->GetType();
+  if (type != OFTInteger && type != OFTInteger64 && type != OFTReal)
+    return failure(ErrorCode::usage,
+                   fmt::format("the field '{}' of the layer '{}' is of type {}, not a number", name,
+                               layer.GetName(), OGRFieldDefn::GetFieldTypeName(type)));
+  return index;
+}
+
+Result<PointRows> readLayer(OGRLayer& layer, const PointReadOptions& options,
+                            std::vector<std::string>& warnings, const RunContext& context) {
+  auto zField = findZField(layer, options.zField);
+  if (!zField) return tl::unexpected(zField.error());
+  GdalErrors errors;
+  FeatureCollector collector(layer, *zField);
+  const Status read =
+      forFeatures(layer, errors, context, [&](OGRFeature& feature) { return collector.add(feature); });
+  if (!read) return tl::unexpected(read.error());
+  errors.moveTo(warnings);
+  if (collector.skipped > 0)
+    warnings.push_back(
+        fmt::format("{} features without a position or a height are left out", collector.skipped));
+  return std::move(collector.rows);
+}
+
+void dropNodata(PointRows& rows, double nodata, std::vector<std::string>& warnings) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < rows.heights.size(); ++i) {
+    if (rows.heights[i] == nodata) continue;
+    rows.positions[kept] = rows.positions[i];
+    rows.heights[kept] = rows.heights[i];
+    rows.origins[kept++] = rows.origins[i];
+  }
+  if (const std::size_t dropped = rows.heights.size() - kept; dropped > 0)
+    warnings.push_back(fmt::format("{} points of the height {} are left out as no data", dropped, nodata));
+  rows.positions.resize(kept);
+  rows.heights.resize(kept);
+  rows.origins.resize(kept);
+}
+
+/// Leaves the first of each set of equal points. Equal positions of different heights are an error; of
+/// several such pairs the one that shows first in the file is named.
+Status mergeEqual(PointRows& rows, std::string_view originName, std::vector<std::string>& warnings) {
+  const std::size_t count = rows.heights.size();
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  const auto& p = rows.positions;
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::tie(p[a].x, p[a].y, a) < std::tie(p[b].x, p[b].y, b);
+  });
+  std::vector<bool> repeated(count, false);
+  std::size_t merged = 0;
+  std::pair<std::uint32_t, std::uint32_t> conflict{0, std::numeric_limits<std::uint32_t>::max()};
+  for (std::size_t first = 0, next = 1; next < count; ++next) {
+    const std::uint32_t a = order[first], b = order[next];
+    if (!(p[a] == p[b])) {
+      first = next;
+    } else if (rows.heights[a] == rows.heights[b]) {
+      repeated[b] = true;
+      ++merged;
+    } else if (b < conflict.second) {
+      conflict = {a, b};
+    }
+  }
+  if (const auto [a, b] = conflict; b < count)
+    return failure(
+        ErrorCode::degenerate,
+        fmt::format("two points stand at x {}, y {} with different heights: {} ({} {}) and {} ({} {})",
+                    p[a].x, p[a].y, rows.heights[a], originName, rows.origins[a], rows.heights[b], originName,
+                    rows.origins[b]));
+  if (merged == 0) return {};
+  warnings.push_back(fmt::format("{} points repeat another one exactly and are left out", merged));
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (repeated[i]) continue;
+    rows.positions[kept] = rows.positions[i];
+    rows.heights[kept++] = rows.heights[i];
+  }
+  rows.positions.resize(kept);
+  rows.heights.resize(kept);
+  return {};
+}
+
+Result<PointRead> finish(PointRows rows, std::string_view originName, const OGRSpatialReference* crs,
+                         const PointReadOptions& options, const std::string& path, PointRead read) {
+  if (options.nodata) dropNodata(rows, *options.nodata, read.warnings);
+  if (rows.heights.empty()) return failure(ErrorCode::invalidData, "holds no point");
+  if (rows.heights.size() >= kPointLimit)
+    return failure(ErrorCode::unsupported,
+                   fmt::format("holds {} points; {} can be numbered", rows.heights.size(), kPointLimit - 1));
+  if (Status status = mergeEqual(rows, originName, read.warnings); !status)
+    return tl::unexpected(status.error());
+
+  PointHeightfield& points = read.heightfield;
+  points.georeference.geoTransform = {-0.5, 1, 0, -0.5, 0, 1};
+  points.georeference.hasGeoTransform = true;
+  auto chosen = chooseCrs(crs, options.crs, read.warnings);
+  if (!chosen) return tl::unexpected(chosen.error());
+  if (Status status = describeCrs(*chosen, points.georeference); !status)
+    return tl::unexpected(status.error());
+  rows.positions.shrink_to_fit();
+  rows.heights.shrink_to_fit();
+  points.positions = std::move(rows.positions);
+  points.heights = std::move(rows.heights);
+  points.source = path;
+  points.sourceChecksum = heightsChecksum(points);
+  if (Status status = points.validate(); !status) return tl::unexpected(status.error());
+  return read;
+}
+
+Result<PointRead> readFrom(const std::string& path, const PointReadOptions& options,
+                           const RunContext& context) {
+  registerGdal();
+  GdalErrors errors;
+  PointRead read;
+  GdalDatasetPtr dataset;
+  bool asText = looksLikePointText(path);
+  if (!asText) {
+    if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
+    dataset = openGdal(path, GDAL_OF_VECTOR);
+    if (!dataset) return tl::unexpected(explainOpenFailure(path, "set of points", errors));
+  }
+  if (asText) {
+    if (!options.layer.empty())
+      return failure(ErrorCode::usage, fmt::format("is text, which has no layer '{}'", options.layer));
+    auto rows = readPointText(path, options.zField, read.warnings, context);
+    if (!rows) return tl::unexpected(rows.error());
+    return finish(std::move(*rows), "line", nullptr, options, path, std::move(read));
+  }
+  auto layer = chooseLayer(*dataset, options.layer, LayerKind::points);
+  if (!layer) return tl::unexpected(layer.error());
+  auto rows = readLayer(**layer, options, read.warnings, context);
+  if (!rows) return tl::unexpected(rows.error());
+  errors.moveTo(read.warnings);
+  return finish(std::move(*rows), "feature", (*layer)->GetSpatialRef(), options, path, std::move(read));
+}
+
+}  // namespace
+
+Result<PointRead> readPoints(const std::string& path, const PointReadOptions& options,
+                             const RunContext& context) {
+  try {
+    auto read = readFrom(path, options, context);
+    giveFreeHeapBack();  // rows that were moved as they became more
+    if (!read && read.error().culprit.empty()) read.error().culprit = path;
+    return read;
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorCode::unsupported, "is larger than the memory that is free", path);
+  }
+}
+
+}  // namespace arete

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Rows of whole tiles are handed to GDAL, which compresses them with the floating-point predictor. The file
+// grows under a temporary name beside the final one. GDAL tells of failures on closing only through its error
+// handler, so the file is renamed once it is closed and the handler has heard nothing.
+#include "io/dem/raster_writer.h"
+
+#include <cpl_string.h>
+#include <fmt/format.h>
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <new>
+#include <system_error>
+#include <vector>
+
+#include "io/crs/reader.h"
+#include "io/file/output_file.h"
+#include "io/file/text_scan.h"
+#include "io/gdal/support.h"
+
+namespace arete {
+namespace {
+
+constexpr int kTileSize = 256;
+constexpr const char* kStaleSidecars[] = {".ovr", ".msk"};
+
+bool isWhole(GeoTiffOptions::Sample sample) {
+  return sample == GeoTiffOptions::Sample::uint8 || sample == GeoTiffOptions::Sample::uint16;
+}
+
+CPLStringList creationOptions(GDALDriver& driver, const GeoTiffOptions& options) {
+  CPLStringList list;
+  list.SetNameValue("TILED", "YES");
+  list.SetNameValue("BLOCKXSIZE", std::to_string(kTileSize).c_str());
+  list.SetNameValue("BLOCKYSIZE", std::to_string(kTileSize).c_str());
+  list.SetNameValue("BIGTIFF", "IF_SAFER");
+  if (options.compression == GeoTiffOptions::Compression::none) return list;
+  const char* known = driver.GetMetadataItem(GDAL_DMD_CREATIONOPTIONLIST);
+  const bool zstd =
+      options.compression == GeoTiffOptions::Compression::zstd && known && std::strstr(known, "ZSTD");
+  list.SetNameValue("COMPRESS", zstd ? "ZSTD" : "DEFLATE");
+  list.SetNameValue("PREDICTOR", isWhole(options.sample) ? "1" : "3");
+  return list;
+}
+
+Status describe(GDALDataset& dataset, const Georeference& georeference, const GeoTiffOptions& options) {
+  if (!georeference.crsWkt.empty()) {
+    auto crs = crsFromText(georeference.crsWkt);
+    if (!crs) return tl::unexpected(crs.error());
+    if (dataset.SetSpatialRef(&*crs) != CE_None)
+      return failure(ErrorCode::unreadable, "the CRS cannot be written");
+  }
+  if (georeference.hasGeoTransform) {
+    std::array<double, 6> transform = georeference.geoTransform;
+    if (dataset.SetGeoTransform(transform.data()) != CE_None)
+      return failure(ErrorCode::unreadable, "the geotransform cannot be written");
+  }
+  GDALRasterBand& band = *dataset.GetRasterBand(1);
+  band.SetNoDataValue(isWhole(options.sample) ? options.nodata : std::numeric_limits<double>::quiet_NaN());
+  if (!georeference.verticalUnit.empty()) band.SetUnitType(georeference.verticalUnit.c_str());
+  if (!options.description.empty()) band.SetDescription(options.description.c_str());
+  return {};
+}
+
+template <class Sample>
+Status writeRows(GDALRasterBand& band, std::span<const double> values, GDALDataType type, double nodata,
+                 const GdalErrors& errors, const RunContext& context) {
+  const std::size_t columns = std::size_t(band.GetXSize());
+  const int rows = band.GetYSize();
+  std::vector<Sample> strip;
+  for (int row = 0; row < rows; row += kTileSize) {
+    if (context.cancelled()) return failure(ErrorCode::interrupted, "writing was stopped");
+    context.report("writing", double(row) / rows);
+    const int count = std::min(kTileSize, rows - row);
+    const auto source = values.subspan(std::size_t(row) * columns, std::size_t(count) * columns);
+    strip.clear();
+    for (const double value : source) {
+      using Limits = std::numeric_limits<Sample>;
+      if constexpr (Limits::is_integer) {
+        const double whole = std::isnan(value) ? nodata : value;
+        if (!(whole >= 0 && whole <= double(Limits::max())))
+          return failure(ErrorCode::invalidData,
+                         fmt::format("the value {} does not fit {} bits", whole, Limits::digits));
+        strip.push_back(Sample(whole));
+      } else {
+        if (std::isfinite(value) && std::abs(value) > double(Limits::max()))
+          return failure(ErrorCode::invalidData,
+                         fmt::format("the value {} does not fit a 32-bit float", value));
+        strip.push_back(Sample(value));
+      }
+    }
+    if (band.RasterIO(GF_Write, 0, row, int(columns), count, strip.data(), int(columns), count, type, 0, 0,
+                      nullptr) != CE_None)
+      return failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", errors.firstFailure()));
+  }
+  return {};
+}
+
+Status writeTo(const std::string& path, std::uint32_t columns, std::uint32_t rows,
+               std::span<const double> values, const Georeference& georeference,
+               const GeoTiffOptions& options, const RunContext& context) {
+  GdalErrors errors;
+  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+  if (!driver) return failure(ErrorCode::unsupported, "this GDAL cannot write GeoTIFF");
+  using Sample = GeoTiffOptions::Sample;
+  const GDALDataType type = options.sample == Sample::float64   ? GDT_Float64
+                            : options.sample == Sample::float32 ? GDT_Float32
+                            : options.sample == Sample::uint8   ? GDT_Byte
+                                                                : GDT_UInt16;
+  const CPLStringList list = creationOptions(*driver, options);
+  GdalDatasetPtr dataset(driver->Create(path.c_str(), int(columns), int(rows), 1, type, list.List()));
+  if (!dataset)
+    return failure(ErrorCode::unreadable, fmt::format("cannot be created: {}", errors.firstFailure()));
+  if (Status status = describe(*dataset, georeference, options); !status) return status;
+  errors.clear();
+
+  GDALRasterBand& band = *dataset->GetRasterBand(1);
+  const auto write = [&](auto sample) {
+    return writeRows<decltype(sample)>(band, values, type, options.nodata, errors, context);
+  };
+  Status status = options.sample == Sample::float64   ? write(double{})
+                  : options.sample == Sample::float32 ? write(float{})
+                  : options.sample == Sample::uint8   ? write(std::uint8_t{})
+                                                      : write(std::uint16_t{});
+  dataset.reset();
+  if (status && errors.anyFailure())
+    status = failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", errors.firstFailure()));
+  return status;
+}
+
+}  // namespace
+
+bool isGeoTiffName(const std::string& path) {
+  const std::string extension = text::lowerExtension(path);
+  return extension == "tif" || extension == "tiff";
+}
+
+Status writeGeoTiff(const std::string& path, std::uint32_t columns, std::uint32_t rows,
+                    std::span<const double> values, const Georeference& georeference,
+                    const GeoTiffOptions& options, const RunContext& context) {
+  constexpr std::uint32_t kLargestSide = std::uint32_t(std::numeric_limits<int>::max());
+  if (columns == 0 || rows == 0 || columns > kLargestSide || rows > kLargestSide ||
+      values.size() != std::size_t(columns) * rows)
+    return failure(ErrorCode::invalidData,
+                   fmt::format("{} values for {} columns and {} rows", values.size(), columns, rows), path);
+  try {
+    registerGdal();
+    auto file = OutputFile::create(path);
+    if (!file) return tl::unexpected(file.error());
+    Status status =
+        writeTo(file->temporaryPath().string(), columns, rows, values, georeference, options, context);
+    if (status) status = file->commit();
+    // Overviews and masks of an older file would speak for this one.
+    std::error_code ignored;
+    if (status)
+      for (const char* sidecar : kStaleSidecars) std::filesystem::remove(path + sidecar, ignored);
+    if (!status && status.error().culprit.empty()) status.error().culprit = path;
+    if (status) context.report("writing", 1);
+    return status;
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorCode::unsupported, "there is not enough memory to write it", path);
+  }
+}
+
+}  // namespace arete

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "engine/base/triangle_mesh.h"
+#include "engine/cut/cut.h"
+#include "terrain/fit/fit.h"
+#include "terrain/model/terrain_model.h"
+
+namespace arete {
+
+/// A cut as others see it.
+struct TinExport {
+  /// Positions in source coordinates, heights in the DEM's vertical unit; triangles counter-clockwise seen
+  /// from above on the map, whichever way the raster's grid turns.
+  TriangleMesh mesh;
+  std::vector<float> errors;  ///< per triangle: as stored or as fitted, rounded outwards
+  Vec3 origin;  ///< for formats of 32-bit floats: the same for all cuts of a model, in source coordinates
+};
+
+/// O(size of the cut). Precondition: the cut is one of the model's.
+TinExport exportTin(const TerrainModel& model, const Cut& cut);
+/// With the heights and the errors of the fit, the latter rounded outwards.
+TinExport exportTin(const TerrainModel& model, const FittedCut& fitted);
+
+}  // namespace arete

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/exchange/metric_mesh.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "io/crs/reader.h"
+#include "terrain/model/georeference.h"
+
+namespace arete {
+namespace {
+
+TriangleMesh scaled(const TriangleMesh& mesh, const Vec3& by) {
+  TriangleMesh result = mesh;
+  for (Vec3& p : result.positions) p = {p.x * by.x, p.y * by.y, p.z * by.z};
+  return result;
+}
+
+double heightMetres(const MeshFile& mesh, const Georeference& georeference) {
+  return metresPerUnit(mesh.verticalUnit).value_or(georeference.verticalUnitMetres);
+}
+
+}  // namespace
+
+Result<MetricMeshes> toMetres(const MeshFile& first, const MeshFile& second) {
+  const auto crs = crsFromText(first.crsWkt);
+  if (!crs) return tl::unexpected(crs.error());
+  Georeference axes;
+  if (Status described = describeCrs(*crs, axes); !described) return tl::unexpected(described.error());
+  double south = std::numeric_limits<double>::infinity(), north = -south;
+  for (const MeshFile* file : {&first, &second})
+    for (const Vec3& p : file->mesh.positions) {
+      south = std::min(south, p.y);
+      north = std::max(north, p.y);
+    }
+  const double latitude = (south + north) / 2;
+  const Vec2 unit = groundUnit(axes, latitude);
+  const Vec3 firstUnits{unit.x, unit.y, heightMetres(first, axes)},
+      secondUnits{unit.x, unit.y, heightMetres(second, axes)};
+  return MetricMeshes{scaled(first.mesh, firstUnits), scaled(second.mesh, secondUnits), firstUnits,
+                      secondUnits, latitude};
+}
+
+}  // namespace arete

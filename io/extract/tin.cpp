@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The cut comes from the engine; the proof does not: it is taken from the exported mesh, in source
+// coordinates, against the samples that the model was built from.
+#include "io/extract/tin.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "engine/cut/cut.h"
+#include "io/dem/raster_writer.h"
+#include "io/exchange/mesh_formats.h"
+#include "io/exchange/written_mesh.h"
+#include "io/extract/criterion.h"
+#include "io/file/shell_text.h"
+#include "io/file/text_scan.h"
+#include "terrain/model/plan_region.h"
+
+namespace arete {
+namespace {
+
+/// Heights are written as float32 where that loses less than this, in their unit.
+constexpr double kNegligibleRounding = 1e-3;
+/// No promise is broken by less, in the unit of the heights: acceptedError() of measure.h.
+constexpr double kForgivenRounding = 1e-6;
+
+/// The largest stored error of the triangles that meet the region.
+double storedErrorInside(const TerrainModel& model, const Cut& cut, const Region& region) {
+  const VertexArrays& v = model.mt.vertices();
+  double largest = 0;
+  for (std::size_t i = 0; i < cut.triangles.size(); ++i) {
+    const double error = model.mt.error(TriangleId(cut.ids[i]));
+    if (error <= largest) continue;
+    const auto position = [&](int k) { return v.planPosition(VertexId(cut.vertices[cut.triangles[i][k]])); };
+    if (region.meetsTriangle(position(0), position(1), position(2))) largest = error;
+  }
+  return largest;
+}
+
+std::string noteOf(const ExtractRequest& request, const TerrainModel& model, const ExtractedTin& tin) {
+  return fmt::format(
+      "arete: TIN of {} ({}), vertical error at most {}{}{}{}", model.source, model.sourceChecksum,
+      tin.promisedError, model.georeference.verticalUnit.empty() ? "" : " " + model.georeference.verticalUnit,
+      request.region ? " in the region " + request.criterion.region : "", tin.fit ? ", heights fitted" : "");
+}
+
+/// As the build read the source: without them it may be another terrain.
+std::string readingOptions(const SourceReading& reading) {
+  std::string options;
+  if (reading.band) options += fmt::format(" --band {}", *reading.band);
+  if (!reading.layer.empty()) options += " --layer " + shellQuoted(reading.layer);
+  if (!reading.zField.empty()) options += " --z-field " + shellQuoted(reading.zField);
+  if (reading.nodata) options += fmt::format(" --nodata {}", *reading.nodata);
+  if (!reading.crs.empty()) options += " --crs " + shellQuoted(reading.crs);
+  return options;
+}
+
+Status within(Status status, const std::string& path) {
+  if (!status && status.error().culprit.empty()) status.error().culprit = path;
+  return status;
+}
+
+ExportFormat formatOf(const std::string& path, const WrittenMesh& written, const MeshWriteOptions& options) {
+  const Result<MeshFormat> format = meshFormatOf(path);
+  if (!format) return {};
+  return {.name = std::string(format->name),
+          .frame = written.frame,
+          .heightRounding = written.heightRounding,
+          .saysCrs = format->holds.holdsCrs && !options.crsWkt.empty(),
+          .saysVerticalUnit = format->holds.holdsVerticalUnit && !options.verticalUnit.empty(),
+          .saysErrors = format->holds.holdsErrors};
+}
+
+}  // namespace
+
+Status checkExtractOutput(const std::string& path, const TerrainModel& model) {
+  if (isGeoTiffName(path)) {
+    if (model.isRaster) return {};
+    return failure(ErrorCode::usage,
+                   "the model was built from scattered points: there is no source grid to sample the TIN on",
+                   path);
+  }
+  std::string known;
+  for (const MeshFormat& format : meshFormats())
+    if (format.write) known += fmt::format("{} ({}), ", format.extension, format.name);
+  const Result<MeshFormat> format = meshFormatOf(path);
+  if (format && format->write) return {};
+  const std::string extension = text::lowerExtension(path);
+  return failure(
+      ErrorCode::usage,
+      fmt::format("{}; known are {}.tif (GeoTIFF: the TIN sampled on the source grid)",
+                  extension.empty() ? "the extension that names a format is missing"
+                                    : fmt::format("'.{}' is no format that can be written", extension),
+                  known),
+      path);
+}
+
+std::string checkCommand(const ExtractRequest& request, const TerrainModel& model,
+                         const std::string& modelPath, double promisedError) {
+  const ExtractCriterion& c = request.criterion;
+  std::string command, tin = request.output;
+  if (isGeoTiffName(request.output)) {
+    tin = std::filesystem::path(request.output).replace_extension(".ply").string();
+    command = fmt::format("arete extract {} -o {}", shellQuoted(modelPath), shellQuoted(tin));
+    command += optionsOf(c);
+    command += " && ";
+  }
+  command += fmt::format("arete measure {} {} --expect {}", shellQuoted(tin), shellQuoted(model.source),
+                         promisedError);
+  command += readingOptions(model.reading);
+  if (!c.region.empty()) command += fmt::format(" --region {}", shellQuoted(c.region));
+  if (c.distance > 0) command += fmt::format(" --distance {}", c.distance);
+  if (model.options.rimTolerance > 0) command += " --allow-covered-nodata";
+  return command;
+}
+
+const TinExtractor::Samples& TinExtractor::samples() {
+  if (!samples_) {
+    if (model_.isRaster)
+      samples_.emplace(model_.rasterSamples());
+    else
+      samples_.emplace(model_.pointSamples());
+  }
+  return *samples_;
+}
+
+Result<TinExport> TinExtractor::takeTin(const ExtractRequest& request, double reserve, ExtractedTin& tin,
+                                        const RunContext& context) const {
+  const ExtractCriterion& c = request.criterion;
+  const auto describe = [&](const Cut& cut) {
+    tin.isComplete = cut.isComplete;
+    tin.triangles = cut.triangles.size();
+    tin.vertices = cut.vertices.size();
+    tin.storedError = cut.achievedError;
+    if (c.promisesMaxError())
+      tin.promisedError = *c.maxError;
+    else
+      tin.promisedError =
+          request.region ? storedErrorInside(model_, cut, *request.region) : cut.achievedError;
+  };
+  const auto finish = [&](const Result<FittedCut>& fitted) -> Result<TinExport> {
+    if (!fitted) return tl::unexpected(fitted.error());
+    describe(fitted->cut);
+    tin.fit = FitFigures{fitted->trianglesBefore, fitted->errorBefore};
+    return exportTin(model_, *fitted);
+  };
+  if (c.fit == ExtractFit::triangles) {
+    const double maxError = std::max(0.0, c.maxError.value_or(0) - reserve);
+    return finish(fitFewestTriangles(model_,
+                                     {.maxError = maxError,
+                                      .region = request.region ? &*request.region : nullptr,
+                                      .outsideError = std::max(maxError, c.outsideError)},
+                                     {}, context));
+  }
+  const auto criterion = engineCriterion(request.criterion, request.region, reserve, model_);
+  if (!criterion) return tl::unexpected(criterion.error());
+  const auto options = engineOptions(request.criterion, model_);
+  if (!options) return tl::unexpected(options.error());
+  Result<Cut> taken = takeCut(model_.mt, **criterion, *options, context);
+  if (!taken) return tl::unexpected(taken.error());
+  if (c.fit == ExtractFit::error) return finish(fitLeastError(model_, *taken, {}, context));
+  if (c.camera) tin.pixels = worstSeverity(model_.mt, **criterion, *taken);
+  // Where a triangle passed by the bound over a node's ball, its own bound may be the looser of the two.
+  if (c.camera && c.pixelError && taken->isComplete) tin.pixels = std::min(*tin.pixels, *c.pixelError);
+  describe(*taken);
+  return exportTin(model_, *taken);
+}
+
+Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, double reserve,
+                                               ExtractedTin& tin, const RunContext& context) const {
+  Result<TinExport> taken = takeTin(request, reserve, tin, context);
+  if (!taken) return tl::unexpected(taken.error());
+  TinExport& exported = *taken;
+  if (isGeoTiffName(request.output)) {
+    tin.format = {.name = "GeoTIFF",
+                  .saysCrs = !model_.georeference.crsWkt.empty(),
+                  .saysVerticalUnit = !model_.georeference.verticalUnit.empty()};
+    return std::move(exported.mesh);
+  }
+  const MeshWriteOptions write{.crsWkt = model_.georeference.crsWkt,
+                               .verticalUnit = model_.georeference.verticalUnit,
+                               .verticalUnitMetres = model_.georeference.verticalUnitMetres,
+                               .triangleErrors = exported.errors,
+                               .origin = exported.origin,
+                               .notes = {noteOf(request, model_, tin)}};
+  Result<WrittenMesh> written =
+      writeAndReadBack(std::move(exported.mesh), request.output, write, model_.isRaster, context);
+  if (!written) return tl::unexpected(within(tl::unexpected(written.error()), request.output).error());
+  tin.format = formatOf(request.output, *written, write);
+  if (!request.criterion.promisesMaxError()) tin.promisedError += tin.format.heightRounding;
+  return std::move(written->mesh);
+}
+
+Status TinExtractor::deepen(double maxError, double reserve, const RunContext& context) {
+  if (!readAll_ || reserve <= kReadReserve * maxError) return {};
+  Result<TerrainModel> whole = readAll_(context);
+  if (!whole) return tl::unexpected(whole.error());
+  model_ = std::move(*whole);
+  readAll_ = {};
+  return {};
+}
+
+Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const RunContext& context) {
+  ExtractedTin tin;
+  Result<TriangleMesh> mesh = cutAndWrite(request, 0, tin, context);
+  if (!mesh) return tl::unexpected(mesh.error());
+  // Twice: another cut is rounded a little differently. measure() itself forgives a millionth.
+  const double reserve = 2 * tin.format.heightRounding;
+  const double promised = tin.promisedError;
+  if (reserve > kForgivenRounding && request.criterion.promisesMaxError() && reserve < promised &&
+      tin.storedError + reserve > promised) {
+    if (Status deep = deepen(promised, reserve, context); !deep) return tl::unexpected(deep.error());
+    mesh = cutAndWrite(request, reserve, tin, context);
+    if (!mesh) return tl::unexpected(mesh.error());
+  }
+  // A fit is not believed on its word.
+  const bool needsMeasure = tin.fit || isGeoTiffName(request.output) || !request.certificate.empty() ||
+                            !request.errorRaster.empty();
+  if (needsMeasure)
+    if (Status measured = measureAndWrite(request, *mesh, tin, context); !measured)
+      return tl::unexpected(measured.error());
+  return tin;
+}
+
+Status TinExtractor::measureAndWrite(const ExtractRequest& request, const TriangleMesh& mesh,
+                                     ExtractedTin& tin, const RunContext& context) {
+  const bool wantsRasters = isGeoTiffName(request.output) || !request.errorRaster.empty();
+  MeasureRasters rasters;
+  const Vec3& rounding = tin.format.frame.rounding;
+  const auto measureWith = [&](MeasureOptions options, MeasureRasters* into) {
+    options.planRounding = {rounding.x, rounding.y};
+    return std::visit([&](const auto& field) { return measure(mesh, field, options, context, into); },
+                      samples());
+  };
+  Result<MeasureReport> all = measureWith({}, wantsRasters ? &rasters : nullptr);
+  if (!all) return tl::unexpected(all.error());
+  tin.measured = std::move(*all);
+  if (request.region) {
+    const auto mask =
+        std::visit([&](const auto& field) { return samplesInside(*request.region, field); }, samples());
+    MeasureOptions options;
+    options.mask = mask;
+    Result<MeasureReport> inside = measureWith(options, nullptr);
+    if (!inside) return tl::unexpected(inside.error());
+    tin.measuredInside = std::move(*inside);
+  }
+  const ExpectOptions expect{.allowCoveredNodata = model_.options.rimTolerance > 0};
+  tin.isKept =
+      keepsPromise(tin.measuredInside ? *tin.measuredInside : *tin.measured, tin.promisedError, expect);
+
+  if (!isGeoTiffName(request.output))
+    tin.format.planTolerancePixels =
+        planTolerancePixels({.planRounding = {rounding.x, rounding.y}}, model_.georeference);
+  if (Status written = writeRasters(request, rasters, tin, context); !written) return written;
+  if (request.certificate.empty()) return {};
+  const Certificate certificate{.file = request.output,
+                                .model = modelPath_,
+                                .format = tin.format,
+                                .criterion = request.criterion,
+                                .isComplete = tin.isComplete,
+                                .storedError = tin.storedError,
+                                .fit = tin.fit,
+                                .measured = *tin.measured,
+                                .measuredInside = tin.measuredInside,
+                                .promisedError = tin.promisedError,
+                                .isKept = tin.isKept,
+                                .checkCommand = checkCommand(request, model_, modelPath_, tin.promisedError)};
+  return within(writeCertificate(request.certificate, certificate, model_), request.certificate);
+}
+
+Status TinExtractor::writeRasters(const ExtractRequest& request, const MeasureRasters& rasters,
+                                  ExtractedTin& tin, const RunContext& context) const {
+  if (isGeoTiffName(request.output)) {
+    double largest = 0;
+    for (const double z : rasters.tinHeights)
+      if (!std::isnan(z)) largest = std::max(largest, std::abs(z));
+    GeoTiffOptions options;
+    options.description = "TIN height";
+    if (largest * std::numeric_limits<float>::epsilon() / 2 > kNegligibleRounding)
+      options.sample = GeoTiffOptions::Sample::float64;
+    tin.format.frame.coordinates = options.sample == GeoTiffOptions::Sample::float64
+                                       ? "float64 heights on the source grid"
+                                       : "float32 heights on the source grid";
+    if (Status written = writeGeoTiff(request.output, model_.columns, model_.rows, rasters.tinHeights,
+                                      model_.georeference, options, context);
+        !written)
+      return within(written, request.output);
+  }
+  if (request.errorRaster.empty()) return {};
+  GeoTiffOptions options;
+  options.description = "TIN height minus DEM height";
+  return within(writeGeoTiff(request.errorRaster, model_.columns, model_.rows, rasters.errors,
+                             model_.georeference, options, context),
+                request.errorRaster);
+}
+
+}  // namespace arete

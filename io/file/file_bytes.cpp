@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/file/file_bytes.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <new>
+#include <system_error>
+
+namespace arete {
+
+namespace {
+
+struct Descriptor {
+  int value;
+  ~Descriptor() {
+    if (value >= 0) ::close(value);
+  }
+};
+
+}  // namespace
+
+Result<FileBytes> FileBytes::read(const std::filesystem::path& path) {
+  const auto unreadable = [&](int error) {
+    return failure(error == ENOENT || error == ENOTDIR ? ErrorCode::notFound : ErrorCode::unreadable,
+                   fmt::format("cannot be read: {}", std::generic_category().message(error)), path.string());
+  };
+  // O_NONBLOCK: opening a pipe that nobody writes to must not hang; it is refused below.
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+  if (file.value < 0) return unreadable(errno);
+  struct stat status {};
+  if (::fstat(file.value, &status) != 0) return unreadable(errno);
+  if (!S_ISREG(status.st_mode)) return failure(ErrorCode::unreadable, "is not a regular file", path.string());
+
+  FileBytes result;
+  result.size_ = static_cast<std::size_t>(status.st_size);
+  result.bytes_.reset(new (std::nothrow) char[result.size_ + 1]);
+  if (!result.bytes_)
+    return failure(ErrorCode::unreadable, fmt::format("its {} bytes do not fit into memory", result.size_),
+                   path.string());
+  std::size_t done = 0;
+  while (done < result.size_) {
+    const ssize_t got = ::read(file.value, result.bytes_.get() + done, result.size_ - done);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return unreadable(errno);
+    if (got == 0) return failure(ErrorCode::unreadable, "became shorter while it was read", path.string());
+    done += static_cast<std::size_t>(got);
+  }
+  return result;
+}
+
+}  // namespace arete

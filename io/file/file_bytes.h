@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "engine/base/result.h"
+
+namespace arete {
+
+/// A whole file in memory. Not mapped: a file that another program cuts short must be an error, not a signal.
+class FileBytes {
+ public:
+  /// Errors: notFound, unreadable (with the system's reason; a folder or a device; a file that shrinks while
+  /// it is read).
+  static Result<FileBytes> read(const std::filesystem::path& path);
+
+  const char* begin() const { return bytes_.get(); }
+  const char* end() const { return bytes_.get() + size_; }
+  std::size_t size() const { return size_; }
+  std::string_view view() const { return {bytes_.get(), size_}; }
+
+ private:
+  std::unique_ptr<char[]> bytes_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace arete

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One buffer of a mebibyte and the system's own write(): no second buffer, and every error seen, that of
+// close() included (network file systems report a full disk there).
+#include "io/file/file_writer.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+namespace arete {
+
+Result<FileWriter> FileWriter::create(const std::filesystem::path& path) {
+  Result<OutputFile> file = OutputFile::create(path);
+  if (!file) return tl::unexpected(file.error());
+  const int descriptor =
+      ::open(file->temporaryPath().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0)
+    return failure(ErrorCode::unreadable,
+                   fmt::format("cannot be written: {}", std::generic_category().message(errno)),
+                   path.string());
+  return FileWriter(std::move(*file), descriptor);
+}
+
+FileWriter::FileWriter(OutputFile file, int descriptor)
+    : file_(std::move(file)), descriptor_(descriptor), buffer_(new char[kCapacity]) {}
+
+FileWriter::FileWriter(FileWriter&& other) noexcept
+    : file_(std::move(other.file_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      error_(other.error_),
+      buffer_(std::move(other.buffer_)),
+      used_(other.used_) {}
+
+FileWriter::~FileWriter() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void FileWriter::toDisk(const char* bytes, std::size_t count) {
+  while (count > 0 && error_ == 0) {
+    const ssize_t written = ::write(descriptor_, bytes, count);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      error_ = errno;
+      return;
+    }
+    bytes += written;
+    count -= static_cast<std::size_t>(written);
+  }
+}
+
+void FileWriter::flush() {
+  toDisk(buffer_.get(), used_);
+  used_ = 0;
+}
+
+void FileWriter::writeThrough(std::string_view bytes) {
+  flush();
+  toDisk(bytes.data(), bytes.size());
+}
+
+Status FileWriter::finish() {
+  flush();
+  if (::close(std::exchange(descriptor_, -1)) != 0 && error_ == 0) error_ = errno;
+  if (error_ != 0)
+    return failure(ErrorCode::unreadable,
+                   fmt::format("cannot be written: {}", std::generic_category().message(error_)),
+                   file_.path().string());
+  return file_.commit();
+}
+
+}  // namespace arete

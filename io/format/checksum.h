@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "engine/parallel/run_context.h"
+
+namespace arete {
+
+/// XXH3-64 of some bytes.
+std::uint64_t amtChecksum(std::span<const std::byte> bytes);
+
+struct AmtChecksums {
+  std::vector<std::uint64_t> blocks;
+  std::vector<std::vector<std::uint64_t>> pieces;  ///< of every kAmtPieceBytes of each block
+};
+
+/// XXH3-64 of each block of bytes, and of its pieces, blocks in parallel, with progress; nothing when the
+/// caller asked to stop.
+std::optional<AmtChecksums> amtChecksums(std::span<const std::span<const std::byte>> blocks,
+                                         std::string_view stage, const RunContext& context);
+
+}  // namespace arete

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "engine/memory/uninitialized_vector.h"
+#include "engine/mt/multitriangulation.h"
+
+namespace arete {
+
+/// Which node owns a slot, for whoever asks of nearly all slots of an MT: MultiTriangulation::creator()
+/// begins at the hint of 64 slots and looks for the node from there, and nobody foresees how far. Here a byte
+/// a slot tells it, so that what is asked next can be on its way meanwhile.
+class SlotToNode {
+ public:
+  /// Precondition: slotBegin and creatorHint are what MtArrays says of them, stars have 3 slots at least.
+  /// O(slots), parallel.
+  explicit SlotToNode(const MtArrays& arrays)
+      : slotBegin_(arrays.slotBegin), hints_(arrays.creatorHint), marks_(arrays.link.size()) {
+    const auto nodes = static_cast<std::uint32_t>(slotBegin_.size() - 1);
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, nodes, 4096), [&](const auto& range) {
+      for (std::uint32_t n = range.begin(); n != range.end(); ++n) {
+        const std::uint32_t last = slotBegin_[n + 1] - 1;
+        for (std::uint32_t slot = slotBegin_[n]; slot <= last; ++slot) {
+          const std::uint32_t beyondHint = n - hints_[slot / kStep];
+          marks_[slot] = static_cast<std::uint8_t>(2 * beyondHint + (slot == last ? 1 : 0));
+        }
+      }
+    });
+  }
+
+  /// The node that owns a slot.
+  std::uint32_t of(std::uint32_t slot) const { return hints_[slot / kStep] + marks_[slot] / 2; }
+  /// The next slot of the same node, around its star. `owner`: of(slot).
+  std::uint32_t after(std::uint32_t slot, std::uint32_t owner) const {
+    const std::array<std::uint32_t, 2> next = {slot + 1, slotBegin_[owner]};
+    return next[marks_[slot] & 1];
+  }
+  /// Asks for what of() reads.
+  [[gnu::always_inline]] void prefetch(std::uint32_t slot) const {
+    __builtin_prefetch(&hints_[slot / kStep]);
+    __builtin_prefetch(&marks_[slot]);
+  }
+
+ private:
+  static constexpr std::uint32_t kStep = MultiTriangulation::kSlotsPerHint;
+  static_assert(2 * (kStep / 3 + 1) + 1 <= 0xFF);
+
+  std::span<const std::uint32_t> slotBegin_, hints_;
+  UninitializedVector<std::uint8_t>
+      marks_;  // per slot: nodes beyond the hint's, times two; and, whether it is the last
+};
+
+}  // namespace arete

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// GDAL keeps a stack of error handlers per thread, each with a pointer of its own: GdalErrors pushes one that
+// files the messages under its scope. A failed open is explained from the outside in: is the thing there, is
+// it a file, does it hold anything, may it be read; only then by what GDAL said.
+#include "io/gdal/support.h"
+
+#include <cpl_error.h>
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <mutex>
+
+#include "io/file/text_scan.h"
+
+namespace arete {
+namespace {
+
+constexpr std::size_t kWarningsKept = 5;
+
+std::string tidied(const char* message) {
+  std::string text = message ? message : "";
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+void registerGdal() {
+  static std::once_flag once;
+  std::call_once(once, [] { GDALAllRegister(); });
+}
+
+GdalErrors::GdalErrors() {
+  CPLPushErrorHandlerEx(&GdalErrors::collect, this);
+}
+
+GdalErrors::~GdalErrors() {
+  CPLPopErrorHandler();
+  CPLErrorReset();
+}
+
+void GdalErrors::collect(CPLErr severity, CPLErrorNum, const char* message) {
+  auto* self = static_cast<GdalErrors*>(CPLGetErrorHandlerUserData());
+  if (severity >= CE_Warning) self->messages_.emplace_back(severity, tidied(message));
+}
+
+bool GdalErrors::anyFailure() const {
+  return std::any_of(messages_.begin(), messages_.end(), [](const auto& m) { return m.first >= CE_Failure; });
+}
+
+std::string GdalErrors::firstFailure() const {
+  for (const auto& [severity, message] : messages_)
+    if (severity >= CE_Failure) return message;
+  return {};
+}
+
+void GdalErrors::moveTo(std::vector<std::string>& warnings) {
+  std::vector<std::string> distinct;
+  for (const auto& [severity, message] : messages_)
+    if (std::find(distinct.begin(), distinct.end(), message) == distinct.end()) distinct.push_back(message);
+  for (std::size_t i = 0; i < std::min(kWarningsKept, distinct.size()); ++i)
+    warnings.push_back("GDAL: " + distinct[i]);
+  if (distinct.size() > kWarningsKept)
+    warnings.push_back(fmt::format("GDAL: and {} more messages", distinct.size() - kWarningsKept));
+  messages_.clear();
+}
+
+GdalDatasetPtr openGdal(const std::string& path, unsigned flags) {
+  registerGdal();
+  return GdalDatasetPtr(GDALDataset::Open(path.c_str(), flags | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+}
+
+std::optional<Error> findInputProblem(const std::string& path) {
+  if (path.empty()) return Error{ErrorCode::usage, "the name of the input file is empty", {}};
+  VSIStatBufL status;
+  if (VSIStatL(path.c_str(), &status) != 0) return std::nullopt;
+  // A file geodatabase is a folder.
+  if (VSI_ISDIR(status.st_mode) && text::lowerExtension(path) == "gdb") return std::nullopt;
+  if (VSI_ISDIR(status.st_mode) && path.starts_with("/vsizip/"))
+    return Error{ErrorCode::usage, "is an archive, or a folder in one: name a file in it behind a /", path};
+  if (VSI_ISDIR(status.st_mode)) return Error{ErrorCode::unreadable, "is a folder, not a file", path};
+  if (VSI_ISREG(status.st_mode) && status.st_size == 0) return Error{ErrorCode::unreadable, "is empty", path};
+  if (VSILFILE* file = VSIFOpenL(path.c_str(), "rb")) {
+    VSIFCloseL(file);
+    return std::nullopt;
+  }
+  return Error{ErrorCode::unreadable, fmt::format("cannot be opened: {}", std::strerror(errno)), path};
+}
+
+Error explainOpenFailure(const std::string& path, std::string_view kind, const GdalErrors& errors) {
+  if (auto problem = findInputProblem(path)) return *problem;
+  VSIStatBufL status;
+  const bool there = VSIStatL(path.c_str(), &status) == 0;
+  const std::string said = errors.firstFailure();
+  const bool connectionString = path.find(':') != std::string::npos && !said.empty();
+  if (!there && !isVirtualPath(path) && !connectionString)
+    return {ErrorCode::notFound, "there is no such file", path};
+  if (!there && isVirtualPath(path))
+    return {ErrorCode::notFound, said.empty() ? "there is no such file" : "cannot be opened: " + said, path};
+  if (GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR, nullptr, nullptr) && !said.empty())
+    return {ErrorCode::corrupt, fmt::format("cannot be read as a {}: {}", kind, said), path};
+  if (text::lowerExtension(path) == "zip" && !isVirtualPath(path))
+    return {ErrorCode::unsupported,
+            fmt::format("is an archive: name the {} in it, /vsizip/{}/NAME", kind, path), path};
+  return {ErrorCode::unsupported, fmt::format("is not a {} in any format GDAL knows", kind), path};
+}
+
+bool isTextDriver(GDALDriverH driver) {
+  return driver != nullptr && EQUAL(GDALGetDriverShortName(driver), "XYZ");
+}
+
+bool isVirtualPath(std::string_view path) {
+  return path.substr(0, 4) == "/vsi";
+}
+
+}  // namespace arete

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Every file of the archive is shown to GDAL's drivers; the ones a raster driver would open are the
+// candidates. Text that might be points ("XYZ") is no candidate beside a raster proper.
+#include "io/gdal/zipped_raster.h"
+
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/file/text_scan.h"
+#include "io/gdal/support.h"
+
+namespace arete {
+namespace {
+
+constexpr std::size_t kNamesListed = 10;
+
+bool isSidecar(const std::string& name) {
+  const std::string extension = text::lowerExtension(name);
+  constexpr std::string_view kSidecars[] = {"xml", "prj", "tfw", "wld", "ovr", "msk", "txt", "pdf", "html"};
+  return std::find(std::begin(kSidecars), std::end(kSidecars), extension) != std::end(kSidecars);
+}
+
+}  // namespace
+
+bool isPlainZip(const std::string& path) {
+  return !isVirtualPath(path) && text::lowerExtension(path) == "zip";
+}
+
+Result<std::string> findZippedRaster(const std::string& archive) {
+  registerGdal();
+  GdalErrors errors;
+  if (auto problem = findInputProblem(archive)) return tl::unexpected(*problem);
+  VSIStatBufL status;
+  if (VSIStatL(archive.c_str(), &status) != 0)
+    return failure(ErrorCode::notFound, "there is no such file", archive);
+
+  const std::string root = fmt::format("/vsizip/{{{}}}", archive);
+  const CPLStringList names(VSIReadDirRecursive(root.c_str()));
+  if (names.Count() == 0)
+    return failure(ErrorCode::corrupt, "is not a zip archive, or an empty one", archive);
+  std::vector<std::string> rasters, texts;
+  for (int i = 0; i < names.Count(); ++i) {
+    const std::string name = names[i];
+    if (name.back() == '/' || isSidecar(name)) continue;
+    GDALDriverH driver =
+        GDALIdentifyDriverEx(fmt::format("{}/{}", root, name).c_str(), GDAL_OF_RASTER, nullptr, nullptr);
+    if (driver) (isTextDriver(driver) ? texts : rasters).push_back(name);
+  }
+  if (rasters.empty()) rasters = std::move(texts);
+  if (rasters.empty()) return failure(ErrorCode::unsupported, "the archive holds no raster", archive);
+  if (rasters.size() > 1) {
+    std::sort(rasters.begin(), rasters.end());
+    const std::size_t listed = std::min(kNamesListed, rasters.size());
+    return failure(
+        ErrorCode::unsupported,
+        fmt::format("the archive holds {} rasters; name one of them as /vsizip/{}/NAME: {}{}", rasters.size(),
+                    archive, fmt::join(rasters.begin(), rasters.begin() + std::ptrdiff_t(listed), ", "),
+                    listed < rasters.size() ? ", ..." : ""),
+        archive);
+  }
+  return root + "/" + rasters.front();
+}
+
+Result<std::string> rasterPathOf(const std::string& path) {
+  return isPlainZip(path) ? findZippedRaster(path) : Result<std::string>(path);
+}
+
+}  // namespace arete

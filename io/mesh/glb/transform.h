@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+
+#include "engine/base/result.h"
+#include "engine/base/vec.h"
+
+namespace arete {
+
+/// x -> a x + t.
+struct Affine {
+  std::array<double, 9> a = {1, 0, 0, 0, 1, 0, 0, 0, 1};  // row by row
+  Vec3 t;
+
+  Vec3 operator()(const Vec3& p) const {
+    return {a[0] * p.x + a[1] * p.y + a[2] * p.z + t.x, a[3] * p.x + a[4] * p.y + a[5] * p.z + t.y,
+            a[6] * p.x + a[7] * p.y + a[8] * p.z + t.z};
+  }
+  /// First `inner`, then this.
+  Affine after(const Affine& inner) const {
+    Affine result;
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t c = 0; c < 3; ++c)
+        result.a[3 * r + c] =
+            a[3 * r] * inner.a[c] + a[3 * r + 1] * inner.a[3 + c] + a[3 * r + 2] * inner.a[6 + c];
+    result.t = (*this)(inner.t);
+    return result;
+  }
+  bool mirrors() const {
+    return a[0] * (a[4] * a[8] - a[5] * a[7]) - a[1] * (a[3] * a[8] - a[5] * a[6]) +
+               a[2] * (a[3] * a[7] - a[4] * a[6]) <
+           0;
+  }
+};
+
+/// The transform of a glTF node: its matrix, or its translation, rotation and scale. Errors: corrupt.
+Result<Affine> nodeTransform(const nlohmann::json& node);
+
+}  // namespace arete

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A GLB is a header, a chunk of JSON and a chunk of bytes. The bytes here are positions, normals, errors and
+// indices, one after the other; everything is a multiple of four bytes, which is all the alignment the format
+// asks for. A normal is the sum of the doubled areas of the triangles around the vertex, made unit: steeper
+// and larger triangles count more. It is taken from the positions as rounded.
+#include "io/mesh/glb/glb.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "io/crs/local_origin.h"
+#include "io/crs/reader.h"
+#include "io/file/file_writer.h"
+#include "io/gdal/support.h"
+#include "io/mesh/glb/frame.h"
+
+namespace arete {
+
+static_assert(std::endian::native == std::endian::little, "a big-endian machine needs a byte swap here");
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Float3 = std::array<float, 3>;
+
+constexpr std::size_t kRecordsPerCancelCheck = 1 << 16;
+constexpr int kFloat = 5126, kUint = 5125, kVertexData = 34962, kIndexData = 34963;
+
+Result<GlbFrame> frameOf(const TriangleMesh& mesh, const MeshWriteOptions& options) {
+  Georeference georeference;
+  if (!options.crsWkt.empty()) {
+    registerGdal();
+    const auto crs = crsFromText(options.crsWkt);
+    if (!crs) return tl::unexpected(crs.error());
+    if (const Status ok = describeCrs(*crs, georeference); !ok) return tl::unexpected(ok.error());
+  }
+  if (!options.verticalUnit.empty())
+    georeference.verticalUnitMetres =
+        metresPerUnit(options.verticalUnit).value_or(georeference.verticalUnitMetres);
+  if (options.verticalUnitMetres > 0) georeference.verticalUnitMetres = options.verticalUnitMetres;
+  GlbFrame frame{
+      .local = localFrameSpec(georeference, options.origin.value_or(localOrigin(mesh.positions))),
+      .crsWkt = options.crsWkt,
+      .verticalUnit = options.verticalUnit.empty() ? georeference.verticalUnit : options.verticalUnit,
+      .notes = options.notes};
+  const auto [west, east] = std::ranges::minmax_element(mesh.positions, {}, &Vec3::x);
+  if (!mesh.positions.empty()) frame.local.middleLongitude = west->x / 2 + east->x / 2;
+  return frame;
+}
+
+Result<std::vector<Float3>> roundedPositions(const TriangleMesh& mesh, const LocalFrame& frame) {
+  std::vector<Float3> rounded;
+  rounded.reserve(mesh.positions.size());
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  for (const Vec3& p : mesh.positions) {
+    const Vec3 q = localToGltf(frame.toLocal(p));
+    if (!(std::abs(q.x) <= kLargest && std::abs(q.y) <= kLargest && std::abs(q.z) <= kLargest))
+      return failure(ErrorCode::invalidData,
+                     fmt::format("the position {}, {}, {} is beyond the pole, or too far for 32-bit floats",
+                                 p.x, p.y, p.z));
+    // -0 is 0: "-0.0" and "0.0" in min and max are not one number to every reader.
+    rounded.push_back(
+        {static_cast<float>(q.x) + 0.0F, static_cast<float>(q.y) + 0.0F, static_cast<float>(q.z) + 0.0F});
+  }
+  return rounded;
+}
+
+std::vector<Float3> normalsOf(const TriangleMesh& mesh, const std::vector<Float3>& positions) {
+  std::vector<Vec3> sums(positions.size());
+  for (const auto& t : mesh.triangles) {
+    const Float3 &p = positions[t[0]], &q = positions[t[1]], &r = positions[t[2]];
+    const auto from = [&](const Float3& to, std::size_t k) { return double{to[k]} - double{p[k]}; };
+    const Vec3 n{from(q, 1) * from(r, 2) - from(q, 2) * from(r, 1),
+                 from(q, 2) * from(r, 0) - from(q, 0) * from(r, 2),
+                 from(q, 0) * from(r, 1) - from(q, 1) * from(r, 0)};
+    for (const std::uint32_t v : t) sums[v] = {sums[v].x + n.x, sums[v].y + n.y, sums[v].z + n.z};
+  }
+  std::vector<Float3> normals;
+  normals.reserve(sums.size());
+  for (const Vec3& s : sums) {
+    const double length = std::hypot(s.x, s.y, s.z);
+    if (length > 0 && std::isfinite(length))
+      normals.push_back({static_cast<float>(s.x / length), static_cast<float>(s.y / length),
+                         static_cast<float>(s.z / length)});
+    else
+      normals.push_back({0, 1, 0});
+  }
+  return normals;
+}
+
+std::vector<float> vertexErrors(const TriangleMesh& mesh, std::span<const float> triangleErrors) {
+  std::vector<float> errors;
+  if (triangleErrors.empty()) return errors;
+  errors.resize(mesh.positions.size());
+  for (std::size_t t = 0; t < triangleErrors.size(); ++t)
+    for (const std::uint32_t v : mesh.triangles[t]) errors[v] = std::max(errors[v], triangleErrors[t]);
+  return errors;
+}
+
+/// Collects the views and accessors of the one buffer.
+struct BufferPlan {
+  Json views = Json::array(), accessors = Json::array();
+  std::uint64_t size = 0;
+
+  std::size_t add(std::size_t count, std::size_t bytesEach, int target, int component, const char* type) {
+    views.push_back(
+        {{"buffer", 0}, {"byteOffset", size}, {"byteLength", count * bytesEach}, {"target", target}});
+    accessors.push_back(
+        {{"bufferView", views.size() - 1}, {"componentType", component}, {"count", count}, {"type", type}});
+    size += count * bytesEach;
+    return accessors.size() - 1;
+  }
+};
+
+Json documentOf(const TriangleMesh& mesh, const std::vector<Float3>& positions, bool hasErrors,
+                const GlbFrame& frame, std::uint64_t& bufferSize) {
+  Json document = {
+      {"asset", {{"version", "2.0"}, {"generator", "Arete"}, {"extras", {{"arete", toJson(frame)}}}}}};
+  bufferSize = 0;
+  if (mesh.triangles.empty()) return document;
+  BufferPlan plan;
+  Json attributes = {{"POSITION", plan.add(positions.size(), sizeof(Float3), kVertexData, kFloat, "VEC3")}};
+  Float3 low = positions[0], high = positions[0];
+  for (const Float3& p : positions)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  plan.accessors[0]["min"] = {double{low[0]}, double{low[1]}, double{low[2]}};
+  plan.accessors[0]["max"] = {double{high[0]}, double{high[1]}, double{high[2]}};
+  attributes["NORMAL"] = plan.add(positions.size(), sizeof(Float3), kVertexData, kFloat, "VEC3");
+  if (hasErrors)
+    attributes["_ERROR"] = plan.add(positions.size(), sizeof(float), kVertexData, kFloat, "SCALAR");
+  const std::size_t indices =
+      plan.add(3 * mesh.triangles.size(), sizeof(std::uint32_t), kIndexData, kUint, "SCALAR");
+  document["scene"] = 0;
+  document["scenes"] = {{{"nodes", {0}}}};
+  document["nodes"] = {{{"name", "terrain"}, {"mesh", 0}}};
+  document["materials"] = {
+      {{"name", "ground"}, {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}}}};
+  document["meshes"] = {
+      {{"name", "terrain"},
+       {"primitives", {{{"attributes", attributes}, {"indices", indices}, {"material", 0}}}}}};
+  document["accessors"] = std::move(plan.accessors);
+  document["bufferViews"] = std::move(plan.views);
+  document["buffers"] = {{{"byteLength", plan.size}}};
+  bufferSize = plan.size;
+  return document;
+}
+
+/// Writes the elements one by one; false when the user asked to stop.
+template <class Values>
+bool writeAll(FileWriter& file, const Values& values, const RunContext& context, double from, double to) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i % kRecordsPerCancelCheck == 0) {
+      context.report("writing the mesh",
+                     from + (to - from) * static_cast<double>(i) / static_cast<double>(values.size()));
+      if (context.cancelled()) return false;
+    }
+    putBytes(file.reserve(sizeof values[i]), values[i]);
+  }
+  return true;
+}
+
+Status writeTo(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
+               const RunContext& context) {
+  const Result<GlbFrame> spec = frameOf(mesh, options);
+  if (!spec) return tl::unexpected(spec.error());
+  const Result<LocalFrame> frame = LocalFrame::create(spec->local);
+  if (!frame) return tl::unexpected(frame.error());
+  const auto positions = roundedPositions(mesh, *frame);
+  if (!positions) return tl::unexpected(positions.error());
+  const std::vector<float> errors = vertexErrors(mesh, options.triangleErrors);
+  std::uint64_t bufferSize = 0;
+  std::string json = documentOf(mesh, *positions, !errors.empty(), *spec, bufferSize)
+                         .dump(-1, ' ', false, Json::error_handler_t::replace);
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::uint64_t total = 12 + 8 + json.size() + (bufferSize > 0 ? 8 + bufferSize : 0);
+  if (total > std::numeric_limits<std::uint32_t>::max())
+    return failure(ErrorCode::invalidData,
+                   fmt::format("{} bytes are more than a GLB can hold, 4 GiB", total));
+
+  Result<FileWriter> file = FileWriter::create(path);
+  if (!file) return tl::unexpected(file.error());
+  const auto put = [&](std::uint64_t value) {
+    putBytes(file->reserve(sizeof(std::uint32_t)), static_cast<std::uint32_t>(value));
+  };
+  file->write("glTF");
+  put(2);
+  put(total);
+  put(json.size());
+  file->write("JSON");
+  file->write(json);
+  if (bufferSize > 0) {
+    put(bufferSize);
+    file->write(std::string_view("BIN\0", 4));
+    const bool whole = writeAll(*file, *positions, context, 0, 0.25) &&
+                       writeAll(*file, normalsOf(mesh, *positions), context, 0.25, 0.5) &&
+                       writeAll(*file, errors, context, 0.5, 0.6) &&
+                       writeAll(*file, mesh.triangles, context, 0.6, 1);
+    if (!whole) return failure(ErrorCode::interrupted, "writing was interrupted");
+  }
+  return file->finish();
+}
+
+}  // namespace
+
+Status writeGlb(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
+                const RunContext& context) {
+  Status status = mesh.validate();
+  if (!status) status = failure(ErrorCode::invalidData, status.error().message);
+  if (status && !options.triangleErrors.empty() && options.triangleErrors.size() != mesh.triangles.size())
+    status = failure(
+        ErrorCode::invalidData,
+        fmt::format("{} errors for {} triangles", options.triangleErrors.size(), mesh.triangles.size()));
+  if (status) status = writeTo(mesh, path, options, context);
+  if (!status && status.error().culprit.empty()) status.error().culprit = path.string();
+  return status;
+}
+
+}  // namespace arete

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// GDAL hands out one feature after the other; its surfaces are taken apart down to polygons, whose outer ring
+// must be three corners. Corners are welded, since the format repeats them.
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <ogr_geometry.h>
+#include <ogrsf_frmts.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <string_view>
+
+#include "io/crs/reader.h"
+#include "io/gdal/support.h"
+#include "io/gdal/vector_layer.h"
+#include "io/mesh/gpkg/gpkg.h"
+#include "io/mesh/vertex_welder.h"
+
+namespace arete {
+
+namespace {
+
+constexpr std::size_t kFeaturesPerCancelCheck = 1 << 12;
+constexpr std::uint64_t kMostTriangles = std::numeric_limits<std::uint32_t>::max() / 3;
+constexpr std::array<const char*, 2> kDrivers = {"GPKG", nullptr};
+constexpr const char* kUnitKey = "VERTICAL_UNIT";
+
+class SurfaceLayer {
+ public:
+  SurfaceLayer(OGRLayer& layer, const RunContext& context) : layer_(layer), context_(context) {}
+
+  Result<MeshFile> read() {
+    GdalErrors errors;
+    const int errorField = numericField("error");
+    bool hasErrors = errorField >= 0;
+    const double count = static_cast<double>(layer_.GetFeatureCount(FALSE));
+    layer_.ResetReading();
+    for (std::size_t n = 0;; ++n) {
+      if (n % kFeaturesPerCancelCheck == 0) {
+        if (count > 0) context_.report("reading the mesh", std::min(1.0, static_cast<double>(n) / count));
+        if (context_.cancelled()) return failure(ErrorCode::interrupted, "reading was interrupted");
+      }
+      const OGRFeatureUniquePtr feature(layer_.GetNextFeature());
+      if (!feature) break;
+      id_ = feature->GetFID();
+      if (const OGRGeometry* geometry = feature->GetGeometryRef())
+        if (const Status ok = addGeometry(*geometry); !ok) return tl::unexpected(ok.error());
+      if (hasErrors) hasErrors = feature->IsFieldSetAndNotNull(errorField) != 0;
+      if (hasErrors)
+        result_.triangleErrors.resize(result_.mesh.triangles.size(),
+                                      static_cast<float>(feature->GetFieldAsDouble(errorField)));
+    }
+    if (errors.anyFailure())
+      return failure(ErrorCode::corrupt, fmt::format("the layer '{}' cannot be read: {}", layer_.GetName(),
+                                                     errors.firstFailure()));
+    if (!hasErrors) result_.triangleErrors.clear();
+    result_.mesh.positions = welder_.take();
+    return std::move(result_);
+  }
+
+ private:
+  int numericField(const char* name) const {
+    const int index = layer_.GetLayerDefn()->GetFieldIndex(name);
+    if (index < 0) return -1;
+    const OGRFieldType type = layer_.GetLayerDefn()->GetFieldDefn(index)->GetType();
+    return type == OFTReal || type == OFTInteger || type == OFTInteger64 ? index : -1;
+  }
+
+  tl::unexpected<Error> refuse(ErrorCode code, std::string_view what) const {
+    return failure(code, fmt::format("feature {} of layer '{}' {}", id_, layer_.GetName(), what));
+  }
+
+  Status addGeometry(const OGRGeometry& geometry) {
+    const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+    if (type == wkbPolygon || type == wkbTriangle) return addPolygon(*geometry.toPolygon());
+    if (OGR_GT_IsSubClassOf(type, wkbPolyhedralSurface)) {
+      for (const OGRPolygon* polygon : *geometry.toPolyhedralSurface())
+        if (Status ok = addPolygon(*polygon); !ok) return ok;
+      return {};
+    }
+    if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
+      for (const OGRGeometry* part : *geometry.toGeometryCollection())
+        if (Status ok = addGeometry(*part); !ok) return ok;
+      return {};
+    }
+    return refuse(ErrorCode::unsupported, fmt::format("is a {}, no triangle", geometry.getGeometryName()));
+  }
+
+  Status addPolygon(const OGRPolygon& polygon) {
+    if (polygon.IsEmpty()) return {};
+    if (!polygon.Is3D()) return refuse(ErrorCode::unsupported, "has no heights");
+    if (polygon.getNumInteriorRings() > 0)
+      return refuse(ErrorCode::unsupported, "has a hole: it is no triangle");
+    const OGRLinearRing& ring = *polygon.getExteriorRing();
+    const int points = ring.getNumPoints();
+    const auto at = [&](int i) { return Vec3{ring.getX(i), ring.getY(i), ring.getZ(i)}; };
+    if (points != 4 || !(at(0) == at(3)))
+      return refuse(ErrorCode::unsupported, fmt::format("is a ring of {} points, no triangle", points));
+    if (result_.mesh.triangles.size() == kMostTriangles)
+      return refuse(ErrorCode::unsupported, "is one triangle more than an index can name");
+    std::array<std::uint32_t, 3> triangle;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = at(k);
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        return refuse(ErrorCode::corrupt, "has a coordinate that is not finite");
+      triangle[static_cast<std::size_t>(k)] = welder_.add(p);
+    }
+    result_.mesh.triangles.push_back(triangle);
+    return {};
+  }
+
+  OGRLayer& layer_;
+  const RunContext& context_;
+  GIntBig id_ = 0;
+  VertexWelder welder_;
+  MeshFile result_;
+};
+
+Result<MeshFile> readFrom(const std::string& path, const RunContext& context) {
+  registerGdal();
+  GdalErrors errors;
+  if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
+  const GdalDatasetPtr dataset(GDALDataset::Open(
+      path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kDrivers.data()));
+  if (!dataset) {
+    Error error = explainOpenFailure(path, "GeoPackage", errors);
+    if (error.code == ErrorCode::unsupported)
+      error = {ErrorCode::corrupt, "is damaged or no GeoPackage", path};
+    return tl::unexpected(std::move(error));
+  }
+  const Result<OGRLayer*> layer = chooseLayer(*dataset, {}, LayerKind::surfaces);
+  if (!layer) return tl::unexpected(layer.error());
+  Result<MeshFile> file = SurfaceLayer(**layer, context).read();
+  if (!file) return file;
+  if (const OGRSpatialReference* crs = (*layer)->GetSpatialRef(); isKnownCrs(crs)) {
+    OGRSpatialReference copy(*crs);
+    copy.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    Georeference described;
+    if (const Status ok = describeCrs(copy, described); !ok) return tl::unexpected(ok.error());
+    file->crsWkt = described.crsWkt;
+    file->verticalUnit = described.verticalUnit;
+  }
+  if (const char* unit = (*layer)->GetMetadataItem(kUnitKey)) file->verticalUnit = unit;
+  return file;
+}
+
+}  // namespace
+
+Result<MeshFile> readGpkg(const std::filesystem::path& path, const RunContext& context) {
+  try {
+    Result<MeshFile> file = readFrom(path.string(), context);
+    if (!file && file.error().culprit.empty()) file.error().culprit = path.string();
+    return file;
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorCode::unsupported, "is larger than the memory that is free", path.string());
+  }
+}
+
+bool holdsSurfaces(const std::filesystem::path& path) {
+  registerGdal();
+  GdalErrors quiet;
+  const GdalDatasetPtr dataset(
+      GDALDataset::Open(path.string().c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, kDrivers.data()));
+  return dataset && chooseLayer(*dataset, {}, LayerKind::surfaces) &&
+         !chooseLayer(*dataset, {}, LayerKind::points);
+}
+
+}  // namespace arete

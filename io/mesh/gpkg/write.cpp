@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <memory>
+#include <new>
+#include <string>
+
+#include "io/mesh/gpkg/gpkg.h"
+#include "io/table/geopackage.h"
+
+namespace arete {
+
+namespace {
+
+constexpr std::size_t kTrianglesPerCancelCheck = 1 << 12;
+constexpr const char* kLayer = "triangles";
+constexpr const char* kUnitKey = "VERTICAL_UNIT";
+
+Result<OGRLayer*> createLayer(GDALDataset& dataset, const MeshWriteOptions& options,
+                              const GdalErrors& errors) {
+  std::string description;
+  for (const std::string& note : options.notes) description += (description.empty() ? "" : "\n") + note;
+  CPLStringList list;
+  list.SetNameValue("SPATIAL_INDEX", "YES");
+  if (!description.empty()) list.SetNameValue("DESCRIPTION", description.c_str());
+  const Result<OGRLayer*> layer =
+      addLayer(dataset, kLayer, options.crsWkt, wkbPolygon25D, errors, list.List());
+  if (!layer) return layer;
+  OGRFieldDefn number("triangle", OFTInteger64), error("error", OFTReal);
+  if ((*layer)->CreateField(&number) != OGRERR_NONE) return cannotBeWritten(errors);
+  if (!options.triangleErrors.empty() && (*layer)->CreateField(&error) != OGRERR_NONE)
+    return cannotBeWritten(errors);
+  if (!options.verticalUnit.empty()) (*layer)->SetMetadataItem(kUnitKey, options.verticalUnit.c_str());
+  return layer;
+}
+
+Status writeTriangles(OGRLayer& layer, const TriangleMesh& mesh, std::span<const float> triangleErrors,
+                      const GdalErrors& errors, const RunContext& context) {
+  OGRFeature feature(layer.GetLayerDefn());
+  const int numberField = feature.GetFieldIndex("triangle"), errorField = feature.GetFieldIndex("error");
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (t % kTrianglesPerCancelCheck == 0) {
+      context.report("writing the mesh", static_cast<double>(t) / static_cast<double>(mesh.triangles.size()));
+      if (context.cancelled()) return failure(ErrorCode::interrupted, "writing was interrupted");
+    }
+    auto ring = std::make_unique<OGRLinearRing>();
+    ring->setNumPoints(4, FALSE);
+    for (int k = 0; k < 4; ++k) {
+      const Vec3& p = mesh.positions[mesh.triangles[t][static_cast<std::size_t>(k % 3)]];
+      ring->setPoint(k, p.x, p.y, p.z);
+    }
+    auto polygon = std::make_unique<OGRPolygon>();
+    polygon->addRingDirectly(ring.release());
+    feature.SetFID(static_cast<GIntBig>(t) + 1);
+    feature.SetField(numberField, static_cast<GIntBig>(t));
+    if (errorField >= 0) feature.SetField(errorField, double{triangleErrors[t]});
+    feature.SetGeometryDirectly(polygon.release());
+    if (layer.CreateFeature(&feature) != OGRERR_NONE) return cannotBeWritten(errors);
+  }
+  return {};
+}
+
+/// All triangles in one transaction.
+Status fill(GDALDataset& dataset, GdalErrors& errors, const TriangleMesh& mesh,
+            const MeshWriteOptions& options, const RunContext& context) {
+  const Result<OGRLayer*> layer = createLayer(dataset, options, errors);
+  if (!layer) return tl::unexpected(layer.error());
+  errors.clear();
+  if (dataset.StartTransaction() != OGRERR_NONE) return cannotBeWritten(errors);
+  if (Status status = writeTriangles(**layer, mesh, options.triangleErrors, errors, context); !status)
+    return status;
+  if (dataset.CommitTransaction() != OGRERR_NONE) return cannotBeWritten(errors);
+  return {};
+}
+
+}  // namespace
+
+Status writeGpkg(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
+                 const RunContext& context) {
+  if (const Status ok = mesh.validate(); !ok)
+    return failure(ErrorCode::invalidData, ok.error().message, path.string());
+  if (!options.triangleErrors.empty() && options.triangleErrors.size() != mesh.triangles.size())
+    return failure(
+        ErrorCode::invalidData,
+        fmt::format("{} errors for {} triangles", options.triangleErrors.size(), mesh.triangles.size()),
+        path.string());
+  try {
+    Status status = writeGeoPackage(path, [&](GDALDataset& dataset, GdalErrors& errors) {
+      return fill(dataset, errors, mesh, options, context);
+    });
+    if (!status && status.error().culprit.empty()) status.error().culprit = path.string();
+    return status;
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorCode::unsupported, "there is not enough memory to write it", path.string());
+  }
+}
+
+}  // namespace arete

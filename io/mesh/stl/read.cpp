@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A file is binary when its size is what its count of triangles asks for. Otherwise it is ASCII when it
+// begins with "solid" (any case, blanks before it), and a binary file that was cut or altered when it does
+// not.
+//
+// ASCII is read word by word: facets of exactly three vertices between "solid" and "endsolid"; what stands on
+// the lines of these two is a name. Files of several solids are one mesh.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include "io/crs/local_origin.h"
+#include "io/file/file_bytes.h"
+#include "io/file/text_scan.h"
+#include "io/mesh/stl/stl.h"
+#include "io/mesh/vertex_welder.h"
+
+namespace arete {
+
+static_assert(std::endian::native == std::endian::little, "a big-endian machine needs a byte swap here");
+
+namespace {
+
+constexpr std::size_t kHeaderSize = 80, kPreambleSize = 84, kRecordSize = 50, kNormalSize = 12;
+constexpr std::size_t kTrianglesPerCancelCheck = 1 << 16;
+/// A vertex of a TIN is in six triangles.
+constexpr std::size_t kTrianglesPerVertex = 2;
+constexpr std::uint64_t kMostTriangles = std::numeric_limits<std::uint32_t>::max() / 3;
+constexpr std::string_view kOriginKey = "arete origin ";
+
+bool equalsWord(std::string_view a, std::string_view lower) {
+  return std::ranges::equal(a, lower,
+                            [](char c, char d) { return (c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c) == d; });
+}
+
+/// The count of triangles of a file that is exactly as long as that count asks for.
+std::optional<std::uint32_t> binaryCount(std::string_view file) {
+  if (file.size() < kPreambleSize) return std::nullopt;
+  std::uint32_t count = 0;
+  std::memcpy(&count, file.data() + kHeaderSize, sizeof count);
+  if (file.size() != kPreambleSize + std::uint64_t{count} * kRecordSize) return std::nullopt;
+  return count;
+}
+
+bool beginsWithSolid(std::string_view file) {
+  while (!file.empty() && text::isSpace(file.front())) file.remove_prefix(1);
+  return file.size() > 5 && equalsWord(file.substr(0, 5), "solid") && text::isSpace(file[5]);
+}
+
+/// The largest |coordinate| so far of each axis, of the file's own numbers.
+struct LargestAbsolute {
+  Vec3 of;
+  void take(const Vec3& p) {
+    of = {std::max(of.x, std::abs(p.x)), std::max(of.y, std::abs(p.y)), std::max(of.z, std::abs(p.z))};
+  }
+  Vec3 rounding(const Vec3& origin) const {
+    return {float32Rounding(of.x, origin.x), float32Rounding(of.y, origin.y),
+            float32Rounding(of.z, origin.z)};
+  }
+};
+
+class BinaryStl {
+ public:
+  BinaryStl(std::string_view file, std::uint32_t count, std::string path, const RunContext& context)
+      : file_(file), count_(count), path_(std::move(path)), context_(context) {}
+
+  Result<MeshFile> read() {
+    if (const Status ok = takeOrigin(); !ok) return tl::unexpected(ok.error());
+    if (count_ == 0 && !result_.frame.origin)
+      return failure(ErrorCode::unsupported, "holds no triangle", path_);
+    if (count_ > kMostTriangles)
+      return failure(ErrorCode::unsupported, "holds more triangles than an index can name", path_);
+    const Vec3 origin = result_.frame.origin.value_or(Vec3{});
+    VertexWelder welder(count_ / kTrianglesPerVertex);
+    LargestAbsolute largest;
+    result_.mesh.triangles.resize(count_);
+    const char* at = file_.data() + kPreambleSize + kNormalSize;
+    for (std::uint32_t t = 0; t < count_; ++t, at += kRecordSize) {
+      if (t % kTrianglesPerCancelCheck == 0) {
+        context_.report("reading the mesh", double(t) / double(count_));
+        if (context_.cancelled()) return failure(ErrorCode::interrupted, "reading was interrupted", path_);
+      }
+      std::array<std::array<float, 3>, 3> corners;
+      std::memcpy(&corners, at, sizeof corners);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 local{corners[k][0], corners[k][1], corners[k][2]};
+        const Vec3 p{origin.x + local.x, origin.y + local.y, origin.z + local.z};
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+          return failure(ErrorCode::corrupt,
+                         fmt::format("triangle {} of {} has a coordinate that is not finite", t, count_),
+                         path_);
+        largest.take(local);
+        result_.mesh.triangles[t][k] = welder.add(p);
+      }
+    }
+    result_.mesh.positions = welder.take();
+    result_.frame.rounding = largest.rounding(origin);
+    return std::move(result_);
+  }
+
+ private:
+  Status takeOrigin() {
+    result_.frame.coordinates = "float32";
+    std::string_view header = file_.substr(0, kHeaderSize);
+    if (!header.starts_with(kOriginKey)) return {};
+    const char* at = header.data() + kOriginKey.size();
+    const char* const end = header.data() + header.size();
+    std::array<double, 3> xyz;
+    for (double& value : xyz) {
+      while (at < end && text::isBlank(*at)) ++at;
+      if (at == end || !text::scanNumber(at, end, value) || !std::isfinite(value))
+        return failure(ErrorCode::corrupt, "the header says \"arete origin\" and not three numbers", path_);
+    }
+    result_.frame = {.coordinates = "float32 relative to the origin", .origin = Vec3{xyz[0], xyz[1], xyz[2]}};
+    return {};
+  }
+
+  std::string_view file_;
+  std::uint32_t count_;
+  std::string path_;
+  const RunContext& context_;
+  MeshFile result_;
+};
+
+class AsciiStl {
+ public:
+  AsciiStl(std::string_view file, std::string path, const RunContext& context)
+      : begin_(file.data()),
+        at_(file.data()),
+        end_(file.data() + file.size()),
+        path_(std::move(path)),
+        context_(context) {}
+
+  Result<MeshFile> read() {
+    for (std::string_view word = nextWord(); !word.empty(); word = nextWord()) {
+      if (!equalsWord(word, "solid")) return corrupt(word, "where \"solid\" should be");
+      toLineEnd();
+      if (const Status ok = readFacets(); !ok) return tl::unexpected(ok.error());
+      toLineEnd();
+    }
+    if (result_.mesh.triangles.empty()) return failure(ErrorCode::unsupported, "holds no facet", path_);
+    result_.mesh.positions = welder_.take();
+    result_.frame.coordinates = "text";
+    result_.frame.rounding = largest_.rounding({});
+    return std::move(result_);
+  }
+
+ private:
+  /// Empty at the end of the file.
+  std::string_view nextWord() {
+    while (at_ < end_ && text::isSpace(*at_)) ++at_;
+    const char* from = at_;
+    while (at_ < end_ && !text::isSpace(*at_)) ++at_;
+    return {from, static_cast<std::size_t>(at_ - from)};
+  }
+  void toLineEnd() {
+    while (at_ < end_ && *at_ != '\n') ++at_;
+  }
+
+  tl::unexpected<Error> corrupt(std::string_view word, std::string_view what) const {
+    if (word.empty())
+      return failure(ErrorCode::corrupt, "is truncated: it ends before its last line, \"endsolid\"", path_);
+    return failure(
+        ErrorCode::corrupt,
+        fmt::format("line {} has {} {}", text::lineOf(begin_, word.data()), text::quotedToken(word), what),
+        path_);
+  }
+
+  Status expect(std::initializer_list<std::string_view> words) {
+    for (const std::string_view expected : words)
+      if (const std::string_view word = nextWord(); !equalsWord(word, expected))
+        return corrupt(word, fmt::format("where \"{}\" should be", expected));
+    return {};
+  }
+
+  Status readFacets() {
+    for (;;) {
+      const std::string_view word = nextWord();
+      if (equalsWord(word, "endsolid")) return {};
+      if (!equalsWord(word, "facet")) return corrupt(word, "where \"facet\" or \"endsolid\" should be");
+      if (Status ok = readFacet(); !ok) return ok;
+    }
+  }
+
+  Status readFacet() {
+    auto& triangles = result_.mesh.triangles;
+    if (triangles.size() % kTrianglesPerCancelCheck == 0) {
+      context_.report("reading the mesh", double(at_ - begin_) / double(end_ - begin_));
+      if (context_.cancelled()) return failure(ErrorCode::interrupted, "reading was interrupted", path_);
+    }
+    if (triangles.size() == kMostTriangles)
+      return failure(ErrorCode::unsupported, "holds more triangles than an index can name", path_);
+    toLineEnd();  // the normal, which programs write as "nan" too
+    if (Status ok = expect({"outer", "loop"}); !ok) return ok;
+    std::array<std::uint32_t, 3> triangle;
+    for (std::uint32_t& corner : triangle) {
+      if (Status ok = expect({"vertex"}); !ok) return ok;
+      std::array<double, 3> xyz;
+      for (double& value : xyz) {
+        const std::string_view word = nextWord();
+        const char* from = word.data();
+        if (word.empty() || !text::scanNumber(from, word.data() + word.size(), value))
+          return corrupt(word, "where a number should be");
+        if (!std::isfinite(value)) return corrupt(word, "where a finite number should be");
+      }
+      const Vec3 p{xyz[0], xyz[1], xyz[2]};
+      largest_.take(p);
+      corner = welder_.add(p);
+    }
+    if (Status ok = expect({"endloop", "endfacet"}); !ok) return ok;
+    triangles.push_back(triangle);
+    return {};
+  }
+
+  const char* begin_;
+  const char* at_;
+  const char* end_;
+  std::string path_;
+  const RunContext& context_;
+  VertexWelder welder_;
+  LargestAbsolute largest_;
+  MeshFile result_;
+};
+
+}  // namespace
+
+Result<MeshFile> readStl(const std::filesystem::path& path, const RunContext& context) {
+  const Result<FileBytes> bytes = FileBytes::read(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  const std::string_view file = bytes->view();
+  if (const auto count = binaryCount(file)) return BinaryStl(file, *count, path.string(), context).read();
+  if (beginsWithSolid(file)) return AsciiStl(file, path.string(), context).read();
+  if (file.size() < kPreambleSize)
+    return failure(
+        ErrorCode::corrupt,
+        fmt::format("is no STL: it has {} bytes, does not begin with \"solid\", and a binary one begins "
+                    "with {} bytes of header",
+                    file.size(), kPreambleSize),
+        path.string());
+  std::uint32_t count = 0;
+  std::memcpy(&count, file.data() + kHeaderSize, sizeof count);
+  return failure(ErrorCode::corrupt,
+                 fmt::format("is truncated or no STL: {} triangles need {} bytes, the file has {}", count,
+                             kPreambleSize + std::uint64_t{count} * kRecordSize, file.size()),
+                 path.string());
+}
+
+}  // namespace arete

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Binary STL: 80 bytes of header, the count of triangles, then 50 bytes for each: normal, three corners (all
+// float32), two bytes that mean nothing. The header of ours is text filled up with blanks; it must not begin
+// with "solid", which is how an ASCII file begins.
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "io/crs/local_origin.h"
+#include "io/file/file_writer.h"
+#include "io/mesh/stl/stl.h"
+
+namespace arete {
+
+static_assert(std::endian::native == std::endian::little, "a big-endian machine needs a byte swap here");
+
+namespace {
+
+constexpr std::size_t kHeaderSize = 80, kRecordSize = 50;
+constexpr std::size_t kTrianglesPerCancelCheck = 1 << 16;
+
+std::string headerOf(const Vec3& origin) {
+  return fmt::format("arete origin {} {} {}", origin.x, origin.y, origin.z);
+}
+
+/// The unit normal of the triangle as it is written; 0, 0, 0 without an area, as the format has it.
+std::array<float, 3> normalOf(const std::array<Vec3, 3>& c) {
+  const Vec3 a{c[1].x - c[0].x, c[1].y - c[0].y, c[1].z - c[0].z};
+  const Vec3 b{c[2].x - c[0].x, c[2].y - c[0].y, c[2].z - c[0].z};
+  const Vec3 n{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  const double length = std::hypot(n.x, n.y, n.z);
+  if (!(length > 0) || !std::isfinite(length)) return {0, 0, 0};
+  return {static_cast<float>(n.x / length), static_cast<float>(n.y / length),
+          static_cast<float>(n.z / length)};
+}
+
+}  // namespace
+
+Status writeStl(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
+                const RunContext& context) {
+  const auto refuse = [&](std::string message) {
+    return failure(ErrorCode::invalidData, std::move(message), path.string());
+  };
+  if (const Status ok = mesh.validate(); !ok) return refuse(ok.error().message);
+  if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max())
+    return refuse(fmt::format("{} triangles are more than an STL can count", mesh.triangles.size()));
+  Vec3 origin = options.origin.value_or(localOrigin(mesh.positions));
+  std::string header = headerOf(origin);
+  if (header.size() > kHeaderSize) {
+    origin = {std::round(origin.x), std::round(origin.y), std::round(origin.z)};
+    header = headerOf(origin);
+  }
+  header.resize(kHeaderSize, ' ');
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  for (const Vec3& p : mesh.positions)
+    if (!(std::abs(p.x - origin.x) <= kLargest && std::abs(p.y - origin.y) <= kLargest &&
+          std::abs(p.z - origin.z) <= kLargest))
+      return refuse(fmt::format("the position {}, {}, {} does not fit 32-bit floats", p.x, p.y, p.z));
+  Result<FileWriter> file = FileWriter::create(path);
+  if (!file) return tl::unexpected(file.error());
+
+  file->write(header);
+  putBytes(file->reserve(sizeof(std::uint32_t)), static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (t % kTrianglesPerCancelCheck == 0) {
+      context.report("writing the mesh", static_cast<double>(t) / static_cast<double>(mesh.triangles.size()));
+      if (context.cancelled())
+        return failure(ErrorCode::interrupted, "writing was interrupted", path.string());
+    }
+    std::array<std::array<float, 3>, 3> written;
+    std::array<Vec3, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& p = mesh.positions[mesh.triangles[t][k]];
+      written[k] = {static_cast<float>(p.x - origin.x), static_cast<float>(p.y - origin.y),
+                    static_cast<float>(p.z - origin.z)};
+      corners[k] = {written[k][0], written[k][1], written[k][2]};
+    }
+    char* to = putBytes(file->reserve(kRecordSize), normalOf(corners));
+    putBytes(putBytes(to, written), std::uint16_t{0});
+  }
+  return file->finish();
+}
+
+}  // namespace arete

@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The walk that the writer and the reader of a packed .amt share. Both grow the same MT node by node; `Io` is
+// what tells them apart: Io::code(stream, table, actual) gives the next symbol, which the reader decodes and
+// the writer gets from actual() and notes down. So the two cannot disagree on what is known when a symbol is
+// coded. What the walk does not look at again (floors, spheres, errors and bounds) is kept by the reader
+// alone, Io::kKeepsValues.
+//
+// A node is told like this.
+//   Its seed, one of the triangles of its floor. The last triangle of the floor that the chunk creates is the
+//   seed, and when it is created a symbol says that it is one, and how many bands below its creator the node
+//   lies. Nodes wait in the queue of their band, so they come in the order of their seeds and need no
+//   number. Nodes whose floor is made by other chunks are listed, at the begin of their band.
+//   Its floor: its shape as a walk from the seed across edges finds it (packed_shapes.h). The walk's order of
+//   the edges that are not inner ones is the link's.
+//   Whether the star is open, and at which edge of the border; which of its triangles nobody removes, and
+//   which are left to other chunks.
+//   The place of its vertex, against the centroid of the link; its height, against the plane of the triangle
+//   of the floor that it stands on.
+//   Error and bounds of those of its star's triangles that somebody removes.
+// The last two are told of all nodes of a run when their stars are there (packed_geometry.h). Nothing is told
+// of a node's children before it: so the first bands alone are an MT, of which every error is known.
+//
+// What lies across an edge: packed_front.h.
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/packed/arrays.h"
+#include "io/packed/front.h"
+#include "io/packed/geometry.h"
+
+namespace arete::packed {
+
+/// Memory of a coder, to be used again for another one.
+struct CoderSpace {
+  FrontSpace front;
+  std::array<std::vector<Front::Own>, MultiTriangulation::kBands> queues;
+  std::vector<std::uint32_t> listed;   ///< places of seeds in Arrays::border
+  std::vector<const Shape*> shapesOf;  ///< of the run's nodes
+  std::deque<Shape> otherShapes;       ///< those that are not listed, or turned
+  std::vector<std::uint32_t> passing;  ///< slots, from the run's first, that somebody removes, and one more
+  std::vector<std::uint8_t> areas;     ///< of the run's slots, see shownArea()
+};
+
+/// Real: of the places, see Arrays::places().
+template <class Real, class Io>
+class NodeCoder {
+ public:
+  NodeCoder(Arrays& arrays, const Directory& directory, const Chunk& chunk, Io& io, CoderSpace& space)
+      : a_(arrays),
+        directory_(directory),
+        chunk_(chunk),
+        io_(io),
+        shapes_(listedShapes()),
+        geometry_(arrays, io),
+        front_(arrays, chunk, space.front),
+        space_(space) {
+    for (auto& queue : space_.queues) queue.clear();
+  }
+
+  /// All nodes of the chunk. False when the symbols make no sense; problem() says which.
+  bool run() {
+    if (!Front::canHold(chunk_.nodes, a_.border.size())) return fail("has more nodes than a chunk can have");
+    if (&chunk_ == directory_.chunks.data()) rootValues();
+    for (const Run& run : chunk_.runs) {
+      band_ = run.band;
+      class_ = directory_.bandClass[band_];
+      node_ = run.firstNode;
+      slot_ = firstSlot_ = run.firstSlot;
+      slotEnd_ = run.firstSlot + run.slots;
+      nodeEnd_ = run.firstNode + run.nodes;
+      // One more is written than there are.
+      space_.passing.resize(std::max<std::size_t>(space_.passing.size(), std::size_t{run.slots} + 1));
+      space_.areas.resize(std::max<std::size_t>(space_.areas.size(), run.slots));
+      nextPassing_ = space_.passing.data();
+      space_.shapesOf.clear();
+      space_.otherShapes.clear();
+      std::vector<Own>& queue = space_.queues[band_];
+      if (!io_.listed(run, space_.listed)) return fail("lists a seed that cannot be one");
+      for (std::size_t i = 0; i < space_.listed.size(); ++i) {
+        const std::uint32_t seed = space_.listed[i];
+        if (i + kAhead < space_.listed.size()) front_.prefetchBorder(space_.listed[i + kAhead]);
+        if (i + kAhead / 2 < space_.listed.size()) front_.prefetchAround(space_.listed[i + kAhead / 2]);
+        io_.begin(a_.border[seed].id, node_);
+        if (!front_.takeBorder(seed, 0, node_, floor_, 0)) return fail("lists a seed that is gone");
+        if (!node(true)) return false;
+      }
+      // Nodes of this band may join the queue on the way.
+      for (std::size_t i = 0; i < queue.size(); ++i) {
+        if (node_ == nodeEnd_) return fail("has more nodes than announced");
+        const Own seed = queue[i];
+        if (i + kAhead < queue.size()) front_.prefetch(queue[i + kAhead]);
+        if (i + kAhead / 4 < queue.size()) front_.prefetchBeyond(queue[i + kAhead / 4]);
+        if (i + kAhead / 2 < queue.size()) front_.prefetchAround(queue[i + kAhead / 2]);
+        io_.begin(seed.id, node_);
+        if (!front_.take(seed, node_, floor_, 0)) return fail("has a seed that is gone");
+        if (!node(false)) return false;
+      }
+      if (node_ != nodeEnd_ || slot_ != slotEnd_)
+        return fail("has another number of nodes or slots than announced");
+      queue.clear();
+      if (!geometry_.run(run, class_, space_.shapesOf, space_.areas.data()))
+        return fail("has a vertex outside of its grid or without a height");
+      values();
+      if constexpr (Io::kKeepsValues) floorErrors(run);
+    }
+    if (!front_.finish(!chunk_.isCut)) return fail("leaves another number of triangles than announced");
+    return true;
+  }
+  const std::string& problem() const { return problem_; }
+
+ private:
+  using Own = Front::Own;
+  static constexpr std::size_t kAhead = 12;
+
+  bool fail(const char* what) {
+    problem_ = what;
+    return false;
+  }
+
+  bool node(bool isListed) {
+    floor_.isOpen = false;
+    const unsigned symbol = io_.code(kFloorStream, kShapeTable + (isListed ? 1 : 0),
+                                     [&] { return io_.shapeSymbol(floor_.words.data()); });
+    if (symbol < kListedShapes) [[likely]]
+      shape_ = &shapes_[symbol];
+    else if (symbol > kWalkedShape || !walked())
+      return fail("has a floor that is none");
+    return withCorners(shape_->corners, [&](auto known) { return nodeOf<known>(); });
+  }
+
+  /// kCorners: of the floor, 0 for any number.
+  template <int kCorners>
+  bool nodeOf() {
+    if (!walk<kCorners>()) return fail("has a floor that is none");
+    if (!floor_.isAtBorder && !a_.hasFills) [[likely]]
+      return finishNode<kCorners>();
+    if (!open()) return fail("has an open star away from the border");
+    return finishNode<0>();
+  }
+  template <int kCorners>
+  [[gnu::always_inline]] bool finishNode() {
+    const std::uint32_t size = static_cast<std::uint32_t>(corners<kCorners>());
+    // Every node that is still to come needs three.
+    if (size + 3 * (nodeEnd_ - node_ - 1) > slotEnd_ - slot_) return fail("has more slots than announced");
+    if (!io_.star(floor_, slot_)) return fail("has a star that is not its floor's");
+    const int made = static_cast<int>(starTriangles<kCorners>());
+    const std::uint64_t staying = io_.raw(made, io_.staying(slot_, made));
+    const std::uint64_t left = this->left<kCorners>();
+    if ((left & staying) != 0 || left >> made != 0) return fail("leaves triangles that it cannot leave");
+    const std::uint32_t* const records =
+        front_.template addStar<kCorners>(node_, slot_, floor_, staying, left);
+    if constexpr (Io::kKeepsValues) {
+      std::uint32_t* const ids = a_.floor.get() + (slot_ - 2 * node_);
+      const int triangles = corners<kCorners>() - 2;
+      for (int i = 0; i < triangles; ++i) ids[i] = floor_.id(i);
+    }
+    for (int i = 0; i < made; ++i) {
+      *nextPassing_ = slot_ - firstSlot_ + static_cast<std::uint32_t>(i);
+      nextPassing_ += ~staying >> i & 1;
+    }
+    space_.shapesOf.push_back(shape_);
+    if (!seeds<kCorners>(records)) return fail("has a node below the last band");
+    ++node_;
+    slot_ += size;
+    return true;
+  }
+  template <int kCorners>
+  int corners() const {
+    return kCorners > 0 ? kCorners : floor_.corners;
+  }
+
+  /// Takes the floor's triangles; link, what is across its edges, and the places of its corners.
+  template <int kCorners>
+  [[gnu::always_inline]] bool walk() {
+    Floor& floor = floor_;
+    const Shape& shape = *shape_;
+    if (shape.corners != shape.triangles + 2) return false;
+    floor.corners = shape.corners;
+    floor.size = shape.triangles;
+    const int corners = this->corners<kCorners>(), triangles = corners - 2;
+    for (int i = 1; i < triangles; ++i)
+      if (!front_.takeAcross(shape.steps[static_cast<unsigned>(i)].from, node_, floor, i)) return false;
+    bool isAtBorder = false;
+    for (int i = 0; i < corners; ++i) {
+      const unsigned edge = shape.link[static_cast<unsigned>(i)];
+      const std::uint32_t vertex = floor.words[edge];
+      floor.link[i] = vertex;
+      const Side across = floor.words[edge + Floor::kAcross];
+      floor.outer[i] = across;
+      isAtBorder |= across == kNoSide;
+    }
+    floor.isAtBorder = isAtBorder;
+    return true;
+  }
+  bool walked() {
+    const auto shape = walkedShape([&](const Shape& s, int inner, int count) {
+      const unsigned table =
+          s.triangles == 1
+              ? kSeedTable
+              : kFloodTable + static_cast<unsigned>(std::min(s.triangles - 2, 5) * 4 + std::min(inner, 3));
+      return io_.code(kFloorStream, table, [&] { return io_.shapeBits(count); });
+    });
+    if (shape) shape_ = &space_.otherShapes.emplace_back(*shape);
+    return shape.has_value();
+  }
+
+  /// Turns the link of an open star so that its last edge is the border's that the vertex divides. Where rims
+  /// reach over NODATA a border can have been closed altogether, and any edge may open.
+  bool open() {
+    Floor& floor = floor_;
+    std::array<int, kMaxHoleCorners> borders;
+    unsigned count = 0;
+    for (int i = 0; i < floor.corners; ++i)
+      if (floor.outer[i] == kNoSide || a_.hasFills) borders[count++] = i;
+    const unsigned which = io_.code(kFloorStream, kOpenTable,
+                                    [&] { return io_.openEdge(floor, std::span(borders.data(), count)); });
+    if (which == 0) return true;
+    if (which > count) return false;
+    floor.isOpen = true;
+    const int first = (borders[which - 1] + 1) % floor.corners;
+    std::rotate(floor.link.begin(), floor.link.begin() + first, floor.link.begin() + floor.corners);
+    std::rotate(floor.outer.begin(), floor.outer.begin() + first, floor.outer.begin() + floor.corners);
+    Shape turned = *shape_;
+    for (int i = 0; i < floor.size; ++i)
+      for (std::uint8_t& place : turned.steps[static_cast<unsigned>(i)].place)
+        place = static_cast<std::uint8_t>((place + floor.corners - first) % floor.corners);
+    shape_ = &space_.otherShapes.emplace_back(turned);
+    return true;
+  }
+
+  /// Errors and bounds of all triangles of a run's stars that somebody removes.
+  void values() {
+    const std::uint32_t *const begin = space_.passing.data(), *const end = nextPassing_;
+    const std::uint8_t* const areas = space_.areas.data();
+    const std::uint32_t first = a_.roots + firstSlot_;
+    valuesOf(band_, [&](const auto& tell) {
+      for (const std::uint32_t* slot = begin; slot != end; ++slot) tell(first + *slot, areas[*slot]);
+    });
+  }
+  /// The same of the root's triangles, which no band bounds.
+  void rootValues() {
+    const Place<Real>* const place = a_.places<Real>();
+    valuesOf(MultiTriangulation::kBands - 1, [&](const auto& tell) {
+      for (std::uint32_t t = 0; t < a_.roots; ++t) {
+        const auto& corners = a_.rootTriangles[t];
+        const Place<Real>&p = place[corners[0]], &q = place[corners[1]], &r = place[corners[2]];
+        const Real area = (q.x - p.x) * (r.y - p.y) - (r.x - p.x) * (q.y - p.y);
+        tell(t, shownArea(a_.isLattice, static_cast<float>(std::fabs(area))));
+      }
+    });
+  }
+  /// forEach(tell): calls tell(id, shown area) for each triangle. No error is above the band.
+  template <class ForEach>
+  void valuesOf(std::uint32_t band, const ForEach& forEach) {
+    if (a_.isLattice && a_.encoding.type == HeightEncoding::Type::int16)
+      valuesOf<true>(band, forEach);
+    else
+      valuesOf<false>(band, forEach);
+  }
+  template <bool kIsWhole, class ForEach>
+  void valuesOf(std::uint32_t band, const ForEach& forEach) {
+    const std::uint32_t top = (band + 1) << MultiTriangulation::kBandShift;
+    const std::uint32_t withoutError = boundReference(0, band);
+    const unsigned bandClass = directory_.bandClass[band];
+    std::uint16_t *const error = a_.error.get(), *const below = a_.below.get(), *const above = a_.above.get();
+    auto&& io = io_.values();
+    forEach([&](std::uint32_t id, unsigned shown) {
+      const std::uint32_t code = triangleError<kIsWhole>(io, id, shown, bandClass, top);
+      const std::uint32_t reference = code != 0 ? boundStep(code) : withoutError;
+      const BoundBytes bytes = io.bounds(id, reference);
+      if constexpr (Io::kKeepsValues) {
+        const BoundSteps bounds = boundsOf(bytes, reference);
+        error[id] = static_cast<std::uint16_t>(code);
+        below[id] = boundCode(bounds.below);
+        above[id] = boundCode(bounds.above);
+      }
+    });
+    io_.putBack(io);
+  }
+
+  template <bool kIsWhole, class Values>
+  std::uint32_t triangleError(Values& io, std::uint32_t id, unsigned shown, unsigned bandClass,
+                              std::uint32_t top) {
+    const unsigned table = kErrorTable + kAreaClass[shown] * kErrorClasses + bandClass / 3;
+    if (!kIsWhole || shown > kLatticeErrorArea || shown == 0) {
+      const std::uint64_t below = codeNumber(io, kErrorStream, table, [&] {
+        const std::uint16_t actual = io.actualError(id);
+        return actual == 0 ? std::uint64_t{0} : std::uint64_t{top} - actual;
+      });
+      return below == 0 || below >= top ? 0 : top - static_cast<std::uint32_t>(below);
+    }
+    std::uint64_t whole = 0;
+    const unsigned symbol = io.code(kErrorStream, table, [&] {
+      const auto found = io.wholeError(shown, io.actualError(id));
+      whole = found.value_or(0);
+      return found ? bucketOf(whole).symbol : kPlainError;
+    });
+    if (symbol < 16) return a_.wholeErrors[shown * 16 + symbol];
+    if (symbol == kPlainError) return static_cast<std::uint32_t>(io.raw(16, io.actualError(id)));
+    const int bits = rawBitsOf(symbol);
+    whole = bucketValue(symbol, io.raw(bits, whole & ((std::uint64_t{1} << bits) - 1)));
+    return wholeErrorCode(a_.scale, a_.encoding, whole, shown);
+  }
+
+  /// The largest error of each node's floor, to which saturate() adds the children's (packed_arrays.h).
+  void floorErrors(const Run& run) {
+    constexpr std::ptrdiff_t kIdsAhead = 24;
+    const std::uint32_t* id = a_.floor.get() + (run.firstSlot - 2 * run.firstNode);
+    const std::uint32_t* const last = id + (run.slots - 2 * std::size_t{run.nodes}) - 1;
+    const std::uint16_t* const error = a_.error.get();
+    for (std::uint32_t n = run.firstNode; n != run.firstNode + run.nodes; ++n) {
+      const std::uint32_t triangles = a_.starSize(n) - 2;
+      std::uint16_t largest = 0;
+      for (std::uint32_t i = 0; i < triangles; ++i, ++id) {
+        __builtin_prefetch(&error[id[std::min(kIdsAhead, last - id)]]);
+        largest = std::max(largest, error[*id]);
+      }
+      a_.saturatedError[n] = largest;
+    }
+  }
+
+  template <int kCorners>
+  std::uint32_t starTriangles() const {
+    return static_cast<std::uint32_t>(corners<kCorners>() - (kCorners == 0 && floor_.isOpen ? 1 : 0));
+  }
+  /// Bit i says that triangle i of the star is left to other chunks.
+  template <int kCorners>
+  [[gnu::always_inline]] std::uint64_t left() {
+    const std::uint32_t triangles = starTriangles<kCorners>();
+    std::uint64_t all = 0;
+    for (std::uint32_t first = 0; first < triangles; first += 8) {
+      const std::uint32_t more = triangles - first;
+      const std::uint64_t mask = io_.code(kSlotStream, kLeftTable + starClass(more), [&] {
+        unsigned actual = 0;
+        for (std::uint32_t i = 0; i < std::min(more, 8u); ++i)
+          actual |= static_cast<unsigned>(io_.isLeft(slot_ + first + i)) << i;
+        return actual;
+      });
+      all |= mask << first;
+    }
+    return all;
+  }
+  template <int kCorners>
+  [[gnu::always_inline]] bool seeds(const std::uint32_t* records) {
+    const std::uint32_t triangles = starTriangles<kCorners>();
+    for (std::uint32_t first = 0; first < triangles; first += 8) {
+      const std::uint32_t left = triangles - first;
+      std::array<unsigned, 8> bandsBelow;
+      unsigned mask = io_.code(kSlotStream, seedsTable(left, band_), [&] {
+        unsigned actual = 0;
+        for (std::uint32_t i = 0; i < std::min(left, 8u); ++i)
+          if (const auto below = io_.seedAt(slot_ + first + i, band_)) {
+            bandsBelow[i] = *below;
+            actual |= 1u << i;
+          }
+        return actual;
+      });
+      if (left < 8 && mask >> left != 0) return false;
+      for (; mask != 0; mask &= mask - 1) {
+        const auto i = static_cast<std::uint32_t>(std::countr_zero(mask));
+        const unsigned below =
+            band_ == 0 ? 0 : io_.code(kSlotStream, kSeedBandTable + class_, [&] { return bandsBelow[i]; });
+        if (below > band_) return false;
+        space_.queues[band_ - below].push_back({records[first + i], a_.roots + slot_ + first + i});
+      }
+    }
+    return true;
+  }
+
+  Arrays& a_;
+  const Directory& directory_;
+  const Chunk& chunk_;
+  Io& io_;
+  std::uint32_t band_ = 0, class_ = 0, node_ = 0, slot_ = 0, nodeEnd_ = 0, firstSlot_ = 0, slotEnd_ = 0;
+  std::span<const Shape, kListedShapes> shapes_;
+  const Shape* shape_ = nullptr;
+  Geometry<Real, Io> geometry_;
+  Front front_;
+  CoderSpace& space_;
+  Floor floor_;
+  std::uint32_t* nextPassing_ = nullptr;
+  std::string problem_;
+};
+
+}  // namespace arete::packed

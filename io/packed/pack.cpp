@@ -1,0 +1,450 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The writer walks as the reader will (packed_node_coder.h) and notes every symbol with its table. When all
+// chunks have been walked it knows how often each table saw each symbol; that makes the tables, and then
+// every chunk is coded. Chunks are walked in parallel, as they are read.
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "engine/parallel/with_threads.h"
+#include "io/format/checksum.h"
+#include "io/packed/node_coder.h"
+#include "io/packed/order.h"
+#include "io/packed/packed.h"
+#include "io/packed/plan.h"
+
+namespace arete {
+namespace packed {
+namespace {
+
+constexpr std::uint32_t kNone = MultiTriangulation::kNone;
+
+/// What the chunks of a model share while they are walked.
+struct Walk {
+  const TerrainModel& model;
+  const Plan& plan;
+  Arrays& arrays;
+  UninitializedVector<std::uint32_t> oldNode;      ///< per new node
+  UninitializedVector<std::uint32_t> newNode;      ///< per node of the model
+  UninitializedVector<std::uint32_t> oldTriangle;  ///< per new slot
+  UninitializedVector<std::uint8_t> turn;          ///< per new node: which of the old slots its first one was
+  UninitializedVector<std::uint8_t> ownParentsLeft;
+};
+
+/// What is told of a chunk.
+struct Streams {
+  std::array<std::vector<RansSymbol>, kStreams> symbols;
+  std::vector<std::byte> boundBytes, rawBits;
+
+  /// Keeps the memory.
+  void clear() {
+    for (auto& s : symbols) s.clear();
+    boundBytes.clear();
+    rawBits.clear();
+  }
+};
+
+class WriterIo {
+ public:
+  /// `told` receives all but the raw bits.
+  WriterIo(Walk& walk, std::uint32_t chunk, Streams& told)
+      : w_(walk),
+        mt_(walk.model.mt),
+        a_(mt_.arrays()),
+        roots_(mt_.rootTriangleCount()),
+        chunk_(chunk),
+        told_(told) {
+    for (const std::uint32_t n : w_.plan.listed[chunk]) listed_[w_.plan.band[n]].push_back(n);
+  }
+
+  BitWriter rawBits;
+
+  static constexpr bool kKeepsValues = false;
+
+  template <class Actual>
+  unsigned code(Stream stream, unsigned table, const Actual& actual) {
+    const unsigned symbol = actual();
+    told_.symbols[stream].push_back({static_cast<std::uint8_t>(table), static_cast<std::uint8_t>(symbol)});
+    return symbol;
+  }
+  std::uint64_t raw(int bits, std::uint64_t actual) {
+    rawBits.write(actual, bits);
+    return actual;
+  }
+
+  WriterIo& values() { return *this; }
+  void putBack(const WriterIo&) {}
+
+  bool listed(const Run& run, std::vector<std::uint32_t>& seeds) {
+    std::vector<Entry> entries;
+    for (const std::uint32_t n : listed_[run.band]) entries.push_back(entryOf(mt_.floor(NodeId(n))[0]));
+    std::sort(entries.begin(), entries.end(), [](const Entry& x, const Entry& y) {
+      return std::tie(x.from, x.place) < std::tie(y.from, y.place);
+    });
+    seeds.clear();
+    std::uint32_t from = 0, place = 0;
+    for (const Entry& e : entries) {
+      codeNumber(*this, kFloorStream, kListChunkTable, [&] { return e.from - from; });
+      if (e.from != from) place = 0;
+      codeNumber(*this, kFloorStream, kListBorderTable, [&] { return e.place - place; });
+      from = e.from;
+      place = e.place;
+      seeds.push_back(e.border);
+    }
+    return seeds.size() == run.listed;
+  }
+
+  /// A node that has its number.
+  void at(std::uint32_t number) { old_ = w_.oldNode[number]; }
+  /// The node that removes the seed gets the number.
+  void begin(std::uint32_t seed, std::uint32_t number) {
+    number_ = number;
+    old_ = a_.remover[oldIdOf(seed)];
+    w_.oldNode[number] = old_;
+    w_.newNode[old_] = number;
+    const auto floor = mt_.floor(NodeId(old_));
+    floorSize_ = static_cast<int>(floor.size());
+    for (int i = 0; i < floorSize_; ++i) {
+      const std::uint32_t t = floor[static_cast<std::size_t>(i)];
+      const auto corners =
+          mt_.corners(TriangleId(t), NodeId(t < roots_ ? kNone : w_.plan.owners.of(t - roots_)));
+      for (std::size_t c = 0; c < 3; ++c) corners_[i][c] = newVertex(corners[c]);
+      isFound_[i] = t == oldIdOf(seed);
+    }
+  }
+
+  /// Walks the floor as the reader will; `words` begin with the seed's corners.
+  unsigned shapeSymbol(const std::uint32_t* words) {
+    std::array<std::array<std::uint32_t, 3>, kMaxFloor> found;
+    shapeBits_ = 0;
+    int told = 0;
+    const auto shape = walkedShape([&](const Shape& s, int, int count) {
+      const unsigned t = s.triangles - 1u;
+      if (t == 0)
+        found[0] = {words[0], words[1], words[2]};
+      else
+        found[t] = acrossOf(found[s.steps[t].from >> 3], s.steps[t].from & 7);
+      unsigned inner = 0;
+      for (int i = 0; i < count; ++i)
+        if (find(found[t], 3 - count + i)) inner |= 1u << i;
+      shapeBits_ |= std::uint64_t{inner} << told;
+      told += count;
+      return inner;
+    });
+    return shape ? packed::shapeSymbol(shapeBits_, shape->triangles) : 0;
+  }
+  unsigned shapeBits(int count) {
+    const auto bits = static_cast<unsigned>(shapeBits_ & ((1u << count) - 1));
+    shapeBits_ >>= count;
+    return bits;
+  }
+
+  unsigned openEdge(const Floor& floor, std::span<const int> borders) const {
+    if (!mt_.isOpen(NodeId(old_))) return 0;
+    const auto link = mt_.link(NodeId(old_));
+    const std::uint32_t from = newVertex(link.back()), to = newVertex(link.front());
+    for (unsigned i = 0; i < borders.size(); ++i)
+      if (floor.link[borders[i]] == from && floor.link[(borders[i] + 1) % floor.corners] == to) return i + 1;
+    return 0;
+  }
+
+  /// The star's slots, wherever the model's link begins. False when the walk did not find the floor or its
+  /// rim.
+  bool star(const Floor& floor, std::uint32_t slot) {
+    if (floor.size != floorSize_ || floor.isOpen != mt_.isOpen(NodeId(old_))) return false;
+    for (int i = 0; i < floor.size; ++i)
+      if (a_.remover[oldIdOf(floor.id(i))] != old_) return false;
+    const auto link = mt_.link(NodeId(old_));
+    const std::uint32_t size = static_cast<std::uint32_t>(link.size());
+    std::uint32_t turn = 0;
+    while (turn < size && newVertex(link[turn]) != floor.link[0]) ++turn;
+    if (turn == size || (floor.isOpen && turn != 0) || size != static_cast<std::uint32_t>(floor.corners))
+      return false;
+    for (std::uint32_t i = 0; i < size; ++i) {
+      const std::uint32_t j = (i + turn) % size;
+      if (newVertex(link[j]) != floor.link[i]) return false;
+      w_.oldTriangle[slot + i] = roots_ + a_.slotBegin[old_] + j;
+    }
+    w_.turn[number_] = static_cast<std::uint8_t>(turn);
+    return true;
+  }
+
+  /// Which of the star's triangles nobody removes.
+  std::uint64_t staying(std::uint32_t slot, int triangles) const {
+    std::uint64_t bits = 0;
+    for (int i = 0; i < triangles; ++i)
+      if (a_.remover[w_.oldTriangle[slot + static_cast<std::uint32_t>(i)]] == kNone)
+        bits |= std::uint64_t{1} << i;
+    return bits;
+  }
+
+  Vec2 actualPlace() const {
+    const Vec2 p = a_.vertices.planPosition(mt_.apex(NodeId(old_)));
+    return {p.x, p.y};
+  }
+  std::int64_t actualHeightResidual(double predicted) const {
+    const HeightEncoding::Type type = a_.vertices.encoding.type;
+    return heightResidual(
+        type, rawHeight(type, a_.vertices.rawHeights.data(), mt_.apex(NodeId(old_)).index()), predicted);
+  }
+
+  std::uint16_t actualError(std::uint32_t id) const { return a_.error[oldIdOf(id)]; }
+  std::optional<std::uint64_t> wholeError(double doubledArea, std::uint16_t code) const {
+    if (code == 0) return 0;
+    const double largest =
+        static_cast<double>(a_.scale.decode(code)) * doubledArea / std::fabs(w_.arrays.encoding.scale);
+    if (!(largest < 1 << 24)) return std::nullopt;
+    // Codes are rounded upwards by up to one part in 2048, so more than one whole number may be meant: the
+    // least one that has the code.
+    const auto most = static_cast<std::uint64_t>(largest + 1e-6);
+    for (std::uint64_t whole = most - std::min<std::uint64_t>(most, most / 2048 + 1); whole <= most; ++whole)
+      if (wholeErrorCode(w_.arrays.scale, w_.arrays.encoding, whole, doubledArea) == code) return whole;
+    return std::nullopt;
+  }
+  BoundBytes bounds(std::uint32_t id, std::uint32_t reference) {
+    const std::uint32_t t = oldIdOf(id);
+    const BoundBytes bytes =
+        bytesOf(roundedBounds(boundStep(a_.below[t]), boundStep(a_.above[t])), reference);
+    told_.boundBytes.push_back(static_cast<std::byte>(bytes.first));
+    if (bytes.isFar()) told_.boundBytes.push_back(static_cast<std::byte>(bytes.second));
+    return bytes;
+  }
+
+  /// How many bands the node that has its seed here lies below this one, if there is one.
+  std::optional<unsigned> seedAt(std::uint32_t slot, std::uint32_t band) {
+    const std::uint32_t remover = a_.remover[w_.oldTriangle[slot]];
+    if (remover == kNone || w_.plan.chunkOf[remover] != chunk_ || --w_.ownParentsLeft[remover] != 0)
+      return std::nullopt;
+    return band - w_.plan.band[remover];
+  }
+  /// Whether a node of another chunk removes the triangle.
+  bool isLeft(std::uint32_t slot) const {
+    const std::uint32_t remover = a_.remover[w_.oldTriangle[slot]];
+    return remover != kNone && w_.plan.chunkOf[remover] != chunk_;
+  }
+
+ private:
+  std::uint32_t newVertex(std::uint32_t old) const {
+    return old < a_.rootVertices ? old : a_.rootVertices + w_.newNode[old - a_.rootVertices];
+  }
+  std::uint32_t oldIdOf(std::uint32_t id) const { return id < roots_ ? id : w_.oldTriangle[id - roots_]; }
+
+  /// A triangle of another chunk: its chunk's place among those that this one leans on, + 1 (0: the root),
+  /// its place among those that the chunk leaves, and among all borders.
+  struct Entry {
+    std::uint32_t from, place, border;
+  };
+  Entry entryOf(std::uint32_t triangle) const {
+    if (triangle < roots_) return {0, triangle, triangle};
+    const std::uint32_t owner = w_.plan.owners.of(triangle - roots_), c = w_.plan.chunkOf[owner];
+    const Chunk& chunk = w_.plan.directory.chunks[c];
+    const auto& leansOn = w_.plan.directory.chunks[chunk_].leansOn;
+    const auto from = std::lower_bound(leansOn.begin(), leansOn.end(), c) - leansOn.begin();
+    // The node that removes it is this chunk's and has not come yet.
+    const std::uint32_t border =
+        w_.arrays.remover[roots_ + newSlot(triangle - roots_, owner)] & ~Arrays::kMarks;
+    return {static_cast<std::uint32_t>(from) + 1,
+            static_cast<std::uint32_t>(border - roots_ - chunk.firstBorder), border};
+  }
+
+  /// Of a slot of the model. Precondition: its owner has come.
+  std::uint32_t newSlot(std::uint32_t slot, std::uint32_t owner) const {
+    const std::uint32_t number = w_.newNode[owner], size = mt_.slotCount(NodeId(owner));
+    const std::uint32_t at = slot - a_.slotBegin[owner] + size - w_.turn[number];
+    return w_.arrays.slotBegin[number] + (at < size ? at : at - size);
+  }
+
+  /// Whether a triangle of the floor that was not found yet lies across an edge.
+  bool find(const std::array<std::uint32_t, 3>& corners, int edge) {
+    const std::uint32_t from = corners[(edge + 1) % 3], to = corners[edge];
+    for (int j = 0; j < floorSize_; ++j)
+      for (int e = 0; e < 3 && !isFound_[j]; ++e)
+        if (corners_[j][e] == from && corners_[j][(e + 1) % 3] == to) return isFound_[j] = true;
+    return false;
+  }
+  /// Its corners, from that edge.
+  std::array<std::uint32_t, 3> acrossOf(const std::array<std::uint32_t, 3>& corners, int edge) const {
+    const std::uint32_t from = corners[(edge + 1) % 3], to = corners[edge];
+    for (int j = 0; j < floorSize_; ++j)
+      for (int e = 0; e < 3; ++e)
+        if (corners_[j][e] == from && corners_[j][(e + 1) % 3] == to)
+          return {from, to, corners_[j][(e + 2) % 3]};
+    return {};
+  }
+
+  Walk& w_;
+  const MultiTriangulation& mt_;
+  const MtArrays& a_;
+  std::uint32_t roots_, chunk_;
+  Streams& told_;
+  std::array<std::vector<std::uint32_t>, MultiTriangulation::kBands> listed_;
+
+  // Of the node being told.
+  std::uint32_t number_ = 0, old_ = 0;
+  int floorSize_ = 0;
+  std::array<std::array<std::uint32_t, 3>, kMaxFloor> corners_;
+  std::array<bool, kMaxFloor> isFound_;
+  std::uint64_t shapeBits_ = 0;
+};
+
+class Packer {
+ public:
+  Packer(const TerrainModel& model, const RunContext& context)
+      : context_(context), plan_(planChunks(model)), walk_{model, plan_, arrays_, {}, {}, {}, {}, {}} {}
+
+  Result<PackedMt> run() {
+    if (walk_.model.mt.rootTriangleCount() + plan_.directory.borders() > kMostBorders)
+      return failure(ErrorCode::invalidData, "has more triangles in its root than can be packed");
+    if (!prepare()) return failure(ErrorCode::unreadable, "needs more memory than there is to be packed");
+    const auto& chunks = plan_.directory.chunks;
+    std::vector<Streams> streams(chunks.size());
+    std::uint64_t done = 0;
+    const auto problem = forChunks(
+        chunks, Direction::forwards, context_, [&](std::size_t i) { return walkChunk(i, streams[i]); },
+        [&](std::size_t i) {
+          done += chunks[i].nodes;
+          context_.report("pack", 0.7 * static_cast<double>(done) /
+                                      (static_cast<double>(walk_.model.mt.nodeCount()) + 1));
+        });
+    if (context_.cancelled()) return failure(ErrorCode::interrupted, "packing was interrupted");
+    if (problem)
+      return failure(ErrorCode::invalidData,
+                     fmt::format("chunk {} of its nodes {}", problem->chunk, problem->what));
+    giveWalkBack();
+    const std::vector<RansTable> tables = tablesFor(streams);
+    std::vector<std::vector<std::byte>> bytes(chunks.size());
+    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t i) {
+      if (!context_.cancelled()) bytes[i] = encode(plan_.directory.chunks[i], streams[i], tables, i == 0);
+    });
+    if (context_.cancelled()) return failure(ErrorCode::interrupted, "packing was interrupted");
+    plan_.directory.number();
+    PackedMt packed;
+    packed.directory = toBytes(plan_.directory);
+    packed.tables = toBytes(tables);
+    packed.nodes.reserve(chunks.back().offset + chunks.back().bytes());
+    for (auto& b : bytes) {
+      packed.nodes.insert(packed.nodes.end(), b.begin(), b.end());
+      b = {};
+    }
+    context_.report("pack", 1);
+    return packed;
+  }
+
+ private:
+  bool prepare() {
+    const TerrainModel& model = walk_.model;
+    const MtArrays& from = model.mt.arrays();
+    arrays_.isLattice = model.isRaster;
+    arrays_.hasFills = model.options.rimTolerance > 0;
+    arrays_.columns = model.columns;
+    arrays_.rows = model.rows;
+    arrays_.encoding = from.vertices.encoding;
+    arrays_.scale = from.scale;
+    arrays_.metric = from.metric;
+    if (!arrays_.allocate(
+            {from.rootVertices, from.rootTriangles.size(), model.mt.nodeCount(), from.link.size(), 0, 0},
+            plan_.directory.borders()))
+      return false;
+    std::copy(from.rootTriangles.begin(), from.rootTriangles.end(), arrays_.rootTriangles.get());
+    if (model.isRaster)
+      std::copy_n(from.vertices.samples.begin(), from.rootVertices, arrays_.samples.get());
+    else
+      std::copy_n(from.vertices.plan.begin(), from.rootVertices, arrays_.plan.get());
+    std::copy_n(from.vertices.rawHeights.begin(), from.rootVertices * from.vertices.encoding.bytesPerHeight(),
+                arrays_.rawHeights.get());
+    walk_.oldNode.resize(model.mt.nodeCount());
+    walk_.newNode.assign(model.mt.nodeCount(), kNone);
+    walk_.oldTriangle.resize(from.link.size());
+    walk_.turn.resize(model.mt.nodeCount());
+    walk_.ownParentsLeft = std::move(plan_.ownParents);
+    return true;
+  }
+
+  /// The memory that only the walk needs.
+  void giveWalkBack() {
+    arrays_ = {};
+    walk_.oldNode = {};
+    walk_.newNode = {};
+    walk_.oldTriangle = {};
+    walk_.turn = {};
+    walk_.ownParentsLeft = {};
+    spaces_.clear();
+  }
+
+  std::optional<std::string> walkChunk(std::size_t i, Streams& streams) {
+    Streams& told = spaces_.local().told;
+    told.clear();
+    WriterIo io(walk_, static_cast<std::uint32_t>(i), told);
+    std::optional<std::string> bad =
+        arrays_.holdsFloats() ? walkNodes<float>(i, io) : walkNodes<double>(i, io);
+    told.rawBits = io.rawBits.take();
+    streams = told;  // a copy has no room to grow, which this one keeps
+    return bad;
+  }
+
+  template <class Real>
+  std::optional<std::string> walkNodes(std::size_t i, WriterIo& io) {
+    if (i == 0 && !codeRoot<Real>(arrays_, io)) return "come after a root that makes no sense";
+    NodeCoder<Real, WriterIo> coder(arrays_, plan_.directory, plan_.directory.chunks[i], io,
+                                    spaces_.local().coder);
+    if (!coder.run()) return coder.problem();
+    return std::nullopt;
+  }
+
+  static std::vector<RansTable> tablesFor(const std::vector<Streams>& streams) {
+    std::vector<std::array<std::uint64_t, RansTable::kAlphabet>> counts(kTables);
+    for (const Streams& s : streams)
+      for (const auto& symbols : s.symbols)
+        for (const RansSymbol symbol : symbols) ++counts[symbol.table][symbol.symbol];
+    std::vector<RansTable> tables;
+    for (const auto& c : counts) tables.push_back(RansTable::ofCounts(c));
+    return tables;
+  }
+
+  std::vector<std::byte> encode(Chunk& chunk, Streams& streams, std::span<const RansTable> tables,
+                                bool isFirst) const {
+    std::vector<std::byte> bytes;
+    for (unsigned s = 0; s < kStreams; ++s) {
+      const auto coded = ransEncode(streams.symbols[s], tables);
+      chunk.streamBytes[s] = static_cast<std::uint32_t>(coded.size());
+      bytes.insert(bytes.end(), coded.begin(), coded.end());
+      streams.symbols[s] = {};
+    }
+    chunk.streamBytes[kBoundBytes] = static_cast<std::uint32_t>(streams.boundBytes.size());
+    bytes.insert(bytes.end(), streams.boundBytes.begin(), streams.boundBytes.end());
+    const MultiTriangulation& mt = walk_.model.mt;
+    const std::uint64_t roots = std::uint64_t{mt.arrays().rootVertices} + mt.rootTriangleCount();
+    const std::uint64_t things = chunk.nodes + (isFirst ? roots : 0);
+    const std::uint64_t least = leastBytes(things);
+    if (bytes.size() + streams.rawBits.size() < least) streams.rawBits.resize(least - bytes.size());
+    chunk.streamBytes[kRawBits] = static_cast<std::uint32_t>(streams.rawBits.size());
+    bytes.insert(bytes.end(), streams.rawBits.begin(), streams.rawBits.end());
+    chunk.checksum = amtChecksum(bytes);
+    return bytes;
+  }
+
+  /// Of a thread, from chunk to chunk.
+  struct Space {
+    Streams told;
+    CoderSpace coder;
+  };
+
+  const RunContext& context_;
+  Plan plan_;
+  Arrays arrays_;
+  Walk walk_;
+  tbb::enumerable_thread_specific<Space> spaces_;
+};
+
+}  // namespace
+}  // namespace packed
+
+Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context) {
+  return withThreads(context, [&] { return packed::Packer(model, context).run(); });
+}
+
+}  // namespace arete

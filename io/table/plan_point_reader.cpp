@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/table/plan_point_reader.h"
+
+#include <fmt/format.h>
+#include <ogr_geometry.h>
+#include <ogr_spatialref.h>
+
+#include <cmath>
+#include <utility>
+
+#include "io/crs/reader.h"
+#include "io/crs/transform.h"
+#include "io/gdal/support.h"
+#include "io/gdal/vector_layer.h"
+#include "io/table/point_text.h"
+
+namespace arete {
+namespace {
+
+Result<CrsTransform> transformation(const OGRSpatialReference* own, const std::string& targetCrs,
+                                    std::vector<std::string>& warnings) {
+  if (!isKnownCrs(own)) {
+    if (!targetCrs.empty()) warnings.push_back("has no CRS; its coordinates are taken as the DEM's");
+    return CrsTransform();
+  }
+  if (targetCrs.empty())
+    return failure(ErrorCode::invalidData,
+                   "has a CRS and the DEM has none, so they cannot be brought together; --crs states the "
+                   "DEM's");
+  return CrsTransform::between(wktOf(*own), targetCrs);
+}
+
+Status addPoint(const OGRPoint& point, const CrsTransform& toTarget, std::vector<Vec2>& positions) {
+  if (point.IsEmpty()) return {};
+  const auto p = toTarget({point.getX(), point.getY()});
+  if (!p || !std::isfinite(p->x) || !std::isfinite(p->y))
+    return failure(ErrorCode::invalidData,
+                   fmt::format("the CRS of the DEM cannot tell the point {} {}", point.getX(), point.getY()));
+  positions.push_back(*p);
+  return {};
+}
+
+Status addGeometry(const OGRGeometry& geometry, const CrsTransform& toTarget, std::vector<Vec2>& positions) {
+  const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+  if (type == wkbPoint) return addPoint(*geometry.toPoint(), toTarget, positions);
+  if (type != wkbMultiPoint)
+    return failure(ErrorCode::unsupported,
+                   fmt::format("holds a {}, not a point", geometry.getGeometryName()));
+  for (const OGRPoint* point : *geometry.toMultiPoint())
+    if (Status added = addPoint(*point, toTarget, positions); !added) return added;
+  return {};
+}
+
+Result<PlanPoints> readFrom(const std::string& path, const std::string& targetCrs,
+                            const RunContext& context) {
+  registerGdal();
+  GdalErrors errors;
+  PlanPoints read;
+  if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
+  if (looksLikePointText(path)) {
+    auto rows = readPointText(path, {}, read.warnings, context, PointTextColumns::plan);
+    if (!rows) return tl::unexpected(rows.error());
+    read.positions = std::move(rows->positions);
+  } else {
+    const GdalDatasetPtr dataset = openGdal(path, GDAL_OF_VECTOR);
+    if (!dataset) return tl::unexpected(explainOpenFailure(path, "set of points", errors));
+    const auto layer = chooseLayer(*dataset, {}, LayerKind::points);
+    if (!layer) return tl::unexpected(layer.error());
+    const auto toTarget = transformation((*layer)->GetSpatialRef(), targetCrs, read.warnings);
+    if (!toTarget) return tl::unexpected(toTarget.error());
+    (*layer)->ResetReading();
+    while (const OGRFeatureUniquePtr feature{(*layer)->GetNextFeature()}) {
+      if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
+      if (const OGRGeometry* geometry = feature->GetGeometryRef())
+        if (Status added = addGeometry(*geometry, *toTarget, read.positions); !added)
+          return tl::unexpected(added.error());
+    }
+    if (errors.anyFailure())
+      return failure(ErrorCode::unreadable, fmt::format("cannot be read: {}", errors.firstFailure()));
+  }
+  if (read.positions.empty()) return failure(ErrorCode::invalidData, "holds no point");
+  return read;
+}
+
+}  // namespace
+
+Result<PlanPoints> readPlanPoints(const std::string& path, const std::string& targetCrs,
+                                  const RunContext& context) {
+  auto read = readFrom(path, targetCrs, context);
+  if (!read && read.error().culprit.empty()) read.error().culprit = path;
+  return read;
+}
+
+}  // namespace arete

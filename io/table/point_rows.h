@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/vec.h"
+
+namespace arete {
+
+/// Points as they were read, before equal ones are merged.
+struct PointRows {
+  std::vector<Vec2> positions;
+  std::vector<double> heights;
+  std::vector<std::uint64_t> origins;  ///< line number or feature id, to name a point by
+
+  void add(double x, double y, double z, std::uint64_t origin) {
+    // -0 becomes 0, so that equal positions have equal bytes.
+    positions.push_back({x + 0.0, y + 0.0});
+    heights.push_back(z + 0.0);
+    origins.push_back(origin);
+  }
+};
+
+}  // namespace arete

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// GDAL reads CSV as a layer without geometry, so tables and layers take one way: a row's places are columns
+// where there are such, else the ends of its geometry, else, for the second, azimuth and range.
+#include "io/table/sight_pairs.h"
+
+#include <fmt/format.h>
+#include <ogr_geometry.h>
+
+#include <GeographicLib/Geodesic.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "io/crs/lonlat.h"
+#include "io/crs/transform.h"
+#include "io/file/text_scan.h"
+#include "io/gdal/support.h"
+#include "io/gdal/vector_layer.h"
+#include "io/table/feature_rows.h"
+
+namespace arete {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+using Names = std::vector<std::string_view>;
+
+const Names kX[2] = {
+    {"x1", "from_x", "x_from", "lon1", "from_lon", "tx_x", "tx_lon", "x", "lon", "longitude", "easting"},
+    {"x2", "to_x", "x_to", "lon2", "to_lon", "rx_x", "rx_lon"}};
+const Names kY[2] = {
+    {"y1", "from_y", "y_from", "lat1", "from_lat", "tx_y", "tx_lat", "y", "lat", "latitude", "northing"},
+    {"y2", "to_y", "y_to", "lat2", "to_lat", "rx_y", "rx_lat"}};
+const Names kHeight[2] = {{"h1", "from_h", "from_height", "height1", "tx_h", "tx_height", "observer_height",
+                           "h", "height", "agl", "height_agl", "antenna_height"},
+                          {"h2", "to_h", "to_height", "height2", "rx_h", "rx_height", "target_height"}};
+const Names kAzimuth = {"azimuth", "az", "bearing"}, kRange = {"range", "range_m"},
+            kBeamwidth = {"beamwidth", "beam_width", "hpbw"};
+
+/// -1 where there is none.
+template <class NameOf>
+int findColumn(int count, const NameOf& nameOf, const Names& names) {
+  for (const std::string_view name : names)
+    for (int i = 0; i < count; ++i)
+      if (text::lowered(nameOf(i)) == name) return i;
+  return -1;
+}
+
+std::optional<double> numberOf(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+/// The place so many metres away in a direction: on the ellipsoid, or on the map where there is none.
+class GroundDirection {
+ public:
+  explicit GroundDirection(const Georeference& dem)
+      : lonLat_(CrsLonLat::of(dem)),
+        geodesic_(dem.semiMajorAxisMetres, dem.inverseFlattening == 0 ? 0 : 1 / dem.inverseFlattening),
+        unit_(dem.crsWkt.empty() ? 1 : dem.linearUnitMetres) {}
+
+  Vec2 operator()(Vec2 xy, double azimuth, double metres) const {
+    if (!lonLat_) {
+      const double a = azimuth * std::numbers::pi / 180;
+      return {xy.x + metres / unit_ * std::sin(a), xy.y + metres / unit_ * std::cos(a)};
+    }
+    lonLat_->toLonLat({&xy, 1});
+    Vec2 end;
+    geodesic_.Direct(xy.y, xy.x, azimuth, metres, end.y, end.x);
+    end.x += 360 * std::round((xy.x - end.x) / 360);
+    lonLat_->toCrs({&end, 1});
+    return end;
+  }
+
+ private:
+  Result<CrsLonLat> lonLat_;
+  GeographicLib::Geodesic geodesic_;
+  double unit_;
+};
+
+class PairReader {
+ public:
+  PairReader(OGRLayer& layer, SightPairs& pairs) : layer_(layer), pairs_(pairs) {
+    const OGRFeatureDefn& definition = *layer.GetLayerDefn();
+    fields_ = definition.GetFieldCount();
+    const auto nameOf = [&](int i) { return std::string_view(definition.GetFieldDefn(i)->GetNameRef()); };
+    hasGeometry_ = layer.GetGeomType() != wkbNone;
+    for (int end = 0; end < 2; ++end) {
+      if (!hasGeometry_) {
+        x_[end] = findColumn(fields_, nameOf, kX[end]);
+        y_[end] = findColumn(fields_, nameOf, kY[end]);
+      }
+      height_[end] = findColumn(fields_, nameOf, kHeight[end]);
+    }
+    azimuth_ = findColumn(fields_, nameOf, kAzimuth);
+    range_ = findColumn(fields_, nameOf, kRange);
+    if (hasGeometry_) pairs.attributes.columns.push_back({"source_fid", PointAttributes::Kind::integer});
+    for (int i = 0; i < fields_; ++i)
+      if (!isPlace(i))
+        pairs.attributes.columns.push_back(
+            {std::string(nameOf(i)), kindOf(definition.GetFieldDefn(i)->GetType())});
+  }
+
+  Status check() const {
+    if (!hasGeometry_ && (x_[0] < 0 || y_[0] < 0))
+      return failure(ErrorCode::invalidData, "has no columns x1 and y1 (or lon1, lat1, from_x, ...)");
+    if (!hasGeometry_ && (x_[1] < 0 || y_[1] < 0) && !hasDirection())
+      return failure(ErrorCode::invalidData,
+                     "has no columns x2 and y2 (or lon2, lat2, to_x, ...), nor azimuth and range");
+    return {};
+  }
+
+  /// The second place is left NaN where azimuth and range say it: see directions().
+  Status add(OGRFeature& feature) {
+    std::array<SightSite, 2> row;
+    for (SightSite& site : row) site.stated = {kNone, kNone};
+    if (hasGeometry_) {
+      if (Status read = readGeometry(feature, row); !read) return read;
+    } else {
+      for (int end = 0; end < 2; ++end)
+        for (const auto& [column, value] :
+             {std::pair{x_[end], &row[end].stated.x}, {y_[end], &row[end].stated.y}})
+          if (column >= 0)
+            if (Status read = readNumber(feature, column, *value); !read) return read;
+    }
+    for (int end = 0; end < 2; ++end) {
+      if (height_[end] < 0) continue;
+      const std::string text = fieldText(feature, height_[end]);
+      if (text.empty()) continue;
+      const auto height = readHeightText(text);
+      if (!height) return failure(ErrorCode::invalidData, height.error().message, where(feature));
+      row[end].height = *height;
+    }
+    std::array<double, 2> direction = {kNone, kNone};
+    if (hasDirection()) {
+      if (Status read = readNumber(feature, azimuth_, direction[0]); !read) return read;
+      if (Status read = readNumber(feature, range_, direction[1]); !read) return read;
+      // Behind the first end is where another azimuth leads.
+      if (!std::isfinite(row[1].stated.x) && direction[1] <= 0)
+        return failure(ErrorCode::invalidData, "has a range that is not above 0", where(feature));
+    }
+    directions_.push_back(direction);
+    if (hasGeometry_) pairs_.attributes.add(fmt::format("{}", feature.GetFID()));
+    for (int i = 0; i < fields_; ++i)
+      if (!isPlace(i)) pairs_.attributes.add(fieldText(feature, i));
+    pairs_.rows.push_back(row);
+    return {};
+  }
+
+  bool hasDirection() const { return azimuth_ >= 0 && range_ >= 0; }
+  const std::vector<std::array<double, 2>>& directions() const { return directions_; }
+
+ private:
+  bool isPlace(int field) const {
+    return std::any_of(x_.begin(), x_.end(), [&](int c) { return c == field; }) ||
+           std::any_of(y_.begin(), y_.end(), [&](int c) { return c == field; });
+  }
+
+  std::string where(const OGRFeature& feature) const { return fmt::format("row {}", feature.GetFID()); }
+
+  /// Leaves NaN for an empty field.
+  Status readNumber(OGRFeature& feature, int column, double& value) const {
+    const std::string text = fieldText(feature, column);
+    if (text.empty()) return {};
+    const auto number = numberOf(text);
+    if (!number)
+      return failure(ErrorCode::invalidData, fmt::format("'{}' is not a number", text), where(feature));
+    value = *number;
+    return {};
+  }
+
+  Status readGeometry(const OGRFeature& feature, std::array<SightSite, 2>& row) const {
+    const OGRGeometry* geometry = feature.GetGeometryRef();
+    while (geometry && !geometry->IsEmpty() &&
+           OGR_GT_IsSubClassOf(wkbFlatten(geometry->getGeometryType()), wkbGeometryCollection) &&
+           geometry->toGeometryCollection()->getNumGeometries() == 1)
+      geometry = geometry->toGeometryCollection()->getGeometryRef(0);
+    if (!geometry || geometry->IsEmpty()) return {};
+    const OGRwkbGeometryType type = wkbFlatten(geometry->getGeometryType());
+    OGRPoint ends[2];
+    if (type == wkbPoint && hasDirection()) {
+      ends[0] = *geometry->toPoint();
+      row[0].stated = {ends[0].getX(), ends[0].getY()};
+      return {};
+    }
+    if (!OGR_GT_IsSubClassOf(type, wkbCurve))
+      return failure(ErrorCode::unsupported,
+                     fmt::format("feature {} of the layer '{}' is a {}, not a line{}", feature.GetFID(),
+                                 layer_.GetName(), geometry->getGeometryName(),
+                                 type == wkbPoint ? ", and there are no columns azimuth and range" : ""));
+    geometry->toCurve()->StartPoint(&ends[0]);
+    geometry->toCurve()->EndPoint(&ends[1]);
+    for (int end = 0; end < 2; ++end) row[end].stated = {ends[end].getX(), ends[end].getY()};
+    return {};
+  }
+
+  OGRLayer& layer_;
+  SightPairs& pairs_;
+  int fields_ = 0;
+  bool hasGeometry_ = false;
+  std::array<int, 2> x_ = {-1, -1}, y_ = {-1, -1}, height_ = {-1, -1};
+  int azimuth_ = -1, range_ = -1;
+  std::vector<std::array<double, 2>> directions_;
+};
+
+void place(SightPairs& pairs, const PairReader& reader, const CrsTransform& toDem, const Georeference& dem) {
+  for (int end = 0; end < 2; ++end) {
+    std::vector<Vec2> places;
+    for (const auto& row : pairs.rows) places.push_back(row[end].stated);
+    toDem.apply(places);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const bool isStated = std::isfinite(pairs.rows[i][end].stated.x + pairs.rows[i][end].stated.y);
+      pairs.rows[i][end].xy = isStated ? places[i] : Vec2{kNone, kNone};
+    }
+  }
+  if (!reader.hasDirection()) return;
+  const GroundDirection inDirection(dem);
+  const auto back = toDem.isIdentity() ? Result<CrsTransform>(CrsTransform())
+                                       : CrsTransform::between(dem.crsWkt, toDem.sourceWkt());
+  for (std::size_t i = 0; i < pairs.rows.size(); ++i) {
+    const auto& [azimuth, range] = reader.directions()[i];
+    SightSite &from = pairs.rows[i][0], &to = pairs.rows[i][1];
+    if (std::isfinite(to.stated.x) || !std::isfinite(azimuth + range) || !std::isfinite(from.xy.x)) continue;
+    to.xy = inDirection(from.xy, azimuth, range);
+    if (back)
+      if (const auto stated = (*back)(to.xy)) to.stated = *stated;
+  }
+}
+
+Result<SightPairs> readFrom(const std::string& path, const Georeference& dem,
+                            const PointTableOptions& options, const RunContext& context) {
+  registerGdal();
+  GdalErrors errors;
+  SightPairs pairs;
+  if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
+  const GdalDatasetPtr dataset = openGdal(path, GDAL_OF_VECTOR);
+  if (!dataset) return tl::unexpected(explainOpenFailure(path, "set of lines", errors));
+  const auto layer = chooseLayer(*dataset, options.layer, LayerKind::linesOrTable);
+  if (!layer) return tl::unexpected(layer.error());
+  const bool isTable = (*layer)->GetGeomType() == wkbNone;
+  PairReader reader(**layer, pairs);
+  if (Status checked = reader.check(); !checked) return tl::unexpected(checked.error());
+  const Status read = forFeatures(**layer, errors, context, [&](OGRFeature& feature) -> Status {
+    if (Status added = reader.add(feature); !added)
+      return failure(
+          added.error().code, added.error().message,
+          added.error().culprit.empty() ? path : fmt::format("{}, {}", path, added.error().culprit));
+    return {};
+  });
+  if (!read) return tl::unexpected(read.error());
+  if (pairs.rows.empty()) return failure(ErrorCode::invalidData, "holds no line");
+  if (isTable) pairs.attributes.findKinds();
+  const auto transform = transformOf((*layer)->GetSpatialRef(), dem, options.lonLat, isTable, pairs.warnings);
+  if (!transform) return tl::unexpected(transform.error());
+  errors.moveTo(pairs.warnings);
+  pairs.crsWkt = transform->sourceWkt().empty() ? dem.crsWkt : transform->sourceWkt();
+  place(pairs, reader, *transform, dem);
+  return pairs;
+}
+
+}  // namespace
+
+Result<SightPairs> readSightPairs(const std::string& path, const Georeference& dem,
+                                  const PointTableOptions& options, const RunContext& context) {
+  auto pairs = readFrom(path, dem, options, context);
+  if (!pairs && pairs.error().culprit.empty()) pairs.error().culprit = path;
+  return pairs;
+}
+
+Result<SightPairs> readSightSites(const std::string& path, const Georeference& dem,
+                                  const PointTableOptions& options, const RunContext& context) {
+  auto table = readPointTable(path, dem, options, context);
+  if (!table) return tl::unexpected(table.error());
+  SightPairs sites;
+  sites.attributes = std::move(table->attributes);
+  sites.crsWkt = std::move(table->crsWkt);
+  sites.warnings = std::move(table->warnings);
+  const auto nameOf = [&](int i) { return std::string_view(sites.attributes.columns[std::size_t(i)].name); };
+  int column = -1;
+  for (int end = 0; end < 2 && column < 0; ++end)
+    column = findColumn(int(sites.attributes.columns.size()), nameOf, kHeight[end]);
+  const auto numberIn = [&](std::size_t row, const Names& names) -> Result<double> {
+    const int at = findColumn(int(sites.attributes.columns.size()), nameOf, names);
+    const std::string_view text = at < 0 ? std::string_view() : sites.attributes.at(row, std::size_t(at));
+    if (text.empty()) return kNone;
+    const auto number = numberOf(text);
+    if (!number)
+      return failure(ErrorCode::invalidData, fmt::format("'{}' is not a number", text),
+                     fmt::format("{}, row {}", path, row + 1));
+    return *number;
+  };
+  for (std::size_t i = 0; i < table->stated.size(); ++i) {
+    std::array<SightSite, 2> row;
+    row[0].stated = table->stated[i];
+    row[0].xy = table->positions[i];
+    row[1].stated = row[1].xy = {kNone, kNone};
+    if (column >= 0)
+      if (const std::string_view text = sites.attributes.at(i, std::size_t(column)); !text.empty()) {
+        const auto height = readHeightText(text);
+        if (!height)
+          return failure(ErrorCode::invalidData, height.error().message,
+                         fmt::format("{}, row {}", path, i + 1));
+        row[0].height = *height;
+      }
+    const auto azimuth = numberIn(i, kAzimuth), beamwidth = numberIn(i, kBeamwidth),
+               range = numberIn(i, kRange);
+    for (const auto* number : {&azimuth, &beamwidth, &range})
+      if (!*number) return tl::unexpected(number->error());
+    sites.beams.push_back({*azimuth, *beamwidth, *range});
+    sites.rows.push_back(row);
+  }
+  return sites;
+}
+
+}  // namespace arete

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
+#include "terrain/model/build_options.h"
+#include "terrain/model/heightfield.h"
+#include "terrain/model/terrain_model.h"
+#include "terrain/triangulation/finest_points.h"
+
+namespace arete {
+
+/// Builds the multitriangulation of a heightfield: its finest triangulation, taken down to
+/// the domain's corners and the fixed vertices by removing independent sets of vertices (de Berg and Dobrindt
+/// 1995).
+///
+/// The result depends on the heightfield and the options only: the same bytes for any number of threads.
+/// Errors: degenerate (no cell or triangle, all collinear, one plan position with two heights), invalidData,
+/// usage (options out of range), interrupted. O(n log n) expected. Peak memory about 300 bytes per sample.
+Result<TerrainModel> build(const RasterHeightfield& heightfield, const BuildOptions& options = {},
+                           const RunContext& context = {});
+Result<TerrainModel> build(const PointHeightfield& heightfield, const BuildOptions& options = {},
+                           const RunContext& context = {});
+/// What build() refuses at once, for those who have work to do before it. O(points).
+Status checkBuild(const PointHeightfield& heightfield, const BuildOptions& options);
+/// `finest`: finestPoints() of the same points.
+Result<TerrainModel> build(const PointHeightfield& heightfield, FinestPoints finest,
+                           const BuildOptions& options = {}, const RunContext& context = {});
+
+}  // namespace arete

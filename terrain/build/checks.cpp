@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "terrain/build/checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "terrain/triangulation/delaunay_hole.h"
+
+namespace arete {
+
+Status checkOptions(const BuildOptions& options, std::size_t sampleCount) {
+  const auto refuse = [](std::string what, const char* option) {
+    return failure(ErrorCode::usage, std::move(what), option);
+  };
+  if (options.maxDegree < 6 || options.maxDegree > kMaxHoleCorners - 1)
+    return refuse(
+        fmt::format("the degree bound must be 6 to {}, not {}", kMaxHoleCorners - 1, options.maxDegree),
+        "--max-degree");
+  if (!(options.thresholdRatio > 1 && options.thresholdRatio <= 1e6))
+    return refuse(fmt::format("the threshold ratio must be above 1, not {}", options.thresholdRatio),
+                  "--ratio");
+  if (!(options.minimumAspect >= 0 && options.minimumAspect < 0.5))
+    return refuse(
+        fmt::format("the aspect bound must be 0 or more and below 0.5, not {}", options.minimumAspect),
+        "--min-aspect");
+  if (!(options.rimTolerance >= 0 && std::isfinite(options.rimTolerance)))
+    return refuse(fmt::format("the rim tolerance must be 0 or more samples, not {}", options.rimTolerance),
+                  "--rim-tolerance");
+  const PieceOptions& pieces = options.pieces;
+  if (!(1 <= pieces.least && pieces.least <= pieces.most))
+    return refuse(fmt::format("pieces must have at least 1 vertex and at most no fewer, not {} to {}",
+                              pieces.least, pieces.most),
+                  "pieces");
+  if (pieces.fewest < 1 || !(pieces.span > 1 && std::isfinite(pieces.span)))
+    return refuse(fmt::format("{} pieces over a span of {} are no division", pieces.fewest, pieces.span),
+                  "pieces");
+  for (const std::uint32_t v : options.fixedVertices)
+    if (v >= sampleCount)
+      return refuse(fmt::format("fixed vertex {} of {} samples", v, sampleCount), "fixed vertices");
+  return {};
+}
+
+Status checkSpan(const Vec3& span, const std::string& source) {
+  constexpr double kMost = 1e30;
+  if (span.x < kMost && span.y < kMost && span.z < kMost) return {};
+  return failure(
+      ErrorCode::invalidData,
+      fmt::format("spans {} by {} metres, and {} in height: more than {}", span.x, span.y, span.z, kMost),
+      source);
+}
+
+std::string whyNoTriangle(const RasterHeightfield& heightfield) {
+  std::size_t valid = 0;
+  for (const double z : heightfield.heights) valid += std::isnan(z) ? 0 : 1;
+  if (valid == 0) return "there is no valid sample";
+  if (heightfield.columns < 2 || heightfield.rows < 2)
+    return fmt::format("{} column(s) and {} row(s) enclose no area", heightfield.columns, heightfield.rows);
+  return fmt::format("none of the {} valid samples has a cell with three valid corners", valid);
+}
+
+double roundingSlack(double low, double high) {
+  return 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(low), std::abs(high));
+}
+
+double crossingSlack(double low, double high, std::uint32_t columns, std::uint32_t rows) {
+  return roundingSlack(low, high) +
+         8 * std::numeric_limits<double>::epsilon() * std::max(columns, rows) * (high - low);
+}
+
+}  // namespace arete

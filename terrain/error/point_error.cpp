@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a triangle covers is told by linear functions with margins (points_below.h); exact predicates decide
+// what these leave open, and only a point that may change the answer is measured by the plane itself.
+#include "terrain/error/point_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace arete {
+
+bool PointError::covers(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t p) const {
+  const Vec2 pa = plan_.planPosition(a), pb = plan_.planPosition(b), pc = plan_.planPosition(c),
+             q = plan_.planPosition(p);
+  if (q.x < std::min({pa.x, pb.x, pc.x}) || q.x > std::max({pa.x, pb.x, pc.x}) ||
+      q.y < std::min({pa.y, pb.y, pc.y}) || q.y > std::max({pa.y, pb.y, pc.y}))
+    return false;
+  return plan_.orientation(a, b, p) >= 0 && plan_.orientation(b, c, p) >= 0 &&
+         plan_.orientation(c, a, p) >= 0;
+}
+
+/// The same where doubles cannot tell the triangle from a line: the largest difference of the sides beside p,
+/// for the plane's lies between two of them.
+double PointError::differenceOnLine(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                    std::uint32_t p) const {
+  const Vec2 q = plan_.planPosition(p);
+  double largest = 0;
+  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+    const Vec2 u = plan_.planPosition(from), v = plan_.planPosition(to);
+    const double dx = v.x - u.x, dy = v.y - u.y, squared = dx * dx + dy * dy;
+    const double along = squared > 0 ? ((q.x - u.x) * dx + (q.y - u.y) * dy) / squared : 0;
+    constexpr double kBeside = 0.01;
+    if (along < -kBeside || along > 1 + kBeside) continue;
+    const double t = std::clamp(along, 0.0, 1.0);
+    const double d = points_[from].z + t * (points_[to].z - points_[from].z) - points_[p].z;
+    if (std::abs(d) > std::abs(largest)) largest = d;
+  }
+  return largest;
+}
+
+/// z of the plane through a, b, c minus z of p, at p.
+double PointError::difference(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t p) const {
+  const Vec2 o = plan_.planPosition(a), pb = plan_.planPosition(b), pc = plan_.planPosition(c),
+             q = plan_.planPosition(p);
+  const double bx = pb.x - o.x, by = pb.y - o.y, cx = pc.x - o.x, cy = pc.y - o.y, x = q.x - o.x,
+               y = q.y - o.y;
+  const double left = bx * cy, right = by * cx, area = left - right;
+  // The terms are rounded: an area far smaller than they are is no area to divide by.
+  constexpr double kTrusted = 0x1p-30;
+  if (!(std::abs(area) > kTrusted * (std::abs(left) + std::abs(right)))) return differenceOnLine(a, b, c, p);
+  const double u = (x * cy - y * cx) / area, w = (bx * y - by * x) / area;
+  return points_[a].z + u * (points_[b].z - points_[a].z) + w * (points_[c].z - points_[a].z) - points_[p].z;
+}
+
+namespace {
+// One hole at a time per thread: what is below it is gathered into arrays that keep their capacity.
+thread_local ConflictLists belowHole;
+}  // namespace
+
+const ConflictLists& PointError::Hole::below() const {
+  if (below_ != nullptr) return *below_;
+  ConflictLists& below = belowHole;
+  const Vec3 apex = errors_.position(apex_);
+  below.clear(apex);
+  below.add(apex_, apex);
+  Vec3 reach;
+  for (const std::uint32_t corner : star_.linkView()) {
+    const Vec3& p = errors_.position(corner);
+    reach = {std::max(reach.x, std::abs(p.x - apex.x)), std::max(reach.y, std::abs(p.y - apex.y)),
+             std::max(reach.z, std::abs(p.z - apex.z))};
+  }
+  for (int i = 0; i < star_.triangleCount; ++i)
+    for (std::uint32_t p = errors_.head_[star_.triangle(i)]; p != kNone; p = errors_.next_[p]) {
+      const Vec3& position = errors_.position(p);
+      below.add(p, position);
+      reach.z = std::max(reach.z, std::abs(position.z - apex.z));
+    }
+  below.close(reach);
+  below_ = &below;
+  return below;
+}
+
+ConflictLists::Triangle PointError::Hole::triangle(int i, int j, int m) const {
+  return {below(), position(i), position(j), position(m)};
+}
+
+bool PointError::Hole::isCovered(const ConflictLists::Found& found, int i, int j, int m) const {
+  return found.isCovered || errors_.covers(star_.link[i], star_.link[j], star_.link[m], below()[found.place]);
+}
+
+Vec3 PointError::Hole::fromApex(int i) const {
+  const std::uint32_t corner = star_.link[i];
+  const PointPlan::Point o = errors_.plan_.point(apex_), p = errors_.plan_.point(corner);
+  return {p.x() - o.x(), p.y() - o.y(), errors_.position(corner).z - errors_.position(apex_).z};
+}
+
+double PointError::Hole::apexError(int i, int j, int m) const {
+  return std::abs(errors_.difference(star_.link[i], star_.link[j], star_.link[m], apex_));
+}
+
+double PointError::Hole::maximum(int i, int j, int m, double limit) const {
+  const ConflictLists::Triangle over = triangle(i, j, m);
+  double worst = 0;
+  for (auto found = over.next(0, worst, worst); found.place != below().size();
+       found = over.next(found.place + 1, worst, worst)) {
+    if (!isCovered(found, i, j, m)) continue;
+    const std::uint32_t p = below()[found.place];
+    worst = std::max(worst, std::abs(errors_.difference(star_.link[i], star_.link[j], star_.link[m], p)));
+    if (worst > limit) break;
+  }
+  return worst;
+}
+
+double PointError::Hole::maximum(int i, int j, int m, double limit, SignedBound& bound) const {
+  const ConflictLists::Triangle over = triangle(i, j, m);
+  double worst = 0;
+  for (auto found = over.next(0, bound.above, bound.below); found.place != below().size();
+       found = over.next(found.place + 1, bound.above, bound.below)) {
+    if (!isCovered(found, i, j, m)) continue;
+    const std::uint32_t p = below()[found.place];
+    const double d = errors_.difference(star_.link[i], star_.link[j], star_.link[m], p);
+    bound.include(d);
+    worst = std::max(worst, std::abs(d));
+    if (worst > limit) break;
+  }
+  return worst;
+}
+
+void PointError::Hole::settle(const HoleTriangulation& floor) {
+  const std::size_t count = below().size();
+  thread_local std::vector<std::uint8_t> isSettled;
+  isSettled.assign(count, 0);
+  for (int t = 0; t < star_.triangleCount; ++t) errors_.head_[star_.triangle(t)] = kNone;
+  for (int f = 0; f < floor.size; ++f) {
+    const auto [i, j, m] = floor.triangles[f];
+    std::uint32_t& head = errors_.head_[star_.triangle(f)];
+    const ConflictLists::Triangle over = triangle(i, j, m);
+    for (auto found = over.nextCovered(0); found.place != count; found = over.nextCovered(found.place + 1)) {
+      if (isSettled[found.place] != 0 || !isCovered(found, i, j, m)) continue;
+      const std::uint32_t p = below()[found.place];
+      isSettled[found.place] = 1;
+      errors_.next_[p] = head;
+      head = p;
+    }
+  }
+}
+
+void PointError::compact(const SlotMap& newSlot) {
+  newSlot.forLiveInPlace([&](std::size_t from, std::uint32_t to) { head_[to] = head_[from]; });
+  head_.shrink(newSlot.liveCount());
+}
+
+}  // namespace arete

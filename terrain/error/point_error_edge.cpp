@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The walk along a segment a-b through the finest triangulation: at a vertex on the segment, turn through its
+// star to the triangle that the segment enters (or to a neighbour that lies on it); inside a triangle, the
+// corner opposite the edge just crossed lies left of, right of or on the segment, which names the next edge
+// or vertex. Edges that are crossed one after the other share an end, whose ring names the next corner. Every
+// decision is an exact orientation; only the differences at the crossings are computed in doubles.
+//
+// Over the plane that rises along the segment and is level across it, the difference of a vertex is one
+// number, and that of a crossing lies between those of the crossed edge's ends. The bound allows for what
+// rounding can do to it: digits are lost where an end is far away beside the segment, and where both ends are
+// so near it that their sides are rounding the crossing may be anywhere between them.
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "terrain/error/point_error.h"
+
+namespace arete {
+
+SignedBound PointError::alongEdge(std::uint32_t a, std::uint32_t b) const {
+  SignedBound bound;
+  const Vec3 pa = points_[a], pb = points_[b];
+  const double dx = pb.x - pa.x, dy = pb.y - pa.y, climb = pb.z - pa.z, squared = dx * dx + dy * dy;
+  // Of a segment so short that its square is none, all heights between its ends are looked at everywhere.
+  const bool isShort = squared < 0x1p-900;
+  const double rise = isShort ? 0 : climb / squared, unsure = isShort ? std::abs(climb) : 0;
+  struct End {
+    std::uint32_t vertex = kNone;
+    int sign = 0;           ///< exact: > 0 left of the segment, < 0 right of it
+    double side = 0;        ///< twice the area of the segment and the vertex left of it
+    double sideLost = 0;    ///< what that can be off by
+    double difference = 0;  ///< of the plane from the vertex
+    double lost = 0;        ///< what that can be off by, the rounding of heights aside
+  };
+  const auto endAt = [&](std::uint32_t v) -> End {
+    const Vec3& p = points_[v];
+    const double x = p.x - pa.x, y = p.y - pa.y, forth = dx * y, back = dy * x, side = forth - back;
+    const double alongX = x * dx, alongY = y * dy;
+    const double difference = pa.z + (alongX + alongY) * rise - p.z;
+    // A dozen roundings of each term; of the sides three, and small ones may have lost their digits (Shewchuk
+    // 1997, section 4).
+    const double lost = 0x1p-49 * (std::abs(alongX) + std::abs(alongY)) * std::abs(rise) + unsure;
+    const double sideLost = 0x1p-51 * (std::abs(forth) + std::abs(back)) + 0x1p-960;
+    const int sign = int(side > sideLost) - int(side < -sideLost);
+    const bool isCertain = sign != 0 || v == a || v == b;
+    return {v, isCertain ? sign : plan_.orientation(a, b, v), side, sideLost, difference, lost};
+  };
+  // Of two vertices on the segment.
+  const auto isAhead = [&](std::uint32_t from, std::uint32_t v) {
+    const Vec3 &p = points_[v], &o = points_[from];
+    return dx != 0 ? (p.x > o.x) == (dx > 0) : (p.y > o.y) == (dy > 0);
+  };
+  const auto include = [&](double difference, double lost) {
+    bound.include({lost - difference, lost + difference});
+  };
+  // A point on the segment travels with one of the two triangles at the edge; the bound of the other needs
+  // it.
+  const auto pass = [&](const End& end) {
+    if (end.vertex != b) include(end.difference, unsure);
+  };
+  const auto cross = [&](const End& u, const End& w) {
+    const double su = std::abs(u.side), sw = std::abs(w.side), sides = su + sw,
+                 sidesLost = 2 * (u.sideLost + w.sideLost);
+    const double apart = w.difference - u.difference, part = sides > 0 ? su / sides : 0;
+    const double partLost = sidesLost < sides ? sidesLost / sides : 1;
+    include(u.difference + part * apart, u.lost + w.lost + partLost * std::abs(apart));
+  };
+
+  for (std::uint32_t at = a; at != b;) {
+    // Out of the vertex `at`: a neighbour on the segment, or the triangle whose far edge the segment crosses.
+    const std::span<const std::uint32_t> ring = finest_.of(at);
+    std::uint32_t onward = kNone;
+    bool isEntered = false;
+    std::array<End, 2> ends;  // of the crossed edge: right and left
+    ends[0] = ring.back() == kNone ? End{} : endAt(ring.back());
+    for (const std::uint32_t neighbour : ring) {
+      if (neighbour == kNone) break;
+      ends[1] = endAt(neighbour);
+      if (ends[1].sign == 0 && isAhead(at, neighbour)) {
+        onward = neighbour;
+        pass(ends[1]);
+        break;
+      }
+      // Counter-clockwise: the segment leaves between a neighbour right of it and the next one left of it.
+      isEntered = ends[0].sign < 0 && ends[1].sign > 0;
+      if (isEntered) break;
+      ends[0] = ends[1];
+    }
+    if (onward != kNone) {
+      at = onward;
+      continue;
+    }
+    if (!isEntered) return bound;  // along the hull, within rounding of it: nothing is crossed
+
+    // From edge to edge around the end that stays, which is the right one or the left.
+    std::size_t pivot = 0;
+    RingPlace place(finest_, ends[0].vertex, ends[1].vertex);
+    for (;;) {
+      cross(ends[0], ends[1]);
+      const std::uint32_t beyond = pivot == 0 ? place.previous() : place.next();
+      if (beyond == kNone) return bound;
+      const End apex = endAt(beyond);
+      if (apex.sign == 0) {
+        at = beyond;
+        pass(apex);
+        break;
+      }
+      const auto side = static_cast<std::size_t>(apex.sign > 0);
+      ends[side] = apex;
+      if (side != pivot) continue;
+      pivot = 1 - side;
+      place = RingPlace(finest_, ends[pivot].vertex, beyond);
+    }
+  }
+  return bound;
+}
+
+}  // namespace arete

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A triangle is compared row by row (triangle_rows.h), four samples at a time. The rows of a small one are
+// known from a table (small_triangles.h). A wide one is looked at by blocks of 8 x 8 samples: most of them
+// keep so close to a plane (height_blocks.h) that none of their samples can be the one that differs most.
+#include "terrain/error/raster_error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "terrain/error/double2.h"
+#include "terrain/error/triangle_rows.h"
+
+namespace arete {
+namespace {
+
+/// The largest of some differences, until one is beyond the limit.
+struct LargestDifference {
+  double limit;
+  Double2 found = {0, 0};
+  void include(Double2 difference) {
+    const Double2 size = magnitude(difference);
+    found = size > found ? size : found;  // false for NODATA
+  }
+  bool isEnough() const { return largest(found) > limit; }
+  /// Whether one between the two could change it.
+  bool isChangedBy(double low, double high) const { return std::max(high, -low) > largest(found); }
+};
+
+/// The largest of some differences either way, until one is beyond the limit.
+struct SignedDifferences {
+  double limit;
+  Double2 above = {0, 0}, below = {0, 0};
+  void include(Double2 difference) {
+    above = difference > above ? difference : above;  // false for NODATA
+    below = difference < below ? difference : below;
+  }
+  bool isEnough() const { return largest(larger(above, -below)) > limit; }
+  bool isChangedBy(double low, double high) const { return high > largest(above) || low < smallest(below); }
+};
+
+/// What differences from a plane can be off by because it is known by rounded steps along columns and rows:
+/// much of a needle, whose steps are differences of large numbers.
+[[gnu::always_inline]] inline double roundingOfPlane(const RasterError::Corner& a,
+                                                     const RasterError::Corner& b,
+                                                     const RasterError::Corner& c) {
+  const Double2 ab = {double(b.x - a.x), double(b.y - a.y)}, ac = {double(c.x - a.x), double(c.y - a.y)};
+  const Double2 crossed = ab * swapped(ac), farthest = larger(magnitude(ab), magnitude(ac));
+  const Double2 terms =
+      both(std::abs(b.z - a.z)) * magnitude(swapped(ac)) + both(std::abs(c.z - a.z)) * magnitude(swapped(ab));
+  const Double2 products = terms * farthest;
+  return 0x1p-49 * (products[0] + products[1]) / (crossed[0] - crossed[1]);
+}
+
+}  // namespace
+
+/// Half of the triangles a build asks about cover one sample beside their corners, or none: by Pick's theorem
+/// those of twice the area 1 none, of 2 the middle of an edge, of 3 their centroid, unless an edge has two.
+/// Then `difference` is z_plane - z there. Over NODATA, 0.
+[[gnu::always_inline]] inline bool RasterError::isSmall(const Corner& a, const Corner& b, const Corner& c,
+                                                        double& difference) const {
+  const std::int64_t area = std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(b.y - a.y) * (c.x - a.x);
+  if (area > 3) return false;
+  std::int64_t x, y;
+  double z;
+  if (area == 2) {
+    const bool isAB = (((b.x - a.x) | (b.y - a.y)) & 1) == 0, isBC = (((c.x - b.x) | (c.y - b.y)) & 1) == 0;
+    const Corner &u = isAB ? a : c, &v = isAB || isBC ? b : a;
+    x = (u.x + v.x) / 2;
+    y = (u.y + v.y) / 2;
+    z = (u.z + v.z) / 2;
+  } else if (area == 3) {
+    x = std::int64_t(a.x) + b.x + c.x;
+    y = std::int64_t(a.y) + b.y + c.y;
+    if (x % 3 != 0 || y % 3 != 0) return false;
+    x /= 3;
+    y /= 3;
+    z = a.z + ((b.z - a.z) + (c.z - a.z)) / 3;  // of flat ground exactly its height
+  } else {
+    difference = 0;
+    return true;
+  }
+  const double height = heights_[std::size_t(y) * plan_.columns() + std::size_t(x)];
+  difference = height == height ? z - height : 0;
+  return true;
+}
+
+/// z_plane - z at samples below a triangle, by columns and rows from corner a, which anchors the plane.
+template <class Height, class Differences>
+class RasterError::PlaneDifferences {
+ public:
+  /// heights: of the errors' samples.
+  [[gnu::always_inline]] PlaneDifferences(const RasterError& errors, const Height* heights, const Corner& a,
+                                          double dzB, double dzC, Double2 ab, Double2 ac,
+                                          Differences& differences)
+      : differences_(differences),
+        end_(heights + errors.heights_.size()),
+        columns_(errors.plan_.columns()),
+        origin_(heights + (a.y * columns_ + a.x)),
+        z_(a.z) {
+    const Double2 crossed = ab * swapped(ac);
+    const double inverse = 1.0 / (crossed[0] - crossed[1]);
+    const Double2 steps = (both(dzB) * swapped(ac) - both(dzC) * swapped(ab)) * both(inverse);
+    stepX_ = steps[0];
+    stepY_ = -steps[1];
+  }
+
+  double stepX() const { return stepX_; }
+  double stepY() const { return stepY_; }
+  [[gnu::always_inline]] Double2 planeAt(double x, double y) const {
+    return both(z_ + stepX_ * x + stepY_ * y);
+  }
+
+  /// Includes those of a row, from a column on; four at most.
+  [[gnu::always_inline]] void includeFew(int y, int left, int count) {
+    includeFew(planeAt(left, y), kFirstFour, origin_ + (y * columns_ + left), count);
+  }
+  /// The same of any number.
+  [[gnu::always_inline]] void includeRow(double y, double left, double count) {
+    const Double2 z = planeAt(left, y);
+    const Height* heights = origin_ + static_cast<std::ptrdiff_t>(y * double(columns_) + left);
+    Double2 x[2] = {kFirstFour[0], kFirstFour[1]};
+    for (; count > 4; count -= 4, heights += 4)
+      for (int k = 0; k < 2; ++k) {
+        differences_.include(z + both(stepX_) * x[k] - load(heights + 2 * k));
+        x[k] += both(4);
+      }
+    includeFew(z, x, heights, count);
+  }
+
+ private:
+  static constexpr Double2 kFirstFour[2] = {{0, 1}, {2, 3}};
+
+  /// Of the samples from `heights` on the first `count`, by their columns from where the plane is z.
+  [[gnu::always_inline]] void includeFew(Double2 z, const Double2 (&x)[2], const Height* heights,
+                                         double count) {
+    std::array<Height, 4> copy;
+    if (end_ - heights < 4) {
+      copy.fill(0);
+      std::copy(heights, end_, copy.begin());
+      heights = copy.data();
+    }
+    for (int k = 0; k < 2; ++k) {
+      const Double2 difference = z + both(stepX_) * x[k] - load(heights + 2 * k);
+      differences_.include(kFirstFour[k] < both(count) ? difference : both(0));
+    }
+  }
+
+  Differences& differences_;
+  const Height* end_;
+  std::ptrdiff_t columns_;
+  const Height* origin_;
+  double z_, stepX_, stepY_;
+};
+
+/// Includes z_plane - z at the samples, row after row, until there is enough. The corners are left out: there
+/// the plane is the sample.
+template <class Differences>
+[[gnu::always_inline]] inline void RasterError::compare(const Corner& a, const Corner& b, const Corner& c,
+                                                        Differences& differences) const {
+  heights_.with([&](const auto* heights) { compareWith(heights, a, b, c, differences); });
+}
+
+template <class Height, class Differences>
+[[gnu::always_inline]] inline void RasterError::compareWith(const Height* heights, const Corner& a,
+                                                            const Corner& b, const Corner& c,
+                                                            Differences& differences) const {
+  const Double2 ab = {double(b.x - a.x), double(b.y - a.y)}, ac = {double(c.x - a.x), double(c.y - a.y)};
+  PlaneDifferences<Height, Differences> plane(*this, heights, a, b.z - a.z, c.z - a.z, ab, ac, differences);
+
+  const auto& few = small_.rows(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
+  if (few.count >= 0) {
+    for (int k = 0; k < few.count; ++k) {
+      plane.includeFew(few.top + k, few.left[k], few.size[k]);
+      if (differences.isEnough()) return;
+    }
+    return;
+  }
+
+  constexpr double kFewWideRows = 48;  // from so many on it is looked at by blocks of samples
+  const TriangleRows rows(ab, ac, roundUp_);
+  if (rows.last() - rows.first() >= kFewWideRows) return compareByBlocks(a, b, c, rows, plane, differences);
+  for (double y = rows.first(); y <= rows.last(); y += 1) {
+    const Double2 row = rows.columnsOf(y);
+    plane.includeRow(y, row[0], row[1]);
+    if (differences.isEnough()) return;
+  }
+}
+
+/// The same of a wide triangle, one row of blocks after the other.
+template <class Height, class Differences>
+[[gnu::always_inline]] inline void RasterError::compareByBlocks(const Corner& a, const Corner& b,
+                                                                const Corner& c, const TriangleRows& triangle,
+                                                                PlaneDifferences<Height, Differences>& plane,
+                                                                Differences& differences) const {
+  constexpr int kSide = HeightBlocks::kSide;
+  constexpr double kMiddle = (kSide - 1) / 2.0, kRounding = 0x1p-46, kFar = TriangleRows::kFar;
+  const auto extent = [](std::int32_t i, std::int32_t j, std::int32_t k) {
+    return double(std::max({i, j, k}) - std::min({i, j, k}) + kSide);
+  };
+  const double magnitude = std::abs(a.z) + std::abs(plane.stepX()) * extent(a.x, b.x, c.x) +
+                           std::abs(plane.stepY()) * extent(a.y, b.y, c.y);
+  for (double y = triangle.first(); y <= triangle.last();) {
+    const int blockRow = (a.y + static_cast<int>(y)) >> HeightBlocks::kShift;
+    const double blockTop = blockRow * kSide - a.y, end = std::min(triangle.last() + 1, blockTop + kSide);
+    std::array<Double2, kSide> rows;
+    double left = kFar, right = -kFar;
+    int count = 0;
+    for (double row = y; row < end; row += 1, ++count) {
+      const Double2 columnsOfRow = rows[count] = triangle.columnsOf(row);
+      if (columnsOfRow[1] <= 0) continue;
+      left = std::min(left, columnsOfRow[0]);
+      right = std::max(right, columnsOfRow[0] + columnsOfRow[1] - 1);
+    }
+    if (left <= right) {
+      const int lastBlock = (a.x + static_cast<int>(right)) >> HeightBlocks::kShift;
+      for (int i = (a.x + static_cast<int>(left)) >> HeightBlocks::kShift; i <= lastBlock; ++i) {
+        // What the differences of the block's samples lie between.
+        const HeightBlocks::Block& block =
+            blocks_.at(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(blockRow));
+        const double blockLeft = i * kSide - a.x, blockHeight = double(block.middle);
+        const double there = plane.planeAt(blockLeft + kMiddle, blockTop + kMiddle)[0] - blockHeight;
+        const double reach = kMiddle * (std::abs(plane.stepX() - double(block.slopeX)) +
+                                        std::abs(plane.stepY() - double(block.slopeY))) +
+                             kRounding * (magnitude + std::abs(blockHeight));
+        if (!differences.isChangedBy(there - reach - double(block.high), there + reach - double(block.low)))
+          continue;
+        for (int k = 0; k < count; ++k) {
+          const double from = std::max(rows[k][0], blockLeft),
+                       to = std::min(rows[k][0] + rows[k][1], blockLeft + kSide);
+          if (from < to) plane.includeRow(y + k, from, to - from);
+        }
+      }
+      if (differences.isEnough()) return;
+    }
+    y = end;
+  }
+}
+
+double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, double limit) const {
+  double only = 0;
+  if (isSmall(a, b, c, only)) return std::abs(only);
+  LargestDifference differences{limit};
+  compare(a, b, c, differences);
+  return largest(differences.found);
+}
+
+double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, double limit,
+                            SignedBound& bound) const {
+  double only = 0;
+  if (isSmall(a, b, c, only)) {
+    bound.include(only);
+    return std::abs(only);
+  }
+  SignedDifferences differences{limit};
+  compare(a, b, c, differences);
+  const double high = largest(differences.above), low = smallest(differences.below);
+  const double rounding = roundingOfPlane(a, b, c);
+  bound.above = std::max(bound.above, high > 0 ? high + rounding : 0);
+  bound.below = std::max(bound.below, low < 0 ? rounding - low : 0);
+  return std::max(high, -low);
+}
+
+}  // namespace arete

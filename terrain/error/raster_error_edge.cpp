@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The difference between a triangle and the finest triangulation is linear on every piece of the overlay of
+// the two, so its extremes lie at the overlay's vertices: samples inside the triangle, its corners (where it
+// is zero) and crossings of its edges with edges of the finest triangulation: grid columns, grid rows and the
+// diagonals of the cells, which run from the upper-left to the lower-right sample and are the lines column -
+// row = constant. A short edge's are in a table (short_edges.h). Where a triangle reaches beyond the domain's
+// rim, the rim's own half cells add the other diagonals. A crossing at a sample is left out: whoever looks at
+// the samples has it.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "terrain/error/raster_error.h"
+
+namespace arete {
+namespace {
+
+/// The segment's height minus that of the finest triangulation where it crosses lines of the lattice.
+template <class Height>
+class LongEdge {
+ public:
+  LongEdge(const RasterError::Corner& a, const RasterError::Corner& b, const Height* heights,
+           std::size_t columns, std::uint32_t rows)
+      : x0_(a.x),
+        y0_(a.y),
+        dx_(b.x - a.x),
+        dy_(b.y - a.y),
+        z0_(a.z),
+        dz_(b.z - a.z),
+        heights_(heights),
+        columns_(columns),
+        rows_(rows) {}
+
+  /// Precondition: the segment does not run along a column.
+  void crossColumns() {
+    crossLines(dx_, y0_, dy_, [&](double t, std::int64_t k, std::int64_t row, double f) {
+      const Height* h = sample(row, x0_ + k);
+      include(t, h[0], h[columns_], f);
+    });
+  }
+  /// Precondition: nor along a row.
+  void crossRows() {
+    crossLines(dy_, x0_, dx_, [&](double t, std::int64_t k, std::int64_t column, double f) {
+      const Height* h = sample(y0_ + k, column);
+      include(t, h[0], h[1], f);
+    });
+  }
+  /// column - row = constant, through whole cells.
+  void crossDiagonals() {
+    // On the diagonal both fractions are the same; take the one that is exact more often.
+    crossDiagonals(
+        dx_ - dy_, [](double f) { return f; },
+        [&](double t, const Height* h, double f) { include(t, h[0], h[columns_ + 1], f); });
+  }
+  /// column + row = constant: edges of the finest triangulation in half cells only, from the lower-left to
+  /// the upper-right sample.
+  void crossDiagonalsOfHalfCells() {
+    crossDiagonals(
+        dx_ + dy_, [](double f) { return 1 - f; },
+        [&](double t, const Height* h, double f) {
+          const bool isHalfCell = std::isnan(h[0]) != std::isnan(h[columns_ + 1]);
+          if (isHalfCell) include(t, h[columns_], h[1], f);
+        });
+  }
+
+  SignedBound bound() const { return {std::max(0.0, -low_), std::max(0.0, high_)}; }
+
+ private:
+  /// Columns or rows: the segment's end is `lines` of them away, and runs from `from` on by `rise` along
+  /// them.
+  template <class Visit>
+  static void crossLines(std::int64_t lines, std::int64_t from, std::int64_t rise, const Visit& visit) {
+    const double inverse = 1.0 / double(lines), slope = double(rise) * inverse;
+    const std::int64_t step = lines > 0 ? 1 : -1;
+    for (std::int64_t k = step; k != lines; k += step) {
+      const double place = double(from) + slope * double(k), base = double(std::int64_t(place));
+      if (place != base) visit(double(k) * inverse, k, std::int64_t(base), place - base);
+    }
+  }
+  /// `across`: how many diagonals the segment's end is away. inRow(f): how far below its cell's row a
+  /// crossing lies that is f right of its column.
+  template <class InRow, class Visit>
+  void crossDiagonals(std::int64_t across, const InRow& inRow, const Visit& visit) const {
+    if (across == 0) return;
+    const double inverse = 1.0 / double(across);
+    const std::int64_t step = across > 0 ? 1 : -1;
+    for (std::int64_t k = step; k != across; k += step) {
+      const double t = double(k) * inverse;
+      const double x = double(x0_) + double(dx_) * t, y = double(y0_) + double(dy_) * t;
+      const double base = double(std::int64_t(x)), f = x - base;
+      if (f == 0) continue;
+      const auto row = static_cast<std::int64_t>(y - inRow(f) + 0.5);
+      if (row < 0 || row + 1 >= std::int64_t(rows_) || std::size_t(base) + 1 >= columns_) continue;
+      visit(t, sample(row, std::int64_t(base)), f);
+    }
+  }
+
+  const Height* sample(std::int64_t row, std::int64_t column) const {
+    return heights_ + std::size_t(row) * columns_ + std::size_t(column);
+  }
+  /// At the part t of the segment, and f of the way between two samples.
+  void include(double t, double from, double to, double f) {
+    const double difference = z0_ + dz_ * t - (from + f * (to - from));
+    high_ = difference > high_ ? difference : high_;  // false for NODATA
+    low_ = difference < low_ ? difference : low_;
+  }
+
+  std::int64_t x0_, y0_, dx_, dy_;
+  double z0_, dz_;
+  const Height* heights_;
+  std::size_t columns_;
+  std::uint32_t rows_;
+  double high_ = 0, low_ = 0;
+};
+
+}  // namespace
+
+SignedBound RasterError::alongShortEdge(const Corner& a, const Corner& b) const {
+  const double dz = b.z - a.z;
+  const std::size_t start = std::size_t(a.y) * plan_.columns() + std::size_t(a.x);
+  double high = 0, low = 0;
+  heights_.with([&](const auto* heights) {
+    heights += start;
+    for (const EdgeCrossingTable::Crossing& crossing : shortEdges_.of(b.x - a.x, b.y - a.y)) {
+      const double from = heights[crossing.from], to = heights[crossing.to];
+      const double difference = a.z + dz * crossing.along - (from + crossing.between * (to - from));
+      high = difference > high ? difference : high;  // false for NODATA
+      low = difference < low ? difference : low;
+    }
+  });
+  return {0 - low, high};  // not -low: that would be -0
+}
+
+SignedBound RasterError::alongLongEdge(const Corner& a, const Corner& b) const {
+  const std::int32_t dx = b.x - a.x, dy = b.y - a.y;
+  // Along a column, a row or a diagonal it crosses edges of the finest triangulation at samples only.
+  if (dx == 0 || dy == 0 || (dx == dy && !reachesBeyondRims_)) return {};
+  return heights_.with([&](const auto* heights) {
+    LongEdge edge(a, b, heights, plan_.columns(), rows_);
+    edge.crossColumns();
+    edge.crossRows();
+    edge.crossDiagonals();
+    if (reachesBeyondRims_) edge.crossDiagonalsOfHalfCells();
+    return edge.bound();
+  });
+}
+
+}  // namespace arete

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A king's moves between blocks, in two passes over them (Rosenfeld and Pfaltz 1966, "Sequential operations
+// in digital picture processing"): one more than what the neighbours above and to the left say, then those
+// below and to the right. From any sample of a block so many moves away, another one is at least that many
+// blocks less one of samples away.
+#include "terrain/error/void_clearance.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace arete {
+
+VoidClearance::VoidClearance(std::span<const double> heights, std::uint32_t columns)
+    : columns_((columns + kSide - 1) >> kShift) {
+  const auto rows = static_cast<std::uint32_t>(heights.size() / columns);
+  const std::size_t across = columns_, down = (rows + kSide - 1) >> kShift;
+  // A frame of blocks that are far from everything spares the passes their borders.
+  const std::size_t stride = across + 2;
+  std::vector<std::uint8_t> framed(stride * (down + 2), kFar);
+  std::atomic<bool> hasVoids = false;
+  tbb::parallel_for(std::size_t(0), down, [&](std::size_t blockRow) {
+    std::uint8_t* const blocks = &framed[(blockRow + 1) * stride + 1];
+    const std::size_t end = std::min<std::size_t>(rows, (blockRow + 1) * kSide);
+    bool isFound = false;
+    for (std::size_t row = blockRow * kSide; row < end; ++row)
+      for (std::size_t column = 0; column < columns; ++column)
+        if (std::isnan(heights[row * columns + column])) {
+          blocks[column >> kShift] = 0;
+          isFound = true;
+        }
+    if (isFound) hasVoids.store(true, std::memory_order_relaxed);
+  });
+  if (!hasVoids) return;
+
+  const auto oneMore = [](std::uint8_t a, std::uint8_t b, std::uint8_t c, std::uint8_t d) {
+    return static_cast<std::uint8_t>(std::min({a, b, c, d}) + 1);
+  };
+  for (std::size_t row = 1; row <= down; ++row) {
+    std::uint8_t *const here = &framed[row * stride], *const above = here - stride;
+    for (std::size_t i = 1; i <= across; ++i)
+      here[i] = std::min(here[i], oneMore(above[i - 1], above[i], above[i + 1], here[i - 1]));
+  }
+  for (std::size_t row = down; row > 0; --row) {
+    std::uint8_t *const here = &framed[row * stride], *const below = here + stride;
+    for (std::size_t i = across; i > 0; --i)
+      here[i] = std::min(here[i], oneMore(below[i + 1], below[i], below[i - 1], here[i + 1]));
+  }
+  blocks_.resize(across * down);
+  for (std::size_t row = 0; row < down; ++row)
+    std::copy_n(&framed[(row + 1) * stride + 1], across, &blocks_[row * across]);
+}
+
+}  // namespace arete

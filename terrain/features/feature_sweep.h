@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Persistence of dimension 0, twice: the components of the sublevel sets (pits, upwards) and those of the
+// superlevel sets (peaks, downwards). Told upwards: a sweep by height opens a component at every vertex
+// without a lower neighbour; where two components meet, the one with the younger extremum dies (the elder
+// rule), and the vertex that joined them is the pass (Edelsbrunner, Letscher, Zomorodian 2002; Edelsbrunner,
+// Harer, "Computational Topology", 2010, chapter VII).
+//
+// Most of the sweep decides nothing: a vertex joins the component of a lower neighbour. So each vertex is
+// hung under one at once, which makes trees, one for each extremum, and only edges between two trees are
+// swept, in the order of their later ends. They are few, and nothing else needs sorting. The trees serve as
+// union-find, with the extremum as the root and paths halved: O(log n) amortised per operation without a
+// second array.
+#pragma once
+
+#include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "engine/memory/uninitialized_vector.h"
+#include "engine/parallel/run_context.h"
+#include "terrain/features/features.h"
+
+namespace arete {
+
+/// Which of two vertices is the lower one: by height, then by index.
+class LowerVertex {
+ public:
+  explicit LowerVertex(std::span<const double> heights) : heights_(heights) {}
+  bool operator()(std::uint32_t a, std::uint32_t b) const {
+    return heights_[a] < heights_[b] || (heights_[a] == heights_[b] && a < b);
+  }
+
+ private:
+  std::span<const double> heights_;
+};
+
+class HigherVertex {
+ public:
+  explicit HigherVertex(std::span<const double> heights) : lower_(heights) {}
+  bool operator()(std::uint32_t a, std::uint32_t b) const { return lower_(b, a); }
+
+ private:
+  LowerVertex lower_;
+};
+
+/// The trees of a sweep.
+class FeatureTrees {
+ public:
+  FeatureTrees() = default;
+  /// `parent`: per vertex a neighbour that comes before it, or itself.
+  explicit FeatureTrees(UninitializedVector<std::uint32_t> parent) : parent_(std::move(parent)) {
+    for (std::uint32_t v = 0; v < parent_.size(); ++v) parent_[v] = find(v);
+  }
+
+  std::uint32_t find(std::uint32_t v) {
+    while (parent_[v] != v) {
+      parent_[v] = parent_[parent_[v]];
+      v = parent_[v];
+    }
+    return v;
+  }
+
+  /// The root of its tree, until trees are hung under each other.
+  std::uint32_t tree(std::uint32_t v) const { return parent_[v]; }
+
+  void hang(std::uint32_t root, std::uint32_t under) { parent_[root] = under; }
+
+ private:
+  UninitializedVector<std::uint32_t> parent_;
+};
+
+/// An edge by its ends in the order of a sweep.
+struct FeatureLink {
+  std::uint32_t later, first;
+};
+
+/// Pairs the extrema that `links` join, which are `kind`, with their passes. `before` is the order of the
+/// sweep. Appends to `found`; leaves the surviving extremum of each component as its root.
+template <class Before>
+void sweepFeatures(FeatureTrees& trees, std::vector<FeatureLink>& links, const Before& before,
+                   Feature::Kind kind, std::span<const double> heights, const FeatureOptions& options,
+                   std::vector<Feature>& found) {
+  tbb::parallel_sort(links.begin(), links.end(),
+                     [&](const FeatureLink& a, const FeatureLink& b) { return before(a.later, b.later); });
+  for (const FeatureLink& link : links) {
+    std::uint32_t staying = trees.find(link.later), dying = trees.find(link.first);
+    if (dying == staying) continue;
+    if (before(dying, staying)) std::swap(dying, staying);
+    trees.hang(dying, staying);
+    const double persistence = std::abs(heights[link.later] - heights[dying]);
+    if (persistence > 0 && persistence >= options.minimumPersistence) {
+      found.push_back({kind, dying, heights[dying], persistence});
+      found.push_back({Feature::Kind::pass, link.later, heights[link.later], persistence});
+    }
+  }
+}
+
+/// Per vertex a neighbour that is lower and one that is higher, or itself.
+struct FeatureParents {
+  UninitializedVector<std::uint32_t> lower, higher;
+};
+
+/// rankFeatures() on any surface. linksOf(before, trees): edges enough to join, in time, whatever is joined
+/// by the edges between two trees; called for both sweeps at once. Empty when cancelled.
+template <class LinksOf>
+std::vector<Feature> rankFeaturesOf(std::span<const double> heights, FeatureParents parents,
+                                    const LinksOf& linksOf, const FeatureOptions& options,
+                                    const RunContext& context) {
+  std::vector<Feature> found, peaks;
+  FeatureTrees upwards, downwards;
+  const auto sweep = [&](FeatureTrees& trees, UninitializedVector<std::uint32_t>& parent, const auto& before,
+                         Feature::Kind kind, std::vector<Feature>& pairs) {
+    trees = FeatureTrees(std::move(parent));
+    std::vector<FeatureLink> links = linksOf(before, trees);
+    if (!context.cancelled()) sweepFeatures(trees, links, before, kind, heights, options, pairs);
+  };
+  tbb::parallel_invoke(
+      [&] { sweep(upwards, parents.lower, LowerVertex(heights), Feature::Kind::pit, found); },
+      [&] { sweep(downwards, parents.higher, HigherVertex(heights), Feature::Kind::peak, peaks); });
+  if (context.cancelled()) return {};
+  found.insert(found.end(), peaks.begin(), peaks.end());
+  for (std::uint32_t low = 0; low < heights.size(); ++low) {
+    if (upwards.tree(low) != low || std::isnan(heights[low])) continue;
+    const std::uint32_t high = downwards.find(low);
+    const double range = heights[high] - heights[low];
+    if (range > 0 && range >= options.minimumPersistence) {
+      found.push_back({Feature::Kind::pit, low, heights[low], range});
+      found.push_back({Feature::Kind::peak, high, heights[high], range});
+    }
+  }
+  std::sort(found.begin(), found.end(), [](const Feature& a, const Feature& b) {
+    return std::tuple(-a.persistence, a.sample, a.kind) < std::tuple(-b.persistence, b.sample, b.kind);
+  });
+  return found;
+}
+
+}  // namespace arete

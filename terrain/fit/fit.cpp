@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The fewest triangles. Looser cuts that are fitted afterwards need repair wherever the fit does not reach
+// the tolerance; this goes the other way and never leaves it. It begins with the least cut, which is within
+// the tolerance, and takes out one leaf after the other for which the heights around it can be moved so that
+// all samples stay within it (fit_removals.cpp). So every region finds the coarseness that its terrain
+// allows, and every state on the way is a cut: conforming, Delaunay where the model is, with rims where they
+// were.
+//
+// The errors handed out are computed from the final heights and the samples, not taken from the solver.
+#include "terrain/fit/fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/criteria/criterion.h"
+#include "terrain/fit/mesh.h"
+#include "terrain/fit/samples.h"
+#include "terrain/fit/steps.h"
+
+namespace arete {
+namespace {
+
+/// Stored errors leave out the last bits of their arithmetic: 8 ulp of the largest height
+/// (docs/topics/error.md).
+double roundingOf(const MultiTriangulation& mt) {
+  double largest = 0;
+  for (std::uint32_t v = 0; v < mt.vertexCount(); ++v)
+    largest = std::max(largest, std::abs(mt.vertices().height(VertexId(v))));
+  return 8 * (std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest);
+}
+
+/// Where nothing is asked for, the fit keeps the error that the cut has: vertices out there shall not serve
+/// as levers for a sample at the region's edge.
+FitBounds boundsOf(const TerrainModel& model, const FitTolerance& tolerance, const Cut& cut) {
+  const MultiTriangulation& mt = model.mt;
+  FitBounds bounds{.everywhere = tolerance.maxError, .rounding = roundingOf(mt)};
+  if (tolerance.region == nullptr) return bounds;
+  const double outside = std::max(tolerance.maxError, std::min(tolerance.outsideError, cut.achievedError));
+  bounds.of.resize(mt.vertexCount());
+  for (std::uint32_t v = 0; v < mt.vertexCount(); ++v)
+    bounds.of[v] =
+        tolerance.region->contains(mt.vertices().planPosition(VertexId(v))) ? tolerance.maxError : outside;
+  return bounds;
+}
+
+void fixHeights(const TerrainModel& model, FitMesh& mesh) {
+  std::vector<std::uint32_t> fixed = model.options.fixedVertices;
+  std::ranges::sort(fixed);
+  for (std::uint32_t v = 0; v < mesh.vertexCount() && mesh.mtVertex(v) < model.mt.rootVertexCount(); ++v) {
+    const std::uint32_t sample =
+        model.isRaster ? model.mt.vertices().samples[mesh.mtVertex(v)] : mesh.mtVertex(v);
+    if (std::ranges::binary_search(fixed, sample)) mesh.fix(v);
+  }
+}
+
+Result<FitMesh> meshOf(const TerrainModel& model, const Cut& cut, FitBounds bounds, const FitOptions& options,
+                       const RunContext& context) {
+  auto samples = shareSamples(model.mt, cut, nodesOf(model.mt, cut), context);
+  if (!samples) return tl::unexpected(samples.error());
+  FitMesh mesh(model.mt, cut, std::move(*samples), std::move(bounds));
+  if (options.keepsFixedHeights) fixHeights(model, mesh);
+  return mesh;
+}
+
+/// The cut that the mesh has come to, with what is known of its triangles. An error that differs from the
+/// tolerance by the last bits of its arithmetic is the tolerance, as stored errors are (error.md).
+FittedCut fittedCut(const FitMesh& mesh, const Cut& before, double tolerance) {
+  const MultiTriangulation& mt = mesh.mt();
+  NodeSet nodes(mt.nodeCount(), 0);
+  for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v)
+    if (mesh.isIn(v) && mesh.mtVertex(v) >= mt.rootVertexCount())
+      nodes[mesh.mtVertex(v) - mt.rootVertexCount()] = 1;
+  FittedCut fitted{.cut = front(mt, nodes),
+                   .trianglesBefore = before.triangles.size(),
+                   .errorBefore = before.achievedError};
+  fitted.cut.isComplete = before.isComplete;
+  fitted.heights.reserve(fitted.cut.vertices.size());
+  for (const std::uint32_t v : fitted.cut.vertices) fitted.heights.push_back(mesh.heights()[mesh.place(v)]);
+
+  std::vector<double> errors = mesh.errors();
+  for (double& error : errors)
+    if (error > tolerance && error <= tolerance + mesh.bounds().rounding) error = tolerance;
+  std::vector<std::pair<std::uint32_t, double>> byId;
+  for (std::uint32_t t = 0; t < mesh.slotCount(); ++t)
+    if (mesh.isLive(t)) byId.emplace_back(mesh.triangle(t).id, errors[t]);
+  std::ranges::sort(byId);
+  fitted.errors.reserve(fitted.cut.ids.size());
+  fitted.cut.achievedError = 0;
+  for (const std::uint32_t id : fitted.cut.ids) {
+    fitted.errors.push_back(
+        std::ranges::lower_bound(byId, id, {}, &std::pair<std::uint32_t, double>::first)->second);
+    fitted.cut.achievedError = std::max(fitted.cut.achievedError, fitted.errors.back());
+  }
+  return fitted;
+}
+
+Result<Cut> leastCut(const TerrainModel& model, const FitTolerance& tolerance, const RunContext& context) {
+  if (tolerance.region == nullptr) return takeCut(model.mt, UniformError(tolerance.maxError), {}, context);
+  return takeCut(
+      model.mt,
+      RegionError(*tolerance.region, model.mt.arrays().metric, tolerance.maxError, tolerance.outsideError),
+      {}, context);
+}
+
+}  // namespace
+
+Result<FittedCut> fitFewestTriangles(const TerrainModel& model, const FitTolerance& tolerance,
+                                     const FitOptions& options, const RunContext& context) {
+  if (!(tolerance.maxError >= 0 && tolerance.outsideError >= tolerance.maxError))
+    return failure(ErrorCode::usage, "a tolerance is at least 0, and outside a region no finer than inside");
+  const Result<Cut> cut = leastCut(model, tolerance, context);
+  if (!cut) return tl::unexpected(cut.error());
+  FitBounds bounds = boundsOf(model, tolerance, *cut);
+  const double accepted = 1 + bounds.rounding / tolerance.maxError;
+  auto mesh = meshOf(model, *cut, std::move(bounds), options, context);
+  if (!mesh) return tl::unexpected(mesh.error());
+  // Without a tolerance no height can move, and the cut is what it was.
+  if (tolerance.maxError > 0 && std::isfinite(tolerance.maxError)) {
+    mesh->setAccepted(accepted);
+    if (Status removed = removeWhatFits(*mesh, std::max(1u, options.rings), context); !removed)
+      return tl::unexpected(removed.error());
+  }
+  return fittedCut(*mesh, *cut, tolerance.maxError);
+}
+
+Result<FittedCut> fitLeastError(const TerrainModel& model, const Cut& cut, const FitOptions& options,
+                                const RunContext& context) {
+  auto mesh = meshOf(model, cut, {.everywhere = 1, .rounding = roundingOf(model.mt)}, options, context);
+  if (!mesh) return tl::unexpected(mesh.error());
+  if (Status done = lessenWorst(*mesh, std::max(1u, options.rings), context); !done)
+    return tl::unexpected(done.error());
+  return fittedCut(*mesh, cut, 0);
+}
+
+}  // namespace arete

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A bound below the largest error is reached when every triangle that is beyond it can be brought within it,
+// one patch at a time, the worst first, without bringing others farther beyond: each patch leaves fewer
+// violations, so this ends. The least bound that can be reached is looked for by bisection. The largest error
+// sits in a few places, so most bounds touch a few patches only.
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "terrain/fit/removal.h"
+#include "terrain/fit/steps.h"
+
+namespace arete {
+namespace {
+
+constexpr double kFirstStep = 0.9;  // of the worst, until a bound cannot be reached
+constexpr double kEnough = 0.995;   // bounds this near to each other are not told apart
+
+class Lessening {
+ public:
+  Lessening(FitMesh& mesh, std::uint32_t rings, const RunContext& context)
+      : mesh_(mesh), rings_(rings), context_(context), patches_(mesh), unit_(mesh.bounds()) {
+    unit_.of.clear();
+    unit_.everywhere = 1;
+  }
+
+  Status run() {
+    double reached = worst(), missed = 0;
+    std::vector<double> best = mesh_.heights();
+    // What is left within rounding is nobody's error, and no patch gets it out of its own arithmetic.
+    while (reached > unit_.rounding && missed < kEnough * reached) {
+      const double wanted = missed > 0 ? (missed + reached) / 2 : kFirstStep * reached;
+      const Result<bool> isReached = reach(wanted);
+      if (!isReached) return tl::unexpected(isReached.error());
+      if (*isReached) {
+        reached = std::min(wanted, worst());
+        best = mesh_.heights();
+      } else {
+        missed = wanted;
+        mesh_.setHeights(best);
+      }
+    }
+    return {};
+  }
+
+ private:
+  void setBound(double bound) {
+    FitBounds bounds = unit_;
+    bounds.everywhere = bound;
+    mesh_.setBounds(std::move(bounds));
+    mesh_.setAccepted(1);
+  }
+
+  double worst() {
+    setBound(1);
+    double worst = 0;
+    for (std::uint32_t t = 0; t < mesh_.slotCount(); ++t) worst = std::max(worst, mesh_.severity(t));
+    return worst;
+  }
+
+  Result<bool> reach(double bound) {
+    setBound(bound);
+    std::vector<std::pair<double, std::uint32_t>> beyond;
+    for (std::uint32_t t = 0; t < mesh_.slotCount(); ++t)
+      if (const double s = mesh_.severity(t); s > 1) beyond.emplace_back(-s, t);
+    std::ranges::sort(beyond);
+    for (const auto& [unused, slot] : beyond) {
+      if (context_.cancelled()) return failure(ErrorCode::interrupted, "the fit was interrupted");
+      if (mesh_.severity(slot) <= 1) continue;
+      if (!patches_.tryTriangle(slot, rings_)) return false;
+      for (std::size_t i = 0; i < patches_.moved().size(); ++i)
+        mesh_.raise(patches_.moved()[i], patches_.rises()[i]);
+    }
+    return true;
+  }
+
+  FitMesh& mesh_;
+  const std::uint32_t rings_;
+  const RunContext& context_;
+  FitPatches patches_;
+  FitBounds unit_;
+};
+
+}  // namespace
+
+Status lessenWorst(FitMesh& mesh, std::uint32_t rings, const RunContext& context) {
+  return Lessening(mesh, rings, context).run();
+}
+
+}  // namespace arete

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/cut/cut.h"
+#include "engine/mt/multitriangulation.h"
+#include "terrain/fit/patch.h"
+#include "terrain/fit/samples.h"
+#include "terrain/model/plan_orientation.h"
+
+namespace arete {
+
+/// How far the surface may be from a sample, in the unit of the heights.
+struct FitBounds {
+  double everywhere = 0;        ///< > 0; where `of` is empty
+  std::vector<double> of = {};  ///< per MT vertex, > 0
+  double rounding = 0;          ///< of heights: what is within a bound and this is within it
+
+  double at(std::uint32_t sample) const { return of.empty() ? everywhere : of[sample]; }
+};
+
+/// The front of a cut while it is fitted: triangles that know their samples, vertices with heights of their
+/// own. A vertex is named by its place in the vertices of the cut that it began with, a triangle by a slot.
+class FitMesh {
+ public:
+  static constexpr std::uint32_t kNone = FitSamples::kNone;
+  using Corners = std::array<std::uint32_t, 3>;
+
+  struct Triangle {
+    Corners corners = {};  ///< vertices, counter-clockwise in the plan
+    Corners next = {};     ///< the next triangle of the star of each corner
+    std::uint32_t id = kNone;
+    std::uint32_t firstSample = kNone;
+  };
+  /// A triangle of the floor of a node that may leave, and the samples that come to it.
+  struct FloorTriangle {
+    Corners corners = {};
+    std::uint32_t id = kNone;
+    std::vector<std::uint32_t> samples = {};
+  };
+
+  /// Heights are the model's. Precondition: the arguments belong together and outlive this.
+  FitMesh(const MultiTriangulation& mt, const Cut& cut, FitSamples samples, FitBounds bounds);
+
+  const MultiTriangulation& mt() const { return mt_; }
+  std::uint32_t vertexCount() const { return static_cast<std::uint32_t>(heights_.size()); }
+  std::uint32_t slotCount() const { return static_cast<std::uint32_t>(triangles_.size()); }
+  std::uint32_t triangleCount() const { return static_cast<std::uint32_t>(triangles_.size() - free_.size()); }
+  const Triangle& triangle(std::uint32_t slot) const { return triangles_[slot]; }
+  bool isLive(std::uint32_t slot) const { return triangles_[slot].id != kNone; }
+
+  std::uint32_t mtVertex(std::uint32_t vertex) const { return mtVertices_[vertex]; }
+  /// Precondition: the vertex is one of the cut's. O(log vertices).
+  std::uint32_t place(std::uint32_t mtVertex) const {
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(mtVertices_, mtVertex) - mtVertices_.begin());
+  }
+  /// Whether any triangle has the vertex.
+  bool isIn(std::uint32_t vertex) const { return star_[vertex] != kNone; }
+
+  const std::vector<double>& heights() const { return heights_; }
+  void setHeights(std::vector<double> heights) { heights_ = std::move(heights); }
+  void raise(std::uint32_t vertex, double by) { heights_[vertex] += by; }
+  /// A vertex that keeps its height.
+  void fix(std::uint32_t vertex) { isFixed_[vertex] = true; }
+  bool isFixed(std::uint32_t vertex) const { return isFixed_[vertex]; }
+
+  const FitBounds& bounds() const { return bounds_; }
+  void setBounds(FitBounds bounds) { bounds_ = std::move(bounds); }
+  /// 1 and what rounding takes, in units of the bound.
+  double accepted() const { return accepted_; }
+  void setAccepted(double accepted) { accepted_ = accepted; }
+
+  template <class Visit>
+  void forStar(std::uint32_t vertex, const Visit& visit) const {
+    for (std::uint32_t t = star_[vertex]; t != kNone;) {
+      const Triangle& triangle = triangles_[t];
+      const std::uint32_t next = triangle.next[triangle.corners[0] == vertex   ? 0
+                                               : triangle.corners[1] == vertex ? 1
+                                                                               : 2];
+      visit(t);
+      t = next;
+    }
+  }
+  template <class Visit>
+  void forSamples(std::uint32_t slot, const Visit& visit) const {
+    for (std::uint32_t s = triangles_[slot].firstSample; s != kNone; s = nextSample_[s]) visit(s);
+  }
+
+  Vec2 plan(std::uint32_t sample) const {
+    const VertexArrays& v = mt_.vertices();
+    if (!v.isLattice()) return v.plan[sample];
+    const std::uint32_t s = v.samples[sample];
+    const auto row =
+        static_cast<std::uint32_t>((s + 0.5) * perColumn_);  // no division; exact: see TriangleLocator
+    return {static_cast<double>(s - row * v.columns), static_cast<double>(row)};
+  }
+  /// The plan of a triangle, ready to ask for barycentric weights.
+  struct Weights {
+    std::array<Vec2, 3> at;
+    double inverse;
+    bool isThin = false;  ///< so far below the terms it is a difference of that doubles do not tell the area
+    std::array<double, 3> of(Vec2 p) const {
+      if (isThin) return exactPlanWeights(at[0], at[1], at[2], p);
+      const auto turn = [&](int i, int j) {
+        return (at[i].x - p.x) * (at[j].y - p.y) - (at[i].y - p.y) * (at[j].x - p.x);
+      };
+      // A sample is in its triangle: below zero is rounding.
+      const double a = std::max(0.0, turn(1, 2) * inverse), b = std::max(0.0, turn(2, 0) * inverse);
+      return {a, b, std::max(0.0, 1 - a - b)};
+    }
+  };
+  Weights weights(const Corners& corners) const;
+  /// z_TIN - z_sample.
+  double residual(const Corners& corners, const std::array<double, 3>& w, std::uint32_t sample) const {
+    // By what the corners are above the sample: weights are rounded, and heights may be far from zero.
+    const double z = mt_.vertices().height(VertexId(sample));
+    return w[0] * (heights_[corners[0]] - z) + w[1] * (heights_[corners[1]] - z) +
+           w[2] * (heights_[corners[2]] - z);
+  }
+  /// The largest |residual| / bound of a triangle's samples. O(samples).
+  double severity(std::uint32_t slot) const;
+
+  /// Whether nothing in the front was made of the node's triangles. Precondition: its vertex isIn().
+  bool isLeaf(NodeId node) const;
+  /// Takes a leaf out of the cut: its floor comes back. The vectors of samples are used up.
+  void remove(NodeId leaf, std::span<FloorTriangle> floor);
+
+  /// The largest |residual| over the samples that each triangle covers, edges and corners included; by slot,
+  /// 0 where there is none. O(samples).
+  std::vector<double> errors() const;
+
+ private:
+  void link(std::uint32_t slot);
+  void unlink(std::uint32_t slot);
+
+  const MultiTriangulation& mt_;
+  double perColumn_;
+  std::vector<std::uint32_t> mtVertices_;  // rising
+  std::vector<double> heights_;
+  std::vector<bool> isFixed_;
+  std::vector<std::uint32_t> star_;  // per vertex: a triangle
+  std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> free_;
+  std::vector<std::uint32_t> nextSample_;
+  FitBounds bounds_;
+  double accepted_ = 1;
+};
+
+}  // namespace arete

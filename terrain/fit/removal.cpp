@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The samples of a leaf's star are shared out among its floor. If they are within their bounds there, nothing
+// need move. Otherwise the vertices of the link may: every sample under a triangle that has one of them is a
+// row of a small problem (FitPatch), those of the floor included. If that has no solution, one ring of
+// vertices more may move, and so on: six in seven of the removals that need a move do with the link alone.
+#include "terrain/fit/removal.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "terrain/model/plan_orientation.h"
+
+namespace arete {
+namespace {
+
+constexpr std::uint32_t kNone = FitMesh::kNone;
+/// Beyond so many times the bound no heights help; measured: never above 2.5.
+constexpr double kHopeless = 4;
+/// What rounding leaves of a weight that is zero.
+constexpr double kNoWeight = 1e-12;
+/// A patch of more vertices than this is not grown: solving it costs their cube.
+constexpr std::size_t kMostUnknowns = 128;
+
+}  // namespace
+
+void FitPatches::begin() {
+  if (vertexStamp_.size() != mesh_.vertexCount()) {
+    vertexStamp_.assign(mesh_.vertexCount(), 0);
+    unknownOf_.assign(mesh_.vertexCount(), 0);
+    slotStamp_.assign(mesh_.slotCount(), 0);
+    now_ = 0;
+  }
+  ++now_;
+  unknowns_.clear();
+  slots_.clear();
+  ringBegin_ = 0;
+}
+
+void FitPatches::addUnknown(std::uint32_t vertex) {
+  if (vertexStamp_[vertex] == now_ || mesh_.isFixed(vertex)) return;
+  vertexStamp_[vertex] = now_;
+  unknownOf_[vertex] = static_cast<std::uint32_t>(unknowns_.size());
+  unknowns_.push_back(vertex);
+}
+
+void FitPatches::grow(std::uint32_t without) {
+  const std::size_t end = unknowns_.size();
+  for (; ringBegin_ < end; ++ringBegin_)
+    mesh_.forStar(unknowns_[ringBegin_], [&](std::uint32_t slot) {
+      for (const std::uint32_t v : mesh_.triangle(slot).corners)
+        if (v != without) addUnknown(v);
+    });
+}
+
+void FitPatches::collectSlots() {
+  for (const std::uint32_t v : unknowns_)
+    mesh_.forStar(v, [&](std::uint32_t slot) {
+      if (slotStamp_[slot] == now_) return;
+      slotStamp_[slot] = now_;
+      slots_.push_back(slot);
+    });
+}
+
+template <class Samples>
+bool FitPatches::addRows(const FitMesh::Corners& corners, const Samples& samples, bool spares) {
+  const FitMesh::Weights weights = mesh_.weights(corners);
+  std::array<bool, 3> moves;
+  FitPatch::Row row;
+  for (int i = 0; i < 3; ++i) {
+    moves[i] = vertexStamp_[corners[i]] == now_;
+    row.unknown[i] = moves[i] ? unknownOf_[corners[i]] : 0;
+  }
+  bool isWithin = true;
+  samples([&](std::uint32_t s) {
+    double bound = mesh_.bounds().at(s);
+    const std::array<double, 3> w = weights.of(mesh_.plan(s));
+    const double r = mesh_.residual(corners, w, s);
+    if (spares) bound = std::max(bound, std::abs(r));
+    row.rest = r / bound;
+    bool isMoved = false;
+    for (int i = 0; i < 3; ++i) {
+      row.weight[i] = moves[i] && w[i] > kNoWeight ? w[i] / bound : 0;
+      isMoved = isMoved || row.weight[i] > 0;
+    }
+    if (isMoved)
+      patch_.add(row);
+    else if (std::abs(row.rest) > mesh_.accepted())
+      isWithin = false;
+  });
+  return isWithin;
+}
+
+void FitPatches::tryRemoval(NodeId leaf, std::uint32_t rings, RemovalTrial& trial) {
+  const MultiTriangulation& mt = mesh_.mt();
+  const std::uint32_t apex = mesh_.place(mt.apex(leaf).index());
+  trial.node = leaf;
+  trial.isFeasible = false;
+  trial.moved.clear();
+  trial.rise.clear();
+  trial.read.assign(1, apex);
+  std::vector<std::uint32_t>& link = trial.read;
+  for (const std::uint32_t v : mt.link(leaf)) link.push_back(mesh_.place(v));
+  const std::size_t linkEnd = link.size();
+
+  const auto ids = mt.floor(leaf);
+  trial.floorSize = ids.size();
+  if (trial.floor.size() < ids.size()) trial.floor.resize(ids.size());
+  const std::span<FitMesh::FloorTriangle> floor(trial.floor.data(), ids.size());
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    floor[i].id = ids[i];
+    floor[i].samples.clear();
+    const auto corners = mt.corners(TriangleId(ids[i]));
+    for (int k = 0; k < 3; ++k) floor[i].corners[k] = mesh_.place(corners[k]);
+  }
+  double worst = 0;
+  std::vector<FitMesh::Weights> weights;
+  for (const auto& t : floor) weights.push_back(mesh_.weights(t.corners));
+  bool isShared = true;
+  mesh_.forStar(apex, [&](std::uint32_t slot) {
+    mesh_.forSamples(slot, [&](std::uint32_t s) {
+      const Vec2 p = mesh_.plan(s);
+      for (std::size_t i = 0; i < floor.size(); ++i) {
+        const auto& at = weights[i].at;
+        if (planOrientation(at[0], at[1], p) < 0 || planOrientation(at[1], at[2], p) < 0 ||
+            planOrientation(at[2], at[0], p) < 0)
+          continue;
+        floor[i].samples.push_back(s);
+        const double r = mesh_.residual(floor[i].corners, weights[i].of(p), s);
+        worst = std::max(worst, std::abs(r) / mesh_.bounds().at(s));
+        return;
+      }
+      isShared = false;
+    });
+  });
+  if (!isShared || worst > kHopeless) return;
+  if (worst <= mesh_.accepted()) {
+    trial.isFeasible = true;
+    return;
+  }
+
+  begin();
+  mesh_.forStar(apex, [&](std::uint32_t slot) { slotStamp_[slot] = now_; });  // they are to go
+  for (std::size_t i = 1; i < linkEnd; ++i) addUnknown(link[i]);
+  for (std::uint32_t ring = 0; ring < rings; ++ring) {
+    if (ring > 0) {
+      if (unknowns_.size() > kMostUnknowns) break;
+      grow(apex);
+    }
+    collectSlots();
+    patch_.start(unknowns_.size());
+    bool isWithin = true;
+    for (const auto& t : floor)
+      isWithin &= addRows(t.corners, [&](const auto& visit) {
+        for (const std::uint32_t s : t.samples) visit(s);
+      });
+    for (const std::uint32_t slot : slots_)
+      isWithin &=
+          addRows(mesh_.triangle(slot).corners, [&](const auto& visit) { mesh_.forSamples(slot, visit); });
+    trial.isFeasible = isWithin && patch_.solve(mesh_.accepted());
+    if (trial.isFeasible) break;
+  }
+  for (const std::uint32_t slot : slots_)
+    for (const std::uint32_t v : mesh_.triangle(slot).corners) trial.read.push_back(v);
+  if (!trial.isFeasible) return;
+  trial.moved = unknowns_;
+  trial.rise.assign(patch_.values().begin(), patch_.values().end());
+}
+
+bool FitPatches::tryTriangle(std::uint32_t slot, std::uint32_t rings) {
+  begin();
+  for (const std::uint32_t v : mesh_.triangle(slot).corners) addUnknown(v);
+  for (std::uint32_t ring = 0; ring <= rings; ++ring) {
+    if (ring > 0) {
+      if (unknowns_.size() > kMostUnknowns) break;
+      grow(kNone);
+    }
+    collectSlots();
+    patch_.start(unknowns_.size());
+    bool isWithin = true;
+    for (const std::uint32_t t : slots_)
+      isWithin &= addRows(
+          mesh_.triangle(t).corners, [&](const auto& visit) { mesh_.forSamples(t, visit); }, t != slot);
+    if (!isWithin) return false;  // its corners are fixed
+    if (patch_.solve(mesh_.accepted())) return true;
+  }
+  return false;
+}
+
+}  // namespace arete

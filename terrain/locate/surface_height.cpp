@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One place takes a chain of nodes from the root to its finest triangle, and nearly all of the time goes into
+// fetching their links and vertices from memory. Places near each other share most of their chains. So many
+// places are visited along a Morton curve (Morton 1966), and what one has fetched the next finds in the
+// cache.
+#include "terrain/locate/surface_height.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/base/morton.h"
+#include "engine/parallel/shared_progress.h"
+#include "engine/parallel/with_threads.h"
+#include "terrain/model/plan_box.h"
+
+namespace arete {
+namespace {
+
+constexpr std::size_t kPlacesPerTask = 1024;
+
+std::uint32_t mortonKey(Vec2 p, const Box2& box) {
+  const auto cell = [](double v, double low, double high) {
+    const double t = high > low ? (v - low) / (high - low) : 0;
+    return t > 0 ? static_cast<std::uint32_t>(std::min(t, 1.0) * 65535) : 0u;  // NaN too
+  };
+  return static_cast<std::uint32_t>(mortonCode(cell(p.x, box.xMin, box.xMax), cell(p.y, box.yMin, box.yMax)));
+}
+
+struct Visit {
+  std::uint32_t key;
+  std::uint32_t place;
+  bool operator<(const Visit& other) const {
+    return key != other.key ? key < other.key : place < other.place;
+  }
+};
+
+}  // namespace
+
+double SurfaceHeights::margin(const TerrainModel& model) {
+  constexpr double kPart = 1e-9, kLastBits = 0x1p-50;
+  if (model.isRaster) {
+    const auto& g = model.georeference.geoTransform;
+    const Vec2 far = model.toSource({double(model.columns), double(model.rows)});
+    const double largest = std::max({std::abs(g[0]), std::abs(g[3]), std::abs(far.x), std::abs(far.y)});
+    const double shortestStep = std::min(std::hypot(g[1], g[4]), std::hypot(g[2], g[5]));
+    return kPart + kLastBits * largest / shortestStep;
+  }
+  const Box2 box = planBox(model);
+  const double largest =
+      std::max({std::abs(box.xMin), std::abs(box.yMin), std::abs(box.xMax), std::abs(box.yMax)});
+  const double area = (box.xMax - box.xMin) * (box.yMax - box.yMin);
+  return kPart * std::sqrt(area / std::max(1u, model.mt.vertexCount())) + kLastBits * largest;
+}
+
+SurfaceHeights::SurfaceHeights(const TerrainModel& model)
+    : model_(model),
+      locator_(model.mt, {.margin = margin(model), .mayFill = model.options.rimTolerance > 0}) {}
+
+std::optional<SurfaceHeight> SurfaceHeights::inPlan(Vec2 p, OutwardScale::Code allowed) const {
+  const MtArrays& arrays = model_.mt.arrays();
+  const bool mayStop = model_.options.rimTolerance == 0;
+  std::optional<LocatedTriangle> t = locator_.inRoot(p);
+  for (std::uint32_t steps = 0; t; ++steps) {
+    const std::size_t id = t->triangle.index();
+    const bool isFinest = locator_.isFinest(*t);
+    const OutwardScale::Code below = arrays.below[id], above = arrays.above[id];
+    if (isFinest || (mayStop && std::max(below, above) <= allowed)) {
+      SurfaceHeight answer{
+          .height = locator_.interpolate(t->corners, p), .triangle = t->triangle, .nodesVisited = steps};
+      if (!isFinest) {
+        answer.below = arrays.scale.decode(below);
+        answer.above = arrays.scale.decode(above);
+      }
+      return answer;
+    }
+    t = locator_.finer(*t, p);
+  }
+  return std::nullopt;
+}
+
+std::optional<SurfaceHeight> SurfaceHeights::at(Vec2 xy, double maxError) const {
+  return inPlan(model_.toPlan(xy), model_.mt.arrays().scale.floorCode(maxError));
+}
+
+Result<std::vector<std::optional<SurfaceHeight>>> SurfaceHeights::at(std::span<const Vec2> places,
+                                                                     double maxError,
+                                                                     const RunContext& context) const {
+  if (places.size() > 0xFFFFFFFFu)
+    return failure(ErrorCode::unsupported, "more places than 32 bits can number");
+  const OutwardScale::Code allowed = model_.mt.arrays().scale.floorCode(maxError);
+  std::vector<std::optional<SurfaceHeight>> answers(places.size());
+  std::vector<Visit> order(places.size());
+  SharedProgress progress(context, "heights", places.size());
+  context.report("heights", 0);
+  withThreads(context, [&] {
+    tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
+      order[i] = {mortonKey(model_.toPlan(places[i]), locator_.roots().bounds()),
+                  static_cast<std::uint32_t>(i)};
+    });
+    tbb::parallel_sort(order.begin(), order.end());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places.size(), kPlacesPerTask),
+                      [&](const auto& range) {
+                        if (context.cancelled()) return;
+                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                          const std::uint32_t place = order[i].place;
+                          answers[place] = inPlan(model_.toPlan(places[place]), allowed);
+                        }
+                        progress.add(range.size());
+                      });
+  });
+  if (context.cancelled()) return failure(ErrorCode::interrupted, "the query was stopped");
+  context.report("heights", 1);
+  return answers;
+}
+
+}  // namespace arete

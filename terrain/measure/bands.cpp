@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The plan is cut into bands of whole rows, by the size of the raster and never by the number of threads. A
+// counting sort lists the triangles of each band in the mesh's order; a band is then one task that nobody
+// else writes to, and the bands' sums are added in their own order. So the report is the same to the last bit
+// for any number of threads.
+#include "terrain/measure/bands.h"
+
+#include "engine/parallel/with_threads.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+
+namespace arete::measuring {
+
+namespace {
+
+/// First and last band of a triangle, or last < first.
+struct BandRange {
+  std::int64_t first = 0, last = -1;
+};
+
+}  // namespace
+
+Status checkInputs(const TriangleMesh& mesh, std::size_t samples, const MeasureOptions& options) {
+  if (Status ok = mesh.validate(); !ok) return ok;
+  if (mesh.triangles.size() >= std::numeric_limits<std::uint32_t>::max())
+    return failure(ErrorCode::unsupported,
+                   fmt::format("{} triangles are more than can be measured", mesh.triangles.size()));
+  if (!options.mask.empty() && options.mask.size() != samples)
+    return failure(ErrorCode::usage,
+                   fmt::format("the mask has {} values for {} samples", options.mask.size(), samples));
+  if (!(options.planTolerancePixels > 0 && options.planTolerancePixels < 0.25))
+    return failure(ErrorCode::usage,
+                   fmt::format("a plan tolerance of {} pixels makes no sense", options.planTolerancePixels));
+  return {};
+}
+
+double raisedTolerance(const MeasureOptions& options, Vec2 roundingPixels) {
+  const double rounding = 2 * std::max(std::abs(roundingPixels.x), std::abs(roundingPixels.y));
+  if (!(rounding > options.planTolerancePixels)) return options.planTolerancePixels;
+  return std::max(options.planTolerancePixels, std::min(rounding, kMostPlanTolerance));
+}
+
+TriangleBands sortIntoBands(const TriangleMesh& mesh, std::span<const Vec2> plan, std::int64_t rows,
+                            double rowHeight, std::int64_t rowsPerBand, double tolerance, bool keepsThin) {
+  const std::int64_t bands = (rows + rowsPerBand - 1) / rowsPerBand;
+  TriangleBands result;
+  if (bands <= 0) {
+    result.begin = {0};
+    return result;
+  }
+  result.begin.assign(static_cast<std::size_t>(bands) + 1, 0);
+
+  const auto bandsOf = [&](std::uint32_t t) {
+    const auto& v = mesh.triangles[t];
+    const auto [low, high] = std::minmax({plan[v[0]].y, plan[v[1]].y, plan[v[2]].y});
+    const double first = std::floor((low - 2 * tolerance) / rowHeight);
+    const double last = std::floor((high + 2 * tolerance) / rowHeight);
+    if (last < 0 || first >= static_cast<double>(rows)) return BandRange{};
+    return BandRange{static_cast<std::int64_t>(std::max(first, 0.0)) / rowsPerBand,
+                     static_cast<std::int64_t>(std::min(last, static_cast<double>(rows - 1))) / rowsPerBand};
+  };
+
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  std::vector<bool> isLeftOut(count);
+  PlanTriangle triangle;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    const bool hasArea = setTriangle(triangle, mesh, plan, t, tolerance);
+    result.areaPixels += triangle.area2 / 2;
+    result.degenerate += !hasArea;
+    isLeftOut[t] = !hasArea && !keepsThin;
+    if (isLeftOut[t]) continue;
+    const BandRange range = bandsOf(t);
+    for (std::int64_t b = range.first; b <= range.last; ++b) ++result.begin[b + 1];
+  }
+  for (std::int64_t b = 0; b < bands; ++b) result.begin[b + 1] += result.begin[b];
+
+  result.triangles.resize(result.begin.back());
+  std::vector<std::uint64_t> next(result.begin.begin(), result.begin.end() - 1);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    if (isLeftOut[t]) continue;
+    const BandRange range = bandsOf(t);
+    for (std::int64_t b = range.first; b <= range.last; ++b) result.triangles[next[b]++] = t;
+  }
+  return result;
+}
+
+void BandTotals::addMeasured(const MeasuredSample& sample) {
+  const double error = sample.error();
+  sum += error;
+  sumAbs += std::abs(error);
+  sumSquares += error * error;
+  ++counts.covered;
+  counts.largestHeight =
+      std::max({counts.largestHeight, std::abs(sample.demHeight), std::abs(sample.tinHeight)});
+  // Points come bucket by bucket: among equal errors the first in sample order wins, whatever the band.
+  const bool earlier =
+      counts.worst && std::abs(error) == counts.maxAbsError && sample.sample < counts.worst->sample;
+  if (!counts.worst || earlier || std::abs(error) > counts.maxAbsError) {
+    counts.maxAbsError = std::abs(error);
+    counts.worst = sample;
+  }
+}
+
+void BandTotals::add(const BandTotals& later) {
+  const MeasureReport& c = later.counts;
+  counts.samples += c.samples;
+  counts.valid += c.valid;
+  counts.covered += c.covered;
+  counts.uncovered += c.uncovered;
+  counts.isolated += c.isolated;
+  counts.doublyCovered += c.doublyCovered;
+  counts.overlapped += c.overlapped;
+  counts.nodataCovered += c.nodataCovered;
+  counts.domainAreaPixels += c.domainAreaPixels;
+  counts.largestHeight = std::max(counts.largestHeight, c.largestHeight);
+  if (c.worst) {
+    const bool larger = !counts.worst || c.maxAbsError > counts.maxAbsError;
+    const bool earlier =
+        counts.worst && c.maxAbsError == counts.maxAbsError && c.worst->sample < counts.worst->sample;
+    if (larger || earlier) {
+      counts.maxAbsError = c.maxAbsError;
+      counts.worst = c.worst;
+    }
+  }
+  sumSquares += later.sumSquares;
+  sumAbs += later.sumAbs;
+  sum += later.sum;
+}
+
+MeasureReport BandTotals::finish() const {
+  MeasureReport report = counts;
+  if (report.covered > 0) {
+    const auto n = static_cast<double>(report.covered);
+    report.rmsError = std::sqrt(sumSquares / n);
+    report.meanAbsError = sumAbs / n;
+    report.meanError = sum / n;
+  }
+  return report;
+}
+
+Status forEachBand(std::size_t bands, const RunContext& context, const char* stage,
+                   const std::function<void(std::size_t band)>& task) {
+  std::mutex telling;
+  std::size_t done = 0;
+  withThreads(context, [&] {
+    tbb::parallel_for(
+        std::size_t{0}, bands,
+        [&](std::size_t band) {
+          if (context.cancelled()) return;
+          task(band);
+          const std::lock_guard lock(telling);
+          context.report(stage, static_cast<double>(++done) / static_cast<double>(bands));
+        },
+        tbb::simple_partitioner{});
+  });
+  if (context.cancelled()) return failure(ErrorCode::interrupted, "measuring was interrupted");
+  return {};
+}
+
+}  // namespace arete::measuring
+
+namespace arete {
+
+double planTolerancePixels(const MeasureOptions& options, const Georeference& georeference) {
+  const auto& g = georeference.geoTransform;
+  const double area = std::abs(georeference.determinant());
+  // Places are doubles: far from the origin a small pixel has few digits left.
+  constexpr double kRounding = 0x1p-51;
+  const double x = std::max(std::abs(options.planRounding.x), kRounding * std::abs(g[0])),
+               y = std::max(std::abs(options.planRounding.y), kRounding * std::abs(g[3]));
+  if (!(area > 0)) return options.planTolerancePixels;
+  return measuring::raisedTolerance(options, {(x * std::abs(g[5]) + y * std::abs(g[2])) / area,
+                                              (x * std::abs(g[4]) + y * std::abs(g[1])) / area});
+}
+
+}  // namespace arete

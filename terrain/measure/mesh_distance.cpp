@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Both meshes are moved so that the middle of their common box is the origin: at coordinates of a projected
+// CRS, millions of metres, squares of lengths would lose the millimetres. Then each vertex and each sample of
+// one mesh asks for the nearest point of the other. Blocks of vertices and of samples are tasks of their own;
+// their sums are added in the order of the blocks, so that no rounding depends on the threads.
+//
+// The largest of these distances is where the search for the farthest point starts
+// (terrain/measure/farthest_point.h): most triangles are settled by their corners, and the rest are halved
+// where a farther point may hide. What one block of triangles finds is not told to another, or the result
+// would depend on who is first.
+#include "terrain/measure/mesh_distance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "terrain/measure/bands.h"
+#include "terrain/measure/farthest_point.h"
+#include "terrain/measure/nearest_on_mesh.h"
+#include "terrain/measure/surface_samples.h"
+
+namespace arete {
+namespace {
+
+constexpr std::uint64_t kPerBlock = 4096;
+constexpr std::size_t kTrianglesPerBlock = 256;
+constexpr std::uint64_t kSearchedPerSample = 4, kLeastSearched = 64, kMostSearched = 1 << 17;
+constexpr double kSearchSlack = 1e-5;  // of the diagonal
+constexpr std::uint64_t kSamplesPerTriangle = 10, kLeastSamples = 1'000'000;
+
+struct Box3 {
+  Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+           std::numeric_limits<double>::infinity()};
+  Vec3 high{-low.x, -low.y, -low.z};
+
+  void include(const Vec3& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  Vec3 middle() const {
+    return {std::midpoint(low.x, high.x), std::midpoint(low.y, high.y), std::midpoint(low.z, high.z)};
+  }
+  double diagonal() const { return std::sqrt(space::squaredDistance(low, high)); }
+};
+
+/// A mesh moved to the common origin, and what is said of it.
+struct Surface {
+  TriangleMesh mesh;
+  std::vector<std::uint8_t> isUsed;  // per vertex
+  MeshSummary summary;
+};
+
+Box3 boxOf(const TriangleMesh& mesh) {
+  Box3 box;
+  for (const auto& t : mesh.triangles)
+    for (const std::uint32_t v : t) box.include(mesh.positions[v]);
+  return box;
+}
+
+Surface surfaceOf(const TriangleMesh& mesh, const Vec3& origin) {
+  Surface surface;
+  surface.mesh.triangles = mesh.triangles;
+  surface.mesh.positions.reserve(mesh.positions.size());
+  for (const Vec3& p : mesh.positions) surface.mesh.positions.push_back(space::minus(p, origin));
+  surface.isUsed.resize(mesh.positions.size());
+  MeshSummary& summary = surface.summary;
+  for (const auto& t : surface.mesh.triangles) {
+    const Vec3 normal = areaNormal(
+        {surface.mesh.positions[t[0]], surface.mesh.positions[t[1]], surface.mesh.positions[t[2]]});
+    summary.degenerateTriangles += normal == Vec3{};
+    for (const std::uint32_t v : t) surface.isUsed[v] = 1;
+  }
+  summary.triangles = mesh.triangles.size();
+  summary.vertices = mesh.positions.size();
+  summary.unusedVertices = static_cast<std::uint64_t>(std::ranges::count(surface.isUsed, 0));
+  summary.area = surfaceArea(surface.mesh);
+  summary.diagonal = boxOf(mesh).diagonal();
+  return surface;
+}
+
+Status check(const TriangleMesh& mesh, const char* which) {
+  if (const Status ok = mesh.validate(); !ok) return failure(ok.error().code, ok.error().message, which);
+  if (mesh.triangles.empty()) return failure(ErrorCode::degenerate, "holds no triangle", which);
+  return {};
+}
+
+Status check(const Surface& surface, const char* which) {
+  if (surface.summary.area > 0) return {};
+  return failure(ErrorCode::degenerate, "holds no triangle that has area", which);
+}
+
+/// What one block found, or several in a row.
+struct Part {
+  double maximum = -1, sum = 0, sumSquares = 0;
+  Vec3 worst, worstNearest;
+
+  void take(const Vec3& p, const NearestOnMesh::Answer& answer) {
+    sum += answer.distance;
+    sumSquares += answer.distance * answer.distance;
+    takeWorst(answer.distance, p, answer.point);
+  }
+  void takeWorst(double distance, const Vec3& p, const Vec3& nearest) {
+    if (distance <= maximum) return;
+    maximum = distance;
+    worst = p;
+    worstNearest = nearest;
+  }
+  void add(const Part& later) {
+    sum += later.sum;
+    sumSquares += later.sumSquares;
+    takeWorst(later.maximum, later.worst, later.worstNearest);
+  }
+};
+
+std::size_t blocksOf(std::uint64_t items, std::uint64_t perBlock) {
+  return static_cast<std::size_t>((items + perBlock - 1) / perBlock);
+}
+
+Part sum(std::span<const Part> parts) {
+  Part all;
+  for (const Part& part : parts) all.add(part);
+  return all;
+}
+
+/// One mesh's way to the other.
+class OneWay {
+ public:
+  OneWay(const Surface& from, const Surface& target, const MeshDistanceOptions& options,
+         std::uint64_t samples, const RunContext& context)
+      : from_(from),
+        target_(target),
+        options_(options),
+        context_(context),
+        to_(target.mesh),
+        samples_(from.mesh, samples, options.seed),
+        answers_(from.mesh.positions.size()) {}
+
+  Result<DistanceOneWay> measure(const std::string& stage, std::vector<double>* vertexDistances) {
+    const std::size_t vertexBlocks = blocksOf(answers_.size(), kPerBlock);
+    std::vector<Part> parts(vertexBlocks + blocksOf(samples_.count(), kPerBlock));
+    Status done = measuring::forEachBand(parts.size(), context_, stage.c_str(), [&](std::size_t block) {
+      if (block < vertexBlocks)
+        takeVertices(block, vertexDistances != nullptr, parts[block]);
+      else
+        takeSamples(block - vertexBlocks, parts[block]);
+    });
+    if (!done) return tl::unexpected(done.error());
+    if (vertexDistances) {
+      vertexDistances->clear();
+      for (const NearestOnMesh::Answer& answer : answers_) vertexDistances->push_back(answer.distance);
+    }
+    Part all = sum(std::span(parts).first(vertexBlocks));
+    const Part atSamples = sum(std::span(parts).subspan(vertexBlocks));
+    const auto n = static_cast<double>(samples_.count());
+    DistanceOneWay found;
+    found.samples = samples_.count();
+    found.vertices = from_.summary.vertices - from_.summary.unusedVertices;
+    found.mean = atSamples.sum / n;
+    found.rms = std::sqrt(atSamples.sumSquares / n);
+    found.maximumAtVertices = all.maximum;
+    all.add(atSamples);
+
+    found.atMost = std::numeric_limits<double>::infinity();
+    if (std::isfinite(options_.accuracy)) {
+      std::vector<FarthestPoint> searched(blocksOf(from_.mesh.triangles.size(), kTrianglesPerBlock));
+      done = measuring::forEachBand(searched.size(), context_, (stage + ", farthest").c_str(),
+                                    [&](std::size_t block) { searched[block] = search(block, all.maximum); });
+      if (!done) return tl::unexpected(done.error());
+      found.atMost = all.maximum;
+      for (const FarthestPoint& part : searched) {
+        all.takeWorst(part.distance, part.from, part.nearest);
+        found.atMost = std::max(found.atMost, part.atMost);
+      }
+    }
+    found.maximum = all.maximum;
+    found.worst = all.worst;
+    found.worstNearest = all.worstNearest;
+    return found;
+  }
+
+ private:
+  void takeVertices(std::size_t block, bool withUnused, Part& part) {
+    const std::size_t end = std::min<std::size_t>(answers_.size(), (block + 1) * kPerBlock);
+    for (std::size_t v = block * kPerBlock; v < end; ++v) {
+      if (from_.isUsed[v] == 0 && !withUnused) continue;
+      answers_[v] = to_.nearest(from_.mesh.positions[v]);
+      if (from_.isUsed[v] != 0) part.take(from_.mesh.positions[v], answers_[v]);
+    }
+  }
+
+  void takeSamples(std::size_t block, Part& part) const {
+    const std::uint64_t begin = block * kPerBlock, end = std::min(samples_.count(), begin + kPerBlock);
+    std::uint32_t triangle = samples_.triangleOf(begin);
+    for (std::uint64_t i = begin; i < end; ++i) {
+      const Vec3 p = samples_.at(i, triangle);
+      part.take(p, to_.nearest(p));
+    }
+  }
+
+  FarthestPoint search(std::size_t block, double known) const {
+    FarthestPointOptions options;
+    options.known = known;
+    options.accuracy = options_.accuracy;
+    options.slack = kSearchSlack * target_.summary.diagonal;
+    options.shouldStop = [this] { return context_.cancelled(); };
+    FarthestPoint farthest;
+    const std::size_t end = std::min(from_.mesh.triangles.size(), (block + 1) * kTrianglesPerBlock);
+    for (std::size_t t = block * kTrianglesPerBlock; t < end && !context_.cancelled(); ++t) {
+      const auto& v = from_.mesh.triangles[t];
+      const std::array answers = {answers_[v[0]], answers_[v[1]], answers_[v[2]]};
+      // As many points as the triangle's share of the area has samples, four times over.
+      options.budget =
+          std::min(kMostSearched,
+                   kLeastSearched + kSearchedPerSample * samples_.countOf(static_cast<std::uint32_t>(t)));
+      const auto& p = from_.mesh.positions;
+      const FarthestPoint here =
+          farthestPoint({p[v[0]], p[v[1]], p[v[2]]}, answers, target_.mesh, to_, options);
+      options.known = std::max(options.known, here.distance);
+      const double atMost = std::max(farthest.atMost, here.atMost);
+      if (here.distance > farthest.distance) farthest = here;
+      farthest.atMost = atMost;
+    }
+    return farthest;
+  }
+
+  const Surface& from_;
+  const Surface& target_;
+  const MeshDistanceOptions& options_;
+  const RunContext& context_;
+  NearestOnMesh to_;
+  SurfaceSamples samples_;
+  std::vector<NearestOnMesh::Answer> answers_;  // of the vertices
+};
+
+}  // namespace
+
+double MeshDistanceReport::hausdorff() const {
+  return std::max(forward.maximum, backward.maximum);
+}
+
+double MeshDistanceReport::hausdorffAtMost() const {
+  return std::max(forward.atMost, backward.atMost);
+}
+
+double MeshDistanceReport::mean() const {
+  return (forward.mean * first.area + backward.mean * second.area) / (first.area + second.area);
+}
+
+double MeshDistanceReport::rms() const {
+  return std::sqrt((forward.rms * forward.rms * first.area + backward.rms * backward.rms * second.area) /
+                   (first.area + second.area));
+}
+
+Result<MeshDistanceReport> measureDistance(const TriangleMesh& first, const TriangleMesh& second,
+                                           const MeshDistanceOptions& options, const RunContext& context,
+                                           std::vector<double>* vertexDistances) {
+  for (const auto& [mesh, which] : {std::pair(&first, "first"), std::pair(&second, "second")})
+    if (const Status ok = check(*mesh, which); !ok) return tl::unexpected(ok.error());
+  Box3 box = boxOf(first);
+  const Box3 other = boxOf(second);
+  box.include(other.low);
+  box.include(other.high);
+  // The fourth power is what the areas of triangles are compared in.
+  if (!std::isfinite(std::pow(box.diagonal(), 4)))
+    return failure(ErrorCode::invalidData,
+                   "the coordinates are too large, or too far apart, to measure between");
+  const Vec3 origin = box.middle();
+  const std::array<Surface, 2> surfaces = {surfaceOf(first, origin), surfaceOf(second, origin)};
+  for (const auto& [surface, which] : {std::pair(&surfaces[0], "first"), std::pair(&surfaces[1], "second")})
+    if (const Status ok = check(*surface, which); !ok) return tl::unexpected(ok.error());
+
+  const std::uint64_t samples = options.samples > 0
+                                    ? options.samples
+                                    : std::max({kLeastSamples, kSamplesPerTriangle * first.triangles.size(),
+                                                kSamplesPerTriangle * second.triangles.size()});
+  const auto measureOneWay = [&](int from, const char* stage,
+                                 std::vector<double>* distances) -> Result<DistanceOneWay> {
+    if (context.cancelled()) return failure(ErrorCode::interrupted, "measuring was interrupted");
+    OneWay way(surfaces[from], surfaces[1 - from], options, samples, context);
+    Result<DistanceOneWay> found = way.measure(stage, distances);
+    if (found) {
+      found->worst = space::along(found->worst, origin, 1);
+      found->worstNearest = space::along(found->worstNearest, origin, 1);
+    }
+    return found;
+  };
+  const Result<DistanceOneWay> forward = measureOneWay(0, "from the first to the second", vertexDistances);
+  if (!forward) return tl::unexpected(forward.error());
+  const Result<DistanceOneWay> backward = measureOneWay(1, "from the second to the first", nullptr);
+  if (!backward) return tl::unexpected(backward.error());
+
+  MeshDistanceReport report;
+  report.first = surfaces[0].summary;
+  report.second = surfaces[1].summary;
+  report.forward = *forward;
+  report.backward = *backward;
+  report.seed = options.seed;
+  for (const Vec3& p : {box.low, box.high})
+    report.largestCoordinate =
+        std::max({report.largestCoordinate, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return report;
+}
+
+namespace {
+
+/// What "within E" means in doubles.
+double accepted(const MeshDistanceReport& report, double expectedDistance) {
+  const double c = report.largestCoordinate;
+  return expectedDistance + 16 * (std::nextafter(c, std::numeric_limits<double>::infinity()) - c);
+}
+
+}  // namespace
+
+bool isProven(const MeshDistanceReport& report, double expectedDistance) {
+  return report.hausdorffAtMost() <= accepted(report, expectedDistance);
+}
+
+Status checkDistance(const MeshDistanceReport& report, double expectedDistance) {
+  // Written so that a NaN fails.
+  if (report.hausdorff() <= accepted(report, expectedDistance)) return {};
+  const bool isForward = report.forward.maximum >= report.backward.maximum;
+  const DistanceOneWay& way = isForward ? report.forward : report.backward;
+  return failure(
+      ErrorCode::brokenPromise,
+      fmt::format("the largest distance is {}, more than {}: from {} {} {} of the {} mesh", way.maximum,
+                  expectedDistance, way.worst.x, way.worst.y, way.worst.z, isForward ? "first" : "second"));
+}
+
+}  // namespace arete

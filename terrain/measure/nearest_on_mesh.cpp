@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// CGAL's tree of boxes, walked the nearer child first; a box that is no nearer than the best triangle so far
+// is passed over. The tree's own closest-point query starts from a hint and takes the children as they come,
+// and what it projects onto must not be degenerate; the walk here needs neither.
+#include "terrain/measure/nearest_on_mesh.h"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace arete {
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+
+/// A triangle as the tree holds it (CGAL's concept AABBPrimitive).
+class Primitive {
+ public:
+  using Id = std::uint32_t;
+  using Point = Kernel::Point_3;
+  using Datum = Kernel::Triangle_3;
+
+  Primitive(Id id, const Corners& corners) : id_(id), corners_(corners) {}
+
+  Id id() const { return id_; }
+  const Corners& corners() const { return corners_; }
+  Datum datum() const { return {point(0), point(1), point(2)}; }
+  /// What the tree sorts by.
+  Point reference_point() const { return point(0); }
+
+ private:
+  Point point(int i) const { return {corners_[i].x, corners_[i].y, corners_[i].z}; }
+
+  Id id_;
+  Corners corners_;
+};
+
+using Traits = CGAL::AABB_traits<Kernel, Primitive>;
+
+double squaredDistance(const Vec3& p, const CGAL::Bbox_3& box) {
+  const double x = std::max({box.xmin() - p.x, 0.0, p.x - box.xmax()}),
+               y = std::max({box.ymin() - p.y, 0.0, p.y - box.ymax()}),
+               z = std::max({box.zmin() - p.z, 0.0, p.z - box.zmax()});
+  return x * x + y * y + z * z;
+}
+
+/// What the walk asks at each node and triangle.
+class Walk {
+ public:
+  using Priority = double;
+
+  bool go_further() const { return true; }
+
+  template <class Node>
+  std::pair<bool, Priority> do_intersect_with_priority(const Vec3& p, const Node& node) const {
+    const double squared = squaredDistance(p, node.bbox());
+    return {squared < squared_, -squared};
+  }
+  template <class Node>
+  bool do_intersect(const Vec3& p, const Node& node) const {
+    return squaredDistance(p, node.bbox()) < squared_;
+  }
+
+  void intersection(const Vec3& p, const Primitive& primitive) {
+    const Vec3 point = nearestOnTriangle(p, primitive.corners());
+    const double squared = space::squaredDistance(p, point);
+    if (squared >= squared_) return;
+    squared_ = squared;
+    answer_.point = point;
+    answer_.triangle = primitive.id();
+  }
+
+  NearestOnMesh::Answer answer() const { return {answer_.point, answer_.triangle, std::sqrt(squared_)}; }
+
+ private:
+  double squared_ = std::numeric_limits<double>::infinity();
+  NearestOnMesh::Answer answer_;
+};
+
+}  // namespace
+
+struct NearestOnMesh::Tree {
+  CGAL::AABB_tree<Traits> boxes;
+};
+
+NearestOnMesh::NearestOnMesh(const TriangleMesh& mesh) : tree_(std::make_unique<Tree>()) {
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& v = mesh.triangles[t];
+    const Corners corners{mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
+    tree_->boxes.insert(Primitive(t, corners));
+  }
+  tree_->boxes.build();
+}
+
+NearestOnMesh::~NearestOnMesh() = default;
+
+NearestOnMesh::Answer NearestOnMesh::nearest(const Vec3& p) const {
+  Walk walk;
+  tree_->boxes.traversal_with_priority(p, walk);
+  return walk.answer();
+}
+
+}  // namespace arete

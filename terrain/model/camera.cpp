@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From the map to metric space positions go by the geotransform and the metric's scale, which is affine, so
+// the images of the map's two axes are known everywhere; made unit vectors they are east and north. Where the
+// grid's steps are not as long on the ground (degrees), that is what keeps an azimuth an azimuth.
+#include "terrain/model/camera.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace arete {
+namespace {
+
+Vec2 unit(Vec2 a) {
+  const double length = std::hypot(a.x, a.y);
+  return {a.x / length, a.y / length};
+}
+
+}  // namespace
+
+Vec3 metricPosition(Vec2 xy, double height, const TerrainModel& model) {
+  const Vec2 plan = model.toPlan(xy);
+  return model.mt.arrays().metric.toMetric({plan.x, plan.y, height});
+}
+
+Result<View> viewOf(const Camera& camera, const TerrainModel& model) {
+  if (!std::isfinite(camera.azimuthDegrees))
+    return failure(ErrorCode::usage, "the azimuth must be a finite number of degrees", "camera");
+  if (!(camera.pitchDegrees >= -90 && camera.pitchDegrees <= 90))
+    return failure(ErrorCode::usage, "the pitch must lie between -90 and 90 degrees", "camera");
+  constexpr double kRadians = std::numbers::pi / 180;
+
+  // One step of the map along each axis: long enough for large coordinates not to swallow it.
+  const auto& g = model.georeference.geoTransform;
+  const double step = model.isRaster ? std::hypot(g[1], g[4]) + std::hypot(g[2], g[5]) : 1;
+  const Vec3 here = metricPosition(camera.xy, 0, model);
+  const auto axis = [&](double dx, double dy) {
+    const Vec3 there = metricPosition({camera.xy.x + dx, camera.xy.y + dy}, 0, model);
+    return unit({there.x - here.x, there.y - here.y});
+  };
+  const Vec2 east = axis(step, 0), north = axis(0, step);
+  const double sine = std::sin(camera.azimuthDegrees * kRadians),
+               cosine = std::cos(camera.azimuthDegrees * kRadians);
+  const Vec2 level = unit({sine * east.x + cosine * north.x, sine * east.y + cosine * north.y});
+  const double rise = std::sin(camera.pitchDegrees * kRadians),
+               run = std::cos(camera.pitchDegrees * kRadians);
+
+  View view;
+  view.eye = metricPosition(camera.xy, camera.height, model);
+  view.forward = {run * level.x, run * level.y, rise};
+  view.up = {-rise * level.x, -rise * level.y, run};
+  view.verticalFieldOfView = camera.verticalFieldOfViewDegrees * kRadians;
+  view.widthPixels = camera.widthPixels;
+  view.heightPixels = camera.heightPixels;
+  if (Status ok = view.validate(); !ok) return failure(ok.error().code, ok.error().message, "camera");
+  return view;
+}
+
+}  // namespace arete

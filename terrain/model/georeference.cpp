@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// On a geographic CRS a step of one column or one row is measured as a geodesic on the CRS's own ellipsoid
+// between the two sample positions: exact at the given place, and an ellipsoid of the Moon works as well as
+// the Earth's.
+#include "terrain/model/georeference.h"
+
+#include <GeographicLib/Geodesic.hpp>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace arete {
+
+Vec2 groundStep(const Georeference& georeference, double column, double row) {
+  const auto& g = georeference.geoTransform;
+  const double planarX = std::hypot(g[1], g[4]), planarY = std::hypot(g[2], g[5]);
+  if (georeference.crsWkt.empty()) return {planarX, planarY};
+  if (!georeference.isGeographic)
+    return {planarX * georeference.linearUnitMetres, planarY * georeference.linearUnitMetres};
+
+  const double flattening = georeference.inverseFlattening == 0 ? 0 : 1 / georeference.inverseFlattening;
+  const GeographicLib::Geodesic geodesic(georeference.semiMajorAxisMetres, flattening);
+  const double degrees = georeference.angularUnitRadians * 180 / std::numbers::pi;
+  const Vec2 here = georeference.toSource(column, row);
+  const auto distance = [&](double dx, double dy) {
+    const auto latitude = [&](double y) { return std::clamp(y * degrees, -90.0, 90.0); };
+    double metres = 0;
+    geodesic.Inverse(latitude(here.y - dy / 2), (here.x - dx / 2) * degrees, latitude(here.y + dy / 2),
+                     (here.x + dx / 2) * degrees, metres);
+    return metres;
+  };
+  const Vec2 step{distance(g[1], g[4]), distance(g[2], g[5])};
+  // On a pole, and where no latitude is, a step goes nowhere; a plan without extent would know no distances.
+  const double perRadian = georeference.semiMajorAxisMetres * georeference.angularUnitRadians;
+  const Vec2 equatorial{planarX * perRadian, planarY * perRadian};
+  constexpr double kNowhere = 1e-9;
+  if (step.x > kNowhere * equatorial.x && step.y > kNowhere * equatorial.y) return step;
+  return equatorial;
+}
+
+Vec2 groundUnit(const Georeference& georeference, double y) {
+  constexpr double kStep = 1e-3;
+  Georeference axes = georeference;
+  axes.geoTransform = {0, kStep, 0, y, 0, kStep};
+  const Vec2 step = groundStep(axes, 0, 0);
+  return {step.x / kStep, step.y / kStep};
+}
+
+}  // namespace arete

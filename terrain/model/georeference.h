@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "engine/base/vec.h"
+
+namespace arete {
+
+/// Where a heightfield lies: what a DEM says of its frame, and nothing assumed beyond it.
+///
+/// Grid coordinates (column, row) count samples: sample (0, 0) is the first of the raster and stands at
+/// the centre of its pixel. Source coordinates (x, y) are those of the CRS, or bare numbers without one.
+struct Georeference {
+  /// GDAL's affine transform of *pixel* coordinates (corner of the first pixel = 0, 0):
+  /// x = g[0] + g[1] * pixel + g[2] * line,  y = g[3] + g[4] * pixel + g[5] * line.
+  /// A scattered point set keeps its own x, y: the identity with the half pixel taken out.
+  std::array<double, 6> geoTransform = {0, 1, 0, 0, 0, 1};
+  /// False where the file has none and the identity stands in.
+  bool hasGeoTransform = false;
+
+  std::string crsWkt;         ///< WKT 2 as GDAL exports it; empty = no CRS
+  bool isGeographic = false;  ///< x, y are longitude, latitude in angularUnitRadians
+  double angularUnitRadians = 0.017453292519943295;
+  double linearUnitMetres = 1;  ///< of a projected CRS
+  double semiMajorAxisMetres = 6378137;
+  double inverseFlattening = 298.257223563;  ///< 0 = sphere
+
+  std::string verticalUnit;       ///< as the file says it ("m", "metre", "ft", ...); may be empty
+  double verticalUnitMetres = 1;  ///< metres in one unit; 1 where the file does not say
+  std::string verticalDatum;      ///< as far as the file says it; may be empty
+
+  /// Source coordinates of a sample (real-valued column and row allowed): geotransform(col + 1/2, row + 1/2).
+  Vec2 toSource(double column, double row) const {
+    const double p = column + 0.5, l = row + 0.5;
+    const auto& g = geoTransform;
+    return {g[0] + g[1] * p + g[2] * l, g[3] + g[4] * p + g[5] * l};
+  }
+
+  /// Grid coordinates of a source position. Precondition: determinant() != 0.
+  Vec2 toGrid(double x, double y) const {
+    const auto& g = geoTransform;
+    const double dx = x - g[0], dy = y - g[3], det = determinant();
+    return {(dx * g[5] - dy * g[2]) / det - 0.5, (dy * g[1] - dx * g[4]) / det - 0.5};
+  }
+
+  /// Negative for the usual north-up raster: (column, row) turns the other way round than (x, y).
+  double determinant() const { return geoTransform[1] * geoTransform[5] - geoTransform[2] * geoTransform[4]; }
+};
+
+/// Ground size of one step along a row and one along a column, at the given grid position, in metres where
+/// the CRS is known and in source units otherwise. Geographic steps are measured on the ellipsoid
+/// (GeographicLib).
+Vec2 groundStep(const Georeference& georeference, double column, double row);
+
+/// Metres east and north that a unit of x and of y, an angle, makes where y is. Precondition: isGeographic.
+Vec2 groundUnit(const Georeference& georeference, double y);
+
+}  // namespace arete

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "terrain/model/plan_box.h"
+
+#include <algorithm>
+
+namespace arete {
+
+Box2 planBox(const TerrainModel& model) {
+  if (model.isRaster) return {0, 0, model.columns - 1.0, model.rows - 1.0};
+  Box2 box{0, 0, 0, 0};
+  for (std::uint32_t v = 0; v < model.mt.rootVertexCount(); ++v) {
+    const Vec2 p = model.mt.vertices().planPosition(VertexId(v));
+    if (v == 0) box = {p.x, p.y, p.x, p.y};
+    box = {std::min(box.xMin, p.x), std::min(box.yMin, p.y), std::max(box.xMax, p.x),
+           std::max(box.yMax, p.y)};
+  }
+  return box;
+}
+
+Box2 planBox(std::span<const Vec2> places) {
+  if (places.empty()) return {0, 0, 0, 0};
+  Box2 box{places[0].x, places[0].y, places[0].x, places[0].y};
+  for (const Vec2& p : places)
+    box = {std::min(box.xMin, p.x), std::min(box.yMin, p.y), std::max(box.xMax, p.x),
+           std::max(box.yMax, p.y)};
+  return box;
+}
+
+}  // namespace arete

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "terrain/model/heightfield.h"
+
+namespace arete {
+
+/// The cells of a raster by their upper left sample, which of their corners are valid, and the triangles of
+/// the finest triangulation that they hold (finest_raster.h). Precondition of all: column < columns - 1,
+/// row < rows - 1.
+class RasterCells {
+ public:
+  using Corners = std::array<std::uint32_t, 3>;
+  enum Corner : unsigned { upperLeft = 1, upperRight = 2, lowerLeft = 4, lowerRight = 8, all = 15 };
+
+  explicit RasterCells(const RasterHeightfield& field) : field_(field) {}
+
+  unsigned valid(std::uint32_t column, std::uint32_t row) const {
+    const double* above = &field_.heights[field_.index(column, row)];
+    const double* under = above + field_.columns;
+    return unsigned(above[0] == above[0]) * upperLeft | unsigned(above[1] == above[1]) * upperRight |
+           unsigned(under[0] == under[0]) * lowerLeft | unsigned(under[1] == under[1]) * lowerRight;
+  }
+
+  static std::uint32_t triangleCount(unsigned valid) {
+    return valid == all ? 2 : valid == 7 || valid == 11 || valid == 13 || valid == 14 ? 1 : 0;
+  }
+
+  /// visit(corners) for the triangles of a cell, counter-clockwise.
+  template <class Visit>
+  void forTriangles(std::uint32_t column, std::uint32_t row, unsigned valid, const Visit& visit) const {
+    const std::uint32_t ul = field_.index(column, row), ur = ul + 1, ll = ul + field_.columns, lr = ll + 1;
+    const auto has = [&](unsigned corners) { return (valid & corners) == corners; };
+    if (has(upperLeft | lowerRight)) {
+      if (has(upperRight)) visit(Corners{ul, ur, lr});
+      if (has(lowerLeft)) visit(Corners{ul, lr, ll});
+    } else if (has(upperRight | lowerLeft)) {
+      if (has(upperLeft)) visit(Corners{ul, ur, ll});
+      if (has(lowerRight)) visit(Corners{ur, lr, ll});
+    }
+  }
+
+ protected:
+  const RasterHeightfield& field_;
+};
+
+}  // namespace arete

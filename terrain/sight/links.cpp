@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Clutter changes the terrain, which the engines have prepared for: its lines are judged over whole profiles.
+#include "terrain/sight/links.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "engine/parallel/shared_progress.h"
+#include "engine/parallel/with_threads.h"
+#include "terrain/sight/judge.h"
+
+namespace arete {
+namespace {
+
+constexpr std::size_t kLinksPerTask = 8;
+
+/// The profile with the clutter on it: steps where it begins and ends.
+Profile withClutter(const Profile& profile, const SightClutter& clutter) {
+  Profile high = profile;
+  high.vertices.clear();
+  const double first = clutter.freeMetres, last = profile.length - clutter.freeMetres;
+  if (!profile.vertices.empty()) high.vertices.push_back(profile.vertices.front());
+  for (std::size_t i = 1; i < profile.vertices.size(); ++i) {
+    const ProfileVertex &p = profile.vertices[i - 1], &q = profile.vertices[i];
+    if (!q.isJoined) {
+      high.vertices.push_back(q);
+      continue;
+    }
+    const auto at = [&](double s) {
+      const double t = q.distance > p.distance ? (s - p.distance) / (q.distance - p.distance) : 0;
+      return ProfileVertex{s,
+                           {p.plan.x + t * (q.plan.x - p.plan.x), p.plan.y + t * (q.plan.y - p.plan.y)},
+                           p.height + t * (q.height - p.height),
+                           true};
+    };
+    std::vector<double> ends = {p.distance};
+    const double step = clutter.stepMetres > 0 ? clutter.stepMetres : q.distance - p.distance;
+    const auto cutAt = [&](double s) {
+      if (s > p.distance && s < q.distance) ends.push_back(s);
+    };
+    cutAt(first);
+    cutAt(last);
+    if (step > 0 && q.distance - p.distance > step) {
+      const int count = static_cast<int>(std::ceil((q.distance - p.distance) / step));
+      for (int k = 1; k < count; ++k) cutAt(p.distance + (q.distance - p.distance) * k / count);
+    }
+    ends.push_back(q.distance);
+    std::sort(ends.begin(), ends.end());
+    for (std::size_t k = 1; k < ends.size(); ++k) {
+      ProfileVertex a = at(ends[k - 1]), b = at(ends[k]);
+      const double middle = (ends[k - 1] + ends[k]) / 2;
+      const double more = middle >= first && middle <= last ? clutter.height(at(middle).plan) : 0;
+      a.height += more;
+      b.height += more;
+      if (high.vertices.back().height != a.height) high.vertices.push_back(a);
+      high.vertices.push_back(b);
+    }
+  }
+  return high;
+}
+
+/// The judge, told all of a profile. Ends that stand on a corner of the terrain alone are not in it.
+SightAnswer judged(const SightLine& line, const Profile& profile, const SurfaceHeights& heights,
+                   const SightOptions& options) {
+  SightJudge judge(line, options);
+  const auto tellEnd = [&](const SightPoint& end) {
+    if (const auto ground = heights.at(heights.model().toSource(end.plan)))
+      judge.terrain(end.distance, ground->height, end.distance, ground->height);
+  };
+  tellEnd(line.points().front());
+  const double shortest = 1e-9 * profile.length;
+  double done = 0;
+  for (std::size_t i = 0; i < profile.vertices.size() && !judge.isDone(); ++i) {
+    const ProfileVertex& q = profile.vertices[i];
+    if (!q.isJoined) {
+      if (q.distance > done + shortest) judge.gap(done, q.distance);
+    } else {
+      const ProfileVertex& p = profile.vertices[i - 1];
+      judge.terrain(p.distance, p.height, q.distance, q.height);
+    }
+    done = q.distance;
+  }
+  if (profile.vertices.empty() || profile.length > done + shortest) judge.gap(done, profile.length);
+  tellEnd(line.points().back());
+  return judge.answer(profile.vertices.size());
+}
+
+}  // namespace
+
+Vec2 sightPlan(const TerrainModel& model, Vec2 xy) {
+  const Georeference& g = model.georeference;
+  if (g.isGeographic && model.isRaster) {
+    const double turn = 2 * std::numbers::pi / g.angularUnitRadians;
+    const double middle = g.toSource((model.columns - 1) / 2.0, (model.rows - 1) / 2.0).x;
+    if (std::abs(xy.x - middle) > turn / 2) xy.x += turn * std::round((middle - xy.x) / turn);
+  }
+  const Vec2 plan = model.toPlan(xy);
+  return model.isRaster ? sightEnd(model, plan, SurfaceHeights::margin(model)) : plan;
+}
+
+Result<SightLine> sightLine(const SightLink& link, const SightEarth& earth, const TerrainModel& model) {
+  auto track = earth.track(link.from, link.to);
+  if (!track) return tl::unexpected(track.error());
+  const double unit = model.georeference.verticalUnitMetres;
+  if (const Status status = checkSightHeights(*track, link.fromHeight, link.toHeight, unit); !status)
+    return tl::unexpected(status.error());
+  return SightLine(std::move(*track), link.fromHeight, link.toHeight, unit);
+}
+
+Result<SightLinkAnswer> answerLink(const SightLink& link, const SightEarth& earth, const SightEngine& engine,
+                                   const Profiles& profiles, const SightLinkOptions& options) {
+  const auto line = sightLine(link, earth, profiles.heights().model());
+  if (!line) return tl::unexpected(line.error());
+  const SightTrack& track = line->track();
+  SightLinkAnswer answer;
+  answer.distanceMetres = line->length();
+  answer.azimuthDegrees = track.azimuthDegrees;
+  const double unit = line->heightUnitMetres(), from = link.fromHeight * unit, to = link.toHeight * unit;
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  if (line->length() > 0) {
+    answer.elevationDegrees =
+        std::atan(sightTangent(track.groundCurvature, from, line->length(), to)) * kDegrees;
+  } else {
+    answer.elevationDegrees = to > from ? 90 : to < from ? -90 : 0;
+  }
+  const bool hasClutter = static_cast<bool>(options.clutter.height);
+  Profile profile;
+  if (hasClutter || options.frequencyMegahertz > 0) profile = profiles.along(track);
+  if (hasClutter) profile = withClutter(profile, options.clutter);
+  answer.sight = hasClutter ? judged(*line, profile, profiles.heights(), options.sight)
+                            : engine.answer(*line, options.sight);
+  if (options.frequencyMegahertz > 0)
+    answer.fresnel = leastFresnelClearance(*line, profile, wavelengthMetres(options.frequencyMegahertz));
+  return answer;
+}
+
+Result<std::vector<Result<SightLinkAnswer>>> answerLinks(std::span<const SightLink> links,
+                                                         const SightEarth& earth, const SightEngine& engine,
+                                                         const Profiles& profiles,
+                                                         const SightLinkOptions& options,
+                                                         const RunContext& context) {
+  std::vector<Result<SightLinkAnswer>> answers(links.size(), SightLinkAnswer{});
+  SharedProgress progress(context, "lines of sight", links.size());
+  context.report("lines of sight", 0);
+  withThreads(context, [&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, links.size(), kLinksPerTask),
+                      [&](const auto& range) {
+                        for (std::size_t i = range.begin(); i < range.end() && !context.cancelled(); ++i)
+                          answers[i] = answerLink(links[i], earth, engine, profiles, options);
+                        progress.add(range.size());
+                      });
+  });
+  if (context.cancelled()) return failure(ErrorCode::interrupted, "the query was stopped");
+  context.report("lines of sight", 1);
+  return answers;
+}
+
+}  // namespace arete

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The piece crosses triangles in edges. A vertex has a side of it and a place along it; an edge whose ends
+// are on different sides is crossed between their places, and the surface has the height of the edge there.
+// Both triangles of an edge take the same crossing, so nothing is lost between them but what rounding does.
+#include "terrain/sight/mt_crossing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arete {
+
+MtCrossing::MtCrossing(const TriangleLocator& locator, const SightPiece& piece)
+    : locator_(locator),
+      piece_(piece),
+      perLength_(1 / (piece.dx * piece.dx + piece.dy * piece.dy)),
+      shortest_(kShortestInPlan * std::sqrt(perLength_)) {}
+
+MtCrossing::Seen MtCrossing::see(std::uint32_t vertex) const {
+  const Vec2 p = locator_.planPosition(vertex);
+  const double x = p.x - piece_.x, y = p.y - piece_.y;
+  return {piece_.dx * y - piece_.dy * x, (piece_.dx * x + piece_.dy * y) * perLength_,
+          locator_.mt().vertices().height(VertexId(vertex))};
+}
+
+void MtCrossing::add(std::uint32_t triangle, const Seen& a, const Seen& b, const Seen& c, double first,
+                     double last, std::vector<TriangleSpan>& spans) const {
+  if ((a.side > 0 && b.side > 0 && c.side > 0) || (a.side < 0 && b.side < 0 && c.side < 0)) return;
+  TriangleSpan span{HUGE_VAL, -HUGE_VAL, 0, 0, triangle};
+  const auto meet = [&span](double t, double z) {
+    if (t < span.t0) {
+      span.t0 = t;
+      span.z0 = z;
+    }
+    if (t > span.t1) {
+      span.t1 = t;
+      span.z1 = z;
+    }
+  };
+  const auto cross = [&meet](const Seen& p, const Seen& q) {
+    if (p.side == 0) meet(p.along, p.z);
+    if (!((p.side < 0 && q.side > 0) || (p.side > 0 && q.side < 0))) return;
+    const double f = p.side / (p.side - q.side);
+    meet(p.along + f * (q.along - p.along), p.z + f * (q.z - p.z));
+  };
+  cross(a, b);
+  cross(b, c);
+  cross(c, a);
+  if (!(span.t0 < last && span.t1 > first)) return;
+  span.cut(first, last);
+  if (span.t1 > span.t0) spans.push_back(span);
+}
+
+void MtCrossing::addRoots(std::vector<TriangleSpan>& spans) const {
+  std::vector<std::uint32_t> roots;
+  locator_.roots().along({piece_.x, piece_.y}, {piece_.x + piece_.dx, piece_.y + piece_.dy}, roots);
+  for (const std::uint32_t r : roots) {
+    const auto& corners = locator_.mt().arrays().rootTriangles[r];
+    add(r, see(corners[0]), see(corners[1]), see(corners[2]), 0, 1, spans);
+  }
+}
+
+void MtCrossing::addStar(std::uint32_t node, double first, double last,
+                         std::vector<TriangleSpan>& spans) const {
+  const MtArrays& arrays = locator_.mt().arrays();
+  const std::uint32_t begin = arrays.slotBegin[node], end = arrays.slotBegin[node + 1];
+  const std::uint32_t roots = locator_.mt().rootTriangleCount();
+  const Seen apex = see(arrays.rootVertices + node), firstLink = see(arrays.link[begin]);
+  Seen p = firstLink;
+  for (std::uint32_t slot = begin; slot < end; ++slot) {
+    const Seen q = slot + 1 < end ? see(arrays.link[slot + 1]) : firstLink;
+    // The last slot of an open star is no triangle.
+    if (slot + 1 < end || arrays.remover[roots + slot] != node)
+      add(roots + slot, apex, p, q, first, last, spans);
+    p = q;
+  }
+}
+
+void MtCrossing::sort(std::span<TriangleSpan> spans) {
+  std::sort(spans.begin(), spans.end(), [](const TriangleSpan& p, const TriangleSpan& q) {
+    return p.t0 != q.t0 ? p.t0 < q.t0 : p.t1 > q.t1;
+  });
+}
+
+}  // namespace arete

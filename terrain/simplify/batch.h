@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/parallel/loop_threads.h"
+#include "engine/parallel/stage_clock.h"
+#include "terrain/simplify/state.h"
+#include "terrain/triangulation/rim.h"
+
+namespace arete {
+
+/// The removals of a level of all threads, no two of whose stars share a triangle: they are announced to the
+/// recorder, each rewrites its star, and what that left to do where stars meet is done when all have.
+template <class Plan, class Errors>
+class RemovalBatch {
+ public:
+  using State = SimplifyState<Plan, Errors>;
+
+  /// `clock` may be null.
+  RemovalBatch(State& state, StageClock* clock) : s_(state), clock_(clock) {}
+
+  /// Announces removals by the sizes of their links.
+  void begin(MtRecorder::BatchOrder order, std::span<const std::uint8_t> linkSizes) {
+    first_ = s_.recorder.beginBatch(order, linkSizes);
+    seams_.resize(firstSlotAfter(linkSizes.size()));
+    isOpen_.resize(linkSizes.size());
+  }
+
+  /// The i-th removal's number in the recorder.
+  std::uint32_t removal(std::size_t i) const { return first_ + static_cast<std::uint32_t>(i); }
+  /// What it has to fill in: its seams, and whether its star is open.
+  std::span<Seam> seams(std::size_t i) {
+    const std::size_t from = firstSlotAfter(i);
+    return std::span(seams_).subspan(from, firstSlotAfter(i + 1) - from);
+  }
+  void setOpen(std::size_t i, bool isOpen) { isOpen_[i] = isOpen; }
+
+  /// Joins the new triangles to their neighbours. `removed`: the vertices, in the order of the removals.
+  void end(std::span<const std::uint32_t> removed) {
+    sewSeams();
+    if (s_.rim != nullptr)
+      for (std::size_t i = 0; i < removed.size(); ++i)
+        if (isOpen_[i]) Rim::closeVoid(s_.mesh, seams(i).back().movedTo);
+    s_.waiting.remove(removed, LoopThreads::all);
+    std::size_t dead = 0;
+    for (const std::uint8_t isOpen : isOpen_) dead += Star::slotsLeftDead(isOpen != 0);
+    s_.liveTriangles -= dead;
+  }
+
+ private:
+  void sewSeams() {
+    const StageClock::Scope stage(clock_, "simplify: sew");
+    forRanges(LoopThreads::all, seams_.size(), 2048, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i != end; ++i) {
+        if (i + kSeamsAhead < end && seams_[i + kSeamsAhead].beyond != LiveMesh::kNone)
+          __builtin_prefetch(&s_.mesh.triangles[LiveMesh::triangleOf(seams_[i + kSeamsAhead].beyond)], 1);
+        sew(s_.mesh, seams_[i], first_, [&](std::uint32_t removal) { return seams(removal - first_); });
+      }
+    });
+  }
+
+  std::size_t firstSlotAfter(std::size_t removals) const {
+    return s_.recorder.firstSlot(removal(removals)) - s_.recorder.firstSlot(first_);
+  }
+
+  static constexpr std::size_t kSeamsAhead = 16;
+
+  State& s_;
+  StageClock* clock_;
+  std::uint32_t first_ = 0;
+  std::vector<std::uint8_t> isOpen_;  // per removal
+  std::vector<Seam> seams_;           // per slot of the batch
+};
+
+}  // namespace arete

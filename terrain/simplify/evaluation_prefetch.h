@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "engine/simplify/star_prefetch.h"
+
+namespace arete {
+
+inline constexpr std::size_t kHeightsAhead = 12;  ///< prefetch distance of heights, in vertices
+
+/// Asks for all that a look reads, on the visit of the i-th of some vertices that are looked at in turn.
+template <class State, class Vertices>
+[[gnu::always_inline]] inline void prefetchForLook(const State& state, const Vertices& vertices,
+                                                   std::size_t i) {
+  prefetchStars(state.mesh, i, vertices.size(), [&](std::size_t k) { return vertices[k]; });
+  if (i + kHeightsAhead >= vertices.size()) return;
+  const std::uint32_t v = vertices[i + kHeightsAhead];
+  state.errors.prefetch(v);
+  __builtin_prefetch(&state.notes[v], 1);
+  state.waiting.prefetch(v);
+}
+
+}  // namespace arete

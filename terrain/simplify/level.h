@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A level that all threads work on together. It goes through these steps:
+//
+//   collect   Look through those that may go for whom the level concerns: those of whom too little is known,
+//             and those under the threshold (waiting_list.h).
+//   evaluate  Find what removing them costs (simplify_cost.h), and keep the floors of it if they are few
+//             (kept_floors.h). The candidates are those under the threshold.
+//   choose    An independent set of them, in order of their cost (independent_set.h).
+//   remove    Rewrite each chosen star, record the modification, tell the link (simplify_removal.h).
+//   sew       Join the new triangles to their neighbours (simplify_batch.h).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/parallel/loop_threads.h"
+#include "engine/parallel/parallel_filter.h"
+#include "engine/parallel/stage_clock.h"
+#include "engine/simplify/independent_set.h"
+#include "terrain/simplify/batch.h"
+#include "terrain/simplify/cost.h"
+#include "terrain/simplify/evaluation_prefetch.h"
+#include "terrain/simplify/floor_cache.h"
+#include "terrain/simplify/measured_floor.h"
+#include "terrain/simplify/removal.h"
+#include "terrain/simplify/state.h"
+
+namespace arete {
+
+/// All threads at work on levels, and the lists that are needed for it.
+template <class Plan, class Errors>
+class LevelWorkers {
+ public:
+  using State = SimplifyState<Plan, Errors>;
+
+  /// `clock` may be null.
+  LevelWorkers(State& state, StageClock* clock)
+      : s_(state), cost_(state), set_(state.mesh, state.notes), batch_(state, clock), clock_(clock) {}
+
+  /// A level of all that may go. `number`: of the level, none of a vertex's levels has the same. Returns how
+  /// many went.
+  std::size_t levelOfAll(double threshold, std::uint32_t number, MtRecorder::BatchOrder order) {
+    {
+      const StageClock::Scope stage(clock_, "simplify: collect");
+      s_.waiting.collect(threshold, due_, filter_);
+    }
+    return level(threshold, number, order);
+  }
+  /// A level of some of them.
+  std::size_t levelOf(std::span<const std::uint32_t> some, double threshold, std::uint32_t number,
+                      MtRecorder::BatchOrder order) {
+    {
+      const StageClock::Scope stage(clock_, "simplify: collect");
+      s_.waiting.collect(some, threshold, due_, filter_);
+    }
+    return level(threshold, number, order);
+  }
+
+ private:
+  using Note = RemovalRecord::State;
+
+  std::size_t level(double threshold, std::uint32_t number, MtRecorder::BatchOrder order) {
+    if (due_.empty()) return 0;
+    evaluate(threshold, number);
+    choose(number);
+    if (chosen_.empty()) return 0;
+    remove(order);
+    batch_.end(chosen_);
+    return chosen_.size();
+  }
+
+  /// Leaves in `due_` the candidates: vertices whose removal costs no more than the threshold.
+  void evaluate(double threshold, std::uint32_t number) {
+    const StageClock::Scope stage(clock_, "simplify: evaluate");
+    // A fidelity hole is filled anew: its cost is found without the floor.
+    if (s_.options.shape == HoleShape::delaunay) floors_.begin(due_.size(), s_.waiting.everything().size());
+    filter_(due_.size(), shareOf(due_.size(), 128), due_,
+            [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+              Star star;
+              for (std::size_t i = begin; i != end; ++i) {
+                prefetchForLook(s_, due_, i);
+                const std::uint32_t v = due_[i];
+                RemovalRecord& note = s_.notes[v];
+                note.settle();
+                MeasuredFloor* const floor = floors_.keep(i, s_.waiting.placeOf(v));
+                if (note.state != Note::exact) {
+                  if (floor != nullptr)
+                    cost_.look(v, star, threshold, note, *floor);
+                  else
+                    cost_.look(v, star, threshold, note);
+                  s_.waiting.set(v, note.dueAt());
+                }
+                if (note.state != Note::exact || note.cost > threshold) continue;
+                set_.enter(v, number);
+                *to++ = v;
+              }
+              return to;
+            });
+  }
+
+  void choose(std::uint32_t number) {
+    const StageClock::Scope stage(clock_, "simplify: choose");
+    if (s_.rim == nullptr) {
+      set_.choose(due_, number, chosen_);
+    } else {
+      Star star;
+      set_.chooseInTurn(due_, number, chosen_, [&](std::uint32_t v) {
+        star.gather(s_.mesh, v, kMaxHoleCorners);
+        const std::uint32_t before = star.link[star.linkSize - 1], after = star.link[0];
+        const bool isFill = star.isOpen && s_.plan.orientation(before, v, after) != 0;
+        return !isFill || s_.rim->claim(before, after, number);
+      });
+    }
+    linkSizes_.resize(chosen_.size());
+    forRanges(LoopThreads::all, chosen_.size(), 4096, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i != end; ++i) linkSizes_[i] = s_.notes[chosen_[i]].linkSize;
+    });
+  }
+
+  void remove(MtRecorder::BatchOrder order) {
+    const StageClock::Scope stage(clock_, "simplify: remove");
+    batch_.begin(order, linkSizes_);
+    const std::size_t grain = shareOf(chosen_.size(), 64);
+    forRanges(LoopThreads::all, chosen_.size(), grain, [&](std::size_t begin, std::size_t end) {
+      // The stars of a batch share no triangle, so the next ones can be gathered while others are rewritten,
+      // and what the recorder will ask of their children can be on its way.
+      std::array<Star, kStarsAhead> ahead;
+      VertexRemover<Plan, Errors> remover(s_);
+      MeasuredFloor unknown;
+      const auto gather = [&](std::size_t i) {
+        if (i >= end) return;
+        Star& star = ahead[i % kStarsAhead];
+        star.gather(s_.mesh, chosen_[i], kMaxHoleCorners);
+        remover.prefetch(star);
+      };
+      for (std::size_t i = begin; i < begin + kStarsAhead - 1; ++i) gather(i);
+      for (std::size_t i = begin; i != end; ++i) {
+        // Not beyond the range: the stars there are being rewritten.
+        prefetchStars(s_.mesh, i, end, [&](std::size_t k) { return chosen_[k]; });
+        if (i + kHeightsAhead < end) s_.errors.prefetch(chosen_[i + kHeightsAhead]);
+        gather(i + kStarsAhead - 1);
+        const Star& star = ahead[i % kStarsAhead];
+        batch_.setOpen(i, star.isOpen);
+        unknown.clear();
+        MeasuredFloor* const kept = floors_.of(s_.waiting.placeOf(chosen_[i]));
+        remover.remove(chosen_[i], star, kept != nullptr ? *kept : unknown, batch_.removal(i),
+                       batch_.seams(i));
+      }
+    });
+  }
+
+  /// How many of so many, `most` at most, a thread takes at once: late levels are of few vertices, whose
+  /// holes are wide, and all threads shall have some.
+  static std::size_t shareOf(std::size_t size, std::size_t most) {
+    return std::clamp<std::size_t>(size / 32, 4, most);
+  }
+
+  static constexpr std::size_t kStarsAhead = 4;
+
+  State& s_;
+  RemovalCost<Plan, Errors> cost_;
+  FloorCache floors_;
+  IndependentSet set_;
+  RemovalBatch<Plan, Errors> batch_;
+  StageClock* clock_;
+
+  ParallelFilter<std::uint32_t> filter_;
+  std::vector<std::uint32_t> due_;  // vertices to look at, then the candidates
+  std::vector<std::uint32_t> chosen_;
+  std::vector<std::uint8_t> linkSizes_;  // per chosen
+};
+
+}  // namespace arete

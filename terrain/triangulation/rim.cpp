@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Distance: every point of the new border edge, and of the fill behind it, is within max dist(u, line) of the
+// original rim, over the original rim vertices u between the edge's ends: the perpendicular through the point
+// meets the original chain somewhere between the line and its farthest vertex (the measure of Douglas and
+// Peucker). It is always taken from the original rim, so that steps do not add up.
+//
+// Overlap: a fill that holds no vertex of the triangulation cannot be crossed by an edge either. An edge that
+// crossed it would have to enter and leave through its one free side, which a straight segment cannot.
+#include "terrain/triangulation/rim.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arete {
+
+Rim::Rim(const LiveMesh& mesh, const LatticePlan& plan, double tolerance)
+    : mesh_(mesh),
+      plan_(plan),
+      tolerance_(tolerance),
+      originalNext_(mesh.vertexHalfedge.size(), LiveMesh::kNone),
+      originalPrevious_(mesh.vertexHalfedge.size(), LiveMesh::kNone),
+      claimedAt_(mesh.vertexHalfedge.size(), 0) {
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::uint32_t i = 0; i < 3; ++i)
+      if (mesh.triangles[t].twin[i] == LiveMesh::kNone) {
+        const std::uint32_t from = mesh.triangles[t].corners[i], to = mesh.triangles[t].corners[(i + 1) % 3];
+        originalNext_[from] = to;
+        originalPrevious_[to] = from;
+      }
+}
+
+bool Rim::mayFill(std::uint32_t before, std::uint32_t v, std::uint32_t after) const {
+  const Vec2 a = plan_.planPosition(before), b = plan_.planPosition(after), o = plan_.planPosition(v);
+  const double dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
+  const auto isNear = [&](std::uint32_t u) {
+    const Vec2 p = plan_.planPosition(u);
+    return std::abs(dx * (p.y - a.y) - dy * (p.x - a.x)) <= tolerance_ * length * (1 + 1e-12);
+  };
+  // A pinch can break the chain's bookkeeping; a bounded walk that does not arrive means no.
+  constexpr int kLongestChain = 4096;
+  int steps = 0;
+  for (std::uint32_t u = v; u != after; u = originalNext_[u])
+    if (u == LiveMesh::kNone || ++steps > kLongestChain || !isNear(u)) return false;
+  for (std::uint32_t u = v; u != before; u = originalPrevious_[u])
+    if (u == LiveMesh::kNone || ++steps > kLongestChain || !isNear(u)) return false;
+
+  const auto columnLow = static_cast<std::int64_t>(std::min({a.x, b.x, o.x}));
+  const auto columnHigh = static_cast<std::int64_t>(std::max({a.x, b.x, o.x}));
+  const auto rowLow = static_cast<std::int64_t>(std::min({a.y, b.y, o.y}));
+  const auto rowHigh = static_cast<std::int64_t>(std::max({a.y, b.y, o.y}));
+  for (std::int64_t row = rowLow; row <= rowHigh; ++row)
+    for (std::int64_t column = columnLow; column <= columnHigh; ++column) {
+      const auto u = static_cast<std::uint32_t>(row * plan_.columns() + column);
+      if (u == before || u == v || u == after || mesh_.vertexHalfedge[u] == LiveMesh::kNone) continue;
+      // The fill is the triangle before, after, v seen from outside: clockwise in the domain's sense.
+      if (plan_.orientation(before, v, u) <= 0 && plan_.orientation(v, after, u) <= 0 &&
+          plan_.orientation(after, before, u) <= 0)
+        return false;
+    }
+  return true;
+}
+
+bool Rim::claim(std::uint32_t before, std::uint32_t after, std::uint32_t level) {
+  if (claimedAt_[before] == level || claimedAt_[after] == level) return false;
+  claimedAt_[before] = claimedAt_[after] = level;
+  return true;
+}
+
+void Rim::closeVoid(LiveMesh& mesh, std::uint32_t newBorderHalfedge) {
+  const std::uint32_t from = mesh.origin(newBorderHalfedge),
+                      to = mesh.origin(LiveMesh::nextInTriangle(newBorderHalfedge));
+  const auto runsBack = [&](std::uint32_t h) {
+    return mesh.twinOf(h) == LiveMesh::kNone && mesh.origin(h) == to &&
+           mesh.origin(LiveMesh::nextInTriangle(h)) == from;
+  };
+  // It begins the fan of `to` and ends that of `from`. A pinched vertex has several: then the other one
+  // tells.
+  std::uint32_t back = mesh.vertexHalfedge[to];
+  if (!runsBack(back)) {
+    back = LiveMesh::previousInTriangle(newBorderHalfedge);
+    while (mesh.twinOf(back) != LiveMesh::kNone) back = LiveMesh::previousInTriangle(mesh.twinOf(back));
+    if (!runsBack(back)) return;
+  }
+  mesh.setTwin(newBorderHalfedge, back);
+  mesh.setTwin(back, newBorderHalfedge);
+}
+
+}  // namespace arete

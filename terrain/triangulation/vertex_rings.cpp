@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "terrain/triangulation/vertex_rings.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <cstddef>
+#include <utility>
+
+namespace arete {
+namespace {
+
+template <class Visit>
+void forVertices(const LiveMesh& mesh, const Visit& visit) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertexHalfedge.size(), 1 << 13),
+                    [&](const auto& range) {
+                      for (std::size_t v = range.begin(); v != range.end(); ++v)
+                        if (mesh.vertexHalfedge[v] != LiveMesh::kNone) visit(static_cast<std::uint32_t>(v));
+                    });
+}
+
+/// visit(u) for the neighbours of a vertex and, where it is on a border, for kNone.
+template <class Visit>
+void forRing(const LiveMesh& mesh, std::uint32_t v, const Visit& visit) {
+  const std::uint32_t first = mesh.vertexHalfedge[v];
+  std::uint32_t h = first;
+  do {
+    visit(mesh.origin(LiveMesh::nextInTriangle(h)));
+    const std::uint32_t last = LiveMesh::previousInTriangle(h);
+    h = mesh.twinOf(last);
+    if (h == LiveMesh::kNone) visit(mesh.origin(last));
+  } while (h != LiveMesh::kNone && h != first);
+  if (h == LiveMesh::kNone) visit(LiveMesh::kNone);
+}
+
+}  // namespace
+
+VertexRings::VertexRings(const LiveMesh& mesh) {
+  const std::size_t vertices = mesh.vertexHalfedge.size();
+  begin_.assign(vertices + 1, 0);
+  forVertices(mesh, [&](std::uint32_t v) { forRing(mesh, v, [&](std::uint32_t) { ++begin_[v]; }); });
+  std::uint32_t next = 0;
+  for (std::uint32_t& begin : begin_) next += std::exchange(begin, next);
+  neighbours_.resize(next);
+  forVertices(mesh, [&](std::uint32_t v) {
+    std::uint32_t* to = neighbours_.data() + begin_[v];
+    forRing(mesh, v, [&](std::uint32_t u) { *to++ = u; });
+  });
+}
+
+}  // namespace arete

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "terrain/sight/engine.h"
+#include "terrain/viewshed/viewshed.h"
+
+namespace arete {
+
+/// Whether a place is in the horizontal field and the range of distances.
+bool isInField(const ViewshedField& field, double distance, double azimuthDegrees);
+
+/// One cell of a viewshed, by an engine's answer for its line: what all methods must agree with.
+class ViewshedExact {
+ public:
+  ViewshedExact(const SightEngine& engine, const SightEarth& earth, double heightUnitMetres,
+                const ViewshedObserver& observer, const ViewshedOptions& options)
+      : engine_(engine), earth_(earth), unit_(heightUnitMetres), observer_(observer), options_(options) {}
+
+  struct Answer {
+    ViewshedCell cell = ViewshedCell::outside;
+    float value = std::numeric_limits<float>::quiet_NaN();
+  };
+  /// `ground` is the terrain's height there; NaN: outside. Errors: those of the earth.
+  Result<Answer> at(Vec2 plan, double ground) const;
+
+ private:
+  float value(const SightTrack& track, double ground) const;
+
+  const SightEngine& engine_;
+  const SightEarth& earth_;
+  double unit_;
+  const ViewshedObserver& observer_;
+  const ViewshedOptions& options_;
+};
+
+}  // namespace arete

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Seen from the observer, through a picture plane, an edge of the terrain is a straight segment and so is the
+// skyline of all terrain up to some distance: the upper envelope of its edges. A sample is seen if and only
+// if it stands no lower in the picture than that skyline (De Floriani and Magillo 1994). The plan is cut into
+// four sectors (viewshed_picture.h) and these into wedges, each swept from the observer outwards, one lattice
+// line after the other (Franklin and Ray 1994).
+//
+// Rounding. Edges that point at the observer have no width in the picture; near u = 0, where those along x
+// do, u is exact to its last bit, and so it is for diagonals when y is sheared to y - x: u is then measured
+// from the diagonal. A wedge is sheared where u >= 1/2.
+//
+// Over an ellipsoid the plan is that of the fan of geodesics (viewshed_fan.h), in which tracks are straight
+// but for a thousandth of a step. What terrain rises in that is in doubt, and whether a line is over terrain
+// so near to a void; edges that point at the observer are left out.
+//
+// What is decided here is outside of every doubt: the terrain that hides is at least two tolerances above
+// the line, the terrain in front of what is seen is not above the line at all. The rest is decided by an
+// engine's answer, cell by cell: what lies between, places less than a step away, what is beside NODATA and
+// not hidden by what is before it, what is behind a corner of the terrain that a line may meet in a single
+// point.
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/parallel/shared_progress.h"
+#include "engine/parallel/with_threads.h"
+#include "terrain/viewshed/wedge.h"
+
+namespace arete {
+namespace {
+
+/// Samples of the farthest line in a wedge, about.
+constexpr double kWedgeSamples = 512;
+
+std::vector<ViewshedWedge> wedgesOf(const ImagePlane& picture, bool isAlongRows) {
+  std::vector<ViewshedWedge> wedges;
+  const SightGrid& grid = picture.task().grid;
+  for (const int sign : {1, -1}) {
+    const ViewshedSector sector{isAlongRows, sign};
+    const double at = isAlongRows ? picture.task().observer.plan.x : picture.task().observer.plan.y;
+    const double far = sign > 0 ? (isAlongRows ? grid.columns() : grid.rows()) - 1 - at : at;
+    if (!(far > 0)) continue;
+    // Columns take the samples on the diagonals; over a fan, where these are rounded, a little more.
+    const double more = picture.isFan() && isAlongRows ? 1e-9 : 0;
+    const int parts = 4 * std::max(1, static_cast<int>(far / 2 / kWedgeSamples));
+    for (int i = 0; i < parts; ++i) {
+      const double first = -1 + 2.0 * i / parts, last = -1 + 2.0 * (i + 1) / parts;
+      wedges.push_back({sector, i == 0 ? first - more : first, i + 1 == parts ? last + more : last,
+                        i > 0 || isAlongRows, i + 1 == parts && isAlongRows});
+    }
+  }
+  return wedges;
+}
+
+}  // namespace
+
+std::optional<std::string> whyNotSweep(const ViewshedTask& task, const AzimuthalMap* fan) {
+  if (!task.earth.planeSteps() && !task.earth.geodesicError())
+    return "tracks over this Earth are neither straight in plan nor geodesics";
+  const bool isFan = !task.earth.planeSteps();
+  if (isFan && task.options.value != ViewshedValue::none)
+    return "over an ellipsoid it tells what is seen, not how high or under which angle";
+  const SightGrid& grid = task.grid;
+  const Vec2 o = task.observer.plan;
+  const double margin = isFan ? 2 : 0;  // geodesics may leave the DEM
+  if (!(o.x >= margin && o.y >= margin && o.x <= grid.columns() - 1 - margin &&
+        o.y <= grid.rows() - 1 - margin))
+    return isFan ? "the observer is outside of the DEM or at its border"
+                 : "the observer is outside of the DEM";
+  const int column = static_cast<int>(o.x), row = static_cast<int>(o.y);
+  double greatest = 0;
+  for (int r = row - 2; r <= row + 3; ++r)
+    for (int c = column - 2; c <= column + 3; ++c) {
+      if (c < 0 || r < 0 || c >= static_cast<int>(grid.columns()) || r >= static_cast<int>(grid.rows()))
+        continue;
+      const double z = grid.height(static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(r));
+      if (!std::isnan(z)) greatest = std::max(greatest, std::fabs(z - task.observer.height));
+    }
+  const double above = task.observer.height - grid.at(o), unit = task.model.georeference.verticalUnitMetres;
+  if (above < -0.5e-6 / unit) return "the observer is below the ground";
+  // An edge that all but meets the observer is left out where it is nearest. Beside NODATA it may be one that
+  // slants the other way, and end the terrain: then it hangs on rounding whether the observer is over that.
+  constexpr double kNearest = 2e-6;
+  const auto off = [](double v) { return std::fabs(v - std::round(v)); };
+  const auto isNear = [&](double v) { return off(v) > 0 && off(v) < kNearest; };
+  const bool isNearEdge = isNear(o.x) || isNear(o.y) || isNear(o.x - o.y) || isNear(o.x + o.y);
+  if (isNearEdge && !(above >= 100 * kNearest * greatest))
+    return "the observer is on the ground, all but on an edge";
+  if (std::isnan(above) && off(o.x) > 0 && (off(o.x - o.y) < kNearest || off(o.x + o.y) < kNearest))
+    return "the observer is over NODATA, all but on an edge";
+  // Over a fan, terrain is drawn too high by as much as it may rise within its error.
+  if (fan != nullptr && above < 4 * fan->planError(0) * greatest + 2 * fan->heightError(0) / unit)
+    return "the observer is on the ground";
+  return std::nullopt;
+}
+
+Status viewshedSweep(const ViewshedTask& task, const AzimuthalMap* fan, const RunContext& context,
+                     Viewshed& result) {
+  const ImagePlane picture(task, fan, &task.steepness);
+  const Vec2 o = task.observer.plan;
+  if (o.x == std::floor(o.x) && o.y == std::floor(o.y)) {
+    const std::size_t own =
+        static_cast<std::size_t>(o.y) * task.grid.columns() + static_cast<std::size_t>(o.x);
+    const auto answer = task.exact.at(o, task.grid.row(0)[own]);
+    if (!answer) return tl::unexpected(answer.error());
+    result.cells[own] = answer->cell;
+    if (!result.values.empty()) result.values[own] = answer->value;
+    result.rays += answer->cell != ViewshedCell::outside;
+  }
+  double before = 0;
+  for (const bool isAlongRows : {true, false}) {
+    const std::vector<ViewshedWedge> wedges = wedgesOf(picture, isAlongRows);
+    std::vector<std::uint64_t> rays(wedges.size());
+    std::vector<Status> statuses(wedges.size());
+    SharedProgress progress(context, "viewshed", wedges.size(), before, before + 0.5);
+    withThreads(context, [&] {
+      tbb::parallel_for(std::size_t{0}, wedges.size(), [&](std::size_t i) {
+        if (context.cancelled()) return;
+        ViewshedWedgeSweep sweep(picture, wedges[i], result);
+        statuses[i] = sweep.run(context);
+        rays[i] = sweep.rays();
+        progress.add();
+      });
+    });
+    if (context.cancelled()) return failure(ErrorCode::interrupted, "the viewshed was stopped");
+    for (const Status& status : statuses)
+      if (!status) return status;
+    for (const std::uint64_t count : rays) result.rays += count;
+    before = 0.5;
+  }
+  return {};
+}
+
+}  // namespace arete

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "terrain/viewshed/viewshed.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "terrain/sight/earth.h"
+#include "terrain/viewshed/image_plane.h"
+#include "terrain/viewshed/methods.h"
+
+namespace arete {
+namespace {
+
+Status check(const ViewshedObserver& observer, const ViewshedOptions& options) {
+  const auto bad = [](const char* what, const char* culprit) {
+    return failure(ErrorCode::usage, what, culprit);
+  };
+  const ViewshedField& field = options.field;
+  if (!std::isfinite(observer.plan.x + observer.plan.y + observer.height))
+    return bad("is not a finite place", "the observer");
+  if (!(options.targetHeight >= 0 && std::isfinite(options.targetHeight)))
+    return bad("must be 0 or more", "the target height");
+  if (!(field.leastMetres >= 0 && field.leastMetres <= field.greatestMetres))
+    return bad("the least must be 0 or more, the greatest no less", "the distances");
+  if (!(std::isfinite(field.fromAzimuth) && field.azimuthSpan > 0))
+    return bad("must be finite, its span more than 0", "the horizontal field");
+  if (!(field.lowest >= -90 && field.lowest <= field.highest && field.highest <= 90))
+    return bad("must rise, from -90 degrees or more to 90 or less", "the vertical field");
+  if (!(options.maxError >= 0 && std::isfinite(options.maxError)))
+    return bad("must be 0 or more", "the tolerance");
+  return {};
+}
+
+void countCells(Viewshed& result) {
+  std::uint64_t counts[5] = {};
+  for (const ViewshedCell cell : result.cells) ++counts[static_cast<int>(cell)];
+  result.hidden = counts[0];
+  result.seen = counts[1];
+  result.unknown = counts[2];
+  result.undecided = counts[3];
+  result.outside = counts[4];
+}
+
+}  // namespace
+
+std::string_view toString(ViewshedMethod method) {
+  switch (method) {
+    case ViewshedMethod::sweep:
+      return "sweep";
+    case ViewshedMethod::rays:
+      return "rays";
+    default:
+      return "automatic";
+  }
+}
+
+Result<ViewshedMaker> ViewshedMaker::make(const TerrainModel& model, const SightEarth& earth,
+                                          std::shared_ptr<const SightGrid> grid, const RunContext& context) {
+  if (!model.isRaster)
+    return failure(ErrorCode::unsupported, "is for rasters; this model is of points", "a viewshed");
+  ViewshedMaker maker(model, earth, grid ? std::move(grid) : std::make_shared<SightGrid>(model));
+  auto engine = makeSightEngine(SightMethod::pyramid, model, maker.grid_, context);
+  if (!engine) return tl::unexpected(engine.error());
+  maker.engine_ = std::move(*engine);
+  if (!earth.planeSteps() && earth.geodesicError())
+    maker.steepness_ = std::make_shared<const std::vector<float>>(viewshedSteepness(*maker.grid_, context));
+  return maker;
+}
+
+Result<std::shared_ptr<const SightEngine>> ViewshedMaker::engineFor(const ViewshedOptions& options) const {
+  if (!(options.maxError > 0)) return engine_;
+  if (options.method == ViewshedMethod::sweep)
+    return failure(ErrorCode::unsupported, "has no tolerance", "the method sweep");
+  auto engine = makeSightEngine(SightMethod::descent, *model_, grid_);
+  if (!engine) return tl::unexpected(engine.error());
+  return std::shared_ptr<const SightEngine>(std::move(*engine));
+}
+
+Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const ViewshedOptions& options,
+                                     const RunContext& context) const {
+  if (const Status status = check(observer, options); !status) return tl::unexpected(status.error());
+  const auto engine = engineFor(options);
+  if (!engine) return tl::unexpected(engine.error());
+  const bool hasTolerance = options.maxError > 0;
+  const ViewshedObserver from{sightEnd(*model_, observer.plan), observer.height};
+  const ViewshedExact exact(**engine, *earth_, model_->georeference.verticalUnitMetres, from, options);
+  static const std::vector<float> kNothing;
+  const ViewshedTask task{
+      *model_, *grid_, *earth_, from, options, exact, steepness_ ? *steepness_ : kNothing};
+  Viewshed result;
+  result.columns = grid_->columns();
+  result.rows = grid_->rows();
+  const std::size_t count = std::size_t{result.columns} * result.rows;
+  result.cells.assign(count, ViewshedCell::outside);
+  if (options.value != ViewshedValue::none)
+    result.values.assign(count, std::numeric_limits<float>::quiet_NaN());
+  std::optional<std::string> whyNot;
+  if (hasTolerance) {
+    whyNot = "a tolerance is asked for";
+  } else if (options.method != ViewshedMethod::rays) {
+    whyNot = whyNotSweep(task, nullptr);
+  }
+  std::optional<AzimuthalMap> fan;
+  if (!hasTolerance && options.method != ViewshedMethod::rays && !whyNot && !earth_->planeSteps()) {
+    auto made = AzimuthalMap::make(*earth_, from.plan, grid_->columns(), grid_->rows(), context);
+    if (made) {
+      fan = std::move(*made);
+      whyNot = whyNotSweep(task, &*fan);
+    } else {
+      whyNot = made.error();
+    }
+  }
+  if (options.method == ViewshedMethod::sweep && whyNot)
+    return failure(ErrorCode::unsupported, *whyNot, "the method sweep");
+  result.method =
+      options.method == ViewshedMethod::rays || whyNot ? ViewshedMethod::rays : ViewshedMethod::sweep;
+  context.report("viewshed", 0);
+  const Status status = result.method == ViewshedMethod::sweep
+                            ? viewshedSweep(task, fan ? &*fan : nullptr, context, result)
+                            : viewshedRays(task, context, result);
+  if (!status) return tl::unexpected(status.error());
+  context.report("viewshed", 1);
+  countCells(result);
+  return result;
+}
+
+Result<Viewshed> ViewshedMaker::of(std::span<const Vec2> places, const ViewshedObserver& observer,
+                                   const ViewshedOptions& options, const RunContext& context) const {
+  if (const Status status = check(observer, options); !status) return tl::unexpected(status.error());
+  if (options.method == ViewshedMethod::sweep)
+    return failure(ErrorCode::unsupported, "is for the grid of the DEM", "the method sweep");
+  const auto engine = engineFor(options);
+  if (!engine) return tl::unexpected(engine.error());
+  const ViewshedObserver from{sightEnd(*model_, observer.plan), observer.height};
+  const ViewshedExact exact(**engine, *earth_, model_->georeference.verticalUnitMetres, from, options);
+  std::vector<Vec2> targets(places.begin(), places.end());
+  for (Vec2& place : targets) place = sightEnd(*model_, place);
+  Viewshed result;
+  result.columns = static_cast<std::uint32_t>(places.size());
+  result.rows = 1;
+  result.cells.assign(places.size(), ViewshedCell::outside);
+  if (options.value != ViewshedValue::none)
+    result.values.assign(places.size(), std::numeric_limits<float>::quiet_NaN());
+  context.report("viewshed", 0);
+  if (const Status status = viewshedOfPlaces(exact, *grid_, targets, context, result); !status)
+    return tl::unexpected(status.error());
+  context.report("viewshed", 1);
+  countCells(result);
+  result.rays = places.size() - result.outside;
+  return result;
+}
+
+}  // namespace arete

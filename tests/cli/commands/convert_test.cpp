@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Meshes from one format into another, as far as the formats can say what there is to say.
+#include "cli/cli_fixture.h"
+#include "io/exchange/mesh_formats.h"
+
+namespace arete::cli_test {
+namespace {
+
+using Convert = Cli;
+
+TEST_F(Convert, CarriesAMeshThroughEveryFormatAndKeepsThePromise) {
+  makeRaster("dem.tif", "geographic", 40, 33);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  ASSERT_EQ(run({"extract", "dem.amt", "-o", "tin.ply", "--max-error", "5"}).code, 0);
+  const Outcome direct = run({"measure", "tin.ply", "dem.tif", "--json"});
+  for (const MeshFormat& format : meshFormats()) {
+    SCOPED_TRACE(format.name);
+    const std::string there = "there" + std::string(format.extension);
+    const Outcome converted = run({"convert", "tin.ply", "-o", there});
+    ASSERT_EQ(converted.code, 0) << converted.err;
+    EXPECT_EQ(converted.err.empty(), format.holds.isExact && format.holds.holdsCrs &&
+                                         format.holds.holdsVerticalUnit && format.holds.holdsErrors)
+        << converted.err;
+    const Outcome measured = run({"measure", there, "dem.tif", "--json", "--expect", "5.01"});
+    EXPECT_EQ(measured.code, 0) << measured.err;
+    EXPECT_NEAR(measured.json()["error"]["maximum"].get<double>(),
+                direct.json()["error"]["maximum"].get<double>(), format.holds.isExact ? 0 : 1e-3);
+    const Outcome back = run({"convert", there, "-o", "back.ply"});
+    ASSERT_EQ(back.code, 0) << back.err;
+    const Result<MeshFile> mesh = readMesh(path("back.ply"));
+    ASSERT_TRUE(mesh);
+    EXPECT_EQ(mesh->crsWkt.empty(), !format.holds.holdsCrs);
+    EXPECT_EQ(mesh->triangleErrors.empty(), !format.holds.holdsErrors);
+  }
+}
+
+TEST_F(Convert, SaysInOneLineWhatIsLost) {
+  makeRaster("dem.tif", "fractal", 20, 20);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt", "--crs", "EPSG:32611"}).code, 0);
+  ASSERT_EQ(run({"extract", "dem.amt", "-o", "tin.ply", "--max-error", "5"}).code, 0);
+  const Outcome lossy = run({"convert", "tin.ply", "-o", "tin.stl", "--json"});
+  EXPECT_EQ(lossy.code, 0) << lossy.err;
+  EXPECT_NE(lossy.err.find("STL cannot hold the CRS"), std::string::npos) << lossy.err;
+  EXPECT_NE(lossy.err.find("the error of each triangle"), std::string::npos) << lossy.err;
+  EXPECT_EQ(std::count(lossy.err.begin(), lossy.err.end(), '\n'), 1);
+  EXPECT_EQ(lossy.json()["lost"][0], "the CRS");
+  EXPECT_EQ(run({"convert", "tin.ply", "-o", "tin.gpkg"}).err, "");
+  // STL forgets the CRS; --crs says it again.
+  const Outcome stated = run({"convert", "tin.stl", "-o", "tin.glb", "--crs", "EPSG:32611"});
+  EXPECT_EQ(stated.code, 0) << stated.err;
+  EXPECT_EQ(stated.err, "");
+  EXPECT_NE(readMesh(path("tin.glb"))->crsWkt.find("32611"), std::string::npos);
+  const Outcome replaced = run({"convert", "tin.ply", "-o", "other.ply", "--crs", "EPSG:4326"});
+  EXPECT_NE(replaced.err.find("is replaced"), std::string::npos) << replaced.err;
+}
+
+TEST_F(Convert, RefusesWhatMakesNoSenseAndOverwritesNoInput) {
+  makeRaster("dem.tif", "fractal", 20, 20);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  ASSERT_EQ(run({"extract", "dem.amt", "-o", "tin.ply", "--max-error", "5"}).code, 0);
+  const std::string before = read("tin.ply");
+  fs::create_symlink("tin.ply", path("link.ply"));
+  for (const char* output : {"tin.ply", "./tin.ply", "link.ply", "tin.dxf", "tin", "no/tin.stl"})
+    EXPECT_NE(run({"convert", "tin.ply", "-o", output}).code, 0) << output;
+  EXPECT_EQ(read("tin.ply"), before);
+  const Outcome amt = run({"convert", "dem.amt", "-o", "tin.stl"});
+  EXPECT_EQ(amt.code, 2);
+  EXPECT_NE(amt.err.find("arete extract"), std::string::npos) << amt.err;
+  const Outcome crs = run({"convert", "tin.ply", "-o", "tin.stl", "--crs", "gibberish"});
+  EXPECT_EQ(crs.code, 2);
+  EXPECT_NE(crs.err.find("--crs gibberish"), std::string::npos) << crs.err;
+  write("cut.ply", before.substr(0, before.size() / 2));
+  EXPECT_EQ(run({"convert", "cut.ply", "-o", "tin.stl"}).code, 4);
+  EXPECT_EQ(run({"convert", "none.ply", "-o", "tin.stl"}).code, 3);
+  EXPECT_FALSE(exists("tin.stl"));
+  const Outcome help = run({"convert", "--help"});
+  for (const MeshFormat& format : meshFormats())
+    EXPECT_NE(help.out.find(std::string(format.extension)), std::string::npos) << format.name;
+}
+
+TEST_F(Convert, WarnsThatAnExactFormatDoesNotSayHowItsCoordinatesWereRounded) {
+  makeRaster("dem.tif", "fractal", 20, 20);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  ASSERT_EQ(run({"extract", "dem.amt", "-o", "tin.glb", "--max-error", "5"}).code, 0);
+  const Outcome outcome = run({"convert", "tin.glb", "-o", "tin.obj"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("coordinates are rounded, by up to"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("which OBJ does not say"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace arete::cli_test

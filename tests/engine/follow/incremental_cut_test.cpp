@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The oracle is the cut from scratch, and for what lies between two cuts plain sets of triangles.
+#include "engine/follow/incremental_cut.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "engine/cut_promises.h"
+#include "engine/family_models.h"
+
+namespace arete {
+namespace {
+
+TEST(IncrementalCut, StartsAtTheRoot) {
+  const MultiTriangulation& mt = familyModels().front().model.mt;
+  const IncrementalCut cut(mt);
+  EXPECT_EQ(cut.nodeCount(), 0u);
+  EXPECT_EQ(cut.triangles().size(), mt.rootTriangleCount());
+  EXPECT_TRUE(cut.validate());
+}
+
+TEST(IncrementalCut, EqualsTheCutFromScratchAfterAThousandCameraMoves) {
+  std::mt19937_64 random(8);
+  std::size_t moves = 0;
+  for (const FamilyModel& m : familyModels()) {
+    const MultiTriangulation& mt = m.model.mt;
+    const Extent extent(mt);
+    IncrementalCut minimal(mt), saturated(mt);
+    View view = randomView(extent, random);
+    for (int move = 0; move < 40; ++move, ++moves) {
+      if (move % 10 == 9) view = randomView(extent, random);  // a jump now and then
+      std::normal_distribution<double> step(0, 0.02);
+      view.eye = {view.eye.x + step(random) * extent.size(), view.eye.y + step(random) * extent.size(),
+                  view.eye.z + step(random) * extent.relief()};
+      view.forward.x += step(random), view.forward.y += step(random);
+      const ViewError criterion({.view = view, .pixels = 1}, mt.arrays().metric);
+      const auto a = minimal.update(criterion);
+      const auto b = saturated.update(criterion, {.method = CutMethod::saturated});
+      ASSERT_TRUE(a && b);
+      EXPECT_TRUE(a->isComplete && b->isComplete);
+      EXPECT_EQ(minimal.nodes(), takeNodes(mt, criterion)->nodes) << m.name << " move " << move;
+      EXPECT_EQ(saturated.nodes(), takeNodes(mt, criterion, {.method = CutMethod::saturated})->nodes)
+          << m.name << " move " << move;
+    }
+    EXPECT_TRUE(minimal.validate()) << m.name;
+    EXPECT_TRUE(saturated.validate()) << m.name;
+  }
+  EXPECT_GE(moves, 1000u);
+}
+
+TEST(IncrementalCut, EqualsTheCutFromScratchFromOneCriterionToAnother) {
+  std::mt19937_64 random(9);
+  for (const FamilyModel& m : familyModels()) {
+    const MultiTriangulation& mt = m.model.mt;
+    IncrementalCut cut(mt), quick(mt);
+    for (int round = 0; round < 3; ++round)
+      for (const auto& [name, criterion] : criteriaFor(mt, random)) {
+        ASSERT_TRUE(cut.update(*criterion));
+        EXPECT_EQ(cut.nodes(), takeNodes(mt, *criterion)->nodes) << m.name << " " << name;
+        ASSERT_TRUE(quick.update(*criterion, {.exact = false}));
+        expectMet(mt, *criterion, quick.front());
+        EXPECT_GE(quick.triangles().size(), cut.triangles().size()) << m.name << " " << name;
+      }
+    EXPECT_TRUE(cut.validate()) << m.name;
+    EXPECT_TRUE(quick.validate()) << m.name;
+  }
+}
+
+TEST(IncrementalCut, IsConformingWheneverTheClockStrikesAndGetsThereInTheEnd) {
+  std::mt19937_64 random(10);
+  for (const FamilyModel& m : familyModels()) {
+    const MultiTriangulation& mt = m.model.mt;
+    const DomainExtent domain = domainExtent(mt);
+    for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
+      IncrementalCut cut(mt);
+      const Extent extent(mt);
+      const View before = randomView(extent, random), after = randomView(extent, random);
+      ASSERT_TRUE(cut.update(ViewError({.view = before}, mt.arrays().metric), {.method = method}));
+      const ViewError criterion({.view = after}, mt.arrays().metric);
+      bool isComplete = false;
+      for (int round = 0; round < 2000 && !isComplete; ++round) {
+        const int looks = 4 + int(random() % 40);
+        const auto update = cut.update(criterion, {.method = method, .deadline = strikeAfter(looks)});
+        ASSERT_TRUE(update);
+        EXPECT_LE(update->refined + update->coarsened, std::uint32_t(looks)) << m.name;
+        if (round < 20) {
+          EXPECT_TRUE(cut.validate()) << m.name;
+          EXPECT_TRUE(validateFront(mt, cut.front(), domain)) << m.name;
+        }
+        isComplete = update->isComplete;
+      }
+      EXPECT_TRUE(isComplete) << m.name;
+      EXPECT_EQ(cut.nodes(), takeNodes(mt, criterion, {.method = method})->nodes) << m.name;
+    }
+  }
+}
+
+TEST(IncrementalCut, KeepsABudgetThatShrinksAndGrows) {
+  std::mt19937_64 random(11);
+  for (const FamilyModel& m : familyModels()) {
+    const MultiTriangulation& mt = m.model.mt;
+    const std::uint32_t roots = mt.rootTriangleCount(), finest = mt.finestTriangleCount();
+    const double span = mt.nodeCount() ? mt.largestError() : 1;
+    for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
+      IncrementalCut cut(mt);
+      const Extent extent(mt);
+      for (int round = 0; round < 12; ++round) {
+        const auto budget = roots + static_cast<std::uint32_t>(random() % (finest - roots + 1));
+        std::shared_ptr<const Criterion> criterion = std::make_shared<UniformError>(0.001 * span);
+        if (round % 2)
+          criterion = std::make_shared<ViewError>(ViewError::Options{.view = randomView(extent, random)},
+                                                  mt.arrays().metric);
+        const auto update = cut.update(*criterion, {.method = method, .maxTriangles = budget});
+        ASSERT_TRUE(update);
+        EXPECT_LE(cut.triangles().size(), budget) << m.name;
+        EXPECT_TRUE(cut.validate()) << m.name;
+        if (update->isComplete) expectMet(mt, *criterion, cut.front());
+      }
+    }
+  }
+}
+
+TEST(IncrementalCut, UnderABudgetIsNearlyAsGoodAsFromScratch) {
+  std::mt19937_64 random(12);
+  std::vector<double> ratios;
+  for (const FamilyModel& m : familyModels()) {
+    const MultiTriangulation& mt = m.model.mt;
+    const Extent extent(mt);
+    const std::uint32_t roots = mt.rootTriangleCount(), finest = mt.finestTriangleCount();
+    IncrementalCut cut(mt);
+    for (int round = 0; round < 20; ++round) {
+      const auto budget = roots + static_cast<std::uint32_t>(0.3 * (finest - roots));
+      View view = randomView(extent, random);
+      view.eye.z += extent.relief();  // around an eye inside the terrain no budget is enough
+      const ViewError criterion({.view = view, .pixels = 1e-3}, mt.arrays().metric);
+      ASSERT_TRUE(cut.update(criterion, {.maxTriangles = budget}));
+      const double mine = worstSeverity(mt, criterion, cut.front());
+      const double scratch = worstSeverity(mt, criterion, *takeCut(mt, criterion, {.maxTriangles = budget}));
+      if (std::isfinite(mine) && scratch > 0) ratios.push_back(mine / scratch);
+    }
+  }
+  ASSERT_GT(ratios.size(), 50u);
+  std::ranges::sort(ratios);
+  std::printf("pixels of error against from scratch: median %.3f, worst %.3f, over %zu updates\n",
+              ratios[ratios.size() / 2], ratios.back(), ratios.size());
+  EXPECT_LE(ratios[ratios.size() / 2], 1.1);
+}
+
+TEST(IncrementalCut, TellsItsStepsSoThatAnotherCanFollow) {
+  std::mt19937_64 random(13);
+  for (const FamilyModel& m : familyModels()) {
+    const MultiTriangulation& mt = m.model.mt;
+    IncrementalCut leader(mt), follower(mt);
+    for (int round = 0; round < 6; ++round) {
+      const ViewError criterion({.view = randomView(Extent(mt), random)}, mt.arrays().metric);
+      ASSERT_TRUE(leader.update(criterion));
+      ASSERT_TRUE(follower.apply(leader.lastSteps()));
+      EXPECT_EQ(follower.nodes(), leader.nodes()) << m.name;
+    }
+    EXPECT_TRUE(follower.validate()) << m.name;
+  }
+}
+
+TEST(IncrementalCut, RefusesAStepThatDoesNotFitAndNamesIt) {
+  for (const FamilyModel& m : familyModels()) {
+    if (m.model.mt.nodeCount() == 0) continue;
+    IncrementalCut cut(m.model.mt);
+    const CutStep undo{NodeId(0), false};
+    const Status refused = cut.apply({&undo, 1});
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().describe().find("node 0"), std::string::npos);
+    EXPECT_TRUE(cut.validate());
+  }
+}
+
+TEST(IncrementalCut, GivesTheSameStepsForAnyThreadCount) {
+  const FamilyModel& m = familyModels().back();
+  std::vector<std::vector<CutStep>> steps;
+  for (const int threads : {1, 2, 4}) {
+    std::mt19937_64 random(14);
+    RunContext context;
+    context.threads = threads;
+    IncrementalCut cut(m.model.mt);
+    std::vector<CutStep> all;
+    for (int round = 0; round < 10; ++round) {
+      const ViewError criterion({.view = randomView(Extent(m.model.mt), random)}, m.model.mt.arrays().metric);
+      ASSERT_TRUE(cut.update(criterion, {}, context));
+      all.insert(all.end(), cut.lastSteps().begin(), cut.lastSteps().end());
+    }
+    steps.push_back(all);
+  }
+  EXPECT_EQ(steps[0], steps[1]);
+  EXPECT_EQ(steps[0], steps[2]);
+}
+
+TEST(CutDifference, LeadsThereThroughCutsOnlyAndBackAgain) {
+  std::mt19937_64 random(15);
+  for (const FamilyModel& m : familyModels()) {
+    const MultiTriangulation& mt = m.model.mt;
+    const auto randomCut = [&] {
+      NodeSet set(mt.nodeCount(), 0);
+      for (std::uint32_t i = 0; i < mt.nodeCount() / 30 + 1 && mt.nodeCount() > 0; ++i)
+        set[random() % mt.nodeCount()] = 1;
+      closeUpwards(mt, set);
+      return set;
+    };
+    const NodeSet from = randomCut(), to = randomCut();
+    const std::vector<CutStep> steps = difference(from, to);
+    std::size_t differing = 0;
+    for (std::uint32_t n = 0; n < mt.nodeCount(); ++n) differing += from[n] != to[n] ? 1 : 0;
+    EXPECT_EQ(steps.size(), differing) << m.name;
+    NodeSet set = from;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      applySteps({&steps[i], 1}, set);
+      NodeSet closed = set;
+      closeUpwards(mt, closed);
+      ASSERT_EQ(closed, set) << m.name << " step " << i;
+    }
+    EXPECT_EQ(set, to) << m.name;
+    applySteps(undone(steps), set);
+    EXPECT_EQ(set, from) << m.name;
+    IncrementalCut cut(mt);
+    ASSERT_TRUE(cut.apply(difference(NodeSet(mt.nodeCount(), 0), from))) << m.name;
+    ASSERT_TRUE(cut.apply(steps)) << m.name;
+    EXPECT_EQ(cut.nodes(), to) << m.name;
+    ASSERT_TRUE(cut.apply(undone(std::vector<CutStep>(cut.lastSteps().begin(), cut.lastSteps().end()))));
+    EXPECT_EQ(cut.nodes(), from) << m.name;
+  }
+}
+
+}  // namespace
+}  // namespace arete

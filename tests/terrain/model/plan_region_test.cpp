@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "terrain/model/plan_region.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string_view>
+
+#include "datasets/families.h"
+#include "engine/criteria/criterion.h"
+#include "engine/cut/cut.h"
+#include "terrain/build/build.h"
+#include "terrain/model/error_curve.h"
+
+namespace arete {
+namespace {
+
+RasterHeightfield made(std::string_view name, std::uint32_t columns, std::uint32_t rows) {
+  for (const RasterFamily& family : rasterFamilies())
+    if (family.name == name) return family.make(columns, rows, 3);
+  return {};
+}
+
+std::vector<Vec2> gridBox(const RasterHeightfield& field, double c0, double r0, double c1, double r1) {
+  const Georeference& g = field.georeference;
+  return {g.toSource(c0, r0), g.toSource(c1, r0), g.toSource(c1, r1), g.toSource(c0, r1)};
+}
+
+TEST(PlanRegion, HoldsTheSamplesItWasDrawnAround) {
+  for (const char* name : {"fractal", "rotated", "south up", "geographic"}) {
+    SCOPED_TRACE(name);
+    const RasterHeightfield field = made(name, 20, 16);
+    const Region region = planRegion({.rings = {gridBox(field, 3.5, 2.5, 9.5, 7.5)}}, field);
+    const auto inside = samplesInside(region, field);
+    EXPECT_EQ(std::accumulate(inside.begin(), inside.end(), 0), 6 * 5);
+    EXPECT_EQ(inside[field.index(4, 3)], 1);
+    EXPECT_EQ(inside[field.index(10, 3)], 0);
+  }
+}
+
+TEST(GroundStep, HasALengthOnAPoleAndWhereNoLatitudeIs) {
+  Georeference degrees;
+  degrees.crsWkt = "of longitude and latitude";
+  degrees.isGeographic = true;
+  const Vec2 equator = groundStep(degrees, -0.5, -0.5);
+  EXPECT_NEAR(equator.x, 111319.49, 0.01);
+  for (const double latitude : {90.0, -90.0, 95.0, 5e6, -1e9}) {
+    const Vec2 step = groundStep(degrees, 7, latitude - 0.5);
+    EXPECT_NEAR(step.x, equator.x, 1) << latitude;
+    EXPECT_NEAR(step.y, equator.x, 1) << latitude;
+  }
+  EXPECT_LT(groundStep(degrees, 7, 88.5).x, 2000);
+}
+
+TEST(PlanRegion, ABoxOfTheMapStaysOneOnARotatedGrid) {
+  const RasterHeightfield field = made("rotated", 30, 30);
+  const Vec2 centre = field.georeference.toSource(15, 15);
+  const Vec2 step = groundStep(field.georeference, 15, 15);
+  const double half = 5 * step.x;
+  const std::vector<Vec2> box = {{centre.x - half, centre.y - half},
+                                 {centre.x + half, centre.y - half},
+                                 {centre.x + half, centre.y + half},
+                                 {centre.x - half, centre.y + half}};
+  const auto inside = samplesInside(planRegion({.rings = {box}}, field), field);
+  for (std::uint32_t row = 0; row < field.rows; ++row)
+    for (std::uint32_t column = 0; column < field.columns; ++column) {
+      const Vec2 p = field.georeference.toSource(column, row);
+      const double reach = std::max(std::abs(p.x - centre.x), std::abs(p.y - centre.y)) / half;
+      if (std::abs(reach - 1) < 1e-9) continue;
+      EXPECT_EQ(inside[field.index(column, row)], reach < 1) << column << " " << row;
+    }
+}
+
+TEST(PlanRegion, KnowsWhetherItMeetsTheDomain) {
+  const RasterHeightfield field = made("rotated", 24, 24);
+  const auto model = build(field);
+  ASSERT_TRUE(model) << model.error().describe();
+  EXPECT_TRUE(meetsDomain(planRegion({.rings = {gridBox(field, 5.1, 5.1, 5.2, 5.2)}}, *model), model->mt));
+  EXPECT_FALSE(meetsDomain(planRegion({.rings = {gridBox(field, 24, 0, 30, 24)}}, *model), model->mt));
+}
+
+TEST(ErrorCurve, CountsWhatTheCutsHave) {
+  const auto model = build(made("fractal", 40, 40));
+  ASSERT_TRUE(model) << model.error().describe();
+  const std::vector<double> ladder = toleranceLadder(model->mt, 100);
+  ASSERT_GT(ladder.size(), 4u);
+  const auto curve = errorCurve(model->mt, ladder);
+  ASSERT_TRUE(curve);
+  for (const CurvePoint& point : *curve)
+    for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
+      const auto cut = takeCut(model->mt, UniformError(point.maxError), {.method = method});
+      ASSERT_TRUE(cut);
+      EXPECT_EQ(cut->triangles.size(),
+                method == CutMethod::minimal ? point.minimalTriangles : point.saturatedTriangles);
+    }
+}
+
+TEST(ErrorCurve, ClimbsInRoundSteps) {
+  const auto model = build(made("fractal", 40, 40));
+  ASSERT_TRUE(model);
+  const std::vector<double> all = toleranceLadder(model->mt, 100), few = toleranceLadder(model->mt, 3);
+  ASSERT_EQ(few.size(), 3u);
+  EXPECT_TRUE(std::equal(few.begin(), few.end(), all.end() - 3));
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    const double ratio = all[i] / all[i - 1];
+    EXPECT_TRUE(std::abs(ratio - 2) < 1e-9 || std::abs(ratio - 2.5) < 1e-9) << all[i];
+  }
+  const auto flat = build(made("flat", 10, 10));
+  ASSERT_TRUE(flat);
+  EXPECT_TRUE(toleranceLadder(flat->mt, 10).empty());
+}
+
+}  // namespace
+}  // namespace arete

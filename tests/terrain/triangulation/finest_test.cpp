@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "datasets/families.h"
+#include "engine/cut/cut.h"
+#include "terrain/build/build.h"
+#include "terrain/laws/validate_model.h"
+#include "terrain/triangulation/finest_points.h"
+#include "terrain/triangulation/finest_raster.h"
+
+namespace arete {
+namespace {
+
+TEST(FinestRaster, SplitsWholeCellsFromUpperLeftToLowerRightAndKeepsHalfCells) {
+  RasterHeightfield field;
+  field.columns = field.rows = 2;
+  const double none = std::nan("");
+  using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+  field.heights = {1, 2, 3, 4};
+  EXPECT_EQ(finestTriangulation(field), (Triangles{{0, 1, 3}, {0, 3, 2}}));
+  field.heights = {none, 2, 3, 4};
+  EXPECT_EQ(finestTriangulation(field), (Triangles{{1, 3, 2}}));
+  field.heights = {1, none, 3, 4};
+  EXPECT_EQ(finestTriangulation(field), (Triangles{{0, 3, 2}}));
+  field.heights = {1, 2, none, 4};
+  EXPECT_EQ(finestTriangulation(field), (Triangles{{0, 1, 3}}));
+  field.heights = {1, 2, 3, none};
+  EXPECT_EQ(finestTriangulation(field), (Triangles{{0, 1, 2}}));
+  field.heights = {1, none, none, 4};
+  EXPECT_TRUE(finestTriangulation(field).empty());
+}
+
+TEST(FinestRaster, IsTheSameAsAMeshThatLooksForItsNeighbours) {
+  for (const RasterFamily& family : rasterFamilies())
+    for (const auto& [columns, rows] : {std::pair{2u, 2u}, {37u, 29u}, {33u, 70u}}) {
+      const RasterHeightfield field = family.make(columns, rows, 5);
+      std::vector<std::uint32_t> pinched, pinchedOfSearch;
+      const LiveMesh mesh = finestMesh(field, pinched);
+      const LiveMesh searched = LiveMesh::fromTriangles(
+          finestTriangulation(field), static_cast<std::uint32_t>(field.size()), pinchedOfSearch);
+      ASSERT_EQ(mesh.triangles.size(), searched.triangles.size()) << family.name;
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        EXPECT_EQ(mesh.triangles[t].corners, searched.triangles[t].corners) << family.name;
+        EXPECT_EQ(mesh.triangles[t].twin, searched.triangles[t].twin) << family.name;
+        EXPECT_EQ(mesh.triangles[t].birth, t);
+      }
+      std::sort(pinched.begin(), pinched.end());
+      std::sort(pinchedOfSearch.begin(), pinchedOfSearch.end());
+      EXPECT_EQ(pinched, pinchedOfSearch) << family.name;
+      for (std::uint32_t v = 0; v < field.size(); ++v) {
+        const std::uint32_t h = mesh.vertexHalfedge[v], other = searched.vertexHalfedge[v];
+        ASSERT_EQ(h == LiveMesh::kNone, other == LiveMesh::kNone) << family.name;
+        if (h == LiveMesh::kNone) continue;
+        EXPECT_EQ(mesh.origin(h), v);
+        EXPECT_EQ(mesh.twinOf(h) == LiveMesh::kNone, searched.twinOf(other) == LiveMesh::kNone)
+            << family.name;
+      }
+    }
+}
+
+TEST(FinestRaster, FollowsTheGroundAtEveryScale) {
+  // Stretches of all lengths are about as wide as they are high; of rows of tiles they would be strips.
+  for (const auto& [columns, rows] : {std::pair{513u, 513u}, {700u, 300u}}) {
+    RasterHeightfield field;
+    field.columns = columns;
+    field.rows = rows;
+    field.heights.assign(std::size_t(columns) * rows, 0.0);
+    const auto triangles = finestTriangulation(field);
+    for (std::size_t length = 2 * 32 * 32; length <= triangles.size() / 4; length *= 4) {
+      std::size_t stretches = 0;
+      double squares = 0;  // around them
+      for (std::size_t begin = 0; begin + length <= triangles.size(); begin += length, ++stretches) {
+        std::uint32_t left = columns, right = 0, top = rows, bottom = 0;
+        for (std::size_t t = begin; t < begin + length; ++t)
+          for (const std::uint32_t v : triangles[t]) {
+            left = std::min(left, v % columns);
+            right = std::max(right, v % columns);
+            top = std::min(top, v / columns);
+            bottom = std::max(bottom, v / columns);
+          }
+        const double side = std::max(right - left, bottom - top);
+        squares += side * side;
+      }
+      EXPECT_LT(squares / double(stretches), 4 * double(length) / 2)
+          << columns << " x " << rows << ": " << length;
+    }
+  }
+}
+
+TEST(FinestRaster, IsDelaunayUpToCocircularTiesByCgalsPredicates) {
+  // The layout is the finest front of a model; validateDelaunayFront asks CGAL about every triangle and edge.
+  for (const RasterFamily& family : rasterFamilies()) {
+    const auto model = build(family.make(37, 29, 6));
+    ASSERT_TRUE(model) << family.name;
+    const Cut finest = frontOfPrefix(model->mt, model->mt.nodeCount());
+    const Status status = validateDelaunayFront(*model, finest);
+    EXPECT_TRUE(status) << family.name << ": " << status.error().message;
+    EXPECT_EQ(finest.triangles.size(), finestTriangulation(family.make(37, 29, 6)).size());
+  }
+}
+
+TEST(FinestPoints, HasTheTrianglesOfTheEulerRelation) {
+  for (const PointFamily& family : pointFamilies()) {
+    const PointHeightfield field = family.make(500, 8);
+    const auto finest = finestPoints(field);
+    ASSERT_TRUE(finest) << family.name;
+    const auto triangles = finest->trianglesOfPoints();
+    // Counter-clockwise everywhere, and no vertex left out but exact repeats.
+    std::vector<char> seen(field.size(), 0);
+    for (const auto& t : triangles)
+      for (const std::uint32_t v : t) seen[v] = 1;
+    std::size_t used = 0;
+    for (const char s : seen) used += s;
+    EXPECT_LE(triangles.size(), 2 * used);
+    EXPECT_GE(used, 3u) << family.name;
+  }
+}
+
+TEST(FinestPoints, StopsWhenAsked) {
+  const std::atomic<bool> cancel = true;
+  RunContext context;
+  context.cancel = &cancel;
+  const auto stopped = finestPoints(pointFamilies().front().make(500, 8), context);
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, ErrorCode::interrupted);
+}
+
+TEST(FinestPoints, LooksForNoPointAmongAllOfALine) {
+  PointHeightfield field;  // minutes, if it did
+  for (int i = 0; i < 300'000; ++i) field.positions.push_back({0.25 * i, 0});
+  field.heights.assign(field.positions.size(), 1);
+  const auto line = finestPoints(field);
+  ASSERT_FALSE(line);
+  EXPECT_EQ(line.error().code, ErrorCode::degenerate);
+  field.positions.push_back({80'000, 1});
+  field.heights.push_back(2);
+  const auto fan = finestPoints(field);
+  ASSERT_TRUE(fan);
+  EXPECT_EQ(fan->triangles.size(), 299'999u);
+}
+
+}  // namespace
+}  // namespace arete

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "viewer/window/viewer_session.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <thread>
+#include <vector>
+
+#include "terrain/viewshed/viewshed.h"
+#include "viewer/camera_models.h"
+
+namespace arete {
+namespace {
+
+const TerrainModel& northUp() {
+  return test::cameraModels()[0].model;
+}
+
+InputState still(double seconds = 0.02) {
+  InputState in;
+  in.seconds = seconds;
+  return in;
+}
+
+/// Pixels of the picture that have terrain, from its middle outwards.
+std::vector<Vec2> onTerrain(const ViewerSession& s) {
+  std::vector<Vec2> pixels;
+  for (double away = 0; away < 200; away += 13)
+    for (const Vec2 d : {Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0}, Vec2{0, -1}}) {
+      const Vec2 pixel{400 + away * d.x, 300 + away * d.y};
+      if (s.picker.at(s.rig.camera(), pixel)) pixels.push_back(pixel);
+    }
+  return pixels;
+}
+
+TEST(Session, TheTargetTimeMakesTheToleranceCoarserAndLetsItFinerAgain) {
+  ViewerSession s(northUp(), {});
+  s.wanted.frameMilliseconds = 16;
+  // A device that takes 20 ms for a pixel and half of it for two.
+  for (int i = 0; i < 400; ++i) {
+    s.figures.pixels = s.settings.pixels;
+    s.history.add(40 / s.settings.pixels, 40);
+    s.step(still());
+  }
+  EXPECT_LE(40 / s.settings.pixels, 16 * 1.25);
+  EXPECT_GE(40 / s.settings.pixels, 16 * 0.7);
+  s.wanted.frameMilliseconds = 0;
+  for (int i = 0; i < 400; ++i) s.step(still());
+  EXPECT_DOUBLE_EQ(s.settings.pixels, 1);
+}
+
+TEST(Session, AFrozenCutKeepsItsCameraWhileTheOtherFliesOn) {
+  ViewerSession s(northUp(), {});
+  s.apply(Action::freeze);
+  s.step(still());
+  ASSERT_TRUE(s.frozen);
+  const double height = s.frozen->height;
+  s.rig.home(HomeView::fromAbove);
+  s.step(still());
+  EXPECT_EQ(s.frozen->height, height);
+  EXPECT_NE(s.rig.camera().height, height);
+  s.apply(Action::freeze);
+  s.step(still());
+  EXPECT_FALSE(s.frozen);
+}
+
+TEST(Session, TwoClicksMakeALineOfSightAndAThirdBeginsAnew) {
+  ViewerSession s(northUp(), {});
+  s.rig.setPicture(800, 600);
+  const std::vector<Vec2> pixels = onTerrain(s);
+  ASSERT_GE(pixels.size(), 3u);
+  s.click(pixels.front());
+  ASSERT_EQ(s.picks.size(), 1u);
+  EXPECT_FALSE(s.sight);
+  s.click(pixels.back());
+  ASSERT_EQ(s.picks.size(), 2u);
+  ASSERT_TRUE(s.sight);
+  EXPECT_FALSE(s.sight->text.empty());
+  // The line begins and ends above the picks, by what was asked for.
+  const double up = s.observerAbove * s.picker.space().metresPerHeight();
+  EXPECT_NEAR(s.sight->points.front().z, s.picks[0].metric.z + up, 1e-6);
+  EXPECT_NEAR(s.sight->points.back().x, s.picks[1].metric.x, 1e-6);
+  EXPECT_EQ(s.sight->obstruction.has_value(), s.sight->answer.sight.verdict == SightVerdict::blocked);
+  s.observerAbove = s.targetAbove = 1e5;
+  s.updateSight();
+  EXPECT_EQ(s.sight->answer.sight.verdict, SightVerdict::visible);
+  s.click(pixels[1]);
+  EXPECT_EQ(s.picks.size(), 1u);
+  EXPECT_FALSE(s.sight);
+  s.click({2, 2});
+  EXPECT_EQ(s.picks.size(), 1u) << "the sky is no place";
+}
+
+TEST(Session, AViewshedFromAPickIsThatOfTheMaker) {
+  ViewerSession s(northUp(), {});
+  s.rig.setPicture(800, 600);
+  s.startViewshed();
+  EXPECT_FALSE(s.message().empty()) << "there is no pick yet";
+  const std::vector<Vec2> pixels = onTerrain(s);
+  ASSERT_FALSE(pixels.empty());
+  s.click(pixels.front());
+  ASSERT_EQ(s.picks.size(), 1u);
+  s.startViewshed();
+  for (int i = 0; i < 3000 && s.viewshed.isRunning(); ++i) {
+    s.step(still());
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ASSERT_TRUE(s.overlay) << s.message();
+  const auto maker = ViewshedMaker::make(s.model, s.sights.earth());
+  ASSERT_TRUE(maker);
+  ViewshedOptions options;
+  options.targetHeight = s.targetAbove;
+  const auto viewshed =
+      maker->from({sightPlan(s.model, s.picks[0].xy), s.picks[0].height + s.observerAbove}, options);
+  ASSERT_TRUE(viewshed);
+  EXPECT_EQ(s.overlay->seen, viewshed->seen);
+  ASSERT_EQ(s.overlay->rgba.size(), viewshed->cells.size());
+  // Of every sample the pixel that the texture has in its place.
+  const auto& o = *s.overlay;
+  for (std::uint32_t row = 0; row < viewshed->rows; ++row)
+    for (std::uint32_t column = 0; column < viewshed->columns; ++column) {
+      const int x = int(std::floor((column * o.scale.x + o.shift.x) * o.width));
+      const int y = int(std::floor((row * o.scale.y + o.shift.y) * o.height));
+      const auto& pixel = o.rgba[std::size_t(y) * std::size_t(o.width) + std::size_t(x)];
+      const bool isSeen =
+          viewshed->cells[std::size_t(row) * viewshed->columns + column] == ViewshedCell::seen;
+      ASSERT_EQ(pixel[0] == 255, isSeen) << column << ", " << row;
+    }
+  s.clearPicks();
+  EXPECT_FALSE(s.overlay);
+}
+
+TEST(Session, AnOverlayTooLargeForTheDeviceShowsSomeOfTheSamplesWhereTheyAre) {
+  Viewshed viewshed;
+  viewshed.columns = 100;
+  viewshed.rows = 37;
+  viewshed.cells.assign(3700, ViewshedCell::hidden);
+  for (std::uint32_t row = 0; row < 37; ++row)
+    for (std::uint32_t column = 60; column < 100; ++column)
+      viewshed.cells[row * 100 + column] = ViewshedCell::seen;
+  const ViewshedOverlay o = overlayOf(viewshed, 30);
+  EXPECT_LE(o.width, 30);
+  EXPECT_LE(o.height, 30);
+  for (int x = 0; x < o.width; ++x) {
+    const double column = ((x + 0.5) / o.width - o.shift.x) / o.scale.x;
+    EXPECT_EQ(o.rgba[std::size_t(x)][0] == 255, column > 59.5) << x;
+  }
+}
+
+TEST(Session, AFlightIsSetPlayedStoppedByAHandAndKeptInAFile) {
+  ViewerSession s(northUp(), {});
+  s.apply(Action::playFlight);
+  EXPECT_FALSE(s.message().empty()) << "a flight without key frames is a sentence";
+  EXPECT_FALSE(s.deck.isPlaying());
+  s.apply(Action::setKeyFrame);
+  const Camera first = s.rig.camera();
+  s.apply(Action::playFlight);
+  EXPECT_FALSE(s.deck.isPlaying()) << "one key frame is no flight";
+  s.rig.home(HomeView::fromWest);
+  s.apply(Action::setKeyFrame);
+  s.apply(Action::playFlight);
+  ASSERT_TRUE(s.deck.isPlaying()) << s.message();
+  s.step(still(0.5));
+  EXPECT_NE(s.rig.camera().xy.x, first.xy.x);
+  InputState hand = still();
+  hand.turnRight = 1;
+  s.step(hand);
+  EXPECT_FALSE(s.deck.isPlaying());
+  s.apply(Action::playFlight);
+  for (int i = 0; i < 100000 && s.deck.isPlaying(); ++i) s.step(still(0.25));
+  EXPECT_FALSE(s.deck.isPlaying()) << "it ends by itself";
+  EXPECT_NEAR(s.rig.camera().azimuthDegrees, 90, 1e-6);
+
+  s.flightPath = std::filesystem::temp_directory_path() / "arete-window-flight.json";
+  s.apply(Action::saveFlight);
+  s.deck.clear();
+  s.apply(Action::loadFlight);
+  EXPECT_EQ(s.deck.plan().keys.size(), 2u) << s.message();
+  std::filesystem::remove(s.flightPath);
+  s.apply(Action::loadFlight);
+  EXPECT_NE(s.message().find("flight.json"), std::string::npos) << "a file that is not there is named";
+  EXPECT_EQ(s.deck.plan().keys.size(), 2u);
+}
+
+TEST(Session, GoToLooksAtAPlaceOrStandsAtAPosition) {
+  ViewerSession s(northUp(), {});
+  s.rig.setPicture(800, 600);
+  s.rig.setFloorMetres(0);
+  const Vec2 xy = s.model.toSource({20, 15});
+  s.goTo(std::to_string(xy.x) + "," + std::to_string(xy.y), false);
+  EXPECT_TRUE(s.message().empty()) << s.message();
+  const auto seen = s.picker.at(s.rig.camera(), {400, 300});
+  ASSERT_TRUE(seen);
+  EXPECT_LE(seen->metres, 2000 + 1e-6);
+  s.goTo(std::to_string(xy.x) + ", " + std::to_string(xy.y) + ", 5000msl", false);
+  EXPECT_NEAR(s.rig.camera().height, 5000, 1e-6);
+  EXPECT_NEAR(s.rig.camera().xy.x, xy.x, 1e-6);
+  for (const char* nonsense : {"", "1", "a,b", "1,2", "1,2,3,4", "1,2,3xyz"}) {
+    const Camera before = s.rig.camera();
+    s.goTo(nonsense, false);
+    EXPECT_FALSE(s.message().empty()) << nonsense;
+    EXPECT_EQ(s.rig.camera().height, before.height);
+  }
+}
+
+TEST(Session, GoToFindsALongitudeThatIsWholeTurnsOff) {
+  const TerrainModel& geographic = test::cameraModels()[5].model;
+  ASSERT_TRUE(geographic.georeference.isGeographic);
+  ViewerSession s(geographic, {});
+  s.rig.setFloorMetres(0);
+  const Vec2 xy = geographic.toSource({20, 15});
+  for (const double turns : {-1.0, 0.0, 1.0, 2.0}) {
+    SCOPED_TRACE(turns);
+    const std::string place = std::to_string(xy.x + 360 * turns) + "," + std::to_string(xy.y);
+    const auto goal = s.places.read(place, false);
+    ASSERT_TRUE(goal) << goal.error().describe();
+    EXPECT_NEAR(goal->xy.x, xy.x, 1e-6);
+    s.goTo(place + ",5000msl", false);
+    EXPECT_NEAR(s.rig.camera().xy.x, xy.x, 1e-6);
+  }
+}
+
+TEST(Session, ContourIntervalsAreRoundAndAboutADozen) {
+  for (double range = 0.013; range < 1e5; range *= 1.37) {
+    const double interval = usualContourInterval(range);
+    EXPECT_GE(range / interval, 7);
+    EXPECT_LE(range / interval, 21.1);
+    const double lead = interval / std::pow(10, std::floor(std::log10(interval) + 1e-9));
+    EXPECT_TRUE(std::abs(lead - 1) < 1e-6 || std::abs(lead - 2) < 1e-6 || std::abs(lead - 5) < 1e-6)
+        << interval;
+  }
+  EXPECT_EQ(usualContourInterval(0), 1);
+}
+
+TEST(Session, TheEdgesOfAFrustumAreSeenAtTheCornersOfItsPicture) {
+  for (const test::CameraModel& m : test::cameraModels()) {
+    const CameraSpace space(m.model);
+    const Camera camera = homeCamera(HomeView::overview, space, metricBox(m.model));
+    const auto edges = frustumEdges(space, camera, 100, 2);
+    ASSERT_EQ(edges.size(), 8u);
+    for (std::size_t i = 0; i < 8; i += 2) {
+      const auto seen = pixelOf(space, camera, edges[i][1], 2);
+      ASSERT_TRUE(seen);
+      EXPECT_NEAR(std::min(seen->x, camera.widthPixels - seen->x), 0, 1e-4);
+      EXPECT_NEAR(std::min(seen->y, camera.heightPixels - seen->y), 0, 1e-4);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace arete

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "viewer/headless/headless.h"
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <system_error>
+
+#include "engine/base/stopwatch.h"
+#include "io/file/text_scan.h"
+#include "viewer/gl/frame_target.h"
+#include "viewer/gl/offscreen.h"
+
+extern char** environ;
+
+namespace arete {
+namespace {
+
+constexpr std::uint64_t kMostFrames = 1'000'000;
+
+}  // namespace
+
+struct HeadlessView::State {
+  OffscreenContext context;  // the last to go
+  FrameTarget target;
+  TerrainView view;
+  HeadlessOptions options;
+  std::vector<std::string> warnings;
+};
+
+Result<HeadlessView> HeadlessView::create(const TerrainModel& model, const HeadlessOptions& options,
+                                          const RunContext& context) {
+  Result<OffscreenContext> gl = OffscreenContext::create();
+  if (!gl) return tl::unexpected(gl.error());
+  Result<FrameTarget> target =
+      FrameTarget::create(options.widthPixels, options.heightPixels, options.samples);
+  if (!target) return tl::unexpected(target.error());
+  TerrainView::Options viewOptions;
+  viewOptions.path = options.settings.path;
+  Result<TerrainView> view = TerrainView::create(model, viewOptions, context);
+  if (!view) return tl::unexpected(view.error());
+  auto state =
+      std::make_unique<State>(State{std::move(*gl), std::move(*target), std::move(*view), options, {}});
+  if (options.settings.path == CutPath::device && !state->view.deviceRefusal().empty()) {
+    state->warnings.push_back("the processor takes the cuts: " + state->view.deviceRefusal());
+    state->options.settings.path = CutPath::processor;
+  }
+  return HeadlessView(std::move(state));
+}
+
+HeadlessView::HeadlessView(std::unique_ptr<State> state) : state_(std::move(state)) {}
+HeadlessView::HeadlessView(HeadlessView&&) noexcept = default;
+HeadlessView& HeadlessView::operator=(HeadlessView&&) noexcept = default;
+HeadlessView::~HeadlessView() = default;
+
+Result<FrameFigures> HeadlessView::draw(const Camera& stated) {
+  State& s = *state_;
+  Camera camera = stated;
+  camera.widthPixels = s.options.widthPixels;
+  camera.heightPixels = s.options.heightPixels;
+  ViewSettings settings = s.options.settings;
+  settings.waits = true;
+  Result<FrameFigures> figures = s.view.cut(camera, settings);
+  if (!figures) return figures;
+  // The device's cut knows its number of triangles beforehand, but not which tolerance has fewer: doubled
+  // until there are few enough, halved between (on a logarithmic scale) until nearly all of the budget is
+  // used.
+  const std::uint32_t most = settings.maxTriangles > 0 ? settings.maxTriangles : s.view.capacity();
+  const auto fits = [&] { return figures->isComplete && figures->asked <= most; };
+  if (settings.path == CutPath::device && !fits()) {
+    const auto cutAt = [&](double pixels) -> Status {
+      settings.pixels = pixels;
+      figures = s.view.cut(camera, settings);
+      return figures ? Status() : tl::unexpected(figures.error());
+    };
+    constexpr int kDoublings = 60, kHalvings = 12;
+    constexpr double kUsed = 0.99;
+    double tooFine = settings.pixels, coarse = tooFine;
+    for (int i = 0; i < kDoublings && !fits(); ++i) {
+      tooFine = coarse;
+      coarse *= 2;
+      if (const Status ok = cutAt(coarse); !ok) return tl::unexpected(ok.error());
+    }
+    const bool canFit = fits();  // else the root alone is beyond the budget
+    for (int i = 0; i < kHalvings && canFit && figures->asked < kUsed * most; ++i) {
+      const double middle = std::sqrt(tooFine * coarse);
+      if (const Status ok = cutAt(middle); !ok) return tl::unexpected(ok.error());
+      (fits() ? coarse : tooFine) = middle;
+    }
+    if (canFit && !fits())
+      if (const Status ok = cutAt(coarse); !ok) return tl::unexpected(ok.error());
+    figures->isComplete = false;
+  }
+  const Stopwatch watch;
+  s.target.begin();
+  if (const Status drawn = s.view.draw(camera, settings); !drawn) return tl::unexpected(drawn.error());
+  glFinish();
+  figures->showsTerrain = s.view.showsTerrain();
+  figures->drawMilliseconds = watch.milliseconds();
+  return figures;
+}
+
+Image HeadlessView::image() const {
+  return state_->target.image();
+}
+TerrainView& HeadlessView::view() {
+  return state_->view;
+}
+const std::string& HeadlessView::description() const {
+  return state_->context.description();
+}
+const std::vector<std::string>& HeadlessView::warnings() const {
+  return state_->warnings;
+}
+
+Result<std::uint64_t> filmFrames(const Flight& flight, double framesPerSecond) {
+  const std::uint64_t count = flight.frameCount(framesPerSecond);
+  if (count <= kMostFrames) return count;
+  return failure(
+      ErrorCode::usage,
+      fmt::format("{:.6g} seconds of flight are more than {} frames", flight.duration(), kMostFrames),
+      "flight");
+}
+
+Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight, const FilmOptions& options,
+                                        const RunContext& context) {
+  const double rate = options.framesPerSecond > 0 ? options.framesPerSecond : flight.plan().framesPerSecond;
+  const Result<std::uint64_t> count = filmFrames(flight, rate);
+  if (!count) return tl::unexpected(count.error());
+  std::error_code failed;
+  std::filesystem::create_directories(options.folder, failed);
+  if (failed)
+    return failure(ErrorCode::unreadable, "the folder cannot be made: " + failed.message(),
+                   options.folder.string());
+  std::vector<FilmFrame> frames;
+  for (std::uint64_t i = 0; i < *count; ++i) {
+    if (context.cancelled())
+      return failure(ErrorCode::interrupted, "the film was interrupted", options.folder.string());
+    FilmFrame frame;
+    frame.seconds = double(i) / rate;
+    frame.camera = flight.at(frame.seconds);
+    const auto path = options.folder / fmt::format("frame_{:05}.png", i);
+    const Result<FrameFigures> figures = view.draw(frame.camera);
+    if (!figures)
+      return failure(figures.error().code, figures.error().message,
+                     fmt::format("{}, {}", path.string(), figures.error().culprit));
+    frame.figures = *figures;
+    if (const Status saved = savePng(view.image(), path); !saved) return tl::unexpected(saved.error());
+    frame.file = path.string();
+    frames.push_back(std::move(frame));
+    context.report("draw frames", double(i + 1) / double(*count));
+  }
+  return frames;
+}
+
+Status canEncodeFilm(const std::filesystem::path& film) {
+  constexpr std::array kEndings = {"mp4", "m4v", "mov", "mkv", "avi"};
+  if (std::ranges::find(kEndings, text::lowerExtension(film.string())) == kEndings.end())
+    return failure(ErrorCode::usage, "a film ends in .mp4, .m4v, .mov, .mkv or .avi", film.string());
+  // As posix_spawnp() looks for it.
+  const char* listed = std::getenv("PATH");
+  const std::string folders = listed ? listed : "/bin:/usr/bin";
+  for (std::size_t at = 0; at <= folders.size();) {
+    const std::size_t end = std::min(folders.find(':', at), folders.size());
+    if (::access((std::filesystem::path(folders.substr(at, end - at)) / "ffmpeg").c_str(), X_OK) == 0)
+      return {};
+    at = end + 1;
+  }
+  return failure(ErrorCode::unsupported,
+                 "a film needs ffmpeg, which this machine does not have (Debian: ffmpeg); --frames alone "
+                 "does without",
+                 film.string());
+}
+
+Status encodeFilm(const std::filesystem::path& folder, std::size_t frames, double framesPerSecond,
+                  const std::filesystem::path& film, const RunContext& context) {
+  // Under another name until it is whole; the ending says the format.
+  const std::filesystem::path part =
+      film.parent_path() / fmt::format(".{}.part{}", film.stem().string(), film.extension().string());
+  const std::string rate = fmt::format("{}", framesPerSecond), count = std::to_string(frames),
+                    pattern = (folder / "frame_%05d.png").string(), output = part.string();
+  // Of the folder this flight's frames only; the picture's sides made even, which H.264 wants.
+  std::vector<std::string> words = {"ffmpeg",
+                                    "-v",
+                                    "error",
+                                    "-nostdin",
+                                    "-y",
+                                    "-framerate",
+                                    rate,
+                                    "-start_number",
+                                    "0",
+                                    "-i",
+                                    pattern,
+                                    "-vf",
+                                    "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                                    "-frames:v",
+                                    count,
+                                    "-c:v",
+                                    "libx264",
+                                    "-pix_fmt",
+                                    "yuv420p",
+                                    "-movflags",
+                                    "+faststart",
+                                    output};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  pid_t child = 0;
+  if (const int error = posix_spawnp(&child, "ffmpeg", nullptr, nullptr, arguments.data(), environ);
+      error != 0)
+    return failure(
+        ErrorCode::unsupported,
+        "a film needs ffmpeg, which this machine does not have (Debian: ffmpeg); the frames are there",
+        film.string());
+  int status = 0;
+  while (waitpid(child, &status, 0) == -1 && errno == EINTR) {
+  }
+  std::error_code error;
+  if (status == 0 && !context.cancelled()) {
+    std::filesystem::rename(part, film, error);
+    if (!error) return {};
+  }
+  std::filesystem::remove(part, error);
+  if (context.cancelled())
+    return failure(ErrorCode::interrupted, "the film was interrupted; the frames are there", film.string());
+  return failure(ErrorCode::unreadable, "ffmpeg did not make it; the frames are there", film.string());
+}
+
+Status savePng(const Image& image, const std::filesystem::path& path) {
+  Result<Canvas> canvas = Canvas::create(image.width, image.height);
+  if (!canvas) return tl::unexpected(canvas.error());
+  canvas->image(image, 0, 0);
+  return canvas->savePng(path);
+}
+
+}  // namespace arete

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "engine/base/result.h"
+#include "terrain/sight/fresnel.h"
+#include "terrain/sight/line.h"
+#include "terrain/sight/profile.h"
+#include "viewer/picture/picture.h"
+
+namespace arete {
+
+/// What is drawn over the terrain of a profile.
+struct ProfileSight {
+  const SightLine& line;
+  SightAnswer answer = {};
+  double wavelength = 0;                                   ///< metres; > 0: the first Fresnel zone
+  double part = kUsualFresnel;                             ///< of its radius, drawn inside of it
+  std::optional<FresnelClearance> fresnel = std::nullopt;  ///< where the terrain comes furthest in is marked
+};
+
+struct ProfileChartOptions {
+  int width = 1400, height = 700;  ///< pixels
+  std::string title = {}, subtitle = {};
+  std::string unit = {};  ///< of height; may be empty
+};
+
+/// The terrain along a line: distance to the right, height upwards, on scales of their own. Gaps are grey.
+/// The sight line is as curved as the Earth is on such a chart, green where it is visible, red behind the
+/// obstruction, which is marked. Errors: usage, for a size without room; degenerate, for a profile without
+/// terrain or length. O(vertices).
+Result<Canvas> drawProfile(const Profile& profile, const std::optional<ProfileSight>& sight,
+                           const ProfileChartOptions& options = {});
+
+}  // namespace arete

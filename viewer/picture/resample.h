@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "viewer/picture/map_view.h"
+
+namespace arete {
+
+/// A field in the pixels of a view.
+struct ViewField {
+  std::vector<float> values;    ///< row-major; NaN where coverage is 0
+  std::vector<float> coverage;  ///< 0..1, how much of the pixel's surroundings has data
+};
+
+/// Value of a grid sample; NaN = none.
+using SampleAt = std::function<double(std::uint32_t column, std::uint32_t row)>;
+
+/// Brings a field of samples to the pixels of a view. Where samples are denser than pixels every sample
+/// counts (a tent as wide as two pixels), where they are sparser it is bilinear. Samples without data take no
+/// part. O(samples in view + pixels).
+ViewField resample(std::uint32_t columns, std::uint32_t rows, const SampleAt& sampleAt, const MapView& view);
+
+}  // namespace arete
