@@ -1,4 +1,5 @@
-# arete_layer(NAME [PUBLIC ...] [PRIVATE ...] ROOMS ...): one layer of the house, made of rooms (its sub-folders).
+# arete_layer(NAME [PUBLIC ...] [PRIVATE ...] ROOMS ... | SOURCES ...): one layer of the house, made of rooms (its
+# sub-folders) or of files.
 #
 # A layer may include the layers it links and nothing else: each layer's headers are reached through an include folder
 # of its own in the build tree (build/.../include/<layer>/<layer> -> source/<layer>), so that an include of a layer that
@@ -19,10 +20,32 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}")
 
+option(ARETE_PRECOMPILE "Precompile the headers that most files include" ON)
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+  # The sloppiness and -fpch-preprocess are what ccache asks for where headers are precompiled.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${CCACHE_PROGRAM}")
+  if(ARETE_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(-fpch-preprocess)
+  endif()
 endif()
+
+# GCC 12 forgets, of what it reads precompiled, that a header is the system's, and warns of std::string.
+function(arete_quiet_precompiled TARGET)
+  target_compile_options(${TARGET} PRIVATE
+    "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overflow;-Wno-stringop-overread>")
+endfunction()
+
+# arete_precompile(TARGET HEADERS...): precompiles the standard headers that most files include, and HEADERS. Files
+# still include what they use: the sanitized builds and the fuzzers do without (CMakePresets.json).
+function(arete_precompile TARGET)
+  if(ARETE_PRECOMPILE)
+    target_precompile_headers(${TARGET} PRIVATE
+      <algorithm> <array> <atomic> <cmath> <cstdint> <filesystem> <functional> <limits> <memory> <numeric> <optional>
+      <span> <string> <string_view> <utility> <vector> <fmt/format.h> <tl/expected.hpp> ${ARGN})
+    arete_quiet_precompiled(${TARGET})
+  endif()
+endfunction()
 
 add_library(arete_options INTERFACE)
 target_compile_options(arete_options INTERFACE
@@ -54,9 +77,9 @@ endfunction()
 set_property(GLOBAL PROPERTY ARETE_ROOMS "")
 
 function(arete_layer NAME)
-  cmake_parse_arguments(ARG "" "" "ROOMS;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "ROOMS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
   arete_include_root(${NAME})
-  add_library(arete_${NAME} STATIC)
+  add_library(arete_${NAME} STATIC ${ARG_SOURCES})
   add_library(arete::${NAME} ALIAS arete_${NAME})
   target_include_directories(arete_${NAME} PUBLIC "$<BUILD_INTERFACE:${ARETE_INCLUDE_ROOT}>")
   target_compile_features(arete_${NAME} PUBLIC cxx_std_20)

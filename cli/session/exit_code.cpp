@@ -19,6 +19,8 @@ ExitCode exitCodeOf(ErrorCode code) {
       return ExitCode::promise;
     case ErrorCode::interrupted:
       return ExitCode::interrupted;
+    case ErrorCode::outOfMemory:
+      return ExitCode::internal;
   }
   return ExitCode::internal;
 }

@@ -23,6 +23,8 @@ std::string_view toString(ErrorCode code) {
       return "broken promise";
     case ErrorCode::interrupted:
       return "interrupted";
+    case ErrorCode::outOfMemory:
+      return "out of memory";
   }
   return "unknown";
 }

@@ -18,7 +18,8 @@ enum class ErrorCode {
   invalidData,    ///< data that parses and makes no sense
   degenerate,     ///< geometry without area: one row, all collinear, no valid sample
   brokenPromise,  ///< a stated bound or a law does not hold
-  interrupted,    ///< the caller asked to stop
+  interrupted,    ///< the caller has cancelled the work
+  outOfMemory,    ///< an allocation failed
 };
 
 std::string_view toString(ErrorCode code);

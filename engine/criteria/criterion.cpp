@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/triangle_distance.h"
+#include "engine/base/nearest_on_triangle.h"
 
 namespace arete {
 
@@ -46,7 +46,7 @@ double DistanceError::allowedFor(const MultiTriangulation& mt, const Corners& co
     p[i] = mt.arrays().metric.toMetric(mt.position(VertexId(corners[i])));
     if (o_.inPlan) p[i].z = o_.place.z;
   }
-  return allowedAt(distanceToTriangle(o_.place, p[0], p[1], p[2]));
+  return allowedAt(distanceToTriangle(o_.place, {p[0], p[1], p[2]}));
 }
 
 double DistanceError::severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {

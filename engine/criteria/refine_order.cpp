@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "engine/base/triangle_distance.h"
+#include "engine/base/nearest_on_triangle.h"
 #include "engine/criteria/view_error.h"
 
 namespace arete {
@@ -15,7 +15,7 @@ RefineKey TwoQueues::key(const MultiTriangulation& mt, const Criterion&, Triangl
   if (frustum_.mayMeet(prism)) {
     const MetricFrame& metric = mt.arrays().metric;
     const auto corner = [&](int i) { return metric.toMetric(mt.position(VertexId(corners[i]))); };
-    return {0, distanceToTriangle(o_.view.eye, corner(0), corner(1), corner(2))};
+    return {0, distanceToTriangle(o_.view.eye, {corner(0), corner(1), corner(2)})};
   }
   const NodeId remover = mt.remover(t);
   if (!remover.isValid()) return {1, 0};

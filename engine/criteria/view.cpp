@@ -13,26 +13,7 @@
 #include <numbers>
 
 namespace arete {
-namespace {
-
-double dot(const Vec3& a, const Vec3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-Vec3 unit(const Vec3& a) {
-  const double length = std::sqrt(dot(a, a));
-  return {a.x / length, a.y / length, a.z / length};
-}
-
-bool isFinite(const Vec3& a) {
-  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 Status View::validate() const {
   const auto refuse = [](const char* message) { return failure(ErrorCode::usage, message, "view"); };

@@ -28,10 +28,6 @@ namespace {
 constexpr double kBend = 2 * std::numbers::inv_sqrt3;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x * b.y - a.y * b.x;
-}
-
 }  // namespace
 
 MorphNode morphNode(const MultiTriangulation& mt, NodeId n) {

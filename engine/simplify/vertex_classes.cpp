@@ -34,18 +34,6 @@ struct Tally {
   void addCrease() { creases = std::uint8_t(std::min<int>(creases + 1, kMany)); }
 };
 
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-double dot(const Vec3& a, const Vec3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-Vec3 minus(const Vec3& a, const Vec3& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
 VertexClass classOf(const Tally& tally) {
   if (!tally.used) return VertexClass::isolated;
   if (tally.nonManifold) return VertexClass::corner;
@@ -61,7 +49,7 @@ std::vector<VertexClass> classify(std::size_t vertexCount, const Position& posit
   const auto normalOf = [&](std::uint32_t triangle) {
     const Triangle& t = triangles[triangle];
     const Vec3 origin = positionOf(t[0]);
-    return cross(minus(positionOf(t[1]), origin), minus(positionOf(t[2]), origin));
+    return cross((positionOf(t[1]) - origin), (positionOf(t[2]) - origin));
   };
   // The angle by its tangent: an arc cosine would lose half the digits on nearly flat ground.
   const auto isCrease = [&](std::uint32_t a, std::uint32_t b) {

@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint64_t kPointsPerStopCheck = 256;
 
 struct Piece {
-  Corners corners;
+  SpaceTriangle corners;
   std::array<NearestOnMesh::Answer, 3> answers;
   std::uint32_t guide = 0;  // the triangle of the target whose bound was the least
   double atMost = 0;
@@ -28,11 +28,11 @@ struct Piece {
 };
 
 /// By its first corner.
-int longestSide(const Corners& corners) {
+int longestSide(const SpaceTriangle& corners) {
   int longest = 0;
   double most = -1;
   for (int i = 0; i < 3; ++i) {
-    const double length = space::squaredDistance(corners[i], corners[(i + 1) % 3]);
+    const double length = squaredDistance(corners[i], corners[(i + 1) % 3]);
     if (length <= most) continue;
     most = length;
     longest = i;
@@ -42,14 +42,13 @@ int longestSide(const Corners& corners) {
 
 double distanceTo(const TriangleMesh& target, std::uint32_t triangle, const Vec3& p) {
   const auto& v = target.triangles[triangle];
-  const Corners corners{target.positions[v[0]], target.positions[v[1]], target.positions[v[2]]};
-  return std::sqrt(space::squaredDistance(p, nearestOnTriangle(p, corners)));
+  const SpaceTriangle corners{target.positions[v[0]], target.positions[v[1]], target.positions[v[2]]};
+  return distanceToTriangle(p, corners);
 }
 
 void bound(Piece& piece, const TriangleMesh& target) {
   const int side = longestSide(piece.corners);
-  const double longest =
-      std::sqrt(space::squaredDistance(piece.corners[side], piece.corners[(side + 1) % 3]));
+  const double longest = std::sqrt(squaredDistance(piece.corners[side], piece.corners[(side + 1) % 3]));
   const double farthest =
       std::max({piece.answers[0].distance, piece.answers[1].distance, piece.answers[2].distance});
   piece.atMost = farthest + longest * std::numbers::inv_sqrt3;
@@ -71,7 +70,7 @@ void bound(Piece& piece, const TriangleMesh& target) {
 
 }  // namespace
 
-FarthestPoint farthestPoint(const Corners& triangle, std::span<const NearestOnMesh::Answer, 3> answers,
+FarthestPoint farthestPoint(const SpaceTriangle& triangle, std::span<const NearestOnMesh::Answer, 3> answers,
                             const TriangleMesh& target, const NearestOnMesh& to,
                             const FarthestPointOptions& options) {
   FarthestPoint found;
@@ -113,8 +112,7 @@ FarthestPoint farthestPoint(const Corners& triangle, std::span<const NearestOnMe
     const Piece piece = open.top();
     open.pop();
     const int side = longestSide(piece.corners), other = (side + 1) % 3;
-    const Vec3 half =
-        space::along(piece.corners[side], space::minus(piece.corners[other], piece.corners[side]), 0.5);
+    const Vec3 half = piece.corners[side] + 0.5 * (piece.corners[other] - piece.corners[side]);
     const NearestOnMesh::Answer answer = to.nearest(half);
     take(half, answer);
     for (const int replaced : {side, other}) {

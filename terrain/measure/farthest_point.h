@@ -29,7 +29,7 @@ struct FarthestPointOptions {
 /// are halved, the one that may hold the farthest point first, until none may hold one that is farther than
 /// options allow, or the budget is spent. O(budget log n) time; 200 bytes for each point asked for at
 /// worst.
-FarthestPoint farthestPoint(const Corners& triangle, std::span<const NearestOnMesh::Answer, 3> answers,
+FarthestPoint farthestPoint(const SpaceTriangle& triangle, std::span<const NearestOnMesh::Answer, 3> answers,
                             const TriangleMesh& target, const NearestOnMesh& to,
                             const FarthestPointOptions& options);
 

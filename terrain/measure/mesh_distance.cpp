@@ -48,7 +48,7 @@ struct Box3 {
   Vec3 middle() const {
     return {std::midpoint(low.x, high.x), std::midpoint(low.y, high.y), std::midpoint(low.z, high.z)};
   }
-  double diagonal() const { return std::sqrt(space::squaredDistance(low, high)); }
+  double diagonal() const { return std::sqrt(squaredDistance(low, high)); }
 };
 
 /// A mesh moved to the common origin, and what is said of it.
@@ -69,7 +69,7 @@ Surface surfaceOf(const TriangleMesh& mesh, const Vec3& origin) {
   Surface surface;
   surface.mesh.triangles = mesh.triangles;
   surface.mesh.positions.reserve(mesh.positions.size());
-  for (const Vec3& p : mesh.positions) surface.mesh.positions.push_back(space::minus(p, origin));
+  for (const Vec3& p : mesh.positions) surface.mesh.positions.push_back(p - origin);
   surface.isUsed.resize(mesh.positions.size());
   MeshSummary& summary = surface.summary;
   for (const auto& t : surface.mesh.triangles) {
@@ -287,8 +287,8 @@ Result<MeshDistanceReport> measureDistance(const TriangleMesh& first, const Tria
     OneWay way(surfaces[from], surfaces[1 - from], options, samples, context);
     Result<DistanceOneWay> found = way.measure(stage, distances);
     if (found) {
-      found->worst = space::along(found->worst, origin, 1);
-      found->worstNearest = space::along(found->worstNearest, origin, 1);
+      found->worst = found->worst + origin;
+      found->worstNearest = found->worstNearest + origin;
     }
     return found;
   };

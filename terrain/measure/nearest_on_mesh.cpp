@@ -26,10 +26,10 @@ class Primitive {
   using Point = Kernel::Point_3;
   using Datum = Kernel::Triangle_3;
 
-  Primitive(Id id, const Corners& corners) : id_(id), corners_(corners) {}
+  Primitive(Id id, const SpaceTriangle& corners) : id_(id), corners_(corners) {}
 
   Id id() const { return id_; }
-  const Corners& corners() const { return corners_; }
+  const SpaceTriangle& corners() const { return corners_; }
   Datum datum() const { return {point(0), point(1), point(2)}; }
   /// What the tree sorts by.
   Point reference_point() const { return point(0); }
@@ -38,7 +38,7 @@ class Primitive {
   Point point(int i) const { return {corners_[i].x, corners_[i].y, corners_[i].z}; }
 
   Id id_;
-  Corners corners_;
+  SpaceTriangle corners_;
 };
 
 using Traits = CGAL::AABB_traits<Kernel, Primitive>;
@@ -69,7 +69,7 @@ class Walk {
 
   void intersection(const Vec3& p, const Primitive& primitive) {
     const Vec3 point = nearestOnTriangle(p, primitive.corners());
-    const double squared = space::squaredDistance(p, point);
+    const double squared = squaredDistance(p, point);
     if (squared >= squared_) return;
     squared_ = squared;
     answer_.point = point;
@@ -92,7 +92,7 @@ struct NearestOnMesh::Tree {
 NearestOnMesh::NearestOnMesh(const TriangleMesh& mesh) : tree_(std::make_unique<Tree>()) {
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& v = mesh.triangles[t];
-    const Corners corners{mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
+    const SpaceTriangle corners{mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
     tree_->boxes.insert(Primitive(t, corners));
   }
   tree_->boxes.build();

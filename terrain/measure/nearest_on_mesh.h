@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <memory>
 
+#include "engine/base/nearest_on_triangle.h"
 #include "engine/base/triangle_mesh.h"
 #include "engine/base/vec.h"
-#include "terrain/measure/nearest_on_triangle.h"
 
 namespace arete {
 

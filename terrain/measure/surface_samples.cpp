@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "terrain/measure/nearest_on_triangle.h"
+#include "engine/base/nearest_on_triangle.h"
 
 namespace arete {
 namespace {
@@ -32,14 +32,14 @@ double fraction(double x) {
   return x - std::floor(x);
 }
 
-Corners cornersOf(const TriangleMesh& mesh, std::size_t triangle) {
+SpaceTriangle cornersOf(const TriangleMesh& mesh, std::size_t triangle) {
   const auto& v = mesh.triangles[triangle];
   return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
 }
 
 double areaOf(const TriangleMesh& mesh, std::size_t triangle) {
   const Vec3 normal = areaNormal(cornersOf(mesh, triangle));
-  return std::sqrt(space::dot(normal, normal)) / 2;
+  return std::sqrt(dot(normal, normal)) / 2;
 }
 
 }  // namespace
@@ -75,8 +75,8 @@ Vec3 SurfaceSamples::at(std::uint64_t i, std::uint32_t& triangle) const {
     u = 1 - u;
     v = 1 - v;
   }
-  const Corners t = cornersOf(mesh_, triangle);
-  return space::along(space::along(t[0], space::minus(t[1], t[0]), u), space::minus(t[2], t[0]), v);
+  const SpaceTriangle t = cornersOf(mesh_, triangle);
+  return t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
 }
 
 }  // namespace arete

@@ -9,8 +9,8 @@ namespace arete {
 
 /// How the hole that a removed vertex leaves is triangulated.
 enum class HoleShape {
-  delaunay,  ///< well-shaped triangles; every front is (constrained) Delaunay
-  fidelity,  ///< the least vertical error; far fewer triangles at the same bound
+  delaunay,       ///< well-shaped triangles; every front is (constrained) Delaunay
+  dataDependent,  ///< the least vertical error; far fewer triangles at the same bound
 };
 
 /// How a large build divides the ground (simplify.h). What comes out depends on it, but little, and keeps

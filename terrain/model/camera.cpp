@@ -9,15 +9,6 @@
 #include <numbers>
 
 namespace arete {
-namespace {
-
-Vec2 unit(Vec2 a) {
-  const double length = std::hypot(a.x, a.y);
-  return {a.x / length, a.y / length};
-}
-
-}  // namespace
-
 Vec3 metricPosition(Vec2 xy, double height, const TerrainModel& model) {
   const Vec2 plan = model.toPlan(xy);
   return model.mt.arrays().metric.toMetric({plan.x, plan.y, height});
@@ -36,12 +27,12 @@ Result<View> viewOf(const Camera& camera, const TerrainModel& model) {
   const Vec3 here = metricPosition(camera.xy, 0, model);
   const auto axis = [&](double dx, double dy) {
     const Vec3 there = metricPosition({camera.xy.x + dx, camera.xy.y + dy}, 0, model);
-    return unit({there.x - here.x, there.y - here.y});
+    return unit(Vec2{there.x - here.x, there.y - here.y});
   };
   const Vec2 east = axis(step, 0), north = axis(0, step);
   const double sine = std::sin(camera.azimuthDegrees * kRadians),
                cosine = std::cos(camera.azimuthDegrees * kRadians);
-  const Vec2 level = unit({sine * east.x + cosine * north.x, sine * east.y + cosine * north.y});
+  const Vec2 level = unit(sine * east + cosine * north);
   const double rise = std::sin(camera.pitchDegrees * kRadians),
                run = std::cos(camera.pitchDegrees * kRadians);
 

@@ -17,10 +17,6 @@ bool isPositive(double value) {
   return value > 0 && std::isfinite(value);
 }
 
-bool isFinite(const Vec3& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 }  // namespace
 
 struct LocalFrame::Cartesian {

@@ -28,14 +28,8 @@ inline const GeographicLib::Geocentric& wgs84() {
   return GeographicLib::Geocentric::WGS84();
 }
 
-inline Vec3 minus(const Vec3& a, const Vec3& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline double dot(const Vec3& a, const Vec3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 inline double apart(const Vec3& a, const Vec3& b) {
-  return std::sqrt(dot(minus(a, b), minus(a, b)));
+  return std::sqrt(dot(a - b, a - b));
 }
 
 /// Earth-centred, of longitude and latitude in degrees.

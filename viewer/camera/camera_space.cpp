@@ -14,11 +14,6 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-Vec2 unit(Vec2 a) {
-  const double length = std::hypot(a.x, a.y);
-  return {a.x / length, a.y / length};
-}
-
 }  // namespace
 
 double wrappedAzimuth(double degrees) {
@@ -65,7 +60,7 @@ Camera CameraSpace::at(Camera camera, const Vec3& position) const {
 
 Vec3 CameraSpace::level(double azimuthDegrees) const {
   const double sine = std::sin(azimuthDegrees * kRadians), cosine = std::cos(azimuthDegrees * kRadians);
-  const Vec2 a = unit({sine * east_.x + cosine * north_.x, sine * east_.y + cosine * north_.y});
+  const Vec2 a = unit(sine * east_ + cosine * north_);
   return {a.x, a.y, 0};
 }
 

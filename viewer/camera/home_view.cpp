@@ -19,10 +19,6 @@ namespace {
 
 constexpr double kFree = 0.05;  // of the picture, on either side
 
-double dot(const Vec3& a, const Vec3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 /// The bounds A and B above.
 struct Sides {
   double slope;

@@ -22,10 +22,6 @@ namespace {
 constexpr int kMostHalvings = 40;
 constexpr double kSlack = 1e-11;  // of a leg's length, for each piece
 
-Vec3 minus(const Vec3& a, const Vec3& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
 double slopeOfParabola(double h0, double d0, double h1, double d1) {
   return (d0 * h1 + d1 * h0) / (h0 + h1);
 }
@@ -38,7 +34,7 @@ PathCurve::PathCurve(std::span<const Vec3> points, bool isClosed) : points_(poin
   std::vector<Vec2> secants(last);
   knotSteps_.resize(last);
   for (std::size_t i = 0; i < last; ++i) {
-    const Vec3 d = minus(points_[i + 1], points_[i]);
+    const Vec3 d = points_[i + 1] - points_[i];
     const double h = std::sqrt(std::hypot(d.x, d.y, d.z));
     knotSteps_[i] = h;
     knots[i + 1] = knots[i] + h;

@@ -42,9 +42,9 @@ struct TerrainView::State {
     if (isReadyFor(settings)) return {};
     MultiTriangulation wanted = model->mt;
     if (settings.isCurved) {
-      const Result<const CurvedGround*> curved = curvedGround();
-      if (!curved) return tl::unexpected(curved.error());
-      Result<MultiTriangulation> curved = (*curved)->curvedMt(settings.stretch);
+      const Result<const CurvedGround*> made = curvedGround();
+      if (!made) return tl::unexpected(made.error());
+      Result<MultiTriangulation> curved = (*made)->curvedMt(settings.stretch);
       if (!curved) return tl::unexpected(curved.error());
       wanted = std::move(*curved);
     }

@@ -30,22 +30,6 @@ constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kWiden = 1.1;
 constexpr const char* kCulprit = "the Earth's curvature";
 
-Vec3 plus(const Vec3& a, const Vec3& b, double times = 1) {
-  return {a.x + times * b.x, a.y + times * b.y, a.z + times * b.z};
-}
-double dot(const Vec3& a, const Vec3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-double length(const Vec3& a) {
-  return std::sqrt(dot(a, a));
-}
-Vec3 unit(const Vec3& a) {
-  return plus({}, a, 1 / length(a));
-}
-bool isFinite(const Vec3& a) {
-  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
-}
-
 /// Largest length of a quadratic form (or, without `xy` and with its halves, a linear one) over directions.
 template <class Form>
 double largestOver(const Form& form) {
@@ -53,7 +37,7 @@ double largestOver(const Form& form) {
   double most = 0;
   for (int i = 0; i < kDirections; ++i) {
     const double angle = i * std::numbers::pi / kDirections;
-    most = std::max(most, length(form(std::cos(angle), std::sin(angle))));
+    most = std::max(most, norm(form(std::cos(angle), std::sin(angle))));
   }
   return most;
 }
@@ -91,7 +75,7 @@ struct CurvedGround::State {
   }
   Vec3 vertical(Vec2 xy, double height) const {
     constexpr double kSpan = 1000;  // units: far enough for the last bits not to matter
-    return unit(plus(position(xy, height + kSpan), position(xy, height), -1));
+    return unit(position(xy, height + kSpan) - position(xy, height));
   }
   /// The map's directions at a place, levelled there: unit vectors, not finite where the CRS does not reach.
   struct Level {
@@ -102,10 +86,10 @@ struct CurvedGround::State {
     const Georeference& g = model->georeference;
     const double step = g.isGeographic ? 1e-4 * kRadians / g.angularUnitRadians : 10 / g.linearUnitMetres;
     const auto between = [&](double dx, double dy) {
-      return plus(position({xy.x + dx, xy.y + dy}, height), position({xy.x - dx, xy.y - dy}, height), -1);
+      return position({xy.x + dx, xy.y + dy}, height) - position({xy.x - dx, xy.y - dy}, height);
     };
     const Vec3 up = vertical(xy, height);
-    const auto levelled = [&](const Vec3& a) { return unit(plus(a, up, -dot(a, up))); };
+    const auto levelled = [&](const Vec3& a) { return unit(a - dot(a, up) * up); };
     return {up, levelled(between(step, 0)), levelled(between(0, step))};
   }
   void turn();
@@ -115,8 +99,7 @@ struct CurvedGround::State {
 /// The x axis along the plan's, the y axis on the side of the plan's.
 void CurvedGround::State::turn() {
   constexpr double kStep = 1000;
-  const Vec3 x = plus(ofFlat(kStep, 0), ofFlat(-kStep, 0), -1),
-             y = plus(ofFlat(0, kStep), ofFlat(0, -kStep), -1);
+  const Vec3 x = ofFlat(kStep, 0) - ofFlat(-kStep, 0), y = ofFlat(0, kStep) - ofFlat(0, -kStep);
   if (!isFinite(x) || !isFinite(y)) return;  // measure() says so
   const double size = std::hypot(x.x, x.y);
   const double side = x.x * y.y - x.y * y.x < 0 ? -1 : 1;
@@ -142,18 +125,17 @@ bool CurvedGround::State::measure() {
                    y = low.y + j * (high.y - low.y) / std::max(ny, 1);
       const auto at = [&](int dx, int dy) { return ofFlat(x + dx * step, y + dy * step); };
       const auto upAt = [&](int dx, int dy) {
-        return unit(plus(ofFlat(x + dx * step, y + dy * step, 1000), at(dx, dy), -1));
+        return unit(ofFlat(x + dx * step, y + dy * step, 1000) - at(dx, dy));
       };
-      const Vec3 twice = plus({}, at(0, 0), -2);
-      const Vec3 xx = plus(plus(at(1, 0), at(-1, 0)), twice), yy = plus(plus(at(0, 1), at(0, -1)), twice);
-      const Vec3 xy = plus({}, plus(plus(at(1, 1), at(-1, -1)), plus(at(1, -1), at(-1, 1)), -1), 0.25);
-      const Vec3 upX = plus(upAt(1, 0), upAt(-1, 0), -1), upY = plus(upAt(0, 1), upAt(0, -1), -1);
+      const Vec3 twice = -2 * at(0, 0);
+      const Vec3 xx = at(1, 0) + at(-1, 0) + twice, yy = at(0, 1) + at(0, -1) + twice;
+      const Vec3 xy = 0.25 * ((at(1, 1) + at(-1, -1)) - (at(1, -1) + at(-1, 1)));
+      const Vec3 upX = upAt(1, 0) - upAt(-1, 0), upY = upAt(0, 1) - upAt(0, -1);
       if (!isFinite(xx) || !isFinite(yy) || !isFinite(xy) || !isFinite(upX) || !isFinite(upY)) continue;
       found[std::size_t(j) * std::size_t(nx + 1) + std::size_t(i)] = {
-          largestOver([&](double c, double s) {
-            return plus(plus(plus({}, xx, c * c), yy, s * s), xy, 2 * c * s);
-          }) / (step * step),
-          largestOver([&](double c, double s) { return plus(plus({}, upX, c), upY, s); }) / (2 * step)};
+          largestOver([&](double c, double s) { return (c * c) * xx + (s * s) * yy + (2 * c * s) * xy; }) /
+              (step * step),
+          largestOver([&](double c, double s) { return c * upX + s * upY; }) / (2 * step)};
     }
   });
   for (const auto& f : found) {
@@ -212,10 +194,10 @@ Result<View> CurvedGround::viewOf(const Camera& camera, double stretch) const {
   if (!there.isThere()) return cameraIsBeyondTheCrs();
 
   const double azimuth = camera.azimuthDegrees * kRadians, pitch = camera.pitchDegrees * kRadians;
-  const Vec3 level = unit(plus(plus({}, there.east, std::sin(azimuth)), there.north, std::cos(azimuth)));
+  const Vec3 level = unit(std::sin(azimuth) * there.east + std::cos(azimuth) * there.north);
   view->eye = s.position(camera.xy, height);
-  view->forward = plus(plus({}, level, std::cos(pitch)), there.up, std::sin(pitch));
-  view->up = plus(plus({}, level, -std::sin(pitch)), there.up, std::cos(pitch));
+  view->forward = std::cos(pitch) * level + std::sin(pitch) * there.up;
+  view->up = -std::sin(pitch) * level + std::cos(pitch) * there.up;
   return view;
 }
 
@@ -229,12 +211,12 @@ Result<Camera> CurvedGround::cameraAt(const Vec3& eye, const PictureAxes& axes, 
   const State::Level there = s.level(camera.xy, s.exaggerated(camera.height, stretch));
   if (!isFinite(place) || !there.isThere()) return cameraIsBeyondTheCrs();
   const double rise = dot(axes.ahead, there.up);
-  Vec3 along = plus(axes.ahead, there.up, -rise);
-  double run = length(along);
+  Vec3 along = axes.ahead - rise * there.up;
+  double run = norm(along);
   constexpr double kUpright = 0.02;  // a degree or so
   if (run < kUpright) {
-    const Vec3 top = plus({}, axes.up, rise < 0 ? 1 : -1);
-    along = unit(plus(top, there.up, -dot(top, there.up)));
+    const Vec3 top = (rise < 0 ? 1 : -1) * axes.up;
+    along = unit(top - dot(top, there.up) * there.up);
     run = std::max(dot(axes.ahead, along), 0.0);
   }
   // The map's directions need not be at right angles.

@@ -8,11 +8,11 @@
 #include <array>
 #include <cmath>
 
-#include "build_fixture.h"
 #include "datasets/families.h"
 #include "datasets/random.h"
 #include "engine/laws/validate.h"
 #include "terrain/build/build.h"
+#include "terrain/build_fixture.h"
 #include "terrain/laws/validate_model.h"
 #include "terrain/triangulation/finest_points.h"
 

@@ -10,10 +10,10 @@
 #include <functional>
 #include <numeric>
 
-#include "build_fixture.h"
 #include "datasets/families.h"
 #include "datasets/random.h"
 #include "engine/laws/validate.h"
+#include "terrain/build_fixture.h"
 #include "terrain/laws/validate_model.h"
 #include "terrain/triangulation/finest_raster.h"
 

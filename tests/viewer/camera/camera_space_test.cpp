@@ -8,10 +8,6 @@
 namespace arete {
 namespace {
 
-double dot(const Vec3& a, const Vec3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 TEST(CameraSpace, AgreesWithTheViewOnEveryGrid) {
   for (const auto& [name, model] : test::cameraModels()) {
     const CameraSpace space(model);

@@ -504,8 +504,8 @@ TEST(CurvedEarth, ItCanBeSwitchedAtAnyTimeEvenWhereTheCutIsFrozen) {
     flat.path = path;
     ViewSettings curved = flat;
     curved.isCurved = true;
-    const std::vector<float> before = depthsOf(*view, camera, flat), curved = depthsOf(*view, camera, curved);
-    EXPECT_NE(before, curved);
+    const std::vector<float> before = depthsOf(*view, camera, flat), after = depthsOf(*view, camera, curved);
+    EXPECT_NE(before, after);
     EXPECT_EQ(depthsOf(*view, camera, flat), before);
     // A draw alone.
     const auto target = FrameTarget::create(160, 120);

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Declares the commands, parses, dispatches. What a command does lives in io/ and below.
+#include "cli/commands/program.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+#include "cli/commands/build.h"
+#include "cli/commands/convert.h"
+#include "cli/commands/demo.h"
+#include "cli/commands/extract.h"
+#include "cli/commands/height.h"
+#include "cli/commands/info.h"
+#include "cli/commands/measure.h"
+#include "cli/commands/validate.h"
+#include "cli/commands/view.h"
+#include "cli/session/exit_code.h"
+#include "cli/session/interrupt.h"
+#include "cli/session/session.h"
+#include "cli/sight/los.h"
+#include "cli/sight/profile.h"
+#include "cli/sight/viewshed.h"
+
+namespace arete {
+namespace {
+
+/// CLI11 says that a command is missing where it does not know the one that is there.
+std::string unknownCommand(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  std::string known;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == argv[1]) return {};
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  return fmt::format("there is no command '{}'; the commands are {}", argv[1], known);
+}
+
+}  // namespace
+
+ExitCode runProgram(int argc, char** argv) {
+  Session session;
+  CLI::App app{
+      "Arete turns a digital elevation model into one multitriangulation and takes TINs of any\n"
+      "tolerance from it, with an error that anybody can measure again."};
+  app.name("arete");
+  app.set_version_flag("--version", "arete " ARETE_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Examples:\n"
+      "  arete build dem.tif -o dem.amt                     once\n"
+      "  arete extract dem.amt -o tin.ply --max-error 5     as often as wanted, any tolerance\n"
+      "  arete height dem.amt --at X,Y                      how high the terrain is there\n"
+      "  arete los dem.amt --from X,Y,H --to X,Y,H          whether they see each other\n"
+      "  arete measure tin.ply dem.tif --expect 5           the promise, checked independently\n"
+      "\n" +
+      std::string(exitCodeTable()) + "\n\nCOMMAND --help tells the options of a command.");
+  addBuildCommand(app, session);
+  addInfoCommand(app, session);
+  addExtractCommand(app, session);
+  addHeightCommand(app, session);
+  addLosCommand(app, session);
+  addProfileCommand(app, session);
+  addViewshedCommand(app, session);
+  addViewCommand(app, session);
+  addMeasureCommand(app, session);
+  addValidateCommand(app, session);
+  addConvertCommand(app, session);
+  addDemoCommand(app, session);
+
+  if (argc < 2) {
+    fmt::print(stderr, "{}", app.help());
+    return ExitCode::usage;
+  }
+  const bool wantsJson = std::find(argv + 1, argv + argc, std::string_view("--json")) != argv + argc;
+  if (const std::string sentence = unknownCommand(app, argc, argv); !sentence.empty())
+    return session.refuse(sentence, "arete", wantsJson);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {  // --help, --version
+      app.exit(error);
+      return std::fflush(stdout) == 0 ? ExitCode::ok : ExitCode::file;
+    }
+    const auto parsed = app.get_subcommands();
+    return session.refuse(error.what(), parsed.empty() ? "arete" : "arete " + parsed.front()->get_name(),
+                          wantsJson);
+  }
+  return session.runParsed();
+}
+
+}  // namespace arete

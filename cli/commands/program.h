@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cli/session/exit_code.h"
+
+namespace arete {
+
+/// Parses the command line, runs its command and returns the exit code of the process. Throws what the
+/// standard library throws; main() reports it.
+ExitCode runProgram(int argc, char** argv);
+
+}  // namespace arete
