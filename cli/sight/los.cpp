@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Whatever states the ends (two positions, a position and a file of sites, a file of pairs) becomes rows of
-// SightPairs; each row becomes a link, or a reason why it is none; answers go out in the order of the rows.
+// SightPairs; each row becomes a path, or an error; answers go out in the order of the rows.
 #include "cli/sight/los.h"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@
 #include "io/file/text_scan.h"
 #include "io/table/line_table.h"
 #include "io/table/sight_pairs.h"
-#include "terrain/sight/links.h"
+#include "terrain/sight/paths.h"
 
 namespace arete {
 namespace {
@@ -133,8 +133,8 @@ Status addUsualHeights(const LosArguments& a, SightPairs& pairs) {
   return {};
 }
 
-Result<SightLinkOptions> optionsOf(const LosArguments& a, const TerrainModel& model, Session& session) {
-  SightLinkOptions options;
+Result<SightPathOptions> optionsOf(const LosArguments& a, const TerrainModel& model, Session& session) {
+  SightPathOptions options;
   options.sight.nodata = a.sight.nodata;
   options.sight.maxError = a.maxError;
   options.frequencyMegahertz = a.frequency;
@@ -248,13 +248,13 @@ Status runLos(const LosArguments& a, Session& session) {
   const auto grid = hasProfiles && model->isRaster ? std::make_shared<const SightGrid>(*model) : nullptr;
   const Profiles profiles(*model, grid);
   const SightRows rows = SightRows::of(*pairs, profiles.heights());
-  const SightMethod method = bestMethod(a.method, a.maxError, rows.links.size(), *model);
+  const SightMethod method = bestMethod(a.method, a.maxError, rows.paths.size(), *model);
   if (!model->isRaster && method != SightMethod::descent)
     return failure(ErrorCode::usage, fmt::format("is for rasters, and {} is of points", a.model),
                    fmt::format("--method {}", toString(method)));
   const auto engine = makeSightEngine(method, *model, grid, session.context());
   if (!engine) return tl::unexpected(engine.error());
-  const auto answers = answerLinks(rows.links, **earth, **engine, profiles, *options, session.context());
+  const auto answers = answerPaths(rows.paths, **earth, **engine, profiles, *options, session.context());
   if (!answers) return tl::unexpected(answers.error());
 
   const SightResults results{.pairs = *pairs,

@@ -22,7 +22,7 @@
 #include "io/file/file_writer.h"
 #include "io/file/text_scan.h"
 #include "terrain/sight/fresnel.h"
-#include "terrain/sight/links.h"
+#include "terrain/sight/paths.h"
 #include "terrain/sight/profile.h"
 #include "viewer/picture/profile_chart.h"
 
@@ -126,7 +126,7 @@ Result<SightTrack> trackAlong(const Way& way, const SightEarth& earth, const Ter
 struct Answer {
   Profile profile;
   std::optional<SightLine> line;
-  SightLinkAnswer link;
+  SightPathAnswer path;
 };
 
 class ProfileTable {
@@ -175,14 +175,14 @@ class ProfileTable {
     }
     Json json = {{"length", answer.profile.length}, {"gap", answer.profile.gapMetres}};
     if (answer.line) {
-      const SightAnswer& sight = answer.link.sight;
+      const SightAnswer& sight = answer.path.sight;
       json["verdict"] = std::string(toString(sight.verdict));
-      json["azimuth"] = answer.link.azimuthDegrees;
-      json["elevation"] = answer.link.elevationDegrees;
+      json["azimuth"] = answer.path.azimuthDegrees;
+      json["elevation"] = answer.path.elevationDegrees;
       json["clearance"] = sight.clearance ? Json(*sight.clearance) : Json();
       json["obstructionDistance"] = sight.obstruction ? Json(sight.obstruction->distance) : Json();
       if (wavelength_ > 0)
-        json["fresnel"] = answer.link.fresnel ? Json(answer.link.fresnel->fraction) : Json();
+        json["fresnel"] = answer.path.fresnel ? Json(answer.path.fresnel->fraction) : Json();
     }
     json["vertices"] = std::move(vertices);
     return json;
@@ -213,23 +213,23 @@ Result<Answer> answerWay(const Way& way, const ProfileArguments& a, const SightE
     answer.profile = profiles.along(*track, a.maxError);
     return answer;
   }
-  SightLink link{sightPlan(model, way.vertices[0]), sightPlan(model, way.vertices[1])};
+  SightPath path{sightPlan(model, way.vertices[0]), sightPlan(model, way.vertices[1])};
   for (int end = 0; end < 2; ++end) {
     const auto height = demHeight((*way.ends)[end], profiles.heights());
     if (!height) return tl::unexpected(height.error());
-    (end == 0 ? link.fromHeight : link.toHeight) = *height;
+    (end == 0 ? path.fromHeight : path.toHeight) = *height;
   }
-  auto line = sightLine(link, earth, model);
+  auto line = sightLine(path, earth, model);
   if (!line) return tl::unexpected(line.error());
   const auto engine = makeSightDescent(model);
-  SightLinkOptions options;
+  SightPathOptions options;
   options.sight.nodata = a.sight.nodata;
   options.frequencyMegahertz = a.frequency;
-  auto seen = answerLink(link, earth, *engine, profiles, options);  // always of full resolution
+  auto seen = answerPath(path, earth, *engine, profiles, options);  // always of full resolution
   if (!seen) return tl::unexpected(seen.error());
   answer.profile = profiles.along(line->track(), a.maxError);
   answer.line = std::move(*line);
-  answer.link = *seen;
+  answer.path = *seen;
   return answer;
 }
 
@@ -252,13 +252,13 @@ Status drawPng(const ProfileArguments& a, const Answer& answer, const TerrainMod
   options.title = fmt::format("{}, {:.6g} km", std::filesystem::path(a.model).filename().string(),
                               answer.profile.length / 1000);
   if (answer.line) {
-    const SightAnswer& s = answer.link.sight;
-    sight.emplace(ProfileSight{*answer.line, s, wavelength, a.fresnel, answer.link.fresnel});
+    const SightAnswer& s = answer.path.sight;
+    sight.emplace(ProfileSight{*answer.line, s, wavelength, a.fresnel, answer.path.fresnel});
     options.title += fmt::format(": {}", toString(s.verdict));
     if (s.clearance) options.subtitle = "clearance " + withUnit(*s.clearance, options.unit);
-    if (answer.link.fresnel)
+    if (answer.path.fresnel)
       options.subtitle += fmt::format(", {:.2f} of the first Fresnel zone at {:g} MHz",
-                                      answer.link.fresnel->fraction, a.frequency);
+                                      answer.path.fresnel->fraction, a.frequency);
     if (a.sight.earthName(model) == "ellipsoid")
       options.subtitle += fmt::format("; effective Earth's radius R / (1 - {:.4g})", a.sight.refraction);
   }

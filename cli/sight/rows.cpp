@@ -15,10 +15,10 @@ namespace {
 /// Beyond this many lines the samples of a raster are worth reading.
 constexpr std::size_t kManyLines = 1000;
 
-Result<SightLink> linkOf(const std::array<SightSite, 2>& row, const SurfaceHeights& heights) {
+Result<SightPath> pathOf(const std::array<SightSite, 2>& row, const SurfaceHeights& heights) {
   constexpr const char* kEnds[2] = {"the first end", "the second end"};
   constexpr const char* kOptions[2] = {"--observer-height", "--target-height"};
-  SightLink link;
+  SightPath path;
   for (int end = 0; end < 2; ++end) {
     const SightSite& site = row[end];
     if (!std::isfinite(site.xy.x + site.xy.y) && !std::isfinite(site.stated.x + site.stated.y))
@@ -29,10 +29,10 @@ Result<SightLink> linkOf(const std::array<SightSite, 2>& row, const SurfaceHeigh
       return failure(ErrorCode::usage, fmt::format("has no height; {} says one", kOptions[end]), kEnds[end]);
     const auto height = demHeight({site.xy, site.height->height, site.height->kind}, heights);
     if (!height) return tl::unexpected(height.error());
-    (end == 0 ? link.from : link.to) = sightPlan(heights.model(), site.xy);
-    (end == 0 ? link.fromHeight : link.toHeight) = *height;
+    (end == 0 ? path.from : path.to) = sightPlan(heights.model(), site.xy);
+    (end == 0 ? path.fromHeight : path.toHeight) = *height;
   }
-  return link;
+  return path;
 }
 
 std::string number(double value) {
@@ -49,12 +49,12 @@ SightRows SightRows::of(const SightPairs& pairs, const SurfaceHeights& heights) 
   SightRows all;
   all.rows.reserve(pairs.rows.size());
   for (const auto& row : pairs.rows) {
-    auto link = linkOf(row, heights);
-    if (link) {
-      all.rows.push_back({all.links.size(), std::nullopt});
-      all.links.push_back(*link);
+    auto path = pathOf(row, heights);
+    if (path) {
+      all.rows.push_back({all.paths.size(), std::nullopt});
+      all.paths.push_back(*path);
     } else {
-      all.rows.push_back({0, std::move(link.error())});
+      all.rows.push_back({0, std::move(path.error())});
     }
   }
   return all;
@@ -75,7 +75,7 @@ std::string SightCounts::text() const {
 
 const Error* SightResults::errorOf(std::size_t row) const {
   if (rows.rows[row].error) return &*rows.rows[row].error;
-  const auto& answer = answers[rows.rows[row].link];
+  const auto& answer = answers[rows.rows[row].path];
   return answer ? nullptr : &answer.error();
 }
 
@@ -104,7 +104,7 @@ SightCounts SightResults::counts() const {
 }
 
 std::string SightResults::textOf(std::size_t row) const {
-  const SightLinkAnswer& a = answerOf(row);
+  const SightPathAnswer& a = answerOf(row);
   const std::string& unit = model.georeference.verticalUnit;
   const auto placeText = [&](const SightPlace& place) {
     const Vec2 xy = model.toSource(place.plan);
@@ -148,8 +148,8 @@ Json SightResults::jsonOf(std::size_t row) const {
     json["error"] = error->describe();
     return json;
   }
-  const SightLinkAnswer& a = answerOf(row);
-  const SightLink& link = rows.links[rows.rows[row].link];
+  const SightPathAnswer& a = answerOf(row);
+  const SightPath& path = rows.paths[rows.rows[row].path];
   const auto placeJson = [&](const SightPlace& place) {
     const Vec2 xy = model.toSource(place.plan);
     return Json{{"x", xy.x},
@@ -158,8 +158,8 @@ Json SightResults::jsonOf(std::size_t row) const {
                 {"terrainHeight", numberOrNull(place.terrainHeight)},
                 {"lineHeight", place.sightHeight}};
   };
-  json["fromHeight"] = link.fromHeight;
-  json["toHeight"] = link.toHeight;
+  json["fromHeight"] = path.fromHeight;
+  json["toHeight"] = path.toHeight;
   json["verdict"] = std::string(toString(a.sight.verdict));
   json["touching"] = a.sight.isTouching;
   json["distance"] = a.distanceMetres;
@@ -206,19 +206,19 @@ PointAttributes SightResults::columns() const {
   for (std::size_t i = 0; i < rows.count(); ++i) {
     const auto& [from, to] = pairs.rows[i];
     const Error* error = errorOf(i);
-    const SightLink link = error ? SightLink{} : rows.links[rows.rows[i].link];
+    const SightPath path = error ? SightPath{} : rows.paths[rows.rows[i].path];
     table.add(number(from.stated.x));
     table.add(number(from.stated.y));
-    table.add(error ? "" : number(link.fromHeight));
+    table.add(error ? "" : number(path.fromHeight));
     table.add(number(to.stated.x));
     table.add(number(to.stated.y));
-    table.add(error ? "" : number(link.toHeight));
+    table.add(error ? "" : number(path.toHeight));
     if (error) {
       for (int k = 0; k < 12 + (hasTolerance ? 1 : 0) + (hasFresnel ? 2 : 0); ++k) table.add({});
       table.add(error->describe());
       continue;
     }
-    const SightLinkAnswer& a = answerOf(i);
+    const SightPathAnswer& a = answerOf(i);
     const auto& obstruction = a.sight.obstruction;
     const Vec2 xy =
         obstruction ? toStated(model.toSource(obstruction->plan)).value_or(Vec2{NAN, NAN}) : Vec2{};

@@ -11,15 +11,15 @@
 #include "cli/session/session.h"
 #include "io/crs/transform.h"
 #include "io/table/sight_pairs.h"
-#include "terrain/sight/links.h"
+#include "terrain/sight/paths.h"
 
 namespace arete {
 
-/// The links that rows of a file state; a row that states none has a reason.
+/// The paths that rows of a file state; a row that states none has a reason.
 struct SightRows {
-  std::vector<SightLink> links;
+  std::vector<SightPath> paths;
   struct Row {
-    std::size_t link = 0;  ///< meaningless with an error
+    std::size_t path = 0;  ///< meaningless with an error
     std::optional<Error> error;
   };
   std::vector<Row> rows;
@@ -41,7 +41,7 @@ struct SightCounts {
 struct SightResults {
   const SightPairs& pairs;
   const SightRows& rows;
-  std::span<const Result<SightLinkAnswer>> answers;  ///< one per link
+  std::span<const Result<SightPathAnswer>> answers;  ///< one per path
   const TerrainModel& model;
   bool hasFresnel = false, hasTolerance = false;
   double fresnel = kUsualFresnel;
@@ -55,8 +55,8 @@ struct SightResults {
   std::vector<std::array<Vec2, 2>> ends() const;
 
  private:
-  const SightLinkAnswer& answerOf(std::size_t row) const { return *answers[rows.rows[row].link]; }
-  bool isFresnelClear(const SightLinkAnswer& answer) const {
+  const SightPathAnswer& answerOf(std::size_t row) const { return *answers[rows.rows[row].path]; }
+  bool isFresnelClear(const SightPathAnswer& answer) const {
     return answer.fresnel && answer.sight.verdict == SightVerdict::visible &&
            answer.fresnel->fraction >= fresnel;
   }

@@ -23,7 +23,7 @@
 #include "io/dem/raster_writer.h"
 #include "io/extract/query_footprint.h"
 #include "io/table/sight_pairs.h"
-#include "terrain/sight/links.h"
+#include "terrain/sight/paths.h"
 #include "terrain/viewshed/many.h"
 #include "terrain/viewshed/viewshed.h"
 

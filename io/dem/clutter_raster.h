@@ -6,7 +6,7 @@
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
 #include "terrain/model/terrain_model.h"
-#include "terrain/sight/links.h"
+#include "terrain/sight/paths.h"
 
 namespace arete {
 

@@ -5,7 +5,7 @@
 
 #include "io/crs/transform.h"
 #include "io/dem/raster_reader.h"
-#include "terrain/sight/links.h"
+#include "terrain/sight/paths.h"
 
 namespace arete {
 

@@ -51,11 +51,11 @@ SightTool::SightTool(const TerrainModel& model, const Profiles& profiles)
 
 Result<SightPicture> SightTool::between(const TerrainPick& from, double fromAbove, const TerrainPick& to,
                                         double toAbove) const {
-  const SightLink link{sightPlan(model_, from.xy), sightPlan(model_, to.xy), from.height + fromAbove,
+  const SightPath path{sightPlan(model_, from.xy), sightPlan(model_, to.xy), from.height + fromAbove,
                        to.height + toAbove};
-  const Result<SightLine> line = sightLine(link, *earth_, model_);
+  const Result<SightLine> line = sightLine(path, *earth_, model_);
   if (!line) return tl::unexpected(line.error());
-  const auto answer = answerLink(link, *earth_, *engine_, profiles_, {});
+  const auto answer = answerPath(path, *earth_, *engine_, profiles_, {});
   if (!answer) return tl::unexpected(answer.error());
 
   SightPicture picture{.answer = *answer, .points = {}, .obstruction = {}, .pointsBefore = 0, .text = {}};

@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "terrain/sight/links.h"
+#include "terrain/sight/paths.h"
 #include "viewer/window/picking.h"
 
 namespace arete {
 
 /// A line of sight between two picks, as it is drawn and told.
 struct SightPicture {
-  SightLinkAnswer answer;
+  SightPathAnswer answer;
   std::vector<Vec3> points;         ///< along the line, metric, heights as they are; about a hundred
   std::optional<Vec3> obstruction;  ///< on the line
   std::size_t pointsBefore = 0;     ///< of the points, those up to the obstruction; all without one
@@ -27,7 +27,7 @@ class SightTool {
   /// Preconditions: model and profiles outlive this.
   SightTool(const TerrainModel& model, const Profiles& profiles);
 
-  /// Heights above the terrain in the DEM's vertical unit. Errors: those of answerLink().
+  /// Heights above the terrain in the DEM's vertical unit. Errors: those of answerPath().
   Result<SightPicture> between(const TerrainPick& from, double fromAbove, const TerrainPick& to,
                                double toAbove) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "terrain/sight/links.h"
+#include "terrain/sight/paths.h"
 
 #include <gtest/gtest.h>
 
@@ -26,15 +26,15 @@ TerrainModel fractal() {
   return {};
 }
 
-std::vector<SightLink> someLinks(int count, double height) {
+std::vector<SightPath> somePaths(int count, double height) {
   Random random(3);
-  std::vector<SightLink> links;
+  std::vector<SightPath> paths;
   for (int i = 0; i < count; ++i)
-    links.push_back({{random.unit() * 63, random.unit() * 63},
+    paths.push_back({{random.unit() * 63, random.unit() * 63},
                      {random.unit() * 63, random.unit() * 63},
                      height * random.unit(),
                      height * random.unit()});
-  return links;
+  return paths;
 }
 
 /// A sphere, on which lines east along row 0 are known.
@@ -50,22 +50,22 @@ class Sphere final : public SightEarth {
   }
 };
 
-TEST(SightLinks, AnswerManyAsTheyAnswerOne) {
+TEST(SightPaths, AnswerManyAsTheyAnswerOne) {
   const TerrainModel model = fractal();
   const auto earth = makePlaneEarth(model);
   const Profiles profiles(model);
   const auto engine = makeSightDescent(model);
-  SightLinkOptions options;
+  SightPathOptions options;
   options.frequencyMegahertz = 900;
-  const auto links = someLinks(300, 200);
+  const auto paths = somePaths(300, 200);
   for (const int threads : {1, 4}) {
     RunContext context;
     context.threads = threads;
-    const auto all = answerLinks(links, *earth, *engine, profiles, options, context);
+    const auto all = answerPaths(paths, *earth, *engine, profiles, options, context);
     ASSERT_TRUE(all);
-    ASSERT_EQ(all->size(), links.size());
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      const auto one = answerLink(links[i], *earth, *engine, profiles, options);
+    ASSERT_EQ(all->size(), paths.size());
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      const auto one = answerPath(paths[i], *earth, *engine, profiles, options);
       ASSERT_TRUE(one && (*all)[i]);
       EXPECT_EQ((*all)[i]->sight.verdict, one->sight.verdict);
       EXPECT_EQ((*all)[i]->sight.clearance, one->sight.clearance);
@@ -76,17 +76,17 @@ TEST(SightLinks, AnswerManyAsTheyAnswerOne) {
   }
 }
 
-TEST(SightLinks, WithoutClutterAProfileIsJudgedAsTheEnginesJudge) {
+TEST(SightPaths, WithoutClutterAProfileIsJudgedAsTheEnginesJudge) {
   const TerrainModel model = fractal();
   const auto earth = makePlaneEarth(model);
   const Profiles profiles(model);
   const auto engine = makeSightDescent(model);
-  SightLinkOptions plain, bare, wood;
+  SightPathOptions plain, bare, wood;
   bare.clutter.height = [](Vec2) { return 0.0; };
   wood.clutter.height = [](Vec2) { return 12.0; };
-  for (const SightLink& link : someLinks(300, 300)) {
-    const auto expected = answerLink(link, *earth, *engine, profiles, plain),
-               found = answerLink(link, *earth, *engine, profiles, bare);
+  for (const SightPath& path : somePaths(300, 300)) {
+    const auto expected = answerPath(path, *earth, *engine, profiles, plain),
+               found = answerPath(path, *earth, *engine, profiles, bare);
     ASSERT_TRUE(expected && found);
     EXPECT_EQ(found->sight.verdict, expected->sight.verdict);
     ASSERT_EQ(found->sight.clearance.has_value(), expected->sight.clearance.has_value());
@@ -97,13 +97,13 @@ TEST(SightLinks, WithoutClutterAProfileIsJudgedAsTheEnginesJudge) {
       EXPECT_NEAR(found->sight.obstruction->distance, expected->sight.obstruction->distance, 1e-5);
     }
     // The same everywhere, it is as if the line were lower; at the ends themselves there is no clutter.
-    const auto high = answerLink(link, *earth, *engine, profiles, wood);
+    const auto high = answerPath(path, *earth, *engine, profiles, wood);
     ASSERT_TRUE(high);
     EXPECT_NEAR(*high->sight.clearance, *expected->sight.clearance - 12, 1e-7);
   }
 }
 
-TEST(SightLinks, ElevationsAreThoseOfTriangles) {
+TEST(SightPaths, ElevationsAreThoseOfTriangles) {
   RasterHeightfield field;
   field.columns = field.rows = 60;
   field.heights.assign(3600, 0);
@@ -111,20 +111,20 @@ TEST(SightLinks, ElevationsAreThoseOfTriangles) {
   const Profiles profiles(model);
   const auto engine = makeSightDescent(model);
   const Sphere earth;
-  const SightLink link{{1, 1}, {51, 1}, 300, 2000};
-  const auto answer = answerLink(link, earth, *engine, profiles, {});
+  const SightPath path{{1, 1}, {51, 1}, 300, 2000};
+  const auto answer = answerPath(path, earth, *engine, profiles, {});
   ASSERT_TRUE(answer);
   const double angle = 50000 / 6371e3, a = 6371e3 + 300, b = 6371e3 + 2000;
   const double expected = std::atan2(b * std::cos(angle) - a, b * std::sin(angle)) * 180 / std::numbers::pi;
   EXPECT_NEAR(answer->elevationDegrees, expected, 1e-9);
   EXPECT_EQ(answer->distanceMetres, 50000);
-  const auto up = answerLink({{1, 1}, {1, 1}, 300, 2000}, *makePlaneEarth(model), *engine, profiles, {});
+  const auto up = answerPath({{1, 1}, {1, 1}, 300, 2000}, *makePlaneEarth(model), *engine, profiles, {});
   ASSERT_TRUE(up);
   EXPECT_EQ(up->elevationDegrees, 90);
   EXPECT_EQ(up->sight.verdict, SightVerdict::visible);
 }
 
-TEST(SightLinks, RefuseHeightsThatAreNone) {
+TEST(SightPaths, RefuseHeightsThatAreNone) {
   const TerrainModel model = fractal();
   const Sphere earth;
   EXPECT_FALSE(sightLine({{1, 1}, {5, 5}, std::nan(""), 0}, earth, model));
@@ -132,7 +132,7 @@ TEST(SightLinks, RefuseHeightsThatAreNone) {
   EXPECT_TRUE(sightLine({{1, 1}, {5, 5}, 0, -1e4}, earth, model));
 }
 
-TEST(SightLinks, BringLongitudesToTheTurnOfTheDem) {
+TEST(SightPaths, BringLongitudesToTheTurnOfTheDem) {
   TerrainModel model;
   model.columns = model.rows = 21;
   model.georeference.isGeographic = true;

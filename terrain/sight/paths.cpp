@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Clutter changes the terrain, which the engines have prepared for: its lines are judged over whole profiles.
-#include "terrain/sight/links.h"
+#include "terrain/sight/paths.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -19,7 +19,7 @@
 namespace arete {
 namespace {
 
-constexpr std::size_t kLinksPerTask = 8;
+constexpr std::size_t kPathsPerTask = 8;
 
 /// The profile with the clutter on it: steps where it begins and ends.
 Profile withClutter(const Profile& profile, const SightClutter& clutter) {
@@ -105,24 +105,24 @@ Vec2 sightPlan(const TerrainModel& model, Vec2 xy) {
   return model.isRaster ? sightEnd(model, plan, SurfaceHeights::margin(model)) : plan;
 }
 
-Result<SightLine> sightLine(const SightLink& link, const SightEarth& earth, const TerrainModel& model) {
-  auto track = earth.track(link.from, link.to);
+Result<SightLine> sightLine(const SightPath& path, const SightEarth& earth, const TerrainModel& model) {
+  auto track = earth.track(path.from, path.to);
   if (!track) return tl::unexpected(track.error());
   const double unit = model.georeference.verticalUnitMetres;
-  if (const Status status = checkSightHeights(*track, link.fromHeight, link.toHeight, unit); !status)
+  if (const Status status = checkSightHeights(*track, path.fromHeight, path.toHeight, unit); !status)
     return tl::unexpected(status.error());
-  return SightLine(std::move(*track), link.fromHeight, link.toHeight, unit);
+  return SightLine(std::move(*track), path.fromHeight, path.toHeight, unit);
 }
 
-Result<SightLinkAnswer> answerLink(const SightLink& link, const SightEarth& earth, const SightEngine& engine,
-                                   const Profiles& profiles, const SightLinkOptions& options) {
-  const auto line = sightLine(link, earth, profiles.heights().model());
+Result<SightPathAnswer> answerPath(const SightPath& path, const SightEarth& earth, const SightEngine& engine,
+                                   const Profiles& profiles, const SightPathOptions& options) {
+  const auto line = sightLine(path, earth, profiles.heights().model());
   if (!line) return tl::unexpected(line.error());
   const SightTrack& track = line->track();
-  SightLinkAnswer answer;
+  SightPathAnswer answer;
   answer.distanceMetres = line->length();
   answer.azimuthDegrees = track.azimuthDegrees;
-  const double unit = line->heightUnitMetres(), from = link.fromHeight * unit, to = link.toHeight * unit;
+  const double unit = line->heightUnitMetres(), from = path.fromHeight * unit, to = path.toHeight * unit;
   constexpr double kDegrees = 180 / std::numbers::pi;
   if (line->length() > 0) {
     answer.elevationDegrees =
@@ -141,19 +141,19 @@ Result<SightLinkAnswer> answerLink(const SightLink& link, const SightEarth& eart
   return answer;
 }
 
-Result<std::vector<Result<SightLinkAnswer>>> answerLinks(std::span<const SightLink> links,
+Result<std::vector<Result<SightPathAnswer>>> answerPaths(std::span<const SightPath> paths,
                                                          const SightEarth& earth, const SightEngine& engine,
                                                          const Profiles& profiles,
-                                                         const SightLinkOptions& options,
+                                                         const SightPathOptions& options,
                                                          const RunContext& context) {
-  std::vector<Result<SightLinkAnswer>> answers(links.size(), SightLinkAnswer{});
-  SharedProgress progress(context, "lines of sight", links.size());
+  std::vector<Result<SightPathAnswer>> answers(paths.size(), SightPathAnswer{});
+  SharedProgress progress(context, "lines of sight", paths.size());
   context.report("lines of sight", 0);
   withThreads(context, [&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, links.size(), kLinksPerTask),
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, paths.size(), kPathsPerTask),
                       [&](const auto& range) {
                         for (std::size_t i = range.begin(); i < range.end() && !context.cancelled(); ++i)
-                          answers[i] = answerLink(links[i], earth, engine, profiles, options);
+                          answers[i] = answerPath(paths[i], earth, engine, profiles, options);
                         progress.add(range.size());
                       });
   });

@@ -18,7 +18,7 @@
 namespace arete {
 
 /// One line of sight that is asked for.
-struct SightLink {
+struct SightPath {
   Vec2 from, to;                        ///< plan coordinates; see sightPlan()
   double fromHeight = 0, toHeight = 0;  ///< in the DEM's vertical unit, from the DEM's own zero
 };
@@ -36,14 +36,14 @@ struct SightClutter {
   double freeMetres = 0;  ///< none this close to either end, measured along the ground
 };
 
-struct SightLinkOptions {
+struct SightPathOptions {
   SightOptions sight;
   double frequencyMegahertz = 0;  ///< > 0: the Fresnel zone as well, at full resolution
   SightClutter clutter;           ///< answered from full profiles; no tolerance then
 };
 
-/// What a radio planner wants to know of a link.
-struct SightLinkAnswer {
+/// What a radio planner wants to know of a path.
+struct SightPathAnswer {
   SightAnswer sight;
   double distanceMetres = 0;    ///< along the ground
   double azimuthDegrees = 0;    ///< at the first end, clockwise from north
@@ -51,20 +51,20 @@ struct SightLinkAnswer {
   std::optional<FresnelClearance> fresnel;
 };
 
-/// A line over the Earth between the ends of a link. Errors: those of SightEarth::track(); invalidData for
+/// A line over the Earth between the ends of a path. Errors: those of SightEarth::track(); invalidData for
 /// heights that are not finite or so far below the ground that no line is straight.
-Result<SightLine> sightLine(const SightLink& link, const SightEarth& earth, const TerrainModel& model);
+Result<SightLine> sightLine(const SightPath& path, const SightEarth& earth, const TerrainModel& model);
 
-/// Answers for one link. `profiles` is needed for a Fresnel zone and for clutter. O(engine).
-Result<SightLinkAnswer> answerLink(const SightLink& link, const SightEarth& earth, const SightEngine& engine,
-                                   const Profiles& profiles, const SightLinkOptions& options);
+/// Answers for one path. `profiles` is needed for a Fresnel zone and for clutter. O(engine).
+Result<SightPathAnswer> answerPath(const SightPath& path, const SightEarth& earth, const SightEngine& engine,
+                                   const Profiles& profiles, const SightPathOptions& options);
 
-/// Answers for many, in their order, in parallel, the same for any number of threads. A link that has no line
+/// Answers for many, in their order, in parallel, the same for any number of threads. A path that has no line
 /// has an error of its own. Errors: interrupted.
-Result<std::vector<Result<SightLinkAnswer>>> answerLinks(std::span<const SightLink> links,
+Result<std::vector<Result<SightPathAnswer>>> answerPaths(std::span<const SightPath> paths,
                                                          const SightEarth& earth, const SightEngine& engine,
                                                          const Profiles& profiles,
-                                                         const SightLinkOptions& options,
+                                                         const SightPathOptions& options,
                                                          const RunContext& context = {});
 
 }  // namespace arete
