@@ -15,13 +15,14 @@
 
 namespace arete {
 
-/// What is recorded of a new triangle: its error and bounds, coded.
+/// What is recorded of a new triangle: its error and signed bounds, coded by the recorder's OutwardScale.
 struct FloorCodes {
   std::uint16_t error = 0, below = 0, above = 0;
 };
 
-/// One vertex removal, read bottom-up: the star of a vertex (the node's ceiling) gives way to a triangulation
-/// of the hole (its floor). Ids are the caller's: vertices as it numbers them, triangles by birth.
+/// One vertex removal, from fine to coarse: the star of a vertex (the node's ceiling) is replaced by a
+/// triangulation of the hole (its floor). Vertices have the caller's ids, triangles recorder ids
+/// (MtRecorder).
 struct VertexRemoval {
   std::uint32_t vertex = 0;
   /// The star's link, counter-clockwise: k vertices of a closed star, k + 1 of an open one with k triangles.
@@ -29,88 +30,98 @@ struct VertexRemoval {
   bool isOpen = false;
   /// Metric positions of the link's vertices, then of the vertex itself.
   std::span<const Vec3> metricPositions;
-  /// Birth ids of the star's triangles (vertex, link[i], link[i + 1]).
+  /// Recorder ids of the star's triangles (vertex, link[i], link[i + 1]).
   std::span<const std::uint32_t> ceiling;
-  /// For each, the removal that bore it (kNone for triangles of the finest triangulation).
+  /// For each, the removal that created it (kNone for triangles of the finest triangulation).
   std::span<const std::uint32_t> ceilingCreator;
-  /// Per new triangle. Their birth ids are consecutive, from firstBirth(i).
+  /// Of each new triangle. Their recorder ids are consecutive, from firstFloorTriangle(i).
   std::span<const FloorCodes> floor;
 };
 
 /// A triangle that no removal took away: it belongs to the root.
 struct SurvivingTriangle {
-  std::uint32_t birth = 0;
+  std::uint32_t id = 0;  ///< its recorder id
   std::array<std::uint32_t, 3> corners{};
 };
 
-/// Records vertex removals from the finest triangulation down and turns them into a finished
-/// multitriangulation.
+/// Records vertex removals from the finest triangulation to the coarsest and turns them into a finished
+/// multitriangulation [DeFlorianiMagilloPuppo1998].
 ///
-/// Removals come in batches (levels of a piece of the ground), announced by any thread; the removals of a
-/// batch may be recorded in any order and by any threads. The result depends only on how the batches follow
-/// each other by their BatchOrder, and on the order in which each lists its removals. Births: the finest
-/// triangulation's triangles are 0 .. F-1, each removal bears link.size() - 2 more.
+/// Removals come in batches (the levels of a tile), which any thread announces. The removals of a batch may
+/// be recorded in any order and by any threads. The result depends only on the BatchOrder of the batches, and
+/// on the order in which each lists its removals.
 ///
-/// Memory: about 95 bytes per removal while recording, about 165 at most while finishing, the result of
-/// 130 among them.
+/// Recorder ids number the triangles while recording: the finest triangulation's are 0 .. F-1, and each
+/// removal adds link.size() - 2 more, in the order in which removals were announced. finish() renumbers all
+/// of them.
+///
+/// Memory: about 95 bytes per removal while recording; at most about 165 in finish(), including the result of
+/// 130.
 class MtRecorder {
  public:
   static constexpr std::uint32_t kNone = MultiTriangulation::kNone;
 
-  /// Where a batch stands among the others: by its group, then by its part, and among those of the same part
-  /// as they were announced, which is one after the other. The removals that bore a batch's ceilings are of
-  /// earlier batches.
+  /// The position of a batch among the others: by its group, then by its part. Batches of equal order follow
+  /// each other as they were announced, and one thread announces them. The removals that created a batch's
+  /// ceilings belong to earlier batches.
   struct BatchOrder {
     std::uint32_t group = 0, part = 0;
     auto operator<=>(const BatchOrder&) const = default;
   };
 
-  /// mostRemovals: no more will come.
+  /// @param finestTriangles The number F of triangles of the finest triangulation.
+  /// @param mostRemovals No more than these will be announced. Reserves addresses, takes no memory.
+  /// @param scale Of the codes that are recorded.
+  /// @param metric The frame of the metric positions that are recorded.
   MtRecorder(std::uint32_t finestTriangles, std::uint32_t mostRemovals, OutwardScale scale,
              MetricFrame metric);
 
   const OutwardScale& scale() const { return scale_; }
 
-  /// Announces removals, by the sizes of their links, in order. Returns the index of the first; the others
-  /// follow. Thread-safe.
+  /// Announces removals. Thread-safe.
+  /// @param linkSizes The sizes of their links, in order.
+  /// @return The index of the first; the others follow.
   std::uint32_t beginBatch(BatchOrder order, std::span<const std::uint8_t> linkSizes);
-  /// The birth id of the first floor triangle of a removal.
-  std::uint32_t firstBirth(std::uint32_t removal) const {
+  /// The recorder id of the first floor triangle of a removal.
+  std::uint32_t firstFloorTriangle(std::uint32_t removal) const {
     return finestTriangles_ + slotBegin_[removal] - 2 * removal;
   }
-  /// How many slots, one for each vertex of a link, come before those of a removal, also of the one after
-  /// the last of a batch.
+  /// The number of slots (one per link vertex) of all removals before this one. Also of the index after the
+  /// last removal of a batch.
   std::uint32_t firstSlot(std::uint32_t removal) const { return slotBegin_[removal]; }
-  /// What was recorded of a triangle; of the finest triangulation's, zeros. The removal that bore it is of an
-  /// earlier batch.
-  FloorCodes codes(std::uint32_t birth) const {
-    return birth < finestTriangles_ ? FloorCodes{} : floor_[birth - finestTriangles_];
+  /// The codes recorded of a triangle; zeros for triangles of the finest triangulation. Precondition: the
+  /// removal that created it belongs to an earlier batch.
+  FloorCodes codes(std::uint32_t recorderId) const {
+    return recorderId < finestTriangles_ ? FloorCodes{} : floor_[recorderId - finestTriangles_];
   }
-  /// Records an announced removal: first what it is, then its saturated error and sphere. Thread-safe for
-  /// different removals of a batch; the removals that bore its ceiling are of earlier batches. Precondition:
-  /// link.size() as announced, 3 <= size.
+  /// Records an announced removal: record() all of it but the saturated error and the sphere, which
+  /// saturate() computes. Both are thread-safe for different removals of a batch. Preconditions: link.size()
+  /// as announced, at least 3; the removals that created its ceiling belong to earlier batches, which are
+  /// complete.
   void record(std::uint32_t removal, const VertexRemoval& what);
   void saturate(std::uint32_t removal, const VertexRemoval& what);
 
-  /// Asks for what saturate() and codes() read of a triangle of the ceiling and of the removal that bore it.
-  [[gnu::always_inline]] void prefetch(std::uint32_t creator, std::uint32_t birth) const {
+  /// Prefetches what saturate() and codes() read of a ceiling triangle and of the removal that created it.
+  [[gnu::always_inline]] void prefetch(std::uint32_t creator, std::uint32_t recorderId) const {
     if (creator == kNone) return;
     __builtin_prefetch(&saturated_[creator]);
     __builtin_prefetch(&sphere_[creator]);
-    __builtin_prefetch(&floor_[birth - finestTriangles_]);
+    __builtin_prefetch(&floor_[recorderId - finestTriangles_]);
   }
 
-  /// The finished MT. `vertexOrder`: on return, the caller's vertex of every MT vertex.
-  /// `rootVertices`: the surviving vertices, in the order they shall have; `surviving`: the surviving
-  /// triangles. The MT's vertices (MtArrays::vertices) are left to the caller: see withVertices(). Leaves the
-  /// recorder empty. O(triangles), parallel; deterministic. `clock` may be null: see RunContext.
+  /// The finished MT, without vertex positions (MtArrays::vertices): the caller adds them by withVertices().
+  /// Leaves the recorder empty. O(triangles), parallel; the result does not depend on the threads.
+  /// @param rootVertices The surviving vertices, in the order that the MT gives them.
+  /// @param surviving The surviving triangles.
+  /// @param callerVertexCount All of the caller's vertex ids are below it.
+  /// @param vertexOrder Receives the caller's vertex of every MT vertex.
+  /// @param clock May be null (RunContext::clock).
   MultiTriangulation finish(std::span<const std::uint32_t> rootVertices,
                             std::span<const SurvivingTriangle> surviving, std::uint32_t callerVertexCount,
                             UninitializedVector<std::uint32_t>& vertexOrder, StageClock* clock = nullptr);
 
  private:
-  /// The removals in the order of nodes: by falling band, of one the later ones first. Parallel.
-  UninitializedVector<std::uint32_t> byFallingBand();
+  class Finishing;
 
   std::uint32_t finestTriangles_;
   OutwardScale scale_;
@@ -120,7 +131,7 @@ class MtRecorder {
     BatchOrder order;
     std::uint32_t first, size;
   };
-  std::mutex growing_;  // held by who adds to what follows
+  std::mutex growing_;  // guards the size of everything below
   std::vector<Batch> batches_;
   std::uint32_t removals_ = 0;
 
@@ -129,11 +140,12 @@ class MtRecorder {
   ChunkedArray<std::uint16_t> saturated_;  // per removal
   ChunkedArray<Sphere> sphere_;            // per removal
   ChunkedArray<std::uint32_t> link_;       // per slot
-  ChunkedArray<std::uint32_t> ceiling_;    // per slot; kNone in the last slot of an open star
-  ChunkedArray<FloorCodes> floor_;         // per birth, from finestTriangles_ on
+  ChunkedArray<std::uint32_t> ceiling_;    // per slot: recorder ids; kNone in the last slot of an open star
+  ChunkedArray<FloorCodes> floor_;         // per floor triangle, in recorder order
 };
 
-/// The same MT with the given vertices (and an owner for them beside its own).
+/// The same MT with the given vertices.
+/// @param owner Keeps the vertices alive, beside the MT's own owner.
 MultiTriangulation withVertices(const MultiTriangulation& mt, const VertexArrays& vertices,
                                 std::shared_ptr<const void> owner);
 

@@ -59,7 +59,7 @@ class VertexRemover {
     lap.was(RemovalTimes::rewriting);
     s_.recorder.saturate(removal, what);
     lap.was(RemovalTimes::saturation);
-    refill(s_.mesh, star, floor.triangulation, joins, s_.recorder.firstBirth(removal), removal, seams);
+    refill(s_.mesh, star, floor.triangulation, joins, s_.recorder.firstFloorTriangle(removal), removal, seams);
     hole.settle(floor.triangulation);
     tellLink(v, star);
     s_.mesh.vertexHalfedge[v] = LiveMesh::kNone;
