@@ -229,33 +229,34 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   if (Status ok = arguments.criterion.check(); !ok) return ok;
   const Result<AmtFile> file = openAmt(arguments.model);
   if (!file) return tl::unexpected(file.error());
-  Result<TerrainModel> model = outlineForPlaces(*file, arguments.criterion, session);
-  if (!model) return tl::unexpected(model.error());
-  auto requests = requestsOf(arguments, *model);
+  const Result<TerrainModel> outline = outlineForPlaces(*file, arguments.criterion, session);
+  if (!outline) return tl::unexpected(outline.error());
+  auto requests = requestsOf(arguments, *outline);
   if (!requests) return tl::unexpected(requests.error());
-  if (Status outputs = checkOutputs(*requests, arguments, *model); !outputs) return outputs;
-  const auto region = regionOf(arguments, *model, session);
+  if (Status outputs = checkOutputs(*requests, arguments, *outline); !outputs) return outputs;
+  const auto region = regionOf(arguments, *outline, session);
   if (!region) return tl::unexpected(region.error());
   for (ExtractRequest& request : *requests) request.region = *region;
-  model = readForExtract(*file, *requests, *model, session.context());
-  if (!model) return tl::unexpected(model.error());
+  Result<PartAndCut> part = readForExtract(*file, *requests, *outline, session.context());
+  if (!part) return tl::unexpected(part.error());
 
-  TinExtractor extractor(*model, arguments.model,
+  const std::string& verticalUnit = outline->georeference.verticalUnit;
+  TinExtractor extractor(std::move(part->model), arguments.model,
                          [&file](const RunContext& context) { return file->read({}, context); });
   Json exports = Json::array();
   Status promise;
   for (const ExtractRequest& request : *requests) {
-    const Result<ExtractedTin> tin = extractor.extract(request, session.context());
+    const Result<ExtractedTin> tin =
+        extractor.extract(request, session.context(), std::exchange(part->cut, std::nullopt));
     if (!tin) return tl::unexpected(tin.error());
-    warnOfRounding(*tin, request.output, model->georeference.verticalUnit, session);
-    session.say(textOf(request, *tin, model->georeference.verticalUnit));
-    exports.push_back(jsonOf(request, *tin, model->isRaster));
+    warnOfRounding(*tin, request.output, verticalUnit, session);
+    session.say(textOf(request, *tin, verticalUnit));
+    exports.push_back(jsonOf(request, *tin, outline->isRaster));
     if (!tin->isKept && promise)
       promise = failure(ErrorCode::brokenPromise, brokenPromise(*tin), request.output);
   }
-  session.answer({{"model", arguments.model},
-                  {"verticalUnit", model->georeference.verticalUnit},
-                  {"exports", std::move(exports)}});
+  session.answer(
+      {{"model", arguments.model}, {"verticalUnit", verticalUnit}, {"exports", std::move(exports)}});
   return promise;
 }
 

@@ -130,7 +130,8 @@ const TinExtractor::Samples& TinExtractor::samples() {
   return *samples_;
 }
 
-Result<TinExport> TinExtractor::takeTin(const ExtractRequest& request, double reserve, ExtractedTin& tin,
+Result<TinExport> TinExtractor::takeTin(const ExtractRequest& request, double reserve,
+                                        std::optional<Cut> taken, ExtractedTin& tin,
                                         const RunContext& context) const {
   const ExtractCriterion& c = request.criterion;
   const auto describe = [&](const Cut& cut) {
@@ -160,10 +161,13 @@ Result<TinExport> TinExtractor::takeTin(const ExtractRequest& request, double re
   }
   const auto criterion = engineCriterion(request.criterion, request.region, reserve, model_);
   if (!criterion) return tl::unexpected(criterion.error());
-  const auto options = engineOptions(request.criterion, model_);
-  if (!options) return tl::unexpected(options.error());
-  Result<Cut> taken = takeCut(model_.mt, **criterion, *options, context);
-  if (!taken) return tl::unexpected(taken.error());
+  if (!taken) {
+    const auto options = engineOptions(request.criterion, model_);
+    if (!options) return tl::unexpected(options.error());
+    Result<Cut> cut = takeCut(model_.mt, **criterion, *options, context);
+    if (!cut) return tl::unexpected(cut.error());
+    taken = std::move(*cut);
+  }
   if (c.fit == ExtractFit::error) return finish(fitLeastError(model_, *taken, {}, context));
   if (c.camera) tin.pixels = worstSeverity(model_.mt, **criterion, *taken);
   // Where a triangle passed by the bound over a node's ball, its own bound may be the looser of the two.
@@ -173,10 +177,11 @@ Result<TinExport> TinExtractor::takeTin(const ExtractRequest& request, double re
 }
 
 Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, double reserve,
-                                               ExtractedTin& tin, const RunContext& context) const {
-  Result<TinExport> taken = takeTin(request, reserve, tin, context);
-  if (!taken) return tl::unexpected(taken.error());
-  TinExport& exported = *taken;
+                                               std::optional<Cut> taken, ExtractedTin& tin,
+                                               const RunContext& context) const {
+  Result<TinExport> made = takeTin(request, reserve, std::move(taken), tin, context);
+  if (!made) return tl::unexpected(made.error());
+  TinExport& exported = *made;
   if (isGeoTiffName(request.output)) {
     tin.format = {.name = "GeoTIFF",
                   .saysCrs = !model_.georeference.crsWkt.empty(),
@@ -206,9 +211,10 @@ Status TinExtractor::deepen(double maxError, double reserve, const RunContext& c
   return {};
 }
 
-Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const RunContext& context) {
+Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const RunContext& context,
+                                           std::optional<Cut> taken) {
   ExtractedTin tin;
-  Result<TriangleMesh> mesh = cutAndWrite(request, 0, tin, context);
+  Result<TriangleMesh> mesh = cutAndWrite(request, 0, std::move(taken), tin, context);
   if (!mesh) return tl::unexpected(mesh.error());
   // Twice: another cut is rounded a little differently. measure() itself forgives a millionth.
   const double reserve = 2 * tin.format.heightRounding;
@@ -216,7 +222,7 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
   if (reserve > kForgivenRounding && request.criterion.promisesMaxError() && reserve < promised &&
       tin.storedError + reserve > promised) {
     if (Status deep = deepen(promised, reserve, context); !deep) return tl::unexpected(deep.error());
-    mesh = cutAndWrite(request, reserve, tin, context);
+    mesh = cutAndWrite(request, reserve, std::nullopt, tin, context);
     if (!mesh) return tl::unexpected(mesh.error());
   }
   // A fit is not believed on its word.

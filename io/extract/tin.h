@@ -10,6 +10,7 @@
 
 #include "engine/base/result.h"
 #include "engine/criteria/region.h"
+#include "engine/cut/cut.h"
 #include "engine/parallel/run_context.h"
 #include "io/exchange/export_tin.h"
 #include "io/extract/certificate.h"
@@ -28,56 +29,63 @@ struct ExtractRequest {
   std::string errorRaster;  ///< GeoTIFF of z_TIN - z_DEM; empty = none
 };
 
+/// What extract() made of a request.
 struct ExtractedTin {
   std::uint64_t triangles = 0, vertices = 0;
-  bool isComplete = true;         ///< false: a budget or a deadline came before the criterion was met
-  std::optional<double> pixels;   ///< with a camera: the worst error in its picture
-  double storedError = 0;         ///< largest error of the triangles of the cut, as stored or as fitted
-  std::optional<FitFigures> fit;  ///< where heights were fitted
-  double promisedError = 0;       ///< the tolerance, or what a budget came to; inside the region
-  ExportFormat format;            ///< what the file holds
-  std::optional<MeasureReport> measured;        ///< where a certificate or a raster asked for it
-  std::optional<MeasureReport> measuredInside;  ///< with a region
+  bool isComplete = true;        ///< false: a budget or a deadline ended the cut before the criterion was met
+  std::optional<double> pixels;  ///< with a camera: the worst error in its picture
+  double storedError = 0;        ///< largest error of the triangles of the cut, as stored or as fitted
+  std::optional<FitFigures> fit;          ///< where heights were fitted
+  double promisedError = 0;               ///< the tolerance, or what a budget came to; inside the region
+  ExportFormat format;                    ///< what the file holds
+  std::optional<MeasureReport> measured;  ///< where a certificate, a raster or a fit needs it
+  std::optional<MeasureReport> measuredInside;  ///< the same of the samples inside the region
   bool isKept = true;                           ///< false when the measurement contradicts the promise
 };
 
-/// The formats an output may have, and whether this is one; a .tif needs a model of a raster. Errors: usage,
-/// naming the known extensions.
+/// Checks that an output's extension names a format that can be written; .tif needs a model of a raster.
+/// Errors: usage: an unknown extension (the message lists the known ones), .tif for scattered points.
 Status checkExtractOutput(const std::string& path, const TerrainModel& model);
 
-/// Takes TINs from one model. Keeps the model's samples once a measurement needed them.
+/// Takes TINs from one model and writes them. Keeps the model's samples once a measurement needed them.
 class TinExtractor {
  public:
   using ReadAll = std::function<Result<TerrainModel>(const RunContext&)>;
 
-  /// Of a tolerance, what a model is read for beside it so that a format may round (readForExtract()).
+  /// The share of a tolerance by which readForExtract() reads deeper, so that a format may round heights.
   static constexpr double kReadReserve = 1.0 / 8;
 
-  /// `modelPath` is named in certificates. `readAll`: the whole, where the model is a part, read once a
-  /// format turns out to round by more than kReadReserve.
+  /// @param model      the whole of a file's model, or the part that readForExtract() returns
+  /// @param modelPath  the file's name, for certificates
+  /// @param readAll    where the model is a part: reads the whole. Called at most once, when a format rounds
+  ///                   heights by more than kReadReserve provides for.
   TinExtractor(TerrainModel model, std::string modelPath, ReadAll readAll = {})
       : model_(std::move(model)), modelPath_(std::move(modelPath)), readAll_(std::move(readAll)) {}
 
-  /// Cuts, exports (with a tolerance that is smaller by what the format rounds away, so that the promise
-  /// holds for what the file says), and where heights were fitted or a raster or a certificate is wanted
-  /// measures the exported mesh against the source's samples and writes it; each file appears whole or not at
-  /// all. A promise that the measurement contradicts is told by isKept, the files are written all the same.
+  /// Takes the cut, exports it, and measures the exported mesh against the source's samples where heights
+  /// were fitted or a raster or a certificate is to be written. Each file appears whole or not at all. Where
+  /// a format rounds heights, the cut is taken again with a tolerance that is smaller by the rounding, so
+  /// that the promise holds for the numbers in the file. A measurement that contradicts the promise is
+  /// reported by isKept; the files are written all the same.
+  /// @param taken  the cut of this request, of the extractor's model with the full tolerance, where
+  ///               readForExtract() has taken it; it is used instead of a new one
   /// Errors: those of takeCut(), writeMesh(), writeGeoTiff(), writeCertificate(). O(cut), and O(samples)
-  /// where it is measured.
-  Result<ExtractedTin> extract(const ExtractRequest& request, const RunContext& context = {});
+  /// where the mesh is measured.
+  Result<ExtractedTin> extract(const ExtractRequest& request, const RunContext& context = {},
+                               std::optional<Cut> taken = std::nullopt);
 
  private:
   using Samples = std::variant<RasterHeightfield, PointHeightfield>;
 
   const Samples& samples();
-  /// Sees to it that the model is enough for a tolerance that is smaller by `reserve`.
+  /// Reads the whole model if the part is not enough for a tolerance smaller by `reserve`.
   Status deepen(double maxError, double reserve, const RunContext& context);
-  /// Cut, or fitted, with a tolerance smaller than asked for by `reserve`.
-  Result<TinExport> takeTin(const ExtractRequest& request, double reserve, ExtractedTin& tin,
-                            const RunContext& context) const;
-  /// `reserve`: for what the format will round away.
-  Result<TriangleMesh> cutAndWrite(const ExtractRequest& request, double reserve, ExtractedTin& tin,
-                                   const RunContext& context) const;
+  /// The cut (`taken`, or a new one) or the fit, as a mesh. `reserve`: what the tolerance is reduced by.
+  Result<TinExport> takeTin(const ExtractRequest& request, double reserve, std::optional<Cut> taken,
+                            ExtractedTin& tin, const RunContext& context) const;
+  /// takeTin(), written where the output is a mesh. Returns the mesh as the file holds it.
+  Result<TriangleMesh> cutAndWrite(const ExtractRequest& request, double reserve, std::optional<Cut> taken,
+                                   ExtractedTin& tin, const RunContext& context) const;
   Status measureAndWrite(const ExtractRequest& request, const TriangleMesh& mesh, ExtractedTin& tin,
                          const RunContext& context);
   Status writeRasters(const ExtractRequest& request, const MeasureRasters& rasters, ExtractedTin& tin,

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "datasets/families.h"
@@ -65,16 +66,29 @@ struct Tin {
   bool operator==(const Tin&) const = default;
 };
 
-Tin tinOf(const TerrainModel& model, const ExtractRequest& request) {
-  const auto criterion = engineCriterion(request.criterion, request.region, 0, model);
-  const auto cut = takeCut(model.mt, **criterion, *engineOptions(request.criterion, model));
-  if (!cut) return {{}, {}, 0, false, cut.error().describe()};
-  Tin tin{{}, cut->triangles, cut->achievedError, cut->isComplete, {}};
-  for (const std::uint32_t v : cut->vertices) {
+Tin refused(const Error& error) {
+  return {{}, {}, 0, false, error.describe()};
+}
+
+Tin tinOf(const TerrainModel& model, const Cut& cut) {
+  Tin tin{{}, cut.triangles, cut.achievedError, cut.isComplete, {}};
+  for (const std::uint32_t v : cut.vertices) {
     const Vec3 p = model.mt.position(VertexId(v));
     tin.corners.insert(tin.corners.end(), {p.x, p.y, p.z});
   }
   return tin;
+}
+
+Tin tinOf(const TerrainModel& model, const ExtractRequest& request) {
+  const auto criterion = engineCriterion(request.criterion, request.region, 0, model);
+  const auto cut = takeCut(model.mt, **criterion, *engineOptions(request.criterion, model));
+  return cut ? tinOf(model, *cut) : refused(cut.error());
+}
+
+/// The TIN of a part: of the cut that was taken to read it, if there is one.
+Tin tinOf(const Result<PartAndCut>& part, const ExtractRequest& request) {
+  if (!part) return refused(part.error());
+  return part->cut ? tinOf(part->model, *part->cut) : tinOf(part->model, request);
 }
 
 struct Filed {
@@ -84,8 +98,8 @@ struct Filed {
     file = *openAmt(path);
     whole = built(file->read());
   }
-  TerrainModel part(const ExtractRequest& request) const {
-    return built(readForExtract(*file, std::vector{request}, whole));
+  Result<PartAndCut> part(const ExtractRequest& request) const {
+    return readForExtract(*file, std::vector{request}, whole);
   }
   std::optional<AmtFile> file;
   TerrainModel whole;
@@ -106,9 +120,9 @@ void forAllFiles(std::uint64_t seed, const Visit& visit) {
 /// How much of the larger terrains was read.
 struct NodesRead {
   double parts = 0, all = 0;
-  void add(const Filed& filed, const TerrainModel& part) {
-    if (filed.whole.mt.finestTriangleCount() < 50'000) return;
-    parts += part.mt.nodeCount();
+  void add(const Filed& filed, const Result<PartAndCut>& part) {
+    if (!part || filed.whole.mt.finestTriangleCount() < 50'000) return;
+    parts += part->model.mt.nodeCount();
     all += filed.whole.mt.nodeCount();
   }
 };
@@ -120,7 +134,7 @@ TEST(ReadForExtract, HasTheTinOfTheWholeForAnyBudget) {
     for (const std::uint32_t budget :
          {0u, 1u, 30u, 100u, 500u, 2000u, finest / 4, finest - 1, finest, 2 * finest}) {
       const ExtractRequest request = ofAtMost(budget);
-      const TerrainModel part = filed.part(request);
+      const Result<PartAndCut> part = filed.part(request);
       EXPECT_TRUE(tinOf(part, request) == tinOf(filed.whole, request)) << budget;
       if (budget <= 2000) read.add(filed, part);
     }
@@ -174,9 +188,10 @@ TEST(ReadForExtract, HasTheTinOfTheWholeForAnyCamera) {
       ExtractRequest request = seenBy(camera, std::pow(2.0, 6 * random.unit() - 1));
       const bool isMinimal = i % 4 != 0;
       if (!isMinimal) request.criterion.method = CutMethod::saturated;
-      const TerrainModel part = filed.part(request);
+      const Result<PartAndCut> part = filed.part(request);
       const Tin all = tinOf(filed.whole, request), some = tinOf(part, request);
-      EXPECT_TRUE(keepsPixels(part, request)) << i;
+      ASSERT_TRUE(part) << part.error().describe();
+      EXPECT_TRUE(keepsPixels(part->model, request)) << i;
       EXPECT_TRUE((filed.file->isPacked() && isMinimal) || all == some) << i;
       if (!isMinimal) continue;
       triangles += static_cast<double>(all.triangles.size());
@@ -198,7 +213,7 @@ TEST(ReadForExtract, HasTheTinOfTheWholeForACameraWithABudget) {
           static_cast<std::uint32_t>(std::pow(random.unit(), 3) * filed.whole.mt.finestTriangleCount());
       if (i % 2 == 0) c.pixelError.reset();
       if (i % 3 == 0) c.outsideError = filed.whole.mt.largestError() * random.unit();
-      const TerrainModel part = filed.part(request);
+      const Result<PartAndCut> part = filed.part(request);
       const Tin all = tinOf(filed.whole, request), some = tinOf(part, request);
       const auto count = static_cast<double>(some.triangles.size()),
                  countOfAll = static_cast<double>(all.triangles.size());
@@ -210,6 +225,56 @@ TEST(ReadForExtract, HasTheTinOfTheWholeForACameraWithABudget) {
     }
   });
   EXPECT_LT(read.parts, read.all / 2);
+}
+
+/// A budget that no cut meets: takeCut() refuses it.
+ExtractRequest impossible(ExtractRequest request) {
+  request.criterion.maxTriangles = 0;
+  return request;
+}
+
+TEST(ReadForExtract, ReturnsTheCutThatItTookAndTheExtractorTakesNoOther) {
+  const TemporaryFolder folder;
+  const TerrainModel model = built(build(familyNamed("fractal").make(300, 280, 3)));
+  for (const bool isPacked : {false, true}) {
+    const Filed filed(model, folder.file("model.amt"), isPacked);
+    Random random(11);
+    ExtractRequest seen = seenBy(anyCamera(filed.whole, random), 4);
+    seen.criterion.outsideError = 20;
+    for (ExtractRequest request : {ofAtMost(500), seen}) {
+      SCOPED_TRACE(
+          fmt::format("{}, {}", isPacked ? "packed" : "plain", request.criterion.maxTriangles ? 1 : 0));
+      Result<PartAndCut> part = filed.part(request);
+      ASSERT_TRUE(part) << part.error().describe();
+      ASSERT_TRUE(part->cut);
+      EXPECT_LT(part->model.mt.nodeCount(), filed.whole.mt.nodeCount());
+      EXPECT_TRUE(tinOf(part->model, *part->cut) == tinOf(part->model, request));
+
+      request.output = folder.file("tin.ply");
+      TinExtractor extractor(part->model, "m.amt");
+      const auto anew = extractor.extract(request);
+      ASSERT_TRUE(anew) << anew.error().describe();
+      const std::string bytes = test::bytesOf(request.output);
+      EXPECT_EQ(extractor.extract(impossible(request)).error().code, ErrorCode::usage);
+      const auto given = extractor.extract(impossible(request), {}, std::move(part->cut));
+      ASSERT_TRUE(given) << given.error().describe();
+      EXPECT_EQ(given->triangles, anew->triangles);
+      EXPECT_TRUE(bytes == test::bytesOf(request.output));
+    }
+  }
+}
+
+TEST(ReadForExtract, TakesNoCutWhereTheRequestDeterminesThePart) {
+  const TemporaryFolder folder;
+  const Filed filed(built(build(familyNamed("fractal").make(100, 90, 3))), folder.file("model.amt"), false);
+  EXPECT_FALSE(filed.part(within(filed.whole.mt.largestError() / 4))->cut);
+  EXPECT_FALSE(readForExtract(*filed.file, std::vector{ofAtMost(200), ofAtMost(300)}, filed.whole)->cut);
+}
+
+TEST(ReadForExtract, RefusesABudgetBelowTheRoot) {
+  const TemporaryFolder folder;
+  const Filed filed(built(build(familyNamed("fractal").make(100, 90, 3))), folder.file("model.amt"), false);
+  EXPECT_EQ(filed.part(ofAtMost(0)).error().code, ErrorCode::usage);
 }
 
 TEST(ReadForExtract, IsEnoughForAFormatThatRounds) {
@@ -224,7 +289,7 @@ TEST(ReadForExtract, IsEnoughForAFormatThatRounds) {
         SCOPED_TRACE(fmt::format("{}, {}, {}", isPacked ? "packed" : "plain", name, maxError));
         ExtractRequest request = within(maxError);
         request.output = folder.file(name);
-        const TerrainModel part = filed.part(request);
+        const TerrainModel part = filed.part(request)->model;
         EXPECT_LT(part.mt.nodeCount(), filed.whole.mt.nodeCount());
         int reads = 0;
         const auto readAll = [&](const RunContext&) -> Result<TerrainModel> {
@@ -252,7 +317,7 @@ TEST(ReadForExtract, ReadsEverythingWhereATinIsMeasuredOrFitted) {
   const Filed filed(built(build(familyNamed("fractal").make(100, 90, 3))), folder.file("model.amt"), false);
   const double error = filed.whole.mt.largestError() / 4;
   const auto readsAll = [&](const ExtractRequest& request) {
-    return filed.part(request).mt.nodeCount() == filed.whole.mt.nodeCount();
+    return filed.part(request)->model.mt.nodeCount() == filed.whole.mt.nodeCount();
   };
   using Change = void (*)(ExtractRequest&);
   for (const ExtractRequest& request : {within(error), ofAtMost(200)}) {
