@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "cli/session/interrupt.h"
+#include "cli/session/option_names.h"
 #include "cli/session/progress_bar.h"
 
 namespace arete {
@@ -103,15 +104,16 @@ void Session::answer(const Json& object) {
 void Session::warn(const std::string& sentence) const {
   if (quiet_) return;
   progressBar().endLine();
-  fmt::print(stderr, "arete: warning: {}\n", withoutControls(sentence));
+  fmt::print(stderr, "arete: warning: {}\n", withoutControls(withOptionNames(sentence)));
 }
 
 void Session::warn(const std::vector<std::string>& sentences, const std::string& culprit) const {
   for (const std::string& sentence : sentences) warn(fmt::format("{}: {}", culprit, sentence));
 }
 
-ExitCode Session::fail(const Error& error) {
+ExitCode Session::fail(const Error& failed) {
   progressBar().endLine();
+  const Error error = withOptionNames(failed);
   const ExitCode code = exitCodeOf(error.code);
   fmt::print(stderr, "arete: {}\n", withoutControls(error.describe()));
   answerError(error, code);

@@ -15,6 +15,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/session/model_file.h"
+#include "cli/session/option_names.h"
 #include "cli/sight/arguments.h"
 #include "cli/sight/rows.h"
 #include "io/crs/transform.h"
@@ -214,8 +215,8 @@ Status tellMany(const LosArguments& a, const SightResults& results, Json json, S
   }
   session.answer(json);
   if (counts.failed == lines)
-    return failure(ErrorCode::invalidData,
-                   fmt::format("no line of sight has both ends: {}", results.errorOf(0)->describe()));
+    return failure(ErrorCode::invalidData, fmt::format("no line of sight has both ends: {}",
+                                                       withOptionNames(*results.errorOf(0)).describe()));
   if (counts.failed > 0)
     session.warn(fmt::format("{} of {} lines have no answer; the column error says why",
                              grouped(counts.failed), grouped(lines)));

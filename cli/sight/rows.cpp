@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
+#include "cli/session/option_names.h"
 #include "cli/sight/arguments.h"
 
 namespace arete {
@@ -145,7 +146,7 @@ Json SightResults::jsonOf(std::size_t row) const {
                {"to", {numberOrNull(to.stated.x), numberOrNull(to.stated.y)}}};
   if (const Error* error = errorOf(row)) {
     json["verdict"] = Json();
-    json["error"] = error->describe();
+    json["error"] = withOptionNames(*error).describe();
     return json;
   }
   const SightPathAnswer& a = answerOf(row);
@@ -215,7 +216,7 @@ PointAttributes SightResults::columns() const {
     table.add(error ? "" : number(path.toHeight));
     if (error) {
       for (int k = 0; k < 12 + (hasTolerance ? 1 : 0) + (hasFresnel ? 2 : 0); ++k) table.add({});
-      table.add(error->describe());
+      table.add(withOptionNames(*error).describe());
       continue;
     }
     const SightPathAnswer& a = answerOf(i);

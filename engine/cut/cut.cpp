@@ -31,7 +31,7 @@ Status checkCut(const MultiTriangulation& mt, const Criterion& criterion, CutMet
     return failure(ErrorCode::usage,
                    fmt::format("{} triangles are fewer than the {} of the root, the coarsest there is",
                                *maxTriangles, mt.rootTriangleCount()),
-                   "--max-triangles");
+                   "maxTriangles");
   if (method == CutMethod::saturated && !criterion.isMonotone())
     return failure(
         ErrorCode::usage,

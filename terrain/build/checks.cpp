@@ -12,23 +12,23 @@
 namespace arete {
 
 Status checkOptions(const BuildOptions& options, std::size_t sampleCount) {
-  const auto refuse = [](std::string what, const char* option) {
-    return failure(ErrorCode::usage, std::move(what), option);
+  const auto refuse = [](std::string what, const char* field) {
+    return failure(ErrorCode::usage, std::move(what), field);
   };
   if (options.maxDegree < 6 || options.maxDegree > kMaxHoleCorners - 1)
     return refuse(
         fmt::format("the degree bound must be 6 to {}, not {}", kMaxHoleCorners - 1, options.maxDegree),
-        "--max-degree");
+        "maxDegree");
   if (!(options.thresholdRatio > 1 && options.thresholdRatio <= 1e6))
     return refuse(fmt::format("the threshold ratio must be above 1, not {}", options.thresholdRatio),
-                  "--ratio");
+                  "thresholdRatio");
   if (!(options.minimumAspect >= 0 && options.minimumAspect < 0.5))
     return refuse(
         fmt::format("the aspect bound must be 0 or more and below 0.5, not {}", options.minimumAspect),
-        "--min-aspect");
+        "minimumAspect");
   if (!(options.rimTolerance >= 0 && std::isfinite(options.rimTolerance)))
     return refuse(fmt::format("the rim tolerance must be 0 or more samples, not {}", options.rimTolerance),
-                  "--rim-tolerance");
+                  "rimTolerance");
   const PieceOptions& pieces = options.pieces;
   if (!(1 <= pieces.least && pieces.least <= pieces.most))
     return refuse(fmt::format("pieces must have at least 1 vertex and at most no fewer, not {} to {}",
@@ -39,7 +39,7 @@ Status checkOptions(const BuildOptions& options, std::size_t sampleCount) {
                   "pieces");
   for (const std::uint32_t v : options.fixedVertices)
     if (v >= sampleCount)
-      return refuse(fmt::format("fixed vertex {} of {} samples", v, sampleCount), "fixed vertices");
+      return refuse(fmt::format("fixed vertex {} of {} samples", v, sampleCount), "fixedVertices");
   return {};
 }
 

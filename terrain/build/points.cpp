@@ -131,7 +131,7 @@ Status checkBuild(const PointHeightfield& field, const BuildOptions& options) {
   if (Status valid = field.validate(); !valid) return valid;
   if (Status valid = checkOptions(options, field.size()); !valid) return valid;
   if (options.rimTolerance > 0)
-    return failure(ErrorCode::usage, "scattered points have no NODATA rims to simplify", "--rim-tolerance");
+    return failure(ErrorCode::usage, "scattered points have no NODATA rims to simplify", "rimTolerance");
   return {};
 }
 

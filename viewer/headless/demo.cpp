@@ -82,7 +82,8 @@ Status interruptedIf(const RunContext& context) {
 Result<std::vector<double>> checkedTolerances(std::vector<double> tolerances) {
   for (const double e : tolerances) {
     if (!(e >= 0) || !std::isfinite(e))
-      return failure(ErrorCode::usage, fmt::format("{} is no tolerance; take 0 or more", e), "--max-error");
+      return failure(ErrorCode::usage, fmt::format("{} is not a tolerance: it must be 0 or more", e),
+                     "maxError");
   }
   std::sort(tolerances.begin(), tolerances.end());
   tolerances.erase(std::unique(tolerances.begin(), tolerances.end()), tolerances.end());

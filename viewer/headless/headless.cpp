@@ -174,10 +174,10 @@ Status canEncodeFilm(const std::filesystem::path& film) {
       return {};
     at = end + 1;
   }
-  return failure(ErrorCode::unsupported,
-                 "a film needs ffmpeg, which this machine does not have (Debian: ffmpeg); --frames alone "
-                 "does without",
-                 film.string());
+  return failure(
+      ErrorCode::unsupported,
+      "a film needs ffmpeg, which is not installed (Debian: ffmpeg); `frames` alone does not need it",
+      film.string());
 }
 
 Status encodeFilm(const std::filesystem::path& folder, std::size_t frames, double framesPerSecond,

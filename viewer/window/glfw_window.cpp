@@ -86,7 +86,7 @@ Result<GlfwWindow> GlfwWindow::open(const std::string& title, int width, int hei
   if (!glfwInit())
     return failure(
         ErrorCode::unsupported,
-        fmt::format("no window can be opened ({}); --headless draws without one", trimmed(lastReason())),
+        fmt::format("no window can be opened ({}); `headless` draws without one", trimmed(lastReason())),
         "display");
   auto held = std::make_unique<Held>();
   askForContext(4, 5);

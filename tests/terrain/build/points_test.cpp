@@ -223,7 +223,7 @@ TEST(BuildPoints, RefusesAtOnceWhatPointsDoNotHave) {
   const Status status = checkBuild(field, options);
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().code, ErrorCode::usage);
-  EXPECT_EQ(status.error().culprit, "--rim-tolerance");
+  EXPECT_EQ(status.error().culprit, "rimTolerance");
   const auto model = build(field, options);
   ASSERT_FALSE(model);
   EXPECT_EQ(model.error().describe(), status.error().describe());
