@@ -176,7 +176,7 @@ def main():
     topics = sorted((f for f in docs if f.startswith("docs/topics/")), key=title)
     nav = ["nav:", "  - Home: index.md"]
     nav += section("Topics", [site.staged(t) for t in topics])
-    nav += ["  - Reference:", "    - Headers: api/index.html", "    - glossary.md", "    - bibliography.md",
+    nav += ["  - Reference:", "    - Headers: api/files.html", "    - glossary.md", "    - bibliography.md",
             "    - performance.md", "    - figures.md", "    - changelog.md"]
     nav += section("Examples", ["examples/index.md"] + [site.staged(e) for e in examples])
     nav += ["  - Inside:", "    - architecture.md", "    - contributing.md"]
