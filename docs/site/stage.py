@@ -21,7 +21,8 @@ ROOT_PAGES = {
 }
 FOLDERS = "bench|cli|cmake|datasets|docs|engine|examples|io|terrain|tests|viewer"
 # A path from the root of the repository, in the text or in backticks.
-PATH = re.compile(rf"`((?:{FOLDERS})/[\w./-]*)`|(?<![\w/.`<(\[\"-])((?:{FOLDERS})/[\w./-]*\w|[A-Z]+\.md)\b/?")
+# `arete/engine/...` is an installed header.
+PATH = re.compile(rf"`((?:arete/)?(?:{FOLDERS})/[\w./-]*)`|(?<![\w/.`<(\[\"-])((?:{FOLDERS})/[\w./-]*\w|[A-Z]+\.md)\b/?")
 # A file without its folder, as in "and cut.h".
 BARE = re.compile(r"(?<![\w/.<*-])`?([a-z0-9_]+\.(?:h|cpp|py|md))\b`?")
 DECISION = re.compile(r"\b([Dd]ecision )(\d+)\b")
@@ -70,7 +71,7 @@ class Site:
 
     def resolve(self, source, page, match):
         code, plain = match.group(1), match.group(2)
-        path = (code or plain).rstrip("/")
+        path = (code or plain).removeprefix("arete/").rstrip("/")
         numbered = re.fullmatch(r"docs/decisions/(\d{4})", path)
         if numbered:
             found = [f for f in self.files if f.startswith(path + "-")]
