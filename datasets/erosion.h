@@ -17,9 +17,8 @@ struct ErosionStep {
 };
 
 /// Shapes the grid by one step. `upliftMetres` is U dt of each cell, `erodibility` scales K of each cell.
-/// The incision is implicit and unconditionally stable (Braun and Willett 2013, "A very efficient O(n),
-/// implicit and parallel method to solve the stream power equation"). O(n); the result does not depend on
-/// threads.
+/// The incision is implicit and unconditionally stable [BraunWillett2013]. O(n); the result does not depend
+/// on threads.
 void erode(ReliefGrid& grid, const std::vector<float>& upliftMetres, const std::vector<float>& erodibility,
            const ErosionStep& step, DrainageNetwork& network);
 

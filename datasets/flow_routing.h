@@ -52,7 +52,7 @@ enum class Depressions {
 void removeDepressions(ReliefGrid& grid, Depressions how, double stepMetres, std::uint64_t seed,
                        DrainageNetwork& scratch);
 
-/// Steepest descent to one of eight neighbours, then the order of Braun and Willett 2013 and the upstream
+/// Steepest descent to one of eight neighbours, then the order of [BraunWillett2013] and the upstream
 /// counts. Reuses the memory of `network`. O(n); the result does not depend on threads.
 void routeFlow(const ReliefGrid& grid, DrainageNetwork& network);
 

@@ -5,7 +5,7 @@
 
 namespace arete {
 
-/// Gradient noise (Perlin 1985, with the quintic fade of Perlin 2002) over the plane: about -1 .. 1, zero at
+/// Gradient noise over the plane [Perlin1985], with the quintic fade of [Perlin2002]: about -1 .. 1, zero at
 /// the integer lattice, twice differentiable. Arithmetic only, so the same bits on every machine.
 /// Precondition: |x| and |y| below 2^52.
 double gradientNoise(std::uint64_t seed, double x, double y);

@@ -5,8 +5,8 @@
 
 namespace arete {
 
-/// Random numbers that are the same on every machine and every standard library: SplitMix64 (Steele, Lea,
-/// Flood 2014), integers only, and doubles made from integers by exact steps.
+/// Random numbers that are the same on every machine and every standard library: SplitMix64
+/// [SteeleLeaFlood2014], integers only, and doubles made from integers by exact steps.
 class Random {
  public:
   constexpr explicit Random(std::uint64_t seed) : state_(seed) {}

@@ -18,8 +18,8 @@ struct TerrainOptions {
   bool lake = true;  ///< a lake behind a moraine, as NODATA
 };
 
-/// Mountains that rivers have carved: uplift against stream-power incision and hillside diffusion (Braun and
-/// Willett 2013), from a coarse grid to a fine one, so that the large valleys are old and the small ones
+/// Mountains that rivers have carved: uplift against stream-power incision and hillside diffusion
+/// [BraunWillett2013], from a coarse grid to a fine one, so that the large valleys are old and the small ones
 /// young.
 ///
 /// Heights are metres in whole 64ths (exact as float), valid everywhere but in the lake; the CRS is UTM 32

@@ -42,7 +42,7 @@ GeodesicPlace alongGeodesic(const OracleEllipsoid& ellipsoid, GeodesicPlace from
 }
 
 OracleTransverseMercator::EastNorth OracleTransverseMercator::forward(LonLat place) const {
-  // Krueger 1912, to the sixth power of the third flattening (Karney 2011, equations 12 and 35).
+  // Krueger 1912, to the sixth power of the third flattening ([Karney2011], equations 12 and 35).
   const long double f = 1 / ellipsoid.inverseFlattening, n = f / (2 - f), e = std::sqrt(f * (2 - f));
   const long double n2 = n * n, n3 = n2 * n, n4 = n2 * n2, n5 = n4 * n, n6 = n3 * n3;
   const std::array<long double, 6> alpha = {
