@@ -219,7 +219,7 @@ void addBuildCommand(CLI::App& app, Session& session) {
   command
       ->add_option("--ratio", arguments->options.thresholdRatio,
                    "Growth of the error threshold from the first level to the second; it falls as\n"
-                   "fewer vertices are left (default 1.17)")
+                   "fewer vertices are left (default 1.17; 1.13328 with --shape fidelity)")
       ->check(finiteAbove(1))
       ->type_name("R");
   command

@@ -81,7 +81,7 @@ void sayFacts(const InfoArguments& arguments, const TerrainModel& model, const F
   line("levels", std::to_string(model.levels));
   line("built with",
        fmt::format(
-           "--shape {} --ratio {} --max-degree {}{}{}", toString(o.shape), o.thresholdRatio, o.maxDegree,
+           "--shape {} --ratio {} --max-degree {}{}{}", toString(o.shape), o.thresholdRatioOrDefault(), o.maxDegree,
            o.shape == HoleShape::dataDependent ? fmt::format(" --min-aspect {}", o.minimumAspect) : "",
            o.rimTolerance > 0 ? fmt::format(" --rim-tolerance {}", o.rimTolerance) : ""));
   const std::string& unit = model.georeference.verticalUnit;
@@ -135,7 +135,7 @@ Json factsJson(const InfoArguments& arguments, const TerrainModel& model, const 
           {"levels", model.levels},
           {"options",
            {{"shape", toString(model.options.shape)},
-            {"ratio", model.options.thresholdRatio},
+            {"ratio", model.options.thresholdRatioOrDefault()},
             {"maxDegree", model.options.maxDegree},
             {"minAspect", model.options.minimumAspect},
             {"rimTolerance", model.options.rimTolerance}}},

@@ -5,23 +5,17 @@
 #include "engine/parallel/stage_clock.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace arete {
 
-StageClock::Passed StageClock::passed() {
-  const Moment now;
-  const Passed passed = {std::chrono::duration<double>(now.wall - last_.wall).count(),
-                         double(now.cpu - last_.cpu) / CLOCKS_PER_SEC};
-  last_ = now;
-  return passed;
-}
-
 void StageClock::settle() {
-  const Passed passed = this->passed();
+  const Moment now;
+  const Moment last = std::exchange(last_, now);
   if (open_.empty()) return;
   StageTime& time = times_[open_.back()];
-  time.seconds += passed.seconds;
-  time.cpuSeconds += passed.cpuSeconds;
+  time.seconds += std::chrono::duration<double>(now.wall - last.wall).count();
+  time.cpuSeconds += double(now.cpu - last.cpu) / CLOCKS_PER_SEC;
 }
 
 StageTime& StageClock::timeOf(std::string_view stage) {
@@ -40,34 +34,6 @@ void StageClock::enter(std::string_view stage) {
 void StageClock::leave() {
   settle();
   open_.pop_back();
-}
-
-void StageClock::moveShare(std::string_view from, std::string_view to, double share) {
-  const StageTime moved = timeOf(from);
-  StageTime& other = timeOf(to);
-  other.seconds += share * moved.seconds;
-  other.cpuSeconds += share * moved.cpuSeconds;
-  other.times = moved.times;
-  StageTime& left = timeOf(from);
-  left.seconds -= share * moved.seconds;
-  left.cpuSeconds -= share * moved.cpuSeconds;
-}
-
-void StageClock::shareOut(std::span<StageClock* const> workers) {
-  double total = 0;
-  for (const StageClock* worker : workers)
-    for (const StageTime& time : worker->times_) total += time.seconds;
-  if (!(total > 0)) return;
-  const Passed passed = this->passed();
-  for (StageClock* worker : workers) {
-    for (const StageTime& time : worker->times_) {
-      StageTime& own = timeOf(time.stage);
-      own.seconds += passed.seconds * time.seconds / total;
-      own.cpuSeconds += passed.cpuSeconds * time.seconds / total;
-      own.times += time.times;
-    }
-    worker->times_.clear();
-  }
 }
 
 }  // namespace arete

@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <ctime>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,14 +41,6 @@ class StageClock {
     StageClock* clock_;
   };
 
-  /// What has passed since a scope was last opened or closed is credited to the stages of `workers` clocks,
-  /// in proportion: each worker's tells what one of the threads did meanwhile. They are emptied.
-  void shareOut(std::span<StageClock* const> workers);
-
-  /// So much of the time of a stage (0 .. 1) becomes that of another: of parts that are too short for scopes
-  /// and were timed now and then. `times` of the other: as often as the stage.
-  void moveShare(std::string_view from, std::string_view to, double share);
-
   /// The stages in the order in which they were first entered. Precondition: no scope is open.
   const std::vector<StageTime>& times() const { return times_; }
 
@@ -63,11 +54,6 @@ class StageClock {
   StageTime& timeOf(std::string_view stage);
   void enter(std::string_view stage);
   void leave();
-  struct Passed {
-    double seconds, cpuSeconds;
-  };
-  /// What passed since this was last asked.
-  Passed passed();
   /// Credits what passed to the innermost open stage.
   void settle();
 

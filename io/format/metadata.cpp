@@ -318,7 +318,7 @@ std::string toAmtJson(const AmtMetadata& m) {
       {"build",
        {{"shape", toString(o.shape)},
         {"maxDegree", o.maxDegree},
-        {"thresholdRatio", o.thresholdRatio},
+        {"thresholdRatio", o.thresholdRatioOrDefault()},
         {"minimumAspect", o.minimumAspect},
         {"rimTolerance", o.rimTolerance},
         {"metricP", m.model.metricP},
@@ -392,7 +392,7 @@ Result<AmtMetadata> fromAmtJson(std::string_view text) {
   o.shape = shape == toString(HoleShape::dataDependent) ? HoleShape::dataDependent : HoleShape::delaunay;
   if (shape != toString(o.shape)) build.note("build.shape is not delaunay or fidelity");
   build.read("maxDegree", o.maxDegree);
-  build.read("thresholdRatio", o.thresholdRatio);
+  build.read("thresholdRatio", o.thresholdRatio.emplace());
   build.read("minimumAspect", o.minimumAspect);
   build.read("rimTolerance", o.rimTolerance);
   build.read("metricP", m.model.metricP);

@@ -19,9 +19,8 @@ Status checkOptions(const BuildOptions& options, std::size_t sampleCount) {
     return refuse(
         fmt::format("the degree bound must be 6 to {}, not {}", kMaxHoleCorners - 1, options.maxDegree),
         "maxDegree");
-  if (!(options.thresholdRatio > 1 && options.thresholdRatio <= 1e6))
-    return refuse(fmt::format("the threshold ratio must be above 1, not {}", options.thresholdRatio),
-                  "thresholdRatio");
+  if (const double ratio = options.thresholdRatioOrDefault(); !(ratio > 1 && ratio <= 1e6))
+    return refuse(fmt::format("the threshold ratio must be above 1, not {}", ratio), "thresholdRatio");
   if (!(options.minimumAspect >= 0 && options.minimumAspect < 0.5))
     return refuse(
         fmt::format("the aspect bound must be 0 or more and below 0.5, not {}", options.minimumAspect),
@@ -29,14 +28,6 @@ Status checkOptions(const BuildOptions& options, std::size_t sampleCount) {
   if (!(options.rimTolerance >= 0 && std::isfinite(options.rimTolerance)))
     return refuse(fmt::format("the rim tolerance must be 0 or more samples, not {}", options.rimTolerance),
                   "rimTolerance");
-  const PieceOptions& pieces = options.pieces;
-  if (!(1 <= pieces.least && pieces.least <= pieces.most))
-    return refuse(fmt::format("pieces must have at least 1 vertex and at most no fewer, not {} to {}",
-                              pieces.least, pieces.most),
-                  "pieces");
-  if (pieces.fewest < 1 || !(pieces.span > 1 && std::isfinite(pieces.span)))
-    return refuse(fmt::format("{} pieces over a span of {} are no division", pieces.fewest, pieces.span),
-                  "pieces");
   for (const std::uint32_t v : options.fixedVertices)
     if (v >= sampleCount)
       return refuse(fmt::format("fixed vertex {} of {} samples", v, sampleCount), "fixedVertices");

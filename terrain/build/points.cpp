@@ -12,6 +12,7 @@
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/parallel/with_threads.h"
 #include "terrain/build/build.h"
+#include "terrain/build/build_in_tiles.h"
 #include "terrain/build/checks.h"
 #include "terrain/error/point_error.h"
 #include "terrain/model/height_encoding.h"
@@ -29,7 +30,8 @@ struct OwnedPoints {
 };
 
 Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints finest,
-                               const BuildOptions& options, const RunContext& context) {
+                               const BuildOptions& options, const TileOptions& tiles,
+                               const RunContext& context) {
   const PageKeeper keeper;  // what a step no longer needs goes to the next
   std::optional<StageClock::Scope> stage(std::in_place, context.clock, "triangulate");
   // From here on points are numbered along the ground: neighbours are near each other in memory.
@@ -47,6 +49,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
   model.source = field.source;
   model.sourceChecksum = field.sourceChecksum.empty() ? heightsChecksum(field) : field.sourceChecksum;
   model.options = options;
+  model.options.thresholdRatio = options.thresholdRatioOrDefault();
 
   std::vector<std::uint8_t> isFixed(pointCount, 0);
   for (const std::uint32_t v : pinched) isFixed[v] = 1;
@@ -94,7 +97,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
                                                .heightRange = *high - *low,
                                                .roundingSlack = slack,
                                                .boundSlack = slack};
-    Result<SimplifiedRoot> simplified = Simplifier(state, context).run(isFixed);
+    Result<SimplifiedRoot> simplified = Simplifier(state, tiles, context).run(isFixed);
     if (!simplified) return tl::unexpected(simplified.error());
     root = std::move(*simplified);
   }
@@ -125,6 +128,12 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
   return model;
 }
 
+Result<TerrainModel> buildChecked(const PointHeightfield& field, FinestPoints finest,
+                                  const BuildOptions& options, const TileOptions& tiles,
+                                  const RunContext& context) {
+  return withThreads(context, [&] { return buildHere(field, std::move(finest), options, tiles, context); });
+}
+
 }  // namespace
 
 Status checkBuild(const PointHeightfield& field, const BuildOptions& options) {
@@ -137,16 +146,21 @@ Status checkBuild(const PointHeightfield& field, const BuildOptions& options) {
 
 Result<TerrainModel> build(const PointHeightfield& heightfield, const BuildOptions& options,
                            const RunContext& context) {
-  if (const Status valid = checkBuild(heightfield, options); !valid) return tl::unexpected(valid.error());
-  Result<FinestPoints> finest = finestPoints(heightfield, context);
-  if (!finest) return tl::unexpected(finest.error());
-  return build(heightfield, std::move(*finest), options, context);
+  return buildInTiles(heightfield, options, TileOptions::of(options.shape), context);
 }
 
 Result<TerrainModel> build(const PointHeightfield& heightfield, FinestPoints finest,
                            const BuildOptions& options, const RunContext& context) {
   if (const Status valid = checkBuild(heightfield, options); !valid) return tl::unexpected(valid.error());
-  return withThreads(context, [&] { return buildHere(heightfield, std::move(finest), options, context); });
+  return buildChecked(heightfield, std::move(finest), options, TileOptions::of(options.shape), context);
+}
+
+Result<TerrainModel> buildInTiles(const PointHeightfield& heightfield, const BuildOptions& options,
+                                  const TileOptions& tiles, const RunContext& context) {
+  if (const Status valid = checkBuild(heightfield, options); !valid) return tl::unexpected(valid.error());
+  Result<FinestPoints> finest = finestPoints(heightfield, context);
+  if (!finest) return tl::unexpected(finest.error());
+  return buildChecked(heightfield, std::move(*finest), options, tiles, context);
 }
 
 }  // namespace arete

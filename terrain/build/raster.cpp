@@ -17,6 +17,7 @@
 #include "engine/parallel/parallel_filter.h"
 #include "engine/parallel/with_threads.h"
 #include "terrain/build/build.h"
+#include "terrain/build/build_in_tiles.h"
 #include "terrain/build/checks.h"
 #include "terrain/error/raster_error.h"
 #include "terrain/model/height_encoding.h"
@@ -92,7 +93,7 @@ struct OwnedVertices {
 };
 
 Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOptions& options,
-                               const RunContext& context) {
+                               const TileOptions& tiles, const RunContext& context) {
   if (const Status valid = field.validate(); !valid) return tl::unexpected(valid.error());
   if (const Status valid = checkOptions(options, field.size()); !valid) return tl::unexpected(valid.error());
   if (field.size() > LiveMesh::kMostTriangles / 2)
@@ -119,6 +120,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   model.source = field.source;
   model.sourceChecksum = field.sourceChecksum.empty() ? heightsChecksum(field) : field.sourceChecksum;
   model.options = options;
+  model.options.thresholdRatio = options.thresholdRatioOrDefault();
 
   std::vector<std::uint8_t> isFixed(sampleCount, 0);
   for (const std::uint32_t v : pinched) isFixed[v] = 1;
@@ -168,7 +170,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
         .heightRange = high - low,
         .roundingSlack = roundingSlack(low, high),
         .boundSlack = crossingSlack(low, high, field.columns, field.rows)};
-    Result<SimplifiedRoot> simplified = Simplifier(state, context).run(isFixed);
+    Result<SimplifiedRoot> simplified = Simplifier(state, tiles, context).run(isFixed);
     if (!simplified) return tl::unexpected(simplified.error());
     root = std::move(*simplified);
   }
@@ -195,7 +197,12 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
 
 Result<TerrainModel> build(const RasterHeightfield& heightfield, const BuildOptions& options,
                            const RunContext& context) {
-  return withThreads(context, [&] { return buildHere(heightfield, options, context); });
+  return buildInTiles(heightfield, options, TileOptions::of(options.shape), context);
+}
+
+Result<TerrainModel> buildInTiles(const RasterHeightfield& heightfield, const BuildOptions& options,
+                                  const TileOptions& tiles, const RunContext& context) {
+  return withThreads(context, [&] { return buildHere(heightfield, options, tiles, context); });
 }
 
 }  // namespace arete

@@ -14,7 +14,6 @@
 
 #include "engine/simplify/floor_joins.h"
 #include "terrain/simplify/measured_floor.h"
-#include "terrain/simplify/removal_times.h"
 #include "terrain/simplify/state.h"
 #include "terrain/triangulation/delaunay_hole.h"
 
@@ -24,9 +23,7 @@ namespace arete {
 template <class Plan, class Errors>
 class VertexRemover {
  public:
-  /// `times` may be null.
-  explicit VertexRemover(SimplifyState<Plan, Errors>& state, RemovalTimes* times = nullptr)
-      : s_(state), times_(times) {}
+  explicit VertexRemover(SimplifyState<Plan, Errors>& state) : s_(state) {}
 
   /// Asks for what remove() will read.
   [[gnu::always_inline]] void prefetch(const Star& star) const {
@@ -47,23 +44,17 @@ class VertexRemover {
   /// link, to be sewn.
   void remove(std::uint32_t v, const Star& star, MeasuredFloor& floor, std::uint32_t removal,
               std::span<Seam> seams) {
-    RemovalTimes::Lap lap(times_);
     typename Errors::Hole hole(s_.errors, star, v);
     if (floor.isEmpty()) fill(v, star, hole, floor);
     const FloorJoins joins(floor.triangulation);
-    lap.was(RemovalTimes::rewriting);
     encodeBounds(star, hole, joins, floor);
-    lap.was(RemovalTimes::bounds);
     const VertexRemoval what = describe(v, star, hole, floor.triangulation.size);
     s_.recorder.record(removal, what);
-    lap.was(RemovalTimes::rewriting);
     s_.recorder.saturate(removal, what);
-    lap.was(RemovalTimes::saturation);
     refill(s_.mesh, star, floor.triangulation, joins, s_.recorder.firstFloorTriangle(removal), removal, seams);
     hole.settle(floor.triangulation);
     tellLink(v, star);
     s_.mesh.vertexHalfedge[v] = LiveMesh::kNone;
-    lap.was(RemovalTimes::rewriting);
   }
 
  private:
@@ -162,7 +153,6 @@ class VertexRemover {
   double withoutRounding(double x) const { return std::max(0.0, x - s_.roundingSlack); }
 
   SimplifyState<Plan, Errors>& s_;
-  RemovalTimes* times_;
   // Kept for the next removal, as clearing them takes longer than many a step.
   std::array<FloorCodes, kMaxHoleCorners> codes_;
   std::array<std::uint32_t, kMaxHoleCorners> ceiling_, bearer_;

@@ -23,10 +23,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -34,9 +32,9 @@
 #include "engine/parallel/run_context.h"
 #include "engine/parallel/shared_progress.h"
 #include "terrain/simplify/level.h"
-#include "terrain/simplify/piece.h"
-#include "terrain/simplify/removal_times.h"
 #include "terrain/simplify/state.h"
+#include "terrain/simplify/tile.h"
+#include "terrain/simplify/tile_options.h"
 
 namespace arete {
 
@@ -50,8 +48,8 @@ struct SimplifiedRoot {
 template <class Plan, class Errors>
 class Simplifier {
  public:
-  Simplifier(SimplifyState<Plan, Errors>& state, const RunContext& context)
-      : s_(state), context_(context), together_(state, context.clock) {}
+  Simplifier(SimplifyState<Plan, Errors>& state, const TileOptions& tiles, const RunContext& context)
+      : s_(state), tiles_(tiles), context_(context), together_(state, context.clock) {}
 
   /// Removes what can be removed. `isFixed`: per vertex, not 0 = stays.
   Result<SimplifiedRoot> run(const std::vector<std::uint8_t>& isFixed) {
@@ -74,13 +72,12 @@ class Simplifier {
       if (double(s_.liveTriangles) < Errors::kLeastLive * double(s_.mesh.triangles.size()))
         s_.errors.compact(s_.mesh.compact(s_.waiting.vertices()));
     }
-    if (context_.clock != nullptr) tellRemovals(*context_.clock);
     context_.report("simplify", 1);
     return root();
   }
 
  private:
-  using Worker = PieceWorker<Plan, Errors>;
+  using Worker = TileWorker<Plan, Errors>;
   using Piece = ThresholdList::Piece;
 
   void start(const std::vector<std::uint8_t>& isFixed) {
@@ -111,24 +108,17 @@ class Simplifier {
 
   /// Into how many pieces the ground is divided now. Rims are looked after by one for all.
   std::uint32_t pieceCount() const {
-    const PieceOptions& options = s_.options.pieces;
     const std::uint32_t places = s_.waiting.everything().size();
-    const std::uint32_t pieces = places / std::clamp(places / options.fewest, options.least, options.most);
-    return pieces < options.fewest || s_.rim != nullptr ? 1 : pieces;
+    const std::uint32_t pieces = places / std::clamp(places / tiles_.fewest, tiles_.least, tiles_.most);
+    return pieces < tiles_.fewest || s_.rim != nullptr ? 1 : pieces;
   }
 
-  bool isFidelity() const { return s_.options.shape == HoleShape::dataDependent; }
-
-  // The fidelity shape takes smaller steps, and fewer of them by pieces: its cuts have some thousandths less
-  // triangles for it, and its time hardly tells: 1.133 at first, and a span of 1.35 (docs/decisions/0018).
   /// By how much the threshold grows now. What it grows by falls with the vertices that are left.
   double ratio() const {
-    const double growth = (s_.options.thresholdRatio - 1) * (isFidelity() ? 0.784 : 1),
+    const double growth = s_.options.thresholdRatioOrDefault() - 1,
                  left = double(s_.waiting.size()) / double(waitingAtStart_);
     return 1 + std::max(std::min(growth, kLeastGrowth), growth * left);
   }
-  /// By how much it grows while a piece goes by itself.
-  double span() const { return 1 + (s_.options.pieces.span - 1) * (isFidelity() ? 0.7 : 1); }
 
   /// The least threshold that concerns a fiftieth of those that may go: where costs are spread over many
   /// orders of magnitude, steps in which next to none go would be all there is.
@@ -144,7 +134,7 @@ class Simplifier {
   /// As many levels as a piece goes through. Returns the threshold of the next.
   double levelsByPieces(double threshold, std::uint32_t pieces) {
     std::vector<double> thresholds = {threshold};
-    const double step = ratio(), end = threshold * span();
+    const double step = ratio(), end = threshold * tiles_.span;
     do  // once at least: of flat ground all thresholds are 0
       thresholds.push_back(std::min(thresholds.back() * step, kLargest));
     while (thresholds.size() <= kMostLevels && thresholds.back() < end);
@@ -156,26 +146,24 @@ class Simplifier {
     };
 
     std::vector<std::vector<std::uint32_t>> held(pieces);
-    tbb::parallel_for(
-        tbb::blocked_range<std::uint32_t>(0, pieces, 1),
-        [&](const auto& range) {
-          for (std::uint32_t p = range.begin(); p != range.end(); ++p) {
-            Worker& worker = workers_.local().worker;
-            for (std::uint32_t k = 0; k < levels && !context_.cancelled(); ++k)
-              progress_->add(worker.levelOf({placeOf(p), placeOf(p + 1)}, thresholds[k], numbers_ + 1 + k,
-                                            {groups_, p}));
-            held[p].swap(worker.held());
-            s_.waiting.sort(held[p]);
-          }
-        },
-        tbb::simple_partitioner());
+    {
+      const StageClock::Scope stage(context_.clock, "simplify: tiles");
+      tbb::parallel_for(
+          tbb::blocked_range<std::uint32_t>(0, pieces, 1),
+          [&](const auto& range) {
+            for (std::uint32_t p = range.begin(); p != range.end(); ++p) {
+              Worker& worker = workers_.local();
+              for (std::uint32_t k = 0; k < levels && !context_.cancelled(); ++k)
+                progress_->add(worker.levelOf({placeOf(p), placeOf(p + 1)}, thresholds[k], numbers_ + 1 + k,
+                                              {groups_, p}));
+              held[p].swap(worker.held());
+              s_.waiting.sort(held[p]);
+            }
+          },
+          tbb::simple_partitioner());
+    }
     levels_ += levels;
     numbers_ += levels;
-    if (context_.clock != nullptr) {
-      std::vector<StageClock*> clocks;
-      for (OneWorker& one : workers_) clocks.push_back(&one.clock);
-      context_.clock->shareOut(clocks);
-    }
 
     std::vector<std::uint32_t> some;
     for (const std::vector<std::uint32_t>& of : held) some.insert(some.end(), of.begin(), of.end());
@@ -183,20 +171,6 @@ class Simplifier {
     for (std::uint32_t k = 0; k < levels && !context_.cancelled(); ++k)
       progress_->add(together_.levelOf(some, thresholds[k], ++numbers_, {groups_, pieces}));
     return thresholds.back();
-  }
-
-  /// What bounds and saturation take of all removals, by those of the pieces that were timed.
-  void tellRemovals(StageClock& clock) {
-    std::array<double, RemovalTimes::kParts> seconds{};
-    for (const OneWorker& one : workers_)
-      for (std::size_t part = 0; part < seconds.size(); ++part)
-        seconds[part] += one.worker.removalTimes().seconds()[part];
-    const double all = std::accumulate(seconds.begin(), seconds.end(), 0.0);
-    if (!(all > 0)) return;
-    const double bounds = seconds[RemovalTimes::bounds] / all,
-                 saturation = seconds[RemovalTimes::saturation] / all;
-    clock.moveShare("simplify: remove", "simplify: bounds", bounds);
-    clock.moveShare("simplify: remove", "simplify: saturate", saturation / (1 - bounds));
   }
 
   SimplifiedRoot root() const {
@@ -213,21 +187,16 @@ class Simplifier {
     return root;
   }
 
-  struct OneWorker {
-    StageClock clock;
-    Worker worker;
-    explicit OneWorker(Simplifier& s) : worker(s.s_, s.context_.clock != nullptr ? &clock : nullptr) {}
-  };
-
   static_assert(ThresholdList::kNone == LiveMesh::kNone);  // see LiveMesh::compact()
   static constexpr double kLeastGrowth = 0.015;
   static constexpr double kLargest = std::numeric_limits<float>::max();  // below ThresholdList::kNever
   static constexpr std::size_t kMostLevels = 16;                         // of a piece by itself
 
   SimplifyState<Plan, Errors>& s_;
+  TileOptions tiles_;
   const RunContext& context_;
   LevelWorkers<Plan, Errors> together_;
-  tbb::enumerable_thread_specific<OneWorker> workers_{[this] { return OneWorker(*this); }};
+  tbb::enumerable_thread_specific<Worker> workers_{[this] { return Worker(s_); }};
   std::uint32_t levels_ = 0;   // thresholds
   std::uint32_t numbers_ = 0;  // of levels, those of held vertices counted again
   std::uint32_t groups_ = 0;   // of batches

@@ -209,7 +209,7 @@ inline void expectSameModel(const TerrainModel& x, const TerrainModel& y) {
   }
   EXPECT_EQ(x.options.shape, y.options.shape);
   EXPECT_EQ(x.options.maxDegree, y.options.maxDegree);
-  EXPECT_PRED2(isSameBits, x.options.thresholdRatio, y.options.thresholdRatio);
+  EXPECT_PRED2(isSameBits, x.options.thresholdRatioOrDefault(), y.options.thresholdRatioOrDefault());
   EXPECT_PRED2(isSameBits, x.options.minimumAspect, y.options.minimumAspect);
   EXPECT_PRED2(isSameBits, x.options.rimTolerance, y.options.rimTolerance);
   EXPECT_EQ(x.options.fixedVertices, y.options.fixedVertices);

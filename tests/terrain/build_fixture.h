@@ -11,6 +11,7 @@
 
 #include "engine/mt/multitriangulation.h"
 #include "full_run.h"
+#include "terrain/build/build_in_tiles.h"
 #include "terrain/model/build_options.h"
 
 namespace arete {
@@ -25,17 +26,22 @@ inline BuildOptions withShape(HoleShape shape) {
   return options;
 }
 
-/// Pieces of so few vertices that a small raster has many.
-inline BuildOptions withPieces(HoleShape shape, std::uint32_t vertices) {
-  BuildOptions options = withShape(shape);
-  options.pieces = {.most = vertices, .least = vertices, .fewest = 2, .span = 1.6};
-  return options;
+/// Tiles of so few vertices that a small heightfield has many.
+inline TileOptions tilesOf(std::uint32_t vertices) {
+  return {.most = vertices, .least = vertices, .fewest = 2, .span = 1.6};
 }
 
-/// Both shapes, together and by pieces.
-inline std::vector<BuildOptions> eachWay() {
-  return {withShape(HoleShape::delaunay), withShape(HoleShape::dataDependent),
-          withPieces(HoleShape::delaunay, 30), withPieces(HoleShape::dataDependent, 30)};
+struct BuildWay {
+  BuildOptions options;
+  TileOptions tiles;
+};
+/// Both shapes, undivided and in tiles.
+inline std::vector<BuildWay> eachWay() {
+  std::vector<BuildWay> ways;
+  for (const HoleShape shape : {HoleShape::delaunay, HoleShape::dataDependent})
+    for (const TileOptions& tiles : {TileOptions::of(shape), tilesOf(30)})
+      ways.push_back({withShape(shape), tiles});
+  return ways;
 }
 
 template <class T>

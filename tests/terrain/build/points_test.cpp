@@ -48,19 +48,19 @@ TEST(BuildPoints, GivesTheSameBytesForAnyNumberOfThreads) {
   }
 }
 
-TEST(BuildPoints, KeepsEveryLawByPiecesAndTheSameBytesForAnyNumberOfThreads) {
+TEST(BuildPoints, KeepsEveryLawInTilesAndTheSameBytesForAnyNumberOfThreads) {
   for (const PointFamily& family : pointFamilies())
     for (const HoleShape shape : {HoleShape::delaunay, HoleShape::dataDependent}) {
       const PointHeightfield field = family.make(3000, 5);
       RunContext context;
       context.threads = 1;
-      const auto one = build(field, withPieces(shape, 100), context);
+      const auto one = buildInTiles(field, withShape(shape), tilesOf(100), context);
       ASSERT_TRUE(one) << family.name << ": " << one.error().describe();
       const Status status = validateModel(*one);
       EXPECT_TRUE(status) << family.name << ": " << status.error().describe();
       for (const int threads : {2, 4}) {
         context.threads = threads;
-        const auto many = build(field, withPieces(shape, 100), context);
+        const auto many = buildInTiles(field, withShape(shape), tilesOf(100), context);
         ASSERT_TRUE(many);
         expectSameArrays(one->mt, many->mt, std::string(family.name) + " " + std::to_string(threads));
       }
@@ -69,9 +69,9 @@ TEST(BuildPoints, KeepsEveryLawByPiecesAndTheSameBytesForAnyNumberOfThreads) {
 
 TEST(BuildPoints, StoresErrorsThatAreThoseOfAPlainScanRoundedOutwards) {
   for (const PointFamily& family : pointFamilies())
-    for (const BuildOptions& options : eachWay()) {
+    for (const auto& [options, tiles] : eachWay()) {
       const PointHeightfield field = family.make(150, 3);
-      const auto model = build(field, options);
+      const auto model = buildInTiles(field, options, tiles);
       ASSERT_TRUE(model) << family.name;
       const MultiTriangulation& mt = model->mt;
       double magnitude = 0, low = 1e300, high = -1e300;
@@ -111,9 +111,9 @@ TEST(BuildPoints, StoresErrorsThatAreThoseOfAPlainScanRoundedOutwards) {
 TEST(BuildPoints, StoresBoundsThatContainTheDifferenceEverywhereInATriangle) {
   Random random(5);
   for (const PointFamily& family : pointFamilies())
-    for (const BuildOptions& options : eachWay()) {
+    for (const auto& [options, tiles] : eachWay()) {
       const PointHeightfield field = family.make(150, 4);
-      const auto model = build(field, options);
+      const auto model = buildInTiles(field, options, tiles);
       ASSERT_TRUE(model) << family.name;
       const auto finest = finestPoints(field);
       ASSERT_TRUE(finest);

@@ -80,24 +80,24 @@ TEST(BuildRaster, GivesTheSameBytesForAnyNumberOfThreads) {
     }
 }
 
-TEST(BuildRaster, KeepsEveryLawByPiecesAndTheSameBytesForAnyNumberOfThreads) {
+TEST(BuildRaster, KeepsEveryLawInTilesAndTheSameBytesForAnyNumberOfThreads) {
   for (const RasterFamily& family : rasterFamilies()) {
     const RasterHeightfield field = family.make(90, 70, 12);
     const auto finest = finestTriangulation(field);
     for (const HoleShape shape : {HoleShape::delaunay, HoleShape::dataDependent})
       for (const std::uint32_t vertices : {20u, 300u}) {
         const std::string name = std::string(family.name) + " " + std::to_string(vertices);
-        BuildOptions options = withPieces(shape, vertices);
+        BuildOptions options = withShape(shape);
         for (std::size_t t = 0; t < finest.size(); t += 83) options.fixedVertices.push_back(finest[t][0]);
         RunContext context;
         context.threads = 1;
-        const auto one = build(field, options, context);
+        const auto one = buildInTiles(field, options, tilesOf(vertices), context);
         ASSERT_TRUE(one) << name << ": " << one.error().describe();
         const Status status = validateModel(*one);
         EXPECT_TRUE(status) << name << ": " << status.error().describe();
         for (const int threads : {2, 4}) {
           context.threads = threads;
-          const auto many = build(field, options, context);
+          const auto many = buildInTiles(field, options, tilesOf(vertices), context);
           ASSERT_TRUE(many);
           expectSameArrays(one->mt, many->mt, name + " " + std::to_string(threads));
         }
@@ -187,9 +187,9 @@ TEST(BuildRaster, ReproducesEverySampleToTheBit) {
 /// Every triangle of the MT against every sample, by plain barycentric coordinates.
 TEST(BuildRaster, StoresErrorsThatAreThoseOfAPlainScanRoundedOutwards) {
   for (const RasterFamily& family : rasterFamilies())
-    for (const BuildOptions& options : eachWay()) {
+    for (const auto& [options, tiles] : eachWay()) {
       const RasterHeightfield field = family.make(21, 18, 4);
-      const auto model = build(field, options);
+      const auto model = buildInTiles(field, options, tiles);
       ASSERT_TRUE(model) << family.name;
       const MultiTriangulation& mt = model->mt;
       double magnitude = 0;
@@ -325,12 +325,31 @@ TEST(BuildRaster, RefusesOptionsOutOfRangeAndNamesThem) {
   EXPECT_EQ(culpritOf({.thresholdRatio = NAN}), "thresholdRatio");
   EXPECT_EQ(culpritOf({.minimumAspect = -1}), "minimumAspect");
   EXPECT_EQ(culpritOf({.rimTolerance = -0.5}), "rimTolerance");
-  EXPECT_EQ(culpritOf({.pieces = {.least = 0}}), "pieces");
-  EXPECT_EQ(culpritOf({.pieces = {.most = 20, .least = 21}}), "pieces");
-  EXPECT_EQ(culpritOf({.pieces = {.fewest = 0}}), "pieces");
-  EXPECT_EQ(culpritOf({.pieces = {.span = 1}}), "pieces");
-  EXPECT_EQ(culpritOf({.pieces = {.span = NAN}}), "pieces");
   EXPECT_EQ(culpritOf({.fixedVertices = {64}}), "fixedVertices");
+}
+
+TEST(BuildRaster, RecordsTheThresholdRatioThatItTookAndTakesTheOneThatIsStated) {
+  RasterHeightfield field;
+  field.columns = 40;
+  field.rows = 30;
+  Random random(3);
+  for (std::uint32_t i = 0; i < field.columns * field.rows; ++i)
+    field.heights.push_back(50 * std::sin(0.2 * (i % 40)) * std::cos(0.3 * (i / 40)) + random.between(0, 9));
+  for (const HoleShape shape : {HoleShape::delaunay, HoleShape::dataDependent}) {
+    BuildOptions options = withShape(shape);
+    const auto unstated = build(field, options);
+    ASSERT_TRUE(unstated);
+    EXPECT_EQ(unstated->options.thresholdRatio, defaultThresholdRatio(shape));
+    options.thresholdRatio = defaultThresholdRatio(shape);
+    const auto stated = build(field, options);
+    ASSERT_TRUE(stated);
+    expectSameArrays(unstated->mt, stated->mt, "the default, stated");
+    options.thresholdRatio = 3;
+    const auto fewerLevels = build(field, options);
+    ASSERT_TRUE(fewerLevels);
+    EXPECT_EQ(fewerLevels->options.thresholdRatio, 3);
+    EXPECT_LT(fewerLevels->levels, stated->levels) << "larger steps";
+  }
 }
 
 TEST(BuildRaster, StopsWhenAskedTo) {

@@ -19,37 +19,27 @@
 
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/parallel/loop_threads.h"
-#include "engine/parallel/stage_clock.h"
 #include "terrain/simplify/cost.h"
 #include "terrain/simplify/evaluation_prefetch.h"
 #include "terrain/simplify/measured_floor.h"
 #include "terrain/simplify/removal.h"
-#include "terrain/simplify/removal_times.h"
 #include "terrain/simplify/state.h"
 
 namespace arete {
 
 /// A thread at work on levels of a piece, and the lists that it needs.
 template <class Plan, class Errors>
-class PieceWorker {
+class TileWorker {
  public:
   using State = SimplifyState<Plan, Errors>;
   using Piece = ThresholdList::Piece;
 
-  /// `clock` may be null.
-  PieceWorker(State& state, StageClock* clock)
-      : s_(state), cost_(state), remover_(state, clock != nullptr ? &times_ : nullptr), clock_(clock) {}
-  // Its remover tells its times, where they are.
-  PieceWorker(const PieceWorker&) = delete;
-  PieceWorker& operator=(const PieceWorker&) = delete;
+  explicit TileWorker(State& state) : s_(state), cost_(state), remover_(state) {}
 
   /// A level of those of the piece that may go. `number`: of the level, none of a vertex's levels has the
   /// same. Returns how many went.
   std::size_t levelOf(Piece piece, double threshold, std::uint32_t number, MtRecorder::BatchOrder order) {
-    {
-      const StageClock::Scope stage(clock_, "simplify: collect");
-      s_.waiting.collect(piece, threshold, due_);
-    }
+    s_.waiting.collect(piece, threshold, due_);
     take(piece, threshold, number);
     if (!taken_.empty()) remove(order);
     return taken_.size();
@@ -57,9 +47,6 @@ class PieceWorker {
 
   /// The vertices that were held since the last call, in no order, some more than once. They are due never.
   std::vector<std::uint32_t>& held() { return held_; }
-
-  /// Of its removals; nothing without a clock.
-  const RemovalTimes& removalTimes() const { return times_; }
 
  private:
   using Note = RemovalRecord::State;
@@ -70,7 +57,6 @@ class PieceWorker {
   };
 
   void take(Piece piece, double threshold, std::uint32_t number) {
-    const StageClock::Scope stage(clock_, "simplify: evaluate");
     const std::uint32_t isPassedOver = ~number;
     taken_.clear();
     linkSizes_.clear();
@@ -109,7 +95,6 @@ class PieceWorker {
   }
 
   void remove(MtRecorder::BatchOrder order) {
-    const StageClock::Scope stage(clock_, "simplify: remove");
     const std::uint32_t first = s_.recorder.beginBatch(order, linkSizes_);
     std::size_t dead = 0;
     for (std::size_t i = 0; i != taken_.size(); ++i) {
@@ -127,10 +112,8 @@ class PieceWorker {
   static constexpr std::size_t kStarsAhead = 3;
 
   State& s_;
-  RemovalTimes times_;
   RemovalCost<Plan, Errors> cost_;
   VertexRemover<Plan, Errors> remover_;
-  StageClock* clock_;
 
   UninitializedVector<std::uint32_t> due_;
   std::vector<std::uint32_t> taken_;
