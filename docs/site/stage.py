@@ -28,6 +28,8 @@ BARE = re.compile(r"(?<![\w/.<*-])`?([a-z0-9_]+\.(?:h|cpp|py|md))\b`?")
 DECISION = re.compile(r"\b([Dd]ecision )(\d+)\b")
 # A key of the bibliography.
 CITATION = re.compile(r"(?<![\w\]\\])\[((?:de)?[A-Z][A-Za-z]+[0-9]{4}[a-z]?)\](?!\()")
+# The same in the status of a decision, as in "superseded by 0028".
+NUMBER = re.compile(r"(?<![\w.])([Dd]ecision |(?=00\d\d\b))(\d+)\b")
 MARKDOWN_LINK = re.compile(r"(!?\[[^\]]*\]\()([^)#]+)(#[^)]*)?\)")
 LINK_OR_CODE = re.compile(r"(`[^`]*`|!?\[[^\]]*\]\([^)]*\))")
 
@@ -99,7 +101,8 @@ class Site:
                     self.errors.append(f"{source}: there is no file {name}")
             part = PATH.sub(lambda m: self.resolve(source, page, m), part)
             part = CITATION.sub(lambda m: self.cite(source, page, m), part)
-            parts[i] = DECISION.sub(lambda m: self.decision(source, page, m), part)
+            numbers = NUMBER if source.startswith("docs/decisions/") else DECISION
+            parts[i] = numbers.sub(lambda m: self.decision(source, page, m), part)
         return "".join(parts)
 
     def written_link(self, source, page, match):
