@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// On an Earth of curvature k a height h at the distance s is seen from the height h0 under the tangent
+// Over an ellipsoid, heights are replaced by those that have the same elevation angle without curvature. On
+// an Earth of curvature k, a height h at the distance s is seen from the height h0 at the tangent
 //
 //     T = [ (h - h0) / (1 + k h) - (1 - cos ks) / k ] / (sin(ks) / k)
 //
-// (sightTangent()), so over a plane at the same distance it would be T s high: with b = k s^2, what is in
-// brackets has (1 - cos ks) / k = b/2 (1 - kb/12 + ...) and is scaled by ks / sin ks = 1 + kb/6 + ...
+// (sightTangent() in terrain/sight/line.h), so without curvature it would be T s high. With b = k s^2, the
+// drop (1 - cos ks) / k is b/2 (1 - kb/12 + ...), and the factor ks / sin ks is 1 + kb/6 + ...; AzimuthalMap
+// limits ks.
 #include "terrain/viewshed/image_plane.h"
 
 #include <tbb/parallel_for.h>
@@ -18,8 +20,17 @@
 namespace arete {
 namespace {
 
-/// What is drawn too high by a doubt may be lower by twice as much.
-constexpr double kDoubts = 2.1;
+/// Terrain is drawn by its uncertainty higher than computed and may be as much lower: by twice it, and
+/// rounding.
+constexpr double kUncertainties = 2.1;
+/// The tolerance of a sight line in metres, and what it grows by per metre of its length (SightLine).
+constexpr double kTolerance = 1e-6, kTolerancePerMetre = 1e-12;
+/// An image coordinate is rounded by a few parts in 2^53.
+constexpr double kRounding = 2e-15;
+/// A line of sight in the raster is at most this many times as long as the raster's sides together.
+constexpr double kLongestLine = 1.1;
+/// Beside a track, terrain of slope r is higher by at most kRise * r * (deviation of the track).
+constexpr double kRise = 1.1;
 
 struct Heights {
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
@@ -39,11 +50,11 @@ Heights heightsOf(const SightGrid& grid) {
 
 }  // namespace
 
-ImagePlane::ImagePlane(const ViewshedTask& task, const AzimuthalMap* fan, const std::vector<float>* steepness)
+ImagePlane::ImagePlane(const ViewshedTask& task, const AzimuthalMap* map, const std::vector<float>* steepness)
     : task_(task),
-      fan_(fan),
+      map_(map),
       steepness_(steepness),
-      steps_(fan != nullptr ? fan->steps : *task.earth.planeSteps()),
+      steps_(map != nullptr ? map->steps : *task.earth.planeSteps()),
       unit_(task.model.georeference.verticalUnitMetres),
       h0_(task.observer.height) {
   const SightGrid& grid = task.grid;
@@ -53,11 +64,11 @@ ImagePlane::ImagePlane(const ViewshedTask& task, const AzimuthalMap* fan, const 
   const double range =
       std::max(heights.greatest + task.options.targetHeight, h0_) - std::min(heights.least, h0_);
   const double largest = std::max(std::fabs(heights.least), std::fabs(heights.greatest)) + range;
-  // A coordinate in the picture is rounded by a few parts in 2^53; the steepest edges there are as many
-  // times steeper than on the ground as samples lie before them.
-  const double rounding = 2e-15 * (double(grid.columns()) + grid.rows()) * range + 2e-15 * largest;
-  const double perUnit = fan != nullptr ? unit_ : 1;  // of the picture's heights
-  const double least = 1e-6 / unit_ * perUnit, most = (1e-6 + 1e-12 * 1.1 * length) / unit_ * perUnit;
+  // In the image, edges are at most as many times steeper than on the ground as samples lie before them.
+  const double rounding = kRounding * (double(grid.columns()) + grid.rows()) * range + kRounding * largest;
+  const double perUnit = map != nullptr ? unit_ : 1;  // heights in the image per unit of the DEM
+  const double least = kTolerance / unit_ * perUnit,
+               most = (kTolerance + kTolerancePerMetre * kLongestLine * length) / unit_ * perUnit;
   lift_ = std::max(0.0, rounding * perUnit - least / 2);
   slack_ = 2 * most + 2 * rounding * perUnit + lift_;
 }
@@ -68,31 +79,31 @@ std::size_t ImagePlane::index(const ViewshedSector& s, int x, int y) const {
   return row * task_.grid.columns() + column;
 }
 
-ImagePlane::Bent ImagePlane::bent(double x, double y, double bend) const {
+ImagePlane::Curved ImagePlane::curved(double x, double y, double twiceDrop) const {
   const double east = x * steps_.x.x + y * steps_.y.x, north = x * steps_.x.y + y * steps_.y.y;
   const double square = east * east + north * north,
-               // All but at the observer, the quotient is of rounding.
-      k = std::clamp(square > 0 ? bend / square : 0, fan_->leastCurvature, fan_->mostCurvature);
-  const double b = k * bend;  // (ks)^2
+               // Close to the observer the quotient is all rounding; the clamp makes it harmless.
+      k = std::clamp(square > 0 ? twiceDrop / square : 0, map_->leastCurvature, map_->mostCurvature);
+  const double b = k * twiceDrop;  // (ks)^2
   const double scale =
       1 + b * (1.0 / 6 + b * (7.0 / 360 + b * (31.0 / 15120 + b * (127.0 / 604800 + b * (73.0 / 3421440)))));
-  return {scale, scale * bend / 2 * (1 - b / 12 * (1 - b / 30)), k, std::sqrt(square)};
+  return {scale, scale * twiceDrop / 2 * (1 - b / 12 * (1 - b / 30)), k, std::sqrt(square)};
 }
 
-/// How much higher than drawn without it the terrain on the tracks may be. A line that is steeper than the
-/// terrain is as much higher or lower beside it; and what the curvature does to the drop of the ground grows
-/// with the height that is scaled along with it.
-double ImagePlane::doubt(double x, double y, const Bent& bent, double z, float steepness) const {
+/// How much higher the terrain on the tracks may be than at the place computed. Three terms: the terrain
+/// rises beside the track, relative to a line that may itself be steeper than the terrain; the drop of the
+/// ground is uncertain, and is scaled along with the height; the curvature is.
+double ImagePlane::uncertainty(double x, double y, const Curved& curved, double z, float steepness) const {
   const double steps = std::hypot(x, y), below = std::fabs(z - h0_) * unit_;
-  const double fall = below / std::max(steps, 1.0), step = bent.distance / std::max(steps, 1e-9);
+  const double fall = below / std::max(steps, 1.0), step = curved.distance / std::max(steps, 1e-9);
   const double rise = std::fabs(steepness) * unit_ + std::max(0.0, fall - step);
-  return 1.1 * fan_->planError(steps) * rise +
-         fan_->heightError(bent.distance) * (1 + fan_->mostCurvature * below) +
-         fan_->curvatureError() * std::fabs(z * unit_) * below;
+  return kRise * map_->planError(steps) * rise +
+         map_->heightError(curved.distance) * (1 + map_->mostCurvature * below) +
+         map_->curvatureError() * std::fabs(z * unit_) * below;
 }
 
-void ImagePlane::take(const ViewshedSector& sector, int x, int low, int high, int shear,
-                      PictureLine& line) const {
+void ImagePlane::draw(const ViewshedSector& sector, int x, int low, int high, int shear,
+                      ImageLine& line) const {
   const Vec2 o = observer(sector);
   line.x = x - o.x;
   line.from = low;
@@ -113,7 +124,7 @@ void ImagePlane::take(const ViewshedSector& sector, int x, int low, int high, in
     sum += at;
   }
   line.hasGaps = std::isnan(sum);
-  if (fan_ == nullptr) {
+  if (map_ == nullptr) {
     const double h = h0_ - lift_, per = 1 / line.x, off = o.y - shear * o.x;
     const int s = low - shear * x;
     for (std::size_t i = 0; i < count; ++i) {
@@ -122,21 +133,23 @@ void ImagePlane::take(const ViewshedSector& sector, int x, int low, int high, in
     }
     return;
   }
-  for (auto* values : {&line.doubt, &line.fanX, &line.fanY, &line.bend, &line.away}) values->resize(count);
+  for (auto* values : {&line.uncertainty, &line.mapX, &line.mapY, &line.twiceDrop, &line.away})
+    values->resize(count);
   line.isBesideGap.resize(count);
-  // The fan counts with the plan's numbers, the sector perhaps against them.
+  // The map is sampled along rising lattice numbers, which a sector may count backwards.
   const int start = sector.sign > 0 ? low : -high;
-  fan_->along(sector.isAlongRows, sector.line(x), start, line.count, line.fanX.data(), line.fanY.data(),
-              line.bend.data());
+  map_->along(sector.isAlongRows, sector.line(x), start, line.count, line.mapX.data(), line.mapY.data(),
+              line.twiceDrop.data());
   if (sector.sign < 0)
-    for (auto* values : {&line.fanX, &line.fanY, &line.bend}) std::reverse(values->begin(), values->end());
+    for (auto* values : {&line.mapX, &line.mapY, &line.twiceDrop})
+      std::reverse(values->begin(), values->end());
   const float* steep = steepness_->data() + first;
   for (std::size_t i = 0; i < count; ++i) {
-    const Bent b = bent(line.fanX[i], line.fanY[i], line.bend[i]);
+    const Curved b = curved(line.mapX[i], line.mapY[i], line.twiceDrop[i]);
     const double raised =
-        doubt(line.fanX[i], line.fanY[i], b, line.z[i], steep[static_cast<std::ptrdiff_t>(i) * stride]);
-    const Vec2 place = sector.turned({line.fanX[i], line.fanY[i]});
-    line.doubt[i] = kDoubts * raised;
+        uncertainty(line.mapX[i], line.mapY[i], b, line.z[i], steep[static_cast<std::ptrdiff_t>(i) * stride]);
+    const Vec2 place = sector.turned({line.mapX[i], line.mapY[i]});
+    line.uncertainty[i] = kUncertainties * raised;
     line.isBesideGap[i] = std::signbit(steep[static_cast<std::ptrdiff_t>(i) * stride]);
     line.away[i] = place.x;
     line.u[i] = place.y / place.x;
@@ -148,36 +161,38 @@ ImagePlane::Sample ImagePlane::sample(const ViewshedSector& sector, int x, int y
   const Vec2 o = observer(sector);
   const std::size_t at = index(sector, x, y);
   const double z = task_.grid.row(0)[at];
-  if (fan_ == nullptr) return {{x - o.x, y - o.y}, z + lift_ - h0_, 0, false};
+  if (map_ == nullptr) return {{x - o.x, y - o.y}, z + lift_ - h0_, 0, false};
   const int column = sector.line(sector.isAlongRows ? x : y), row = sector.line(sector.isAlongRows ? y : x);
-  double fx, fy, bend;
-  fan_->along(sector.isAlongRows, sector.line(x), sector.isAlongRows ? row : column, 1, &fx, &fy, &bend);
-  const Bent b = bent(fx, fy, bend);
+  double mapX, mapY, twiceDrop;
+  map_->along(sector.isAlongRows, sector.line(x), sector.isAlongRows ? row : column, 1, &mapX, &mapY,
+              &twiceDrop);
+  const Curved b = curved(mapX, mapY, twiceDrop);
   const float steep = (*steepness_)[at];
-  const double raised = doubt(fx, fy, b, z, steep);
-  return {sector.turned({fx, fy}), elevated(b, z) + raised + lift_, kDoubts * raised, std::signbit(steep)};
+  const double raised = uncertainty(mapX, mapY, b, z, steep);
+  return {sector.turned({mapX, mapY}), elevated(b, z) + raised + lift_, kUncertainties * raised,
+          std::signbit(steep)};
 }
 
 double ImagePlane::direction(const ViewshedSector& sector, int x, int y, int shear) const {
   const Vec2 o = observer(sector);
-  if (fan_ == nullptr) return ((y - shear * x) - (o.y - shear * o.x)) / (x - o.x);
-  double fx, fy, bend;
-  fan_->along(sector.isAlongRows, sector.line(x), sector.line(y), 1, &fx, &fy, &bend);
-  const Vec2 p = sector.turned({fx, fy});
+  if (map_ == nullptr) return ((y - shear * x) - (o.y - shear * o.x)) / (x - o.x);
+  double mapX, mapY, twiceDrop;
+  map_->along(sector.isAlongRows, sector.line(x), sector.line(y), 1, &mapX, &mapY, &twiceDrop);
+  const Vec2 p = sector.turned({mapX, mapY});
   return p.y / p.x;
 }
 
-double ImagePlane::target(const PictureLine& line, std::size_t i, double above) const {
-  if (fan_ == nullptr) return (line.z[i] + above - h0_) * (1 / line.x);
-  const Bent b = bent(line.fanX[i], line.fanY[i], line.bend[i]);
+double ImagePlane::target(const ImageLine& line, std::size_t i, double above) const {
+  if (map_ == nullptr) return (line.z[i] + above - h0_) * (1 / line.x);
+  const Curved b = curved(line.mapX[i], line.mapY[i], line.twiceDrop[i]);
   return elevated(b, line.z[i] + above) / line.away[i];
 }
 
-Vec2 ImagePlane::ground(const ViewshedSector& sector, const PictureLine& line, std::size_t i) const {
+Vec2 ImagePlane::ground(const ViewshedSector& sector, const ImageLine& line, std::size_t i) const {
   double x, y;
-  if (fan_ != nullptr) {
-    x = line.fanX[i];
-    y = line.fanY[i];
+  if (map_ != nullptr) {
+    x = line.mapX[i];
+    y = line.mapY[i];
   } else {
     const Vec2 o = observer(sector);
     const Vec2 p = sector.turned({line.x, line.from + static_cast<int>(i) - o.y});
@@ -199,25 +214,27 @@ Vec2 ImagePlane::yStep(const ViewshedSector& s) const {
 
 std::vector<float> viewshedSteepness(const SightGrid& grid, const RunContext& context) {
   const std::uint32_t columns = grid.columns(), rows = grid.rows();
-  // Of each cell, by its upper left sample: a surface that rises by a along a row and b along a column rises
-  // by hypot(a, b) in a step, in either triangle.
+  // Steepness of each cell, stored at its upper left sample: a triangle that rises by a along a row and b
+  // along a column rises by at most hypot(a, b) in a step. NODATA differences are left out.
   std::vector<float> cells(std::size_t{columns} * rows, 0), steep(cells.size());
   withThreads(context, [&] {
     tbb::parallel_for(0u, rows - 1, [&](std::uint32_t row) {
       const double *upper = grid.row(row), *lower = grid.row(row + 1);
       float* out = cells.data() + std::size_t{row} * columns;
       for (std::uint32_t c = 0; c + 1 < columns; ++c) {
-        const auto most = [](double a, double b) {  // of differences that are there
+        const auto most = [](double a, double b) {  // of the differences that are no NaN
           a = std::fabs(a);
           b = std::fabs(b);
           return a > b || std::isnan(b) ? (std::isnan(a) ? 0 : a) : b;
         };
         const double x = most(upper[c + 1] - upper[c], lower[c + 1] - lower[c]),
                      y = most(lower[c] - upper[c], lower[c + 1] - upper[c + 1]);
-        out[c] = static_cast<float>(1.0001 * std::sqrt(x * x + y * y));
+        constexpr double kFloat = 1.0001;  // more than conversion to float takes away
+        out[c] = static_cast<float>(kFloat * std::sqrt(x * x + y * y));
       }
     });
-    // The most of four cells in a row, then in a column: those with upper left samples from -2 to +1.
+    // The maximum of 4 x 4 cells, whose upper left samples are -2 to +1 away: of four in a row, then in a
+    // column.
     std::vector<float> across(cells.size());
     tbb::parallel_for(0u, rows, [&](std::uint32_t row) {
       const float* in = cells.data() + std::size_t{row} * columns;

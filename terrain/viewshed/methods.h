@@ -27,12 +27,12 @@ Status viewshedRays(const ViewshedTask& task, const RunContext& context, Viewshe
 Status viewshedOfPlaces(const ViewshedExact& exact, const SightGrid& grid, std::span<const Vec2> places,
                         const RunContext& context, Viewshed& result);
 
-/// Why the sweep cannot do this; nothing where it can. Without the fan that the Earth has, as far as the
+/// Why the sweep cannot do this; nothing where it can. Without the map that the Earth has, as far as the
 /// observer and the options go. O(1).
-std::optional<std::string> whyNotSweep(const ViewshedTask& task, const AzimuthalMap* fan);
-/// Preconditions: !whyNotSweep(task, fan); the fan is the observer's; null where the Earth is a plane. Fills
+std::optional<std::string> whyNotSweep(const ViewshedTask& task, const AzimuthalMap* map);
+/// Preconditions: !whyNotSweep(task, map); the map is the observer's; null where the Earth is a plane. Fills
 /// cells, values and rays. Errors: interrupted, those of the earth.
-Status viewshedSweep(const ViewshedTask& task, const AzimuthalMap* fan, const RunContext& context,
+Status viewshedSweep(const ViewshedTask& task, const AzimuthalMap* map, const RunContext& context,
                      Viewshed& result);
 
 }  // namespace arete

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Seen from the observer, through a picture plane, an edge of the terrain is a straight segment and so is the
+// Seen from the observer, through a image plane, an edge of the terrain is a straight segment and so is the
 // skyline of all terrain up to some distance: the upper envelope of its edges. A sample is seen if and only
-// if it stands no lower in the picture than that skyline (De Floriani and Magillo 1994). The plan is cut into
+// if it stands no lower in the image than that skyline (De Floriani and Magillo 1994). The plan is cut into
 // four sectors (viewshed_picture.h) and these into wedges, each swept from the observer outwards, one lattice
 // line after the other (Franklin and Ray 1994).
 //
-// Rounding. Edges that point at the observer have no width in the picture; near u = 0, where those along x
+// Rounding. Edges that point at the observer have no width in the image; near u = 0, where those along x
 // do, u is exact to its last bit, and so it is for diagonals when y is sheared to y - x: u is then measured
 // from the diagonal. A wedge is sheared where u >= 1/2.
 //
-// Over an ellipsoid the plan is that of the fan of geodesics (viewshed_fan.h), in which tracks are straight
+// Over an ellipsoid the plan is that of the map of geodesics (viewshed_fan.h), in which tracks are straight
 // but for a thousandth of a step. What terrain rises in that is in doubt, and whether a line is over terrain
 // so near to a void; edges that point at the observer are left out.
 //
@@ -34,16 +34,16 @@ namespace {
 /// Samples of the farthest line in a wedge, about.
 constexpr double kWedgeSamples = 512;
 
-std::vector<ViewshedWedge> wedgesOf(const ImagePlane& picture, bool isAlongRows) {
+std::vector<ViewshedWedge> wedgesOf(const ImagePlane& image, bool isAlongRows) {
   std::vector<ViewshedWedge> wedges;
-  const SightGrid& grid = picture.task().grid;
+  const SightGrid& grid = image.task().grid;
   for (const int sign : {1, -1}) {
     const ViewshedSector sector{isAlongRows, sign};
-    const double at = isAlongRows ? picture.task().observer.plan.x : picture.task().observer.plan.y;
+    const double at = isAlongRows ? image.task().observer.plan.x : image.task().observer.plan.y;
     const double far = sign > 0 ? (isAlongRows ? grid.columns() : grid.rows()) - 1 - at : at;
     if (!(far > 0)) continue;
-    // Columns take the samples on the diagonals; over a fan, where these are rounded, a little more.
-    const double more = picture.isFan() && isAlongRows ? 1e-9 : 0;
+    // Columns take the samples on the diagonals; over a map, where these are rounded, a little more.
+    const double more = image.isMapped() && isAlongRows ? 1e-9 : 0;
     const int parts = 4 * std::max(1, static_cast<int>(far / 2 / kWedgeSamples));
     for (int i = 0; i < parts; ++i) {
       const double first = -1 + 2.0 * i / parts, last = -1 + 2.0 * (i + 1) / parts;
@@ -56,19 +56,19 @@ std::vector<ViewshedWedge> wedgesOf(const ImagePlane& picture, bool isAlongRows)
 
 }  // namespace
 
-std::optional<std::string> whyNotSweep(const ViewshedTask& task, const AzimuthalMap* fan) {
+std::optional<std::string> whyNotSweep(const ViewshedTask& task, const AzimuthalMap* map) {
   if (!task.earth.planeSteps() && !task.earth.geodesicError())
     return "tracks over this Earth are neither straight in plan nor geodesics";
-  const bool isFan = !task.earth.planeSteps();
-  if (isFan && task.options.value != ViewshedValue::none)
+  const bool isMapped = !task.earth.planeSteps();
+  if (isMapped && task.options.value != ViewshedValue::none)
     return "over an ellipsoid it tells what is seen, not how high or under which angle";
   const SightGrid& grid = task.grid;
   const Vec2 o = task.observer.plan;
-  const double margin = isFan ? 2 : 0;  // geodesics may leave the DEM
+  const double margin = isMapped ? 2 : 0;  // geodesics may leave the DEM
   if (!(o.x >= margin && o.y >= margin && o.x <= grid.columns() - 1 - margin &&
         o.y <= grid.rows() - 1 - margin))
-    return isFan ? "the observer is outside of the DEM or at its border"
-                 : "the observer is outside of the DEM";
+    return isMapped ? "the observer is outside of the DEM or at its border"
+                    : "the observer is outside of the DEM";
   const int column = static_cast<int>(o.x), row = static_cast<int>(o.y);
   double greatest = 0;
   for (int r = row - 2; r <= row + 3; ++r)
@@ -90,15 +90,15 @@ std::optional<std::string> whyNotSweep(const ViewshedTask& task, const Azimuthal
     return "the observer is on the ground, all but on an edge";
   if (std::isnan(above) && off(o.x) > 0 && (off(o.x - o.y) < kNearest || off(o.x + o.y) < kNearest))
     return "the observer is over NODATA, all but on an edge";
-  // Over a fan, terrain is drawn too high by as much as it may rise within its error.
-  if (fan != nullptr && above < 4 * fan->planError(0) * greatest + 2 * fan->heightError(0) / unit)
+  // Over a map, terrain is drawn too high by as much as it may rise within its error.
+  if (map != nullptr && above < 4 * map->planError(0) * greatest + 2 * map->heightError(0) / unit)
     return "the observer is on the ground";
   return std::nullopt;
 }
 
-Status viewshedSweep(const ViewshedTask& task, const AzimuthalMap* fan, const RunContext& context,
+Status viewshedSweep(const ViewshedTask& task, const AzimuthalMap* map, const RunContext& context,
                      Viewshed& result) {
-  const ImagePlane picture(task, fan, &task.steepness);
+  const ImagePlane image(task, map, &task.steepness);
   const Vec2 o = task.observer.plan;
   if (o.x == std::floor(o.x) && o.y == std::floor(o.y)) {
     const std::size_t own =
@@ -111,14 +111,14 @@ Status viewshedSweep(const ViewshedTask& task, const AzimuthalMap* fan, const Ru
   }
   double before = 0;
   for (const bool isAlongRows : {true, false}) {
-    const std::vector<ViewshedWedge> wedges = wedgesOf(picture, isAlongRows);
+    const std::vector<ViewshedWedge> wedges = wedgesOf(image, isAlongRows);
     std::vector<std::uint64_t> rays(wedges.size());
     std::vector<Status> statuses(wedges.size());
     SharedProgress progress(context, "viewshed", wedges.size(), before, before + 0.5);
     withThreads(context, [&] {
       tbb::parallel_for(std::size_t{0}, wedges.size(), [&](std::size_t i) {
         if (context.cancelled()) return;
-        ViewshedWedgeSweep sweep(picture, wedges[i], result);
+        ViewshedWedgeSweep sweep(image, wedges[i], result);
         statuses[i] = sweep.run(context);
         rays[i] = sweep.rays();
         progress.add();

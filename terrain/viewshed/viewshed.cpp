@@ -101,12 +101,12 @@ Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const Vie
   } else if (options.method != ViewshedMethod::rays) {
     whyNot = whyNotSweep(task, nullptr);
   }
-  std::optional<AzimuthalMap> fan;
+  std::optional<AzimuthalMap> map;
   if (!hasTolerance && options.method != ViewshedMethod::rays && !whyNot && !earth_->planeSteps()) {
     auto made = AzimuthalMap::make(*earth_, from.plan, grid_->columns(), grid_->rows(), context);
     if (made) {
-      fan = std::move(*made);
-      whyNot = whyNotSweep(task, &*fan);
+      map = std::move(*made);
+      whyNot = whyNotSweep(task, &*map);
     } else {
       whyNot = made.error();
     }
@@ -117,7 +117,7 @@ Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const Vie
       options.method == ViewshedMethod::rays || whyNot ? ViewshedMethod::rays : ViewshedMethod::sweep;
   context.report("viewshed", 0);
   const Status status = result.method == ViewshedMethod::sweep
-                            ? viewshedSweep(task, fan ? &*fan : nullptr, context, result)
+                            ? viewshedSweep(task, map ? &*map : nullptr, context, result)
                             : viewshedRays(task, context, result);
   if (!status) return tl::unexpected(status.error());
   context.report("viewshed", 1);

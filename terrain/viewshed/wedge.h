@@ -1,91 +1,54 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "terrain/viewshed/gaps.h"
-#include "terrain/viewshed/horizon.h"
+#include <cstdint>
+#include <optional>
+
 #include "terrain/viewshed/image_plane.h"
-#include "terrain/viewshed/near_gaps.h"
+#include "terrain/viewshed/wedge_terrain.h"
 
 namespace arete {
 
-/// Directions of one sector, from u = first to u = last.
-struct ViewshedWedge {
-  ViewshedSector sector;
-  double first, last;
-  bool ownsFirst, ownsLast;  ///< samples at that end are its own
-};
-
-/// Sweeps one wedge: fills the result's cells, and values, that are in it.
+/// Sweeps one wedge of directions from the observer outwards, lattice line after lattice line
+/// [FranklinRay1994]: fills the cells, and values, of the samples that are in it.
 class ViewshedWedgeSweep {
  public:
-  ViewshedWedgeSweep(const ImagePlane& picture, const ViewshedWedge& wedge, Viewshed& result);
-  /// Errors: those of the earth. Stops when told to.
+  /// @param result has the size of the grid; other wedges fill other cells of it at the same time.
+  ViewshedWedgeSweep(const ImagePlane& image, const ViewshedWedge& wedge, Viewshed& result);
+  /// Returns early when the context is cancelled. Errors: those of the earth.
   Status run(const RunContext& context);
+  /// @return samples that an engine answered.
   std::uint64_t rays() const { return rays_; }
 
  private:
-  double height(int x, int y) const;
-  std::size_t index(int x, int y) const;
-
-  void take(int x, PictureLine& line) const;
-  Status ask(int x);
-  Status askOne(int x, int y);
-  bool isBesideGap(int x, int y) const;
-  ViewshedHorizon::Bounds linkBefore(int y, double target) const;
-  enum class Side { inside, doubtful, outside };
-  Side fieldAt(const PictureLine& line, std::size_t i, double target) const;
-  Status exactly(std::size_t at, int x, int y);
-  bool isBeyond(double x) const;
-
-  void addEdges(int x);
-  void addTips(int x);
-  bool isTip(int x, int y, double u) const;
-  bool isAtTip(int bin, double u) const {
-    return !tips_.isEmpty() && binsWithTips_[static_cast<std::size_t>(bin)] != 0 && tips_.has(u);
-  }
-  void addCells(int x, int from, int to);
-  void addWholeCells(int x, int from, int count);
-  template <bool kIsFan>
-  void addWholeCells(int x, int from, int count);
-  struct End {
-    const PictureLine& line;
-    std::size_t at;
-    Vec2 place() const { return {line.away[at], line.u[at] * line.away[at]}; }
+  /// What one kind of evidence says of a sample.
+  enum class Verdict : std::uint8_t {
+    visible,    ///< nothing of this kind hides it
+    hidden,     ///< something of this kind is in the way for sure
+    undecided,  ///< it takes an engine's answer
   };
-  void addFanEdge(End a, End b, int triangles);
-  void addBesideGap(End a, End b, bool isRim);
-  int trianglesAlong(int x, int y) const;
-  int trianglesAcross(int x, int y) const;
-  void addPartialCell(int x, int y);
-  void addBorder(int x, int y, int outside);
-  void addFirst(int x);
-  void addNearGap(int x, int y);
-  ViewshedNearGaps::Crossing gapsTowards(double u) const;
-  void addNear(const ImagePlane::Sample& a, const ImagePlane::Sample& b);
+  struct Evidence {
+    Verdict skyline, gaps, tips;
+  };
 
-  double slack(const PictureLine& a, std::size_t i, const PictureLine& b, std::size_t j) const {
-    return picture_.slack(std::min(a.x, b.x) * 0.99, picture_.isFan() ? std::max(a.doubt[i], b.doubt[j]) : 0);
-  }
+  Status classifyLine(int x);
+  Status classify(int x, int y);
+  Verdict fieldVerdict(const ImageLine& line, std::size_t i, double target) const;
+  static Verdict skylineVerdict(double target, const ViewshedHorizon::Bounds& skyline);
+  Verdict gapVerdict(const ViewshedNearGaps::Crossing& gap, Verdict skyline) const;
+  Verdict tipVerdict(int bin, double u, Verdict skyline) const;
+  std::optional<ViewshedCell> combine(const Evidence& evidence) const;
+  std::optional<float> valueOf(const ImageLine& line, std::size_t i, const Evidence& evidence,
+                               const ViewshedHorizon::Bounds& skyline) const;
+  Status askEngine(std::size_t at, int x, int y);
+  bool isBeyondField(double x) const;
 
-  const ImagePlane& picture_;
+  const ImagePlane& image_;
   const ViewshedTask& task_;
   const ViewshedWedge& wedge_;
   Viewshed& result_;
-  int xLeast_, xGreatest_, yLeast_, yGreatest_;
-  Vec2 observer_;
-  int shear_;
-  double turn_;
-  double first_, last_;  ///< of u, sheared, padded
-  bool hasField_, wantsValue_, wantsGaps_;
-  ViewshedHorizon horizon_;
-  /// Over a fan: what may be before a line, but may as well be beside it. The lower bound of the skyline is
-  /// that of the other horizon alone, the upper one that of both.
-  ViewshedHorizon doubtful_;
-  ViewshedGaps gaps_;
-  ViewshedNearGaps nearGaps_;
-  DirectionSet tips_;  ///< where lines may meet terrain on the skyline in a single point
-  std::vector<char> binsWithTips_;
-  PictureLine near_, far_;  ///< the lattice lines before and at x
+  WedgeTerrain terrain_;
+  bool hasField_, wantsValue_;
   std::uint64_t rays_ = 0;
 };
 
