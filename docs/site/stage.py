@@ -161,6 +161,7 @@ def main():
     docs = sorted(f for f in site.files if f.startswith("docs/") and f.endswith(".md"))
     for source in docs:
         site.stage(source, source.removeprefix("docs/"))
+    shutil.copy("docs/site/extra.css", site.pages)
     for picture in (f for f in site.files if f.startswith("docs/pictures/")):
         target = site.pages / picture.removeprefix("docs/")
         target.parent.mkdir(parents=True, exist_ok=True)
