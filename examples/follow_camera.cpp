@@ -48,7 +48,6 @@ int main(int argc, char** argv) {
     if (!view) return fail(view.error());
 
     arete::IncrementalOptions options;
-    options.exact = false;  // a few triangles more, half the time
     options.deadline = arete::Deadline::in(std::chrono::milliseconds(10));
     const arete::ViewError criterion({.view = *view, .pixels = 1}, model->mt.arrays().metric);
     const auto update = cut.update(criterion, options);

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A criterion by location decides about a triangle from its corners, and about a ball from the distances of
+// its nearest and farthest points. Where both errors of a region agree on a verdict the region is not
+// queried.
 #include "engine/criteria/criterion.h"
 
 #include <algorithm>
@@ -8,7 +12,8 @@
 
 namespace arete {
 
-std::uint64_t Criterion::exceeding(std::span<const Sphere> balls, std::span<const float> errors) const {
+std::uint64_t BoundedCriterion::exceeding(std::span<const Sphere> balls,
+                                          std::span<const float> errors) const {
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < balls.size(); ++i)
     bits |= std::uint64_t(errors[i] > allowedError(balls[i]) ? 1 : 0) << i;
@@ -16,7 +21,7 @@ std::uint64_t Criterion::exceeding(std::span<const Sphere> balls, std::span<cons
 }
 
 std::uint64_t RegionError::exceeding(std::span<const Sphere> balls, std::span<const float> errors) const {
-  // Most places need no look at the region.
+  // Few balls have an error between the two: only these need the region.
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < balls.size(); ++i) {
     const bool exceeds =
@@ -66,71 +71,6 @@ double DistanceError::allowedError(const Sphere& s) const {
 double DistanceError::mostAllowed(const Sphere& s) const {
   constexpr double kRounding = 1 + 1e-9;
   return allowedAt((distanceToMiddle(s) + s.radius) * kRounding);
-}
-
-bool AllOf::isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
-  return std::ranges::all_of(parts_, [&](const auto& part) { return part->isFineEnough(mt, t, corners); });
-}
-
-double AllOf::severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
-  double worst = 0;
-  for (const auto& part : parts_)
-    if (!part->isFineEnough(mt, t, corners)) worst = std::max(worst, part->severity(mt, t, corners));
-  return worst;
-}
-
-bool AllOf::isMonotone() const {
-  return std::ranges::all_of(parts_, [](const auto& part) { return part->isMonotone(); });
-}
-
-double AllOf::allowedError(const Sphere& s) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& part : parts_) least = std::min(least, part->allowedError(s));
-  return least;
-}
-
-double AllOf::mostAllowed(const Sphere& s) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& part : parts_) least = std::min(least, part->mostAllowed(s));
-  return least;
-}
-
-std::uint64_t AllOf::exceeding(std::span<const Sphere> balls, std::span<const float> errors) const {
-  std::uint64_t bits = 0;
-  for (const auto& part : parts_) bits |= part->exceeding(balls, errors);
-  return bits;
-}
-
-bool AnyOf::isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
-  return std::ranges::any_of(parts_, [&](const auto& part) { return part->isFineEnough(mt, t, corners); });
-}
-
-double AnyOf::severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& part : parts_) least = std::min(least, part->severity(mt, t, corners));
-  return least;
-}
-
-bool AnyOf::isMonotone() const {
-  return std::ranges::all_of(parts_, [](const auto& part) { return part->isMonotone(); });
-}
-
-double AnyOf::allowedError(const Sphere& s) const {
-  double largest = 0;
-  for (const auto& part : parts_) largest = std::max(largest, part->allowedError(s));
-  return largest;
-}
-
-double AnyOf::mostAllowed(const Sphere& s) const {
-  double largest = 0;
-  for (const auto& part : parts_) largest = std::max(largest, part->mostAllowed(s));
-  return largest;
-}
-
-std::uint64_t AnyOf::exceeding(std::span<const Sphere> balls, std::span<const float> errors) const {
-  std::uint64_t bits = ~std::uint64_t(0);
-  for (const auto& part : parts_) bits &= part->exceeding(balls, errors);
-  return bits;
 }
 
 }  // namespace arete

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -10,7 +9,6 @@
 #include <optional>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "engine/criteria/motion.h"
 #include "engine/criteria/region.h"
@@ -18,13 +16,16 @@
 
 namespace arete {
 
-/// c(t): when a triangle is fine enough (Mirza, Skvortsov, Sobolev). Errors are vertical, in the unit of the
-/// heights.
+class BoundedCriterion;
+class KineticCriterion;
+
+/// Decides when a triangle is fine enough: the extraction condition of [DeFlorianiMagilloPuppo1998]. Errors
+/// are vertical, in the unit of heights.
 ///
-/// A criterion that allows an error by place says so through allowedError(): then it can steer the saturated
-/// cut, whose test per node needs a bound over the node's sphere. Any other criterion (isMonotone() false)
-/// steers the minimal cut. mostAllowed() only saves time: it decides about triangles before they are asked
-/// for.
+/// A Criterion tests triangles and can take minimal cuts. A BoundedCriterion also bounds the allowed error
+/// over balls: it can take saturated cuts, and takes minimal ones faster. A KineticCriterion also bounds its
+/// motion: a cut that follows it (IncrementalCut) evaluates little per frame. Thread-safe: all functions are
+/// const.
 class Criterion {
  public:
   using Corners = std::array<std::uint32_t, 3>;  ///< MT vertices
@@ -34,74 +35,89 @@ class Criterion {
   /// Whether the triangle may stay in the front.
   virtual bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const = 0;
 
-  /// How much a triangle that is not fine enough weighs when a budget is spent, the worst first: its error,
-  /// or what the criterion makes of it (pixels).
+  /// The weight of a triangle that is not fine enough. A budget is spent on the largest first. By default the
+  /// triangle's error; a view returns pixels.
   virtual double severity(const MultiTriangulation& mt, TriangleId t, const Corners&) const {
     return mt.error(t);
   }
 
-  /// Up to which severity every triangle is fine enough; NaN where it is not the severity that decides.
-  virtual double severityLimit() const { return std::numeric_limits<double>::quiet_NaN(); }
-  /// The same criterion up to another severity; null where severityLimit() is NaN. Precondition: > 0.
-  virtual std::unique_ptr<const Criterion> withSeverityLimit(double limit) const {
+  /// This criterion with its bounds; null when it has none.
+  virtual const BoundedCriterion* bounded() const { return nullptr; }
+};
+
+/// A criterion that bounds the allowed error over balls of metric space.
+class BoundedCriterion : public Criterion {
+ public:
+  /// A lower bound of the error that the criterion allows to any triangle that meets the ball. Not larger for
+  /// a ball that contains this one.
+  virtual double allowedError(const Sphere& ball) const = 0;
+
+  /// An upper bound of the error that the criterion allows to any triangle within the ball; infinity when
+  /// unknown. Only saves time: it rejects triangles before they are tested.
+  virtual double mostAllowed(const Sphere&) const { return std::numeric_limits<double>::infinity(); }
+
+  /// Compares many balls at once: bit i of the result is errors[i] > allowedError(balls[i]). The default
+  /// tests each by itself. Precondition: at most 64 balls, and as many errors.
+  virtual std::uint64_t exceeding(std::span<const Sphere> balls, std::span<const float> errors) const;
+
+  /// The allowed error where it is the same everywhere: such a cut is found by comparing codes alone.
+  virtual std::optional<double> uniformError() const { return {}; }
+
+  /// The severity up to which every triangle is fine enough, if severity alone decides.
+  virtual std::optional<double> severityLimit() const { return {}; }
+  /// The same criterion with another severityLimit(). Preconditions: it has one; limit > 0.
+  virtual std::unique_ptr<const BoundedCriterion> withSeverityLimit(double limit) const {
     static_cast<void>(limit);
     return nullptr;
   }
 
-  /// Whether allowedError() is a bound: for every ball inside another it is at least the other's.
-  virtual bool isMonotone() const { return false; }
-  /// The least error that the criterion allows to any triangle that meets the ball (metric space).
-  virtual double allowedError(const Sphere&) const { return 0; }
+  /// This criterion with a bound of its motion; null when it has none.
+  virtual const KineticCriterion* kinetic() const { return nullptr; }
 
-  /// The most error that it allows to any triangle within the ball; infinite where it does not know.
-  virtual double mostAllowed(const Sphere&) const { return std::numeric_limits<double>::infinity(); }
+  const BoundedCriterion* bounded() const final { return this; }
+};
 
-  /// Which of these balls, 64 at most, are allowed less than their error: bit i of the answer is
-  /// error[i] > allowedError(ball[i]). What decides about many balls at once may override it.
-  /// Precondition: isMonotone().
-  virtual std::uint64_t exceeding(std::span<const Sphere> balls, std::span<const float> errors) const;
+/// A criterion that changes from frame to frame and bounds by how much: for how much motion a verdict on a
+/// ball holds is the failure time of a certificate of a kinetic data structure [BaschGuibasHershberger1999].
+class KineticCriterion : public BoundedCriterion {
+ public:
+  /// A copy, to compare later criteria with.
+  virtual std::unique_ptr<const KineticCriterion> clone() const = 0;
 
-  /// A copy to be asked about when the caller's is gone. Null where motionSince() knows nothing anyway.
-  virtual std::unique_ptr<const Criterion> remembered() const { return nullptr; }
-  /// How far it has moved since it was `before`, at most; nothing where they cannot be compared.
-  virtual std::optional<Motion> motionSince(const Criterion& before) const {
-    static_cast<void>(before);
-    return {};
-  }
-  /// As exceeding(), and for how long: no criterion that has moved by at most units[i] times `rate` since
-  /// this one (motionSince() it) answers otherwise for ball i. The parts of `rate` are positive. 0 units: who
-  /// knows. Precondition: as of exceeding(), and as many units.
+  /// An upper bound of the motion from `before` to this criterion; nothing when they cannot be compared.
+  virtual std::optional<Motion> motionSince(const KineticCriterion& before) const = 0;
+
+  /// exceeding(), and how long each verdict holds: a criterion c with c.motionSince(*this) <= units[i] * rate
+  /// has the same verdict on ball i.
+  /// @param rate The unit of motion; all parts are positive.
+  /// @param units Receives a lower bound per ball; 0 when unknown. As many as balls.
   virtual std::uint64_t exceedingFor(std::span<const Sphere> balls, std::span<const float> errors,
-                                     const Motion& rate, std::span<float> units) const {
-    static_cast<void>(rate);
-    std::fill(units.begin(), units.end(), 0.0f);
-    return exceeding(balls, errors);
-  }
+                                     const Motion& rate, std::span<float> units) const = 0;
 
-  /// The same error allowed everywhere: the front is then found without looking at places. NaN otherwise.
-  virtual double uniformError() const { return std::numeric_limits<double>::quiet_NaN(); }
+  const KineticCriterion* kinetic() const final { return this; }
 };
 
 /// Error at most E everywhere.
-class UniformError final : public Criterion {
+class UniformError final : public BoundedCriterion {
  public:
   explicit UniformError(double maxError) : maxError_(maxError) {}
   bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners&) const override {
     return mt.error(t) <= maxError_;
   }
-  bool isMonotone() const override { return true; }
   double allowedError(const Sphere&) const override { return maxError_; }
   double mostAllowed(const Sphere&) const override { return maxError_; }
-  double uniformError() const override { return maxError_; }
+  std::optional<double> uniformError() const override { return maxError_; }
 
  private:
   double maxError_;
 };
 
-/// One error for the triangles that touch a region of the plan, another for the rest.
-class RegionError final : public Criterion {
+/// One error for the triangles that meet a region of the plan, another for the rest.
+class RegionError final : public BoundedCriterion {
  public:
-  /// The region is in plan coordinates of the MT. Precondition: insideError <= outsideError.
+  /// @param region In plan coordinates of the MT.
+  /// @param metric The frame of the MT.
+  /// Precondition: insideError <= outsideError.
   RegionError(Region region, const MetricFrame& metric, double insideError, double outsideError)
       : region_(std::move(region)),
         metricRegion_(region_.scaled(metric)),
@@ -109,7 +125,6 @@ class RegionError final : public Criterion {
         outsideError_(outsideError) {}
 
   bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
-  bool isMonotone() const override { return true; }
   double allowedError(const Sphere& s) const override {
     return metricRegion_.meetsDisc({s.x, s.y}, s.radius) ? insideError_ : outsideError_;
   }
@@ -124,15 +139,15 @@ class RegionError final : public Criterion {
   double insideError_, outsideError_;
 };
 
-/// An error that grows with the distance from a place: nearError + growth * distance, at most farError.
-/// Distances are in metric space, between the place and the nearest point of a triangle.
-class DistanceError final : public Criterion {
+/// An error that grows with the distance from a point: nearError + growth * distance, at most farError.
+/// Distances are in metric space, between the point and the nearest point of a triangle.
+class DistanceError final : public BoundedCriterion {
  public:
   struct Options {
-    Vec3 place;            ///< metric space
+    Vec3 place;            ///< the point, in metric space
     bool inPlan = false;   ///< distances in the plan alone: place.z does not count
-    double nearError = 0;  ///< allowed at the place
-    double growth = 0;     ///< error per metric unit, >= 0
+    double nearError = 0;  ///< allowed at the point
+    double growth = 0;     ///< error per metric unit of distance, >= 0
     double farError = std::numeric_limits<double>::infinity();  ///< allowed at most
   };
   explicit DistanceError(const Options& options) : o_(options) {}
@@ -140,9 +155,8 @@ class DistanceError final : public Criterion {
   bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override {
     return mt.error(t) <= allowedFor(mt, corners);
   }
-  /// The error in units of the one allowed, where one is.
+  /// The ratio of the error to the allowed one.
   double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
-  bool isMonotone() const override { return true; }
   double allowedError(const Sphere& s) const override;
   double mostAllowed(const Sphere& s) const override;
 
@@ -154,7 +168,7 @@ class DistanceError final : public Criterion {
   Options o_;
 };
 
-/// Whatever a caller makes of a triangle.
+/// A test of the caller's.
 class Predicate final : public Criterion {
  public:
   using Test = std::function<bool(const MultiTriangulation&, TriangleId, const Corners&)>;
@@ -165,42 +179,6 @@ class Predicate final : public Criterion {
 
  private:
   Test test_;
-};
-
-/// Fine enough for every part. Monotone when all parts are.
-class AllOf final : public Criterion {
- public:
-  using Parts = std::vector<std::shared_ptr<const Criterion>>;
-  /// Precondition: at least one part, none null.
-  explicit AllOf(Parts parts) : parts_(std::move(parts)) {}
-  bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
-  /// The largest of the parts that are not satisfied: parts of one unit make sense.
-  double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
-  bool isMonotone() const override;
-  double allowedError(const Sphere& s) const override;
-  double mostAllowed(const Sphere& s) const override;
-  std::uint64_t exceeding(std::span<const Sphere> balls, std::span<const float> errors) const override;
-
- private:
-  Parts parts_;
-};
-
-/// Fine enough for one part at least. Monotone when all parts are.
-class AnyOf final : public Criterion {
- public:
-  using Parts = AllOf::Parts;
-  /// Precondition: at least one part, none null.
-  explicit AnyOf(Parts parts) : parts_(std::move(parts)) {}
-  bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
-  /// The smallest of the parts': what is left to the nearest of them.
-  double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
-  bool isMonotone() const override;
-  double allowedError(const Sphere& s) const override;
-  double mostAllowed(const Sphere& s) const override;
-  std::uint64_t exceeding(std::span<const Sphere> balls, std::span<const float> errors) const override;
-
- private:
-  Parts parts_;
 };
 
 }  // namespace arete

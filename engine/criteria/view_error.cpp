@@ -55,7 +55,7 @@ double ViewError::severity(const MultiTriangulation& mt, TriangleId t, const Cor
   return error == 0 ? 0 : o_.pixels * error / allowedFor(mt, t, corners);
 }
 
-std::unique_ptr<const Criterion> ViewError::withSeverityLimit(double pixels) const {
+std::unique_ptr<const BoundedCriterion> ViewError::withSeverityLimit(double pixels) const {
   Options options = o_;
   options.pixels = pixels;
   options.outsideError *= pixels / o_.pixels;
@@ -81,7 +81,7 @@ std::uint64_t ViewError::exceedingFor(std::span<const Sphere> balls, std::span<c
   return decide(filter_.testFor(balls, errors, rate, units), balls, errors);
 }
 
-std::optional<Motion> ViewError::motionSince(const Criterion& before) const {
+std::optional<Motion> ViewError::motionSince(const KineticCriterion& before) const {
   const auto* old = dynamic_cast<const ViewError*>(&before);
   if (old == nullptr || old->o_.view.nearDistance != o_.view.nearDistance ||
       old->o_.view.farDistance != o_.view.farDistance || old->o_.outsideError != o_.outsideError)

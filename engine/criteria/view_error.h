@@ -15,7 +15,7 @@ namespace arete {
 ///
 /// The bound holds for the vertical error in whatever direction it is seen, so it is conservative from above.
 /// Precondition: the view validates.
-class ViewError final : public Criterion {
+class ViewError final : public KineticCriterion {
  public:
   struct Options {
     View view;
@@ -29,15 +29,16 @@ class ViewError final : public Criterion {
   bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
   /// Its projected error in pixels; out of sight, in the ratio to the error allowed there.
   double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
-  double severityLimit() const override { return o_.pixels; }
-  std::unique_ptr<const Criterion> withSeverityLimit(double pixels) const override;
-  bool isMonotone() const override { return true; }
+  std::optional<double> severityLimit() const override { return o_.pixels; }
+  std::unique_ptr<const BoundedCriterion> withSeverityLimit(double pixels) const override;
   double allowedError(const Sphere& s) const override;
   std::uint64_t exceeding(std::span<const Sphere> balls, std::span<const float> errors) const override;
-  std::unique_ptr<const Criterion> remembered() const override { return std::make_unique<ViewError>(*this); }
-  /// Known from view to view, of any field of view, size and tolerance; not where the near or the far
-  /// distance or the error allowed out of sight are others.
-  std::optional<Motion> motionSince(const Criterion& before) const override;
+  std::unique_ptr<const KineticCriterion> clone() const override {
+    return std::make_unique<ViewError>(*this);
+  }
+  /// Known between any two views, whatever their fields of view, picture sizes and tolerances, unless the
+  /// near distance, the far distance or the error allowed out of sight differ.
+  std::optional<Motion> motionSince(const KineticCriterion& before) const override;
   std::uint64_t exceedingFor(std::span<const Sphere> balls, std::span<const float> errors, const Motion& rate,
                              std::span<float> units) const override;
 

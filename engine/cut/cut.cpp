@@ -32,7 +32,7 @@ Status checkCut(const MultiTriangulation& mt, const Criterion& criterion, CutMet
                    fmt::format("{} triangles are fewer than the {} of the root, the coarsest there is",
                                *maxTriangles, mt.rootTriangleCount()),
                    "maxTriangles");
-  if (method == CutMethod::saturated && !criterion.isMonotone())
+  if (method == CutMethod::saturated && criterion.bounded() == nullptr)
     return failure(
         ErrorCode::usage,
         "this criterion has no bound over a sphere, so a saturated cut cannot take it; use the minimal cut");
@@ -56,8 +56,9 @@ std::uint32_t closeUpwards(const MultiTriangulation& mt, NodeSet& set) {
 bool isSatisfied(const MultiTriangulation& mt, const Criterion& criterion, TriangleId t,
                  const Criterion::Corners& corners) {
   // The bound is the cheaper test, and passes most.
-  if (const NodeId remover = mt.remover(t); remover.isValid() && criterion.isMonotone()) {
-    const double allowed = criterion.allowedError(mt.arrays().sphere[remover.index()]);
+  const BoundedCriterion* const bounded = criterion.bounded();
+  if (const NodeId remover = mt.remover(t); remover.isValid() && bounded != nullptr) {
+    const double allowed = bounded->allowedError(mt.arrays().sphere[remover.index()]);
     if (mt.error(t) <= allowed) return true;
   }
   return criterion.isFineEnough(mt, t, corners);
@@ -75,6 +76,24 @@ double worstSeverity(const MultiTriangulation& mt, const Criterion& criterion, c
         return worst;
       },
       [](double a, double b) { return std::max(a, b); });
+}
+
+Cut front(const MultiTriangulation& mt, const NodeSet& closed) {
+  return frontOf(mt, MemberSet(closed));
+}
+
+Cut frontOfPrefix(const MultiTriangulation& mt, std::uint32_t nodes) {
+  return frontOf(mt, MemberSet::prefix(nodes));
+}
+
+std::uint32_t uniformTriangleCount(const MultiTriangulation& mt, double maxError) {
+  const auto& saturated = mt.arrays().saturatedError;
+  const OutwardScale::Code code = mt.arrays().scale.floorCode(maxError);
+  const std::uint32_t band = MultiTriangulation::bandOf(code), certain = mt.bandBegin(band);
+  std::uint32_t count = mt.prefixTriangleCount(certain);
+  for (std::uint32_t n = certain; n < mt.bandEnd(band); ++n)
+    if (saturated[n] > code) count += mt.isOpen(NodeId(n)) ? 1 : 2;
+  return count;
 }
 
 namespace {
@@ -97,7 +116,7 @@ Result<NodeCut> takeNodes(const MultiTriangulation& mt, const Criterion& criteri
   if (context.cancelled()) return interrupted();
   return withThreads(context, [&]() -> Result<NodeCut> {
     if (options.method == CutMethod::saturated) {
-      const SaturatedMembers cut = saturatedMembers(mt, criterion, options.maxTriangles);
+      const SaturatedMembers cut = saturatedMembers(mt, *criterion.bounded(), options.maxTriangles);
       return NodeCut{cut.members.toNodeSet(mt.nodeCount()), cut.isComplete};
     }
     if (options.maxTriangles || options.deadline) return refineWithin(mt, criterion, options, context);
@@ -113,7 +132,7 @@ Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, co
   if (context.cancelled()) return interrupted();
   return withThreads(context, [&]() -> Result<Cut> {
     if (options.method == CutMethod::saturated) {
-      const SaturatedMembers taken = saturatedMembers(mt, criterion, options.maxTriangles);
+      const SaturatedMembers taken = saturatedMembers(mt, *criterion.bounded(), options.maxTriangles);
       Cut cut = frontOfClosure(mt, taken.members);
       cut.isComplete = taken.isComplete;
       return cut;

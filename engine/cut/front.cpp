@@ -282,12 +282,4 @@ Cut frontOfClosure(const MultiTriangulation& mt, const MemberSet& set) {
   return frontOf(mt, MemberSet(closed));
 }
 
-Cut frontOfPrefix(const MultiTriangulation& mt, std::uint32_t nodes) {
-  return frontOf(mt, MemberSet::prefix(nodes));
-}
-
-Cut front(const MultiTriangulation& mt, const NodeSet& closed) {
-  return frontOf(mt, MemberSet(closed));
-}
-
 }  // namespace arete

@@ -42,8 +42,9 @@ class Test {
   Test(const MultiTriangulation& mt, const Criterion& criterion)
       : mt_(mt),
         criterion_(criterion),
-        isUniform_(!std::isnan(criterion.uniformError())),
-        code_(isUniform_ ? mt.arrays().scale.floorCode(criterion.uniformError()) : OutwardScale::Code(0)) {}
+        bounded_(criterion.bounded()),
+        isUniform_(bounded_ != nullptr && bounded_->uniformError()),
+        code_(isUniform_ ? mt.arrays().scale.floorCode(*bounded_->uniformError()) : OutwardScale::Code(0)) {}
 
   bool isUniform() const { return isUniform_; }
   OutwardScale::Code code() const { return code_; }
@@ -56,7 +57,7 @@ class Test {
     if (isUniform_) return {code_, code_};
     const Sphere& ball = mt_.arrays().sphere[n.index()];
     const OutwardScale& scale = mt_.arrays().scale;
-    return {scale.floorCode(criterion_.allowedError(ball)), scale.floorCode(criterion_.mostAllowed(ball))};
+    return {scale.floorCode(bounded_->allowedError(ball)), scale.floorCode(bounded_->mostAllowed(ball))};
   }
 
   bool passes(std::uint32_t id, NodeId creator) const {
@@ -67,6 +68,7 @@ class Test {
  private:
   const MultiTriangulation& mt_;
   const Criterion& criterion_;
+  const BoundedCriterion* bounded_;
   bool isUniform_;
   OutwardScale::Code code_;
 };
@@ -310,7 +312,7 @@ class Sweep {
   bool isBeyond_ = false;
 };
 
-std::optional<MemberSet> swept(const MultiTriangulation& mt, const Criterion& criterion,
+std::optional<MemberSet> swept(const MultiTriangulation& mt, const BoundedCriterion& criterion,
                                const std::function<bool()>& stop) {
   const Test test(mt, criterion);
   if (test.isUniform()) {
@@ -326,8 +328,8 @@ std::optional<MemberSet> swept(const MultiTriangulation& mt, const Criterion& cr
 
 std::optional<MemberSet> leastMembers(const MultiTriangulation& mt, const Criterion& criterion,
                                       const std::function<bool()>& stop) {
-  if (criterion.isMonotone())
-    if (auto found = swept(mt, criterion, stop)) return found;
+  if (const BoundedCriterion* bounded = criterion.bounded())
+    if (auto found = swept(mt, *bounded, stop)) return found;
   // Who was stopped is stopped here too.
   return leastMembersByWalk(mt, criterion, stop);
 }
@@ -405,14 +407,15 @@ std::optional<MemberSet> leastMembersWithin(const MultiTriangulation& mt, double
   return best;
 }
 
-std::optional<SetOfSeverity> membersOfSeverityWithin(const MultiTriangulation& mt, const Criterion& criterion,
+std::optional<SetOfSeverity> membersOfSeverityWithin(const MultiTriangulation& mt,
+                                                     const BoundedCriterion& criterion,
                                                      std::uint32_t maxTriangles,
                                                      const std::function<bool()>& stop) {
   constexpr double kNearEnough = 0.9, kAimedAt = 0.95, kLargestStep = 1.0 / 16, kLeastPart = 0.05,
                    kWorthwhile = 1.05;
   constexpr int kMostLooks = 12;
   // The worst of the root's that can be told: around an eye severities are infinite.
-  double fits = 0, large = criterion.severityLimit();
+  double fits = 0, large = *criterion.severityLimit();
   for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) {
     const double severity = criterion.severity(mt, TriangleId(t), mt.arrays().rootTriangles[t]);
     if (std::isfinite(severity)) fits = std::max(fits, severity);

@@ -39,7 +39,8 @@ struct SetOfSeverity {
 /// One whose front has no more than so many triangles, and most often nine tenths of them; nothing when
 /// stop(), asked now and then, said true. Preconditions: the criterion is monotone and has a severityLimit();
 /// the budget holds the root. O(the saturated cut for four times the triangles), some ten times.
-std::optional<SetOfSeverity> membersOfSeverityWithin(const MultiTriangulation& mt, const Criterion& criterion,
+std::optional<SetOfSeverity> membersOfSeverityWithin(const MultiTriangulation& mt,
+                                                     const BoundedCriterion& criterion,
                                                      std::uint32_t maxTriangles,
                                                      const std::function<bool()>& stop);
 

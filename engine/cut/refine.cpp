@@ -152,14 +152,15 @@ Result<NodeCut> refineWithin(const MultiTriangulation& mt, const Criterion& crit
     return Walk(mt, criterion, options).run(MemberSet::prefix(0), context);
   const auto stop = [&] { return context.cancelled(); };
   const auto interrupted = [] { return failure(ErrorCode::interrupted, "the cut was interrupted"); };
-  if (const double uniform = criterion.uniformError(); !std::isnan(uniform)) {
-    const auto least = leastMembersWithin(mt, uniform, *options.maxTriangles, stop);
+  const BoundedCriterion* const bounded = criterion.bounded();
+  if (bounded != nullptr && bounded->uniformError()) {
+    const auto least = leastMembersWithin(mt, *bounded->uniformError(), *options.maxTriangles, stop);
     if (!least) return interrupted();
     return Walk(mt, criterion, options).run(*least, context);
   }
   const bool isLong = kShortWalk * std::uint64_t{*options.maxTriangles} > mt.nodeCount();
-  if (isLong && criterion.isMonotone() && !std::isnan(criterion.severityLimit())) {
-    const auto start = membersOfSeverityWithin(mt, criterion, *options.maxTriangles, stop);
+  if (isLong && bounded != nullptr && bounded->severityLimit()) {
+    const auto start = membersOfSeverityWithin(mt, *bounded, *options.maxTriangles, stop);
     if (!start) return interrupted();
     Walk walk(mt, criterion, options);
     Result<NodeCut> cut = walk.run(start->members, context);

@@ -11,11 +11,6 @@
 
 namespace arete {
 
-/// What a cut cannot be asked: a budget below the root, a saturated cut of a criterion without a bound.
-/// Errors: usage.
-Status checkCut(const MultiTriangulation& mt, const Criterion& criterion, CutMethod method,
-                std::optional<std::uint32_t> maxTriangles);
-
 /// The nodes of a minimal cut that a budget or a deadline may end early, refined in the order of the options.
 /// With a budget or a deadline spent worst first, the state handed out is the last one whose worst triangle
 /// was the least (errors are not monotone down the graph: on white noise refining can raise the largest

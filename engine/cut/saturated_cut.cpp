@@ -80,9 +80,9 @@ SaturatedMembers uniformCut(const MultiTriangulation& mt, double maxError,
 
 /// By pages, by the blocks of those pages that may have members, by the nodes of those blocks. What is looked
 /// into lies wherever it lies, so its memory is asked for some time before it is looked at.
-class PlaceSearch {
+class SphereSearch {
  public:
-  PlaceSearch(const MultiTriangulation& mt, const Criterion& criterion)
+  SphereSearch(const MultiTriangulation& mt, const BoundedCriterion& criterion)
       : a_(mt.arrays()),
         criterion_(criterion),
         nodes_(mt.nodeCount()),
@@ -156,18 +156,18 @@ class PlaceSearch {
   }
 
   const MtArrays& a_;
-  const Criterion& criterion_;
+  const BoundedCriterion& criterion_;
   const std::uint32_t nodes_, blocks_;
 };
 
 }  // namespace
 
-SaturatedMembers saturatedMembers(const MultiTriangulation& mt, const Criterion& criterion,
+SaturatedMembers saturatedMembers(const MultiTriangulation& mt, const BoundedCriterion& criterion,
                                   std::optional<std::uint32_t> maxTriangles) {
-  if (!std::isnan(criterion.uniformError())) return uniformCut(mt, criterion.uniformError(), maxTriangles);
+  if (const auto uniform = criterion.uniformError()) return uniformCut(mt, *uniform, maxTriangles);
   const MtArrays& a = mt.arrays();
   const auto error = [&](std::uint32_t n) { return double(a.scale.decode(a.saturatedError[n])); };
-  MemberSet members = PlaceSearch(mt, criterion).members();
+  MemberSet members = SphereSearch(mt, criterion).members();
   if (!maxTriangles) return {std::move(members), true};
 
   // By falling error in units of the error allowed; equal ones by index.
@@ -189,16 +189,6 @@ SaturatedMembers saturatedMembers(const MultiTriangulation& mt, const Criterion&
   for (std::size_t i = 0; i < kept; ++i) in.push_back(order[i].second);
   std::ranges::sort(in);
   return {MemberSet(in, mt.nodeCount()), false};
-}
-
-std::uint32_t uniformTriangleCount(const MultiTriangulation& mt, double maxError) {
-  const auto& saturated = mt.arrays().saturatedError;
-  const Code code = mt.arrays().scale.floorCode(maxError);
-  const std::uint32_t band = MultiTriangulation::bandOf(code), certain = mt.bandBegin(band);
-  std::uint32_t count = mt.prefixTriangleCount(certain);
-  for (std::uint32_t n = certain; n < mt.bandEnd(band); ++n)
-    if (saturated[n] > code) count += added(mt, n);
-  return count;
 }
 
 }  // namespace arete

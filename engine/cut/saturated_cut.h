@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "engine/criteria/criterion.h"
 #include "engine/cut/member_set.h"
 
 namespace arete {
@@ -13,9 +14,10 @@ struct SaturatedMembers {
   bool isComplete = true;  ///< as of a Cut
 };
 
-/// The nodes of a saturated cut, as many as the budget holds. Preconditions: the criterion is monotone, the
-/// budget holds the root.
-SaturatedMembers saturatedMembers(const MultiTriangulation& mt, const Criterion& criterion,
+/// The nodes of the saturated cut. Under a budget, those of them with the largest ratio of saturated to
+/// allowed error that fit. Precondition: the budget is at least the root's triangles. O(N) at most, parallel;
+/// O(last band) for a uniform error; with a budget times log.
+SaturatedMembers saturatedMembers(const MultiTriangulation& mt, const BoundedCriterion& criterion,
                                   std::optional<std::uint32_t> maxTriangles);
 
 }  // namespace arete

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Parents have smaller indices than their children: falling order undoes children first, rising order applies
+// parents first.
 #include "engine/follow/cut_difference.h"
 
 namespace arete {
 
 std::vector<CutStep> difference(const NodeSet& from, const NodeSet& to) {
-  // Parents have smaller indices: falling order takes children out first, rising order brings parents in
-  // first.
   std::vector<CutStep> steps;
   const auto count = static_cast<std::uint32_t>(from.size());
   for (std::uint32_t n = count; n-- > 0;)

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
-#include <vector>
 
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
@@ -13,32 +13,26 @@
 namespace arete {
 
 struct IncrementalOptions {
-  CutMethod method = CutMethod::minimal;
+  /// At most this many triangles, spent on the nodes whose saturated error exceeds the allowed one most.
   std::optional<std::uint32_t> maxTriangles{};
+  /// The update ends here, between two modifications, and the next update goes on.
   std::optional<Deadline> deadline{};
-  /// What is refined first where not all can be. Worst first when null.
-  std::shared_ptr<const RefineOrder> order{};
-  /// Minimal, without a budget, time permitting: undo also what no leaf alone gives away, so that the result
-  /// is the least cut, as from scratch. Costs a walk of the whole cut; without a deadline that walk is all
-  /// there is.
-  bool exact = true;
 };
 
-/// A cut that follows a changing criterion: each update starts from the last cut, refines what is no longer
-/// fine enough and coarsens what is finer than needed. Between any two modifications it is a cut; stopped
-/// early, it is simply not yet all it was asked for, and the next update goes on.
+/// The saturated cut for a changing criterion, updated from frame to frame: each update starts from the last
+/// cut, applies nodes that became necessary and undoes nodes that are necessary no longer. After every
+/// modification it is a cut, so an update that ends early leaves a conforming front.
 ///
-/// A saturated update is equal to the saturated cut from scratch; a minimal one to the minimal cut, when it
-/// is exact. Without `exact` a minimal update may keep a little more, because errors are not monotone down
-/// the graph: a node whose floor fails the criterion stays, though a coarser triangle would do.
+/// A complete update results in the saturated cut from scratch (takeCut()), node for node, also under a
+/// budget. It evaluates only nodes whose verdict may have changed since it was computed, if the criterion
+/// bounds its motion (KineticCriterion: ViewError is one): a kinetic data structure
+/// [BaschGuibasHershberger1999] over the camera's motion. An update without motion costs nothing. Of other
+/// criteria it evaluates all nodes that can change. A cut that exceeds its budget is taken from scratch, and
+/// the difference is applied.
 ///
-/// A saturated update asks only about the nodes whose verdict may have turned since they were asked about,
-/// where the criterion knows how far it has moved (Criterion::motionSince(): ViewError does); a camera that
-/// rests costs nothing.
-///
-/// Holds 4 bytes per node of the MT, and some 30 per triangle of the front; saturated, 24 more per node that
-/// can change, in blocks of 64 nodes of which up to a few thousand are not full. Not thread-safe; works in
-/// parallel inside.
+/// Memory: 4 bytes per node of the MT and about 30 per triangle of the front; 24 more per node that can
+/// change, in batches of 64 nodes of which up to a few thousand are not full. Not thread-safe; parallel
+/// inside.
 class IncrementalCut {
  public:
   /// Starts at the root. O(nodes).
@@ -48,39 +42,40 @@ class IncrementalCut {
   IncrementalCut& operator=(IncrementalCut&&) noexcept;
 
   struct Update {
-    std::uint32_t refined = 0, coarsened = 0;
-    /// False when the budget, the deadline or an interruption ended the update before all was done.
+    std::uint32_t refined = 0, coarsened = 0;  ///< nodes applied, and undone
+    /// False when the budget, the deadline or a cancellation ended the update before the criterion was met.
     bool isComplete = true;
   };
-  /// Errors: usage, as takeCut() (a deadline and an order suit either method here). O(front) tests of the
-  /// criterion at most, and O(log) per modification. An interruption leaves a cut, too.
+  /// Brings the cut to a criterion. O(front) evaluations of the criterion at most and expected O(degree) per
+  /// modification; over the budget, O(saturated cut). A cancellation leaves a cut, too.
+  /// Errors: usage: as takeCut() for a saturated cut.
   Result<Update> update(const Criterion& criterion, const IncrementalOptions& options = {},
                         const RunContext& context = {});
 
-  /// The modifications of the last update or apply(), in their order.
+  /// The modifications of the last update() or apply(), in order.
   std::span<const CutStep> lastSteps() const;
-  /// Plays modifications, of difference() or of another cut's updates. Errors: invalidData at the first one
-  /// that does not fit, naming it; those before it stay.
+  /// Applies steps, as of difference() or of another cut's updates. Errors: invalidData: at the first step
+  /// that does not fit, with its node as the culprit; those before it remain applied.
   Status apply(std::span<const CutStep> steps);
 
   const MultiTriangulation& mt() const;
   bool contains(NodeId n) const;
   std::uint32_t nodeCount() const;
-  /// The MT triangles of the front. A triangle keeps its place until it, or one that fills a gap, goes.
+  /// The MT triangles of the front. A triangle keeps its index until it leaves, or moves to the index of one
+  /// that left.
   std::span<const std::uint32_t> triangles() const;
 
   NodeSet nodes() const;
   Cut front() const;
 
-  /// Closed; the front is the set's; counts agree. Errors: brokenPromise. O(nodes of the MT).
+  /// Checks that the set is closed, that the front is the set's and that all counts agree. Errors:
+  /// brokenPromise. O(nodes of the MT).
   Status validate() const;
 
  private:
   class State;
-  class Pass;
   class KineticUpdate;
-  static bool bring(State& state, const Criterion& criterion, const IncrementalOptions& options,
-                    const RunContext& context);
+  class Replacement;
 
   std::unique_ptr<State> state_;
 };

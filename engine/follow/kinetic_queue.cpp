@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A calendar queue (Brown 1988): a clock's watches lie in buckets, each a quarter of a unit long, in a ring
-// of 256 units. The clock advances by the part of the motion that takes longest at its rate, so it never
-// shows less than the motion was; a bucket is due when its beginning has come, so no watch is due late. What
-// would be due within the bucket of the present is due with the next motion, whatever it is.
+// A calendar queue [Brown1988]: a timeline's certificates lie in buckets, each a quarter of a unit long, in a
+// ring of 256 units. The timeline advances by the part of the motion that takes longest at its rate, so its
+// time is never less than the motion; a bucket is due when its beginning has passed, so no certificate is due
+// late. A certificate that would be due within the present bucket is due with the next motion, whatever that
+// is.
 //
-// A clock's rate should be what the camera does in a frame: then a watch is due when its verdict may turn,
-// and not before because the clock allowed for a turn that is not made. When the ratios of the mean motion
-// are more than twice away from the clock's, or its size more than four times, new watches go by another.
+// A timeline's rate should be the camera's motion in one frame: then a certificate is due when its verdict
+// may change, and not earlier because the timeline counts a turn that did not happen. When the parts of the
+// mean motion are more than a factor of two from the rate relative to each other, or more than a factor of
+// four in size, new certificates use another timeline.
 #include "engine/follow/kinetic_queue.h"
 
 #include <algorithm>
@@ -19,9 +21,9 @@ namespace {
 constexpr double kLeastTurn = 1e-5, kLeastScale = 1e-5;
 constexpr double kShare = 0.25;  // of the last motion in the mean
 constexpr double kMostSkew = 2, kMostSize = 4;
-constexpr std::size_t kMostClocks = 6;
+constexpr std::size_t kMostTimelines = 6;
 
-/// How unlike a rate a motion is: the largest of its parts in units of the rate, and the smallest.
+/// A motion relative to a rate: its largest and its smallest part, in units of the rate.
 struct Fit {
   double largest, smallest;
   bool isGood() const {
@@ -37,8 +39,8 @@ Fit fitOf(const Motion& motion, const Motion& rate) {
 
 }  // namespace
 
-KineticQueue::KineticQueue(double leastTravel) : leastTravel_(leastTravel), clocks_(1) {
-  clocks_[0].rate = widened({});
+KineticQueue::KineticQueue(double leastTravel) : leastTravel_(leastTravel), timelines_(1) {
+  timelines_[0].rate = widened({});
 }
 
 Motion KineticQueue::widened(const Motion& rate) const {
@@ -46,110 +48,110 @@ Motion KineticQueue::widened(const Motion& rate) const {
           std::max(rate.scale, kLeastScale)};
 }
 
-std::uint32_t KineticQueue::blockFor(std::uint32_t chain) {
-  if (chain != kNone && blocks_[chain].count < Block::kMost) return chain;
-  std::uint32_t block = free_;
-  if (block == kNone) {
-    block = static_cast<std::uint32_t>(blocks_.size());
-    blocks_.emplace_back();
+std::uint32_t KineticQueue::batchFor(std::uint32_t chain) {
+  if (chain != kNone && batches_[chain].count < Batch::kMost) return chain;
+  std::uint32_t batch = free_;
+  if (batch == kNone) {
+    batch = static_cast<std::uint32_t>(batches_.size());
+    batches_.emplace_back();
   } else {
-    free_ = blocks_[block].next;
-    blocks_[block].count = 0;
+    free_ = batches_[batch].next;
+    batches_[batch].count = 0;
   }
-  blocks_[block].next = chain;
-  return block;
+  batches_[batch].next = chain;
+  return batch;
 }
 
 void KineticQueue::add(const Sphere& ball, float error, std::uint32_t node, float units) {
-  Clock& clock = clocks_[current_];
-  // The longest are spread, not to be due all at once.
+  Timeline& timeline = timelines_[current_];
+  // The longest are spread, so that they are not due all at once.
   constexpr double kMostUnits = double(kBuckets - 8) / kPerUnit;
   double time = double(units) * 0.9999;
   if (time >= kMostUnits / 2) {
     spread_ = spread_ * 1664525u + 1013904223u;
     time = std::min(time, kMostUnits * (0.5 + 0.5 * double(spread_ >> 8) / double(1u << 24)));
   }
-  const auto bucket = static_cast<std::uint64_t>((clock.now + time) * kPerUnit);
-  std::uint32_t& chain = bucket <= clock.passed ? clock.soon : clock.buckets[bucket % kBuckets];
-  chain = blockFor(chain);
-  blocks_[chain].put(ball, error, node);
+  const auto bucket = static_cast<std::uint64_t>((timeline.now + time) * kPerUnit);
+  std::uint32_t& chain = bucket <= timeline.passed ? timeline.soon : timeline.buckets[bucket % kBuckets];
+  chain = batchFor(chain);
+  batches_[chain].put(ball, error, node);
 }
 
 void KineticQueue::makeDue(std::uint32_t& chain) {
-  for (std::uint32_t block = chain; block != kNone; block = blocks_[block].next) due_.push_back(block);
+  for (std::uint32_t batch = chain; batch != kNone; batch = batches_[batch].next) due_.push_back(batch);
   chain = kNone;
 }
 
-void KineticQueue::makeDue(Clock& clock) {
-  makeDue(clock.soon);
-  for (std::uint32_t& chain : clock.buckets) makeDue(chain);
-  clock.now = 0;
-  clock.passed = 0;
+void KineticQueue::makeDue(Timeline& timeline) {
+  makeDue(timeline.soon);
+  for (std::uint32_t& chain : timeline.buckets) makeDue(chain);
+  timeline.now = 0;
+  timeline.passed = 0;
 }
 
-void KineticQueue::pass(Clock& clock, double units) {
-  const double now = clock.now + units * (1 + 1e-9);
-  if (!(now < 1e9)) return makeDue(clock);
-  makeDue(clock.soon);
+void KineticQueue::advance(Timeline& timeline, double units) {
+  const double now = timeline.now + units * (1 + 1e-9);
+  if (!(now < 1e9)) return makeDue(timeline);
+  makeDue(timeline.soon);
   const auto bucket = static_cast<std::uint64_t>(now * kPerUnit);
-  const std::uint64_t last = std::min(bucket, clock.passed + kBuckets);
-  for (std::uint64_t b = clock.passed + 1; b <= last; ++b) makeDue(clock.buckets[b % kBuckets]);
-  clock.now = now;
-  clock.passed = bucket;
+  const std::uint64_t last = std::min(bucket, timeline.passed + kBuckets);
+  for (std::uint64_t b = timeline.passed + 1; b <= last; ++b) makeDue(timeline.buckets[b % kBuckets]);
+  timeline.now = now;
+  timeline.passed = bucket;
 }
 
-void KineticQueue::pass(const Motion& moved) {
+void KineticQueue::advance(const Motion& moved) {
   if (moved.isZero()) return;
-  for (Clock& clock : clocks_) pass(clock, moved.in(clock.rate));
+  for (Timeline& timeline : timelines_) advance(timeline, moved.in(timeline.rate));
   const auto mean = [](double old, double now) { return old == 0 ? now : old + kShare * (now - old); };
   usual_ = {mean(usual_.travel, moved.travel), mean(usual_.turn, moved.turn),
             mean(usual_.scale, moved.scale)};
-  chooseClock();
+  chooseTimeline();
 }
 
-void KineticQueue::passAll() {
-  for (Clock& clock : clocks_) makeDue(clock);
+void KineticQueue::advanceToEnd() {
+  for (Timeline& timeline : timelines_) makeDue(timeline);
 }
 
-void KineticQueue::chooseClock() {
-  const Motion wanted = widened(usual_);
-  if (fitOf(wanted, clocks_[current_].rate).isGood()) return;
-  for (std::size_t i = 0; i < clocks_.size(); ++i)
-    if (fitOf(wanted, clocks_[i].rate).isGood()) {
+void KineticQueue::chooseTimeline() {
+  const Motion rate = widened(usual_);
+  if (fitOf(rate, timelines_[current_].rate).isGood()) return;
+  for (std::size_t i = 0; i < timelines_.size(); ++i)
+    if (fitOf(rate, timelines_[i].rate).isGood()) {
       current_ = i;
       return;
     }
-  current_ = clocks_.size();
-  if (clocks_.size() < kMostClocks) {
-    clocks_.emplace_back();
+  current_ = timelines_.size();
+  if (timelines_.size() < kMostTimelines) {
+    timelines_.emplace_back();
   } else {
-    const auto oldest = std::ranges::min_element(clocks_, {}, &Clock::age);
+    const auto oldest = std::ranges::min_element(timelines_, {}, &Timeline::age);
     makeDue(*oldest);
-    current_ = static_cast<std::size_t>(oldest - clocks_.begin());
+    current_ = static_cast<std::size_t>(oldest - timelines_.begin());
   }
-  clocks_[current_].rate = wanted;
-  clocks_[current_].age = ++made_;
+  timelines_[current_].rate = rate;
+  timelines_[current_].age = ++made_;
 }
 
-void KineticQueue::take(std::size_t blocks) {
-  for (; blocks > 0; --blocks) {
-    const std::uint32_t block = due_[taken_++];
-    blocks_[block].next = free_;
-    free_ = block;
+void KineticQueue::removeDue(std::size_t batches) {
+  for (; batches > 0; --batches) {
+    const std::uint32_t batch = due_[removed_++];
+    batches_[batch].next = free_;
+    free_ = batch;
   }
-  if (2 * taken_ < due_.size()) return;
-  due_.erase(due_.begin(), due_.begin() + static_cast<std::ptrdiff_t>(taken_));
-  taken_ = 0;
+  if (2 * removed_ < due_.size()) return;
+  due_.erase(due_.begin(), due_.begin() + static_cast<std::ptrdiff_t>(removed_));
+  removed_ = 0;
 }
 
-void KineticQueue::forget() {
-  blocks_.clear();
+void KineticQueue::reset() {
+  batches_.clear();
   free_ = kNone;
   due_.clear();
-  taken_ = 0;
-  for (Clock& clock : clocks_) {
-    clock.buckets.assign(kBuckets, kNone);
-    clock.soon = kNone;
+  removed_ = 0;
+  for (Timeline& timeline : timelines_) {
+    timeline.buckets.assign(kBuckets, kNone);
+    timeline.soon = kNone;
   }
 }
 

@@ -11,16 +11,19 @@
 
 namespace arete {
 
-/// Balls and errors about which a moving criterion gave a verdict, and when to ask again: each watch is due
-/// once the criterion has moved as far as its verdict was good for. Watches come and go in blocks, which are
-/// what Criterion::exceedingFor() takes.
+/// The event queue of a kinetic data structure [BaschGuibasHershberger1999] in which motion takes the place
+/// of time. A certificate is a criterion's verdict on a ball and an error; it fails, and must be evaluated
+/// again, after as much motion as the verdict holds for. Certificates are queued in batches, which is what
+/// KineticCriterion::exceedingFor() evaluates.
 ///
-/// Time is motion. A clock has a rate, some travel, turn and change of scale at once, and shows how many
-/// times the rate has passed at least. As long as the camera keeps its ratio of travel to turn one clock is
-/// all there is; when it changes, new watches go by a new clock and the old ones by theirs.
+/// A timeline has a rate (an amount of travel, turn and change of scale), and its time is at least the number
+/// of rates that the criterion has moved. As long as the camera keeps the ratio of travel to turn one
+/// timeline is enough; when the ratio changes, new certificates use a new timeline and the old ones keep
+/// theirs.
 class KineticQueue {
  public:
-  struct Block {
+  /// Up to 64 certificates.
+  struct Batch {
     static constexpr std::uint32_t kMost = 64;
     std::array<Sphere, kMost> balls;
     std::array<float, kMost> errors;
@@ -34,60 +37,62 @@ class KineticQueue {
     }
   };
 
-  /// `leastTravel`: a travel too small to matter, above 0.
+  /// @param leastTravel A travel too small to matter, > 0: the rates of timelines have at least so much.
   explicit KineticQueue(double leastTravel);
 
-  /// The rate of the clock by which new watches go: what the last motions were like. All parts are positive.
-  const Motion& rate() const { return clocks_[current_].rate; }
-  /// To be due after at most so many times the rate. Moves no block.
+  /// The rate of new certificates: a mean of the last motions. All parts are positive.
+  const Motion& rate() const { return timelines_[current_].rate; }
+  /// Adds a certificate that is due after at most units * rate(). Moves no batch.
   void add(const Sphere& ball, float error, std::uint32_t node, float units);
 
-  /// The criterion moves: what that makes due is due.
-  void pass(const Motion& moved);
-  /// Everything is due.
-  void passAll();
+  /// Advances by the motion of the criterion: certificates that may have failed become due.
+  void advance(const Motion& moved);
+  /// Makes all certificates due.
+  void advanceToEnd();
 
-  /// Blocks that are due, those that have been for longest first; what is done with is taken from the front.
-  std::size_t dueCount() const { return due_.size() - taken_; }
-  const Block& due(std::size_t i) const { return blocks_[due_[taken_ + i]]; }
-  void take(std::size_t blocks);
+  /// Batches with certificates that are due, in the order in which they became due. The caller evaluates them
+  /// and removes them from the front.
+  std::size_t dueCount() const { return due_.size() - removed_; }
+  const Batch& due(std::size_t i) const { return batches_[due_[removed_ + i]]; }
+  void removeDue(std::size_t batches);
 
-  /// Forgets all watches, after visit(node) of each (and of some that were taken).
+  /// Removes all certificates.
+  /// @param visit visit(node): called for each before, and for some that were removed earlier.
   template <class Visit>
   void clear(const Visit& visit) {
-    for (const Block& block : blocks_)
-      for (std::uint32_t i = 0; i < block.count; ++i) visit(block.nodes[i]);
-    forget();
+    for (const Batch& batch : batches_)
+      for (std::uint32_t i = 0; i < batch.count; ++i) visit(batch.nodes[i]);
+    reset();
   }
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
   static constexpr std::uint32_t kPerUnit = 4, kBuckets = 1024;  // a power of two
 
-  struct Clock {
+  struct Timeline {
     Motion rate;
     double now = 0;
-    std::uint64_t passed = 0;  // buckets up to this one are empty: it is that of `now`
+    std::uint64_t passed = 0;  // the bucket of `now`; it and those before are empty
     std::vector<std::uint32_t> buckets = std::vector<std::uint32_t>(kBuckets, kNone);
-    std::uint32_t soon = kNone;  // due as soon as anything moves
+    std::uint32_t soon = kNone;  // due with the next motion
     std::uint64_t age = 0;       // when it was made
   };
 
-  std::uint32_t blockFor(std::uint32_t chain);
-  void forget();
+  std::uint32_t batchFor(std::uint32_t chain);
+  void reset();
   void makeDue(std::uint32_t& chain);
-  void makeDue(Clock& clock);
-  void pass(Clock& clock, double units);
-  void chooseClock();
+  void makeDue(Timeline& timeline);
+  void advance(Timeline& timeline, double units);
+  void chooseTimeline();
   Motion widened(const Motion& rate) const;
 
   const double leastTravel_;
-  std::deque<Block> blocks_;  // which stay where they are
+  std::deque<Batch> batches_;  // a deque, so that none moves
   std::uint32_t free_ = kNone;
   std::vector<std::uint32_t> due_;
-  std::size_t taken_ = 0;
-  Motion usual_;  // the last motions' mean
-  std::vector<Clock> clocks_;
+  std::size_t removed_ = 0;
+  Motion usual_;  // the mean of the last motions
+  std::vector<Timeline> timelines_;
   std::size_t current_ = 0;
   std::uint64_t made_ = 0;
   std::uint32_t spread_ = 0;

@@ -1,41 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Saturated, a node is wanted or not by itself, and wanted nodes are closed (law 6). So a cut is the one from
-// scratch when every leaf is wanted and no node that can enter is; only these are watched. A watch that is
-// due is dropped when its node cannot change any more, put back when the verdict is as before, and otherwise
-// the node leaves or enters; either makes others able to change, which are watched from then on.
+// Whether a node belongs to a saturated cut depends on itself alone, and the nodes that do are closed (law
+// 6). So a cut equals the one from scratch when every leaf belongs to it and no node that can enter does.
+// Only leaves and nodes that can enter have certificates. A certificate that is due is dropped if its node
+// cannot change any more, renewed if the verdict is the same; otherwise the node leaves or enters. Either
+// lets other nodes change, which are evaluated next.
 //
-// A node that is watched and cannot change at the moment keeps its watch: it may be able to again before it
-// is due, and the verdict does not depend on what is in.
+// A node with a certificate that cannot change at the moment keeps it: it may be able to change again before
+// the certificate is due, and the verdict does not depend on the cut.
 //
-// Under a deadline the search takes half of the time at most, coarsening half of what is left, as refining
-// alone could use up every deadline of a flight, and the front would only grow; what is most in need enters
-// first. What is not done is asked about again in the next update, before anything else.
+// Under a deadline the search takes at most half of the time, and coarsening half of the rest: refining alone
+// could use up every frame of a flight, and the front would only grow. Nodes with the largest ratio of error
+// to allowed error enter first. What remains is evaluated first in the next update.
 #include "engine/follow/kinetic_update.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace arete {
 namespace {
 
-using Block = KineticQueue::Block;
-constexpr std::size_t kBlocksAtOnce = 64;
-/// Asking about few is dearer for each, but the worst of them are known sooner.
-constexpr std::size_t kFewUnasked = 16;
+using Batch = KineticQueue::Batch;
+constexpr std::size_t kBatchesAtOnce = 64;
+/// Evaluating few at once costs more for each, but finds the worst of them sooner.
+constexpr std::size_t kFewPending = 16;
 
 }  // namespace
 
-struct IncrementalCut::KineticUpdate::Answers {
+struct IncrementalCut::KineticUpdate::Verdicts {
   std::uint64_t exceeds;
-  std::array<float, Block::kMost> units;
+  std::array<float, Batch::kMost> units;
 
-  void ask(const Criterion& criterion, const Block& block, const Motion& rate) {
-    exceeds = criterion.exceedingFor(std::span(block.balls).first(block.count),
-                                     std::span(block.errors).first(block.count), rate,
-                                     std::span(units).first(block.count));
+  void evaluate(const BoundedCriterion& criterion, const Batch& batch, const Motion& rate) {
+    const auto balls = std::span(batch.balls).first(batch.count);
+    const auto errors = std::span(batch.errors).first(batch.count);
+    if (const KineticCriterion* kinetic = criterion.kinetic()) {
+      exceeds = kinetic->exceedingFor(balls, errors, rate, std::span(units).first(batch.count));
+    } else {
+      units.fill(0);
+      exceeds = criterion.exceeding(balls, errors);
+    }
   }
 };
 
@@ -43,14 +50,14 @@ auto IncrementalCut::KineticUpdate::run() -> End {
   begin();
   do {
     search();
-    // With a budget room is made first.
+    // With a budget coarsening comes first, to make room.
     coarsen(o_.deadline && !o_.maxTriangles ? o_.deadline->millisecondsLeft() / 2 : 0);
     refine();
     coarsen(0);
-  } while (isSearchCut_ && !isOverBudget_ && !mustStop());
-  const bool isDone = leaving_.empty() && entering_.empty() && s_.unasked.empty() && !isSearchCut_;
+  } while (isSearchCutShort_ && !isOverBudget_ && !mustStop());
+  const bool isDone = leaving_.empty() && entering_.empty() && s_.pending.empty() && !isSearchCutShort_;
   for (const auto* left : {&leaving_, &entering_})
-    for (const Change& change : *left) s_.unasked.push_back(change.node);
+    for (const Change& change : *left) s_.pending.push_back(change.node);
   if (o_.maxTriangles && s_.triangles().size() > *o_.maxTriangles) isOverBudget_ = true;
   if (isOverBudget_) return End::overBudget;
   return isDone ? End::complete : End::stopped;
@@ -62,89 +69,95 @@ bool IncrementalCut::KineticUpdate::mustStop() {
 }
 
 void IncrementalCut::KineticUpdate::begin() {
-  if (!s_.isWatching) {
-    s_.isWatching = true;
+  const KineticCriterion* const kinetic = criterion_.kinetic();
+  if (!s_.hasCertificates) {
+    s_.hasCertificates = true;
     for (const std::uint32_t t : s_.triangles()) {
       const std::uint32_t remover = s_.mt.arrays().remover[t];
-      if (remover != MultiTriangulation::kNone && s_.canEnter(remover)) s_.watch(remover);
+      if (remover != MultiTriangulation::kNone && s_.canEnter(remover)) s_.requestCertificate(remover);
       const NodeId creator = s_.mt.creator(TriangleId(t));
-      if (creator.isValid() && s_.isLeaf(creator.index())) s_.watch(creator.index());
+      if (creator.isValid() && s_.isLeaf(creator.index())) s_.requestCertificate(creator.index());
     }
-  } else if (const auto moved = s_.asked ? criterion_.motionSince(*s_.asked) : std::nullopt) {
-    s_.calendar.pass(*moved);
   } else {
-    s_.calendar.passAll();
+    const auto moved = kinetic != nullptr && s_.lastCriterion ? kinetic->motionSince(*s_.lastCriterion)
+                                                              : std::optional<Motion>();
+    if (moved)
+      s_.queue.advance(*moved);
+    else
+      s_.queue.advanceToEnd();
   }
-  s_.asked = criterion_.remembered();
+  s_.lastCriterion = kinetic != nullptr ? kinetic->clone() : nullptr;
 }
 
 void IncrementalCut::KineticUpdate::search() {
   const double enough = o_.deadline ? o_.deadline->millisecondsLeft() / 2 : 0;
-  isSearchCut_ = false;
-  for (bool isFirst = true; !s_.unasked.empty() || s_.calendar.dueCount() > 0; isFirst = false) {
+  isSearchCutShort_ = false;
+  for (bool isFirst = true; !s_.pending.empty() || s_.queue.dueCount() > 0; isFirst = false) {
     if (mustStop() || (!isFirst && o_.deadline && o_.deadline->millisecondsLeft() < enough)) {
-      isSearchCut_ = true;
+      isSearchCutShort_ = true;
       return;
     }
-    if (s_.unasked.empty())
-      askDue();
+    if (s_.pending.empty())
+      evaluateDue();
     else
-      askUnasked();
+      evaluatePending();
   }
 }
 
-void IncrementalCut::KineticUpdate::askUnasked() {
+void IncrementalCut::KineticUpdate::evaluatePending() {
   const MtArrays& a = s_.mt.arrays();
-  Block block;
-  while (!s_.unasked.empty() && block.count < Block::kMost) {
-    const std::uint32_t n = s_.unasked.back();
-    s_.unasked.pop_back();
-    block.put(a.sphere[n], a.scale.decode(a.saturatedError[n]), n);
+  Batch batch;
+  while (!s_.pending.empty() && batch.count < Batch::kMost) {
+    const std::uint32_t n = s_.pending.back();
+    s_.pending.pop_back();
+    batch.put(a.sphere[n], a.scale.decode(a.saturatedError[n]), n);
   }
-  Answers answers;
-  answers.ask(criterion_, block, s_.calendar.rate());
-  settle(block, answers);
+  Verdicts verdicts;
+  verdicts.evaluate(criterion_, batch, s_.queue.rate());
+  settle(batch, verdicts);
 }
 
-void IncrementalCut::KineticUpdate::askDue() {
-  const std::size_t count = std::min(s_.calendar.dueCount(), kBlocksAtOnce);
-  std::array<Answers, kBlocksAtOnce> answers;
-  const auto ask = [&](std::size_t i) { answers[i].ask(criterion_, s_.calendar.due(i), s_.calendar.rate()); };
-  if (count < kBlocksAtOnce)
-    for (std::size_t i = 0; i < count; ++i) ask(i);
+void IncrementalCut::KineticUpdate::evaluateDue() {
+  const std::size_t count = std::min(s_.queue.dueCount(), kBatchesAtOnce);
+  std::array<Verdicts, kBatchesAtOnce> verdicts;
+  const auto evaluate = [&](std::size_t i) {
+    verdicts[i].evaluate(criterion_, s_.queue.due(i), s_.queue.rate());
+  };
+  if (count < kBatchesAtOnce)
+    for (std::size_t i = 0; i < count; ++i) evaluate(i);
   else
-    tbb::parallel_for(std::size_t(0), count, ask);
-  for (std::size_t i = 0; i < count; ++i) settle(s_.calendar.due(i), answers[i]);
-  s_.calendar.take(count);
+    tbb::parallel_for(std::size_t(0), count, evaluate);
+  for (std::size_t i = 0; i < count; ++i) settle(s_.queue.due(i), verdicts[i]);
+  s_.queue.removeDue(count);
 }
 
-void IncrementalCut::KineticUpdate::settle(const Block& block, const Answers& answers) {
-  for (std::uint32_t i = 0; i < block.count; ++i) {
-    const std::uint32_t n = block.nodes[i];
-    const bool isIn = s_.isIn(n), isWanted = (answers.exceeds >> i & 1) != 0;
+void IncrementalCut::KineticUpdate::settle(const Batch& batch, const Verdicts& verdicts) {
+  for (std::uint32_t i = 0; i < batch.count; ++i) {
+    const std::uint32_t n = batch.nodes[i];
+    const bool isIn = s_.isIn(n), belongs = (verdicts.exceeds >> i & 1) != 0;
     if (!(isIn ? s_.isLeaf(n) : s_.canEnter(n))) {
-      s_.unwatch(n);
-    } else if (isIn == isWanted) {
-      s_.calendar.add(block.balls[i], block.errors[i], n, answers.units[i]);
+      s_.dropCertificate(n);
+    } else if (isIn == belongs) {
+      s_.queue.add(batch.balls[i], batch.errors[i], n, verdicts.units[i]);
     } else if (isIn) {
-      leaving_.push_back({n, answers.units[i], 0, block.balls[i], block.errors[i]});
+      leaving_.push_back({n, verdicts.units[i], 0, batch.balls[i], batch.errors[i]});
     } else {
-      const double allowed = o_.deadline ? criterion_.allowedError(block.balls[i]) : 0;
+      const double allowed = o_.deadline ? criterion_.allowedError(batch.balls[i]) : 0;
       entering_.push_back(
-          {n, answers.units[i],
-           allowed > 0 ? double(block.errors[i]) / allowed : std::numeric_limits<double>::infinity(),
-           block.balls[i], block.errors[i]});
+          {n, verdicts.units[i],
+           allowed > 0 ? double(batch.errors[i]) / allowed : std::numeric_limits<double>::infinity(),
+           batch.balls[i], batch.errors[i]});
       if (o_.deadline) std::push_heap(entering_.begin(), entering_.end());
     }
   }
 }
 
-/// The change is made: from now on the node stays as it is.
-void IncrementalCut::KineticUpdate::keep(const Change& change) {
-  s_.calendar.add(change.ball, change.error, change.node, change.units);
+/// After the change the verdict is: no change.
+void IncrementalCut::KineticUpdate::addCertificate(const Change& change) {
+  s_.queue.add(change.ball, change.error, change.node, change.units);
 }
 
-/// Changes are taken from the end.
+/// Changes are made from the end of the list.
 void IncrementalCut::KineticUpdate::prefetchNext(const std::vector<Change>& changes) const {
   constexpr std::size_t kAhead = 6;
   if (changes.size() > 2 * kAhead) s_.prefetchSlots(changes[changes.size() - 1 - 2 * kAhead].node);
@@ -159,19 +172,19 @@ void IncrementalCut::KineticUpdate::coarsen(double millisecondsToLeave) {
     const Change change = leaving_.back();
     leaving_.pop_back();
     leave(change);
-    if (leaving_.empty() || s_.unasked.size() >= Block::kMost)
-      while (!isSearchCut_ && !s_.unasked.empty()) askUnasked();
+    if (leaving_.empty() || s_.pending.size() >= Batch::kMost)
+      while (!isSearchCutShort_ && !s_.pending.empty()) evaluatePending();
   }
 }
 
 void IncrementalCut::KineticUpdate::leave(const Change& change) {
-  if (!s_.isLeaf(change.node)) return s_.unwatch(change.node);
-  s_.leave(change.node, [&](std::uint32_t leaf) { s_.watch(leaf); });
-  keep(change);
+  if (!s_.isLeaf(change.node)) return s_.dropCertificate(change.node);
+  s_.leave(change.node, [&](std::uint32_t leaf) { s_.requestCertificate(leaf); });
+  addCertificate(change);
 }
 
 void IncrementalCut::KineticUpdate::refine() {
-  const std::size_t many = o_.deadline ? kFewUnasked : Block::kMost;
+  const std::size_t many = o_.deadline ? kFewPending : Batch::kMost;
   while (!entering_.empty() && !isOverBudget_) {
     if (mustStop()) return;
     if (o_.deadline)
@@ -181,21 +194,21 @@ void IncrementalCut::KineticUpdate::refine() {
     const Change change = entering_.back();
     entering_.pop_back();
     enter(change);
-    if (entering_.empty() || s_.unasked.size() >= many)
-      while (!isSearchCut_ && !s_.unasked.empty()) askUnasked();
+    if (entering_.empty() || s_.pending.size() >= many)
+      while (!isSearchCutShort_ && !s_.pending.empty()) evaluatePending();
   }
 }
 
 void IncrementalCut::KineticUpdate::enter(const Change& change) {
   const NodeId node(change.node);
-  if (!s_.canEnter(change.node)) return s_.unwatch(change.node);
+  if (!s_.canEnter(change.node)) return s_.dropCertificate(change.node);
   if (o_.maxTriangles && s_.triangles().size() + (s_.mt.isOpen(node) ? 1 : 2) > *o_.maxTriangles) {
     isOverBudget_ = true;
     entering_.push_back(change);
     return;
   }
-  s_.enter(change.node, [&](std::uint32_t next) { s_.watch(next); });
-  keep(change);
+  s_.enter(change.node, [&](std::uint32_t next) { s_.requestCertificate(next); });
+  addCertificate(change);
 }
 
 }  // namespace arete

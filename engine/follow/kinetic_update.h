@@ -8,27 +8,26 @@
 
 namespace arete {
 
-/// Brings a saturated cut to a criterion by asking only about the nodes that can change and whose verdict may
-/// have turned since it was given (Criterion::exceedingFor). Where the criterion cannot say how far it has
-/// moved, it asks about all that can change.
+/// Updates a saturated cut by evaluating only the nodes that can change and whose certificates have failed
+/// (KineticQueue). If the criterion cannot bound its motion, all certificates have.
 class IncrementalCut::KineticUpdate {
  public:
-  KineticUpdate(State& state, const Criterion& criterion, const IncrementalOptions& options,
+  KineticUpdate(State& state, const BoundedCriterion& criterion, const IncrementalOptions& options,
                 const RunContext& context)
       : s_(state), criterion_(criterion), o_(options), context_(context) {}
 
   enum class End {
     complete,
-    stopped,     ///< by the deadline or an interruption; the next update goes on
-    overBudget,  ///< the cut asked for has more triangles than there may be
+    stopped,     ///< by the deadline or a cancellation; the next update goes on
+    overBudget,  ///< the criterion's cut has more triangles than the budget
   };
-  /// Appends to the state's steps.
+  /// Appends to the state's steps. Over the budget the cut is one between the last and the criterion's.
   End run();
 
  private:
-  struct Answers;
-  /// A watched node that does not stay as it is, how long that is so, how much it matters, and what was asked
-  /// about: by now its ball and error are here, in the MT they are far away.
+  struct Verdicts;
+  /// A node to apply or to undo, how long its verdict holds, its priority under a deadline, and its ball and
+  /// error, which are in a cache here and not in the MT.
   struct Change {
     std::uint32_t node;
     float units;
@@ -43,10 +42,10 @@ class IncrementalCut::KineticUpdate {
   bool mustStop();
   void begin();
   void search();
-  void askUnasked();
-  void askDue();
-  void settle(const KineticQueue::Block& block, const Answers& answers);
-  void keep(const Change& change);
+  void evaluatePending();
+  void evaluateDue();
+  void settle(const KineticQueue::Batch& batch, const Verdicts& verdicts);
+  void addCertificate(const Change& change);
   void prefetchNext(const std::vector<Change>& changes) const;
   void coarsen(double millisecondsToLeave);
   void leave(const Change& change);
@@ -54,10 +53,10 @@ class IncrementalCut::KineticUpdate {
   void enter(const Change& change);
 
   State& s_;
-  const Criterion& criterion_;
+  const BoundedCriterion& criterion_;
   const IncrementalOptions& o_;
   const RunContext& context_;
-  bool hasStopped_ = false, isSearchCut_ = false, isOverBudget_ = false;
+  bool hasStopped_ = false, isSearchCutShort_ = false, isOverBudget_ = false;
   std::vector<Change> leaving_, entering_;  // entering: under a deadline a heap, the largest ratio on top
 };
 

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/follow/incremental_state.h"
+#include "engine/base/scattered_id.h"
 #include "engine/morph/popping_bound.h"
 
 namespace arete {

@@ -37,9 +37,8 @@ class ViewMesh::State {
     if (!(o.pixels > 0 && std::isfinite(o.pixels)))
       return failure(ErrorCode::usage, "the tolerance must be above 0 pixels", "view mesh");
     const MorphCamera camera({.view = view, .pixels = o.pixels, .moves = o.geomorph}, metric());
-    const auto updated = cut_.update(
-        ViewError({.view = view, .pixels = camera.tolerance().cut}, metric()),
-        {.method = CutMethod::saturated, .maxTriangles = o.maxTriangles, .deadline = o.deadline}, context);
+    const auto updated = cut_.update(ViewError({.view = view, .pixels = camera.tolerance().cut}, metric()),
+                                     {.maxTriangles = o.maxTriangles, .deadline = o.deadline}, context);
     if (!updated) return tl::unexpected(updated.error());
     const bool budgetBinds = !updated->isComplete && o.maxTriangles.has_value();
     return withThreads(context, [&] {

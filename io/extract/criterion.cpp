@@ -75,9 +75,9 @@ std::string optionsOf(const ExtractCriterion& c) {
   return options;
 }
 
-Result<std::shared_ptr<const Criterion>> engineCriterion(const ExtractCriterion& c,
-                                                         const std::optional<Region>& region, double reserve,
-                                                         const TerrainModel& model) {
+Result<std::shared_ptr<const BoundedCriterion>> engineCriterion(const ExtractCriterion& c,
+                                                                const std::optional<Region>& region,
+                                                                double reserve, const TerrainModel& model) {
   const MetricFrame& metric = model.mt.arrays().metric;
   const double maxError = std::max(0.0, c.maxError.value_or(0) - reserve);
   const double outsideError = std::max(maxError, c.outsideError);
@@ -102,7 +102,7 @@ Result<std::shared_ptr<const Criterion>> engineCriterion(const ExtractCriterion&
 
 Result<RequiredError> requiredBy(std::span<const ExtractCriterion> criteria,
                                  const std::optional<Region>& region, const TerrainModel& outline) {
-  std::vector<std::shared_ptr<const Criterion>> parts;
+  std::vector<std::shared_ptr<const BoundedCriterion>> parts;
   for (const ExtractCriterion& c : criteria) {
     if (!c.maxError || c.camera || c.fit != ExtractFit::none) return RequiredError();
     const auto part = engineCriterion(c, region, 0, outline);

@@ -70,9 +70,9 @@ std::string optionsOf(const ExtractCriterion& criterion);
 /// The criterion for the engine. `region`: in plan coordinates, where one was given. `reserve` is taken off
 /// the tolerance for what a format rounds. Errors: usage, a camera that makes no sense. Precondition: the
 /// model outlives the criterion.
-Result<std::shared_ptr<const Criterion>> engineCriterion(const ExtractCriterion& criterion,
-                                                         const std::optional<Region>& region, double reserve,
-                                                         const TerrainModel& model);
+Result<std::shared_ptr<const BoundedCriterion>> engineCriterion(const ExtractCriterion& criterion,
+                                                                const std::optional<Region>& region,
+                                                                double reserve, const TerrainModel& model);
 
 /// What the cuts of these criteria can ask for of a model, where nothing is taken off their tolerances and
 /// nothing is measured. Null, which is everything, where a camera's pixels decide, or a budget or a

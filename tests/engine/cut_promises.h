@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/criteria/combined.h"
 #include "engine/criteria/view_error.h"
 #include "engine/cut/cut.h"
 #include "engine/laws/validate.h"
@@ -89,9 +90,9 @@ inline std::vector<NamedCriterion> criteriaFor(const MultiTriangulation& mt, std
           {"distance", growing},
           {"view", view},
           {"predicate", predicate},
-          {"all of region and view", std::make_shared<AllOf>(AllOf::Parts{region, view})},
-          {"any of uniform and distance", std::make_shared<AnyOf>(AnyOf::Parts{uniform, growing})},
-          {"all of view and predicate", std::make_shared<AllOf>(AllOf::Parts{view, predicate})}};
+          {"all of region and view", allOf({region, view})},
+          {"any of uniform and distance", anyOf({uniform, growing})},
+          {"all of view and predicate", allOf({view, predicate})}};
 }
 
 /// The least closed set by plain iteration to a fixed point over all triangles: the oracle of minimal cuts.
@@ -139,7 +140,7 @@ inline void expectCutsKept(const MultiTriangulation& mt, const Criterion& criter
   EXPECT_TRUE(validateFront(mt, *minimal, domain));
   expectMet(mt, criterion, *minimal);
   const auto saturated = takeCut(mt, criterion, {.method = CutMethod::saturated});
-  ASSERT_EQ(saturated.has_value(), criterion.isMonotone());
+  ASSERT_EQ(saturated.has_value(), criterion.bounded() != nullptr);
   if (!saturated) {
     EXPECT_EQ(saturated.error().code, ErrorCode::usage);
     return;

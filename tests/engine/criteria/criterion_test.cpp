@@ -15,33 +15,10 @@
 
 #include "engine/cut_promises.h"
 #include "engine/family_models.h"
+#include "engine/front_samples.h"
 
 namespace arete {
 namespace {
-
-/// visit(sample's position, the front's height there): for every sample of the domain, once per triangle over
-/// it.
-void forSamples(const TerrainModel& model, const Cut& cut, const std::function<void(Vec3, double)>& visit) {
-  const RasterHeightfield field = model.rasterSamples();
-  for (const auto& triangle : cut.triangles) {
-    std::array<Vec3, 3> p;
-    for (int i = 0; i < 3; ++i) p[i] = model.mt.position(VertexId(cut.vertices[triangle[i]]));
-    const double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
-    const int x0 = int(std::min({p[0].x, p[1].x, p[2].x})), x1 = int(std::max({p[0].x, p[1].x, p[2].x}));
-    const int y0 = int(std::min({p[0].y, p[1].y, p[2].y})), y1 = int(std::max({p[0].y, p[1].y, p[2].y}));
-    for (int y = y0; y <= y1; ++y)
-      for (int x = x0; x <= x1; ++x) {
-        std::array<double, 3> w;
-        for (int i = 0; i < 3; ++i) {
-          const Vec3 &a = p[(i + 1) % 3], &b = p[(i + 2) % 3];
-          w[i] = ((a.x - x) * (b.y - y) - (b.x - x) * (a.y - y)) / area;
-        }
-        if (w[0] < 0 || w[1] < 0 || w[2] < 0) continue;
-        const double z = field.heights[field.index(std::uint32_t(x), std::uint32_t(y))];
-        if (!std::isnan(z)) visit({double(x), double(y), z}, w[0] * p[0].z + w[1] * p[1].z + w[2] * p[2].z);
-      }
-  }
-}
 
 double spanOf(const TerrainModel& model) {
   return model.mt.nodeCount() ? model.mt.largestError() : 1;
@@ -64,7 +41,7 @@ void expectAllowed(const FamilyModel& m, const Criterion& criterion,
 }
 
 /// Balls of every size near and far, and errors at and around what is allowed there.
-void expectSameOfManyAsOfEach(const Criterion& criterion, const Extent& e, std::mt19937_64& random) {
+void expectSameOfManyAsOfEach(const BoundedCriterion& criterion, const Extent& e, std::mt19937_64& random) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   std::uniform_real_distribution<double> unit(0, 1);
   const auto anySize = [&](double least, double most) {
@@ -117,13 +94,15 @@ TEST(Criteria, AllowTrianglesInABallWhatTheySayAtLeastAndAtMost) {
             const TriangleId t = mt.slotTriangle(NodeId(n), slot);
             if (mt.remover(t) == NodeId(n)) continue;  // no triangle
             const auto corners = mt.corners(t, NodeId(n));
-            if (mt.error(t) > criterion->mostAllowed(arrays.sphere[n])) {
+            const BoundedCriterion* const bounded = criterion->bounded();
+            if (bounded != nullptr && mt.error(t) > bounded->mostAllowed(arrays.sphere[n])) {
               EXPECT_FALSE(criterion->isFineEnough(mt, t, corners)) << m.name << " " << name << " node " << n;
               ++failing[name];
             }
-            // Who could go is satisfied by the bound, though what may stand below it reach beyond the ball.
-            if (!mt.remover(t).isValid() || !criterion->isMonotone() ||
-                mt.error(t) > criterion->allowedError(arrays.sphere[n]))
+            // isSatisfied() accepts what the bound accepts, though the terrain below may lie outside the
+            // ball.
+            if (!mt.remover(t).isValid() || bounded == nullptr ||
+                mt.error(t) > bounded->allowedError(arrays.sphere[n]))
               continue;
             EXPECT_TRUE(isSatisfied(mt, *criterion, t, corners)) << m.name << " " << name << " node " << n;
             ++passing[name];
@@ -153,9 +132,9 @@ TEST(Criteria, SayOfManyBallsAtOnceWhatTheySayOfEach) {
         criteria.push_back(
             {"view, nearly half of all", std::make_shared<ViewError>(o, m.model.mt.arrays().metric)});
         for (const auto& [name, criterion] : criteria) {
-          if (!criterion->isMonotone()) continue;
+          if (criterion->bounded() == nullptr) continue;
           SCOPED_TRACE(m.name + " " + name);
-          for (int i = 0; i < 4; ++i) expectSameOfManyAsOfEach(*criterion, e, random);
+          for (int i = 0; i < 4; ++i) expectSameOfManyAsOfEach(*criterion->bounded(), e, random);
         }
       }
     }
@@ -206,77 +185,6 @@ TEST(DistanceError, GrowsWithTheDistanceAndNoFaster) {
       }
     }
   }
-}
-
-TEST(ViewError, KeepsItsPixelsOnTheScreenOfEveryCamera) {
-  std::mt19937_64 random(31);
-  std::size_t seen = 0;
-  for (const FamilyModel& m : familyModels())
-    for (int round = 0; round < 25; ++round) {
-      const MetricFrame& metric = m.model.mt.arrays().metric;
-      const View view = randomView(Extent(m.model.mt), random);
-      ASSERT_TRUE(view.validate());
-      const double pixels = round % 2 ? 1 : 8;
-      // A camera of the test's own: screen coordinates in pixels, or nothing out of sight.
-      const double length = std::hypot(view.forward.x, view.forward.y, view.forward.z);
-      const Vec3 f{view.forward.x / length, view.forward.y / length, view.forward.z / length};
-      const double flat = std::hypot(f.x, f.y);
-      const Vec3 r{f.y / flat, -f.x / flat, 0}, u{-f.x * f.z / flat, -f.y * f.z / flat, flat};
-      const double focal = view.heightPixels / 2 / std::tan(view.verticalFieldOfView / 2);
-      const auto project = [&](Vec3 p) -> std::optional<Vec2> {
-        const Vec3 d{p.x - view.eye.x, p.y - view.eye.y, p.z - view.eye.z};
-        const double depth = d.x * f.x + d.y * f.y + d.z * f.z;
-        if (depth <= 0) return std::nullopt;
-        const Vec2 s{focal * (d.x * r.x + d.y * r.y) / depth,
-                     focal * (d.x * u.x + d.y * u.y + d.z * u.z) / depth};
-        if (std::abs(s.x) > view.widthPixels / 2 || std::abs(s.y) > view.heightPixels / 2)
-          return std::nullopt;
-        return s;
-      };
-      const ViewError criterion({.view = view, .pixels = pixels}, metric);
-      for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
-        const auto cut = takeCut(m.model.mt, criterion, {.method = method});
-        ASSERT_TRUE(cut);
-        forSamples(m.model, *cut, [&](Vec3 p, double z) {
-          const auto drawn = project(metric.toMetric({p.x, p.y, z})), real = project(metric.toMetric(p));
-          if (!drawn || !real) return;
-          ++seen;
-          EXPECT_LE(std::hypot(drawn->x - real->x, drawn->y - real->y), pixels * (1 + 1e-6) + 1e-6)
-              << m.name << " round " << round;
-        });
-      }
-    }
-  EXPECT_GT(seen, 10000u);
-}
-
-TEST(ViewError, LeavesWhatIsOutOfSightCoarse) {
-  const FamilyModel& m = familyModels().front();
-  const Extent e(m.model.mt);
-  View view;
-  view.eye = {e.high.x + e.size(), 0, e.high.z + e.relief()};
-  view.forward = {1, 0, 0};  // away from the terrain
-  const auto cut = takeCut(m.model.mt, ViewError({.view = view}, m.model.mt.arrays().metric));
-  ASSERT_TRUE(cut);
-  EXPECT_EQ(cut->nodes, 0u);
-}
-
-TEST(View, NamesTheNumberThatMakesNoSense) {
-  View view;
-  EXPECT_TRUE(view.validate());
-  view.up = {0, 2, 0};
-  EXPECT_NE(view.validate().error().message.find("two different directions"), std::string::npos);
-  view = {};
-  view.verticalFieldOfView = M_PI;
-  EXPECT_NE(view.validate().error().message.find("180 degrees"), std::string::npos);
-  view = {};
-  view.heightPixels = 0;
-  EXPECT_NE(view.validate().error().message.find("pixel"), std::string::npos);
-  view = {};
-  view.nearDistance = 2, view.farDistance = 1;
-  EXPECT_NE(view.validate().error().message.find("near"), std::string::npos);
-  view = {};
-  view.eye.x = NAN;
-  EXPECT_NE(view.validate().error().message.find("finite"), std::string::npos);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The oracle adds up the motion since each watch was put in.
+// The oracle adds up the motion since each certificate was added.
 #include "engine/follow/kinetic_queue.h"
 
 #include <gtest/gtest.h>
@@ -18,30 +18,30 @@ struct Promise {
 
 class Oracle {
  public:
-  explicit Oracle(KineticQueue& calendar) : calendar_(calendar) {}
+  explicit Oracle(KineticQueue& queue) : queue_(queue) {}
 
   void add(std::uint32_t node, float units) {
-    promises_[node] = {calendar_.rate(), {}, units};
-    calendar_.add({float(node), 1, 2, 3}, float(node) / 2, node, units);
+    promises_[node] = {queue_.rate(), {}, units};
+    queue_.add({float(node), 1, 2, 3}, float(node) / 2, node, units);
   }
   void pass(const Motion& m) {
-    calendar_.pass(m);
+    queue_.advance(m);
     for (auto& [node, p] : promises_)
       p.passed = {p.passed.travel + m.travel, p.passed.turn + m.turn, p.passed.scale + m.scale};
   }
   /// Takes what is due, and returns it; what is late is an error.
   std::vector<std::uint32_t> take() {
     std::vector<std::uint32_t> taken;
-    for (; calendar_.dueCount() > 0; calendar_.take(1)) {
-      const KineticQueue::Block& block = calendar_.due(0);
-      for (std::uint32_t i = 0; i < block.count; ++i) {
-        EXPECT_EQ(block.balls[i].x, float(block.nodes[i]));
-        EXPECT_EQ(block.errors[i], float(block.nodes[i]) / 2);
-        EXPECT_TRUE(promises_.contains(block.nodes[i])) << "due twice: " << block.nodes[i];
-        waited.push_back(promises_[block.nodes[i]].passed.in(promises_[block.nodes[i]].rate) /
-                         promises_[block.nodes[i]].units);
-        promises_.erase(block.nodes[i]);
-        taken.push_back(block.nodes[i]);
+    for (; queue_.dueCount() > 0; queue_.removeDue(1)) {
+      const KineticQueue::Batch& batch = queue_.due(0);
+      for (std::uint32_t i = 0; i < batch.count; ++i) {
+        EXPECT_EQ(batch.balls[i].x, float(batch.nodes[i]));
+        EXPECT_EQ(batch.errors[i], float(batch.nodes[i]) / 2);
+        EXPECT_TRUE(promises_.contains(batch.nodes[i])) << "due twice: " << batch.nodes[i];
+        waited.push_back(promises_[batch.nodes[i]].passed.in(promises_[batch.nodes[i]].rate) /
+                         promises_[batch.nodes[i]].units);
+        promises_.erase(batch.nodes[i]);
+        taken.push_back(batch.nodes[i]);
       }
     }
     for (const auto& [node, p] : promises_) {
@@ -55,7 +55,7 @@ class Oracle {
   std::vector<double> waited;  // of what was taken: the part of its time that had passed
 
  private:
-  KineticQueue& calendar_;
+  KineticQueue& queue_;
   std::map<std::uint32_t, Promise> promises_;
 };
 
@@ -65,8 +65,8 @@ TEST(KineticQueue, IsNeverLateHoweverTheCameraMoves) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
     std::lognormal_distribution<double> size(0, 2), often(1, 2);
-    KineticQueue calendar(1e-6);
-    Oracle oracle(calendar);
+    KineticQueue queue(1e-6);
+    Oracle oracle(queue);
     std::uint32_t node = 0;
     Motion usual{1, 0.01, 0};
     for (int step = 0; step < 600; ++step) {
@@ -81,15 +81,15 @@ TEST(KineticQueue, IsNeverLateHoweverTheCameraMoves) {
       for (int i = 0; i < 20; ++i)
         oracle.add(node++, static_cast<float>(unit(random) < 0.1 ? 1e30 : often(random)));
     }
-    calendar.passAll();
+    queue.advanceToEnd();
     oracle.take();
     EXPECT_EQ(oracle.left(), 0u);
   }
 }
 
-TEST(KineticQueue, LetsWatchesWaitForMostOfTheirTimeWhenTheCameraIsSteady) {
-  KineticQueue calendar(1e-6);
-  Oracle oracle(calendar);
+TEST(KineticQueue, HoldsCertificatesForMostOfTheirTimeWhenTheCameraIsSteady) {
+  KineticQueue queue(1e-6);
+  Oracle oracle(queue);
   const Motion frame{2.5, 0.006, 0};
   for (int i = 0; i < 10; ++i) oracle.pass(frame);
   for (std::uint32_t n = 0; n < 1000; ++n) oracle.add(n, 2 + 0.1f * float(n));
@@ -104,22 +104,22 @@ TEST(KineticQueue, LetsWatchesWaitForMostOfTheirTimeWhenTheCameraIsSteady) {
 }
 
 TEST(KineticQueue, MakesNothingDueWhileNothingMoves) {
-  KineticQueue calendar(1);
-  calendar.add({}, 0, 7, 0);
-  calendar.pass({});
-  EXPECT_EQ(calendar.dueCount(), 0u);
-  calendar.pass({.turn = 1e-9});
-  EXPECT_EQ(calendar.dueCount(), 1u);
+  KineticQueue queue(1);
+  queue.add({}, 0, 7, 0);
+  queue.advance({});
+  EXPECT_EQ(queue.dueCount(), 0u);
+  queue.advance({.turn = 1e-9});
+  EXPECT_EQ(queue.dueCount(), 1u);
 }
 
-TEST(KineticQueue, ForgetsAllAndSaysWhat) {
-  KineticQueue calendar(1);
-  std::vector<std::uint32_t> forgotten;
-  for (std::uint32_t n = 0; n < 200; ++n) calendar.add({}, 0, n, float(n));
-  calendar.clear([&](std::uint32_t n) { forgotten.push_back(n); });
-  EXPECT_EQ(forgotten.size(), 200u);
-  calendar.passAll();
-  EXPECT_EQ(calendar.dueCount(), 0u);
+TEST(KineticQueue, ClearsAllAndVisitsEach) {
+  KineticQueue queue(1);
+  std::vector<std::uint32_t> cleared;
+  for (std::uint32_t n = 0; n < 200; ++n) queue.add({}, 0, n, float(n));
+  queue.clear([&](std::uint32_t n) { cleared.push_back(n); });
+  EXPECT_EQ(cleared.size(), 200u);
+  queue.advanceToEnd();
+  EXPECT_EQ(queue.dueCount(), 0u);
 }
 
 }  // namespace
