@@ -146,7 +146,7 @@ TEST(IncrementalCut, KeepsAShrinkingBudgetEvenWhenTheTimeIsOver) {
       EXPECT_TRUE(cut.validate()) << m.name;
     }
     ASSERT_TRUE(cut.update(UniformError(0)));
-    EXPECT_EQ(cut.triangles().size(), finest) << m.name;
+    EXPECT_EQ(cut.nodes(), fromScratch(mt, UniformError(0))) << m.name;
   }
 }
 
