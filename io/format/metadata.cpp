@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One function per direction, in the same order of fields. Doubles are written with the fewest digits that
-// read back to the same double (nlohmann-json does both), negative zeros included. Reading collects the first
-// problem and goes on with defaults, so that no field needs a test of its own.
+// visitMetadata() declares the fields once; a writer and a reader visit them (io/format/json_fields.h).
+// Doubles are written with the fewest digits that read back to the same double (nlohmann-json does both),
+// negative zeros included.
 #include "io/format/metadata.h"
 
 #include <fmt/format.h>
@@ -11,175 +11,108 @@
 #include <cmath>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <utility>
 
 #include "engine/mt/hole_limit.h"
 #include "engine/mt/node_blocks.h"
+#include "io/format/json_fields.h"
 #include "terrain/build/checks.h"
 
 namespace arete {
 namespace {
 
-using nlohmann::json;
-using nlohmann::ordered_json;
+using json_fields::Choice;
 
-constexpr std::uint64_t kMaxCount = 0xFFFFFFFEu;  // 0xFFFFFFFF names nothing
+constexpr std::uint64_t kMaxCount = 0xFFFFFFFEu;  // 0xFFFFFFFF is the invalid id
 constexpr std::uint32_t kMaxMetricTerm = 1u << 16;
-constexpr const char* kHex = "hex";
 
-struct TypeName {
-  HeightEncoding::Type type;
-  const char* name;
-  AmtScalar scalar;
-};
-constexpr TypeName kTypes[] = {{HeightEncoding::Type::int16, "int16", AmtScalar::i16},
-                               {HeightEncoding::Type::float32, "float32", AmtScalar::f32},
-                               {HeightEncoding::Type::float64, "float64", AmtScalar::f64}};
+constexpr std::array<Choice<HeightEncoding::Type>, 3> kHeightTypes = {
+    {{HeightEncoding::Type::int16, "int16"},
+     {HeightEncoding::Type::float32, "float32"},
+     {HeightEncoding::Type::float64, "float64"}}};
 
-const TypeName& nameOf(HeightEncoding::Type type) {
-  for (const TypeName& t : kTypes)
-    if (t.type == type) return t;
-  return kTypes[2];
-}
-
-ordered_json exactText(const std::string& text) {
-  try {
-    static_cast<void>(json(text).dump());
-    return text;
-  } catch (const json::type_error&) {
-    std::string hex;
-    for (const char c : text) hex += fmt::format("{:02x}", static_cast<unsigned char>(c));
-    return ordered_json{{kHex, hex}};
+AmtScalar scalarOf(HeightEncoding::Type type) {
+  switch (type) {
+    case HeightEncoding::Type::int16:
+      return AmtScalar::i16;
+    case HeightEncoding::Type::float32:
+      return AmtScalar::f32;
+    default:
+      return AmtScalar::f64;
   }
 }
 
-std::optional<std::string> fromHex(const std::string& hex) {
-  const auto digit = [](char c) {
-    return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
-  };
-  if (hex.size() % 2 != 0) return std::nullopt;
-  std::string text;
-  for (std::size_t i = 0; i < hex.size(); i += 2) {
-    const int high = digit(hex[i]), low = digit(hex[i + 1]);
-    if (high < 0 || low < 0) return std::nullopt;
-    text += static_cast<char>(high * 16 + low);
-  }
-  return text;
-}
-
-/// Only what was told. An infinity, which JSON cannot say, is not.
-ordered_json readingJson(const SourceReading& reading) {
-  ordered_json j = ordered_json::object();
-  if (reading.band) j["band"] = *reading.band;
-  for (const auto& [key, text] :
-       {std::pair{"layer", &reading.layer}, {"zField", &reading.zField}, {"crs", &reading.crs}})
-    if (!text->empty()) j[key] = exactText(*text);
-  if (reading.nodata && std::isfinite(*reading.nodata)) j["nodata"] = *reading.nodata;
-  return j;
-}
-
-ordered_json triple(const Vec3& v) {
-  return ordered_json::array({v.x, v.y, v.z});
-}
-
-/// The fields of one JSON object. The first problem of all objects is kept in `problem`.
-class Fields {
- public:
-  Fields(const json& object, std::string prefix, std::string& problem)
-      : object_(object), prefix_(std::move(prefix)), problem_(problem) {}
-
-  Fields child(const char* key) const {
-    const json* field = find(key, "an object", [](const json& j) { return j.is_object(); });
-    static const json empty = json::object();
-    return {field != nullptr ? *field : empty, prefix_ + key + ".", problem_};
-  }
-  bool has(const char* key) const { return object_.contains(key); }
-  void read(const char* key, bool& to) const {
-    if (const json* field = find(key, "true or false", [](const json& j) { return j.is_boolean(); }))
-      to = field->get<bool>();
-  }
-  void read(const char* key, double& to) const {
-    if (const json* field = find(key, "a number", [](const json& j) { return j.is_number(); }))
-      to = field->get<double>();
-  }
-  void read(const char* key, std::uint64_t& to) const {
-    if (const json* field = find(key, "a whole number", [](const json& j) { return j.is_number_unsigned(); }))
-      to = field->get<std::uint64_t>();
-  }
-  void read(const char* key, std::uint32_t& to) const {
-    std::uint64_t wide = to;
-    read(key, wide);
-    if (wide > 0xFFFFFFFFu)
-      note(fmt::format("{}{} is {}, beyond 32 bits", prefix_, key, wide));
-    else
-      to = static_cast<std::uint32_t>(wide);
-  }
-  void read(const char* key, std::string& to) const {
-    const auto isText = [](const json& j) {
-      return j.is_string() || (j.is_object() && j.contains(kHex) && j[kHex].is_string());
-    };
-    const json* field = find(key, "a text", isText);
-    if (field == nullptr) return;
-    if (field->is_string()) {
-      to = field->get<std::string>();
-    } else if (std::optional<std::string> text = fromHex((*field)[kHex].get<std::string>())) {
-      to = std::move(*text);
-    } else {
-      note(fmt::format("{}{} is no hexadecimal text", prefix_, key));
-    }
-  }
-  void read(const char* key, std::span<double> to) const {
-    const auto isRow = [&](const json& j) {
-      if (!j.is_array() || j.size() != to.size()) return false;
-      for (const json& number : j)
-        if (!number.is_number()) return false;
-      return true;
-    };
-    const json* field = find(key, fmt::format("an array of {} numbers", to.size()), isRow);
-    if (field == nullptr) return;
-    for (std::size_t i = 0; i < to.size(); ++i) to[i] = (*field)[i].get<double>();
-  }
-  void read(const char* key, Vec3& to) const {
-    std::array<double, 3> row{};
-    read(key, row);
-    to = {row[0], row[1], row[2]};
-  }
-  void note(std::string problem) const {
-    if (problem_.empty()) problem_ = std::move(problem);
-  }
-
- private:
-  template <class IsRight>
-  const json* find(const char* key, std::string_view what, const IsRight& isRight) const {
-    const auto field = object_.find(key);
-    if (field == object_.end()) {
-      note(fmt::format("{}{} is missing", prefix_, key));
-      return nullptr;
-    }
-    if (!isRight(*field)) {
-      note(fmt::format("{}{} is not {}", prefix_, key, what));
-      return nullptr;
-    }
-    return &*field;
-  }
-
-  const json& object_;
-  std::string prefix_;
-  std::string& problem_;
+/// Values that the file holds and a model has no member for.
+struct Stored {
+  std::uint32_t scaleBase = 0;
+  double thresholdRatio = 0;
 };
 
-/// All of it may be missing: earlier writers did not say it.
-SourceReading readingOf(const Fields& top) {
-  SourceReading reading;
-  if (!top.has("reading")) return reading;
-  const Fields fields = top.child("reading");
-  if (fields.has("band")) fields.read("band", reading.band.emplace(0));
-  for (const auto& [key, text] :
-       {std::pair{"layer", &reading.layer}, {"zField", &reading.zField}, {"crs", &reading.crs}})
-    if (fields.has(key)) fields.read(key, *text);
-  if (fields.has("nodata")) fields.read("nodata", reading.nodata.emplace(0));
-  return reading;
+/// Visits the fields of the metadata, in the order of the file.
+template <class Visitor, class Metadata, class OtherValues>
+void visitMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
+  auto& model = m.model;
+  top.field("writer", m.writer);
+  top.field("source", model.source);
+  top.field("sourceChecksum", model.sourceChecksum);
+  top.field("isRaster", model.isRaster);
+  top.field("columns", model.columns);
+  top.field("rows", model.rows);
+  top.object("counts", [&](auto& counts) {
+    counts.field("rootVertices", m.counts.rootVertices);
+    counts.field("rootTriangles", m.counts.rootTriangles);
+    counts.field("nodes", m.counts.nodes);
+    counts.field("slots", m.counts.slots);
+    counts.field("isolated", m.counts.isolated);
+    counts.field("fixedVertices", m.counts.fixedVertices);
+  });
+  top.object("heights", [&](auto& heights) {
+    heights.choice("type", m.encoding.type, kHeightTypes);
+    heights.field("scale", m.encoding.scale);
+    heights.field("offset", m.encoding.offset);
+  });
+  top.field("errorScaleBase", stored.scaleBase);
+  top.object("metricFrame", [&](auto& metric) {
+    metric.field("origin", m.metric.origin);
+    metric.field("scale", m.metric.scale);
+  });
+  top.object("georeference", [&](auto& georeference) {
+    auto& g = model.georeference;
+    georeference.field("geoTransform", g.geoTransform);
+    georeference.field("hasGeoTransform", g.hasGeoTransform);
+    georeference.field("crsWkt", g.crsWkt);
+    georeference.field("isGeographic", g.isGeographic);
+    georeference.field("angularUnitRadians", g.angularUnitRadians);
+    georeference.field("linearUnitMetres", g.linearUnitMetres);
+    georeference.field("semiMajorAxisMetres", g.semiMajorAxisMetres);
+    georeference.field("inverseFlattening", g.inverseFlattening);
+    georeference.field("verticalUnit", g.verticalUnit);
+    georeference.field("verticalUnitMetres", g.verticalUnitMetres);
+    georeference.field("verticalDatum", g.verticalDatum);
+  });
+  top.object("build", [&](auto& build) {
+    const std::array<Choice<HoleShape>, 2> shapes = {
+        {{HoleShape::delaunay, toString(HoleShape::delaunay)},
+         {HoleShape::dataDependent, toString(HoleShape::dataDependent)}}};
+    auto& o = model.options;
+    build.choice("shape", o.shape, shapes);
+    build.field("maxDegree", o.maxDegree);
+    build.field("thresholdRatio", stored.thresholdRatio);
+    build.field("minimumAspect", o.minimumAspect);
+    build.field("rimTolerance", o.rimTolerance);
+    build.field("metricP", model.metricP);
+    build.field("metricQ", model.metricQ);
+    build.field("levels", model.levels);
+  });
+  // Absent from the files of earlier writers.
+  top.optionalObject("reading", [&](auto& reading) {
+    auto& r = model.reading;
+    reading.optional("band", r.band);
+    reading.optional("layer", r.layer);
+    reading.optional("zField", r.zField);
+    reading.optional("crs", r.crs);
+    reading.optional("nodata", r.nodata);
+  });
 }
 
 std::optional<std::string> findCountProblem(const AmtCounts& c) {
@@ -266,7 +199,8 @@ std::optional<std::string> findAmtProblem(const AmtMetadata& m) {
   const std::uint64_t samples = std::uint64_t{model.columns} * model.rows;
   if (model.isRaster) {
     if (samples == 0 || samples > 0xFFFFFFFFu)
-      return fmt::format("a grid of {} columns and {} rows cannot be", model.columns, model.rows);
+      return fmt::format("a grid of {} columns and {} rows has no samples or too many", model.columns,
+                         model.rows);
     if (m.counts.rootVertices + m.counts.nodes > samples || m.counts.isolated > samples)
       return fmt::format("{} vertices and {} isolated samples are more than the grid has",
                          m.counts.rootVertices + m.counts.nodes, m.counts.isolated);
@@ -282,123 +216,24 @@ std::optional<std::string> findAmtProblem(const AmtMetadata& m) {
   return std::nullopt;
 }
 
-std::string toAmtJson(const AmtMetadata& m) {
-  const Georeference& g = m.model.georeference;
-  const BuildOptions& o = m.model.options;
-  ordered_json j = {
-      {"writer", exactText(m.writer)},
-      {"source", exactText(m.model.source)},
-      {"sourceChecksum", exactText(m.model.sourceChecksum)},
-      {"isRaster", m.model.isRaster},
-      {"columns", m.model.columns},
-      {"rows", m.model.rows},
-      {"counts",
-       {{"rootVertices", m.counts.rootVertices},
-        {"rootTriangles", m.counts.rootTriangles},
-        {"nodes", m.counts.nodes},
-        {"slots", m.counts.slots},
-        {"isolated", m.counts.isolated},
-        {"fixedVertices", m.counts.fixedVertices}}},
-      {"heights",
-       {{"type", nameOf(m.encoding.type).name}, {"scale", m.encoding.scale}, {"offset", m.encoding.offset}}},
-      {"errorScaleBase", m.scale.base()},
-      {"metricFrame", {{"origin", triple(m.metric.origin)}, {"scale", triple(m.metric.scale)}}},
-      {"georeference",
-       {{"geoTransform", g.geoTransform},
-        {"hasGeoTransform", g.hasGeoTransform},
-        {"crsWkt", exactText(g.crsWkt)},
-        {"isGeographic", g.isGeographic},
-        {"angularUnitRadians", g.angularUnitRadians},
-        {"linearUnitMetres", g.linearUnitMetres},
-        {"semiMajorAxisMetres", g.semiMajorAxisMetres},
-        {"inverseFlattening", g.inverseFlattening},
-        {"verticalUnit", exactText(g.verticalUnit)},
-        {"verticalUnitMetres", g.verticalUnitMetres},
-        {"verticalDatum", exactText(g.verticalDatum)}}},
-      {"build",
-       {{"shape", toString(o.shape)},
-        {"maxDegree", o.maxDegree},
-        {"thresholdRatio", o.thresholdRatioOrDefault()},
-        {"minimumAspect", o.minimumAspect},
-        {"rimTolerance", o.rimTolerance},
-        {"metricP", m.model.metricP},
-        {"metricQ", m.model.metricQ},
-        {"levels", m.model.levels}}}};
-  if (ordered_json reading = readingJson(m.model.reading); !reading.empty())
-    j["reading"] = std::move(reading);
-  return j.dump(1) + "\n";
+std::string toAmtJson(const AmtMetadata& metadata) {
+  nlohmann::ordered_json object = nlohmann::ordered_json::object();
+  json_fields::Writer writer(object);
+  const Stored stored{metadata.scale.base(), metadata.model.options.thresholdRatioOrDefault()};
+  visitMetadata(writer, metadata, stored);
+  return object.dump(1) + "\n";
 }
 
 Result<AmtMetadata> fromAmtJson(std::string_view text) {
-  const json j = json::parse(text, nullptr, false);
-  if (!j.is_object()) return failure(ErrorCode::corrupt, "the metadata is no JSON object");
+  const nlohmann::json object = nlohmann::json::parse(text, nullptr, false);
+  if (!object.is_object()) return failure(ErrorCode::corrupt, "the metadata is not a JSON object");
   AmtMetadata m;
   std::string problem;
-  const Fields top(j, "", problem);
-  top.read("writer", m.writer);
-  top.read("source", m.model.source);
-  top.read("sourceChecksum", m.model.sourceChecksum);
-  m.model.reading = readingOf(top);
-  top.read("isRaster", m.model.isRaster);
-  top.read("columns", m.model.columns);
-  top.read("rows", m.model.rows);
-
-  const Fields counts = top.child("counts");
-  counts.read("rootVertices", m.counts.rootVertices);
-  counts.read("rootTriangles", m.counts.rootTriangles);
-  counts.read("nodes", m.counts.nodes);
-  counts.read("slots", m.counts.slots);
-  counts.read("isolated", m.counts.isolated);
-  counts.read("fixedVertices", m.counts.fixedVertices);
-
-  const Fields heights = top.child("heights");
-  std::string type;
-  heights.read("type", type);
-  bool isKnownType = false;
-  for (const TypeName& t : kTypes)
-    if (type == t.name) {
-      m.encoding.type = t.type;
-      isKnownType = true;
-    }
-  if (!isKnownType) heights.note("heights.type is not int16, float32 or float64");
-  heights.read("scale", m.encoding.scale);
-  heights.read("offset", m.encoding.offset);
-
-  std::uint32_t base = 0;
-  top.read("errorScaleBase", base);
-  m.scale = OutwardScale::fromBase(base);
-  const Fields metric = top.child("metricFrame");
-  metric.read("origin", m.metric.origin);
-  metric.read("scale", m.metric.scale);
-
-  Georeference& g = m.model.georeference;
-  const Fields georeference = top.child("georeference");
-  georeference.read("geoTransform", g.geoTransform);
-  georeference.read("hasGeoTransform", g.hasGeoTransform);
-  georeference.read("crsWkt", g.crsWkt);
-  georeference.read("isGeographic", g.isGeographic);
-  georeference.read("angularUnitRadians", g.angularUnitRadians);
-  georeference.read("linearUnitMetres", g.linearUnitMetres);
-  georeference.read("semiMajorAxisMetres", g.semiMajorAxisMetres);
-  georeference.read("inverseFlattening", g.inverseFlattening);
-  georeference.read("verticalUnit", g.verticalUnit);
-  georeference.read("verticalUnitMetres", g.verticalUnitMetres);
-  georeference.read("verticalDatum", g.verticalDatum);
-
-  BuildOptions& o = m.model.options;
-  const Fields build = top.child("build");
-  std::string shape;
-  build.read("shape", shape);
-  o.shape = shape == toString(HoleShape::dataDependent) ? HoleShape::dataDependent : HoleShape::delaunay;
-  if (shape != toString(o.shape)) build.note("build.shape is not delaunay or fidelity");
-  build.read("maxDegree", o.maxDegree);
-  build.read("thresholdRatio", o.thresholdRatio.emplace());
-  build.read("minimumAspect", o.minimumAspect);
-  build.read("rimTolerance", o.rimTolerance);
-  build.read("metricP", m.model.metricP);
-  build.read("metricQ", m.model.metricQ);
-  build.read("levels", m.model.levels);
-
+  json_fields::Reader reader(object, problem);
+  Stored stored;
+  visitMetadata(reader, m, stored);
+  m.scale = OutwardScale::fromBase(stored.scaleBase);
+  m.model.options.thresholdRatio = stored.thresholdRatio;
   if (problem.empty()) problem = findAmtProblem(m).value_or("");
   if (!problem.empty()) return failure(ErrorCode::corrupt, fmt::format("the metadata is wrong: {}", problem));
   return m;
@@ -430,8 +265,8 @@ std::vector<AmtShape> amtShapes(const AmtMetadata& m, bool isPacked) {
       {amt_tag::kCreatorHint, AmtScalar::u32, 4, (c.slots + kSlotsPerHint - 1) / kSlotsPerHint},
       m.model.isRaster ? AmtShape{amt_tag::kSamples, AmtScalar::u32, 4, vertices}
                        : AmtShape{amt_tag::kPlan, AmtScalar::f64, 16, vertices},
-      {amt_tag::kHeights, nameOf(m.encoding.type).scalar,
-       static_cast<std::uint32_t>(m.encoding.bytesPerHeight()), vertices},
+      {amt_tag::kHeights, scalarOf(m.encoding.type), static_cast<std::uint32_t>(m.encoding.bytesPerHeight()),
+       vertices},
   };
   shapes.insert(shapes.end(), extras.begin(), extras.end());
   return shapes;
