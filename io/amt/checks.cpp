@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "io/amt/index_check.h"
-#include "io/amt/pieces.h"
+#include "io/amt/segments.h"
 #include "io/format/checksum.h"
 
 namespace arete {
@@ -66,7 +66,7 @@ tl::unexpected<Error> altered(const AmtFile& file, const AmtChunk& chunk) {
                  file.path());
 }
 
-/// By chunks, as there are no pieces.
+/// By chunks, as there are no segments.
 Status checkChunks(const AmtFile& file, const RunContext& context) {
   std::vector<const AmtChunk*> chunks;
   std::vector<std::span<const std::byte>> blocks;
@@ -82,13 +82,13 @@ Status checkChunks(const AmtFile& file, const RunContext& context) {
   return {};
 }
 
-/// Every chunk but the first of these two has pieces, or is the second.
-Status checkPieces(const AmtFile& file, const RunContext& context) {
-  for (const AmtTag& tag : {amt_tag::kMetadata, amt_tag::kPieceChecksums})
+/// Every chunk but the first of these two has segments, or is the second.
+Status checkSegments(const AmtFile& file, const RunContext& context) {
+  for (const AmtTag& tag : {amt_tag::kMetadata, amt_tag::kSegmentChecksums})
     if (Status chunk = checkAmtChunk(file, tag); !chunk) return chunk;
-  AmtPieces pieces(file);
-  pieces.touchAll();
-  return pieces.check(context);
+  AmtSegments segments(file);
+  segments.touchAll();
+  return segments.check(context);
 }
 
 }  // namespace
@@ -99,7 +99,7 @@ Status checkAmtChunk(const AmtFile& file, const AmtTag& tag) {
 }
 
 Status checkAmtChecksums(const AmtFile& file, const RunContext& context) {
-  if (Status sums = file.hasPieces() ? checkPieces(file, context) : checkChunks(file, context); !sums)
+  if (Status sums = file.hasSegments() ? checkSegments(file, context) : checkChunks(file, context); !sums)
     return sums;
   std::uint64_t end = sizeof(AmtHeader) + file.chunks().size() * sizeof(AmtChunk);
   const auto isZeroUpTo = [&](std::uint64_t begin) {

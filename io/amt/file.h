@@ -65,10 +65,10 @@ class AmtFile {
 
   /// Whether the MT is packed: then model() has no MT, read() unpacks it.
   bool isPacked() const { return packedNodes_.data() != nullptr; }
-  /// Whether pieces of its arrays have checksums, so that a part of it can be read alone: all that are not
+  /// Whether segments of its arrays have checksums, so that a part of it can be read alone: all that are not
   /// packed, but for those of earlier builds of Arete.
-  bool hasPieces() const { return pieceChecksums_.data() != nullptr; }
-  std::span<const std::uint64_t> pieceChecksums() const { return pieceChecksums_; }
+  bool hasSegments() const { return segmentChecksums_.data() != nullptr; }
+  std::span<const std::uint64_t> segmentChecksums() const { return segmentChecksums_; }
 
   /// What the metadata says.
   std::uint64_t nodeCount() const { return nodeCount_; }
@@ -81,7 +81,7 @@ class AmtFile {
   /// The model, as far as the options want it, checked as far as it is read. Its multitriangulation points
   /// into the mapped file and keeps it mapped, or is a part of it (io/amt/part.h), or unpacked
   /// (io/packed/packed.h). Errors: those of checkAmt() and unpackMt(), naming the path. O(what is wanted);
-  /// O(triangles) without a wish, or of a file without pieces.
+  /// O(triangles) without a wish, or of a file without segments.
   Result<TerrainModel> read(const AmtReadOptions& options = {}, const RunContext& context = {}) const;
 
   /// The model without its isolated samples and fixed vertices. Its arrays have the sizes stated in MtArrays;
@@ -104,7 +104,7 @@ class AmtFile {
   TerrainModel model_;
   std::span<const std::uint32_t> isolatedSamples_, fixedVertices_;
   std::span<const double> isolatedHeights_;
-  std::span<const std::uint64_t> pieceChecksums_;
+  std::span<const std::uint64_t> segmentChecksums_;
   std::uint64_t nodeCount_ = 0;
   std::span<const std::byte> packedDirectory_, packedTables_, packedNodes_;
 };
@@ -122,7 +122,7 @@ Result<AmtFile> openAmt(const std::string& path, const AmtOpenOptions& options =
 /// O(triangles), parallel.
 Status checkAmtIndices(const AmtFile& file, const RunContext& context = {});
 
-/// The checksums of all pieces, or of every chunk where there are no pieces, and zeros between the chunks:
+/// The checksums of all segments, or of every chunk where there are no segments, and zeros between the chunks:
 /// with these and what openAmt() checks, no byte of the file has changed since it was written. (Of a packed
 /// file the packed nodes are not looked at: unpacking checks what it reads.) Errors: corrupt, naming the
 /// chunk; interrupted. Reads the whole file, in parallel.

@@ -6,7 +6,7 @@
 // node's sphere is in those of its parents, whose errors are no smaller; so the wanted ones have their
 // parents among them, but for rounding, which is made good.
 //
-// Nothing that is read is believed before its pieces have been held against their checksums, and nothing is
+// Nothing that is read is believed before its segments have been held against their checksums, and nothing is
 // walked before its indices have been checked, which are those of the part alone. A file with damaged indices
 // is looked at as a whole, to name the culprit by the number that it has there.
 #include "io/amt/part.h"
@@ -23,7 +23,7 @@
 #include "io/amt/checks.h"
 #include "io/amt/index_check.h"
 #include "io/amt/mt_part.h"
-#include "io/amt/pieces.h"
+#include "io/amt/segments.h"
 
 namespace arete {
 namespace {
@@ -43,10 +43,10 @@ class PartReader {
         wanted_(wanted),
         verify_(verify),
         context_(context),
-        pieces_(file) {}
+        segments_(file) {}
 
   Result<MultiTriangulation> run() {
-    if (Status checksums = checkPieceChecksums(); !checksums) return tl::unexpected(checksums.error());
+    if (Status checksums = checkSegmentChecksums(); !checksums) return tl::unexpected(checksums.error());
     touchBeside();
     choosePages();
     if (isTheSameEverywhere()) return readPrefix();
@@ -72,9 +72,9 @@ class PartReader {
     return wanted_({std::min(x[0], x[1]), std::min(y[0], y[1]), std::max(x[0], x[1]), std::max(y[0], y[1])});
   }
 
-  Status checkPieceChecksums() const {
+  Status checkSegmentChecksums() const {
     if (verify_ != AmtVerify::all) return {};
-    return checkAmtChunk(file_, amt_tag::kPieceChecksums);
+    return checkAmtChunk(file_, amt_tag::kSegmentChecksums);
   }
 
   /// Which pages may hold a wanted node, and where the last one ends.
@@ -105,7 +105,7 @@ class PartReader {
     const auto part = prefixOfMt(whole_, end_);
     if (!part) return culprit();
     touchNodes(0, end_, 0, part->arrays().link.size());
-    if (Status whole = checkPieces(); !whole) return tl::unexpected(whole.error());
+    if (Status whole = checkSegments(); !whole) return tl::unexpected(whole.error());
     return checked(*part);
   }
 
@@ -117,7 +117,7 @@ class PartReader {
     }
     if (part.problem != MtSubset::Problem::none) return culprit();
     touchSubset(nodes);
-    if (Status whole = checkPieces(); !whole) return tl::unexpected(whole.error());
+    if (Status whole = checkSegments(); !whole) return tl::unexpected(whole.error());
     return checked(part.mt);
   }
 
@@ -135,8 +135,8 @@ class PartReader {
       if (isPageWanted_[page] == 0) continue;
       const std::uint64_t begin = std::uint64_t{page} * kNodesPerPage,
                           end = std::min<std::uint64_t>(begin + kNodesPerPage, whole_.nodeCount());
-      pieces_.touch(saturatedError_, begin, end);
-      pieces_.touch(sphere_, begin, end);
+      segments_.touch(saturatedError_, begin, end);
+      segments_.touch(sphere_, begin, end);
     }
     return nodes;
   }
@@ -154,7 +154,7 @@ class PartReader {
   void touchBeside() {
     for (const AmtTag& tag : {amt_tag::kRootTriangles, amt_tag::kBlockError, amt_tag::kBlockSphere,
                               amt_tag::kIsolatedSamples, amt_tag::kIsolatedHeights, amt_tag::kFixedVertices})
-      pieces_.touchAll(pieces_.of(tag));
+      segments_.touchAll(segments_.of(tag));
     touchVertices(0, a_.rootVertices);
     touchTriangles(0, a_.rootTriangles.size());
   }
@@ -173,26 +173,26 @@ class PartReader {
 
   /// All that there is of nodes [begin, end), whose slots are [slots, slotsEnd).
   void touchNodes(std::uint64_t begin, std::uint64_t end, std::uint64_t slots, std::uint64_t slotsEnd) {
-    pieces_.touch(slotBegin_, begin, end + 1);
-    pieces_.touch(link_, slots, slotsEnd);
-    pieces_.touch(floor_, slots - 2 * begin, slotsEnd - 2 * end);
-    pieces_.touch(saturatedError_, begin, end);
-    pieces_.touch(sphere_, begin, end);
-    pieces_.touch(creatorHint_, slots / kSlotsPerHint, (slotsEnd + kSlotsPerHint - 1) / kSlotsPerHint);
+    segments_.touch(slotBegin_, begin, end + 1);
+    segments_.touch(link_, slots, slotsEnd);
+    segments_.touch(floor_, slots - 2 * begin, slotsEnd - 2 * end);
+    segments_.touch(saturatedError_, begin, end);
+    segments_.touch(sphere_, begin, end);
+    segments_.touch(creatorHint_, slots / kSlotsPerHint, (slotsEnd + kSlotsPerHint - 1) / kSlotsPerHint);
     touchTriangles(a_.rootTriangles.size() + slots, a_.rootTriangles.size() + slotsEnd);
     touchVertices(a_.rootVertices + begin, a_.rootVertices + end);
   }
   void touchTriangles(std::uint64_t begin, std::uint64_t end) {
-    for (const AmtPieces::Chunk chunk : {remover_, error_, below_, above_}) pieces_.touch(chunk, begin, end);
+    for (const AmtSegments::Chunk chunk : {remover_, error_, below_, above_}) segments_.touch(chunk, begin, end);
   }
   void touchVertices(std::uint64_t begin, std::uint64_t end) {
-    pieces_.touch(place_, begin, end);
-    pieces_.touch(height_, begin, end);
+    segments_.touch(place_, begin, end);
+    segments_.touch(height_, begin, end);
   }
 
-  Status checkPieces() {
+  Status checkSegments() {
     if (verify_ != AmtVerify::all) return {};
-    return pieces_.check(context_);
+    return segments_.check(context_);
   }
 
   Result<MultiTriangulation> checked(const MultiTriangulation& part) const {
@@ -217,16 +217,16 @@ class PartReader {
   const RequiredError& wanted_;
   AmtVerify verify_;
   const RunContext& context_;
-  AmtPieces pieces_;
-  const AmtPieces::Chunk slotBegin_ = pieces_.of(amt_tag::kSlotBegin), link_ = pieces_.of(amt_tag::kLink),
-                         remover_ = pieces_.of(amt_tag::kRemover), error_ = pieces_.of(amt_tag::kError),
-                         below_ = pieces_.of(amt_tag::kBelow), above_ = pieces_.of(amt_tag::kAbove),
-                         floor_ = pieces_.of(amt_tag::kFloor),
-                         saturatedError_ = pieces_.of(amt_tag::kSaturatedError),
-                         sphere_ = pieces_.of(amt_tag::kSphere),
-                         creatorHint_ = pieces_.of(amt_tag::kCreatorHint),
-                         place_ = pieces_.of(file_.model().isRaster ? amt_tag::kSamples : amt_tag::kPlan),
-                         height_ = pieces_.of(amt_tag::kHeights);
+  AmtSegments segments_;
+  const AmtSegments::Chunk slotBegin_ = segments_.of(amt_tag::kSlotBegin), link_ = segments_.of(amt_tag::kLink),
+                         remover_ = segments_.of(amt_tag::kRemover), error_ = segments_.of(amt_tag::kError),
+                         below_ = segments_.of(amt_tag::kBelow), above_ = segments_.of(amt_tag::kAbove),
+                         floor_ = segments_.of(amt_tag::kFloor),
+                         saturatedError_ = segments_.of(amt_tag::kSaturatedError),
+                         sphere_ = segments_.of(amt_tag::kSphere),
+                         creatorHint_ = segments_.of(amt_tag::kCreatorHint),
+                         place_ = segments_.of(file_.model().isRaster ? amt_tag::kSamples : amt_tag::kPlan),
+                         height_ = segments_.of(amt_tag::kHeights);
   std::vector<std::uint8_t> isPageWanted_;
   std::uint32_t pages_ = 0, end_ = 0;  // up to the end of the last wanted one; in nodes
 };

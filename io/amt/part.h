@@ -13,7 +13,7 @@ namespace arete {
 /// AmtFile::read() does of all: the first of its nodes, as mapped, where the same is wanted everywhere or
 /// every other one of them is wanted; else these nodes and their parents, copied, numbered anew. Either way a
 /// cut of it is that of the whole (see RequiredError), saturated ones by place included. Errors: those of
-/// checkAmt(). Precondition: AmtFile::hasPieces(), verify is not none. O(pages of the file + nodes read),
+/// checkAmt(). Precondition: AmtFile::hasSegments(), verify is not none. O(pages of the file + nodes read),
 /// parallel.
 Result<MultiTriangulation> readAmtPart(const AmtFile& file, const RequiredError& wanted, AmtVerify verify,
                                        const RunContext& context = {});

@@ -153,11 +153,11 @@ Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
   if (isPacked)
     for (const AmtTag tag : {amt_tag::kPackedDirectory, amt_tag::kPackedTables, amt_tag::kPackedNodes})
       shapes.push_back({tag, AmtScalar::u8, 1, find(tag) == nullptr ? 0 : find(tag)->bytes});
-  const bool hasPieces = find(amt_tag::kPieceChecksums) != nullptr;
-  if (hasPieces) {
-    std::uint64_t pieces = 0;
-    for (const AmtChunk& chunk : file_.chunks_) pieces += amtPieceCount(chunk.tag, chunk.bytes);
-    shapes.push_back(amtPieceShape(pieces));
+  const bool hasSegments = find(amt_tag::kSegmentChecksums) != nullptr;
+  if (hasSegments) {
+    std::uint64_t segments = 0;
+    for (const AmtChunk& chunk : file_.chunks_) segments += amtSegmentCount(chunk.tag, chunk.bytes);
+    shapes.push_back(amtSegmentShape(segments));
   }
   for (const AmtShape& shape : shapes) {
     const AmtChunk* const chunk = find(shape.tag);
@@ -179,7 +179,7 @@ Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
   place(amt_tag::kIsolatedSamples, file_.isolatedSamples_);
   place(amt_tag::kIsolatedHeights, file_.isolatedHeights_);
   place(amt_tag::kFixedVertices, file_.fixedVertices_);
-  if (hasPieces) place(amt_tag::kPieceChecksums, file_.pieceChecksums_);
+  if (hasSegments) place(amt_tag::kSegmentChecksums, file_.segmentChecksums_);
   if (isPacked) {
     place(amt_tag::kPackedDirectory, file_.packedDirectory_);
     place(amt_tag::kPackedTables, file_.packedTables_);
@@ -233,7 +233,7 @@ Result<AmtFile> AmtOpener::open(const std::string& path, const AmtOpenOptions& o
 
 double AmtFile::errorBeyond(std::uint64_t nodes) const {
   if (isPacked()) return packedErrorBeyond(packedDirectory_, metadata_->scale, nodes);
-  if (!hasPieces()) return 0;
+  if (!hasSegments()) return 0;
   const MtArrays& a = model_.mt.arrays();
   const std::uint64_t page = nodes / MultiTriangulation::kNodesPerPage + 1,
                       entry = nodeBlockCount(nodeCount_) + page;
@@ -241,7 +241,7 @@ double AmtFile::errorBeyond(std::uint64_t nodes) const {
 }
 
 Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const RunContext& context) const {
-  const bool isPart = options.wanted && options.verify != AmtVerify::none && !isPacked() && hasPieces();
+  const bool isPart = options.wanted && options.verify != AmtVerify::none && !isPacked() && hasSegments();
   if (isPart) return readAmtPart(*this, options.wanted, options.verify, context);
   if (Status checked = checkAmt(*this, options.verify, context); !checked)
     return tl::unexpected(checked.error());

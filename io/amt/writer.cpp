@@ -19,7 +19,7 @@
 namespace arete {
 namespace {
 
-constexpr std::size_t kPiece = std::size_t{1} << 23;
+constexpr std::size_t kWriteBytes = std::size_t{1} << 23;
 
 struct Source {
   AmtTag tag;
@@ -67,7 +67,7 @@ class AmtWriting {
     }
     addExtras();
     for (const AmtShape& shape : amtShapes(metadata, options.isPacked)) shapes_.push_back(shape);
-    if (!options.isPacked) addPieceChecksums();
+    if (!options.isPacked) addSegmentChecksums();
     if (Status placed = layOut(); !placed) return placed;
     if (!seal()) return interrupted();
     return write();
@@ -135,12 +135,12 @@ class AmtWriting {
   }
 
   /// Room for them; they are known when everything else is.
-  void addPieceChecksums() {
+  void addSegmentChecksums() {
     std::uint64_t count = 0;
-    for (const Source& s : sources_) count += amtPieceCount(s.tag, s.bytes.size());
-    pieceChecksums_.resize(count);
-    sources_.push_back(source(amt_tag::kPieceChecksums, pieceChecksums_));
-    shapes_.push_back(amtPieceShape(count));
+    for (const Source& s : sources_) count += amtSegmentCount(s.tag, s.bytes.size());
+    segmentChecksums_.resize(count);
+    sources_.push_back(source(amt_tag::kSegmentChecksums, segmentChecksums_));
+    shapes_.push_back(amtSegmentShape(count));
   }
 
   /// Header and directory, but for their checksums.
@@ -170,12 +170,12 @@ class AmtWriting {
   bool seal() {
     std::vector<std::span<const std::byte>> blocks;
     for (const Source& s : sources_) blocks.push_back(s.bytes);
-    const bool hasPieces = !pieceChecksums_.empty();
-    if (hasPieces) blocks.pop_back();
+    const bool hasSegments = !segmentChecksums_.empty();
+    if (hasSegments) blocks.pop_back();
     const auto sums = amtChecksums(blocks, "checksum", context_);
     if (!sums) return false;
     for (std::size_t i = 0; i < blocks.size(); ++i) directory_[i].checksum = sums->blocks[i];
-    if (hasPieces) sealPieces(*sums);
+    if (hasSegments) sealSegments(*sums);
     std::vector<std::byte> front(offsetof(AmtHeader, checksum) + header_.directoryBytes);
     std::memcpy(front.data(), &header_, offsetof(AmtHeader, checksum));
     std::memcpy(front.data() + offsetof(AmtHeader, checksum), directory_.data(), header_.directoryBytes);
@@ -183,10 +183,10 @@ class AmtWriting {
     return true;
   }
 
-  void sealPieces(const AmtChecksums& sums) {
-    auto to = pieceChecksums_.begin();
-    for (std::size_t i = 0; i < sums.pieces.size(); ++i)
-      if (sources_[i].tag != amt_tag::kMetadata) to = std::ranges::copy(sums.pieces[i], to).out;
+  void sealSegments(const AmtChecksums& sums) {
+    auto to = segmentChecksums_.begin();
+    for (std::size_t i = 0; i < sums.segments.size(); ++i)
+      if (sources_[i].tag != amt_tag::kMetadata) to = std::ranges::copy(sums.segments[i], to).out;
     directory_.back().checksum = amtChecksum(sources_.back().bytes);
   }
 
@@ -198,12 +198,12 @@ class AmtWriting {
     std::uint64_t at = header_.directoryOffset + header_.directoryBytes;
     for (const Source& s : sources_) {
       pad(*out, at);
-      for (std::size_t begin = 0; begin < s.bytes.size(); begin += kPiece) {
+      for (std::size_t begin = 0; begin < s.bytes.size(); begin += kWriteBytes) {
         context_.report("write", static_cast<double>(at) / static_cast<double>(header_.fileBytes));
         if (context_.cancelled()) return interrupted();
-        const auto piece = s.bytes.subspan(begin, std::min(kPiece, s.bytes.size() - begin));
-        out->write(asText(piece));
-        at += piece.size();
+        const auto span = s.bytes.subspan(begin, std::min(kWriteBytes, s.bytes.size() - begin));
+        out->write(asText(span));
+        at += span.size();
       }
     }
     pad(*out, at);
@@ -218,7 +218,7 @@ class AmtWriting {
   const RunContext& context_;
   std::string json_;  // what the sources below point to, beside the model
   PackedMt packed_;
-  std::vector<std::uint64_t> pieceChecksums_;
+  std::vector<std::uint64_t> segmentChecksums_;
   std::vector<std::uint32_t> isolatedSamples_;
   std::vector<double> isolatedHeights_;
   std::vector<Source> sources_;   // the chunks, in the order of the file

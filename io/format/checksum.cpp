@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A block is hashed as a stream of pieces, each of which is hashed alone while it is near; every now and then
+// A block is hashed as a stream of segments, each of which is hashed alone while it is near; every now and then
 // progress is told and a wish to stop is heard. The result is that of hashing the block at once.
 #include "io/format/checksum.h"
 
@@ -21,7 +21,7 @@ namespace arete {
 namespace {
 
 constexpr std::size_t kTurn = std::size_t{1} << 22;
-static_assert(kTurn % kAmtPieceBytes == 0);
+static_assert(kTurn % kAmtSegmentBytes == 0);
 
 struct FreeState {
   void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
@@ -41,17 +41,17 @@ std::optional<AmtChecksums> amtChecksums(std::span<const std::span<const std::by
   std::atomic<bool> stopped = false;
   AmtChecksums sums;
   sums.blocks.resize(blocks.size());
-  sums.pieces.resize(blocks.size());
+  sums.segments.resize(blocks.size());
   const auto hash = [&](std::size_t i) {
     const std::span<const std::byte> block = blocks[i];
     const std::unique_ptr<XXH3_state_t, FreeState> state(XXH3_createState());
     XXH3_64bits_reset(state.get());
     for (std::size_t turn = 0; turn < block.size() && !stopped; turn += kTurn) {
       const std::size_t end = std::min(turn + kTurn, block.size());
-      for (std::size_t at = turn; at < end; at += kAmtPieceBytes) {
-        const auto piece = block.subspan(at, std::min(kAmtPieceBytes, end - at));
-        sums.pieces[i].push_back(amtChecksum(piece));
-        XXH3_64bits_update(state.get(), piece.data(), piece.size());
+      for (std::size_t at = turn; at < end; at += kAmtSegmentBytes) {
+        const auto segment = block.subspan(at, std::min(kAmtSegmentBytes, end - at));
+        sums.segments[i].push_back(amtChecksum(segment));
+        XXH3_64bits_update(state.get(), segment.data(), segment.size());
       }
       const std::lock_guard lock(mutex);
       done += end - turn;

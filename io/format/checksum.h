@@ -17,10 +17,10 @@ std::uint64_t amtChecksum(std::span<const std::byte> bytes);
 
 struct AmtChecksums {
   std::vector<std::uint64_t> blocks;
-  std::vector<std::vector<std::uint64_t>> pieces;  ///< of every kAmtPieceBytes of each block
+  std::vector<std::vector<std::uint64_t>> segments;  ///< of every kAmtSegmentBytes of each block
 };
 
-/// XXH3-64 of each block of bytes, and of its pieces, blocks in parallel, with progress; nothing when the
+/// XXH3-64 of each block of bytes, and of its segments, blocks in parallel, with progress; nothing when the
 /// caller asked to stop.
 std::optional<AmtChecksums> amtChecksums(std::span<const std::span<const std::byte>> blocks,
                                          std::string_view stage, const RunContext& context);

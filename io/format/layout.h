@@ -19,9 +19,9 @@ inline constexpr std::uint64_t kAmtAlignment = 64;
 inline constexpr std::uint32_t kAmtMaxChunks = 64;
 inline constexpr std::uint64_t kAmtMaxMetadataBytes = std::uint64_t{1} << 20;
 
-/// The arrays have checksums of their own for pieces of so many bytes, so that a part of a file can be read
+/// The arrays have checksums of their own for segments of so many bytes, so that a part of a file can be read
 /// alone.
-inline constexpr std::uint64_t kAmtPieceBytes = std::uint64_t{1} << 16;
+inline constexpr std::uint64_t kAmtSegmentBytes = std::uint64_t{1} << 16;
 
 /// As PNG's: a byte beyond ASCII, the name, and line ends of every kind, so that a transfer as text shows.
 inline constexpr std::array<char, 8> kAmtMagic = {'\x89', 'A', 'M', 'T', '\r', '\n', '\x1a', '\n'};
@@ -94,13 +94,13 @@ inline constexpr AmtTag kIsolatedSamples = {'I', 'S', 'A', 'M'};
 inline constexpr AmtTag kIsolatedHeights = {'I', 'H', 'G', 'T'};
 inline constexpr AmtTag kFixedVertices = {'F', 'I', 'X', 'V'};
 // Of a file that is not packed, the last; those of earlier builds of Arete have none:
-inline constexpr AmtTag kPieceChecksums = {'P', 'S', 'U', 'M'};
+inline constexpr AmtTag kSegmentChecksums = {'P', 'S', 'U', 'M'};
 }  // namespace amt_tag
 
-/// Pieces of a chunk; all but the metadata and the checksums of pieces have some.
-constexpr std::uint64_t amtPieceCount(const AmtTag& tag, std::uint64_t bytes) {
-  if (tag == amt_tag::kMetadata || tag == amt_tag::kPieceChecksums) return 0;
-  return (bytes + kAmtPieceBytes - 1) / kAmtPieceBytes;
+/// Segments of a chunk; all but the metadata and the checksums of segments have some.
+constexpr std::uint64_t amtSegmentCount(const AmtTag& tag, std::uint64_t bytes) {
+  if (tag == amt_tag::kMetadata || tag == amt_tag::kSegmentChecksums) return 0;
+  return (bytes + kAmtSegmentBytes - 1) / kAmtSegmentBytes;
 }
 
 /// The first multiple of the alignment at or behind `offset`. Precondition: it is not within 63 of 2^64.

@@ -50,13 +50,13 @@ struct AmtShape {
   std::uint64_t count = 0;
 };
 
-/// Every chunk but the metadata, the checksums of pieces and the three of packed files, in the order in which
-/// they are written. Precondition: findAmtProblem() finds nothing.
+/// Every chunk but the metadata, the checksums of segments and the three of packed files, in the order in
+/// which they are written. Precondition: findAmtProblem() finds nothing.
 std::vector<AmtShape> amtShapes(const AmtMetadata& metadata, bool isPacked = false);
 
-/// The chunk behind them in a file that is not packed: so many checksums of pieces.
-constexpr AmtShape amtPieceShape(std::uint64_t pieces) {
-  return {amt_tag::kPieceChecksums, AmtScalar::u32, 8, pieces};
+/// The chunk behind them in a file that is not packed: so many checksums of segments.
+constexpr AmtShape amtSegmentShape(std::uint64_t segments) {
+  return {amt_tag::kSegmentChecksums, AmtScalar::u32, 8, segments};
 }
 
 }  // namespace arete

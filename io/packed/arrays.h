@@ -9,8 +9,9 @@
 #include "engine/mt/multitriangulation.h"
 #include "engine/mt/node_blocks.h"
 #include "io/format/metadata.h"
+#include "io/packed/errors.h"
+#include "io/packed/heights.h"
 #include "io/packed/layout.h"
-#include "io/packed/symbols.h"
 #include "io/packed/zeroed_arena.h"
 
 namespace arete::packed {

@@ -10,9 +10,13 @@
 #include <cmath>
 #include <cstring>
 
+#include "io/packed/areas.h"
 #include "io/packed/arrays.h"
+#include "io/packed/heights.h"
+#include "io/packed/numbers.h"
 #include "io/packed/root.h"
 #include "io/packed/shapes.h"
+#include "io/packed/tables.h"
 
 namespace arete::packed {
 

@@ -10,7 +10,7 @@
 
 #include "engine/mt/multitriangulation.h"
 #include "io/packed/rans.h"
-#include "io/packed/symbols.h"
+#include "io/packed/tables.h"
 
 namespace arete::packed {
 

@@ -32,9 +32,15 @@
 #include <string>
 #include <vector>
 
+#include "io/packed/areas.h"
 #include "io/packed/arrays.h"
+#include "io/packed/bounds.h"
+#include "io/packed/errors.h"
 #include "io/packed/front.h"
 #include "io/packed/geometry.h"
+#include "io/packed/numbers.h"
+#include "io/packed/root.h"
+#include "io/packed/tables.h"
 
 namespace arete::packed {
 

@@ -12,6 +12,9 @@
 
 #include "engine/parallel/with_threads.h"
 #include "io/format/checksum.h"
+#include "io/packed/bounds.h"
+#include "io/packed/errors.h"
+#include "io/packed/heights.h"
 #include "io/packed/node_coder.h"
 #include "io/packed/order.h"
 #include "io/packed/packed.h"

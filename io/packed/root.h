@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "io/packed/arrays.h"
-#include "io/packed/symbols.h"
+#include "io/packed/heights.h"
+#include "io/packed/numbers.h"
+#include "io/packed/tables.h"
 
 namespace arete::packed {
 

@@ -14,6 +14,7 @@
 #include "engine/parallel/with_threads.h"
 #include "io/format/checksum.h"
 #include "io/format/metadata.h"
+#include "io/packed/bounds.h"
 #include "io/packed/node_coder.h"
 #include "io/packed/order.h"
 #include "io/packed/packed.h"

@@ -269,9 +269,9 @@ class AmtBytes {
     }
   }
 
-  /// Recomputes the checksums: of pieces, of the chunks that lie inside the file, and of the header.
+  /// Recomputes the checksums: of segments, of the chunks that lie inside the file, and of the header.
   void seal() {
-    sealPieces();
+    sealSegments();
     for (std::uint32_t i = 0; i < header().chunkCount; ++i) {
       AmtChunk& c = chunks()[i];
       if (c.offset <= bytes_.size() && c.bytes <= bytes_.size() - c.offset)
@@ -280,19 +280,19 @@ class AmtBytes {
     sealHeader();
   }
   /// As many as there is room for.
-  void sealPieces() {
-    constexpr std::uint64_t kPiece = 65536;
+  void sealSegments() {
+    constexpr std::uint64_t kSegment = 65536;
     const std::uint32_t last = header().chunkCount - 1;
-    if (last >= kAmtMaxChunks || chunks()[last].tag != amt_tag::kPieceChecksums) return;
+    if (last >= kAmtMaxChunks || chunks()[last].tag != amt_tag::kSegmentChecksums) return;
     std::vector<std::uint64_t> sums;
     for (std::uint32_t i = 0; i < last; ++i) {
       const AmtChunk& c = chunks()[i];
       if (c.tag == amt_tag::kMetadata || c.offset > bytes_.size() || c.bytes > bytes_.size() - c.offset)
         continue;
-      for (std::uint64_t at = 0; at < c.bytes; at += kPiece)
-        sums.push_back(XXH3_64bits(bytes_.data() + c.offset + at, std::min(kPiece, c.bytes - at)));
+      for (std::uint64_t at = 0; at < c.bytes; at += kSegment)
+        sums.push_back(XXH3_64bits(bytes_.data() + c.offset + at, std::min(kSegment, c.bytes - at)));
     }
-    const auto room = array<std::uint64_t>(amt_tag::kPieceChecksums);
+    const auto room = array<std::uint64_t>(amt_tag::kSegmentChecksums);
     std::copy_n(sums.begin(), std::min(sums.size(), room.size()), room.begin());
   }
   void sealHeader() {
@@ -300,9 +300,9 @@ class AmtBytes {
     front.append(reinterpret_cast<const char*>(chunks()), header().chunkCount * sizeof(AmtChunk));
     header().checksum = XXH3_64bits(front.data(), front.size());
   }
-  /// The same file as earlier builds of Arete wrote it: without its last chunk, the checksums of pieces.
-  AmtBytes withoutPieces() {
-    if (chunks()[header().chunkCount - 1].tag != amt_tag::kPieceChecksums)
+  /// The same file as earlier builds of Arete wrote it: without its last chunk, the checksums of segments.
+  AmtBytes withoutSegments() {
+    if (chunks()[header().chunkCount - 1].tag != amt_tag::kSegmentChecksums)
       throw std::runtime_error("no such chunk");
     AmtHeader shorter = header();
     --shorter.chunkCount;

@@ -175,8 +175,8 @@ TEST(AmtFile, HasTheGoldenBytesOfFormatVersion2) {
   EXPECT_EQ(bytes.size(), 3328u);
   EXPECT_EQ(fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size())), "28c6ff837d6e6d41");
 
-  // But for the checksums of pieces, which older readers pass over, it is what earlier builds wrote.
-  const AmtBytes earlier = AmtBytes(bytes).withoutPieces();
+  // But for the checksums of segments, which older readers pass over, it is what earlier builds wrote.
+  const AmtBytes earlier = AmtBytes(bytes).withoutSegments();
   EXPECT_EQ(earlier.bytes().size(), 3072u);
   EXPECT_EQ(fmt::format("{:016x}", XXH3_64bits(earlier.bytes().data(), earlier.bytes().size())),
             "5666a59ff5454c0f");

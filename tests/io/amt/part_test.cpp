@@ -188,7 +188,7 @@ TEST(AmtPart, SeesWhatWasAlteredWhereItReadsAndDoesNotLookElsewhere) {
     EXPECT_NE(refusalOf(changed, everywhere(0)), "");
     EXPECT_NE(refusalOf(changed, nullptr), "");
   }
-  changedAt(amt_tag::kPieceChecksums, 0.5);
+  changedAt(amt_tag::kSegmentChecksums, 0.5);
   EXPECT_EQ(refusalOf(changed, coarse), "has been altered: the checksum of chunk PSUM does not match");
   EXPECT_EQ(refusalOf(changed, nullptr), "has been altered: the checksum of chunk PSUM does not match");
 }
@@ -247,14 +247,14 @@ TEST(AmtPart, RefusesOrSurvivesWhateverTheBytesAre) {
   EXPECT_GT(survived, 100);
 }
 
-TEST(AmtPart, IsAllOfAFileOfAnEarlierBuildWhichHasNoChecksumsOfPieces) {
+TEST(AmtPart, IsAllOfAFileOfAnEarlierBuildWhichHasNoChecksumsOfSegments) {
   const TemporaryFolder folder;
   const std::string path = folder.file("model.amt"), earlier = folder.file("earlier.amt");
   const TerrainModel whole = manyPages();
   ASSERT_TRUE(writeAmt(path, whole));
-  AmtBytes::of(path).withoutPieces().save(earlier);
-  EXPECT_TRUE(openAmt(path)->hasPieces());
-  EXPECT_FALSE(openAmt(earlier)->hasPieces());
+  AmtBytes::of(path).withoutSegments().save(earlier);
+  EXPECT_TRUE(openAmt(path)->hasSegments());
+  EXPECT_FALSE(openAmt(earlier)->hasSegments());
   test::expectSameModel(part(earlier, everywhere(5)), whole);
   test::expectSameModel(part(earlier, nullptr), whole);
 }
@@ -268,12 +268,12 @@ TEST(AmtPart, IsTheWholeMappedFileWhereNothingIsChecked) {
   EXPECT_LT(part(path, everywhere(5), AmtVerify::indices).mt.nodeCount(), whole.mt.nodeCount());
 }
 
-TEST(AmtPart, RefusesAFileWhosePiecesAreNotAsManyAsItHas) {
+TEST(AmtPart, RefusesAFileWhoseSegmentsAreNotAsManyAsItHas) {
   const TemporaryFolder folder;
   const std::string path = folder.file("model.amt");
   ASSERT_TRUE(writeAmt(path, tinyModel()));
   AmtBytes bytes = AmtBytes::of(path);
-  bytes.chunk(amt_tag::kPieceChecksums).bytes -= 8;
+  bytes.chunk(amt_tag::kSegmentChecksums).bytes -= 8;
   bytes.sealHeader();
   bytes.save(path);
   EXPECT_NE(refusalOf(path, everywhere(0)).find("bytes where"), std::string::npos);

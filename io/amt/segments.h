@@ -10,18 +10,18 @@
 
 namespace arete {
 
-/// Which pieces of a file's arrays an answer rests on, to be held against their checksums (chunk PSUM). For
+/// Which segments of a file's arrays an answer rests on, to be held against their checksums (chunk PSUM). For
 /// one thread.
-class AmtPieces {
+class AmtSegments {
  public:
-  /// Precondition: AmtFile::hasPieces().
-  explicit AmtPieces(const AmtFile& file);
+  /// Precondition: AmtFile::hasSegments().
+  explicit AmtSegments(const AmtFile& file);
 
   /// One of the chunks, by its place in the directory.
   struct Chunk {
     std::size_t index = 0;
   };
-  /// Precondition: the file has such a chunk, and it has pieces.
+  /// Precondition: the file has such a chunk, and it has segments.
   Chunk of(const AmtTag& tag) const;
 
   /// Elements [begin, end) of the chunk have been, or will be, read. Precondition: there are so many.
@@ -35,10 +35,10 @@ class AmtPieces {
 
  private:
   struct Place {
-    std::size_t first = 0;  // of its pieces
+    std::size_t first = 0;  // of its segments
     std::uint32_t elementBytes = 1;
   };
-  std::size_t chunkOf(std::size_t piece) const;
+  std::size_t chunkOf(std::size_t segment) const;
 
   const AmtFile& file_;
   std::vector<Place> places_;  // of each chunk, and the end

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/amt/pieces.h"
+#include "io/amt/segments.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -20,65 +20,65 @@ constexpr std::uint8_t kWanted = 1, kChecked = 2;
 
 }  // namespace
 
-AmtPieces::AmtPieces(const AmtFile& file) : file_(file) {
-  std::size_t pieces = 0;
+AmtSegments::AmtSegments(const AmtFile& file) : file_(file) {
+  std::size_t segments = 0;
   for (const AmtChunk& chunk : file.chunks()) {
-    places_.push_back({pieces, chunk.elementBytes});
-    pieces += amtPieceCount(chunk.tag, chunk.bytes);
+    places_.push_back({segments, chunk.elementBytes});
+    segments += amtSegmentCount(chunk.tag, chunk.bytes);
   }
-  places_.push_back({pieces, 1});
-  isTouched_.resize(pieces);
+  places_.push_back({segments, 1});
+  isTouched_.resize(segments);
 }
 
-AmtPieces::Chunk AmtPieces::of(const AmtTag& tag) const {
+AmtSegments::Chunk AmtSegments::of(const AmtTag& tag) const {
   const auto chunks = file_.chunks();
   const auto found = std::ranges::find(chunks, tag, &AmtChunk::tag);
   assert(found != chunks.end());
   return {static_cast<std::size_t>(found - chunks.begin())};
 }
 
-void AmtPieces::touch(Chunk chunk, std::uint64_t begin, std::uint64_t end) {
+void AmtSegments::touch(Chunk chunk, std::uint64_t begin, std::uint64_t end) {
   if (begin >= end) return;
   const Place& place = places_[chunk.index];
-  const std::uint64_t first = begin * place.elementBytes / kAmtPieceBytes,
-                      last = (end * place.elementBytes - 1) / kAmtPieceBytes;
+  const std::uint64_t first = begin * place.elementBytes / kAmtSegmentBytes,
+                      last = (end * place.elementBytes - 1) / kAmtSegmentBytes;
   for (std::uint64_t i = first; i <= last; ++i) isTouched_[place.first + i] |= kWanted;
 }
 
-void AmtPieces::touchAll(Chunk chunk) {
+void AmtSegments::touchAll(Chunk chunk) {
   const AmtChunk& c = file_.chunks()[chunk.index];
   touch(chunk, 0, c.bytes / c.elementBytes);
 }
 
-void AmtPieces::touchAll() {
+void AmtSegments::touchAll() {
   std::ranges::fill(isTouched_, kWanted);
 }
 
-std::size_t AmtPieces::chunkOf(std::size_t piece) const {
-  const auto behind = std::ranges::upper_bound(places_, piece, {}, &Place::first);
+std::size_t AmtSegments::chunkOf(std::size_t segment) const {
+  const auto behind = std::ranges::upper_bound(places_, segment, {}, &Place::first);
   return static_cast<std::size_t>(behind - places_.begin()) - 1;
 }
 
-Status AmtPieces::check(const RunContext& context) {
-  std::vector<std::size_t> pieces;
+Status AmtSegments::check(const RunContext& context) {
+  std::vector<std::size_t> segments;
   for (std::size_t i = 0; i < isTouched_.size(); ++i)
-    if (isTouched_[i] == kWanted) pieces.push_back(i);
+    if (isTouched_[i] == kWanted) segments.push_back(i);
   std::atomic<std::size_t> altered = isTouched_.size();
-  SharedProgress progress(context, "check checksums", pieces.size() + 1);
+  SharedProgress progress(context, "check checksums", segments.size() + 1);
   withThreads(context, [&] {
-    tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t i) {
+    tbb::parallel_for(std::size_t{0}, segments.size(), [&](std::size_t i) {
       if (context.cancelled()) return;
-      const std::size_t piece = pieces[i], c = chunkOf(piece);
+      const std::size_t segment = segments[i], c = chunkOf(segment);
       const auto bytes = file_.bytes(file_.chunks()[c]);
-      const std::uint64_t at = (piece - places_[c].first) * kAmtPieceBytes;
-      const auto these = bytes.subspan(at, std::min<std::uint64_t>(kAmtPieceBytes, bytes.size() - at));
+      const std::uint64_t at = (segment - places_[c].first) * kAmtSegmentBytes;
+      const auto these = bytes.subspan(at, std::min<std::uint64_t>(kAmtSegmentBytes, bytes.size() - at));
       progress.add();
-      if (amtChecksum(these) == file_.pieceChecksums()[piece]) {
-        isTouched_[piece] = kChecked;
+      if (amtChecksum(these) == file_.segmentChecksums()[segment]) {
+        isTouched_[segment] = kChecked;
         return;
       }
       std::size_t known = altered;
-      while (piece < known && !altered.compare_exchange_weak(known, piece)) {
+      while (segment < known && !altered.compare_exchange_weak(known, segment)) {
       }
     });
   });

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "engine/mt/vertex_arrays.h"
+#include "io/packed/numbers.h"
+
+namespace arete::packed {
+
+/// Heights and coordinates as differences of integers from what was predicted. The ordinal of a
+/// floating-point number is an integer; ordinals are ordered as the numbers are, and those of neighbouring
+/// numbers differ by 1.
+
+/// An integer that is ordered as the numbers are (but -0 is less than 0), and its inverse.
+inline std::uint64_t ordinal(double x) {
+  const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
+  return bits >> 63 != 0 ? ~bits : bits | std::uint64_t{1} << 63;
+}
+inline double fromOrdinal(std::uint64_t o) {
+  return std::bit_cast<double>(o >> 63 != 0 ? o & ~(std::uint64_t{1} << 63) : ~o);
+}
+inline std::uint32_t ordinal(float x) {
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(x);
+  return bits >> 31 != 0 ? ~bits : bits | 1u << 31;
+}
+inline float fromOrdinal(std::uint32_t o) {
+  return std::bit_cast<float>(o >> 31 != 0 ? o & ~(1u << 31) : ~o);
+}
+
+/// The i-th raw height of an array of this type.
+inline double rawHeight(HeightEncoding::Type type, const std::byte* heights, std::size_t i) {
+  if (type == HeightEncoding::Type::int16) {
+    std::int16_t value;
+    std::memcpy(&value, heights + 2 * i, sizeof value);
+    return value;
+  }
+  if (type == HeightEncoding::Type::float32) {
+    float value;
+    std::memcpy(&value, heights + 4 * i, sizeof value);
+    return static_cast<double>(value);
+  }
+  double value;
+  std::memcpy(&value, heights + 8 * i, sizeof value);
+  return value;
+}
+
+/// A raw height less its prediction, in steps of its type: whole numbers, or ordinals of its floating-point
+/// type.
+inline std::int64_t heightResidual(HeightEncoding::Type type, double raw, double predicted) {
+  if (type == HeightEncoding::Type::int16) return static_cast<std::int64_t>(raw) - nearest(predicted);
+  if (type == HeightEncoding::Type::float32)
+    return static_cast<std::int32_t>(ordinal(static_cast<float>(raw)) -
+                                     ordinal(static_cast<float>(predicted)));
+  return static_cast<std::int64_t>(ordinal(raw) - ordinal(predicted));
+}
+/// Writes the i-th raw height, which differs from its prediction by the residual.
+/// @return the height; infinity if no int16 has the value, not finite if the floating-point number is not
+inline double putHeight(HeightEncoding::Type type, std::byte* heights, std::size_t i, double predicted,
+                        std::int64_t residual) {
+  if (type == HeightEncoding::Type::int16) {
+    const std::int64_t wide = static_cast<std::int64_t>(static_cast<std::uint64_t>(nearest(predicted)) +
+                                                        static_cast<std::uint64_t>(residual));
+    const std::int16_t value = static_cast<std::int16_t>(wide);
+    std::memcpy(heights + 2 * i, &value, sizeof value);
+    return value == wide ? value : HUGE_VAL;
+  }
+  if (type == HeightEncoding::Type::float32) {
+    const float value = fromOrdinal(static_cast<std::uint32_t>(ordinal(static_cast<float>(predicted)) +
+                                                               static_cast<std::uint32_t>(residual)));
+    std::memcpy(heights + 4 * i, &value, sizeof value);
+    return static_cast<double>(value);
+  }
+  const double value = fromOrdinal(ordinal(predicted) + static_cast<std::uint64_t>(residual));
+  std::memcpy(heights + 8 * i, &value, sizeof value);
+  return value;
+}
+
+}  // namespace arete::packed
