@@ -14,6 +14,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/criterion.h"
+#include "cli/commands/check_command.h"
 #include "cli/session/model_file.h"
 #include "io/crs/longitude_turns.h"
 #include "io/dem/raster_writer.h"
@@ -241,8 +242,12 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   if (!part) return tl::unexpected(part.error());
 
   const std::string& verticalUnit = outline->georeference.verticalUnit;
-  TinExtractor extractor(std::move(part->model), arguments.model,
-                         [&file](const RunContext& context) { return file->read({}, context); });
+  TinExtractor extractor(
+      std::move(part->model), arguments.model,
+      [&file](const RunContext& context) { return file->read({}, context); },
+      [&](const ExtractRequest& request, double promisedError) {
+        return checkCommand(request, *outline, arguments.model, promisedError);
+      });
   Json exports = Json::array();
   Status promise;
   for (const ExtractRequest& request : *requests) {

@@ -11,26 +11,12 @@
 
 #include "engine/criteria/refine_order.h"
 #include "engine/criteria/view_error.h"
-#include "io/file/shell_text.h"
 
 namespace arete {
 namespace {
 
-/// Where a budget alone decides: no triangle is ever fine enough, but for one without an error.
+/// The pixel error where a budget alone ends the cut: only triangles without an error satisfy it.
 constexpr double kNoPixelsAllowed = 1e-9;
-
-const char* orderName(ExtractOrder order) {
-  switch (order) {
-    case ExtractOrder::breadth:
-      return "breadth";
-    case ExtractOrder::depth:
-      return "depth";
-    case ExtractOrder::twoQueues:
-      return "two-queues";
-    default:
-      return "worst";
-  }
-}
 
 }  // namespace
 
@@ -43,36 +29,6 @@ std::string_view fitName(ExtractFit fit) {
     default:
       return "none";
   }
-}
-
-std::string optionsOf(const ExtractCriterion& c) {
-  std::string options;
-  const auto add = [&](const char* name, const auto& value) {
-    options += fmt::format(" --{} {}", name, value);
-  };
-  if (c.maxError) add("max-error", *c.maxError);
-  if (c.maxTriangles) add("max-triangles", *c.maxTriangles);
-  if (!c.region.empty()) add("region", shellQuoted(c.region));
-  if (c.distance > 0) add("distance", c.distance);
-  if (c.focus) {
-    add("focus", shellQuoted(c.focus->text));
-    add("error-growth", c.focus->growth);
-  }
-  if (c.camera) {
-    const Camera& camera = *c.camera;
-    add("camera", shellQuoted(c.cameraText));
-    add("look", fmt::format("{},{}", camera.azimuthDegrees, camera.pitchDegrees));
-    add("fov", camera.verticalFieldOfViewDegrees);
-    add("viewport", fmt::format("{}x{}", camera.widthPixels, camera.heightPixels));
-    if (c.pixelError) add("pixel-error", *c.pixelError);
-  }
-  if (c.isLonLat) options += " --lonlat";
-  if (std::isfinite(c.outsideError)) add("outside-error", c.outsideError);
-  if (c.method == CutMethod::saturated) add("method", "saturated");
-  if (c.deadlineMilliseconds) add("deadline", *c.deadlineMilliseconds);
-  if (c.order != ExtractOrder::worst) add("order", orderName(c.order));
-  if (c.fit != ExtractFit::none) add("fit", fitName(c.fit));
-  return options;
 }
 
 Result<std::shared_ptr<const BoundedCriterion>> engineCriterion(const ExtractCriterion& c,
@@ -110,7 +66,7 @@ Result<RequiredError> requiredBy(std::span<const ExtractCriterion> criteria,
     parts.push_back(*part);
   }
   return RequiredError([parts, metric = outline.mt.arrays().metric](const Box2& box) {
-    // None of these criteria looks at heights.
+    // None of these criteria depends on heights.
     const Vec3 low = metric.toMetric({box.xMin, box.yMin, 0}),
                high = metric.toMetric({box.xMax, box.yMax, 0});
     const Vec2 middle{(low.x + high.x) / 2, (low.y + high.y) / 2};
@@ -129,9 +85,7 @@ Result<CutOptions> engineOptions(const ExtractCriterion& c, const TerrainModel& 
   if (c.order == ExtractOrder::breadth) options.order = std::make_shared<BreadthFirst>();
   if (c.order == ExtractOrder::depth) options.order = std::make_shared<DepthFirst>();
   if (c.order == ExtractOrder::twoQueues) {
-    if (!c.camera)
-      return failure(ErrorCode::usage, "two queues are filled by what a camera sees; state --camera",
-                     "--order");
+    if (!c.camera) return failure(ErrorCode::usage, "two queues need a camera; state `camera`", "order");
     const Result<View> view = viewOf(*c.camera, model);
     if (!view) return tl::unexpected(view.error());
     options.order = std::make_shared<TwoQueues>(TwoQueues::Options{.view = *view});

@@ -64,9 +64,6 @@ struct ExtractCriterion {
 /// As the option names it.
 std::string_view fitName(ExtractFit fit);
 
-/// The options of `arete extract` that ask for it, each with a space before it.
-std::string optionsOf(const ExtractCriterion& criterion);
-
 /// The criterion for the engine. `region`: in plan coordinates, where one was given. `reserve` is taken off
 /// the tolerance for what a format rounds. Errors: usage, a camera that makes no sense. Precondition: the
 /// model outlives the criterion.

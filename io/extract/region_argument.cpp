@@ -16,7 +16,7 @@
 namespace arete {
 namespace {
 
-/// The numbers of "a,b,c", however many; nothing when a field is no number.
+/// The numbers of "a,b,c", however many; nothing if a field is not a number.
 std::optional<std::vector<double>> numbersOf(std::string_view text) {
   std::vector<double> numbers;
   for (std::size_t at = 0; at <= text.size();) {
@@ -37,7 +37,7 @@ std::optional<std::vector<double>> numbersOf(std::string_view text) {
 
 Result<RegionArgument> readRegionArgument(const std::string& text, const std::string& demCrs, double distance,
                                           const RunContext& context) {
-  const std::string culprit = fmt::format("--region {}", text);
+  const std::string culprit = fmt::format("region {}", text);
   if (const auto box = numbersOf(text); box && text.find(',') != std::string::npos) {
     if (box->size() != 4)
       return failure(ErrorCode::usage,
@@ -58,8 +58,7 @@ Result<RegionArgument> readRegionArgument(const std::string& text, const std::st
       if (const auto lines = readRegion(text, demCrs, {.takesLines = true}, context);
           lines && lines->rings.empty())
         return failure(ErrorCode::usage,
-                       "holds lines, and a line has no inside; say how far around them with "
-                       "--distance",
+                       "holds lines, and a line has no inside; state how far around them with `distance`",
                        culprit);
     if (error.code == ErrorCode::notFound && text.find(',') != std::string::npos)
       error.message += ", nor are these the four numbers xmin,ymin,xmax,ymax";
@@ -68,7 +67,7 @@ Result<RegionArgument> readRegionArgument(const std::string& text, const std::st
   if (read->lacksCrs)
     return failure(ErrorCode::usage,
                    demCrs.empty() ? "has a CRS and the DEM has none, so the two cannot be brought together; "
-                                    "state the DEM's with --crs when it is read"
+                                    "state the DEM's with `crs` when it is read"
                                   : "has no CRS and the DEM has one, so the two cannot be brought together",
                    culprit);
   return RegionArgument{

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -18,7 +17,6 @@
 #include "io/exchange/mesh_formats.h"
 #include "io/exchange/written_mesh.h"
 #include "io/extract/criterion.h"
-#include "io/file/shell_text.h"
 #include "io/file/text_scan.h"
 #include "terrain/model/plan_region.h"
 
@@ -48,17 +46,6 @@ std::string noteOf(const ExtractRequest& request, const TerrainModel& model, con
       "arete: TIN of {} ({}), vertical error at most {}{}{}{}", model.source, model.sourceChecksum,
       tin.promisedError, model.georeference.verticalUnit.empty() ? "" : " " + model.georeference.verticalUnit,
       request.region ? " in the region " + request.criterion.region : "", tin.fit ? ", heights fitted" : "");
-}
-
-/// As the build read the source: without them it may be another terrain.
-std::string readingOptions(const SourceReading& reading) {
-  std::string options;
-  if (reading.band) options += fmt::format(" --band {}", *reading.band);
-  if (!reading.layer.empty()) options += " --layer " + shellQuoted(reading.layer);
-  if (!reading.zField.empty()) options += " --z-field " + shellQuoted(reading.zField);
-  if (reading.nodata) options += fmt::format(" --nodata {}", *reading.nodata);
-  if (!reading.crs.empty()) options += " --crs " + shellQuoted(reading.crs);
-  return options;
 }
 
 Status within(Status status, const std::string& path) {
@@ -99,25 +86,6 @@ Status checkExtractOutput(const std::string& path, const TerrainModel& model) {
                                     : fmt::format("'.{}' is no format that can be written", extension),
                   known),
       path);
-}
-
-std::string checkCommand(const ExtractRequest& request, const TerrainModel& model,
-                         const std::string& modelPath, double promisedError) {
-  const ExtractCriterion& c = request.criterion;
-  std::string command, tin = request.output;
-  if (isGeoTiffName(request.output)) {
-    tin = std::filesystem::path(request.output).replace_extension(".ply").string();
-    command = fmt::format("arete extract {} -o {}", shellQuoted(modelPath), shellQuoted(tin));
-    command += optionsOf(c);
-    command += " && ";
-  }
-  command += fmt::format("arete measure {} {} --expect {}", shellQuoted(tin), shellQuoted(model.source),
-                         promisedError);
-  command += readingOptions(model.reading);
-  if (!c.region.empty()) command += fmt::format(" --region {}", shellQuoted(c.region));
-  if (c.distance > 0) command += fmt::format(" --distance {}", c.distance);
-  if (model.options.rimTolerance > 0) command += " --allow-covered-nodata";
-  return command;
 }
 
 const TinExtractor::Samples& TinExtractor::samples() {
@@ -265,18 +233,19 @@ Status TinExtractor::measureAndWrite(const ExtractRequest& request, const Triang
         planTolerancePixels({.planRounding = {rounding.x, rounding.y}}, model_.georeference);
   if (Status written = writeRasters(request, rasters, tin, context); !written) return written;
   if (request.certificate.empty()) return {};
-  const Certificate certificate{.file = request.output,
-                                .model = modelPath_,
-                                .format = tin.format,
-                                .criterion = request.criterion,
-                                .isComplete = tin.isComplete,
-                                .storedError = tin.storedError,
-                                .fit = tin.fit,
-                                .measured = *tin.measured,
-                                .measuredInside = tin.measuredInside,
-                                .promisedError = tin.promisedError,
-                                .isKept = tin.isKept,
-                                .checkCommand = checkCommand(request, model_, modelPath_, tin.promisedError)};
+  const Certificate certificate{
+      .file = request.output,
+      .model = modelPath_,
+      .format = tin.format,
+      .criterion = request.criterion,
+      .isComplete = tin.isComplete,
+      .storedError = tin.storedError,
+      .fit = tin.fit,
+      .measured = *tin.measured,
+      .measuredInside = tin.measuredInside,
+      .promisedError = tin.promisedError,
+      .isKept = tin.isKept,
+      .checkCommand = checkCommand_ ? checkCommand_(request, tin.promisedError) : ""};
   return within(writeCertificate(request.certificate, certificate, model_), request.certificate);
 }
 

@@ -51,16 +51,24 @@ Status checkExtractOutput(const std::string& path, const TerrainModel& model);
 class TinExtractor {
  public:
   using ReadAll = std::function<Result<TerrainModel>(const RunContext&)>;
+  /// How to check an export that promises this error, as text.
+  using CheckCommand = std::function<std::string(const ExtractRequest&, double promisedError)>;
 
   /// The share of a tolerance by which readForExtract() reads deeper, so that a format may round heights.
   static constexpr double kReadReserve = 1.0 / 8;
 
-  /// @param model      the whole of a file's model, or the part that readForExtract() returns
-  /// @param modelPath  the file's name, for certificates
-  /// @param readAll    where the model is a part: reads the whole. Called at most once, when a format rounds
-  ///                   heights by more than kReadReserve provides for.
-  TinExtractor(TerrainModel model, std::string modelPath, ReadAll readAll = {})
-      : model_(std::move(model)), modelPath_(std::move(modelPath)), readAll_(std::move(readAll)) {}
+  /// @param model         the whole of a file's model, or the part that readForExtract() returns
+  /// @param modelPath     the file's name, for certificates
+  /// @param readAll       where the model is a part: reads the whole. Called at most once, when a format
+  /// rounds
+  ///                      heights by more than kReadReserve provides for.
+  /// @param checkCommand  the `check` of certificates; empty = an empty text
+  TinExtractor(TerrainModel model, std::string modelPath, ReadAll readAll = {},
+               CheckCommand checkCommand = {})
+      : model_(std::move(model)),
+        modelPath_(std::move(modelPath)),
+        readAll_(std::move(readAll)),
+        checkCommand_(std::move(checkCommand)) {}
 
   /// Takes the cut, exports it, and measures the exported mesh against the source's samples where heights
   /// were fitted or a raster or a certificate is to be written. Each file appears whole or not at all. Where
@@ -94,11 +102,8 @@ class TinExtractor {
   TerrainModel model_;
   std::string modelPath_;
   ReadAll readAll_;
+  CheckCommand checkCommand_;
   std::optional<Samples> samples_;
 };
-
-/// The command that checks an export: `arete measure`, behind an `arete extract` where the export is no mesh.
-std::string checkCommand(const ExtractRequest& request, const TerrainModel& model,
-                         const std::string& modelPath, double promisedError);
 
 }  // namespace arete

@@ -47,35 +47,6 @@ TEST(ExportTin, IsCounterClockwiseOnTheMapWhicheverWayTheGridTurns) {
   }
 }
 
-TEST(ExtractTin, QuotesTheCheckForAShell) {
-  TerrainModel model;
-  model.source = "my dem.tif";
-  ExtractRequest request;
-  request.criterion.maxError = 5;
-  request.output = "it's.ply";
-  EXPECT_EQ(checkCommand(request, model, "m.amt", 5),
-            R"(arete measure 'it'\''s.ply' 'my dem.tif' --expect 5)");
-  request.output = "smooth.tif";
-  request.criterion.region = "1,2,3,4";
-  request.criterion.outsideError = 50;
-  model.options.rimTolerance = 2;
-  EXPECT_EQ(checkCommand(request, model, "m.amt", 5),
-            "arete extract m.amt -o smooth.ply --max-error 5 --region 1,2,3,4 --outside-error 50 && "
-            "arete measure smooth.ply 'my dem.tif' --expect 5 --region 1,2,3,4 --allow-covered-nodata");
-}
-
-TEST(ExtractTin, SaysInTheCheckHowTheSourceWasRead) {
-  TerrainModel model;
-  model.source = "dem.tif";
-  ExtractRequest request;
-  request.criterion.maxError = 5;
-  request.output = "tin.ply";
-  model.reading = {.band = 2, .layer = "a layer", .zField = "z", .crs = "EPSG:32611", .nodata = -9999};
-  EXPECT_EQ(checkCommand(request, model, "m.amt", 5),
-            "arete measure tin.ply dem.tif --expect 5 --band 2 --layer 'a layer' --z-field z --nodata -9999 "
-            "--crs EPSG:32611");
-}
-
 /// Extracts with a certificate; what `arete measure` would find in the file must agree with it.
 void expectKept(const TerrainModel& model, const std::string& extension, double maxError,
                 ExtractFit fit = ExtractFit::none) {

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/commands/check_command.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "io/dem/raster_writer.h"
+#include "io/file/shell_text.h"
+
+namespace arete {
+namespace {
+
+const char* orderName(ExtractOrder order) {
+  switch (order) {
+    case ExtractOrder::breadth:
+      return "breadth";
+    case ExtractOrder::depth:
+      return "depth";
+    case ExtractOrder::twoQueues:
+      return "two-queues";
+    default:
+      return "worst";
+  }
+}
+
+/// The options that the build read the source with; without them the same file may be another terrain.
+std::string readingOptions(const SourceReading& reading) {
+  std::string options;
+  if (reading.band) options += fmt::format(" --band {}", *reading.band);
+  if (!reading.layer.empty()) options += " --layer " + shellQuoted(reading.layer);
+  if (!reading.zField.empty()) options += " --z-field " + shellQuoted(reading.zField);
+  if (reading.nodata) options += fmt::format(" --nodata {}", *reading.nodata);
+  if (!reading.crs.empty()) options += " --crs " + shellQuoted(reading.crs);
+  return options;
+}
+
+}  // namespace
+
+std::string optionsOf(const ExtractCriterion& c) {
+  std::string options;
+  const auto add = [&](const char* name, const auto& value) {
+    options += fmt::format(" --{} {}", name, value);
+  };
+  if (c.maxError) add("max-error", *c.maxError);
+  if (c.maxTriangles) add("max-triangles", *c.maxTriangles);
+  if (!c.region.empty()) add("region", shellQuoted(c.region));
+  if (c.distance > 0) add("distance", c.distance);
+  if (c.focus) {
+    add("focus", shellQuoted(c.focus->text));
+    add("error-growth", c.focus->growth);
+  }
+  if (c.camera) {
+    const Camera& camera = *c.camera;
+    add("camera", shellQuoted(c.cameraText));
+    add("look", fmt::format("{},{}", camera.azimuthDegrees, camera.pitchDegrees));
+    add("fov", camera.verticalFieldOfViewDegrees);
+    add("viewport", fmt::format("{}x{}", camera.widthPixels, camera.heightPixels));
+    if (c.pixelError) add("pixel-error", *c.pixelError);
+  }
+  if (c.isLonLat) options += " --lonlat";
+  if (std::isfinite(c.outsideError)) add("outside-error", c.outsideError);
+  if (c.method == CutMethod::saturated) add("method", "saturated");
+  if (c.deadlineMilliseconds) add("deadline", *c.deadlineMilliseconds);
+  if (c.order != ExtractOrder::worst) add("order", orderName(c.order));
+  if (c.fit != ExtractFit::none) add("fit", fitName(c.fit));
+  return options;
+}
+
+std::string checkCommand(const ExtractRequest& request, const TerrainModel& model,
+                         const std::string& modelPath, double promisedError) {
+  const ExtractCriterion& c = request.criterion;
+  std::string command, tin = request.output;
+  if (isGeoTiffName(request.output)) {
+    tin = std::filesystem::path(request.output).replace_extension(".ply").string();
+    command = fmt::format("arete extract {} -o {}", shellQuoted(modelPath), shellQuoted(tin));
+    command += optionsOf(c);
+    command += " && ";
+  }
+  command += fmt::format("arete measure {} {} --expect {}", shellQuoted(tin), shellQuoted(model.source),
+                         promisedError);
+  command += readingOptions(model.reading);
+  if (!c.region.empty()) command += fmt::format(" --region {}", shellQuoted(c.region));
+  if (c.distance > 0) command += fmt::format(" --distance {}", c.distance);
+  if (model.options.rimTolerance > 0) command += " --allow-covered-nodata";
+  return command;
+}
+
+}  // namespace arete
