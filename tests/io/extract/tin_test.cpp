@@ -11,7 +11,6 @@
 #include "io/crs/names.h"
 #include "io/exchange/export_tin.h"
 #include "io/exchange/mesh_formats.h"
-#include "io/extract/region_argument.h"
 #include "io/io_fixture.h"
 #include "io/mesh_fixture.h"
 #include "io/table/plan_point_reader.h"
@@ -212,21 +211,6 @@ TEST(PlanPointReader, ReprojectsLayers) {
   EXPECT_NEAR(read->positions[1].y, 0, 1e-3);
   EXPECT_EQ(readPlanPoints(path, "").error().code, ErrorCode::invalidData);
   EXPECT_EQ(readPlanPoints(path, "EPSG:4326")->positions[0], (Vec2{-117, 34}));
-}
-
-TEST(RegionArgument, IsABoxOrAFile) {
-  const auto box = readRegionArgument("1, -2,3,4e1", "");
-  ASSERT_TRUE(box);
-  EXPECT_EQ(box->shape.rings, (std::vector<std::vector<Vec2>>{{{1, -2}, {3, -2}, {3, 40}, {1, 40}}}));
-  for (const char* text : {"1,2,3", "1,2,3,4,5", "3,0,1,9", "0,5,1,5", "0,0,inf,1", "0,0,nan,1"})
-    EXPECT_EQ(readRegionArgument(text, "").error().code, ErrorCode::usage) << text;
-  EXPECT_EQ(readRegionArgument("no,such,file", "").error().code, ErrorCode::notFound);
-
-  const TemporaryFolder folder;
-  const std::string file = folder.write(
-      "r.geojson", R"({"type":"Polygon","coordinates":[[[-117,34],[-116,34],[-116,35],[-117,34]]]})");
-  EXPECT_TRUE(readRegionArgument(file, "EPSG:32611"));
-  EXPECT_EQ(readRegionArgument(file, "").error().code, ErrorCode::usage);
 }
 
 }  // namespace

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/packed/layout.h"
+
+#include <gtest/gtest.h>
+
+#include "datasets/random.h"
+
+namespace arete::packed {
+namespace {
+
+Run runOf(std::uint32_t band, std::uint32_t nodes, std::uint32_t slots, std::uint32_t listed) {
+  Run run;
+  run.band = band;
+  run.nodes = nodes;
+  run.slots = slots;
+  run.listed = listed;
+  return run;
+}
+
+/// Three chunks, the last of which leans on both others.
+Directory someDirectory() {
+  Directory directory;
+  for (std::size_t band = 0; band < directory.bandClass.size(); ++band)
+    directory.bandClass[band] = static_cast<std::uint8_t>(band % kClasses);
+  directory.chunks.resize(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    Chunk& chunk = directory.chunks[i];
+    chunk.xMin = -1.5 * static_cast<double>(i);
+    chunk.xMax = 1e300;
+    chunk.yMax = 0.1;
+    for (std::uint32_t s = 0; s < kParts; ++s)
+      chunk.streamBytes[s] = 100u * static_cast<std::uint32_t>(i) + s;
+    chunk.checksum = 0x0123456789ABCDEF + i;
+    if (i > 0) chunk.leansOn.push_back(0);
+  }
+  directory.chunks[2].leansOn.push_back(1);
+  directory.chunks[0].runs = {runOf(20, 5, 17, 5), runOf(3, 1, 3, 0)};
+  directory.chunks[0].borders = 4;
+  directory.chunks[1].runs = {runOf(20, 2, 66, 1), runOf(0, 10, 45, 10)};
+  directory.chunks[2].runs = {runOf(3, 7, 21, 2)};
+  directory.number();
+  return directory;
+}
+
+TEST(PackedLayout, ADirectoryReadsBackToTheSameBytes) {
+  const Directory directory = someDirectory();
+  const auto bytes = toBytes(directory);
+  std::string problem;
+  const auto back = directoryOf(bytes, problem);
+  ASSERT_TRUE(back) << problem;
+  EXPECT_EQ(toBytes(*back), bytes);
+  EXPECT_EQ(back->bandClass, directory.bandClass);
+  EXPECT_EQ(back->chunks[2].leansOn, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(back->chunks[1].xMin, -1.5);
+  EXPECT_EQ(back->nodes(), 25u);
+  EXPECT_EQ(back->slots(), 152u);
+  EXPECT_EQ(back->borders(), 4u);
+}
+
+TEST(PackedLayout, NumbersGoThroughTheBandsAndThroughTheChunksWithinABand) {
+  const Directory directory = someDirectory();
+  const auto& chunks = directory.chunks;
+  EXPECT_EQ(chunks[0].runs[0].firstNode, 0u);
+  EXPECT_EQ(chunks[1].runs[0].firstNode, 5u);
+  EXPECT_EQ(chunks[0].runs[1].firstNode, 7u);
+  EXPECT_EQ(chunks[2].runs[0].firstNode, 8u);
+  EXPECT_EQ(chunks[1].runs[1].firstNode, 15u);
+  EXPECT_EQ(chunks[1].runs[1].firstSlot, 17u + 66 + 3 + 21);
+  EXPECT_EQ(chunks[1].offset, chunks[0].bytes());
+  EXPECT_EQ(chunks[2].firstBorder, 4u);
+  EXPECT_EQ(chunks[1].nodes, 12u);
+}
+
+TEST(PackedLayout, ADirectoryThatIsCutShortOrLongerIsRefused) {
+  auto bytes = toBytes(someDirectory());
+  std::string problem;
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_FALSE(directoryOf(std::span(bytes).first(size), problem)) << size;
+  bytes.push_back(std::byte{0});
+  EXPECT_FALSE(directoryOf(bytes, problem));
+}
+
+TEST(PackedLayout, ADirectoryOfAnotherVersionSaysSo) {
+  auto bytes = toBytes(someDirectory());
+  std::string problem;
+  bytes[0] = std::byte{17};
+  EXPECT_FALSE(directoryOf(bytes, problem));
+  EXPECT_NE(problem.find("older"), std::string::npos);
+  bytes[0] = std::byte{19};
+  EXPECT_FALSE(directoryOf(bytes, problem));
+  EXPECT_NE(problem.find("version 19"), std::string::npos);
+}
+
+TEST(PackedLayout, ADirectoryThatContradictsItselfIsRefused) {
+  const auto isRefused = [](const auto& change) {
+    Directory directory = someDirectory();
+    change(directory);
+    std::string problem;
+    return !directoryOf(toBytes(directory), problem);
+  };
+  EXPECT_FALSE(isRefused([](Directory&) {}));
+  EXPECT_TRUE(isRefused([](Directory& d) { d.bandClass[3] = kClasses; }));
+  EXPECT_TRUE(isRefused([](Directory& d) { d.chunks[1].leansOn.push_back(1); }));
+  EXPECT_TRUE(isRefused([](Directory& d) { d.chunks[0].borders = 21; }));
+  EXPECT_TRUE(isRefused([](Directory& d) { d.chunks[0].runs[0].slots = 5 * 33 + 1; }));
+  EXPECT_TRUE(isRefused([](Directory& d) { d.chunks[0].runs[0].listed = 6; }));
+  EXPECT_TRUE(isRefused([](Directory& d) { d.chunks[0].runs[1].band = 20; }));
+  EXPECT_TRUE(isRefused([](Directory& d) { d.chunks[0].runs[0].nodes = 0; }));
+  EXPECT_TRUE(isRefused([](Directory& d) { d.chunks.clear(); }));
+}
+
+TEST(PackedLayout, AnyBytesAreReadOrRefused) {
+  const auto good = toBytes(someDirectory());
+  Random random(8);
+  std::string problem;
+  for (int i = 0; i < 20'000; ++i) {
+    auto bytes = good;
+    for (std::uint32_t changes = 1 + random.below(3); changes > 0; --changes)
+      bytes[random.below(static_cast<std::uint32_t>(bytes.size()))] = static_cast<std::byte>(random.next());
+    if (const auto read = directoryOf(bytes, problem)) {
+      EXPECT_LT(read->slots(), std::uint64_t{1} << 32);
+      EXPECT_LE(toBytes(*read).size(), bytes.size());
+    }
+  }
+}
+
+TEST(PackedLayout, TablesReadBackToTheSameBytes) {
+  Random random(5);
+  std::vector<RansTable> tables(kTables);
+  for (RansTable& table : tables) {
+    if (random.below(4) == 0) continue;
+    std::array<std::uint64_t, RansTable::kAlphabet> counts{};
+    for (std::uint32_t i = random.below(300); i > 0; --i) ++counts[random.below(256)];
+    table = RansTable::ofCounts(counts);
+  }
+  const auto bytes = toBytes(tables);
+  const auto back = tablesOf(bytes);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(toBytes(*back), bytes);
+  for (std::size_t t = 0; t < kTables; ++t)
+    for (unsigned s = 0; s < 256; ++s) ASSERT_EQ((*back)[t].share(s), tables[t].share(s));
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_FALSE(tablesOf(std::span(bytes).first(size)));
+}
+
+TEST(PackedLayout, ASmallFileCannotCallForMuchMemory) {
+  EXPECT_EQ(leastBytes(0), 0u);
+  EXPECT_EQ(leastBytes(1), 1u);
+  EXPECT_EQ(leastBytes(16), 1u);
+  EXPECT_EQ(leastBytes(17), 2u);
+}
+
+}  // namespace
+}  // namespace arete::packed
