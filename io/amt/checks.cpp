@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Indices of the arrays are the business of io/amt/index_check.h. What stands beside the multitriangulation,
-// isolated samples and fixed vertices, is few numbers: one after the other.
+// The indices of the multitriangulation are checked by io/amt/index_check.h. Isolated samples and fixed
+// vertices are few, so they are checked one after the other. Checksums are compared by segments where the
+// file has them, otherwise by chunks.
 #include "io/amt/checks.h"
 
 #include <fmt/format.h>
@@ -66,7 +67,7 @@ tl::unexpected<Error> altered(const AmtFile& file, const AmtChunk& chunk) {
                  file.path());
 }
 
-/// By chunks, as there are no segments.
+/// For files without checksums of segments.
 Status checkChunks(const AmtFile& file, const RunContext& context) {
   std::vector<const AmtChunk*> chunks;
   std::vector<std::span<const std::byte>> blocks;
@@ -82,7 +83,7 @@ Status checkChunks(const AmtFile& file, const RunContext& context) {
   return {};
 }
 
-/// Every chunk but the first of these two has segments, or is the second.
+/// All chunks have segments, but for the two that are checked as a whole.
 Status checkSegments(const AmtFile& file, const RunContext& context) {
   for (const AmtTag& tag : {amt_tag::kMetadata, amt_tag::kSegmentChecksums})
     if (Status chunk = checkAmtChunk(file, tag); !chunk) return chunk;

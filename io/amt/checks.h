@@ -8,14 +8,14 @@
 
 namespace arete {
 
-/// Samples of the raster, whether they hold data or not. 0 of points.
+/// The number of samples of the raster, NODATA included; 0 for points.
 std::uint64_t amtGridSamples(const AmtFile& file);
 
-/// The checksum of one chunk. Errors: corrupt. Precondition: there is such a chunk.
+/// Checks the checksum of one chunk. Precondition: the file has the chunk. Errors: corrupt. O(bytes).
 Status checkAmtChunk(const AmtFile& file, const AmtTag& tag);
 
-/// What stands beside the multitriangulation: isolated samples rise and are samples of the raster, their
-/// heights are finite, fixed vertices exist. Errors: corrupt. O(these).
+/// Checks the arrays beside the multitriangulation: isolated samples rise and are samples of the raster,
+/// their heights are finite, fixed vertices exist. Errors: corrupt. O(their sizes).
 Status checkAmtExtras(const AmtFile& file);
 
 }  // namespace arete

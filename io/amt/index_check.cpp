@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The arrays are checked in the order in which they lean on each other: slotBegin first, because all
-// per-node ranges come from it. Every check is a predicate over one range of nodes, triangles or vertices,
-// run in blocks; of the culprits the least is kept, so the answer is that of a sequential run.
+// The arrays are checked in the order in which they depend on each other: slotBegin first, because all
+// per-node ranges follow from it. Every check is a predicate over a range of nodes, triangles or vertices,
+// evaluated in parallel; the smallest culprit is reported, as a sequential run would.
 //
 // Removers and floors are inverse to each other: a floor id must be removed by the node that lists it, no
-// node lists one twice, and there are as many removed triangles as floor ids. The slots say that a remover is
-// younger than the creator; floors inherit from that that their triangles are older than the node, without a
-// look at their creators.
+// node lists an id twice, and there are as many removed triangles as floor ids. removers() checks that a
+// remover is younger than the creator, so the triangles of a floor are older than its node without a further
+// check.
 //
-// What costs time is memory: a node's floor lies in stars all over the arrays. Floors are listed one after
-// the other, so what the next ones will read is asked for ahead, and is told without a search
-// (slot_owners.h). A quick look passes every node that is sound beyond a doubt; the others get the whole one,
-// which says what is wrong.
+// The time goes into memory accesses: the triangles of a node's floor lie in stars all over the arrays.
+// Floors are stored one after the other, so the reads of the next ones are prefetched, with the creators from
+// a table (slot_to_node.h). A quick branch-free test passes nearly all sound nodes; the full test decides on
+// the others and words the problem.
 #include "io/amt/index_check.h"
 
 #include <fmt/format.h>
@@ -187,9 +187,9 @@ class MtIndexCheck {
                                                  removed.load(), a_.floor.size()));
   }
 
-  /// What makes every cut's front whole: a link's vertices are corners of the floor, so a closed set of nodes
-  /// has inserted all that its stars lean on; saturated errors and spheres hold their children's, so
-  /// saturated cuts are closed.
+  /// Checks what makes the front of every cut conforming: the vertices of a link are corners of the floor, so
+  /// that a closed set of nodes contains all vertices of its stars; saturated errors and spheres contain
+  /// those of the children, so that saturated cuts are closed.
   Status parents() const {
     const SlotToNode owners(a_);
     const auto bad = firstBad(nodes_, [&](std::uint32_t n) {
@@ -200,8 +200,8 @@ class MtIndexCheck {
     return refuse(problem->first, problem->second);
   }
 
-  /// Whether node n shows at once that it has no problem with its parents. Nothing is branched to,
-  /// as nothing foretells what is read.
+  /// A sufficient test that findParentProblem() finds nothing. Branch-free, because the data are
+  /// unpredictable.
   bool isSurelySound(const SlotToNode& owners, std::uint32_t n) const {
     std::array<std::uint32_t, 3 * (kMaxHoleCorners - 2)> corners;
     std::size_t count = 0;
@@ -233,7 +233,7 @@ class MtIndexCheck {
     return isDoubtful == 0;
   }
 
-  /// Asks for what isSurelySound() will read of floors, on the visit of the i-th entry of all floors.
+  /// Prefetches what isSurelySound() reads for entries of floors that follow the i-th.
   [[gnu::always_inline]] void prefetchFloor(const SlotToNode& owners, std::uint32_t i) const {
     if (i + kFarAhead >= a_.floor.size()) return;
     const std::uint32_t far = a_.floor[i + kFarAhead] - roots_, near = a_.floor[i + kAhead] - roots_;
@@ -299,7 +299,7 @@ class MtIndexCheck {
           return !std::isfinite(s.x) || !std::isfinite(s.y) || !std::isfinite(s.z) ||
                  !std::isfinite(s.radius) || s.radius < 0;
         }))
-      return refuse(amt_tag::kSphere, fmt::format("node {} has a sphere that is none", *bad));
+      return refuse(amt_tag::kSphere, fmt::format("node {} has an invalid sphere", *bad));
     return {};
   }
 
@@ -309,7 +309,7 @@ class MtIndexCheck {
           return !std::isfinite(s.x) || !std::isfinite(s.y) || !std::isfinite(s.z) ||
                  !std::isfinite(s.radius) || s.radius < 0;
         }))
-      return refuse(amt_tag::kBlockSphere, fmt::format("block {} has a sphere that is none", *bad));
+      return refuse(amt_tag::kBlockSphere, fmt::format("block {} has an invalid sphere", *bad));
     const auto findBad = [&](const auto& holds) -> std::optional<std::pair<std::uint64_t, std::uint32_t>> {
       const auto misses = [&](std::uint64_t entry, std::uint32_t n) { return !holds(a_, entry, n); };
       const auto bad = firstBad(nodes_, [&](std::uint32_t n) {
@@ -340,7 +340,7 @@ class MtIndexCheck {
     } else if (const auto bad = firstBad(count, [&](std::uint32_t i) {
                  return !std::isfinite(v.plan[i].x) || !std::isfinite(v.plan[i].y);
                })) {
-      return refuse(amt_tag::kPlan, fmt::format("vertex {} stands at a place that is not finite", *bad));
+      return refuse(amt_tag::kPlan, fmt::format("vertex {} has coordinates that are not finite", *bad));
     }
     if (const auto bad =
             firstBad(count, [&](std::uint32_t i) { return !std::isfinite(v.height(VertexId(i))); }))

@@ -9,12 +9,13 @@
 
 namespace arete {
 
-/// Every index of an MT's arrays in range, every link, floor, remover and creator as MtArrays states them,
-/// spheres that hold their children's, every coordinate finite: after this every cut is closed and its front
-/// whole, and no algorithm of the engine reads outside the arrays, whatever they hold. gridSamples: of the
-/// raster that vertices are samples of. Precondition: the arrays have the sizes stated in MtArrays. The first
-/// culprit is named, by the chunk of the file that holds it (io/format/layout.h), the same for any number of
-/// threads. Errors: corrupt, interrupted. O(triangles), parallel.
+/// Checks that every index of an MT's arrays is in range, that links, floors, removers and creators are
+/// related as MtArrays states, that spheres contain those of their children, and that every coordinate is
+/// finite. Then every cut is closed and its front conforming, and no algorithm of the engine reads outside
+/// the arrays. Precondition: the arrays have the sizes stated in MtArrays; their content is arbitrary.
+/// @param gridSamples  samples of the raster that the vertices belong to; not used for points
+/// Errors: corrupt: the message names the first culprit and the chunk of the file that holds it
+/// (io/format/layout.h), the same for any number of threads; interrupted. O(triangles), parallel.
 Status checkMtIndices(const MultiTriangulation& mt, std::uint64_t gridSamples,
                       const RunContext& context = {});
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A subset is copied in two passes over the set's words. The first finds how many slots each word has; from
-// that follows where each node's begin. The second copies: a vertex, a remover and a triangle are brought
-// under their new numbers by the rank of the node that they belong to. A remover that is not in the set
-// becomes none; a vertex or a triangle of a node that is not in it cannot be, as a node's floor is made by
-// its parents and its link are corners of its floor.
+// A subset is copied in two passes over the words of the set. The first counts the slots of each word, from
+// which the first slot of each node follows. The second copies; vertices, removers and triangles get new
+// numbers by the rank of the node that they belong to. A remover outside the set becomes kNone. A vertex or a
+// triangle of a node outside the set is an error, because the parents of a node create its floor and the
+// vertices of its link are corners of the floor.
 //
-// Every number is held against the arrays before it is followed.
+// Every index is compared with the sizes of the arrays before it is used.
 #include "io/amt/mt_part.h"
 
 #include <tbb/blocked_range.h>
@@ -31,9 +31,9 @@ constexpr std::uint32_t kNodesPerBlock = MultiTriangulation::kNodesPerBlock,
                         kNodesPerPage = MultiTriangulation::kNodesPerPage,
                         kSlotsPerHint = MultiTriangulation::kSlotsPerHint;
 
-/// What a node's slots are, if they can be.
+/// The slots of a node.
 struct Slots {
-  std::uint32_t begin = 0, size = 0;  // 0: damaged
+  std::uint32_t begin = 0, size = 0;  // 0: the arrays are damaged
 };
 
 Slots slotsOf(const MtArrays& a, std::uint32_t n) {
@@ -45,7 +45,7 @@ Slots slotsOf(const MtArrays& a, std::uint32_t n) {
   return {begin, end - begin};
 }
 
-/// The node that owns a slot; kNone where the arrays do not tell.
+/// The node that owns a slot; kNone if the arrays are damaged.
 std::uint32_t ownerOf(const MtArrays& a, std::uint32_t slot) {
   if (slot >= a.link.size()) return kNone;
   const std::uint32_t hint = a.creatorHint[slot / kSlotsPerHint];
@@ -91,7 +91,7 @@ struct SubsetArrays {
   }
 };
 
-/// A subset on its way.
+/// Copies a subset.
 class SubsetCopy {
  public:
   SubsetCopy(const MultiTriangulation& whole, const RankedNodes& nodes)
@@ -141,7 +141,7 @@ class SubsetCopy {
       slots = static_cast<std::uint32_t>(before);
       before += mine;
     }
-    // Where slots of two nodes overlap there may be more than of all.
+    // In damaged arrays the slots of nodes may overlap and be more than there are.
     if (before > a_.link.size()) isDamaged_ = true;
     slots_ = static_cast<std::uint32_t>(before);
   }
@@ -201,7 +201,7 @@ class SubsetCopy {
       to.creatorHint[hint] = rank;
   }
 
-  /// Of node `creator`, which is `rank` now.
+  /// A triangle of node `creator`, whose new number is `rank`.
   void copyTriangle(std::uint32_t from, std::uint32_t t, std::uint32_t creator, std::uint32_t rank) {
     const std::uint32_t r = a_.remover[from];
     std::uint32_t remover = kNone;
@@ -307,7 +307,7 @@ MtSubset subsetOfMt(const MultiTriangulation& whole, const RankedNodes& nodes) {
 bool addParents(const MultiTriangulation& whole, RankedNodes& nodes) {
   const MtArrays& a = whole.arrays();
   const std::uint32_t roots = whole.rootTriangleCount();
-  // Parents have smaller numbers: one way through, from the last node, is all of it.
+  // Parents have smaller numbers, so one pass from the last node to the first suffices.
   for (std::uint32_t n = whole.nodeCount(); n-- > 0;) {
     if (n % RankedNodes::kNodesPerWord == RankedNodes::kNodesPerWord - 1 &&
         nodes.word(n / RankedNodes::kNodesPerWord) == 0) {

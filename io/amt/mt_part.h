@@ -9,27 +9,27 @@
 
 namespace arete {
 
-/// Parts of an MT whose arrays have the sizes stated in MtArrays and may hold anything: they come from a file
-/// that nobody has checked. What comes back has such sizes too, and is to be checked (checkMtIndices()). Of
-/// an MT that keeps its laws the parts do.
+/// Parts of an MT from an unchecked file: its arrays have the sizes stated in MtArrays and arbitrary content.
+/// The parts have such sizes too and must be checked (checkMtIndices()). The parts of an MT that keeps its
+/// laws keep them.
 
-/// The first nodes, and all that they need, under the numbers that they have: arrays that are the beginning
-/// of those of the whole, which they keep alive; what removes triangles and what is known of blocks is
-/// copied. Nothing where the beginning does not know its end. Precondition: so many nodes there are, and they
-/// are all, or a multiple of kNodesPerPage. O(nodes), parallel.
+/// The first nodes of an MT, with their numbers: spans of the arrays of the whole, which is kept alive, and
+/// copies of the removers and of the clusters' errors and spheres. Precondition: `nodes` is the number of all
+/// nodes, or a smaller multiple of kNodesPerPage.
+/// @return nothing if the arrays contradict their sizes. O(nodes), parallel.
 std::optional<MultiTriangulation> prefixOfMt(const MultiTriangulation& whole, std::uint32_t nodes);
 
-/// Some nodes with all of their parents, copied, numbered anew in the order that they have.
+/// A copy of some nodes with all of their parents, renumbered in their order.
 struct MtSubset {
   enum class Problem { none, parentMissing, damaged };
   Problem problem = Problem::none;
-  MultiTriangulation mt;  ///< where there is none
+  MultiTriangulation mt;  ///< valid if there is no problem
 };
-/// Precondition: the nodes are ranked. O(nodes of the set), parallel.
+/// Copies a set of nodes. Precondition: the set is ranked. O(nodes of the set), parallel.
 MtSubset subsetOfMt(const MultiTriangulation& whole, const RankedNodes& nodes);
 
-/// Adds the parents of all nodes, their parents and so on. False where the arrays are damaged. O(nodes of the
-/// set), each with a look at places far from it.
+/// Adds all ancestors of the nodes of a set. O(nodes of the set) random reads.
+/// @return false if the arrays are damaged
 bool addParents(const MultiTriangulation& whole, RankedNodes& nodes);
 
 }  // namespace arete

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A node is wanted whose saturated error is larger than what is wanted of the box around its sphere. Nodes
-// come by falling error, so where the same is wanted everywhere these are the first ones, and some that do no
-// harm. Else the balls and the largest errors of pages, then of blocks, tell which nodes are worth a look. A
-// node's sphere is in those of its parents, whose errors are no smaller; so the wanted ones have their
-// parents among them, but for rounding, which is made good.
+// A node is required if its saturated error exceeds the error required of the box around its sphere. Nodes
+// are sorted by falling bands of errors, so where the same error is required everywhere these are the first
+// nodes and a few more. Otherwise the spheres and largest errors of pages (1024 nodes), then of blocks (64
+// nodes), exclude most nodes without a test. A node's sphere lies in those of its parents, whose errors are
+// no smaller, so the parents of a required node are required too; where rounding breaks this they are added.
 //
-// Nothing that is read is believed before its segments have been held against their checksums, and nothing is
-// walked before its indices have been checked, which are those of the part alone. A file with damaged indices
-// is looked at as a whole, to name the culprit by the number that it has there.
+// The checksums of all segments that were read are compared before the data are used, and the indices of the
+// part are checked before they are followed. If an index is wrong the whole file is checked, so that the
+// culprit is named by its number in the file.
 #include "io/amt/part.h"
 
 #include <tbb/parallel_for.h>
@@ -40,7 +40,7 @@ class PartReader {
       : file_(file),
         whole_(file.model().mt),
         a_(whole_.arrays()),
-        wanted_(wanted),
+        required_(wanted),
         verify_(verify),
         context_(context),
         segments_(file) {}
@@ -56,12 +56,12 @@ class PartReader {
   }
 
  private:
-  bool isWanted(OutwardScale::Code saturatedError, double error) const {
+  bool isRequired(OutwardScale::Code saturatedError, double error) const {
     return !(error > 0) || a_.scale.decode(saturatedError) > error;
   }
 
-  /// What is wanted of the box around a ball. All, where that is no box.
-  double wantedOf(const Sphere& ball) const {
+  /// The error required of the box around a ball; 0 if the box is not finite.
+  double requiredOf(const Sphere& ball) const {
     const MetricFrame& metric = a_.metric;
     const double reach = ball.radius * (1 + 1e-6) + 1e-6 * (std::fabs(ball.x) + std::fabs(ball.y));
     const double x[2] = {(ball.x - reach) / metric.scale.x + metric.origin.x,
@@ -69,7 +69,7 @@ class PartReader {
     const double y[2] = {(ball.y - reach) / metric.scale.y + metric.origin.y,
                          (ball.y + reach) / metric.scale.y + metric.origin.y};
     if (!std::isfinite(x[0] + x[1] + y[0] + y[1])) return 0;
-    return wanted_({std::min(x[0], x[1]), std::min(y[0], y[1]), std::max(x[0], x[1]), std::max(y[0], y[1])});
+    return required_({std::min(x[0], x[1]), std::min(y[0], y[1]), std::max(x[0], x[1]), std::max(y[0], y[1])});
   }
 
   Status checkSegmentChecksums() const {
@@ -77,28 +77,28 @@ class PartReader {
     return checkAmtChunk(file_, amt_tag::kSegmentChecksums);
   }
 
-  /// Which pages may hold a wanted node, and where the last one ends.
+  /// Finds the pages that may hold a required node, and the end of the last one.
   void choosePages() {
     const std::uint32_t blocks = static_cast<std::uint32_t>(nodeBlockCount(whole_.nodeCount()));
     const std::uint32_t all = static_cast<std::uint32_t>(a_.blockError.size()) - blocks;
-    isPageWanted_.resize(all);
+    isPageRequired_.resize(all);
     tbb::parallel_for(std::uint32_t{0}, all, [&](std::uint32_t page) {
-      isPageWanted_[page] = isWanted(a_.blockError[blocks + page], wantedOf(a_.blockSphere[blocks + page]));
+      isPageRequired_[page] = isRequired(a_.blockError[blocks + page], requiredOf(a_.blockSphere[blocks + page]));
     });
     for (std::uint32_t page = 0; page < all; ++page)
-      if (isPageWanted_[page] != 0) pages_ = page + 1;
+      if (isPageRequired_[page] != 0) pages_ = page + 1;
     end_ = std::min(whole_.nodeCount(), pages_ * kNodesPerPage);
   }
 
-  /// Whether, by the looks of the first block of each page, no place wants more than another: then nodes need
-  /// not be asked one by one.
+  /// Whether the first block of each page requires the same error. Then the required nodes are taken to be
+  /// the first ones, without testing each of them.
   bool isTheSameEverywhere() const {
-    std::vector<double> wants(pages_);
+    std::vector<double> required(pages_);
     tbb::parallel_for(std::uint32_t{0}, pages_, [&](std::uint32_t page) {
-      wants[page] = wantedOf(a_.blockSphere[std::size_t{page} * kBlocksPerPage]);
+      required[page] = requiredOf(a_.blockSphere[std::size_t{page} * kBlocksPerPage]);
     });
-    return std::ranges::adjacent_find(wants, [](double x, double y) { return x != y && (x > 0 || y > 0); }) ==
-           wants.end();
+    return std::ranges::adjacent_find(required, [](double x, double y) { return x != y && (x > 0 || y > 0); }) ==
+           required.end();
   }
 
   Result<MultiTriangulation> readPrefix() {
@@ -124,15 +124,15 @@ class PartReader {
   RankedNodes chooseNodes() {
     RankedNodes nodes(whole_.nodeCount());
     tbb::parallel_for(std::uint32_t{0}, pages_, [&](std::uint32_t page) {
-      if (isPageWanted_[page] == 0 || context_.cancelled()) return;
+      if (isPageRequired_[page] == 0 || context_.cancelled()) return;
       const auto end = std::min<std::size_t>((page + 1) * kBlocksPerPage, nodes.wordCount());
       for (std::size_t block = page * kBlocksPerPage; block < end; ++block)
-        if (isWanted(a_.blockError[block], wantedOf(a_.blockSphere[block])))
-          nodes.setWord(block, wantedNodesOf(block));
+        if (isRequired(a_.blockError[block], requiredOf(a_.blockSphere[block])))
+          nodes.setWord(block, requiredNodesOf(block));
     });
     nodes.rank();
     for (std::uint32_t page = 0; page < pages_; ++page) {
-      if (isPageWanted_[page] == 0) continue;
+      if (isPageRequired_[page] == 0) continue;
       const std::uint64_t begin = std::uint64_t{page} * kNodesPerPage,
                           end = std::min<std::uint64_t>(begin + kNodesPerPage, whole_.nodeCount());
       segments_.touch(saturatedError_, begin, end);
@@ -141,16 +141,16 @@ class PartReader {
     return nodes;
   }
 
-  std::uint64_t wantedNodesOf(std::size_t block) const {
+  std::uint64_t requiredNodesOf(std::size_t block) const {
     const auto begin = static_cast<std::uint32_t>(block) * kNodesPerBlock,
                end = std::min(begin + kNodesPerBlock, whole_.nodeCount());
     std::uint64_t members = 0;
     for (std::uint32_t n = begin; n < end; ++n)
-      members |= std::uint64_t{isWanted(a_.saturatedError[n], wantedOf(a_.sphere[n]))} << (n - begin);
+      members |= std::uint64_t{isRequired(a_.saturatedError[n], requiredOf(a_.sphere[n]))} << (n - begin);
     return members;
   }
 
-  /// What is there once, and what is known of blocks.
+  /// The arrays that are read whole.
   void touchBeside() {
     for (const AmtTag& tag : {amt_tag::kRootTriangles, amt_tag::kBlockError, amt_tag::kBlockSphere,
                               amt_tag::kIsolatedSamples, amt_tag::kIsolatedHeights, amt_tag::kFixedVertices})
@@ -171,7 +171,7 @@ class PartReader {
     }
   }
 
-  /// All that there is of nodes [begin, end), whose slots are [slots, slotsEnd).
+  /// The data of nodes [begin, end), whose slots are [slots, slotsEnd).
   void touchNodes(std::uint64_t begin, std::uint64_t end, std::uint64_t slots, std::uint64_t slotsEnd) {
     segments_.touch(slotBegin_, begin, end + 1);
     segments_.touch(link_, slots, slotsEnd);
@@ -183,7 +183,8 @@ class PartReader {
     touchVertices(a_.rootVertices + begin, a_.rootVertices + end);
   }
   void touchTriangles(std::uint64_t begin, std::uint64_t end) {
-    for (const AmtSegments::Chunk chunk : {remover_, error_, below_, above_}) segments_.touch(chunk, begin, end);
+    for (const AmtSegments::Chunk chunk : {remover_, error_, below_, above_})
+      segments_.touch(chunk, begin, end);
   }
   void touchVertices(std::uint64_t begin, std::uint64_t end) {
     segments_.touch(place_, begin, end);
@@ -205,7 +206,7 @@ class PartReader {
 
   tl::unexpected<Error> culprit() const {
     if (const Status all = checkAmt(file_, verify_, context_); !all) return tl::unexpected(all.error());
-    return failure(ErrorCode::corrupt, "has nodes that do not hold together", file_.path());
+    return failure(ErrorCode::corrupt, "has nodes that contradict each other", file_.path());
   }
   tl::unexpected<Error> interrupted() const {
     return failure(ErrorCode::interrupted, "the check was interrupted", file_.path());
@@ -214,21 +215,21 @@ class PartReader {
   const AmtFile& file_;
   const MultiTriangulation& whole_;
   const MtArrays& a_;
-  const RequiredError& wanted_;
+  const RequiredError& required_;
   AmtVerify verify_;
   const RunContext& context_;
   AmtSegments segments_;
-  const AmtSegments::Chunk slotBegin_ = segments_.of(amt_tag::kSlotBegin), link_ = segments_.of(amt_tag::kLink),
-                         remover_ = segments_.of(amt_tag::kRemover), error_ = segments_.of(amt_tag::kError),
-                         below_ = segments_.of(amt_tag::kBelow), above_ = segments_.of(amt_tag::kAbove),
-                         floor_ = segments_.of(amt_tag::kFloor),
-                         saturatedError_ = segments_.of(amt_tag::kSaturatedError),
-                         sphere_ = segments_.of(amt_tag::kSphere),
-                         creatorHint_ = segments_.of(amt_tag::kCreatorHint),
-                         place_ = segments_.of(file_.model().isRaster ? amt_tag::kSamples : amt_tag::kPlan),
-                         height_ = segments_.of(amt_tag::kHeights);
-  std::vector<std::uint8_t> isPageWanted_;
-  std::uint32_t pages_ = 0, end_ = 0;  // up to the end of the last wanted one; in nodes
+  const AmtSegments::Chunk slotBegin_ = segments_.of(amt_tag::kSlotBegin),
+                           link_ = segments_.of(amt_tag::kLink), remover_ = segments_.of(amt_tag::kRemover),
+                           error_ = segments_.of(amt_tag::kError), below_ = segments_.of(amt_tag::kBelow),
+                           above_ = segments_.of(amt_tag::kAbove), floor_ = segments_.of(amt_tag::kFloor),
+                           saturatedError_ = segments_.of(amt_tag::kSaturatedError),
+                           sphere_ = segments_.of(amt_tag::kSphere),
+                           creatorHint_ = segments_.of(amt_tag::kCreatorHint),
+                           place_ = segments_.of(file_.model().isRaster ? amt_tag::kSamples : amt_tag::kPlan),
+                           height_ = segments_.of(amt_tag::kHeights);
+  std::vector<std::uint8_t> isPageRequired_;
+  std::uint32_t pages_ = 0, end_ = 0;  // up to the end of the last required page; end_ in nodes
 };
 
 }  // namespace

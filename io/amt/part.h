@@ -9,12 +9,12 @@
 
 namespace arete {
 
-/// Reads of a file that is not packed what is wanted of its multitriangulation, and checks that, as
-/// AmtFile::read() does of all: the first of its nodes, as mapped, where the same is wanted everywhere or
-/// every other one of them is wanted; else these nodes and their parents, copied, numbered anew. Either way a
-/// cut of it is that of the whole (see RequiredError), saturated ones by place included. Errors: those of
-/// checkAmt(). Precondition: AmtFile::hasSegments(), verify is not none. O(pages of the file + nodes read),
-/// parallel.
+/// Reads and checks the part of a file's multitriangulation that a query requires: the first nodes, as
+/// mapped, where the same error is required everywhere or more than half of the nodes are needed; otherwise a
+/// copy of the required nodes and their ancestors, renumbered. Cuts of the part are those of the whole (see
+/// RequiredError), saturated cuts by place included.
+/// Precondition: the file is not packed, AmtFile::hasSegments(), verify is not none.
+/// Errors: those of checkAmt(). O(cluster groups of the file + nodes read), parallel.
 Result<MultiTriangulation> readAmtPart(const AmtFile& file, const RequiredError& wanted, AmtVerify verify,
                                        const RunContext& context = {});
 

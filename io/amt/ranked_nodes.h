@@ -8,8 +8,8 @@
 
 namespace arete {
 
-/// Some of the nodes of an MT, a bit for each, and how many come before each: the number that it has among
-/// them alone.
+/// A set of nodes of an MT, one bit each, with ranks: the number of members before a node, which is the
+/// node's number in a copy of the set.
 class RankedNodes {
  public:
   static constexpr std::uint32_t kNodesPerWord = 64;
@@ -19,13 +19,13 @@ class RankedNodes {
   bool contains(std::uint32_t n) const { return (words_[n / kNodesPerWord] >> n % kNodesPerWord & 1) != 0; }
   void add(std::uint32_t n) { words_[n / kNodesPerWord] |= std::uint64_t{1} << n % kNodesPerWord; }
 
-  /// Words of 64 nodes: 64 i and those behind it.
+  /// Word i holds the nodes 64 i to 64 i + 63.
   std::size_t wordCount() const { return words_.size(); }
   std::uint64_t word(std::size_t i) const { return words_[i]; }
-  /// By one thread for each word.
+  /// Thread-safe for different words.
   void setWord(std::size_t i, std::uint64_t members) { words_[i] = members; }
 
-  /// To be called when all members are known. O(words).
+  /// Computes the ranks, once all members are set. O(words).
   void rank() {
     before_.resize(words_.size());
     size_ = 0;
@@ -34,7 +34,7 @@ class RankedNodes {
       size_ += static_cast<std::uint32_t>(std::popcount(words_[i]));
     }
   }
-  /// These three after rank(): members, those before n, those before the word's first node.
+  /// Valid after rank(): the number of members, of members before n, of members before the word's first node.
   std::uint32_t size() const { return size_; }
   std::uint32_t rankOf(std::uint32_t n) const {
     const std::uint64_t below = (std::uint64_t{1} << n % kNodesPerWord) - 1;
@@ -43,7 +43,7 @@ class RankedNodes {
   }
   std::uint32_t rankOfWord(std::size_t i) const { return before_[i]; }
 
-  /// visit(n) for the members of a word, rising.
+  /// Calls visit(n) for the members of a word, in rising order.
   template <class Visit>
   void visitWord(std::size_t i, const Visit& visit) const {
     for (std::uint64_t rest = words_[i]; rest != 0; rest &= rest - 1)

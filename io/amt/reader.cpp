@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Opening goes from what is known to what follows from it. The magic, byte order and version say whether the
-// rest can be understood at all; the range and checksum of the directory, whether it is what was written; the
-// file's length, whether it is all there. Then the chunks are held against the rule of the format (each
-// begins where the one before it ends, rounded up), which leaves no room for overlaps or gaps, and against
-// the sizes that the counts in the metadata call for. Differences are taken only after comparisons, so no
-// number in a hostile file can wrap around.
+// Each step of opening relies only on what the steps before it have checked. Magic, byte order and version
+// show whether the rest can be understood; the directory's range and checksum, whether it is as it was
+// written; the file's length, whether it is complete. Then each chunk must begin where the one before it
+// ends, rounded up, which excludes overlaps and gaps, and have the size that follows from the counts in the
+// metadata. Differences are computed only after comparisons, so that no number of a hostile file can wrap
+// around.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -137,7 +137,7 @@ Status AmtOpener::readMetadata(AmtMetadata& metadata) const {
   const AmtChunk* const chunk = find(amt_tag::kMetadata);
   if (chunk == nullptr) return corrupt("has no chunk META");
   if (chunk->scalar != AmtScalar::u8 || chunk->elementBytes != 1 || chunk->bytes > kAmtMaxMetadataBytes)
-    return corrupt(fmt::format("chunk META is no text of at most {} bytes", kAmtMaxMetadataBytes));
+    return corrupt(fmt::format("chunk META is not a text of at most {} bytes", kAmtMaxMetadataBytes));
   const std::span<const std::byte> bytes = file_.bytes(*chunk);
   if (amtChecksum(bytes) != chunk->checksum)
     return corrupt("has been altered: the checksum of chunk META does not match");
@@ -167,7 +167,7 @@ Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
       return corrupt(
           fmt::format("chunk {} has elements of another type than its metadata says", chunk->name()));
     if (chunk->bytes != shape.count * shape.elementBytes)
-      return corrupt(fmt::format("chunk {} has {} bytes where {} elements of {} bytes are due", chunk->name(),
+      return corrupt(fmt::format("chunk {} has {} bytes instead of {} elements of {} bytes", chunk->name(),
                                  chunk->bytes, shape.count, shape.elementBytes));
   }
 

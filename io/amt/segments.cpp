@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Segments of all chunks are numbered one after the other, in the order of the directory. Each has a state:
+// used, checked or both; only those that are used and not checked are hashed. The smallest altered segment is
+// reported, so the message does not depend on the threads.
 #include "io/amt/segments.h"
 
 #include <fmt/format.h>
@@ -15,19 +19,19 @@
 namespace arete {
 namespace {
 
-// What has been found whole.
-constexpr std::uint8_t kWanted = 1, kChecked = 2;
+// States of a segment. A checked one that is marked again is kMarked | kChecked.
+constexpr std::uint8_t kMarked = 1, kChecked = 2;
 
 }  // namespace
 
 AmtSegments::AmtSegments(const AmtFile& file) : file_(file) {
   std::size_t segments = 0;
   for (const AmtChunk& chunk : file.chunks()) {
-    places_.push_back({segments, chunk.elementBytes});
+    positions_.push_back({segments, chunk.elementBytes});
     segments += amtSegmentCount(chunk.tag, chunk.bytes);
   }
-  places_.push_back({segments, 1});
-  isTouched_.resize(segments);
+  positions_.push_back({segments, 1});
+  states_.resize(segments);
 }
 
 AmtSegments::Chunk AmtSegments::of(const AmtTag& tag) const {
@@ -39,10 +43,10 @@ AmtSegments::Chunk AmtSegments::of(const AmtTag& tag) const {
 
 void AmtSegments::touch(Chunk chunk, std::uint64_t begin, std::uint64_t end) {
   if (begin >= end) return;
-  const Place& place = places_[chunk.index];
-  const std::uint64_t first = begin * place.elementBytes / kAmtSegmentBytes,
-                      last = (end * place.elementBytes - 1) / kAmtSegmentBytes;
-  for (std::uint64_t i = first; i <= last; ++i) isTouched_[place.first + i] |= kWanted;
+  const Position& position = positions_[chunk.index];
+  const std::uint64_t first = begin * position.elementBytes / kAmtSegmentBytes,
+                      last = (end * position.elementBytes - 1) / kAmtSegmentBytes;
+  for (std::uint64_t i = first; i <= last; ++i) states_[position.first + i] |= kMarked;
 }
 
 void AmtSegments::touchAll(Chunk chunk) {
@@ -51,30 +55,30 @@ void AmtSegments::touchAll(Chunk chunk) {
 }
 
 void AmtSegments::touchAll() {
-  std::ranges::fill(isTouched_, kWanted);
+  std::ranges::fill(states_, kMarked);
 }
 
 std::size_t AmtSegments::chunkOf(std::size_t segment) const {
-  const auto behind = std::ranges::upper_bound(places_, segment, {}, &Place::first);
-  return static_cast<std::size_t>(behind - places_.begin()) - 1;
+  const auto behind = std::ranges::upper_bound(positions_, segment, {}, &Position::first);
+  return static_cast<std::size_t>(behind - positions_.begin()) - 1;
 }
 
 Status AmtSegments::check(const RunContext& context) {
   std::vector<std::size_t> segments;
-  for (std::size_t i = 0; i < isTouched_.size(); ++i)
-    if (isTouched_[i] == kWanted) segments.push_back(i);
-  std::atomic<std::size_t> altered = isTouched_.size();
+  for (std::size_t i = 0; i < states_.size(); ++i)
+    if (states_[i] == kMarked) segments.push_back(i);
+  std::atomic<std::size_t> altered = states_.size();
   SharedProgress progress(context, "check checksums", segments.size() + 1);
   withThreads(context, [&] {
     tbb::parallel_for(std::size_t{0}, segments.size(), [&](std::size_t i) {
       if (context.cancelled()) return;
       const std::size_t segment = segments[i], c = chunkOf(segment);
       const auto bytes = file_.bytes(file_.chunks()[c]);
-      const std::uint64_t at = (segment - places_[c].first) * kAmtSegmentBytes;
+      const std::uint64_t at = (segment - positions_[c].first) * kAmtSegmentBytes;
       const auto these = bytes.subspan(at, std::min<std::uint64_t>(kAmtSegmentBytes, bytes.size() - at));
       progress.add();
       if (amtChecksum(these) == file_.segmentChecksums()[segment]) {
-        isTouched_[segment] = kChecked;
+        states_[segment] = kChecked;
         return;
       }
       std::size_t known = altered;
@@ -84,7 +88,7 @@ Status AmtSegments::check(const RunContext& context) {
   });
   progress.add();
   if (context.cancelled()) return failure(ErrorCode::interrupted, "the check was interrupted", file_.path());
-  if (altered == isTouched_.size()) return {};
+  if (altered == states_.size()) return {};
   return failure(ErrorCode::corrupt,
                  fmt::format("has been altered: the checksum of chunk {} does not match",
                              file_.chunks()[chunkOf(altered)].name()),

@@ -10,39 +10,40 @@
 
 namespace arete {
 
-/// Which segments of a file's arrays an answer rests on, to be held against their checksums (chunk PSUM). For
-/// one thread.
+/// The segments of a file's arrays that an answer depends on, and the check of their checksums (chunk PSUM).
+/// Not thread-safe.
 class AmtSegments {
  public:
   /// Precondition: AmtFile::hasSegments().
   explicit AmtSegments(const AmtFile& file);
 
-  /// One of the chunks, by its place in the directory.
+  /// A chunk, by its index in the directory.
   struct Chunk {
     std::size_t index = 0;
   };
-  /// Precondition: the file has such a chunk, and it has segments.
+  /// Precondition: the file has the chunk, and the chunk has segments.
   Chunk of(const AmtTag& tag) const;
 
-  /// Elements [begin, end) of the chunk have been, or will be, read. Precondition: there are so many.
+  /// Marks the segments of elements [begin, end) of a chunk as used. Precondition: the chunk has these
+  /// elements.
   void touch(Chunk chunk, std::uint64_t begin, std::uint64_t end);
   void touchAll(Chunk chunk);
   void touchAll();
 
-  /// Holds what was touched since the last call against its checksums. Errors: corrupt, naming the chunk;
-  /// interrupted. Parallel.
+  /// Compares the checksums of the segments that are marked and not checked yet. Errors: corrupt: the message
+  /// names the first altered chunk; interrupted. Parallel.
   Status check(const RunContext& context);
 
  private:
-  struct Place {
-    std::size_t first = 0;  // of its segments
+  struct Position {
+    std::size_t first = 0;  // the first segment of the chunk
     std::uint32_t elementBytes = 1;
   };
   std::size_t chunkOf(std::size_t segment) const;
 
   const AmtFile& file_;
-  std::vector<Place> places_;  // of each chunk, and the end
-  std::vector<std::uint8_t> isTouched_;
+  std::vector<Position> positions_;   // per chunk, and the end
+  std::vector<std::uint8_t> states_;  // per segment
 };
 
 }  // namespace arete

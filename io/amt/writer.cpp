@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// All sizes are known beforehand, so the places of the chunks are too. The checksums are taken first, from
-// memory; then header, directory, metadata and arrays go out in one forward stream. The model is held against
-// the same table of sizes that the reader uses: what is written can be opened.
+// The sizes of all chunks are known in advance, so their offsets are too. The checksums are computed first,
+// from memory; then header, directory, metadata and arrays are written in one forward stream. The arrays must
+// have the sizes that the reader requires (amtShapes()), so that what is written can be opened.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ void pad(FileWriter& out, std::uint64_t& at) {
   at += count;
 }
 
-/// One file on its way: what goes in, where it goes, and out with it.
+/// Writes one file: collects its chunks, lays them out, computes the checksums, writes.
 class AmtWriting {
  public:
   AmtWriting(const std::string& path, const TerrainModel& model, const RunContext& context)
@@ -81,7 +81,7 @@ class AmtWriting {
     return failure(ErrorCode::interrupted, "writing was interrupted; the file is as it was before", path_);
   }
 
-  /// Bytes that are as many as they are, whatever the counts in the metadata.
+  /// A chunk of bytes whose size does not follow from the metadata.
   void add(const Source& bytes) {
     sources_.push_back(bytes);
     shapes_.push_back({bytes.tag, AmtScalar::u8, 1, bytes.bytes.size()});
@@ -123,7 +123,7 @@ class AmtWriting {
     return {};
   }
 
-  /// IsolatedSample has padding, whose bytes are anyone's: the file keeps its members apart.
+  /// IsolatedSample has padding of undefined bytes, so its members are written as two arrays.
   void addExtras() {
     for (const IsolatedSample& sample : model_.isolated) {
       isolatedSamples_.push_back(sample.sample);
@@ -134,7 +134,7 @@ class AmtWriting {
     sources_.push_back(source(amt_tag::kFixedVertices, model_.options.fixedVertices));
   }
 
-  /// Room for them; they are known when everything else is.
+  /// Reserves the chunk; sealSegments() fills it.
   void addSegmentChecksums() {
     std::uint64_t count = 0;
     for (const Source& s : sources_) count += amtSegmentCount(s.tag, s.bytes.size());
@@ -143,7 +143,7 @@ class AmtWriting {
     shapes_.push_back(amtSegmentShape(count));
   }
 
-  /// Header and directory, but for their checksums.
+  /// Fills the header and the directory, except for checksums.
   Status layOut() {
     header_.chunkCount = static_cast<std::uint32_t>(sources_.size());
     header_.directoryBytes = sources_.size() * sizeof(AmtChunk);
@@ -158,7 +158,7 @@ class AmtWriting {
       chunk.offset = amtAligned(at);
       chunk.bytes = sources_[i].bytes.size();
       if (sources_[i].tag != shape.tag || chunk.bytes != shape.count * shape.elementBytes)
-        return refuse(fmt::format("its {} array has {} bytes where its counts ask for {}", chunk.name(),
+        return refuse(fmt::format("its {} array has {} bytes instead of the {} of its counts", chunk.name(),
                                   chunk.bytes, shape.count * shape.elementBytes));
       at = chunk.offset + chunk.bytes;
     }
@@ -166,7 +166,7 @@ class AmtWriting {
     return {};
   }
 
-  /// False when interrupted.
+  /// Computes the checksums. Returns false if cancelled.
   bool seal() {
     std::vector<std::span<const std::byte>> blocks;
     for (const Source& s : sources_) blocks.push_back(s.bytes);
@@ -216,7 +216,7 @@ class AmtWriting {
   const std::string& path_;
   const TerrainModel& model_;
   const RunContext& context_;
-  std::string json_;  // what the sources below point to, beside the model
+  std::string json_;  // this and the next four: what sources_ points to, beside the model
   PackedMt packed_;
   std::vector<std::uint64_t> segmentChecksums_;
   std::vector<std::uint32_t> isolatedSamples_;

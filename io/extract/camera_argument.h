@@ -11,26 +11,29 @@
 
 namespace arete {
 
-/// What a person said of a camera.
+/// A camera as a person stated it.
 struct CameraArgument {
   Camera camera;
-  std::string positionText;                            ///< X,Y,H as it was given
-  bool statesLook = false, statesFieldOfView = false;  ///< else they are what Camera has by itself
+  std::string positionText;                            ///< "X,Y,H" as stated
+  bool statesLook = false, statesFieldOfView = false;  ///< otherwise they are the defaults of Camera
 };
 
-/// A camera as a person states it, above its terrain: a position (io/crs/position_argument.h), and behind it,
-/// on request, where it looks and its vertical field of view in degrees: "X,Y,H", "X,Y,H,AZIMUTH,PITCH" or
-/// "X,Y,H,AZIMUTH,PITCH,FOV", agl, msl or ell behind H. `option` is named in errors. Errors: usage;
-/// invalidData, a height above ground above no terrain.
+/// Reads a camera: a position (io/crs/position_argument.h), optionally followed by its direction and its
+/// vertical field of view in degrees: "X,Y,H", "X,Y,H,AZIMUTH,PITCH" or "X,Y,H,AZIMUTH,PITCH,FOV", with agl,
+/// msl or ell behind H.
+/// @param option   what the text belongs to; begins the culprit of errors
+/// @param toDem    from the coordinates of the text to those of the DEM
+/// @param heights  the terrain, for heights above ground
+/// Errors: usage; invalidData: a height above ground where there is no terrain.
 Result<CameraArgument> readCameraArgument(const std::string& option, const std::string& text,
                                           const CrsTransform& toDem, const SurfaceHeights& heights);
 
-/// Where such a camera stands, in the DEM's CRS: below it is what of the terrain a height above ground is
-/// counted from. Errors: usage.
+/// The position of such a camera in the DEM's CRS, so that the terrain below it can be read before
+/// readCameraArgument(). Errors: usage.
 Result<Vec2> readCameraPlace(const std::string& option, const std::string& text, const CrsTransform& toDem);
 
-/// The text in the DEM's own coordinates that reads back to the camera, to the bit; its picture size is none
-/// of it. An azimuth or pitch that is not finite has no such text.
+/// The text, in the DEM's coordinates, that readCameraArgument() reads back to the same camera, to the bit.
+/// It does not include the size of the picture. Precondition: azimuth and pitch are finite.
 std::string cameraText(const Camera& camera, const Georeference& dem);
 
 }  // namespace arete

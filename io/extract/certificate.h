@@ -15,16 +15,16 @@
 
 namespace arete {
 
-/// What the format of an export holds, and what it has no place for.
+/// What the file of an export holds, and what its format cannot hold.
 struct ExportFormat {
   std::string name;                ///< "STL"
-  MeshFrame frame = {};            ///< how its coordinates are meant
-  double heightRounding = 0;       ///< by how much its numbers change the surface at most
+  MeshFrame frame = {};            ///< the frame of its coordinates
+  double heightRounding = 0;       ///< the largest change of a height by the format's numbers
   double planTolerancePixels = 0;  ///< within which a sample counts as covered; 0 = a raster, not a mesh
   bool saysCrs = false, saysVerticalUnit = false, saysErrors = false;
 };
 
-/// The cut that a fit began with.
+/// Figures of the cut that a fit started from.
 struct FitFigures {
   std::uint64_t trianglesBefore = 0;
   double errorBefore = 0;  ///< the largest error stored with its triangles
@@ -36,20 +36,20 @@ struct Certificate {
   std::string model;  ///< the .amt it was taken from
   ExportFormat format;
   ExtractCriterion criterion;
-  bool isComplete = true;         ///< the criterion is met; false: a budget or a deadline came first
-  double storedError = 0;         ///< of the cut: the largest error of its triangles, as stored or as fitted
+  bool isComplete = true;  ///< false: a budget or a deadline ended the cut before the criterion was met
+  double storedError = 0;  ///< of the cut: the largest error of its triangles, as stored or as fitted
   std::optional<FitFigures> fit;  ///< where heights were fitted
   MeasureReport measured;  ///< of the exported mesh, by terrain/measure/measure.h, against every sample
   std::optional<MeasureReport> measuredInside;  ///< against the samples in the region alone
   double promisedError = 0;                     ///< inside the region, where there is one
   bool isKept = false;                          ///< the measurement agrees
-  std::string checkCommand;                     ///< what anybody can run
+  std::string checkCommand;                     ///< repeats the measurement
 };
 
 /// The certificate as JSON, as docs/topics/certificate.md states it. O(1).
 std::string certificateJson(const Certificate& certificate, const TerrainModel& model);
 
-/// Writes it; the file appears whole or not at all. Errors: those of FileWriter.
+/// Writes the certificate as JSON. The file appears whole or not at all. Errors: those of FileWriter.
 Status writeCertificate(const std::string& path, const Certificate& certificate, const TerrainModel& model);
 
 }  // namespace arete

@@ -21,14 +21,14 @@ namespace arete {
 /// What is refined first under a budget or a deadline: the orders of engine/criteria/refine_order.h.
 enum class ExtractOrder { worst, breadth, depth, twoQueues };
 
-/// Whether vertices leave the samples, and what for (terrain/fit/fit.h).
+/// Whether the heights of vertices are fitted, and for what (terrain/fit/fit.h).
 enum class ExtractFit {
   none,
   triangles,  ///< fewer triangles within the tolerance
   error,      ///< a smaller error of the same triangles
 };
 
-/// What was asked for, in the terms of the source.
+/// What a TIN is extracted for, in the coordinates and units of the source.
 struct ExtractCriterion {
   std::optional<double> maxError;  ///< everywhere, inside the region, or at the focus
   std::optional<std::uint32_t>
@@ -38,14 +38,14 @@ struct ExtractCriterion {
   /// Outside the region, out of sight, or far from the focus.
   double outsideError = std::numeric_limits<double>::infinity();
 
-  /// The error allowed grows with the distance from a place.
+  /// The allowed error grows with the distance from a place.
   struct Focus {
     Vec2 xy;                ///< source coordinates
     double growth = 0;      ///< error for each metre (each source unit without a CRS)
     std::string text = {};  ///< the place as it was given
   };
   std::optional<Focus> focus;
-  std::optional<Camera> camera;      ///< the error counts in pixels of its picture
+  std::optional<Camera> camera;      ///< the error is measured in pixels of its picture
   std::string cameraText;            ///< its position as it was given
   bool isLonLat = false;             ///< the places were given as longitude and latitude
   std::optional<double> pixelError;  ///< with a camera; none = as small as the budget gets it
@@ -55,30 +55,32 @@ struct ExtractCriterion {
   ExtractOrder order = ExtractOrder::worst;
   ExtractFit fit = ExtractFit::none;
 
-  /// Whether the tolerance alone says what is promised; otherwise it is what the cut came to.
+  /// Whether the promised error is the tolerance. Otherwise it is the error that the cut reached.
   bool promisesMaxError() const {
     return maxError && !maxTriangles && !deadlineMilliseconds && !focus && !camera;
   }
 };
 
-/// As the option names it.
+/// "none", "triangles" or "error".
 std::string_view fitName(ExtractFit fit);
 
-/// The criterion for the engine. `region`: in plan coordinates, where one was given. `reserve` is taken off
-/// the tolerance for what a format rounds. Errors: usage, a camera that makes no sense. Precondition: the
-/// model outlives the criterion.
+/// The criterion for the engine.
+/// @param region   criterion.region in plan coordinates, where there is one
+/// @param reserve  subtracted from the tolerance, for what a format rounds
+/// Errors: usage: an invalid camera. Precondition: the model outlives the result.
 Result<std::shared_ptr<const BoundedCriterion>> engineCriterion(const ExtractCriterion& criterion,
                                                                 const std::optional<Region>& region,
                                                                 double reserve, const TerrainModel& model);
 
-/// What the cuts of these criteria can ask for of a model, where nothing is taken off their tolerances and
-/// nothing is measured. Null, which is everything, where a camera's pixels decide, or a budget or a
-/// deadline alone, and where a fit looks at all samples. Errors: usage. Precondition: `outline` is of the
-/// model, its root at least. O(1); of what comes back, that of the region's meetsDisc().
+/// The error that the cuts of these criteria require of a model. Null (everything) if a criterion has a
+/// camera, a fit, or no tolerance.
+/// @param outline  a part of the model, its root at least
+/// Errors: usage. O(1); a call of the result costs as much as Region::meetsDisc().
 Result<RequiredError> requiredBy(std::span<const ExtractCriterion> criteria,
                                  const std::optional<Region>& region, const TerrainModel& outline);
 
-/// Its budget, deadline (from now on) and order. Errors: usage, two queues without a camera.
+/// Method, budget, deadline (from now on) and order for the engine. Errors: usage: two queues without a
+/// camera.
 Result<CutOptions> engineOptions(const ExtractCriterion& criterion, const TerrainModel& model);
 
 }  // namespace arete

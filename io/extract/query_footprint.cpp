@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A place marks the cell that it lies in and those around it, which is more than any rounding on its way. A
-// line is cut into pieces about as long as a cell, and each marks the cells of its box. A disc along the
-// ground may be of any shape in the plan, and in pieces where the terrain closes around the Earth: a square
-// of cells is in it, out of it or divided, by the distance of its middle and that of its corners from there,
-// unless it is wanted already: discs of many observers overlap.
-// A box is asked about by sums of marks over all cells left of and below each (Crow 1984, summed-area
-// tables).
+// A place marks its cell and the cells around it, which exceeds any rounding. A line is divided into steps
+// about as long as a cell; each marks the cells of its bounding box. A disc along the ground may have any
+// shape in the plan, and several parts where the terrain closes around the Earth. So the grid is a quadtree:
+// a square of cells is inside, outside or divided, by the distance of its middle from the centre and of its
+// corners from its middle. Squares that are marked already are skipped, because discs of many observers
+// overlap.
+//
+// Whether a box meets a marked cell follows from a summed-area table of the marks [Crow1984].
 #include "io/extract/query_footprint.h"
 
 #include <algorithm>
@@ -19,11 +20,12 @@
 namespace arete {
 namespace {
 
-/// A line may reach far beyond the terrain: its pieces are then longer than a cell.
-constexpr double kMostPieces = 1 << 14;
+/// The most steps of a line. If it reaches far beyond the terrain its steps are longer than a cell.
+constexpr double kMostSteps = 1 << 14;
 
-/// Of a disc: squares of more cells are divided unseen, squares of so few are not; how much longer the way to
-/// a rim may be than that to the corners; samples beside it, so that what has none looks the same.
+/// Of a disc: squares of more cells than kSurveyable are divided without a test, those of at most kFinest are
+/// not divided. kBent: how much longer the way from the middle to the rim of a square may be than to its
+/// corners. kBeside: samples around the disc that are marked too.
 constexpr int kSurveyable = 64, kFinest = 2;
 constexpr double kBent = 1.25, kBeside = 4;
 
@@ -32,7 +34,7 @@ constexpr double kBent = 1.25, kBeside = 4;
 QueryFootprint::QueryFootprint(const TerrainModel& outline)
     : domain_(planBox(outline)),
       reach_(outline.isRaster ? 1 : 0),
-      isWanted_(std::size_t{kCells} * kCells, 0) {
+      isMarked_(std::size_t{kCells} * kCells, 0) {
   const double width = domain_.xMax - domain_.xMin, height = domain_.yMax - domain_.yMin;
   columnsPerUnit_ = width > 0 ? kCells / width : 0;
   rowsPerUnit_ = height > 0 ? kCells / height : 0;
@@ -51,9 +53,9 @@ QueryFootprint::Cells QueryFootprint::cellsAround(Vec2 low, Vec2 high) const {
           std::max(rowOf(low.y - reach_) - 1, 0), std::min(rowOf(high.y + reach_) + 1, kCells - 1)};
 }
 
-bool QueryFootprint::areWanted(const Cells& cells) const {
+bool QueryFootprint::areMarked(const Cells& cells) const {
   for (int row = cells.bottom; row <= cells.top; ++row) {
-    const auto begin = isWanted_.begin() + row * kCells, end = begin + cells.right + 1;
+    const auto begin = isMarked_.begin() + row * kCells, end = begin + cells.right + 1;
     if (std::find(begin + cells.left, end, std::uint8_t{0}) != end) return false;
   }
   return true;
@@ -61,7 +63,7 @@ bool QueryFootprint::areWanted(const Cells& cells) const {
 
 void QueryFootprint::mark(const Cells& cells) {
   for (int row = cells.bottom; row <= cells.top; ++row) {
-    const auto begin = isWanted_.begin() + row * kCells;
+    const auto begin = isMarked_.begin() + row * kCells;
     std::fill(begin + cells.left, begin + cells.right + 1, std::uint8_t{1});
   }
 }
@@ -74,11 +76,11 @@ void QueryFootprint::addLine(Vec2 from, Vec2 to) {
   const Vec2 way{to.x - from.x, to.y - from.y};
   if (!std::isfinite(from.x + from.y) || !std::isfinite(way.x + way.y)) return;
   const double cells = std::max(std::fabs(way.x) * columnsPerUnit_, std::fabs(way.y) * rowsPerUnit_);
-  const int pieces = static_cast<int>(std::ceil(std::clamp(cells, 1.0, kMostPieces)));
+  const int steps = static_cast<int>(std::ceil(std::clamp(cells, 1.0, kMostSteps)));
   Vec2 begin = from;
-  for (int i = 1; i <= pieces; ++i) {
-    const double part = static_cast<double>(i) / pieces;
-    const Vec2 end = i == pieces ? to : Vec2{from.x + part * way.x, from.y + part * way.y};
+  for (int i = 1; i <= steps; ++i) {
+    const double part = static_cast<double>(i) / steps;
+    const Vec2 end = i == steps ? to : Vec2{from.x + part * way.x, from.y + part * way.y};
     mark(cellsAround({std::min(begin.x, end.x), std::min(begin.y, end.y)},
                      {std::max(begin.x, end.x), std::max(begin.y, end.y)}));
     begin = end;
@@ -102,7 +104,7 @@ void QueryFootprint::addPart(const Disc& disc, int column, int row, int size) {
   const Vec2 low = at(0, 0), high = at(size, size), middle = at(size / 2.0, size / 2.0);
   const Cells cells = cellsAround({low.x - kBeside * reach_, low.y - kBeside * reach_},
                                   {high.x + kBeside * reach_, high.y + kBeside * reach_});
-  if (areWanted(cells)) return;
+  if (areMarked(cells)) return;
   constexpr double kInDoubt = std::numeric_limits<double>::infinity();
   double reach = size > kSurveyable ? kInDoubt : 0;
   for (const Vec2 corner : {low, at(size, 0), at(0, size), high}) {
@@ -126,7 +128,7 @@ RequiredError QueryFootprint::within(double error) const {
     for (int column = 0; column < kCells; ++column) {
       const auto at = static_cast<std::size_t>(row + 1) * kStride + static_cast<std::size_t>(column) + 1;
       (*sums)[at] = (*sums)[at - 1] + (*sums)[at - kStride] - (*sums)[at - kStride - 1] +
-                    isWanted_[static_cast<std::size_t>(row) * kCells + static_cast<std::size_t>(column)];
+                    isMarked_[static_cast<std::size_t>(row) * kCells + static_cast<std::size_t>(column)];
     }
   return [places = std::make_shared<const QueryFootprint>(*this), sums, error](const Box2& box) {
     constexpr double kNothing = std::numeric_limits<double>::infinity();
@@ -136,8 +138,8 @@ RequiredError QueryFootprint::within(double error) const {
     };
     const int left = places->columnOf(box.xMin), right = places->columnOf(box.xMax) + 1;
     const int bottom = places->rowOf(box.yMin), top = places->rowOf(box.yMax) + 1;
-    const bool isWanted = sum(top, right) + sum(bottom, left) != sum(bottom, right) + sum(top, left);
-    return isWanted ? error : kNothing;
+    const bool isMarked = sum(top, right) + sum(bottom, left) != sum(bottom, right) + sum(top, left);
+    return isMarked ? error : kNothing;
   };
 }
 

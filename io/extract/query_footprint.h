@@ -13,31 +13,34 @@
 
 namespace arete {
 
-/// Nothing is wanted anywhere: what is read is the root, which tells how far the terrain reaches.
+/// Requires nothing anywhere. Only the root is read, which covers the whole terrain.
 inline RequiredError requiredNowhere() {
   return [](const Box2&) { return std::numeric_limits<double>::infinity(); };
 }
 
-/// Places, lines and discs that questions will be about, so that of a file no more is read than these need.
-/// They are kept as cells of a grid over the terrain, any number of them in little memory; what is wanted of
-/// them is at least what they need. Of a raster that is all that is within a sample's width, for who walks
-/// over cells and asks for all four samples of each.
+/// The places, lines and discs that queries will read, so that only this part of a file is read. They are
+/// kept as marked cells of a grid over the terrain, in constant memory. The marked cells cover at least what
+/// the queries read; of a raster also everything within one sample's width, for algorithms that read all four
+/// samples of a cell.
 class QueryFootprint {
  public:
-  /// The model: of its root alone, or any other part. O(planBox()).
+  /// @param outline  a part of the model, its root at least. O(planBox()).
   explicit QueryFootprint(const TerrainModel& outline);
 
-  /// In plan coordinates; what is beside the terrain is put on its rim, what is not finite is passed over.
+  /// Adds a place in plan coordinates. Places outside the terrain are moved to its rim; those that are not
+  /// finite are ignored.
   void add(Vec2 plan);
-  /// All of the straight line between two places. O(cells that it crosses).
+  /// Adds the straight line between two places. O(cells that it crosses).
   void addLine(Vec2 from, Vec2 to);
 
+  /// Adds the ground track of a sight line.
   void addTrack(const SightTrack& track);
-  /// Everything within so many metres of a place along the ground, and some that is in doubt.
-  /// O(cells on its rim that are not wanted yet) distances.
+  /// Adds everything within a distance of a place along the ground, and cells for which this is uncertain.
+  /// O(unmarked cells on its rim) distances.
   void addDisc(const SightEarth& earth, Vec2 centre, double metres);
 
-  /// This error of triangles that may touch one of the places, nothing of others.
+  /// Requires this error of boxes that meet a marked cell, nothing of others. O(cells); O(1) for a call of
+  /// the result, by a summed-area table [Crow1984].
   RequiredError within(double error) const;
 
  private:
@@ -48,14 +51,14 @@ class QueryFootprint {
     Vec2 centre;
     double metres;
   };
-  /// The part of a disc that is in a square of cells.
+  /// Adds the part of a disc in a square of cells.
   void addPart(const Disc& disc, int column, int row, int size);
-  /// Those that a box touches, and those beside them.
+  /// The cells that a box meets, and their neighbours.
   struct Cells {
     int left, right, bottom, top;  // all of them included
   };
   Cells cellsAround(Vec2 low, Vec2 high) const;
-  bool areWanted(const Cells& cells) const;
+  bool areMarked(const Cells& cells) const;
   void mark(const Cells& cells);
   int columnOf(double x) const;
   int rowOf(double y) const;
@@ -63,7 +66,7 @@ class QueryFootprint {
   Box2 domain_;
   double reach_;
   double columnsPerUnit_ = 0, rowsPerUnit_ = 0;
-  std::vector<std::uint8_t> isWanted_;  // row by row
+  std::vector<std::uint8_t> isMarked_;  // row by row
 };
 
 }  // namespace arete

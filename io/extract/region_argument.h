@@ -10,16 +10,21 @@
 
 namespace arete {
 
+/// A region as a person stated it.
 struct RegionArgument {
   RegionShape shape;  ///< in source coordinates; the distance is the argument's
   std::vector<std::string> warnings;
 };
 
-/// A region as a person states it: "xmin,ymin,xmax,ymax" in the DEM's CRS, or a file of polygons, which are
-/// reprojected into it. With a distance, all that is as near belongs to it, and the file's lines count, too.
-/// `demCrs`: WKT; empty where the DEM has none. `distance` in metres on the ground, or in the DEM's units
-/// without a CRS. A CRS is never assumed: a file with one and a DEM without, or the other way round, is an
-/// error. Errors: usage (a box that is none, a missing CRS), and those of readRegion().
+/// Reads a region: "xmin,ymin,xmax,ymax" in the DEM's CRS, or the name of a file of polygons, which are
+/// reprojected into that CRS. With a distance, everything within it belongs to the region, and the file may
+/// hold lines.
+/// @param text      the box or the file
+/// @param demCrs    WKT; empty if the DEM has no CRS. A CRS is never assumed: it is an error if only one of
+/// file
+///                  and DEM has one.
+/// @param distance  metres on the ground; the DEM's units if it has no CRS
+/// Errors: usage: an invalid box, a missing CRS, lines without a distance; those of readRegion().
 Result<RegionArgument> readRegionArgument(const std::string& text, const std::string& demCrs,
                                           double distance = 0, const RunContext& context = {});
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Lines keep apart. All polygons go into one multipolygon, which GEOS makes a union of where there are
-// several; the union is taken before the reprojection, where shared borders are still the same numbers. Its
-// rings are then reprojected vertex by vertex; an edge, straight in the file, is bisected as long as its bend
-// is more than the tolerance.
+// Lines and polygons are collected apart. GEOS unites several polygons before the reprojection, while shared
+// borders still have the same numbers. The rings are then reprojected vertex by vertex; an edge, which is
+// straight in the file, is bisected until its reprojection bends by no more than the tolerance.
 #include "io/extract/region_reader.h"
 
 #include <fmt/format.h>
@@ -34,7 +33,7 @@ struct TransformationCloser {
 };
 using TransformationPtr = std::unique_ptr<OGRCoordinateTransformation, TransformationCloser>;
 
-/// What a layer holds; lines only where they are asked for.
+/// The geometries of a layer; lines only if takesLines.
 struct Shapes {
   bool takesLines = false;
   OGRMultiPolygon polygons = {};

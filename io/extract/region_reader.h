@@ -10,9 +10,10 @@
 
 namespace arete {
 
+/// How readRegion() reads.
 struct RegionReadOptions {
-  std::string layer = {};   ///< of a file with several
-  std::string crs = {};     ///< as for rasters
+  std::string layer = {};   ///< required if the file has several
+  std::string crs = {};     ///< replaces that of the layer; any text that GDAL accepts
   bool takesLines = false;  ///< lines are part of the region, not only polygons
 };
 
@@ -26,16 +27,16 @@ struct RegionRead {
   std::vector<std::string> warnings;
 };
 
-/// Reads the polygons and multipolygons, and on request the lines, of a layer of any vector format GDAL knows
-/// (curves are made straight). Polygons that overlap or touch are united, so that even-odd means inside any
-/// of them. Where the layer's CRS and `targetCrs` (WKT or any text GDAL takes; empty = not known) are both
-/// known, the rings are reprojected into it, in GIS axis order: an edge is split until its middle is within
-/// 1e-4 of its length from where the reprojection puts it. Where one of the two is missing the coordinates
-/// are taken as they are, with a warning if the other is there.
+/// Reads the polygons and multipolygons (and lines, if takesLines) of a layer of any vector format that GDAL
+/// reads. Curves become straight edges. Polygons that overlap or touch are united, so that the even-odd rule
+/// means inside any of them. If both the layer's CRS and `targetCrs` are known, the rings are reprojected, in
+/// GIS axis order: an edge is split until its middle is within 1e-4 of its length from its reprojection.
+/// Otherwise the coordinates are used as they are, with a warning if one of the two is known.
 ///
-/// Errors: notFound, unreadable, corrupt, unsupported (no such layer, or several: listed), invalidData (no
-/// polygon, nor a line where lines count; a vertex outside the target CRS), usage (not a CRS), interrupted.
-/// O(vertices log vertices).
+/// @param targetCrs  WKT or any text that GDAL accepts; empty = not known
+/// Errors: notFound, unreadable, corrupt; unsupported: no such layer, or several (the message lists them);
+/// invalidData: no polygon (or line, if takesLines), a vertex outside the target CRS; usage: not a CRS;
+/// interrupted. O(vertices log vertices).
 Result<RegionRead> readRegion(const std::string& path, const std::string& targetCrs,
                               const RegionReadOptions& options = {}, const RunContext& context = {});
 

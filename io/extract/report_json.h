@@ -9,7 +9,7 @@
 namespace arete {
 
 /// A measurement as JSON, for certificates and `arete measure --json`; docs/topics/certificate.md states the
-/// fields. A sample that is not there is null.
+/// fields. A missing worst sample is null.
 nlohmann::ordered_json toJson(const MeasureReport& report, bool isRaster);
 
 /// Distances between two meshes as JSON, for `arete measure --json`.

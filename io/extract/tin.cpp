@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The cut comes from the engine; the proof does not: it is taken from the exported mesh, in source
-// coordinates, against the samples that the model was built from.
+// The cut comes from the engine (takeTin()). The proof does not use it: the exported file is read back and
+// measured, in source coordinates, against the samples that the model was built from (measureAndWrite()).
+// Where the format rounds heights and the cut's error and the rounding together may exceed the tolerance, the
+// TIN is taken a second time with a smaller tolerance.
 #include "io/extract/tin.h"
 
 #include <fmt/format.h>
@@ -23,9 +25,9 @@
 namespace arete {
 namespace {
 
-/// Heights are written as float32 where that loses less than this, in their unit.
+/// Heights are written as float32 if rounding changes them by less than this, in their unit.
 constexpr double kNegligibleRounding = 1e-3;
-/// No promise is broken by less, in the unit of the heights: acceptedError() of measure.h.
+/// Rounding that does not break a promise, in the unit of the heights: acceptedError() of measure.h.
 constexpr double kForgivenRounding = 1e-6;
 
 /// The largest stored error of the triangles that meet the region.
@@ -41,7 +43,7 @@ double storedErrorInside(const TerrainModel& model, const Cut& cut, const Region
   return largest;
 }
 
-std::string noteOf(const ExtractRequest& request, const TerrainModel& model, const ExtractedTin& tin) {
+std::string commentOf(const ExtractRequest& request, const TerrainModel& model, const ExtractedTin& tin) {
   return fmt::format(
       "arete: TIN of {} ({}), vertical error at most {}{}{}{}", model.source, model.sourceChecksum,
       tin.promisedError, model.georeference.verticalUnit.empty() ? "" : " " + model.georeference.verticalUnit,
@@ -83,7 +85,7 @@ Status checkExtractOutput(const std::string& path, const TerrainModel& model) {
       ErrorCode::usage,
       fmt::format("{}; known are {}.tif (GeoTIFF: the TIN sampled on the source grid)",
                   extension.empty() ? "the extension that names a format is missing"
-                                    : fmt::format("'.{}' is no format that can be written", extension),
+                                    : fmt::format("'.{}' is not a format that can be written", extension),
                   known),
       path);
 }
@@ -161,7 +163,7 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
                                .verticalUnitMetres = model_.georeference.verticalUnitMetres,
                                .triangleErrors = exported.errors,
                                .origin = exported.origin,
-                               .notes = {noteOf(request, model_, tin)}};
+                               .notes = {commentOf(request, model_, tin)}};
   Result<WrittenMesh> written =
       writeAndReadBack(std::move(exported.mesh), request.output, write, model_.isRaster, context);
   if (!written) return tl::unexpected(within(tl::unexpected(written.error()), request.output).error());
@@ -184,7 +186,7 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
   ExtractedTin tin;
   Result<TriangleMesh> mesh = cutAndWrite(request, 0, std::move(taken), tin, context);
   if (!mesh) return tl::unexpected(mesh.error());
-  // Twice: another cut is rounded a little differently. measure() itself forgives a millionth.
+  // Twice, because another cut may be rounded differently. measure() itself accepts a millionth.
   const double reserve = 2 * tin.format.heightRounding;
   const double promised = tin.promisedError;
   if (reserve > kForgivenRounding && request.criterion.promisesMaxError() && reserve < promised &&
@@ -193,7 +195,7 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
     mesh = cutAndWrite(request, reserve, std::nullopt, tin, context);
     if (!mesh) return tl::unexpected(mesh.error());
   }
-  // A fit is not believed on its word.
+  // A fit promises nothing before it is measured.
   const bool needsMeasure = tin.fit || isGeoTiffName(request.output) || !request.certificate.empty() ||
                             !request.errorRaster.empty();
   if (needsMeasure)

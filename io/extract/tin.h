@@ -60,8 +60,7 @@ class TinExtractor {
   /// @param model         the whole of a file's model, or the part that readForExtract() returns
   /// @param modelPath     the file's name, for certificates
   /// @param readAll       where the model is a part: reads the whole. Called at most once, when a format
-  /// rounds
-  ///                      heights by more than kReadReserve provides for.
+  ///                      rounds heights by more than kReadReserve provides for.
   /// @param checkCommand  the `check` of certificates; empty = an empty text
   TinExtractor(TerrainModel model, std::string modelPath, ReadAll readAll = {},
                CheckCommand checkCommand = {})

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A box of the plan says nothing of heights, but the root does: every sample is within the bounds of one of
-// its triangles. So what stands on the box is a column between the lowest and the highest of these, and
-// balls one on top of the other hold it, as wide as the box, but no more of them than kMostBalls.
+// The heights come from the root: every sample lies within the bounds of one of its triangles. The terrain in
+// a box of the plan lies in a column between the lowest and the highest bound. At most kMostBalls balls, one
+// on top of the other and about as wide as the box, cover the column.
 #include "io/extract/view_footprint.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace arete {
 namespace {
 
 constexpr double kMostBalls = 16;
-/// Of the radius that holds the column: a triangle within is asked about by a ball of its own.
+/// Enlarges the balls, because a triangle in the column is tested by a ball of its own.
 constexpr double kWider = 1.25;
 
 struct HeightRange {
@@ -40,7 +40,7 @@ RequiredError requiredInView(const ViewError& view, const TerrainModel& outline)
     const Vec3 low = metric.toMetric({box.xMin, box.yMin, 0}),
                high = metric.toMetric({box.xMax, box.yMax, 0});
     const double across = std::hypot(high.x - low.x, high.y - low.y), up = heights.high - heights.low;
-    if (!std::isfinite(across + up)) return 0.0;  // nobody knows: all of it
+    if (!std::isfinite(across + up)) return 0.0;  // not known: require everything
     const double balls = std::clamp(std::ceil(up / std::max(across, 1e-300)), 1.0, kMostBalls);
     const double radius = kWider * std::hypot(across, up / balls) / 2;
     double least = std::numeric_limits<double>::infinity();

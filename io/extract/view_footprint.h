@@ -7,10 +7,11 @@
 
 namespace arete {
 
-/// What a view is likely to want of a model: the error that it allows at the places of a box, as high and as
-/// low as there is terrain. A triangle that reaches far beyond the boxes that it meets may be allowed less,
-/// so whoever takes a cut of what was read has to see whether all of it is fine enough (readForExtract()).
-/// `outline`: of the model, its root at least. O(root triangles); of what comes back O(1).
+/// The error that a view probably requires of a model: the error that it allows inside a box of the plan,
+/// between the lowest and the highest terrain. A triangle that reaches far beyond a box may be allowed less,
+/// so a cut of the part that is read must be checked (readForExtract()).
+/// @param outline  a part of the model, its root at least
+/// O(root triangles); O(1) for a call of the result.
 RequiredError requiredInView(const ViewError& view, const TerrainModel& outline);
 
 }  // namespace arete

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A block is hashed as a stream of segments, each of which is hashed alone while it is near; every now and then
-// progress is told and a wish to stop is heard. The result is that of hashing the block at once.
+// Each block is hashed as a stream, segment by segment; a segment is hashed by itself while it is in the
+// cache. After every kTurn bytes progress is reported and cancellation is checked. The sum of a block is that
+// of hashing it at once.
 #include "io/format/checksum.h"
 
 #include "engine/parallel/with_threads.h"

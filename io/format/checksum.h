@@ -12,16 +12,18 @@
 
 namespace arete {
 
-/// XXH3-64 of some bytes.
+/// XXH3-64 of bytes, seed 0.
 std::uint64_t amtChecksum(std::span<const std::byte> bytes);
 
+/// Checksums of blocks of bytes.
 struct AmtChecksums {
   std::vector<std::uint64_t> blocks;
-  std::vector<std::vector<std::uint64_t>> segments;  ///< of every kAmtSegmentBytes of each block
+  std::vector<std::vector<std::uint64_t>> segments;  ///< per block, of every kAmtSegmentBytes
 };
 
-/// XXH3-64 of each block of bytes, and of its segments, blocks in parallel, with progress; nothing when the
-/// caller asked to stop.
+/// XXH3-64 of each block of bytes and of its segments, blocks in parallel.
+/// @param stage  under which progress is reported
+/// @return nothing if the context was cancelled
 std::optional<AmtChecksums> amtChecksums(std::span<const std::span<const std::byte>> blocks,
                                          std::string_view stage, const RunContext& context);
 

@@ -9,25 +9,27 @@
 namespace arete {
 
 /// The bytes of an .amt file (docs/topics/amt-format.md): a header, a directory of chunks, the chunks. All
-/// numbers are little-endian. The directory follows the header; every chunk begins at the first multiple of
-/// 64 behind the one before it (the first one, behind the directory), and the file ends at such a multiple.
-/// The bytes skipped are zero.
+/// numbers are little-endian. The directory follows the header. Each chunk begins at the first multiple of 64
+/// at or behind the end of the chunk before it (the first one: of the directory), and the file ends at such a
+/// multiple. The bytes between are zero.
 
 inline constexpr std::uint32_t kAmtVersion = 2;
 inline constexpr std::uint64_t kAmtAlignment = 64;
-/// Directories and metadata beyond these are refused: opening a file reads both.
+/// Larger directories and metadata are refused, because opening a file reads both.
 inline constexpr std::uint32_t kAmtMaxChunks = 64;
 inline constexpr std::uint64_t kAmtMaxMetadataBytes = std::uint64_t{1} << 20;
 
-/// The arrays have checksums of their own for segments of so many bytes, so that a part of a file can be read
-/// alone.
+/// The size of a segment: a part of a chunk with a checksum of its own, so that a part of a file can be read
+/// and checked alone.
 inline constexpr std::uint64_t kAmtSegmentBytes = std::uint64_t{1} << 16;
 
-/// As PNG's: a byte beyond ASCII, the name, and line ends of every kind, so that a transfer as text shows.
+/// As in PNG: a byte beyond ASCII, the name, and line ends of every kind, so that a transfer in text mode is
+/// detected.
 inline constexpr std::array<char, 8> kAmtMagic = {'\x89', 'A', 'M', 'T', '\r', '\n', '\x1a', '\n'};
 inline constexpr std::uint32_t kAmtByteOrder = 0x01020304;
 inline constexpr std::uint32_t kAmtByteOrderSwapped = 0x04030201;
 
+/// The first 64 bytes of a file.
 struct AmtHeader {
   std::array<char, 8> magic = kAmtMagic;
   std::uint32_t byteOrder = kAmtByteOrder;
@@ -42,7 +44,7 @@ struct AmtHeader {
 };
 static_assert(sizeof(AmtHeader) == 64 && offsetof(AmtHeader, checksum) == 56);
 
-/// What a chunk's elements are made of.
+/// The type of the numbers that a chunk's elements are made of.
 enum class AmtScalar : std::uint32_t { u8 = 1, u16 = 2, u32 = 3, i16 = 4, f32 = 5, f64 = 6 };
 
 using AmtTag = std::array<char, 4>;
@@ -57,7 +59,7 @@ struct AmtChunk {
   std::uint64_t bytes = 0;     ///< without the padding behind it
   std::uint64_t checksum = 0;  ///< XXH3-64 of the bytes
 
-  /// The tag as text, fit to be printed whatever its bytes are.
+  /// The tag as text; bytes that cannot be printed are question marks.
   std::string name() const {
     std::string text(tag.begin(), tag.end());
     for (char& c : text)
@@ -85,7 +87,7 @@ inline constexpr AmtTag kCreatorHint = {'H', 'I', 'N', 'T'};
 inline constexpr AmtTag kSamples = {'S', 'A', 'M', 'P'};
 inline constexpr AmtTag kPlan = {'P', 'L', 'A', 'N'};
 inline constexpr AmtTag kHeights = {'H', 'G', 'H', 'T'};
-// Of a packed file, in place of all above but the metadata:
+// Of a packed file, instead of all above but the metadata:
 inline constexpr AmtTag kPackedDirectory = {'P', 'D', 'I', 'R'};
 inline constexpr AmtTag kPackedTables = {'P', 'T', 'A', 'B'};
 inline constexpr AmtTag kPackedNodes = {'P', 'N', 'O', 'D'};
@@ -93,17 +95,17 @@ inline constexpr AmtTag kPackedNodes = {'P', 'N', 'O', 'D'};
 inline constexpr AmtTag kIsolatedSamples = {'I', 'S', 'A', 'M'};
 inline constexpr AmtTag kIsolatedHeights = {'I', 'H', 'G', 'T'};
 inline constexpr AmtTag kFixedVertices = {'F', 'I', 'X', 'V'};
-// Of a file that is not packed, the last; those of earlier builds of Arete have none:
+// The last of a file that is not packed; files of earlier builds of Arete do not have it:
 inline constexpr AmtTag kSegmentChecksums = {'P', 'S', 'U', 'M'};
 }  // namespace amt_tag
 
-/// Segments of a chunk; all but the metadata and the checksums of segments have some.
+/// The number of segments of a chunk; 0 for the metadata and the checksums of segments.
 constexpr std::uint64_t amtSegmentCount(const AmtTag& tag, std::uint64_t bytes) {
   if (tag == amt_tag::kMetadata || tag == amt_tag::kSegmentChecksums) return 0;
   return (bytes + kAmtSegmentBytes - 1) / kAmtSegmentBytes;
 }
 
-/// The first multiple of the alignment at or behind `offset`. Precondition: it is not within 63 of 2^64.
+/// The first multiple of the alignment at or behind `offset`. Precondition: offset < 2^64 - 63.
 constexpr std::uint64_t amtAligned(std::uint64_t offset) {
   return (offset + kAmtAlignment - 1) / kAmtAlignment * kAmtAlignment;
 }

@@ -13,13 +13,13 @@
 
 namespace arete {
 
-/// The sizes that all chunks of a file follow from.
+/// The counts that determine the sizes of all chunks of a file.
 struct AmtCounts {
   std::uint64_t rootVertices = 0, rootTriangles = 0, nodes = 0, slots = 0;
   std::uint64_t isolated = 0, fixedVertices = 0;
 };
 
-/// What the metadata chunk says: all of a model but its arrays.
+/// The content of the metadata chunk: all of a model but its arrays.
 struct AmtMetadata {
   std::string writer;  ///< the program that wrote the file
   AmtCounts counts;
@@ -29,20 +29,22 @@ struct AmtMetadata {
   MetricFrame metric;
 };
 
+/// The metadata of a model.
+/// @param writer  the program that writes the file
 AmtMetadata amtMetadataOf(const TerrainModel& model, std::string writer);
 
-/// The first thing in the metadata that cannot be, as a sentence: counts beyond 32 bits or at odds with each
-/// other, numbers that are not finite or out of range. Nothing when all is well.
+/// @return the first problem of the metadata, as a sentence: counts beyond 32 bits or in contradiction,
+/// numbers that are not finite or out of range; nothing if there is none
 std::optional<std::string> findAmtProblem(const AmtMetadata& metadata);
 
-/// JSON. Doubles and strings come back to the bit; a string that is not UTF-8 is written as
+/// The metadata as JSON. Doubles and strings read back to the bit; a string that is not UTF-8 is written as
 /// {"hex": "..."}. Precondition: findAmtProblem() finds nothing.
 std::string toAmtJson(const AmtMetadata& metadata);
-/// Errors: corrupt (no JSON, a field that is missing or of the wrong type, findAmtProblem()), without a
-/// culprit.
+/// Reads the metadata. Errors, without a culprit: corrupt: not JSON, a field that is missing or of the wrong
+/// type, a problem that findAmtProblem() finds.
 Result<AmtMetadata> fromAmtJson(std::string_view text);
 
-/// A chunk that the counts call for.
+/// Type and size of a chunk.
 struct AmtShape {
   AmtTag tag{};
   AmtScalar scalar = AmtScalar::u8;
@@ -50,11 +52,12 @@ struct AmtShape {
   std::uint64_t count = 0;
 };
 
-/// Every chunk but the metadata, the checksums of segments and the three of packed files, in the order in
-/// which they are written. Precondition: findAmtProblem() finds nothing.
+/// The chunks whose sizes follow from the metadata, in the order in which they are written: all but the
+/// metadata, the checksums of segments and the three of packed files. Precondition: findAmtProblem() finds
+/// nothing.
 std::vector<AmtShape> amtShapes(const AmtMetadata& metadata, bool isPacked = false);
 
-/// The chunk behind them in a file that is not packed: so many checksums of segments.
+/// The chunk that follows them in a file that is not packed: a checksum per segment.
 constexpr AmtShape amtSegmentShape(std::uint64_t segments) {
   return {amt_tag::kSegmentChecksums, AmtScalar::u32, 8, segments};
 }

@@ -7,11 +7,14 @@
 
 namespace arete {
 
-/// The least error that anybody asks for within a box of plan coordinates, in the unit of the heights: 0 (or
-/// less, or NaN) for full resolution, infinity where nobody asks. Null asks for everything. Who reads a part
-/// of a model asks it of boxes around nodes, from several threads at once. What is read has the same minimal
-/// cuts as the whole, with the same triangles in the same order, where these allow every triangle at least
-/// the least error wanted of any box that it meets.
+/// The error that a query requires of a part of a model: maps a box of plan coordinates to the smallest error
+/// required within it, in the unit of the heights. 0 (or less, or NaN) requires full resolution, infinity
+/// nothing. A null function requires everything. Readers call it for boxes around nodes, from several threads
+/// at once.
+///
+/// The part that is read has the same minimal cut as the whole, with the same triangles in the same order,
+/// for every criterion that allows each triangle at least the error required of any box that the triangle
+/// meets.
 using RequiredError = std::function<double(const Box2&)>;
 
 }  // namespace arete

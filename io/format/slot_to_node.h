@@ -14,12 +14,13 @@
 
 namespace arete {
 
-/// Which node owns a slot, for whoever asks of nearly all slots of an MT: MultiTriangulation::creator()
-/// begins at the hint of 64 slots and looks for the node from there, and nobody foresees how far. Here a byte
-/// a slot tells it, so that what is asked next can be on its way meanwhile.
+/// Maps slots to the nodes that own them, for algorithms that look up nearly all slots of an MT.
+/// MultiTriangulation::creator() searches from the hint of 64 slots, over a number of nodes that a processor
+/// cannot predict. This map stores a byte per slot instead of searching, so that later look-ups can be
+/// prefetched.
 class SlotToNode {
  public:
-  /// Precondition: slotBegin and creatorHint are what MtArrays says of them, stars have 3 slots at least.
+  /// Precondition: slotBegin and creatorHint are as MtArrays states them, and each star has at least 3 slots.
   /// O(slots), parallel.
   explicit SlotToNode(const MtArrays& arrays)
       : slotBegin_(arrays.slotBegin), hints_(arrays.creatorHint), marks_(arrays.link.size()) {
@@ -37,12 +38,12 @@ class SlotToNode {
 
   /// The node that owns a slot.
   std::uint32_t of(std::uint32_t slot) const { return hints_[slot / kStep] + marks_[slot] / 2; }
-  /// The next slot of the same node, around its star. `owner`: of(slot).
+  /// The next slot of the same node, around its star. Precondition: owner is of(slot).
   std::uint32_t after(std::uint32_t slot, std::uint32_t owner) const {
     const std::array<std::uint32_t, 2> next = {slot + 1, slotBegin_[owner]};
     return next[marks_[slot] & 1];
   }
-  /// Asks for what of() reads.
+  /// Prefetches what of() reads.
   [[gnu::always_inline]] void prefetch(std::uint32_t slot) const {
     __builtin_prefetch(&hints_[slot / kStep]);
     __builtin_prefetch(&marks_[slot]);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The root's triangles are joined by sorting their edges. Saturation goes from the last node of a chunk to
-// the first, so children come before parents; chunks are taken after those that lean on them. A node's sphere
-// holds its star already and grows around those of its children. A radius is negative until the sphere and
-// the saturated error are final, and written after them: in a damaged file a child may belong to any chunk.
+// The root's triangles are joined by sorting their edges. Saturation goes from the last node of a packet to
+// the first, so children come before parents; packets are saturated after those that depend on them. A node's
+// sphere contains its star and grows around the spheres of its children. A radius is negative until the
+// sphere and the saturated error are final, and is written after them: in a damaged file a child may belong
+// to any packet.
 #include "io/packed/arrays.h"
 
 #include <fmt/format.h>
@@ -128,9 +129,9 @@ MultiTriangulation Arrays::model(std::shared_ptr<Arrays> arrays) {
 
 namespace {
 
-/// Grows a ball around others, as EnclosingBall::encloseChild() does, without a branch: which of two balls
-/// holds the other, if one does, cannot be foreseen. In float, for its faster roots and quotients; what that
-/// loses is made good for at the end.
+/// Grows a ball around others, as EnclosingBall::encloseChild() does, but branch-free, because a processor
+/// cannot predict which of two balls contains the other. In floats, for faster roots and quotients; rounded()
+/// widens the ball by what they lose.
 struct GrowingBall {
   float x, y, z, radius;
 
@@ -138,15 +139,15 @@ struct GrowingBall {
     const float dx = child.x - x, dy = child.y - y, dz = child.z - z, other = child.radius;
     const float distance = std::sqrt(dx * dx + dy * dy + dz * dz);
     const float grown = std::max(std::max(radius, other), (distance + radius + other) * 0.5f);
-    // Of the way to the child's centre: all of it if the child holds this ball.
+    // The part of the way to the child's centre: all of it if the child contains this ball.
     const float part = std::min((grown - radius) / std::max(distance, 1e-30f), 1.0f);
     x += dx * part;
     y += dy * part;
     z += dz * part;
     radius = grown;
   }
-  /// After so many: each lost at most two units in the last place of the centre, and of the radius, and is
-  /// widened as EnclosingBall does.
+  /// The ball after `count` steps, each of which lost at most two units in the last place of centre and
+  /// radius, widened as by EnclosingBall.
   Sphere rounded(std::uint32_t count) const {
     const float lost = (std::fabs(x) + std::fabs(y) + std::fabs(z) + radius) * 0x1p-22f;
     return {x, y, z, radius * (1 + 3e-6f) + static_cast<float>(count) * lost};
@@ -159,7 +160,7 @@ struct Children {
   std::uint32_t count;
 };
 
-/// Asks for the children's spheres on the way. What nobody removed loses its mark.
+/// Finds the children of a node and prefetches their spheres. Replaces marks by kNone.
 void find(const Arrays& a, std::uint32_t n, Children& children) {
   std::uint32_t* const remover = a.remover.get() + a.roots + a.slotBegin[n];
   const std::uint32_t size = a.starSize(n);
@@ -177,7 +178,8 @@ void find(const Arrays& a, std::uint32_t n, Children& children) {
   children.count = count;
 }
 
-/// Precondition: the children are complete; in a damaged file they may not be, which is returned.
+/// Computes the saturated error and sphere of a node. Precondition: the children are complete; in a damaged
+/// file they may not be, which is returned as a problem.
 const char* complete(const Arrays& a, std::uint32_t n, const Children& children, std::uint16_t least,
                      std::uint32_t band) {
   Sphere& sphere = a.sphere[n];
@@ -197,17 +199,17 @@ const char* complete(const Arrays& a, std::uint32_t n, const Children& children,
   sphere.y = grown.y;
   sphere.z = grown.z;
   std::atomic_ref(sphere.radius).store(grown.radius, std::memory_order_release);
-  if (!std::isfinite(grown.x + grown.y + grown.z + grown.radius)) return "a sphere that is none";
-  if (unready < 0) return "a child that cannot be one";
+  if (!std::isfinite(grown.x + grown.y + grown.z + grown.radius)) return "an invalid sphere";
+  if (unready < 0) return "a child that is not a descendant";
   if (MultiTriangulation::bandOf(saturated) != band) return "a saturated error outside of its band";
   return nullptr;
 }
 
 }  // namespace
 
-std::optional<std::string> saturate(Arrays& a, const Chunk& chunk, bool isPart) {
+std::optional<std::string> saturate(Arrays& a, const Packet& packet, bool isPart) {
   std::array<Children, kAhead> ahead;
-  for (auto run = chunk.runs.rbegin(); run != chunk.runs.rend(); ++run) {
+  for (auto run = packet.runs.rbegin(); run != packet.runs.rend(); ++run) {
     const auto least =
         isPart ? static_cast<std::uint16_t>(run->band << MultiTriangulation::kBandShift) : std::uint16_t{0};
     const std::uint32_t last = run->firstNode + run->nodes - 1;

@@ -16,16 +16,16 @@
 
 namespace arete::packed {
 
-/// A triangle of the root, or one that a chunk leaves to others: all that they need to take it away, in one
-/// place. The first corner is the apex; `across` has what lay across each edge when the chunk ended (the id
-/// of a triangle, or kNone).
+/// A triangle of the root, or one that a packet leaves to others: what they need to remove it. The first
+/// corner is the apex; `across` is what lay across each edge when the packet ended: the id of a triangle, or
+/// kNone.
 struct alignas(32) Border {
   std::array<std::uint32_t, 3> corners;
   std::uint32_t id;
   std::array<std::uint32_t, 3> across;
 };
 
-/// As many as Arrays::kLeft leaves numbers for.
+/// The largest number of borders: Arrays::kLeft leaves 30 bits for an index.
 inline constexpr std::uint64_t kMostBorders = (1u << 30) - 1;
 
 /// Plan coordinates and raw height of a vertex. w is 0.
@@ -45,7 +45,7 @@ struct Arrays {
   OutwardScale scale;
   MetricFrame metric;
 
-  /// Those that stay, and those that go when all is read.
+  /// Memory of the arrays of the MT, and of those that are only needed while packets are coded.
   ZeroedArena stays, goes;
   ZeroedArray<std::array<std::uint32_t, 3>> rootTriangles;
   ZeroedArray<std::uint32_t> slotBegin, link, remover, floor, creatorHint;
@@ -56,28 +56,30 @@ struct Arrays {
   ZeroedArray<Vec2> plan;
   ZeroedArray<std::byte> rawHeights;
 
-  /// Places of the vertices, in float where that holds them exactly (holdsFloats()), else in double.
+  /// Positions of the vertices: floats where these are exact (holdsFloats()), otherwise doubles.
   ZeroedArray<Place<float>> floatPlaces;
   ZeroedArray<Place<double>> doublePlaces;
-  /// Codes of errors of whole-numbered heights: by doubled area, up to kLatticeErrorArea, and error * area.
+  /// Error codes of whole-numbered heights, by doubled area (at most kLatticeErrorArea) and error * doubled
+  /// area.
   std::vector<std::uint16_t> wholeErrors;
   ZeroedArray<std::uint8_t> star;  ///< slots of a node, + kOpen; 0 = not there yet
-  ZeroedArray<Border> border;      ///< of the root's triangles, then of the chunks' (Chunk::firstBorder)
+  ZeroedArray<Border> border;      ///< of the root's triangles, then of the packets' (Packet::firstBorder)
   static constexpr std::uint8_t kOpen = 128;
 
-  /// The remover of a triangle that nobody has removed, until all is read: the front's record of it, for the
-  /// chunk that is at work; or, with kLeft as well, its place in `border`.
+  /// While packets are coded, the remover of a triangle that is not removed yet is kMark and the index of the
+  /// front's record of it, or kMark, kLeft and its index in `border`.
   static constexpr std::uint32_t kMark = 1u << 31, kLeft = 1u << 30, kMarks = kMark | kLeft;
   static bool isLeft(std::uint32_t remover) { return (remover & kMarks) == kMarks; }
 
-  /// All arrays, of the sizes stated in MtArrays, and borders of the chunks. False when there is not enough
-  /// memory.
+  /// Allocates all arrays, with the sizes stated in MtArrays, and the borders of the packets.
+  /// @return false if there is not enough memory
   bool allocate(const AmtCounts& counts, std::uint64_t borders);
   /// Fills the root's borders from rootTriangles.
   void joinRoot();
-  /// The root's removers, creatorHint and the end of slotBegin. Precondition: all chunks have been saturated.
+  /// Fills the root's removers, creatorHint and the end of slotBegin. Precondition: all packets are
+  /// saturated.
   void finish();
-  /// What stays of them.
+  /// The MT of the arrays. Frees the others.
   static MultiTriangulation model(std::shared_ptr<Arrays> arrays);
 
   bool holdsFloats() const {
@@ -96,11 +98,12 @@ struct Arrays {
   bool isOpen(std::uint32_t node) const { return (star[node] & kOpen) != 0; }
 };
 
-/// Saturated errors and spheres of the nodes of a chunk, from those of their children, which are complete:
-/// see engine/mt/recorder.h. A node's sphere holds its star when this is called. Nothing, or what is wrong: a
-/// saturated error outside of its band. A node's saturated error is the largest of its floor when this is
-/// called. Of a part of an MT (`isPart`) some children are missing; its
-/// saturated errors are at least the lowest of their band. What nobody removed loses its mark.
-std::optional<std::string> saturate(Arrays& arrays, const Chunk& chunk, bool isPart);
+/// Computes the saturated errors and spheres of a packet's nodes from those of their children
+/// (engine/mt/recorder.h), and replaces the marks of triangles without a remover by kNone.
+/// Precondition: each node's sphere contains its star and its saturated error is the largest of its floor;
+/// the packets that depend on this one are saturated.
+/// @param isPart  some children were not read: saturated errors are raised to the lowest of their band
+/// @return what is wrong with the packet (a damaged file), or nothing
+std::optional<std::string> saturate(Arrays& arrays, const Packet& packet, bool isPart);
 
 }  // namespace arete::packed

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The front that a chunk works on while its nodes are read or written. Triangles that the chunk made and that
-// are still to be removed have a record: corners, and what lies across each edge, kept up to date as stars
-// replace floors. Records of triangles that are gone are used again, so they stay in a cache. While a record
-// is there, the triangle's remover is a mark that names the record. Triangles that nobody removes (of the
-// finest triangulation: one in three) are known when they are made; nobody asks for them, so they share one
-// record, which says nothing. Known then are also those that are left to other chunks.
+// The front of a packet while its nodes are read or written. A triangle that the packet created and that will
+// be removed has a record: its corners, and what lies across each edge, updated as stars replace floors.
+// Records of removed triangles are reused, so that they stay in a cache. While a triangle has a record, its
+// remover is a mark with the index of the record. Triangles without a remover (one in three; the finest
+// triangulation) are known when they are created. They are never read, so they share one dummy record.
+// Triangles that are left to other packets are known then, too.
 //
-// Triangles that other chunks made and left have a border record instead (Arrays::border), made when their
-// chunk ended and never changed afterwards. What it says of a triangle across may have been removed since:
-// then the star that removed it has the edge in its link (the edge is still there), and the triangle at that
-// slot is the next one to look at. All nodes on this way are ancestors of whoever asks, so chunks that do not
-// lean on each other never look at what the other one writes, but to ask for it ahead; in a damaged file they
-// may, and then read some value, which is checked before it is used. A mark that names a border record is
+// A triangle that another packet created and left has a border record instead (Arrays::border), written when
+// that packet ended and constant since. A triangle that it names across an edge may have been removed since.
+// The edge still exists, so the star of the remover has it in its link, and the search goes on with the
+// triangle at that slot. All nodes on this way are ancestors of the node that is coded. So packets that do
+// not depend on each other do not read what the other writes, except to prefetch. In a damaged file they may;
+// then they read some value, which is checked before it is used. A mark with the index of a border record is
 // written after the record.
 
 #include <algorithm>
@@ -27,82 +27,82 @@
 
 namespace arete::packed {
 
-/// What lies across an edge: 4 times a record of the front and which of its edges that is, or a triangle of
-/// another chunk (or what was there, see above), or nothing.
+/// What lies across an edge: 4 * (a record of the front) + the edge of its triangle, or kForeign + an index
+/// in the front's list of triangles of other packets (which may have been removed, see above), or kNoSide.
 using Side = std::uint32_t;
-inline constexpr Side kForeign = 1u << 31;  ///< and the place in the front's list of foreign triangles
+inline constexpr Side kForeign = 1u << 31;
 inline constexpr Side kNoSide = ~0u;
 
 /// Edge i of a triangle goes from corner i to the next one.
 inline constexpr std::array<std::uint8_t, 4> kNextEdge = {1, 2, 0, 0};
 
-/// A node's floor while the node is told.
+/// A node's floor while the node is coded.
 struct Floor {
-  /// 8 numbers a triangle: at 0 its corners, at kId its id, at kAcross what is across its edges.
+  /// 8 numbers per triangle: its corners at 0, its id at kId, what lies across its edges at kAcross.
   static constexpr unsigned kId = 3, kAcross = 4;
   std::array<std::uint32_t, 8 * kMaxFloor> words;
   int size = 0;
-  std::array<std::uint32_t, kMaxHoleCorners + 1> link;  ///< the last is for looking ahead
+  std::array<std::uint32_t, kMaxHoleCorners + 1> link;  ///< the last is read ahead and not used
   std::array<Side, kMaxHoleCorners> outer;
   int corners = 0;
   bool isOpen = false;
-  bool isAtBorder = false;  ///< there is nothing across an edge of the link
+  bool isAtBorder = false;  ///< an edge of the link has nothing across
 
   std::uint32_t id(int triangle) const { return words[8 * static_cast<unsigned>(triangle) + kId]; }
 };
 
-/// Memory of a front, to be used again for another one: fresh memory costs time.
+/// Memory of a front, reused from packet to packet because fresh memory costs time.
 struct FrontSpace {
-  /// A triangle that the chunk made.
+  /// A triangle that the packet created.
   struct alignas(32) Record {
     std::array<std::uint32_t, 3> corners;
     std::uint32_t id;
     std::array<Side, 3> across;
-    std::uint32_t border;  ///< its place in Arrays::border, if it is left to others
+    std::uint32_t border;  ///< its index in Arrays::border, if it is left to others
   };
   std::vector<Record> pool;
-  std::vector<std::uint32_t> free;     ///< records that are free, and some spare
+  std::vector<std::uint32_t> free;     ///< indices of free records, and some spare entries
   std::vector<std::uint32_t> foreign;  ///< ids
 };
 
 class Front {
  public:
-  /// A triangle that this chunk made.
+  /// A triangle that this packet created.
   struct Own {
     std::uint32_t record, id;
   };
 
-  /// So many records, and the foreign triangles across their edges, can be numbered.
+  /// The largest number of records: Side has 29 bits for one, and foreign triangles are numbered likewise.
   static constexpr std::uint64_t kMostRecords = (std::uint64_t{1} << 29) - 256;
-  /// Whether a chunk of so many nodes has no more: a star has two triangles more than its floor, and those of
-  /// a floor have no record where they are other chunks'.
+  /// Whether a packet of so many nodes needs no more. A star has two triangles more than its floor, and
+  /// triangles of other packets have no record.
   static bool canHold(std::uint64_t nodes, std::uint64_t borders) {
     return 2 * nodes + std::min(kMaxFloor * nodes, borders) <= kMostRecords;
   }
 
-  Front(Arrays& arrays, const Chunk& chunk, FrontSpace& space)
+  Front(Arrays& arrays, const Packet& packet, FrontSpace& space)
       : a_(arrays),
         pool_(space.pool),
         free_(space.free),
         foreign_(space.foreign),
-        firstBorder_(static_cast<std::uint32_t>(a_.roots + chunk.firstBorder)),
-        borderEnd_(std::uint64_t{firstBorder_} + chunk.borders),
+        firstBorder_(static_cast<std::uint32_t>(a_.roots + packet.firstBorder)),
+        borderEnd_(std::uint64_t{firstBorder_} + packet.borders),
         nextBorder_(firstBorder_) {
     pool_.assign(1, Record{{}, kGone, {}, kNotLeft});
     foreign_.clear();
     free_.resize(std::max(free_.size(), kSpare));
   }
 
-  /// Takes a triangle away: node `node` removes it, and it is number `at` of the floor. False when it is not
-  /// there.
+  /// Removes a triangle: `node` becomes its remover and it becomes triangle `at` of the floor.
+  /// @return false if the triangle does not exist (a damaged file)
   bool take(Own own, std::uint32_t node, Floor& floor, int at) {
     return pool_[own.record].id == own.id && takeRecord(own.record, 0, node, floor, at);
   }
-  /// `edge` becomes the triangle's edge 0.
+  /// The same for a border record; `edge` becomes the triangle's edge 0.
   bool takeBorder(std::uint32_t place, unsigned edge, std::uint32_t node, Floor& floor, int at) {
     const Border& border = a_.border[place];
     if (border.id >= a_.roots && border.corners[0] - a_.rootVertices >= node) return false;
-    // In a damaged file two chunks may reach for the same triangle: one gets it.
+    // In a damaged file two packets may remove the same triangle: one of them fails.
     std::uint32_t mark = Arrays::kMarks | place;
     if (!std::atomic_ref(a_.remover[border.id])
              .compare_exchange_strong(mark, node, std::memory_order_relaxed))
@@ -116,7 +116,8 @@ class Front {
     words[Floor::kId] = border.id;
     return true;
   }
-  /// The same of the triangle across an edge (8 times the triangle's number and the edge) of the floor.
+  /// The same for the triangle across an edge of the floor.
+  /// @param from  8 * the triangle's number in the floor + its edge
   bool takeAcross(unsigned from, std::uint32_t node, Floor& floor, int at) {
     const Side side = floor.words[from + Floor::kAcross];
     const std::uint32_t begin = floor.words[(from & ~7u) + kNextEdge[from & 3]], end = floor.words[from];
@@ -128,10 +129,11 @@ class Front {
     return side != kNoSide && takeThere(foreign_[side & ~kForeign], begin, end, node, floor, at);
   }
 
-  /// Puts a node's star in the place of its floor: the link, the removers and the front. Returns the records
-  /// of the star's triangles, valid until the next star.
-  /// kCorners: of the link, whose star is closed; or 0 for any. staying: bit i says that nobody removes
-  /// triangle i; left: that another chunk does.
+  /// Replaces a node's floor by its star: writes the link and the removers, and updates the front.
+  /// @tparam kCorners  corners of the link of a closed star, or 0 for any star
+  /// @param staying    bit i: triangle i has no remover
+  /// @param left       bit i: the remover of triangle i is in another packet
+  /// @return the records of the star's triangles, valid until the next star
   template <int kCorners>
   [[gnu::always_inline]] const std::uint32_t* addStar(std::uint32_t node, std::uint32_t slot,
                                                       const Floor& floor, std::uint64_t staying,
@@ -191,9 +193,9 @@ class Front {
     return records;
   }
 
-  /// After the last node: what other chunks may ask for. `isWhole`: the nodes of all bands were told, so that
-  /// nothing else is there still. False when it is not so, some of what is left has gone, or it is not as
-  /// much as announced.
+  /// After the last node: writes the border records of the triangles that are left to other packets.
+  /// @param isWhole  the nodes of all bands were coded, so that no other triangle may remain
+  /// @return false if one remains, or the number of those left is not the announced one
   bool finish(bool isWhole) {
     if (nextBorder_ > borderEnd_) return false;
     std::uint32_t there = 0;
@@ -212,7 +214,7 @@ class Front {
   }
 
   void prefetchBorder(std::uint32_t place) const { __builtin_prefetch(&a_.border[place]); }
-  /// Once the border record itself is there.
+  /// Prefetches what is around a border record. Fast once the record itself is cached.
   void prefetchAround(std::uint32_t place) const {
     const Border& border = a_.border[place];
     __builtin_prefetch(&a_.remover[border.id], 1);
@@ -220,7 +222,7 @@ class Front {
       if (id < kStays) __builtin_prefetch(&a_.remover[id], 1);
   }
   void prefetch(Own own) const { __builtin_prefetch(&pool_[own.record]); }
-  /// Once the record itself is there.
+  /// Prefetches what is around a record. Fast once the record itself is cached.
   void prefetchAround(Own own) const {
     const Record& r = pool_[own.record];
     for (const Side side : r.across) {
@@ -231,8 +233,8 @@ class Front {
     }
     __builtin_prefetch(&a_.remover[r.id != kGone ? r.id : 0], 1);
   }
-  /// Once it is known who removed what lay across, or that nobody did: the star that has the edge now, or the
-  /// triangle's border record.
+  /// Prefetches, for the triangles across, the star of the remover, or the border record. Fast once the
+  /// removers are cached.
   void prefetchBeyond(Own own) const {
     for (const Side side : pool_[own.record].across) {
       if ((side & kForeign) == 0 || side == kNoSide) [[likely]]
@@ -241,7 +243,7 @@ class Front {
       if (Arrays::isLeft(remover)) {
         prefetchBorder(remover & ~Arrays::kMarks);
       } else if (remover < a_.nodes) {
-        // It may be of a chunk that is at work, as nobody has asked for it yet: some slot is asked for then.
+        // The remover may belong to a packet in progress; then some other slot is prefetched.
         const std::uint32_t slot = std::atomic_ref(a_.slotBegin[remover]).load(std::memory_order_relaxed);
         __builtin_prefetch(&a_.star[remover]);
         __builtin_prefetch(&a_.link[slot]);
@@ -253,23 +255,23 @@ class Front {
  private:
   static constexpr std::uint32_t kNone = MultiTriangulation::kNone;
   static constexpr std::uint32_t kGone = kNone;       ///< id of a record that is free
-  static constexpr std::uint32_t kStays = kNone - 1;  ///< id across: some triangle that nobody removes
-  static constexpr std::uint32_t kStaying = 0;        ///< the record of all of those, which says nothing
+  static constexpr std::uint32_t kStays = kNone - 1;  ///< id across: some triangle without a remover
+  static constexpr std::uint32_t kStaying = 0;        ///< the dummy record of all of those
   static constexpr std::uint32_t kNotLeft = ~0u;
   static constexpr std::size_t kSpare = 8;
 
   using Record = FrontSpace::Record;
 
-  /// Enough for a star.
+  /// Adds free records for at least a star.
   [[gnu::noinline]] void moreFree() {
     const auto first = static_cast<std::uint32_t>(pool_.size());
     pool_.resize(first + 4 * kMaxHoleCorners, Record{{}, kGone, {}, kNotLeft});
-    // Every record may be free, and one more is looked at.
+    // All records may be free, and one more entry is read.
     free_.resize(std::max(free_.size(), pool_.size() + kSpare));
     for (std::uint32_t i = 4 * kMaxHoleCorners; i-- > 0;) free_[freeCount_++] = first + i;
   }
 
-  /// `edge` becomes the triangle's edge 0.
+  /// The same for a border record; `edge` becomes the triangle's edge 0.
   bool takeRecord(std::uint32_t record, unsigned edge, std::uint32_t node, Floor& floor, int at) {
     Record& r = pool_[record];
     const std::uint32_t id = r.id;
@@ -303,7 +305,7 @@ class Front {
     return std::atomic_ref(a_.remover[id]).load(std::memory_order_acquire);
   }
 
-  /// Takes the triangle that has the directed edge (from, to) now, where triangle `id` had it.
+  /// Removes the triangle that has the directed edge (from, to) now, which triangle `id` had earlier.
   bool takeThere(std::uint32_t id, std::uint32_t from, std::uint32_t to, std::uint32_t node, Floor& floor,
                  int at) {
     std::uint32_t remover = removerOf(id);
@@ -319,7 +321,7 @@ class Front {
     }
     const std::uint32_t place = remover & ~Arrays::kMarks;
     const bool isLeft = Arrays::isLeft(remover);
-    // A record of another chunk that is still at work, or its last triangle: in a damaged file.
+    // Only in a damaged file: a record of another packet.
     if (!isLeft && (place >= pool_.size() || pool_[place].id != id)) return false;
     const auto& corners = isLeft ? a_.border[place].corners : pool_[place].corners;
     for (unsigned edge = 0; edge < 3; ++edge)
@@ -336,7 +338,7 @@ class Front {
   std::array<std::uint32_t, kMaxHoleCorners> records_;  ///< of the last star
   std::vector<std::uint32_t>& foreign_;
   std::uint32_t firstBorder_;
-  std::uint64_t borderEnd_, nextBorder_;  ///< a damaged file may leave more than 32 bits can number
+  std::uint64_t borderEnd_, nextBorder_;  ///< in a damaged file they may exceed 32 bits
 };
 
 }  // namespace arete::packed

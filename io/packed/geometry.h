@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Where the vertices of a run's nodes are, how high, and the spheres around their stars, once the stars are
-// there: a pass of its own, because a processor that waits for one node's topology can do no other node's
-// arithmetic in the meantime, and what a vertex takes from its neighbours is rarely from the one just before.
+// Positions and heights of the vertices of a run's nodes and the spheres of their stars. This is a pass of
+// its own after all stars of the run, so that a processor overlaps the arithmetic of several nodes instead of
+// waiting for the topology of one: a vertex rarely depends on the one just before it.
 
 #include <array>
 #include <bit>
@@ -20,14 +20,15 @@
 
 namespace arete::packed {
 
-/// What the symbols of places near the predicted one mean.
+/// The offsets from the predicted position that the symbols 0 to 48 stand for.
 inline constexpr auto kNearMoves = [] {
   std::array<std::array<float, 2>, 49> moves{};
   for (int s = 0; s < 49; ++s) moves[s] = {static_cast<float>(s / 7 - 3), static_cast<float>(s % 7 - 3)};
   return moves;
 }();
 
-/// Real: of the places, see Arrays::places(). For `Io` see packed_node_coder.h.
+/// @tparam Real  number type of the positions (Arrays::places())
+/// @tparam Io    the reader's or the writer's, see node_coder.h
 template <class Real, class Io>
 class Geometry {
  public:
@@ -37,8 +38,10 @@ class Geometry {
                        static_cast<Real>(m.scale.z * a_.encoding.scale), 0};
   }
 
-  /// Of all nodes of a run, whose shapes are given; `areas` receives the shownArea() of each slot. False when
-  /// a vertex is outside of its grid, has no height, or there is no metric to reckon with.
+  /// Codes positions and heights of all nodes of a run.
+  /// @param shapes  of the nodes' floors
+  /// @param areas   receives the shownArea() of each slot
+  /// @return false if a vertex is outside its grid or has no valid height, or the metric is not finite
   bool run(const Run& run, unsigned bandClass, std::span<const Shape* const> shapes, std::uint8_t* areas) {
     if (!std::isfinite(metricStep_[0] + metricStep_[1] + metricStep_[2])) return false;
     class_ = bandClass;
@@ -54,7 +57,7 @@ class Geometry {
       for (std::uint32_t k = 0; k < 6; ++k)
         __builtin_prefetch(&place_[a_.link[std::min(slot_ + kLinksAhead + k, lastSlot)]]);
       io_.at(node_);
-      // An open star has its mark, and is none of the usual ones.
+      // The mark of an open star makes it take the general case.
       if (!withCorners(star, [&](auto known) { return nodeOf<known>(); })) return false;
       slot_ += static_cast<std::uint32_t>(corners_);
       nextAreas_ += corners_;
@@ -63,7 +66,7 @@ class Geometry {
   }
 
  private:
-  /// Four numbers that are reckoned with at once.
+  /// A SIMD vector of four numbers.
   typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
   static constexpr std::uint32_t kLinksAhead = 24;
 
@@ -143,8 +146,8 @@ class Geometry {
     return fromOrdinal(ordinal(predicted) + static_cast<std::uint64_t>(residual));
   }
 
-  /// The plane of the triangle of the floor that holds (x, y), there; of the last one when none does. Leaves
-  /// the doubled areas of the star's triangles.
+  /// The height at (x, y) of the plane of the floor's triangle that contains (x, y), or of the last triangle
+  /// if none does. Writes the shown areas of the star's triangles.
   template <int kCorners>
   [[gnu::always_inline]] Real predictedHeight(const Four* at, Real x, Real y) {
     const int corners = this->corners<kCorners>();
@@ -172,7 +175,7 @@ class Geometry {
     return std::isfinite(z) ? std::min(std::max(z, low), high) : low;
   }
 
-  /// Around the star; saturate() adds the children's. Its radius is negative until then.
+  /// The sphere of the star; saturate() adds those of the children. Its radius is negative until then.
   template <int kCorners>
   [[gnu::always_inline]] void ball(const Four* at) {
     const int corners = this->corners<kCorners>();
@@ -193,7 +196,7 @@ class Geometry {
     const Vec3 middle =
         a_.metric.toMetric({static_cast<double>(centre[0]), static_cast<double>(centre[1]),
                             static_cast<double>(centre[2]) * a_.encoding.scale + a_.encoding.offset});
-    // Outwards of what the arithmetic of a Real has lost, and of where rounding puts the centre.
+    // Outwards by what the arithmetic of a Real and the rounding of the centre lose.
     const double moved = (std::fabs(middle.x) + std::fabs(middle.y) + std::fabs(middle.z)) * 0x1p-24;
     const auto radius = static_cast<float>((static_cast<double>(std::sqrt(most)) + moved) * (1 + 4e-6));
     a_.sphere[node_] = {static_cast<float>(middle.x), static_cast<float>(middle.y),

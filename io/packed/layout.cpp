@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Small numbers are written as in LEB128: seven bits a byte, the lowest first, the eighth says that more
-// follow.
+// Numbers are written as LEB128: seven bits per byte, the lowest first; the eighth bit is set if more bytes
+// follow. A reader checks each count against the bytes that are left before it allocates.
 #include "io/packed/layout.h"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ class ByteSink {
   std::vector<std::byte> bytes_;
 };
 
-/// Beyond the end there are zeros, and isDone() is false.
+/// Reads zeros beyond the end, and isDone() is false then.
 class ByteSource {
  public:
   explicit ByteSource(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -45,7 +45,7 @@ class ByteSource {
     isBad_ = true;
     return 0;
   }
-  /// At most `limit`, or the source is bad.
+  /// A number of at most `limit`; a larger one makes the source bad.
   std::uint32_t number(std::uint64_t limit) {
     const std::uint64_t value = number();
     if (value <= limit) return static_cast<std::uint32_t>(value);
@@ -73,28 +73,29 @@ class ByteSource {
   bool isBad_ = false;
 };
 
-/// The first packed form had none, but a class of a band in its place, which is below kClasses; the second
-/// was 16.
+/// The first packed form had no version; its first byte was a band's class, which is below kClasses. The
+/// second was version 16.
 constexpr std::uint8_t kPackedVersion = 18;
 static_assert(kPackedVersion >= kClasses);
 
 constexpr std::uint32_t kMaxIds = MultiTriangulation::kNone - 1;
-/// Of a chunk in the directory: four doubles, a checksum, and as many numbers as there always are.
-constexpr std::uint64_t kLeastChunkBytes = 4 * 8 + 8 + kParts + 3;
+/// The least bytes of a packet in the directory: four doubles, a checksum, and the numbers that each packet
+/// has.
+constexpr std::uint64_t kLeastPacketBytes = 4 * 8 + 8 + kParts + 3;
 
 }  // namespace
 
 void Directory::number() {
   std::uint64_t offset = 0, borders = 0;
   std::vector<Run*> runs;
-  for (Chunk& chunk : chunks) {
-    chunk.offset = offset;
-    offset += chunk.bytes();
-    chunk.firstBorder = borders;
-    borders += chunk.borders;
-    chunk.nodes = 0;
-    for (Run& run : chunk.runs) {
-      chunk.nodes += run.nodes;
+  for (Packet& packet : packets) {
+    packet.offset = offset;
+    offset += packet.bytes();
+    packet.firstBorder = borders;
+    borders += packet.borders;
+    packet.nodes = 0;
+    for (Run& run : packet.runs) {
+      packet.nodes += run.nodes;
       runs.push_back(&run);
     }
   }
@@ -110,21 +111,21 @@ void Directory::number() {
 
 std::uint64_t Directory::nodes() const {
   std::uint64_t sum = 0;
-  for (const Chunk& chunk : chunks)
-    for (const Run& run : chunk.runs) sum += run.nodes;
+  for (const Packet& packet : packets)
+    for (const Run& run : packet.runs) sum += run.nodes;
   return sum;
 }
 
 std::uint64_t Directory::slots() const {
   std::uint64_t sum = 0;
-  for (const Chunk& chunk : chunks)
-    for (const Run& run : chunk.runs) sum += run.slots;
+  for (const Packet& packet : packets)
+    for (const Run& run : packet.runs) sum += run.slots;
   return sum;
 }
 
 std::uint64_t Directory::borders() const {
   std::uint64_t sum = 0;
-  for (const Chunk& chunk : chunks) sum += chunk.borders;
+  for (const Packet& packet : packets) sum += packet.borders;
   return sum;
 }
 
@@ -132,21 +133,21 @@ std::vector<std::byte> toBytes(const Directory& directory) {
   ByteSink out;
   out.plain(kPackedVersion);
   for (const std::uint8_t c : directory.bandClass) out.plain(c);
-  out.number(directory.chunks.size());
-  for (const Chunk& chunk : directory.chunks) {
-    const std::span leansOn = std::span(chunk.leansOn).subspan(chunk.leansOn.empty() ? 0 : 1);
-    out.number(leansOn.size());
+  out.number(directory.packets.size());
+  for (const Packet& packet : directory.packets) {
+    const std::span dependsOn = std::span(packet.dependsOn).subspan(packet.dependsOn.empty() ? 0 : 1);
+    out.number(dependsOn.size());
     std::uint32_t next = 1;
-    for (const std::uint32_t other : leansOn) {
+    for (const std::uint32_t other : dependsOn) {
       out.number(other - next);
       next = other + 1;
     }
-    for (const double d : {chunk.xMin, chunk.yMin, chunk.xMax, chunk.yMax}) out.plain(d);
-    for (const std::uint32_t n : chunk.streamBytes) out.number(n);
-    out.number(chunk.borders);
-    out.plain(chunk.checksum);
-    out.number(chunk.runs.size());
-    for (const Run& run : chunk.runs) {
+    for (const double d : {packet.xMin, packet.yMin, packet.xMax, packet.yMax}) out.plain(d);
+    for (const std::uint32_t n : packet.streamBytes) out.number(n);
+    out.number(packet.borders);
+    out.plain(packet.checksum);
+    out.number(packet.runs.size());
+    for (const Run& run : packet.runs) {
       out.number(run.band);
       out.number(run.nodes);
       out.number(run.slots - 3 * run.nodes);
@@ -172,33 +173,33 @@ std::optional<Directory> directoryOf(std::span<const std::byte> bytes, std::stri
     if (c >= kClasses) return std::nullopt;
   }
   const std::uint64_t count = in.number();
-  // No count that the bytes cannot hold is believed.
-  if (in.isBad() || count == 0 || count > bytes.size() / kLeastChunkBytes) return std::nullopt;
+  // A count that the bytes cannot hold is refused before memory is allocated.
+  if (in.isBad() || count == 0 || count > bytes.size() / kLeastPacketBytes) return std::nullopt;
   std::uint64_t nodes = 0, slots = 0;
-  directory.chunks.resize(count);
+  directory.packets.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    Chunk& chunk = directory.chunks[i];
-    if (i > 0) chunk.leansOn.push_back(0);
+    Packet& packet = directory.packets[i];
+    if (i > 0) packet.dependsOn.push_back(0);
     std::uint64_t next = 1;
     for (std::uint32_t left = in.number(kMaxIds); left > 0; --left) {
       next += in.number(kMaxIds);
       if (in.isBad() || next >= i) {
-        problem = fmt::format("chunk {} of the packed nodes leans on one that does not come before it", i);
+        problem = fmt::format("packet {} of the packed nodes depends on one that does not come before it", i);
         return std::nullopt;
       }
-      chunk.leansOn.push_back(static_cast<std::uint32_t>(next++));
+      packet.dependsOn.push_back(static_cast<std::uint32_t>(next++));
     }
-    for (double* d : {&chunk.xMin, &chunk.yMin, &chunk.xMax, &chunk.yMax}) *d = in.plain<double>();
-    for (std::uint32_t& n : chunk.streamBytes) n = in.number(kMaxIds);
-    chunk.borders = in.number(kMaxIds);
-    chunk.checksum = in.plain<std::uint64_t>();
+    for (double* d : {&packet.xMin, &packet.yMin, &packet.xMax, &packet.yMax}) *d = in.plain<double>();
+    for (std::uint32_t& n : packet.streamBytes) n = in.number(kMaxIds);
+    packet.borders = in.number(kMaxIds);
+    packet.checksum = in.plain<std::uint64_t>();
     const std::uint32_t runs = in.number(MultiTriangulation::kBands);
     if (in.isBad()) return std::nullopt;
-    chunk.runs.resize(runs);
+    packet.runs.resize(runs);
     const std::uint64_t slotsBefore = slots;
     for (std::uint32_t r = 0; r < runs; ++r) {
-      Run& run = chunk.runs[r];
-      run.band = in.number(r == 0 ? MultiTriangulation::kBands - 1 : chunk.runs[r - 1].band - 1);
+      Run& run = packet.runs[r];
+      run.band = in.number(r == 0 ? MultiTriangulation::kBands - 1 : packet.runs[r - 1].band - 1);
       run.nodes = in.number(kMaxIds);
       const std::uint64_t more = in.number();
       run.listed = in.number(run.nodes);
@@ -213,8 +214,8 @@ std::optional<Directory> directoryOf(std::span<const std::byte> bytes, std::stri
       }
       run.slots = static_cast<std::uint32_t>(3 * std::uint64_t{run.nodes} + more);
     }
-    if (chunk.borders > slots - slotsBefore) {
-      problem = fmt::format("chunk {} of the packed nodes leaves more triangles than it makes", i);
+    if (packet.borders > slots - slotsBefore) {
+      problem = fmt::format("packet {} of the packed nodes leaves more triangles than it creates", i);
       return std::nullopt;
     }
   }

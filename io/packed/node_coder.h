@@ -1,28 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The walk that the writer and the reader of a packed .amt share. Both grow the same MT node by node; `Io` is
-// what tells them apart: Io::code(stream, table, actual) gives the next symbol, which the reader decodes and
-// the writer gets from actual() and notes down. So the two cannot disagree on what is known when a symbol is
-// coded. What the walk does not look at again (floors, spheres, errors and bounds) is kept by the reader
-// alone, Io::kKeepsValues.
+// The walk over nodes that the writer and the reader of a packed .amt share. Both grow the same MT node by
+// node and differ in `Io`: Io::code(stream, table, actual) returns the next symbol, which the reader decodes
+// and the writer gets from actual() and records. So both know the same when a symbol is coded. What the walk
+// does not read again (floors, spheres, errors and bounds) is kept by the reader alone: Io::kKeepsValues.
 //
-// A node is told like this.
-//   Its seed, one of the triangles of its floor. The last triangle of the floor that the chunk creates is the
-//   seed, and when it is created a symbol says that it is one, and how many bands below its creator the node
-//   lies. Nodes wait in the queue of their band, so they come in the order of their seeds and need no
-//   number. Nodes whose floor is made by other chunks are listed, at the begin of their band.
-//   Its floor: its shape as a walk from the seed across edges finds it (packed_shapes.h). The walk's order of
-//   the edges that are not inner ones is the link's.
-//   Whether the star is open, and at which edge of the border; which of its triangles nobody removes, and
-//   which are left to other chunks.
-//   The place of its vertex, against the centroid of the link; its height, against the plane of the triangle
-//   of the floor that it stands on.
-//   Error and bounds of those of its star's triangles that somebody removes.
-// The last two are told of all nodes of a run when their stars are there (packed_geometry.h). Nothing is told
-// of a node's children before it: so the first bands alone are an MT, of which every error is known.
+// A node is coded as follows.
+//   Its seed, a triangle of its floor: the last one that the packet creates. When a triangle is created a
+//   symbol says whether it is a seed, and how many bands below its creator the node lies. Nodes wait in the
+//   queue of their band, so they come in the order of their seeds and need no number. Nodes whose floor is
+//   created by other packets are listed at the beginning of their band. Its floor: the shape that a walk from
+//   the seed across edges finds (shapes.h). The outer edges, in the order of the walk, are the link. Whether
+//   the star is open, and at which edge of the border; which of its triangles have no remover, and which are
+//   left to other packets. The position of its vertex, as the difference from the centroid of the link; its
+//   height, as the difference from the plane of the triangle of the floor that contains it. Errors and bounds
+//   of the star's triangles that have a remover.
+// The last two follow for all nodes of a run once their stars exist (geometry.h). Nothing about a node's
+// children is coded before the node, so the first bands alone are an MT with known errors.
 //
-// What lies across an edge: packed_front.h.
+// What lies across an edge: front.h.
 
 #include <array>
 #include <bit>
@@ -44,52 +41,56 @@
 
 namespace arete::packed {
 
-/// Memory of a coder, to be used again for another one.
+/// Memory of a coder, reused from packet to packet.
 struct CoderSpace {
   FrontSpace front;
   std::array<std::vector<Front::Own>, MultiTriangulation::kBands> queues;
-  std::vector<std::uint32_t> listed;   ///< places of seeds in Arrays::border
+  std::vector<std::uint32_t> listed;   ///< indices of seeds in Arrays::border
   std::vector<const Shape*> shapesOf;  ///< of the run's nodes
-  std::deque<Shape> otherShapes;       ///< those that are not listed, or turned
-  std::vector<std::uint32_t> passing;  ///< slots, from the run's first, that somebody removes, and one more
-  std::vector<std::uint8_t> areas;     ///< of the run's slots, see shownArea()
+  std::deque<Shape> otherShapes;       ///< shapes that are not listed, or turned
+  std::vector<std::uint32_t>
+      passing;                      ///< slots with a remover, counted from the run's first, and a spare entry
+  std::vector<std::uint8_t> areas;  ///< of the run's slots, see shownArea()
 };
 
-/// Real: of the places, see Arrays::places().
+/// @tparam Real  number type of the positions (Arrays::places())
+/// @tparam Io    the reader's (unpack.cpp) or the writer's (pack.cpp)
 template <class Real, class Io>
 class NodeCoder {
  public:
-  NodeCoder(Arrays& arrays, const Directory& directory, const Chunk& chunk, Io& io, CoderSpace& space)
+  NodeCoder(Arrays& arrays, const Directory& directory, const Packet& packet, Io& io, CoderSpace& space)
       : a_(arrays),
         directory_(directory),
-        chunk_(chunk),
+        packet_(packet),
         io_(io),
         shapes_(listedShapes()),
         geometry_(arrays, io),
-        front_(arrays, chunk, space.front),
+        front_(arrays, packet, space.front),
         space_(space) {
     for (auto& queue : space_.queues) queue.clear();
   }
 
-  /// All nodes of the chunk. False when the symbols make no sense; problem() says which.
+  /// Codes all nodes of the packet.
+  /// @return false if the symbols are invalid; problem() says why
   bool run() {
-    if (!Front::canHold(chunk_.nodes, a_.border.size())) return fail("has more nodes than a chunk can have");
-    if (&chunk_ == directory_.chunks.data()) rootValues();
-    for (const Run& run : chunk_.runs) {
+    if (!Front::canHold(packet_.nodes, a_.border.size()))
+      return fail("has more nodes than a packet can have");
+    if (&packet_ == directory_.packets.data()) rootValues();
+    for (const Run& run : packet_.runs) {
       band_ = run.band;
       class_ = directory_.bandClass[band_];
       node_ = run.firstNode;
       slot_ = firstSlot_ = run.firstSlot;
       slotEnd_ = run.firstSlot + run.slots;
       nodeEnd_ = run.firstNode + run.nodes;
-      // One more is written than there are.
+      // One more entry is written than there are slots with a remover.
       space_.passing.resize(std::max<std::size_t>(space_.passing.size(), std::size_t{run.slots} + 1));
       space_.areas.resize(std::max<std::size_t>(space_.areas.size(), run.slots));
       nextPassing_ = space_.passing.data();
       space_.shapesOf.clear();
       space_.otherShapes.clear();
       std::vector<Own>& queue = space_.queues[band_];
-      if (!io_.listed(run, space_.listed)) return fail("lists a seed that cannot be one");
+      if (!io_.listed(run, space_.listed)) return fail("lists an invalid seed");
       for (std::size_t i = 0; i < space_.listed.size(); ++i) {
         const std::uint32_t seed = space_.listed[i];
         if (i + kAhead < space_.listed.size()) front_.prefetchBorder(space_.listed[i + kAhead]);
@@ -98,7 +99,7 @@ class NodeCoder {
         if (!front_.takeBorder(seed, 0, node_, floor_, 0)) return fail("lists a seed that is gone");
         if (!node(true)) return false;
       }
-      // Nodes of this band may join the queue on the way.
+      // The queue may grow by nodes of this band.
       for (std::size_t i = 0; i < queue.size(); ++i) {
         if (node_ == nodeEnd_) return fail("has more nodes than announced");
         const Own seed = queue[i];
@@ -117,7 +118,7 @@ class NodeCoder {
       values();
       if constexpr (Io::kKeepsValues) floorErrors(run);
     }
-    if (!front_.finish(!chunk_.isCut)) return fail("leaves another number of triangles than announced");
+    if (!front_.finish(!packet_.isCut)) return fail("leaves another number of triangles than announced");
     return true;
   }
   const std::string& problem() const { return problem_; }
@@ -138,14 +139,14 @@ class NodeCoder {
     if (symbol < kListedShapes) [[likely]]
       shape_ = &shapes_[symbol];
     else if (symbol > kWalkedShape || !walked())
-      return fail("has a floor that is none");
+      return fail("has an invalid floor");
     return withCorners(shape_->corners, [&](auto known) { return nodeOf<known>(); });
   }
 
   /// kCorners: of the floor, 0 for any number.
   template <int kCorners>
   bool nodeOf() {
-    if (!walk<kCorners>()) return fail("has a floor that is none");
+    if (!walk<kCorners>()) return fail("has an invalid floor");
     if (!floor_.isAtBorder && !a_.hasFills) [[likely]]
       return finishNode<kCorners>();
     if (!open()) return fail("has an open star away from the border");
@@ -154,7 +155,7 @@ class NodeCoder {
   template <int kCorners>
   [[gnu::always_inline]] bool finishNode() {
     const std::uint32_t size = static_cast<std::uint32_t>(corners<kCorners>());
-    // Every node that is still to come needs three.
+    // Each later node needs at least three slots.
     if (size + 3 * (nodeEnd_ - node_ - 1) > slotEnd_ - slot_) return fail("has more slots than announced");
     if (!io_.star(floor_, slot_)) return fail("has a star that is not its floor's");
     const int made = static_cast<int>(starTriangles<kCorners>());
@@ -183,7 +184,7 @@ class NodeCoder {
     return kCorners > 0 ? kCorners : floor_.corners;
   }
 
-  /// Takes the floor's triangles; link, what is across its edges, and the places of its corners.
+  /// Removes the floor's triangles; finds the link and what lies across its edges.
   template <int kCorners>
   [[gnu::always_inline]] bool walk() {
     Floor& floor = floor_;
@@ -218,8 +219,8 @@ class NodeCoder {
     return shape.has_value();
   }
 
-  /// Turns the link of an open star so that its last edge is the border's that the vertex divides. Where rims
-  /// reach over NODATA a border can have been closed altogether, and any edge may open.
+  /// Turns the link of an open star so that its last edge is the border edge that the vertex divides. Where
+  /// rims reach over NODATA a border may have been closed, and the star may open at any edge.
   bool open() {
     Floor& floor = floor_;
     std::array<int, kMaxHoleCorners> borders;
@@ -242,28 +243,29 @@ class NodeCoder {
     return true;
   }
 
-  /// Errors and bounds of all triangles of a run's stars that somebody removes.
+  /// Errors and bounds of all triangles of a run's stars that have a remover.
   void values() {
     const std::uint32_t *const begin = space_.passing.data(), *const end = nextPassing_;
     const std::uint8_t* const areas = space_.areas.data();
     const std::uint32_t first = a_.roots + firstSlot_;
-    valuesOf(band_, [&](const auto& tell) {
-      for (const std::uint32_t* slot = begin; slot != end; ++slot) tell(first + *slot, areas[*slot]);
+    valuesOf(band_, [&](const auto& visit) {
+      for (const std::uint32_t* slot = begin; slot != end; ++slot) visit(first + *slot, areas[*slot]);
     });
   }
-  /// The same of the root's triangles, which no band bounds.
+  /// The same for the root's triangles, whose errors no band bounds.
   void rootValues() {
     const Place<Real>* const place = a_.places<Real>();
-    valuesOf(MultiTriangulation::kBands - 1, [&](const auto& tell) {
+    valuesOf(MultiTriangulation::kBands - 1, [&](const auto& visit) {
       for (std::uint32_t t = 0; t < a_.roots; ++t) {
         const auto& corners = a_.rootTriangles[t];
         const Place<Real>&p = place[corners[0]], &q = place[corners[1]], &r = place[corners[2]];
         const Real area = (q.x - p.x) * (r.y - p.y) - (r.x - p.x) * (q.y - p.y);
-        tell(t, shownArea(a_.isLattice, static_cast<float>(std::fabs(area))));
+        visit(t, shownArea(a_.isLattice, static_cast<float>(std::fabs(area))));
       }
     });
   }
-  /// forEach(tell): calls tell(id, shown area) for each triangle. No error is above the band.
+  /// Codes the errors and bounds of triangles. Precondition: no error is above the band.
+  /// @param forEach  forEach(visit) calls visit(id, shown area) for each triangle
   template <class ForEach>
   void valuesOf(std::uint32_t band, const ForEach& forEach) {
     if (a_.isLattice && a_.encoding.type == HeightEncoding::Type::int16)
@@ -316,7 +318,7 @@ class NodeCoder {
     return wholeErrorCode(a_.scale, a_.encoding, whole, shown);
   }
 
-  /// The largest error of each node's floor, to which saturate() adds the children's (packed_arrays.h).
+  /// The largest error of each node's floor; saturate() adds those of the children (arrays.h).
   void floorErrors(const Run& run) {
     constexpr std::ptrdiff_t kIdsAhead = 24;
     const std::uint32_t* id = a_.floor.get() + (run.firstSlot - 2 * run.firstNode);
@@ -337,7 +339,7 @@ class NodeCoder {
   std::uint32_t starTriangles() const {
     return static_cast<std::uint32_t>(corners<kCorners>() - (kCorners == 0 && floor_.isOpen ? 1 : 0));
   }
-  /// Bit i says that triangle i of the star is left to other chunks.
+  /// Bit i: triangle i of the star is left to another packet.
   template <int kCorners>
   [[gnu::always_inline]] std::uint64_t left() {
     const std::uint32_t triangles = starTriangles<kCorners>();
@@ -383,7 +385,7 @@ class NodeCoder {
 
   Arrays& a_;
   const Directory& directory_;
-  const Chunk& chunk_;
+  const Packet& packet_;
   Io& io_;
   std::uint32_t band_ = 0, class_ = 0, node_ = 0, slot_ = 0, nodeEnd_ = 0, firstSlot_ = 0, slotEnd_ = 0;
   std::span<const Shape, kListedShapes> shapes_;

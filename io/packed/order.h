@@ -17,31 +17,31 @@
 
 namespace arete::packed {
 
-/// Which way chunks are taken: each after those that it leans on, or after those that lean on it.
+/// The order of packets: each after those that it depends on, or after those that depend on it.
 enum class Direction { forwards, backwards };
 
-/// What is wrong with a chunk.
-struct ChunkProblem {
-  std::size_t chunk;
+/// A packet, and what is wrong with it.
+struct PacketProblem {
+  std::size_t packet;
   std::string what;
 };
 
-/// Calls body(chunk) in parallel for all chunks, each as soon as those due before it are done, and of those
-/// that could begin the one nearest to the first (the last, backwards): neighbours follow each other, so what
-/// they have in common stays in a cache. body returns what is wrong with the chunk, or nothing; then, one at
-/// a time, done(chunk) is called. Nothing is begun any more once the context is cancelled, nor beyond a chunk
-/// that has a problem; of several problems the first one on the way is returned, so it does not depend on
-/// the threads if body's does not. O(chunks log chunks + what they lean on) beside the bodies.
+/// Calls body(packet) in parallel for all packets, each as soon as those before it in the order are done. Of
+/// the packets that are ready the first one is taken (backwards: the last one), so that neighbours follow
+/// each other and share a cache. body() returns what is wrong with the packet, or nothing; then done(packet)
+/// is called, for one packet at a time. No packet is begun once the context is cancelled, or after a packet
+/// with a problem. Of several problems the first one in the order is returned, so the result does not depend
+/// on the threads if that of body() does not. O(packets log packets + dependencies) beside the calls.
 template <class Body, class Done>
-class ChunkOrder {
+class PacketOrder {
  public:
-  ChunkOrder(const std::vector<Chunk>& chunks, Direction direction, const RunContext& context,
-             const Body& body, const Done& done)
-      : direction_(direction), context_(context), body_(body), done_(done), size_(chunks.size()) {
+  PacketOrder(const std::vector<Packet>& packets, Direction direction, const RunContext& context,
+              const Body& body, const Done& done)
+      : direction_(direction), context_(context), body_(body), done_(done), size_(packets.size()) {
     next_.resize(size_);
     waitsFor_.assign(size_, 0);
     for (std::size_t i = 0; i < size_; ++i)
-      for (const std::uint32_t other : chunks[i].leansOn) {
+      for (const std::uint32_t other : packets[i].dependsOn) {
         const std::size_t before = direction == Direction::forwards ? other : i;
         const std::size_t after = direction == Direction::forwards ? i : other;
         next_[before].push_back(static_cast<std::uint32_t>(after));
@@ -49,55 +49,55 @@ class ChunkOrder {
       }
   }
 
-  std::optional<ChunkProblem> run() {
+  std::optional<PacketProblem> run() {
     std::size_t ready = 0;
     for (std::size_t i = 0; i < size_; ++i)
       if (waitsFor_[i] == 0) {
-        ready_.push(placeOf(i));
+        ready_.push(rankOf(i));
         ++ready;
       }
     firstBad_ = size_;
     start(ready);
     tasks_.wait();
     if (firstBad_ == size_) return std::nullopt;
-    return ChunkProblem{placeOf(firstBad_), std::move(problem_)};
+    return PacketProblem{rankOf(firstBad_), std::move(problem_)};
   }
 
  private:
-  /// A chunk's place on the way, and the chunk at a place.
-  std::size_t placeOf(std::size_t chunk) const {
-    return direction_ == Direction::forwards ? chunk : size_ - 1 - chunk;
+  /// The rank of a packet in the order, and the packet of a rank: the same map.
+  std::size_t rankOf(std::size_t packet) const {
+    return direction_ == Direction::forwards ? packet : size_ - 1 - packet;
   }
   void start(std::size_t count) {
     for (; count > 0; --count) tasks_.run([this] { step(); });
   }
 
-  /// One chunk. There are as many tasks as chunks that are ready.
+  /// Takes one packet. There are as many tasks as packets that are ready.
   void step() {
-    std::size_t place = 0;
+    std::size_t rank = 0;
     {
       const std::lock_guard lock(mutex_);
-      place = ready_.top();
+      rank = ready_.top();
       ready_.pop();
-      if (place > firstBad_) return;
+      if (rank > firstBad_) return;
     }
     if (context_.cancelled()) return;
-    const std::size_t chunk = placeOf(place);
-    std::optional<std::string> bad = body_(chunk);
+    const std::size_t packet = rankOf(rank);
+    std::optional<std::string> bad = body_(packet);
     std::size_t ready = 0;
     {
       const std::lock_guard lock(mutex_);
       if (bad) {
-        if (place < firstBad_) {
-          firstBad_ = place;
+        if (rank < firstBad_) {
+          firstBad_ = rank;
           problem_ = std::move(*bad);
         }
         return;
       }
-      done_(chunk);
-      for (const std::uint32_t after : next_[chunk])
+      done_(packet);
+      for (const std::uint32_t after : next_[packet])
         if (--waitsFor_[after] == 0) {
-          ready_.push(placeOf(after));
+          ready_.push(rankOf(after));
           ++ready;
         }
     }
@@ -118,10 +118,11 @@ class ChunkOrder {
   tbb::task_group tasks_;
 };
 
+/// PacketOrder, constructed and run.
 template <class Body, class Done>
-std::optional<ChunkProblem> forChunks(const std::vector<Chunk>& chunks, Direction direction,
-                                      const RunContext& context, const Body& body, const Done& done) {
-  return ChunkOrder<Body, Done>(chunks, direction, context, body, done).run();
+std::optional<PacketProblem> forPackets(const std::vector<Packet>& packets, Direction direction,
+                                        const RunContext& context, const Body& body, const Done& done) {
+  return PacketOrder<Body, Done>(packets, direction, context, body, done).run();
 }
 
 }  // namespace arete::packed

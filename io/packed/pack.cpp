@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The writer walks as the reader will (packed_node_coder.h) and notes every symbol with its table. When all
-// chunks have been walked it knows how often each table saw each symbol; that makes the tables, and then
-// every chunk is coded. Chunks are walked in parallel, as they are read.
+// The writer walks over the nodes as the reader will (node_coder.h) and records every symbol with its table.
+// When all packets have been walked, the tables follow from how often each symbol occurs, and every packet is
+// encoded. Packets are walked in parallel, each after those that it depends on, as they are read.
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::uint32_t kNone = MultiTriangulation::kNone;
 
-/// What the chunks of a model share while they are walked.
+/// What the walks of all packets share.
 struct Walk {
   const TerrainModel& model;
   const Plan& plan;
@@ -34,11 +34,11 @@ struct Walk {
   UninitializedVector<std::uint32_t> oldNode;      ///< per new node
   UninitializedVector<std::uint32_t> newNode;      ///< per node of the model
   UninitializedVector<std::uint32_t> oldTriangle;  ///< per new slot
-  UninitializedVector<std::uint8_t> turn;          ///< per new node: which of the old slots its first one was
+  UninitializedVector<std::uint8_t> turn;  ///< per new node: the old slot, within the node, of its first one
   UninitializedVector<std::uint8_t> ownParentsLeft;
 };
 
-/// What is told of a chunk.
+/// The streams of a packet, before they are encoded.
 struct Streams {
   std::array<std::vector<RansSymbol>, kStreams> symbols;
   std::vector<std::byte> boundBytes, rawBits;
@@ -53,15 +53,15 @@ struct Streams {
 
 class WriterIo {
  public:
-  /// `told` receives all but the raw bits.
-  WriterIo(Walk& walk, std::uint32_t chunk, Streams& told)
+  /// @param streams  receives all but the raw bits
+  WriterIo(Walk& walk, std::uint32_t packet, Streams& streams)
       : w_(walk),
         mt_(walk.model.mt),
         a_(mt_.arrays()),
         roots_(mt_.rootTriangleCount()),
-        chunk_(chunk),
-        told_(told) {
-    for (const std::uint32_t n : w_.plan.listed[chunk]) listed_[w_.plan.band[n]].push_back(n);
+        packet_(packet),
+        streams_(streams) {
+    for (const std::uint32_t n : w_.plan.listed[packet]) listed_[w_.plan.band[n]].push_back(n);
   }
 
   BitWriter rawBits;
@@ -71,7 +71,7 @@ class WriterIo {
   template <class Actual>
   unsigned code(Stream stream, unsigned table, const Actual& actual) {
     const unsigned symbol = actual();
-    told_.symbols[stream].push_back({static_cast<std::uint8_t>(table), static_cast<std::uint8_t>(symbol)});
+    streams_.symbols[stream].push_back({static_cast<std::uint8_t>(table), static_cast<std::uint8_t>(symbol)});
     return symbol;
   }
   std::uint64_t raw(int bits, std::uint64_t actual) {
@@ -91,7 +91,7 @@ class WriterIo {
     seeds.clear();
     std::uint32_t from = 0, place = 0;
     for (const Entry& e : entries) {
-      codeNumber(*this, kFloorStream, kListChunkTable, [&] { return e.from - from; });
+      codeNumber(*this, kFloorStream, kListPacketTable, [&] { return e.from - from; });
       if (e.from != from) place = 0;
       codeNumber(*this, kFloorStream, kListBorderTable, [&] { return e.place - place; });
       from = e.from;
@@ -101,9 +101,9 @@ class WriterIo {
     return seeds.size() == run.listed;
   }
 
-  /// A node that has its number.
+  /// Selects the node with this number.
   void at(std::uint32_t number) { old_ = w_.oldNode[number]; }
-  /// The node that removes the seed gets the number.
+  /// Selects the node that removes the seed, and gives it the number.
   void begin(std::uint32_t seed, std::uint32_t number) {
     number_ = number;
     old_ = a_.remover[oldIdOf(seed)];
@@ -120,11 +120,11 @@ class WriterIo {
     }
   }
 
-  /// Walks the floor as the reader will; `words` begin with the seed's corners.
+  /// Walks over the floor as the reader will. `words` begin with the seed's corners.
   unsigned shapeSymbol(const std::uint32_t* words) {
     std::array<std::array<std::uint32_t, 3>, kMaxFloor> found;
     shapeBits_ = 0;
-    int told = 0;
+    int bit = 0;
     const auto shape = walkedShape([&](const Shape& s, int, int count) {
       const unsigned t = s.triangles - 1u;
       if (t == 0)
@@ -134,8 +134,8 @@ class WriterIo {
       unsigned inner = 0;
       for (int i = 0; i < count; ++i)
         if (find(found[t], 3 - count + i)) inner |= 1u << i;
-      shapeBits_ |= std::uint64_t{inner} << told;
-      told += count;
+      shapeBits_ |= std::uint64_t{inner} << bit;
+      bit += count;
       return inner;
     });
     return shape ? packed::shapeSymbol(shapeBits_, shape->triangles) : 0;
@@ -155,8 +155,8 @@ class WriterIo {
     return 0;
   }
 
-  /// The star's slots, wherever the model's link begins. False when the walk did not find the floor or its
-  /// rim.
+  /// Maps the star's slots to those of the model, whose link may begin elsewhere. Returns false if the walk
+  /// did not find the floor or its link.
   bool star(const Floor& floor, std::uint32_t slot) {
     if (floor.size != floorSize_ || floor.isOpen != mt_.isOpen(NodeId(old_))) return false;
     for (int i = 0; i < floor.size; ++i)
@@ -176,7 +176,7 @@ class WriterIo {
     return true;
   }
 
-  /// Which of the star's triangles nobody removes.
+  /// Bit i: triangle i of the star has no remover.
   std::uint64_t staying(std::uint32_t slot, int triangles) const {
     std::uint64_t bits = 0;
     for (int i = 0; i < triangles; ++i)
@@ -201,8 +201,8 @@ class WriterIo {
     const double largest =
         static_cast<double>(a_.scale.decode(code)) * doubledArea / std::fabs(w_.arrays.encoding.scale);
     if (!(largest < 1 << 24)) return std::nullopt;
-    // Codes are rounded upwards by up to one part in 2048, so more than one whole number may be meant: the
-    // least one that has the code.
+    // Codes are rounded upwards by up to one part in 2048, so several whole numbers may have the code: take
+    // the least one.
     const auto most = static_cast<std::uint64_t>(largest + 1e-6);
     for (std::uint64_t whole = most - std::min<std::uint64_t>(most, most / 2048 + 1); whole <= most; ++whole)
       if (wholeErrorCode(w_.arrays.scale, w_.arrays.encoding, whole, doubledArea) == code) return whole;
@@ -212,22 +212,22 @@ class WriterIo {
     const std::uint32_t t = oldIdOf(id);
     const BoundBytes bytes =
         bytesOf(roundedBounds(boundStep(a_.below[t]), boundStep(a_.above[t])), reference);
-    told_.boundBytes.push_back(static_cast<std::byte>(bytes.first));
-    if (bytes.isFar()) told_.boundBytes.push_back(static_cast<std::byte>(bytes.second));
+    streams_.boundBytes.push_back(static_cast<std::byte>(bytes.first));
+    if (bytes.isFar()) streams_.boundBytes.push_back(static_cast<std::byte>(bytes.second));
     return bytes;
   }
 
-  /// How many bands the node that has its seed here lies below this one, if there is one.
+  /// How many bands below this one the node lies whose seed is here; nothing if there is none.
   std::optional<unsigned> seedAt(std::uint32_t slot, std::uint32_t band) {
     const std::uint32_t remover = a_.remover[w_.oldTriangle[slot]];
-    if (remover == kNone || w_.plan.chunkOf[remover] != chunk_ || --w_.ownParentsLeft[remover] != 0)
+    if (remover == kNone || w_.plan.packetOf[remover] != packet_ || --w_.ownParentsLeft[remover] != 0)
       return std::nullopt;
     return band - w_.plan.band[remover];
   }
-  /// Whether a node of another chunk removes the triangle.
+  /// Whether the remover of the triangle is in another packet.
   bool isLeft(std::uint32_t slot) const {
     const std::uint32_t remover = a_.remover[w_.oldTriangle[slot]];
-    return remover != kNone && w_.plan.chunkOf[remover] != chunk_;
+    return remover != kNone && w_.plan.packetOf[remover] != packet_;
   }
 
  private:
@@ -236,32 +236,32 @@ class WriterIo {
   }
   std::uint32_t oldIdOf(std::uint32_t id) const { return id < roots_ ? id : w_.oldTriangle[id - roots_]; }
 
-  /// A triangle of another chunk: its chunk's place among those that this one leans on, + 1 (0: the root),
-  /// its place among those that the chunk leaves, and among all borders.
+  /// A triangle of another packet: 1 + the index of that packet among those that this one depends on (0: the
+  /// root), the triangle's index among those that the packet leaves, and among all borders.
   struct Entry {
     std::uint32_t from, place, border;
   };
   Entry entryOf(std::uint32_t triangle) const {
     if (triangle < roots_) return {0, triangle, triangle};
-    const std::uint32_t owner = w_.plan.owners.of(triangle - roots_), c = w_.plan.chunkOf[owner];
-    const Chunk& chunk = w_.plan.directory.chunks[c];
-    const auto& leansOn = w_.plan.directory.chunks[chunk_].leansOn;
-    const auto from = std::lower_bound(leansOn.begin(), leansOn.end(), c) - leansOn.begin();
-    // The node that removes it is this chunk's and has not come yet.
+    const std::uint32_t owner = w_.plan.owners.of(triangle - roots_), c = w_.plan.packetOf[owner];
+    const Packet& packet = w_.plan.directory.packets[c];
+    const auto& dependsOn = w_.plan.directory.packets[packet_].dependsOn;
+    const auto from = std::lower_bound(dependsOn.begin(), dependsOn.end(), c) - dependsOn.begin();
+    // The remover is in this packet and not coded yet, so the triangle still has its mark.
     const std::uint32_t border =
         w_.arrays.remover[roots_ + newSlot(triangle - roots_, owner)] & ~Arrays::kMarks;
     return {static_cast<std::uint32_t>(from) + 1,
-            static_cast<std::uint32_t>(border - roots_ - chunk.firstBorder), border};
+            static_cast<std::uint32_t>(border - roots_ - packet.firstBorder), border};
   }
 
-  /// Of a slot of the model. Precondition: its owner has come.
+  /// The new slot of a slot of the model. Precondition: its owner has been coded.
   std::uint32_t newSlot(std::uint32_t slot, std::uint32_t owner) const {
     const std::uint32_t number = w_.newNode[owner], size = mt_.slotCount(NodeId(owner));
     const std::uint32_t at = slot - a_.slotBegin[owner] + size - w_.turn[number];
     return w_.arrays.slotBegin[number] + (at < size ? at : at - size);
   }
 
-  /// Whether a triangle of the floor that was not found yet lies across an edge.
+  /// Whether a triangle of the floor lies across an edge that was not found yet; marks it as found.
   bool find(const std::array<std::uint32_t, 3>& corners, int edge) {
     const std::uint32_t from = corners[(edge + 1) % 3], to = corners[edge];
     for (int j = 0; j < floorSize_; ++j)
@@ -269,7 +269,7 @@ class WriterIo {
         if (corners_[j][e] == from && corners_[j][(e + 1) % 3] == to) return isFound_[j] = true;
     return false;
   }
-  /// Its corners, from that edge.
+  /// The corners of the triangle across an edge, from that edge.
   std::array<std::uint32_t, 3> acrossOf(const std::array<std::uint32_t, 3>& corners, int edge) const {
     const std::uint32_t from = corners[(edge + 1) % 3], to = corners[edge];
     for (int j = 0; j < floorSize_; ++j)
@@ -282,11 +282,11 @@ class WriterIo {
   Walk& w_;
   const MultiTriangulation& mt_;
   const MtArrays& a_;
-  std::uint32_t roots_, chunk_;
-  Streams& told_;
+  std::uint32_t roots_, packet_;
+  Streams& streams_;
   std::array<std::vector<std::uint32_t>, MultiTriangulation::kBands> listed_;
 
-  // Of the node being told.
+  // Of the selected node.
   std::uint32_t number_ = 0, old_ = 0;
   int floorSize_ = 0;
   std::array<std::array<std::uint32_t, 3>, kMaxFloor> corners_;
@@ -297,38 +297,38 @@ class WriterIo {
 class Packer {
  public:
   Packer(const TerrainModel& model, const RunContext& context)
-      : context_(context), plan_(planChunks(model)), walk_{model, plan_, arrays_, {}, {}, {}, {}, {}} {}
+      : context_(context), plan_(planPackets(model)), walk_{model, plan_, arrays_, {}, {}, {}, {}, {}} {}
 
   Result<PackedMt> run() {
     if (walk_.model.mt.rootTriangleCount() + plan_.directory.borders() > kMostBorders)
       return failure(ErrorCode::invalidData, "has more triangles in its root than can be packed");
-    if (!prepare()) return failure(ErrorCode::unreadable, "needs more memory than there is to be packed");
-    const auto& chunks = plan_.directory.chunks;
-    std::vector<Streams> streams(chunks.size());
+    if (!prepare()) return failure(ErrorCode::unreadable, "needs more memory to be packed than there is");
+    const auto& packets = plan_.directory.packets;
+    std::vector<Streams> streams(packets.size());
     std::uint64_t done = 0;
-    const auto problem = forChunks(
-        chunks, Direction::forwards, context_, [&](std::size_t i) { return walkChunk(i, streams[i]); },
+    const auto problem = forPackets(
+        packets, Direction::forwards, context_, [&](std::size_t i) { return walkPacket(i, streams[i]); },
         [&](std::size_t i) {
-          done += chunks[i].nodes;
+          done += packets[i].nodes;
           context_.report("pack", 0.7 * static_cast<double>(done) /
                                       (static_cast<double>(walk_.model.mt.nodeCount()) + 1));
         });
     if (context_.cancelled()) return failure(ErrorCode::interrupted, "packing was interrupted");
     if (problem)
       return failure(ErrorCode::invalidData,
-                     fmt::format("chunk {} of its nodes {}", problem->chunk, problem->what));
+                     fmt::format("packet {} of its nodes {}", problem->packet, problem->what));
     giveWalkBack();
     const std::vector<RansTable> tables = tablesFor(streams);
-    std::vector<std::vector<std::byte>> bytes(chunks.size());
-    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t i) {
-      if (!context_.cancelled()) bytes[i] = encode(plan_.directory.chunks[i], streams[i], tables, i == 0);
+    std::vector<std::vector<std::byte>> bytes(packets.size());
+    tbb::parallel_for(std::size_t{0}, packets.size(), [&](std::size_t i) {
+      if (!context_.cancelled()) bytes[i] = encode(plan_.directory.packets[i], streams[i], tables, i == 0);
     });
     if (context_.cancelled()) return failure(ErrorCode::interrupted, "packing was interrupted");
     plan_.directory.number();
     PackedMt packed;
     packed.directory = toBytes(plan_.directory);
     packed.tables = toBytes(tables);
-    packed.nodes.reserve(chunks.back().offset + chunks.back().bytes());
+    packed.nodes.reserve(packets.back().offset + packets.back().bytes());
     for (auto& b : bytes) {
       packed.nodes.insert(packed.nodes.end(), b.begin(), b.end());
       b = {};
@@ -367,7 +367,7 @@ class Packer {
     return true;
   }
 
-  /// The memory that only the walk needs.
+  /// Frees the memory that only the walk needs.
   void giveWalkBack() {
     arrays_ = {};
     walk_.oldNode = {};
@@ -378,21 +378,21 @@ class Packer {
     spaces_.clear();
   }
 
-  std::optional<std::string> walkChunk(std::size_t i, Streams& streams) {
-    Streams& told = spaces_.local().told;
-    told.clear();
-    WriterIo io(walk_, static_cast<std::uint32_t>(i), told);
+  std::optional<std::string> walkPacket(std::size_t i, Streams& streams) {
+    Streams& recorded = spaces_.local().streams;
+    recorded.clear();
+    WriterIo io(walk_, static_cast<std::uint32_t>(i), recorded);
     std::optional<std::string> bad =
         arrays_.holdsFloats() ? walkNodes<float>(i, io) : walkNodes<double>(i, io);
-    told.rawBits = io.rawBits.take();
-    streams = told;  // a copy has no room to grow, which this one keeps
+    recorded.rawBits = io.rawBits.take();
+    streams = recorded;  // a copy without spare capacity; `recorded` keeps its memory for the next packet
     return bad;
   }
 
   template <class Real>
   std::optional<std::string> walkNodes(std::size_t i, WriterIo& io) {
-    if (i == 0 && !codeRoot<Real>(arrays_, io)) return "come after a root that makes no sense";
-    NodeCoder<Real, WriterIo> coder(arrays_, plan_.directory, plan_.directory.chunks[i], io,
+    if (i == 0 && !codeRoot<Real>(arrays_, io)) return "come after an invalid root";
+    NodeCoder<Real, WriterIo> coder(arrays_, plan_.directory, plan_.directory.packets[i], io,
                                     spaces_.local().coder);
     if (!coder.run()) return coder.problem();
     return std::nullopt;
@@ -408,31 +408,31 @@ class Packer {
     return tables;
   }
 
-  std::vector<std::byte> encode(Chunk& chunk, Streams& streams, std::span<const RansTable> tables,
+  std::vector<std::byte> encode(Packet& packet, Streams& streams, std::span<const RansTable> tables,
                                 bool isFirst) const {
     std::vector<std::byte> bytes;
     for (unsigned s = 0; s < kStreams; ++s) {
       const auto coded = ransEncode(streams.symbols[s], tables);
-      chunk.streamBytes[s] = static_cast<std::uint32_t>(coded.size());
+      packet.streamBytes[s] = static_cast<std::uint32_t>(coded.size());
       bytes.insert(bytes.end(), coded.begin(), coded.end());
       streams.symbols[s] = {};
     }
-    chunk.streamBytes[kBoundBytes] = static_cast<std::uint32_t>(streams.boundBytes.size());
+    packet.streamBytes[kBoundBytes] = static_cast<std::uint32_t>(streams.boundBytes.size());
     bytes.insert(bytes.end(), streams.boundBytes.begin(), streams.boundBytes.end());
     const MultiTriangulation& mt = walk_.model.mt;
     const std::uint64_t roots = std::uint64_t{mt.arrays().rootVertices} + mt.rootTriangleCount();
-    const std::uint64_t things = chunk.nodes + (isFirst ? roots : 0);
+    const std::uint64_t things = packet.nodes + (isFirst ? roots : 0);
     const std::uint64_t least = leastBytes(things);
     if (bytes.size() + streams.rawBits.size() < least) streams.rawBits.resize(least - bytes.size());
-    chunk.streamBytes[kRawBits] = static_cast<std::uint32_t>(streams.rawBits.size());
+    packet.streamBytes[kRawBits] = static_cast<std::uint32_t>(streams.rawBits.size());
     bytes.insert(bytes.end(), streams.rawBits.begin(), streams.rawBits.end());
-    chunk.checksum = amtChecksum(bytes);
+    packet.checksum = amtChecksum(bytes);
     return bytes;
   }
 
-  /// Of a thread, from chunk to chunk.
+  /// Memory of a thread, reused from packet to packet.
   struct Space {
-    Streams told;
+    Streams streams;
     CoderSpace coder;
   };
 

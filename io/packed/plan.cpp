@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How far a chunk's nodes reach decides with how many others it has to wait for each other. A node's reach is
-// the width of its star; its class is the number of widths (each four times the one before) that it or any
-// node that descends from it exceeds, so no node has a parent of a lower class. The highest class is chunk 0.
-// The others lie in tiles four times as wide as those of the class below. Of one class, a node's rectangle is
-// its own tile and the rectangles of its parents, rounded outwards to at most 2 x 2 tiles (of the least level
-// at which so few do, and no level below its parents'): as reaches are a fraction of a tile, and most parents
-// are wider than their children, most rectangles are one tile. Nodes of one class and rectangle are a chunk.
+// The wider the nodes of a packet reach, the more packets depend on each other. A node's reach is the width
+// of its star; its class is the number of widths (each four times the one before) that it or any of its
+// descendants exceeds, so no node has a parent of a lower class. The highest class is packet 0. Each other
+// class has tiles, four times as wide as those of the class below. A node's rectangle is the union of its own
+// tile and of the rectangles of its parents of the same class, rounded outwards to at most 2 x 2 tiles of
+// some level (the least one for which so few suffice, and no less than the parents'). Reaches are a fraction
+// of a tile and most parents are of a higher class than their children, so most rectangles are one tile. A
+// packet is the nodes of one class and rectangle.
 //
-// Chunks of one class come in Morton order of the last corner of their rectangles, which is not before that
-// of a part of it; so a chunk comes soon after those that it leans on.
+// Packets of one class are in Morton order of the last corner of their rectangles. This corner is not before
+// that of any part of the rectangle, so a packet comes soon after those that it depends on.
 //
-// All that nodes take from their parents, or parents from their children, is from places all over the arrays:
-// it is asked for ahead (slot_owners.h). The rest goes chunk by chunk, in parallel.
+// What nodes get from their parents, or parents from their children, lies all over the arrays, so it is
+// prefetched (slot_to_node.h). The rest goes packet by packet, in parallel.
 #include "io/packed/plan.h"
 
 #include <tbb/blocked_range.h>
@@ -30,12 +31,12 @@
 namespace arete::packed {
 namespace {
 
-/// Samples along the side of a tile of class 0. Small enough for the nodes of a tile to stay in a processor's
-/// second cache or close to it, large enough that most nodes are in the inside of one.
+/// Samples along the side of a tile of class 0: small enough for the nodes of a tile to stay near a
+/// processor's second cache, large enough that most nodes lie inside a tile.
 constexpr double kTileSamples = 128;
-/// A tile is so many times as wide as what a node of its class may reach.
+/// The width of a tile in reaches: the largest reach of its class.
 constexpr double kReachesPerTile = 8;
-/// Of a tile in tiles of the class below, and its logarithm.
+/// The width of a tile in tiles of the class below, and its binary logarithm.
 constexpr int kClassStep = 4, kLevelsPerClass = 2;
 constexpr int kMostClasses = 12;
 
@@ -60,7 +61,7 @@ struct Tiles {
     rowEnd = std::max(rowEnd, t.rowEnd);
     columnEnd = std::max(columnEnd, t.columnEnd);
   }
-  /// Rounds outwards, to the least level that is not below the present one and has at most 2 x 2 tiles.
+  /// Rounds outwards to the least level, not below the present one, at which it has at most 2 x 2 tiles.
   void round() {
     for (;; ++level) {
       const std::int32_t unit = std::int32_t{1} << level;
@@ -71,7 +72,7 @@ struct Tiles {
       if (rowEnd - row <= 2 * unit && columnEnd - column <= 2 * unit) return;
     }
   }
-  /// Smaller where chunks come earlier.
+  /// The sort key of packets.
   auto key() const {
     return std::tuple(
         -int{reach},
@@ -80,10 +81,10 @@ struct Tiles {
   }
 };
 
-/// All that is needed to place nodes.
+/// The grid of tiles.
 struct Tiling {
-  double x = 0, y = 0, size = 1;  ///< where tile (0, 0) begins; a side
-  int classes = 0;                ///< below that of chunk 0
+  double x = 0, y = 0, size = 1;  ///< the origin of tile (0, 0); the side of a tile
+  int classes = 0;                ///< number of classes below that of packet 0
 };
 
 /// Classes of about as many nodes each; nodes without error are one of their own.
@@ -124,13 +125,13 @@ Tiling tilingOf(const TerrainModel& model) {
   return tiling;
 }
 
-/// What a node has of its own star and floor, and what it takes over from its children.
+/// The largest values of a node and all its descendants.
 struct Descent {
-  std::uint16_t error = 0;  ///< saturated, as the recorder has it: the largest of its floor's and theirs
+  std::uint16_t error = 0;  ///< saturated, as by the recorder
   std::uint8_t reach = 0;   ///< class
 };
 
-/// A node's own.
+/// The values of a node alone.
 Descent ownOf(const MultiTriangulation& mt, NodeId n, const Tiling& tiling) {
   const MtArrays& a = mt.arrays();
   Descent own;
@@ -144,7 +145,7 @@ Descent ownOf(const MultiTriangulation& mt, NodeId n, const Tiling& tiling) {
   return own;
 }
 
-/// What nodes take from their parents, or give to them, one floor after the other: asks ahead for it.
+/// Visits the parents of nodes, one floor after the other, with prefetches.
 class Parents {
  public:
   Parents(const MultiTriangulation& mt, const SlotToNode& owners)
@@ -153,8 +154,9 @@ class Parents {
         roots_(mt.rootTriangleCount()),
         slots_(static_cast<std::uint32_t>(mt.arrays().link.size())) {}
 
-  /// Calls visit(parent) of the i-th entry of all floors, unless that is a triangle of the root. `ofParents`:
-  /// what visit() reads by parent; it will be asked for of the entries on the way, a step of 1 or -1.
+  /// Calls visit(parent) for the i-th entry of all floors, unless that is a triangle of the root.
+  /// @param step       1 or -1: the direction of the visits
+  /// @param ofParents  the array that visit() reads at the parent; prefetched for later entries
   template <class T, class Visit>
   [[gnu::always_inline]] void at(std::uint32_t i, int step, const T* ofParents, const Visit& visit) const {
     const std::uint32_t far = slotAt(i + kFarAhead * step), near = slotAt(i + kAhead * step);
@@ -164,7 +166,7 @@ class Parents {
   }
 
  private:
-  /// Not below slots_ for a triangle of the root, and beyond either end.
+  /// At least slots_ for a triangle of the root, and beyond either end.
   std::uint32_t slotAt(std::int64_t i) const {
     if (i < 0 || i >= static_cast<std::int64_t>(floor_.size())) return ~0u;
     return floor_[static_cast<std::size_t>(i)] - roots_;
@@ -180,7 +182,7 @@ std::uint32_t floorBegin(const MtArrays& a, std::uint32_t n) {
   return a.slotBegin[n] - 2 * n;
 }
 
-/// Of all nodes.
+/// The values of all nodes with their descendants.
 UninitializedVector<Descent> descentsOf(const MultiTriangulation& mt, const Parents& parents,
                                         const Tiling& tiling) {
   UninitializedVector<Descent> descents(mt.nodeCount());
@@ -197,7 +199,7 @@ UninitializedVector<Descent> descentsOf(const MultiTriangulation& mt, const Pare
   return descents;
 }
 
-/// Finds the rectangle of every node, and numbers rectangles as they come.
+/// Finds the rectangle of every node, and numbers rectangles in the order in which they are found.
 class Tiler {
  public:
   Tiler(const MultiTriangulation& mt, const Parents& parents, const Tiling& tiling)
@@ -210,14 +212,14 @@ class Tiler {
     for (std::uint32_t n = 0; n < descents.size(); ++n)
       rectangleOf_[n] = descents[n].reach == tiling_.classes ? 0 : rectangleOf(n, descents[n].reach);
   }
-  /// Per rectangle, which one in the order of keys it is.
+  /// Per rectangle, its rank by key.
   std::vector<std::uint32_t> order() const {
     std::vector<std::uint32_t> order(rectangles_.size());
     std::uint32_t next = 0;
     for (const auto& [key, number] : numbers_) order[number] = next++;
     return order;
   }
-  /// Per node. Leaves nothing.
+  /// The number of each node's rectangle, moved out.
   UninitializedVector<std::uint32_t> take() { return std::move(rectangleOf_); }
 
  private:
@@ -254,47 +256,47 @@ class Tiler {
   std::uint32_t last_ = 0;
 };
 
-/// Nodes by chunk, those of each rising.
-struct NodesByChunk {
+/// The nodes of each packet, rising.
+struct NodesByPacket {
   UninitializedVector<std::uint32_t> nodes;
-  std::vector<std::uint32_t> begin;  ///< per chunk, and the end
+  std::vector<std::uint32_t> begin;  ///< per packet, and the end
 
-  NodesByChunk(std::span<const std::uint32_t> chunkOf, std::size_t chunks)
-      : nodes(chunkOf.size()), begin(chunks + 1, 0) {
-    for (const std::uint32_t c : chunkOf) ++begin[c + 1];
-    for (std::size_t c = 0; c < chunks; ++c) begin[c + 1] += begin[c];
+  NodesByPacket(std::span<const std::uint32_t> packetOf, std::size_t packets)
+      : nodes(packetOf.size()), begin(packets + 1, 0) {
+    for (const std::uint32_t c : packetOf) ++begin[c + 1];
+    for (std::size_t c = 0; c < packets; ++c) begin[c + 1] += begin[c];
     std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-    for (std::uint32_t n = 0; n < chunkOf.size(); ++n) nodes[next[chunkOf[n]]++] = n;
+    for (std::uint32_t n = 0; n < packetOf.size(); ++n) nodes[next[packetOf[n]]++] = n;
   }
-  std::span<const std::uint32_t> of(std::size_t chunk) const {
-    return std::span(nodes).subspan(begin[chunk], begin[chunk + 1] - begin[chunk]);
+  std::span<const std::uint32_t> of(std::size_t packet) const {
+    return std::span(nodes).subspan(begin[packet], begin[packet + 1] - begin[packet]);
   }
 };
 
-void leanOn(Chunk& chunk, std::uint32_t other) {
-  const auto at = std::ranges::lower_bound(chunk.leansOn, other);
-  if (at == chunk.leansOn.end() || *at != other) chunk.leansOn.insert(at, other);
+void addDependency(Packet& packet, std::uint32_t other) {
+  const auto at = std::ranges::lower_bound(packet.dependsOn, other);
+  if (at == packet.dependsOn.end() || *at != other) packet.dependsOn.insert(at, other);
 }
 
-/// All that the plan says of a chunk and its nodes. Counts borders of the chunks that it leans on.
+/// Fills in a packet and its nodes. Adds to the borders of the packets that it depends on.
 void describe(const MultiTriangulation& mt, std::uint32_t c, std::span<const std::uint32_t> nodes,
               Plan& plan) {
   const MtArrays& a = mt.arrays();
   const std::uint32_t roots = mt.rootTriangleCount();
-  Chunk& chunk = plan.directory.chunks[c];
-  if (c > 0) chunk.leansOn.push_back(0);
+  Packet& packet = plan.directory.packets[c];
+  if (c > 0) packet.dependsOn.push_back(0);
   Box2 box{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   std::array<Run, MultiTriangulation::kBands> runs;
   for (const std::uint32_t n : nodes) {
     plan.ownParents[n] = 0;
     for (const std::uint32_t t : mt.floor(NodeId(n))) {
       if (t < roots) continue;
-      const std::uint32_t parent = plan.chunkOf[plan.owners.of(t - roots)];
+      const std::uint32_t parent = plan.packetOf[plan.owners.of(t - roots)];
       if (parent == c) {
         ++plan.ownParents[n];
       } else {
-        leanOn(chunk, parent);
-        std::atomic_ref(plan.directory.chunks[parent].borders).fetch_add(1, std::memory_order_relaxed);
+        addDependency(packet, parent);
+        std::atomic_ref(plan.directory.packets[parent].borders).fetch_add(1, std::memory_order_relaxed);
       }
     }
     Run& run = runs[plan.band[n]];
@@ -307,20 +309,20 @@ void describe(const MultiTriangulation& mt, std::uint32_t c, std::span<const std
     include(box, a.vertices.planPosition(mt.apex(NodeId(n))));
     for (const std::uint32_t v : mt.link(NodeId(n))) include(box, a.vertices.planPosition(VertexId(v)));
   }
-  chunk.xMin = box.xMin;
-  chunk.yMin = box.yMin;
-  chunk.xMax = box.xMax;
-  chunk.yMax = box.yMax;
+  packet.xMin = box.xMin;
+  packet.yMin = box.yMin;
+  packet.xMax = box.xMax;
+  packet.yMax = box.yMax;
   for (std::uint32_t band = MultiTriangulation::kBands; band-- > 0;) {
     if (runs[band].nodes == 0) continue;
     runs[band].band = band;
-    chunk.runs.push_back(runs[band]);
+    packet.runs.push_back(runs[band]);
   }
 }
 
 }  // namespace
 
-Plan planChunks(const TerrainModel& model) {
+Plan planPackets(const TerrainModel& model) {
   const MultiTriangulation& mt = model.mt;
   const std::uint32_t nodes = mt.nodeCount();
   Plan plan(mt.arrays());
@@ -339,15 +341,15 @@ Plan planChunks(const TerrainModel& model) {
     Tiler tiler(mt, parents, tiling);
     tiler.run(descents);
     order = tiler.order();
-    plan.chunkOf = tiler.take();
+    plan.packetOf = tiler.take();
   }
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, nodes, 1 << 14), [&](const auto& range) {
-    for (std::uint32_t n = range.begin(); n != range.end(); ++n) plan.chunkOf[n] = order[plan.chunkOf[n]];
+    for (std::uint32_t n = range.begin(); n != range.end(); ++n) plan.packetOf[n] = order[plan.packetOf[n]];
   });
-  plan.directory.chunks.resize(order.size());
+  plan.directory.packets.resize(order.size());
   plan.ownParents.resize(nodes);
   plan.listed.resize(order.size());
-  const NodesByChunk nodesBy(plan.chunkOf, order.size());
+  const NodesByPacket nodesBy(plan.packetOf, order.size());
   tbb::parallel_for(std::size_t{0}, order.size(),
                     [&](std::size_t c) { describe(mt, static_cast<std::uint32_t>(c), nodesBy.of(c), plan); });
   plan.directory.number();

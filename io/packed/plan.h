@@ -11,21 +11,22 @@
 
 namespace arete::packed {
 
-/// Which node of a model goes into which chunk and band.
+/// The packet and band of each node of a model.
 struct Plan {
-  Directory directory;                         ///< runs with their sizes; no bytes yet
-  SlotToNode owners;                           ///< of the model
-  UninitializedVector<std::uint8_t> band;      ///< per node: of the least saturated error that law 6 allows
-  UninitializedVector<std::uint32_t> chunkOf;  ///< per node
-  /// Per node: triangles of its floor that its own chunk creates.
+  Directory directory;  ///< runs with their sizes; no bytes yet
+  SlotToNode owners;    ///< of the model
+  UninitializedVector<std::uint8_t>
+      band;  ///< per node: the band of the least saturated error that law 6 allows
+  UninitializedVector<std::uint32_t> packetOf;  ///< per node
+  /// Per node: the number of triangles of its floor that its own packet creates.
   UninitializedVector<std::uint8_t> ownParents;
-  std::vector<std::vector<std::uint32_t>> listed;  ///< per chunk: nodes with none of those, rising
+  std::vector<std::vector<std::uint32_t>> listed;  ///< per packet: its nodes without such triangles, rising
 
   explicit Plan(const MtArrays& arrays) : owners(arrays) {}
 };
 
-/// Precondition: the indices of the model's MT are in range, parents come first (checkAmtIndices).
-/// O(triangles), 16 bytes per node, of which 12 stay.
-Plan planChunks(const TerrainModel& model);
+/// Distributes the nodes of a model to packets. Precondition: the indices of the model's MT are in range,
+/// parents come first (checkAmtIndices). O(triangles), 16 bytes per node, of which 12 stay.
+Plan planPackets(const TerrainModel& model);
 
 }  // namespace arete::packed

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A state x with low <= x < low * 2^32 stands for all symbols coded so far, the last one on top: coding a
-// symbol with the share f of 2^bits that begins at b makes x = (x / f << bits) + b + x % f, decoding undoes
-// it. Before a step that would carry x out of its range its low 32 bits go out, and come in again after the
-// decoder's step. So the coder runs from the last symbol to the first and its words are read backwards; the
-// decoder ends in the state that the coder began with.
+// rANS [Duda2013]. A state x with low <= x < low * 2^32 represents all symbols encoded so far, the last one
+// on top. Encoding a symbol whose share is f of 2^bits and begins at b replaces x by (x / f << bits) + b + x
+// % f; decoding inverts this. Before a step that would carry x out of its range, the encoder writes the low
+// 32 bits of x; the decoder reads them back after its step. So the encoder goes from the last symbol to the
+// first, its words are stored in reverse, and the decoder ends in the state that the encoder began with.
 #include "io/packed/rans.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ RansTable RansTable::ofCounts(std::span<const std::uint64_t, kAlphabet> counts) 
     shares[s] = static_cast<std::uint16_t>(std::max(1.0, exact + 0.5));
     left -= shares[s];
   }
-  // What rounding left over or took too much goes where it matters least: to the largest shares.
+  // The difference that rounding makes is added to the largest shares, where it matters least.
   while (left != 0) {
     const auto largest = std::ranges::max_element(shares);
     const std::int64_t change = left > 0 ? left : -std::min<std::int64_t>(-left, *largest / 2);

@@ -7,35 +7,36 @@
 #include <cstring>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace arete {
 
-/// An entropy coder with static tables: range asymmetric numeral systems (Duda, "Asymmetric numeral systems",
-/// arXiv:1311.2540), a 64-bit state that takes in 32-bit words: rarely, so that a processor foresees mostly
-/// that it will not. A stream may use another table for every symbol; coder and decoder must agree on which.
+/// A table of an entropy coder: range asymmetric numeral systems [Duda2013] with static tables and a 64-bit
+/// state that is refilled by 32-bit words. A stream may use another table for every symbol; encoder and
+/// decoder must use the same.
 ///
-/// A table gives each symbol 0..255 a share of 1024; a symbol costs 10 - log2(share) bits. Larger tables
-/// would cost half a percent less and would not stay in a processor's cache, of which they are many.
+/// A table gives each symbol 0..255 a share of 1024; a symbol costs 10 - log2(share) bits. Shares of a larger
+/// sum would save half a percent, but the many tables would not stay in a processor's cache.
 class RansTable {
  public:
   static constexpr int kBits = 10;
   static constexpr std::size_t kAlphabet = 256;
 
   RansTable() = default;
-  /// Shares in proportion to how often each symbol occurs, none of those that do occur being zero.
+  /// Shares in proportion to how often each symbol occurs; at least 1 for a symbol that occurs.
   static RansTable ofCounts(std::span<const std::uint64_t, kAlphabet> counts);
-  /// Nothing unless the shares sum to 2^kBits.
+  /// A table with given shares. @return nothing unless they sum to 2^kBits
   static std::optional<RansTable> ofShares(const std::array<std::uint16_t, kAlphabet>& shares);
 
-  /// No symbol has a share: nothing can be coded.
+  /// Whether no symbol has a share, so that nothing can be coded.
   bool isEmpty() const { return shares_.empty(); }
   std::uint32_t share(unsigned symbol) const { return isEmpty() ? 0u : shares_[symbol]; }
   std::uint32_t begin(unsigned symbol) const { return begins_[symbol]; }
 
-  /// What RansDecoder wants to know: the symbol at each place, a byte each, then of each symbol its share <<
-  /// 16 and where it begins. Small, so that many tables stay in a processor's first cache. Zeros where the
-  /// table is empty: what is decoded then does not end where it should.
+  /// The table as RansDecoder reads it: 1024 bytes, the symbol of each state modulo 1024; then for each
+  /// symbol share << 16 | begin. Compact, so that many tables stay in a processor's first cache. Zeros if the
+  /// table is empty; a stream that is decoded with it does not end where it should.
   static constexpr std::size_t kEntries = (std::size_t{1} << kBits) / sizeof(std::uint32_t) + kAlphabet;
   void writeEntries(std::uint32_t* entries) const;
 
@@ -43,31 +44,31 @@ class RansTable {
   std::vector<std::uint16_t> shares_, begins_;
 };
 
-/// Small, as a coder that makes its tables of what it codes holds all symbols first.
+/// A symbol and the number of its table. Small, because an encoder that derives its tables holds all symbols.
 struct RansSymbol {
   std::uint8_t table = 0;
   std::uint8_t symbol = 0;
 };
 
-/// The bytes that RansDecoder turns back into these symbols; a multiple of four of them.
-/// Precondition: at most 256 tables; every symbol has a share in its own.
+/// Encodes symbols; RansDecoder restores them. The number of bytes is a multiple of four.
+/// Precondition: at most 256 tables; every symbol has a share in its table. O(symbols).
 std::vector<std::byte> ransEncode(std::span<const RansSymbol> symbols, std::span<const RansTable> tables);
 
-/// Decodes one stream. Reading beyond its end gives some symbols and is noticed by isAtEnd().
+/// Decodes one stream [Duda2013]. Reading beyond its end gives some symbols; isAtEnd() detects it.
 class RansDecoder {
  public:
-  /// What must be readable behind a stream, whatever it holds.
+  /// The bytes behind a stream that must be readable; their values do not matter.
   static constexpr std::size_t kReadable = 8;
 
   RansDecoder() = default;
-  /// The stream is bytes[0, size); kReadable bytes more are there.
+  /// The stream is bytes[0, size). Precondition: kReadable more bytes are readable.
   RansDecoder(const std::byte* bytes, std::size_t size)
       : at_(bytes), end_(bytes + size / sizeof(Word) * sizeof(Word)) {
     state_ = std::uint64_t{next()} << 32;
     state_ |= next();
   }
 
-  /// `entries`: of the table the symbol was coded with.
+  /// @param entries  of the table that the symbol was encoded with (RansTable::writeEntries())
   unsigned decode(const std::uint32_t* entries) {
     constexpr int kBits = RansTable::kBits;
     constexpr std::uint32_t kMask = (1u << kBits) - 1;
@@ -75,8 +76,8 @@ class RansDecoder {
     const unsigned symbol = reinterpret_cast<const std::uint8_t*>(entries)[place];
     const std::uint32_t entry = entries[(std::size_t{1} << kBits) / sizeof *entries + symbol];
     std::uint64_t state = (entry >> 16) * (state_ >> kBits) + place - (entry & 0xFFFFu);
-    // Whether a word is due cannot be foreseen, so it is read in any case, and no branch depends on it.
-    // States are below 2^63, so the sign of the difference tells.
+    // A processor cannot predict whether the state needs a word, so the word is always read and no branch
+    // depends on it. States are below 2^63, so the sign of the difference decides.
     Word word;
     std::memcpy(&word, at_, sizeof word);
     const auto due = static_cast<std::uint64_t>(static_cast<std::int64_t>(state - kLow) >> 63);
@@ -88,8 +89,8 @@ class RansDecoder {
     return symbol;
   }
 
-  /// All was read, nothing beyond, and the coder's first state is back: what is so of every undamaged stream
-  /// after its last symbol.
+  /// Whether the whole stream was read, nothing beyond it, and the state is the encoder's first one: true of
+  /// every undamaged stream after its last symbol.
   bool isAtEnd() const { return at_ == end_ && state_ == kLow; }
 
  private:
@@ -109,10 +110,10 @@ class RansDecoder {
   }
 
   std::uint64_t state_ = 0;
-  const std::byte *at_ = nullptr, *end_ = nullptr;  // one word beyond the end: too much was read
+  const std::byte *at_ = nullptr, *end_ = nullptr;  // at_ is one word beyond end_ if too much was read
 };
 
-/// Numbers of known width, without a model.
+/// Writes numbers of known width as bits, the lowest bit of the lowest byte first.
 class BitWriter {
  public:
   /// Precondition: count <= 64, value below 2^count.
@@ -129,7 +130,7 @@ class BitWriter {
       }
     }
   }
-  /// All that was written, the last byte filled up with zeros. Leaves the writer empty.
+  /// The bytes, the last one padded with zeros. Leaves the writer empty.
   std::vector<std::byte> take() {
     if (used_ > 0) bytes_.push_back(static_cast<std::byte>(accumulator_ & 0xFF));
     accumulator_ = 0;
@@ -143,7 +144,7 @@ class BitWriter {
   int used_ = 0;
 };
 
-/// Reads what BitWriter wrote. Beyond the end there are zeros, and isOver() notices.
+/// Reads what BitWriter wrote. Beyond the end it reads zeros; isOver() detects it.
 class BitReader {
  public:
   BitReader() = default;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Numbers of any size, and the root that is told with them. For `Io` see packed_node_coder.h.
+// Coding numbers of any size, and the root. For `Io` see node_coder.h: the reader's ignores the actual
+// values.
 
 #include <cmath>
 
@@ -12,7 +13,7 @@
 
 namespace arete::packed {
 
-/// Numbers of any size through a table.
+/// Codes an unsigned number: a symbol with a table, and raw bits. `actual` returns the number to the writer.
 template <class Io, class Actual>
 std::uint64_t codeNumber(Io& io, Stream stream, unsigned table, const Actual& actual) {
   std::uint64_t value = 0;
@@ -29,8 +30,9 @@ std::int64_t codeSigned(Io& io, Stream stream, unsigned table, std::int64_t actu
   return unzigzag(codeNumber(io, stream, table, [&] { return zigzag(actual); }));
 }
 
-/// The root, in front of the nodes of chunk 0: every number against the one before it. The writer's arrays
-/// hold it already. False when it makes no sense.
+/// Codes the root, before the nodes of packet 0: every number as the difference from the one before it. The
+/// writer's arrays hold the root already; the reader's are filled.
+/// @return false if the numbers are invalid
 template <class Real, class Io>
 bool codeRoot(Arrays& a, Io& io) {
   Place<Real>* const place = a.places<Real>();

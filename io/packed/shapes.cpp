@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A floor of k triangles takes 3 + 2 (k - 1) bits, and a walk knows where it ends. So every number of that
-// many bits is tried: it begins with the bits of one walk, and is its number when nothing but zeros follows.
+// A floor of k triangles takes 3 + 2 (k - 1) bits, and a walk ends by itself. So the list tries every number
+// of the bits of kListedTriangles triangles: it is the number of the walk whose bits it begins with if only
+// zeros follow.
 #include "io/packed/shapes.h"
 
 #include <algorithm>
@@ -29,9 +30,9 @@ struct List {
     for (std::uint32_t code = 0; code < 1u << bitsOf(kListedTriangles); ++code) {
       std::uint32_t left = code;
       const auto shape = walkedShape([&](const Shape&, int, int count) {
-        const unsigned told = left & ((1u << count) - 1);
+        const unsigned bits = left & ((1u << count) - 1);
         left >>= count;
-        return told;
+        return bits;
       });
       if (shape && left == 0 && shape->triangles <= kListedTriangles)
         entries.push_back({*shape, static_cast<std::uint16_t>(code)});

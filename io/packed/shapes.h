@@ -12,25 +12,28 @@ namespace arete::packed {
 
 inline constexpr int kMaxFloor = kMaxHoleCorners - 2;
 
-/// How the triangles of a floor hang together, as a walk from the seed sees them. Edges of a triangle are
-/// numbered from the one that the walk came in by, those of the seed as it has them; corner i begins edge i.
-/// Triangle t and its edge e together are 8 t + e.
+/// How the triangles of a floor are connected, as a walk from its seed finds them. The edges of a triangle
+/// are numbered from the one that the walk entered by, those of the seed in its own order; edge i begins at
+/// corner i. 8 t + e is edge e of triangle t.
 struct Shape {
   std::uint8_t triangles = 1, corners = 0;
   /// Edges of the link, in its order.
   std::array<std::uint8_t, kMaxHoleCorners> link{};
   struct Step {
-    std::uint8_t from = 0;                ///< the edge that the walk came across; of the seed: nothing
-    std::array<std::uint8_t, 3> place{};  ///< of the triangle's corners in the link
+    std::uint8_t from = 0;                ///< the edge that the walk crossed; unused for the seed
+    std::array<std::uint8_t, 3> place{};  ///< the index of each corner in the link
   };
   std::array<Step, kMaxFloor> steps{};
 };
 
-/// Walks: edges lie on a stack, the seed's edge 0 on top. Of the seed bits(0, 3) says which edges are inner
-/// ones; of a triangle that was come to across an inner edge, bits(inner, 2) says so of its edges 1 and 2,
-/// bit 0 being edge 1; `inner` is the number of inner edges on the stack then, and shape.steps holds the
-/// triangle already. Edges 1 and 2 go on the stack, 1 on top. Nothing when the floor is larger than one can
-/// be.
+/// Walks over a floor with a stack of edges, the seed's edge 0 on top. An edge is inner if another triangle
+/// of the floor lies across it; crossing it enters that triangle, whose edges 1 and 2 go on the stack, 1 on
+/// top.
+/// @param bits  bits(shape, inner, count) returns which of `count` edges are inner: of the seed's three (bit
+/// i: edge
+///              i), or of the last triangle's edges 1 and 2 (bits 0 and 1). `inner` is the number of inner
+///              edges on the stack; shape.steps includes the triangle.
+/// @return nothing if the floor has more triangles or corners than the limit
 template <class Bits>
 std::optional<Shape> walkedShape(const Bits& bits) {
   struct Side {
@@ -86,13 +89,14 @@ std::optional<Shape> walkedShape(const Bits& bits) {
   return shape;
 }
 
-/// The shapes that a symbol stands for: those of at most five triangles (69 of 70 floors), those of fewer
-/// first, then by their bits, read as a number whose lowest bit is told first.
+/// The shapes that have a symbol of their own: those of at most five triangles (69 of 70 floors), sorted by
+/// triangles, then by their bits as a number (the first bit is the lowest).
 inline constexpr unsigned kListedTriangles = 5;
 inline constexpr unsigned kListedShapes = 1 + 3 + 9 + 28 + 90;
-/// Any other; its bits follow.
+/// The symbol of any other shape; its bits follow.
 inline constexpr unsigned kWalkedShape = kListedShapes;
 
+/// The shapes by symbol.
 std::span<const Shape, kListedShapes> listedShapes();
 /// The symbol of a shape with these bits, kWalkedShape if it is not listed.
 unsigned shapeSymbol(std::uint64_t bits, unsigned triangles);

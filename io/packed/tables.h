@@ -6,10 +6,10 @@
 
 namespace arete::packed {
 
-/// The streams of a packed chunk of nodes, and the tables that their symbols are coded with
+/// The streams of a packed packet of nodes, and the tables that their symbols are coded with
 /// (docs/topics/amt-format.md, "Packed").
 
-/// Streams of a chunk. The symbols of different streams are independent, so that a processor decodes several
+/// Streams of a packet. The symbols of different streams are independent, so that a processor decodes several
 /// at once. Two plain streams follow the coded ones: bounds, which are bytes because each takes 5 or 6 bits
 /// however it is coded and a byte is read at once, and raw bits.
 enum Stream : unsigned { kSlotStream, kFloorStream, kPlaceStream, kHeightStream, kErrorStream };
@@ -35,7 +35,7 @@ enum Table : unsigned {
   kPlaceFarTable = kPlaceTable + kPlaceClasses,     // by axis
   kHeightTable = kPlaceFarTable + 2,                // by class
   kErrorTable = kHeightTable + kClasses,            // by area class and error class
-  kListChunkTable = kErrorTable + kAreaClasses * kErrorClasses,
+  kListPacketTable = kErrorTable + kAreaClasses * kErrorClasses,
   kListBorderTable,
   kRootCornerTable,
   kRootPlaceTable,

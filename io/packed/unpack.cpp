@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A chunk is decoded when those it leans on are; then saturated errors and spheres go in the opposite
-// direction (packed_order.h). Every index that the walk writes it has looked up before, so nothing is left
-// for a check of indices afterwards. A sphere's radius is negative until it is final, so no damaged file
-// makes a parent's from a child's that is not.
+// A packet is decoded after those that it depends on; then saturated errors and spheres are computed in the
+// opposite order (order.h). The walk checks every index before it writes it, so the indices need no check
+// afterwards. A sphere's radius is negative until it is final, which shows if a damaged file makes a parent
+// depend on a child that is not.
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
 
@@ -23,10 +23,10 @@ namespace arete {
 namespace packed {
 namespace {
 
-/// Reads the bytes of bounds. Reading beyond the end gives some bytes and is noticed by isAtEnd().
+/// Reads the bytes of bounds. Reading beyond the end gives some bytes; isAtEnd() detects it.
 class BoundReader {
  public:
-  /// What must be readable behind the bytes.
+  /// The bytes behind the end that must be readable.
   static constexpr std::size_t kReadable = 3;
 
   BoundReader() = default;
@@ -42,22 +42,22 @@ class BoundReader {
   bool isAtEnd() const { return at_ == end_; }
 
  private:
-  const std::byte *at_ = nullptr, *end_ = nullptr;  // one beyond the end: too much was read
+  const std::byte *at_ = nullptr, *end_ = nullptr;  // at_ is one beyond end_ if too much was read
 };
 
 class ReaderIo {
  public:
-  ReaderIo(const Arrays& arrays, const Directory& directory, std::size_t chunk, const std::uint32_t* tables,
+  ReaderIo(const Arrays& arrays, const Directory& directory, std::size_t packet, const std::uint32_t* tables,
            std::span<const std::byte> bytes)
       : a_(arrays),
         directory_(directory),
-        chunk_(chunk),
+        packet_(packet),
         tables_(tables),
         bytes_(bytes.begin(), bytes.end()) {
     bytes_.resize(bytes.size() + std::max(RansDecoder::kReadable, BoundReader::kReadable));
     std::size_t at = 0;
     for (unsigned s = 0; s < kParts; ++s) {
-      const std::size_t size = directory.chunks[chunk].streamBytes[s];
+      const std::size_t size = directory.packets[packet].streamBytes[s];
       if (s < kStreams)
         streams_[s] = RansDecoder(bytes_.data() + at, size);
       else if (s == kBoundBytes)
@@ -76,7 +76,7 @@ class ReaderIo {
   }
   std::uint64_t raw(int bits, std::uint64_t) { return raw_.read(bits); }
 
-  /// What a long row of errors and bounds is read with: a copy that stays in registers.
+  /// Reads long runs of errors and bounds: a copy of the streams that stays in registers.
   struct Values {
     RansDecoder error;
     BoundReader boundBytes;
@@ -100,16 +100,16 @@ class ReaderIo {
   }
 
   bool listed(const Run& run, std::vector<std::uint32_t>& seeds) {
-    const auto& leansOn = directory_.chunks[chunk_].leansOn;
+    const auto& dependsOn = directory_.packets[packet_].dependsOn;
     seeds.clear();
     std::uint64_t from = 0, place = 0;
     for (std::uint32_t i = 0; i < run.listed; ++i) {
-      const std::uint64_t later = codeNumber(*this, kFloorStream, kListChunkTable, [] { return 0; });
+      const std::uint64_t later = codeNumber(*this, kFloorStream, kListPacketTable, [] { return 0; });
       if (later > 0) place = 0;
       from += later;
       place += codeNumber(*this, kFloorStream, kListBorderTable, [] { return 0; });
-      if (from > leansOn.size()) return false;
-      const Chunk* const other = from > 0 ? &directory_.chunks[leansOn[from - 1]] : nullptr;
+      if (from > dependsOn.size()) return false;
+      const Packet* const other = from > 0 ? &directory_.packets[dependsOn[from - 1]] : nullptr;
       if (place >= (other != nullptr ? other->borders : a_.roots)) return false;
       const std::uint64_t first = other != nullptr ? a_.roots + other->firstBorder : 0;
       seeds.push_back(static_cast<std::uint32_t>(first + place));
@@ -122,7 +122,7 @@ class ReaderIo {
            std::ranges::all_of(streams_, [](const RansDecoder& s) { return s.isAtEnd(); });
   }
 
-  // What only the writer knows.
+  // Values that only the writer has.
   void begin(std::uint32_t, std::uint32_t) {}
   void at(std::uint32_t) {}
   unsigned shapeSymbol(const std::uint32_t*) { return 0; }
@@ -138,7 +138,7 @@ class ReaderIo {
  private:
   const Arrays& a_;
   const Directory& directory_;
-  std::size_t chunk_;
+  std::size_t packet_;
   const std::uint32_t* tables_;
   std::vector<std::byte> bytes_;
   std::array<RansDecoder, kStreams> streams_;
@@ -146,26 +146,26 @@ class ReaderIo {
   BitReader raw_;
 };
 
-/// Drops what nobody wants: of each chunk the bands below the lowest that somebody asks for, there or in a
-/// chunk that leans on it (parents are of no lower band than their children). Whether this is the same band
-/// everywhere.
-bool keepWanted(Directory& directory, const RequiredError& wanted, const OutwardScale& scale) {
+/// Drops from each packet the bands that are not required, by it or by a packet that depends on it. (Parents
+/// are of no lower band than their children.)
+/// @return whether the lowest required band is the same in all packets
+bool keepRequired(Directory& directory, const RequiredError& wanted, const OutwardScale& scale) {
   constexpr std::uint32_t kNone = MultiTriangulation::kBands;
-  std::vector<Chunk>& chunks = directory.chunks;
-  std::vector<std::uint32_t> lowest(chunks.size());
-  for (std::size_t i = 0; i < chunks.size(); ++i) {
-    const Chunk& c = chunks[i];
+  std::vector<Packet>& packets = directory.packets;
+  std::vector<std::uint32_t> lowest(packets.size());
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    const Packet& c = packets[i];
     const double error = wanted({c.xMin, c.yMin, c.xMax, c.yMax});
     lowest[i] = error == std::numeric_limits<double>::infinity() ? kNone
                 : error > 0 ? MultiTriangulation::bandOf(scale.floorCode(error))
                             : 0;
   }
-  for (std::size_t i = chunks.size(); i-- > 1;) {
+  for (std::size_t i = packets.size(); i-- > 1;) {
     lowest[0] = std::min(lowest[0], lowest[i]);
-    for (const std::uint32_t other : chunks[i].leansOn) lowest[other] = std::min(lowest[other], lowest[i]);
+    for (const std::uint32_t other : packets[i].dependsOn) lowest[other] = std::min(lowest[other], lowest[i]);
   }
-  for (std::size_t i = 0; i < chunks.size(); ++i) {
-    Chunk& c = chunks[i];
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    Packet& c = packets[i];
     c.isCut = std::erase_if(c.runs, [&](const Run& run) { return run.band < lowest[i]; }) > 0;
     if (i > 0 && c.runs.empty()) c.borders = 0;
   }
@@ -195,53 +195,53 @@ class Unpacker {
     counts.nodes = directory_.nodes();
     counts.slots = directory_.slots();
     if (!arrays->allocate(counts, directory_.borders()))
-      return failure(ErrorCode::unreadable, "needs more memory than there is to be unpacked");
+      return failure(ErrorCode::unreadable, "needs more memory to be unpacked than there is");
     arrays_ = arrays.get();
 
-    auto problem = overChunks(Direction::forwards, [this](std::size_t i) { return decode(i); });
+    auto problem = overPackets(Direction::forwards, [this](std::size_t i) { return decode(i); });
     if (!problem && !context_.cancelled())
-      problem = overChunks(Direction::backwards, [this](std::size_t i) {
-        return saturate(*arrays_, directory_.chunks[i], isPart_);
+      problem = overPackets(Direction::backwards, [this](std::size_t i) {
+        return saturate(*arrays_, directory_.packets[i], isPart_);
       });
     if (context_.cancelled()) return failure(ErrorCode::interrupted, "unpacking was interrupted");
     if (problem)
       return failure(ErrorCode::corrupt,
-                     fmt::format("chunk {} of the packed nodes: {}", problem->chunk, problem->what));
+                     fmt::format("packet {} of the packed nodes: {}", problem->packet, problem->what));
     arrays->finish();
     context_.report("unpack", 1);
     return Arrays::model(arrays);
   }
 
  private:
-  /// Of the chunks that are wanted.
+  /// Calls body(i) for the packets that are required.
   template <class Body>
-  std::optional<ChunkProblem> overChunks(Direction direction, const Body& body) {
-    return forChunks(
-        directory_.chunks, direction, context_,
+  std::optional<PacketProblem> overPackets(Direction direction, const Body& body) {
+    return forPackets(
+        directory_.packets, direction, context_,
         [&](std::size_t i) -> std::optional<std::string> {
-          if (directory_.chunks[i].runs.empty() && i != 0) return std::nullopt;
+          if (directory_.packets[i].runs.empty() && i != 0) return std::nullopt;
           return body(i);
         },
         [&](std::size_t i) {
-          done_ += directory_.chunks[i].nodes;
+          done_ += directory_.packets[i].nodes;
           context_.report("unpack",
                           static_cast<double>(done_) / (2 * static_cast<double>(arrays_->nodes) + 1));
         });
   }
 
   std::optional<std::string> decode(std::size_t index) {
-    const Chunk& chunk = directory_.chunks[index];
-    const auto bytes = bytes_.subspan(chunk.offset, chunk.bytes());
-    if (amtChecksum(bytes) != chunk.checksum) return "has been altered: its checksum does not match";
+    const Packet& packet = directory_.packets[index];
+    const auto bytes = bytes_.subspan(packet.offset, packet.bytes());
+    if (amtChecksum(bytes) != packet.checksum) return "has been altered: its checksum does not match";
     ReaderIo io(*arrays_, directory_, index, tables_.data(), bytes);
     return arrays_->holdsFloats() ? decode<float>(index, io) : decode<double>(index, io);
   }
   template <class Real>
   std::optional<std::string> decode(std::size_t index, ReaderIo& io) {
-    if (index == 0 && !codeRoot<Real>(*arrays_, io)) return "has a root that is none";
-    NodeCoder<Real, ReaderIo> coder(*arrays_, directory_, directory_.chunks[index], io, spaces_.local());
+    if (index == 0 && !codeRoot<Real>(*arrays_, io)) return "has an invalid root";
+    NodeCoder<Real, ReaderIo> coder(*arrays_, directory_, directory_.packets[index], io, spaces_.local());
     if (!coder.run()) return coder.problem();
-    if (!directory_.chunks[index].isCut && !io.isAtEnd())
+    if (!directory_.packets[index].isCut && !io.isAtEnd())
       return "has symbols that do not end where they should";
     return std::nullopt;
   }
@@ -268,23 +268,23 @@ Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const
   if (directory->nodes() != metadata.counts.nodes || directory->slots() != metadata.counts.slots)
     return failure(ErrorCode::corrupt, "the packed nodes are not as many as the metadata says");
   std::uint64_t bytes = 0, things = metadata.counts.rootVertices + metadata.counts.rootTriangles;
-  for (const packed::Chunk& chunk : directory->chunks) {
-    bytes += chunk.bytes();
-    things += chunk.nodes;
-    if (chunk.bytes() < packed::leastBytes(things))
-      return failure(ErrorCode::corrupt, "the packed nodes are more than their bytes can tell");
+  for (const packed::Packet& packet : directory->packets) {
+    bytes += packet.bytes();
+    things += packet.nodes;
+    if (packet.bytes() < packed::leastBytes(things))
+      return failure(ErrorCode::corrupt, "the packed nodes are more than their bytes can hold");
     things = 0;
   }
   if (bytes != nodes.size())
     return failure(
         ErrorCode::corrupt,
-        fmt::format("the packed nodes have {} bytes where their directory tells of {}", nodes.size(), bytes));
+        fmt::format("the packed nodes have {} bytes where their directory states {}", nodes.size(), bytes));
   if (metadata.counts.rootTriangles + directory->borders() > packed::kMostBorders)
     return failure(ErrorCode::corrupt,
                    "the packed nodes leave more triangles to others than can be numbered");
   const auto tables = packed::tablesOf(tableBytes);
   if (!tables) return failure(ErrorCode::corrupt, "the tables of the packed nodes are damaged");
-  const bool isPart = wanted && !packed::keepWanted(*directory, wanted, metadata.scale);
+  const bool isPart = wanted && !packed::keepRequired(*directory, wanted, metadata.scale);
   return withThreads(context, [&] {
     return packed::Unpacker(std::move(*directory), *tables, nodes, context, isPart).run(metadata);
   });
@@ -296,8 +296,8 @@ double packedErrorBeyond(std::span<const std::byte> directoryBytes, const Outwar
   const auto directory = packed::directoryOf(directoryBytes, ignored);
   if (!directory) return 0;
   std::array<std::uint64_t, MultiTriangulation::kBands> nodesOfBand{};
-  for (const packed::Chunk& chunk : directory->chunks)
-    for (const packed::Run& run : chunk.runs) nodesOfBand[run.band] += run.nodes;
+  for (const packed::Packet& packet : directory->packets)
+    for (const packed::Run& run : packet.runs) nodesOfBand[run.band] += run.nodes;
   std::uint64_t sum = 0;
   for (std::uint32_t band = MultiTriangulation::kBands; band-- > 1;)
     if ((sum += nodesOfBand[band]) >= nodes)

@@ -8,8 +8,8 @@
 
 namespace arete::packed {
 
-/// Zeros of a ZeroedArena, which must stay as long as they are used. There are some more behind the end, so
-/// that looking ahead needs no test.
+/// An array of zeros in a ZeroedArena, which must outlive it. Some readable elements follow its end, so that
+/// reading ahead needs no test.
 template <class T>
 class ZeroedArray {
  public:
@@ -25,13 +25,15 @@ class ZeroedArray {
   std::size_t size_ = 0;
 };
 
-/// The memory of several arrays, side by side: zeros that come page by page as they are touched. Many arrays
-/// of a few hundred kilobytes are worth large pages together (engine/memory/page_choice.h), none is by
-/// itself; and there is one end of a page that nobody uses, not one for each.
+/// The memory of several arrays, side by side: zeroed pages that the system provides when they are first
+/// touched. Arrays of a few hundred kilobytes share large pages this way and waste one partial page, not one
+/// each.
 class ZeroedArena {
  public:
-  /// Takes memory for the arrays and puts them there: `forEach(visit)` calls visit(array, size) for each
-  /// ZeroedArray, always the same. False when there is not enough memory.
+  /// Allocates memory for the arrays and sets them.
+  /// @param forEach  forEach(visit) calls visit(array, size) for each ZeroedArray, the same in each of two
+  /// calls
+  /// @return false if there is not enough memory
   template <class ForEach>
   bool lay(const ForEach& forEach) {
     std::size_t bytes = 0;
@@ -56,7 +58,7 @@ class ZeroedArena {
   }
 
   bool take(std::size_t bytes);
-  /// The address sanitizer is to report whoever touches these kFence bytes, behind an array.
+  /// Makes the address sanitizer report accesses to these kFence bytes, behind an array.
   static void fence(std::byte* from);
 
   struct Free {

@@ -64,10 +64,10 @@ void sealPackedNodes(AmtParts& amt) {
   std::string problem;
   auto read = packed::directoryOf(std::as_bytes(std::span(directory->bytes)), problem);
   if (!read) return;
-  for (packed::Chunk& chunk : read->chunks)
-    if (chunk.offset <= nodes->bytes.size() && chunk.bytes() <= nodes->bytes.size() - chunk.offset)
-      chunk.checksum =
-          amtChecksum(std::as_bytes(std::span(nodes->bytes)).subspan(chunk.offset, chunk.bytes()));
+  for (packed::Packet& packet : read->packets)
+    if (packet.offset <= nodes->bytes.size() && packet.bytes() <= nodes->bytes.size() - packet.offset)
+      packet.checksum =
+          amtChecksum(std::as_bytes(std::span(nodes->bytes)).subspan(packet.offset, packet.bytes()));
   const std::vector<std::byte> sealed = packed::toBytes(*read);
   directory->bytes.resize(sealed.size());
   std::memcpy(directory->bytes.data(), sealed.data(), sealed.size());

@@ -162,7 +162,7 @@ TEST_F(Arguments, RefusesOutputsBeforeAnyWork) {
                 "--output dem.tif: is the input");
   expectRefusal(
       {"extract", "dem.amt", "-o", "x.dxf", "--max-error", "1"}, 2,
-      "--output x.dxf: '.dxf' is no format that can be written; known are .ply (PLY), .obj (OBJ), ");
+      "--output x.dxf: '.dxf' is not a format that can be written; known are .ply (PLY), .obj (OBJ), ");
   expectRefusal({"extract", "dem.amt", "-o", "x", "--max-error", "1"}, 2,
                 "the extension that names a format");
   expectRefusal({"extract", "dem.amt", "-o", "no/x.ply", "--max-error", "1"}, 3,

@@ -296,7 +296,7 @@ TEST(AmtFile, RefusesToWriteWhatCouldNotBeOpened) {
   MtArrays arrays = model.mt.arrays();
   arrays.floor = arrays.floor.first(2);
   model.mt = MultiTriangulation(arrays, nullptr);
-  expectRefused(model, "its FLOR array has 8 bytes where its counts ask for 12");
+  expectRefused(model, "its FLOR array has 8 bytes instead of the 12 of its counts");
   model = tinyModel();
   model.georeference.crsWkt.assign(kAmtMaxMetadataBytes, 'x');
   expectRefused(model, "bytes of metadata");

@@ -140,7 +140,7 @@ TEST(HostileAmt, CannotPlaceItsChunksWhereTheyAreNot) {
   with([](Bytes b) { b.chunk(amt_tag::kLink).tag = amt_tag::kRemover; }, "occurs twice");
   with([](Bytes b) { b.chunk(amt_tag::kLink).tag = {'\x1b', '[', '2', 'J'}; }, "has no chunk LINK");
   with([](Bytes b) { b.chunk(amt_tag::kMetadata).tag = {'m', 'e', 't', 'a'}; }, "has no chunk META");
-  with([](Bytes b) { b.chunk(amt_tag::kLink).bytes -= 4; }, "24 bytes where 7 elements of 4 bytes are due");
+  with([](Bytes b) { b.chunk(amt_tag::kLink).bytes -= 4; }, "24 bytes instead of 7 elements of 4 bytes");
   with([](Bytes b) { b.chunk(amt_tag::kLink).elementBytes = 0; }, "another type");
   with([](Bytes b) { b.chunk(amt_tag::kLink).scalar = AmtScalar::f32; }, "another type");
   with([](Bytes b) { b.chunk(amt_tag::kMetadata).scalar = AmtScalar::u16; }, "no text");

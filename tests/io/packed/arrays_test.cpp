@@ -101,21 +101,21 @@ void fillTiny(Arrays& arrays) {
   arrays.saturatedError[1] = (2 << MultiTriangulation::kBandShift) + 7;
 }
 
-Chunk chunkOfBoth(std::uint32_t band) {
-  Chunk chunk;
+Packet packetOfBoth(std::uint32_t band) {
+  Packet packet;
   Run run;
   run.band = band;
   run.nodes = 2;
   run.slots = 7;
-  chunk.runs = {run};
-  return chunk;
+  packet.runs = {run};
+  return packet;
 }
 
 TEST(PackedArrays, SaturateANodesErrorAndSphereWithThoseOfItsChildren) {
   Arrays arrays;
   allocateTiny(arrays);
   fillTiny(arrays);
-  const auto problem = saturate(arrays, chunkOfBoth(2), false);
+  const auto problem = saturate(arrays, packetOfBoth(2), false);
   ASSERT_FALSE(problem) << *problem;
   EXPECT_EQ(arrays.saturatedError[0], (2 << MultiTriangulation::kBandShift) + 7);
   // The least ball around those of radius 10 at 0 and radius 5 at 20 has the radius 17.5, at 7.5.
@@ -129,7 +129,7 @@ TEST(PackedArrays, RefuseASaturatedErrorOutsideOfItsBand) {
   Arrays arrays;
   allocateTiny(arrays);
   fillTiny(arrays);
-  const auto problem = saturate(arrays, chunkOfBoth(3), false);
+  const auto problem = saturate(arrays, packetOfBoth(3), false);
   ASSERT_TRUE(problem);
   EXPECT_NE(problem->find("node 1 has a saturated error outside of its band"), std::string::npos) << *problem;
 }
@@ -138,7 +138,7 @@ TEST(PackedArrays, OfAPartHaveSaturatedErrorsOfTheirBandAtLeast) {
   Arrays arrays;
   allocateTiny(arrays);
   fillTiny(arrays);
-  EXPECT_FALSE(saturate(arrays, chunkOfBoth(3), true));
+  EXPECT_FALSE(saturate(arrays, packetOfBoth(3), true));
   EXPECT_EQ(arrays.saturatedError[0], 3 << MultiTriangulation::kBandShift);
 }
 

@@ -17,27 +17,27 @@ Run runOf(std::uint32_t band, std::uint32_t nodes, std::uint32_t slots, std::uin
   return run;
 }
 
-/// Three chunks, the last of which leans on both others.
+/// Three packets, the last of which leans on both others.
 Directory someDirectory() {
   Directory directory;
   for (std::size_t band = 0; band < directory.bandClass.size(); ++band)
     directory.bandClass[band] = static_cast<std::uint8_t>(band % kClasses);
-  directory.chunks.resize(3);
+  directory.packets.resize(3);
   for (std::size_t i = 0; i < 3; ++i) {
-    Chunk& chunk = directory.chunks[i];
-    chunk.xMin = -1.5 * static_cast<double>(i);
-    chunk.xMax = 1e300;
-    chunk.yMax = 0.1;
+    Packet& packet = directory.packets[i];
+    packet.xMin = -1.5 * static_cast<double>(i);
+    packet.xMax = 1e300;
+    packet.yMax = 0.1;
     for (std::uint32_t s = 0; s < kParts; ++s)
-      chunk.streamBytes[s] = 100u * static_cast<std::uint32_t>(i) + s;
-    chunk.checksum = 0x0123456789ABCDEF + i;
-    if (i > 0) chunk.leansOn.push_back(0);
+      packet.streamBytes[s] = 100u * static_cast<std::uint32_t>(i) + s;
+    packet.checksum = 0x0123456789ABCDEF + i;
+    if (i > 0) packet.dependsOn.push_back(0);
   }
-  directory.chunks[2].leansOn.push_back(1);
-  directory.chunks[0].runs = {runOf(20, 5, 17, 5), runOf(3, 1, 3, 0)};
-  directory.chunks[0].borders = 4;
-  directory.chunks[1].runs = {runOf(20, 2, 66, 1), runOf(0, 10, 45, 10)};
-  directory.chunks[2].runs = {runOf(3, 7, 21, 2)};
+  directory.packets[2].dependsOn.push_back(1);
+  directory.packets[0].runs = {runOf(20, 5, 17, 5), runOf(3, 1, 3, 0)};
+  directory.packets[0].borders = 4;
+  directory.packets[1].runs = {runOf(20, 2, 66, 1), runOf(0, 10, 45, 10)};
+  directory.packets[2].runs = {runOf(3, 7, 21, 2)};
   directory.number();
   return directory;
 }
@@ -50,25 +50,25 @@ TEST(PackedLayout, ADirectoryReadsBackToTheSameBytes) {
   ASSERT_TRUE(back) << problem;
   EXPECT_EQ(toBytes(*back), bytes);
   EXPECT_EQ(back->bandClass, directory.bandClass);
-  EXPECT_EQ(back->chunks[2].leansOn, (std::vector<std::uint32_t>{0, 1}));
-  EXPECT_EQ(back->chunks[1].xMin, -1.5);
+  EXPECT_EQ(back->packets[2].dependsOn, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(back->packets[1].xMin, -1.5);
   EXPECT_EQ(back->nodes(), 25u);
   EXPECT_EQ(back->slots(), 152u);
   EXPECT_EQ(back->borders(), 4u);
 }
 
-TEST(PackedLayout, NumbersGoThroughTheBandsAndThroughTheChunksWithinABand) {
+TEST(PackedLayout, NumbersGoThroughTheBandsAndThroughThePacketsWithinABand) {
   const Directory directory = someDirectory();
-  const auto& chunks = directory.chunks;
-  EXPECT_EQ(chunks[0].runs[0].firstNode, 0u);
-  EXPECT_EQ(chunks[1].runs[0].firstNode, 5u);
-  EXPECT_EQ(chunks[0].runs[1].firstNode, 7u);
-  EXPECT_EQ(chunks[2].runs[0].firstNode, 8u);
-  EXPECT_EQ(chunks[1].runs[1].firstNode, 15u);
-  EXPECT_EQ(chunks[1].runs[1].firstSlot, 17u + 66 + 3 + 21);
-  EXPECT_EQ(chunks[1].offset, chunks[0].bytes());
-  EXPECT_EQ(chunks[2].firstBorder, 4u);
-  EXPECT_EQ(chunks[1].nodes, 12u);
+  const auto& packets = directory.packets;
+  EXPECT_EQ(packets[0].runs[0].firstNode, 0u);
+  EXPECT_EQ(packets[1].runs[0].firstNode, 5u);
+  EXPECT_EQ(packets[0].runs[1].firstNode, 7u);
+  EXPECT_EQ(packets[2].runs[0].firstNode, 8u);
+  EXPECT_EQ(packets[1].runs[1].firstNode, 15u);
+  EXPECT_EQ(packets[1].runs[1].firstSlot, 17u + 66 + 3 + 21);
+  EXPECT_EQ(packets[1].offset, packets[0].bytes());
+  EXPECT_EQ(packets[2].firstBorder, 4u);
+  EXPECT_EQ(packets[1].nodes, 12u);
 }
 
 TEST(PackedLayout, ADirectoryThatIsCutShortOrLongerIsRefused) {
@@ -100,13 +100,13 @@ TEST(PackedLayout, ADirectoryThatContradictsItselfIsRefused) {
   };
   EXPECT_FALSE(isRefused([](Directory&) {}));
   EXPECT_TRUE(isRefused([](Directory& d) { d.bandClass[3] = kClasses; }));
-  EXPECT_TRUE(isRefused([](Directory& d) { d.chunks[1].leansOn.push_back(1); }));
-  EXPECT_TRUE(isRefused([](Directory& d) { d.chunks[0].borders = 21; }));
-  EXPECT_TRUE(isRefused([](Directory& d) { d.chunks[0].runs[0].slots = 5 * 33 + 1; }));
-  EXPECT_TRUE(isRefused([](Directory& d) { d.chunks[0].runs[0].listed = 6; }));
-  EXPECT_TRUE(isRefused([](Directory& d) { d.chunks[0].runs[1].band = 20; }));
-  EXPECT_TRUE(isRefused([](Directory& d) { d.chunks[0].runs[0].nodes = 0; }));
-  EXPECT_TRUE(isRefused([](Directory& d) { d.chunks.clear(); }));
+  EXPECT_TRUE(isRefused([](Directory& d) { d.packets[1].dependsOn.push_back(1); }));
+  EXPECT_TRUE(isRefused([](Directory& d) { d.packets[0].borders = 21; }));
+  EXPECT_TRUE(isRefused([](Directory& d) { d.packets[0].runs[0].slots = 5 * 33 + 1; }));
+  EXPECT_TRUE(isRefused([](Directory& d) { d.packets[0].runs[0].listed = 6; }));
+  EXPECT_TRUE(isRefused([](Directory& d) { d.packets[0].runs[1].band = 20; }));
+  EXPECT_TRUE(isRefused([](Directory& d) { d.packets[0].runs[0].nodes = 0; }));
+  EXPECT_TRUE(isRefused([](Directory& d) { d.packets.clear(); }));
 }
 
 TEST(PackedLayout, AnyBytesAreReadOrRefused) {

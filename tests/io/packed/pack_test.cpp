@@ -18,7 +18,7 @@ using test::hills;
 
 const auto kWhole = [](double z) { return std::round(z); };
 
-TEST(Pack, StatesEveryChunksSizeAndChecksum) {
+TEST(Pack, StatesEveryPacketsSizeAndChecksum) {
   const TerrainModel model = built(build(hills(300, 260, kWhole)));
   const auto packed = packMt(model);
   ASSERT_TRUE(packed) << packed.error().describe();
@@ -29,12 +29,12 @@ TEST(Pack, StatesEveryChunksSizeAndChecksum) {
   EXPECT_EQ(directory->nodes(), model.mt.nodeCount());
   EXPECT_EQ(directory->slots(), model.mt.arrays().link.size());
   std::uint64_t end = 0;
-  for (const packed::Chunk& chunk : directory->chunks) {
-    EXPECT_EQ(chunk.offset, end);
-    end += chunk.bytes();
+  for (const packed::Packet& packet : directory->packets) {
+    EXPECT_EQ(packet.offset, end);
+    end += packet.bytes();
     ASSERT_LE(end, packed->nodes.size());
-    EXPECT_GE(chunk.bytes(), packed::leastBytes(chunk.nodes));
-    EXPECT_EQ(amtChecksum(std::span(packed->nodes).subspan(chunk.offset, chunk.bytes())), chunk.checksum);
+    EXPECT_GE(packet.bytes(), packed::leastBytes(packet.nodes));
+    EXPECT_EQ(amtChecksum(std::span(packed->nodes).subspan(packet.offset, packet.bytes())), packet.checksum);
   }
   EXPECT_EQ(end, packed->nodes.size());
 }

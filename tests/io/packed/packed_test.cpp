@@ -38,9 +38,9 @@ RequiredError everywhere(double error) {
   return [error](const Box2&) { return error; };
 }
 RequiredError in(const Box2& box, double error) {
-  return [box, error](const Box2& chunk) {
-    const bool meets =
-        chunk.xMin <= box.xMax && chunk.xMax >= box.xMin && chunk.yMin <= box.yMax && chunk.yMax >= box.yMin;
+  return [box, error](const Box2& packet) {
+    const bool meets = packet.xMin <= box.xMax && packet.xMax >= box.xMin && packet.yMin <= box.yMax &&
+                       packet.yMax >= box.yMin;
     return meets ? error : std::numeric_limits<double>::infinity();
   };
 }
@@ -186,11 +186,11 @@ TEST(PackedAmt, HoldsScatteredPoints) {
 }
 
 TEST(PackedAmt, OfManyTilesIsTheSameForAnyNumberOfThreads) {
-  // 4 x 3 tiles: chunks of every kind.
+  // 4 x 3 tiles: packets of every kind.
   expectPacksWell(built(build(familyNamed("fractal").make(420, 280, 7))));
 }
 
-TEST(PackedAmt, PutsAFlatSeaInSmallChunks) {
+TEST(PackedAmt, PutsAFlatSeaInSmallPackets) {
   // Nodes of the sea have no error, and the oldest of them have stars as wide as it is.
   const TemporaryFolder folder;
   const TerrainModel model =
@@ -201,8 +201,8 @@ TEST(PackedAmt, PutsAFlatSeaInSmallChunks) {
   const auto directory =
       packed::directoryOf(std::as_bytes(bytes.array<std::uint8_t>(amt_tag::kPackedDirectory)), problem);
   ASSERT_TRUE(directory) << problem;
-  EXPECT_LT(directory->chunks[0].nodes, model.mt.nodeCount() / 100);
-  for (const packed::Chunk& chunk : directory->chunks) EXPECT_LT(chunk.nodes, 128u * 128u);
+  EXPECT_LT(directory->packets[0].nodes, model.mt.nodeCount() / 100);
+  for (const packed::Packet& packet : directory->packets) EXPECT_LT(packet.nodes, 128u * 128u);
 }
 
 TEST(PackedAmt, HoldsAModelMadeByHand) {
@@ -385,14 +385,14 @@ void expectRefusesOrSurvives(const TerrainModel& model, std::size_t step) {
     for (std::size_t at = 0; at < size; at += stride) {
       AmtBytes changed = original;
       changed.array<std::uint8_t>(tag)[at] ^= static_cast<std::uint8_t>(1u << random() % 8);
-      // The checksums of the packed chunks too: whoever changes bytes can do so.
+      // The checksums of the packed packets too: whoever changes bytes can do so.
       std::string ignored;
       const auto bytes = std::as_bytes(changed.array<std::uint8_t>(amt_tag::kPackedDirectory));
       if (auto directory = packed::directoryOf(bytes, ignored)) {
         const auto nodes = changed.array<std::uint8_t>(amt_tag::kPackedNodes);
-        for (packed::Chunk& chunk : directory->chunks)
-          if (chunk.offset + chunk.bytes() <= nodes.size())
-            chunk.checksum = XXH3_64bits(nodes.data() + chunk.offset, chunk.bytes());
+        for (packed::Packet& packet : directory->packets)
+          if (packet.offset + packet.bytes() <= nodes.size())
+            packet.checksum = XXH3_64bits(nodes.data() + packet.offset, packet.bytes());
         const auto sealed = packed::toBytes(*directory);
         if (sealed.size() == bytes.size())
           std::memcpy(changed.array<std::uint8_t>(amt_tag::kPackedDirectory).data(), sealed.data(),
@@ -427,12 +427,12 @@ TEST(PackedAmt, RefusesOrSurvivesWhateverTheBytesAre) {
   expectRefusesOrSurvives(built(build(hills(24, 22, [](double z) { return std::round(z) + 0.0; }))), 3);
 }
 
-TEST(PackedAmt, RefusesOrSurvivesWhateverTheBytesOfSeveralChunksAre) {
-  // Long enough for tiles, whose chunks leave triangles to each other.
+TEST(PackedAmt, RefusesOrSurvivesWhateverTheBytesOfSeveralPacketsAre) {
+  // Long enough for tiles, whose packets leave triangles to each other.
   expectRefusesOrSurvives(built(build(hills(300, 4, [](double z) { return std::round(z) + 0.0; }))), 23);
 }
 
-TEST(PackedAmt, RefusesChunksThatLeaveMoreOrLessThanTheyAnnounce) {
+TEST(PackedAmt, RefusesPacketsThatLeaveMoreOrLessThanTheyAnnounce) {
   const TemporaryFolder folder;
   const TerrainModel model = built(build(hills(300, 4, [](double z) { return std::round(z) + 0.0; })));
   ASSERT_TRUE(writeAmt(folder.file("packed.amt"), model, {}, {.isPacked = true}));
@@ -442,11 +442,11 @@ TEST(PackedAmt, RefusesChunksThatLeaveMoreOrLessThanTheyAnnounce) {
   const auto directory = packed::directoryOf(bytes, ignored);
   ASSERT_TRUE(directory);
   int changed = 0;
-  for (std::size_t c = 0; c < directory->chunks.size(); ++c)
+  for (std::size_t c = 0; c < directory->packets.size(); ++c)
     for (const int by : {-1, 1}) {
       packed::Directory other = *directory;
-      if (other.chunks[c].borders == 0) continue;
-      other.chunks[c].borders += static_cast<std::uint32_t>(by);
+      if (other.packets[c].borders == 0) continue;
+      other.packets[c].borders += static_cast<std::uint32_t>(by);
       const auto sealed = packed::toBytes(other);
       if (sealed.size() != bytes.size()) continue;
       AmtBytes file = original;
@@ -462,7 +462,7 @@ TEST(PackedAmt, RefusesChunksThatLeaveMoreOrLessThanTheyAnnounce) {
   EXPECT_GT(changed, 4);
 }
 
-TEST(PackedAmt, NamesTheChunkThatWasAltered) {
+TEST(PackedAmt, NamesThePacketThatWasAltered) {
   const TemporaryFolder folder;
   const TerrainModel model = built(build(hills(24, 22, [](double z) { return z; })));
   ASSERT_TRUE(writeAmt(folder.file("packed.amt"), model, {}, {.isPacked = true}));
@@ -473,7 +473,7 @@ TEST(PackedAmt, NamesTheChunkThatWasAltered) {
   const Result<TerrainModel> back = loadAmt(folder.file("packed.amt"));
   ASSERT_FALSE(back);
   EXPECT_EQ(back.error().code, ErrorCode::corrupt);
-  EXPECT_NE(back.error().message.find("chunk 0 of the packed nodes"), std::string::npos)
+  EXPECT_NE(back.error().message.find("packet 0 of the packed nodes"), std::string::npos)
       << back.error().message;
 }
 

@@ -18,42 +18,42 @@ using test::built;
 /// What plan.h and layout.h promise of a plan.
 void expectSound(const TerrainModel& model) {
   const MultiTriangulation& mt = model.mt;
-  const Plan plan = planChunks(model);
-  const auto& chunks = plan.directory.chunks;
+  const Plan plan = planPackets(model);
+  const auto& packets = plan.directory.packets;
   const std::uint32_t roots = mt.rootTriangleCount();
-  ASSERT_EQ(plan.chunkOf.size(), mt.nodeCount());
+  ASSERT_EQ(plan.packetOf.size(), mt.nodeCount());
   EXPECT_EQ(plan.directory.nodes(), mt.nodeCount());
   EXPECT_EQ(plan.directory.slots(), mt.arrays().link.size());
-  std::vector<std::uint32_t> left(chunks.size(), 0);
+  std::vector<std::uint32_t> left(packets.size(), 0);
   for (std::uint32_t n = 0; n < mt.nodeCount(); ++n) {
-    const std::uint32_t c = plan.chunkOf[n];
-    ASSERT_LT(c, chunks.size());
+    const std::uint32_t c = plan.packetOf[n];
+    ASSERT_LT(c, packets.size());
     std::uint32_t own = 0;
     for (const std::uint32_t t : mt.floor(NodeId(n))) {
       if (t < roots) continue;
       const NodeId parent = mt.creator(TriangleId(t));
-      const std::uint32_t other = plan.chunkOf[parent.index()];
+      const std::uint32_t other = plan.packetOf[parent.index()];
       ASSERT_GE(plan.band[parent.index()], plan.band[n]);
       if (other == c) {
         ++own;
       } else {
         ++left[other];
         ASSERT_LT(other, c);
-        ASSERT_TRUE(std::ranges::binary_search(chunks[c].leansOn, other));
+        ASSERT_TRUE(std::ranges::binary_search(packets[c].dependsOn, other));
       }
     }
     ASSERT_EQ(plan.ownParents[n], own);
     ASSERT_EQ(std::ranges::binary_search(plan.listed[c], n), own == 0);
     const Vec2 p = mt.vertices().planPosition(mt.apex(NodeId(n)));
-    ASSERT_TRUE(p.x >= chunks[c].xMin && p.x <= chunks[c].xMax && p.y >= chunks[c].yMin &&
-                p.y <= chunks[c].yMax);
+    ASSERT_TRUE(p.x >= packets[c].xMin && p.x <= packets[c].xMax && p.y >= packets[c].yMin &&
+                p.y <= packets[c].yMax);
   }
-  for (std::size_t c = 0; c < chunks.size(); ++c) {
-    EXPECT_EQ(chunks[c].borders, left[c]);
-    EXPECT_TRUE(std::ranges::is_sorted(chunks[c].leansOn));
-    EXPECT_TRUE(std::ranges::is_sorted(chunks[c].runs, std::greater<>(), &Run::band));
+  for (std::size_t c = 0; c < packets.size(); ++c) {
+    EXPECT_EQ(packets[c].borders, left[c]);
+    EXPECT_TRUE(std::ranges::is_sorted(packets[c].dependsOn));
+    EXPECT_TRUE(std::ranges::is_sorted(packets[c].runs, std::greater<>(), &Run::band));
     std::uint32_t listed = 0;
-    for (const Run& run : chunks[c].runs) {
+    for (const Run& run : packets[c].runs) {
       EXPECT_GT(run.nodes, 0u);
       listed += run.listed;
     }
@@ -61,7 +61,7 @@ void expectSound(const TerrainModel& model) {
   }
 }
 
-TEST(PackedPlan, PutsEveryNodeInAChunkAfterThoseOfItsParents) {
+TEST(PackedPlan, PutsEveryNodeInAPacketAfterThoseOfItsParents) {
   for (const RasterFamily& family : rasterFamilies()) {
     SCOPED_TRACE(family.name);
     expectSound(built(build(family.make(70, 60, 2))));
@@ -72,23 +72,23 @@ TEST(PackedPlan, PutsEveryNodeInAChunkAfterThoseOfItsParents) {
   }
 }
 
-TEST(PackedPlan, HasManyChunksWhereThereAreManyTiles) {
+TEST(PackedPlan, HasManyPacketsWhereThereAreManyTiles) {
   const TerrainModel model = built(build(test::hills(600, 300, [](double z) { return std::round(z); })));
   expectSound(model);
-  EXPECT_GE(planChunks(model).directory.chunks.size(), 10u);
+  EXPECT_GE(planPackets(model).directory.packets.size(), 10u);
 }
 
 TEST(PackedPlan, IsTheSameEachTime) {
   const TerrainModel model = built(build(test::hills(300, 280, [](double z) { return z; })));
-  const Plan once = planChunks(model), again = planChunks(model);
+  const Plan once = planPackets(model), again = planPackets(model);
   EXPECT_EQ(toBytes(once.directory), toBytes(again.directory));
-  EXPECT_TRUE(std::ranges::equal(once.chunkOf, again.chunkOf));
+  EXPECT_TRUE(std::ranges::equal(once.packetOf, again.packetOf));
 }
 
-TEST(PackedPlan, OfAModelWithoutNodesIsOneEmptyChunk) {
-  const Plan plan = planChunks(built(build(rasterFamilies()[0].make(2, 2, 1))));
-  ASSERT_EQ(plan.directory.chunks.size(), 1u);
-  EXPECT_TRUE(plan.directory.chunks[0].runs.empty());
+TEST(PackedPlan, OfAModelWithoutNodesIsOneEmptyPacket) {
+  const Plan plan = planPackets(built(build(rasterFamilies()[0].make(2, 2, 1))));
+  ASSERT_EQ(plan.directory.packets.size(), 1u);
+  EXPECT_TRUE(plan.directory.packets[0].runs.empty());
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ TEST(Unpack, StopsWhenCancelled) {
   EXPECT_EQ(mt.error().code, ErrorCode::interrupted);
 }
 
-TEST(Unpack, ForeseesTheErrorBeyondANumberOfNodes) {
+TEST(Unpack, StatesTheErrorBeyondANumberOfNodes) {
   const Packed packed = packedHills();
   const auto beyond = [&](std::uint64_t nodes) {
     return packedErrorBeyond(packed.bytes.directory, packed.metadata.scale, nodes);
