@@ -20,9 +20,8 @@ struct RegionArgument {
 /// reprojected into that CRS. With a distance, everything within it belongs to the region, and the file may
 /// hold lines.
 /// @param text      the box or the file
-/// @param demCrs    WKT; empty if the DEM has no CRS. A CRS is never assumed: it is an error if only one of
-/// file
-///                  and DEM has one.
+/// @param demCrs    WKT; empty if the DEM has no CRS. A CRS is never assumed: it is an error if only the file
+///                  or only the DEM has one.
 /// @param distance  metres on the ground; the DEM's units if it has no CRS
 /// Errors: usage: an invalid box, a missing CRS, lines without a distance; those of readRegion().
 Result<RegionArgument> readRegionArgument(const std::string& text, const std::string& demCrs,

@@ -34,11 +34,10 @@ Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context = {
 /// states; the counts of the metadata are compared with the bytes before memory is allocated. Packets are
 /// decoded in parallel; the result does not depend on the threads.
 ///
-/// @param wanted  the error required of boxes; called once for each packet, with a box around the floors and
-/// stars
-///                of all its nodes, which may be far larger than each of them. Null requires everything.
-///                Where the same error is required everywhere, nodes keep the numbers that they have in the
-///                whole.
+/// @param wanted  the error required of boxes; called once for each packet, with a box around the floors
+///                and stars of all its nodes, which may be far larger than each of them. Null requires
+///                everything. Where the same error is required everywhere, nodes keep the numbers that they
+///                have in the whole.
 /// A saturated cut by region, focus or camera of a part may be coarser than that of the whole, because
 /// spheres do not contain the nodes that were not read. Errors, without a culprit: corrupt: a wrong checksum,
 /// invalid data; unreadable: more than memory holds; interrupted. O(nodes whose saturated error is at least

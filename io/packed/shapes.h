@@ -29,10 +29,9 @@ struct Shape {
 /// Walks over a floor with a stack of edges, the seed's edge 0 on top. An edge is inner if another triangle
 /// of the floor lies across it; crossing it enters that triangle, whose edges 1 and 2 go on the stack, 1 on
 /// top.
-/// @param bits  bits(shape, inner, count) returns which of `count` edges are inner: of the seed's three (bit
-/// i: edge
-///              i), or of the last triangle's edges 1 and 2 (bits 0 and 1). `inner` is the number of inner
-///              edges on the stack; shape.steps includes the triangle.
+/// @param bits  bits(shape, inner, count) returns which of `count` edges are inner: of the seed's three
+///              (bit i: edge i), or of the last triangle's edges 1 and 2 (bits 0 and 1). `inner` is the
+///              number of inner edges on the stack; shape.steps includes the triangle.
 /// @return nothing if the floor has more triangles or corners than the limit
 template <class Bits>
 std::optional<Shape> walkedShape(const Bits& bits) {

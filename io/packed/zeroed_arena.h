@@ -31,8 +31,8 @@ class ZeroedArray {
 class ZeroedArena {
  public:
   /// Allocates memory for the arrays and sets them.
-  /// @param forEach  forEach(visit) calls visit(array, size) for each ZeroedArray, the same in each of two
-  /// calls
+  /// @param forEach  forEach(visit) calls visit(array, size) for each ZeroedArray; called twice, with the
+  ///                 same effect
   /// @return false if there is not enough memory
   template <class ForEach>
   bool lay(const ForEach& forEach) {
