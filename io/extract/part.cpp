@@ -9,9 +9,9 @@
 // A camera does not determine the nodes either: the error that it allows a triangle depends on the triangle's
 // corners and bounds. So the nodes that the camera is likely to need are read, and the cut is taken of that
 // part. A walk makes the same steps in a part as in the whole until it meets a triangle that is too coarse
-// and that no node of the part removes. If there is none, the part is enough. Under a budget it is also
-// enough if every such triangle is better than the worst other triangle, because the walk had not reached
-// them. Otherwise more is read, finally everything.
+// and that no node of the part removes. If it meets no such triangle the part is enough. Under a budget it is
+// also enough if every such triangle is better than the worst other triangle, because the walk had not
+// reached them. Otherwise more is read, finally everything.
 //
 // The cut that proves a part to be enough is the answer: it is returned with the part. Only the cuts of parts
 // that were not enough are discarded.

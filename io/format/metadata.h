@@ -34,7 +34,7 @@ struct AmtMetadata {
 AmtMetadata amtMetadataOf(const TerrainModel& model, std::string writer);
 
 /// @return the first problem of the metadata, as a sentence: counts beyond 32 bits or in contradiction,
-/// numbers that are not finite or out of range; nothing if there is none
+/// numbers that are not finite or out of range; nothing if it has no problem
 std::optional<std::string> findAmtProblem(const AmtMetadata& metadata);
 
 /// The metadata as JSON. Doubles and strings read back to the bit; a string that is not UTF-8 is written as

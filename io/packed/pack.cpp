@@ -217,7 +217,7 @@ class WriterIo {
     return bytes;
   }
 
-  /// How many bands below this one the node lies whose seed is here; nothing if there is none.
+  /// How many bands below this one the node lies whose seed is here; nothing if no node has it.
   std::optional<unsigned> seedAt(std::uint32_t slot, std::uint32_t band) {
     const std::uint32_t remover = a_.remover[w_.oldTriangle[slot]];
     if (remover == kNone || w_.plan.packetOf[remover] != packet_ || --w_.ownParentsLeft[remover] != 0)
