@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The formulas are those of view.cpp, written without branches, so that a compiler makes vector code of the
-// loop, and arranged against cancellation: the angle between the axis and the ball's centre by its sine
-// rho / d as well as its cosine, the angle that the ball covers by sqrt((d - r) (d + r)) / d.
+// The formulas are those of view.cpp, branch-free, so that the compiler vectorizes the loop, and arranged to
+// avoid cancellation: the angle between the axis and the ball's centre by its sine rho / d as well as its
+// cosine, the angle that the ball covers by sqrt((d - r) (d + r)) / d.
 //
-// The eye is subtracted as the sum of two floats, so a place relative to the eye is off by at most 1e-6 of
-// its distance d. The windows around what is computed allow for more: 1e-5 (d + r) for planes and depths;
-// 2e-3 of nearest * reached^2, where nearest = d - r is at least d / 1000 (below that it is only known to be
-// at most 1.1e-3 d, and at least 0) and the cosine at the frustum's corner is at least 1/20 (wider frusta are
-// not filtered). Balls whose squared distance leaves the range of floats are unsure.
+// The eye is subtracted as the sum of two floats, so a position relative to the eye is off by at most 1e-6 of
+// its distance d. The margins around the results allow for more: 1e-5 (d + r) for planes and depths; 2e-3 of
+// nearest * reached^2, where nearest = d - r is at least d / 1000 (for smaller ones only the bounds 0
+// and 1.1e-3 d are used) and the cosine at the frustum's corner is at least 1/20 (wider frusta are not
+// filtered). Balls whose squared distance leaves the range of floats are unsure.
 #include "engine/criteria/frustum_filter.h"
 
 #include <algorithm>
@@ -24,12 +24,12 @@ namespace {
 
 constexpr std::size_t kMost = 64, kLanes = 16;
 
-/// The second where the first is no number.
+/// Returns b if a is NaN.
 float larger(float a, float b) {
   return a > b ? a : b;
 }
 
-/// Bits are gathered by words as wide as the floats are, so that flags need not be repacked.
+/// Bits are collected in words as wide as a float, so that vector flags need not be repacked.
 constexpr std::size_t kPerWord = 32;
 constexpr auto kBit = [] {
   std::array<std::uint32_t, kPerWord> bit{};
@@ -68,15 +68,15 @@ FrustumFilter::FrustumFilter(const View& view, double errorPerReach, double outs
               view.farDistance > kLeast;
 }
 
-/// As many as there is room for, those that were not asked about all of them 0.
+/// Balls and errors by coordinate; unused lanes are 0.
 struct FrustumFilter::Lanes {
   std::array<float, kMost> x, y, z, r, e;
   std::size_t count;
   std::uint64_t all;
 };
 
-/// What is known of a ball. Distances beyond planes are positive outside the frustum and have the lengths of
-/// the planes' normals; depths and reaches are bounds from below and from above.
+/// A ball relative to the frustum. Distances beyond planes are positive outside, in units of the lengths of
+/// the planes' normals; depths and reaches are lower and upper bounds.
 struct FrustumFilter::Ball {
   float distance, nearest, fromAxis, slack;
   float byDepthLow, byDepthHigh, byAngleLow, byAngleHigh;
@@ -106,8 +106,8 @@ struct FrustumFilter::Ball {
   std::copy(errors.begin(), errors.end(), lanes.e.begin());
 }
 
-[[gnu::always_inline]] inline FrustumFilter::Ball FrustumFilter::look(const Lanes& lanes,
-                                                                      std::size_t i) const {
+[[gnu::always_inline]] inline FrustumFilter::Ball FrustumFilter::evaluate(const Lanes& lanes,
+                                                                          std::size_t i) const {
   const float dx = (lanes.x[i] - eyeHigh_.x) - eyeLow_.x, dy = (lanes.y[i] - eyeHigh_.y) - eyeLow_.y,
               dz = (lanes.z[i] - eyeHigh_.z) - eyeLow_.z, radius = lanes.r[i];
   const float px = dx * right_.x + dy * right_.y + dz * right_.z, py = dx * up_.x + dy * up_.y + dz * up_.z,
@@ -120,7 +120,7 @@ struct FrustumFilter::Ball {
   const float size = b.distance + radius;
   b.slack = 1e-5f * size;
 
-  // What the least of the ball's distances and its largest angle say of z^2 / d.
+  // Bounds of z^2 / d by the ball's least distance and its largest angle.
   const float covered = b.nearest * size;
   const float covering = std::sqrt(larger(covered, 0));
   const float cosine = (pz * covering - b.fromAxis * radius) / squared;
@@ -129,12 +129,12 @@ struct FrustumFilter::Ball {
   const bool isClose = b.nearest <= 1e-3f * b.distance;
   b.byAngleLow = isClose ? 0 : byAngle * 0.998f;
   b.byAngleHigh = isClose ? 1.1e-3f * b.distance : byAngle * 1.002f;
-  // What its least depth says.
+  // Bounds by its least depth.
   const float depth = pz - radius;
   b.byDepthLow = larger(depth - b.slack, near_) * leastCosine_;
   b.byDepthHigh = larger(depth + b.slack, near_) * leastCosine_;
 
-  // How far the ball is beyond the planes.
+  // Distances of the ball beyond the planes.
   b.beyondX = std::abs(px) - slopeX_ * pz - radius * lengthX_;
   b.beyondY = std::abs(py) - slopeY_ * pz - radius * lengthY_;
   b.beyondNear = near_ - pz - radius;
@@ -154,7 +154,7 @@ FrustumFilter::Verdicts FrustumFilter::test(std::span<const Sphere> balls,
   for (std::size_t first = 0; first < end; first += kPerWord) {
     std::uint32_t exceedsHere = 0, unsureHere = 0;
     for (std::size_t k = 0; k < std::min(kPerWord, end - first); ++k) {
-      const Ball b = look(lanes, first + k);
+      const Ball b = evaluate(lanes, first + k);
       const float error = lanes.e[first + k];
       const float low = larger(b.byAngleLow, b.byDepthLow) * errorPerReach_ * 0.9999f,
                   high = larger(b.byAngleHigh, b.byDepthHigh) * errorPerReach_ * 1.0001f;
@@ -175,14 +175,14 @@ FrustumFilter::Verdicts FrustumFilter::test(std::span<const Sphere> balls,
   return {surely, unsure & lanes.all & ~surely};
 }
 
-// A verdict stands on three quantities, each of which has so far to go before it turns: how far the ball is
-// inside or beyond the frustum, and how far each of the two bounds of its reach is from the reach that its
-// error needs. In the eye's axes the ball's centre moves by travel + d turn, and so do its distances from the
-// planes. A depth changes by its share of that: travel + rho turn + d turn^2 / 2, rho the distance from the
-// axis. The other bound, nearest * cos^2(phi), has a gradient of less than 1.16 (1.1547 at r = 0 and sin^2
-// phi = 1/3), and a turn alone changes it by nearest * (sin(2 phi) turn + turn^2) at most. What is allowed
-// changes by a factor of exp(scale), which is a part `scale` of the larger side. In sight and too coarse, the
-// first of the three to turn ends it; the other way round the last of them.
+// A verdict depends on three distances, and holds until they have shrunk to 0: from the ball to the planes of
+// the frustum, and from each of the two bounds of its reach to the reach that its error needs. In the eye's
+// axes the ball's centre moves by travel + d turn, and so do its distances from the planes. A depth changes
+// by its share of that: travel + rho turn + d turn^2 / 2, rho the distance from the axis. The other bound,
+// nearest * cos^2(phi), has a gradient of less than 1.16 (1.1547 at r = 0 and sin^2 phi = 1/3), and a turn
+// alone changes it by nearest * (sin(2 phi) turn + turn^2) at most. The allowed error changes by a factor of
+// exp(scale), which is a part `scale` of the larger side. The verdict "in sight and too coarse" ends with the
+// first of the three, its opposite with the last.
 ARETE_VECTOR_CLONES
 FrustumFilter::Verdicts FrustumFilter::testFor(std::span<const Sphere> balls, std::span<const float> errors,
                                                const Motion& rate, std::span<float> units) const {
@@ -206,7 +206,7 @@ FrustumFilter::Verdicts FrustumFilter::testFor(std::span<const Sphere> balls, st
     std::uint32_t exceedsHere = 0, unsureHere = 0;
     for (std::size_t k = 0; k < std::min(kPerWord, end - first); ++k) {
       const std::size_t i = first + k;
-      const Ball b = look(lanes, i);
+      const Ball b = evaluate(lanes, i);
       const float error = lanes.e[i], needed = error * reachPerError;
       const float neededLow = (needed < kMostReach ? needed : kMostReach) * 0.9998f - rounding_,
                   neededHigh = needed * 1.0002f + rounding_;

@@ -10,23 +10,23 @@
 
 namespace arete {
 
-/// Decides for most balls at once, in single precision, what Frustum says of one in double: whether an error
-/// exceeds errorPerReach * reach() where the ball is in sight, or outsideError anywhere. What is too close to
-/// call is left to the caller.
+/// Tests many balls at once in single precision: whether an error exceeds errorPerReach * Frustum::reach() if
+/// the ball is in sight, or outsideError anywhere. Cases too close to call are returned to the caller, who
+/// decides them in double precision.
 class FrustumFilter {
  public:
-  /// Precondition: the view validates.
+  /// Precondition: the view is valid.
   FrustumFilter(const View& view, double errorPerReach, double outsideError);
 
   struct Verdicts {
-    std::uint64_t exceeds = 0;  ///< bit i: ball i surely does
-    std::uint64_t unsure = 0;   ///< bit i: it may; where neither is set, it surely does not
+    std::uint64_t exceeds = 0;  ///< bit i: the error of ball i exceeds the allowed one
+    std::uint64_t unsure = 0;   ///< bit i: too close to call; if neither bit is set, it does not exceed it
   };
   /// Precondition: at most 64 balls, as many errors.
   Verdicts test(std::span<const Sphere> balls, std::span<const float> errors) const;
-  /// As test(), and how many times `rate` a view may have moved from here and still give the verdict on ball
-  /// i, when its frustum is asked in double: at least units[i]. 0 of the unsure. Preconditions: as many units
-  /// as balls; the parts of `rate` are positive.
+  /// test(), and how long each verdict holds: a view that has moved from this one by at most units[i] * rate
+  /// has the same verdict on ball i, computed in double precision. @param rate The unit of motion; all parts
+  /// are positive. @param units Receives as many numbers as balls; 0 if unsure.
   Verdicts testFor(std::span<const Sphere> balls, std::span<const float> errors, const Motion& rate,
                    std::span<float> units) const;
 
@@ -34,7 +34,7 @@ class FrustumFilter {
   struct Lanes;
   struct Ball;
   static void load(std::span<const Sphere> balls, std::span<const float> errors, Lanes& lanes);
-  Ball look(const Lanes& lanes, std::size_t i) const;
+  Ball evaluate(const Lanes& lanes, std::size_t i) const;
 
   struct Axis {
     float x, y, z;

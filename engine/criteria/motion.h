@@ -6,17 +6,17 @@
 
 namespace arete {
 
-/// How far a criterion has moved, or may: bounds that add up along the way. What lies d from the eye has then
-/// moved by at most travel + d * turn in the eye's own axes.
+/// The motion of a criterion from one frame to another: upper bounds, which add up over frames. A point at
+/// distance d from the eye has moved by at most travel + d * turn in the eye's axes.
 struct Motion {
-  double travel = 0;  ///< of the place that it measures from, in metric units
-  double turn = 0;    ///< of its axes, and of the planes that bound its sight: radians
-  double scale = 0;   ///< of what it allows: the change of the logarithm
+  double travel = 0;  ///< of the eye, in metric units
+  double turn = 0;    ///< of its axes and of the planes of its frustum, in radians
+  double scale = 0;   ///< of the allowed error: the change of its logarithm
 
   bool isZero() const { return travel == 0 && turn == 0 && scale == 0; }
   bool operator==(const Motion&) const = default;
 
-  /// The least number of times that `unit` must pass to cover this motion. Infinite where it never does.
+  /// The least factor by which `unit` covers this motion; infinity if none does.
   double in(const Motion& unit) const {
     const auto times = [](double part, double one) {
       if (part == 0) return 0.0;

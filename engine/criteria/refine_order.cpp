@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Triangles in sight are ranked by their distance from the eye, others by the vertex that refines them.
 #include "engine/criteria/refine_order.h"
 
 #include <cmath>

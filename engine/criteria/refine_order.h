@@ -8,8 +8,7 @@
 
 namespace arete {
 
-/// Which of the triangles that are not fine enough is refined next, when not all of them can be: smaller
-/// first, the earlier queue before the later.
+/// The priority of a triangle that is not fine enough: lower queues first, within one the smaller rank.
 struct RefineKey {
   std::uint32_t queue = 0;
   double rank = 0;
@@ -19,17 +18,17 @@ struct RefineKey {
   }
 };
 
-/// The strategies of the explicit multitriangulation (Fornous 2003, 2.4.3). Where neither a budget nor a
-/// deadline ends the walk, all of them reach the same cut: the least one.
+/// The order in which triangles are refined [Fornous2003], section 2.4.3. It matters only under a budget or a
+/// deadline: without them every order reaches the least cut.
 class RefineOrder {
  public:
   virtual ~RefineOrder() = default;
-  /// `arrival` numbers the triangles as they came up.
+  /// @param arrival Numbers the triangles in the order in which they entered the front.
   virtual RefineKey key(const MultiTriangulation& mt, const Criterion& criterion, TriangleId t,
                         const Criterion::Corners& corners, std::uint64_t arrival) const = 0;
 };
 
-/// First come, first refined: the whole front one step finer before any of it goes two.
+/// In the order of arrival: the whole front is refined once before any of it is refined twice.
 class BreadthFirst final : public RefineOrder {
  public:
   RefineKey key(const MultiTriangulation&, const Criterion&, TriangleId, const Criterion::Corners&,
@@ -38,7 +37,7 @@ class BreadthFirst final : public RefineOrder {
   }
 };
 
-/// Last come, first refined: one place to the end, then the next.
+/// The last arrival first: one place is refined completely, then the next.
 class DepthFirst final : public RefineOrder {
  public:
   RefineKey key(const MultiTriangulation&, const Criterion&, TriangleId, const Criterion::Corners&,
@@ -47,8 +46,8 @@ class DepthFirst final : public RefineOrder {
   }
 };
 
-/// The largest severity of the criterion first: the error, or the pixels of a view. Under a budget this is
-/// the best there is: what it leaves is the least cut for the severity it reached.
+/// The largest severity of the criterion first: the error, or the pixels of a view. Optimal under a budget:
+/// it results in the least cut for the severity that it reaches.
 class WorstFirst final : public RefineOrder {
  public:
   RefineKey key(const MultiTriangulation& mt, const Criterion& criterion, TriangleId t,
@@ -57,10 +56,10 @@ class WorstFirst final : public RefineOrder {
   }
 };
 
-/// Two queues. First what the view may see, the nearest to the eye first; then the rest by the weighted sum
-/// of the distances of the significant point (the vertex that the refinement inserts) from the eye and from
-/// the axis of the view, with a penalty behind the eye. So a camera close to the ground in the middle of a
-/// coarse triangle refines the ground around it, although no vertex is in sight.
+/// Two queues [Fornous2003]. First triangles that the view may see, the nearest to the eye first. Then the
+/// others, by a weighted sum of the distances of the vertex that the refinement inserts from the eye and from
+/// the axis of the view, with a penalty behind the eye. So a camera near the ground in a coarse triangle
+/// refines the ground around it, although no vertex is in sight.
 class TwoQueues final : public RefineOrder {
  public:
   struct Options {

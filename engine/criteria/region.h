@@ -9,20 +9,19 @@
 
 namespace arete {
 
-/// What a region is drawn with.
+/// The shapes that make up a region.
 struct RegionShape {
-  std::vector<std::vector<Vec2>> rings =
-      {};  ///< the inside is theirs, by the even-odd rule; closed by themselves
+  std::vector<std::vector<Vec2>> rings = {};  ///< polygons by the even-odd rule; each is closed implicitly
   std::vector<std::vector<Vec2>> lines = {};  ///< open chains: a road, a flight path
-  double distance = 0;                        ///< this near to them is in the region too; in metric units
+  double distance = 0;  ///< points within this distance of them belong to the region; metric units
 };
 
-/// A closed region of the plan: the inside of rings, lines, and all that is within a distance of either.
-/// Queries are in plan coordinates and cost O(log n + edges near the query).
+/// A closed region of the plan: polygons, lines, and everything within a distance of either. Queries are in
+/// plan coordinates. O(log n + edges near the query) each.
 class Region {
  public:
-  /// The shape is in plan coordinates. Rings of fewer than 3 points and lines of fewer than 2 are ignored.
-  /// `metric` says what a distance is; without a distance it does not matter.
+  /// @param shape In plan coordinates. Rings of fewer than 3 points and lines of fewer than 2 are ignored.
+  /// @param metric The space in which the shape's distance is measured; not used without a distance.
   explicit Region(RegionShape shape, const MetricFrame& metric = {});
   explicit Region(std::vector<std::vector<Vec2>> rings) : Region(RegionShape{std::move(rings)}) {}
   static Region box(const Box2& box);
@@ -33,10 +32,11 @@ class Region {
 
   bool contains(Vec2 p) const;
   bool meetsTriangle(Vec2 a, Vec2 b, Vec2 c) const;
-  /// Errs, if at all, towards true: rounding is covered by widening the disc by one part in 1e9.
+  /// Whether the disc meets the region. Conservative: the disc is widened by one part in 1e9, so rounding can
+  /// only make it true.
   bool meetsDisc(Vec2 centre, double radius) const;
-  /// Whether all of the disc is in the region. Errs towards false: where the disc meets an edge of a ring,
-  /// and by rounding.
+  /// Whether the region contains the disc. Conservative: false where the disc meets an edge of a ring, and
+  /// rounding can only make it false.
   bool holdsDisc(Vec2 centre, double radius) const;
 
   /// The same region for queries in metric space. Precondition: the metric frame of the constructor, where

@@ -2,9 +2,9 @@
 //
 // On a screen of focal length f pixels the point (x, y, z) appears at f (x, y) / z. A displacement of length
 // e moves it by at most e f d / z^2, d its distance and z its depth: the largest singular value of that map's
-// derivative, reached by a displacement across the sight line and away from the axis. So e z^2 / d bounds
-// what is seen, and over a ball two bounds of z^2 / d are at hand, of which the larger counts: z >= the
-// ball's least depth and z / d = cos(angle) >= the cosine at the frustum's corner; d >= the ball's least
+// derivative, reached by a displacement across the sight line and away from the axis. So a bound of z^2 / d
+// from below bounds the displacement on the screen. Over a ball there are two, and the larger is used: z >=
+// the ball's least depth and z / d = cos(angle) >= the cosine at the frustum's corner; d >= the ball's least
 // distance and the cosine at the largest angle that the ball reaches.
 #include "engine/criteria/view.h"
 
@@ -13,8 +13,6 @@
 #include <numbers>
 
 namespace arete {
-namespace {}  // namespace
-
 Status View::validate() const {
   const auto refuse = [](const char* message) { return failure(ErrorCode::usage, message, "view"); };
   if (!isFinite(eye) || !isFinite(forward) || !isFinite(up))

@@ -14,7 +14,7 @@
 namespace arete {
 
 /// A perspective view as plain numbers, in the metric space of an MT (MetricFrame::toMetric). That space may
-/// be mirrored against the map's: a view is not, it has no left and right.
+/// be mirrored relative to the map. A view need not be mirrored: it is symmetric from left to right.
 struct View {
   Vec3 eye;
   Vec3 forward = {0, 1, 0};                         ///< of any length but 0
@@ -24,48 +24,49 @@ struct View {
   double nearDistance = 0;  ///< depths along forward, in metric units
   double farDistance = std::numeric_limits<double>::infinity();
 
-  /// Errors: usage, naming the number that makes no sense.
+  /// Errors: usage: a number is invalid; the message names it.
   Status validate() const;
 };
 
-/// What of space a view sees: the points (x, y, z), z forward, with near <= z <= far and |x|, |y| at most so
-/// much of z.
+/// The visible part of space: the points (x, y, z) in the eye's axes, z forward, with near <= z <= far and
+/// |x| and |y| at most a fixed multiple of z.
 class Frustum {
  public:
   /// Precondition: the view validates.
   explicit Frustum(const View& view);
 
-  /// Right, up and forward of the eye.
+  /// Coordinates along the eye's axes: right, up, forward.
   Vec3 toView(const Vec3& p) const {
     const Vec3 d{p.x - eye_.x, p.y - eye_.y, p.z - eye_.z};
     return {d.x * right_.x + d.y * right_.y + d.z * right_.z, d.x * up_.x + d.y * up_.y + d.z * up_.z,
             d.x * forward_.x + d.y * forward_.y + d.z * forward_.z};
   }
-  /// False when all of the points, given by toView(), are beyond one of the planes, as then is everything
-  /// between them.
+  /// False if all of the points lie beyond one of the planes; then so does their convex hull. @param inView
+  /// Points in the eye's axes, as of toView().
   bool mayMeet(std::span<const Vec3> inView) const;
-  /// False when the ball lies beyond one of the planes.
+  /// False if the ball lies beyond one of the planes.
   bool mayMeet(const Sphere& ball) const { return mayMeet(toView({ball.x, ball.y, ball.z}), ball.radius); }
-  /// The same of a ball whose centre is given by toView().
+  /// The same for a centre in the eye's axes.
   bool mayMeet(const Vec3& centre, double radius) const {
     return std::abs(centre.x) - slopeX_ * centre.z <= radius * lengthX_ &&
            std::abs(centre.y) - slopeY_ * centre.z <= radius * lengthY_ && centre.z + radius >= near_ &&
            centre.z - radius <= far_;
   }
 
-  /// A lower bound of depth^2 / distance over what the ball has in the frustum (see ViewError): a
-  /// displacement e there moves nothing by more than e * pixelsPerUnit / reach on the screen. 0 around the
-  /// eye.
+  /// A lower bound of depth^2 / distance over the points that are in both the ball and the frustum: a
+  /// displacement of length e there moves nothing by more than e * pixelsPerUnit() / reach() on the screen. 0
+  /// if the ball contains the eye. @param centre In the eye's axes. @param leastDepth A lower bound of the
+  /// depths in the ball.
   double reach(const Vec3& centre, double radius, double leastDepth) const;
-  /// At most reach(): what the least depth says of it.
+  /// A lower bound of reach() by the least depth alone.
   double reachByDepth(double leastDepth) const { return std::max(leastDepth, near_) * leastCosine_; }
   double pixelsPerUnit() const { return pixelsPerUnit_; }
   double nearDistance() const { return near_; }
   double farDistance() const { return far_; }
   const Vec3& eye() const { return eye_; }
 
-  /// The directions of the eye; side planes |x| = slopeX z, |y| = slopeY z and the lengths of their normals;
-  /// the cosine at the corner.
+  /// The eye's axes; the side planes |x| = slopeX z and |y| = slopeY z and the lengths of their normals; the
+  /// cosine of the angle between the axis and the corners of the picture.
   struct Planes {
     Vec3 right, up, forward;
     double slopeX, slopeY, lengthX, lengthY, leastCosine;

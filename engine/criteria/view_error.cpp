@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The allowed error is the tolerance in pixels times the reach (view.cpp) of the ball around the triangle's
+// prism, or of the node's sphere. Many spheres at once are first filtered in single precision
+// (frustum_filter.h); those too close to call are decided here in double, so the result is that of double
+// precision throughout.
 #include "engine/criteria/view_error.h"
 
 #include <algorithm>
@@ -90,7 +95,8 @@ std::optional<Motion> ViewError::motionSince(const KineticCriterion& before) con
   const auto squared = [](const Vec3& p, const Vec3& q) {
     return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y) + (p.z - q.z) * (p.z - q.z);
   };
-  // Axes turned by an angle have moved by 2 sqrt(2) sin(angle / 2) in all.
+  // A rotation by an angle moves the three axes by 2 sqrt(2) sin(angle / 2), as one vector of nine
+  // components.
   const double axes =
       std::sqrt(squared(a.right, b.right) + squared(a.up, b.up) + squared(a.forward, b.forward));
   const double planes = std::max(std::abs(std::atan(a.slopeX) - std::atan(b.slopeX)),
@@ -98,7 +104,7 @@ std::optional<Motion> ViewError::motionSince(const KineticCriterion& before) con
   constexpr double kWiden = 1 + 1e-9;
   return Motion{.travel = kWiden * std::sqrt(squared(old->o_.view.eye, o_.view.eye)),
                 .turn = kWiden * (2 * std::asin(std::min(1.0, axes / (2 * std::numbers::sqrt2))) + planes),
-                // The cosine at the corner counts twice: the error allowed grows with its square at most.
+                // The allowed error grows at most with the square of the cosine at the corner.
                 .scale = kWiden * (std::abs(std::log(errorPerReach_ / old->errorPerReach_)) +
                                    2 * std::abs(std::log(b.leastCosine / a.leastCosine)))};
 }

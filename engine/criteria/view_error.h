@@ -9,25 +9,26 @@
 
 namespace arete {
 
-/// At most so many pixels of error on the screen of a view: what a triangle's vertical error can move on it,
-/// from wherever in the frustum, stays within the tolerance. A triangle is out of sight when nothing of it,
-/// nor of the terrain that it stands for (its signed bound), meets the frustum.
+/// At most a number of pixels of error on the screen of a view: a displacement by a triangle's vertical
+/// error, anywhere in the frustum, stays within the tolerance on the screen, as the view-dependent criteria
+/// of [Hoppe1998] and [LindstromPascucci2002]. A triangle is out of sight if neither it nor the terrain that
+/// it represents (its signed bound) meets the frustum.
 ///
-/// The bound holds for the vertical error in whatever direction it is seen, so it is conservative from above.
-/// Precondition: the view validates.
+/// The bound holds for the error in any direction, so it is conservative when seen from above. Precondition:
+/// the view is valid.
 class ViewError final : public KineticCriterion {
  public:
   struct Options {
     View view;
     double pixels = 1;  ///< > 0
-    /// Allowed out of sight, in the unit of heights.
+    /// Error allowed out of sight, in the unit of heights.
     double outsideError = std::numeric_limits<double>::infinity();
   };
-  /// `metric`: the frame of the MT that is asked about.
+  /// @param metric The frame of the MT.
   ViewError(const Options& options, const MetricFrame& metric);
 
   bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
-  /// Its projected error in pixels; out of sight, in the ratio to the error allowed there.
+  /// The projected error in pixels; out of sight, pixels * error / allowed error.
   double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
   std::optional<double> severityLimit() const override { return o_.pixels; }
   std::unique_ptr<const BoundedCriterion> withSeverityLimit(double pixels) const override;
@@ -56,8 +57,8 @@ class ViewError final : public KineticCriterion {
   FrustumFilter filter_;
 };
 
-/// The corners of a triangle, each at the lowest and at the highest place that the terrain can have over it,
-/// in metric space: nothing of the triangle or of the terrain there lies outside their convex hull.
+/// The corners of a triangle, moved down and up by its signed bound, in metric space. Their convex hull
+/// contains the triangle and the terrain that it represents.
 std::array<Vec3, 6> prismOf(const MultiTriangulation& mt, TriangleId t, const Criterion::Corners& corners);
 
 }  // namespace arete

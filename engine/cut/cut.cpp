@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Minimal: least_cut.cpp; with a budget or a deadline refine.cpp. Saturated: saturated_cut.cpp.
+// Selects the algorithm. Minimal: least_cut.cpp; with a budget or a deadline refine.cpp. Saturated:
+// saturated_cut.cpp. Then front.cpp writes the triangles.
 #include "engine/cut/cut.h"
 
 #include <fmt/format.h>

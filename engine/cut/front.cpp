@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A triangle is in the front when its creator is in the cut and its remover is not: one test per slot of the
-// cut's nodes, no graph walk. Members are handled in pieces: a first pass marks which slots of each are kept,
-// a sum over the pieces gives each its place, a second pass writes what is marked. The order is that of the
-// triangle ids, whatever the thread count.
+// cut's nodes, no graph walk. Members are processed in spans: a first pass marks the slots of each that are
+// kept, a sum over the spans determines where each writes, a second pass writes the marked slots. The order
+// is that of the triangle ids, whatever the thread count.
 //
 // Every vertex that a node of the cut inserts is in the front, so the front's vertices are the root's and one
 // per member, in the order of the members.
 //
-// The members of a place are few among many, and their stars lie wherever they lie: both passes ask for the
-// memory of a member some members ahead. How many slots a member has, and keeps, cannot be foreseen, so both
-// passes do without loops of that many turns.
+// Members are sparse and their stars are scattered over memory: both passes prefetch some members ahead. The
+// number of slots of a member, and how many of them it keeps, are unpredictable, so neither pass has a loop
+// with that trip count.
 #include "engine/cut/front.h"
 
 #include <tbb/parallel_for.h>
@@ -34,7 +34,7 @@ namespace {
 
 constexpr std::uint32_t kAhead = 16;
 
-/// The places of the ones of a byte, rising, and then 0.
+/// The positions of the ones of a byte, rising, then zeros.
 constexpr auto kOnes = [] {
   std::array<std::array<std::uint32_t, 8>, 256> ones{};
   for (unsigned byte = 0; byte < 256; ++byte)
@@ -60,15 +60,15 @@ class FrontWriter {
 
   struct Marked {
     std::uint32_t kept = 0;  ///< slots
-    std::uint32_t open = 0;  ///< members whose star is
+    std::uint32_t open = 0;  ///< members with an open star
   };
-  /// Marks the slots that members of the piece keep.
+  /// Marks the slots that the members of a span keep.
   ARETE_VECTOR_CLONES
-  Marked mark(std::uint32_t piece) const {
-    std::array<std::uint32_t, MemberSet::kMostInPiece + 2 * kAhead> members;
-    const std::uint32_t count = list(piece, members.data());
+  Marked mark(std::uint32_t span) const {
+    std::array<std::uint32_t, MemberSet::kMostInSpan + 2 * kAhead> members;
+    const std::uint32_t count = list(span, members.data());
     const std::uint32_t *const slotBegin = slotBegin_, *const removers = remover_;
-    std::uint16_t* const kept = kept_.get() + set_.before(piece);
+    std::uint16_t* const kept = kept_.get() + set_.before(span);
     std::uint32_t total = 0, open = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
       __builtin_prefetch(slotBegin + members[i + 2 * kAhead]);
@@ -82,12 +82,12 @@ class FrontWriter {
     return {total, open};
   }
 
-  /// Writes what mark() marked, and the vertices of the members. Returns the largest code of its errors.
+  /// Writes the marked slots, and the vertices of the members. @return The largest code of the errors.
   ARETE_VECTOR_CLONES
-  std::uint16_t write(std::uint32_t piece, std::uint32_t* vertices, std::array<std::uint32_t, 3>* triangles,
+  std::uint16_t write(std::uint32_t span, std::uint32_t* vertices, std::array<std::uint32_t, 3>* triangles,
                       std::uint32_t* ids) const {
-    std::array<std::uint32_t, MemberSet::kMostInPiece + 2 * kAhead> members;
-    const std::uint32_t count = list(piece, members.data()), before = set_.before(piece);
+    std::array<std::uint32_t, MemberSet::kMostInSpan + 2 * kAhead> members;
+    const std::uint32_t count = list(span, members.data()), before = set_.before(span);
     const std::uint32_t* const slotBegin = slotBegin_;
     const std::uint16_t* const kept = kept_.get() + before;
     for (std::uint32_t i = 0; i < count; ++i) vertices[before + i] = rootVertices_ + members[i];
@@ -100,7 +100,7 @@ class FrontWriter {
       __builtin_prefetch(link_ + ahead);
       __builtin_prefetch(error_ + ahead);
       const std::uint32_t begin = slotBegin[members[i]], end = slotBegin[members[i] + 1];
-      waiting = add(some, waiting, end - begin <= kMostNoted ? kept[i] : keptBy(begin, end), begin, end,
+      waiting = add(some, waiting, end - begin <= kMostMarked ? kept[i] : keptBy(begin, end), begin, end,
                     rootVertices_ + before + i);
       if (waiting < Some::kEnough && i + 1 < count) continue;
       worst = std::max(worst, write(some, waiting, triangles, ids));
@@ -112,20 +112,19 @@ class FrontWriter {
   }
 
  private:
-  static constexpr std::uint32_t kMostNoted = 16, kMostSlots = 64;
-  /// Slots that nearly every member has: looked at, there or not, without a branch.
+  static constexpr std::uint32_t kMostMarked = 16, kMostSlots = 64;
+  /// Slots that nearly every member has: tested without a branch, whether they exist or not.
   static constexpr std::uint32_t kFew = 6;
 
-  /// Slots that are to be written, in order, with the next around their star and its apex among the vertices
-  /// of the front. Beyond those of a full list there is room for one more member, and for what add() writes
-  /// too many.
+  /// Slots to be written, in order, each with the next slot around its star and the star's apex among the
+  /// vertices of the front. A full list has room for one more member, and for the surplus that add() writes.
   struct Some {
     static constexpr std::uint32_t kEnough = 256, kMost = kEnough + kMostSlots + 8;
     std::array<std::uint32_t, kMost> slot, next, apex;
   };
 
-  /// Adds the slots begin + i of bits i to the first `count`: eight at a time, there or not, of which those
-  /// that are there count. Returns how many there are then.
+  /// Appends the slots begin + i of the bits i, eight at a time: all eight are written, only those with bits
+  /// are counted. @return The new count.
   [[gnu::always_inline]] static std::uint32_t add(Some& some, std::uint32_t count, std::uint64_t bits,
                                                   std::uint32_t begin, std::uint32_t end,
                                                   std::uint32_t apex) {
@@ -172,22 +171,22 @@ class FrontWriter {
     const std::uint16_t* const errors = error_;
     const std::uint32_t roots = roots_, rootVertices = rootVertices_;
     const Lookup in = in_;
-    // Of an MT vertex among those of the front.
-    const auto place = [&](std::uint32_t v) {
+    // The index of an MT vertex among those of the front.
+    const auto indexOf = [&](std::uint32_t v) {
       return v < rootVertices ? v : rootVertices + in.rank(v - rootVertices);
     };
     std::uint16_t worst = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
-      triangles[i] = {some.apex[i], place(link[some.slot[i]]), place(link[some.next[i]])};
+      triangles[i] = {some.apex[i], indexOf(link[some.slot[i]]), indexOf(link[some.next[i]])};
       ids[i] = roots + some.slot[i];
       worst = std::max(worst, errors[some.slot[i]]);
     }
     return worst;
   }
 
-  /// The members of the piece, and the last of them some times more for those who look ahead.
-  std::uint32_t list(std::uint32_t piece, std::uint32_t* members) const {
-    const std::uint32_t count = set_.list(piece, members);
+  /// The members of the span, the last one repeated for prefetching ahead.
+  std::uint32_t list(std::uint32_t span, std::uint32_t* members) const {
+    const std::uint32_t count = set_.list(span, members);
     std::fill_n(members + count, 2 * kAhead, members[count - 1]);
     return count;
   }
@@ -197,11 +196,12 @@ class FrontWriter {
   const std::uint32_t roots_, rootVertices_, slots_;
   const std::uint32_t *const slotBegin_, *const link_, *const remover_;
   const std::uint16_t* const error_;
-  const std::unique_ptr<std::uint16_t[]> kept_;  // by member: its kept slots, a bit each, where it has few
+  const std::unique_ptr<std::uint16_t[]>
+      kept_;  // per member: a bit per kept slot, if it has at most kMostMarked
 };
 
-/// Nothing where the set has to be closed and is not: a member adds two triangles, one on a border, if all
-/// that it replaces are made by members or the root, and more if some are not.
+/// @return Nothing if the set must be closed and is not. (A member adds two triangles, one on a border, if
+/// members or the root created all that it replaces, and more otherwise.)
 template <class Lookup>
 std::optional<Cut> writeFront(const MultiTriangulation& mt, const MemberSet& set, const Lookup& in,
                               bool mustBeClosed) {
@@ -211,9 +211,9 @@ std::optional<Cut> writeFront(const MultiTriangulation& mt, const MemberSet& set
   Cut cut;
   cut.nodes = set.size();
 
-  // begin[p + 1]: where piece p writes; the root comes first. Members add two triangles each at most: there
-  // is room for them by the time that they are counted.
-  std::vector<std::uint32_t> begin(std::size_t(set.pieces()) + 2, 0);
+  // begin[p + 1]: where span p writes; the root comes first. Members add at most two triangles each: memory
+  // for so many is allocated while they are counted.
+  std::vector<std::uint32_t> begin(std::size_t(set.spans()) + 2, 0);
   const std::size_t most = roots + 2 * std::size_t(set.size());
   std::atomic<std::uint32_t> open = 0;
   const auto makeRoom = [](auto& empty, std::size_t size) {
@@ -223,9 +223,9 @@ std::optional<Cut> writeFront(const MultiTriangulation& mt, const MemberSet& set
   tbb::parallel_invoke(
       [&] {
         for (std::uint32_t t = 0; t < roots; ++t) begin[1] += in.contains(a.remover[t]) ? 0 : 1;
-        tbb::parallel_for(std::uint32_t(0), set.pieces(), [&](std::uint32_t piece) {
-          const auto marked = writer.mark(piece);
-          begin[piece + 2] = marked.kept;
+        tbb::parallel_for(std::uint32_t(0), set.spans(), [&](std::uint32_t span) {
+          const auto marked = writer.mark(span);
+          begin[span + 2] = marked.kept;
           open.fetch_add(marked.open, std::memory_order_relaxed);
         });
       },
@@ -240,7 +240,7 @@ std::optional<Cut> writeFront(const MultiTriangulation& mt, const MemberSet& set
   cut.ids.resize(begin.back());
 
   std::iota(cut.vertices.begin(), cut.vertices.begin() + rootVertices, 0u);
-  std::vector<std::uint16_t> worst(std::size_t(set.pieces()) + 1, 0);
+  std::vector<std::uint16_t> worst(std::size_t(set.spans()) + 1, 0);
   std::uint32_t at = 0;
   for (std::uint32_t t = 0; t < roots; ++t) {
     if (in.contains(a.remover[t])) continue;
@@ -248,10 +248,10 @@ std::optional<Cut> writeFront(const MultiTriangulation& mt, const MemberSet& set
     cut.ids[at++] = t;
     worst[0] = std::max(worst[0], a.error[t]);
   }
-  tbb::parallel_for(std::uint32_t(0), set.pieces(), [&](std::uint32_t piece) {
-    const std::uint32_t to = begin[piece + 1];
-    worst[piece + 1] = writer.write(piece, cut.vertices.data() + rootVertices, cut.triangles.data() + to,
-                                    cut.ids.data() + to);
+  tbb::parallel_for(std::uint32_t(0), set.spans(), [&](std::uint32_t span) {
+    const std::uint32_t to = begin[span + 1];
+    worst[span + 1] = writer.write(span, cut.vertices.data() + rootVertices, cut.triangles.data() + to,
+                                   cut.ids.data() + to);
   });
   cut.achievedError = a.scale.decode(*std::max_element(worst.begin(), worst.end()));
   return cut;

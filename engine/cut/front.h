@@ -6,12 +6,12 @@
 
 namespace arete {
 
-/// Triangles of the front of a closed set. O(members).
+/// The number of triangles of the front of a closed set. O(members).
 std::uint64_t frontSize(const MultiTriangulation& mt, const MemberSet& set);
 /// The front of a closed set. O(members), parallel, the same for any thread count.
 Cut frontOf(const MultiTriangulation& mt, const MemberSet& set);
-/// The same, with the parents that the set lacks. (Spheres and saturated errors that no build makes, but a
-/// file may hold, can be so far out that a cut lacks some.)
+/// The front of a set together with the parents that it lacks. (A file may have spheres and saturated errors
+/// that break law 6, and a cut by them may lack parents.)
 Cut frontOfClosure(const MultiTriangulation& mt, const MemberSet& set);
 
 }  // namespace arete

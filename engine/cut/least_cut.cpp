@@ -3,16 +3,17 @@
 // The least set is unique, so the order of the walk does not matter for what it finds, only for how long it
 // takes.
 //
-// A walk from the root, a stack of nodes to include, goes wherever their triangles and parents lie: it waits
-// for memory at each. So where the criterion has a bound the walk goes once through the saturated cut, which
-// holds the least one but for a few per cent, in the order of the nodes, parents first. A node that is in by
-// its turn has the removers of its failing triangles included, whose turn comes. One that is not yet in by
-// its turn has to be in when a child is; else its children are told that a parent is missing, and ask for it
-// by their turn if they are in then. Whoever is included after its turn waits on a stack for an extra one.
-// Should a node have to be in that the saturated cut does not hold, the walk has the last word.
+// A walk from the root, with a stack of nodes to include, accesses triangles and parents at random and waits
+// for memory at each. So for a bounded criterion a sweep visits the saturated cut once, in the order of the
+// nodes, parents first: it contains the least cut and a few per cent more. Visiting a member includes the
+// removers of its failing triangles, which come later in the order. Visiting a node that is not yet a member
+// includes it if a child is a member; otherwise it marks its children as lacking a parent, and a marked child
+// includes its parents when it is visited as a member. A node that is included after it was visited goes on a
+// stack and is visited again. If a node is needed that the saturated cut does not have, the walk from the
+// root decides.
 //
-// Where one error is allowed everywhere the saturated cut is not even made: its nodes are those of the first
-// bands, but for some of the last one. Nearly all of these are in, and have their turns run by run.
+// For a uniform error the saturated cut is not needed: its nodes are those of the first bands, except for
+// some of the last one. Nearly all of them are members, and are visited run by run.
 #include "engine/cut/least_cut.h"
 
 #include <algorithm>
@@ -49,7 +50,8 @@ class Test {
   bool isUniform() const { return isUniform_; }
   OutwardScale::Code code() const { return code_; }
 
-  /// What is known of all triangles of a star by the ball around it: up to which code they pass, and may.
+  /// Bounds for all triangles of a star by the ball around it: the codes up to which they pass, and up to
+  /// which they may pass.
   struct Around {
     OutwardScale::Code passing, mayPass;
   };
@@ -73,8 +75,8 @@ class Test {
   OutwardScale::Code code_;
 };
 
-/// The candidates of an error allowed everywhere: the nodes before the end of its code's band. Nearly all of
-/// them are in the saturated cut, so that what is kept of one lies by its number.
+/// The candidates for a uniform error: the nodes before the end of its code's band. Nearly all of them are in
+/// the saturated cut, so their flags are indexed by node.
 class UniformCandidates {
  public:
   UniformCandidates(const MultiTriangulation& mt, OutwardScale::Code code)
@@ -83,24 +85,24 @@ class UniformCandidates {
         bandBegin_(mt.bandBegin(MultiTriangulation::bandOf(code))),
         end_(mt.bandEnd(MultiTriangulation::bandOf(code))) {}
 
-  std::uint32_t places() const { return end_; }
+  std::uint32_t count() const { return end_; }
   bool contains(std::uint32_t n) const { return n < end_; }
-  std::uint32_t placeOf(std::uint32_t n) const { return n; }
-  /// Whether the saturated cut holds a candidate.
+  std::uint32_t indexOf(std::uint32_t n) const { return n; }
+  /// Whether the saturated cut contains a candidate.
   bool mayBeIn(std::uint32_t n) const { return saturated_[n] > code_; }
-  /// Whether it holds all that are in.
+  /// Whether it contains all members.
   bool mayAllBeIn(const NodeSet& in) const {
     for (std::uint32_t n = bandBegin_; n < end_; ++n)
       if (in[n] != 0 && !mayBeIn(n)) return false;
     return true;
   }
 
-  /// visit(first place, end of places, nodeAt(place)) for one piece after the other, until it returns false.
+  /// Calls visit(first index, end index, nodeAt(index)) for one span after the other, until it returns false.
   template <class Visit>
-  bool forPieces(const Visit& visit) const {
-    constexpr std::uint32_t kInPiece = MemberSet::kMostInPiece;
-    for (std::uint32_t begin = 0; begin < end_; begin += kInPiece)
-      if (!visit(begin, std::min(end_, begin + kInPiece), [](std::uint32_t place) { return place; }))
+  bool forSpans(const Visit& visit) const {
+    constexpr std::uint32_t kInSpan = MemberSet::kMostInSpan;
+    for (std::uint32_t begin = 0; begin < end_; begin += kInSpan)
+      if (!visit(begin, std::min(end_, begin + kInSpan), [](std::uint32_t index) { return index; }))
         return false;
     return true;
   }
@@ -116,24 +118,24 @@ class UniformCandidates {
   std::uint32_t bandBegin_, end_;
 };
 
-/// Those of any other bound: the saturated cut, by rank.
+/// The candidates for any other bound: the saturated cut. Flags are indexed by rank.
 class RankedCandidates {
  public:
   RankedCandidates(const MemberSet& set, std::uint32_t nodes)
       : set_(set), lookup_(set.lookup()), nodes_(nodes) {}
 
-  std::uint32_t places() const { return set_.size(); }
+  std::uint32_t count() const { return set_.size(); }
   bool contains(std::uint32_t n) const { return lookup_.contains(n); }
-  std::uint32_t placeOf(std::uint32_t n) const { return lookup_.rank(n); }
+  std::uint32_t indexOf(std::uint32_t n) const { return lookup_.rank(n); }
   bool mayBeIn(std::uint32_t) const { return true; }
   bool mayAllBeIn(const NodeSet&) const { return true; }
 
   template <class Visit>
-  bool forPieces(const Visit& visit) const {
-    std::array<std::uint32_t, MemberSet::kMostInPiece> members;
-    for (std::uint32_t piece = 0; piece < set_.pieces(); ++piece) {
-      const std::uint32_t begin = set_.before(piece), end = begin + set_.list(piece, members.data());
-      if (!visit(begin, end, [&](std::uint32_t place) { return members[place - begin]; })) return false;
+  bool forSpans(const Visit& visit) const {
+    std::array<std::uint32_t, MemberSet::kMostInSpan> members;
+    for (std::uint32_t span = 0; span < set_.spans(); ++span) {
+      const std::uint32_t begin = set_.before(span), end = begin + set_.list(span, members.data());
+      if (!visit(begin, end, [&](std::uint32_t index) { return members[index - begin]; })) return false;
     }
     return true;
   }
@@ -153,7 +155,7 @@ class RankedCandidates {
   const std::uint32_t nodes_;
 };
 
-/// Through the candidates, in the order of the nodes.
+/// Visits the candidates in the order of the nodes.
 template <class Candidates>
 class Sweep {
  public:
@@ -162,22 +164,22 @@ class Sweep {
         a_(mt.arrays()),
         test_(test),
         candidates_(candidates),
-        in_(std::size_t{candidates.places()} + 1, 0),
-        lacksParent_(candidates.places(), 0) {}
+        in_(std::size_t{candidates.count()} + 1, 0),
+        lacksParent_(candidates.count(), 0) {}
 
-  /// The least set; nothing where a node had to be in that is no candidate (rounding, or a file whose errors
-  /// break the laws), and when it was stopped.
+  /// @return The least set; nothing if a node is needed that is no candidate (rounding, or a file whose
+  /// errors break the laws), or if it was stopped.
   std::optional<MemberSet> run(const std::function<bool()>& stop) {
     for (std::uint32_t t = 0; t < mt_.rootTriangleCount(); ++t)
       if (a_.remover[t] != kNone && !test_.passes(t, {})) include(a_.remover[t]);
-    const bool isThrough = candidates_.forPieces([&](std::uint32_t begin, std::uint32_t end, auto nodeAt) {
+    const bool isThrough = candidates_.forSpans([&](std::uint32_t begin, std::uint32_t end, auto nodeAt) {
       if (stop()) return false;
-      for (std::uint32_t place = begin; place < end; ++place) {
-        if constexpr (kIsUniform) place = takeOrdinary(place, end);
-        if (place == end) break;
-        turn_ = place;
-        take(nodeAt(place));
-        if (!late_.empty() && !takeLate(stop)) return false;
+      for (std::uint32_t index = begin; index < end; ++index) {
+        if constexpr (kIsUniform) index = visitRuns(index, end);
+        if (index == end) break;
+        current_ = index;
+        visit(nodeAt(index));
+        if (!late_.empty() && !visitLate(stop)) return false;
       }
       return true;
     });
@@ -189,62 +191,63 @@ class Sweep {
   static constexpr bool kIsUniform = std::is_same_v<Candidates, UniformCandidates>;
   static constexpr std::uint32_t kMostInRun = 64, kSlotsAtOnce = 512;
 
-  /// The turns from a place on, up to the first of who is not in or lacks a parent; returns whose that is.
-  /// They are told run by run: who is in stays in, and then their slots are one range, that needs no branch.
-  std::uint32_t takeOrdinary(std::uint32_t place, std::uint32_t placesEnd) {
+  /// Visits the candidates from an index on, up to the first that is not a member or lacks a parent. @return
+  /// That one's index. Members are found run by run: a member stays one, and the slots of a run are one
+  /// range, visited without branches.
+  std::uint32_t visitRuns(std::uint32_t index, std::uint32_t indexEnd) {
     for (;;) {
-      const std::uint32_t runEnd = ordinaryUntil(place, std::min(placesEnd, place + kMostInRun));
-      if (runEnd == place) return place;
-      for (std::uint32_t s = a_.slotBegin[place], end = a_.slotBegin[runEnd]; s != end;) {
+      const std::uint32_t runEnd = memberRunEnd(index, std::min(indexEnd, index + kMostInRun));
+      if (runEnd == index) return index;
+      for (std::uint32_t s = a_.slotBegin[index], end = a_.slotBegin[runEnd]; s != end;) {
         const std::uint32_t next = s + std::min(end - s, kSlotsAtOnce);
         includeRemovers(s, next);
         s = next;
       }
-      place = runEnd;
+      index = runEnd;
     }
   }
 
-  /// The first place that is not of an ordinary node.
-  std::uint32_t ordinaryUntil(std::uint32_t place, std::uint32_t end) const {
+  /// The first index whose node is not a member or lacks a parent.
+  std::uint32_t memberRunEnd(std::uint32_t index, std::uint32_t end) const {
     constexpr std::uint64_t kAll = 0x0101010101010101;
-    for (; place + 8 <= end; place += 8) {
+    for (; index + 8 <= end; index += 8) {
       std::uint64_t in, lacking;
-      std::memcpy(&in, in_.data() + place, 8);
-      std::memcpy(&lacking, lacksParent_.data() + place, 8);
+      std::memcpy(&in, in_.data() + index, 8);
+      std::memcpy(&lacking, lacksParent_.data() + index, 8);
       if ((in & ~lacking) != kAll) break;
     }
-    while (place < end && in_[place] > lacksParent_[place]) ++place;
-    return place;
+    while (index < end && in_[index] > lacksParent_[index]) ++index;
+    return index;
   }
 
-  /// Includes who removes the triangles of these slots that fail, and has his turn still to come.
+  /// Includes the removers of the failing triangles of these slots. Precondition: they are visited later.
   ARETE_VECTOR_CLONES
   void includeRemovers(std::uint32_t begin, std::uint32_t end) {
     const std::uint32_t* const removers = a_.remover.data() + mt_.rootTriangleCount() + begin;
     const OutwardScale::Code* const errors = a_.error.data() + mt_.rootTriangleCount() + begin;
-    const std::uint32_t nobody = candidates_.places(), code = test_.code(), count = end - begin;
-    std::array<std::uint32_t, kSlotsAtOnce> who;
+    const std::uint32_t notFailing = candidates_.count(), code = test_.code(), count = end - begin;
+    std::array<std::uint32_t, kSlotsAtOnce> included;
     std::uint32_t beyond = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t r = removers[i], here = std::min(r, nobody);
+      const std::uint32_t r = removers[i], here = std::min(r, notFailing);
       const bool fails = errors[i] > code;
-      who[i] = fails ? here : nobody;
-      beyond |= fails && r >= nobody && r != kNone ? 1 : 0;
+      included[i] = fails ? here : notFailing;
+      beyond |= fails && r >= notFailing && r != kNone ? 1 : 0;
     }
     std::uint8_t* const in = in_.data();
-    for (std::uint32_t i = 0; i < count; ++i) in[who[i]] = 1;
+    for (std::uint32_t i = 0; i < count; ++i) in[included[i]] = 1;
     isBeyond_ = isBeyond_ || beyond != 0;
   }
 
-  void take(std::uint32_t n) {
-    if (in_[turn_] == 0) {
+  void visit(std::uint32_t n) {
+    if (in_[current_] == 0) {
       if (!candidates_.mayBeIn(n) || !hasChildIn(n)) return;
-      in_[turn_] = 1;
+      in_[current_] = 1;
     }
-    expand(n, turn_);
+    expand(n, current_);
   }
 
-  /// Whether a child is in; where none is, all of them are told that this parent is not.
+  /// Whether a child is a member; if none is, marks all children as lacking a parent.
   bool hasChildIn(std::uint32_t n) {
     const std::uint32_t roots = mt_.rootTriangleCount(), begin = a_.slotBegin[n], end = a_.slotBegin[n + 1];
     for (std::uint32_t s = begin; s < end; ++s) {
@@ -253,23 +256,24 @@ class Sweep {
     }
     for (std::uint32_t s = begin; s < end; ++s) {
       const std::uint32_t r = a_.remover[roots + s];
-      if (r != n && candidates_.contains(r)) lacksParent_[candidates_.placeOf(r)] = 1;
+      if (r != n && candidates_.contains(r)) lacksParent_[candidates_.indexOf(r)] = 1;
     }
     return false;
   }
 
-  void expand(std::uint32_t n, std::uint32_t place) {
-    if (lacksParent_[place] != 0)
+  void expand(std::uint32_t n, std::uint32_t index) {
+    if (lacksParent_[index] != 0)
       for (const std::uint32_t t : mt_.floor(NodeId(n)))
         if (const NodeId parent = mt_.creator(TriangleId(t)); parent.isValid()) include(parent.index());
     const std::uint32_t roots = mt_.rootTriangleCount(), begin = a_.slotBegin[n], end = a_.slotBegin[n + 1];
     if constexpr (kIsUniform)
-      if (place == turn_) return includeRemovers(begin, end);
-    std::optional<Test::Around> around;  // the star
+      if (index == current_) return includeRemovers(begin, end);
+    std::optional<Test::Around> around;  // of the star
     for (std::uint32_t s = begin; s < end; ++s) {
       const std::uint32_t r = a_.remover[roots + s];
       if (r == kNone || isIn(r)) continue;
-      // Who is no candidate is allowed its saturated error, and with it every triangle that it removes.
+      // The criterion allows the saturated error of a node that is no candidate, and with it all that it
+      // removes.
       if (!candidates_.contains(r) && a_.error[roots + s] <= a_.saturatedError[r]) continue;
       if (!around) around = test_.around(NodeId(n));
       if (a_.error[roots + s] <= around->passing) continue;
@@ -277,26 +281,26 @@ class Sweep {
     }
   }
 
-  bool isIn(std::uint32_t n) const { return candidates_.contains(n) && in_[candidates_.placeOf(n)] != 0; }
+  bool isIn(std::uint32_t n) const { return candidates_.contains(n) && in_[candidates_.indexOf(n)] != 0; }
 
-  /// A remover of what fails, or a parent of one that is in.
+  /// Includes the remover of a failing triangle, or a parent of a member.
   void include(std::uint32_t n) {
     if (!candidates_.contains(n)) {
       isBeyond_ = true;
       return;
     }
-    const std::uint32_t place = candidates_.placeOf(n);
-    if (in_[place] != 0) return;
-    in_[place] = 1;
-    if (place < turn_) late_.push_back(n);
+    const std::uint32_t index = candidates_.indexOf(n);
+    if (in_[index] != 0) return;
+    in_[index] = 1;
+    if (index < current_) late_.push_back(n);
   }
 
-  bool takeLate(const std::function<bool()>& stop) {
+  bool visitLate(const std::function<bool()>& stop) {
     for (std::size_t steps = 1; !late_.empty(); ++steps) {
       if (steps % kCheckEvery == 0 && stop()) return false;
       const std::uint32_t n = late_.back();
       late_.pop_back();
-      expand(n, candidates_.placeOf(n));
+      expand(n, candidates_.indexOf(n));
     }
     return true;
   }
@@ -305,9 +309,9 @@ class Sweep {
   const MtArrays& a_;
   const Test& test_;
   const Candidates& candidates_;
-  NodeSet in_;                             // by place, and of nobody
-  std::vector<std::uint8_t> lacksParent_;  // by place
-  std::uint32_t turn_ = 0;                 // the place of the one whose turn it is
+  NodeSet in_;                             // per candidate; the last is written for slots that do not fail
+  std::vector<std::uint8_t> lacksParent_;  // per candidate
+  std::uint32_t current_ = 0;              // the index of the candidate being visited
   std::vector<std::uint32_t> late_;
   bool isBeyond_ = false;
 };
@@ -330,7 +334,7 @@ std::optional<MemberSet> leastMembers(const MultiTriangulation& mt, const Criter
                                       const std::function<bool()>& stop) {
   if (const BoundedCriterion* bounded = criterion.bounded())
     if (auto found = swept(mt, *bounded, stop)) return found;
-  // Who was stopped is stopped here too.
+  // Stops at once if the sweep was stopped.
   return leastMembersByWalk(mt, criterion, stop);
 }
 
@@ -365,12 +369,12 @@ std::optional<MemberSet> leastMembersWithin(const MultiTriangulation& mt, double
                                             std::uint32_t maxTriangles, const std::function<bool()>& stop) {
   const OutwardScale& scale = mt.arrays().scale;
   const std::uint32_t leastCode = scale.floorCode(least);
-  // What is known: the set of code `fits` is small enough, that of any code below `large` is not. (A smaller
+  // Invariant: the set of code `fits` is small enough, that of any code below `large` is not. (A smaller
   // error has a larger set.) Both with their triangles.
   std::uint32_t fits = OutwardScale::kMaxCode, large = leastCode;
   double ofFits = mt.rootTriangleCount(), ofLarge = 0;
-  std::optional<MemberSet> best = MemberSet::prefix(0);  // no error is beyond the scale
-  const auto look = [&](std::uint32_t code) {
+  std::optional<MemberSet> best = MemberSet::prefix(0);  // the set of the largest code
+  const auto evaluate = [&](std::uint32_t code) {
     auto set = leastMembers(mt, UniformError(scale.decode(static_cast<OutwardScale::Code>(code))), stop);
     if (!set) return false;
     const std::uint64_t count = frontSize(mt, *set);
@@ -385,23 +389,23 @@ std::optional<MemberSet> leastMembersWithin(const MultiTriangulation& mt, double
     return true;
   };
 
-  // From the first band at whose end there are nodes for as many triangles, which is nearly always too much,
-  // down to one where it is.
+  // Starts at the first band at whose end the nodes suffice for the budget, which is nearly always too fine,
+  // and continues with finer bands until the set is too large.
   std::uint32_t band = MultiTriangulation::kBands - 1;
   while (band > 0 && 2 * std::uint64_t{mt.bandEnd(band)} < maxTriangles) --band;
   for (std::uint32_t code = std::max(leastCode, band << MultiTriangulation::kBandShift);;) {
-    if (!look(code)) return std::nullopt;
+    if (!evaluate(code)) return std::nullopt;
     if (fits != code || code == leastCode) break;
     code -= std::min(code - leastCode, 1u << MultiTriangulation::kBandShift);
   }
-  // Triangles grow about as a power of the error, and codes are logarithms: between the two by a straight
-  // line, in the middle where that did not halve what is left.
+  // The number of triangles is about a power of the error, and codes are logarithms: interpolates between the
+  // two on a straight line, or bisects if the last step did not halve the interval.
   for (bool isHalved = true; large < fits;) {
     const std::uint32_t left = fits - large;
     const double part = std::log(maxTriangles / ofFits) / std::log(ofLarge / ofFits);
     const std::uint32_t down =
         isHalved && part > 0 && part < 1 ? static_cast<std::uint32_t>(part * left) : left / 2;
-    if (!look(fits - 1 - std::min(down, left - 1))) return std::nullopt;
+    if (!evaluate(fits - 1 - std::min(down, left - 1))) return std::nullopt;
     isHalved = 2 * (fits - large) <= left;
   }
   return best;
@@ -413,20 +417,21 @@ std::optional<SetOfSeverity> membersOfSeverityWithin(const MultiTriangulation& m
                                                      const std::function<bool()>& stop) {
   constexpr double kNearEnough = 0.9, kAimedAt = 0.95, kLargestStep = 1.0 / 16, kLeastPart = 0.05,
                    kWorthwhile = 1.05;
-  constexpr int kMostLooks = 12;
-  // The worst of the root's that can be told: around an eye severities are infinite.
+  constexpr int kMostEvaluations = 12;
+  // The largest finite severity of the root: around an eye severities are infinite.
   double fits = 0, large = *criterion.severityLimit();
   for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) {
     const double severity = criterion.severity(mt, TriangleId(t), mt.arrays().rootTriangles[t]);
     if (std::isfinite(severity)) fits = std::max(fits, severity);
   }
-  // What the sets add to the root, 1 at least.
-  const double roots = mt.rootTriangleCount(), wanted = std::max(1.0, kAimedAt * maxTriangles - roots);
-  double ofFits = 1, ofLarge = 0;  // 0: nobody has looked
+  // Triangles that the sets add to the root, at least 1.
+  const double roots = mt.rootTriangleCount(), target = std::max(1.0, kAimedAt * maxTriangles - roots);
+  double ofFits = 1, ofLarge = 0;  // 0: not yet evaluated
   SetOfSeverity best{MemberSet::prefix(0)};
   double limit = fits * kLargestStep;
-  for (int looks = 0; looks < kMostLooks && fits > large && ofFits + roots < kNearEnough * maxTriangles;
-       ++looks) {
+  for (int evaluations = 0;
+       evaluations < kMostEvaluations && fits > large && ofFits + roots < kNearEnough * maxTriangles;
+       ++evaluations) {
     limit = std::max(limit, large);
     auto set = leastMembers(mt, *criterion.withSeverityLimit(limit), stop);
     if (!set) return std::nullopt;
@@ -441,9 +446,10 @@ std::optional<SetOfSeverity> membersOfSeverityWithin(const MultiTriangulation& m
       large = limit;
       ofLarge = added;
     }
-    // Triangles grow about as a power of the severity, the power -1 while there is but one look to tell.
-    const double part = std::log(wanted / ofFits) / std::log(ofLarge / ofFits);
-    limit = ofLarge == 0 ? fits * std::clamp(ofFits / wanted, kLargestStep, kAimedAt)
+    // The number of triangles is about a power of the severity; the power -1 is assumed until there are two
+    // values.
+    const double part = std::log(target / ofFits) / std::log(ofLarge / ofFits);
+    limit = ofLarge == 0 ? fits * std::clamp(ofFits / target, kLargestStep, kAimedAt)
                          : fits * std::pow(large / fits, std::clamp(part, kLeastPart, 1 - kLeastPart));
   }
   return best;

@@ -13,63 +13,64 @@
 
 namespace arete {
 
-/// The nodes of a cut, a bit each, 64 to a word, 16 words to a page; a page without members takes an index
-/// and no words, unless there are hardly any such pages. Made in parallel, the same for any number of
-/// threads; it knows how many members come before each, so that a front can number its vertices.
+/// The nodes of a cut as a bit set with ranks: 64 nodes to a word (a cluster), 16 words to a cluster group. A
+/// group without members has an index and no words, unless there are hardly any such groups. Built in
+/// parallel, the same for any number of threads. rank() is the number of members before a node, by which a
+/// front numbers its vertices.
 class MemberSet {
  public:
-  static constexpr std::uint32_t kNodesPerWord = 64, kWordsPerPage = 16;
+  static constexpr std::uint32_t kNodesPerWord = 64, kWordsPerGroup = 16;
 
-  /// Takes the members of a run of words.
+  /// Receives the members of a run of words.
   class Sink;
-  /// fill(first word, end of words, sink): puts what members there are.
+  /// fill(first word, end of words, sink): puts the members among these words into the sink.
   using Fill = std::function<void(std::uint32_t, std::uint32_t, Sink&)>;
 
-  /// Nodes before `certain` are members, nodes from `end` on are not; fill() says which of the rest are,
-  /// called for runs of at most so many pages, by any thread. `certain` is rounded down to a whole page: a
-  /// fill() may have to say again what is certain.
-  MemberSet(std::uint32_t certain, std::uint32_t end, std::uint32_t pagesPerRun, const Fill& fill);
-  /// The nodes that are in, of all of them.
+  /// @param certain Nodes before it are members. It is rounded down to a whole group, so fill() may receive
+  /// words below it and must put their members again. @param end Nodes from it on are not members. @param
+  /// groupsPerRun The most groups that one call of fill() receives. @param fill Called by any thread.
+  MemberSet(std::uint32_t certain, std::uint32_t end, std::uint32_t groupsPerRun, const Fill& fill);
+  /// The members of a set.
   explicit MemberSet(const NodeSet& set);
-  /// The nodes of a rising list, below `end`.
+  /// The nodes of a rising list, all below `end`.
   MemberSet(const std::vector<std::uint32_t>& nodes, std::uint32_t end);
   static MemberSet prefix(std::uint32_t nodes);
 
   std::uint32_t size() const { return size_; }
 
  private:
-  /// Half of a word's nodes: what is asked of a node is in eight bytes.
+  /// Half of a word's nodes: the bit and the rank of a node are in eight bytes.
   struct Half {
     std::uint32_t bits;
     std::uint32_t before;  // members before those of the half
   };
-  static constexpr std::uint32_t kNodesPerHalf = 32, kHalvesPerPage = 2 * kWordsPerPage;
+  static constexpr std::uint32_t kNodesPerHalf = 32, kHalvesPerGroup = 2 * kWordsPerGroup;
 
   static bool isSet(Half half, std::uint32_t n) { return (half.bits >> (n % kNodesPerHalf) & 1) != 0; }
   static std::uint32_t rankIn(Half half, std::uint32_t n) {
-    // What is left are the members up to n, itself among them.
+    // The shift leaves the members up to n, and n itself.
     return half.before + static_cast<std::uint32_t>(std::popcount(half.bits << (~n % kNodesPerHalf))) - 1;
   }
 
  public:
-  /// What a front asks: whether n is a member, be it a node or none; how many come before it (precondition: n
-  /// is a member). Pointers by value, so that nothing a loop writes can change them.
+  /// contains(): whether n is a member; n may be kNone. rank(): the number of members before it;
+  /// precondition: n is a member. Holds pointers by value, so that no write in a loop can alias them.
   class Lookup {
    public:
-    bool contains(std::uint32_t n) const { return isSet(half(std::min(n / kNodesPerPage, pages_), n), n); }
-    std::uint32_t rank(std::uint32_t n) const { return rankIn(half(n / kNodesPerPage, n), n); }
+    bool contains(std::uint32_t n) const { return isSet(half(std::min(n / kNodesPerGroup, groups_), n), n); }
+    std::uint32_t rank(std::uint32_t n) const { return rankIn(half(n / kNodesPerGroup, n), n); }
 
    private:
     friend class MemberSet;
-    Half half(std::uint32_t page, std::uint32_t n) const {
-      return halves_[begins_[page] + n / kNodesPerHalf % kHalvesPerPage];
+    Half half(std::uint32_t group, std::uint32_t n) const {
+      return halves_[begins_[group] + n / kNodesPerHalf % kHalvesPerGroup];
     }
     const std::uint32_t* begins_;
     const Half* halves_;
-    std::uint32_t pages_;
+    std::uint32_t groups_;
   };
-  /// The same of a set with members nearly everywhere (isDense()), whose pages are all there, without a look
-  /// at an index.
+  /// The same for a set with members in nearly every group (isDense()): all groups have words, and no index
+  /// is read.
   class DenseLookup {
    public:
     bool contains(std::uint32_t n) const { return isSet(halves_[std::min(n / kNodesPerHalf, end_)], n); }
@@ -85,48 +86,47 @@ class MemberSet {
   /// Precondition: isDense().
   DenseLookup denseLookup() const;
 
-  /// Members fall into pieces, in rising order; those of different pieces can be visited by different
-  /// threads.
-  static constexpr std::uint32_t kMostInPiece = 4096;
-  std::uint32_t pieces() const;
-  /// Writes the members of a piece, rising; returns how many. Precondition: room for kMostInPiece.
-  std::uint32_t list(std::uint32_t piece, std::uint32_t* members) const;
-  /// visit(n) for every member, rising, in one thread.
+  /// Members are divided into spans, in rising order. Different threads can visit different spans.
+  static constexpr std::uint32_t kMostInSpan = 4096;
+  std::uint32_t spans() const;
+  /// Writes the members of a span, rising. @return Their number. Precondition: room for kMostInSpan.
+  std::uint32_t list(std::uint32_t span, std::uint32_t* members) const;
+  /// Calls visit(n) for every member, rising, on this thread.
   template <class Visit>
   void visit(const Visit& visit) const {
-    std::array<std::uint32_t, kMostInPiece> members;
-    for (std::uint32_t piece = 0; piece < pieces(); ++piece) {
-      const std::uint32_t count = list(piece, members.data());
+    std::array<std::uint32_t, kMostInSpan> members;
+    for (std::uint32_t span = 0; span < spans(); ++span) {
+      const std::uint32_t count = list(span, members.data());
       for (std::uint32_t i = 0; i < count; ++i) visit(members[i]);
     }
   }
-  /// Members before those of the piece.
-  std::uint32_t before(std::uint32_t piece) const { return halves(used_[piece * kWordsPerPiece])[0].before; }
+  /// The number of members before those of the span.
+  std::uint32_t before(std::uint32_t span) const { return halves(used_[span * kWordsPerSpan])[0].before; }
 
   NodeSet toNodeSet(std::uint32_t nodeCount) const;
 
  private:
-  static constexpr std::uint32_t kNodesPerPage = kNodesPerWord * kWordsPerPage;
-  static constexpr std::uint32_t kWordsPerPiece = kMostInPiece / kNodesPerWord;
+  static constexpr std::uint32_t kNodesPerGroup = kNodesPerWord * kWordsPerGroup;
+  static constexpr std::uint32_t kWordsPerSpan = kMostInSpan / kNodesPerWord;
 
-  /// The two of a word.
+  /// The two halves of a word.
   const Half* halves(std::uint32_t w) const {
-    return halves_.get() + begins_[w / kWordsPerPage] + w % kWordsPerPage * 2;
+    return halves_.get() + begins_[w / kWordsPerGroup] + w % kWordsPerGroup * 2;
   }
 
   std::uint32_t size_ = 0;
   bool isDense_ = false;
-  std::vector<std::uint32_t> begins_;  // of pages, and of one beyond them: where their halves begin
-  std::unique_ptr<Half[]> halves_;   // the first page is that of none, and so is the last one of a dense set
-  std::vector<std::uint32_t> used_;  // words with members
+  std::vector<std::uint32_t> begins_;  // per group, and one beyond them: where its halves begin
+  std::unique_ptr<Half[]> halves_;     // the first group is empty, and so is the last one of a dense set
+  std::vector<std::uint32_t> used_;    // words with members
 };
 
 class MemberSet::Sink {
  public:
-  /// The members among nodes 64 word .. 64 word + 63; rising words, no word twice.
+  /// The members among nodes 64 word .. 64 word + 63. Precondition: words rise.
   void put(std::uint32_t word, std::uint64_t bits) {
     if (bits == 0) return;
-    pages_ += words_.empty() || words_.back() / kWordsPerPage != word / kWordsPerPage ? 1 : 0;
+    groups_ += words_.empty() || words_.back() / kWordsPerGroup != word / kWordsPerGroup ? 1 : 0;
     members_ += static_cast<std::uint32_t>(std::popcount(bits));
     words_.push_back(word);
     bits_.push_back(bits);
@@ -134,7 +134,7 @@ class MemberSet::Sink {
 
  private:
   friend class MemberSet;
-  std::uint32_t pages_ = 0, members_ = 0;
+  std::uint32_t groups_ = 0, members_ = 0;
   std::vector<std::uint32_t> words_;
   std::vector<std::uint64_t> bits_;
 };

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The triangles of the growing front that fail the criterion wait in a heap, keyed by the order. The first
-// one's remover enters, and before it the ancestors still missing, one modification at a time: parents have
-// smaller indices, so a rising list keeps the set closed after each. Nodes are counted before they enter (a
-// node adds two triangles, one on a border), so the budget is never exceeded.
+// The triangles of the growing front that fail the criterion are in a heap, keyed by the order. The first
+// one's remover is applied, and before it its missing ancestors, one modification at a time: parents have
+// smaller indices, so a rising list keeps the set closed after each. Their triangles are counted before (a
+// node adds two, one on a border), so the budget is never exceeded.
 //
 // Worst first, the walk passes through least cuts: when the worst severity left falls below all it was
-// before, to s, every node that is in was asked for by a triangle worse than s, so the set is the least for
-// "severity at most s". That is why the last such state is the answer. And it is why the walk need not begin
-// at the root where the severity is the error: it would pass through the least set for the least error that
-// the budget holds, which is found faster (least_cut.h). Where a criterion has a limit of severity the walk
-// begins at the least set for some s that the budget holds: those of all smaller s hold that set. (A bound
-// over a ball may have passed a triangle worse than s: then the set is smaller, and the walk goes on from
-// it.)
+// before, to s, every member was required by a triangle worse than s, so the set is the least one for
+// "severity at most s". Therefore the last such state is the result. For a uniform error the walk need not
+// start at the root: it would pass through the least set for the least error that fits the budget, which is
+// found faster (least_cut.h). For a criterion with a severity limit the walk starts at the least set for some
+// s that fits: the sets of all smaller s contain it. (If a bound over a ball accepted a triangle worse than
+// s, the set is smaller, and the walk continues from it.)
 #include "engine/cut/refine.h"
 
 #include <cmath>
@@ -29,7 +28,8 @@ namespace {
 constexpr std::uint32_t kNone = MultiTriangulation::kNone;
 constexpr std::size_t kCheckEvery = 1 << 12;
 constexpr std::uint8_t kClaimed = 2;  // about to enter
-/// A walk to fewer triangles than one for so many nodes takes no longer than the looks that would shorten it.
+/// A walk to fewer triangles than one for so many nodes takes shorter than the evaluations that would shorten
+/// it.
 constexpr std::uint64_t kShortWalk = 256;
 
 struct Waiting {
@@ -53,7 +53,7 @@ class Walk {
         isWorstFirst_(isWorstFirst(options)),
         cut_{{}, true} {}
 
-  /// From a state that the walk passes through.
+  /// @param start A state that the walk passes through.
   Result<NodeCut> run(const MemberSet& start, const RunContext& context) {
     cut_.nodes = start.toNodeSet(mt_.nodeCount());
     std::uint64_t triangles = frontSize(mt_, start);
@@ -69,13 +69,14 @@ class Walk {
       if (steps % kCheckEvery == 0 && context.cancelled())
         return failure(ErrorCode::interrupted, "the cut was interrupted");
       while (!heap_.empty() && isIn(mt_.arrays().remover[heap_.top().triangle])) heap_.pop();
-      noteState();
+      recordState();
       if (heap_.empty()) break;
       collectMissing(mt_, mt_.arrays().remover[heap_.top().triangle], claim, missing);
       heap_.pop();
       std::uint64_t added = 0;
       for (const std::uint32_t n : missing) added += mt_.isOpen(NodeId(n)) ? 1 : 2;
-      // What is worst cannot be bettered within the budget; what is left of it would only hide that.
+      // The worst triangle cannot be refined within the budget. Spending the rest elsewhere would not lower
+      // it.
       cut_.isComplete = !(options_.maxTriangles && triangles + added > *options_.maxTriangles);
       for (std::size_t i = 0; cut_.isComplete && i < missing.size(); ++i) {
         cut_.isComplete = !(options_.deadline && options_.deadline->isOver());
@@ -93,7 +94,7 @@ class Walk {
     return std::move(cut_);
   }
 
-  /// The worst severity that its answer leaves; of no order but worst first.
+  /// The worst severity of the result. Precondition: the order is worst first.
   double leastWorst() const { return leastWorst_; }
 
  private:
@@ -122,8 +123,8 @@ class Walk {
       offer(mt_.slotTriangle(NodeId(n), i).index(), NodeId(n));
   }
 
-  /// Remembers the state where it is the best seen.
-  void noteState() {
+  /// Records the state if it is the best so far.
+  void recordState() {
     if (!isWorstFirst_) return;
     const double worst = heap_.empty() ? -std::numeric_limits<double>::infinity() : -heap_.top().key.rank;
     if (worst > leastWorst_) return;

@@ -11,15 +11,16 @@
 
 namespace arete {
 
-/// The nodes of a minimal cut that a budget or a deadline may end early, refined in the order of the options.
-/// With a budget or a deadline spent worst first, the state handed out is the last one whose worst triangle
-/// was the least (errors are not monotone down the graph: on white noise refining can raise the largest
-/// error). Precondition: the budget, if any, holds the root. Errors: interrupted.
+/// The nodes of a minimal cut under a budget or a deadline, refined in the order of the options: greedy
+/// insertion [GarlandHeckbert1995] on the graph of an MT. In the order worst first, the result is the last
+/// state whose worst severity was the least of all. (Errors are not monotone along the graph: on white noise,
+/// refinement can raise the largest error.) O(n log n), n the triangles visited. Errors: interrupted.
+/// Precondition: the budget, if any, is at least the root's triangles.
 Result<NodeCut> refineWithin(const MultiTriangulation& mt, const Criterion& criterion,
                              const CutOptions& options, const RunContext& context);
 
-/// The nodes that must enter before n can, and n: parents first. claim(node index): true once for every node
-/// that is not in yet.
+/// Collects n and the ancestors that must be applied before it. @param claim claim(node index) returns true
+/// once for every node that is not yet a member. @param missing Receives the nodes, parents first.
 template <class Claim>
 void collectMissing(const MultiTriangulation& mt, std::uint32_t n, const Claim& claim,
                     std::vector<std::uint32_t>& missing) {

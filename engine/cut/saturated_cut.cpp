@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Node n is in iff its saturated error exceeds what the criterion allows over its sphere. A parent's
-// saturated error and sphere contain its child's (law 6), so the set is closed as it comes.
+// Node n is a member if and only if its saturated error exceeds the error that the criterion allows over its
+// sphere. A parent's saturated error and sphere contain its child's (law 6), so the set is closed
+// [LindstromPascucci2002].
 //
-// An error allowed everywhere is a comparison of codes: all of the bands above the code's are in, all of
-// those below are out, and only the nodes of its own band are looked at.
+// A uniform error is compared by code: all nodes of higher bands are members, none of lower bands is, and
+// only those of its own band are tested.
 //
-// With a budget the members are taken by falling ratio of the two, parents first: what of that order fits is
-// closed too. Where the error allowed is the same everywhere that is the order of the codes, and counting the
-// triangles of each code finds the one at which the budget ends.
+// With a budget the members are taken by falling ratio of the two errors, parents first, so that every prefix
+// of that order is closed too. For a uniform error it is the order of the codes, and a count of triangles per
+// code finds the code at which the budget ends.
 #include "engine/cut/saturated_cut.h"
 
 #include <tbb/parallel_sort.h>
@@ -28,7 +29,7 @@ namespace {
 
 using Code = OutwardScale::Code;
 constexpr std::uint32_t kPerWord = MemberSet::kNodesPerWord;
-constexpr std::uint32_t kPagesPerRun = 4;
+constexpr std::uint32_t kGroupsPerRun = 4;
 
 std::uint32_t added(const MultiTriangulation& mt, std::uint32_t n) {
   return mt.isOpen(NodeId(n)) ? 1 : 2;
@@ -37,7 +38,7 @@ std::uint32_t added(const MultiTriangulation& mt, std::uint32_t n) {
 /// The nodes before `end` for which isIn(n), of which those before `certain` are known to be.
 template <class IsIn>
 MemberSet membersFor(std::uint32_t certain, std::uint32_t end, const IsIn& isIn) {
-  return MemberSet(certain, end, kPagesPerRun,
+  return MemberSet(certain, end, kGroupsPerRun,
                    [&](std::uint32_t first, std::uint32_t last, MemberSet::Sink& sink) {
                      for (std::uint32_t word = first; word < last; ++word) {
                        std::uint64_t bits = 0;
@@ -66,7 +67,7 @@ SaturatedMembers uniformCut(const MultiTriangulation& mt, double maxError,
   std::vector<std::uint32_t> addedBy(std::size_t(OutwardScale::kMaxCode) + 1, 0);
   for (std::uint32_t n = 0; n < end; ++n) addedBy[saturated[n]] += added(mt, n);
   std::uint32_t left = *maxTriangles - mt.rootTriangleCount();
-  Code last = OutwardScale::kMaxCode;  // of which some may enter
+  Code last = OutwardScale::kMaxCode;  // of which only some may fit
   for (; last > code && addedBy[last] <= left; --last) left -= addedBy[last];
   if (last == code) return {uniformMembers(mt, code, 0), true};
   std::uint32_t n = mt.bandBegin(MultiTriangulation::bandOf(last));
@@ -78,31 +79,31 @@ SaturatedMembers uniformCut(const MultiTriangulation& mt, double maxError,
   return {uniformMembers(mt, last, n), false};
 }
 
-/// By pages, by the blocks of those pages that may have members, by the nodes of those blocks. What is looked
-/// into lies wherever it lies, so its memory is asked for some time before it is looked at.
+/// Searches from cluster groups to clusters to nodes, and descends only where there may be members. Accesses
+/// are random, so memory is prefetched some steps ahead.
 class SphereSearch {
  public:
   SphereSearch(const MultiTriangulation& mt, const BoundedCriterion& criterion)
       : a_(mt.arrays()),
         criterion_(criterion),
         nodes_(mt.nodeCount()),
-        blocks_(static_cast<std::uint32_t>(nodeBlockCount(nodes_))) {}
+        clusters_(static_cast<std::uint32_t>(nodeBlockCount(nodes_))) {}
 
   MemberSet members() const {
     return MemberSet(
-        0, nodes_, kPagesPerRun,
+        0, nodes_, kGroupsPerRun,
         [&](std::uint32_t first, std::uint32_t last, MemberSet::Sink& sink) { search(first, last, sink); });
   }
 
  private:
-  static constexpr std::uint32_t kPerBlock = MultiTriangulation::kNodesPerBlock,
-                                 kBlocksPerPage = MultiTriangulation::kNodesPerPage / kPerBlock,
-                                 kPagesPerRun = 64, kBlocksAhead = 2;
-  static_assert(kPerBlock == kPerWord && kBlocksPerPage == MemberSet::kWordsPerPage);
+  static constexpr std::uint32_t kPerCluster = MultiTriangulation::kNodesPerBlock,
+                                 kClustersPerGroup = MultiTriangulation::kNodesPerPage / kPerCluster,
+                                 kGroupsPerRun = 64, kClustersAhead = 2;
+  static_assert(kPerCluster == kPerWord && kClustersPerGroup == MemberSet::kWordsPerGroup);
 
-  /// Of pages or blocks, at most as many as a run has.
+  /// A list of groups or clusters, at most as many as a run has.
   struct List {
-    std::array<std::uint32_t, kPagesPerRun * kBlocksPerPage> at;
+    std::array<std::uint32_t, kGroupsPerRun * kClustersPerGroup> at;
     std::uint32_t count = 0;
     void add(std::uint32_t first, std::uint64_t bits) {
       for (; bits != 0; bits &= bits - 1)
@@ -123,24 +124,24 @@ class SphereSearch {
     for (std::uint32_t i = 0; i < count; ++i) errors[i] = scale.decode(codes[i]);
   }
 
-  void search(std::uint32_t firstBlock, std::uint32_t lastBlock, MemberSet::Sink& sink) const {
-    const std::uint32_t from = firstBlock / kBlocksPerPage,
-                        to = (lastBlock + kBlocksPerPage - 1) / kBlocksPerPage;
-    List pages, blocks;
-    pages.add(from, exceeding(a_.blockSphere, a_.blockError, blocks_ + from, to - from));
-    for (std::uint32_t i = 0; i < pages.count; ++i)
-      prefetch(a_.blockSphere, a_.blockError, pages.at[i] * kBlocksPerPage, kBlocksPerPage);
-    for (std::uint32_t i = 0; i < pages.count; ++i) {
-      const std::uint32_t first = pages.at[i] * kBlocksPerPage;
-      blocks.add(first,
-                 exceeding(a_.blockSphere, a_.blockError, first, std::min(kBlocksPerPage, blocks_ - first)));
+  void search(std::uint32_t firstCluster, std::uint32_t lastCluster, MemberSet::Sink& sink) const {
+    const std::uint32_t from = firstCluster / kClustersPerGroup,
+                        to = (lastCluster + kClustersPerGroup - 1) / kClustersPerGroup;
+    List groups, clusters;
+    groups.add(from, exceeding(a_.blockSphere, a_.blockError, clusters_ + from, to - from));
+    for (std::uint32_t i = 0; i < groups.count; ++i)
+      prefetch(a_.blockSphere, a_.blockError, groups.at[i] * kClustersPerGroup, kClustersPerGroup);
+    for (std::uint32_t i = 0; i < groups.count; ++i) {
+      const std::uint32_t first = groups.at[i] * kClustersPerGroup;
+      clusters.add(first, exceeding(a_.blockSphere, a_.blockError, first,
+                                    std::min(kClustersPerGroup, clusters_ - first)));
     }
-    for (std::uint32_t i = 0; i < blocks.count; ++i) {
-      if (i + kBlocksAhead < blocks.count)
-        prefetch(a_.sphere, a_.saturatedError, blocks.at[i + kBlocksAhead] * kPerBlock, kPerBlock);
-      const std::uint32_t begin = blocks.at[i] * kPerBlock;
-      sink.put(blocks.at[i],
-               exceeding(a_.sphere, a_.saturatedError, begin, std::min(kPerBlock, nodes_ - begin)));
+    for (std::uint32_t i = 0; i < clusters.count; ++i) {
+      if (i + kClustersAhead < clusters.count)
+        prefetch(a_.sphere, a_.saturatedError, clusters.at[i + kClustersAhead] * kPerCluster, kPerCluster);
+      const std::uint32_t begin = clusters.at[i] * kPerCluster;
+      sink.put(clusters.at[i],
+               exceeding(a_.sphere, a_.saturatedError, begin, std::min(kPerCluster, nodes_ - begin)));
     }
   }
 
@@ -157,7 +158,7 @@ class SphereSearch {
 
   const MtArrays& a_;
   const BoundedCriterion& criterion_;
-  const std::uint32_t nodes_, blocks_;
+  const std::uint32_t nodes_, clusters_;
 };
 
 }  // namespace

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A counting sort of the sides by their lesser ends, then each vertex's few by the rest: a tenth of the time
-// of a sort of all. Threads put sides down in any order, which the second sort makes one.
+// A counting sort of the sides by their lower ends, then a sort of each vertex's few sides: a tenth of the
+// time of one sort of all. Threads place sides in any order; the second sort makes the result independent of
+// it.
 #include "engine/laws/front_edges.h"
 
 #include <tbb/blocked_range.h>
@@ -28,7 +29,7 @@ FrontEdges::FrontEdges(const Cut& front)
   forSides([&](std::uint32_t low, const Side&) {
     std::atomic_ref(begin_[low]).fetch_add(1, std::memory_order_relaxed);
   });
-  // Ends first; each side that is put down moves its vertex's a place forward.
+  // begin_ holds ends first; each side that is placed decrements its vertex's.
   std::uint32_t end = 0;
   for (std::uint32_t& b : begin_) b = end += b;
   forSides([&](std::uint32_t low, const Side& side) {

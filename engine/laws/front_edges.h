@@ -10,8 +10,8 @@
 
 namespace arete {
 
-/// The edges of a front, each with the triangles that have it: what conformity and the Delaunay property are
-/// judged by. 8 bytes a side of a triangle.
+/// The edges of a front with their triangles, by which conformity and the Delaunay property are checked.
+/// Memory: 8 bytes per side of a triangle.
 class FrontEdges {
  public:
   /// Side i of triangle t of the front, from corner i to the next one, is number 3 t + i.
@@ -26,13 +26,13 @@ class FrontEdges {
     }
   };
 
-  /// Of whatever triangles, so long as their corners are vertices of the front. Precondition: fewer sides
-  /// than 2^32, which no MT exceeds. O(triangles) for fronts whose vertices have few edges, parallel.
+  /// The triangles need not form a surface. Parallel; O(triangles) if vertices have few edges. Preconditions:
+  /// corners are vertices of the front; fewer than 2^32 sides, which every MT has.
   explicit FrontEdges(const Cut& front);
 
   std::uint32_t vertices() const { return static_cast<std::uint32_t>(begin_.size() - 1); }
-  /// Calls visit(sides) for every edge whose lesser end is `low`: sides of one edge, of rising triangles;
-  /// edges by their greater end.
+  /// Calls visit(sides) for every edge whose lower end is `low`, by rising upper end. The sides of an edge
+  /// are in the order of their triangles.
   template <class Visit>
   void visitFrom(std::uint32_t low, const Visit& visit) const {
     const std::span<const Side> all(sides_.data() + begin_[low], begin_[low + 1] - begin_[low]);

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Every law but the fifth is local to a node and its neighbours in the graph, so nodes are checked
-// independently and the smallest offender is reported. Law 3 needs no table: a floor lists t only if
+// Every law but the fifth concerns a node and its neighbours in the graph, so nodes are checked independently
+// and the violation with the smallest node is reported. Law 3 needs no table: a floor lists t only if
 // remover(t) is that node, each floor lists without repeats, and the total of the floors equals the number of
 // removed triangles; together that is a bijection. No triangle can occur twice in different stars because a
 // star's apex is the youngest of its corners.
 //
-// Law 4 cannot be broken alone. A floor has slots - 2 triangles by the layout of the arrays, and law 2 gives
-// it the link, a simple cycle of so many edges, for its rim. By Euler's formula a connected piece with that
-// rim, v vertices inside and g handles has slots - 2 + 2 v + 4 g triangles, so v = g = 0: a polygon, with no
-// triangle left for other pieces. And a part of a star that is not the whole of it has the apex on its rim,
-// which no floor has: nothing smaller is a modification. The checks stand where they cost nothing.
+// Law 4 cannot be broken alone. A floor has slots - 2 triangles by the layout of the arrays, and by law 2 its
+// boundary is the link, a simple cycle of so many edges. By Euler's formula a connected component with that
+// boundary, v vertices inside and g handles has slots - 2 + 2 v + 4 g triangles, so v = g = 0: the floor is a
+// polygon, and there are no other components. A proper part of a star has the apex on its boundary, which no
+// floor has: no smaller modification exists. So law 4 follows from the other checks.
 #include "engine/laws/validate.h"
 
 #include <fmt/format.h>

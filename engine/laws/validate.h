@@ -9,27 +9,26 @@
 namespace arete {
 
 struct ValidateOptions {
-  /// The build let rims reach over NODATA: a floor may then cover more than its star (law 2), a front more
-  /// than the finest one (law 5).
+  /// The build allowed rims to cover NODATA: a floor may then cover more than its star (law 2), and a front
+  /// more than the finest one (law 5).
   bool allowsFills = false;
 };
 
-/// Laws 1, 2, 3, 4 and 6 of ARCHITECTURE.md on every node, and the order of the arrays. The first violation
-/// is the one with the smallest node; the Error is brokenPromise and names the law, the node and the
+/// Checks laws 1, 2, 3, 4 and 6 of ARCHITECTURE.md on every node, and the order of the arrays. Errors:
+/// brokenPromise: the violation with the smallest node; the message names the law, the node and the
 /// triangles.
 ///   1  acyclic: a floor's triangles were created by older nodes
 ///   2  floor and ceiling have the same boundary cycle and the same signed area
 ///   3  one creator, at most one remover, no triangle twice
-///   4  minimal: the floor is one polygon, connected across its inner edges, and holds no part that is one by
-///   itself
-///   6  saturated errors and spheres contain the node's own and its children's, those of blocks and pages
-///   their nodes'
-/// Orientation is judged in doubles here and must be certain to be called wrong; terrain/ repeats it exactly.
-/// Precondition: indices are in range. O(triangles), parallel.
+///   4  minimal: the floor is one polygon, connected across its inner edges, and no part of it is a
+///   modification by itself 6  saturated errors and spheres contain the node's own and its children's, those
+///   of clusters and cluster groups their nodes'
+/// Orientation is evaluated in double precision with an error bound, and reported only if it is certainly
+/// wrong; terrain/laws checks it exactly. Precondition: indices are in range. O(triangles), parallel.
 Status validate(const MultiTriangulation& mt, const ValidateOptions& options = {},
                 const RunContext& context = {});
 
-/// The domain of a multitriangulation, as its finest front covers it.
+/// The domain of a multitriangulation: the area that its finest front covers.
 struct DomainExtent {
   double area = 0;          ///< of the plan
   double borderLength = 0;  ///< outer border and rims

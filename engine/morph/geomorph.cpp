@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The floor triangle of a vertex is the first that has it on no wrong side; on a lattice that test is exact.
+// The floor triangle of a vertex is the first that contains it; on a lattice that test is exact.
 //
-// Tolerance. ViewError's bound is that of a displacement which goes to zero. A place p at distance d and
-// depth z sees a unit of height as at most f / reach(p) pixels, reach = z^2 / d; its gradient 2 c F - c^2 P
-// (F, P unit vectors forward and to p, c = z / d their cosine) has the length sqrt(4 c^2 - 3 c^4), at most 2
-// / sqrt(3). So along a way of length L from p the reach is at least reach(p) - L 2 / sqrt(3), and what takes
-// x pixels by the scale at p takes at most x / (1 - x b), b = 2 / (sqrt(3) f), in all. To promise t pixels, t
-// / (1 + t b) of the scale at p are given away: 0.1 % less for a pixel of a usual screen. Nothing is then
-// asked of where the way leads, out of the ball or the frustum.
+// Tolerance. ViewError's bound holds for infinitesimal displacements. At a point p with distance d and depth
+// z a unit of height takes at most f / reach(p) pixels, reach = z^2 / d; its gradient 2 c F - c^2 P (F, P
+// unit vectors forward and to p, c = z / d their cosine) has the length sqrt(4 c^2 - 3 c^4), at most 2 /
+// sqrt(3). So along a path of length L from p the reach is at least reach(p) - L 2 / sqrt(3), and what takes
+// x pixels by the scale at p takes at most x / (1 - x b), b = 2 / (sqrt(3) f), in all. To guarantee t pixels,
+// t / (1 + t b) at the scale of p are used: 0.1 % less for a pixel of a usual screen. The bound holds
+// wherever the path leads, also out of the ball or the frustum.
 #include "engine/morph/geomorph.h"
 
 #include <tbb/parallel_for.h>
@@ -116,7 +116,7 @@ double MorphCamera::pixelsPerHeight(std::span<const Vec3> hull) const {
   return reach > 0 ? pixelsPerReach_ / reach : kInfinity;
 }
 
-// As view.cpp has it, without branches, for vector code.
+// The formulas of view.cpp, branch-free, so that the loop is vectorized.
 ARETE_VECTOR_CLONES
 void MorphCamera::pixelsPerHeight(std::span<const Sphere> balls, std::span<double> results) const {
   assert(balls.size() == results.size());

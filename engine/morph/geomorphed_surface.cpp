@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Members are listed in the order in which they came, which has parents before children: what goes has no
-// children left, and what comes, comes last. Where a member's vertex lies on the floor is found when it
-// comes, so nothing is made of nodes that no camera has seen. One pass over the list computes the scale of
-// every member's ball, in parallel; a second, in order, moves those that are not at rest.
+// Members are listed in the order in which they entered, so parents precede children: a member that leaves
+// has no children, and one that enters is appended. A member's MorphNode is computed when it enters. One pass
+// over the list computes the scale of every member's ball, in parallel; a second, in order, moves those that
+// are not at rest.
 //
-// Jumps. What left is given the offset that it would have now, and so the cut before and the cut after are
-// surfaces over the same moved vertices, and differ where nodes came or went. At any place the triangle that
-// both cuts have or refine has one remover, so there either all came or all went, one after the other, and
-// the distances of their floors and ceilings add up along the chain: what came to a node is its own distance
-// plus the most that came to one of its parents in the same update. On the screen that is seen from within
-// the ball of the last of the chain, widened by the vertices' offsets and by the way itself.
+// Popping. A node that left gets the offset that it would have now, so that the cuts before and after are
+// surfaces over the same moved vertices, which differ where nodes entered or left. At any point the triangle
+// that both cuts have or refine has one remover, so there either all nodes entered or all left, one after the
+// other, and the distances of their floors and ceilings add up along the chain: the distance at a node is its
+// own plus the largest of its parents' in the same update. On the screen it is bounded over the hull of the
+// last star of the chain, extended by the vertices' offsets and by the distance itself.
 #include "engine/morph/geomorphed_surface.h"
 
 #include <tbb/parallel_for.h>
@@ -99,7 +99,7 @@ class GeomorphedSurface::State {
                       });
   }
 
-  /// Those that are no members any more go from the list to left_, in their order.
+  /// Moves nodes that are no longer members from the list to left_, in their order.
   void dropLeft() {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < members_.size(); ++i) {
@@ -140,7 +140,7 @@ class GeomorphedSurface::State {
   }
 
   double jump(const MorphCamera& camera) {
-    // Offsets of what left are not handed out: they are put back.
+    // Offsets of nodes that left are not part of the result: they are restored.
     std::vector<float> before;
     for (const auto& [n, morph] : left_) {
       before.push_back(offsets_[n]);
@@ -152,7 +152,7 @@ class GeomorphedSurface::State {
     return most;
   }
 
-  /// The star of a node over moved vertices, in metric space, and the same so much higher and lower.
+  /// The star of a node over moved vertices, in metric space, moved up and down by `room`.
   void hullOf(std::uint32_t n, double room, std::vector<Vec3>& hull) const {
     hull.clear();
     const MetricFrame& metric = mt.arrays().metric;
@@ -166,15 +166,15 @@ class GeomorphedSurface::State {
     for (const std::uint32_t v : mt.link(NodeId(n))) add(v);
   }
 
-  /// What is known of a changed node.
+  /// A node that entered or left.
   struct Changed {
-    double own = 0;         ///< distance of its floor and ceiling
-    double before = 0;      ///< the most that came to one of its parents
-    bool isSeen = false;    ///< it or one that came before it
-    bool isNeeded = false;  ///< it or one that came after it is seen
+    double own = 0;         ///< the distance of its floor and ceiling
+    double before = 0;      ///< the largest distance at one of its parents
+    bool isSeen = false;    ///< it or one of its ancestors here is in sight
+    bool isNeeded = false;  ///< it or one of its descendants here is in sight
   };
 
-  /// The most pixels of a jump where these nodes, parents first, all came or all went.
+  /// The most pixels of popping if these nodes, parents first, all entered or all left.
   double chained(const MorphCamera& camera, std::span<const Member> nodes) const {
     std::vector<Changed> changed(nodes.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes.size(), kChangesPerTask),
@@ -223,9 +223,9 @@ class GeomorphedSurface::State {
 
   std::vector<float> offsets_;  // by node
   std::vector<bool> isMember_;
-  std::vector<Member> members_;  // in the order in which they came
-  std::size_t entered_ = 0;      // of members, the last of them: who came in the last update
-  std::vector<Member> left_;     // in the last update, parents first
+  std::vector<Member> members_;  // in the order in which they entered
+  std::size_t entered_ = 0;      // how many of the last members entered in the last update
+  std::vector<Member> left_;     // those that left in the last update, parents first
   std::vector<Sphere> balls_;    // of members
   std::vector<float> errors_;    // of members
   std::vector<double> pixels_;   // of members: per unit of height

@@ -10,9 +10,9 @@
 
 namespace arete {
 
-/// The heights of the vertices of a cut that follows a camera, on their way (engine/morph/geomorph.h), and
-/// the jumps that remain. Holds 4 bytes per node of the MT, and some 70 per member of the cut. Not
-/// thread-safe; works in parallel inside.
+/// The offsets of the vertices of a cut that follows a camera (MorphCamera), and a bound of the popping that
+/// remains. Memory: 4 bytes per node of the MT, and about 70 per member of the cut. Not thread-safe; parallel
+/// inside.
 class GeomorphedSurface {
  public:
   /// Starts at the root. O(nodes).
@@ -23,25 +23,25 @@ class GeomorphedSurface {
 
   struct Update {
     std::uint32_t moving = 0;  ///< vertices between the surface that they refine and their own height
-    /// What the update of the cut, this camera's offsets given before as well as after, moves on the screen
-    /// at most: 0 when it changed nothing. Infinite when it changed something around the eye.
+    /// An upper bound of the pixels by which the update of the cut moves the surface, with this camera's
+    /// offsets before and after it: 0 if it changed nothing, infinity if it changed something around the eye.
     double jumpPixels = 0;
-    /// The cut's threshold as it was taken: that of the camera, or the larger one that a budget led to.
+    /// The threshold of the cut: the camera's, or a larger one under a budget.
     double cutPixels = 0;
   };
-  /// Follows the last update of the cut, which is always the same one and skips none. `budgetBinds`: the cut
-  /// is incomplete for its budget. Then vertices move by the threshold that was reached, that of the member
-  /// which mattered least. O(members), little of it for those that rest, and O(modifications).
+  /// Applies the last update of the cut. Call it after every update of the same cut. @param budgetBinds The
+  /// cut is incomplete because of its budget: the threshold is then that of the member with the smallest
+  /// error in pixels. O(members + modifications).
   Update update(const MorphCamera& camera, const IncrementalCut& cut, bool budgetBinds = false);
 
-  /// Of a vertex of the front: its drawn height minus its own. Of others: as it was when they were last in.
+  /// The drawn height minus the vertex's own. For a vertex that is not in the front: as it was when it left.
   double offset(VertexId v) const;
 
   struct Change {
     VertexId vertex;
     float offset = 0;
   };
-  /// What differs since the last update, in no particular order, but always the same.
+  /// The offsets that changed in the last update, in an order that does not depend on the threads.
   std::span<const Change> changes() const;
 
   const MultiTriangulation& mt() const;

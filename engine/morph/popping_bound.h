@@ -9,9 +9,11 @@
 
 namespace arete {
 
-/// The largest vertical distance between the floor and the ceiling of a node, over the region of both, with
-/// vertices moved by offset(vertex). Both are linear between the vertex, the link and the places where spokes
-/// of the star cross inner edges of the floor, so it is at one of these. O(k^2), k the vertex's degree.
+/// The largest vertical distance between the floor and the ceiling of a node, with vertices moved by
+/// offset(vertex): the height by which the surface pops when the node is applied or undone. Both are linear
+/// between the vertex, the link and the points where spokes of the star cross inner edges of the floor, so
+/// the maximum is at one of these. O(k^2), k the vertex's degree. @param node morphNode() of n. @param offset
+/// offset(vertex index) returns a height.
 template <class Offset>
 double poppingBound(const MultiTriangulation& mt, NodeId n, const MorphNode& node, const Offset& offset) {
   struct Corner {
@@ -37,7 +39,7 @@ double poppingBound(const MultiTriangulation& mt, NodeId n, const MorphNode& nod
   for (const std::uint32_t t : mt.floor(n)) {
     const auto ids = mt.corners(TriangleId(t));
     for (int i = 0; i < 3; ++i) {
-      // An inner edge has two triangles, which turn it round.
+      // An inner edge belongs to two triangles, in opposite directions: one of them suffices.
       if (ids[i] > ids[(i + 1) % 3]) continue;
       const Corner &a = corner(ids[i]), &b = corner(ids[(i + 1) % 3]);
       const double dx = b.x - a.x, dy = b.y - a.y, side = a.x * dy - a.y * dx;  // of the vertex

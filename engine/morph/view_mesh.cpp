@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The saturated cut that follows, the moving surface over it, and copies of what was told last. Which places
-// changed is found by comparing ids: a few microseconds for 100 000 triangles, and no account to keep.
+// Combines the incremental cut and the geomorphed surface over it, and keeps copies of the buffers. Changed
+// triangles are found by comparing ids with the last frame's: a few microseconds for 100 000 triangles.
 #include "engine/morph/view_mesh.h"
 
 #include <tbb/parallel_for.h>
@@ -21,7 +21,7 @@ namespace arete {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::uint32_t kMostBetween = 8;  // unchanged places that do not end a range
+constexpr std::uint32_t kMostBetween = 8;  // unchanged triangles that do not end a range
 
 }  // namespace
 
@@ -77,7 +77,7 @@ class ViewMesh::State {
  private:
   const MetricFrame& metric() const { return mt().arrays().metric; }
 
-  /// Of the box of the root's vertices: nothing lies outside it in the plan.
+  /// The middle of the box of the root's vertices, which contains the terrain in plan.
   Vec3 middle() const {
     Vec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
     for (std::uint32_t v = 0; v < mt().rootVertexCount(); ++v) {
@@ -108,7 +108,7 @@ class ViewMesh::State {
     for (std::size_t place = common; place < now.size(); ++place) changed(place);
   }
 
-  /// The tolerance that a cut which was not finished keeps.
+  /// The tolerance that an incomplete cut keeps.
   double reached(const MorphCamera& camera, double cutPixels) const {
     const MtArrays& a = mt().arrays();
     const double worst = tbb::parallel_reduce(

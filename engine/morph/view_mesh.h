@@ -16,9 +16,9 @@
 
 namespace arete {
 
-/// A terrain for a renderer: camera numbers in, vertex and index buffers out, by changes. The mesh that is
-/// drawn is conforming, and within the tolerance, in pixels, of every sample in sight; vertices appear on the
-/// surface that they refine and move to their own height (docs/topics/geomorphing.md).
+/// A terrain for a renderer: takes views, and updates vertex and index buffers incrementally. The mesh is
+/// conforming, and within the tolerance, in pixels, of every sample in sight; vertices appear on the surface
+/// that they refine and move to their own height (docs/topics/geomorphing.md).
 ///
 ///     auto mesh = ViewMesh::create(model.mt);
 ///     upload(mesh->positions());                              // once: all vertices of the model
@@ -29,22 +29,21 @@ namespace arete {
 ///       for (change : mesh->heightChanges()) write(change.vertex, change.height);
 ///       draw(mesh->triangles().size(), eye - mesh->origin());
 ///
-/// Positions are floats relative to origin(), in the metric space of mt(). Views are in that space too. The
-/// eye is subtracted from the origin in double, so nothing shakes however large coordinates are: a float is
-/// off by half a millimetre at 8 km from the origin, by 4 mm at 100 km, and that is all that the tolerance
-/// does not count.
+/// Positions are floats relative to origin(), in the metric space of mt(), as views are. Subtract the eye
+/// from the origin in double precision, and large coordinates do not make the picture shake: a float is off
+/// by half a millimetre at 8 km from the origin, and by 4 mm at 100 km. The tolerance does not include that.
 ///
 /// Triangles are counter-clockwise in plan coordinates, and so in metric space, seen against the z axis, when
 /// its scales are positive, as those of Arete's models are. Metric space may be mirrored against the map
-/// (TerrainModel::isFlipped()): a renderer then mirrors the picture, which turns every triangle round.
+/// (TerrainModel::isFlipped()): a renderer then mirrors the picture, which reverses every triangle.
 ///
-/// Not thread-safe: one thread at a time, which may be one of the caller's own. Works in parallel inside.
-/// Memory: 6 bytes per node of the MT, some 80 per triangle drawn.
+/// Not thread-safe: one thread at a time. Parallel inside. Memory: 6 bytes per node of the MT, about 80 per
+/// triangle drawn.
 class ViewMesh {
  public:
   struct Options {
-    /// Vertical exaggeration, > 0: mt() is then a exaggerated one (engine/mt/exaggerated_mt.h), of the space
-    /// in which views and positions are.
+    /// Vertical exaggeration, > 0: mt() is then exaggerated (engine/mt/exaggerated_mt.h), and so is the space
+    /// of views and positions.
     double heightScale = 1;
   };
   /// Starts at the root. O(nodes). Errors: usage.
@@ -57,9 +56,9 @@ class ViewMesh {
   struct UpdateOptions {
     double pixels = 1;  ///< tolerance, > 0
     std::optional<std::uint32_t> maxTriangles{};
-    /// When the mesh changes no more. What was changed is then told, so an update ends a little later.
+    /// The mesh does not change after it. Changes are still collected, so an update ends a little later.
     std::optional<Deadline> deadline{};
-    /// False: vertices appear at their own height, and the whole tolerance is for the errors of triangles.
+    /// False: vertices appear at their own height, and the errors of triangles may take the whole tolerance.
     bool geomorph = true;
   };
   struct Report {
@@ -68,36 +67,39 @@ class ViewMesh {
     std::uint32_t moving = 0;                  ///< vertices between two heights
     /// False when the budget, the deadline or an interruption ended the update.
     bool isComplete = true;
-    /// The tolerance that holds: the one asked for, or the one reached where the update is not complete. It
-    /// is infinite where coarse triangles are around the eye of a view without a near distance.
+    /// The tolerance that holds: the given one, or the one reached if the update is not complete. Infinity if
+    /// coarse triangles are around the eye of a view without a near distance.
     double pixels = 0;
-    /// What the modifications of this update move on the screen at most, the motion of vertices with the
-    /// camera apart; infinite when that cannot be said, as around the eye.
+    /// An upper bound of the pixels by which the modifications of this update move the surface, without the
+    /// motion of the camera and of vertices; infinity if unknown, as around the eye.
     double jumpPixels = 0;
   };
-  /// O(triangles drawn) tests, the rest by what changes and moves. The same whatever the number of threads,
-  /// without a deadline. Errors: usage; then nothing has changed.
+  /// Brings the mesh to a view. O(triangles drawn) at most. Without a deadline the result does not depend on
+  /// the threads. Errors: usage: an invalid view or tolerance, or a budget below the root; then nothing has
+  /// changed.
   Result<Report> update(const View& view, const UpdateOptions& options, const RunContext& context = {});
 
-  /// Of every vertex of the MT, the root's first, as they are drawn now: O(V), made for the call.
+  /// The positions of all vertices of the MT, the root's first, as they are drawn now. Computed by the call,
+  /// O(V).
   std::vector<std::array<float, 3>> positions() const;
-  /// The index buffer: vertices of each triangle. A triangle keeps its place as long as it is drawn, or until
-  /// it fills a gap.
+  /// The index buffer: the vertices of each triangle. A triangle keeps its index as long as it is drawn, or
+  /// until it moves to a gap.
   std::span<const std::array<std::uint32_t, 3>> triangles() const;
-  /// The MT's ids of the triangles, place by place.
+  /// The MT triangle of each index.
   std::span<const std::uint32_t> triangleIds() const;
 
   struct Places {
     std::uint32_t first = 0, count = 0;
   };
-  /// What of triangles() differs since the last update, as ranges, rising; they may hold a few that do not.
+  /// The ranges of triangles() that changed in the last update, rising; they may contain a few unchanged
+  /// triangles.
   std::span<const Places> changedPlaces() const;
 
   struct HeightChange {
     std::uint32_t vertex = 0;
     float height = 0;  ///< the z of its position
   };
-  /// Heights that differ from those last told, of vertices that have come to rest as well.
+  /// The vertices whose drawn heights changed in the last update.
   std::span<const HeightChange> heightChanges() const;
 
   const Vec3& origin() const;

@@ -35,11 +35,11 @@ void expectSame(const MemberSet& set, const NodeSet& in) {
   expectFinds(set.lookup(), in, members);
   if (set.isDense()) expectFinds(set.denseLookup(), in, members);
 
-  std::vector<std::uint32_t> listed, piece(MemberSet::kMostInPiece);
-  for (std::uint32_t p = 0; p < set.pieces(); ++p) {
+  std::vector<std::uint32_t> listed, span(MemberSet::kMostInSpan);
+  for (std::uint32_t p = 0; p < set.spans(); ++p) {
     EXPECT_EQ(set.before(p), listed.size());
-    const std::uint32_t count = set.list(p, piece.data());
-    listed.insert(listed.end(), piece.begin(), piece.begin() + count);
+    const std::uint32_t count = set.list(p, span.data());
+    listed.insert(listed.end(), span.begin(), span.begin() + count);
   }
   EXPECT_EQ(listed, members);
   EXPECT_EQ(set.toNodeSet(static_cast<std::uint32_t>(in.size())), in);
@@ -68,8 +68,8 @@ TEST(MemberSet, IsDenseWhereHardlyAPageIsWithoutMembers) {
   };
   const NodeSet nearly = spread(100'000, 0.003), thin = spread(100'000, 0.0003);
   int pagesWithout = 0;
-  for (std::size_t page = 0; page + 1024 <= nearly.size(); page += 1024)
-    pagesWithout += std::all_of(&nearly[page], &nearly[page] + 1024, [](auto n) { return n == 0; }) ? 1 : 0;
+  for (std::size_t group = 0; group + 1024 <= nearly.size(); group += 1024)
+    pagesWithout += std::all_of(&nearly[group], &nearly[group] + 1024, [](auto n) { return n == 0; }) ? 1 : 0;
   EXPECT_GT(pagesWithout, 0);
   EXPECT_TRUE(MemberSet(nearly).isDense());
   expectSame(MemberSet(nearly), nearly);
