@@ -78,7 +78,7 @@ class BoundedCriterion : public Criterion {
 };
 
 /// A criterion that changes from frame to frame and bounds by how much: for how much motion a verdict on a
-/// ball holds is the failure time of a certificate of a kinetic data structure [BaschGuibasHershberger1999].
+/// ball holds is the failure time of a certificate of a kinetic data structure [BaschGuibasHershberger1997].
 class KineticCriterion : public BoundedCriterion {
  public:
   /// A copy, to compare later criteria with.

@@ -26,7 +26,7 @@ struct IncrementalOptions {
 /// A complete update results in the saturated cut from scratch (takeCut()), node for node, also under a
 /// budget. It evaluates only nodes whose verdict may have changed since it was computed, if the criterion
 /// bounds its motion (KineticCriterion: ViewError is one): a kinetic data structure
-/// [BaschGuibasHershberger1999] over the camera's motion. An update without motion costs nothing. Of other
+/// [BaschGuibasHershberger1997] over the camera's motion. An update without motion costs nothing. Of other
 /// criteria it evaluates all nodes that can change. A cut that exceeds its budget is taken from scratch, and
 /// the difference is applied.
 ///

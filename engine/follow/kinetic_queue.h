@@ -11,7 +11,7 @@
 
 namespace arete {
 
-/// The event queue of a kinetic data structure [BaschGuibasHershberger1999] in which motion takes the place
+/// The event queue of a kinetic data structure [BaschGuibasHershberger1997] in which motion takes the place
 /// of time. A certificate is a criterion's verdict on a ball and an error; it fails, and must be evaluated
 /// again, after as much motion as the verdict holds for. Certificates are queued in batches, which is what
 /// KineticCriterion::exceedingFor() evaluates.
