@@ -25,8 +25,9 @@ class FrustumFilter {
   /// Precondition: at most 64 balls, as many errors.
   Verdicts test(std::span<const Sphere> balls, std::span<const float> errors) const;
   /// test(), and how long each verdict holds: a view that has moved from this one by at most units[i] * rate
-  /// has the same verdict on ball i, computed in double precision. @param rate The unit of motion; all parts
-  /// are positive. @param units Receives as many numbers as balls; 0 if unsure.
+  /// has the same verdict on ball i, computed in double precision.
+  /// @param rate The unit of motion; all parts are positive.
+  /// @param units Receives as many numbers as balls; 0 if unsure.
   Verdicts testFor(std::span<const Sphere> balls, std::span<const float> errors, const Motion& rate,
                    std::span<float> units) const;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// All edges, of rings and lines, hang in one tree; those of rings once more in another, for the even-odd rule
-// counts only them. A query of a region without a distance is answered in plan coordinates, by the signs of
-// cross products; with a distance it is moved to metric space first, and the nearest edges decide.
+// One tree holds all edges, of rings and lines; a second one those of rings alone, for the even-odd rule.
+// Without a distance a query is answered in plan coordinates, by the signs of cross products; with a distance
+// it is transformed to metric space, and the distances to the nearest edges decide.
 #include "engine/criteria/region.h"
 
 #include <algorithm>

@@ -41,8 +41,8 @@ class Frustum {
     return {d.x * right_.x + d.y * right_.y + d.z * right_.z, d.x * up_.x + d.y * up_.y + d.z * up_.z,
             d.x * forward_.x + d.y * forward_.y + d.z * forward_.z};
   }
-  /// False if all of the points lie beyond one of the planes; then so does their convex hull. @param inView
-  /// Points in the eye's axes, as of toView().
+  /// False if all of the points lie beyond one of the planes; then so does their convex hull.
+  /// @param inView Points in the eye's axes, as of toView().
   bool mayMeet(std::span<const Vec3> inView) const;
   /// False if the ball lies beyond one of the planes.
   bool mayMeet(const Sphere& ball) const { return mayMeet(toView({ball.x, ball.y, ball.z}), ball.radius); }
@@ -54,9 +54,10 @@ class Frustum {
   }
 
   /// A lower bound of depth^2 / distance over the points that are in both the ball and the frustum: a
-  /// displacement of length e there moves nothing by more than e * pixelsPerUnit() / reach() on the screen. 0
-  /// if the ball contains the eye. @param centre In the eye's axes. @param leastDepth A lower bound of the
-  /// depths in the ball.
+  /// displacement of length e there moves nothing by more than e * pixelsPerUnit() / reach() on the screen.
+  /// 0 if the ball contains the eye.
+  /// @param centre In the eye's axes.
+  /// @param leastDepth A lower bound of the depths in the ball.
   double reach(const Vec3& centre, double radius, double leastDepth) const;
   /// A lower bound of reach() by the least depth alone.
   double reachByDepth(double leastDepth) const { return std::max(leastDepth, near_) * leastCosine_; }

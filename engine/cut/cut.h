@@ -90,7 +90,8 @@ std::uint32_t uniformTriangleCount(const MultiTriangulation& mt, double maxError
 Cut front(const MultiTriangulation& mt, const NodeSet& closed);
 Cut frontOfPrefix(const MultiTriangulation& mt, std::uint32_t nodes);
 
-/// Adds the ancestors of every member. @return The number of members. O(nodes + members).
+/// Adds the ancestors of every member.
+/// @return The number of members. O(nodes + members).
 std::uint32_t closeUpwards(const MultiTriangulation& mt, NodeSet& set);
 
 }  // namespace arete

@@ -82,7 +82,8 @@ class FrontWriter {
     return {total, open};
   }
 
-  /// Writes the marked slots, and the vertices of the members. @return The largest code of the errors.
+  /// Writes the marked slots, and the vertices of the members.
+  /// @return The largest code of the errors.
   ARETE_VECTOR_CLONES
   std::uint16_t write(std::uint32_t span, std::uint32_t* vertices, std::array<std::uint32_t, 3>* triangles,
                       std::uint32_t* ids) const {
@@ -124,7 +125,8 @@ class FrontWriter {
   };
 
   /// Appends the slots begin + i of the bits i, eight at a time: all eight are written, only those with bits
-  /// are counted. @return The new count.
+  /// are counted.
+  /// @return The new count.
   [[gnu::always_inline]] static std::uint32_t add(Some& some, std::uint32_t count, std::uint64_t bits,
                                                   std::uint32_t begin, std::uint32_t end,
                                                   std::uint32_t apex) {

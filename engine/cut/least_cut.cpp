@@ -191,9 +191,9 @@ class Sweep {
   static constexpr bool kIsUniform = std::is_same_v<Candidates, UniformCandidates>;
   static constexpr std::uint32_t kMostInRun = 64, kSlotsAtOnce = 512;
 
-  /// Visits the candidates from an index on, up to the first that is not a member or lacks a parent. @return
-  /// That one's index. Members are found run by run: a member stays one, and the slots of a run are one
-  /// range, visited without branches.
+  /// Visits the candidates from an index on, up to the first that is not a member or lacks a parent.
+  /// @return That one's index. Members are found run by run: a member stays one, and the slots of a run are
+  /// one range, visited without branches.
   std::uint32_t visitRuns(std::uint32_t index, std::uint32_t indexEnd) {
     for (;;) {
       const std::uint32_t runEnd = memberRunEnd(index, std::min(indexEnd, index + kMostInRun));

@@ -27,8 +27,10 @@ class MemberSet {
   using Fill = std::function<void(std::uint32_t, std::uint32_t, Sink&)>;
 
   /// @param certain Nodes before it are members. It is rounded down to a whole group, so fill() may receive
-  /// words below it and must put their members again. @param end Nodes from it on are not members. @param
-  /// groupsPerRun The most groups that one call of fill() receives. @param fill Called by any thread.
+  /// words below it and must put their members again.
+  /// @param end Nodes from it on are not members.
+  /// @param groupsPerRun The most groups that one call of fill() receives.
+  /// @param fill Called by any thread.
   MemberSet(std::uint32_t certain, std::uint32_t end, std::uint32_t groupsPerRun, const Fill& fill);
   /// The members of a set.
   explicit MemberSet(const NodeSet& set);
@@ -89,7 +91,8 @@ class MemberSet {
   /// Members are divided into spans, in rising order. Different threads can visit different spans.
   static constexpr std::uint32_t kMostInSpan = 4096;
   std::uint32_t spans() const;
-  /// Writes the members of a span, rising. @return Their number. Precondition: room for kMostInSpan.
+  /// Writes the members of a span, rising.
+  /// @return Their number. Precondition: room for kMostInSpan.
   std::uint32_t list(std::uint32_t span, std::uint32_t* members) const;
   /// Calls visit(n) for every member, rising, on this thread.
   template <class Visit>

@@ -19,8 +19,9 @@ namespace arete {
 Result<NodeCut> refineWithin(const MultiTriangulation& mt, const Criterion& criterion,
                              const CutOptions& options, const RunContext& context);
 
-/// Collects n and the ancestors that must be applied before it. @param claim claim(node index) returns true
-/// once for every node that is not yet a member. @param missing Receives the nodes, parents first.
+/// Collects n and the ancestors that must be applied before it.
+/// @param claim claim(node index) returns true once for every node that is not yet a member.
+/// @param missing Receives the nodes, parents first.
 template <class Claim>
 void collectMissing(const MultiTriangulation& mt, std::uint32_t n, const Claim& claim,
                     std::vector<std::uint32_t>& missing) {

@@ -29,9 +29,9 @@ class GeomorphedSurface {
     /// The threshold of the cut: the camera's, or a larger one under a budget.
     double cutPixels = 0;
   };
-  /// Applies the last update of the cut. Call it after every update of the same cut. @param budgetBinds The
-  /// cut is incomplete because of its budget: the threshold is then that of the member with the smallest
-  /// error in pixels. O(members + modifications).
+  /// Applies the last update of the cut. Call it after every update of the same cut.
+  /// @param budgetBinds The cut is incomplete because of its budget: the threshold is then that of the
+  /// member with the smallest error in pixels. O(members + modifications).
   Update update(const MorphCamera& camera, const IncrementalCut& cut, bool budgetBinds = false);
 
   /// The drawn height minus the vertex's own. For a vertex that is not in the front: as it was when it left.

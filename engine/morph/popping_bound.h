@@ -12,8 +12,9 @@ namespace arete {
 /// The largest vertical distance between the floor and the ceiling of a node, with vertices moved by
 /// offset(vertex): the height by which the surface pops when the node is applied or undone. Both are linear
 /// between the vertex, the link and the points where spokes of the star cross inner edges of the floor, so
-/// the maximum is at one of these. O(k^2), k the vertex's degree. @param node morphNode() of n. @param offset
-/// offset(vertex index) returns a height.
+/// the maximum is at one of these. O(k^2), k the vertex's degree.
+/// @param node morphNode() of n.
+/// @param offset offset(vertex index) returns a height.
 template <class Offset>
 double poppingBound(const MultiTriangulation& mt, NodeId n, const MorphNode& node, const Offset& offset) {
   struct Corner {
