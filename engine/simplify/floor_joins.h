@@ -8,12 +8,12 @@
 
 namespace arete {
 
-/// How the triangles of a hole's triangulation hang together, and which of their sides make its rim. Side c
-/// of a triangle runs from its corner c to the next.
+/// The adjacency of the triangles of a hole's triangulation: its diagonals with the triangle on either side,
+/// and the triangle on each rim edge. Side c of a triangle runs from its corner c to the next.
 ///
 /// Between 0 and the last corner of the polygon each is the middle corner of exactly one triangle, i < m < j,
-/// whose side 2 lies towards the polygon's last edge: a binary tree, in which every answer is one comparison.
-/// O(corners), with no branch but those of two loops.
+/// whose side 2 lies towards the polygon's last edge: a binary tree, in which one comparison finds a
+/// neighbour. O(corners), with no branch but those of two loops.
 struct FloorJoins {
   struct Side {
     std::uint8_t triangle, side;
@@ -40,8 +40,8 @@ struct FloorJoins {
       triangleOf[m] = static_cast<std::uint8_t>(f);
       leastOf[m] = i;
     }
-    // An edge from a lower to a higher corner is the first side of the triangle in whose middle it ends, or
-    // the second of that in whose middle it starts.
+    // An edge from a lower to a higher corner is side 0 of the triangle whose middle corner it ends at, or
+    // side 1 of the triangle whose middle corner it starts at.
     const auto forth = [&](int from, int to) {
       const bool isFirst = leastOf[to] == from;
       return Side{triangleOf[from + (to - from) * int(isFirst)], static_cast<std::uint8_t>(!isFirst)};

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Removals of a batch are independent: no two stars share a triangle. They may share an edge of their rims:
-// where one is rewritten after the other, each is joined to its neighbours at once (sewAlone()). Threads that
-// rewrite both at a time would each meet half a neighbour; so a batch of theirs works in two steps with a
-// barrier between: refill() rewrites the slots of one star and notes where each rim half-edge went; sew()
-// then joins each rim edge to its former twin, looking among the notes of the removal that rewrote that
-// twin's slot if it moved too. Both sides of an edge between two moved stars write their own twin only, and
-// an unmoved twin has one moved neighbour across that edge, so no location is written twice.
+// The removals of a batch are independent: no two stars share a triangle. Two stars may share an edge of
+// their rims. If one thread rewrites the stars one after the other, each is joined to its neighbours at once
+// (sewAlone()). If several threads rewrite stars at a time, a thread could read a neighbour that another one
+// has half rewritten; so a batch has two steps with a barrier between. refill() rewrites the slots of a star
+// and records in its seams to which half-edge each rim edge has moved. sew() then joins each rim edge to its
+// former twin; if that twin's slot was rewritten too, the seams of that removal say where the twin is now. An
+// edge between two moved stars is written from both sides, each side its own twin; an unmoved twin has one
+// moved neighbour across its edge. So no location is written twice.
 #include "engine/simplify/live_mesh.h"
 
 #include <tbb/blocked_range.h>
@@ -17,6 +18,7 @@
 #include <atomic>
 #include <cassert>
 
+#include "engine/base/branchless.h"
 #include "engine/parallel/parallel_filter.h"
 
 namespace arete {
@@ -27,47 +29,49 @@ LiveMesh LiveMesh::fromTriangles(std::vector<Corners> corners, std::uint32_t ver
   const std::size_t count = corners.size();
   assert(count <= kMostTriangles);
   mesh.triangles = PagedArray<Triangle>(count);
-  for (std::uint32_t t = 0; t < count; ++t) mesh.triangles[t] = {corners[t], {kNone, kNone, kNone}, t, kNone};
+  for (std::uint32_t t = 0; t < count; ++t) mesh.triangles[t] = {corners[t], {}, t, kNone};
   std::vector<Corners>().swap(corners);
-  mesh.vertexHalfedge.assign(vertexCount, kNone);
+  mesh.vertexHalfedge = PagedArray<HalfedgeId>(vertexCount);
+  std::fill(mesh.vertexHalfedge.begin(), mesh.vertexHalfedge.end(), HalfedgeId());
 
-  // Chains of outgoing half-edges per vertex find each twin among the few edges that leave one of its ends.
-  std::vector<std::uint32_t> nextOutgoing(count * 4);
+  // A linked list of outgoing half-edges per vertex: each twin is found among the few edges at one end.
+  std::vector<HalfedgeId> nextOutgoing(count * 4);
   std::vector<std::uint8_t> degree(vertexCount, 0);
   for (std::uint32_t t = 0; t < count; ++t) {
     for (std::uint32_t i = 0; i < 3; ++i) {
       const std::uint32_t v = mesh.triangles[t].corners[i];
-      nextOutgoing[halfedge(t, i)] = mesh.vertexHalfedge[v];
+      nextOutgoing[halfedge(t, i).index()] = mesh.vertexHalfedge[v];
       mesh.vertexHalfedge[v] = halfedge(t, i);
       if (degree[v] < 255) ++degree[v];
     }
   }
-  for (std::uint32_t h = 0; h < 4 * count; ++h) {
-    if (sideOf(h) == 3 || mesh.twinOf(h) != kNone) continue;
+  for (std::uint32_t i = 0; i < 4 * count; ++i) {
+    const HalfedgeId h(i);
+    if (sideOf(h) == 3 || mesh.twinOf(h).isValid()) continue;
     const std::uint32_t from = mesh.origin(h), to = mesh.origin(nextInTriangle(h));
-    // The twin leaves `to`, and the half-edge after it leaves `from`: the one with fewer of them is asked.
-    const bool isAskedAtEnd = degree[to] <= degree[from];
-    for (std::uint32_t g = mesh.vertexHalfedge[isAskedAtEnd ? to : from]; g != kNone; g = nextOutgoing[g]) {
-      const std::uint32_t twin = isAskedAtEnd ? g : previousInTriangle(g);
-      if (mesh.origin(isAskedAtEnd ? nextInTriangle(g) : twin) != (isAskedAtEnd ? from : to)) continue;
+    // The twin leaves `to`, and the half-edge after it leaves `from`: the end with fewer edges is searched.
+    const bool isAtEnd = degree[to] <= degree[from];
+    for (HalfedgeId g = mesh.vertexHalfedge[isAtEnd ? to : from]; g.isValid(); g = nextOutgoing[g.index()]) {
+      const HalfedgeId twin = isAtEnd ? g : previousInTriangle(g);
+      if (mesh.origin(isAtEnd ? nextInTriangle(g) : twin) != (isAtEnd ? from : to)) continue;
       mesh.setTwin(h, twin);
       mesh.setTwin(twin, h);
       break;
     }
   }
   for (std::uint32_t v = 0; v < vertexCount; ++v) {
-    if (mesh.vertexHalfedge[v] == kNone) continue;
-    for (std::uint32_t g = mesh.vertexHalfedge[v]; g != kNone; g = nextOutgoing[g])
-      if (mesh.twinOf(g) == kNone) {
+    if (!mesh.isInTriangle(v)) continue;
+    for (HalfedgeId g = mesh.vertexHalfedge[v]; g.isValid(); g = nextOutgoing[g.index()])
+      if (!mesh.twinOf(g).isValid()) {
         mesh.vertexHalfedge[v] = g;
         break;
       }
     unsigned fan = 0;
-    std::uint32_t h = mesh.vertexHalfedge[v];
+    HalfedgeId h = mesh.vertexHalfedge[v];
     do {
       ++fan;
       h = mesh.twinOf(previousInTriangle(h));
-    } while (h != kNone && h != mesh.vertexHalfedge[v]);
+    } while (h.isValid() && h != mesh.vertexHalfedge[v]);
     if (std::min(fan, 255u) != degree[v]) pinched.push_back(v);
   }
   return mesh;
@@ -75,14 +79,14 @@ LiveMesh LiveMesh::fromTriangles(std::vector<Corners> corners, std::uint32_t ver
 
 SlotMap LiveMesh::compact(std::span<const std::uint32_t> vertices) {
   SlotMap newSlot(triangles.size(), [&](std::size_t t) { return !triangles[t].isDead(); });
-  const auto moved = [&](std::uint32_t h) {
-    return h == kNone ? kNone : halfedge(newSlot.ofLive(triangleOf(h)), sideOf(h));
+  const auto moved = [&](HalfedgeId h) {
+    return h.isValid() ? halfedge(newSlot.ofLive(slotOf(h)), sideOf(h)) : HalfedgeId();
   };
   newSlot.forLiveInPlace([&](std::size_t from, std::uint32_t to) {
     const Triangle triangle = triangles[from];
     triangles[to] = {triangle.corners,
                      {moved(triangle.twin[0]), moved(triangle.twin[1]), moved(triangle.twin[2])},
-                     triangle.birth,
+                     triangle.recorderId,
                      triangle.creator};
   });
   triangles.shrink(newSlot.liveCount());
@@ -111,21 +115,21 @@ UninitializedVector<std::uint32_t> LiveMesh::verticesInOrder() const {
 }
 
 bool Star::gather(const LiveMesh& mesh, std::uint32_t v, int maxLink) {
-  const std::uint32_t first = mesh.vertexHalfedge[v];
-  if (first == LiveMesh::kNone) return false;
+  const HalfedgeId first = mesh.vertexHalfedge[v];
+  if (!first.isValid()) return false;
   isOpen = false;
   constexpr std::array<std::uint8_t, 3> kNext{1, 2, 0}, kPrevious{2, 0, 1};  // sides of a triangle
   int count = 0;
-  std::uint32_t h = first;
+  HalfedgeId h = first;
   do {
     if (count >= maxLink) return false;
-    const LiveMesh::Triangle& triangle = mesh.triangles[LiveMesh::triangleOf(h)];
+    const LiveMesh::Triangle& triangle = mesh.triangles[LiveMesh::slotOf(h)];
     const std::uint32_t side = LiveMesh::sideOf(h), last = kPrevious[side];
     link[count] = triangle.corners[kNext[side]];
     outgoing[count] = h;
     ++count;
     h = triangle.twin[last];
-    if (h == LiveMesh::kNone) {
+    if (!h.isValid()) {
       if (count >= maxLink) return false;
       link[count] = triangle.corners[last];
       linkSize = count + 1;
@@ -139,45 +143,41 @@ bool Star::gather(const LiveMesh& mesh, std::uint32_t v, int maxLink) {
 }
 
 void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, const FloorJoins& joins,
-            std::uint32_t firstBirth, std::uint32_t removal, std::span<Seam> seams) {
+            std::uint32_t firstId, std::uint32_t removal, std::span<Seam> seams) {
   const int corners = star.linkSize;
   assert(floor.size == corners - 2 && seams.size() == static_cast<std::size_t>(corners));
-  const auto halfedge = [&](FloorJoins::Side s) {
-    return LiveMesh::halfedge(star.triangle(s.triangle), s.side);
-  };
+  const auto halfedge = [&](FloorJoins::Side s) { return LiveMesh::halfedge(star.slot(s.triangle), s.side); };
 
-  std::uint32_t before = star.isOpen ? LiveMesh::kNone : star.triangle(corners - 1);
+  std::uint32_t before = star.isOpen ? LiveMesh::kNone : star.slot(corners - 1);
   for (int i = 0; i < corners; ++i) {
     const bool isClosing = i == star.triangleCount;  // the new border edge of an open star
-    const std::uint32_t rim = isClosing ? LiveMesh::kNone : star.rim(i),
-                        own = isClosing ? LiveMesh::kNone : star.triangle(i);
-    seams[i] = {rim, halfedge(joins.rim[i]), isClosing ? LiveMesh::kNone : mesh.twinOf(rim)};
-    // A vertex of the link may point at a half-edge that is about to vanish. Another star of the batch may be
-    // re-pointing it within its own slots: either value is not of this star. A third of them must point
-    // elsewhere, nobody foresees which: the others write beside.
-    std::uint32_t& pointer = mesh.vertexHalfedge[star.link[i]];
-    const std::uint32_t t = LiveMesh::triangleOf(std::atomic_ref(pointer).load(std::memory_order_relaxed));
-    std::uint32_t beside;
-    std::uint32_t* const where[] = {&beside, &pointer};
-    std::atomic_ref(*where[(t == own) | (t == before)]).store(seams[i].movedTo, std::memory_order_relaxed);
+    const HalfedgeId rim = isClosing ? HalfedgeId() : star.rim(i);
+    const std::uint32_t own = isClosing ? LiveMesh::kNone : star.slot(i);
+    seams[i] = {rim, halfedge(joins.rim[i]), isClosing ? HalfedgeId() : mesh.twinOf(rim)};
+    // About a third of the link's vertices refer to a half-edge of this star, which is rewritten. Another
+    // thread may be changing the same reference to a half-edge of its own star: neither its old nor its new
+    // value is of this star then.
+    HalfedgeId& reference = mesh.vertexHalfedge[star.link[i]];
+    const std::uint32_t t = LiveMesh::slotOf(std::atomic_ref(reference).load(std::memory_order_relaxed));
+    storeIf((t == own) | (t == before), reference, seams[i].movedTo);
     before = own;
   }
 
   for (int d = 0; d < joins.diagonalCount; ++d) {
-    const std::uint32_t forth = halfedge(joins.diagonals[d].forth), back = halfedge(joins.diagonals[d].back);
+    const HalfedgeId forth = halfedge(joins.diagonals[d].forth), back = halfedge(joins.diagonals[d].back);
     mesh.setTwin(forth, back);
     mesh.setTwin(back, forth);
   }
   for (int f = 0; f < floor.size; ++f) {
     const auto& local = floor.triangles[f];
-    LiveMesh::Triangle& triangle = mesh.triangles[star.triangle(f)];
+    LiveMesh::Triangle& triangle = mesh.triangles[star.slot(f)];
     triangle.corners = {star.link[local[0]], star.link[local[1]], star.link[local[2]]};
-    triangle.birth = firstBirth + static_cast<std::uint32_t>(f);
+    triangle.recorderId = firstId + static_cast<std::uint32_t>(f);
     triangle.creator = removal;
   }
   for (int i = floor.size; i < star.triangleCount; ++i) {
-    mesh.triangles[star.triangle(i)].corners[0] = LiveMesh::kNone;
-    mesh.triangles[star.triangle(i)].creator = removal;
+    mesh.triangles[star.slot(i)].corners[0] = LiveMesh::kNone;
+    mesh.triangles[star.slot(i)].creator = removal;
   }
 }
 

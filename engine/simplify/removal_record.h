@@ -7,53 +7,56 @@
 
 namespace arete {
 
-/// What a build knows of a vertex that may go: 16 bytes, so that one cache line tells of four neighbours. Of
-/// RemovalRecord{} nothing is known.
+/// What a build stores of a vertex that may be removed: 16 bytes, four to a cache line. RemovalRecord{}: the
+/// cost is unknown.
 struct RemovalRecord {
   enum class State : std::uint8_t {
-    stale,    ///< nothing is known of its star
-    atLeast,  ///< removing it costs at least `cost`
-    exact,    ///< removing it costs `cost`
-    stuck,    ///< it cannot go, whatever it costs, as its star stands
-    fixed,    ///< it stays
+    stale,    ///< the cost is unknown
+    atLeast,  ///< removing the vertex costs at least `cost`
+    exact,    ///< removing the vertex costs `cost`
+    stuck,    ///< the vertex cannot be removed at any cost while its star is as it is
+    fixed,    ///< the vertex is never removed
   };
 
   float cost;
-  /// Marks of the corners of the triangle that costs that much: see isWitnessedBy(). Not of the fidelity
-  /// shape.
+  /// Hashes of the corners of the witness, the triangle whose error is the cost: see isWitnessedBy(). Unused
+  /// for the data-dependent shape.
   std::uint32_t witness;
-  /// Whether it was a candidate of a level, and what became of it: 4 * level + choice (IndependentSet); or,
-  /// that a neighbour was taken, ~level (PieceWorker).
-  std::uint32_t candidacy;
+  /// The last level in which the vertex was a candidate and the decision, 4 * level + decision
+  /// (IndependentSet); or ~level, if a neighbour was taken in that level (TileWorker).
+  std::uint32_t selection;
   State state;
-  std::uint8_t isTouched;      ///< a neighbour went
-  std::uint8_t isWitnessGone;  ///< one of the witness's corners
-  std::uint8_t linkSize;       ///< of its star, when exact
+  std::uint8_t isTouched;      ///< 1: a neighbour was removed
+  std::uint8_t isWitnessGone;  ///< 1: a corner of the witness was removed
+  std::uint8_t linkSize;       ///< of the star, if the state is exact
 
-  /// What the removal of neighbours left of what was known. A hole that a removal enlarges keeps every
-  /// Delaunay triangle whose corners remain: its circle stays empty. So while the corners of the worst
-  /// triangle are there the cost can only have grown (but for ties between cocircular corners, where another
-  /// diagonal may be taken), and no look at the star is needed before the threshold reaches it.
+  /// Updates the state after the removal of neighbours. A hole that a removal enlarges keeps every Delaunay
+  /// triangle whose corners remain: its circle stays empty. So while the corners of the witness remain, the
+  /// cost can only have grown (except for ties between cocircular corners, where another diagonal may be
+  /// taken), and the vertex need not be evaluated before the threshold reaches it.
   void settle() {
     if (!isTouched) return;
     state = isWitnessGone || state == State::stuck ? State::stale : State::atLeast;
     isTouched = isWitnessGone = 0;
   }
 
-  /// The threshold from which on a level concerns it again.
-  float dueAt() const { return state == State::stuck ? std::numeric_limits<float>::infinity() : cost; }
-
-  /// Ten bits of a hash for each corner: a false match makes a look at a star that was not needed.
-  void setWitness(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    witness = mark(a) | mark(b) << 10 | mark(c) << 20;
+  /// The threshold of the first level that evaluates the vertex again; infinity if it is stuck.
+  float nextThreshold() const {
+    return state == State::stuck ? std::numeric_limits<float>::infinity() : cost;
   }
+
+  void setWitness(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    witness = hash(a) | hash(b) << 10 | hash(c) << 20;
+  }
+  /// Whether v may be a corner of the witness. Ten bits of a hash for each corner: a false match leads to an
+  /// evaluation that was not needed, never to a wrong cost.
   bool isWitnessedBy(std::uint32_t v) const {
-    const std::uint32_t m = mark(v);
-    return ((witness & 1023) == m) | (((witness >> 10) & 1023) == m) | (((witness >> 20) & 1023) == m);
+    const std::uint32_t h = hash(v);
+    return ((witness & 1023) == h) | (((witness >> 10) & 1023) == h) | (((witness >> 20) & 1023) == h);
   }
 
  private:
-  static std::uint32_t mark(std::uint32_t v) { return (v * 0x9E3779B1u) >> 22; }
+  static std::uint32_t hash(std::uint32_t v) { return (v * 0x9E3779B1u) >> 22; }
 };
 static_assert(sizeof(RemovalRecord) == 16);
 

@@ -39,9 +39,10 @@ class SlotMap {
   }
   std::uint32_t liveCount() const { return liveCount_; }
 
-  /// visit(slot, new slot) for every live one, for who moves what is there: nobody has still to visit what a
-  /// new slot holds. Parallel in waves, each as far as the new slots of its last one lie before its first
-  /// one: if every other slot is dead, each goes twice as far as the one before.
+  /// Calls visit(slot, new slot) for every live slot, so that elements can be moved in place: when a slot is
+  /// visited, the element in its new slot has been visited already. Parallel, in waves: a wave ends where the
+  /// new slots would reach its own first slot. If every other slot is dead, each wave reaches twice as far as
+  /// the one before.
   template <class Visit>
   void forLiveInPlace(const Visit& visit) const {
     for (std::size_t begin = 0, end = 0; begin != words_.size(); begin = end) {
@@ -79,7 +80,7 @@ class SlotMap {
     std::uint32_t before;  ///< live slots in the words before
   };
 
-  /// Bits that are set. A processor without an instruction for it calls a function for std::popcount().
+  /// The number of bits that are set; std::popcount() is a function call without the processor's instruction.
   static std::uint32_t count(std::uint32_t bits) {
     bits -= bits >> 1 & 0x55555555;
     bits = (bits & 0x33333333) + (bits >> 2 & 0x33333333);

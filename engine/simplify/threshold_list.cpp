@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One in ten to twenty is due, nobody knows which: so the look writes every vertex down and moves on by the
-// outcome of the comparison, without a branch.
+// One vertex in ten to twenty is due, in no predictable pattern. So a scan has no branch: it writes every
+// vertex to the output and advances the output by the result of the comparison.
 #include "engine/simplify/threshold_list.h"
 
 #include <algorithm>
@@ -10,130 +10,130 @@
 namespace arete {
 namespace {
 
-constexpr std::size_t kChunk = 1 << 14;
+constexpr std::size_t kSpan = 1 << 14;
 
 }  // namespace
 
-void ThresholdList::assign(std::span<const std::uint32_t> vertices, std::span<const std::uint8_t> isStaying) {
-  // All threads fill them: there are many, and the memory is fresh.
-  place_.resize(isStaying.size());
-  forRanges(LoopThreads::all, place_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    std::fill(place_.begin() + std::ptrdiff_t(begin), place_.begin() + std::ptrdiff_t(end), kNobody);
+void ThresholdList::assign(std::span<const std::uint32_t> vertices, std::span<const std::uint8_t> isFixed) {
+  // All threads fill the arrays: the first write to fresh memory is what takes time.
+  index_.resize(isFixed.size());
+  forRanges(LoopThreads::all, index_.size(), kSpan, [&](std::size_t begin, std::size_t end) {
+    std::fill(index_.begin() + std::ptrdiff_t(begin), index_.begin() + std::ptrdiff_t(end), kNoIndex);
   });
   vertices_.resize(vertices.size() + 1);
-  dueAt_.resize(vertices_.size());
-  vertices_[kNobody] = kNone;
-  dueAt_[kNobody] = kNow;
-  std::atomic<std::size_t> staying = 0;
-  forRanges(LoopThreads::all, vertices.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    std::size_t stayingHere = 0;
+  thresholds_.resize(vertices_.size());
+  vertices_[kNoIndex] = kNone;
+  thresholds_[kNoIndex] = kNow;
+  std::atomic<std::size_t> fixed = 0;
+  forRanges(LoopThreads::all, vertices.size(), kSpan, [&](std::size_t begin, std::size_t end) {
+    std::size_t fixedHere = 0;
     for (std::size_t i = begin; i != end; ++i) {
       const std::uint32_t v = vertices[i];
-      const std::size_t place = kNobody + 1 + i;
-      vertices_[place] = v;
-      dueAt_[place] = isStaying[v] != 0 ? kNever : kNow;
-      place_[v] = static_cast<std::uint32_t>(place);
-      stayingHere += isStaying[v] != 0 ? 1 : 0;
+      const std::size_t index = kNoIndex + 1 + i;
+      vertices_[index] = v;
+      thresholds_[index] = isFixed[v] != 0 ? kNever : kNow;
+      index_[v] = static_cast<std::uint32_t>(index);
+      fixedHere += isFixed[v] != 0 ? 1 : 0;
     }
-    staying += stayingHere;
+    fixed += fixedHere;
   });
-  staying_ = staying;
-  waiting_ = vertices.size() - staying_;
+  fixed_ = fixed;
+  removable_ = vertices.size() - fixed_;
 }
 
-void ThresholdList::collect(double threshold, std::vector<std::uint32_t>& due, Space& space) const {
-  space(everything().size(), kChunk, due, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
-    const std::size_t first = everything().begin;
+void ThresholdList::collect(double threshold, std::vector<std::uint32_t>& due, Scratch& scratch) const {
+  scratch(all().size(), kSpan, due, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+    const std::size_t first = all().begin;
     return collectTo(first + begin, first + end, threshold, to);
   });
 }
 
-void ThresholdList::collect(Piece piece, double threshold, UninitializedVector<std::uint32_t>& due) const {
-  due.resize(piece.size());
-  std::uint32_t* const end = collectTo(piece.begin, piece.end, threshold, due.data());
+void ThresholdList::collect(Tile tile, double threshold, UninitializedVector<std::uint32_t>& due) const {
+  due.resize(tile.size());
+  std::uint32_t* const end = collectTo(tile.begin, tile.end, threshold, due.data());
   due.resize(static_cast<std::size_t>(end - due.data()));
 }
 
 std::uint32_t* ThresholdList::collectTo(std::size_t begin, std::size_t end, double threshold,
                                         std::uint32_t* to) const {
-  for (std::size_t place = begin; place < end; ++place) {
-    *to = vertices_[place];
-    to += dueAt_[place] <= threshold ? 1 : 0;
+  for (std::size_t index = begin; index < end; ++index) {
+    *to = vertices_[index];
+    to += thresholds_[index] <= threshold ? 1 : 0;
   }
   return to;
 }
 
 void ThresholdList::collect(std::span<const std::uint32_t> some, double threshold,
-                            std::vector<std::uint32_t>& due, Space& space) const {
-  space(some.size(), kChunk, due, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+                            std::vector<std::uint32_t>& due, Scratch& scratch) const {
+  scratch(some.size(), kSpan, due, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
     for (const std::uint32_t v : some.subspan(begin, end - begin)) {
       *to = v;
-      to += place_[v] != kNobody && dueAt_[place_[v]] <= threshold ? 1 : 0;
+      to += index_[v] != kNoIndex && thresholds_[index_[v]] <= threshold ? 1 : 0;
     }
     return to;
   });
 }
 
-void ThresholdList::remove(std::span<const std::uint32_t> gone, LoopThreads threads) {
-  forRanges(threads, gone.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (const std::uint32_t v : gone.subspan(begin, end - begin)) {
-      std::uint32_t& place = place_[v];
-      dueAt_[place] = kNever;
-      vertices_[place] = kNone;
-      place = kNobody;
+void ThresholdList::remove(std::span<const std::uint32_t> removed, LoopThreads threads) {
+  forRanges(threads, removed.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (const std::uint32_t v : removed.subspan(begin, end - begin)) {
+      std::uint32_t& index = index_[v];
+      thresholds_[index] = kNever;
+      vertices_[index] = kNone;
+      index = kNoIndex;
     }
   });
-  waiting_ -= gone.size();
+  removable_ -= removed.size();
 }
 
 void ThresholdList::sort(std::vector<std::uint32_t>& vertices) const {
-  std::ranges::sort(vertices, {}, [&](std::uint32_t v) { return place_[v]; });
+  std::ranges::sort(vertices, {}, [&](std::uint32_t v) { return index_[v]; });
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }
 
 float ThresholdList::least() const {
   float least = kNever;
-  for (std::size_t place = kNobody + 1; place < dueAt_.size(); ++place)
-    least = std::min(least, dueAt_[place]);
+  for (std::size_t index = kNoIndex + 1; index < thresholds_.size(); ++index)
+    least = std::min(least, thresholds_[index]);
   return least;
 }
 
-float ThresholdList::thresholdOf(double part) const {
+float ThresholdList::quantile(double fraction) const {
   constexpr std::size_t kMost = 1024, kFewest = 64;
   std::vector<float> sample;
-  for (std::size_t place = kNobody + 1; place < dueAt_.size(); place += dueAt_.size() / kMost + 1)
-    if (dueAt_[place] < kNever) sample.push_back(dueAt_[place]);
+  for (std::size_t index = kNoIndex + 1; index < thresholds_.size(); index += thresholds_.size() / kMost + 1)
+    if (thresholds_[index] < kNever) sample.push_back(thresholds_[index]);
   if (sample.size() < kFewest) return kNow;
-  const auto at = sample.begin() + static_cast<std::ptrdiff_t>(part * double(sample.size()));
+  const auto at = sample.begin() + static_cast<std::ptrdiff_t>(fraction * double(sample.size()));
   std::nth_element(sample.begin(), at, sample.end());
   return *at;
 }
 
-void ThresholdList::forgetGone() {
-  if (waiting_ + staying_ + 1 >= vertices_.size() / 2) return;
-  UninitializedVector<std::uint32_t> kept;  // places
-  const std::size_t first = everything().begin;
-  Space()(everything().size(), kChunk, kept, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
-    for (std::size_t place = first + begin; place < first + end; ++place) {
-      *to = static_cast<std::uint32_t>(place);
-      to += vertices_[place] != kNone ? 1 : 0;
+void ThresholdList::compact() {
+  if (removable_ + fixed_ + 1 >= vertices_.size() / 2) return;
+  UninitializedVector<std::uint32_t> kept;  // indices
+  const std::size_t first = all().begin;
+  Scratch()(all().size(), kSpan, kept, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+    for (std::size_t index = first + begin; index < first + end; ++index) {
+      *to = static_cast<std::uint32_t>(index);
+      to += vertices_[index] != kNone ? 1 : 0;
     }
     return to;
   });
   UninitializedVector<std::uint32_t> vertices(first + kept.size());
-  UninitializedVector<float> dueAt(vertices.size());
-  vertices[kNobody] = vertices_[kNobody];
-  dueAt[kNobody] = dueAt_[kNobody];
-  forRanges(LoopThreads::all, kept.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+  UninitializedVector<float> thresholds(vertices.size());
+  vertices[kNoIndex] = vertices_[kNoIndex];
+  thresholds[kNoIndex] = thresholds_[kNoIndex];
+  forRanges(LoopThreads::all, kept.size(), kSpan, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) {
-      const std::size_t place = first + i;
-      vertices[place] = vertices_[kept[i]];
-      dueAt[place] = dueAt_[kept[i]];
-      place_[vertices[place]] = static_cast<std::uint32_t>(place);
+      const std::size_t index = first + i;
+      vertices[index] = vertices_[kept[i]];
+      thresholds[index] = thresholds_[kept[i]];
+      index_[vertices[index]] = static_cast<std::uint32_t>(index);
     }
   });
   vertices_ = std::move(vertices);
-  dueAt_ = std::move(dueAt);
+  thresholds_ = std::move(thresholds);
 }
 
 }  // namespace arete

@@ -7,94 +7,96 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/branchless.h"
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/parallel/loop_threads.h"
 #include "engine/parallel/parallel_filter.h"
 
 namespace arete {
 
-/// The vertices of a triangulation that shrinks, each with the threshold from which on a level concerns it.
+/// The vertices of a triangulation that shrinks, each with a threshold. A vertex is *due* in a level whose
+/// threshold is at least its own.
 ///
-/// A level looks through all of them for the few that are due, so the thresholds lie side by side in the
-/// order of the look, that of the ground; a vertex finds its own by its place. One that has gone keeps its
-/// place, and is never due, until forgetGone(). Those that stay for ever have a place as well, and are never
-/// due either.
+/// A level scans all of them for the few that are due; so the thresholds are contiguous, in the order of the
+/// vertices along the ground, and a vertex finds its threshold by its index. Removed vertices keep their
+/// index (threshold = infinity) until compact(). Fixed vertices have an index too, with an infinite
+/// threshold.
 class ThresholdList {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;  ///< no vertex
-  static constexpr float kNow = 0, kNever = std::numeric_limits<float>::infinity();
+  static constexpr float kNow = 0;                    ///< due in every level
+  static constexpr float kNever = std::numeric_limits<float>::infinity();
 
-  /// Places from `begin` to before `end`: a piece of the ground.
-  struct Piece {
+  /// Indices from `begin` to before `end`: a tile of the ground.
+  struct Tile {
     std::uint32_t begin = 0, end = 0;
     std::uint32_t size() const { return end - begin; }
   };
 
-  /// What collect() works with.
-  using Space = ParallelFilter<std::uint32_t>;
+  /// Scratch memory of collect().
+  using Scratch = ParallelFilter<std::uint32_t>;
 
-  /// `vertices`: in the order in which they shall be visited, those that stay among them; the others are all
-  /// due now. isStaying: per vertex, not 0 = yes.
-  void assign(std::span<const std::uint32_t> vertices, std::span<const std::uint8_t> isStaying);
+  /// Replaces the list. All vertices that are not fixed are due now. O(vertices), parallel.
+  /// @param vertices in the order in which levels visit them, fixed ones included.
+  /// @param isFixed per vertex, not 0 = yes.
+  void assign(std::span<const std::uint32_t> vertices, std::span<const std::uint8_t> isFixed);
 
-  /// How many may still go.
-  std::size_t size() const { return waiting_; }
+  /// The number of vertices that are neither fixed nor removed.
+  std::size_t size() const { return removable_; }
   bool empty() const { return size() == 0; }
 
-  /// All places.
-  Piece everything() const { return {kNobody + 1, static_cast<std::uint32_t>(vertices_.size())}; }
-  /// Whether v, which has not gone, has its place in the piece.
-  bool isWithin(Piece piece, std::uint32_t v) const { return place_[v] - piece.begin < piece.size(); }
-  /// Who has each place, in order; kNone where he has gone.
-  std::span<const std::uint32_t> vertices() const { return std::span(vertices_).subspan(kNobody + 1); }
-  /// v's place, which it keeps until forgetGone(). Precondition: v has not gone.
-  std::uint32_t placeOf(std::uint32_t v) const { return place_[v]; }
-  /// Forgets those that have gone if they are more than half: places change. O(size), parallel.
-  void forgetGone();
+  /// All indices.
+  Tile all() const { return {kNoIndex + 1, static_cast<std::uint32_t>(vertices_.size())}; }
+  /// Whether the index of v lies in the tile. Precondition: v is not removed.
+  bool isWithin(Tile tile, std::uint32_t v) const { return index_[v] - tile.begin < tile.size(); }
+  /// The vertex of each index of all(), in order; kNone if it is removed.
+  std::span<const std::uint32_t> vertices() const { return std::span(vertices_).subspan(kNoIndex + 1); }
+  /// The index of v, the same until compact(). Precondition: v is not removed.
+  std::uint32_t indexOf(std::uint32_t v) const { return index_[v]; }
+  /// Drops the removed vertices if they are more than half: indices change. O(size), parallel.
+  void compact();
 
-  /// `due` receives, in order, those whose threshold has come. O(places), parallel.
-  void collect(double threshold, std::vector<std::uint32_t>& due, Space& space) const;
-  /// The same of those in the piece, by the calling thread alone. O(size of the piece).
-  void collect(Piece piece, double threshold, UninitializedVector<std::uint32_t>& due) const;
-  /// The same of `some`. Those that have gone are never due. O(some), parallel.
+  /// `due` receives the vertices that are due at a threshold, in order. O(indices), parallel.
+  void collect(double threshold, std::vector<std::uint32_t>& due, Scratch& scratch) const;
+  /// The same of the vertices of a tile, on the calling thread. O(size of the tile).
+  void collect(Tile tile, double threshold, UninitializedVector<std::uint32_t>& due) const;
+  /// The same of `some` vertices; removed ones are never due. O(some), parallel.
   void collect(std::span<const std::uint32_t> some, double threshold, std::vector<std::uint32_t>& due,
-               Space& space) const;
+               Scratch& scratch) const;
 
-  /// When v is due: a threshold, kNow or kNever. Safe for different vertices at once, but for one that is not
-  /// in the list, or has gone: of that nothing is noted, here and in wakeIf().
-  void set(std::uint32_t v, float threshold) { dueAt_[place_[v]] = threshold; }
-  /// Makes v due now, if so told: callers cannot foresee it, and no branch is needed. Safe for the same
-  /// vertex at once, not beside set() of the same.
-  void wakeIf(bool isDue, std::uint32_t v) {
-    float nowhere = kNow;  // of this call: a place that all threads wrote to would hold them up
-    float* const where[] = {&nowhere, &dueAt_[place_[v]]};
-    std::atomic_ref(*where[isDue]).store(kNow, std::memory_order_relaxed);
-  }
-  /// These have gone. Safe for different vertices at once. O(gone).
-  void remove(std::span<const std::uint32_t> gone, LoopThreads threads);
-  /// Puts vertices, none of whom has gone, into the order of their places, each once.
+  /// Sets the threshold of v. Thread-safe for different vertices that are in the list. No effect if v is
+  /// removed or not in the list, as for makeDueIf().
+  void set(std::uint32_t v, float threshold) { thresholds_[index_[v]] = threshold; }
+  /// Makes v due now if the condition holds, without a branch. Thread-safe, for the same vertex too, but not
+  /// beside set() of the same vertex.
+  void makeDueIf(bool condition, std::uint32_t v) { storeIf(condition, thresholds_[index_[v]], kNow); }
+  /// Removes vertices from the list. Thread-safe for different vertices. O(removed).
+  void remove(std::span<const std::uint32_t> removed, LoopThreads threads);
+  /// Sorts vertices by their indices and drops repeats. Precondition: none is removed.
   void sort(std::vector<std::uint32_t>& vertices) const;
 
-  /// The least threshold of all, kNever where none will come. O(size).
+  /// The least threshold; kNever if no vertex will be due. O(size).
   float least() const;
 
-  /// The threshold up to which about such a part of those that will ever be due are, told by a sample of a
-  /// thousand; kNow where there are too few to tell. Precondition: 0 <= part < 1. O(the sample).
-  float thresholdOf(double part) const;
+  /// The threshold at which about a given fraction of the vertices with a finite threshold are due, estimated
+  /// from a sample of a thousand; kNow if there are fewer than 64. O(sample).
+  /// Precondition: 0 <= fraction < 1.
+  float quantile(double fraction) const;
 
-  /// Asks for what set() and wakeIf() read.
-  [[gnu::always_inline]] void prefetch(std::uint32_t v) const { __builtin_prefetch(&place_[v]); }
+  /// Prefetches what set() and makeDueIf() read.
+  [[gnu::always_inline]] void prefetch(std::uint32_t v) const { __builtin_prefetch(&index_[v]); }
 
  private:
-  /// Writes those of some places that are due, returns where it ended. There is room for all.
+  /// Writes the vertices of some indices that are due to `to`, which has room for all of them.
+  /// @return the end of what was written.
   std::uint32_t* collectTo(std::size_t begin, std::size_t end, double threshold, std::uint32_t* to) const;
 
-  static constexpr std::uint32_t kNobody = 0;    // the place of all who are not in the list; never looked at
-  UninitializedVector<std::uint32_t> vertices_;  // by place; kNone
-  UninitializedVector<float> dueAt_;             // by place
-  UninitializedVector<std::uint32_t> place_;     // by vertex
-  std::atomic<std::size_t> waiting_ = 0;
-  std::size_t staying_ = 0;
+  static constexpr std::uint32_t kNoIndex = 0;  // shared by all vertices that are not in the list; never read
+  UninitializedVector<std::uint32_t> vertices_;  // by index; kNone if removed
+  UninitializedVector<float> thresholds_;        // by index
+  UninitializedVector<std::uint32_t> index_;     // by vertex
+  std::atomic<std::size_t> removable_ = 0;
+  std::size_t fixed_ = 0;
 };
 
 }  // namespace arete

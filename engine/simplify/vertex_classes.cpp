@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Each triangle files its three edges under the lower vertex of each (a counting sort), together with its own
-// number. A vertex's file is short; sorted by the other end it brings the triangles of one edge side by side:
-// one is a border, two are compared by their normals. The counts of creases and borders at both ends then
-// name the class.
+// A counting sort groups the edges of all triangles by their lower vertex, each edge with the number of its
+// triangle. A group is short; sorted by the other end, it has the triangles of one edge side by side. An edge
+// with one triangle is a border; of one with two the normals are compared. The numbers of creases and borders
+// at a vertex then give its class.
 #include "engine/simplify/vertex_classes.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct EdgeUse {
   auto operator<=>(const EdgeUse&) const = default;
 };
 
-/// What is known of a vertex while its edges are counted.
+/// Counts of the edges at a vertex.
 struct Tally {
   static constexpr std::uint8_t kMany = 3;
   std::uint8_t creases = 0;  ///< up to kMany

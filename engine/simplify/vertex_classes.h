@@ -12,10 +12,8 @@
 
 namespace arete {
 
-/// What a vertex is to the surface around it.
-///
-/// Mirza, Skvortsov, Sobolev, "Multitriangulation" (Tomsk State University), section 1, after Schroeder,
-/// Zarge, Lorensen, "Decimation of triangle meshes", SIGGRAPH 1992.
+/// The class of a vertex by its triangles and creases [SchroederZargeLorensen1992], with the names of Mirza,
+/// Skvortsov, Sobolev, "Multitriangulation" (Tomsk State University), section 1.
 enum class VertexClass : std::uint8_t {
   isolated,      ///< in no triangle
   simple,        ///< a full cycle of triangles, no crease

@@ -10,9 +10,8 @@
 
 namespace arete {
 
-/// Builds the multitriangulation of a heightfield: its finest triangulation, taken down to
-/// the domain's corners and the fixed vertices by removing independent sets of vertices (de Berg and Dobrindt
-/// 1995).
+/// Builds the multitriangulation of a heightfield: its finest triangulation, reduced to the domain's corners
+/// and the fixed vertices by removals of independent sets of vertices [deBergDobrindt1995].
 ///
 /// The result depends on the heightfield and the options only: the same bytes for any number of threads.
 /// Errors: degenerate (no cell or triangle, all collinear, one plan position with two heights), invalidData,
@@ -21,7 +20,7 @@ Result<TerrainModel> build(const RasterHeightfield& heightfield, const BuildOpti
                            const RunContext& context = {});
 Result<TerrainModel> build(const PointHeightfield& heightfield, const BuildOptions& options = {},
                            const RunContext& context = {});
-/// What build() refuses at once, for those who have work to do before it. O(points).
+/// The checks that build() starts with, for callers with work to do before it. O(points).
 Status checkBuild(const PointHeightfield& heightfield, const BuildOptions& options);
 /// `finest`: finestPoints() of the same points.
 Result<TerrainModel> build(const PointHeightfield& heightfield, FinestPoints finest,

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Comparisons are written so that NaN fails them.
 #include "terrain/build/checks.h"
 
 #include <fmt/format.h>

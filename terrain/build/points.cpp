@@ -32,9 +32,9 @@ struct OwnedPoints {
 Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints finest,
                                const BuildOptions& options, const TileOptions& tiles,
                                const RunContext& context) {
-  const PageKeeper keeper;  // what a step no longer needs goes to the next
+  const PageKeeper keeper;  // memory that a step frees is reused by the next
   std::optional<StageClock::Scope> stage(std::in_place, context.clock, "triangulate");
-  // From here on points are numbered along the ground: neighbours are near each other in memory.
+  // In the build, points are numbered along the ground: neighbours are near each other in memory.
   const std::vector<std::uint32_t>& ground = finest.order;
   const auto finestCount = static_cast<std::uint32_t>(finest.triangles.size());
   const auto pointCount = static_cast<std::uint32_t>(field.size());
@@ -109,7 +109,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
   UninitializedVector<std::uint32_t> order;
   const MultiTriangulation bare =
       recorder.finish(root.vertices, root.triangles, pointCount, order, context.clock);
-  // From here on they go by their MT vertices.
+  // In the model, fixed vertices are MT vertices.
   std::vector<std::uint32_t> fixed;
   for (std::uint32_t v = 0; v < order.size(); ++v)
     if (isFixed[order[v]]) fixed.push_back(v);

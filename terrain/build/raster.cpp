@@ -32,8 +32,8 @@ struct Ratio {
   std::uint32_t p = 1, q = 1;
 };
 
-/// The best p / q with terms up to 16 (relative error below 4 %, far beyond what the shapes of triangles
-/// notice); very long pixels are met by 1 / 64 at most.
+/// The best p / q with q up to 16: its relative error is below 4 %, which makes no visible difference to the
+/// shapes of triangles. Ratios beyond 64 are clamped.
 Ratio nearestRatio(double aspect) {
   if (!(aspect > 0) || !std::isfinite(aspect)) return {};
   if (aspect >= 16) return {static_cast<std::uint32_t>(std::min(64.0, std::round(aspect))), 1};
@@ -58,7 +58,7 @@ struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 };
 
-/// Of the samples that have data.
+/// The range of the samples that have data.
 Range rangeOf(std::span<const double> heights) {
   return tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, heights.size(), kSamplesAtOnce), Range(),
@@ -74,13 +74,13 @@ Range rangeOf(std::span<const double> heights) {
       });
 }
 
-/// Those that have data and are in no triangle.
+/// The samples that have data and are in no triangle.
 std::vector<std::uint32_t> isolatedSamples(const RasterHeightfield& field, const LiveMesh& mesh) {
   std::vector<std::uint32_t> isolated;
   ParallelFilter<std::uint32_t>()(
       field.size(), kSamplesAtOnce, isolated, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
         for (std::size_t v = begin; v != end; ++v)
-          if (mesh.vertexHalfedge[v] == LiveMesh::kNone && !std::isnan(field.heights[v]))
+          if (!mesh.isInTriangle(static_cast<std::uint32_t>(v)) && !std::isnan(field.heights[v]))
             *to++ = static_cast<std::uint32_t>(v);
         return to;
       });
@@ -102,7 +102,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
         fmt::format("{} samples have more triangles than 32-bit half-edges can name", field.size()),
         field.source);
 
-  const PageKeeper keeper;  // what a step no longer needs goes to the next
+  const PageKeeper keeper;  // memory that a step frees is reused by the next
   context.report("triangulate", 0);
   std::optional<StageClock::Scope> stage(std::in_place, context.clock, "triangulate");
   std::vector<std::uint32_t> pinched;
@@ -125,7 +125,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   std::vector<std::uint8_t> isFixed(sampleCount, 0);
   for (const std::uint32_t v : pinched) isFixed[v] = 1;
   for (const std::uint32_t v : options.fixedVertices) {
-    if (mesh.vertexHalfedge[v] == LiveMesh::kNone)
+    if (!mesh.isInTriangle(v))
       return failure(
           ErrorCode::invalidData,
           fmt::format(

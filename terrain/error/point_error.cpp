@@ -71,7 +71,7 @@ const ConflictLists& PointError::Hole::below() const {
              std::max(reach.z, std::abs(p.z - apex.z))};
   }
   for (int i = 0; i < star_.triangleCount; ++i)
-    for (std::uint32_t p = errors_.head_[star_.triangle(i)]; p != kNone; p = errors_.next_[p]) {
+    for (std::uint32_t p = errors_.head_[star_.slot(i)]; p != kNone; p = errors_.next_[p]) {
       const Vec3& position = errors_.position(p);
       below.add(p, position);
       reach.z = std::max(reach.z, std::abs(position.z - apex.z));
@@ -131,10 +131,10 @@ void PointError::Hole::settle(const HoleTriangulation& floor) {
   const std::size_t count = below().size();
   thread_local std::vector<std::uint8_t> isSettled;
   isSettled.assign(count, 0);
-  for (int t = 0; t < star_.triangleCount; ++t) errors_.head_[star_.triangle(t)] = kNone;
+  for (int t = 0; t < star_.triangleCount; ++t) errors_.head_[star_.slot(t)] = kNone;
   for (int f = 0; f < floor.size; ++f) {
     const auto [i, j, m] = floor.triangles[f];
-    std::uint32_t& head = errors_.head_[star_.triangle(f)];
+    std::uint32_t& head = errors_.head_[star_.slot(f)];
     const ConflictLists::Triangle over = triangle(i, j, m);
     for (auto found = over.nextCovered(0); found.place != count; found = over.nextCovered(found.place + 1)) {
       if (isSettled[found.place] != 0 || !isCovered(found, i, j, m)) continue;

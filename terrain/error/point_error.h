@@ -34,7 +34,7 @@ class PointError {
     __builtin_prefetch(points_.data() + point);
   }
   [[gnu::always_inline]] void prefetch(const Star& star) const {
-    for (int i = 0; i < star.triangleCount; ++i) __builtin_prefetch(&head_[star.triangle(i)]);
+    for (int i = 0; i < star.triangleCount; ++i) __builtin_prefetch(&head_[star.slot(i)]);
     for (const std::uint32_t u : star.linkView()) finest_.prefetch(u);
   }
   /// RasterError knows a rule for the finest triangulation; for points there is none.

@@ -13,8 +13,9 @@
 
 namespace arete {
 
-/// The removals of a level of all threads, no two of whose stars share a triangle: they are announced to the
-/// recorder, each rewrites its star, and what that left to do where stars meet is done when all have.
+/// The removals of a level that all threads work on; no two of their stars share a triangle. begin()
+/// announces them to the recorder, then each removal rewrites its star, in any order and on any thread, and
+/// end() joins the new triangles to their neighbours.
 template <class Plan, class Errors>
 class RemovalBatch {
  public:
@@ -32,20 +33,21 @@ class RemovalBatch {
 
   /// The i-th removal's number in the recorder.
   std::uint32_t removal(std::size_t i) const { return first_ + static_cast<std::uint32_t>(i); }
-  /// What it has to fill in: its seams, and whether its star is open.
+  /// The seams that the i-th removal fills in. It also calls setOpen().
   std::span<Seam> seams(std::size_t i) {
     const std::size_t from = firstSlotAfter(i);
     return std::span(seams_).subspan(from, firstSlotAfter(i + 1) - from);
   }
   void setOpen(std::size_t i, bool isOpen) { isOpen_[i] = isOpen; }
 
-  /// Joins the new triangles to their neighbours. `removed`: the vertices, in the order of the removals.
+  /// Joins the new triangles to their neighbours. Precondition: all removals have rewritten their stars.
+  /// @param removed the vertices, in the order of the removals.
   void end(std::span<const std::uint32_t> removed) {
     sewSeams();
     if (s_.rim != nullptr)
       for (std::size_t i = 0; i < removed.size(); ++i)
         if (isOpen_[i]) Rim::closeVoid(s_.mesh, seams(i).back().movedTo);
-    s_.waiting.remove(removed, LoopThreads::all);
+    s_.thresholds.remove(removed, LoopThreads::all);
     std::size_t dead = 0;
     for (const std::uint8_t isOpen : isOpen_) dead += Star::slotsLeftDead(isOpen != 0);
     s_.liveTriangles -= dead;
@@ -56,8 +58,8 @@ class RemovalBatch {
     const StageClock::Scope stage(clock_, "simplify: sew");
     forRanges(LoopThreads::all, seams_.size(), 2048, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i != end; ++i) {
-        if (i + kSeamsAhead < end && seams_[i + kSeamsAhead].beyond != LiveMesh::kNone)
-          __builtin_prefetch(&s_.mesh.triangles[LiveMesh::triangleOf(seams_[i + kSeamsAhead].beyond)], 1);
+        if (i + kSeamsAhead < end && seams_[i + kSeamsAhead].beyond.isValid())
+          __builtin_prefetch(&s_.mesh.triangles[LiveMesh::slotOf(seams_[i + kSeamsAhead].beyond)], 1);
         sew(s_.mesh, seams_[i], first_, [&](std::uint32_t removal) { return seams(removal - first_); });
       }
     });

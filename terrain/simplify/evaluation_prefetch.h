@@ -10,16 +10,16 @@ namespace arete {
 
 inline constexpr std::size_t kHeightsAhead = 12;  ///< prefetch distance of heights, in vertices
 
-/// Asks for all that a look reads, on the visit of the i-th of some vertices that are looked at in turn.
+/// Prefetches what the evaluation of the next vertices of a list reads, on the visit of its i-th.
 template <class State, class Vertices>
-[[gnu::always_inline]] inline void prefetchForLook(const State& state, const Vertices& vertices,
-                                                   std::size_t i) {
+[[gnu::always_inline]] inline void prefetchForEvaluation(const State& state, const Vertices& vertices,
+                                                         std::size_t i) {
   prefetchStars(state.mesh, i, vertices.size(), [&](std::size_t k) { return vertices[k]; });
   if (i + kHeightsAhead >= vertices.size()) return;
   const std::uint32_t v = vertices[i + kHeightsAhead];
   state.errors.prefetch(v);
-  __builtin_prefetch(&state.notes[v], 1);
-  state.waiting.prefetch(v);
+  __builtin_prefetch(&state.records[v], 1);
+  state.thresholds.prefetch(v);
 }
 
 }  // namespace arete

@@ -9,37 +9,41 @@
 
 namespace arete {
 
-/// The floors that the looks of a level have measured, until those that were chosen go: of levels that are
-/// small enough for a cache. Late levels are, and there most of the time goes into measuring.
+/// The floors that the evaluations of a level measure, kept until the chosen vertices are removed; only of
+/// levels that are small enough for a processor's cache. Late levels are, and there measuring takes most of
+/// the time.
 class FloorCache {
  public:
-  /// A level in which so many are looked at, of vertices that have so many places.
-  void begin(std::size_t looks, std::size_t places) {
-    isKeeping_ = looks <= kMostLooks && places <= kMostPlaces;
+  /// Starts a level.
+  /// @param evaluations the number of vertices that the level evaluates.
+  /// @param indices the number of indices in the ThresholdList.
+  void begin(std::size_t evaluations, std::size_t indices) {
+    isKeeping_ = evaluations <= kMostEvaluations && indices <= kMostIndices;
     if (!isKeeping_) return;
-    if (floors_.size() < looks) floors_.resize(looks);
-    if (lookAt_.size() <= places) lookAt_.resize(places + 1);
+    if (floors_.size() < evaluations) floors_.resize(evaluations);
+    if (evaluationOf_.size() <= indices) evaluationOf_.resize(indices + 1);
   }
 
-  /// Where the i-th look, of the vertex with this place, shall keep its floor, which is empty; null if
-  /// nowhere. Safe for different looks at once. Called for each of them.
-  MeasuredFloor* keep(std::size_t i, std::uint32_t place) {
+  /// The floor, empty, that the i-th evaluation fills; null if the level is too large. Called for each
+  /// evaluation. Thread-safe for different ones.
+  /// @param index of the vertex in the ThresholdList.
+  MeasuredFloor* keep(std::size_t i, std::uint32_t index) {
     if (!isKeeping_) return nullptr;
-    lookAt_[place] = static_cast<std::uint32_t>(i);
+    evaluationOf_[index] = static_cast<std::uint32_t>(i);
     floors_[i].clear();
     return &floors_[i];
   }
 
-  /// What the look of this level has kept of the vertex with this place; null if nothing. Precondition:
+  /// The floor that was kept of the vertex with this index; null if the level is too large. Precondition:
   /// keep() was called for it in this level.
-  MeasuredFloor* of(std::uint32_t place) { return isKeeping_ ? &floors_[lookAt_[place]] : nullptr; }
+  MeasuredFloor* of(std::uint32_t index) { return isKeeping_ ? &floors_[evaluationOf_[index]] : nullptr; }
 
  private:
-  static constexpr std::size_t kMostLooks = 4096, kMostPlaces = 1 << 17;
+  static constexpr std::size_t kMostEvaluations = 4096, kMostIndices = 1 << 17;
 
   bool isKeeping_ = false;
-  std::vector<MeasuredFloor> floors_;  // per look
-  std::vector<std::uint32_t> lookAt_;  // per place
+  std::vector<MeasuredFloor> floors_;        // per evaluation
+  std::vector<std::uint32_t> evaluationOf_;  // by index
 };
 
 }  // namespace arete

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A level that all threads work on together. It goes through these steps:
+// A level that all threads work on together. Its steps:
 //
-//   collect   Look through those that may go for whom the level concerns: those of whom too little is known,
-//             and those under the threshold (waiting_list.h).
-//   evaluate  Find what removing them costs (simplify_cost.h), and keep the floors of it if they are few
-//             (kept_floors.h). The candidates are those under the threshold.
-//   choose    An independent set of them, in order of their cost (independent_set.h).
-//   remove    Rewrite each chosen star, record the modification, tell the link (simplify_removal.h).
-//   sew       Join the new triangles to their neighbours (simplify_batch.h).
+//   collect   Scan the vertices that may be removed for those that are due: their cost is unknown, or at most
+//             the threshold (threshold_list.h).
+//   evaluate  Find the costs of removing them (cost.h), and keep the floors if they are few (floor_cache.h).
+//             Those that cost at most the threshold are the candidates.
+//   choose    Take an independent set of the candidates, in the order of their costs (independent_set.h).
+//   remove    Rewrite each chosen star, record the modification, update the records of the link (removal.h).
+//   sew       Join the new triangles to their neighbours (batch.h).
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@
 
 namespace arete {
 
-/// All threads at work on levels, and the lists that are needed for it.
+/// Runs levels on all threads, and owns the lists that they need.
 template <class Plan, class Errors>
 class LevelWorkers {
  public:
@@ -39,14 +39,15 @@ class LevelWorkers {
 
   /// `clock` may be null.
   LevelWorkers(State& state, StageClock* clock)
-      : s_(state), cost_(state), set_(state.mesh, state.notes), batch_(state, clock), clock_(clock) {}
+      : s_(state), cost_(state), set_(state.mesh, state.records), batch_(state, clock), clock_(clock) {}
 
-  /// A level of all that may go. `number`: of the level, none of a vertex's levels has the same. Returns how
-  /// many went.
+  /// A level of all vertices that may be removed.
+  /// @param number of the level; different for all levels of a vertex.
+  /// @return how many vertices were removed.
   std::size_t levelOfAll(double threshold, std::uint32_t number, MtRecorder::BatchOrder order) {
     {
       const StageClock::Scope stage(clock_, "simplify: collect");
-      s_.waiting.collect(threshold, due_, filter_);
+      s_.thresholds.collect(threshold, due_, filter_);
     }
     return level(threshold, number, order);
   }
@@ -55,13 +56,13 @@ class LevelWorkers {
                       MtRecorder::BatchOrder order) {
     {
       const StageClock::Scope stage(clock_, "simplify: collect");
-      s_.waiting.collect(some, threshold, due_, filter_);
+      s_.thresholds.collect(some, threshold, due_, filter_);
     }
     return level(threshold, number, order);
   }
 
  private:
-  using Note = RemovalRecord::State;
+  using RecordState = RemovalRecord::State;
 
   std::size_t level(double threshold, std::uint32_t number, MtRecorder::BatchOrder order) {
     if (due_.empty()) return 0;
@@ -73,28 +74,28 @@ class LevelWorkers {
     return chosen_.size();
   }
 
-  /// Leaves in `due_` the candidates: vertices whose removal costs no more than the threshold.
+  /// Reduces `due_` to the candidates: vertices whose removal costs at most the threshold.
   void evaluate(double threshold, std::uint32_t number) {
     const StageClock::Scope stage(clock_, "simplify: evaluate");
-    // A fidelity hole is filled anew: its cost is found without the floor.
-    if (s_.options.shape == HoleShape::delaunay) floors_.begin(due_.size(), s_.waiting.everything().size());
+    // The cost of the data-dependent shape is found without its floor: the removal finds the floor.
+    if (s_.options.shape == HoleShape::delaunay) floors_.begin(due_.size(), s_.thresholds.all().size());
     filter_(due_.size(), shareOf(due_.size(), 128), due_,
             [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
               Star star;
               for (std::size_t i = begin; i != end; ++i) {
-                prefetchForLook(s_, due_, i);
+                prefetchForEvaluation(s_, due_, i);
                 const std::uint32_t v = due_[i];
-                RemovalRecord& note = s_.notes[v];
-                note.settle();
-                MeasuredFloor* const floor = floors_.keep(i, s_.waiting.placeOf(v));
-                if (note.state != Note::exact) {
+                RemovalRecord& record = s_.records[v];
+                record.settle();
+                MeasuredFloor* const floor = floors_.keep(i, s_.thresholds.indexOf(v));
+                if (record.state != RecordState::exact) {
                   if (floor != nullptr)
-                    cost_.look(v, star, threshold, note, *floor);
+                    cost_.evaluate(v, star, threshold, record, *floor);
                   else
-                    cost_.look(v, star, threshold, note);
-                  s_.waiting.set(v, note.dueAt());
+                    cost_.evaluate(v, star, threshold, record);
+                  s_.thresholds.set(v, record.nextThreshold());
                 }
-                if (note.state != Note::exact || note.cost > threshold) continue;
+                if (record.state != RecordState::exact || record.cost > threshold) continue;
                 set_.enter(v, number);
                 *to++ = v;
               }
@@ -117,7 +118,7 @@ class LevelWorkers {
     }
     linkSizes_.resize(chosen_.size());
     forRanges(LoopThreads::all, chosen_.size(), 4096, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i != end; ++i) linkSizes_[i] = s_.notes[chosen_[i]].linkSize;
+      for (std::size_t i = begin; i != end; ++i) linkSizes_[i] = s_.records[chosen_[i]].linkSize;
     });
   }
 
@@ -127,7 +128,7 @@ class LevelWorkers {
     const std::size_t grain = shareOf(chosen_.size(), 64);
     forRanges(LoopThreads::all, chosen_.size(), grain, [&](std::size_t begin, std::size_t end) {
       // The stars of a batch share no triangle, so the next ones can be gathered while others are rewritten,
-      // and what the recorder will ask of their children can be on its way.
+      // and the recorder's data of their triangles prefetched.
       std::array<Star, kStarsAhead> ahead;
       VertexRemover<Plan, Errors> remover(s_);
       MeasuredFloor unknown;
@@ -139,22 +140,22 @@ class LevelWorkers {
       };
       for (std::size_t i = begin; i < begin + kStarsAhead - 1; ++i) gather(i);
       for (std::size_t i = begin; i != end; ++i) {
-        // Not beyond the range: the stars there are being rewritten.
+        // Not beyond the range: other threads rewrite the stars there.
         prefetchStars(s_.mesh, i, end, [&](std::size_t k) { return chosen_[k]; });
         if (i + kHeightsAhead < end) s_.errors.prefetch(chosen_[i + kHeightsAhead]);
         gather(i + kStarsAhead - 1);
         const Star& star = ahead[i % kStarsAhead];
         batch_.setOpen(i, star.isOpen);
         unknown.clear();
-        MeasuredFloor* const kept = floors_.of(s_.waiting.placeOf(chosen_[i]));
+        MeasuredFloor* const kept = floors_.of(s_.thresholds.indexOf(chosen_[i]));
         remover.remove(chosen_[i], star, kept != nullptr ? *kept : unknown, batch_.removal(i),
                        batch_.seams(i));
       }
     });
   }
 
-  /// How many of so many, `most` at most, a thread takes at once: late levels are of few vertices, whose
-  /// holes are wide, and all threads shall have some.
+  /// The grain of a parallel loop over `size` vertices, at most `most`: late levels have few vertices with
+  /// wide holes, which all threads share.
   static std::size_t shareOf(std::size_t size, std::size_t most) {
     return std::clamp<std::size_t>(size / 32, 4, most);
   }
@@ -169,7 +170,7 @@ class LevelWorkers {
   StageClock* clock_;
 
   ParallelFilter<std::uint32_t> filter_;
-  std::vector<std::uint32_t> due_;  // vertices to look at, then the candidates
+  std::vector<std::uint32_t> due_;  // vertices to evaluate, then the candidates
   std::vector<std::uint32_t> chosen_;
   std::vector<std::uint8_t> linkSizes_;  // per chosen
 };

@@ -10,7 +10,7 @@
 
 namespace arete {
 
-/// Of the error of a triangle that is wanted whatever it is.
+/// The limit of an error that is needed exactly, however large it is.
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 /// A triangulation of a hole with the error of each triangle and the signed bound at its samples.
@@ -37,7 +37,7 @@ void measure(const Hole& hole, MeasuredFloor& floor) {
 /// DataDependentSearch::shortest(), each triangle measured once. Empty when no triangulation keeps the limit.
 template <class Hole>
 void fillShortest(int corners, const Hole& hole, double minimumAspect, double limit, MeasuredFloor& floor) {
-  struct Measured {  // left alone until it is needed
+  struct Measured {  // uninitialised until written
     double error, below, above;
   };
   std::array<std::array<Measured, kMaxHoleCorners>, kMaxHoleCorners> measured;  // of corners i < m < j

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A removal: the star's hole is filled with the floor that its cost is of, the floor is measured, the
-// modification recorded, the star rewritten and its link told.
+// A removal: fill the star's hole with the floor whose error is the cost, measure the floor, record the
+// modification, rewrite the star, update the records of its link.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include <limits>
 #include <span>
 
+#include "engine/base/branchless.h"
 #include "engine/simplify/floor_joins.h"
 #include "terrain/simplify/measured_floor.h"
 #include "terrain/simplify/state.h"
@@ -19,29 +20,31 @@
 
 namespace arete {
 
-/// What a thread removes vertices with.
+/// Removes vertices, on one thread.
 template <class Plan, class Errors>
 class VertexRemover {
  public:
   explicit VertexRemover(SimplifyState<Plan, Errors>& state) : s_(state) {}
 
-  /// Asks for what remove() will read.
+  /// Prefetches what remove() reads.
   [[gnu::always_inline]] void prefetch(const Star& star) const {
     for (int k = 0; k < star.triangleCount; ++k) {
-      const LiveMesh::Triangle& triangle = s_.mesh.triangles[star.triangle(k)];
-      s_.recorder.prefetch(triangle.creator, triangle.birth);
+      const LiveMesh::Triangle& triangle = s_.mesh.triangles[star.slot(k)];
+      s_.recorder.prefetch(triangle.creator, triangle.recorderId);
     }
     for (const std::uint32_t u : star.linkView()) {
-      __builtin_prefetch(&s_.notes[u], 1);
-      s_.waiting.prefetch(u);
+      __builtin_prefetch(&s_.records[u], 1);
+      s_.thresholds.prefetch(u);
       __builtin_prefetch(&s_.mesh.vertexHalfedge[u], 1);
     }
     s_.errors.prefetch(star);
   }
 
-  /// Removes v, whose cost is known exactly. `star`: of v. `floor`: what the hole is to be filled with, as a
-  /// look has kept it, or empty. removal: its number in the recorder. `seams`: one for each vertex of the
-  /// link, to be sewn.
+  /// Removes v, whose cost is known exactly.
+  /// @param star of v.
+  /// @param floor the measured floor that RemovalCost has kept; empty: it is found and measured here.
+  /// @param removal the removal's number in the recorder.
+  /// @param seams one for each vertex of the link, filled in; the caller joins them.
   void remove(std::uint32_t v, const Star& star, MeasuredFloor& floor, std::uint32_t removal,
               std::span<Seam> seams) {
     typename Errors::Hole hole(s_.errors, star, v);
@@ -51,18 +54,19 @@ class VertexRemover {
     const VertexRemoval what = describe(v, star, hole, floor.triangulation.size);
     s_.recorder.record(removal, what);
     s_.recorder.saturate(removal, what);
-    refill(s_.mesh, star, floor.triangulation, joins, s_.recorder.firstFloorTriangle(removal), removal, seams);
+    refill(s_.mesh, star, floor.triangulation, joins, s_.recorder.firstFloorTriangle(removal), removal,
+           seams);
     hole.settle(floor.triangulation);
-    tellLink(v, star);
-    s_.mesh.vertexHalfedge[v] = LiveMesh::kNone;
+    updateLink(v, star);
+    s_.mesh.vertexHalfedge[v] = HalfedgeId();
   }
 
  private:
   void fill(std::uint32_t v, const Star& star, const typename Errors::Hole& hole, MeasuredFloor& floor) {
     if (s_.options.shape == HoleShape::dataDependent) {
-      // The cost was found from other corners, in other roundings, and is kept in few digits.
+      // The cost was found with other roundings and is stored as a float.
       const double limit =
-          std::nextafter(s_.notes[v].cost, std::numeric_limits<float>::infinity()) + s_.roundingSlack;
+          std::nextafter(s_.records[v].cost, std::numeric_limits<float>::infinity()) + s_.roundingSlack;
       fillShortest(star.linkSize, hole, s_.options.minimumAspect, limit, floor);
       if (!floor.isEmpty()) return;
     }
@@ -85,20 +89,20 @@ class VertexRemover {
     for (int f = 0; f < floor.triangulation.size; ++f)
       codes_[f] = {scale.encode(withoutRounding(floor.errors[f])), encode(floor.bounds[f].below),
                    encode(floor.bounds[f].above)};
-    // The bounds of the star's triangles hold for their edges: most often the rim adds nothing to those of
-    // the floor, and need not be looked at.
+    // The bounds of the star's triangles hold for their edges too. So a rim edge is scanned only if the
+    // bounds of its former triangle exceed those of the floor's triangle, which is rare.
     const int corners = star.linkSize;
-    std::array<std::uint8_t, kMaxHoleCorners> telling;
+    std::array<std::uint8_t, kMaxHoleCorners> scanned;
     int count = 0;
     for (int i = 0; i < star.triangleCount; ++i) {
       const FloorCodes own = codes_[joins.rim[i].triangle],
-                       beside = s_.recorder.codes(s_.mesh.triangles[star.triangle(i)].birth);
-      telling[count] = static_cast<std::uint8_t>(i);
+                       beside = s_.recorder.codes(s_.mesh.triangles[star.slot(i)].recorderId);
+      scanned[count] = static_cast<std::uint8_t>(i);
       count += (beside.below > own.below) | (beside.above > own.above);
     }
-    if (star.isOpen) telling[count++] = static_cast<std::uint8_t>(corners - 1);
+    if (star.isOpen) scanned[count++] = static_cast<std::uint8_t>(corners - 1);
     for (int k = 0; k < count; ++k) {
-      const int i = telling[k];
+      const int i = scanned[k];
       FloorCodes& own = codes_[joins.rim[i].triangle];
       const SignedBound bound = hole.alongEdge(i, i + 1 < corners ? i + 1 : 0);
       const std::uint16_t below = encode(bound.below), above = encode(bound.above);
@@ -106,12 +110,12 @@ class VertexRemover {
     }
   }
 
-  /// In lists of this remover's, until the next removal.
+  /// The spans refer to arrays of this object and are valid until the next removal.
   VertexRemoval describe(std::uint32_t v, const Star& star, const typename Errors::Hole& hole,
                          int floorSize) {
     for (int i = 0; i < star.triangleCount; ++i) {
-      ceiling_[i] = s_.mesh.triangles[star.triangle(i)].birth;
-      bearer_[i] = s_.mesh.triangles[star.triangle(i)].creator;
+      ceiling_[i] = s_.mesh.triangles[star.slot(i)].recorderId;
+      creator_[i] = s_.mesh.triangles[star.slot(i)].creator;
     }
     const int corners = star.linkSize;
     for (int i = 0; i < corners; ++i) positions_[i] = s_.metric.toMetric(hole.position(i));
@@ -124,38 +128,38 @@ class VertexRemover {
     what.isOpen = star.isOpen;
     what.metricPositions = {positions_.data(), size(corners + 1)};
     what.ceiling = {ceiling_.data(), size(star.triangleCount)};
-    what.ceilingCreator = {bearer_.data(), size(star.triangleCount)};
+    what.ceilingCreator = {creator_.data(), size(star.triangleCount)};
     what.floor = {codes_.data(), size(floorSize)};
     return what;
   }
 
-  /// Two stars can share a link vertex: both write the same value. What a neighbour must forget cannot be
-  /// foreseen, so it is told where to write instead of whether.
-  void tellLink(std::uint32_t v, const Star& star) {
+  /// Records at the neighbours of v that v is removed. Two stars can share a link vertex: both threads store
+  /// the same values.
+  void updateLink(std::uint32_t v, const Star& star) {
     using State = RemovalRecord::State;
     const bool isWitnessUnknown = s_.options.shape != HoleShape::delaunay || star.isOpen;
     for (const std::uint32_t u : star.linkView()) {
-      RemovalRecord& note = s_.notes[u];
-      const bool isWitnessGone = isWitnessUnknown | note.isWitnessedBy(v);
-      std::atomic_ref(note.isTouched).store(1, std::memory_order_relaxed);
-      std::atomic_ref(isWitnessGone ? note.isWitnessGone : note.isTouched)
-          .store(1, std::memory_order_relaxed);
-      s_.waiting.wakeIf((isWitnessGone | (note.state == State::stuck)) & (note.state != State::fixed), u);
+      RemovalRecord& record = s_.records[u];
+      const bool isWitnessGone = isWitnessUnknown | record.isWitnessedBy(v);
+      std::atomic_ref(record.isTouched).store(1, std::memory_order_relaxed);
+      storeIf(isWitnessGone, record.isWitnessGone, 1);
+      s_.thresholds.makeDueIf(
+          (isWitnessGone | (record.state == State::stuck)) & (record.state != State::fixed), u);
     }
   }
 
-  /// Bounds go beyond the rounding of the scan itself: they prove things. (No branch: nothing foretells
-  /// zeros.)
+  /// A bound enlarged by the rounding of the scan, as it must hold exactly. 0 stays 0. (A multiplication
+  /// instead of a branch: zeros are not predictable.)
   double outward(double x) const { return (x * (1 + 1e-9) + s_.boundSlack) * (x == 0 ? 0 : 1); }
-  /// An error that is a code but for the last bits of its arithmetic is that code: integer heights make
-  /// errors of exactly 1 common, and a tolerance of 1 must take them. The bits are far below what "equal to
-  /// the bound" allows.
+  /// An error lessened by the rounding of its arithmetic, so that an error that equals a code of the scale
+  /// but for its last bits is stored as that code: with integer heights errors of exactly 1 are common, and a
+  /// tolerance of 1 must admit them.
   double withoutRounding(double x) const { return std::max(0.0, x - s_.roundingSlack); }
 
   SimplifyState<Plan, Errors>& s_;
-  // Kept for the next removal, as clearing them takes longer than many a step.
+  // Members, so that no removal initialises them.
   std::array<FloorCodes, kMaxHoleCorners> codes_;
-  std::array<std::uint32_t, kMaxHoleCorners> ceiling_, bearer_;
+  std::array<std::uint32_t, kMaxHoleCorners> ceiling_, creator_;
   std::array<Vec3, kMaxHoleCorners + 1> positions_;
 };
 

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The build of de Berg and Dobrindt (1995): repeat { choose an independent set of removable vertices; remove
-// each; retriangulate its hole; record the modification } until nothing is removable. That is a level
-// (simplify_level.h). From level to level the threshold below which a removal must cost grows: cheap removals
-// go first everywhere, which is what keeps the cuts at any error small (without thresholds the same
-// bound takes 1.9 times as many triangles). It grows in smaller steps the fewer vertices are left. Most of
-// the time goes into the first levels, of which only the finest cuts tell; levels among few vertices take
-// next to none, and all coarser cuts live on their order (docs/decisions/0016 to 0018).
+// The simplification of [deBergDobrindt1995]: repeat { choose an independent set of removable vertices;
+// remove each; retriangulate its hole; record the modification } until no vertex can be removed. One
+// repetition is a level (level.h).
 //
-// A level visits a vertex in ten, and so all of memory. Therefore a large mesh goes through some levels piece
-// by piece: the ground is divided into pieces that fit a processor's cache, each thread takes one through all
-// those levels by itself (simplify_piece.h), then the next. A vertex with a neighbour beyond its piece is
-// held until all pieces are through: no two threads ever meet, as every triangle around a vertex that one of
-// them removes has its corners in one piece, and the stars of other pieces' vertices have none such. (Sewing
-// writes to a triangle beyond the rim, which can have a corner in another piece: but only what it says of the
-// rim's edge, and who looks at the star of that corner does not ask for it.) Those that were held go through
-// the same levels after, together. So what happens in a piece depends on nothing that others do meanwhile,
-// and the MT is the same for any number of threads (docs/decisions/0015).
+// A level admits the removals whose cost is under a threshold, and the threshold grows from level to level:
+// cheap removals come first everywhere, which keeps the cuts at any error small (without thresholds the same
+// bound takes 1.9 times as many triangles). The growth falls with the number of vertices that are left. Most
+// of the time goes into the first levels, which only the finest cuts depend on; levels among few vertices
+// take almost none, and all coarser cuts depend on their order (docs/decisions/0016 to 0018).
+//
+// A level visits one vertex in ten, and so nearly all of the memory. Therefore a large mesh is divided into
+// tiles that fit a processor's cache: a thread takes one tile through several levels by itself (tile.h), then
+// the next tile. A vertex with a neighbour outside its tile is held until all tiles are done; the held
+// vertices then go through the same levels on all threads together. So no two threads write the same data:
+// every triangle around a vertex that a thread removes has all its corners in the thread's tile, and no star
+// of another tile's vertex has such a triangle. (Joining a new triangle to its neighbour writes to a triangle
+// beyond the rim, which can have a corner in another tile; but only the twin across the rim's edge, which no
+// walk around that corner reads.) What happens in a tile depends on nothing that other threads do meanwhile,
+// so the MT is the same for any number of threads (docs/decisions/0015).
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -38,39 +40,42 @@
 
 namespace arete {
 
-/// What the levels leave: the root.
+/// What the levels leave over: the root of the MT.
 struct SimplifiedRoot {
   std::vector<std::uint32_t> vertices;
   std::vector<SurvivingTriangle> triangles;
   std::uint32_t levels = 0;
 };
 
+/// Runs all levels of a build. `state`, `context` and what they refer to must outlive the Simplifier; it runs
+/// once.
 template <class Plan, class Errors>
 class Simplifier {
  public:
   Simplifier(SimplifyState<Plan, Errors>& state, const TileOptions& tiles, const RunContext& context)
       : s_(state), tiles_(tiles), context_(context), together_(state, context.clock) {}
 
-  /// Removes what can be removed. `isFixed`: per vertex, not 0 = stays.
+  /// Removes every vertex that can be removed. Errors: interrupted.
+  /// @param isFixed per vertex, not 0 = it is never removed.
   Result<SimplifiedRoot> run(const std::vector<std::uint8_t>& isFixed) {
     start(isFixed);
-    // Below a ten-millionth of the relief all errors are alike: noise of the arithmetic must not make levels.
+    // Errors below a ten-millionth of the relief count as equal: rounding noise must not make levels.
     double threshold = s_.heightRange * 1e-7;
-    while (!s_.waiting.empty()) {
-      s_.waiting.forgetGone();
-      const std::size_t before = s_.waiting.size();
-      const std::uint32_t pieces = pieceCount();
-      const double next = pieces > 1 ? levelsByPieces(threshold, pieces) : levelOfAll(threshold);
+    while (!s_.thresholds.empty()) {
+      s_.thresholds.compact();
+      const std::size_t before = s_.thresholds.size();
+      const std::uint32_t tiles = tileCount();
+      const double next = tiles > 1 ? levelsInTiles(threshold, tiles) : levelOfAll(threshold);
       if (context_.cancelled()) return failure(ErrorCode::interrupted, "the build was interrupted");
       threshold = std::max(next, leastUseful());
-      if (s_.waiting.size() == before) {
-        const double pending = s_.waiting.least();
+      if (s_.thresholds.size() == before) {
+        const double pending = s_.thresholds.least();
         if (!(pending < std::numeric_limits<double>::infinity())) break;
         threshold = std::max(threshold, pending);
       }
       threshold = std::min(threshold, kLargest);
       if (double(s_.liveTriangles) < Errors::kLeastLive * double(s_.mesh.triangles.size()))
-        s_.errors.compact(s_.mesh.compact(s_.waiting.vertices()));
+        s_.errors.compact(s_.mesh.compact(s_.thresholds.vertices()));
     }
     context_.report("simplify", 1);
     return root();
@@ -78,51 +83,52 @@ class Simplifier {
 
  private:
   using Worker = TileWorker<Plan, Errors>;
-  using Piece = ThresholdList::Piece;
+  using Tile = ThresholdList::Tile;
 
   void start(const std::vector<std::uint8_t>& isFixed) {
     const auto vertexCount = static_cast<std::uint32_t>(s_.mesh.vertexHalfedge.size());
     s_.liveTriangles = s_.mesh.triangles.size();
-    s_.notes.resize(vertexCount);
+    s_.records.resize(vertexCount);
     // Vertices are visited in the order of their triangles in memory, which is that of the ground.
-    s_.waiting.assign(s_.mesh.verticesInOrder(), isFixed);
-    waitingAtStart_ = std::max<std::size_t>(s_.waiting.size(), 1);
-    // Most levels are late and short: progress by what is left.
-    progress_.emplace(context_, "simplify", waitingAtStart_);
+    s_.thresholds.assign(s_.mesh.verticesInOrder(), isFixed);
+    removableAtStart_ = std::max<std::size_t>(s_.thresholds.size(), 1);
+    // Progress counts vertices, not levels: most levels are late and short.
+    progress_.emplace(context_, "simplify", removableAtStart_);
 
     const StageClock::Scope stage(context_.clock, "simplify: evaluate");
     const RemovalCost<Plan, Errors> cost(s_);
     forRanges(LoopThreads::all, vertexCount, 4096, [&](std::size_t begin, std::size_t end) {
       for (auto v = static_cast<std::uint32_t>(begin); v != end; ++v) {
-        RemovalRecord& note = s_.notes[v];
-        note = {};
+        RemovalRecord& record = s_.records[v];
+        record = {};
         if (isFixed[v] != 0) {
-          note.state = RemovalRecord::State::fixed;
+          record.state = RemovalRecord::State::fixed;
           continue;
         }
-        cost.lookInFinest(v, note);
-        if (note.state != RemovalRecord::State::stale) s_.waiting.set(v, note.cost);
+        cost.evaluateInFinest(v, record);
+        if (record.state != RemovalRecord::State::stale) s_.thresholds.set(v, record.cost);
       }
     });
   }
 
-  /// Into how many pieces the ground is divided now. Rims are looked after by one for all.
-  std::uint32_t pieceCount() const {
-    const std::uint32_t places = s_.waiting.everything().size();
-    const std::uint32_t pieces = places / std::clamp(places / tiles_.fewest, tiles_.least, tiles_.most);
-    return pieces < tiles_.fewest || s_.rim != nullptr ? 1 : pieces;
+  /// The number of tiles of the next levels; 1: all threads work together. So they do where rims are
+  /// simplified, as the fills of a level are reserved one after the other (Rim::claim()).
+  std::uint32_t tileCount() const {
+    const std::uint32_t indices = s_.thresholds.all().size();
+    const std::uint32_t tiles = indices / std::clamp(indices / tiles_.fewest, tiles_.least, tiles_.most);
+    return tiles < tiles_.fewest || s_.rim != nullptr ? 1 : tiles;
   }
 
-  /// By how much the threshold grows now. What it grows by falls with the vertices that are left.
+  /// The growth of the threshold from this level to the next; it falls with the vertices that are left.
   double ratio() const {
     const double growth = s_.options.thresholdRatioOrDefault() - 1,
-                 left = double(s_.waiting.size()) / double(waitingAtStart_);
+                 left = double(s_.thresholds.size()) / double(removableAtStart_);
     return 1 + std::max(std::min(growth, kLeastGrowth), growth * left);
   }
 
-  /// The least threshold that concerns a fiftieth of those that may go: where costs are spread over many
-  /// orders of magnitude, steps in which next to none go would be all there is.
-  double leastUseful() const { return s_.waiting.thresholdOf(0.02); }
+  /// The threshold at which a fiftieth of the vertices are due: where costs are spread over many orders of
+  /// magnitude, hundreds of smaller steps would remove almost no vertex.
+  double leastUseful() const { return s_.thresholds.quantile(0.02); }
 
   /// One level. Returns the threshold of the next.
   double levelOfAll(double threshold) {
@@ -131,33 +137,33 @@ class Simplifier {
     return threshold * ratio();
   }
 
-  /// As many levels as a piece goes through. Returns the threshold of the next.
-  double levelsByPieces(double threshold, std::uint32_t pieces) {
+  /// The levels of one pass over the tiles. Returns the threshold of the next.
+  double levelsInTiles(double threshold, std::uint32_t tiles) {
     std::vector<double> thresholds = {threshold};
     const double step = ratio(), end = threshold * tiles_.span;
-    do  // once at least: of flat ground all thresholds are 0
+    do  // once at least: on flat ground all thresholds are 0
       thresholds.push_back(std::min(thresholds.back() * step, kLargest));
     while (thresholds.size() <= kMostLevels && thresholds.back() < end);
     const auto levels = static_cast<std::uint32_t>(thresholds.size()) - 1;
     ++groups_;
-    const Piece everything = s_.waiting.everything();
-    const auto placeOf = [&](std::uint64_t piece) {
-      return everything.begin + static_cast<std::uint32_t>(everything.size() * piece / pieces);
+    const Tile everything = s_.thresholds.all();
+    const auto indexOf = [&](std::uint64_t tile) {
+      return everything.begin + static_cast<std::uint32_t>(everything.size() * tile / tiles);
     };
 
-    std::vector<std::vector<std::uint32_t>> held(pieces);
+    std::vector<std::vector<std::uint32_t>> held(tiles);
     {
       const StageClock::Scope stage(context_.clock, "simplify: tiles");
       tbb::parallel_for(
-          tbb::blocked_range<std::uint32_t>(0, pieces, 1),
+          tbb::blocked_range<std::uint32_t>(0, tiles, 1),
           [&](const auto& range) {
             for (std::uint32_t p = range.begin(); p != range.end(); ++p) {
               Worker& worker = workers_.local();
               for (std::uint32_t k = 0; k < levels && !context_.cancelled(); ++k)
-                progress_->add(worker.levelOf({placeOf(p), placeOf(p + 1)}, thresholds[k], numbers_ + 1 + k,
+                progress_->add(worker.levelOf({indexOf(p), indexOf(p + 1)}, thresholds[k], numbers_ + 1 + k,
                                               {groups_, p}));
               held[p].swap(worker.held());
-              s_.waiting.sort(held[p]);
+              s_.thresholds.sort(held[p]);
             }
           },
           tbb::simple_partitioner());
@@ -167,9 +173,9 @@ class Simplifier {
 
     std::vector<std::uint32_t> some;
     for (const std::vector<std::uint32_t>& of : held) some.insert(some.end(), of.begin(), of.end());
-    for (const std::uint32_t v : some) s_.waiting.set(v, ThresholdList::kNow);
+    for (const std::uint32_t v : some) s_.thresholds.set(v, ThresholdList::kNow);
     for (std::uint32_t k = 0; k < levels && !context_.cancelled(); ++k)
-      progress_->add(together_.levelOf(some, thresholds[k], ++numbers_, {groups_, pieces}));
+      progress_->add(together_.levelOf(some, thresholds[k], ++numbers_, {groups_, tiles}));
     return thresholds.back();
   }
 
@@ -179,7 +185,7 @@ class Simplifier {
     std::vector<std::uint8_t> seen(s_.mesh.vertexHalfedge.size(), 0);
     for (const LiveMesh::Triangle& triangle : s_.mesh.triangles) {
       if (triangle.isDead()) continue;
-      root.triangles.push_back({triangle.birth, triangle.corners});
+      root.triangles.push_back({triangle.recorderId, triangle.corners});
       for (const std::uint32_t v : triangle.corners) seen[v] = 1;
     }
     for (std::uint32_t v = 0; v < seen.size(); ++v)
@@ -190,7 +196,7 @@ class Simplifier {
   static_assert(ThresholdList::kNone == LiveMesh::kNone);  // see LiveMesh::compact()
   static constexpr double kLeastGrowth = 0.015;
   static constexpr double kLargest = std::numeric_limits<float>::max();  // below ThresholdList::kNever
-  static constexpr std::size_t kMostLevels = 16;                         // of a piece by itself
+  static constexpr std::size_t kMostLevels = 16;                         // of one pass over the tiles
 
   SimplifyState<Plan, Errors>& s_;
   TileOptions tiles_;
@@ -198,9 +204,9 @@ class Simplifier {
   LevelWorkers<Plan, Errors> together_;
   tbb::enumerable_thread_specific<Worker> workers_{[this] { return Worker(s_); }};
   std::uint32_t levels_ = 0;   // thresholds
-  std::uint32_t numbers_ = 0;  // of levels, those of held vertices counted again
+  std::uint32_t numbers_ = 0;  // of levels, with those of held vertices
   std::uint32_t groups_ = 0;   // of batches
-  std::size_t waitingAtStart_ = 1;
+  std::size_t removableAtStart_ = 1;
   std::optional<SharedProgress> progress_;
 };
 

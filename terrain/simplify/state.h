@@ -16,43 +16,43 @@
 
 namespace arete {
 
-/// What all steps of a simplification work on. Different threads may work on different stars at once: which,
-/// is said where they do (simplify.h).
+/// The data that all steps of a simplification share. Different threads may work on different stars at once;
+/// simplify.h and batch.h say on which.
 ///
-/// Plan: LatticePlan or PointPlan. Errors: RasterError or PointError, see there for the interface:
-///   Hole hole(star, apex)                        what the hole's triangles are measured against
-///   hole.isUnconstrained()                       whether no border comes between its corners
-///   hole.fromApex(i)                             where a corner lies from the apex
-///   hole.maximum(i, j, m, limit)                 error of the triangle of three corners, or some larger than
-///                                                the limit
+/// Plan: LatticePlan or PointPlan. Errors: RasterError or PointError, with the interface:
+///   Hole hole(star, apex)                        the hole that the removal of apex leaves
+///   hole.isUnconstrained()                       whether no border lies between its corners
+///   hole.fromApex(i)                             a corner relative to the apex
+///   hole.maximum(i, j, m, limit)                 error of the triangle of three corners, or some value
+///                                                above the limit
 ///   hole.maximum(i, j, m, limit, bound)          the same, with the signed difference at the samples
-///   hole.position(i), hole.apexPosition()        corners and apex on the plan, with their heights
+///   hole.position(i), hole.apexPosition()        corner and apex, plan coordinates and height
 ///   hole.alongEdge(i, j)                         signed difference along an edge
-///   hole.settle(floor)                           after a refill: samples find their new triangles
+///   hole.settle(floor)                           after a refill: assigns samples to the new triangles
 template <class Plan, class Errors>
 struct SimplifyState {
   LiveMesh& mesh;
   const Plan& plan;
   Errors& errors;
   MtRecorder& recorder;
-  Rim* rim;  ///< null unless rims may go
+  Rim* rim;  ///< null unless rims are simplified
   const BuildOptions& options;
   MetricFrame metric;
   double heightRange = 0;
-  double roundingSlack = 0;  ///< what the arithmetic of an error can be off by
-  double boundSlack = 0;     ///< and that of a bound between samples
+  double roundingSlack = 0;  ///< largest rounding error of a triangle's error
+  double boundSlack = 0;     ///< largest rounding error of a bound between samples
 
-  ThresholdList waiting = {};
-  UninitializedVector<RemovalRecord> notes = {};  ///< per vertex
+  ThresholdList thresholds = {};
+  UninitializedVector<RemovalRecord> records = {};  ///< per vertex
   std::atomic<std::size_t> liveTriangles = 0;
 
-  /// Whether v may go at all, as its star stands. On a border: only from a straight one, or as the rim
-  /// allows.
+  /// Whether v can be removed, at any cost, from its present star. On a border: only if the border is
+  /// straight at v, or if Rim::mayFill() allows it.
   bool isRemovable(const Star& star, std::uint32_t v) const {
     if (!star.isOpen) return star.linkSize >= 3;
     if (star.linkSize < 3) return false;
     const std::uint32_t after = star.link[0], before = star.link[star.linkSize - 1];
-    if (before == after) return false;  // at the end of a slit: Rim::closeVoid()
+    if (before == after) return false;  // v is the end of a slit: Rim::closeVoid()
     const int turn = plan.orientation(before, v, after);
     if (turn == 0) return true;
     return turn < 0 && rim != nullptr && rim->mayFill(before, v, after);

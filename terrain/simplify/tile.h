@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A level that one thread works on, of a piece of the ground. It collects who is due, as any level does. Then
+// A level of one tile, on one thread. It collects the vertices that are due, as any level does. Its steps:
 //
-//   take      It looks at one after the other and takes who costs no more than the threshold. A vertex with a
-//             neighbour beyond the piece is held instead. Who has a neighbour that was taken is passed over,
-//             unseen: the neighbour's removal changes what it costs. So the taken are independent, and one
-//             look in twelve is saved. Within a level the order is that of the ground, not of the costs,
-//             which is why the levels must not be far apart (docs/decisions/0016).
-//   remove    Those that were taken, one after the other, each joined at once to what lies around its star:
-//             their stars, and what their floors measure, are kept from the look.
+//   take      Evaluate one vertex after the other and take each that costs at most the threshold. A vertex
+//             with a neighbour outside the tile is held instead. A vertex with a neighbour that was taken is
+//             skipped without an evaluation, as the neighbour's removal changes its cost: so the taken
+//             vertices are independent, and one evaluation in twelve is saved. Within a level the order is
+//             that of the ground, not of the costs, so the thresholds of levels must be close together
+//             (docs/decisions/0016).
+//   remove    Remove the taken vertices one after the other. Each new floor is joined to its neighbours at
+//             once. The stars and the measured floors are kept from the evaluation.
 #pragma once
 
 #include <algorithm>
@@ -27,71 +28,73 @@
 
 namespace arete {
 
-/// A thread at work on levels of a piece, and the lists that it needs.
+/// Runs levels of tiles on one thread, and owns the lists that they need.
 template <class Plan, class Errors>
 class TileWorker {
  public:
   using State = SimplifyState<Plan, Errors>;
-  using Piece = ThresholdList::Piece;
+  using Tile = ThresholdList::Tile;
 
   explicit TileWorker(State& state) : s_(state), cost_(state), remover_(state) {}
 
-  /// A level of those of the piece that may go. `number`: of the level, none of a vertex's levels has the
-  /// same. Returns how many went.
-  std::size_t levelOf(Piece piece, double threshold, std::uint32_t number, MtRecorder::BatchOrder order) {
-    s_.waiting.collect(piece, threshold, due_);
-    take(piece, threshold, number);
+  /// A level of the vertices of a tile that may be removed.
+  /// @param number of the level; different for all levels of a vertex.
+  /// @return how many vertices were removed.
+  std::size_t levelOf(Tile tile, double threshold, std::uint32_t number, MtRecorder::BatchOrder order) {
+    s_.thresholds.collect(tile, threshold, due_);
+    take(tile, threshold, number);
     if (!taken_.empty()) remove(order);
     return taken_.size();
   }
 
-  /// The vertices that were held since the last call, in no order, some more than once. They are due never.
+  /// The vertices that levelOf() has held, in no order, some more than once; their threshold is kNever. The
+  /// caller empties the list.
   std::vector<std::uint32_t>& held() { return held_; }
 
  private:
-  using Note = RemovalRecord::State;
+  using RecordState = RemovalRecord::State;
 
   struct Taken {
     Star star;
-    MeasuredFloor floor;  // empty unless the look was of this level
+    MeasuredFloor floor;  // empty unless it was measured in this level
   };
 
-  void take(Piece piece, double threshold, std::uint32_t number) {
-    const std::uint32_t isPassedOver = ~number;
+  void take(Tile tile, double threshold, std::uint32_t number) {
+    const std::uint32_t isSkipped = ~number;
     taken_.clear();
     linkSizes_.clear();
     for (std::size_t i = 0; i != due_.size(); ++i) {
-      prefetchForLook(s_, due_, i);
+      prefetchForEvaluation(s_, due_, i);
       const std::uint32_t v = due_[i];
-      RemovalRecord& note = s_.notes[v];
-      if (note.candidacy == isPassedOver) continue;
+      RemovalRecord& record = s_.records[v];
+      if (record.selection == isSkipped) continue;
       if (taken_.size() == space_.size()) space_.emplace_back();
       Taken& one = space_[taken_.size()];
-      if (!costsNoMoreThan(threshold, v, note, one)) continue;
+      if (!costsAtMost(threshold, v, record, one)) continue;
       const auto link = one.star.linkView();
-      if (!std::ranges::all_of(link, [&](std::uint32_t u) { return s_.waiting.isWithin(piece, u); })) {
+      if (!std::ranges::all_of(link, [&](std::uint32_t u) { return s_.thresholds.isWithin(tile, u); })) {
         held_.push_back(v);
-        s_.waiting.set(v, ThresholdList::kNever);
+        s_.thresholds.set(v, ThresholdList::kNever);
         continue;
       }
-      for (const std::uint32_t u : link) s_.notes[u].candidacy = isPassedOver;
+      for (const std::uint32_t u : link) s_.records[u].selection = isSkipped;
       taken_.push_back(v);
       linkSizes_.push_back(static_cast<std::uint8_t>(link.size()));
     }
   }
 
-  /// Whether removing v does: then `one` has its star.
-  bool costsNoMoreThan(double threshold, std::uint32_t v, RemovalRecord& note, Taken& one) {
-    note.settle();
+  /// Whether removing v costs at most the threshold; then `one` has its star.
+  bool costsAtMost(double threshold, std::uint32_t v, RemovalRecord& record, Taken& one) {
+    record.settle();
     one.floor.clear();
-    if (note.state == Note::exact) {
-      if (note.cost > threshold) return false;
+    if (record.state == RecordState::exact) {
+      if (record.cost > threshold) return false;
       one.star.gather(s_.mesh, v, kMaxHoleCorners);
       return true;
     }
-    cost_.look(v, one.star, threshold, note, one.floor);
-    s_.waiting.set(v, note.dueAt());
-    return note.state == Note::exact && note.cost <= threshold;
+    cost_.evaluate(v, one.star, threshold, record, one.floor);
+    s_.thresholds.set(v, record.nextThreshold());
+    return record.state == RecordState::exact && record.cost <= threshold;
   }
 
   void remove(MtRecorder::BatchOrder order) {
@@ -105,7 +108,7 @@ class TileWorker {
       for (const Seam& seam : seams) sewAlone(s_.mesh, seam);
       dead += Star::slotsLeftDead(one.star.isOpen);
     }
-    s_.waiting.remove(taken_, LoopThreads::caller);
+    s_.thresholds.remove(taken_, LoopThreads::caller);
     s_.liveTriangles -= dead;
   }
 
@@ -117,7 +120,7 @@ class TileWorker {
 
   UninitializedVector<std::uint32_t> due_;
   std::vector<std::uint32_t> taken_;
-  std::vector<Taken> space_;             // per taken, and kept for those of the next level
+  std::vector<Taken> space_;             // per taken; reused by the next level
   std::vector<std::uint8_t> linkSizes_;  // per taken
   std::array<Seam, kMaxHoleCorners> seams_;
   std::vector<std::uint32_t> held_;

@@ -12,36 +12,37 @@
 
 namespace arete {
 
-/// What it costs to fill a hole.
+/// The cost of filling a hole: the least largest error of all its triangulations.
 struct HoleCost {
-  double error;  ///< the least largest error of all fillings; else no filling has less
-  bool isExact;  ///< the former: a filling with this error exists
+  double error;  ///< the cost, or a lower bound of it
+  bool isExact;  ///< `error` is the cost: a triangulation with this error exists
 };
 
 /// The triangulation of a star polygon with the least largest vertical error, and of all of those the one
-/// with the least sum of squared diagonals. Which triangles are worst decides what a removal costs; how the
-/// rest of the hole is filled decides what the next removals cost, and short edges serve them better than
+/// with the least sum of squared diagonals: a data-dependent triangulation [DynLevinRippa1990], found by
+/// dynamic programming over the polygon's diagonals [Klincsek1980]. The worst triangle is the cost of a
+/// removal; the other triangles affect the costs of later removals, and short edges keep these lower than
 /// small errors do (docs/decisions/0013).
 ///
-/// A build asks for the error often and for the triangulation once, so they are found apart.
+/// A build needs the cost often and the triangulation once, so two functions find them.
 ///
 /// cost(): Some triangle covers the apex, and its error is at least that at the apex, which is known without
-/// a look at any sample. So the search starts from the triangles over the apex, in the order of that bound:
-/// most holes are turned down, or left with one or two to choose from, before a sample is read. What such a
-/// triangle leaves are up to three pockets, polygons over one of its edges; each is filled by dynamic
-/// programming over its diagonals (Klincsek 1980, with the largest error in place of the length), when asked
-/// for, and kept. No error below the bound of the triangle over the apex is worth a search: bounds only grow
-/// from here on.
+/// reading a sample. So the search starts from the triangles over the apex, in the order of that bound: most
+/// holes are rejected, or have one or two candidates left, before a sample is read. A triangle over the apex
+/// leaves up to three pockets, polygons over one of its edges. Each pocket is filled by dynamic programming
+/// with the largest error in place of the length, when it is first needed, and the result is kept. A pocket's
+/// search stops at the bound of the triangle over the apex: a smaller error cannot lower the cost.
 ///
-/// shortest(): Dynamic programming over all diagonals, with no errors but those at the apex. Then the errors
-/// of the triangles found; those beyond the limit are ruled out, and the rest is filled anew.
+/// shortest(): Dynamic programming over all diagonals for the least sum, with the errors at the apex alone.
+/// Then the errors of the triangles found are measured; triangles above the limit are excluded, and the
+/// search is repeated.
 ///
-/// A triangle is admitted when it turns counter-clockwise, is not thinner than the aspect bound and keeps the
-/// limit. Triangles that all turn the same way and share the polygon's rim tile it, so nothing else needs
-/// checking.
+/// A triangle is admitted if it turns counter-clockwise, is not thinner than the aspect bound, and its error
+/// is at most the limit. Triangles that all turn the same way and share the polygon's rim tile it, so nothing
+/// else needs checking.
 ///
-/// Hole: fromApex(i), the place and height of a corner from the apex, in the metric that shapes are judged
-/// in; maximum(i, j, m, limit), the error of a triangle, or some value beyond the limit.
+/// Hole: fromApex(i), position and height of a corner relative to the apex, in the metric of the aspect
+/// bound; maximum(i, j, m, limit), the error of a triangle, or some value above the limit.
 template <class Hole>
 class DataDependentSearch {
  public:
@@ -55,9 +56,9 @@ class DataDependentSearch {
     }
   }
 
-  /// Not exact when every triangulation costs more than the threshold and that shows at the apex already, or
-  /// when none keeps the limit (infinite when the aspect bound alone leaves none). Exact but for a
-  /// billionth of a thousandth. Precondition: threshold <= limit. O(corners^3), one error each at most.
+  /// The cost of the hole, exact to a relative 1e-12. A lower bound if the errors at the apex alone exceed
+  /// the threshold, or if every triangulation exceeds the limit (infinity: the aspect bound admits none).
+  /// O(corners^3), at most one error measured for each triangle. Precondition: threshold <= limit.
   HoleCost cost(double threshold, double limit) {
     double least = withCorners(corners_, [&](auto known) { return listRoots<known>(limit); });
     int next = leastRoot();
@@ -89,9 +90,10 @@ class DataDependentSearch {
     return best <= limit ? HoleCost{best, true} : HoleCost{least, false};
   }
 
-  /// Empty when no triangulation keeps the limit. `errorOf(i, m, j)`: of corners i < m < j, exact up to the
-  /// limit; asked of every triangle of the result, and last of it among all on its edge i - j.
-  /// O(corners^3), one error each at most (but for those that are asked for again).
+  /// The triangulation; empty if every one exceeds the limit. O(corners^3) and mostly one error measured for
+  /// each triangle.
+  /// @param errorOf errorOf(i, m, j): the error of corners i < m < j, exact up to the limit. Called for every
+  /// triangle of the result, and for no other triangle on its edge i - j after it.
   template <class ErrorOf>
   HoleTriangulation shortest(double limit, const ErrorOf& errorOf) {
     return withCorners(corners_, [&](auto known) { return shortestWithin<known>(limit, errorOf); });
@@ -101,16 +103,16 @@ class DataDependentSearch {
   using Masks = std::array<std::array<std::uint64_t, kMaxHoleCorners>, kMaxHoleCorners>;
 
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  // Far below any shape worth having, far above what rounding can turn around: what is not that thin turns
-  // counter-clockwise exactly.
+  // Far thinner than any useful shape, and far above the rounding errors: a triangle that is not as thin as
+  // this turns counter-clockwise exactly.
   static constexpr double kLeastAspect = 1e-9;
   static constexpr double kRounding = 1e-14;
-  // Errors that differ by less are the same: the bound at the apex and the error found there do.
+  // Errors that differ by less count as equal, as the bound at the apex and the measured error there do.
   static constexpr double kSame = 1e-12;
   // Refills before all triangles are checked. Nearly all holes need less.
   static constexpr int kRounds = 8;
 
-  /// What turns a number into infinity unless a condition holds, without a branch.
+  /// Added to a number: infinity unless a condition holds, without a branch.
   static constexpr std::array<double, 2> kZeroIf = {kInfinity, 0};
 
   struct Root {
@@ -119,7 +121,7 @@ class DataDependentSearch {
   };
 
   static std::uint64_t bit(int m) { return std::uint64_t(1) << m; }
-  // As std::min and std::max; of values, they take no branch. Of a number that is none, the first.
+  // Branch-free min and max; return the first operand if either is NaN.
   static double lesser(double a, double b) { return b < a ? b : a; }
   static double greater(double a, double b) { return a < b ? b : a; }
   /// Calls f with 0, 1, ... as constants.
@@ -159,8 +161,8 @@ class DataDependentSearch {
     }
   }
 
-  /// Whether the triangle of corners i < m < j is not too thin, and within the limit at the apex if it is
-  /// there. Without a branch: nothing foretells it.
+  /// Whether the triangle of corners i < m < j is not too thin, and within the limit at the apex if it covers
+  /// the apex. Branch-free, as the result is not predictable.
   bool isAdmitted(int i, int m, int j, double limit) const {
     const double atI = cross_[m][j], atM = -cross_[i][j], atJ = cross_[i][m];
     const int isThin = isTooThin(i, m, j), isOver = lesser(lesser(atI, atM), atJ) >= 0,
@@ -169,7 +171,8 @@ class DataDependentSearch {
     return (isThin | (isOver & isBeyond)) == 0;
   }
 
-  /// The triangles over the apex whose error there keeps the limit; returns the least of the others' bounds.
+  /// Lists the triangles over the apex whose error there is at most the limit; returns the least bound of the
+  /// others.
   template <int kCorners>
   double listRoots(double limit) {
     const int corners = this->corners<kCorners>();
@@ -188,7 +191,7 @@ class DataDependentSearch {
       least = lesser(least, greater(bound, kZeroIf[counts & ~keeps]));
     };
     if constexpr (kCorners > 0) {
-      // Few enough to look at all of them, without a branch.
+      // Few enough to test all of them, without a branch.
       inTurn<kCorners - 2>([&](auto i) {
         inTurn<kCorners - 2 - i>([&](auto k) {
           constexpr int j = i + 1 + k;
@@ -218,7 +221,7 @@ class DataDependentSearch {
           list(i, j, m, cross_[j][m], -cross_[i][m], cross_[i][j], true);
     return least;
   }
-  /// The first of those with the least bound; some whose bound is infinite where there is none.
+  /// The index of the first root with the least bound; of one with an infinite bound if none is left.
   int leastRoot() {
     roots_[rootCount_].bound = kInfinity;
     int least = 0;
@@ -230,7 +233,7 @@ class DataDependentSearch {
     return least;
   }
 
-  /// What is known of a pocket, 0 if nothing is.
+  /// The known lower bound of a pocket, 0 if it was not filled.
   double knownOf(int i, int j) const { return known_[i] & bit(j) ? pockets_[i][j] : 0; }
 
   bool takePocket(int i, int j, double& mine) {
@@ -240,8 +243,8 @@ class DataDependentSearch {
   }
 
   /// The least largest error over the polygon i, i + 1, ..., j (around the end of the list, if need be) with
-  /// the diagonal j -> i; or some that is enough; or, beyond the limit, a bound from below. The limit only
-  /// falls and what is enough only grows, so what is known need not be tried again.
+  /// the diagonal j -> i; or any error at most enough_; or, above the limit, a lower bound. The limit only
+  /// falls and enough_ only grows, so a known result stays valid.
   double fillPocket(int i, int j) {
     double& best = pockets_[i][j];
     if (known_[i] & bit(j)) return best;
@@ -331,7 +334,7 @@ class DataDependentSearch {
     return result;
   }
 
-  // One more, as each is written before it is known to count.
+  // One more than there are, as each is written before it is known whether it is one.
   static constexpr int kMostRoots = kMaxHoleCorners * (kMaxHoleCorners - 1) * (kMaxHoleCorners - 2) / 6 + 1;
 
   const Hole& hole_;

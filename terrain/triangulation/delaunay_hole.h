@@ -11,28 +11,29 @@
 
 namespace arete {
 
-/// Whether, of the two diagonals of four cocircular corners i < j < m < n, the one from i passes closer to
-/// the apex than the one from j. Either is Delaunay; on a grid there are many such, and choosing by the
-/// height takes some 1 % off the triangles of every cut. False where the apex lies outside the four.
+/// Whether, of the two diagonals of four cocircular corners i < j < m < n, the one from i has the smaller
+/// error at the apex. Either is Delaunay; a grid has many such corners, and the choice by height removes some
+/// 1 % of the triangles of every cut. False if the apex lies outside the four.
 template <class Hole>
 bool isOtherDiagonalCloser(const Hole& hole, int i, int j, int m, int n) {
   if (hole.orientationToApex(i, j) < 0 || hole.orientationToApex(j, m) < 0 ||
       hole.orientationToApex(m, n) < 0 || hole.orientationToApex(n, i) < 0)
     return false;
-  // Either side of a diagonal is as likely: the corners are selected, the errors not branched to.
+  // The apex is equally likely on either side: corners are selected without a branch.
   const bool isFirst = hole.orientationToApex(j, n) >= 0, isLast = hole.orientationToApex(i, m) >= 0;
   const double asItIs = hole.apexError(isFirst ? i : j, isFirst ? j : m, n);
   const double other = hole.apexError(i, isLast ? m : j, isLast ? n : m);
   return other < asItIs * (1 - 1e-9);
 }
 
-/// The Delaunay triangulation of the hole that a vertex leaves in a Delaunay triangulation, where no border
-/// of the domain comes between the corners: there the triangle on an edge is the one with the largest angle
+/// The Delaunay triangulation of the hole that a vertex leaves in a Delaunay triangulation, if no border of
+/// the domain lies between the corners: then the triangle on an edge is the one with the largest angle
 /// opposite, whatever lies elsewhere, so each edge finds its third corner and splits the polygon in two.
-/// Empty when some edge finds none; elsewhere the result may not be Delaunay: see triangulateHoleDelaunay().
+/// Empty if some edge finds none. If a border lies between, the result may not be Delaunay: see
+/// triangulateHoleDelaunay(). O(corners^2).
 ///
 /// Hole: third(i, j, prefersLater), the corner between i and j with the largest angle among those that turn
-/// left, -1 when there is none. O(corners^2), in practice a glance at each corner for each triangle.
+/// left, -1 if there is none.
 template <class Hole>
 HoleTriangulation wrapHole(int corners, const Hole& hole) {
   HoleTriangulation result;
@@ -53,9 +54,8 @@ HoleTriangulation wrapHole(int corners, const Hole& hole) {
   return result;
 }
 
-/// Whether no diagonal of a triangulation by wrapHole() has a corner within the circle of the triangle on its
-/// other side: then it is the constrained Delaunay triangulation of the polygon, which its triangles tile, as
-/// they all turn left. Exact.
+/// Whether a triangulation by wrapHole() is locally Delaunay at every diagonal. Then it is the constrained
+/// Delaunay triangulation of the polygon, which its triangles tile, as they all turn left. Exact.
 template <class Polygon>
 bool isLocallyDelaunay(const HoleTriangulation& wrapped, const Polygon& polygon) {
   // The corner between i and j, of the triangles on edges from a lower to a higher corner.
@@ -69,10 +69,10 @@ bool isLocallyDelaunay(const HoleTriangulation& wrapped, const Polygon& polygon)
   return true;
 }
 
-/// The same triangles one by one: visit(i, m, j, isOverApex) returns whether to go on. The first is the one
-/// over the apex, where the removal of a vertex most often costs most, so that a hole that costs too much is
-/// known by a triangle or two. False when some edge finds no third corner; what was visited then means
-/// nothing.
+/// Visits the triangles of wrapHole() one by one, that over the apex first: there the error is most often
+/// largest, so that one or two triangles show whether a hole costs too much.
+/// @param visit visit(i, m, j, isOverApex): returns whether to continue.
+/// @return false if some edge finds no third corner; the visited triangles are then no triangulation.
 template <class Hole, class Visit>
 bool wrapHoleFromApex(int corners, const Hole& hole, const Visit& visit) {
   using Edge = std::array<std::uint8_t, 2>;
@@ -118,21 +118,20 @@ bool wrapHoleFromApex(int corners, const Hole& hole, const Visit& visit) {
 /// Ear clipping of a polygon that is star-shaped about its apex (in its closure).
 ///
 /// Corner i is an ear when it turns left and the apex is not to the right of the edge that would cut it off:
-/// the ear then lies in the wedge seen from the apex between its neighbours, which holds no other corner, and
-/// what remains is star-shaped about the apex still (Devillers 2002, "On deletion in Delaunay
-/// triangulations", section 3). One exists: of the two ears that every triangulated polygon has, at least one
-/// does not hold the apex.
+/// the ear then lies in the wedge seen from the apex between its neighbours, which has no other corner, and
+/// the remaining polygon is star-shaped about the apex still ([Devillers2002], section 3). An ear exists: of
+/// the two ears that every triangulated polygon has, at least one does not contain the apex.
 ///
-/// Then flips inside the polygon (Lawson) make it constrained Delaunay: the hole's rim is held, which is what
-/// a domain with borders needs, and where nothing beyond the rim interferes it is the Delaunay triangulation
+/// Then flips inside the polygon [Lawson1977] make it constrained Delaunay: the hole's rim is kept, as a
+/// domain with borders requires. If no vertex beyond the rim interferes, it is the Delaunay triangulation
 /// itself.
 ///
 /// Hole: polygon() with orientation(i, j, m), orientationToApex(i, j), inCircle(i, j, m, n), all exact;
 /// orientationToApex(i, j); apexError(i, j, m), the error at the apex of a triangle over it. O(corners^2).
 ///
-/// wrapHole() does it at a quarter of the price: always if `isUnconstrained`, where no border comes between
-/// the corners of a hole in a Delaunay triangulation, and elsewhere in all but a few holes, which show by a
-/// diagonal that is not locally Delaunay.
+/// wrapHole() takes a quarter of the time. Its result is right if `isUnconstrained`: no border lies between
+/// the corners of a hole in a Delaunay triangulation. Otherwise it is right if it is locally Delaunay, which
+/// is checked; few holes fail.
 template <class Hole>
 HoleTriangulation triangulateHoleDelaunay(int corners, const Hole& hole, bool isUnconstrained) {
   assert(corners >= 3 && corners <= kMaxHoleCorners);
@@ -177,7 +176,7 @@ HoleTriangulation triangulateHoleDelaunay(int corners, const Hole& hole, bool is
   if (polygon.orientation(previous[i], i, next[i]) <= 0) return {};
   put(previous[i], i, next[i]);
 
-  // Round and round over the diagonals until each has been looked at since the last flip.
+  // Repeated passes over the diagonals until each was tested since the last flip.
   for (int d = 0, unchanged = 0; unchanged < diagonalCount; d = d + 1 < diagonalCount ? d + 1 : 0) {
     const auto [a, b] = diagonals[d];
     const std::uint8_t m = third[a][b], n = third[b][a];

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Points are ordered along a space-filling curve, repeats are dropped, and CGAL inserts the points one by
+// one, in rounds, each search starting at the previous point.
 #include "terrain/triangulation/finest_points.h"
 
 #include <CGAL/Delaunay_triangulation_2.h>
@@ -31,15 +34,15 @@ using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, DataStructure>;
 using PlacedPoint = std::pair<Kernel::Point_2, std::uint32_t>;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-/// The Delaunay triangulation of points that follow the ground. Every 256th point comes before every 16th,
-/// and these before the rest: each is looked for from the one before it, which is near, and flips as few
-/// triangles as in a random order (Amenta, Choi and Rote 2003, "Incremental constructions con BRIO"). It
-/// takes 0.6 of the time of CGAL's own order. Empty where all lie on one line; not all of it when cancelled.
+/// The Delaunay triangulation of points in the order of groundOrder(). Every 256th point is inserted before
+/// every 16th, and these before the rest: the search for a point starts at the one before it, which is near,
+/// and as few triangles are flipped as in a random order [AmentaChoiRote2003]. It takes 0.6 of the time of
+/// CGAL's own order. Empty if all points lie on one line; incomplete if cancelled.
 Delaunay insertAlongGround(const std::vector<PlacedPoint>& points, const RunContext& context) {
-  constexpr std::size_t kAsk = 1 << 14;  // of so many points one asks whether to go on
+  constexpr std::size_t kAsk = 1 << 14;  // points between two tests for cancellation
   Delaunay delaunay;
   Delaunay::Face_handle near;
-  // A triangle comes first: while all are on one line, CGAL looks for each among all of them.
+  // A triangle comes first: while all points are on one line, CGAL searches all of them for each.
   const std::span others = std::span(points).subspan(std::min<std::size_t>(2, points.size()));
   const auto beside = std::ranges::find_if(others, [&](const PlacedPoint& p) {
     return !CGAL::collinear(points[0].first, points[1].first, p.first);

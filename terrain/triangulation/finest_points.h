@@ -12,26 +12,26 @@
 namespace arete {
 
 /// The finest triangulation of scattered points: their Delaunay triangulation (CGAL, exact predicates) in a
-/// metric that stretches x, laid out along the ground.
+/// metric that stretches x, in an order along the ground.
 struct FinestPoints {
-  std::vector<std::uint32_t> order;  ///< the points, those near each other near each other (groundOrder())
-  /// Corners by their places in `order`, counter-clockwise from the least; by rising corners. Points that
-  /// repeat an earlier one exactly (x, y and z) are left out.
+  std::vector<std::uint32_t> order;  ///< the points along the ground (groundOrder())
+  /// Corners as indices into `order`, counter-clockwise from the least; sorted by corners. Points that repeat
+  /// an earlier one exactly (x, y and z) are left out.
   std::vector<std::array<std::uint32_t, 3>> triangles;
   double xStretch = 1;  ///< of the metric, a power of two
 
-  /// The triangles by point indices, in no order.
+  /// The triangles with point indices as corners, in no particular order.
   std::vector<std::array<std::uint32_t, 3>> trianglesOfPoints() const;
 };
 
-/// In the metric of pointMetricStretch(). Whoever asks for more than one thing that rests on it
-/// (chooseFixedVertices(), build()) can have it once. Errors: invalidData; unsupported where there are too
-/// many points; degenerate when two points share x, y and not z (names both), when there is no triangle;
-/// interrupted. O(n log n) expected.
+/// Computes it in the metric of pointMetricStretch(). A caller of several functions that need it
+/// (chooseFixedVertices(), build()) computes it once and passes it. O(n log n) expected.
+/// Errors: invalidData: a coordinate is not finite. unsupported: too many points for 32-bit ids. degenerate:
+/// two points share x and y but not z (the message names both), or there is no triangle. interrupted.
 Result<FinestPoints> finestPoints(const PointHeightfield& heightfield, const RunContext& context = {});
 
-/// The power of two nearest to the ground aspect (x step over y step) at the centre of the points: 1 for a
-/// projected CRS.
+/// The power of two nearest to the ground aspect (ground length of one unit of x over that of y) at the
+/// centre of the points: 1 for a projected CRS.
 double pointMetricStretch(const PointHeightfield& heightfield);
 
 }  // namespace arete

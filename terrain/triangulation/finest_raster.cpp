@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Triangles are laid out tile by tile, the tiles along a Hilbert curve, so that those near each other in
-// memory are near each other on the ground at every scale: the nodes of a build inherit the order, and the
-// blocks of a cut are as tight as it makes them (docs/decisions/0008).
+// Triangles are laid out in squares of 32 x 32 cells, the squares along a Hilbert curve [Hilbert1891], so
+// that triangles near each other in memory are near each other on the ground at every scale. The nodes of a
+// build inherit the order, which makes the blocks of a cut compact (docs/decisions/0008).
 //
-// The mesh needs no search for neighbours: what a cell holds follows from which of its corners are valid, and
-// across an edge lies the cell above, below, left or right. One pass counts the triangles of each tile, the
-// next numbers the cells, the last writes triangles and twins; all are parallel over tiles. An outgoing
-// half-edge without a twin begins a fan of its vertex; a vertex with two of them is pinched.
+// The mesh needs no search for neighbours: the triangles of a cell follow from which of its corners are
+// valid, and across an edge lies the cell above, below, left or right. One pass counts the triangles of each
+// square, the next numbers the cells, the last writes triangles and twins; all are parallel over squares. An
+// outgoing half-edge without a twin begins a fan of its vertex; a vertex with two of them is pinched.
 #include "terrain/triangulation/finest_raster.h"
 
 #include <tbb/parallel_for.h>
@@ -24,87 +24,88 @@
 namespace arete {
 namespace {
 
-constexpr std::uint32_t kTile = 32;
-constexpr std::uint32_t kNone = LiveMesh::kNone;
+constexpr std::uint32_t kSquare = 32;  // cells along a side
 
-/// Counted in tiles.
-struct Tile {
+/// A square of cells, by its column and row among the squares.
+struct Square {
   std::uint32_t column, row;
 };
 
-/// A place of the curve of Hilbert (1891) through a square with so many tiles, a power of two, along a side.
-Tile onCurve(std::uint64_t place, std::uint32_t side) {
-  Tile tile{0, 0};
-  for (std::uint32_t half = 1; half < side; half *= 2, place /= 4) {
-    const std::uint32_t right = place >> 1 & 1, down = (place ^ right) & 1;
+/// The i-th square on the Hilbert curve [Hilbert1891] through `side` x `side` squares. Precondition: `side`
+/// is a power of two.
+Square onCurve(std::uint64_t i, std::uint32_t side) {
+  Square square{0, 0};
+  for (std::uint32_t half = 1; half < side; half *= 2, i /= 4) {
+    const std::uint32_t right = i >> 1 & 1, down = (i ^ right) & 1;
     if (down == 0) {
-      if (right == 1) tile = {half - 1 - tile.column, half - 1 - tile.row};
-      std::swap(tile.column, tile.row);
+      if (right == 1) square = {half - 1 - square.column, half - 1 - square.row};
+      std::swap(square.column, square.row);
     }
-    tile.column += half * right;
-    tile.row += half * down;
+    square.column += half * right;
+    square.row += half * down;
   }
-  return tile;
+  return square;
 }
 
-/// The cells of a raster, tile by tile.
+/// The cells of a raster, square by square.
 class Cells : public RasterCells {
  public:
-  /// Squares side by side, a curve through each.
+  /// Divides the raster into large squares side by side, with a curve through each.
   explicit Cells(const RasterHeightfield& field) : RasterCells(field) {
-    const std::uint32_t across = (field.columns - 1 + kTile - 1) / kTile,
-                        down = (field.rows - 1 + kTile - 1) / kTile,
+    const std::uint32_t across = (field.columns - 1 + kSquare - 1) / kSquare,
+                        down = (field.rows - 1 + kSquare - 1) / kSquare,
                         side = std::bit_ceil(std::min(across, down));
-    tiles_.reserve(std::size_t(across) * down);
+    squares_.reserve(std::size_t(across) * down);
     for (std::uint32_t top = 0; top < down; top += side)
       for (std::uint32_t left = 0; left < across; left += side)
-        for (std::uint64_t place = 0; place < std::uint64_t(side) * side; ++place) {
-          const Tile tile = onCurve(place, side);
-          if (left + tile.column < across && top + tile.row < down)
-            tiles_.push_back({left + tile.column, top + tile.row});
+        for (std::uint64_t i = 0; i < std::uint64_t(side) * side; ++i) {
+          const Square square = onCurve(i, side);
+          if (left + square.column < across && top + square.row < down)
+            squares_.push_back({left + square.column, top + square.row});
         }
   }
 
-  std::size_t tileCount() const { return tiles_.size(); }
+  std::size_t squareCount() const { return squares_.size(); }
 
-  /// visit(column, row) for the cells of a tile, row by row.
+  /// visit(column, row) for the cells of a square, row by row.
   template <class Visit>
-  void forTile(std::size_t tile, const Visit& visit) const {
-    const std::uint32_t left = tiles_[tile].column * kTile, top = tiles_[tile].row * kTile;
-    for (std::uint32_t row = top; row < std::min(top + kTile, field_.rows - 1); ++row)
-      for (std::uint32_t column = left; column < std::min(left + kTile, field_.columns - 1); ++column)
+  void forSquare(std::size_t square, const Visit& visit) const {
+    const std::uint32_t left = squares_[square].column * kSquare, top = squares_[square].row * kSquare;
+    for (std::uint32_t row = top; row < std::min(top + kSquare, field_.rows - 1); ++row)
+      for (std::uint32_t column = left; column < std::min(left + kSquare, field_.columns - 1); ++column)
         visit(column, row);
   }
 
-  // The half-edges of the triangles that forTriangles() gives, by what they are to the cell, whose first
-  // triangle is `first`; kNone where it has no such edge.
-  static std::uint32_t topEdge(unsigned valid, std::uint32_t first) {
-    return (valid & 3) == 3 && triangleCount(valid) > 0 ? LiveMesh::halfedge(first, 0) : kNone;
+  // The half-edges on the four sides of a cell whose first triangle has the slot `first`, in the order in
+  // which forTriangles() visits its triangles; invalid if no triangle of the cell has that side.
+  static HalfedgeId topEdge(unsigned valid, std::uint32_t first) {
+    return (valid & 3) == 3 && triangleCount(valid) > 0 ? LiveMesh::halfedge(first, 0) : HalfedgeId();
   }
-  static std::uint32_t rightEdge(unsigned valid, std::uint32_t first) {
-    if ((valid & 10) != 10 || triangleCount(valid) == 0) return kNone;
+  static HalfedgeId rightEdge(unsigned valid, std::uint32_t first) {
+    if ((valid & 10) != 10 || triangleCount(valid) == 0) return {};
     return LiveMesh::halfedge(first, (valid & upperLeft) != 0 ? 1 : 0);
   }
-  static std::uint32_t bottomEdge(unsigned valid, std::uint32_t first) {
-    if ((valid & 12) != 12 || triangleCount(valid) == 0) return kNone;
+  static HalfedgeId bottomEdge(unsigned valid, std::uint32_t first) {
+    if ((valid & 12) != 12 || triangleCount(valid) == 0) return {};
     return LiveMesh::halfedge(first + (valid == all ? 1 : 0), 1);
   }
-  static std::uint32_t leftEdge(unsigned valid, std::uint32_t first) {
-    if ((valid & 5) != 5 || triangleCount(valid) == 0) return kNone;
+  static HalfedgeId leftEdge(unsigned valid, std::uint32_t first) {
+    if ((valid & 5) != 5 || triangleCount(valid) == 0) return {};
     return LiveMesh::halfedge(first + (valid == all ? 1 : 0), 2);
   }
 
  private:
-  std::vector<Tile> tiles_;
+  std::vector<Square> squares_;
 };
 
 bool hasCells(const RasterHeightfield& field) {
   return field.columns >= 2 && field.rows >= 2;
 }
 
-/// What a mesh is laid out from: per cell, by its upper left sample, its valid corners and its first
-/// triangle. The last sample of a row, and of a column, has no cell. Left of a row is the end of the one
-/// before, and before the first row a row of nothing, so no neighbour need be asked whether it is there.
+/// The plan of the mesh: per cell, by the index of its upper left sample, its valid corners and the slot of
+/// its first triangle. The last sample of a row, and of a column, has no cell and no valid corners; one more
+/// row without cells comes before the first. So every cell has four entries around its own, and no border
+/// needs a test.
 class MeshLayout {
  public:
   MeshLayout(const RasterHeightfield& field, const Cells& cells)
@@ -112,35 +113,35 @@ class MeshLayout {
         columns_(field.columns),
         validCorners_(field.size() + field.columns, 0),
         firstTriangles_(field.size() + field.columns) {
-    const std::size_t tiles = cells.tileCount();
+    const std::size_t squares = cells.squareCount();
     std::uint8_t* const valid = validCorners_.data() + columns_;
     std::uint32_t* const first = firstTriangles_.data() + columns_;
-    std::vector<std::uint32_t> tileFirst(tiles + 1, 0);
-    tbb::parallel_for(std::size_t(0), tiles, [&](std::size_t tile) {
+    std::vector<std::uint32_t> squareFirst(squares + 1, 0);
+    tbb::parallel_for(std::size_t(0), squares, [&](std::size_t square) {
       std::uint32_t count = 0;
-      cells.forTile(tile, [&](std::uint32_t column, std::uint32_t row) {
+      cells.forSquare(square, [&](std::uint32_t column, std::uint32_t row) {
         const unsigned corners = cells.valid(column, row);
         valid[field.index(column, row)] = static_cast<std::uint8_t>(corners);
         count += Cells::triangleCount(corners);
       });
-      tileFirst[tile + 1] = count;
+      squareFirst[square + 1] = count;
     });
-    for (std::size_t tile = 0; tile < tiles; ++tile) tileFirst[tile + 1] += tileFirst[tile];
-    tbb::parallel_for(std::size_t(0), tiles, [&](std::size_t tile) {
-      std::uint32_t next = tileFirst[tile];
-      cells.forTile(tile, [&](std::uint32_t column, std::uint32_t row) {
+    for (std::size_t square = 0; square < squares; ++square) squareFirst[square + 1] += squareFirst[square];
+    tbb::parallel_for(std::size_t(0), squares, [&](std::size_t square) {
+      std::uint32_t next = squareFirst[square];
+      cells.forSquare(square, [&](std::uint32_t column, std::uint32_t row) {
         const std::uint32_t cell = field.index(column, row);
         first[cell] = next;
         next += Cells::triangleCount(valid[cell]);
       });
     });
-    triangleCount_ = tileFirst[tiles];
+    triangleCount_ = squareFirst[squares];
   }
 
   std::uint32_t triangleCount() const { return triangleCount_; }
 
-  /// Writes the triangles of a cell, twins and all. leave(v, h): half-edge h leaves v; of a cell's, at least
-  /// the last of each vertex, and each without a twin.
+  /// Writes the triangles of a cell with their twins. Calls leave(v, h) for half-edges h that leave vertex v:
+  /// at least the last one of each vertex of the cell, and each that has no twin.
   template <class Leave>
   void lay(std::uint32_t column, std::uint32_t row, LiveMesh& mesh, const Leave& leave) const {
     const std::size_t cell = std::size_t(row) * columns_ + column + columns_;
@@ -155,15 +156,15 @@ class MeshLayout {
     if (begin == end) return;
     std::uint32_t t = begin;
     cells_.forTriangles(column, row, valid[0], [&](const LiveMesh::Corners& corners) {
-      mesh.triangles[t] = {corners, {kNone, kNone, kNone}, t, kNone};
+      mesh.triangles[t] = {corners, {}, t, LiveMesh::kNone};
       ++t;
     });
     if (valid[0] == Cells::all) {
       mesh.setTwin(LiveMesh::halfedge(begin, 2), LiveMesh::halfedge(begin + 1, 0));
       mesh.setTwin(LiveMesh::halfedge(begin + 1, 0), LiveMesh::halfedge(begin, 2));
     }
-    const auto join = [&](std::uint32_t own, std::uint32_t beyond) {
-      if (own != kNone) mesh.setTwin(own, beyond);
+    const auto join = [&](HalfedgeId own, HalfedgeId beyond) {
+      if (own.isValid()) mesh.setTwin(own, beyond);
     };
     join(Cells::topEdge(valid[0], begin), Cells::bottomEdge(valid[-down], first[-down]));
     join(Cells::rightEdge(valid[0], begin), Cells::leftEdge(valid[1], first[1]));
@@ -175,7 +176,7 @@ class MeshLayout {
   }
 
  private:
-  /// Of nearly all cells: with all corners, and so have their neighbours.
+  /// Nearly all cells: all corners are valid, those of the four neighbours too.
   template <class Leave>
   void layWhole(std::uint32_t ul, const std::uint32_t* first, LiveMesh& mesh, const Leave& leave) const {
     const std::uint32_t t = first[0], ur = ul + 1, ll = ul + columns_, lr = ll + 1;
@@ -184,12 +185,12 @@ class MeshLayout {
                          {LiveMesh::halfedge(first[-down] + 1, 1), LiveMesh::halfedge(first[1] + 1, 2),
                           LiveMesh::halfedge(t + 1, 0)},
                          t,
-                         kNone};
+                         LiveMesh::kNone};
     mesh.triangles[t + 1] = {
         {ul, lr, ll},
         {LiveMesh::halfedge(t, 2), LiveMesh::halfedge(first[down], 0), LiveMesh::halfedge(first[-1], 1)},
         t + 1,
-        kNone};
+        LiveMesh::kNone};
     leave(ur, LiveMesh::halfedge(t, 1));
     for (const auto& [v, side] : {std::pair(ul, 0u), {lr, 1u}, {ll, 2u}})
       leave(v, LiveMesh::halfedge(t + 1, side));
@@ -209,8 +210,8 @@ std::vector<std::array<std::uint32_t, 3>> finestTriangulation(const RasterHeight
   if (!hasCells(heightfield)) return triangles;
   triangles.reserve(std::size_t(heightfield.columns - 1) * (heightfield.rows - 1) * 2);
   const Cells cells(heightfield);
-  for (std::size_t tile = 0; tile < cells.tileCount(); ++tile)
-    cells.forTile(tile, [&](std::uint32_t column, std::uint32_t row) {
+  for (std::size_t square = 0; square < cells.squareCount(); ++square)
+    cells.forSquare(square, [&](std::uint32_t column, std::uint32_t row) {
       cells.forTriangles(column, row, cells.valid(column, row),
                          [&](const LiveMesh::Corners& corners) { triangles.push_back(corners); });
     });
@@ -223,35 +224,35 @@ LiveMesh finestMesh(const RasterHeightfield& heightfield, std::vector<std::uint3
   const Cells cells(heightfield);
   const MeshLayout layout(heightfield, cells);
   mesh.triangles = PagedArray<LiveMesh::Triangle>(layout.triangleCount());
-  mesh.vertexHalfedge.resize(heightfield.size());
+  mesh.vertexHalfedge = PagedArray<HalfedgeId>(heightfield.size());
   forRanges(LoopThreads::all, heightfield.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
-    std::fill(&mesh.vertexHalfedge[begin], &mesh.vertexHalfedge[begin] + (end - begin), kNone);
+    std::fill(&mesh.vertexHalfedge[begin], &mesh.vertexHalfedge[begin] + (end - begin), HalfedgeId());
   });
-  std::vector<std::vector<std::uint32_t>> borders(cells.tileCount());  // half-edges without a twin
-  // A vertex goes by the last half-edge that leaves it; those between tiles are claimed by several.
-  const auto claim = [&](std::uint32_t v, std::uint32_t h) {
+  std::vector<std::vector<HalfedgeId>> borders(cells.squareCount());  // half-edges without a twin
+  // A vertex refers to the last half-edge that leaves it; threads compete for a vertex between squares.
+  const auto claim = [&](std::uint32_t v, HalfedgeId h) {
     const std::atomic_ref last(mesh.vertexHalfedge[v]);
-    std::uint32_t seen = last.load(std::memory_order_relaxed);
-    while ((seen == kNone || seen < h) && !last.compare_exchange_weak(seen, h, std::memory_order_relaxed)) {
+    HalfedgeId seen = last.load(std::memory_order_relaxed);
+    while ((!seen.isValid() || seen < h) && !last.compare_exchange_weak(seen, h, std::memory_order_relaxed)) {
     }
   };
-  tbb::parallel_for(std::size_t(0), cells.tileCount(), [&](std::size_t tile) {
-    cells.forTile(tile, [&](std::uint32_t column, std::uint32_t row) {
-      const bool isInside = (column + 1) % kTile > 1 && (row + 1) % kTile > 1;
-      layout.lay(column, row, mesh, [&](std::uint32_t v, std::uint32_t h) {
+  tbb::parallel_for(std::size_t(0), cells.squareCount(), [&](std::size_t square) {
+    cells.forSquare(square, [&](std::uint32_t column, std::uint32_t row) {
+      const bool isInside = (column + 1) % kSquare > 1 && (row + 1) % kSquare > 1;
+      layout.lay(column, row, mesh, [&](std::uint32_t v, HalfedgeId h) {
         if (isInside)
           mesh.vertexHalfedge[v] = h;
         else
           claim(v, h);
-        if (mesh.twinOf(h) == kNone) borders[tile].push_back(h);
+        if (!mesh.twinOf(h).isValid()) borders[square].push_back(h);
       });
     });
   });
 
-  for (const std::vector<std::uint32_t>& border : borders)
-    for (const std::uint32_t h : border) mesh.vertexHalfedge[mesh.origin(h)] = h;
-  for (const std::vector<std::uint32_t>& border : borders)
-    for (const std::uint32_t h : border)
+  for (const std::vector<HalfedgeId>& border : borders)
+    for (const HalfedgeId h : border) mesh.vertexHalfedge[mesh.origin(h)] = h;
+  for (const std::vector<HalfedgeId>& border : borders)
+    for (const HalfedgeId h : border)
       if (mesh.vertexHalfedge[mesh.origin(h)] != h) pinched.push_back(mesh.origin(h));
   return mesh;
 }

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The points are sorted by their position on a Hilbert curve through 2^32 x 2^32 cells. Points that share a
+// cell, as others are far away, are ordered by a curve of their own, recursively.
 #include "terrain/triangulation/ground_order.h"
 
 #include <tbb/blocked_range.h>
@@ -15,20 +18,20 @@
 namespace arete {
 namespace {
 
-/// How far along the curve through a square of 2^32 x 2^32 cells a cell is passed.
-std::uint64_t placeOnCurve(std::uint32_t x, std::uint32_t y) {
-  std::uint64_t place = 0;
+/// The index of a cell on the curve through a square of 2^32 x 2^32 cells.
+std::uint64_t indexOnCurve(std::uint32_t x, std::uint32_t y) {
+  std::uint64_t index = 0;
   for (int bit = 31; bit >= 0; --bit) {
     const std::uint32_t right = x >> bit & 1, up = y >> bit & 1;
-    place = place << 2 | ((3 * right) ^ up);
-    // The curve through a quarter is turned: what follows is told as if it were not. Nobody foresees which
-    // quarter it is, so no branch asks.
+    index = index << 2 | ((3 * right) ^ up);
+    // The curve through a quarter is turned or mirrored: the remaining bits are transformed so that the next
+    // step can treat it as if it were not. Branch-free, as the quarter is not predictable.
     const std::uint32_t turned = up - 1, mirrored = turned & (0 - right);
     const std::uint32_t swapped = (x ^ y) & turned;
     x ^= mirrored ^ swapped;
     y ^= mirrored ^ swapped;
   }
-  return place;
+  return index;
 }
 
 }  // namespace
@@ -36,7 +39,7 @@ std::uint64_t placeOnCurve(std::uint32_t x, std::uint32_t y) {
 std::vector<std::uint32_t> groundOrder(std::span<const Vec2> positions) {
   if (positions.empty()) return {};
   const Box2 box = planBox(positions);
-  // Halves, as the whole may be more than a double holds.
+  // Halves, as the whole may exceed the range of a double.
   const double halfSide = std::max(box.xMax / 2 - box.xMin / 2, box.yMax / 2 - box.yMin / 2);
   const auto cell = [&](double x, double from) {
     const double part = halfSide > 0 ? (x / 2 - from / 2) / halfSide : 0;
@@ -49,7 +52,7 @@ std::vector<std::uint32_t> groundOrder(std::span<const Vec2> positions) {
   UninitializedVector<Place> places(positions.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), 1 << 13), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i)
-      places[i] = {placeOnCurve(cell(positions[i].x, box.xMin), cell(positions[i].y, box.yMin)),
+      places[i] = {indexOnCurve(cell(positions[i].x, box.xMin), cell(positions[i].y, box.yMin)),
                    static_cast<std::uint32_t>(i)};
   });
   tbb::parallel_sort(places.begin(), places.end(), [&](const Place& a, const Place& b) {
@@ -60,17 +63,17 @@ std::vector<std::uint32_t> groundOrder(std::span<const Vec2> positions) {
   std::vector<std::uint32_t> order(positions.size());
   std::ranges::transform(places, order.begin(), &Place::point);
 
-  // Far points make all others share a cell: who does follows a curve through what they have to themselves.
-  // It ends, as the two farthest from each other never share one.
-  constexpr std::size_t kFew = 16;
+  // If a few points are far away, many others share a cell: these are ordered along a curve through their own
+  // bounding square. The recursion ends, as the two points farthest apart never share a cell.
+  constexpr std::size_t kFew = 16;  // points in one cell whose order by coordinates is kept
   for (std::size_t begin = 0, end = 0; begin != places.size(); begin = end) {
     while (end != places.size() && places[end].onCurve == places[begin].onCurve) ++end;
     if (end - begin <= kFew || end - begin == places.size()) continue;
     const std::vector<std::uint32_t> crowd(order.begin() + static_cast<std::ptrdiff_t>(begin),
                                            order.begin() + static_cast<std::ptrdiff_t>(end));
-    std::vector<Vec2> there;
-    for (const std::uint32_t point : crowd) there.push_back(positions[point]);
-    const std::vector<std::uint32_t> within = groundOrder(there);
+    std::vector<Vec2> here;
+    for (const std::uint32_t point : crowd) here.push_back(positions[point]);
+    const std::vector<std::uint32_t> within = groundOrder(here);
     for (std::size_t i = 0; i != within.size(); ++i) order[begin + i] = crowd[within[i]];
   }
   return order;

@@ -9,10 +9,10 @@
 
 namespace arete {
 
-/// The points along the curve of Hilbert (1891) through the square around them: those near each other in this
-/// order are near each other on the plan. Points that stand at one place follow each other, by their indices;
-/// for the rest the order depends on the places alone, not on how the points are numbered. O(n log n),
-/// parallel. Precondition: all coordinates are finite.
+/// The indices of points in the order of a Hilbert curve [Hilbert1891] through the square around them: points
+/// near each other in this order are near each other in the plan. Points with equal coordinates are
+/// consecutive, by their indices; otherwise the order depends on the coordinates alone, not on the numbering.
+/// O(n log n), parallel. Precondition: all coordinates are finite.
 std::vector<std::uint32_t> groundOrder(std::span<const Vec2> positions);
 
 }  // namespace arete

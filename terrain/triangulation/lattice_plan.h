@@ -12,11 +12,12 @@
 
 namespace arete {
 
-/// The plan geometry of a raster, exact in integers: sample (column, row) stands at (p * column, q * row),
-/// where p / q is a small rational near the true ground aspect. The metric decides which triangles are
-/// Delaunay and nothing else.
+/// The plan geometry of a raster, exact in integers: sample (column, row) has the coordinates (p * column,
+/// q * row), where p / q is a small rational near the true ground aspect. This metric decides which triangles
+/// are Delaunay; nothing else depends on it.
 class LatticePlan {
  public:
+  /// Precondition: columns > 1; p, q > 0.
   LatticePlan(std::uint32_t columns, std::uint32_t p, std::uint32_t q)
       : columns_(columns), reciprocal_(~std::uint64_t(0) / columns + 1), p_(p), q_(q) {}
 
@@ -24,9 +25,8 @@ class LatticePlan {
     std::uint32_t column, row;
   };
 
-  /// Division by multiplication: a vertex is turned into column and row millions of times. Exact: the factor,
-  /// 2^64 / columns rounded up, errs by less than one, so 2^32 samples by less than 2^-32 of a row.
-  /// Precondition: columns > 1.
+  /// The column and row of a sample, by a multiplication in place of a division. Exact: the factor, 2^64 /
+  /// columns rounded up, is off by less than one, so the row of a sample below 2^32 by less than 2^-32.
   Cell cell(std::uint32_t sample) const {
     const auto row = static_cast<std::uint32_t>((UnsignedWide(sample) * reciprocal_) >> 64);
     return {sample - row * columns_, row};

@@ -51,9 +51,9 @@ class PointPlan {
       return static_cast<int>(
           CGAL::side_of_oriented_circle(corners_[i], corners_[j], corners_[m], corners_[n]));
     }
-    /// The larger angle has the smaller cotangent, dot / cross. Told in doubles where that is certain: the
-    /// terms have a few roundings each (Shewchuk 1997, section 4, has the exact constants), and all count as
-    /// larger than they are by what the digits of vanishing products come to.
+    /// The corner between i and j with the largest angle, i.e. the smallest cotangent, dot / cross. Floating-
+    /// point filters decide where the rounding errors permit it ([Shewchuk1997], section 4, has the exact
+    /// constants; kVanishing covers underflow), exact predicates elsewhere.
     template <class PrefersLater>
     int third(int i, int j, const PrefersLater& prefersLater) const {
       constexpr double kCross = 0x1p-51, kGap = 0x1p-49, kVanishing = 0x1p-500;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Distance: every point of the new border edge, and of the fill behind it, is within max dist(u, line) of the
-// original rim, over the original rim vertices u between the edge's ends: the perpendicular through the point
-// meets the original chain somewhere between the line and its farthest vertex (the measure of Douglas and
-// Peucker). It is always taken from the original rim, so that steps do not add up.
+// Distance: the measure of [DouglasPeucker1973]. Let the new border edge replace the original rim vertices u
+// between its ends. Every point of the edge, and of the fill behind it, is within max dist(u, line) of the
+// original rim: the perpendicular through the point meets the original chain between the line and the chain's
+// farthest vertex. The distance is always to the original rim, so that the steps do not add up.
 //
-// Overlap: a fill that holds no vertex of the triangulation cannot be crossed by an edge either. An edge that
-// crossed it would have to enter and leave through its one free side, which a straight segment cannot.
+// Overlap: if no vertex of the triangulation lies in a fill, no edge crosses it either. Such an edge would
+// have to enter and leave through the fill's one free side, and a straight segment cannot.
 #include "terrain/triangulation/rim.h"
 
 #include <algorithm>
@@ -18,12 +18,12 @@ Rim::Rim(const LiveMesh& mesh, const LatticePlan& plan, double tolerance)
     : mesh_(mesh),
       plan_(plan),
       tolerance_(tolerance),
-      originalNext_(mesh.vertexHalfedge.size(), LiveMesh::kNone),
-      originalPrevious_(mesh.vertexHalfedge.size(), LiveMesh::kNone),
-      claimedAt_(mesh.vertexHalfedge.size(), 0) {
+      originalNext_(mesh.vertexCount(), LiveMesh::kNone),
+      originalPrevious_(mesh.vertexCount(), LiveMesh::kNone),
+      claimedAt_(mesh.vertexCount(), 0) {
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::uint32_t i = 0; i < 3; ++i)
-      if (mesh.triangles[t].twin[i] == LiveMesh::kNone) {
+      if (!mesh.triangles[t].twin[i].isValid()) {
         const std::uint32_t from = mesh.triangles[t].corners[i], to = mesh.triangles[t].corners[(i + 1) % 3];
         originalNext_[from] = to;
         originalPrevious_[to] = from;
@@ -37,7 +37,8 @@ bool Rim::mayFill(std::uint32_t before, std::uint32_t v, std::uint32_t after) co
     const Vec2 p = plan_.planPosition(u);
     return std::abs(dx * (p.y - a.y) - dy * (p.x - a.x)) <= tolerance_ * length * (1 + 1e-12);
   };
-  // A pinch can break the chain's bookkeeping; a bounded walk that does not arrive means no.
+  // At a pinched vertex the chain of next and previous vertices can be wrong: a walk that does not arrive
+  // within the limit means no.
   constexpr int kLongestChain = 4096;
   int steps = 0;
   for (std::uint32_t u = v; u != after; u = originalNext_[u])
@@ -52,7 +53,7 @@ bool Rim::mayFill(std::uint32_t before, std::uint32_t v, std::uint32_t after) co
   for (std::int64_t row = rowLow; row <= rowHigh; ++row)
     for (std::int64_t column = columnLow; column <= columnHigh; ++column) {
       const auto u = static_cast<std::uint32_t>(row * plan_.columns() + column);
-      if (u == before || u == v || u == after || mesh_.vertexHalfedge[u] == LiveMesh::kNone) continue;
+      if (u == before || u == v || u == after || !mesh_.isInTriangle(u)) continue;
       // The fill is the triangle before, after, v seen from outside: clockwise in the domain's sense.
       if (plan_.orientation(before, v, u) <= 0 && plan_.orientation(v, after, u) <= 0 &&
           plan_.orientation(after, before, u) <= 0)
@@ -67,19 +68,19 @@ bool Rim::claim(std::uint32_t before, std::uint32_t after, std::uint32_t level) 
   return true;
 }
 
-void Rim::closeVoid(LiveMesh& mesh, std::uint32_t newBorderHalfedge) {
+void Rim::closeVoid(LiveMesh& mesh, HalfedgeId newBorderHalfedge) {
   const std::uint32_t from = mesh.origin(newBorderHalfedge),
                       to = mesh.origin(LiveMesh::nextInTriangle(newBorderHalfedge));
-  const auto runsBack = [&](std::uint32_t h) {
-    return mesh.twinOf(h) == LiveMesh::kNone && mesh.origin(h) == to &&
+  const auto runsBack = [&](HalfedgeId h) {
+    return !mesh.twinOf(h).isValid() && mesh.origin(h) == to &&
            mesh.origin(LiveMesh::nextInTriangle(h)) == from;
   };
-  // It begins the fan of `to` and ends that of `from`. A pinched vertex has several: then the other one
-  // tells.
-  std::uint32_t back = mesh.vertexHalfedge[to];
+  // The edge back is the first of the fan of `to` and the last of the fan of `from`. A pinched vertex has
+  // several fans: then the other end is tried.
+  HalfedgeId back = mesh.vertexHalfedge[to];
   if (!runsBack(back)) {
     back = LiveMesh::previousInTriangle(newBorderHalfedge);
-    while (mesh.twinOf(back) != LiveMesh::kNone) back = LiveMesh::previousInTriangle(mesh.twinOf(back));
+    while (mesh.twinOf(back).isValid()) back = LiveMesh::previousInTriangle(mesh.twinOf(back));
     if (!runsBack(back)) return;
   }
   mesh.setTwin(newBorderHalfedge, back);

@@ -9,25 +9,28 @@
 
 namespace arete {
 
-/// Simplifies the rims of NODATA regions: a reflex rim vertex may go when the triangle that its removal adds
-/// to the domain covers no vertex and stays within a plan distance of the original rim. A convex one never
-/// goes, so no valid sample is ever uncovered.
+/// Simplifies the rims of NODATA regions. A reflex rim vertex may be removed if the triangle that its removal
+/// adds to the domain covers no vertex and is within a plan distance of the original rim
+/// [DouglasPeucker1973]. A convex one is never removed, so no valid sample is uncovered.
 class Rim {
  public:
-  /// tolerance: in samples. Remembers the original rim of the mesh.
+  /// Stores the rim of the mesh as the original one. O(triangles). `mesh` and `plan` must outlive the Rim.
+  /// @param tolerance the distance, in samples.
   Rim(const LiveMesh& mesh, const LatticePlan& plan, double tolerance);
 
-  /// Whether the reflex rim vertex v between its rim neighbours (domain to the left of before -> v -> after)
-  /// may go. O(rim between them + samples of the triangle).
+  /// Whether the reflex rim vertex v may be removed. O(original rim between its neighbours + samples in the
+  /// box of the triangle).
+  /// @param before, after its rim neighbours: the domain is to the left of before -> v -> after.
   bool mayFill(std::uint32_t before, std::uint32_t v, std::uint32_t after) const;
 
-  /// Two fills of one level must not share a rim vertex: takes both ends, or returns false.
+  /// Reserves both ends of a fill for a level: two fills of one level must not share a rim vertex.
+  /// @return false if either end is reserved already; nothing is reserved then.
   bool claim(std::uint32_t before, std::uint32_t after, std::uint32_t level);
 
-  /// Glues the new border edge to the one that runs back between the same vertices, if there is one: the last
-  /// triangle of a void is closed. It is found unless both vertices are pinched; these stay for ever, so a
-  /// slit between them harms nobody.
-  static void closeVoid(LiveMesh& mesh, std::uint32_t newBorderHalfedge);
+  /// Joins the new border edge to the border edge that runs back between the same vertices, if there is one:
+  /// then the void between the two has no area left. The edge is not found if both vertices are pinched;
+  /// these are never removed, so the slit that remains has no consequence.
+  static void closeVoid(LiveMesh& mesh, HalfedgeId newBorderHalfedge);
 
  private:
   const LiveMesh& mesh_;

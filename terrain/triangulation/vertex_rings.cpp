@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Compressed rows: one walk around every vertex counts its neighbours, a prefix sum turns the counts into
+// offsets, a second walk writes the neighbours.
 #include "terrain/triangulation/vertex_rings.h"
 
 #include <tbb/blocked_range.h>
@@ -12,31 +15,30 @@ namespace {
 
 template <class Visit>
 void forVertices(const LiveMesh& mesh, const Visit& visit) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertexHalfedge.size(), 1 << 13),
-                    [&](const auto& range) {
-                      for (std::size_t v = range.begin(); v != range.end(); ++v)
-                        if (mesh.vertexHalfedge[v] != LiveMesh::kNone) visit(static_cast<std::uint32_t>(v));
-                    });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertexCount(), 1 << 13), [&](const auto& range) {
+    for (std::size_t v = range.begin(); v != range.end(); ++v)
+      if (mesh.vertexHalfedge[v].isValid()) visit(static_cast<std::uint32_t>(v));
+  });
 }
 
-/// visit(u) for the neighbours of a vertex and, where it is on a border, for kNone.
+/// visit(u) for the neighbours of a vertex and, if it is on a border, for kNone.
 template <class Visit>
 void forRing(const LiveMesh& mesh, std::uint32_t v, const Visit& visit) {
-  const std::uint32_t first = mesh.vertexHalfedge[v];
-  std::uint32_t h = first;
+  const HalfedgeId first = mesh.vertexHalfedge[v];
+  HalfedgeId h = first;
   do {
     visit(mesh.origin(LiveMesh::nextInTriangle(h)));
-    const std::uint32_t last = LiveMesh::previousInTriangle(h);
+    const HalfedgeId last = LiveMesh::previousInTriangle(h);
     h = mesh.twinOf(last);
-    if (h == LiveMesh::kNone) visit(mesh.origin(last));
-  } while (h != LiveMesh::kNone && h != first);
-  if (h == LiveMesh::kNone) visit(LiveMesh::kNone);
+    if (!h.isValid()) visit(mesh.origin(last));
+  } while (h.isValid() && h != first);
+  if (!h.isValid()) visit(LiveMesh::kNone);
 }
 
 }  // namespace
 
 VertexRings::VertexRings(const LiveMesh& mesh) {
-  const std::size_t vertices = mesh.vertexHalfedge.size();
+  const std::size_t vertices = mesh.vertexCount();
   begin_.assign(vertices + 1, 0);
   forVertices(mesh, [&](std::uint32_t v) { forRing(mesh, v, [&](std::uint32_t) { ++begin_[v]; }); });
   std::uint32_t next = 0;

@@ -15,7 +15,7 @@ namespace {
 
 struct Grid {
   LiveMesh mesh;
-  UninitializedVector<RemovalRecord> notes;
+  UninitializedVector<RemovalRecord> records;
   std::vector<std::uint32_t> candidates;
 };
 
@@ -28,10 +28,10 @@ Grid someGrid(std::uint32_t columns, std::uint32_t rows, int distinctCosts, std:
   std::vector<std::uint32_t> pinched;
   Grid grid;
   grid.mesh = LiveMesh::fromTriangles(finestTriangulation(field), columns * rows, pinched);
-  grid.notes.assign(std::size_t(columns) * rows, RemovalRecord{});
+  grid.records.assign(std::size_t(columns) * rows, RemovalRecord{});
   std::mt19937_64 random(seed);
-  for (std::uint32_t v = 0; v < grid.notes.size(); ++v) {
-    grid.notes[v].cost = static_cast<float>(random() % static_cast<unsigned>(distinctCosts));
+  for (std::uint32_t v = 0; v < grid.records.size(); ++v) {
+    grid.records[v].cost = static_cast<float>(random() % static_cast<unsigned>(distinctCosts));
     if (random() % 4 != 0) grid.candidates.push_back(v);
   }
   return grid;
@@ -65,7 +65,7 @@ TEST(IndependentSet, IsTheOneAGreedyPassTakesForAnyNumberOfThreads) {
       SCOPED_TRACE("seed " + std::to_string(seed) + ", costs " + std::to_string(distinctCosts));
       for (const int threads : {1, 2, 4}) {
         Grid grid = someGrid(23, 17, distinctCosts, seed);
-        IndependentSet set(grid.mesh, grid.notes);
+        IndependentSet set(grid.mesh, grid.records);
         for (const std::uint32_t v : grid.candidates) set.enter(v, 7);
         std::vector<std::uint32_t> chosen;
         tbb::task_arena(threads).execute([&] { set.choose(grid.candidates, 7, chosen); });
@@ -79,11 +79,11 @@ TEST(IndependentSet, DecidesAChainLongerThanItsDepth) {
   // A strip whose costs rise along it: every vertex waits for the one before.
   Grid grid = someGrid(4000, 2, 1, 1);
   grid.candidates.clear();
-  for (std::uint32_t v = 0; v < grid.notes.size(); ++v) {
-    grid.notes[v].cost = static_cast<float>(4000 - v % 4000);
+  for (std::uint32_t v = 0; v < grid.records.size(); ++v) {
+    grid.records[v].cost = static_cast<float>(4000 - v % 4000);
     grid.candidates.push_back(v);
   }
-  IndependentSet set(grid.mesh, grid.notes);
+  IndependentSet set(grid.mesh, grid.records);
   for (const std::uint32_t v : grid.candidates) set.enter(v, 1);
   std::vector<std::uint32_t> chosen;
   set.choose(grid.candidates, 1, chosen);
@@ -93,7 +93,7 @@ TEST(IndependentSet, DecidesAChainLongerThanItsDepth) {
 
 TEST(IndependentSet, TakenInTurnItIsTheSameWhereNothingIsRefused) {
   Grid one = someGrid(23, 17, 5, 3), other = someGrid(23, 17, 5, 3);
-  IndependentSet set(one.mesh, one.notes), inTurn(other.mesh, other.notes);
+  IndependentSet set(one.mesh, one.records), inTurn(other.mesh, other.records);
   for (const std::uint32_t v : one.candidates) {
     set.enter(v, 2);
     inTurn.enter(v, 2);
@@ -105,9 +105,9 @@ TEST(IndependentSet, TakenInTurnItIsTheSameWhereNothingIsRefused) {
   EXPECT_FALSE(chosen.empty());
 }
 
-TEST(IndependentSet, WhatIsRefusedBlocksNobody) {
+TEST(IndependentSet, ARejectedCandidateBlocksNoNeighbour) {
   Grid grid = someGrid(9, 9, 5, 3);
-  IndependentSet set(grid.mesh, grid.notes);
+  IndependentSet set(grid.mesh, grid.records);
   for (const std::uint32_t v : grid.candidates) set.enter(v, 2);
   std::vector<std::uint32_t> chosen;
   set.chooseInTurn(grid.candidates, 2, chosen, [](std::uint32_t v) { return v == 40 || v == 0; });

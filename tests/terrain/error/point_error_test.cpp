@@ -77,8 +77,8 @@ void expectBoundsAlongEdges(const PointHeightfield& field, const std::string& na
   for (std::uint32_t a = 0; a < count; ++a)
     for (const std::uint32_t steps : {1u, 2u, 7u, 31u}) {
       const std::uint32_t b = (a + steps) % count;
-      if (a == b || ground.mesh.vertexHalfedge[a] == LiveMesh::kNone ||
-          ground.mesh.vertexHalfedge[b] == LiveMesh::kNone)
+      if (a == b || !ground.mesh.isInTriangle(a) ||
+          !ground.mesh.isInTriangle(b))
         continue;
       const SignedBound bound = errors.alongEdge(a, b);
       const ExactBound exact = exactAlong(ground, plan, a, b);

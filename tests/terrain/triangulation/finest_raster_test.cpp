@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "terrain/triangulation/finest_raster.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include "datasets/families.h"
 #include "engine/cut/cut.h"
 #include "terrain/build/build.h"
 #include "terrain/laws/validate_model.h"
-#include "terrain/triangulation/finest_points.h"
-#include "terrain/triangulation/finest_raster.h"
 
 namespace arete {
 namespace {
@@ -46,17 +45,17 @@ TEST(FinestRaster, IsTheSameAsAMeshThatLooksForItsNeighbours) {
       for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         EXPECT_EQ(mesh.triangles[t].corners, searched.triangles[t].corners) << family.name;
         EXPECT_EQ(mesh.triangles[t].twin, searched.triangles[t].twin) << family.name;
-        EXPECT_EQ(mesh.triangles[t].birth, t);
+        EXPECT_EQ(mesh.triangles[t].recorderId, t);
       }
       std::sort(pinched.begin(), pinched.end());
       std::sort(pinchedOfSearch.begin(), pinchedOfSearch.end());
       EXPECT_EQ(pinched, pinchedOfSearch) << family.name;
       for (std::uint32_t v = 0; v < field.size(); ++v) {
-        const std::uint32_t h = mesh.vertexHalfedge[v], other = searched.vertexHalfedge[v];
-        ASSERT_EQ(h == LiveMesh::kNone, other == LiveMesh::kNone) << family.name;
-        if (h == LiveMesh::kNone) continue;
+        const HalfedgeId h = mesh.vertexHalfedge[v], other = searched.vertexHalfedge[v];
+        ASSERT_EQ(h.isValid(), other.isValid()) << family.name;
+        if (!h.isValid()) continue;
         EXPECT_EQ(mesh.origin(h), v);
-        EXPECT_EQ(mesh.twinOf(h) == LiveMesh::kNone, searched.twinOf(other) == LiveMesh::kNone)
+        EXPECT_EQ(mesh.twinOf(h).isValid(), searched.twinOf(other).isValid())
             << family.name;
       }
     }
@@ -101,46 +100,6 @@ TEST(FinestRaster, IsDelaunayUpToCocircularTiesByCgalsPredicates) {
     EXPECT_TRUE(status) << family.name << ": " << status.error().message;
     EXPECT_EQ(finest.triangles.size(), finestTriangulation(family.make(37, 29, 6)).size());
   }
-}
-
-TEST(FinestPoints, HasTheTrianglesOfTheEulerRelation) {
-  for (const PointFamily& family : pointFamilies()) {
-    const PointHeightfield field = family.make(500, 8);
-    const auto finest = finestPoints(field);
-    ASSERT_TRUE(finest) << family.name;
-    const auto triangles = finest->trianglesOfPoints();
-    // Counter-clockwise everywhere, and no vertex left out but exact repeats.
-    std::vector<char> seen(field.size(), 0);
-    for (const auto& t : triangles)
-      for (const std::uint32_t v : t) seen[v] = 1;
-    std::size_t used = 0;
-    for (const char s : seen) used += s;
-    EXPECT_LE(triangles.size(), 2 * used);
-    EXPECT_GE(used, 3u) << family.name;
-  }
-}
-
-TEST(FinestPoints, StopsWhenAsked) {
-  const std::atomic<bool> cancel = true;
-  RunContext context;
-  context.cancel = &cancel;
-  const auto stopped = finestPoints(pointFamilies().front().make(500, 8), context);
-  ASSERT_FALSE(stopped);
-  EXPECT_EQ(stopped.error().code, ErrorCode::interrupted);
-}
-
-TEST(FinestPoints, LooksForNoPointAmongAllOfALine) {
-  PointHeightfield field;  // minutes, if it did
-  for (int i = 0; i < 300'000; ++i) field.positions.push_back({0.25 * i, 0});
-  field.heights.assign(field.positions.size(), 1);
-  const auto line = finestPoints(field);
-  ASSERT_FALSE(line);
-  EXPECT_EQ(line.error().code, ErrorCode::degenerate);
-  field.positions.push_back({80'000, 1});
-  field.heights.push_back(2);
-  const auto fan = finestPoints(field);
-  ASSERT_TRUE(fan);
-  EXPECT_EQ(fan->triangles.size(), 299'999u);
 }
 
 }  // namespace
