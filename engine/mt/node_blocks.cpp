@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A ball around spheres: from the middle of the box of their centres to the farthest of them, widened as a
-// parent's sphere is (mt_recorder.cpp), so that what touches a node's sphere touches the block's whatever the
+// parent's sphere is (enclosing_ball.h), so that what touches a node's sphere touches the block's whatever the
 // arithmetic of a test. Pages are made from the nodes, not from the blocks: balls of balls would grow.
 #include "engine/mt/node_blocks.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What is read of a plain file for a question, held against the whole: the same cuts, every check, and
-// nothing looked at that no answer rests on. (Heights, lines of sight, regions and focuses:
-// wanted_places_test.cpp.)
+// The part of a plain file that a query reads, compared with the whole: the same cuts, every check, and
+// nothing read that no answer depends on. (Heights, lines of sight, regions and focuses:
+// query_footprint_test.cpp.)
 #include "io/amt/part.h"
 
 #include <fmt/format.h>
