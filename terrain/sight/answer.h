@@ -9,10 +9,10 @@
 namespace arete {
 
 enum class SightVerdict : std::uint8_t {
-  visible,    ///< the line touches the terrain at most
-  blocked,    ///< the terrain rises above it somewhere
+  visible,    ///< the terrain touches the line at most
+  blocked,    ///< the terrain rises above the line somewhere
   unknown,    ///< nothing known is in the way, but part of the line is over NODATA or outside of the DEM
-  undecided,  ///< the detail asked for does not tell
+  undecided,  ///< the terrain within the requested tolerance does not decide it
 };
 
 /// What a part of a line that has no terrain below it counts as.
@@ -20,41 +20,42 @@ enum class NodataSight : std::uint8_t { unknown, clear, blocked };
 
 struct SightOptions {
   NodataSight nodata = NodataSight::unknown;
-  /// Stop at triangles whose bounds are within this, in the DEM's vertical unit: the answer may then be
-  /// `undecided`. Only the descent through the multitriangulation does so; the others always tell.
+  /// Tolerance in the DEM's vertical unit: terrain is refined until its bounds are within it, and the answer
+  /// may be `undecided`. 0 = full resolution. The descent alone uses it; other engines are always exact.
   double maxError = 0;
-  /// The least clearance along the whole line. Without it a blocked line is left at its first obstruction.
+  /// Compute the least clearance along the whole line. Without it the search ends at the first obstruction.
   bool wantsClearance = true;
-  /// Where a blocked line is first obstructed. Without it and the clearance an engine may know only that.
+  /// Compute where a blocked line is first obstructed. Without it and the clearance an engine may return the
+  /// verdict alone.
   bool wantsObstruction = true;
 };
 
-/// A place on the line.
+/// A point of the line.
 struct SightPlace {
-  double distance = 0;  ///< metres along the ground
-  Vec2 plan;
+  double distance = 0;                        ///< metres along the ground from the first end
+  Vec2 plan;                                  ///< plan coordinates of the model
   double terrainHeight = 0, sightHeight = 0;  ///< in the DEM's vertical unit
 };
 
 struct SightAnswer {
   SightVerdict verdict = SightVerdict::visible;
-  /// Where the line first meets higher terrain, or, where NODATA blocks, NODATA. Set if blocked and asked
-  /// for. To the metre it is where the line goes under; by the tolerance of SightLine the terrain is higher
-  /// there.
+  /// Where the line first goes below the terrain; with NodataSight::blocked, or first is over NODATA (then
+  /// its terrainHeight is NaN). Set if the line is blocked and wantsObstruction. From there on the terrain
+  /// rises above the line by more than SightLine::tolerance().
   std::optional<SightPlace> obstruction;
-  /// For maxError > 0: the obstruction is that of terrain known within the tolerance; full resolution's is
-  /// there or nearer to the first end.
+  /// With a tolerance: the obstruction is one of approximate terrain. That of full resolution is there or
+  /// nearer to the first end.
   bool isObstructionLatest = false;
-  /// The least height of the line above the terrain, negative when blocked: where terrain is below the line,
-  /// and when it was asked for.
+  /// The least height of the line above the terrain, negative if blocked; in the DEM's vertical unit. Set if
+  /// terrain is below the line and wantsClearance.
   std::optional<double> clearance;
-  SightPlace least;  ///< where that is
-  /// For maxError > 0: the clearance is within this of full resolution's.
+  SightPlace least;  ///< where the least clearance is
+  /// With a tolerance: the clearance is within this of that at full resolution.
   double clearanceWithin = 0;
-  /// The least clearance is within the tolerance of SightLine of 0; it counts as visible.
+  /// The least clearance is within SightLine::tolerance() of 0. That counts as visible.
   bool isTouching = false;
-  double gapMetres = 0;       ///< how much of the line has no terrain below it; 0 where NODATA is clear
-  std::uint64_t visited = 0;  ///< triangles, or cells and blocks of cells, looked at
+  double gapMetres = 0;       ///< length of the line without terrain below it; 0 with NodataSight::clear
+  std::uint64_t visited = 0;  ///< triangles, or cells and squares of cells, that were examined
 };
 
 }  // namespace arete

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From one lattice line to the next (Amanatides and Woo 1987), and within a cell from one of its two
-// triangles to the other where the line crosses the diagonal. The surface is straight between these
-// crossings, so heights are taken at crossings alone.
+// Walks over the cells of a raster below a leg, from one lattice line to the next [AmanatidesWoo1987], and
+// within a cell from one of its two triangles to the other where the leg crosses the diagonal. The surface is
+// straight between these crossings, so heights are computed at crossings alone.
 //
-// Cells with NODATA take a slower way: of three corners, the part of the line on their triangle. Where a
-// piece runs along a lattice line to the last bit it is in no cell more than in its neighbour, and the edges
-// below it are in the terrain when a triangle on either side is; that is the third way.
+// A cell with NODATA is treated apart: with three corners, the part of the leg over their triangle is
+// terrain. A leg that runs exactly along a lattice line is in no cell more than in its neighbour; there the
+// edges below it are terrain if a triangle on either side is.
 #pragma once
 
 #include <algorithm>
@@ -18,24 +18,23 @@
 
 namespace arete {
 
-/// What is below a part of a piece, cell by cell. The sink is told, by parameters of the piece and in order,
+/// Reports what is below a part of a leg to a sink, in order of the leg's parameter t:
 ///
 ///     terrain(t0, z0, t1, z1)   straight from z0 to z1, within one triangle or along one edge
 ///     gap(t0, t1)               no terrain
 ///
-/// until its isDone() says true.
+/// until its isDone() returns true. Heights are in the DEM's vertical unit.
 template <class Sink>
 class CellWalk {
  public:
-  CellWalk(const SightGrid& grid, const SightPiece& piece, Sink& sink)
-      : grid_(grid),
-        piece_(piece),
-        sink_(sink),
-        shortest_(kShortestInPlan / std::hypot(piece.dx, piece.dy)) {}
+  CellWalk(const SightGrid& grid, const SightLeg& leg, Sink& sink)
+      : grid_(grid), leg_(leg), sink_(sink), shortest_(kShortestInPlan / std::hypot(leg.dx, leg.dy)) {}
 
+  /// For a leg that does not run along a lattice line.
+  /// @return the number of cells visited.
   std::uint64_t over(SightRange range) {
     std::uint64_t cells = 0;
-    forSquares(piece_, range, 1, static_cast<int>(grid_.columns()) - 1, static_cast<int>(grid_.rows()) - 1,
+    forSquares(leg_, range, 1, static_cast<int>(grid_.columns()) - 1, static_cast<int>(grid_.rows()) - 1,
                [&](int column, int row, double t0, double t1) {
                  cell(column, row, t0, t1);
                  ++cells;
@@ -44,10 +43,11 @@ class CellWalk {
     return cells;
   }
 
-  /// The edges of a lattice line that the piece runs along; along x when `isRow`.
+  /// For a leg that runs along a lattice line: along x if `isRow`.
+  /// @return the number of edges visited.
   std::uint64_t along(SightRange range, bool isRow) {
-    const double from = isRow ? piece_.x : piece_.y, d = isRow ? piece_.dx : piece_.dy;
-    const auto line = static_cast<std::uint32_t>(isRow ? piece_.y : piece_.x);
+    const double from = isRow ? leg_.x : leg_.y, d = isRow ? leg_.dx : leg_.dy;
+    const auto line = static_cast<std::uint32_t>(isRow ? leg_.y : leg_.x);
     const int step = d < 0 ? -1 : 1;
     const int count = static_cast<int>(isRow ? grid_.columns() : grid_.rows()) - 1;
     int edge = squareAt(from + range.first * d, d, 1, count);
@@ -83,10 +83,8 @@ class CellWalk {
     const double* upper = grid_.row(static_cast<std::uint32_t>(row)) + column;
     const double* lower = upper + grid_.columns();
     const SightCell cell{upper[0], upper[1], lower[0], lower[1]};
-    const double x0 = inCell(piece_.x + t0 * piece_.dx - column),
-                 y0 = inCell(piece_.y + t0 * piece_.dy - row);
-    const double x1 = inCell(piece_.x + t1 * piece_.dx - column),
-                 y1 = inCell(piece_.y + t1 * piece_.dy - row);
+    const double x0 = inCell(leg_.x + t0 * leg_.dx - column), y0 = inCell(leg_.y + t0 * leg_.dy - row);
+    const double x1 = inCell(leg_.x + t1 * leg_.dx - column), y1 = inCell(leg_.y + t1 * leg_.dy - row);
     if (!cell.isWhole()) return partialCell(cell, t0, x0, y0, t1, x1, y1);
     const double side0 = x0 - y0, side1 = x1 - y1;
     const double z0 = cell.at(x0, y0), z1 = cell.at(x1, y1);
@@ -99,7 +97,7 @@ class CellWalk {
 
   void partialCell(const SightCell& cell, double t0, double x0, double y0, double t1, double x1, double y1) {
     if (cell.corners() < 3) return gap(t0, t1);
-    // What is outside by rounding is on the border.
+    // Outside by no more than rounding counts as on the border.
     const auto rounded = [](double in) { return std::fabs(in) < kShortestInPlan ? 0 : in; };
     const double in0 = rounded(cell.inside(x0, y0)), in1 = rounded(cell.inside(x1, y1));
     if (in0 <= 0 && in1 <= 0 && (in0 < 0 || in1 < 0)) return gap(t0, t1);
@@ -114,7 +112,7 @@ class CellWalk {
     gap(tb, t1);
   }
 
-  /// Whether the edge from sample e to e + 1 of a lattice line is one of a triangle.
+  /// Whether the edge from sample e to e + 1 of a lattice line belongs to a triangle.
   bool isCovered(std::uint32_t e, std::uint32_t line, bool isRow) const {
     const auto sample = [&](std::uint32_t along, std::uint32_t across) {
       return isRow ? grid_.height(along, across) : grid_.height(across, along);
@@ -130,20 +128,20 @@ class CellWalk {
   static double inCell(double v) { return std::clamp(v, 0.0, 1.0); }
 
   const SightGrid& grid_;
-  const SightPiece& piece_;
+  const SightLeg& leg_;
   Sink& sink_;
   double shortest_;
 };
 
-/// Tells a sink (see CellWalk) all terrain and all gaps below the part of a piece inside the grid. Returns
-/// how many cells it looked at. Precondition: range lies within rangeOver() of the grid, and the piece has a
-/// length in plan. O(cells).
+/// Reports all terrain and all gaps below the part `range` of a leg to a sink (see CellWalk). Preconditions:
+/// the range is within rangeOver() of the grid; the leg has a length in plan. O(cells).
+/// @return the number of cells visited.
 template <class Sink>
-std::uint64_t walkCells(const SightGrid& grid, const SightPiece& piece, SightRange range, Sink& sink) {
+std::uint64_t walkCells(const SightGrid& grid, const SightLeg& leg, SightRange range, Sink& sink) {
   const auto runsAlong = [](double p, double d) { return d == 0 && p == std::floor(p); };
-  CellWalk<Sink> walk(grid, piece, sink);
-  if (runsAlong(piece.y, piece.dy)) return walk.along(range, true);
-  if (runsAlong(piece.x, piece.dx)) return walk.along(range, false);
+  CellWalk<Sink> walk(grid, leg, sink);
+  if (runsAlong(leg.y, leg.dy)) return walk.along(range, true);
+  if (runsAlong(leg.x, leg.dx)) return walk.along(range, false);
   return walk.over(range);
 }
 

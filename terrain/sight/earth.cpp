@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Plane tracks: the map coordinates of both ends, scaled to metres by the units of the CRS.
 #include "terrain/sight/earth.h"
 
 #include <cmath>

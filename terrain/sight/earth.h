@@ -10,33 +10,37 @@
 
 namespace arete {
 
-/// Where a line of sight between two places runs over the ground, and how the Earth curves below it. Plan
-/// coordinates are those of the model. Thread-safe.
+/// How the ground is measured and how it curves: the tracks of sight lines between two places. Places are in
+/// plan coordinates of the model. Thread-safe.
 class SightEarth {
  public:
   virtual ~SightEarth() = default;
-  /// The track begins and ends where sightEnd() puts the two places. Errors: invalidData for a place that the
-  /// Earth model cannot tell (beyond a projection's reach).
+  /// @return the track between two places, from sightEnd(from) to sightEnd(to). Errors: invalidData: a place
+  ///     is out of reach of the Earth model, for example of a projection's inverse.
   virtual Result<SightTrack> track(Vec2 from, Vec2 to) const = 0;
-  /// Metres along the ground between two places, which may be known where no track is. O(track).
+  /// @return metres along the ground between two places; nothing if unknown. May be known where track()
+  /// fails.
+  ///     O(track).
   virtual std::optional<double> distance(Vec2 from, Vec2 to) const;
-  /// Where all tracks are straight, distances are linear in the plan and nothing curves: metres east and
-  /// north that a step of one plan unit makes. Else nothing.
+  /// Metres east and north of a step of one plan unit along x, along y.
   struct PlaneSteps {
     Vec2 x, y;
   };
+  /// @return the steps, if all tracks are straight in plan, distances are linear in it and nothing curves.
   virtual std::optional<PlaneSteps> planeSteps() const { return std::nullopt; }
-  /// Where tracks run over geodesics, so that those from one place in one direction lie on one another, cut
-  /// into equal pieces, the fewest (2^k) in whose middles they are within an error of the geodesic: that
-  /// error, which holds for all of a piece, in plan units along x and along y. Else nothing.
+  /// @return e, in plan units along x and along y, if tracks follow geodesics: a track is a geodesic cut into
+  ///     the fewest equal legs (2^k) in whose middles the leg is within e of the geodesic, and all of each
+  ///     leg is within e. Tracks from one place in one direction then lie on one geodesic.
   virtual std::optional<double> geodesicError() const { return std::nullopt; }
 };
 
-/// A place within `margin` of a lattice line of the raster is on it: coordinates are rounded.
+/// Puts a place on the lattice lines of a raster that it is within `margin` of, since coordinates are
+/// rounded. Places of a model of points stay as they are.
 Vec2 sightEnd(const TerrainModel& model, Vec2 plan, double margin = kShortestInPlan);
 
-/// The map taken as it is: straight in plan, no curvature. Distances are those of the map in metres; of a
-/// geographic CRS, by the ground size of a sample's steps in the middle of the DEM.
+/// The map as a plane: tracks are straight in plan and nothing curves. Distances are those of the map in
+/// metres; of a geographic CRS, those of the ground size of a sample's steps in the middle of the DEM.
+/// Precondition: the model outlives the result.
 std::unique_ptr<SightEarth> makePlaneEarth(const TerrainModel& model);
 
 }  // namespace arete

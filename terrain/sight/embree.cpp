@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A coarse front of the multitriangulation, raised at each vertex by the largest bound of the triangles
-// around it, is a continuous surface nowhere below the terrain; lowered in the same way it is one nowhere
-// above. Embree (Wald et al. 2014) intersects lines with both. A line that misses the raised one is visible,
-// one that hits the lowered one is blocked, and what is between is finished by the descent.
+// around it, is a continuous surface nowhere below the terrain; lowered in the same way, one nowhere above.
+// Embree [WaldWoop2014] intersects lines with both. A line that misses the raised surface is visible, one
+// that hits the lowered surface is blocked, and every other line is answered by the descent.
 //
-// Embree computes in single precision. Plan coordinates of a raster's samples are exact in it; heights are
-// rounded outwards, and by a margin beyond that which a line whose coordinates are rounded needs on the
-// steepest triangle of the front. Lines far above or below are not for it.
+// Embree computes in single precision. Plan coordinates of a raster's samples are exact in it. Heights are
+// rounded outwards, and moved outwards by a margin: as much as the rounding of a line's coordinates changes
+// its height above the steepest triangle of the front. Lines far above or below the terrain exceed the margin
+// and are answered by the descent.
 //
-// A curved line is cut into chords. The line is convex: it runs below each chord, by at most its sag, so a
-// chord that hits the lowered surface proves that the line does, and a chord lowered by the sag that misses
-// the raised one proves that the line does. (Where the Earth bends away it is the other way round: those
-// lines go to the descent.)
+// A curved line is cut into chords. The line is convex, so it is below each chord, by at most its sag: if a
+// chord hits the lowered surface, so does the line, and if a chord lowered by the sag misses the raised
+// surface, so does the line. On a concave Earth it is the other way round; those lines are answered by the
+// descent.
 #include <embree3/rtcore.h>
 
 #include <algorithm>
@@ -29,12 +30,12 @@
 namespace arete {
 namespace {
 
-/// One node in so many makes the front.
+/// The front is that of the first 1 / kNodesPerFrontNode of the nodes.
 constexpr std::uint32_t kNodesPerFrontNode = 16;
 constexpr double kUlp = 0x1p-23;
-/// What a curved line may be away from its chords, in the DEM's vertical unit.
+/// Largest distance of a curved line from its chords, in the DEM's vertical unit.
 constexpr double kSag = 0.1;
-/// Steps from the border within which lines go to the descent: far beyond single precision.
+/// Steps from the border within which lines are answered by the descent: far more than single precision.
 constexpr double kBorder = 0.01;
 
 struct Release {
@@ -44,7 +45,7 @@ struct Release {
 using Device = std::unique_ptr<RTCDeviceTy, Release>;
 using Scene = std::unique_ptr<RTCSceneTy, Release>;
 
-/// What the front promises around each of its vertices.
+/// Bounds of the terrain around each vertex of the front: how much higher and lower it may be.
 struct Envelope {
   std::vector<double> higher, lower;
   double steepest = 0;  ///< height per sample's step
@@ -64,7 +65,8 @@ Envelope envelopeOf(const MultiTriangulation& mt, const Cut& cut) {
       envelope.lower[v] = std::max(envelope.lower[v], lower);
       p[c] = mt.position(VertexId(cut.vertices[v]));
     }
-    // Raised corners can make it steeper by what they are raised; its shortest side is a step at least.
+    // Gradient of the triangle's plane. (Raising its corners adds at most their raise per step, since its
+    // shortest side is a step at least.)
     const double x1 = p[1].x - p[0].x, y1 = p[1].y - p[0].y, x2 = p[2].x - p[0].x, y2 = p[2].y - p[0].y;
     const double z1 = std::fabs(p[1].z - p[0].z), z2 = std::fabs(p[2].z - p[0].z),
                  area = std::fabs(x1 * y2 - x2 * y1);
@@ -100,9 +102,9 @@ class SightEmbree final : public SightEngine {
   }
 
   SightAnswer answer(const SightLine& line, const SightOptions& options) const override {
-    if (options.wantsClearance || !isFor(line)) return descent_->answer(line, options);
+    if (options.wantsClearance || !isSupported(line)) return descent_->answer(line, options);
     SightAnswer answer;
-    // A line that begins above a surface without holes and does not meet it is above all of it.
+    // A line that begins above a surface without holes and does not meet it is above it everywhere.
     if (isFull_ && isInside(line) && isAboveRaised(line) && !meets(raised_.get(), line, true, answer.visited))
       return answer;
     if (!options.wantsObstruction && meets(lowered_.get(), line, false, answer.visited)) {
@@ -139,15 +141,15 @@ class SightEmbree final : public SightEngine {
     return scene;
   }
 
-  /// Whether single precision and the margin are enough for it.
-  bool isFor(const SightLine& line) const {
+  /// Whether single precision and the margin suffice for the line.
+  bool isSupported(const SightLine& line) const {
     const double away =
         std::max(std::fabs(line.fromHeight() - middle_), std::fabs(line.toHeight() - middle_));
     return !mayFill_ && line.track().curvature >= 0 && line.length() > 0 && away < reach_ &&
            line.tolerance() < margin_ / 4;
   }
 
-  /// Away from the border, where a ray along the edge of the surface may miss it.
+  /// Whether the line keeps away from the border, where a ray along the edge of the surface may miss it.
   bool isInside(const SightLine& line) const {
     return std::ranges::all_of(line.points(), [&](const SightPoint& p) {
       return p.plan.x >= kBorder && p.plan.y >= kBorder && p.plan.x <= model_.columns - 1 - kBorder &&
@@ -161,7 +163,7 @@ class SightEmbree final : public SightEngine {
     return !meets(raised_.get(), from, line.height(0) - lowest(line), from, kUp);
   }
 
-  /// What the lowest place of any chord is below the line there: chords are short, so little.
+  /// Bound of how far the line is below its chords.
   double lowest(const SightLine& line) const {
     const double chord = line.length() / chordCount(line);
     return line.sag() * chord * chord / 8;
@@ -170,7 +172,7 @@ class SightEmbree final : public SightEngine {
     return std::clamp(std::ceil(line.length() * std::sqrt(line.sag() / (8 * kSag))), 1.0, 4096.0);
   }
 
-  /// Whether some chord of the line meets the surface; lowered by the same all along, so that they join.
+  /// Whether some chord of the line meets the surface. All chords are lowered by the same, so that they join.
   bool meets(RTCSceneTy* scene, const SightLine& line, bool isBelowTheLine, std::uint64_t& visited) const {
     const double sag = isBelowTheLine ? lowest(line) : 0, perMetre = chordCount(line) / line.length();
     const auto points = line.points();
@@ -208,10 +210,10 @@ class SightEmbree final : public SightEngine {
 
   const TerrainModel& model_;
   std::unique_ptr<SightEngine> descent_;
-  bool mayFill_;  ///< the front may reach over NODATA: it proves nothing there
+  bool mayFill_;  ///< the front may extend over NODATA, where it proves nothing
   bool isFull_;
   double middle_ = 0, margin_ = 0;
-  double reach_ = 0;  ///< of heights from the middle: what the margin is enough for
+  double reach_ = 0;  ///< largest height from the middle that the margin suffices for
   Device device_;
   Scene raised_, lowered_;
 };

@@ -13,33 +13,34 @@
 
 namespace arete {
 
-/// Ways to find out what is below a sight line. All give the same answer, that of the finest triangulation
-/// (docs/topics/visibility.md); they differ in what they look at.
+/// Algorithms for lines of sight. All give the same answer, that of the finest triangulation
+/// (docs/topics/visibility.md); they differ in how much of the terrain they examine.
 enum class SightMethod {
-  automatic,  ///< the pyramid for rasters, the descent for points and for a tolerance
-  descent,    ///< down the multitriangulation, by its signed bounds
-  pyramid,    ///< rasters: blocks of cells with their highest samples, then cells
-  scan,       ///< rasters: every cell below the line
-  embree,     ///< rasters: Embree, on a front raised and one lowered by its bounds, then the descent
+  automatic,  ///< pyramid for rasters, descent for models of points
+  descent,    ///< hierarchy of triangles with signed error bounds [DeFlorianiMagillo1994]; takes a tolerance
+  pyramid,    ///< rasters: squares of cells with their highest samples [TevsIhrkeSeidel2008], then cells
+  scan,       ///< rasters: every cell below the line [AmanatidesWoo1987]
+  embree,     ///< rasters: Embree [WaldWoop2014] on a raised and a lowered front, then the descent
 };
 std::string_view toString(SightMethod method);
 
-/// Thread-safe: it is only read.
+/// Answers single lines of sight. Thread-safe.
 class SightEngine {
  public:
   virtual ~SightEngine() = default;
   virtual SightAnswer answer(const SightLine& line, const SightOptions& options) const = 0;
 };
 
-/// Preconditions: the model outlives the engine; so does the grid, which is that of the model, shared by who
-/// asks for several engines. Errors: unsupported (a method for rasters and a model of points; a tolerance and
-/// a method that has none). descent: O(root triangles); pyramid: O(samples), parallel; scan: O(1); embree:
-/// O(front log front).
+/// Makes an engine. Preparation takes, descent: O(root triangles); pyramid: O(samples), in parallel; scan:
+/// O(samples) without a grid, else O(1); embree: O(front log front).
+/// @param model outlives the engine.
+/// @param grid samples of the model, which several engines may share; null: made here if needed.
+/// @return the engine. Errors: unsupported: a method for rasters and a model of points.
 Result<std::unique_ptr<SightEngine>> makeSightEngine(SightMethod method, const TerrainModel& model,
                                                      std::shared_ptr<const SightGrid> grid = {},
                                                      const RunContext& context = {});
 
-/// The engines by themselves.
+// The engines one by one. Preconditions: those of makeSightEngine(); a raster, except for the descent.
 std::unique_ptr<SightEngine> makeSightScan(std::shared_ptr<const SightGrid> grid);
 std::unique_ptr<SightEngine> makeSightPyramid(std::shared_ptr<const SightGrid> grid,
                                               const RunContext& context = {});

@@ -19,7 +19,7 @@ double fresnelRadius(double wavelength, double distance, double length) {
 std::optional<FresnelClearance> leastFresnelClearance(const SightLine& line, const Profile& profile,
                                                       double wavelength) {
   const double length = line.length(), unit = line.heightUnitMetres();
-  // Below the ground the zone of an end is as narrow as one likes, and the fraction has no least value.
+  // Near an end below the ground the zone is arbitrarily narrow, and the fraction has no least value.
   constexpr double kBelowMetres = 1e-6;
   for (const ProfileVertex& v : profile.vertices)
     if ((v.distance <= 0 || v.distance >= length) &&
@@ -41,8 +41,8 @@ std::optional<FresnelClearance> leastFresnelClearance(const SightLine& line, con
     if (!q.isJoined || !(q.distance > p.distance)) continue;
     const double d = q.distance - p.distance, rise = (q.height - p.height) / d;
     const auto heightAt = [&](double s) { return p.height + rise * (s - p.distance); };
-    // Most stretches need no search: a clearance is at least that of its ends less the line's sag, a radius
-    // at most that of the place nearest to half way.
+    // Most stretches need no search: the clearance is at least that of the ends less the line's sag, and the
+    // radius is largest at the point nearest to half way.
     const double lowest = line.leastBound(p.distance, p.height, q.distance, q.height) * unit;
     const double widest = fresnelRadius(wavelength, std::clamp(length / 2, p.distance, q.distance), length);
     const double narrowest = std::min(fresnelRadius(wavelength, p.distance, length),

@@ -9,27 +9,30 @@
 
 namespace arete {
 
-/// Radio needs more room than light: the first Fresnel zone about the line, whose radius `s` metres from one
-/// end of a path of S metres is F1 = sqrt(lambda s (S - s) / S) (ITU-R P.526). Links are planned with 0.6 of
-/// it clear.
+/// The part of the first Fresnel zone that radio planners usually keep clear [ItuLineOfSight2021]. The zone's
+/// radius, s metres from one end of a path of S metres, is F1 = sqrt(lambda s (S - s) / S)
+/// [ItuDiffraction2019].
 inline constexpr double kUsualFresnel = 0.6;
 
-/// lambda in metres of a frequency in MHz.
+/// @return lambda in metres of a frequency in MHz.
 double wavelengthMetres(double megahertz);
 
-/// F1 in metres at a distance of `length`; 0 at the ends.
+/// @return F1 in metres, `distance` metres from one end of a path of `length` metres; 0 at the ends and
+/// beyond.
 double fresnelRadius(double wavelength, double distance, double length);
 
-/// Where the terrain comes furthest into the zone.
+/// Where the terrain reaches furthest into the zone.
 struct FresnelClearance {
-  double fraction = 0;  ///< clearance / F1; 1 = the first zone is clear, negative = the line is blocked
-  SightPlace place;     ///< where
+  double fraction = 0;  ///< clearance / F1; 1 = the terrain touches the zone, negative = the line is blocked
+  SightPlace place;
 };
 
-/// The least clearance / F1 over a path's terrain; nothing where there is none between the ends, or no
-/// length, or where an end is below the ground. An end itself has no zone. O(vertices). The least over each
-/// straight stretch of terrain is found by sections, since clearance is convex and F1 concave: to 1e-9 of the
-/// stretch where the line is clear.
+/// The least clearance / F1 along a path. Over a straight stretch of terrain the clearance is convex and F1
+/// concave, so the quotient has one minimum where the line is clear; golden section finds it to 1e-9 of the
+/// stretch. O(vertices).
+/// @param profile that of the line's track, at full resolution.
+/// @return nothing if there is no terrain between the ends, the line has no length, or an end is below the
+///     ground (the zone narrows to 0 there, so the quotient has no least value). An end itself has no zone.
 std::optional<FresnelClearance> leastFresnelClearance(const SightLine& line, const Profile& profile,
                                                       double wavelength);
 

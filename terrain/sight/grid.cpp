@@ -16,7 +16,8 @@ double SightGrid::at(Vec2 p) const {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   if (!(p.x >= 0 && p.y >= 0 && p.x <= columns_ - 1 && p.y <= rows_ - 1)) return kNone;
   const auto column = static_cast<std::uint32_t>(p.x), row = static_cast<std::uint32_t>(p.y);
-  // A place on a lattice line lies in two cells, a sample in four; any of them may hold terrain.
+  // A place on a lattice line is in two cells, a sample in four. The first of them that has terrain there is
+  // used.
   const std::uint32_t columnsBefore = p.x == column && column > 0 ? 1 : 0,
                       rowsBefore = p.y == row && row > 0 ? 1 : 0;
   for (std::uint32_t up = 0; up <= rowsBefore; ++up)

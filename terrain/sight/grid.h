@@ -10,24 +10,26 @@
 
 namespace arete {
 
-/// The finest triangulation of a raster as its samples: what engines that walk over cells read.
-/// Plan coordinates are (column, row). A cell with four valid corners is split from its upper-left to its
-/// lower-right sample, one with three is one triangle.
+/// The samples of a raster, which stand for its finest triangulation. Plan coordinates are (column, row). A
+/// cell with four valid corners is split from its upper left to its lower right sample; a cell with three is
+/// one triangle; a cell with fewer has no terrain.
 class SightGrid {
  public:
   /// Precondition: a raster model. O(samples); 8 bytes each.
   explicit SightGrid(const TerrainModel& model);
+  /// @param heights row by row; NaN = NODATA. Precondition: columns * rows of them.
   SightGrid(std::uint32_t columns, std::uint32_t rows, std::vector<double> heights);
 
   std::uint32_t columns() const { return columns_; }
   std::uint32_t rows() const { return rows_; }
-  /// NaN where there is none.
+  /// @return NaN for NODATA. Precondition: inside the raster.
   double height(std::uint32_t column, std::uint32_t row) const {
     return heights_[std::size_t{row} * columns_ + column];
   }
   const double* row(std::uint32_t row) const { return heights_.data() + std::size_t{row} * columns_; }
 
-  /// The height of the surface; NaN where there is none. A place on a border belongs to it. O(1).
+  /// @return the height of the surface; NaN where there is none. The border of a triangle belongs to it.
+  /// O(1).
   double at(Vec2 plan) const;
 
  private:
@@ -35,9 +37,9 @@ class SightGrid {
   std::vector<double> heights_;
 };
 
-/// The surface of one cell, in coordinates from its upper-left sample.
+/// The surface of one cell, by its corners; coordinates x, y from 0 to 1 are from its upper left sample.
 struct SightCell {
-  double ul, ur, ll, lr;
+  double ul, ur, ll, lr;  ///< upper left, upper right, lower left, lower right; NaN = NODATA
 
   bool isWhole() const { return !std::isnan(ul + ur + ll + lr); }
   /// Precondition: isWhole(), or three corners and the place on their triangle.
@@ -47,7 +49,7 @@ struct SightCell {
     return std::isnan(ll) || (x >= y && !std::isnan(ur)) ? ul + x * (ur - ul) + y * (lr - ur)
                                                          : ul + y * (ll - ul) + x * (lr - ll);
   }
-  /// Of a cell with three corners: positive inside of their triangle, linear in x and y.
+  /// Of a cell with three corners: positive inside of their triangle, 0 on its diagonal, linear in x and y.
   double inside(double x, double y) const {
     if (std::isnan(ul)) return x + y - 1;
     if (std::isnan(lr)) return 1 - x - y;

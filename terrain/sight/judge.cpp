@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Two things are looked for: the first place where the terrain is above the line by more than the tolerance,
-// and the place where the line is least above the terrain. Until the first is found, terrain matters when it
-// could be either; afterwards only when it could be the second.
+// The judge keeps two results: the first place where the terrain is above the line by more than the
+// tolerance, and the place of the least clearance. Until the first is found, terrain matters if it could be
+// either; afterwards only if it could be the second. limit_ expresses that: terrain matters if its clearance
+// is less.
 #include "terrain/sight/judge.h"
 
 #include <cmath>
@@ -10,8 +11,9 @@
 namespace arete {
 namespace {
 
-/// The first distance in [s0, s1] where the line is not above the terrain any more. Precondition: it is below
-/// at `inside`. Bisection: the difference falls from s0 on when it is positive there.
+/// The first distance in [s0, s1] where the line is no longer above the terrain, by bisection. Precondition:
+/// the line is below the terrain at `inside`. The difference is convex, so if it is positive at s0 it falls
+/// from there to its first zero.
 double firstUnder(const SightLine& line, double s0, double z0, double s1, double z1, double inside) {
   const double rise = s1 > s0 ? (z1 - z0) / (s1 - s0) : 0;
   double low = s0, high = inside;

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A straight line in polar coordinates about the centre of the effective Earth has as 1 / r a sum of a sine
-// and a cosine of the angle, however high it goes, where its height grows beyond any power of the distance.
-// So what is expanded is
+// In polar coordinates about the centre of the effective Earth, 1 / r of a straight line is the sum of a sine
+// and a cosine of the angle, however high it goes; its height itself grows beyond any power of the distance.
+// So the Taylor series is that of
 //
-//     w = h / (1 + k h) = (1 - 1 / r) / k,     r = 1 + k h,     w'' = k (1 - k w),
+//     w = h / (1 + k h) = (1 - 1 / r) / k,     r = 1 + k h,     w'' = k (1 - k w).
 //
-// whose Taylor coefficients all follow from a value and a slope, without the cancellation that a difference
-// of radii would have, and h = w / (1 - k w). Value and slope at the middle of each piece are the closed
-// form's. Where no end is high the series of h itself, which follow from those of w, do as well, and save a
-// division for each height that is asked for.
+// Its coefficients follow from a value and a slope, without the cancellation of a difference of radii, and
+// h = w / (1 - k w). The value and slope in the middle of each polynomial are computed by the closed form. If
+// no end is high, the series of w is turned into that of h, which saves a division per evaluation.
 #include "terrain/sight/line.h"
 
 #include <fmt/format.h>
@@ -22,20 +21,21 @@
 namespace arete {
 namespace {
 
-/// The longest piece on which the first power that is left out is worth less than 1e-9 r metres: that is
-/// radius * r * (length / (2 radius))^6 / 720.
-double longestPiece(double curvature) {
+/// The longest length of a polynomial on which the first omitted power is less than 1e-9 r metres. That power
+/// is radius * r * (length / (2 radius))^6 / 720.
+double longestPolynomial(double curvature) {
   return 60000 * std::pow(std::fabs(curvature) * 6.371e6, -5.0 / 6);
 }
 
-/// Of the effective Earth's radius: deeper heights are mistakes, and the formula of the line ends there.
+/// In radii of the effective Earth. Deeper heights are errors in the data; the line's formula ends there.
 constexpr double kDeepest = -0.5;
-/// Of the effective Earth's radius: so high the series of the height itself are good for 1e-8 m.
+/// In radii of the effective Earth. Up to here the series of the height itself is good to 1e-8 m.
 constexpr double kHigh = 2e-3;
-/// Of the Earth's curvature: lines that bend more than this somewhere bend much less elsewhere.
+/// In curvatures of the Earth. A line with a larger second derivative somewhere has a much smaller one
+/// elsewhere.
 constexpr double kSteep = 10;
 
-/// sin(k x) / k, for k = 0 too.
+/// sin(k x) / k; its limit x for k = 0.
 double sn(double k, double x) {
   const double t = k * x;
   return std::fabs(t) < 1e-9 ? x : std::sin(t) / k;
@@ -45,7 +45,7 @@ struct ValueAndSlope {
   double value, slope;
 };
 
-/// The series of h = w / (1 - k w) in place of that of w: both sides of h - k h w = w, power by power.
+/// Replaces the series of w by that of h = w / (1 - k w), comparing powers of h - k h w = w.
 void takeHeight(double k, std::array<double, 6>& c) {
   const std::array<double, 6> w = c;
   for (std::size_t n = 0; n < c.size(); ++n) {
@@ -55,7 +55,7 @@ void takeHeight(double k, std::array<double, 6>& c) {
   }
 }
 
-/// w and its derivative, in metres, from those of the ends.
+/// w and its derivative at s, in metres, from w at the ends.
 ValueAndSlope closedForm(double k, double w0, double w1, double length, double s) {
   const double whole = sn(k, length), half = sn(k, length / 2);
   const double sag = 4 * k * half * sn(k, s / 2) * sn(k, (length - s) / 2);
@@ -86,33 +86,33 @@ SightLine::SightLine(SightTrack track, double fromHeight, double toHeight, doubl
   bend_ = k * unit_;
   const auto count =
       k == 0 ? std::size_t{1}
-             : std::max(std::size_t{1}, static_cast<std::size_t>(std::ceil(length_ / longestPiece(k))));
-  pieces_.resize(count);
+             : std::max(std::size_t{1}, static_cast<std::size_t>(std::ceil(length_ / longestPolynomial(k))));
+  polynomials_.resize(count);
   if (!(length_ > 0)) {
     bend_ = 0;
-    pieces_[0].c[0] = std::min(from_, to_);
+    polynomials_[0].c[0] = std::min(from_, to_);
     return;
   }
-  piecesPerMetre_ = static_cast<double>(count) / length_;
-  if (k == 0) {  // exact at the first point
-    pieces_[0].c[0] = from_;
-    pieces_[0].c[1] = (to_ - from_) / length_;
+  polynomialsPerMetre_ = static_cast<double>(count) / length_;
+  if (k == 0) {  // expanded about the first point, so that it is exact there
+    polynomials_[0].c[0] = from_;
+    polynomials_[0].c[1] = (to_ - from_) / length_;
     return;
   }
   const double r0 = 1 + k * from_ * unit_, r1 = 1 + k * to_ * unit_;
   const double w0 = from_ * unit_ / r0, w1 = to_ * unit_ / r1;
   isHigh_ = std::fabs(k * unit_) * std::max(std::fabs(from_), std::fabs(to_)) > kHigh;
   for (std::size_t i = 0; i < count; ++i) {
-    Piece& piece = pieces_[i];
-    piece.middle = length_ * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-    const ValueAndSlope at = closedForm(k, w0, w1, length_, piece.middle);
-    piece.c[0] = at.value;
-    piece.c[1] = at.slope;
-    piece.c[2] = k * (1 - k * at.value) / 2;
-    for (std::size_t n = 3; n < piece.c.size(); ++n)
-      piece.c[n] = -k * k * piece.c[n - 2] / static_cast<double>(n * (n - 1));
-    if (!isHigh_) takeHeight(k, piece.c);
-    for (double& c : piece.c) c /= unit_;
+    Polynomial& polynomial = polynomials_[i];
+    polynomial.middle = length_ * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    const ValueAndSlope at = closedForm(k, w0, w1, length_, polynomial.middle);
+    polynomial.c[0] = at.value;
+    polynomial.c[1] = at.slope;
+    polynomial.c[2] = k * (1 - k * at.value) / 2;
+    for (std::size_t n = 3; n < polynomial.c.size(); ++n)
+      polynomial.c[n] = -k * k * polynomial.c[n - 2] / static_cast<double>(n * (n - 1));
+    if (!isHigh_) takeHeight(k, polynomial.c);
+    for (double& c : polynomial.c) c /= unit_;
   }
   if (k < 0) return;
   // h'' = k r (1 + 2 (r w')^2), and 1 / r is concave: r and the slope of w are greatest at an end.
@@ -124,9 +124,9 @@ SightLine::SightLine(SightTrack track, double fromHeight, double toHeight, doubl
 }
 
 double SightLine::slope(double s) const {
-  const Piece& piece = pieceAt(s);
-  const double r = isHigh_ ? 1 / (1 - bend_ * piece.at(s)) : 1;
-  return piece.slope(s) * r * r;
+  const Polynomial& polynomial = polynomialAt(s);
+  const double r = isHigh_ ? 1 / (1 - bend_ * polynomial.at(s)) : 1;
+  return polynomial.slope(s) * r * r;
 }
 
 double SightLine::tangentBound(double s0, double z0, double s1, double z1) const {
@@ -142,8 +142,9 @@ SightLine::Least SightLine::least(double s0, double z0, double s1, double z1) co
   const double c0 = height(s0) - z0, c1 = height(s1) - z1, d = s1 - s0;
   Least least = c0 <= c1 ? Least{c0, s0} : Least{c1, s1};
   if (sag_ == 0 || !(d > 0)) return least;
-  // Convex: inside only where it falls at the beginning and rises at the end. Newton's method, kept inside,
-  // on a slope that is all but straight; where a high line's is not, halving helps.
+  // The clearance is convex, so its minimum is inside only if it falls at s0 and rises at s1. The secant
+  // method on the slope, which is nearly linear; every third step bisects, for high lines, whose slope is
+  // not.
   const double rise = (z1 - z0) / d;
   double low = s0, high = s1, lowSlope = slope(s0) - rise, highSlope = slope(s1) - rise;
   if (!(lowSlope < 0 && highSlope > 0)) return least;

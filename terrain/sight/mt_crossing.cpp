@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The piece crosses triangles in edges. A vertex has a side of it and a place along it; an edge whose ends
-// are on different sides is crossed between their places, and the surface has the height of the edge there.
-// Both triangles of an edge take the same crossing, so nothing is lost between them but what rounding does.
+// A leg enters and leaves triangles at edges. Each vertex has a side of the leg and a parameter along it; an
+// edge whose ends are on different sides is crossed at a parameter and height interpolated between them. Both
+// triangles of an edge compute the same crossing, so their spans join except for rounding.
 #include "terrain/sight/mt_crossing.h"
 
 #include <algorithm>
@@ -10,21 +10,21 @@
 
 namespace arete {
 
-MtCrossing::MtCrossing(const TriangleLocator& locator, const SightPiece& piece)
+MtCrossing::MtCrossing(const TriangleLocator& locator, const SightLeg& leg)
     : locator_(locator),
-      piece_(piece),
-      perLength_(1 / (piece.dx * piece.dx + piece.dy * piece.dy)),
+      leg_(leg),
+      perLength_(1 / (leg.dx * leg.dx + leg.dy * leg.dy)),
       shortest_(kShortestInPlan * std::sqrt(perLength_)) {}
 
-MtCrossing::Seen MtCrossing::see(std::uint32_t vertex) const {
+MtCrossing::Projected MtCrossing::project(std::uint32_t vertex) const {
   const Vec2 p = locator_.planPosition(vertex);
-  const double x = p.x - piece_.x, y = p.y - piece_.y;
-  return {piece_.dx * y - piece_.dy * x, (piece_.dx * x + piece_.dy * y) * perLength_,
+  const double x = p.x - leg_.x, y = p.y - leg_.y;
+  return {leg_.dx * y - leg_.dy * x, (leg_.dx * x + leg_.dy * y) * perLength_,
           locator_.mt().vertices().height(VertexId(vertex))};
 }
 
-void MtCrossing::add(std::uint32_t triangle, const Seen& a, const Seen& b, const Seen& c, double first,
-                     double last, std::vector<TriangleSpan>& spans) const {
+void MtCrossing::add(std::uint32_t triangle, const Projected& a, const Projected& b, const Projected& c,
+                     double first, double last, std::vector<TriangleSpan>& spans) const {
   if ((a.side > 0 && b.side > 0 && c.side > 0) || (a.side < 0 && b.side < 0 && c.side < 0)) return;
   TriangleSpan span{HUGE_VAL, -HUGE_VAL, 0, 0, triangle};
   const auto meet = [&span](double t, double z) {
@@ -37,7 +37,7 @@ void MtCrossing::add(std::uint32_t triangle, const Seen& a, const Seen& b, const
       span.z1 = z;
     }
   };
-  const auto cross = [&meet](const Seen& p, const Seen& q) {
+  const auto cross = [&meet](const Projected& p, const Projected& q) {
     if (p.side == 0) meet(p.along, p.z);
     if (!((p.side < 0 && q.side > 0) || (p.side > 0 && q.side < 0))) return;
     const double f = p.side / (p.side - q.side);
@@ -53,10 +53,10 @@ void MtCrossing::add(std::uint32_t triangle, const Seen& a, const Seen& b, const
 
 void MtCrossing::addRoots(std::vector<TriangleSpan>& spans) const {
   std::vector<std::uint32_t> roots;
-  locator_.roots().along({piece_.x, piece_.y}, {piece_.x + piece_.dx, piece_.y + piece_.dy}, roots);
+  locator_.roots().along({leg_.x, leg_.y}, {leg_.x + leg_.dx, leg_.y + leg_.dy}, roots);
   for (const std::uint32_t r : roots) {
     const auto& corners = locator_.mt().arrays().rootTriangles[r];
-    add(r, see(corners[0]), see(corners[1]), see(corners[2]), 0, 1, spans);
+    add(r, project(corners[0]), project(corners[1]), project(corners[2]), 0, 1, spans);
   }
 }
 
@@ -65,11 +65,11 @@ void MtCrossing::addStar(std::uint32_t node, double first, double last,
   const MtArrays& arrays = locator_.mt().arrays();
   const std::uint32_t begin = arrays.slotBegin[node], end = arrays.slotBegin[node + 1];
   const std::uint32_t roots = locator_.mt().rootTriangleCount();
-  const Seen apex = see(arrays.rootVertices + node), firstLink = see(arrays.link[begin]);
-  Seen p = firstLink;
+  const Projected apex = project(arrays.rootVertices + node), firstLink = project(arrays.link[begin]);
+  Projected p = firstLink;
   for (std::uint32_t slot = begin; slot < end; ++slot) {
-    const Seen q = slot + 1 < end ? see(arrays.link[slot + 1]) : firstLink;
-    // The last slot of an open star is no triangle.
+    const Projected q = slot + 1 < end ? project(arrays.link[slot + 1]) : firstLink;
+    // The last slot of an open star is not a triangle.
     if (slot + 1 < end || arrays.remover[roots + slot] != node)
       add(roots + slot, apex, p, q, first, last, spans);
     p = q;

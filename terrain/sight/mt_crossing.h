@@ -10,14 +10,14 @@
 
 namespace arete {
 
-/// Where a straight piece in plan passes a triangle: parameters of the piece, and the heights of the plane
-/// there.
+/// The part of a leg over one triangle: parameters of the leg, and the heights of the triangle's plane there.
 struct TriangleSpan {
   double t0, t1, z0, z1;
   std::uint32_t triangle;
 
+  /// @return the height at t; z0 if the span has no length.
   double at(double t) const { return t1 > t0 ? z0 + (z1 - z0) * ((t - t0) / (t1 - t0)) : z0; }
-  /// Leaves what is within [first, last].
+  /// Clips to [first, last].
   void cut(double first, double last) {
     const TriangleSpan whole = *this;
     if (whole.t0 < first) {
@@ -31,37 +31,37 @@ struct TriangleSpan {
   }
 };
 
-/// The triangles of a multitriangulation that a piece passes: those of the root, and those of the star that
-/// stands where a node removed others. Keeps references to both.
+/// The triangles of a multitriangulation below a leg: the root's, and those of the star that a node puts in
+/// the place of the triangles it removes. Keeps references to its arguments.
 class MtCrossing {
  public:
-  /// Precondition: the piece has a length in plan.
-  MtCrossing(const TriangleLocator& locator, const SightPiece& piece);
+  /// Precondition: the leg has a length in plan.
+  MtCrossing(const TriangleLocator& locator, const SightLeg& leg);
 
-  /// Appends the spans of the root triangles. O(root triangles near the piece).
+  /// Appends the spans of the root triangles. O(root triangles near the leg).
   void addRoots(std::vector<TriangleSpan>& spans) const;
   /// Appends the spans within [first, last] of the triangles of a node's star. O(degree).
   void addStar(std::uint32_t node, double first, double last, std::vector<TriangleSpan>& spans) const;
-  /// In the order in which the piece enters them, the longer first.
+  /// Sorts by where the leg enters the triangles; of those that it enters together, the longest comes first.
   static void sort(std::span<TriangleSpan> spans);
 
-  /// Of the piece's parameter: less is rounding.
+  /// @return differences of the leg's parameter below this are rounding.
   double shortest() const { return shortest_; }
 
  private:
-  /// A vertex as the piece sees it.
-  struct Seen {
-    double side;   ///< of the piece, scaled
-    double along;  ///< the parameter of the nearest place on it
+  /// A vertex relative to the leg.
+  struct Projected {
+    double side;   ///< distance from the leg, scaled; its sign tells the side
+    double along;  ///< parameter of its perpendicular foot
     double z;
   };
 
-  Seen see(std::uint32_t vertex) const;
-  void add(std::uint32_t triangle, const Seen& a, const Seen& b, const Seen& c, double first, double last,
-           std::vector<TriangleSpan>& spans) const;
+  Projected project(std::uint32_t vertex) const;
+  void add(std::uint32_t triangle, const Projected& a, const Projected& b, const Projected& c, double first,
+           double last, std::vector<TriangleSpan>& spans) const;
 
   const TriangleLocator& locator_;
-  const SightPiece& piece_;
+  const SightLeg& leg_;
   double perLength_, shortest_;
 };
 

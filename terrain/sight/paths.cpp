@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Clutter changes the terrain, which the engines have prepared for: its lines are judged over whole profiles.
+// Engines are prepared for the terrain alone. With clutter, a line is evaluated over its whole profile,
+// raised by the clutter.
 #include "terrain/sight/paths.h"
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ namespace {
 
 constexpr std::size_t kPathsPerTask = 8;
 
-/// The profile with the clutter on it: steps where it begins and ends.
+/// The profile raised by the clutter, with steps where that begins and ends.
 Profile withClutter(const Profile& profile, const SightClutter& clutter) {
   Profile high = profile;
   high.vertices.clear();
@@ -66,15 +67,16 @@ Profile withClutter(const Profile& profile, const SightClutter& clutter) {
   return high;
 }
 
-/// The judge, told all of a profile. Ends that stand on a corner of the terrain alone are not in it.
+/// The judge's answer for a whole profile. Ends that stand on a single point of the terrain are not in a
+/// profile.
 SightAnswer judged(const SightLine& line, const Profile& profile, const SurfaceHeights& heights,
                    const SightOptions& options) {
   SightJudge judge(line, options);
-  const auto tellEnd = [&](const SightPoint& end) {
+  const auto addEnd = [&](const SightPoint& end) {
     if (const auto ground = heights.at(heights.model().toSource(end.plan)))
       judge.terrain(end.distance, ground->height, end.distance, ground->height);
   };
-  tellEnd(line.points().front());
+  addEnd(line.points().front());
   const double shortest = 1e-9 * profile.length;
   double done = 0;
   for (std::size_t i = 0; i < profile.vertices.size() && !judge.isDone(); ++i) {
@@ -88,7 +90,7 @@ SightAnswer judged(const SightLine& line, const Profile& profile, const SurfaceH
     done = q.distance;
   }
   if (profile.vertices.empty() || profile.length > done + shortest) judge.gap(done, profile.length);
-  tellEnd(line.points().back());
+  addEnd(line.points().back());
   return judge.answer(profile.vertices.size());
 }
 

@@ -17,50 +17,54 @@
 
 namespace arete {
 
-/// One line of sight that is asked for.
+/// A path to evaluate: two antennas, or an observer and a target.
 struct SightPath {
   Vec2 from, to;                        ///< plan coordinates; see sightPlan()
   double fromHeight = 0, toHeight = 0;  ///< in the DEM's vertical unit, from the DEM's own zero
 };
 
-/// Plan coordinates of a place in source coordinates, as lines of sight take them: longitudes are brought to
-/// the turn that the DEM lies in, and what is within SurfaceHeights::margin() of a lattice line is put on it.
+/// @param xy source coordinates.
+/// @return the plan coordinates that paths use: longitudes are brought to the turn that the DEM lies in, and
+///     places within SurfaceHeights::margin() of a lattice line are put on it.
 Vec2 sightPlan(const TerrainModel& model, Vec2 xy);
 
-/// What grows on the terrain or is built on it, added to its height.
+/// Vegetation and buildings, added to the height of the terrain.
 struct SightClutter {
-  /// In the DEM's vertical unit, at a plan position; the same all over the stretch that it is asked in the
-  /// middle of. Thread-safe. Empty = no clutter.
+  /// Height above the terrain in the DEM's vertical unit, at a plan position. Evaluated in the middle of each
+  /// stretch and used for all of it. Thread-safe. Empty = no clutter.
   std::function<double(Vec2)> height;
-  double stepMetres = 0;  ///< stretches are cut so that none is longer; 0 = the height is one everywhere
-  double freeMetres = 0;  ///< none this close to either end, measured along the ground
+  double stepMetres = 0;  ///< length of the longest stretch; 0 = the height is the same everywhere
+  double freeMetres = 0;  ///< metres along the ground from either end that have no clutter
 };
 
 struct SightPathOptions {
   SightOptions sight;
-  double frequencyMegahertz = 0;  ///< > 0: the Fresnel zone as well, at full resolution
-  SightClutter clutter;           ///< answered from full profiles; no tolerance then
+  double frequencyMegahertz = 0;  ///< > 0: the Fresnel zone too, at full resolution
+  SightClutter clutter;           ///< lines are then evaluated over whole profiles, without a tolerance
 };
 
-/// What a radio planner wants to know of a path.
+/// The answer for one path.
 struct SightPathAnswer {
   SightAnswer sight;
   double distanceMetres = 0;    ///< along the ground
   double azimuthDegrees = 0;    ///< at the first end, clockwise from north
-  double elevationDegrees = 0;  ///< of the target over the horizontal of the first end, without refraction
-  std::optional<FresnelClearance> fresnel;
+  double elevationDegrees = 0;  ///< of the second end over the horizontal of the first, without refraction
+  std::optional<FresnelClearance> fresnel;  ///< leastFresnelClearance(), if a frequency is given
 };
 
-/// A line over the Earth between the ends of a path. Errors: those of SightEarth::track(); invalidData for
-/// heights that are not finite or so far below the ground that no line is straight.
+/// @return the sight line between the ends of a path. Errors: those of SightEarth::track() and
+///     checkSightHeights().
 Result<SightLine> sightLine(const SightPath& path, const SightEarth& earth, const TerrainModel& model);
 
-/// Answers for one path. `profiles` is needed for a Fresnel zone and for clutter. O(engine).
+/// Answers one path. O(engine), and O(profile) for a Fresnel zone or clutter.
+/// @param profiles of the engine's model.
+/// @return Errors: those of sightLine().
 Result<SightPathAnswer> answerPath(const SightPath& path, const SightEarth& earth, const SightEngine& engine,
                                    const Profiles& profiles, const SightPathOptions& options);
 
-/// Answers for many, in their order, in parallel, the same for any number of threads. A path that has no line
-/// has an error of its own. Errors: interrupted.
+/// Answers many paths in parallel; the same for any number of threads.
+/// @return one result per path, in their order, each an answer or an error of answerPath(). Errors:
+/// interrupted.
 Result<std::vector<Result<SightPathAnswer>>> answerPaths(std::span<const SightPath> paths,
                                                          const SightEarth& earth, const SightEngine& engine,
                                                          const Profiles& profiles,

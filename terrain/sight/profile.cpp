@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The spans of the track over the triangles of a node's star are sorted, and each is followed down in its
-// turn, so stretches come out in order. What two triangles both claim (the track runs along their edge) goes
-// to the first. A triangle that says enough, by its bound or because nothing is finer, is a stretch.
+// The spans of a leg over the triangles of a node's star are sorted, and each is refined in turn, so
+// stretches are found in order. If the track runs along an edge, both its triangles have the span; the first
+// keeps it. A triangle whose bound is within the tolerance, or that is never removed, is a stretch.
 //
-// A raster at full resolution needs no descent: the walk over its cells gives the same stretches, in about an
+// A raster at full resolution needs no descent: walking over its cells gives the same stretches, in about an
 // eightieth of the time.
 #include "terrain/sight/profile.h"
 
@@ -24,9 +24,9 @@ using Stretch = TriangleSpan;
 
 class Descent {
  public:
-  Descent(const TriangleLocator& locator, const SightPiece& piece, OutwardScale::Code allowed, bool mayFill,
+  Descent(const TriangleLocator& locator, const SightLeg& leg, OutwardScale::Code allowed, bool mayFill,
           std::vector<Stretch>& stretches)
-      : crossing_(locator, piece),
+      : crossing_(locator, leg),
         arrays_(locator.mt().arrays()),
         allowed_(allowed),
         mayFill_(mayFill),
@@ -38,13 +38,13 @@ class Descent {
   }
 
  private:
-  bool saysEnough(std::uint32_t triangle) const {
+  bool isFineEnough(std::uint32_t triangle) const {
     return arrays_.remover[triangle] == MultiTriangulation::kNone ||
            (!mayFill_ && allowed_ > 0 &&
             std::max(arrays_.below[triangle], arrays_.above[triangle]) <= allowed_);
   }
 
-  /// Takes the spans from `begin` on, as far as they are beyond `done`, and drops them.
+  /// Treats the spans from `begin` on, as far as they are beyond `done`; then removes them.
   void follow(std::size_t begin, double done) {
     MtCrossing::sort(std::span(spans_).subspan(begin));
     const std::size_t end = spans_.size();
@@ -53,15 +53,15 @@ class Descent {
       if (span.t1 <= done) continue;
       span.cut(done, span.t1);
       done = span.t1;
-      if (saysEnough(span.triangle)) {
+      if (isFineEnough(span.triangle)) {
         stretches_.push_back(span);
         continue;
       }
-      // Neighbours that the same node removes are followed together.
+      // Adjacent spans that the same node removes are refined together.
       const std::uint32_t node = arrays_.remover[span.triangle];
       for (; i < end && spans_[i].t0 <= done + crossing_.shortest(); ++i) {
         if (spans_[i].t1 <= done) continue;
-        if (arrays_.remover[spans_[i].triangle] != node || saysEnough(spans_[i].triangle)) break;
+        if (arrays_.remover[spans_[i].triangle] != node || isFineEnough(spans_[i].triangle)) break;
         done = spans_[i].t1;
       }
       star(node, span.t0, done);
@@ -70,9 +70,9 @@ class Descent {
   }
 
   void star(std::uint32_t node, double first, double last) {
-    const std::size_t mine = spans_.size();
+    const std::size_t begin = spans_.size();
     crossing_.addStar(node, first, last, spans_);
-    follow(mine, first);
+    follow(begin, first);
   }
 
   MtCrossing crossing_;
@@ -83,8 +83,8 @@ class Descent {
   std::vector<Stretch>& stretches_;
 };
 
-/// Takes the stretches of a walk over cells. Where the line passes a sample, rounding leaves slivers of the
-/// cells around; they are left to their neighbours.
+/// A sink (CellWalk) that collects stretches. Near a sample, rounding leaves slivers of the cells around it;
+/// they are merged into their neighbours.
 struct CellStretches {
   std::vector<Stretch>& stretches;
   double shortest;
@@ -106,23 +106,23 @@ struct CellStretches {
   bool isDone() const { return false; }
 };
 
-void walk(const SightGrid& grid, const SightPiece& piece, double shortest, std::vector<Stretch>& stretches) {
+void walk(const SightGrid& grid, const SightLeg& leg, double shortest, std::vector<Stretch>& stretches) {
   if (grid.columns() < 2 || grid.rows() < 2) return;  // no cell
-  const SightRange range = rangeOver(piece, grid.columns() - 1, grid.rows() - 1);
+  const SightRange range = rangeOver(leg, grid.columns() - 1, grid.rows() - 1);
   CellStretches sink{stretches, shortest};
-  if (range.first <= range.last) walkCells(grid, piece, range, sink);
+  if (range.first <= range.last) walkCells(grid, leg, range, sink);
 }
 
-/// Joins what was cut where no edge is. A node with several parents is entered below each of them, for the
-/// part of the piece that is theirs, so its triangles come in parts. A piece that runs along edges is claimed
-/// by triangles of either side, in turns; where a raster has edges at all is known.
-void joinParts(const SightPiece& piece, bool isFinestRaster, double shortest,
-               std::vector<Stretch>& stretches) {
+/// Joins stretches that were cut where there is no edge. A node with several parents is entered below each of
+/// them, for the part of the leg that is below the parent, so its triangles come in parts. A leg that runs
+/// along edges has stretches of triangles on either side in turn; of a raster, the crossings of edges are
+/// known.
+void joinParts(const SightLeg& leg, bool isFinestRaster, double shortest, std::vector<Stretch>& stretches) {
   constexpr double kOnLine = 1e-6;
   const auto isCrossing = [&](double t) {
-    const double x = piece.x + t * piece.dx, y = piece.y + t * piece.dy;
+    const double x = leg.x + t * leg.dx, y = leg.y + t * leg.dy;
     const auto meets = [](double v, double d) { return d != 0 && std::abs(v - std::round(v)) < kOnLine; };
-    return meets(x, piece.dx) || meets(y, piece.dy) || meets(x - y, piece.dx - piece.dy);
+    return meets(x, leg.dx) || meets(y, leg.dy) || meets(x - y, leg.dx - leg.dy);
   };
   std::size_t kept = 0;
   for (std::size_t i = 1; i < stretches.size(); ++i) {
@@ -139,21 +139,23 @@ void joinParts(const SightPiece& piece, bool isFinestRaster, double shortest,
   if (!stretches.empty()) stretches.resize(kept + 1);
 }
 
-/// Appends what is below one piece, which ends at a distance of `end`. isOpen: the last vertex is where the
-/// piece begins. Says whether there is terrain where it ends.
-bool append(Profile& profile, const SightPiece& piece, double end, std::span<const Stretch> stretches,
+/// Appends the terrain below one leg to the profile.
+/// @param end distance of the leg's end.
+/// @param isOpen the profile's last vertex is where the leg begins.
+/// @return whether there is terrain where the leg ends.
+bool append(Profile& profile, const SightLeg& leg, double end, std::span<const Stretch> stretches,
             double shortest, bool isOpen) {
   auto& vertices = profile.vertices;
   const auto vertexAt = [&](double t, double z, bool isJoined) {
-    return ProfileVertex{piece.distance(t), {piece.x + t * piece.dx, piece.y + t * piece.dy}, z, isJoined};
+    return ProfileVertex{leg.distance(t), {leg.x + t * leg.dx, leg.y + t * leg.dy}, z, isJoined};
   };
   double done = 0;
   for (const Stretch& s : stretches) {
     if (s.t0 > done + shortest) {
-      profile.gapMetres += piece.ds * (s.t0 - done);
+      profile.gapMetres += leg.ds * (s.t0 - done);
       isOpen = false;
     }
-    // By rounding a vertex may come twice, a hair apart.
+    // Rounding may give one vertex twice, slightly apart.
     const bool isSame = isOpen && std::abs(vertices.back().height - s.z0) <=
                                       1e-9 * (1 + std::abs(s.z0) + std::abs(s.z1 - s.z0));
     if (!isSame) vertices.push_back(vertexAt(isOpen ? std::max(s.t0, done) : s.t0, s.z0, isOpen));
@@ -162,7 +164,7 @@ bool append(Profile& profile, const SightPiece& piece, double end, std::span<con
     done = s.t1;
   }
   if (1 > done + shortest) {
-    profile.gapMetres += piece.ds * (1 - done);
+    profile.gapMetres += leg.ds * (1 - done);
     return false;
   }
   if (isOpen) vertices.back().distance = end;
@@ -185,21 +187,21 @@ Profile Profiles::along(const SightTrack& track, double maxError) const {
   std::vector<Stretch> stretches;
   bool isOpen = false;
   for (std::size_t i = 1; i < track.points.size(); ++i) {
-    const SightPiece piece(track.points[i - 1], track.points[i]);
-    const double plan = std::hypot(piece.dx, piece.dy);
-    if (!(piece.ds > 0)) continue;
+    const SightLeg leg(track.points[i - 1], track.points[i]);
+    const double plan = std::hypot(leg.dx, leg.dy);
+    if (!(leg.ds > 0)) continue;
     stretches.clear();
     const double shortest = plan > 0 ? kShortestInPlan / plan : 0;
     if (!(plan > 0)) {
       if (const auto height = heights_.at(model.toSource(track.points[i].plan)))
         stretches.push_back({0, 1, height->height, height->height, 0});
     } else if (grid_ && allowed == 0) {
-      walk(*grid_, piece, shortest, stretches);
+      walk(*grid_, leg, shortest, stretches);
     } else {
-      Descent(heights_.locator(), piece, allowed, model.options.rimTolerance > 0, stretches).run();
-      joinParts(piece, model.isRaster && allowed == 0, shortest, stretches);
+      Descent(heights_.locator(), leg, allowed, model.options.rimTolerance > 0, stretches).run();
+      joinParts(leg, model.isRaster && allowed == 0, shortest, stretches);
     }
-    isOpen = append(profile, piece, track.points[i].distance, stretches, shortest, isOpen);
+    isOpen = append(profile, leg, track.points[i].distance, stretches, shortest, isOpen);
   }
   return profile;
 }

@@ -15,33 +15,34 @@ struct ProfileVertex {
   double distance = 0;  ///< metres along the ground
   Vec2 plan;
   double height = 0;      ///< in the DEM's vertical unit
-  bool isJoined = false;  ///< terrain runs straight from the vertex before to this one; else there is none
+  bool isJoined = false;  ///< terrain is straight from the vertex before to this one; else there is a gap
 };
 
-/// The terrain below a track: straight between vertices that are joined. Distances rise; two vertices at one
-/// distance and different heights are where triangles of different detail meet (a tolerance), which are no
-/// further apart than both their bounds.
+/// The terrain below a track: straight between joined vertices. Distances rise. With a tolerance, two
+/// vertices may have one distance and different heights, where triangles of different detail meet; they are
+/// no further apart than the two triangles' bounds together.
 struct Profile {
   std::vector<ProfileVertex> vertices;
-  double length = 0;     ///< metres
-  double gapMetres = 0;  ///< of it without terrain
+  double length = 0;     ///< metres along the ground
+  double gapMetres = 0;  ///< how much of the length has no terrain
 };
 
-/// Takes profiles: from the root triangles below a track down through the multitriangulation, to the finest
-/// triangles or to the first whose bound is within a tolerance; or, given the samples of a raster, over its
-/// cells where no tolerance is allowed. Every crossing of an edge is a vertex.
-///
-/// Keeps a reference to the model. Thread-safe: it is only read.
+/// Computes profiles. With a tolerance, or without the samples of a raster, from the root triangles below a
+/// track down through the multitriangulation, to the first triangles whose bound is within the tolerance;
+/// else over the cells of the raster. Every crossing of an edge is a vertex. Thread-safe.
 class Profiles {
  public:
-  /// grid: that of the model, shared by who has one; may be null. O(root triangles). Precondition: the model
-  /// outlives this.
+  /// O(root triangles).
+  /// @param model outlives this.
+  /// @param grid the model's samples, possibly shared; may be null.
   explicit Profiles(const TerrainModel& model, std::shared_ptr<const SightGrid> grid = {})
       : heights_(model), grid_(std::move(grid)) {}
 
-  /// maxError: in the DEM's vertical unit; the profile is within it of full resolution everywhere. 0 = full
-  /// resolution. A track without length gives the one vertex of its place, or none. O(vertices * depth *
-  /// degree), over cells O(vertices).
+  /// O(vertices * depth * degree), over cells O(vertices).
+  /// @param maxError in the DEM's vertical unit: the profile is within it of full resolution everywhere; 0 =
+  /// full
+  ///     resolution.
+  /// @return the profile; of a track without length, one vertex, or none where there is no terrain.
   Profile along(const SightTrack& track, double maxError = 0) const;
 
   const SurfaceHeights& heights() const { return heights_; }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Squares of 8 x 8 cells know the highest of their samples, squares of 4 x 4 of those the highest of theirs,
-// and so on. From the first end of the line to the last, a square below the line is passed over as a whole;
-// one that may matter is entered, down to its cells (Tevs, Ihrke, Seidel 2008, for rays through
-// heightfields).
+// The pyramid stores the highest sample of each square of 8 x 8 cells, of each 4 x 4 of these squares, and so
+// on. From the first end of the line to the last, a square that is below the line is skipped as a whole; one
+// that may matter is entered, down to its cells. (Maximum mipmaps for rays through heightfields:
+// [TevsIhrkeSeidel2008].)
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -103,8 +103,8 @@ class SightPyramid final : public SightEngine {
     return level;
   }
 
-  /// A few heights along the line, from which the least clearance cannot be far, so that most of the rest is
-  /// passed over at once.
+  /// Gives the judge a few heights along the line. The least clearance is probably close to theirs, so most
+  /// of the rest is skipped.
   void hint(const SightLine& line, SightJudge& judge) const {
     for (int i = 0; i <= kHints; ++i) {
       const double s = line.length() * (i / double{kHints});
@@ -113,25 +113,25 @@ class SightPyramid final : public SightEngine {
   }
 
   void pass(SightJudge& judge, std::uint64_t& visited) const {
-    forPieces(*grid_, judge, [&](const SightPiece& piece, SightRange range) {
-      enter(levels_.size() - 1, piece, range, judge, visited);
+    forLegs(*grid_, judge, [&](const SightLeg& leg, SightRange range) {
+      enter(levels_.size() - 1, leg, range, judge, visited);
     });
   }
 
-  void enter(std::size_t which, const SightPiece& piece, SightRange range, SightJudge& judge,
+  void enter(std::size_t which, const SightLeg& leg, SightRange range, SightJudge& judge,
              std::uint64_t& visited) const {
     const Level& level = levels_[which];
-    forSquares(piece, range, level.size, static_cast<int>(level.columns), static_cast<int>(level.rows),
+    forSquares(leg, range, level.size, static_cast<int>(level.columns), static_cast<int>(level.rows),
                [&](int column, int row, double t0, double t1) {
                  ++visited;
                  const std::size_t at = level.at(column, row);
                  const double top = level.top[at];
-                 if (!judge.matters(piece.distance(t0), top, piece.distance(t1), top, level.hasGaps[at] != 0))
+                 if (!judge.matters(leg.distance(t0), top, leg.distance(t1), top, level.hasGaps[at] != 0))
                    return true;
                  if (which == 0) {
-                   visited += judgeCells(*grid_, piece, {t0, t1}, judge);
+                   visited += judgeCells(*grid_, leg, {t0, t1}, judge);
                  } else {
-                   enter(which - 1, piece, {t0, t1}, judge, visited);
+                   enter(which - 1, leg, {t0, t1}, judge, visited);
                  }
                  return !judge.isDone();
                });

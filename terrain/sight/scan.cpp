@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Every cell below the line, from its first end to its last: nothing is passed over.
+// Visits every cell below the line, from its first end to its last.
 #include <utility>
 
 #include "terrain/sight/engine.h"
@@ -16,9 +16,8 @@ class SightScan final : public SightEngine {
   SightAnswer answer(const SightLine& line, const SightOptions& options) const override {
     SightJudge judge(line, options);
     std::uint64_t visited = 0;
-    forPieces(*grid_, judge, [&](const SightPiece& piece, SightRange range) {
-      visited += judgeCells(*grid_, piece, range, judge);
-    });
+    forLegs(*grid_, judge,
+            [&](const SightLeg& leg, SightRange range) { visited += judgeCells(*grid_, leg, range, judge); });
     return judge.answer(visited);
   }
 

@@ -8,21 +8,21 @@
 namespace arete {
 namespace {
 
-/// Puts the walk's parameters into the judge's distances.
+/// Converts parameters of the leg to the judge's distances.
 struct JudgeSink {
-  const SightPiece& piece;
+  const SightLeg& leg;
   SightJudge& judge;
 
   void terrain(double t0, double z0, double t1, double z1) {
-    judge.terrain(piece.distance(t0), z0, piece.distance(t1), z1);
+    judge.terrain(leg.distance(t0), z0, leg.distance(t1), z1);
   }
-  void gap(double t0, double t1) { judge.gap(piece.distance(t0), piece.distance(t1)); }
+  void gap(double t0, double t1) { judge.gap(leg.distance(t0), leg.distance(t1)); }
   bool isDone() const { return judge.isDone(); }
 };
 
 }  // namespace
 
-SightRange rangeOver(const SightPiece& piece, double xMax, double yMax) {
+SightRange rangeOver(const SightLeg& leg, double xMax, double yMax) {
   SightRange range;
   const auto clip = [&](double p, double d, double high) {
     if (d == 0) {
@@ -33,15 +33,14 @@ SightRange rangeOver(const SightPiece& piece, double xMax, double yMax) {
     range.first = std::max(range.first, std::min(a, b));
     range.last = std::min(range.last, std::max(a, b));
   };
-  clip(piece.x, piece.dx, xMax);
-  clip(piece.y, piece.dy, yMax);
+  clip(leg.x, leg.dx, xMax);
+  clip(leg.y, leg.dy, yMax);
   return range;
 }
 
-std::uint64_t judgeCells(const SightGrid& grid, const SightPiece& piece, SightRange range,
-                         SightJudge& judge) {
-  JudgeSink sink{piece, judge};
-  return walkCells(grid, piece, range, sink);
+std::uint64_t judgeCells(const SightGrid& grid, const SightLeg& leg, SightRange range, SightJudge& judge) {
+  JudgeSink sink{leg, judge};
+  return walkCells(grid, leg, range, sink);
 }
 
 }  // namespace arete

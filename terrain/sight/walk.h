@@ -11,13 +11,13 @@
 
 namespace arete {
 
-/// A straight piece of a sight line over the plan: at parameter t in [0, 1] it is at (x + t dx, y + t dy) and
-/// at the distance s + t ds.
-struct SightPiece {
+/// A straight leg of a track: at the parameter t in [0, 1] it is at (x + t dx, y + t dy) in plan and at the
+/// distance s + t ds.
+struct SightLeg {
   double x = 0, y = 0, dx = 0, dy = 0;
   double s = 0, ds = 0;
 
-  SightPiece(const SightPoint& from, const SightPoint& to)
+  SightLeg(const SightPoint& from, const SightPoint& to)
       : x(from.plan.x),
         y(from.plan.y),
         dx(to.plan.x - from.plan.x),
@@ -30,7 +30,7 @@ struct SightPiece {
   double distance(double t) const { return s + t * ds; }
 
  private:
-  /// A piece that is nowhere off a lattice line by more than rounding runs along it.
+  /// Puts a leg onto a lattice line if it is nowhere off it by more than rounding.
   static void putOnLine(double& at, double& step) {
     const double line = std::round(at);
     if (std::fabs(at - line) > kShortestInPlan || std::fabs(at + step - line) > kShortestInPlan) return;
@@ -39,34 +39,38 @@ struct SightPiece {
   }
 };
 
-/// The part [first, last] of the piece's parameters over the box (0, 0)..(xMax, yMax), the border included;
-/// first > last where there is none.
+/// Parameters [first, last] of a leg; empty if first > last.
 struct SightRange {
   double first = 0, last = 1;
 };
-SightRange rangeOver(const SightPiece& piece, double xMax, double yMax);
+/// @return the part of the leg over the box from (0, 0) to (xMax, yMax), its border included.
+SightRange rangeOver(const SightLeg& leg, double xMax, double yMax);
 
-/// The squares of a lattice of `size` plan units that a line going that way is in from p on; of `count`.
+/// @param p coordinate in plan units.
+/// @param direction sign of the way from there.
+/// @param size plan units along a square's side.
+/// @param count number of squares; the result is clamped to them.
+/// @return the number of the square that a line is in from p on.
 inline int squareAt(double p, double direction, double size, int count) {
   const double place = p / size, below = std::floor(place);
   const int square = static_cast<int>(below) - (direction < 0 && below == place ? 1 : 0);
   return std::clamp(square, 0, count - 1);
 }
 
-/// Calls visit(column, row, t0, t1) for the squares under the part `range` of a piece, in order, until it
-/// says false (Amanatides and Woo 1987). Precondition: the piece has a length in plan.
+/// Calls visit(column, row, t0, t1) for the squares below the part `range` of a leg, in order, until it
+/// returns false [AmanatidesWoo1987]. Precondition: the leg has a length in plan. O(squares).
 template <class Visit>
-void forSquares(const SightPiece& piece, SightRange range, double size, int columns, int rows,
+void forSquares(const SightLeg& leg, SightRange range, double size, int columns, int rows,
                 const Visit& visit) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  const int columnStep = piece.dx < 0 ? -1 : 1, rowStep = piece.dy < 0 ? -1 : 1;
-  int column = squareAt(piece.x + range.first * piece.dx, piece.dx, size, columns);
-  int row = squareAt(piece.y + range.first * piece.dy, piece.dy, size, rows);
-  const double perX = 1 / piece.dx, perY = 1 / piece.dy;
+  const int columnStep = leg.dx < 0 ? -1 : 1, rowStep = leg.dy < 0 ? -1 : 1;
+  int column = squareAt(leg.x + range.first * leg.dx, leg.dx, size, columns);
+  int row = squareAt(leg.y + range.first * leg.dy, leg.dy, size, rows);
+  const double perX = 1 / leg.dx, perY = 1 / leg.dy;
   double t = range.first;
   while (t <= range.last) {
-    const double tx = piece.dx == 0 ? kNever : ((column + (columnStep > 0 ? 1 : 0)) * size - piece.x) * perX;
-    const double ty = piece.dy == 0 ? kNever : ((row + (rowStep > 0 ? 1 : 0)) * size - piece.y) * perY;
+    const double tx = leg.dx == 0 ? kNever : ((column + (columnStep > 0 ? 1 : 0)) * size - leg.x) * perX;
+    const double ty = leg.dy == 0 ? kNever : ((row + (rowStep > 0 ? 1 : 0)) * size - leg.y) * perY;
     const double end = std::max(t, std::min(std::min(tx, ty), range.last));
     if (!visit(column, row, t, end) || !(end < range.last)) return;
     if (tx <= end) column += columnStep;
@@ -76,44 +80,45 @@ void forSquares(const SightPiece& piece, SightRange range, double size, int colu
   }
 }
 
-/// Tells the judge all terrain and all gaps below the part of a piece inside the grid, cell by cell, in
-/// order: walkCells() of terrain/sight/cells.h. Returns how many cells it looked at.
-std::uint64_t judgeCells(const SightGrid& grid, const SightPiece& piece, SightRange range, SightJudge& judge);
+/// Reports to the judge all terrain and all gaps below the part `range` of a leg, cell by cell, in order, by
+/// walkCells() of terrain/sight/cells.h. Precondition: the range is over the grid.
+/// @return the number of cells visited.
+std::uint64_t judgeCells(const SightGrid& grid, const SightLeg& leg, SightRange range, SightJudge& judge);
 
-/// Calls inside(piece, range) for each piece of the line that has a part over the grid, and tells the judge
-/// the rest: what has no terrain, and both ends, which may be all the terrain there is.
+/// Calls inside(leg, range) for each leg of the judge's line that has a part over the grid, and reports the
+/// rest to the judge: parts outside of the grid, and both ends, which may stand on single points of terrain.
 template <class Inside>
-void forPieces(const SightGrid& grid, SightJudge& judge, const Inside& inside) {
+void forLegs(const SightGrid& grid, SightJudge& judge, const Inside& inside) {
   const auto points = judge.line().points();
-  if (grid.columns() < 2 || grid.rows() < 2) return judge.gap(0, points.back().distance);  // no cell
-  const auto tellEnd = [&](const SightPoint& end) {
+  if (grid.columns() < 2 || grid.rows() < 2) return judge.gap(0, points.back().distance);
+  const auto addEnd = [&](const SightPoint& end) {
     const double z = grid.at(end.plan);
     if (!std::isnan(z) && !judge.isDone()) judge.terrain(end.distance, z, end.distance, z);
   };
-  tellEnd(points.front());
+  addEnd(points.front());
   for (std::size_t i = 1; i < points.size() && !judge.isDone(); ++i) {
-    const SightPiece piece(points[i - 1], points[i]);
-    const double plan = std::hypot(piece.dx, piece.dy);
+    const SightLeg leg(points[i - 1], points[i]);
+    const double plan = std::hypot(leg.dx, leg.dy);
     if (!(plan > 0)) {
       const double z = grid.at(points[i].plan);
       if (std::isnan(z)) {
-        judge.gap(piece.s, piece.distance(1));
+        judge.gap(leg.s, leg.distance(1));
       } else {
-        judge.terrain(piece.s, z, piece.distance(1), z);
+        judge.terrain(leg.s, z, leg.distance(1), z);
       }
       continue;
     }
-    const SightRange range = rangeOver(piece, grid.columns() - 1, grid.rows() - 1);
+    const SightRange range = rangeOver(leg, grid.columns() - 1, grid.rows() - 1);
     const double shortest = kShortestInPlan / plan;
     if (!(range.first <= range.last)) {
-      judge.gap(piece.s, piece.distance(1));
+      judge.gap(leg.s, leg.distance(1));
       continue;
     }
-    if (range.first > shortest) judge.gap(piece.s, piece.distance(range.first));
-    inside(piece, range);
-    if (1 - range.last > shortest) judge.gap(piece.distance(range.last), piece.distance(1));
+    if (range.first > shortest) judge.gap(leg.s, leg.distance(range.first));
+    inside(leg, range);
+    if (1 - range.last > shortest) judge.gap(leg.distance(range.last), leg.distance(1));
   }
-  tellEnd(points.back());
+  addEnd(points.back());
 }
 
 }  // namespace arete

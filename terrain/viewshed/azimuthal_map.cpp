@@ -5,14 +5,14 @@
 // (MapErrors); they are reduced by maxima, which do not depend on the order, and become the error bounds of
 // the map.
 //
-// Why tracks are nearly straight. A track is a geodesic cut into the fewest pieces (2^k) in whose middles the
+// Why tracks are nearly straight. A track is a geodesic cut into the fewest legs (2^k) in whose middles the
 // chords are within the Earth's error e of the geodesic. Where the curvature of geodesics in the plan is at
-// most c, a piece of length L is c L^2 / 8 from its chord; since pieces of twice the length are not within e,
+// most c, a leg of length L is c L^2 / 8 from its chord; since legs of twice the length are not within e,
 // c (2 L)^2 / 8 > e, and therefore
 //
 //     (1)  L > sqrt(2 e / c).
 //
-// At the distance s from the observer, which is an end of the first piece, an arc is from its chord by
+// At the distance s from the observer, which is an end of the first leg, an arc is from its chord by
 //
 //     (2)  at most e * 4 s / L (a parabola of height e, below its tangent at the end), and at most e.
 //
@@ -60,9 +60,9 @@ constexpr double kCheckTurn = 1.2, kTurnNearby = 1e-3, kFarFromObserver = 4;
 constexpr double kCheckCurvature = 1.2;
 /// |difference of curvatures in one direction| <= kCheckDifference * (the largest on the way to the border).
 constexpr double kCheckDifference = 2;
-/// Length of a piece >= (1) / kPieceLength: c is the curvature in the plan of the whole map, not that of the
+/// Length of a leg >= (1) / kLegLength: c is the curvature in the plan of the whole map, not that of the
 /// geodesic, and (1) takes arcs for parabolas.
-constexpr double kPieceLength = 1.5;
+constexpr double kLegLength = 1.5;
 /// Deviation of an arc from its chord <= kArc * that of the parabola in (2); the same for edges.
 constexpr double kArc = 1.1;
 
@@ -311,7 +311,7 @@ bool AzimuthalMap::Construction::setErrors(const MapErrors& worst, double geodes
   map_.leastPlanError_ =
       kArc * (kCheckPatch * worst.patch + worst.planCurvature * kEdgeSag) + kLeastPlanError;
   // (2) with the shortest piece of (1).
-  map_.planErrorPerStep_ = kPieceLength * kBothAxes * kParabolaSlope * geodesicError *
+  map_.planErrorPerStep_ = kLegLength * kBothAxes * kParabolaSlope * geodesicError *
                            std::sqrt(worst.planCurvature / (2 * geodesicError));
   map_.mostPlanError_ = map_.leastPlanError_ + kArc * kBothAxes * geodesicError;
   // A line that reaches its target nearly level dips by k d^2 / 8 over the last cell, of diagonal d, and is

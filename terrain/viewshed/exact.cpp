@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The horizon over a cell is found by Newton's method on the least clearance of the line to the cell, as a
-// function of the line's tangent: aim at the ground, then over whatever is highest above that line, and so
-// on. The clearance is the least of functions that rise with the tangent, so every step stays below the
-// horizon and takes away at least one obstacle; three or four do.
+// The horizon over a cell is the root of the least clearance of the line to the cell, as a function of the
+// line's tangent. Newton's method: aim at the ground, then over the obstacle that is highest above that line,
+// and so on. The clearance is the minimum of functions that rise with the tangent, so no step passes the
+// horizon and each step clears at least one obstacle. Three or four steps suffice.
 #include "terrain/viewshed/exact.h"
 
 #include <cmath>
@@ -47,7 +47,7 @@ Result<ViewshedExact::Answer> ViewshedExact::at(Vec2 plan, double ground) const 
   if (std::isnan(ground)) return Answer{};
   Result<SightTrack> track = earth_.track(observer_.plan, plan);
   if (!track) {
-    // What is out of range has no answer, and needs none.
+    // A cell that is known to be out of range needs no track.
     const auto distance = earth_.distance(observer_.plan, plan);
     if (distance && !isInRange(options_.field, *distance)) return Answer{};
     return tl::unexpected(track.error());
@@ -76,8 +76,7 @@ float ViewshedExact::value(const SightTrack& track, double ground) const {
   const bool isHorizon = options_.value == ViewshedValue::horizon;
   const double k = track.curvature, length = track.points.back().distance, from = observer_.height * unit_;
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  // Nearer than this is the observer's own place: what rounding leaves of heights there says nothing of
-  // tangents.
+  // Obstacles nearer than this are at the observer itself, where rounded heights give no tangent.
   const Vec2 there = track.points.back().plan;
   const double shortest =
       kShortestInPlan * length / std::hypot(there.x - observer_.plan.x, there.y - observer_.plan.y);
@@ -90,7 +89,7 @@ float ViewshedExact::value(const SightTrack& track, double ground) const {
       height = kInfinite;
       break;
     }
-    // Lines to any height pass over the same NODATA.
+    // Lines to all heights pass over the same NODATA, so no height is known.
     if (!isHorizon && options_.nodata == NodataSight::unknown && answer.gapMetres > 0)
       return std::numeric_limits<float>::quiet_NaN();
     if (!answer.clearance || *answer.clearance >= (step == 0 ? -line.tolerance() : 0)) break;

@@ -6,10 +6,11 @@
 
 namespace arete {
 
-/// Whether a place is in the horizontal field and the range of distances.
+/// @return whether a place is in the range of distances and the horizontal field.
 bool isInField(const ViewshedField& field, double distance, double azimuthDegrees);
 
-/// One cell of a viewshed, by an engine's answer for its line: what all methods must agree with.
+/// Computes single cells of a viewshed, by an engine's answer for the line. It defines what every method
+/// returns.
 class ViewshedExact {
  public:
   ViewshedExact(const SightEngine& engine, const SightEarth& earth, double heightUnitMetres,
@@ -20,7 +21,8 @@ class ViewshedExact {
     ViewshedCell cell = ViewshedCell::outside;
     float value = std::numeric_limits<float>::quiet_NaN();
   };
-  /// `ground` is the terrain's height there; NaN: outside. Errors: those of the earth.
+  /// @param ground the terrain's height there; NaN: the cell is outside.
+  /// @return Errors: those of the earth.
   Result<Answer> at(Vec2 plan, double ground) const;
 
  private:

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A running result per cell: the cell of the largest weight, the count, and the nearest observer that sees it
+// and that may see it.
 #include "terrain/viewshed/many.h"
 
 #include <fmt/format.h>
@@ -16,7 +19,7 @@ namespace {
 constexpr std::size_t kMostObservers = 65000, kCellsPerTask = 4096;
 static_assert(kMostObservers < ViewshedOfMany::kUnknown);
 
-/// Which of two cells says more about what the observers see together.
+/// Of several observers' cells, that of the largest weight is the result.
 int weightOf(ViewshedCell cell) {
   switch (cell) {
     case ViewshedCell::seen:
@@ -40,7 +43,7 @@ std::uint16_t markOf(ViewshedCell cell) {
   return cell == ViewshedCell::undecided ? ViewshedOfMany::kUndecided : ViewshedOfMany::kUnknown;
 }
 
-/// One observer more.
+/// Adds one observer's cell to the count.
 void addTo(std::uint16_t& count, ViewshedCell cell) {
   const bool isCounted = count < ViewshedOfMany::kUnknown;
   if (!isSure(cell)) {
@@ -50,14 +53,14 @@ void addTo(std::uint16_t& count, ViewshedCell cell) {
   }
 }
 
-/// The nearest observer so far of some kind; 0 = none.
+/// The nearest observer so far, or its mark; 0 = none.
 struct Nearest {
-  std::uint16_t who = 0;
+  std::uint16_t number = 0;
   float distance = 0;
 
   void add(std::uint16_t other, float itsDistance) {
-    if (who != 0 && !(itsDistance < distance)) return;
-    who = other;
+    if (number != 0 && !(itsDistance < distance)) return;
+    number = other;
     distance = itsDistance;
   }
 };
@@ -68,10 +71,10 @@ Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainM
                                       const SightEarth& earth, std::span<const ViewshedSite> sites,
                                       const ViewshedOptions& options, bool wantsServer,
                                       const RunContext& context) {
-  if (sites.empty()) return failure(ErrorCode::usage, "there is no observer");
+  if (sites.empty()) return failure(ErrorCode::usage, "there is no observer", "sites");
   if (sites.size() > kMostObservers)
     return failure(ErrorCode::usage,
-                   fmt::format("{} observers are more than {}", sites.size(), kMostObservers));
+                   fmt::format("{} observers are more than {}", sites.size(), kMostObservers), "sites");
   ViewshedOfMany all;
   all.columns = model.columns;
   all.rows = model.rows;
@@ -112,8 +115,9 @@ Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainM
   }
   all.server.reserve(sees.size());
   for (std::size_t i = 0; i < sees.size(); ++i) {
-    const bool isKnown = maySee[i].who == 0 || (sees[i].who != 0 && sees[i].distance < maySee[i].distance);
-    all.server.push_back(isKnown ? sees[i].who : maySee[i].who);
+    const bool isKnown =
+        maySee[i].number == 0 || (sees[i].number != 0 && sees[i].distance < maySee[i].distance);
+    all.server.push_back(isKnown ? sees[i].number : maySee[i].number);
   }
   return all;
 }

@@ -11,7 +11,7 @@
 
 namespace arete {
 
-/// One of several observers, with the field it looks at.
+/// One of several observers, with its own field of view.
 struct ViewshedSite {
   ViewshedObserver observer;
   ViewshedField field;
@@ -20,23 +20,25 @@ struct ViewshedSite {
 /// What several observers see together, on the model's own grid, row by row.
 struct ViewshedOfMany {
   std::uint32_t columns = 0, rows = 0;
-  /// Seen by any; else undecided or unknown by any; else hidden from any; outside for all.
+  /// Seen by any observer; else undecided or unknown for any; else hidden from any; else outside for all.
   std::vector<ViewshedCell> cells;
-  /// What stands for a number that is not known: greater than any number of observers.
+  /// Marks in place of a number, which are larger than any number of observers.
   static constexpr std::uint16_t kUnknown = 65533, kUndecided = 65534;
-  /// How many see the cell. Not known where whether one of them does is not: kUndecided where any is
-  /// undecided, else kUnknown.
+  /// The number of observers that see the cell; kUndecided or kUnknown if any of them is undecided or
+  /// unknown.
   std::vector<std::uint16_t> count;
-  /// The observer nearest along the ground of those that see the cell, counted from 1; 0 = none. Not known
-  /// where one that is no farther may see it as well: the nearest such says which of the two. Empty unless
-  /// asked for.
+  /// The number, from 1, of the observer nearest along the ground of those that see the cell; 0 = none. If an
+  /// observer that is no farther is undecided or unknown, the mark of the nearest such. Empty if not
+  /// requested.
   std::vector<std::uint16_t> server;
 };
 
-/// Viewsheds of up to 65 000 observers, one after the other, each on all threads; the options' own field is
-/// not used. The same for any number of threads. Preconditions: `earth` and `model` are those of the maker.
-/// Errors: usage (none, too many), those of ViewshedMaker::from(). Memory: 21 bytes per sample beside one
-/// viewshed.
+/// Computes the viewsheds of up to 65 000 observers one after the other, each on all threads, and combines
+/// them; the same for any number of threads. Memory: 21 bytes per sample, and one viewshed.
+/// @param model,earth those of the maker.
+/// @param options their own field is not used.
+/// @param wantsServer compute ViewshedOfMany::server.
+/// @return Errors: usage: no observer or too many; those of ViewshedMaker::from().
 Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainModel& model,
                                       const SightEarth& earth, std::span<const ViewshedSite> sites,
                                       const ViewshedOptions& options, bool wantsServer,

@@ -10,7 +10,7 @@
 
 namespace arete {
 
-/// What the methods are handed: one observer on one raster, all checked.
+/// One observer on one raster, all checked: the input of both methods.
 struct ViewshedTask {
   const TerrainModel& model;
   const SightGrid& grid;
@@ -18,20 +18,22 @@ struct ViewshedTask {
   const ViewshedObserver& observer;
   const ViewshedOptions& options;
   const ViewshedExact& exact;
-  const std::vector<float>& steepness;  ///< viewshedSteepness(), where the Earth has geodesics
+  const std::vector<float>& steepness;  ///< viewshedSteepness(), if the Earth has geodesics
 };
 
-/// Each cell by itself; fills cells, values and rays. Errors: interrupted, those of the earth.
+/// Evaluates each cell by its own line. Fills cells, values and rays. Errors: interrupted, those of the
+/// earth.
 Status viewshedRays(const ViewshedTask& task, const RunContext& context, Viewshed& result);
-/// The same for places in plan coordinates; NaN and what has no terrain is outside.
+/// The same for places in plan coordinates. NaN, and places without terrain, stay outside.
 Status viewshedOfPlaces(const ViewshedExact& exact, const SightGrid& grid, std::span<const Vec2> places,
                         const RunContext& context, Viewshed& result);
 
-/// Why the sweep cannot do this; nothing where it can. Without the map that the Earth has, as far as the
-/// observer and the options go. O(1).
+/// @param map the observer's, if there is one; null checks what can be checked without it. O(1).
+/// @return why the sweep cannot do the task; nothing if it can.
 std::optional<std::string> whyNotSweep(const ViewshedTask& task, const AzimuthalMap* map);
-/// Preconditions: !whyNotSweep(task, map); the map is the observer's; null where the Earth is a plane. Fills
-/// cells, values and rays. Errors: interrupted, those of the earth.
+/// Sweeps the plane. Fills cells, values and rays. Precondition: !whyNotSweep(task, map). Errors:
+/// interrupted, those of the earth.
+/// @param map the observer's; null if the Earth is a plane.
 Status viewshedSweep(const ViewshedTask& task, const AzimuthalMap* map, const RunContext& context,
                      Viewshed& result);
 

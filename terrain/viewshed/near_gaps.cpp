@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A line is cut with the sides of the gap moved outward to know that it misses, inward to know that it is
-// over it. At the border of a gap neither would ever be known: there a line that leaves over the side that
-// the observer is on, at an angle that is no rounding, misses.
+// A line that misses the gap with its sides moved outward by a margin misses it for sure; one that crosses
+// the gap with its sides moved inward is over it for sure. For an observer on the border of a gap neither
+// would ever hold. There, a line that leaves the gap across the observer's own side, at an angle larger than
+// rounding, misses it.
 #include "terrain/viewshed/near_gaps.h"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ ViewshedNearGaps::Crossing ViewshedNearGaps::towards(double u) const {
   return crossing;
 }
 
-/// Whether less of a line than counts is over the gap before it leaves it.
+/// Whether the line leaves the gap before it is over it for a length that counts.
 bool ViewshedNearGaps::Gap::isLeft(Vec2 direction, double error) const {
   constexpr double kCounts = 1e-10;
   return std::any_of(sides.begin(), sides.begin() + count, [&](const Side& side) {
@@ -48,7 +49,7 @@ bool ViewshedNearGaps::Gap::isLeft(Vec2 direction, double error) const {
   });
 }
 
-/// How much of a line is over the gap if its sides are moved outward by `margin`; negative: none.
+/// Length of the line over the gap if the gap's sides are moved outward by `margin`; negative: none.
 double ViewshedNearGaps::Gap::length(Vec2 direction, double margin) const {
   double first = 0, last = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < count; ++i) {

@@ -9,21 +9,23 @@
 
 namespace arete {
 
-/// Gaps so near to the observer that it may be in one, at its border or on its corner, where the directions
-/// of its corners say little: each line is cut with them.
+/// Gaps so near to the observer that it may be in one, on its border or at its corner. The directions of
+/// their corners are ill-conditioned, so each line is intersected with the gaps as polygons.
 class ViewshedNearGaps {
  public:
   bool isEmpty() const { return gaps_.empty(); }
-  /// By what angle lines may differ from the directions that are asked about; 0 at first.
+  /// @param radians a bound of the angle between lines and the directions given to towards(); 0 at first.
   void setError(double radians) { error_ = radians; }
-  /// A triangle or a square, its corners one after the other and relative to the observer, in steps.
-  /// Precondition: what of it is within the directions asked about is no more than two steps away.
+  /// Adds a triangle or a square.
+  /// @param corners in order, in steps from the observer. The part of it in the directions given to towards()
+  /// is at most
+  ///     two steps away.
   void add(std::span<const Vec2> corners);
 
   struct Crossing {
     bool isPossible = false, isCertain = false;
   };
-  /// Whether a line in the direction (1, u) is over a gap by more than 1e-9 of a step. O(gaps).
+  /// @return whether a line in the direction (1, u) is over a gap for more than 1e-9 of a step. O(gaps).
   Crossing towards(double u) const;
 
  private:

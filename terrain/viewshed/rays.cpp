@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One answer for each place, rows in parallel: what works for every engine and every Earth.
+// One engine's answer for each place, rows in parallel. It works for every engine and every Earth.
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -14,7 +14,8 @@
 namespace arete {
 namespace {
 
-/// body(row): a Status, for every row; the error of the first row that has one.
+/// Calls body(row), which returns a Status, for all rows in parallel. Returns the error of the lowest row
+/// that failed.
 template <class Body>
 Status forRows(std::uint32_t rows, const RunContext& context, const Body& body) {
   SharedProgress progress(context, "viewshed", rows);

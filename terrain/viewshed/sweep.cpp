@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Seen from the observer, through a image plane, an edge of the terrain is a straight segment and so is the
-// skyline of all terrain up to some distance: the upper envelope of its edges. A sample is seen if and only
-// if it stands no lower in the image than that skyline (De Floriani and Magillo 1994). The plan is cut into
-// four sectors (viewshed_picture.h) and these into wedges, each swept from the observer outwards, one lattice
-// line after the other (Franklin and Ray 1994).
+// In the image plane of the observer an edge of the terrain is a straight segment, and the skyline of all
+// terrain up to some distance is the upper envelope of the edges. A sample is visible if and only if it is
+// not below that skyline [DeFlorianiMagillo1994]. The plan is cut into four sectors (ViewshedSector) and
+// these into wedges, each swept from the observer outwards, one lattice line after the other
+// [FranklinRay1994]. (Sweeps that rotate about the observer [VanKreveld1996] decide all samples in O(n log
+// n), for terrain that is level in each cell.)
 //
-// Rounding. Edges that point at the observer have no width in the image; near u = 0, where those along x
-// do, u is exact to its last bit, and so it is for diagonals when y is sheared to y - x: u is then measured
-// from the diagonal. A wedge is sheared where u >= 1/2.
+// Rounding. Edges that point at the observer have no width in the image. Near u = 0, where edges along x
+// point at the observer, u is exact to its last bit. So it is for diagonals if u is measured from the
+// diagonal, by y - x in place of y: wedges with u >= 1/2 are sheared that way.
 //
-// Over an ellipsoid the plan is that of the map of geodesics (viewshed_fan.h), in which tracks are straight
-// but for a thousandth of a step. What terrain rises in that is in doubt, and whether a line is over terrain
-// so near to a void; edges that point at the observer are left out.
+// Over an ellipsoid the plan is an AzimuthalMap, in which tracks are straight except for a thousandth of a
+// step. How much the terrain rises within that is uncertain, and so is whether a line that close to NODATA is
+// over terrain. Edges that point at the observer are left out.
 //
-// What is decided here is outside of every doubt: the terrain that hides is at least two tolerances above
-// the line, the terrain in front of what is seen is not above the line at all. The rest is decided by an
-// engine's answer, cell by cell: what lies between, places less than a step away, what is beside NODATA and
-// not hidden by what is before it, what is behind a corner of the terrain that a line may meet in a single
-// point.
+// What is decided here is beyond all uncertainty: terrain that hides is at least two tolerances above the
+// line, and terrain in front of a visible sample is not above the line at all. Every other sample takes an
+// engine's answer: those in between, less than a step away, beside NODATA and not hidden by terrain in front
+// of that, or behind a corner of the terrain that a line may meet in a single point.
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@
 namespace arete {
 namespace {
 
-/// Samples of the farthest line in a wedge, about.
+/// Samples of the farthest lattice line in a wedge, roughly.
 constexpr double kWedgeSamples = 512;
 
 std::vector<ViewshedWedge> wedgesOf(const ImagePlane& image, bool isAlongRows) {
@@ -42,7 +42,8 @@ std::vector<ViewshedWedge> wedgesOf(const ImagePlane& image, bool isAlongRows) {
     const double at = isAlongRows ? image.task().observer.plan.x : image.task().observer.plan.y;
     const double far = sign > 0 ? (isAlongRows ? grid.columns() : grid.rows()) - 1 - at : at;
     if (!(far > 0)) continue;
-    // Columns take the samples on the diagonals; over a map, where these are rounded, a little more.
+    // The sectors along rows own the samples on the diagonals; mapped, where these are rounded, a little
+    // more.
     const double more = image.isMapped() && isAlongRows ? 1e-9 : 0;
     const int parts = 4 * std::max(1, static_cast<int>(far / 2 / kWedgeSamples));
     for (int i = 0; i < parts; ++i) {
@@ -61,7 +62,7 @@ std::optional<std::string> whyNotSweep(const ViewshedTask& task, const Azimuthal
     return "tracks over this Earth are neither straight in plan nor geodesics";
   const bool isMapped = !task.earth.planeSteps();
   if (isMapped && task.options.value != ViewshedValue::none)
-    return "over an ellipsoid it tells what is seen, not how high or under which angle";
+    return "over an ellipsoid it gives cells, but no heights or horizons";
   const SightGrid& grid = task.grid;
   const Vec2 o = task.observer.plan;
   const double margin = isMapped ? 2 : 0;  // geodesics may leave the DEM
@@ -80,17 +81,18 @@ std::optional<std::string> whyNotSweep(const ViewshedTask& task, const Azimuthal
     }
   const double above = task.observer.height - grid.at(o), unit = task.model.georeference.verticalUnitMetres;
   if (above < -0.5e-6 / unit) return "the observer is below the ground";
-  // An edge that all but meets the observer is left out where it is nearest. Beside NODATA it may be one that
-  // slants the other way, and end the terrain: then it hangs on rounding whether the observer is over that.
+  // An edge that nearly meets the observer is left out where it is nearest. Beside NODATA it may be the rim
+  // of the terrain; then rounding decides whether the observer is over terrain.
   constexpr double kNearest = 2e-6;
   const auto off = [](double v) { return std::fabs(v - std::round(v)); };
   const auto isNear = [&](double v) { return off(v) > 0 && off(v) < kNearest; };
   const bool isNearEdge = isNear(o.x) || isNear(o.y) || isNear(o.x - o.y) || isNear(o.x + o.y);
   if (isNearEdge && !(above >= 100 * kNearest * greatest))
-    return "the observer is on the ground, all but on an edge";
+    return "the observer is on the ground, very close to an edge";
   if (std::isnan(above) && off(o.x) > 0 && (off(o.x - o.y) < kNearest || off(o.x + o.y) < kNearest))
-    return "the observer is over NODATA, all but on an edge";
-  // Over a map, terrain is drawn too high by as much as it may rise within its error.
+    return "the observer is over NODATA, very close to an edge";
+  // Mapped terrain is drawn too high by what it rises within the map's error: an observer on the ground would
+  // be below it. The factors 4 and 2 are tested.
   if (map != nullptr && above < 4 * map->planError(0) * greatest + 2 * map->heightError(0) / unit)
     return "the observer is on the ground";
   return std::nullopt;

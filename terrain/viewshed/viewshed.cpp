@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Chooses the method and prepares what it needs: for the sweep over geodesics, an azimuthal map of the
+// observer, which may not exist.
 #include "terrain/viewshed/viewshed.h"
 
 #include <cmath>
@@ -18,17 +21,17 @@ Status check(const ViewshedObserver& observer, const ViewshedOptions& options) {
   };
   const ViewshedField& field = options.field;
   if (!std::isfinite(observer.plan.x + observer.plan.y + observer.height))
-    return bad("is not a finite place", "the observer");
+    return bad("must be finite", "observer");
   if (!(options.targetHeight >= 0 && std::isfinite(options.targetHeight)))
-    return bad("must be 0 or more", "the target height");
+    return bad("must be 0 or more", "targetHeight");
   if (!(field.leastMetres >= 0 && field.leastMetres <= field.greatestMetres))
-    return bad("the least must be 0 or more, the greatest no less", "the distances");
+    return bad("the least distance must be 0 or more, the greatest no less", "field");
   if (!(std::isfinite(field.fromAzimuth) && field.azimuthSpan > 0))
-    return bad("must be finite, its span more than 0", "the horizontal field");
+    return bad("the azimuth must be finite, its span more than 0", "field");
   if (!(field.lowest >= -90 && field.lowest <= field.highest && field.highest <= 90))
-    return bad("must rise, from -90 degrees or more to 90 or less", "the vertical field");
+    return bad("elevations must rise, from -90 degrees or more to 90 or less", "field");
   if (!(options.maxError >= 0 && std::isfinite(options.maxError)))
-    return bad("must be 0 or more", "the tolerance");
+    return bad("must be 0 or more", "maxError");
   return {};
 }
 
@@ -58,7 +61,7 @@ std::string_view toString(ViewshedMethod method) {
 Result<ViewshedMaker> ViewshedMaker::make(const TerrainModel& model, const SightEarth& earth,
                                           std::shared_ptr<const SightGrid> grid, const RunContext& context) {
   if (!model.isRaster)
-    return failure(ErrorCode::unsupported, "is for rasters; this model is of points", "a viewshed");
+    return failure(ErrorCode::unsupported, "viewsheds are of rasters; this model is of points");
   ViewshedMaker maker(model, earth, grid ? std::move(grid) : std::make_shared<SightGrid>(model));
   auto engine = makeSightEngine(SightMethod::pyramid, model, maker.grid_, context);
   if (!engine) return tl::unexpected(engine.error());
@@ -71,7 +74,7 @@ Result<ViewshedMaker> ViewshedMaker::make(const TerrainModel& model, const Sight
 Result<std::shared_ptr<const SightEngine>> ViewshedMaker::engineFor(const ViewshedOptions& options) const {
   if (!(options.maxError > 0)) return engine_;
   if (options.method == ViewshedMethod::sweep)
-    return failure(ErrorCode::unsupported, "has no tolerance", "the method sweep");
+    return failure(ErrorCode::unsupported, "the sweep has no tolerance", "method");
   auto engine = makeSightEngine(SightMethod::descent, *model_, grid_);
   if (!engine) return tl::unexpected(engine.error());
   return std::shared_ptr<const SightEngine>(std::move(*engine));
@@ -97,7 +100,7 @@ Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const Vie
     result.values.assign(count, std::numeric_limits<float>::quiet_NaN());
   std::optional<std::string> whyNot;
   if (hasTolerance) {
-    whyNot = "a tolerance is asked for";
+    whyNot = "it has no tolerance";
   } else if (options.method != ViewshedMethod::rays) {
     whyNot = whyNotSweep(task, nullptr);
   }
@@ -112,7 +115,7 @@ Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const Vie
     }
   }
   if (options.method == ViewshedMethod::sweep && whyNot)
-    return failure(ErrorCode::unsupported, *whyNot, "the method sweep");
+    return failure(ErrorCode::unsupported, "the sweep is not possible: " + *whyNot, "method");
   result.method =
       options.method == ViewshedMethod::rays || whyNot ? ViewshedMethod::rays : ViewshedMethod::sweep;
   context.report("viewshed", 0);
@@ -129,7 +132,7 @@ Result<Viewshed> ViewshedMaker::of(std::span<const Vec2> places, const ViewshedO
                                    const ViewshedOptions& options, const RunContext& context) const {
   if (const Status status = check(observer, options); !status) return tl::unexpected(status.error());
   if (options.method == ViewshedMethod::sweep)
-    return failure(ErrorCode::unsupported, "is for the grid of the DEM", "the method sweep");
+    return failure(ErrorCode::unsupported, "the sweep is of the grid of the DEM, not of places", "method");
   const auto engine = engineFor(options);
   if (!engine) return tl::unexpected(engine.error());
   const ViewshedObserver from{sightEnd(*model_, observer.plan), observer.height};

@@ -19,89 +19,93 @@
 
 namespace arete {
 
-/// What an observer sees of a cell: of a target above a place of the terrain.
+/// Whether an observer sees the target above one sample.
 enum class ViewshedCell : std::uint8_t {
   hidden,     ///< the line of sight to it is blocked
-  seen,       ///< visible
-  unknown,    ///< nothing known is in the way, but there is NODATA (NodataSight::unknown)
-  undecided,  ///< the tolerance asked for does not tell
-  outside,    ///< beyond the distances or the field of view, or there is no sample
+  seen,       ///< it is visible
+  unknown,    ///< nothing known is in the way, but NODATA is (NodataSight::unknown)
+  undecided,  ///< the terrain within the requested tolerance does not decide it
+  outside,    ///< out of range or of the field of view, or the sample is NODATA
 };
 
 struct ViewshedObserver {
   Vec2 plan;          ///< plan coordinates of the model
-  double height = 0;  ///< its own height, in the DEM's vertical unit
+  double height = 0;  ///< from the DEM's zero (not above the terrain), in the DEM's vertical unit
 };
 
-/// The part of the world that is looked at; both ends of each range are in it.
+/// The field of view. Both ends of each range belong to it.
 struct ViewshedField {
   double leastMetres = 0, greatestMetres = std::numeric_limits<double>::infinity();  ///< along the ground
-  /// Horizontal field: from this azimuth clockwise, degrees; all around from 360 on.
+  /// Horizontal: degrees; `azimuthSpan` clockwise from `fromAzimuth`. 360 or more = all around.
   double fromAzimuth = 0, azimuthSpan = 360;
-  /// Vertical field: elevation angles of the target above the observer's horizontal, degrees.
+  /// Vertical: degrees; elevation angles of the target above the observer's horizontal.
   double lowest = -90, highest = 90;
 };
 
 enum class ViewshedValue : std::uint8_t {
   none,
-  /// The least height above the terrain, in the DEM's vertical unit, that would be seen there: 0 where the
-  /// terrain is; infinite where none would (an observer below the ground, NODATA that blocks); NaN where
-  /// NODATA in between leaves it unknown. Whatever the target height.
+  /// The least height above the terrain at which a target would be seen, in the DEM's vertical unit. 0 if the
+  /// terrain itself is seen; infinite if no height is (an observer below the ground, NODATA that blocks); NaN
+  /// if NODATA leaves it unknown. It does not depend on the target height.
   leastHeight,
-  /// The tangent of the elevation at which the terrain ends for the observer, looking over the cell: of all
-  /// terrain from the observer to the cell, the cell's included: of what there is, where NODATA does not
-  /// block. Infinite as above.
+  /// The tangent of the elevation angle of the horizon over the cell: of the highest terrain seen from the
+  /// observer up to the cell, the cell included. NODATA that does not block is left out. Infinite as above.
   horizon,
 };
 
 enum class ViewshedMethod : std::uint8_t {
-  automatic,  ///< the sweep where it can, else rays
-  sweep,      ///< all cells at once, the horizon kept (viewshed_sweep.cpp): over planes and geodesics
+  automatic,  ///< the sweep if it can do the task, else rays
+  sweep,      ///< all cells at once by a growing skyline (sweep.cpp); over planes and geodesics
   rays,       ///< an engine's answer for each cell
 };
 std::string_view toString(ViewshedMethod method);
 
 struct ViewshedOptions {
-  double targetHeight = 0;  ///< above the terrain, in the DEM's vertical unit; at least 0
+  double targetHeight = 0;  ///< above the terrain, in the DEM's vertical unit; 0 or more
   ViewshedField field;
   NodataSight nodata = NodataSight::unknown;
-  /// Three classes: what bounds within this do not decide is `undecided`. By rays and the descent only.
+  /// Tolerance in the DEM's vertical unit: cells that terrain within it does not decide are `undecided`. 0 =
+  /// full resolution. With a tolerance the method is rays, by the descent.
   double maxError = 0;
   ViewshedValue value = ViewshedValue::none;
   ViewshedMethod method = ViewshedMethod::automatic;
 };
 
-/// On the model's own grid, row by row.
+/// The result, on the model's own grid, row by row.
 struct Viewshed {
   std::uint32_t columns = 0, rows = 0;
   std::vector<ViewshedCell> cells;
-  std::vector<float> values;  ///< as asked for; NaN outside, for the observer's own place's horizon
+  std::vector<float>
+      values;  ///< ViewshedOptions::value; NaN outside, and for the horizon at the observer itself
   std::uint64_t seen = 0, hidden = 0, unknown = 0, undecided = 0, outside = 0;
-  ViewshedMethod method = ViewshedMethod::rays;  ///< which it was
-  std::uint64_t rays = 0;                        ///< cells that took an engine's answer
+  ViewshedMethod method = ViewshedMethod::rays;  ///< the method used
+  std::uint64_t rays = 0;                        ///< number of cells that an engine answered
 };
 
-/// What can be seen of a terrain. For every cell the answer is that of a SightEngine for the line from the
-/// observer to (sample, its height + target height): docs/topics/visibility.md,
-/// by either method. Thread-safe.
+/// Computes viewsheds. By either method, each cell is the answer of a SightEngine for the line from the
+/// observer to (sample, its height + target height): docs/topics/visibility.md. Thread-safe.
 class ViewshedMaker {
  public:
-  /// Preconditions: the model and the earth outlive it; `grid`, where given, is the model's. Errors:
-  /// unsupported (a model of points).
+  /// Prepares a pyramid, and for a geodesic Earth the steepness of the terrain. O(samples), parallel.
+  /// @param model,earth outlive the result.
+  /// @param grid the model's samples, possibly shared; null: made here.
+  /// @return Errors: unsupported: a model of points.
   static Result<ViewshedMaker> make(const TerrainModel& model, const SightEarth& earth,
                                     std::shared_ptr<const SightGrid> grid = {},
                                     const RunContext& context = {});
 
-  /// A place within 1e-9 of a lattice line counts as on it. Errors: usage (options out of range),
-  /// unsupported (the sweep, where it cannot), interrupted, those of the earth. The sweep: O(samples) for
-  /// terrain as it is, with a worst case of O(samples * side); rays: O(samples) answers. Memory: the result
-  /// and O(side) per thread. The same bytes for any number of threads.
+  /// The viewshed of one observer, the same bytes for any number of threads. An observer within 1e-9 of a
+  /// lattice line counts as on it. The sweep takes O(samples) for usual terrain and O(samples * side) at
+  /// worst; rays take O(samples) answers of an engine. Memory: the result, and O(side) per thread.
+  /// @return Errors: usage: options out of range (the culprit is the field); unsupported: the sweep cannot do
+  /// it;
+  ///     interrupted; those of the earth.
   Result<Viewshed> from(const ViewshedObserver& observer, const ViewshedOptions& options = {},
                         const RunContext& context = {}) const;
 
-  /// The same for targets anywhere, on the terrain at `places` (plan coordinates; NaN is nowhere) or the
-  /// target height above it: a viewshed of one row, by rays. Errors: those of from(); unsupported (the
-  /// sweep).
+  /// The same for targets on, or the target height above, the terrain at given places, by rays.
+  /// @param places plan coordinates; NaN stays outside.
+  /// @return a viewshed of one row. Errors: those of from(); unsupported: the sweep.
   Result<Viewshed> of(std::span<const Vec2> places, const ViewshedObserver& observer,
                       const ViewshedOptions& options = {}, const RunContext& context = {}) const;
 

@@ -20,7 +20,7 @@ struct ViewshedWedge {
 /// skyline, gaps without terrain, and tips, where a line may meet the terrain in a single point.
 ///
 /// The sweep line is far(); the lattice line before it is near(). draw() moves both on, add() adds the
-/// terrain between them. What is asked in between is of the terrain up to near().
+/// terrain between them. Queries in between are about the terrain up to near().
 class WedgeTerrain {
  public:
   WedgeTerrain(const ImagePlane& image, const ViewshedWedge& wedge);
