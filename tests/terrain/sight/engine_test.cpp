@@ -266,43 +266,6 @@ TEST_P(SightDescentsOnPoints, AreNeverWrong) {
   expectHard(tally, true);
 }
 
-TEST(SightDescent, WithinAToleranceSaysWhichObstructionMayNotBeTheFirst) {
-  // Over a lake among hills coarse triangles are exact, and they lie beside such as are not.
-  constexpr std::uint32_t kSide = 65;
-  RasterHeightfield field;
-  field.columns = field.rows = kSide;
-  for (std::uint32_t row = 0; row < kSide; ++row)
-    for (std::uint32_t column = 0; column < kSide; ++column)
-      field.heights.push_back(std::max(0.0, 40 * std::sin(column * 0.13) * std::cos(row * 0.11) - 28));
-  const auto model = build(field);
-  ASSERT_TRUE(model);
-  const auto descent = makeSightDescent(*model);
-  Random random(11);
-  const auto place = [&] { return Vec2{random.between(0, kSide - 1), random.between(0, kSide - 1)}; };
-  int firsts = 0, later = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const Vec2 from = place(), to = place();
-    SightTrack track;
-    track.points = {{from, 0}, {to, 30 * std::hypot(to.x - from.x, to.y - from.y)}};
-    track.curvature = 2e-5;
-    const SightLine line(track, random.between(5, 15), random.between(5, 15));
-    const SightAnswer exact = descent->answer(line, {});
-    for (const double maxError : {0.1, 1.0, 5.0}) {
-      const SightAnswer coarse = descent->answer(line, {.maxError = maxError});
-      if (!coarse.obstruction) continue;
-      ASSERT_TRUE(exact.obstruction) << i;
-      const double first = exact.obstruction->distance, told = coarse.obstruction->distance;
-      EXPECT_LE(first, told + 1e-6) << i << " within " << maxError;
-      if (!coarse.isObstructionLatest) {
-        EXPECT_NEAR(first, told, 1e-6) << i << " within " << maxError;
-      }
-      ++(coarse.isObstructionLatest ? later : firsts);
-    }
-  }
-  EXPECT_GT(firsts, 50);
-  EXPECT_GT(later, 50);
-}
-
 TEST(SightEngines, GiveTheSameAnswersOnManyThreads) {
   const RasterHeightfield field = rasterFamilies()[6].make(60, 50, 8);
   const auto model = build(field);
