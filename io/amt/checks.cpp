@@ -16,6 +16,7 @@
 
 #include "io/amt/index_check.h"
 #include "io/amt/segments.h"
+#include "io/file/memory_guard.h"
 #include "io/format/checksum.h"
 
 namespace arete {
@@ -53,10 +54,12 @@ Status checkAmtExtras(const AmtFile& file) {
 }
 
 Status checkAmtIndices(const AmtFile& file, const RunContext& context) {
-  if (!file.isPacked())
-    if (Status indices = checkMtIndices(file.model().mt, amtGridSamples(file), context); !indices)
-      return failure(indices.error().code, indices.error().message, file.path());
-  return checkAmtExtras(file);
+  return guardMemory(file.path(), [&]() -> Status {
+    if (!file.isPacked())
+      if (Status indices = checkMtIndices(file.model().mt, amtGridSamples(file), context); !indices)
+        return failure(indices.error().code, indices.error().message, file.path());
+    return checkAmtExtras(file);
+  });
 }
 
 namespace {
@@ -100,8 +103,10 @@ Status checkAmtChunk(const AmtFile& file, const AmtTag& tag) {
 }
 
 Status checkAmtChecksums(const AmtFile& file, const RunContext& context) {
-  if (Status sums = file.hasSegments() ? checkSegments(file, context) : checkChunks(file, context); !sums)
-    return sums;
+  const auto checkSums = [&] {
+    return file.hasSegments() ? checkSegments(file, context) : checkChunks(file, context);
+  };
+  if (Status sums = guardMemory(file.path(), checkSums); !sums) return sums;
   std::uint64_t end = sizeof(AmtHeader) + file.chunks().size() * sizeof(AmtChunk);
   const auto isZeroUpTo = [&](std::uint64_t begin) {
     const auto padding = file.bytes().subspan(end, begin - end);

@@ -21,6 +21,7 @@ struct AmtMetadata;
 /// The .amt file: a multitriangulation on disk, as docs/topics/amt-format.md states it. A file is written
 /// whole from a model in memory and read by mapping it: the arrays of a loaded model lie in the file. A query
 /// that states what it requires (RequiredError) reads only that part, from the disk too.
+/// Every function below that returns a Result or a Status also returns outOfMemory if an allocation fails.
 
 /// How writeAmt() writes.
 struct AmtWriteOptions {

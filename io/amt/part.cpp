@@ -69,7 +69,8 @@ class PartReader {
     const double y[2] = {(ball.y - reach) / metric.scale.y + metric.origin.y,
                          (ball.y + reach) / metric.scale.y + metric.origin.y};
     if (!std::isfinite(x[0] + x[1] + y[0] + y[1])) return 0;
-    return required_({std::min(x[0], x[1]), std::min(y[0], y[1]), std::max(x[0], x[1]), std::max(y[0], y[1])});
+    return required_(
+        {std::min(x[0], x[1]), std::min(y[0], y[1]), std::max(x[0], x[1]), std::max(y[0], y[1])});
   }
 
   Status checkSegmentChecksums() const {
@@ -83,7 +84,8 @@ class PartReader {
     const std::uint32_t all = static_cast<std::uint32_t>(a_.blockError.size()) - blocks;
     isPageRequired_.resize(all);
     tbb::parallel_for(std::uint32_t{0}, all, [&](std::uint32_t page) {
-      isPageRequired_[page] = isRequired(a_.blockError[blocks + page], requiredOf(a_.blockSphere[blocks + page]));
+      isPageRequired_[page] =
+          isRequired(a_.blockError[blocks + page], requiredOf(a_.blockSphere[blocks + page]));
     });
     for (std::uint32_t page = 0; page < all; ++page)
       if (isPageRequired_[page] != 0) pages_ = page + 1;
@@ -97,8 +99,8 @@ class PartReader {
     tbb::parallel_for(std::uint32_t{0}, pages_, [&](std::uint32_t page) {
       required[page] = requiredOf(a_.blockSphere[std::size_t{page} * kBlocksPerPage]);
     });
-    return std::ranges::adjacent_find(required, [](double x, double y) { return x != y && (x > 0 || y > 0); }) ==
-           required.end();
+    return std::ranges::adjacent_find(
+               required, [](double x, double y) { return x != y && (x > 0 || y > 0); }) == required.end();
   }
 
   Result<MultiTriangulation> readPrefix() {

@@ -12,6 +12,7 @@
 
 #include "io/amt/file.h"
 #include "io/file/file_writer.h"
+#include "io/file/memory_guard.h"
 #include "io/format/checksum.h"
 #include "io/format/metadata.h"
 #include "io/packed/packed.h"
@@ -231,7 +232,7 @@ class AmtWriting {
 
 Status writeAmt(const std::string& path, const TerrainModel& model, const RunContext& context,
                 const AmtWriteOptions& options) {
-  return AmtWriting(path, model, context).run(options);
+  return guardMemory(path, [&] { return AmtWriting(path, model, context).run(options); });
 }
 
 }  // namespace arete

@@ -7,6 +7,7 @@
 #include "io/crs/names.h"
 #include "io/extract/report_json.h"
 #include "io/file/file_writer.h"
+#include "io/file/memory_guard.h"
 
 namespace arete {
 namespace {
@@ -126,10 +127,12 @@ std::string certificateJson(const Certificate& certificate, const TerrainModel& 
 }
 
 Status writeCertificate(const std::string& path, const Certificate& certificate, const TerrainModel& model) {
-  Result<FileWriter> writer = FileWriter::create(path);
-  if (!writer) return tl::unexpected(writer.error());
-  writer->write(certificateJson(certificate, model));
-  return writer->finish();
+  return guardMemory(path, [&]() -> Status {
+    Result<FileWriter> writer = FileWriter::create(path);
+    if (!writer) return tl::unexpected(writer.error());
+    writer->write(certificateJson(certificate, model));
+    return writer->finish();
+  });
 }
 
 }  // namespace arete

@@ -29,6 +29,7 @@
 #include "io/exchange/mesh_formats.h"
 #include "io/extract/criterion.h"
 #include "io/extract/view_footprint.h"
+#include "io/file/memory_guard.h"
 
 namespace arete {
 namespace {
@@ -159,10 +160,8 @@ Result<PartAndCut> readForView(const AmtFile& file, const ExtractCriterion& requ
   return readAll(file, context);
 }
 
-}  // namespace
-
-Result<PartAndCut> readForExtract(const AmtFile& file, std::span<const ExtractRequest> requests,
-                                  const TerrainModel& outline, const RunContext& context) {
+Result<PartAndCut> readPart(const AmtFile& file, std::span<const ExtractRequest> requests,
+                            const TerrainModel& outline, const RunContext& context) {
   std::vector<ExtractCriterion> criteria;
   std::optional<Region> region;
   for (const ExtractRequest& request : requests) {
@@ -180,6 +179,13 @@ Result<PartAndCut> readForExtract(const AmtFile& file, std::span<const ExtractRe
   Result<TerrainModel> part = file.read({.wanted = *required}, context);
   if (!part) return tl::unexpected(part.error());
   return PartAndCut{std::move(*part), std::nullopt};
+}
+
+}  // namespace
+
+Result<PartAndCut> readForExtract(const AmtFile& file, std::span<const ExtractRequest> requests,
+                                  const TerrainModel& outline, const RunContext& context) {
+  return guardMemory(file.path(), [&] { return readPart(file, requests, outline, context); });
 }
 
 }  // namespace arete

@@ -32,8 +32,8 @@ struct PartAndCut {
 ///
 /// @param outline  a part of the file's model, its root at least
 /// @return the part, and the cut where one had to be taken to know that the part is enough
-/// Errors: usage: a request that makes no sense, a budget below the root's triangles; interrupted; those of
-/// AmtFile::read().
+/// Errors: usage: a request that makes no sense, a budget below the root's triangles; interrupted;
+/// outOfMemory; those of AmtFile::read().
 Result<PartAndCut> readForExtract(const AmtFile& file, std::span<const ExtractRequest> requests,
                                   const TerrainModel& outline, const RunContext& context = {});
 

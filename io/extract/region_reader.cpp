@@ -12,10 +12,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <new>
 #include <utility>
 
 #include "io/crs/reader.h"
+#include "io/file/memory_guard.h"
 #include "io/gdal/support.h"
 #include "io/gdal/vector_layer.h"
 
@@ -212,13 +212,11 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
 
 Result<RegionRead> readRegion(const std::string& path, const std::string& targetCrs,
                               const RegionReadOptions& options, const RunContext& context) {
-  try {
+  return guardMemory(path, [&] {
     auto read = readFrom(path, targetCrs, options, context);
     if (!read && read.error().culprit.empty()) read.error().culprit = path;
     return read;
-  } catch (const std::bad_alloc&) {
-    return failure(ErrorCode::unsupported, "is larger than the memory that is free", path);
-  }
+  });
 }
 
 }  // namespace arete

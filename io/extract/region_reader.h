@@ -36,7 +36,7 @@ struct RegionRead {
 /// @param targetCrs  WKT or any text that GDAL accepts; empty = not known
 /// Errors: notFound, unreadable, corrupt; unsupported: no such layer, or several (the message lists them);
 /// invalidData: no polygon (or line, if takesLines), a vertex outside the target CRS; usage: not a CRS;
-/// interrupted. O(vertices log vertices).
+/// interrupted; outOfMemory. O(vertices log vertices).
 Result<RegionRead> readRegion(const std::string& path, const std::string& targetCrs,
                               const RegionReadOptions& options = {}, const RunContext& context = {});
 

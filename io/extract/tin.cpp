@@ -19,6 +19,7 @@
 #include "io/exchange/mesh_formats.h"
 #include "io/exchange/written_mesh.h"
 #include "io/extract/criterion.h"
+#include "io/file/memory_guard.h"
 #include "io/file/text_scan.h"
 #include "terrain/model/plan_region.h"
 
@@ -183,6 +184,11 @@ Status TinExtractor::deepen(double maxError, double reserve, const RunContext& c
 
 Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const RunContext& context,
                                            std::optional<Cut> taken) {
+  return guardMemory(request.output, [&] { return extractFrom(request, context, std::move(taken)); });
+}
+
+Result<ExtractedTin> TinExtractor::extractFrom(const ExtractRequest& request, const RunContext& context,
+                                               std::optional<Cut> taken) {
   ExtractedTin tin;
   Result<TriangleMesh> mesh = cutAndWrite(request, 0, std::move(taken), tin, context);
   if (!mesh) return tl::unexpected(mesh.error());

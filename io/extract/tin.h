@@ -76,14 +76,17 @@ class TinExtractor {
   /// reported by isKept; the files are written all the same.
   /// @param taken  the cut of this request, of the extractor's model with the full tolerance, where
   ///               readForExtract() has taken it; it is used instead of a new one
-  /// Errors: those of takeCut(), writeMesh(), writeGeoTiff(), writeCertificate(). O(cut), and O(samples)
-  /// where the mesh is measured.
+  /// Errors: those of takeCut(), writeMesh(), writeGeoTiff(), writeCertificate(); outOfMemory. O(cut), and
+  /// O(samples) where the mesh is measured.
   Result<ExtractedTin> extract(const ExtractRequest& request, const RunContext& context = {},
                                std::optional<Cut> taken = std::nullopt);
 
  private:
   using Samples = std::variant<RasterHeightfield, PointHeightfield>;
 
+  /// extract(), which may throw std::bad_alloc.
+  Result<ExtractedTin> extractFrom(const ExtractRequest& request, const RunContext& context,
+                                   std::optional<Cut> taken);
   const Samples& samples();
   /// Reads the whole model if the part is not enough for a tolerance smaller by `reserve`.
   Status deepen(double maxError, double reserve, const RunContext& context);

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "engine/parallel/with_threads.h"
+#include "io/file/memory_guard.h"
 #include "io/format/checksum.h"
 #include "io/packed/bounds.h"
 #include "io/packed/errors.h"
@@ -302,7 +303,7 @@ class Packer {
   Result<PackedMt> run() {
     if (walk_.model.mt.rootTriangleCount() + plan_.directory.borders() > kMostBorders)
       return failure(ErrorCode::invalidData, "has more triangles in its root than can be packed");
-    if (!prepare()) return failure(ErrorCode::unreadable, "needs more memory to be packed than there is");
+    if (!prepare()) return failure(ErrorCode::outOfMemory, "needs more memory to be packed than there is");
     const auto& packets = plan_.directory.packets;
     std::vector<Streams> streams(packets.size());
     std::uint64_t done = 0;
@@ -447,7 +448,8 @@ class Packer {
 }  // namespace packed
 
 Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context) {
-  return withThreads(context, [&] { return packed::Packer(model, context).run(); });
+  return guardMemory(
+      "", [&] { return withThreads(context, [&] { return packed::Packer(model, context).run(); }); });
 }
 
 }  // namespace arete

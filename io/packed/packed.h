@@ -25,7 +25,7 @@ struct PackedMt {
 /// by more where it is far below the greater one). Saturated errors become the least ones, which are those of
 /// a build; spheres are computed anew. Packing what was unpacked gives the same bytes, for any number of
 /// threads. Errors, without a culprit: invalidData: an MT that breaks laws 1 to 4, or an error beyond its
-/// scale; unreadable: more than memory holds; interrupted. O(triangles) time, about 150 bytes per node beside
+/// scale; outOfMemory; interrupted. O(triangles) time, about 150 bytes per node beside
 /// the model.
 Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context = {});
 
@@ -40,7 +40,7 @@ Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context = {
 ///                have in the whole.
 /// A saturated cut by region, focus or camera of a part may be coarser than that of the whole, because
 /// spheres do not contain the nodes that were not read. Errors, without a culprit: corrupt: a wrong checksum,
-/// invalid data; unreadable: more than memory holds; interrupted. O(nodes whose saturated error is at least
+/// invalid data; outOfMemory; interrupted. O(nodes whose saturated error is at least
 /// half of the required one), 35 bytes per node beside the MT.
 Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directory,
                                     std::span<const std::byte> tables, std::span<const std::byte> nodes,

@@ -10,8 +10,11 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <new>
+#include <optional>
 
 #include "engine/parallel/with_threads.h"
+#include "io/file/memory_guard.h"
 #include "io/format/checksum.h"
 #include "io/format/metadata.h"
 #include "io/packed/bounds.h"
@@ -195,7 +198,7 @@ class Unpacker {
     counts.nodes = directory_.nodes();
     counts.slots = directory_.slots();
     if (!arrays->allocate(counts, directory_.borders()))
-      return failure(ErrorCode::unreadable, "needs more memory to be unpacked than there is");
+      return failure(ErrorCode::outOfMemory, "needs more memory to be unpacked than there is");
     arrays_ = arrays.get();
 
     auto problem = overPackets(Direction::forwards, [this](std::size_t i) { return decode(i); });
@@ -259,9 +262,11 @@ class Unpacker {
 }  // namespace
 }  // namespace packed
 
-Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directoryBytes,
-                                    std::span<const std::byte> tableBytes, std::span<const std::byte> nodes,
-                                    const RequiredError& wanted, const RunContext& context) {
+namespace {
+
+Result<MultiTriangulation> unpack(const AmtMetadata& metadata, std::span<const std::byte> directoryBytes,
+                                  std::span<const std::byte> tableBytes, std::span<const std::byte> nodes,
+                                  const RequiredError& wanted, const RunContext& context) {
   std::string problem;
   auto directory = packed::directoryOf(directoryBytes, problem);
   if (!directory) return failure(ErrorCode::corrupt, "the directory of the packed nodes " + problem);
@@ -290,10 +295,23 @@ Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const
   });
 }
 
+}  // namespace
+
+Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directory,
+                                    std::span<const std::byte> tables, std::span<const std::byte> nodes,
+                                    const RequiredError& wanted, const RunContext& context) {
+  return guardMemory("", [&] { return unpack(metadata, directory, tables, nodes, wanted, context); });
+}
+
 double packedErrorBeyond(std::span<const std::byte> directoryBytes, const OutwardScale& scale,
                          std::uint64_t nodes) {
-  std::string ignored;
-  const auto directory = packed::directoryOf(directoryBytes, ignored);
+  std::string problem;
+  std::optional<packed::Directory> directory;
+  try {
+    directory = packed::directoryOf(directoryBytes, problem);
+  } catch (const std::bad_alloc&) {
+    return 0;
+  }
   if (!directory) return 0;
   std::array<std::uint64_t, MultiTriangulation::kBands> nodesOfBand{};
   for (const packed::Packet& packet : directory->packets)
