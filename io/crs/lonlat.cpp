@@ -88,8 +88,8 @@ CrsLonLat::~CrsLonLat() = default;
 Result<CrsLonLat> CrsLonLat::of(const Georeference& georeference) {
   if (georeference.crsWkt.empty())
     return failure(ErrorCode::usage,
-                   "the DEM has no CRS, so its places have no longitude and latitude; --crs states it when "
-                   "the DEM is built");
+                   "the DEM has no CRS, so its places have no longitude and latitude; `crs` "
+                   "states it when the DEM is built");
   registerGdal();
   const GdalErrors errors;
   auto crs = crsFromText(georeference.crsWkt);

@@ -59,8 +59,8 @@ Result<CrsTransform> CrsTransform::fromLonLat(const Georeference& target) {
   if (target.crsWkt.empty())
     return failure(
         ErrorCode::usage,
-        "the DEM has no CRS, so longitude and latitude cannot be brought into it; --crs states it when "
-        "the DEM is built");
+        "the DEM has no CRS, so longitude and latitude cannot be brought into it; `crs` states "
+        "it when the DEM is built");
   if (isOnEarth(target)) return between("OGC:CRS84", target.crsWkt);
   registerGdal();
   const auto crs = crsFromText(target.crsWkt);

@@ -213,7 +213,8 @@ Result<BandHeights> readBandHeights(GDALRasterBand& band, std::optional<double> 
   if (infinite > 0) warnings.push_back(fmt::format("{} infinite heights are taken as no data", infinite));
   if (huge > 0)
     warnings.push_back(fmt::format(
-        "{} heights are as large as {}: an undeclared NODATA value? --nodata states it", huge, hugeExample));
+        "{} heights are as large as {}: an undeclared NODATA value? `nodata` states it",
+        huge, hugeExample));
   return result;
 }
 

@@ -63,7 +63,7 @@ Result<SightClutter> readClutter(const std::string& text, const TerrainModel& mo
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), height);
   if (error == std::errc{} && end == text.data() + text.size()) {
     if (!(height >= 0) || !std::isfinite(height))
-      return failure(ErrorCode::usage, "is no height of what stands on the terrain", "--clutter " + text);
+      return failure(ErrorCode::usage, "must be a height of at least 0", "clutter " + text);
     clutter.height = [height](Vec2) { return height; };
     return clutter;
   }

@@ -65,11 +65,10 @@ class FeatureCollector {
  private:
   Status addPoint(const OGRFeature& feature, const OGRPoint& point) {
     if (zField_ < 0 && !point.Is3D())
-      return failure(
-          ErrorCode::invalidData,
-          fmt::format("feature {} of the layer '{}' has no height; --z-field names the field that has it "
-                      "(the fields: {})",
-                      feature.GetFID(), layer_.GetName(), fieldNames(*layer_.GetLayerDefn())));
+      return failure(ErrorCode::invalidData,
+                     fmt::format("feature {} of the layer '{}' has no height; `zField` names "
+                                 "the field that holds it (the fields: {})",
+                                 feature.GetFID(), layer_.GetName(), fieldNames(*layer_.GetLayerDefn())));
     const double z = zField_ < 0 ? point.getZ() : feature.GetFieldAsDouble(zField_);
     for (const double value : {point.getX(), point.getY(), z})
       if (!std::isfinite(value))

@@ -29,8 +29,8 @@ struct PointRead {
 ///
 /// Text: one point a line; comma, semicolon, tab or spaces between the fields; '#', but for one in quotes,
 /// opens a comment; the decimal sign is a point. A first line without any number names the columns: x or lon
-/// or easting, y or lat or northing, z or elev or height (or --z-field) and their like; without one, or with
-/// no name known, the first three are x, y, z.
+/// or easting, y or lat or northing, z or elev or height (or PointReadOptions::zField) and their like;
+/// without one, or with no name known, the first three are x, y, z.
 ///
 /// Points in the order of the file; of equal points (x, y and z) the first is kept, with a warning that
 /// counts them. The georeference is the identity: grid coordinates equal source coordinates.

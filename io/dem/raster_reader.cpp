@@ -66,7 +66,8 @@ Result<GDALRasterBand*> chooseBand(GDALDataset& dataset, const RasterReadOptions
     return failure(
         ErrorCode::unsupported,
         fmt::format(
-            "looks like a colour image of {} {}, not like heights; --band N reads one band all the same",
+            "looks like a colour image of {} {}, not like heights; `band` reads one of its "
+            "bands as heights",
             count, bands));
   if (!options.band && count > 1) warnings.push_back(fmt::format("has {} bands; band 1 is read", count));
   if (parts.size() > 1) warnings.push_back(fmt::format("holds {} rasters; the first is read", parts.size()));

@@ -58,9 +58,9 @@ Result<CrsTransform> transformOf(const OGRSpatialReference* own, const Georefere
   }
   if (dem.crsWkt.empty())
     return failure(ErrorCode::invalidData,
-                   "has a CRS and the DEM has none, so they cannot be brought together; --crs states the "
-                   "DEM's when it is built");
-  if (lonLat) warnings.push_back("has a CRS of its own, which is used instead of --lonlat");
+                   "has a CRS and the DEM has none, so they cannot be brought together; "
+                   "`crs` states the DEM's when it is built");
+  if (lonLat) warnings.push_back("has a CRS of its own, so `lonLat` is ignored");
   return CrsTransform::between(wktOf(*own), dem.crsWkt);
 }
 

@@ -25,8 +25,8 @@ Result<CrsTransform> transformation(const OGRSpatialReference* own, const std::s
   }
   if (targetCrs.empty())
     return failure(ErrorCode::invalidData,
-                   "has a CRS and the DEM has none, so they cannot be brought together; --crs states the "
-                   "DEM's");
+                   "has a CRS and the DEM has none, so they cannot be brought together; "
+                   "`crs` states the DEM's");
   return CrsTransform::between(wktOf(*own), targetCrs);
 }
 

@@ -157,7 +157,7 @@ Result<Columns> columnsByName(std::span<const std::string_view> fields, const st
                              !x   ? "x"
                              : !y ? "y"
                                   : "the height",
-                             x && y ? " (--z-field names one)" : "", columnNames(fields)));
+                             x && y ? " (`zField` names one)" : "", columnNames(fields)));
 }
 
 class TextParser {

@@ -265,7 +265,7 @@ TEST_F(SightCommands, LosRefusesWhatMakesNoSense) {
   refused({"los", "dem.amt", "--from", "1105,1895,2", "--to", "1205,1895,2", "--earth", "ellipsoid"}, 2,
           "--earth ellipsoid: the DEM has no CRS");
   refused({"los", "dem.amt", "--from", "1105,1895,2", "--to", "1205,1895,2", "--clutter", "-3"}, 2,
-          "is no height");
+          "--clutter -3: must be a height of at least 0");
   // Options that mean nothing without another one.
   const auto line = [&](const std::string& option, const std::string& value, const std::string& sentence) {
     refused({"los", "dem.amt", "--from", "1105,1895,2", "--to", "1205,1895,2", option, value}, 2, sentence);

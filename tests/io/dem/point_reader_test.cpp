@@ -238,7 +238,7 @@ TEST(PointReader, TakesTheHeightFromAField) {
   EXPECT_TRUE(contains(joined(read.warnings), "2 features without")) << joined(read.warnings);
   const Error flat = errorOf(path);
   EXPECT_EQ(flat.code, ErrorCode::invalidData);
-  EXPECT_TRUE(contains(flat.message, "--z-field") && contains(flat.message, "h, label")) << flat.describe();
+  EXPECT_TRUE(contains(flat.message, "`zField`") && contains(flat.message, "h, label")) << flat.describe();
   options.zField = "nothing";
   EXPECT_TRUE(contains(errorOf(path, options).message, "h, label"));
   options.zField = "label";

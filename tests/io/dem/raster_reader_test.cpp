@@ -401,7 +401,7 @@ TEST(RasterReader, RefusesAColourImageUnlessABandIsNamed) {
   const std::string path = writeRaster(folder.file("image.tif"), spec);
   const Error error = errorOf(path);
   EXPECT_EQ(error.code, ErrorCode::unsupported);
-  EXPECT_TRUE(contains(error.message, "--band")) << error.describe();
+  EXPECT_TRUE(contains(error.message, "`band`")) << error.describe();
   expectHeights(readOrFail(path, withBand(2)), {1, 2, 3, 4, 5, 6});
 }
 
