@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "io/mesh/2dm/mesh_2dm.h"
+#include "io/mesh/2dm/2dm.h"
 #include "io/mesh/glb/glb.h"
 #include "io/mesh/gpkg/gpkg.h"
 #include "io/mesh/obj/obj.h"

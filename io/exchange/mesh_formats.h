@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/mesh/mesh_file.h"
+#include "io/mesh/file.h"
 
 namespace arete {
 

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "io/file/text_scan.h"
-#include "io/mesh/mesh_file.h"
+#include "io/mesh/file.h"
 
 namespace arete {
 
-/// What a text format says of a mesh in its comment lines, each after "# ".
+/// The comment lines of a mesh in a text format: CRS, vertical unit and notes, each after "# ".
 inline std::string meshComments(const MeshWriteOptions& options) {
   std::string comments;
   if (!options.crsWkt.empty()) comments += fmt::format("# crs {}\n", text::onOneLine(options.crsWkt));

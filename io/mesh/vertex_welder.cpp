@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A hash table of vertex numbers with linear probing; the key is the position itself, in the list of
-// positions. Each coordinate's bits are folded in with a multiplication and a shift (the finaliser of
-// splitmix64), so that a regular grid does not fill one end of the table.
+// A hash table of vertex indices with linear probing. The key of an entry is its position in the list of
+// positions. The finaliser of splitmix64 mixes the bits of each coordinate into the hash, so that a regular grid
+// spreads over the whole table.
 #include "io/mesh/vertex_welder.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Offsets, lengths and counts of the JSON are whole numbers below 2^32 or refused, so that sums and products
-// of two of them do not overflow 64 bits; each range is then held against what contains it, from the accessor
-// to the view, the buffer and the chunk.
+// Offsets, lengths and counts in the JSON must be whole numbers below 2^32, so that sums and products of two
+// of them do not overflow 64 bits. Each range is checked against the one that contains it: the accessor
+// against the view, the view against the bytes of the chunk.
 #include "io/mesh/glb/document.h"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ tl::unexpected<Error> corrupt(std::string message) {
   return failure(ErrorCode::corrupt, std::move(message));
 }
 
-/// Bytes of one component; 0 for no component type.
+/// Bytes of one component; 0 for an unknown component type.
 std::uint64_t componentSize(std::uint64_t type) {
   switch (type) {
     case 5120:
@@ -55,7 +55,7 @@ std::uint64_t componentsOf(std::string_view type) {
 
 Result<GlbDocument> GlbDocument::open(std::string_view file) {
   if (file.size() < kHeaderSize || !file.starts_with("glTF"))
-    return corrupt("is no GLB: it does not begin with a header of \"glTF\"");
+    return corrupt("is not a GLB: it does not begin with \"glTF\"");
   if (const std::uint32_t version = numberAt(file, 4); version != 2)
     return failure(ErrorCode::unsupported, fmt::format("is a GLB of version {}, not 2", version));
   if (const std::uint32_t length = numberAt(file, 8); length != file.size())
@@ -70,13 +70,13 @@ Result<GlbDocument> GlbDocument::open(std::string_view file) {
     at += kChunkHeaderSize;
     if (length > file.size() - at)
       return corrupt(fmt::format("chunk {} of {} bytes is longer than the file", chunk, length));
-    if ((chunk == 0) != (type == kJsonChunk)) return corrupt("does not have its one chunk of JSON first");
+    if ((chunk == 0) != (type == kJsonChunk)) return corrupt("does not begin with its only chunk of JSON");
     if (chunk == 0) text = file.substr(at, length);
     if (type == kBinChunk && !std::exchange(hasBytes, true)) document.bytes_ = file.substr(at, length);
     at += length;
   }
   document.json_ = nlohmann::json::parse(text, nullptr, false);
-  if (!document.json_.is_object()) return corrupt("its chunk of JSON is no JSON object");
+  if (!document.json_.is_object()) return corrupt("its chunk of JSON is not a JSON object");
   const auto required = document.json_.find("extensionsRequired");
   if (required != document.json_.end() && !(required->is_array() && required->empty())) {
     std::string names;
@@ -107,7 +107,7 @@ Result<std::uint64_t> GlbDocument::wholeNumber(const nlohmann::json& object, con
 Result<const nlohmann::json*> GlbDocument::element(const char* list, std::uint64_t number) const {
   const auto found = json_.find(list);
   if (found == json_.end() || !found->is_array() || number >= found->size() || !(*found)[number].is_object())
-    return corrupt(fmt::format("names element {} of \"{}\", which is not there", number, list));
+    return corrupt(fmt::format("names element {} of \"{}\", which does not exist", number, list));
   return &(*found)[number];
 }
 
@@ -130,7 +130,8 @@ Result<GlbDocument::Elements> GlbDocument::accessor(std::uint64_t number, std::s
   for (const auto* value : {&count, &component, &offset, &viewNumber})
     if (!*value) return wrong(ErrorCode::corrupt, value->error().message);
   const std::uint64_t size = componentSize(*component) * componentsOf(type);
-  if (size == 0) return wrong(ErrorCode::corrupt, fmt::format("has no component type {}", *component));
+  if (size == 0)
+    return wrong(ErrorCode::corrupt, fmt::format("has the unknown component type {}", *component));
 
   const auto foundView = element("bufferViews", *viewNumber);
   if (!foundView) return tl::unexpected(foundView.error());

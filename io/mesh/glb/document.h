@@ -10,11 +10,14 @@
 
 namespace arete {
 
-/// A GLB taken apart: its JSON, and its accessors as bytes that are sure to be there. Errors have no culprit.
+/// A GLB file: its JSON, and its accessors as ranges of bytes that are checked to lie in the file. Errors
+/// have no culprit; the caller adds the path.
 class GlbDocument {
  public:
-  /// `file` must outlive the document. Errors: corrupt (no GLB, truncated, chunks that do not fit, no JSON),
-  /// unsupported (another version, a required extension).
+  /// @param file Must outlive the document.
+  ///
+  /// Errors: corrupt: not a GLB, truncated, chunks that do not fit, invalid JSON. unsupported: another
+  /// version, a required extension.
   static Result<GlbDocument> open(std::string_view file);
 
   const nlohmann::json& json() const { return json_; }
@@ -27,17 +30,21 @@ class GlbDocument {
     int componentType = 0;
   };
 
-  /// The accessor of that number, all of its bytes inside the file. `type`: "VEC3", "SCALAR". Errors:
-  /// corrupt, unsupported (sparse, another buffer than the file's own).
+  /// @param number Index of the accessor.
+  /// @param type The required type: "VEC3", "SCALAR".
+  ///
+  /// Errors: corrupt: a missing accessor, another type, bytes outside the file. unsupported: a sparse
+  /// accessor, a buffer outside the file.
   Result<Elements> accessor(std::uint64_t number, std::string_view type) const;
 
-  /// The element of a top-level list ("nodes", 3). Errors: corrupt, when it is not there or no object.
+  /// An element of a top-level list: element("nodes", 3). Errors: corrupt: it is missing or not an object.
   Result<const nlohmann::json*> element(const char* list, std::uint64_t number) const;
 
-  /// A whole number below 2^32 of an object; `fallback` where the object does not have it. Errors: corrupt.
+  /// @return A member of an object; `fallback` if it is missing. Errors: corrupt: it is not a whole number
+  /// below 2^32.
   static Result<std::uint64_t> wholeNumber(const nlohmann::json& object, const char* key,
                                            std::uint64_t fallback);
-  /// The same, where it must be there.
+  /// The same; a missing member is corrupt.
   static Result<std::uint64_t> wholeNumber(const nlohmann::json& object, const char* key);
 
  private:

@@ -52,7 +52,7 @@ Result<GlbFrame> glbFrameFromJson(const nlohmann::json& json) {
     else if (wrong.empty())
       wrong = key;
   };
-  if (!json.is_object()) return failure(ErrorCode::corrupt, "what asset.extras.arete says is no object");
+  if (!json.is_object()) return failure(ErrorCode::corrupt, "asset.extras.arete is not an object");
   std::string kind;
   takeText("frame", kind);
   s.isGeographic = kind == kGeographic;
@@ -75,8 +75,7 @@ Result<GlbFrame> glbFrameFromJson(const nlohmann::json& json) {
   else if (wrong.empty())
     wrong = "origin";
   if (!wrong.empty())
-    return failure(ErrorCode::corrupt,
-                   fmt::format("asset.extras.arete.{} is missing or makes no sense", wrong));
+    return failure(ErrorCode::corrupt, fmt::format("asset.extras.arete.{} is missing or invalid", wrong));
   return frame;
 }
 

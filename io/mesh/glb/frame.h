@@ -10,7 +10,7 @@
 
 namespace arete {
 
-/// What a GLB of ours says of its frame, under "arete" in the extras of its asset.
+/// The frame of a GLB that Arete writes: the object "arete" in asset.extras.
 struct GlbFrame {
   LocalFrameSpec local;
   std::string crsWkt;
@@ -20,7 +20,7 @@ struct GlbFrame {
 
 nlohmann::ordered_json toJson(const GlbFrame& frame);
 
-/// Errors: corrupt, naming the field that is missing or makes no sense. Notes are not read.
+/// Reads all but the notes. Errors: corrupt: a field is missing or of the wrong type; the message names it.
 Result<GlbFrame> glbFrameFromJson(const nlohmann::json& json);
 
 /// glTF is Y up and right-handed: x east, y up, z south.

@@ -3,24 +3,28 @@
 
 #include <filesystem>
 
-#include "io/mesh/mesh_file.h"
+#include "io/mesh/file.h"
 
 namespace arete {
 
-/// Reads a GLB (glTF 2.0 binary): the triangles of the default scene with the transforms of their nodes. Of a
-/// file of ours positions come back in source coordinates, within the rounding of 32-bit floats; of any other
-/// file x, -z, y are taken as x, y, height. Materials, normals, cameras, animations are passed over.
-/// Errors as readMesh(); unsupported, named, for what Arete does not know: required extensions (Draco, ...),
-/// sparse accessors, data outside the file, primitives that are no triangle lists, positions that are not
-/// float32, skins. No offset, length or index is believed.
+/// Reads a GLB (glTF 2.0 binary): the triangles of the default scene with the transforms of their nodes.
+/// Positions of a file that Arete wrote are in source coordinates, within the rounding of 32-bit floats. In
+/// other files x, -z, y are taken as x, y, height. Materials, normals, cameras and animations are ignored.
+/// Every offset, length and index is checked.
+///
+/// Errors: those of readMesh(). unsupported: also required extensions (Draco, ...), sparse accessors, data
+/// outside the file, primitives other than triangle lists, positions that are not float32, skins; the message
+/// names it.
 Result<MeshFile> readGlb(const std::filesystem::path& path, const RunContext& context = {});
 
-/// Writes a GLB in metres, Y up, about a local origin: with a geographic CRS in the frame that is east, north
-/// and up there, otherwise along the axes of the map (terrain/model/local_frame.h). Positions and smooth
-/// normals float32, indices uint32, and where options has errors the largest of a vertex's triangles as
-/// "_ERROR" in the unit of the heights. CRS, units and origin stand in asset.extras.arete. Vertices without a
-/// triangle are written along unless there is no triangle at all. Errors as writeMesh(); usage for a CRS that
-/// GDAL does not understand; invalidData for a latitude beyond the pole and for more than 4 GiB.
+/// Writes a GLB in metres, Y up, relative to a local origin. The axes are east, north and up at the origin
+/// for a geographic CRS, and those of the map otherwise (terrain/model/local_frame.h). Positions and smooth
+/// normals are float32, indices uint32. With options.triangleErrors each vertex has an "_ERROR": the largest
+/// error of its triangles, in the unit of the heights. CRS, units and origin are in asset.extras.arete.
+/// Vertices without a triangle are written too, unless the mesh has no triangle.
+///
+/// Errors: those of writeMesh(). usage: a CRS that GDAL does not understand. invalidData: also a latitude
+/// beyond the pole, and more than 4 GiB.
 Status writeGlb(const TriangleMesh& mesh, const std::filesystem::path& path,
                 const MeshWriteOptions& options = {}, const RunContext& context = {});
 

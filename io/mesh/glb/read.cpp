@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The nodes of the scene are walked with their transforms, from the roots, without recursion; a node is met
-// once or the file is refused, as the format demands. Each primitive is copied: positions through the
-// transform of its node and, in a file of ours, out of the local frame into source coordinates. A mesh may
-// stand in several nodes; how much may come of that is bounded by the size of the file.
+// The nodes of the scene are visited with their transforms, from the roots, without recursion. The format
+// allows a node one parent, so a second visit is an error. Each primitive is copied: its positions are
+// transformed by the node and, in a file that Arete wrote, from the local frame to source coordinates.
+// Several nodes may use one mesh; the size of the file bounds the total.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ using Json = nlohmann::json;
 constexpr std::size_t kRecordsPerCancelCheck = 1 << 16;
 constexpr int kUbyte = 5121, kUshort = 5123, kUint = 5125, kFloat = 5126;
 constexpr std::uint64_t kTriangleList = 4;
-/// Most vertices and triangles that a file may come to, for each of its bytes and at least.
+/// Upper bound on vertices plus triangles: so many per byte of the file, but at least so many.
 constexpr std::uint64_t kMostPerByte = 1, kMostAtLeast = 1'000'000;
 
 class GlbReader {
@@ -44,7 +44,7 @@ class GlbReader {
     if (const Status ok = walk(); !ok) return tl::unexpected(ok.error());
     if (result_.mesh.triangles.empty() && !frame_)
       return failure(ErrorCode::unsupported, "holds no triangle");
-    sayRounding();
+    setRounding();
     return std::move(result_);
   }
 
@@ -53,17 +53,17 @@ class GlbReader {
     const Json::json_pointer place("/asset/extras/arete");
     result_.frame.coordinates = "float32";
     if (!document_.json().contains(place)) return {};
-    Result<GlbFrame> said = glbFrameFromJson(document_.json().at(place));
-    if (!said) return tl::unexpected(said.error());
-    const Result<LocalFrame> frame = LocalFrame::create(said->local);
+    Result<GlbFrame> stated = glbFrameFromJson(document_.json().at(place));
+    if (!stated) return tl::unexpected(stated.error());
+    const Result<LocalFrame> frame = LocalFrame::create(stated->local);
     if (!frame) return failure(ErrorCode::corrupt, frame.error().message);
     frame_ = *frame;
-    result_.crsWkt = std::move(said->crsWkt);
-    result_.verticalUnit = std::move(said->verticalUnit);
-    result_.frame.coordinates = said->local.isGeographic
+    result_.crsWkt = std::move(stated->crsWkt);
+    result_.verticalUnit = std::move(stated->verticalUnit);
+    result_.frame.coordinates = stated->local.isGeographic
                                     ? "float32, metres east, north and up of the origin"
                                     : "float32, metres along the axes of the map from the origin";
-    result_.frame.origin = said->local.origin;
+    result_.frame.origin = stated->local.origin;
     return {};
   }
 
@@ -77,13 +77,13 @@ class GlbReader {
     if (nodes == document_.json().end() || !nodes->is_array()) return {};
     std::vector<Visit> open;
     if (Status ok = addRoots(open, nodes->size()); !ok) return ok;
-    std::vector<char> met(nodes->size(), 0);
+    std::vector<char> visited(nodes->size(), 0);
     while (!open.empty()) {
       const Visit visit = open.back();
       open.pop_back();
       const auto node = document_.element("nodes", visit.node);
       if (!node) return tl::unexpected(node.error());
-      if (std::exchange(met[visit.node], char{1}) != 0)
+      if (std::exchange(visited[visit.node], char{1}) != 0)
         return failure(ErrorCode::corrupt, fmt::format("node {} has two parents", visit.node));
       const Result<Affine> own = nodeTransform(**node);
       if (!own) return tl::unexpected(own.error());
@@ -98,7 +98,7 @@ class GlbReader {
     return {};
   }
 
-  /// The nodes of the default scene; without a scene, the nodes that are no one's children.
+  /// The nodes of the default scene; without a scene, the nodes without a parent.
   Status addRoots(std::vector<Visit>& open, std::size_t nodes) const {
     const Json& json = document_.json();
     if (json.contains("scenes")) {
@@ -124,11 +124,12 @@ class GlbReader {
                            std::vector<Visit>& to) {
     const auto list = object.find(key);
     if (list == object.end()) return {};
-    if (!list->is_array()) return failure(ErrorCode::corrupt, fmt::format("\"{}\" is no list", key));
-    // The last one pushed is met first.
+    if (!list->is_array()) return failure(ErrorCode::corrupt, fmt::format("\"{}\" is not a list", key));
+    // Pushed in reverse: the last one pushed is visited first.
     for (std::size_t i = list->size(); i-- > 0;) {
       if (!(*list)[i].is_number_unsigned())
-        return failure(ErrorCode::corrupt, fmt::format("\"{}\" holds what is no number of a node", key));
+        return failure(ErrorCode::corrupt,
+                       fmt::format("\"{}\" holds a value that is not the index of a node", key));
       to.push_back({(*list)[i].get<std::uint64_t>(), parent});
     }
     return {};
@@ -157,7 +158,7 @@ class GlbReader {
     const auto mode = GlbDocument::wholeNumber(primitive, "mode", kTriangleList);
     if (!mode) return tl::unexpected(mode.error());
     if (*mode != kTriangleList)
-      return failure(ErrorCode::unsupported, fmt::format("is of mode {}, no list of triangles", *mode));
+      return failure(ErrorCode::unsupported, fmt::format("is of mode {}, not a list of triangles", *mode));
     const auto position = GlbDocument::wholeNumber(primitive["attributes"], "POSITION");
     if (!position) return tl::unexpected(position.error());
     const auto positions = document_.accessor(*position, "VEC3");
@@ -171,7 +172,7 @@ class GlbReader {
       const auto found = document_.accessor(*number, "SCALAR");
       if (!found) return tl::unexpected(found.error());
       if (found->componentType != kUbyte && found->componentType != kUshort && found->componentType != kUint)
-        return failure(ErrorCode::corrupt, "has indices that are no unsigned whole numbers");
+        return failure(ErrorCode::corrupt, "has indices that are not unsigned whole numbers");
       indices = *found;
     }
     return addTriangles(*positions, indices, placed);
@@ -182,15 +183,15 @@ class GlbReader {
     TriangleMesh& mesh = result_.mesh;
     const std::uint64_t corners = indices ? indices->count : positions.count;
     if (corners % 3 != 0)
-      return failure(ErrorCode::corrupt, fmt::format("has {} corners, not three of each", corners));
+      return failure(ErrorCode::corrupt, fmt::format("has {} corners, not a multiple of three", corners));
     if (mesh.positions.size() + mesh.triangles.size() + positions.count + corners / 3 > most_)
       return failure(ErrorCode::unsupported,
-                     "is repeated so often that the whole is far larger than the file");
+                     "is repeated so often that the mesh is far larger than the file");
     if (mesh.positions.size() + positions.count >= std::numeric_limits<std::uint32_t>::max())
       return failure(ErrorCode::unsupported, "is one vertex more than an index can name");
     const auto base = static_cast<std::uint32_t>(mesh.positions.size());
     for (std::uint64_t v = 0; v < positions.count; ++v) {
-      if (Status ok = mayGoOn(v, positions.count); !ok) return ok;
+      if (Status ok = reportAndCheck(v, positions.count); !ok) return ok;
       std::array<float, 3> xyz;
       std::memcpy(&xyz, positions.first + v * positions.stride, sizeof xyz);
       const Vec3 local = gltfToLocal(placed({xyz[0], xyz[1], xyz[2]}));
@@ -204,7 +205,7 @@ class GlbReader {
     }
     const bool flips = placed.mirrors();
     for (std::uint64_t c = 0; c < corners; c += 3) {
-      if (Status ok = mayGoOn(c, corners); !ok) return ok;
+      if (Status ok = reportAndCheck(c, corners); !ok) return ok;
       std::array<std::uint32_t, 3> triangle;
       for (std::uint64_t k = 0; k < 3; ++k) {
         const std::uint32_t index = indices ? indexAt(*indices, c + k) : static_cast<std::uint32_t>(c + k);
@@ -227,14 +228,14 @@ class GlbReader {
     return index;
   }
 
-  Status mayGoOn(std::uint64_t done, std::uint64_t all) const {
+  Status reportAndCheck(std::uint64_t done, std::uint64_t all) const {
     if (done % kRecordsPerCancelCheck > 2) return {};
     context_.report("reading the mesh", static_cast<double>(done) / static_cast<double>(all));
     if (context_.cancelled()) return failure(ErrorCode::interrupted, "reading was interrupted");
     return {};
   }
 
-  void sayRounding() {
+  void setRounding() {
     const Vec3 local{float32Rounding(largest_.x, 0), float32Rounding(largest_.y, 0),
                      float32Rounding(largest_.z, 0)};
     result_.frame.rounding = local;
@@ -245,7 +246,7 @@ class GlbReader {
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    // The way there and back is itself rounded, to some ulp of the coordinates or of the Earth's radius.
+    // The transform to the frame and back rounds to some ulp of the coordinates or of the Earth's radius.
     constexpr double kUlps = 8 * 0x1p-52;
     const double slack = frame_->spec().isGeographic ? kUlps * frame_->spec().semiMajorAxisMetres : 0;
     const Vec3 reach = frame_->sourceReach({local.x + slack, local.y + slack, local.z + slack}, low, high);

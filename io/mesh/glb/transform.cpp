@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// An array of exactly N numbers; `fallback` where the node does not have it.
+/// An array of exactly N numbers; `fallback` if the node does not have it.
 template <std::size_t N>
 Result<std::array<double, N>> numbersOf(const Json& node, const char* key, std::array<double, N> fallback) {
   const auto found = node.find(key);

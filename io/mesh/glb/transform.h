@@ -9,7 +9,7 @@
 
 namespace arete {
 
-/// x -> a x + t.
+/// The affine map x -> a x + t.
 struct Affine {
   std::array<double, 9> a = {1, 0, 0, 0, 1, 0, 0, 0, 1};  // row by row
   Vec3 t;
@@ -18,7 +18,7 @@ struct Affine {
     return {a[0] * p.x + a[1] * p.y + a[2] * p.z + t.x, a[3] * p.x + a[4] * p.y + a[5] * p.z + t.y,
             a[6] * p.x + a[7] * p.y + a[8] * p.z + t.z};
   }
-  /// First `inner`, then this.
+  /// The composition: first `inner`, then this.
   Affine after(const Affine& inner) const {
     Affine result;
     for (std::size_t r = 0; r < 3; ++r)
@@ -28,6 +28,7 @@ struct Affine {
     result.t = (*this)(inner.t);
     return result;
   }
+  /// True if the determinant is negative: the map turns triangles over.
   bool mirrors() const {
     return a[0] * (a[4] * a[8] - a[5] * a[7]) - a[1] * (a[3] * a[8] - a[5] * a[6]) +
                a[2] * (a[3] * a[7] - a[4] * a[6]) <
@@ -35,7 +36,8 @@ struct Affine {
   }
 };
 
-/// The transform of a glTF node: its matrix, or its translation, rotation and scale. Errors: corrupt.
+/// The transform of a glTF node: its matrix, or its translation, rotation and scale.
+/// Errors: corrupt: a wrong count of numbers, a matrix that is not affine.
 Result<Affine> nodeTransform(const nlohmann::json& node);
 
 }  // namespace arete

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A GLB is a header, a chunk of JSON and a chunk of bytes. The bytes here are positions, normals, errors and
-// indices, one after the other; everything is a multiple of four bytes, which is all the alignment the format
-// asks for. A normal is the sum of the doubled areas of the triangles around the vertex, made unit: steeper
-// and larger triangles count more. It is taken from the positions as rounded.
+// A GLB is a header, a chunk of JSON and a chunk of bytes. The bytes are positions, normals, errors and
+// indices, in this order; every element is a multiple of four bytes, the alignment that the format requires.
+// A vertex normal is the normalized sum of the cross products of the triangles around the vertex, so larger
+// triangles weigh more. It is computed from the rounded positions.
 #include "io/mesh/glb/glb.h"
 
 #include <fmt/format.h>
@@ -67,7 +67,7 @@ Result<std::vector<Float3>> roundedPositions(const TriangleMesh& mesh, const Loc
       return failure(ErrorCode::invalidData,
                      fmt::format("the position {}, {}, {} is beyond the pole, or too far for 32-bit floats",
                                  p.x, p.y, p.z));
-    // -0 is 0: "-0.0" and "0.0" in min and max are not one number to every reader.
+    // -0 becomes 0: some readers do not take "-0.0" and "0.0" in min and max as equal.
     rounded.push_back(
         {static_cast<float>(q.x) + 0.0F, static_cast<float>(q.y) + 0.0F, static_cast<float>(q.z) + 0.0F});
   }
@@ -157,7 +157,7 @@ Json documentOf(const TriangleMesh& mesh, const std::vector<Float3>& positions, 
   return document;
 }
 
-/// Writes the elements one by one; false when the user asked to stop.
+/// Writes the elements one by one. False if the context was cancelled.
 template <class Values>
 bool writeAll(FileWriter& file, const Values& values, const RunContext& context, double from, double to) {
   for (std::size_t i = 0; i < values.size(); ++i) {

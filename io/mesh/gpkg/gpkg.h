@@ -3,25 +3,29 @@
 
 #include <filesystem>
 
-#include "io/mesh/mesh_file.h"
+#include "io/mesh/file.h"
 
 namespace arete {
 
-/// Reads the triangles of a GeoPackage: of the only layer that may hold surfaces, its polygons,
-/// multipolygons, triangles, TINs and polyhedral surfaces, each of three corners with heights. Corners at one
-/// place become one vertex, numbered in the order in which they come; a numeric field "error" that no feature
-/// leaves open is the triangles' error. Errors as readMesh(); unsupported for polygons that are no triangles
-/// or have no heights, and for files with several such layers.
+/// Reads the triangles of a GeoPackage: the polygons, multipolygons, triangles, TINs and polyhedral surfaces
+/// of its only layer that may hold surfaces, each polygon with three corners with heights. Corners at equal
+/// positions become one vertex, in the order of first occurrence. A numeric field "error" that is set in
+/// every feature gives the errors of the triangles.
+///
+/// Errors: those of readMesh(). unsupported: also polygons that are not triangles or have no heights, and
+/// several layers of surfaces.
 Result<MeshFile> readGpkg(const std::filesystem::path& path, const RunContext& context = {});
 
-/// Whether a GeoPackage holds surfaces rather than points or rasters. False for what cannot be opened.
+/// @return True if a GeoPackage holds surfaces and no points. False if it cannot be opened.
 bool holdsSurfaces(const std::filesystem::path& path);
 
-/// Writes a GeoPackage with one layer, "triangles", in options.crsWkt, with a spatial index: a PolygonZ for
-/// each triangle, counter-clockwise, its number from 0 in the field "triangle" and its error, where there is
-/// one, in "error". The unit of the heights is metadata of the layer. Coordinates are doubles. The same mesh
-/// gives the same bytes: the "last change" that the format wants is always the first second of 1970. Errors
-/// as writeMesh(); usage for a CRS that GDAL does not understand.
+/// Writes a GeoPackage with one layer, "triangles", in options.crsWkt, with a spatial index. Each triangle is
+/// a counter-clockwise PolygonZ of doubles with its index in the field "triangle" and, given
+/// options.triangleErrors, its error in "error". The vertical unit is metadata of the layer. The same mesh
+/// gives the same bytes: the time of the last change, which the format requires, is always the first second
+/// of 1970.
+///
+/// Errors: those of writeMesh(). usage: a CRS that GDAL does not understand.
 Status writeGpkg(const TriangleMesh& mesh, const std::filesystem::path& path,
                  const MeshWriteOptions& options = {}, const RunContext& context = {});
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// GDAL hands out one feature after the other; its surfaces are taken apart down to polygons, whose outer ring
-// must be three corners. Corners are welded, since the format repeats them.
+// Feature by feature: collections and surfaces are split into polygons, and the outer ring of each must have
+// three corners. Corners are welded, since the format repeats them.
 #include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogr_geometry.h>
@@ -28,9 +28,9 @@ constexpr std::uint64_t kMostTriangles = std::numeric_limits<std::uint32_t>::max
 constexpr std::array<const char*, 2> kDrivers = {"GPKG", nullptr};
 constexpr const char* kUnitKey = "VERTICAL_UNIT";
 
-class SurfaceLayer {
+class GpkgReader {
  public:
-  SurfaceLayer(OGRLayer& layer, const RunContext& context) : layer_(layer), context_(context) {}
+  GpkgReader(OGRLayer& layer, const RunContext& context) : layer_(layer), context_(context) {}
 
   Result<MeshFile> read() {
     GdalErrors errors;
@@ -86,19 +86,19 @@ class SurfaceLayer {
         if (Status ok = addGeometry(*part); !ok) return ok;
       return {};
     }
-    return refuse(ErrorCode::unsupported, fmt::format("is a {}, no triangle", geometry.getGeometryName()));
+    return refuse(ErrorCode::unsupported, fmt::format("is a {}, not a triangle", geometry.getGeometryName()));
   }
 
   Status addPolygon(const OGRPolygon& polygon) {
     if (polygon.IsEmpty()) return {};
     if (!polygon.Is3D()) return refuse(ErrorCode::unsupported, "has no heights");
     if (polygon.getNumInteriorRings() > 0)
-      return refuse(ErrorCode::unsupported, "has a hole: it is no triangle");
+      return refuse(ErrorCode::unsupported, "is a polygon with a hole, not a triangle");
     const OGRLinearRing& ring = *polygon.getExteriorRing();
     const int points = ring.getNumPoints();
     const auto at = [&](int i) { return Vec3{ring.getX(i), ring.getY(i), ring.getZ(i)}; };
     if (points != 4 || !(at(0) == at(3)))
-      return refuse(ErrorCode::unsupported, fmt::format("is a ring of {} points, no triangle", points));
+      return refuse(ErrorCode::unsupported, fmt::format("is a ring of {} points, not a triangle", points));
     if (result_.mesh.triangles.size() == kMostTriangles)
       return refuse(ErrorCode::unsupported, "is one triangle more than an index can name");
     std::array<std::uint32_t, 3> triangle;
@@ -128,12 +128,12 @@ Result<MeshFile> readFrom(const std::string& path, const RunContext& context) {
   if (!dataset) {
     Error error = explainOpenFailure(path, "GeoPackage", errors);
     if (error.code == ErrorCode::unsupported)
-      error = {ErrorCode::corrupt, "is damaged or no GeoPackage", path};
+      error = {ErrorCode::corrupt, "is damaged or not a GeoPackage", path};
     return tl::unexpected(std::move(error));
   }
   const Result<OGRLayer*> layer = chooseLayer(*dataset, {}, LayerKind::surfaces);
   if (!layer) return tl::unexpected(layer.error());
-  Result<MeshFile> file = SurfaceLayer(**layer, context).read();
+  Result<MeshFile> file = GpkgReader(**layer, context).read();
   if (!file) return file;
   if (const OGRSpatialReference* crs = (*layer)->GetSpatialRef(); isKnownCrs(crs)) {
     OGRSpatialReference copy(*crs);

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One feature object is filled anew for every triangle; all triangles are one transaction, since SQLite
+// commits each insertion on its own otherwise.
 #include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
@@ -62,7 +65,6 @@ Status writeTriangles(OGRLayer& layer, const TriangleMesh& mesh, std::span<const
   return {};
 }
 
-/// All triangles in one transaction.
 Status fill(GDALDataset& dataset, GdalErrors& errors, const TriangleMesh& mesh,
             const MeshWriteOptions& options, const RunContext& context) {
   const Result<OGRLayer*> layer = createLayer(dataset, options, errors);

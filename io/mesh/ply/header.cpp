@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Line by line, word by word: the first word of a line is its keyword. Unknown keywords are errors, since a
+// reader that skips them misses data.
 #include "io/mesh/ply/header.h"
 
 #include <fmt/format.h>
@@ -49,7 +52,7 @@ std::optional<std::uint64_t> countFrom(std::string_view word) {
   return count;
 }
 
-/// What a header line did not say, as a sentence; empty when it is fine.
+/// Adds the property to the last element. Returns what is wrong with the line; empty if nothing is.
 std::string readProperty(const std::vector<std::string_view>& words, std::vector<PlyElement>& elements) {
   if (elements.empty()) return "a property before any element";
   PlyProperty property;
@@ -79,7 +82,7 @@ std::size_t sizeOf(PlyType type) {
 
 Result<PlyHeader> parsePlyHeader(std::string_view file, const std::string& path) {
   if (!file.starts_with("ply") || file.size() < 4 || !text::isSpace(file[3]))
-    return failure(ErrorCode::corrupt, "is no PLY file: it does not begin with a line \"ply\"", path);
+    return failure(ErrorCode::corrupt, "is not a PLY file: it does not begin with a line \"ply\"", path);
   const std::size_t firstEnd = file.find_first_of("\r\n");
   if (firstEnd == std::string_view::npos)
     return failure(ErrorCode::corrupt, "the header ends in its first line", path);
@@ -108,7 +111,7 @@ Result<PlyHeader> parsePlyHeader(std::string_view file, const std::string& path)
       if (!text.empty()) text.remove_prefix(1);
       header.comments.emplace_back(text);
     } else if (words[0] == "format") {
-      if (words.size() != 3 || hasFormat) return broken("a format that makes no sense");
+      if (words.size() != 3 || hasFormat) return broken("an invalid or repeated format");
       if (words[2] != "1.0")
         return failure(ErrorCode::unsupported,
                        fmt::format("PLY version {} is not known", text::quotedToken(words[2])), path);

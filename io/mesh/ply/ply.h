@@ -3,21 +3,24 @@
 
 #include <filesystem>
 
-#include "io/mesh/mesh_file.h"
+#include "io/mesh/file.h"
 
 namespace arete {
 
-/// Reads a PLY: ascii, binary little or big endian; any property types and order; elements and properties
-/// beside x, y, z and vertex_indices (or vertex_index) are skipped. "comment crs <WKT>", continued in lines
-/// "comment crs+ <more>", and "comment vertical_unit <unit>" are understood, and a property "error" of the
-/// faces. Errors as readMesh(). No count
-/// of the header is believed before the size of the file allows it.
+/// Reads a PLY (Turk's format 1.0): ascii, binary little or big endian, with any property types and order.
+/// Reads x, y, z, vertex_indices (or vertex_index) and a face property "error"; skips other elements and
+/// properties. Understands "comment crs <WKT>", continued in lines "comment crs+ <more>", and "comment
+/// vertical_unit <unit>". Memory is bounded by a multiple of the file's size, whatever counts the header
+/// states.
+///
+/// Errors: those of readMesh().
 Result<MeshFile> readPly(const std::filesystem::path& path, const RunContext& context = {});
 
-/// Writes binary little-endian PLY: vertices as doubles, faces as list uchar int vertex_indices, with a float
-/// property "error" per face when options.triangleErrors is given, and per vertex a float "quality" and uchar
-/// red, green, blue when options.vertexQualities and vertexColors are. Exact to the bit. Errors as
-/// writeMesh().
+/// Writes binary little-endian PLY: vertices as doubles, faces as "list uchar int vertex_indices". With
+/// options.triangleErrors each face has a float "error"; with vertexQualities and vertexColors each vertex
+/// has a float "quality" and uchar red, green, blue. Exact to the bit.
+///
+/// Errors: those of writeMesh().
 Status writePly(const TriangleMesh& mesh, const std::filesystem::path& path,
                 const MeshWriteOptions& options = {}, const RunContext& context = {});
 

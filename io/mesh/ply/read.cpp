@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The header says what follows: elements of so many records of such properties. The whole file is in memory,
-// so before an element is read its claimed count is held against the bytes that are left: each record needs
-// at least so many. Only then is memory reserved, which is therefore never more than a small multiple of the
+// The header lists the elements: their counts of records and the properties of a record. The whole file is in
+// memory. Before an element is read, its stated count is checked against the bytes that are left, since each
+// record needs a minimum of bytes. Memory is reserved only then, so it is at most a small multiple of the
 // file's size.
 //
-// Every scalar is read as a double (all PLY types fit into one exactly); the three encodings differ only in
-// how the next scalar is found, and the reader is a template over that.
+// Every scalar is read as a double, which holds all PLY types exactly. The three encodings differ only in how
+// the next scalar is found; the reader is a template over that.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ struct BinaryScalars {
   const char* at;
   const char* end;
 
-  /// Fewest bytes that a scalar takes.
+  /// The least number of bytes of a scalar.
   static std::size_t leastSize(PlyType type) { return sizeOf(type); }
 
   bool next(PlyType type, double& value) {
@@ -81,12 +81,12 @@ struct BinaryScalars {
   }
 };
 
-/// The next scalar of an ascii file: the next token, whatever the lines.
+/// The next scalar of an ascii file: the next token. Line breaks count as blanks.
 struct TextScalars {
   const char* at;
   const char* end;
 
-  static std::size_t leastSize(PlyType) { return 2; }  // a digit and the blank before it
+  static std::size_t leastSize(PlyType) { return 2; }  // a digit and a blank before it
 
   bool next(PlyType, double& value) {
     while (at < end && text::isSpace(*at)) ++at;
@@ -95,16 +95,17 @@ struct TextScalars {
 };
 
 template <class Scalars>
-class PlyBody {
+class PlyReader {
  public:
-  PlyBody(const FileBytes& file, const PlyHeader& header, const std::string& path, const RunContext& context)
+  PlyReader(const FileBytes& file, const PlyHeader& header, const std::string& path,
+            const RunContext& context)
       : file_(file),
         header_(header),
         path_(path),
         context_(context),
         scalars_{file.begin() + header.dataBegin, file.end()} {}
 
-  /// Fills the mesh and, where every face has one, the errors of `file`.
+  /// Fills the mesh and, if every face has one, the errors of `file`.
   Status readInto(MeshFile& file) {
     for (const PlyElement& element : header_.elements)
       if (element.name == "vertex") vertexCount_ = element.count;
@@ -150,19 +151,19 @@ class PlyBody {
     const bool isVertex = element.name == "vertex", isFace = element.name == "face";
     if (element.count == 0) return {};
     if (isVertex && !(has(Role::x) && has(Role::y) && has(Role::z)))
-      return failure(ErrorCode::corrupt, "the vertices have no x, y, z, or more than one", path_);
+      return failure(ErrorCode::corrupt, "the vertices do not have exactly one x, y and z", path_);
     if (isFace && !has(Role::indices))
-      return failure(ErrorCode::corrupt, "the faces have no list of vertex_indices, or more than one", path_);
+      return failure(ErrorCode::corrupt, "the faces do not have exactly one list of vertex_indices", path_);
     if (element.properties.empty()) return {};
 
-    // A polygon has three corners or is refused, so that many are sure to take room.
+    // A polygon has at least three corners, each of which takes bytes.
     std::size_t leastSize = 0;
     for (std::size_t p = 0; p < roles.size(); ++p) {
       const PlyProperty& property = element.properties[p];
       leastSize += Scalars::leastSize(property.isList ? property.countType : property.type);
       if (roles[p] == Role::indices) leastSize += 3 * Scalars::leastSize(property.type);
     }
-    // In a text, the very first token needs no blank before it.
+    // In a text, the first token needs no blank before it.
     if (element.count > (left() + 1) / leastSize)
       return corrupt(
           fmt::format("is truncated: {} records of element {} do not fit into the {} bytes that are left",
@@ -210,7 +211,7 @@ class PlyBody {
           break;
       }
     }
-    // A polygon's error is that of each of its triangles.
+    // Each triangle of a polygon has the error of the polygon.
     if (error) errors_.resize(mesh_.triangles.size(), static_cast<float>(*error));
     if (isVertex) {
       if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z))
@@ -227,7 +228,7 @@ class PlyBody {
       return corruptRecord(element, record, fmt::format("has a list of {} values", length));
     if (length > static_cast<double>((left() + 1) / Scalars::leastSize(property.type)))
       return corruptRecord(element, record,
-                           fmt::format("has a list of {} values, which the file is too short for", length));
+                           fmt::format("has a list of {} values, more than the file can hold", length));
     const auto count = static_cast<std::uint64_t>(length);
     if (role == Role::indices && count < 3)
       return corruptRecord(element, record, fmt::format("has {} corners", count));
@@ -284,7 +285,7 @@ Status checkElements(const PlyHeader& header, const std::string& path) {
   return {};
 }
 
-/// "crs X" -> X into `value`, and "crs+ Y" -> Y behind it.
+/// "crs X" sets `value` to X, and "crs+ Y" appends Y.
 void takeComment(std::string_view comment, std::string_view key, std::string& value) {
   if (!comment.starts_with(key)) return;
   comment.remove_prefix(key.size());
@@ -312,13 +313,13 @@ Result<MeshFile> readPly(const std::filesystem::path& path, const RunContext& co
   Status read = failure(ErrorCode::unsupported, "unknown encoding", name);
   switch (header->format) {
     case PlyFormat::ascii:
-      read = PlyBody<TextScalars>(*file, *header, name, context).readInto(result);
+      read = PlyReader<TextScalars>(*file, *header, name, context).readInto(result);
       break;
     case PlyFormat::littleEndian:
-      read = PlyBody<BinaryScalars<std::endian::little>>(*file, *header, name, context).readInto(result);
+      read = PlyReader<BinaryScalars<std::endian::little>>(*file, *header, name, context).readInto(result);
       break;
     case PlyFormat::bigEndian:
-      read = PlyBody<BinaryScalars<std::endian::big>>(*file, *header, name, context).readInto(result);
+      read = PlyReader<BinaryScalars<std::endian::big>>(*file, *header, name, context).readInto(result);
       break;
   }
   if (!read) return tl::unexpected(read.error());

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The header as text, then one record per vertex and per face, each filled in place in the writer's buffer.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,15 +19,15 @@ static_assert(std::endian::native == std::endian::little, "a big-endian machine 
 
 namespace {
 
-/// MeshLab refuses a PLY with a line of 511 bytes or more, and a CRS takes a thousand.
-constexpr std::size_t kLongestPiece = 240;
+/// MeshLab rejects a PLY with a line of 511 bytes or more, and the WKT of a CRS has about a thousand.
+constexpr std::size_t kLongestPart = 240;
 
-/// "comment <key> <text>", a long text in pieces on lines of their own that begin with `more` instead of
-/// `key`; no character of UTF-8 is cut.
+/// "comment <key> <text>". A long text continues on further lines that begin with `more` instead of `key`. No
+/// UTF-8 character is split.
 std::string commentLines(std::string_view key, std::string_view more, std::string_view text) {
   std::string lines;
   do {
-    std::size_t size = std::min(text.size(), kLongestPiece);
+    std::size_t size = std::min(text.size(), kLongestPart);
     while (size > 1 && size < text.size() && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80) --size;
     lines += fmt::format("comment {}{}\n", lines.empty() ? key : more, text.substr(0, size));
     text.remove_prefix(size);

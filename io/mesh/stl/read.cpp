@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A file is binary when its size is what its count of triangles asks for. Otherwise it is ASCII when it
-// begins with "solid" (any case, blanks before it), and a binary file that was cut or altered when it does
-// not.
+// A file is binary if its size is the one that its triangle count implies. Otherwise it is ASCII if it begins
+// with "solid" (any case, after blanks), and a truncated or altered binary file if it does not.
 //
-// ASCII is read word by word: facets of exactly three vertices between "solid" and "endsolid"; what stands on
-// the lines of these two is a name. Files of several solids are one mesh.
+// ASCII is read word by word: facets of exactly three vertices between "solid" and "endsolid". The rest of
+// the lines of these two is a name. Several solids become one mesh.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +30,7 @@ namespace {
 
 constexpr std::size_t kHeaderSize = 80, kPreambleSize = 84, kRecordSize = 50, kNormalSize = 12;
 constexpr std::size_t kTrianglesPerCancelCheck = 1 << 16;
-/// A vertex of a TIN is in six triangles.
+/// A vertex of a TIN is in six triangles on average.
 constexpr std::size_t kTrianglesPerVertex = 2;
 constexpr std::uint64_t kMostTriangles = std::numeric_limits<std::uint32_t>::max() / 3;
 constexpr std::string_view kOriginKey = "arete origin ";
@@ -41,7 +40,7 @@ bool equalsWord(std::string_view a, std::string_view lower) {
                             [](char c, char d) { return (c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c) == d; });
 }
 
-/// The count of triangles of a file that is exactly as long as that count asks for.
+/// The triangle count of a file whose size matches it.
 std::optional<std::uint32_t> binaryCount(std::string_view file) {
   if (file.size() < kPreambleSize) return std::nullopt;
   std::uint32_t count = 0;
@@ -55,7 +54,7 @@ bool beginsWithSolid(std::string_view file) {
   return file.size() > 5 && equalsWord(file.substr(0, 5), "solid") && text::isSpace(file[5]);
 }
 
-/// The largest |coordinate| so far of each axis, of the file's own numbers.
+/// The largest |coordinate| of each axis so far, before the origin is added.
 struct LargestAbsolute {
   Vec3 of;
   void take(const Vec3& p) {
@@ -67,9 +66,9 @@ struct LargestAbsolute {
   }
 };
 
-class BinaryStl {
+class BinaryStlReader {
  public:
-  BinaryStl(std::string_view file, std::uint32_t count, std::string path, const RunContext& context)
+  BinaryStlReader(std::string_view file, std::uint32_t count, std::string path, const RunContext& context)
       : file_(file), count_(count), path_(std::move(path)), context_(context) {}
 
   Result<MeshFile> read() {
@@ -117,7 +116,7 @@ class BinaryStl {
     for (double& value : xyz) {
       while (at < end && text::isBlank(*at)) ++at;
       if (at == end || !text::scanNumber(at, end, value) || !std::isfinite(value))
-        return failure(ErrorCode::corrupt, "the header says \"arete origin\" and not three numbers", path_);
+        return failure(ErrorCode::corrupt, "the header has \"arete origin\" without three numbers", path_);
     }
     result_.frame = {.coordinates = "float32 relative to the origin", .origin = Vec3{xyz[0], xyz[1], xyz[2]}};
     return {};
@@ -130,9 +129,9 @@ class BinaryStl {
   MeshFile result_;
 };
 
-class AsciiStl {
+class AsciiStlReader {
  public:
-  AsciiStl(std::string_view file, std::string path, const RunContext& context)
+  AsciiStlReader(std::string_view file, std::string path, const RunContext& context)
       : begin_(file.data()),
         at_(file.data()),
         end_(file.data() + file.size()),
@@ -198,7 +197,7 @@ class AsciiStl {
     }
     if (triangles.size() == kMostTriangles)
       return failure(ErrorCode::unsupported, "holds more triangles than an index can name", path_);
-    toLineEnd();  // the normal, which programs write as "nan" too
+    toLineEnd();  // the normal, which some programs write as "nan"
     if (Status ok = expect({"outer", "loop"}); !ok) return ok;
     std::array<std::uint32_t, 3> triangle;
     for (std::uint32_t& corner : triangle) {
@@ -236,19 +235,20 @@ Result<MeshFile> readStl(const std::filesystem::path& path, const RunContext& co
   const Result<FileBytes> bytes = FileBytes::read(path);
   if (!bytes) return tl::unexpected(bytes.error());
   const std::string_view file = bytes->view();
-  if (const auto count = binaryCount(file)) return BinaryStl(file, *count, path.string(), context).read();
-  if (beginsWithSolid(file)) return AsciiStl(file, path.string(), context).read();
+  if (const auto count = binaryCount(file))
+    return BinaryStlReader(file, *count, path.string(), context).read();
+  if (beginsWithSolid(file)) return AsciiStlReader(file, path.string(), context).read();
   if (file.size() < kPreambleSize)
     return failure(
         ErrorCode::corrupt,
-        fmt::format("is no STL: it has {} bytes, does not begin with \"solid\", and a binary one begins "
+        fmt::format("is not an STL: it has {} bytes, does not begin with \"solid\", and a binary one begins "
                     "with {} bytes of header",
                     file.size(), kPreambleSize),
         path.string());
   std::uint32_t count = 0;
   std::memcpy(&count, file.data() + kHeaderSize, sizeof count);
   return failure(ErrorCode::corrupt,
-                 fmt::format("is truncated or no STL: {} triangles need {} bytes, the file has {}", count,
+                 fmt::format("is truncated or not an STL: {} triangles need {} bytes, the file has {}", count,
                              kPreambleSize + std::uint64_t{count} * kRecordSize, file.size()),
                  path.string());
 }

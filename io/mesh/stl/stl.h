@@ -3,20 +3,23 @@
 
 #include <filesystem>
 
-#include "io/mesh/mesh_file.h"
+#include "io/mesh/file.h"
 
 namespace arete {
 
-/// Reads an STL of any program, binary or ASCII; which of the two is told by the size, since binary ones that
-/// begin with "solid" exist. Corners at one place become one vertex, numbered in the order in which they
-/// come; normals, colours and names are passed over. "arete origin X Y Z" at the start of a binary header is
-/// added to every coordinate. Errors as readMesh(): a binary file whose count of triangles does not fit its
-/// size and an ASCII one without its "endsolid" are corrupt.
+/// Reads a binary or an ASCII STL. The file's size decides which of the two it is, since some binary files
+/// begin with "solid". Corners at equal positions become one vertex, in the order of first occurrence.
+/// Normals, colours and names are ignored. If a binary header begins with "arete origin X Y Z", the origin is
+/// added to every coordinate.
+///
+/// Errors: those of readMesh(). corrupt: also a binary file whose triangle count does not match its size, and
+/// an ASCII file without "endsolid".
 Result<MeshFile> readStl(const std::filesystem::path& path, const RunContext& context = {});
 
-/// Writes binary STL: 32-bit floats relative to an origin (io/crs/local_origin.h) that the header records.
-/// STL has no place for anything else in `options`. Errors as writeMesh(); invalidData for coordinates that
-/// float32 cannot hold.
+/// Writes binary STL: 32-bit floats relative to an origin (io/crs/local_origin.h), which the header records.
+/// STL holds nothing else of `options`.
+///
+/// Errors: those of writeMesh(). invalidData: also coordinates beyond the range of float32.
 Status writeStl(const TriangleMesh& mesh, const std::filesystem::path& path,
                 const MeshWriteOptions& options = {}, const RunContext& context = {});
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Binary STL: 80 bytes of header, the count of triangles, then 50 bytes for each: normal, three corners (all
-// float32), two bytes that mean nothing. The header of ours is text filled up with blanks; it must not begin
-// with "solid", which is how an ASCII file begins.
+// Binary STL: a header of 80 bytes, the triangle count, then 50 bytes per triangle: normal and three corners
+// as float32, two unused bytes. The header is text padded with blanks. It must not begin with "solid", as an
+// ASCII file does.
 #include <fmt/format.h>
 
 #include <bit>
@@ -28,7 +28,7 @@ std::string headerOf(const Vec3& origin) {
   return fmt::format("arete origin {} {} {}", origin.x, origin.y, origin.z);
 }
 
-/// The unit normal of the triangle as it is written; 0, 0, 0 without an area, as the format has it.
+/// The unit normal of the triangle as written; 0, 0, 0 if the triangle has no area, as the format requires.
 std::array<float, 3> normalOf(const std::array<Vec3, 3>& c) {
   const Vec3 a{c[1].x - c[0].x, c[1].y - c[0].y, c[1].z - c[0].z};
   const Vec3 b{c[2].x - c[0].x, c[2].y - c[0].y, c[2].z - c[0].z};
@@ -48,7 +48,8 @@ Status writeStl(const TriangleMesh& mesh, const std::filesystem::path& path, con
   };
   if (const Status ok = mesh.validate(); !ok) return refuse(ok.error().message);
   if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max())
-    return refuse(fmt::format("{} triangles are more than an STL can count", mesh.triangles.size()));
+    return refuse(
+        fmt::format("{} triangles are more than the 32-bit count of an STL", mesh.triangles.size()));
   Vec3 origin = options.origin.value_or(localOrigin(mesh.positions));
   std::string header = headerOf(origin);
   if (header.size() > kHeaderSize) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/mesh/2dm/mesh_2dm.h"
+#include "io/mesh/2dm/2dm.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using namespace test;
 const std::string kWkt = R"(GEOGCRS["WGS 84",ID["EPSG",4326]])";
 const std::string kNodes = "ND 1 0 0 1\nND 2 1 0 2\nND 3 0 1 3\nND 4 1 1 4\n";
 
-TEST(Mesh2dm, RoundTripsEveryFamilyToTheBit) {
+TEST(TwoDmRead, RoundTripsEveryFamilyToTheBit) {
   const TemporaryFolder folder;
   for (const RasterFamily& family : rasterFamilies()) {
     SCOPED_TRACE(family.name);
@@ -32,7 +32,7 @@ TEST(Mesh2dm, RoundTripsEveryFamilyToTheBit) {
   }
 }
 
-TEST(Mesh2dm, ReadsForeignFilesUnderAnyNumbers) {
+TEST(TwoDmRead, ReadsForeignFilesUnderAnyNumbers) {
   const TemporaryFolder folder;
   const std::string quads =
       "MESH2D\nMESHNAME \"a mesh\"\nNUM_MATERIALS_PER_ELEM 2\n  E4Q 7 10 20 40 30 1 0.5\nE2L 9 10 20 1\nE3T "
@@ -50,7 +50,7 @@ TEST(Mesh2dm, ReadsForeignFilesUnderAnyNumbers) {
   }
 }
 
-TEST(Mesh2dm, NamesWhatIsWrong) {
+TEST(TwoDmRead, NamesWhatIsWrong) {
   const TemporaryFolder folder;
   ASSERT_TRUE(readMesh(folder.write("a.2dm", "MESH2D\nE3T 1 1 2 3 1\n" + kNodes)));
   for (const char* line :
@@ -80,7 +80,7 @@ TEST(Mesh2dm, NamesWhatIsWrong) {
     EXPECT_EQ(refusal(folder.write("a.2dm", text)).code, ErrorCode::corrupt);
 }
 
-TEST(Mesh2dm, NoticesThatAFileOfOursIsCutShort) {
+TEST(TwoDmRead, NoticesThatAFileOfOursIsCutShort) {
   const TemporaryFolder folder;
   const TriangleMesh mesh = {{{0.1, 0, 1}, {1, 0, 2}, {0, 1, -1e-7}}, {{0, 1, 2}}};
   ASSERT_TRUE(writeMesh(mesh, folder.file("a.2dm"), {.crsWkt = kWkt}));
@@ -91,7 +91,7 @@ TEST(Mesh2dm, NoticesThatAFileOfOursIsCutShort) {
     EXPECT_EQ(refusal(folder.write("b.2dm", whole.substr(0, length))).code, ErrorCode::corrupt) << length;
 }
 
-TEST(Mesh2dm, SurvivesAnyDamagedByte) {
+TEST(TwoDmRead, SurvivesAnyDamagedByte) {
   const TemporaryFolder folder;
   const std::string whole = "MESH2D\n# crs X\nE3T 1 1 2 3 1\nE4Q 2 1 2 4 3 1\n" + kNodes;
   std::mt19937 random(4);

@@ -37,7 +37,7 @@ std::string foreignGpkg(const TemporaryFolder& folder, const std::vector<std::st
   return path;
 }
 
-TEST(MeshGpkg, RoundTripsEveryFamilyToTheBitWithItsErrors) {
+TEST(GpkgRead, RoundTripsEveryFamilyToTheBitWithItsErrors) {
   const TemporaryFolder folder;
   for (const RasterFamily& family : rasterFamilies()) {
     SCOPED_TRACE(family.name);
@@ -59,7 +59,7 @@ TEST(MeshGpkg, RoundTripsEveryFamilyToTheBitWithItsErrors) {
   EXPECT_EQ(folder.count(), 1u);
 }
 
-TEST(MeshGpkg, KeepsACompoundCrsAndHasNoneWhereThereIsNone) {
+TEST(GpkgRead, KeepsACompoundCrsAndHasNoneWhereThereIsNone) {
   const TemporaryFolder folder;
   ASSERT_TRUE(writeMesh(kTwo, folder.file("a.gpkg"), {.crsWkt = "EPSG:32632+5773"}));
   const Result<MeshFile> compound = readMesh(folder.file("a.gpkg"));
@@ -76,7 +76,7 @@ TEST(MeshGpkg, KeepsACompoundCrsAndHasNoneWhereThereIsNone) {
   EXPECT_EQ(folder.count(), 2u);
 }
 
-TEST(MeshGpkg, IsTheSameBytesEveryTimeAndIndexed) {
+TEST(GpkgRead, IsTheSameBytesEveryTimeAndIndexed) {
   const TemporaryFolder folder;
   for (const char* name : {"a.gpkg", "b.gpkg"})
     ASSERT_TRUE(writeMesh(kTwo, folder.file(name),
@@ -94,7 +94,7 @@ TEST(MeshGpkg, IsTheSameBytesEveryTimeAndIndexed) {
   EXPECT_FALSE(feature->GetGeometryRef()->toPolygon()->getExteriorRing()->isClockwise());
 }
 
-TEST(MeshGpkg, ReadsForeignSurfaces) {
+TEST(GpkgRead, ReadsForeignSurfaces) {
   const TemporaryFolder folder;
   const std::string a = "((0 0 1,1 0 2,0 1 3,0 0 1))", b = "((0 1 3,1 0 2,1 1 4,0 1 3))";
   for (const auto& wkts : {std::vector<std::string>{"TIN Z (" + a + "," + b + ")"},
@@ -111,7 +111,7 @@ TEST(MeshGpkg, ReadsForeignSurfaces) {
   EXPECT_TRUE(readMesh(foreignGpkg(folder, {"TIN Z (" + a + ")"}, wkbTINZ)));
 }
 
-TEST(MeshGpkg, NamesWhatIsNoTriangle) {
+TEST(GpkgRead, NamesWhatIsNoTriangle) {
   const TemporaryFolder folder;
   for (const char* wkt : {"POLYGON ((0 0,1 0,0 1,0 0))", "POLYGON Z ((0 0 1,1 0 1,1 1 1,0 1 1,0 0 1))",
                           "POLYGON Z ((0 0 1,9 0 2,0 9 3,0 0 1),(1 1 1,2 1 1,1 2 1,1 1 1))",
@@ -123,7 +123,7 @@ TEST(MeshGpkg, NamesWhatIsNoTriangle) {
   EXPECT_EQ(refusal(foreignGpkg(folder, {"POINT Z (1 2 3)"}, wkbPoint25D)).code, ErrorCode::unsupported);
 }
 
-TEST(MeshGpkg, RefusesAFileThatIsDamagedOrCut) {
+TEST(GpkgRead, RefusesAFileThatIsDamagedOrCut) {
   const TemporaryFolder folder;
   const TriangleMesh mesh = gridMesh(rasterFamilies().front().make(40, 40, 5));
   ASSERT_TRUE(writeMesh(mesh, folder.file("a.gpkg"), {.crsWkt = "EPSG:32611"}));
@@ -145,7 +145,7 @@ TEST(MeshGpkg, RefusesAFileThatIsDamagedOrCut) {
   }
 }
 
-TEST(MeshGpkg, LeavesNothingWhenItIsStopped) {
+TEST(GpkgRead, LeavesNothingWhenItIsStopped) {
   const TemporaryFolder folder;
   const std::atomic<bool> stop = true;
   RunContext context;

@@ -4,71 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <random>
 
 #include "io/crs/names.h"
+#include "io/glb_fixture.h"
 #include "io/mesh_fixture.h"
 
 namespace arete {
 namespace {
 
 using namespace test;
-using Json = nlohmann::json;
 
-const TriangleMesh kTwo = {{{0, 0, 1}, {1, 0, 2}, {0, 1, 3}, {1, 1, 4}}, {{0, 1, 2}, {2, 1, 3}}};
-
-std::string glbOf(const std::string& json, const std::string& bytes) {
-  std::string text = json;
-  text.resize((text.size() + 3) / 4 * 4, ' ');
-  std::string glb = "glTF";
-  const auto put = [&](std::size_t value) {
-    const auto number = static_cast<std::uint32_t>(value);
-    glb.append(reinterpret_cast<const char*>(&number), 4);
-  };
-  put(2);
-  put(12 + 8 + text.size() + (bytes.empty() ? 0 : 8 + bytes.size()));
-  put(text.size());
-  glb += "JSON" + text;
-  if (bytes.empty()) return glb;
-  put(bytes.size());
-  return glb + std::string("BIN\0", 4) + bytes;
-}
-
-template <class T>
-std::string packed(const std::vector<T>& values) {
-  std::string bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-  bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
-  return bytes;
-}
-
-/// Four vertices of a square and two triangles over it, as somebody else might write them.
-struct Foreign {
-  Json json = {
-      {"asset", {{"version", "2.0"}}},
-      {"scenes", {{{"nodes", {0}}}}},
-      {"nodes", {{{"mesh", 0}}}},
-      {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}},
-      {"accessors",
-       {{{"bufferView", 0}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}},
-        {{"bufferView", 1}, {"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}}}},
-      {"bufferViews",
-       {{{"buffer", 0}, {"byteLength", 48}}, {{"buffer", 0}, {"byteOffset", 48}, {"byteLength", 12}}}},
-      {"buffers", {{{"byteLength", 60}}}},
-  };
-  // x, height, -y
-  std::string bytes =
-      packed<float>({0, 1, 0, 1, 2, 0, 0, 3, -1, 1, 4, -1}) + packed<std::uint16_t>({0, 1, 2, 2, 1, 3});
-  std::string glb() const { return glbOf(json.dump(), bytes); }
-};
-
-Json jsonOf(const std::string& glb) {
-  std::uint32_t length = 0;
-  std::memcpy(&length, glb.data() + 12, 4);
-  return Json::parse(glb.substr(20, length));
-}
-
-TEST(MeshGlb, RoundTripsEveryFamilyWithinItsOwnRounding) {
+TEST(GlbRead, RoundTripsEveryFamilyWithinItsOwnRounding) {
   const TemporaryFolder folder;
   for (const RasterFamily& family : rasterFamilies()) {
     SCOPED_TRACE(family.name);
@@ -100,54 +47,7 @@ TEST(MeshGlb, RoundTripsEveryFamilyWithinItsOwnRounding) {
   }
 }
 
-TEST(MeshGlb, SaysTheBoxOfItsPositionsAndUnitNormals) {
-  const TemporaryFolder folder;
-  const TriangleMesh mesh = gridMesh(rasterFamilies().front().make(20, 20, 1));
-  std::vector<float> errors(mesh.triangles.size(), 0.5F);
-  errors[0] = 3;
-  ASSERT_TRUE(writeMesh(mesh, folder.file("a.glb"), {.crsWkt = "EPSG:32611", .triangleErrors = errors}));
-  const std::string glb = bytesOf(folder.file("a.glb"));
-  const Json json = jsonOf(glb);
-  const std::size_t bin = glb.size() - json["buffers"][0]["byteLength"].get<std::size_t>();
-  const auto floatAt = [&](std::size_t accessor, std::size_t i) {
-    const Json& view = json["bufferViews"][json["accessors"][accessor]["bufferView"].get<std::size_t>()];
-    float value = 0;
-    std::memcpy(&value, glb.data() + bin + view["byteOffset"].get<std::size_t>() + 4 * i, 4);
-    return value;
-  };
-  const Json& attributes = json["meshes"][0]["primitives"][0]["attributes"];
-  const std::size_t position = attributes["POSITION"], normal = attributes["NORMAL"],
-                    error = attributes["_ERROR"];
-  for (std::size_t k = 0; k < 3; ++k) {
-    float low = floatAt(position, k), high = low;
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-      low = std::min(low, floatAt(position, 3 * v + k));
-      high = std::max(high, floatAt(position, 3 * v + k));
-    }
-    EXPECT_EQ(json["accessors"][position]["min"][k].get<float>(), low);
-    EXPECT_EQ(json["accessors"][position]["max"][k].get<float>(), high);
-  }
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    EXPECT_NEAR(std::hypot(floatAt(normal, 3 * v), floatAt(normal, 3 * v + 1), floatAt(normal, 3 * v + 2)), 1,
-                1e-6);
-    EXPECT_GT(floatAt(normal, 3 * v + 1), 0);  // up
-  }
-  EXPECT_EQ(floatAt(error, mesh.triangles[0][0]), 3);
-  EXPECT_EQ(floatAt(error, mesh.positions.size() - 1), 0.5F);
-  EXPECT_EQ(json["asset"]["extras"]["arete"]["linearUnitMetres"], 1);
-}
-
-TEST(MeshGlb, TurnsAFootIntoMetres) {
-  const TemporaryFolder folder;
-  ASSERT_TRUE(writeMesh(kTwo, folder.file("a.glb"), {.crsWkt = "EPSG:32611", .verticalUnit = "ft"}));
-  const Json json = jsonOf(bytesOf(folder.file("a.glb")));
-  EXPECT_FLOAT_EQ(json["accessors"][0]["max"][1].get<float>(), 4 * 0.3048F);
-  EXPECT_EQ(json["asset"]["extras"]["arete"]["verticalUnitMetres"], 0.3048);
-  ASSERT_TRUE(writeMesh(kTwo, folder.file("a.glb"), {.verticalUnit = "strange", .verticalUnitMetres = 2}));
-  EXPECT_EQ(jsonOf(bytesOf(folder.file("a.glb")))["accessors"][0]["max"][1], 8);
-}
-
-TEST(MeshGlb, ReadsWhatOthersWrite) {
+TEST(GlbRead, ReadsWhatOthersWrite) {
   const TemporaryFolder folder;
   Foreign foreign;
   const auto read = [&] { return readMesh(folder.write("a.glb", foreign.glb())); };
@@ -181,7 +81,7 @@ TEST(MeshGlb, ReadsWhatOthersWrite) {
   }
 }
 
-TEST(MeshGlb, FollowsTheTransformsOfNodes) {
+TEST(GlbRead, FollowsTheTransformsOfNodes) {
   const TemporaryFolder folder;
   Foreign foreign;
   // Two copies: one moved and enlarged, one turned a quarter round the vertical and mirrored.
@@ -202,7 +102,7 @@ TEST(MeshGlb, FollowsTheTransformsOfNodes) {
   EXPECT_EQ(file->mesh.triangles[2], (std::array<std::uint32_t, 3>{4, 6, 5}));
 }
 
-TEST(MeshGlb, NamesWhatItDoesNotKnow) {
+TEST(GlbRead, NamesWhatItDoesNotKnow) {
   const TemporaryFolder folder;
   const auto expect = [&](ErrorCode code, const char* said, const std::function<void(Foreign&)>& change) {
     Foreign foreign;
@@ -252,33 +152,7 @@ TEST(MeshGlb, NamesWhatItDoesNotKnow) {
     }
 }
 
-TEST(MeshGlb, RefusesAFrameThatMakesNoSense) {
-  const TemporaryFolder folder;
-  ASSERT_TRUE(writeMesh(kTwo, folder.file("a.glb"), {.crsWkt = "EPSG:4326"}));
-  const std::string glb = bytesOf(folder.file("a.glb"));
-  const Json json = jsonOf(glb);
-  const std::string bytes = glb.substr(glb.size() - json["buffers"][0]["byteLength"].get<std::size_t>());
-  ASSERT_TRUE(readMesh(folder.write("b.glb", glbOf(json.dump(), bytes))));
-  for (const auto& [key, value] : json["asset"]["extras"]["arete"].items()) {
-    if (key == "axes") continue;
-    Json changed = json;
-    for (const Json& bad : {Json(nullptr), Json::object(), Json({1, 2}), Json(-1e308)}) {
-      if (key == "middleLongitude" && bad.is_number()) continue;
-      changed["asset"]["extras"]["arete"][key] = bad;
-      EXPECT_EQ(refusal(folder.write("b.glb", glbOf(changed.dump(), bytes))).code, ErrorCode::corrupt)
-          << key << bad;
-    }
-  }
-  EXPECT_EQ(writeMesh({{{0, 91, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, folder.file("c.glb"),
-                      {.crsWkt = "EPSG:4326"})
-                .error()
-                .code,
-            ErrorCode::invalidData);
-  EXPECT_EQ(writeMesh(kTwo, folder.file("c.glb"), {.crsWkt = "gibberish"}).error().code, ErrorCode::usage);
-  EXPECT_EQ(folder.count(), 2u);
-}
-
-TEST(MeshGlb, RefusesAFileCutAtAnyByteAndSurvivesDamage) {
+TEST(GlbRead, RefusesAFileCutAtAnyByteAndSurvivesDamage) {
   const TemporaryFolder folder;
   ASSERT_TRUE(writeMesh(kTwo, folder.file("a.glb"), {.crsWkt = "EPSG:32611"}));
   std::mt19937 random(4);
@@ -297,7 +171,7 @@ TEST(MeshGlb, RefusesAFileCutAtAnyByteAndSurvivesDamage) {
   }
 }
 
-TEST(MeshGlb, DoesNotMultiplyWithoutEnd) {
+TEST(GlbRead, DoesNotMultiplyWithoutEnd) {
   const TemporaryFolder folder;
   Foreign foreign;
   Json nodes = Json::array(), numbers = Json::array();
@@ -311,15 +185,6 @@ TEST(MeshGlb, DoesNotMultiplyWithoutEnd) {
   for (int p = 0; p < 100; ++p)
     foreign.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"indices", 1}});
   EXPECT_EQ(refusal(folder.write("a.glb", foreign.glb())).code, ErrorCode::unsupported);
-}
-
-TEST(MeshGlb, HoldsAnEmptyMesh) {
-  const TemporaryFolder folder;
-  ASSERT_TRUE(writeMesh(TriangleMesh{}, folder.file("a.glb"), {.crsWkt = "EPSG:4326"}));
-  const Result<MeshFile> file = readMesh(folder.file("a.glb"));
-  ASSERT_TRUE(file) << file.error().describe();
-  EXPECT_TRUE(file->mesh.triangles.empty());
-  EXPECT_EQ(file->crsWkt, "EPSG:4326");
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ std::string binaryStl(const std::string& header, const std::vector<std::array<fl
 const std::vector<std::array<float, 9>> kTwo = {{0, 0, 1, 1, 0, 2, 0, 1, 3}, {0, 1, 3, 1, 0, 2, 1, 1, 4}};
 const std::vector<std::array<std::uint32_t, 3>> kTwoTriangles = {{0, 1, 2}, {2, 1, 3}};
 
-TEST(MeshStl, RoundTripsEveryFamilyWithinItsOwnRounding) {
+TEST(StlRead, RoundTripsEveryFamilyWithinItsOwnRounding) {
   const TemporaryFolder folder;
   for (const RasterFamily& family : rasterFamilies()) {
     SCOPED_TRACE(family.name);
@@ -55,7 +55,7 @@ TEST(MeshStl, RoundTripsEveryFamilyWithinItsOwnRounding) {
   }
 }
 
-TEST(MeshStl, HoldsAGridOfWholePixelsExactly) {
+TEST(StlRead, HoldsAGridOfWholePixelsExactly) {
   const TemporaryFolder folder;
   RasterHeightfield field = rasterFamilies().front().make(50, 41, 7);
   field.georeference.geoTransform = {376298.5, 30, 0, 3807932.25, 0, -30};
@@ -67,7 +67,7 @@ TEST(MeshStl, HoldsAGridOfWholePixelsExactly) {
   expectSameTriangles(mesh, file->mesh, {0, 0, 0});
 }
 
-TEST(MeshStl, IsTheSameBytesAgainOnceItWasRead) {
+TEST(StlRead, IsTheSameBytesAgainOnceItWasRead) {
   const TemporaryFolder folder;
   const TriangleMesh mesh = gridMesh(rasterFamilies().front().make(20, 20, 1));
   ASSERT_TRUE(writeMesh(mesh, folder.file("a.stl")));
@@ -75,7 +75,7 @@ TEST(MeshStl, IsTheSameBytesAgainOnceItWasRead) {
   EXPECT_EQ(bytesOf(folder.file("a.stl")), bytesOf(folder.file("b.stl")));
 }
 
-TEST(MeshStl, SaysItsOriginAndNeverSolid) {
+TEST(StlRead, SaysItsOriginAndNeverSolid) {
   const TemporaryFolder folder;
   const TriangleMesh mesh = {{{-117.1, 34.2, 5}, {-117.0, 34.2, 6}, {-117.0, 34.3, 7}}, {{0, 1, 2}}};
   ASSERT_TRUE(writeMesh(mesh, folder.file("a.stl")));
@@ -87,7 +87,7 @@ TEST(MeshStl, SaysItsOriginAndNeverSolid) {
   EXPECT_GT(normal[2], 0);
 }
 
-TEST(MeshStl, ReadsForeignBinaryFilesAlsoThoseThatBeginWithSolid) {
+TEST(StlRead, ReadsForeignBinaryFilesAlsoThoseThatBeginWithSolid) {
   const TemporaryFolder folder;
   for (const char* header : {"solid made by a program that knows no better", "COLOR=", "", "arete"}) {
     const Result<MeshFile> file = readMesh(folder.write("a.stl", binaryStl(header, kTwo, 2)));
@@ -98,7 +98,7 @@ TEST(MeshStl, ReadsForeignBinaryFilesAlsoThoseThatBeginWithSolid) {
   }
 }
 
-TEST(MeshStl, ReadsAsciiFiles) {
+TEST(StlRead, ReadsAsciiFiles) {
   const TemporaryFolder folder;
   const std::string facet = "facet normal nan 0 1\n outer loop\n";
   const std::string one = facet + "vertex 0 0 1\nvertex 1 -0 2.0e0\nvertex 0 1 3\nendloop\nendfacet\n";
@@ -119,7 +119,7 @@ TEST(MeshStl, ReadsAsciiFiles) {
   }
 }
 
-TEST(MeshStl, NamesWhatIsWrongInAnAsciiFile) {
+TEST(StlRead, NamesWhatIsWrongInAnAsciiFile) {
   const TemporaryFolder folder;
   const std::string head = "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n";
   const std::string whole = head + "vertex 0 1 0\nendloop\nendfacet\nendsolid\n";
@@ -135,7 +135,7 @@ TEST(MeshStl, NamesWhatIsWrongInAnAsciiFile) {
   EXPECT_EQ(refusal(folder.write("a.stl", "solid\nendsolid\n")).code, ErrorCode::unsupported);
 }
 
-TEST(MeshStl, RefusesABinaryFileCutAtAnyByte) {
+TEST(StlRead, RefusesABinaryFileCutAtAnyByte) {
   const TemporaryFolder folder;
   for (const char* header : {"arete origin 1 2 0 ", "other"}) {
     const std::string whole = binaryStl(header, kTwo, 2);
@@ -145,7 +145,7 @@ TEST(MeshStl, RefusesABinaryFileCutAtAnyByte) {
   }
 }
 
-TEST(MeshStl, BelievesNoHeader) {
+TEST(StlRead, BelievesNoHeader) {
   const TemporaryFolder folder;
   for (const std::uint32_t count : {0U, 1U, 3U, 0x7FFFFFFFU, 0xFFFFFFFFU})
     EXPECT_EQ(refusal(folder.write("a.stl", binaryStl("x", kTwo, count))).code, ErrorCode::corrupt) << count;
@@ -164,7 +164,7 @@ TEST(MeshStl, BelievesNoHeader) {
   }
 }
 
-TEST(MeshStl, SurvivesAnyDamagedByte) {
+TEST(StlRead, SurvivesAnyDamagedByte) {
   const TemporaryFolder folder;
   const std::string binary = binaryStl("arete origin 10 20 0 ", kTwo, 2);
   const std::string ascii =
@@ -182,7 +182,7 @@ TEST(MeshStl, SurvivesAnyDamagedByte) {
       }
 }
 
-TEST(MeshStl, ReadsTheMeshOfAnother) {
+TEST(StlRead, ReadsTheMeshOfAnother) {
   const std::string path = realData("meshes/featuretype.STL");
   if (path.empty()) GTEST_SKIP() << "the meshes of others are not here; ARETE_DATA names their folder";
   const Result<MeshFile> file = readMesh(path);
@@ -191,7 +191,7 @@ TEST(MeshStl, ReadsTheMeshOfAnother) {
   EXPECT_EQ(file->mesh.positions.size(), 2010u);
 }
 
-TEST(MeshStl, RefusesToWriteWhatFloatsCannotHoldAndLeavesNothing) {
+TEST(StlRead, RefusesToWriteWhatFloatsCannotHoldAndLeavesNothing) {
   const TemporaryFolder folder;
   const TriangleMesh mesh = {{{0, 0, 0}, {1e39, 0, 0}, {0, 1e39, 0}}, {{0, 1, 2}}};
   EXPECT_EQ(writeMesh(mesh, folder.file("a.stl")).error().code, ErrorCode::invalidData);

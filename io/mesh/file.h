@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/base/triangle_mesh.h"
+#include "engine/parallel/run_context.h"
+
+namespace arete {
+
+/// How the coordinates of a file relate to source coordinates.
+struct MeshFrame {
+  std::string coordinates = "float64";  ///< their type, for a report: "float32 relative to the origin"
+  /// The file's origin in source coordinates; missing if the file states none.
+  std::optional<Vec3> origin = {};
+  /// Largest distance, per axis, between a position as read and as written, in source units. It comes from
+  /// the rounding of the file's numbers; 0 if they are doubles.
+  Vec3 rounding = {};
+};
+
+/// A mesh as read from a file. Polygons are split into fans of triangles.
+struct MeshFile {
+  TriangleMesh mesh;         ///< in source coordinates if the file states its frame, else as in the file
+  std::string crsWkt;        ///< empty if the file has none
+  std::string verticalUnit;  ///< empty if the file has none
+  /// One per triangle, finite and not negative; empty if the file has none.
+  std::vector<float> triangleErrors;
+  MeshFrame frame;
+};
+
+/// What a mesh file holds besides the triangles. A format without a field for a value omits it.
+struct MeshWriteOptions {
+  std::string crsWkt = {};
+  std::string verticalUnit = {};
+  double verticalUnitMetres = 0;  ///< 0: by the name of the unit, else by the CRS, else 1
+  /// Empty, or one per triangle.
+  std::span<const float> triangleErrors = {};
+  /// Empty, or one per vertex. Programs show a PLY's "quality" in colours.
+  std::span<const float> vertexQualities = {};
+  std::span<const std::array<std::uint8_t, 3>> vertexColors = {};
+  /// The origin of a format of 32-bit floats (io/crs/local_origin.h), in the coordinates of the positions.
+  /// Default: a vertex near the middle of the mesh. Files with the same origin align in any program.
+  std::optional<Vec3> origin = {};
+  /// Further comment lines.
+  std::vector<std::string> notes = {};
+};
+
+/// What a format can hold.
+struct MeshFormatTraits {
+  bool isExact = false;  ///< doubles, to the bit; otherwise float32 relative to a recorded origin
+  bool holdsCrs = false;
+  bool holdsVerticalUnit = false;
+  bool holdsErrors = false;     ///< one per triangle
+  bool holdsQualities = false;  ///< one per vertex, and colours
+};
+
+}  // namespace arete

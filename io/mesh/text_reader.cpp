@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The file is in memory, and a format scans each line where it lies. A line is not cut off beforehand,
+// because a line of an OBJ may continue in the next one.
+#include "io/mesh/text_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "io/file/text_scan.h"
+
+namespace arete {
+namespace {
+
+constexpr std::size_t kLinesPerCancelCheck = 1 << 16;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+}  // namespace
+
+MeshTextReader::MeshTextReader(const FileBytes& file, std::string path, const RunContext& context)
+    : begin_(file.begin()), at_(file.begin()), end_(file.end()), path_(std::move(path)), context_(context) {}
+
+Result<MeshFile> MeshTextReader::read() {
+  if (std::string_view(at_, static_cast<std::size_t>(end_ - at_)).starts_with(kByteOrderMark))
+    at_ += kByteOrderMark.size();
+  for (std::size_t line = 0; at_ < end_; ++line) {
+    if (line % kLinesPerCancelCheck == 0) {
+      context_.report("reading the mesh", double(at_ - begin_) / double(end_ - begin_));
+      if (context_.cancelled()) return failure(ErrorCode::interrupted, "reading was interrupted", path_);
+    }
+    if (const Status ok = readLine(); !ok) return tl::unexpected(ok.error());
+    if (at_ < end_) ++at_;
+  }
+  if (isOurs_ && !hasEnd_)
+    return failure(ErrorCode::corrupt, "is truncated: its last line, \"# end\", is missing", path_);
+  if (const Status ok = finish(); !ok) return tl::unexpected(ok.error());
+  return std::move(mesh_);
+}
+
+const char* MeshTextReader::lineEnd() const {
+  const void* newline = std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_));
+  return newline ? static_cast<const char*>(newline) : end_;
+}
+
+void MeshTextReader::takeComment(std::string_view comment) {
+  while (!comment.empty() && text::isBlank(comment.back())) comment.remove_suffix(1);
+  if (!comment.empty() && comment.front() == ' ') comment.remove_prefix(1);
+  isOurs_ = isOurs_ || comment == kMeshTextGenerator;
+  hasEnd_ = hasEnd_ || comment == kMeshTextEnd;
+  const auto take = [&](std::string_view key, std::string& value) {
+    if (comment.size() > key.size() && comment.starts_with(key)) value = comment.substr(key.size());
+  };
+  take("crs ", mesh_.crsWkt);
+  take("vertical_unit ", mesh_.verticalUnit);
+}
+
+bool MeshTextReader::isKeyword(std::string_view word) {
+  return std::ranges::all_of(word, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+tl::unexpected<Error> MeshTextReader::corrupt(const char* place, std::string_view what) const {
+  return failure(ErrorCode::corrupt, fmt::format("line {} {}", text::lineOf(begin_, place), what), path_);
+}
+
+tl::unexpected<Error> MeshTextReader::unsupported(std::string message) const {
+  return failure(ErrorCode::unsupported, std::move(message), path_);
+}
+
+}  // namespace arete
