@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
+
+#include "io/file/number_text.h"
 
 namespace arete {
 namespace {
@@ -19,25 +20,17 @@ constexpr std::array kWords = {std::pair{std::string_view("agl"), HeightKind::ab
                                std::pair{std::string_view("msl"), HeightKind::seaLevel},
                                std::pair{std::string_view("ell"), HeightKind::ellipsoidal}};
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  return text;
-}
-
-std::optional<double> numberOf(std::string_view text) {
-  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+/// Missing if the text is not a finite number.
+std::optional<double> finiteNumber(std::string_view text) {
+  const auto number = text::parseNumber(text);
+  return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 std::vector<std::string_view> fieldsOf(std::string_view text) {
   std::vector<std::string_view> fields;
   for (std::size_t at = 0; at <= text.size();) {
     const std::size_t end = std::min(text.find(',', at), text.size());
-    fields.push_back(trimmed(text.substr(at, end - at)));
+    fields.push_back(text::withoutSpaces(text.substr(at, end - at)));
     at = end + 1;
   }
   return fields;
@@ -69,7 +62,7 @@ HeightKind takeKind(std::string_view& height) {
       return std::tolower(static_cast<unsigned char>(a)) == b;
     });
     if (!isWord) continue;
-    height = trimmed(height.substr(0, height.size() - word.size()));
+    height = text::withoutSpaces(height.substr(0, height.size() - word.size()));
     return kind;
   }
   return HeightKind::aboveGround;
@@ -84,15 +77,15 @@ std::string_view toString(HeightKind kind) {
 }
 
 Result<double> readNumberText(std::string_view text) {
-  const auto number = numberOf(trimmed(text));
+  const auto number = finiteNumber(text::withoutSpaces(text));
   if (!number) return failure(ErrorCode::usage, fmt::format("'{}' is not a number", text));
   return *number;
 }
 
 Result<StatedHeight> readHeightText(std::string_view text) {
-  std::string_view height = trimmed(text);
+  std::string_view height = text::withoutSpaces(text);
   const HeightKind kind = takeKind(height);
-  const auto value = numberOf(height);
+  const auto value = finiteNumber(height);
   if (!value)
     return failure(
         ErrorCode::usage,

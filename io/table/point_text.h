@@ -11,20 +11,26 @@
 
 namespace arete {
 
-/// True by the name (.csv, .tsv, .txt, .xyz), or, for other names, if the first line that is no comment
-/// starts with three numbers.
+/// @return True for a name that ends in .csv, .tsv, .txt or .xyz, and for any other file whose first line
+/// that is not a comment begins with three numbers.
 bool looksLikePointText(const std::string& path);
 
-/// What the lines of a text hold.
+/// The columns that a text of points must have.
 enum class PointTextColumns {
   spatial,  ///< x, y and a height
-  plan,     ///< x, y; the heights read are meaningless
+  plan,     ///< x, y; the heights in the result are meaningless
 };
 
-/// The points of a text file; the format is described at readPoints(). `zColumn` names the column of heights;
-/// empty = by the usual names. Origins are line numbers, counted from 1. `attributes` takes the fields that
-/// are none of these, under the names of the first line, or "field_3", "field_4", ... by their place; it has
-/// a row per point. Fields beyond the columns are left out, with a warning.
+/// Reads the points of a text file; readPoints() describes the format. A quoted text may contain line breaks
+/// and separators. Row origins are line numbers, counted from 1: of the first line of a record.
+///
+/// @param zColumn Name of the column of heights; empty: any of the usual names.
+/// @param attributes If not null, gets the other fields, a row per point. The columns have the names of the
+/// first line, or "field_3", "field_4", ... by their index. Fields beyond the last column are dropped, with a
+/// warning.
+///
+/// Errors: notFound, unreadable. usage: no column `zColumn`. invalidData: a record that does not parse (the
+/// culprit is "path:line"), a record of more than a mebibyte. interrupted. O(file size).
 Result<PointRows> readPointText(const std::string& path, const std::string& zColumn,
                                 std::vector<std::string>& warnings, const RunContext& context,
                                 PointTextColumns columns = PointTextColumns::spatial,

@@ -9,8 +9,8 @@
 
 #include <GeographicLib/Geodesic.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -20,46 +20,26 @@
 
 #include "io/crs/lonlat.h"
 #include "io/crs/transform.h"
-#include "io/file/text_scan.h"
+#include "io/file/number_text.h"
 #include "io/gdal/support.h"
 #include "io/gdal/vector_layer.h"
+#include "io/table/column_rules.h"
 #include "io/table/feature_rows.h"
 
 namespace arete {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-using Names = std::vector<std::string_view>;
-
-const Names kX[2] = {
-    {"x1", "from_x", "x_from", "lon1", "from_lon", "tx_x", "tx_lon", "x", "lon", "longitude", "easting"},
-    {"x2", "to_x", "x_to", "lon2", "to_lon", "rx_x", "rx_lon"}};
-const Names kY[2] = {
-    {"y1", "from_y", "y_from", "lat1", "from_lat", "tx_y", "tx_lat", "y", "lat", "latitude", "northing"},
-    {"y2", "to_y", "y_to", "lat2", "to_lat", "rx_y", "rx_lat"}};
-const Names kHeight[2] = {{"h1", "from_h", "from_height", "height1", "tx_h", "tx_height", "observer_height",
-                           "h", "height", "agl", "height_agl", "antenna_height"},
-                          {"h2", "to_h", "to_height", "height2", "rx_h", "rx_height", "target_height"}};
-const Names kAzimuth = {"azimuth", "az", "bearing"}, kRange = {"range", "range_m"},
-            kBeamwidth = {"beamwidth", "beam_width", "hpbw"};
-
-/// -1 where there is none.
-template <class NameOf>
-int findColumn(int count, const NameOf& nameOf, const Names& names) {
-  for (const std::string_view name : names)
-    for (int i = 0; i < count; ++i)
-      if (text::lowered(nameOf(i)) == name) return i;
-  return -1;
+int columnNamed(int count, const std::function<std::string_view(std::size_t)>& nameOf,
+                std::span<const std::string_view> names) {
+  const auto found = findColumn(std::size_t(count), nameOf, names);
+  return found ? int(*found) : -1;
 }
 
-std::optional<double> numberOf(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+/// Missing if the text is not a finite number.
+std::optional<double> finiteNumber(std::string_view text) {
+  const auto number = text::parseNumber(text::withoutSpaces(text));
+  return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 /// The place so many metres away in a direction: on the ellipsoid, or on the map where there is none.
@@ -94,22 +74,24 @@ class PairReader {
   PairReader(OGRLayer& layer, SightPairs& pairs) : layer_(layer), pairs_(pairs) {
     const OGRFeatureDefn& definition = *layer.GetLayerDefn();
     fields_ = definition.GetFieldCount();
-    const auto nameOf = [&](int i) { return std::string_view(definition.GetFieldDefn(i)->GetNameRef()); };
+    const auto nameOf = [&](std::size_t i) {
+      return std::string_view(definition.GetFieldDefn(int(i))->GetNameRef());
+    };
     hasGeometry_ = layer.GetGeomType() != wkbNone;
     for (int end = 0; end < 2; ++end) {
       if (!hasGeometry_) {
-        x_[end] = findColumn(fields_, nameOf, kX[end]);
-        y_[end] = findColumn(fields_, nameOf, kY[end]);
+        x_[end] = columnNamed(fields_, nameOf, ColumnNames::endX(end));
+        y_[end] = columnNamed(fields_, nameOf, ColumnNames::endY(end));
       }
-      height_[end] = findColumn(fields_, nameOf, kHeight[end]);
+      height_[end] = columnNamed(fields_, nameOf, ColumnNames::endHeight(end));
     }
-    azimuth_ = findColumn(fields_, nameOf, kAzimuth);
-    range_ = findColumn(fields_, nameOf, kRange);
+    azimuth_ = columnNamed(fields_, nameOf, ColumnNames::azimuth());
+    range_ = columnNamed(fields_, nameOf, ColumnNames::range());
     if (hasGeometry_) pairs.attributes.columns.push_back({"source_fid", PointAttributes::Kind::integer});
     for (int i = 0; i < fields_; ++i)
       if (!isPlace(i))
         pairs.attributes.columns.push_back(
-            {std::string(nameOf(i)), kindOf(definition.GetFieldDefn(i)->GetType())});
+            {std::string(nameOf(std::size_t(i))), kindOf(definition.GetFieldDefn(i)->GetType())});
   }
 
   Status check() const {
@@ -173,7 +155,7 @@ class PairReader {
   Status readNumber(OGRFeature& feature, int column, double& value) const {
     const std::string text = fieldText(feature, column);
     if (text.empty()) return {};
-    const auto number = numberOf(text);
+    const auto number = finiteNumber(text);
     if (!number)
       return failure(ErrorCode::invalidData, fmt::format("'{}' is not a number", text), where(feature));
     value = *number;
@@ -286,15 +268,15 @@ Result<SightPairs> readSightSites(const std::string& path, const Georeference& d
   sites.attributes = std::move(table->attributes);
   sites.crsWkt = std::move(table->crsWkt);
   sites.warnings = std::move(table->warnings);
-  const auto nameOf = [&](int i) { return std::string_view(sites.attributes.columns[std::size_t(i)].name); };
+  const auto nameOf = [&](std::size_t i) { return std::string_view(sites.attributes.columns[i].name); };
   int column = -1;
   for (int end = 0; end < 2 && column < 0; ++end)
-    column = findColumn(int(sites.attributes.columns.size()), nameOf, kHeight[end]);
-  const auto numberIn = [&](std::size_t row, const Names& names) -> Result<double> {
-    const int at = findColumn(int(sites.attributes.columns.size()), nameOf, names);
+    column = columnNamed(int(sites.attributes.columns.size()), nameOf, ColumnNames::endHeight(end));
+  const auto numberIn = [&](std::size_t row, std::span<const std::string_view> names) -> Result<double> {
+    const int at = columnNamed(int(sites.attributes.columns.size()), nameOf, names);
     const std::string_view text = at < 0 ? std::string_view() : sites.attributes.at(row, std::size_t(at));
     if (text.empty()) return kNone;
-    const auto number = numberOf(text);
+    const auto number = finiteNumber(text);
     if (!number)
       return failure(ErrorCode::invalidData, fmt::format("'{}' is not a number", text),
                      fmt::format("{}, row {}", path, row + 1));
@@ -313,8 +295,8 @@ Result<SightPairs> readSightSites(const std::string& path, const Georeference& d
                          fmt::format("{}, row {}", path, i + 1));
         row[0].height = *height;
       }
-    const auto azimuth = numberIn(i, kAzimuth), beamwidth = numberIn(i, kBeamwidth),
-               range = numberIn(i, kRange);
+    const auto azimuth = numberIn(i, ColumnNames::azimuth()),
+               beamwidth = numberIn(i, ColumnNames::beamwidth()), range = numberIn(i, ColumnNames::range());
     for (const auto* number : {&azimuth, &beamwidth, &range})
       if (!*number) return tl::unexpected(number->error());
     sites.beams.push_back({*azimuth, *beamwidth, *range});
