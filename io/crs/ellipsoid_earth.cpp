@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The geodesic is halved until it is straight enough: level k has 2^k + 1 places, and the places that level
-// k + 1 adds are the middles that level k is judged by, so nothing is computed twice but the last level.
-// Longitudes run on without a jump (LONG_UNROLL), so a geographic CRS needs care only in the end: where the
-// target is stated a turn away from where the geodesic arrives.
+// The geodesic is halved until its segments are straight in plan within the tolerance. Level k has 2^k + 1
+// points. The points that level k + 1 adds are the middles that level k is tested with, so only those of the
+// last level are not used again. Longitudes are continuous (LONG_UNROLL), so a geographic CRS needs care only
+// at the end: if the target is stated a whole turn away from the end of the geodesic.
 #include "io/crs/ellipsoid_earth.h"
 
 #include <fmt/format.h>
@@ -28,16 +28,16 @@ namespace {
 using GeographicLib::Geodesic;
 using GeographicLib::GeodesicLine;
 
-/// Of a sample's step, in either direction.
+/// Tolerance of straightness, in steps of the samples, per axis.
 constexpr double kPlanError = 1e-3;
-/// A line that is not straight after this many halvings is none in plan: it passes a pole or a seam.
+/// A line that is not straight after this many halvings passes a pole or a seam: it is not a line in plan.
 constexpr int kMostHalvings = 14;
-/// Of the effective Earth, in radians; half a turn is where the formula ends.
+/// The longest line, in radians of the effective Earth; the formula ends at half a turn.
 constexpr double kLongestAngle = 3;
-/// Latitudes this little beyond a pole are rounding.
+/// Latitudes beyond a pole by less are due to rounding.
 constexpr double kPoleDegrees = 1e-9;
 
-/// What the plan of a model is like.
+/// Extent and scale of the plan of a model.
 struct PlanExtent {
   double step = 1;    ///< of a sample; of points, their mean spacing
   double middle = 0;  ///< of x
@@ -94,57 +94,57 @@ class EllipsoidEarth final : public SightEarth {
     const GeodesicLine line =
         geodesic_.Line(ends[0].y, ends[0].x, azimuth,
                        Geodesic::LATITUDE | Geodesic::LONGITUDE | Geodesic::AZIMUTH | Geodesic::DISTANCE_IN);
-    track.groundCurvature = curvatureInTheMiddle(line, length);
+    track.groundCurvature = curvatureAtMiddle(line, length);
     track.curvature = bend_ * track.groundCurvature;
     if (!(std::abs(track.curvature) * length < kLongestAngle))
       return failure(ErrorCode::invalidData,
                      fmt::format("a line of {:.0f} km is too long for the effective radius of {:.0f} km",
                                  length / 1000, 1 / std::abs(track.curvature) / 1000),
                      lineText(stated));
-    // How many turns further east than the geodesic arrives the target is stated. The way back from a map's
-    // coordinates knows where to go.
+    // The number of turns by which the stated target lies east of the end of the geodesic. For a projected
+    // CRS toCrs() gives the position on the map itself.
     const double turns = lonLat_.isPlain() ? std::round((ends[1].x - lonLatOn(line, length).x) / 360) : 0;
     const auto plan = straightened(line, length, from, turns == 0 ? std::optional(to) : std::nullopt);
     if (!plan)
       return failure(
           ErrorCode::invalidData,
-          "is no line on the map: the shortest way passes a pole or a seam of the CRS, or leaves its reach",
+          "is not a line on the map: the geodesic passes a pole or a seam of the CRS, or leaves its domain",
           lineText(stated));
     const std::size_t pieces = plan->size() - 1;
     track.points.reserve(pieces + 1);
     for (std::size_t i = 0; i <= pieces; ++i)
       track.points.push_back({(*plan)[i], length * static_cast<double>(i) / static_cast<double>(pieces)});
-    if (turns != 0 && !goRound(track.points, turns, to))
+    if (turns != 0 && !crossSeam(track.points, turns, to))
       return failure(ErrorCode::invalidData,
-                     "is no line on the map: the shortest way leaves it where longitudes begin again",
+                     "is not a line on the map: the geodesic leaves it at the seam of longitudes",
                      lineText(stated));
     return track;
   }
 
-  /// The middles of pieces are held to the tolerance; the rest of an arc is hardly farther off.
+  /// The middle of each segment is within the tolerance; the rest of the arc deviates hardly more.
   std::optional<double> geodesicError() const override { return 1.1 * tolerance_; }
 
  private:
-  /// Of two places in source coordinates. Errors: invalidData, naming the one that has none.
+  /// Longitude and latitude of two positions in source coordinates. Errors: invalidData: one has none.
   Result<std::array<Vec2, 2>> lonLatOf(const Vec2 (&stated)[2]) const {
     std::array<Vec2, 2> ends{stated[0], stated[1]};
     lonLat_.toLonLat(ends);
     for (int i = 0; i < 2; ++i) {
       if (std::abs(ends[i].y) <= 90 + kPoleDegrees) ends[i].y = std::clamp(ends[i].y, -90.0, 90.0);
       if (!std::isfinite(ends[i].x) || !(std::abs(ends[i].y) <= 90))
-        return failure(ErrorCode::invalidData, "the CRS of the DEM can tell no longitude and latitude there",
-                       placeText(stated[i]));
+        return failure(ErrorCode::invalidData, "the CRS of the DEM defines no longitude and latitude there",
+                       positionText(stated[i]));
     }
     return ends;
   }
 
-  static std::string placeText(Vec2 p) { return fmt::format("{},{}", p.x, p.y); }
+  static std::string positionText(Vec2 p) { return fmt::format("{},{}", p.x, p.y); }
   static std::string lineText(const Vec2 (&ends)[2]) {
-    return fmt::format("{} to {}", placeText(ends[0]), placeText(ends[1]));
+    return fmt::format("{} to {}", positionText(ends[0]), positionText(ends[1]));
   }
 
-  /// 1 / R, by Euler's theorem.
-  double curvatureInTheMiddle(const GeodesicLine& line, double length) const {
+  /// 1 / R by Euler's theorem, at the middle of the line.
+  double curvatureAtMiddle(const GeodesicLine& line, double length) const {
     double latitude = 0, longitude = 0, azimuth = 0;
     line.Position(length / 2, latitude, longitude, azimuth);
     constexpr double kRadians = std::numbers::pi / 180;
@@ -154,10 +154,11 @@ class EllipsoidEarth final : public SightEarth {
     return north * north * alongMeridian + east * east * across;
   }
 
-  /// The places of the geodesic that cut it into equal pieces, straight enough. Nothing where none are.
+  /// Points that divide the geodesic into equal segments, each straight within the tolerance. Nothing if a
+  /// point is undefined or the segments never become straight.
   std::optional<std::vector<Vec2>> straightened(const GeodesicLine& line, double length, Vec2 from,
                                                 std::optional<Vec2> to) const {
-    std::vector<Vec2> plan = {from, to ? *to : placeOn(line, length)}, middles;
+    std::vector<Vec2> plan = {from, to ? *to : positionOn(line, length)}, middles;
     for (int halvings = 0; halvings <= kMostHalvings; ++halvings) {
       const std::size_t pieces = plan.size() - 1;
       middles.resize(pieces);
@@ -194,16 +195,16 @@ class EllipsoidEarth final : public SightEarth {
     lonLat_.toCrs(lonLat);
     for (Vec2& p : lonLat) p = model_.toPlan(p);
   }
-  Vec2 placeOn(const GeodesicLine& line, double distance) const {
+  Vec2 positionOn(const GeodesicLine& line, double distance) const {
     Vec2 p = lonLatOn(line, distance);
     toPlan({&p, 1});
     return p;
   }
 
-  /// Lets a track that runs out of one side of the map go on where it enters the other: what is behind the
-  /// seam is moved by a turn, and the way between, of no length, is led around the map. False where there is
-  /// no such seam. Precondition: a geographic CRS.
-  bool goRound(std::vector<SightPoint>& points, double turns, Vec2 to) const {
+  /// Continues a track that leaves the map on one side where it enters on the other: the part behind the seam
+  /// is shifted by a turn, and the connection between, of length 0, runs outside the map. False if the track
+  /// crosses no such seam. Precondition: a geographic CRS.
+  bool crossSeam(std::vector<SightPoint>& points, double turns, Vec2 to) const {
     Vec2 turn{360, 0}, none{0, 0};
     lonLat_.toCrs({&turn, 1});
     const Vec2 zero = model_.toPlan(none), one = model_.toPlan(turn);
@@ -245,7 +246,7 @@ Result<std::unique_ptr<SightEarth>> makeEllipsoidEarth(const TerrainModel& model
   const bool isEllipsoid = std::isfinite(g.semiMajorAxisMetres) && g.semiMajorAxisMetres > 0 &&
                            (g.inverseFlattening == 0 || g.inverseFlattening > 1);
   if (!isEllipsoid || !std::isfinite(refraction))
-    return failure(ErrorCode::invalidData, "an ellipsoid or a refraction that makes no sense");
+    return failure(ErrorCode::invalidData, "the ellipsoid or the refraction is invalid");
   return std::make_unique<EllipsoidEarth>(model, std::move(*lonLat), refraction);
 }
 

@@ -8,23 +8,26 @@
 
 namespace arete {
 
-/// What the air does to a ray, of the Earth's curvature: the effective radius is R / (1 - K).
+/// The usual refraction coefficient k: the effective radius of the Earth is R / (1 - k).
 inline constexpr double kUsualRefraction = 1.0 / 7;
 
-/// The Earth as the ellipsoid of the DEM's CRS, docs/topics/visibility.md: lines of sight run over geodesics
-/// (GeographicLib: Karney 2013), cut into 2^k pieces straight in plan, and the Earth curves below them by
-/// (1 - refraction) / R, R the radius of curvature in the middle of the line in its direction there (Euler).
-/// Any ellipsoid or sphere will do, of any datum; none is changed.
+/// The Earth as the ellipsoid of the DEM's CRS (docs/topics/visibility.md). Sight lines follow geodesics
+/// [Karney2013], divided into 2^k segments that are straight in plan. The Earth curves below them by (1 -
+/// refraction) / R, where R is the radius of curvature at the middle of the line, in its direction there, by
+/// Euler's theorem. Works with any ellipsoid or sphere; no datum is transformed.
 ///
-/// Where longitudes come round to the other side of a geographic DEM, the track leaves it on one side and
-/// enters it on the other; on the way it has no terrain below it.
+/// If the geodesic crosses the seam of longitudes of a geographic DEM, the track leaves the DEM on one side
+/// and enters it on the other, with no terrain below it in between.
 ///
-/// track(): O(pieces); a geographic CRS asks no PROJ. Its errors: invalidData for a place that has no
-/// longitude and latitude, a line over a pole or along the seam of a map, which is no line in plan, and one
-/// of half a turn or more of the effective Earth.
+/// track(): O(segments); a geographic CRS needs no PROJ. Errors: invalidData: a position without longitude
+/// and latitude; a line over a pole or along the seam of a map, which is not a line in plan; a line of half a
+/// turn of the effective Earth or more.
 ///
-/// Precondition: the model outlives the Earth. Errors: usage (no CRS), unsupported (a CRS that knows no
-/// longitude and latitude), invalidData (PROJ knows no way).
+/// @param model Must outlive the result.
+/// @param refraction The coefficient k.
+///
+/// Errors: usage: no CRS. unsupported: a CRS without longitude and latitude. invalidData: PROJ has no
+/// transformation.
 Result<std::unique_ptr<SightEarth>> makeEllipsoidEarth(const TerrainModel& model,
                                                        double refraction = kUsualRefraction);
 

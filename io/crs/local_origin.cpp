@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Two passes per axis: the range of the coordinates, then the vertex that is nearest to its middle.
 #include "io/crs/local_origin.h"
 
 #include <algorithm>
@@ -9,7 +11,7 @@ namespace arete {
 
 namespace {
 
-/// The coordinate of a vertex that is nearest to the middle of all.
+/// The coordinate of the vertex that is nearest to the middle of all, on one axis.
 double nearestToMiddle(std::span<const Vec3> positions, double Vec3::*axis) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Vec3& p : positions) {
@@ -23,7 +25,7 @@ double nearestToMiddle(std::span<const Vec3> positions, double Vec3::*axis) {
   return nearest;
 }
 
-/// 0 keeps the heights of most DEMs, which are float32 or integers, to the bit.
+/// With origin 0, float32 holds the heights of most DEMs, which are float32 or integers, exactly.
 double heightOrigin(std::span<const Vec3> positions) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   bool areExact = true;

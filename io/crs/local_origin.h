@@ -7,15 +7,18 @@
 
 namespace arete {
 
-/// Where a format of 32-bit floats puts its zero, so that little is rounded: x and y of vertices near the
-/// middle, height 0 (or, where float32 cannot hold the heights and they are far from 0 compared
-/// with their range, that of a vertex too). A vertex rather than the middle itself: the distances of a grid's
-/// samples from one of them are whole numbers of pixels, which float32 often holds exactly, as it does the
-/// heights of most DEMs. {0, 0, 0} for no vertices. O(vertices).
+/// Chooses the origin of a format of 32-bit floats so that little is rounded: x and y of vertices near the
+/// middle and height 0; or also the height of a vertex, if float32 does not hold the heights exactly and they
+/// are far from 0 compared with their range. Vertices instead of the middle itself, because the distances
+/// between samples of a grid are whole numbers of pixels, which float32 often holds exactly. O(vertices).
+///
+/// @return {0, 0, 0} for no vertices.
 Vec3 localOrigin(std::span<const Vec3> positions);
 
-/// How far a float32 number of this size may be from the double it was made of, where `origin` was taken
-/// away before and is added again.
+/// Upper bound on the error of a double that is stored as float32 relative to an origin.
+///
+/// @param largestAbsolute Bound on the absolute value of the stored numbers.
+/// @param origin Subtracted before storing, added after reading.
 double float32Rounding(double largestAbsolute, double origin);
 
 }  // namespace arete

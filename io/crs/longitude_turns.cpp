@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Positions within the range of longitudes of the DEM are not shifted, so that those on its borders stay
+// exact.
 #include "io/crs/longitude_turns.h"
 
 #include <algorithm>
@@ -49,7 +52,7 @@ void LongitudeTurns::add(double x) {
   east_ = std::max(east_, x);
 }
 
-/// Those that bring a longitude nearest to the DEM's middle.
+/// The shift that brings a longitude nearest to the middle of the DEM.
 double LongitudeTurns::turnsOf(double x) const {
   return turn_ * std::round(((west_ + east_) / 2 - x) / turn_);
 }

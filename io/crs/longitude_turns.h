@@ -12,31 +12,31 @@
 
 namespace arete {
 
-/// A longitude less or more whole turns is the same place: of positions in a geographic CRS that lie beside a
-/// DEM, the one of the same place that is nearest to its middle. All others stay as they are.
+/// Shifts longitudes by whole turns onto a DEM: a position in a geographic CRS that lies east or west of the
+/// DEM becomes the equivalent position nearest to the middle of the DEM. Other positions do not change.
 class LongitudeTurns {
  public:
-  /// Leaves every position where it is.
+  /// The identity.
   LongitudeTurns() = default;
-  /// O(1) of a raster, O(root vertices) of points.
+  /// O(1) for a raster, O(root vertices) for points.
   explicit LongitudeTurns(const TerrainModel& model);
-  /// Those of a raster's pixels, all of which belongs to it. O(1).
+  /// For a raster, with the whole areas of its pixels. O(1).
   LongitudeTurns(const Georeference& georeference, std::uint32_t columns, std::uint32_t rows);
   explicit LongitudeTurns(const RasterHeightfield& heightfield);
   /// O(points).
   explicit LongitudeTurns(const PointHeightfield& heightfield);
 
   Vec2 operator()(Vec2 p) const;
-  /// All of them in place. O(positions).
+  /// In place. O(positions).
   void apply(std::span<Vec2> positions) const;
-  /// All of a shape by the same turns, where it lies beside the DEM as a whole. O(positions).
+  /// Shifts a shape as a whole, if all of it lies beside the DEM. O(positions).
   void apply(RegionShape& shape) const;
 
  private:
   void add(double x);
   double turnsOf(double x) const;
 
-  double turn_ = 0;  ///< in the unit of the CRS; 0: nothing is turned
+  double turn_ = 0;  ///< in the unit of the CRS; 0: the identity
   double west_ = std::numeric_limits<double>::infinity(), east_ = -west_;
 };
 

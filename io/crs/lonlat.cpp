@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A transformation of PROJ serves one thread at a time, and making one takes milliseconds: those that are
-// free wait in a pool, which makes another when a thread finds none. There are never more than threads.
+// A PROJ transformation serves one thread at a time and takes milliseconds to create. A pool keeps the idle
+// ones and creates another if a thread finds none, so there are at most as many as threads.
 #include "io/crs/lonlat.h"
 
 #include <fmt/format.h>
@@ -33,8 +33,8 @@ Result<ThereAndBack> makeTransforms(const std::string& crs, const std::string& l
   return ThereAndBack{std::move(*there), std::move(*back)};
 }
 
-/// Longitude and latitude of the datum of `crs`. Of a rotated pole the axes are turned against those of its
-/// datum, and OGR does not hand out the base: any geographic CRS on the same ellipsoid is it to PROJ.
+/// The geographic CRS of the datum of `crs`. OGR does not give access to the base CRS of a rotated pole; PROJ
+/// accepts any geographic CRS on the same ellipsoid instead.
 OGRSpatialReference ownLonLat(const OGRSpatialReference& crs) {
   OGRSpatialReference own;
   if (crs.IsDerivedGeographic()) {
@@ -62,7 +62,7 @@ struct CrsLonLat::Pool {
         return last;
       }
     }
-    auto made = makeTransforms(crs, lonLat);  // worked when the pool was made
+    auto made = makeTransforms(crs, lonLat);  // succeeded when the pool was created
     return made ? std::make_unique<ThereAndBack>(std::move(*made)) : nullptr;
   }
   void give(std::unique_ptr<ThereAndBack> transforms) {
@@ -98,7 +98,7 @@ Result<CrsLonLat> CrsLonLat::of(const Georeference& georeference) {
   const char* name = crs->GetName();
   if (!crs->IsProjected() && !crs->IsGeographic() && !crs->IsDerivedGeographic())
     return failure(ErrorCode::unsupported,
-                   fmt::format("the CRS {} knows no longitude and latitude", name ? name : "of the DEM"));
+                   fmt::format("the CRS {} has no longitude and latitude", name ? name : "of the DEM"));
   CrsLonLat result;
   if (crs->IsGeographic() && !crs->IsDerivedGeographic()) {
     result.degreesPerUnit_ = georeference.angularUnitRadians * 180 / std::numbers::pi;

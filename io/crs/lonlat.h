@@ -10,23 +10,23 @@
 
 namespace arete {
 
-/// From the coordinates of a CRS to longitude and latitude in degrees, of the CRS's own datum and prime
-/// meridian, and back: no datum is changed, so nothing is lost on the way but rounding. Thread-safe.
+/// Converts between the coordinates of a CRS and longitude and latitude in degrees, of the CRS's own datum
+/// and prime meridian. No datum is transformed, so the only error is rounding. Thread-safe.
 class CrsLonLat {
  public:
-  /// Errors: usage (the DEM has no CRS), unsupported (a CRS of no place on an ellipsoid, of a building site
-  /// for instance), invalidData (PROJ knows no way).
+  /// Errors: usage: the DEM has no CRS. unsupported: a CRS without an ellipsoid, such as that of a building
+  /// site. invalidData: PROJ has no transformation.
   static Result<CrsLonLat> of(const Georeference& georeference);
 
   CrsLonLat(CrsLonLat&&) noexcept;
   CrsLonLat& operator=(CrsLonLat&&) noexcept;
   ~CrsLonLat();
 
-  /// x, y of the CRS are longitude and latitude themselves, in some unit: no projection is asked.
+  /// True if x, y of the CRS are longitude and latitude in some unit, so that no projection is needed.
   bool isPlain() const { return !pool_; }
 
-  /// In place; NaN where the CRS cannot tell a position. Longitudes of a plain CRS come as they are, 350 or
-  /// -10. O(positions).
+  /// In place. A position outside the domain of the CRS becomes NaN. Longitudes of a plain CRS are not
+  /// normalized: 350 stays 350. O(positions).
   void toLonLat(std::span<Vec2> positions) const;
   void toCrs(std::span<Vec2> lonLat) const;
 

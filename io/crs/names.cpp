@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Texts come from files, so they are parsed with crsFromText(), which opens no file and no address.
 #include "io/crs/names.h"
 
 #include <fmt/format.h>

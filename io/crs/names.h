@@ -5,20 +5,22 @@
 
 namespace arete {
 
-/// A CRS in a few words: "WGS 84 / UTM zone 11N (EPSG:32611)"; "none" for an empty text; "unknown" for one
-/// that GDAL does not understand. `crs`: WKT or any text GDAL takes.
+/// The name of a CRS for people: "WGS 84 / UTM zone 11N (EPSG:32611)".
+///
+/// @param crs WKT or any text that GDAL accepts.
+/// @return "none" for an empty text, "unknown" if GDAL does not understand it.
 std::string crsName(const std::string& crs);
 
-/// Whether its x and y are longitude and latitude; false where it is empty or not understood.
+/// @return True if x and y of the CRS are longitude and latitude. False if it is empty or not understood.
 bool isGeographicCrs(const std::string& crs);
 
 enum class CrsAgreement {
   same,
   different,
-  unknown,  ///< one of the two is empty or not understood
+  unknown,  ///< at least one is empty or not understood
 };
 
-/// Whether two CRSs place x, y alike; vertical parts and the order of the axes do not count.
+/// Compares the horizontal parts of two CRSs, whatever the order of their axes.
 CrsAgreement compareCrs(const std::string& a, const std::string& b);
 
 }  // namespace arete

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Fields between commas; the word behind a height gives its reference. Numbers do not depend on the locale.
 #include "io/crs/position_argument.h"
 
 #include <fmt/format.h>
@@ -46,14 +48,13 @@ Result<Vec2> placeOf(std::string_view x, std::string_view y, const CrsTransform&
   }
   const auto known = toDem(place);
   if (!known)
-    return failure(
-        ErrorCode::usage,
-        "is no longitude and latitude (in degrees, longitude first) that the CRS of the DEM can tell",
-        culprit);
+    return failure(ErrorCode::usage,
+                   "is outside the domain of the DEM's CRS; expected longitude, latitude in degrees",
+                   culprit);
   return *known;
 }
 
-/// Takes the word off the end of "120.5msl".
+/// Removes the word from the end of "120.5msl".
 HeightKind takeKind(std::string_view& height) {
   for (const auto& [word, kind] : kWords) {
     if (height.size() < word.size()) continue;
@@ -89,7 +90,7 @@ Result<StatedHeight> readHeightText(std::string_view text) {
   if (!value)
     return failure(
         ErrorCode::usage,
-        fmt::format("'{}' is not a height: a number, with agl, msl or ell behind it or nothing", text));
+        fmt::format("'{}' is not a height: a number, optionally followed by agl, msl or ell", text));
   return StatedHeight{*value, kind};
 }
 
@@ -129,7 +130,8 @@ Result<double> demHeight(const PositionArgument& position, const SurfaceHeights&
   if (position.kind == HeightKind::aboveGround) {
     const auto ground = heights.at(position.xy);
     if (!ground)
-      return failure(ErrorCode::invalidData, "is above no terrain: outside the DEM, or on NODATA", culprit);
+      return failure(ErrorCode::invalidData, "has no terrain below it: outside the DEM, or on NODATA",
+                     culprit);
     return ground->height + position.height;
   }
   const bool isDemEllipsoidal = heights.model().georeference.verticalDatum == "ellipsoid";
@@ -137,8 +139,8 @@ Result<double> demHeight(const PositionArgument& position, const SurfaceHeights&
     return failure(
         ErrorCode::usage,
         isDemEllipsoidal
-            ? "the DEM's heights are ellipsoidal, so a height above sea level needs a geoid; say ell or agl"
-            : "the DEM does not say that its heights are ellipsoidal, so this needs a geoid; say msl or agl",
+            ? "the DEM's heights are ellipsoidal, so a height above sea level needs a geoid; use ell or agl"
+            : "the DEM does not say that its heights are ellipsoidal, so this needs a geoid; use msl or agl",
         culprit);
   return position.height;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The horizontal part of a compound CRS is described from a copy without its vertical part: OGR's accessors
-// answer for the part they find first otherwise. Coordinates are x, y in GDAL's traditional order (longitude
-// first) throughout.
+// The horizontal part of a compound CRS is described from a copy without its vertical part, because OGR's
+// accessors return the values of the part that they find first. Coordinates are x, y in GDAL's traditional
+// order (longitude first) throughout.
 #include "io/crs/reader.h"
 
 #include <cpl_conv.h>
@@ -152,10 +152,10 @@ Result<OGRSpatialReference> chooseCrs(const OGRSpatialReference* own, const std:
 
 Status describeCrs(const OGRSpatialReference& crs, Georeference& georeference) {
   if (crs.IsEmpty()) return {};
-  const GdalErrors quiet;  // a CRS of a building site has no ellipsoid, of which PROJ would tell the terminal
+  const GdalErrors quiet;  // PROJ reports a CRS without an ellipsoid, such as that of a building site
   if (crs.IsGeocentric())
     return failure(ErrorCode::unsupported,
-                   fmt::format("the CRS {} is geocentric: its x, y are no plan positions", nameOf(crs)));
+                   fmt::format("the CRS {} is geocentric: its x, y are not plan positions", nameOf(crs)));
   georeference.crsWkt = wktOf(crs);
 
   OGRSpatialReference horizontal = crs;

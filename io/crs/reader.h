@@ -13,32 +13,39 @@
 
 namespace arete {
 
-/// The CRS of a text that stands in a file: WKT, PROJJSON, a PROJ string, a code ("EPSG:32611",
-/// "EPSG:4326+5773"). A text that names a file or an address is none: what a file says opens nothing. Errors:
-/// usage, naming the text; a vertical CRS alone is one too.
+/// Parses a CRS that comes from a file: WKT, PROJJSON, a PROJ string, a code ("EPSG:32611",
+/// "EPSG:4326+5773"). The name of a file or an address is an error, so that data cannot make the program open
+/// anything.
+///
+/// Errors: usage, with the text as culprit: not a CRS, or a vertical CRS alone.
 Result<OGRSpatialReference> crsFromText(const std::string& text);
 
-/// The CRS a person names: all of that, a .prj file and an address.
+/// Parses a CRS that comes from a person: as crsFromText(), and also a .prj file or an address.
 Result<OGRSpatialReference> crsFromUser(const std::string& text);
 
-/// Whether a layer has a CRS: a GeoPackage says "Undefined ... SRS" where it has none.
+/// @return True if a layer has a CRS. A layer of a GeoPackage without one has "Undefined ... SRS".
 bool isKnownCrs(const OGRSpatialReference* crs);
 
-/// WKT 2 of a CRS; empty for one that has none.
+/// @return WKT 2; empty if the CRS cannot be expressed in it.
 std::string wktOf(const OGRSpatialReference& crs);
 
-/// The CRS to use: the one a person stated where `text` names one (with a warning where it replaces another),
-/// else the file's own, which may be null. An empty CRS = none.
+/// Chooses between the CRS of a file and the one a person states, which takes precedence, with a warning if
+/// the two differ.
+///
+/// @param own The CRS of the file; may be null.
+/// @param text Stated by a person; empty: none.
+/// @return An empty CRS if there is none. Errors: those of crsFromUser().
 Result<OGRSpatialReference> chooseCrs(const OGRSpatialReference* own, const std::string& text,
                                       std::vector<std::string>& warnings);
 
-/// Fills the CRS part of a georeference: WKT 2, kind, units, ellipsoid, and from a compound or
-/// three-dimensional CRS the vertical unit and datum. An empty CRS leaves everything as it is. Errors:
-/// unsupported (geocentric).
+/// Fills the CRS part of a georeference: WKT 2, kind, units, ellipsoid and, from a compound or
+/// three-dimensional CRS, the vertical unit and datum. An empty CRS changes nothing.
+///
+/// Errors: unsupported: a geocentric CRS.
 Status describeCrs(const OGRSpatialReference& crs, Georeference& georeference);
 
-/// Metres in a unit of height by one of its usual names ("m", "metre", "ft", "US survey foot", ...); upper
-/// and lower case alike. Nothing for a name that is not known.
+/// @param name A usual name of a unit of length, in either case: "m", "metre", "ft", "US survey foot", ...
+/// @return Metres per unit; nothing for an unknown name.
 std::optional<double> metresPerUnit(std::string_view name);
 
 }  // namespace arete

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Both CRSs lose their vertical part, so that PROJ transforms the plan alone. Positions go through PROJ in
+// batches.
 #include "io/crs/transform.h"
 
 #include <fmt/format.h>
@@ -49,24 +52,24 @@ Result<CrsTransform> CrsTransform::between(const std::string& from, const std::s
   auto state = std::make_unique<State>();
   state->transformation.reset(OGRCreateCoordinateTransformation(&*source, &*target));
   if (!state->transformation)
-    return failure(ErrorCode::invalidData,
-                   fmt::format("there is no way from its CRS to that of the DEM: {}", errors.firstFailure()));
+    return failure(
+        ErrorCode::invalidData,
+        fmt::format("there is no transformation from its CRS to the DEM's: {}", errors.firstFailure()));
   result.state_ = std::move(state);
   return result;
 }
 
 Result<CrsTransform> CrsTransform::fromLonLat(const Georeference& target) {
   if (target.crsWkt.empty())
-    return failure(
-        ErrorCode::usage,
-        "the DEM has no CRS, so longitude and latitude cannot be brought into it; `crs` states "
-        "it when the DEM is built");
+    return failure(ErrorCode::usage,
+                   "the DEM has no CRS, so longitude and latitude cannot be brought into it; `crs` states "
+                   "it when the DEM is built");
   if (isOnEarth(target)) return between("OGC:CRS84", target.crsWkt);
   registerGdal();
   const auto crs = crsFromText(target.crsWkt);
   if (!crs) return tl::unexpected(crs.error());
   const std::unique_ptr<OGRSpatialReference> own(crs->CloneGeogCS());
-  if (!own) return failure(ErrorCode::invalidData, "the CRS of the DEM knows no longitude and latitude");
+  if (!own) return failure(ErrorCode::invalidData, "the CRS of the DEM has no longitude and latitude");
   return between(wktOf(*own), target.crsWkt);
 }
 
@@ -78,7 +81,7 @@ std::optional<Vec2> CrsTransform::operator()(Vec2 p) const {
 
 void CrsTransform::apply(std::span<Vec2> positions) const {
   if (!state_) return turns_.apply(positions);
-  const GdalErrors quiet;  // which position cannot be told is said by NaN
+  const GdalErrors quiet;  // NaN marks the positions that fail
   constexpr std::size_t kAtOnce = 65536;
   std::vector<double> x, y;
   std::vector<int> known;

@@ -13,34 +13,36 @@
 
 namespace arete {
 
-/// Brings plan positions from one CRS into another; x is easting or longitude in both, whatever order the CRS
-/// states its axes in. Heights are none of its business. One thread at a time.
+/// Transforms plan positions from one CRS to another. x is easting or longitude in both, whatever the order
+/// of the axes of the CRS. Heights are not transformed. Not thread-safe.
 class CrsTransform {
  public:
-  /// Leaves every position where it is.
+  /// The identity.
   CrsTransform();
   CrsTransform(CrsTransform&&) noexcept;
   CrsTransform& operator=(CrsTransform&&) noexcept;
   ~CrsTransform();
 
-  /// from, to: WKT or any text GDAL takes. Errors: usage (not a CRS), invalidData (there is no way from one
-  /// to the other, for instance from one celestial body to another).
+  /// @param from,to WKT or any text that crsFromText() accepts.
+  ///
+  /// Errors: usage: not a CRS. invalidData: there is no transformation, for instance between celestial
+  /// bodies.
   static Result<CrsTransform> between(const std::string& from, const std::string& to);
 
-  /// From longitude and latitude in degrees: of WGS 84 where the target lies on the Earth, of the target's
-  /// own datum elsewhere. Errors: usage where the target has no CRS, and those of between().
+  /// From longitude and latitude in degrees: of WGS 84 if the target is on the Earth, of the target's own
+  /// datum otherwise. Errors: usage: the target has no CRS. Also those of between().
   static Result<CrsTransform> fromLonLat(const Georeference& target);
 
-  /// Positions are brought to where a DEM is by whole turns of their longitude, behind all else.
+  /// Applied after the transformation: shifts longitudes by whole turns onto a DEM.
   void setTurns(const LongitudeTurns& turns) { turns_ = turns; }
 
   bool isIdentity() const { return !state_; }
-  /// What fromLonLat() and between() start from, as WKT 2; empty for the identity.
+  /// The source CRS of fromLonLat() or between(), as WKT 2; empty for the identity.
   const std::string& sourceWkt() const { return sourceWkt_; }
 
-  /// Nothing where the target cannot tell the position.
+  /// @return Nothing if the position is outside the domain of the target.
   std::optional<Vec2> operator()(Vec2 p) const;
-  /// All of them in place; NaN where the target cannot tell one. O(positions).
+  /// In place. A position outside the domain of the target becomes NaN. O(positions).
   void apply(std::span<Vec2> positions) const;
 
  private:

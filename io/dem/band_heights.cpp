@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Strips of whole rows, as many as make a million samples and fill whole blocks of the file, are read
-// straight into their place among the heights and decoded there: first what is no data, on the raw value,
-// then scale and offset. Samples of 64-bit integers go through a strip of their own, since a double holds
-// them only up to 2^53.
+// Strips of whole rows, of about a million samples and whole blocks of the file, are read directly into the
+// array of heights and decoded there: NODATA on the raw value first, then scale and offset. Samples of 64-bit
+// integers go through a separate strip, since a double holds them only up to 2^53.
 //
-// The memory is reserved at once but touched strip by strip: a file that promises more than it holds fails
-// early.
+// The memory is reserved at once but touched strip by strip, so that a file that states more samples than it
+// has fails early.
 #include "io/dem/band_heights.h"
 
 #include <cpl_string.h>
@@ -78,8 +77,7 @@ class StripReader {
     if (!(flags & GMF_ALL_VALID) && !fromNodataOnly) mask_ = band.GetMaskBand();
   }
 
-  /// Raw values, NaN where there is no data. Errors as GDAL reports them, or a height that cannot be told
-  /// exactly.
+  /// Raw values, NaN for NODATA. Errors: unreadable: from GDAL. invalidData: a 64-bit height beyond 2^53.
   Status read(int firstRow, int rowCount, std::span<double> raw) {
     Status status = type_ == GDT_Int64    ? readWide<std::int64_t>(firstRow, rowCount, raw)
                     : type_ == GDT_UInt64 ? readWide<std::uint64_t>(firstRow, rowCount, raw)
@@ -98,7 +96,7 @@ class StripReader {
     const std::string said = errors.firstFailure();
     return failure(ErrorCode::unreadable,
                    fmt::format("rows {} to {} cannot be read: {}", firstRow, firstRow + rowCount - 1,
-                               said.empty() ? "GDAL does not say why" : said));
+                               said.empty() ? "GDAL gives no reason" : said));
   }
 
   Status readPlain(int firstRow, int rowCount, std::span<double> raw) {
@@ -131,8 +129,9 @@ class StripReader {
         const std::size_t columns = std::size_t(band_.GetXSize());
         return failure(
             ErrorCode::invalidData,
-            fmt::format("the 64-bit height {} at column {}, row {} is beyond 2^53 and cannot be told exactly",
-                        value, i % columns, std::size_t(firstRow) + i / columns));
+            fmt::format(
+                "the 64-bit height {} at column {}, row {} is beyond 2^53, so a double cannot hold it", value,
+                i % columns, std::size_t(firstRow) + i / columns));
       }
       raw[i] = double(value);
     }
@@ -210,11 +209,10 @@ Result<BandHeights> readBandHeights(GDALRasterBand& band, std::optional<double> 
     }
   }
   context.report("reading", 1);
-  if (infinite > 0) warnings.push_back(fmt::format("{} infinite heights are taken as no data", infinite));
+  if (infinite > 0) warnings.push_back(fmt::format("{} infinite heights are taken as NODATA", infinite));
   if (huge > 0)
     warnings.push_back(fmt::format(
-        "{} heights are as large as {}: an undeclared NODATA value? `nodata` states it",
-        huge, hugeExample));
+        "{} heights are as large as {}: an undeclared NODATA value? `nodata` states it", huge, hugeExample));
   return result;
 }
 

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A text that is a number as a whole is a uniform height; any other is a path. Pixels are areas: no
+// interpolation.
 #include "io/dem/clutter_raster.h"
 
 #include <algorithm>
@@ -35,7 +38,7 @@ Extent extentOf(const TerrainModel& model) {
   return extent;
 }
 
-/// Of the pixels, which reach half a step beyond their middles.
+/// With the whole areas of the pixels, half a step around their centres.
 Extent extentOf(const RasterHeightfield& raster) {
   Extent extent;
   for (const double column : {-0.5, raster.columns - 0.5})
@@ -43,11 +46,11 @@ Extent extentOf(const RasterHeightfield& raster) {
   return extent;
 }
 
-/// As far as their extents tell, a rotated raster's being larger than itself.
+/// Tests bounding boxes only; that of a rotated raster is larger than the raster.
 bool mayOverlap(const TerrainModel& model, const RasterHeightfield& raster) {
   const Extent dem = extentOf(model), own = extentOf(raster);
   if (!(own.yMin <= dem.yMax && dem.yMin <= own.yMax)) return false;
-  // The DEM's middle may be a turn away from the raster's, and either may be the wider.
+  // The two may lie a turn apart, and either may be the wider.
   const double middle = dem.xMin / 2 + dem.xMax / 2;
   const double turned =
       LongitudeTurns(raster.georeference, raster.columns, raster.rows)({middle, own.yMin}).x;
@@ -75,7 +78,7 @@ Result<SightClutter> readClutter(const std::string& text, const TerrainModel& mo
         const auto way = CrsTransform::between(own.crsWkt, dem.crsWkt);
         return !way || !way->isIdentity();
       }()))
-    return failure(ErrorCode::usage, "is in another CRS than the DEM; gdalwarp brings it there", text);
+    return failure(ErrorCode::usage, "is in another CRS than the DEM; gdalwarp can transform it", text);
   if (!mayOverlap(model, read->heightfield))
     return failure(ErrorCode::usage, "lies nowhere over the DEM", text);
   const Vec2 step = groundStep(own, read->heightfield.columns / 2.0, read->heightfield.rows / 2.0);
@@ -84,11 +87,11 @@ Result<SightClutter> readClutter(const std::string& text, const TerrainModel& mo
                            ? 1
                            : own.verticalUnitMetres / dem.verticalUnitMetres;
   const auto samples = std::make_shared<const RasterHeightfield>(std::move(read->heightfield));
-  const auto place = std::make_shared<const Georeference>(dem);
+  const auto georeference = std::make_shared<const Georeference>(dem);
   const bool isRaster = model.isRaster;
   const LongitudeTurns turns(samples->georeference, samples->columns, samples->rows);
-  clutter.height = [samples, place, isRaster, scale, turns](Vec2 plan) {
-    const Vec2 xy = turns(isRaster ? place->toSource(plan.x, plan.y) : plan);
+  clutter.height = [samples, georeference, isRaster, scale, turns](Vec2 plan) {
+    const Vec2 xy = turns(isRaster ? georeference->toSource(plan.x, plan.y) : plan);
     const Vec2 at = samples->georeference.toGrid(xy.x, xy.y);
     const double column = std::floor(at.x + 0.5), row = std::floor(at.y + 0.5);
     if (!(column >= 0 && row >= 0 && column < samples->columns && row < samples->rows)) return 0.0;

@@ -10,10 +10,14 @@
 
 namespace arete {
 
-/// What stands on the terrain: "12.5", everywhere, or a raster of heights in the CRS of the DEM, taken pixel
-/// by pixel, any whole turn of longitude away; NODATA and what is outside of it has none. Heights are in the
-/// DEM's vertical unit unless the raster states another. The result reads the model's georeference only while
-/// this runs. Errors: usage (a negative height; another CRS; nothing of it over the DEM), and those of
+/// Reads the height of what stands on the terrain, such as trees and buildings.
+///
+/// @param text A number, "12.5", for a uniform height, or the path of a raster of heights in the CRS of the
+/// DEM, up to whole turns of longitude. A position has the height of its pixel, and 0 on NODATA or outside
+/// the raster. Heights are in the DEM's vertical unit unless the raster states another.
+/// @param model May be destroyed after the call.
+///
+/// Errors: usage: a negative height; another CRS; a raster that does not overlap the DEM. Also those of
 /// readRaster().
 Result<SightClutter> readClutter(const std::string& text, const TerrainModel& model,
                                  const RunContext& context = {});

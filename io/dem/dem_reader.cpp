@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The file decides, not its name, except for text: a raster driver that recognises it makes it a raster,
-// unless that is GDAL's "XYZ", which takes any text of numbers for one, or a container (GeoPackage, ...) that
-// turns out to hold no raster. Text and vector layers are points.
+// The content of a file decides what it is, not its name, except for text. A file that a raster driver
+// identifies is a raster, unless the driver is GDAL's "XYZ", which accepts any text of numbers, or the file
+// is a container (GeoPackage, ...) without a raster. Texts and vector layers are points.
 #include "io/dem/dem_reader.h"
 
 #include <cpl_string.h>
@@ -41,7 +41,7 @@ bool isPointCloud(const std::string& path) {
   return whole && std::memcmp(magic.data(), "LASF", magic.size()) == 0;
 }
 
-/// What the file is, as far as GDAL's raster drivers can tell.
+/// True if GDAL reads the file as a raster. Otherwise sets `opensAsVector`.
 bool isRaster(const std::string& path, bool& opensAsVector) {
   GdalErrors quiet;
   GDALDriverH driver = GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
@@ -98,7 +98,7 @@ bool isTextOfNumbers(const std::string& path) {
   return isTextDriver(GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr));
 }
 
-/// The one raster in an archive, or the one text of points.
+/// Reads the only raster in an archive, or its only text of points.
 Result<DemRead> readZipped(const std::string& archive, const SourceReading& reading,
                            const RunContext& context) {
   const Result<std::string> inside = findZippedRaster(archive);
@@ -113,7 +113,7 @@ Result<DemRead> readFrom(const std::string& path, const SourceReading& reading, 
     if (VSIStatBufL status; VSIStatL(path.c_str(), &status) == 0)
       return failure(
           ErrorCode::unsupported,
-          "is a point cloud, which is not read; make a DEM of it first, or a text of its ground points, for "
+          "is a point cloud, which Arete does not read; make a DEM or a text of its ground points first, for "
           "instance with PDAL: pdal translate IN.laz ground.csv -f filters.range "
           "--filters.range.limits='Classification[2:2]'",
           path);
@@ -129,7 +129,7 @@ Result<DemRead> readFrom(const std::string& path, const SourceReading& reading, 
   return tl::unexpected(explainOpenFailure(path, "DEM", errors));
 }
 
-/// Where the places of a heightfield lie, and its heights.
+/// The bounding box of a heightfield.
 struct Extent {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
   Vec2 low{kNone, kNone}, high{-kNone, -kNone};
@@ -143,7 +143,7 @@ struct Extent {
 
 Extent extentOf(const std::vector<double>& heights, Extent extent = {}) {
   for (const double z : heights) {
-    extent.lowest = z < extent.lowest ? z : extent.lowest;  // false of NODATA
+    extent.lowest = z < extent.lowest ? z : extent.lowest;  // false for NODATA
     extent.highest = z > extent.highest ? z : extent.highest;
   }
   return extent;
@@ -163,30 +163,31 @@ Extent extentOf(const PointHeightfield& field) {
   return extent;
 }
 
-/// What the places say of the CRS, or of its want. Nothing but the numbers tells, so it is a warning.
+/// A warning if the positions do not fit the CRS, or look like degrees without one. The numbers are the only
+/// evidence.
 template <class Heightfield>
-std::optional<std::string> doubtOfCrs(const Heightfield& field) {
+std::optional<std::string> crsWarning(const Heightfield& field) {
   const Extent e = extentOf(field);
   if (field.georeference.isGeographic) {
-    // A pixel beyond the poles is common, and so are longitudes of more than one turn.
+    // Pixels beyond a pole are common, and so are longitudes beyond one turn.
     constexpr double kMostX = 12.6, kMostY = 1.6;  // radians
     const double x = std::max(std::abs(e.low.x), std::abs(e.high.x)),
                  y = std::max(std::abs(e.low.y), std::abs(e.high.y)),
                  unit = field.georeference.angularUnitRadians;
     if (!(x * unit > kMostX) && !(y * unit > kMostY)) return std::nullopt;
     return fmt::format(
-        "its CRS has longitudes and latitudes, but its places reach x {:g} and y {:g}, which no "
-        "globe has: state the CRS that they are of",
+        "its CRS has longitudes and latitudes, but its positions reach x {:g} and y {:g}, which are out of "
+        "range: state the CRS that they are in",
         x, y);
   }
-  // Longitudes and latitudes without a CRS: numbers that a globe has, and heights far beyond the width of the
-  // whole.
+  // Longitudes and latitudes without a CRS: numbers in their range, and a range of heights far larger than
+  // the width of the whole.
   const double width = std::max(e.high.x - e.low.x, e.high.y - e.low.y);
   const bool looksLikeDegrees = field.georeference.crsWkt.empty() && width > 0 && e.low.x >= -180 &&
                                 e.high.x <= 360 && e.low.y >= -90 && e.high.y <= 90 &&
                                 e.highest - e.lowest > 10 * width;
   if (!looksLikeDegrees) return std::nullopt;
-  return "has no CRS, and its places look like degrees: they are taken as lengths in the unit of the "
+  return "has no CRS, and its positions look like degrees: they are taken as lengths in the unit of the "
          "heights; state the CRS (EPSG:4326 for longitude and latitude)";
 }
 
@@ -196,8 +197,8 @@ Result<DemRead> readDem(const std::string& path, const SourceReading& reading, c
   try {
     Result<DemRead> read = readFrom(path, reading, context);
     if (!read) return read;
-    if (auto doubt = std::visit([](const auto& field) { return doubtOfCrs(field); }, read->heightfield))
-      read->warnings.push_back(std::move(*doubt));
+    if (auto warning = std::visit([](const auto& field) { return crsWarning(field); }, read->heightfield))
+      read->warnings.push_back(std::move(*warning));
     return read;
   } catch (const std::bad_alloc&) {
     return failure(ErrorCode::unsupported, "is larger than the memory that is free", path);

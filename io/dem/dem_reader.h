@@ -14,6 +14,7 @@
 
 namespace arete {
 
+/// A raster or scattered points.
 using DemHeightfield = std::variant<RasterHeightfield, PointHeightfield>;
 
 struct DemRead {
@@ -21,11 +22,12 @@ struct DemRead {
   std::vector<std::string> warnings;
 };
 
-/// The one door for elevation data: reads a raster or scattered points, whichever the file is; see
-/// readRaster() and readPoints() for how and for the errors. Text whose points fill a regular grid, at least
-/// by half, is a raster (and its heights stay doubles). A reading of the other kind is refused (usage).
-/// Places that look like degrees without a CRS, or that no globe has under one of degrees, are warned of.
-/// LAS, LAZ, COPC and E57 clouds are refused with what to do instead (unsupported).
+/// Reads elevation data of any kind: a raster as readRaster() does, or scattered points as readPoints() does.
+/// A text whose points fill at least half of a regular grid becomes a raster. Warns of positions that look
+/// like degrees without a CRS, and of positions outside the range of a geographic CRS.
+///
+/// Errors: those of readRaster() and readPoints(). usage: also a `reading` for the other kind of data.
+/// unsupported: also point clouds (LAS, LAZ, COPC, E57); the message says what to do instead.
 Result<DemRead> readDem(const std::string& path, const SourceReading& reading = {},
                         const RunContext& context = {});
 

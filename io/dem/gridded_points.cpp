@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The distinct x are sorted; their number and extent give the step, and each must lie on it. The same for y.
-// A set of scattered points has about as many distinct x as points, and is told by that before anything else.
-// A pattern that fills a grid by half and hardly has cells, as a checkerboard or the five of a die, is
-// scattered too: as a raster most of its points would have no triangle.
+// The distinct x are sorted; their number and range give the step, and each must lie on it. The same for y.
+// Scattered points have about as many distinct x as points, and are detected by that first. A pattern that
+// fills half of a grid but has few cells, such as a checkerboard, counts as scattered too: as a raster, most
+// of its points would be in no triangle.
 #include "io/dem/gridded_points.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ std::optional<Axis> regularAxis(std::vector<double> values, std::size_t largestC
   if (values.size() < 2 || values.size() > largestCount) return std::nullopt;
   const Axis axis{values.front(), (values.back() - values.front()) / double(values.size() - 1),
                   values.size()};
-  // Coordinates at the ends of what doubles hold have no step between them.
+  // Coordinates at the limits of double have no step between them.
   if (!std::isnormal(axis.step) || !std::isfinite(axis.step * double(axis.count))) return std::nullopt;
   for (std::size_t i = 0; i < values.size(); ++i)
     if (std::abs(values[i] - (axis.first + double(i) * axis.step)) > kStepTolerance * axis.step)
@@ -44,11 +44,12 @@ std::optional<Axis> axisOf(const PointHeightfield& points, double Vec2::*coordin
   std::vector<double> values(points.size());
   std::transform(points.positions.begin(), points.positions.end(), values.begin(),
                  [&](const Vec2& p) { return p.*coordinate; });
-  // Half of the cells taken and two of the other axis at least: no axis is longer than the number of points.
+  // At least half of the samples are present and the other axis has at least two, so no axis has more values
+  // than there are points.
   return regularAxis(std::move(values), points.size());
 }
 
-/// Whether most of the points are corners of a cell that has three valid corners at least: of a triangle.
+/// True if most of the points are corners of a cell with at least three valid corners, thus of a triangle.
 bool hasCellsForMost(const RasterHeightfield& raster, std::size_t points) {
   const auto isValid = [&](std::size_t sample) { return !std::isnan(raster.heights[sample]); };
   std::vector<bool> hasCell(raster.heights.size());

@@ -7,9 +7,11 @@
 
 namespace arete {
 
-/// The raster these points are the samples of, if they are: x and y on regular steps to 1 percent of a step
-/// (text is rounded), at least two columns and rows, at least half of the cells taken, and most points beside
-/// two others of one cell. North up; a missing cell is NaN. O(n log n).
+/// Detects points that are the samples of a raster: x and y on regular steps within 1 percent of a step
+/// (texts are rounded), at least two columns and rows, at least half of the samples present, and most points
+/// in a cell with at least three.
+///
+/// @return The raster, north up, NaN for missing samples; nothing if the points are scattered. O(n log n).
 std::optional<RasterHeightfield> asRaster(const PointHeightfield& points);
 
 }  // namespace arete

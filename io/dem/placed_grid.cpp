@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The raster is read as heights, of which only the georeference is kept.
 #include "io/dem/placed_grid.h"
 
 #include <utility>
@@ -11,7 +13,7 @@ namespace arete {
 
 Result<PlacedGrid> readPlacedGrid(const std::string& path, const TerrainModel& model,
                                   std::vector<std::string>& warnings, const RunContext& context) {
-  // Any band has the grid; without one stated a colour image is refused for heights it need not have.
+  // Any band has the grid. Without a stated band readRaster() refuses colour images.
   RasterReadOptions options;
   options.band = 1;
   auto raster = readRaster(path, options, context);
@@ -23,7 +25,7 @@ Result<PlacedGrid> readPlacedGrid(const std::string& path, const TerrainModel& m
   grid.georeference = std::move(raster->heightfield.georeference);
   const std::string &there = grid.georeference.crsWkt, &here = model.georeference.crsWkt;
   if (there.empty() != here.empty())
-    return failure(ErrorCode::invalidData, "has a CRS where the DEM has none, or the other way round", path);
+    return failure(ErrorCode::invalidData, "only one of it and the DEM has a CRS", path);
   grid.places.reserve(std::size_t{grid.columns} * grid.rows);
   for (std::uint32_t row = 0; row < grid.rows; ++row)
     for (std::uint32_t column = 0; column < grid.columns; ++column)

@@ -11,16 +11,18 @@
 
 namespace arete {
 
-/// The grid of a raster, and where its samples stand in the plan of a model.
+/// The grid of a raster, and the positions of its samples in the plan of a model.
 struct PlacedGrid {
   std::uint32_t columns = 0, rows = 0;
   Georeference georeference;
-  std::vector<Vec2> places;  ///< row by row; NaN where nobody can tell
+  std::vector<Vec2> places;  ///< row by row; NaN outside the domain of the DEM's CRS
 };
 
-/// What the samples of the raster are does not matter: it may be a picture. Errors: those of readRaster() for
-/// its first band; invalidData (only one of the two has a CRS); usage (no sample is within the
-/// borders of the model); those of CrsTransform. Precondition: the model is of a raster. O(samples).
+/// Reads the grid of a raster. Its values do not matter, so it may be an image. Precondition: the model is of
+/// a raster.
+///
+/// Errors: those of readRaster() for its first band, and of CrsTransform. invalidData: only one of the two
+/// has a CRS. usage: no sample is within the borders of the model. O(samples).
 Result<PlacedGrid> readPlacedGrid(const std::string& path, const TerrainModel& model,
                                   std::vector<std::string>& warnings, const RunContext& context = {});
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Text is parsed here, everything else comes through OGR; both give rows, which are then sorted by position
-// to find the equal ones. Which points stay, and which conflict is reported, depends on the order of the file
-// alone.
+// Texts go through readPointText(), everything else through OGR. Both give rows, which are sorted by position
+// to find equal ones. Which points stay and which conflict is reported depends only on the order of the file.
 #include "io/dem/point_reader.h"
 
 #include <fmt/format.h>
@@ -123,14 +122,14 @@ void dropNodata(PointRows& rows, double nodata, std::vector<std::string>& warnin
     rows.origins[kept++] = rows.origins[i];
   }
   if (const std::size_t dropped = rows.heights.size() - kept; dropped > 0)
-    warnings.push_back(fmt::format("{} points of the height {} are left out as no data", dropped, nodata));
+    warnings.push_back(fmt::format("{} points of the height {} are left out as NODATA", dropped, nodata));
   rows.positions.resize(kept);
   rows.heights.resize(kept);
   rows.origins.resize(kept);
 }
 
-/// Leaves the first of each set of equal points. Equal positions of different heights are an error; of
-/// several such pairs the one that shows first in the file is named.
+/// Keeps the first of each set of equal points. Equal positions with different heights are an error, which
+/// names the first such pair in the file.
 Status mergeEqual(PointRows& rows, std::string_view originName, std::vector<std::string>& warnings) {
   const std::size_t count = rows.heights.size();
   std::vector<std::uint32_t> order(count);
@@ -154,11 +153,10 @@ Status mergeEqual(PointRows& rows, std::string_view originName, std::vector<std:
     }
   }
   if (const auto [a, b] = conflict; b < count)
-    return failure(
-        ErrorCode::degenerate,
-        fmt::format("two points stand at x {}, y {} with different heights: {} ({} {}) and {} ({} {})",
-                    p[a].x, p[a].y, rows.heights[a], originName, rows.origins[a], rows.heights[b], originName,
-                    rows.origins[b]));
+    return failure(ErrorCode::degenerate,
+                   fmt::format("two points at x {}, y {} have different heights: {} ({} {}) and {} ({} {})",
+                               p[a].x, p[a].y, rows.heights[a], originName, rows.origins[a], rows.heights[b],
+                               originName, rows.origins[b]));
   if (merged == 0) return {};
   warnings.push_back(fmt::format("{} points repeat another one exactly and are left out", merged));
   std::size_t kept = 0;
@@ -232,7 +230,7 @@ Result<PointRead> readPoints(const std::string& path, const PointReadOptions& op
                              const RunContext& context) {
   try {
     auto read = readFrom(path, options, context);
-    giveFreeHeapBack();  // rows that were moved as they became more
+    giveFreeHeapBack();  // blocks that growing rows left behind
     if (!read && read.error().culprit.empty()) read.error().culprit = path;
     return read;
   } catch (const std::bad_alloc&) {

@@ -12,9 +12,9 @@
 namespace arete {
 
 struct PointReadOptions {
-  std::string layer;  ///< of a file with several; not for text
-  std::string
-      zField;  ///< attribute or column that holds the height; empty = the geometry's z, or the column's name
+  std::string layer;  ///< needed if a file has several; not for text
+  /// The attribute or column of heights. Empty: the z of the geometry, or a column with a usual name.
+  std::string zField;
   std::string crs;               ///< as for rasters
   std::optional<double> nodata;  ///< points of that height are left out, with a warning
 };
@@ -27,18 +27,19 @@ struct PointRead {
 /// Reads scattered points: text (.csv, .tsv, .txt, .xyz, or any file that looks like it) or points and
 /// multipoints of any vector format GDAL knows.
 ///
-/// Text: one point a line; comma, semicolon, tab or spaces between the fields; '#', but for one in quotes,
-/// opens a comment; the decimal sign is a point. A first line without any number names the columns: x or lon
-/// or easting, y or lat or northing, z or elev or height (or PointReadOptions::zField) and their like;
-/// without one, or with no name known, the first three are x, y, z.
+/// Text: one point per line; comma, semicolon, tab or spaces between the fields; '#' outside quotes begins a
+/// comment; the decimal sign is a point; a text in quotes may contain separators and line breaks. A first
+/// line without any number names the columns: x or lon or easting, y or lat or northing, z or elev or height
+/// (or PointReadOptions::zField) and their like; without one, or with no name known, the first three are x,
+/// y, z.
 ///
-/// Points in the order of the file; of equal points (x, y and z) the first is kept, with a warning that
-/// counts them. The georeference is the identity: grid coordinates equal source coordinates.
+/// Keeps the order of the file. Of equal points (x, y and z) the first is kept; a warning counts the others.
+/// The georeference is the identity: grid coordinates equal source coordinates.
 ///
-/// Errors: notFound, unreadable, corrupt, unsupported (no point layer, several: listed; other geometries),
-/// usage (no such column or field, not a CRS), invalidData (a line that does not parse, with its number; a
-/// coordinate not finite; no point at all), degenerate (equal x, y and different z: names both), interrupted.
-/// O(n log n); memory about 60 bytes per point.
+/// Errors: notFound, unreadable, corrupt. unsupported: no layer of points, or several (lists them); other
+/// geometries. usage: no such column or field; not a CRS. invalidData: a line that does not parse, with its
+/// number; a coordinate that is not finite; no point. degenerate: equal x, y with different z; names both
+/// points. interrupted. O(n log n); memory about 60 bytes per point.
 Result<PointRead> readPoints(const std::string& path, const PointReadOptions& options = {},
                              const RunContext& context = {});
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Open, choose the band, see that it can be heights, read where it lies (the affine transform, the CRS, the
-// vertical unit and datum), read the samples strip by strip, and sign them with their checksum.
+// Opens the file, chooses the band, checks that it may hold heights, reads its georeference (geotransform,
+// CRS, vertical unit and datum), reads the samples strip by strip and computes their checksum.
 #include "io/dem/raster_reader.h"
 
 #include <cpl_conv.h>
@@ -65,10 +65,9 @@ Result<GDALRasterBand*> chooseBand(GDALDataset& dataset, const RasterReadOptions
   if (!options.band && isColourImage(dataset))
     return failure(
         ErrorCode::unsupported,
-        fmt::format(
-            "looks like a colour image of {} {}, not like heights; `band` reads one of its "
-            "bands as heights",
-            count, bands));
+        fmt::format("looks like a colour image of {} {}, not like heights; `band` reads one of its "
+                    "bands as heights",
+                    count, bands));
   if (!options.band && count > 1) warnings.push_back(fmt::format("has {} bands; band 1 is read", count));
   if (parts.size() > 1) warnings.push_back(fmt::format("holds {} rasters; the first is read", parts.size()));
   GDALRasterBand* band = dataset.GetRasterBand(options.band.value_or(1));
@@ -97,16 +96,14 @@ void readGeoTransform(GDALDataset& dataset, Georeference& georeference, std::vec
   if (georeference.hasGeoTransform) {
     georeference.geoTransform = transform;
   } else if (dataset.GetGCPCount() > 0) {
-    warnings.push_back(
-        "is placed by ground control points only, which are not used: positions are columns and rows");
+    warnings.push_back("has only ground control points, which are not used: positions are columns and rows");
   } else if (dataset.GetMetadata("RPC")) {
-    warnings.push_back(
-        "is placed by RPC coefficients only, which are not used: positions are columns and rows");
+    warnings.push_back("has only RPC coefficients, which are not used: positions are columns and rows");
   }
 }
 
-/// After describeCrs(): the band's unit goes before the one of the CRS, the datum of the CRS before the
-/// metadata's.
+/// Call after describeCrs(). The unit of the band takes precedence over that of the CRS, the datum of the CRS
+/// over that of the metadata.
 void readVertical(GDALDataset& dataset, GDALRasterBand& band, Georeference& georeference,
                   std::vector<std::string>& warnings) {
   if (const std::string unit = band.GetUnitType() ? band.GetUnitType() : ""; !unit.empty()) {

@@ -12,12 +12,12 @@
 namespace arete {
 
 struct RasterReadOptions {
-  /// Counted from 1. Not stated: band 1, except of a colour image, which is refused.
+  /// Counted from 1. Default: band 1, but a colour image is an error.
   std::optional<int> band;
-  /// The CRS, in any form GDAL takes, where the file has none; where it has one, this replaces it, with a
-  /// warning.
+  /// The CRS, in any form that GDAL accepts. Replaces the CRS of the file, with a warning. Empty: that of the
+  /// file.
   std::string crs;
-  /// The raw value that means "no data", instead of the one the band declares.
+  /// The raw value that means NODATA, instead of the one that the band declares.
   std::optional<double> nodata;
 };
 
@@ -26,21 +26,23 @@ struct RasterRead {
   std::vector<std::string> warnings;
 };
 
-/// Reads one band of any raster GDAL knows. `path` may be a file, one of GDAL's virtual paths ("/vsizip/...",
-/// "/vsicurl/...") or connection strings, or a zip archive that holds a single raster.
+/// Reads one band of any raster that GDAL reads.
 ///
-/// Heights: raw * scale + offset as the band declares them, in double. No data (NaN) is what equals the
-/// declared or stated NODATA value (as a float where the samples are floats; within 1e-5 of it where it is
-/// beyond 1e30, since its text is often rounded), what a dataset mask or an alpha band masks, NaN, and, with
-/// a warning, what is infinite. A raster without geotransform, or with ground control points or RPCs only,
-/// keeps the identity. The vertical unit is the band's, else that of the CRS's vertical axis; the vertical
-/// datum that of a compound or three-dimensional CRS ("ellipsoid"), else the one in a DTED's metadata.
+/// Heights are raw * scale + offset as the band declares them, in double. NODATA (NaN) is a raw value that
+/// equals the declared or stated NODATA value (compared as floats for float samples; within 1e-5 of it beyond
+/// 1e30, since its text is often rounded), a sample that a dataset mask or an alpha band masks, NaN, and,
+/// with a warning, infinity. A raster without a geotransform, or with only ground control points or RPCs, has
+/// the identity. The vertical unit is that of the band, otherwise that of the vertical axis of the CRS. The
+/// vertical datum is that of a compound or three-dimensional CRS ("ellipsoid"), otherwise that in the
+/// metadata of a DTED.
 ///
-/// Errors: notFound, unreadable, corrupt, unsupported (not a raster, complex samples, a colour image,
-/// subdatasets to choose from, 2^32 - 2 samples or more, more than this machine's memory), usage (no such
-/// band, not a CRS), invalidData (a 64-bit height beyond 2^53, a geotransform without inverse), interrupted.
-/// O(samples); memory 8 bytes per sample, one strip and GDAL's block cache (GDAL_CACHEMAX). Nothing is
-/// printed.
+/// @param path A file, a virtual path ("/vsizip/...", "/vsicurl/...") or connection string of GDAL, or a zip
+/// archive with a single raster.
+///
+/// Errors: notFound, unreadable, corrupt. unsupported: not a raster, complex samples, a colour image, several
+/// subdatasets, 2^32 - 2 samples or more, more than the memory of the machine. usage: no such band; not a
+/// CRS. invalidData: a 64-bit height beyond 2^53; a geotransform without inverse. interrupted. O(samples);
+/// memory 8 bytes per sample, one strip and GDAL's block cache (GDAL_CACHEMAX). Prints nothing.
 Result<RasterRead> readRaster(const std::string& path, const RasterReadOptions& options = {},
                               const RunContext& context = {});
 

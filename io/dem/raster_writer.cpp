@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Rows of whole tiles are handed to GDAL, which compresses them with the floating-point predictor. The file
-// grows under a temporary name beside the final one. GDAL tells of failures on closing only through its error
-// handler, so the file is renamed once it is closed and the handler has heard nothing.
+// Rows of whole tiles go to GDAL, which compresses them with the floating-point predictor. The file grows
+// under a temporary name beside the final one. GDAL reports failures on closing only through its error
+// handler, so the file is renamed after it is closed and if the handler has collected no failure.
 #include "io/dem/raster_writer.h"
 
 #include <cpl_string.h>
@@ -156,7 +156,7 @@ Status writeGeoTiff(const std::string& path, std::uint32_t columns, std::uint32_
     Status status =
         writeTo(file->temporaryPath().string(), columns, rows, values, georeference, options, context);
     if (status) status = file->commit();
-    // Overviews and masks of an older file would speak for this one.
+    // Overviews and masks of an older file do not describe this one.
     std::error_code ignored;
     if (status)
       for (const char* sidecar : kStaleSidecars) std::filesystem::remove(path + sidecar, ignored);

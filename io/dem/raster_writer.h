@@ -11,7 +11,7 @@
 
 namespace arete {
 
-/// Whether a name is a GeoTIFF's: it ends in .tif or .tiff, upper or lower case.
+/// @return True for a name that ends in .tif or .tiff, in either case.
 bool isGeoTiffName(const std::string& path);
 
 struct GeoTiffOptions {
@@ -19,24 +19,23 @@ struct GeoTiffOptions {
   enum class Compression {
     none,
     deflate,
-    zstd,  ///< deflate where GDAL was built without it
+    zstd,  ///< deflate if GDAL was built without it
   };
   Sample sample = Sample::float32;
   Compression compression = Compression::deflate;
-  std::string description = {};  ///< of the band; empty = none
-  double nodata = 0;             ///< of whole numbers: what stands for NaN; floats keep NaN
+  std::string description = {};  ///< of the band
+  double nodata = 0;             ///< the value of NaN for integer samples; floats keep NaN
 };
 
-/// Writes one band of row-major values as a tiled GeoTIFF: NaN is declared as NODATA, the vertical unit
-/// becomes the band's, CRS and geotransform come from the georeference (no geotransform is written where it
-/// has none). The file appears under its name whole or not at all, and takes the place of an older one
-/// together with its GDAL sidecar files (.aux.xml, .ovr, .msk).
+/// Writes one band of values as a tiled GeoTIFF. NaN is declared as NODATA. The vertical unit becomes that of
+/// the band; CRS and geotransform come from the georeference, if it has them. The file appears complete or
+/// not at all. It replaces an older one together with its GDAL sidecar files (.aux.xml, .ovr, .msk).
 ///
-/// Precondition: values.size() == columns * rows, columns and rows positive; otherwise invalidData.
-/// Errors: invalidData (also a value that the samples cannot hold), notFound (no such folder), unreadable
-/// (cannot be written), interrupted.
+/// @param values Row by row.
 ///
-/// O(values); memory: one row of tiles and GDAL's block cache.
+/// Errors: invalidData: values.size() != columns * rows, or either is 0; a value that the sample type cannot
+/// hold. notFound: no such folder. unreadable: the file cannot be written. interrupted. O(values); memory:
+/// one row of tiles and GDAL's block cache.
 Status writeGeoTiff(const std::string& path, std::uint32_t columns, std::uint32_t rows,
                     std::span<const double> values, const Georeference& georeference,
                     const GeoTiffOptions& options = {}, const RunContext& context = {});

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The picture that is read has the axes of the terrain's plan coordinates, so that it takes a scale and a
-// shift to find a plan position in it. Its extent is found from both sides, since either may fail: places of
-// the file brought to the plan (which a picture of half the globe may not have there), and places of the plan
-// looked up in the file (which miss a small one). Its resolution is the finest that the file has anywhere
-// under the terrain, along each axis of its own.
+// The image that is read has the axes of the terrain's plan coordinates, so that a scale and a shift map a
+// plan position to a pixel. Its extent is probed from both sides, since either may fail: positions of the
+// file transformed to the plan (undefined for parts of an image of half the globe), and positions of the plan
+// transformed to the file (which miss a small image). Its resolution is the finest of the file anywhere on
+// the terrain, per axis.
 //
-// A file whose rows and columns run along the plan's is taken pixel for pixel: its own grid is kept.
+// If the rows and columns of a file are parallel to the axes of the plan, its own grid is kept and pixels are
+// copied.
 #include "io/drape/placement.h"
 
 #include <fmt/format.h>
@@ -42,11 +43,11 @@ struct Box {
   Vec2 at(double u, double v) const { return {left + u * (right - left), low + v * (high - low)}; }
 };
 
-std::string told(const Box& b) {
+std::string textOf(const Box& b) {
   return fmt::format("x {:.10g} to {:.10g}, y {:.10g} to {:.10g}", b.left, b.right, b.low, b.high);
 }
 
-/// Of the file's pixels to plan positions and back.
+/// Maps pixels of the file to plan positions and back.
 class PictureToPlan {
  public:
   PictureToPlan(void* transformer, const TerrainModel& model) : transformer_(transformer), model_(model) {}
@@ -87,8 +88,8 @@ void overGrid(const Function& at) {
     for (int j = 0; j < kProbes; ++j) at(double(i) / (kProbes - 1), double(j) / (kProbes - 1));
 }
 
-/// The scale and shift from plan positions to the file's own pixels, where there are such; y of the plan may
-/// run either way.
+/// The scale and shift from plan positions to the pixels of the file, if its axes are parallel to those of
+/// the plan, in either direction.
 std::optional<std::pair<Vec2, Vec2>> ownGrid(const PictureToPlan& way, double columns, double rows) {
   const auto a = way.toPlan({0, 0}), b = way.toPlan({columns, 0}), c = way.toPlan({0, rows}),
              d = way.toPlan({columns, rows});
@@ -101,16 +102,16 @@ std::optional<std::pair<Vec2, Vec2>> ownGrid(const PictureToPlan& way, double co
   return std::pair(scale, Vec2{-a->x * scale.x, -a->y * scale.y});
 }
 
-/// Where the picture and the terrain lie.
+/// The extents of the image and the terrain.
 struct Extents {
-  Box covered;  ///< by the picture, in the plan
+  Box covered;  ///< by the image, in the plan
   Box pictureOnMap, terrainOnMap;
 
   tl::unexpected<Error> apart() const {
     return failure(
         ErrorCode::invalidData,
         fmt::format("does not overlap the DEM: it lies at {}, the DEM at {}, in the CRS of the DEM",
-                    told(pictureOnMap), told(terrainOnMap)));
+                    textOf(pictureOnMap), textOf(terrainOnMap)));
   }
 };
 
@@ -133,13 +134,13 @@ Extents extentsOf(const PictureToPlan& way, const TerrainModel& model, const Box
   return extents;
 }
 
-/// A placement whose picture may still be too large: its size has no limits yet.
+/// A placement before the number of pixels is limited.
 struct Sized {
   DrapePlacement placement;
   double wide = 0, high = 0;
 };
 
-/// The file's own pixels, those over the box; none where there are none.
+/// The pixels of the file over the box; nothing if there are none.
 std::optional<Sized> onOwnGrid(const std::pair<Vec2, Vec2>& grid, const Box& box, Vec2 size) {
   const auto [scale, shift] = grid;
   const double a = box.left * scale.x + shift.x, b = box.right * scale.x + shift.x;
@@ -156,8 +157,8 @@ std::optional<Sized> onOwnGrid(const std::pair<Vec2, Vec2>& grid, const Box& box
   return Sized{p, p.window[1] - p.window[0], p.window[3] - p.window[2]};
 }
 
-/// A grid along the plan's axes over the box, as fine as the file is anywhere in it; none where the file has
-/// no pixel there.
+/// A grid along the axes of the plan over the box, as fine as the finest part of the file in it; nothing if
+/// the file has no pixel there.
 std::optional<Sized> onNewGrid(const PictureToPlan& way, const TerrainModel& model, const Box& terrain,
                                const Box& covered, Vec2 size) {
   Box window;
@@ -173,13 +174,13 @@ std::optional<Sized> onNewGrid(const PictureToPlan& way, const TerrainModel& mod
     finest.y = std::max(finest.y, std::hypot(below->x - here->x, below->y - here->y) / step.y);
   });
   if (!(finest.x > 0 && finest.y > 0)) return std::nullopt;
-  // Edges bend between the probes.
+  // Edges are curved between the probes.
   const Box box = Box{covered.left - 2 / finest.x, covered.right + 2 / finest.x, covered.low - 2 / finest.y,
                       covered.high + 2 / finest.y}
                       .common(terrain);
   DrapePlacement p;
   p.isWarped = true;
-  // Rows run down the map: with the plan's y for a raster, against it for points.
+  // Rows run south: along the y of the plan for a raster, against it for points.
   p.scale = {finest.x, model.isRaster ? finest.y : -finest.y};
   p.shift = {-box.left * p.scale.x, -(model.isRaster ? box.low : box.high) * p.scale.y};
   p.window = {std::max(0.0, std::floor(window.left)), std::min(size.x, std::ceil(window.right) + 1),
@@ -187,9 +188,9 @@ std::optional<Sized> onNewGrid(const PictureToPlan& way, const TerrainModel& mod
   return Sized{p, std::ceil((box.right - box.left) * finest.x), std::ceil((box.high - box.low) * finest.y)};
 }
 
-void makeCoarser(Sized& sized, double mostPixels) {
+void makeCoarser(Sized& sized, double maxPixels) {
   DrapePlacement& p = sized.placement;
-  p.coarser = std::sqrt(sized.wide * sized.high / mostPixels);
+  p.coarser = std::sqrt(sized.wide * sized.high / maxPixels);
   p.isExact = false;
   p.scale = {p.scale.x / p.coarser, p.scale.y / p.coarser};
   p.shift = {p.shift.x / p.coarser, p.shift.y / p.coarser};
@@ -241,7 +242,7 @@ Result<TransformerPtr> drapeTransformer(GDALDataset& picture, const TerrainModel
 }
 
 Result<DrapePlacement> placeDrape(GDALDataset& picture, void* transformer, const TerrainModel& model,
-                                  std::uint64_t mostPixels) {
+                                  std::uint64_t maxPixels) {
   const PictureToPlan way(transformer, model);
   const Vec2 size{double(picture.GetRasterXSize()), double(picture.GetRasterYSize())};
   const Box terrain = planBox(model);
@@ -256,7 +257,7 @@ Result<DrapePlacement> placeDrape(GDALDataset& picture, void* transformer, const
   if (!sized) return extents.apart();
   std::array<double, 6> ignored{};
   if (picture.GetGeoTransform(ignored.data()) != CE_None) sized->placement.isWarped = true;
-  if (sized->wide * sized->high > double(mostPixels)) makeCoarser(*sized, double(mostPixels));
+  if (sized->wide * sized->high > double(maxPixels)) makeCoarser(*sized, double(maxPixels));
   constexpr double kMostSide = std::numeric_limits<int>::max();
   if (sized->wide > kMostSide || sized->high > kMostSide)
     return failure(ErrorCode::unsupported,

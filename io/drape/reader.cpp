@@ -104,7 +104,7 @@ GdalDatasetPtr warped(const DrapeSource& source, TransformerPtr transformer, con
     if (type == GDT_Int16) extra.SetNameValue("SRC_ALPHA_MAX", "32767");
   }
   extra.SetNameValue("DST_ALPHA_MAX", "255");
-  // GDAL guesses from each block how coarse the picture becomes, and wrongly where it is turned: seams.
+  // GDAL estimates the scale of each block by itself, wrongly if the image is rotated, which gives seams.
   const double kept = std::min(1.0, source.coarser / p.coarser);
   extra.SetNameValue("XSCALE", fmt::format("{}", kept).c_str());
   extra.SetNameValue("YSCALE", fmt::format("{}", kept).c_str());
@@ -119,7 +119,7 @@ GdalDatasetPtr warped(const DrapeSource& source, TransformerPtr transformer, con
     w->pTransformerArg = way;
     w->pfnTransformer = GDALGenImgProjTransform;
   }
-  std::ignore = transformer.release();  // the warp's now
+  std::ignore = transformer.release();  // owned by the warp now
   GDALDatasetH made = GDALCreateWarpedVRT(w->hSrcDS, int(p.columns), int(p.rows), transform.data(), w.get());
   if (!made) GDALDestroyTransformer(w->pTransformerArg);
   return GdalDatasetPtr(GDALDataset::FromHandle(made));
@@ -130,7 +130,7 @@ GdalDatasetPtr warped(const DrapeSource& source, TransformerPtr transformer, con
 struct DrapeReader::State {
   std::string path;
   DrapeSource source;
-  GdalDatasetPtr picture;  // made of the source: goes first
+  GdalDatasetPtr picture;  // derived from the source: destroyed first
   DrapePlacement placement;
   std::vector<Range> ranges;
   std::vector<std::string> warnings;
@@ -157,12 +157,12 @@ Result<DrapeReader> DrapeReader::open(const std::string& path, const TerrainMode
   Result<TransformerPtr> way = drapeTransformer(s.source.dataset(), model, s.warnings);
   if (!way) return named(way.error());
   const auto placement =
-      placeDrape(s.source.dataset(), way->get(), model, std::max<std::uint64_t>(1, options.mostPixels));
+      placeDrape(s.source.dataset(), way->get(), model, std::max<std::uint64_t>(1, options.maxPixels));
   if (!placement) return named(placement.error());
   s.placement = *placement;
   if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped", path);
 
-  if (s.source.isExaggerated)
+  if (s.source.isStretched)
     for (const int b : s.source.colors) {
       const auto range = stretchOf(*s.source.dataset().GetRasterBand(b), s.placement.window);
       if (!range) return named(range.error());
@@ -170,8 +170,8 @@ Result<DrapeReader> DrapeReader::open(const std::string& path, const TerrainMode
     }
   if (s.placement.coarser > 1) {
     s.warnings.push_back(
-        fmt::format("is read {:.2f} times as coarse as it is, as {} x {} pixels: more than {} do not fit",
-                    s.placement.coarser, s.placement.columns, s.placement.rows, options.mostPixels));
+        fmt::format("is read at {:.2f} times its pixel size, as {} x {} pixels: at most {} are read",
+                    s.placement.coarser, s.placement.columns, s.placement.rows, options.maxPixels));
     way->reset();
     Result<DrapeSource> smaller = openDrapeOverview(path, std::move(s.source), s.placement.coarser);
     if (!smaller) return named(smaller.error());
@@ -184,7 +184,7 @@ Result<DrapeReader> DrapeReader::open(const std::string& path, const TerrainMode
   s.picture = warped(s.source, std::move(*way), s.placement, model);
   if (!s.picture)
     return failure(ErrorCode::unreadable,
-                   fmt::format("cannot be brought onto the DEM: {}", errors.firstFailure()), path);
+                   fmt::format("cannot be mapped onto the DEM: {}", errors.firstFailure()), path);
   return DrapeReader(std::move(state));
 }
 
@@ -217,7 +217,7 @@ Status DrapeReader::read(std::uint32_t column, std::uint32_t row, std::uint32_t 
     return failure(ErrorCode::unreadable, fmt::format("cannot be read: {}", errors.firstFailure()), s.path);
   };
   for (std::size_t b = 0; b < colors; ++b) {
-    if (!s.source.isExaggerated) {
+    if (!s.source.isStretched) {
       if (Status ok = transfer(b, &pixels[0][b], GDT_Byte, sizeof(Pixel)); !ok) return ok;
       continue;
     }

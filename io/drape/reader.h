@@ -16,27 +16,30 @@
 namespace arete {
 
 struct DrapeReadOptions {
-  /// One band (grey) or three (red, green, blue), counted from 1; empty = as the file says.
+  /// One band (grey) or three (red, green, blue), counted from 1. Empty: by the file.
   std::vector<int> bands = {};
-  /// A picture of more is read coarser, with a warning. At least 1.
-  std::uint64_t mostPixels = std::uint64_t(1) << 28;
+  /// At least 1. A larger image is read at a coarser resolution, with a warning.
+  std::uint64_t maxPixels = std::uint64_t(1) << 28;
 };
 
-/// A picture brought onto a terrain: cut to its extent, its rows and columns along the axes of the terrain's
-/// plan coordinates, at the picture's own resolution. Read window by window; never the whole is in memory.
+/// An image mapped onto a terrain: cropped to its extent, with rows and columns along the axes of the
+/// terrain's plan coordinates, at the resolution of the image. It is read window by window and never held in
+/// memory as a whole.
 ///
-/// Any raster that GDAL opens: grey or three colours of 8 bits, a colour table, or other numbers, which are
-/// stretched from their 2nd to their 98th percentile, band by band. What is no data or masked is transparent,
-/// and so is what the picture does not cover. Where the picture's rows run along the terrain's in the same
-/// CRS, its pixels are those of the file; else they are interpolated (bilinear).
+/// The image is any raster that GDAL opens: grey or three colours of 8 bits, a colour table, or other
+/// numbers, whose range from the 2nd to the 98th percentile is mapped to 8 bits, band by band. Pixels that
+/// are NODATA, masked or outside the image are transparent. If the rows of the image are parallel to those of
+/// the terrain in the same CRS, pixels are copied from the file; otherwise they are interpolated bilinearly.
 class DrapeReader {
  public:
-  /// Red, green, blue multiplied by alpha; alpha.
+  /// Red, green, blue, alpha; premultiplied.
   using Pixel = std::array<std::uint8_t, 4>;
 
-  /// The model is read only while this runs. Errors: those of opening; usage (bands that are not there);
-  /// invalidData (no georeference, no CRS where the terrain has one, no overlap); unsupported (too long and
-  /// thin on the terrain); interrupted.
+  /// @param model May be destroyed after the call.
+  ///
+  /// Errors: notFound, unreadable, corrupt. usage: missing bands. invalidData: no georeference, no CRS while
+  /// the terrain has one, no overlap. unsupported: not an image, or too long and thin on the terrain.
+  /// interrupted.
   static Result<DrapeReader> open(const std::string& path, const TerrainModel& model,
                                   const DrapeReadOptions& options = {}, const RunContext& context = {});
   DrapeReader(DrapeReader&&) noexcept;
@@ -45,12 +48,16 @@ class DrapeReader {
 
   std::uint32_t columns() const;
   std::uint32_t rows() const;
-  /// Plan position p lies p * scale() + shift() pixels from the picture's first corner.
+  /// Plan position p is at p * scale() + shift(), in pixels from the first corner of the image.
   Vec2 scale() const;
   Vec2 shift() const;
   const std::vector<std::string>& warnings() const;
 
-  /// Row by row. Precondition: the window lies in the picture and `pixels` holds it. Errors: unreadable.
+  /// Reads a window. Precondition: it lies in the image.
+  ///
+  /// @param pixels Row by row; at least width * height.
+  ///
+  /// Errors: unreadable.
   Status read(std::uint32_t column, std::uint32_t row, std::uint32_t width, std::uint32_t height,
               std::span<Pixel> pixels);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A colour table cannot be resampled: it is looked up first, by a virtual raster of GDAL's that expands it.
-// An index that is no data becomes transparent in the table, since 255 of an index is white of a colour.
+// Indices of a colour table cannot be interpolated, so a virtual raster of GDAL expands them to colours
+// first. The NODATA index becomes transparent in the table, since its number means another thing among
+// colours.
 #include "io/drape/source.h"
 
 #include <cpl_string.h>
@@ -27,7 +28,7 @@ GdalDatasetPtr translate(GDALDataset& dataset, std::initializer_list<const char*
   return GdalDatasetPtr(GDALDataset::FromHandle(made));
 }
 
-Status lookUpColors(DrapeSource& source, int band) {
+Status expandColorTable(DrapeSource& source, int band) {
   const GdalErrors errors;
   GDALRasterBand& indices = *source.dataset().GetRasterBand(band);
   int isDeclared = 0;
@@ -49,7 +50,7 @@ Status lookUpColors(DrapeSource& source, int band) {
   GdalDatasetPtr expanded = plain ? translate(*plain, {"-of", "VRT", "-expand", "rgba"}) : GdalDatasetPtr();
   if (!expanded)
     return failure(ErrorCode::unsupported,
-                   fmt::format("its colour table cannot be looked up: {}", errors.firstFailure()));
+                   fmt::format("its colour table cannot be expanded: {}", errors.firstFailure()));
   source.opened.push(std::move(plain));
   source.opened.push(std::move(expanded));
   source.colors = {1, 2, 3};
@@ -98,8 +99,8 @@ Status chooseColors(DrapeSource& source, const std::vector<int>& stated, std::ve
     if (GDALDataTypeIsComplex(dataset.GetRasterBand(b)->GetRasterDataType()))
       return failure(ErrorCode::unsupported, fmt::format("band {} holds complex numbers, not colours", b));
   if (source.colors.size() == 1 && dataset.GetRasterBand(source.colors[0])->GetColorTable())
-    return lookUpColors(source, source.colors[0]);
-  source.isExaggerated = std::ranges::any_of(
+    return expandColorTable(source, source.colors[0]);
+  source.isStretched = std::ranges::any_of(
       source.colors, [&](int b) { return dataset.GetRasterBand(b)->GetRasterDataType() != GDT_Byte; });
   return {};
 }
@@ -148,7 +149,7 @@ Result<DrapeSource> openDrapeOverview(const std::string& path, DrapeSource sourc
   }
   if (!best) return source;
   std::vector<std::string> said;  // once is enough
-  const bool isExpanded = source.opened.isLookedUp();
+  const bool isExpanded = source.opened.isExpanded();
   Result<DrapeSource> smaller = openLevel(path, isExpanded ? std::vector<int>() : source.colors, best, said);
   if (!smaller) return source;
   smaller->coarser = double(file.GetRasterXSize()) / bestColumns;

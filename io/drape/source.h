@@ -10,7 +10,8 @@
 
 namespace arete {
 
-/// Datasets of which each is made of the one before: closed from the last to the first, as GDAL wants it.
+/// Datasets of which each is derived from the one before. Closes them from the last to the first, as GDAL
+/// requires.
 class DatasetStack {
  public:
   DatasetStack() = default;
@@ -22,7 +23,7 @@ class DatasetStack {
   }
   ~DatasetStack() { clear(); }
   void push(GdalDatasetPtr dataset) { datasets_.push_back(std::move(dataset)); }
-  bool isLookedUp() const { return datasets_.size() > 1; }
+  bool isExpanded() const { return datasets_.size() > 1; }
   GDALDataset* first() const { return datasets_.front().get(); }
   GDALDataset* last() const { return datasets_.back().get(); }
 
@@ -33,24 +34,27 @@ class DatasetStack {
   std::vector<GdalDatasetPtr> datasets_;
 };
 
-/// A picture as its file has it: which bands are its colours, which one hides it.
+/// An opened image with its bands of colours and of transparency.
 struct DrapeSource {
   DatasetStack opened;
-  std::vector<int> colors;     ///< one band (grey) or three
-  int alpha = 0;               ///< 0 = none
-  double coarser = 1;          ///< pixels of the file along a side of one of these
-  bool isExaggerated = false;  ///< not of 8 bits: to be brought to them
+  std::vector<int> colors;   ///< one band (grey) or three
+  int alpha = 0;             ///< band of transparency; 0: none
+  double coarser = 1;        ///< side of a pixel in pixels of the file
+  bool isStretched = false;  ///< not of 8 bits: its range is mapped to 8 bits
 
   GDALDataset& dataset() const { return *opened.last(); }
 };
 
-/// `bands`: those of a person; empty = as the file says. A colour table is looked up. Errors: those of
-/// opening; usage (bands that are not there), unsupported (no band, complex numbers).
+/// Opens an image. A colour table is expanded to colours.
+///
+/// @param bands Stated by a person; empty: by the file.
+///
+/// Errors: notFound, unreadable, corrupt. usage: missing bands. unsupported: no band, complex numbers.
 Result<DrapeSource> openDrapeSource(const std::string& path, const std::vector<int>& bands,
                                     std::vector<std::string>& warnings);
 
-/// The same picture from the smallest of its overviews that has at least a pixel where `coarser` by `coarser`
-/// pixels were; as it is, where it has none.
+/// Reopens an image at the coarsest of its overviews that is at most `coarser` times as coarse as the file.
+/// Without such an overview returns `source`.
 Result<DrapeSource> openDrapeOverview(const std::string& path, DrapeSource source, double coarser);
 
 }  // namespace arete

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A format that rounds is read back, so that the report states the rounding of the file as written.
 #include "io/exchange/convert.h"
 
 #include <fmt/format.h>
@@ -15,7 +17,7 @@ namespace arete {
 
 namespace {
 
-/// The stated CRS takes the place of the file's.
+/// Replaces the CRS of the mesh by the stated one.
 Status stateCrs(MeshFile& mesh, const std::string& text, std::vector<std::string>& warnings) {
   if (text.empty()) return {};
   registerGdal();
@@ -63,8 +65,8 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
        fmt::format("coordinates finer than {:.2g}, {:.2g}, {:.2g} (x, y, height)", r.x, r.y, r.z));
   if (const Vec3& off = mesh.frame.rounding; format->holds.isExact && !wasExact)
     converted.warnings.push_back(fmt::format(
-        "its coordinates are rounded, by up to {:.2g}, {:.2g}, {:.2g} (x, y, height), which {} does "
-        "not say: arete measure takes them as exact and may find samples in no triangle",
+        "its coordinates are rounded, by up to {:.2g}, {:.2g}, {:.2g} (x, y, height), which {} cannot "
+        "record: arete measure takes them as exact and may find samples in no triangle",
         off.x, off.y, off.z, format->name));
   converted.crsWkt = std::move(mesh.crsWkt);
   converted.verticalUnit = std::move(mesh.verticalUnit);

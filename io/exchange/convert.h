@@ -12,21 +12,22 @@
 namespace arete {
 
 struct ConvertOptions {
-  std::string crs = {};  ///< any text GDAL takes; empty = what the mesh's file says. Nothing is reprojected.
+  std::string crs = {};  ///< any text that GDAL accepts; empty: that of the mesh. Nothing is reprojected.
 };
 
-/// What became of a mesh in another format.
+/// The result of a conversion.
 struct ConvertedMesh {
   MeshFrame frame;                ///< of the file that was written
-  std::string crsWkt;             ///< of the coordinates, whether the format can hold it or not
+  std::string crsWkt;             ///< of the coordinates, even if the format cannot hold it
   std::string verticalUnit;       ///< likewise
-  std::vector<std::string> lost;  ///< what the mesh had and the format has no place for: "the CRS", ...
+  std::vector<std::string> lost;  ///< what the mesh has and the format cannot hold: "the CRS", ...
   std::vector<std::string> warnings;
 };
 
-/// Writes a mesh that was read from one file in the format that the extension of `path` names, with its CRS,
-/// unit and errors where the format can hold them. Errors: those of writeMesh(); usage, naming it, for a CRS
-/// that GDAL does not understand. O(size).
+/// Writes a mesh in the format that the extension of `path` names, with its CRS, unit and errors as far as
+/// the format can hold them.
+///
+/// Errors: those of writeMesh(). usage, with the text as culprit: options.crs is not a CRS. O(size).
 Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& path,
                                   const ConvertOptions& options = {}, const RunContext& context = {});
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The origin comes from the vertices of the root, which are in every cut.
 #include "io/exchange/export_tin.h"
 
 #include <cmath>

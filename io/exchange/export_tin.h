@@ -10,18 +10,18 @@
 
 namespace arete {
 
-/// A cut as others see it.
+/// A cut as a mesh for other programs.
 struct TinExport {
-  /// Positions in source coordinates, heights in the DEM's vertical unit; triangles counter-clockwise seen
-  /// from above on the map, whichever way the raster's grid turns.
+  /// Positions in source coordinates, heights in the DEM's vertical unit. Triangles are counter-clockwise on
+  /// the map, whatever the orientation of the raster's grid.
   TriangleMesh mesh;
   std::vector<float> errors;  ///< per triangle: as stored or as fitted, rounded outwards
-  Vec3 origin;  ///< for formats of 32-bit floats: the same for all cuts of a model, in source coordinates
+  Vec3 origin;  ///< for formats of 32-bit floats, in source coordinates; the same for all cuts of a model
 };
 
 /// O(size of the cut). Precondition: the cut is one of the model's.
 TinExport exportTin(const TerrainModel& model, const Cut& cut);
-/// With the heights and the errors of the fit, the latter rounded outwards.
+/// With the heights and errors of the fit; the errors are rounded outwards.
 TinExport exportTin(const TerrainModel& model, const FittedCut& fitted);
 
 }  // namespace arete

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One table lists the formats; everything else looks a format up in it.
 #include "io/exchange/mesh_formats.h"
 
 #include <fmt/format.h>
@@ -18,31 +20,31 @@ namespace arete {
 
 namespace {
 
-constexpr MeshFormatTraits kSaysAll = {
+constexpr MeshFormatTraits kHoldsAll = {
     .isExact = true, .holdsCrs = true, .holdsVerticalUnit = true, .holdsErrors = true};
-constexpr MeshFormatTraits kSaysDistances = {.isExact = true,
-                                             .holdsCrs = true,
-                                             .holdsVerticalUnit = true,
-                                             .holdsErrors = true,
-                                             .holdsQualities = true};
-constexpr MeshFormatTraits kSaysNoErrors = {.isExact = true, .holdsCrs = true, .holdsVerticalUnit = true};
+constexpr MeshFormatTraits kHoldsQualities = {.isExact = true,
+                                              .holdsCrs = true,
+                                              .holdsVerticalUnit = true,
+                                              .holdsErrors = true,
+                                              .holdsQualities = true};
+constexpr MeshFormatTraits kHoldsNoErrors = {.isExact = true, .holdsCrs = true, .holdsVerticalUnit = true};
 
-constexpr MeshFormatTraits kSaysFrame = {.holdsCrs = true, .holdsVerticalUnit = true};
+constexpr MeshFormatTraits kHoldsFrame = {.holdsCrs = true, .holdsVerticalUnit = true};
 
 constexpr std::array kFormats = {
-    MeshFormat{"PLY", ".ply", &readPly, &writePly, kSaysDistances},
-    MeshFormat{"OBJ", ".obj", &readObj, &writeObj, kSaysNoErrors},
+    MeshFormat{"PLY", ".ply", &readPly, &writePly, kHoldsQualities},
+    MeshFormat{"OBJ", ".obj", &readObj, &writeObj, kHoldsNoErrors},
     MeshFormat{"STL", ".stl", &readStl, &writeStl, {}},
-    MeshFormat{"GLB", ".glb", &readGlb, &writeGlb, kSaysFrame},
-    MeshFormat{"2DM", ".2dm", &read2dm, &write2dm, kSaysNoErrors},
-    MeshFormat{"GeoPackage", ".gpkg", &readGpkg, &writeGpkg, kSaysAll},
+    MeshFormat{"GLB", ".glb", &readGlb, &writeGlb, kHoldsFrame},
+    MeshFormat{"2DM", ".2dm", &read2dm, &write2dm, kHoldsNoErrors},
+    MeshFormat{"GeoPackage", ".gpkg", &readGpkg, &writeGpkg, kHoldsAll},
 };
 
-template <class Wanted>
-std::string extensionsOf(Wanted wanted) {
+template <class Predicate>
+std::string extensionsOf(Predicate isListed) {
   std::string list;
   for (const MeshFormat& format : kFormats)
-    if (wanted(format)) list += fmt::format("{}{}", list.empty() ? "" : ", ", format.extension);
+    if (isListed(format)) list += fmt::format("{}{}", list.empty() ? "" : ", ", format.extension);
   return list;
 }
 
@@ -68,8 +70,7 @@ Result<MeshFormat> meshFormatOf(const std::filesystem::path& path) {
     if (extension == format.extension) return format;
   if (extension == ".amt")
     return failure(ErrorCode::unsupported,
-                   "is a multitriangulation, which is many meshes in one: take one with arete extract",
-                   path.string());
+                   "is a multitriangulation, not a mesh; arete extract takes a mesh from it", path.string());
   std::string known;
   for (const MeshFormat& format : kFormats)
     known += fmt::format("{}{} ({})", known.empty() ? "" : ", ", format.name, format.extension);
@@ -92,7 +93,7 @@ Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& c
     return failure(ErrorCode::unsupported, fmt::format("{} files can be written, not read", format->name),
                    path.string());
   Result<MeshFile> file = format->read(path, context);
-  // Nobody's triangles are wrong by "not a number": such errors are as good as none.
+  // A NaN, infinite or negative error is invalid; then the file counts as one without errors.
   if (file && !std::ranges::all_of(file->triangleErrors, [](float e) { return e >= 0 && std::isfinite(e); }))
     file->triangleErrors.clear();
   return file;

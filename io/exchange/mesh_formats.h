@@ -10,14 +10,15 @@
 
 namespace arete {
 
-/// One mesh file format. A new one is its own pair of files and a line in the table of mesh_file.cpp.
+/// One mesh file format. A new format is a folder in io/mesh and a line in the table of mesh_formats.cpp.
 struct MeshFormat {
   std::string_view name;       ///< "PLY"
   std::string_view extension;  ///< lower case, with its dot: ".ply"
-  Result<MeshFile> (*read)(const std::filesystem::path& path, const RunContext& context);  ///< null: cannot
+  Result<MeshFile> (*read)(const std::filesystem::path& path,
+                           const RunContext& context);  ///< null: not supported
   Status (*write)(const TriangleMesh& mesh, const std::filesystem::path& path,
                   const MeshWriteOptions& options,
-                  const RunContext& context);  ///< null: cannot
+                  const RunContext& context);  ///< null: not supported
   MeshFormatTraits holds = {};
 };
 
@@ -28,21 +29,24 @@ std::span<const MeshFormat> meshFormats();
 std::string readableMeshExtensions();
 std::string writableMeshExtensions();
 
-/// By the extension of the path, in either case. Errors: unsupported, naming the known formats.
+/// Finds the format by the extension of the path, in either case. Errors: unsupported: lists the known
+/// formats.
 Result<MeshFormat> meshFormatOf(const std::filesystem::path& path);
 
-/// Whether readMesh() is the way to read a path: its extension says so, and a GeoPackage, which may as well
-/// hold points or a raster, has surfaces.
+/// @return True if readMesh() can read the path: by its extension and, for a GeoPackage, if it holds surfaces
+/// rather than points or a raster.
 bool isMeshFile(const std::filesystem::path& path);
 
-/// Reads a mesh in the format its extension names. Errors, always naming the path and, where there is one,
-/// the line or element: notFound, unreadable, unsupported, corrupt (truncated, hostile or nonsense),
-/// interrupted. Every index of the result is valid and every coordinate finite. O(file size).
+/// Reads a mesh in the format that the extension names. Every index of the result is valid and every
+/// coordinate finite.
+///
+/// Errors, with the path as culprit and the line or element in the message: notFound, unreadable,
+/// unsupported. corrupt: truncated, altered or invalid. interrupted. O(file size).
 Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& context = {});
 
-/// Writes a mesh in the format the extension of `path` names; the file appears whole or not at all.
-/// Errors: unsupported, invalidData for a mesh that does not validate(), unreadable for the disk,
-/// interrupted.
+/// Writes a mesh in the format that the extension of `path` names. The file appears complete or not at all.
+///
+/// Errors: unsupported. invalidData: the mesh does not validate(). notFound, unreadable, interrupted.
 Status writeMesh(const TriangleMesh& mesh, const std::filesystem::path& path,
                  const MeshWriteOptions& options = {}, const RunContext& context = {});
 

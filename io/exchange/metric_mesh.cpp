@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One scale per axis for both meshes, so that their distances are comparable.
 #include "io/exchange/metric_mesh.h"
 
 #include <algorithm>

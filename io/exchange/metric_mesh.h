@@ -6,17 +6,18 @@
 
 namespace arete {
 
-/// Two meshes in one geographic CRS, made comparable in space.
+/// Two meshes in a geographic CRS, converted to metres.
 struct MetricMeshes {
   TriangleMesh first, second;    ///< metres: east, north, up
-  Vec3 firstUnits, secondUnits;  ///< metres in what the files count in
-  double latitude = 0;           ///< where the ground size was taken, in the unit of the CRS
+  Vec3 firstUnits, secondUnits;  ///< metres per unit of the files
+  double latitude = 0;           ///< at which the ground size was evaluated, in the unit of the CRS
 };
 
-/// Turns degrees into metres by the ground size that they have in the middle of both meshes, and heights into
-/// metres by their unit (metres where the files say none). Away from that latitude lengths to the east are
-/// off by as much as its cosine changes. Precondition: isGeographicCrs() of both. Errors: usage, unsupported
-/// (a CRS that cannot be understood). O(vertices).
+/// Converts degrees to metres by their ground size at the middle latitude of both meshes, and heights to
+/// metres by their unit (default: metres). Away from that latitude, lengths to the east have a relative error
+/// of the change of the cosine. Precondition: isGeographicCrs() of both.
+///
+/// Errors: usage, unsupported: GDAL does not understand the CRS. O(vertices).
 Result<MetricMeshes> toMetres(const MeshFile& first, const MeshFile& second);
 
 }  // namespace arete

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The bound adds, per triangle, the largest vertical change of a corner and the largest shift times the
+// slope.
 #include "io/exchange/written_mesh.h"
 
 #include <algorithm>

@@ -9,19 +9,22 @@
 
 namespace arete {
 
-/// A mesh as its file holds it.
+/// A mesh as its file holds it, after rounding.
 struct WrittenMesh {
   TriangleMesh mesh;
   MeshFrame frame;
-  /// How much the rounding of the file may have changed the height of the surface anywhere, in the unit of
-  /// the heights.
+  /// Upper bound on the change of the height of the surface by the rounding of the file, in the unit of the
+  /// heights.
   double heightRounding = 0;
 };
 
-/// Writes a mesh and, where the format does not hold doubles, reads it back: what is measured then is what
-/// the file says. `onGrid`: the vertices stand on samples of a grid, where measure() finds them again, so
-/// that only heights are rounded; otherwise a vertex that moves sideways changes the height of a slope.
-/// Errors: those of writeMesh() and readMesh(). O(size).
+/// Writes a mesh and, if the format does not hold doubles, reads it back, so that later measurements use the
+/// mesh of the file.
+///
+/// @param onGrid The vertices are at samples of a grid, to which measure() snaps them, so only heights are
+/// rounded. Otherwise a sideways shift of a vertex changes the height of a slope.
+///
+/// Errors: those of writeMesh() and readMesh(). corrupt: the file has another number of triangles. O(size).
 Result<WrittenMesh> writeAndReadBack(TriangleMesh mesh, const std::filesystem::path& path,
                                      const MeshWriteOptions& options, bool onGrid,
                                      const RunContext& context = {});

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// open(), fstat(), then read() until the size that fstat() stated. The buffer is one byte longer than the
+// file, so that an empty file has a valid range too.
 #include "io/file/file_bytes.h"
 
 #include <fcntl.h>
@@ -28,7 +31,7 @@ Result<FileBytes> FileBytes::read(const std::filesystem::path& path) {
     return failure(error == ENOENT || error == ENOTDIR ? ErrorCode::notFound : ErrorCode::unreadable,
                    fmt::format("cannot be read: {}", std::generic_category().message(error)), path.string());
   };
-  // O_NONBLOCK: opening a pipe that nobody writes to must not hang; it is refused below.
+  // O_NONBLOCK: opening a pipe without a writer must not hang. Pipes are refused below.
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
   if (file.value < 0) return unreadable(errno);
   struct stat status {};
@@ -39,7 +42,7 @@ Result<FileBytes> FileBytes::read(const std::filesystem::path& path) {
   result.size_ = static_cast<std::size_t>(status.st_size);
   result.bytes_.reset(new (std::nothrow) char[result.size_ + 1]);
   if (!result.bytes_)
-    return failure(ErrorCode::unreadable, fmt::format("its {} bytes do not fit into memory", result.size_),
+    return failure(ErrorCode::outOfMemory, fmt::format("its {} bytes do not fit into memory", result.size_),
                    path.string());
   std::size_t done = 0;
   while (done < result.size_) {

@@ -10,11 +10,12 @@
 
 namespace arete {
 
-/// A whole file in memory. Not mapped: a file that another program cuts short must be an error, not a signal.
+/// The bytes of a whole file, read into memory. Not mapped: if another program truncates the file meanwhile,
+/// this is an error, not a signal.
 class FileBytes {
  public:
-  /// Errors: notFound, unreadable (with the system's reason; a folder or a device; a file that shrinks while
-  /// it is read).
+  /// Errors: notFound. unreadable: with the system's reason; a folder or a device; a file that shrinks while
+  /// it is read.
   static Result<FileBytes> read(const std::filesystem::path& path);
 
   const char* begin() const { return bytes_.get(); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One buffer of a mebibyte and the system's own write(): no second buffer, and every error seen, that of
-// close() included (network file systems report a full disk there).
+// One buffer of a mebibyte and the system's write(), so that there is no second buffer and no error is lost:
+// network file systems report a full disk at close().
 #include "io/file/file_writer.h"
 
 #include <fcntl.h>

@@ -13,10 +13,11 @@
 
 namespace arete {
 
-/// A buffered byte stream into an OutputFile. The first error sticks: write on and ask finish() once.
+/// A buffered byte stream into an OutputFile. The first error is kept and later writes do nothing; finish()
+/// returns it.
 class FileWriter {
  public:
-  /// Errors: those of OutputFile::create, and unreadable when the file cannot be opened.
+  /// Errors: those of OutputFile::create(). unreadable: the file cannot be opened.
   static Result<FileWriter> create(const std::filesystem::path& path);
 
   FileWriter(FileWriter&& other) noexcept;
@@ -33,16 +34,20 @@ class FileWriter {
     }
   }
 
-  /// `count` bytes (at most kCapacity) to fill in place, for writers of many small records.
+  /// Appends `count` bytes for the caller to fill in, for writers of many small records.
+  ///
+  /// @param count At most kCapacity.
+  /// @return Valid until the next call.
   char* reserve(std::size_t count) {
     if (count > kCapacity - used_) flush();
-    char* place = buffer_.get() + used_;
+    char* begin = buffer_.get() + used_;
     used_ += count;
-    return place;
+    return begin;
   }
 
-  /// Writes what is buffered, closes and gives the file its name.
-  /// Errors: unreadable, with the system's reason (disk full, ...); nothing is left behind then.
+  /// Writes the buffer, closes the file and renames it to its final name. Call once.
+  ///
+  /// Errors: unreadable: with the system's reason (disk full, ...); no file is left then.
   Status finish();
 
   static constexpr std::size_t kCapacity = std::size_t{1} << 20;
@@ -60,7 +65,9 @@ class FileWriter {
   std::size_t used_ = 0;
 };
 
-/// Copies a trivially copyable value to `to` as it lies in memory and returns the place behind it.
+/// Copies the bytes of a value to `to`, in the byte order of the machine.
+///
+/// @return The byte behind the copy.
 template <class T>
 char* putBytes(char* to, const T& value) {
   static_assert(std::is_trivially_copyable_v<T>);

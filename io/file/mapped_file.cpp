@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// open(), fstat(), mmap(), close(): a mapping needs no descriptor once it is made. O_NONBLOCK keeps a pipe
-// from hanging the program before it is refused.
+// open(), fstat(), mmap(), close(): a mapping needs no descriptor once it exists. With O_NONBLOCK, opening a
+// pipe returns at once; it is refused afterwards.
 #include "io/file/mapped_file.h"
 
 #include <fcntl.h>

@@ -11,13 +11,12 @@
 
 namespace arete {
 
-/// A file mapped for reading; nothing of it is read before it is touched, and nothing is asked of the system
-/// ahead. The mapping outlives the file's name: a file replaced by renaming (as OutputFile does) is not
-/// disturbed. A file cut short in place while it is mapped ends the program with SIGBUS when the lost part is
-/// touched, as with every mapping.
+/// A file mapped for reading. Pages are read on first access. The mapping stays valid if the file is replaced
+/// by renaming (as OutputFile does). If the file is truncated in place, an access to the lost part ends the
+/// program with SIGBUS, as with every mapping.
 class MappedFile {
  public:
-  /// Errors: notFound; unreadable, with the system's reason (a folder, a device, an empty file).
+  /// Errors: notFound. unreadable: with the system's reason; a folder, a device, an empty file.
   static Result<std::shared_ptr<const MappedFile>> open(const std::string& path);
 
   ~MappedFile();
@@ -26,7 +25,7 @@ class MappedFile {
 
   std::span<const std::byte> bytes() const { return {begin_, size_}; }
 
-  /// Tells the system that the order of reading is no order: it then reads no neighbours ahead.
+  /// Advises the system of random access, so that it does not read ahead.
   void adviseRandomAccess() const;
 
  private:

@@ -22,8 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What GDAL and SQLite may leave beside a file. The first follows it to its final name, the others never
-/// outlive it.
+/// Files that GDAL and SQLite may leave beside a file. The first is renamed with it, the others are removed.
 constexpr const char* kFollowing = ".aux.xml";
 constexpr std::array kRemoved = {"-journal", "-wal", "-shm"};
 
@@ -36,7 +35,7 @@ fs::path withSuffix(const fs::path& path, const char* suffix) {
 fs::path temporaryBeside(const fs::path& target) {
   static const unsigned processTag = std::random_device{}();
   static std::atomic<unsigned> counter = 0;
-  // File names end at 255 bytes on the common file systems; the stem is only there for people.
+  // Common file systems limit names to 255 bytes. The stem only makes the name readable.
   constexpr std::size_t kLongestStem = 100;
   const std::string stem = target.stem().string(), extension = target.extension().string();
   return target.parent_path() / fmt::format(".{}.{}-{:08x}-{}{}",
@@ -56,7 +55,7 @@ Result<OutputFile> OutputFile::create(const fs::path& path) {
   std::error_code error;
   if (path.filename().empty())
     return failure(ErrorCode::unreadable, "an output file needs a name, this is a folder", path.string());
-  // Of the path itself: what /dev/stdout leads to need not have a name, as a pipe has none.
+  // Of the path itself: the target of /dev/stdout may have no name, if it is a pipe.
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status))
     return failure(ErrorCode::unreadable, "is a folder, not a file", path.string());
@@ -126,7 +125,7 @@ Status OutputFile::commit() {
     return failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", error.message()),
                    path_.string());
   }
-  // A side file of the file that was replaced says nothing about the new one.
+  // A side file of the replaced file does not describe the new one.
   const fs::path following = withSuffix(temporary_, kFollowing), stale = withSuffix(target_, kFollowing);
   std::error_code ignored;
   if (fs::exists(following, ignored))

@@ -8,21 +8,20 @@
 
 namespace arete {
 
-/// A file that appears under its name whole or not at all: it is written under a temporary name in the same
-/// folder, and commit() renames it. Without a commit the destructor removes it, so an error, an exception or
-/// Ctrl-C (which sets a flag, and functions return) leaves nothing behind and an older file of that name
-/// untouched.
+/// A file that appears under its name complete or not at all. It is written under a temporary name in the
+/// same folder; commit() renames it. Without commit() the destructor removes it, so after an error, an
+/// exception or Ctrl-C (which sets a flag that makes functions return) no file is left and an older file of
+/// that name is unchanged.
 ///
-/// Who writes the temporary file does not matter: a FileWriter, GDAL, a memory map. The temporary name keeps
-/// the extension, which GDAL drivers look at, and is unique across processes; the file itself is not created
-/// here, because some drivers refuse to create what exists. Side files that GDAL leaves ("<name>.aux.xml")
-/// follow along.
+/// Any writer can write the temporary file: a FileWriter, GDAL, a memory map. The temporary name is unique
+/// across processes and keeps the extension, which GDAL drivers check. create() does not create the file,
+/// because some drivers refuse to overwrite. commit() renames GDAL's side file ("<name>.aux.xml") too.
 ///
-/// A target that exists and is no regular file (/dev/null, a pipe) is written in place. A symbolic link is
-/// followed: what it points to is replaced, the link stays.
+/// An existing target that is not a regular file (/dev/null, a pipe) is written in place. If the target is a
+/// symbolic link, the file that it points to is replaced and the link stays.
 class OutputFile {
  public:
-  /// Errors: notFound when the folder is not there, unreadable when it cannot be written to or `path` is a
+  /// Errors: notFound: the folder does not exist. unreadable: the folder is not writable, or `path` is a
   /// folder.
   static Result<OutputFile> create(const std::filesystem::path& path);
 
@@ -32,14 +31,15 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile();
 
-  /// Where to write. Close it before commit().
+  /// The path to write to. Close the file before commit().
   const std::filesystem::path& temporaryPath() const { return temporary_; }
-  /// The name that was asked for.
+  /// The path given to create().
   const std::filesystem::path& path() const { return path_; }
 
   /// Renames the temporary file to its final name. At most once.
-  /// Errors: unreadable, naming the path, when nothing was written or the rename fails; the temporary file is
-  /// then removed.
+  ///
+  /// Errors: unreadable, with the path as culprit: there is no temporary file, or renaming failed. The
+  /// temporary file is then removed.
   Status commit();
 
  private:

@@ -6,7 +6,7 @@
 
 namespace arete {
 
-/// As it would be typed in a shell.
+/// @return The text as one word of a POSIX shell, in single quotes if it needs them.
 inline std::string shellQuoted(const std::string& text) {
   constexpr std::string_view kPlain =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=./:,@%";

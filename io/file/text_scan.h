@@ -10,7 +10,7 @@
 
 namespace arete::text {
 
-/// Small pieces that the readers of texts and of names share. None depends on the locale.
+/// Functions that the readers of texts and names share. None depends on the locale.
 
 inline bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
@@ -19,7 +19,7 @@ inline bool isSpace(char c) {
   return isBlank(c) || c == '\n';
 }
 
-/// A to Z in lower case; all else stays.
+/// Turns A to Z into lower case.
 inline std::string lowered(std::string_view text) {
   std::string result(text);
   for (char& c : result)
@@ -34,14 +34,14 @@ inline std::string lowerExtension(std::string_view path) {
   return lowered(path.substr(dot + 1));
 }
 
-/// The 1-based line of a place in a text. O(distance): for messages only.
+/// The line of a position in a text, counted from 1. O(distance): for messages only.
 inline std::size_t lineOf(const char* begin, const char* at) {
   std::size_t line = 1;
   for (; begin < at; ++begin) line += *begin == '\n';
   return line;
 }
 
-/// Reads a number that ends at white space or at `end`, and moves `at` behind it. False when there is none.
+/// Reads a number that ends at white space or at `end`, and moves `at` behind it. False if there is none.
 inline bool scanNumber(const char*& at, const char* end, double& value) {
   const char* from = at;
   if (from < end && *from == '+') ++from;
@@ -55,8 +55,8 @@ inline bool scanNumber(const char*& at, const char* end, double& value) {
   return true;
 }
 
-/// Text of a file for a message: cut to `longest` bytes, control characters replaced, so that no file can
-/// talk to a terminal.
+/// Text of a file for a message: truncated to `longest` bytes, control characters replaced, so that a file
+/// cannot send commands to a terminal.
 inline std::string printable(std::string_view text, std::size_t longest) {
   std::string result(text.substr(0, longest));
   for (char& c : result)
@@ -64,7 +64,7 @@ inline std::string printable(std::string_view text, std::size_t longest) {
   return text.size() > longest ? result + "..." : result;
 }
 
-/// A token for a message: short, and printable.
+/// A token in quotes for a message, truncated and with control characters replaced.
 inline std::string quotedToken(std::string_view token) {
   constexpr std::size_t kLongest = 40;
   std::string text = "\"";
@@ -72,7 +72,7 @@ inline std::string quotedToken(std::string_view token) {
   return text + (token.size() > kLongest ? "...\"" : "\"");
 }
 
-/// The text without line breaks: each run of them, with the blanks around it, becomes one space.
+/// Replaces each run of line breaks, with the blanks around it, by one space.
 inline std::string onOneLine(std::string_view text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -10,13 +10,13 @@
 
 namespace arete {
 
-/// Tells how far the writing of a mesh is, record by record, and hears when it shall stop.
+/// Reports the progress of writing a mesh, record by record, and checks for cancellation.
 class WriteProgress {
  public:
   WriteProgress(std::size_t records, std::string path, const RunContext& context)
       : records_(records), path_(std::move(path)), context_(context) {}
 
-  /// To be asked before each record.
+  /// Call before each record. @return True if the context is cancelled; return interrupted() then.
   bool shouldStop() {
     if (done_++ % kRecordsPerCheck != 0) return false;
     context_.report("writing the mesh", static_cast<double>(done_) / static_cast<double>(records_));

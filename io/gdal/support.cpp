@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// GDAL keeps a stack of error handlers per thread, each with a pointer of its own: GdalErrors pushes one that
-// files the messages under its scope. A failed open is explained from the outside in: is the thing there, is
-// it a file, does it hold anything, may it be read; only then by what GDAL said.
+// GDAL keeps a stack of error handlers per thread, each with a user pointer; GdalErrors pushes one that
+// stores the messages in its object. The explanation of a failed open checks in turn: does the path exist, is
+// it a file, is it empty, is it readable. Only then it quotes GDAL.
 #include "io/gdal/support.h"
 
 #include <cpl_error.h>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kWarningsKept = 5;
 
-std::string tidied(const char* message) {
+std::string onOneLineWithoutDot(const char* message) {
   std::string text = message ? message : "";
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
@@ -47,7 +47,7 @@ GdalErrors::~GdalErrors() {
 
 void GdalErrors::collect(CPLErr severity, CPLErrorNum, const char* message) {
   auto* self = static_cast<GdalErrors*>(CPLGetErrorHandlerUserData());
-  if (severity >= CE_Warning) self->messages_.emplace_back(severity, tidied(message));
+  if (severity >= CE_Warning) self->messages_.emplace_back(severity, onOneLineWithoutDot(message));
 }
 
 bool GdalErrors::anyFailure() const {
@@ -83,7 +83,8 @@ std::optional<Error> findInputProblem(const std::string& path) {
   // A file geodatabase is a folder.
   if (VSI_ISDIR(status.st_mode) && text::lowerExtension(path) == "gdb") return std::nullopt;
   if (VSI_ISDIR(status.st_mode) && path.starts_with("/vsizip/"))
-    return Error{ErrorCode::usage, "is an archive, or a folder in one: name a file in it behind a /", path};
+    return Error{ErrorCode::usage, "is an archive, or a folder in one: append / and the name of a file in it",
+                 path};
   if (VSI_ISDIR(status.st_mode)) return Error{ErrorCode::unreadable, "is a folder, not a file", path};
   if (VSI_ISREG(status.st_mode) && status.st_size == 0) return Error{ErrorCode::unreadable, "is empty", path};
   if (VSILFILE* file = VSIFOpenL(path.c_str(), "rb")) {

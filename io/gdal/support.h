@@ -14,7 +14,7 @@
 
 namespace arete {
 
-/// Registers GDAL's drivers, once in the life of the program. Safe from any thread.
+/// Registers GDAL's drivers on the first call. Thread-safe.
 void registerGdal();
 
 struct GdalDatasetCloser {
@@ -22,8 +22,8 @@ struct GdalDatasetCloser {
 };
 using GdalDatasetPtr = std::unique_ptr<GDALDataset, GdalDatasetCloser>;
 
-/// While it lives, what GDAL has to say on this thread is collected here instead of being printed.
-/// Scopes nest; the innermost collects.
+/// Collects the messages of GDAL on this thread during its lifetime, instead of printing them. Scopes nest;
+/// the innermost collects.
 class GdalErrors {
  public:
   GdalErrors();
@@ -32,9 +32,9 @@ class GdalErrors {
   GdalErrors& operator=(const GdalErrors&) = delete;
 
   bool anyFailure() const;
-  /// The first failure: GDAL reports the cause first and its consequences after. Empty if there was none.
+  /// The first failure, which is the cause: GDAL reports consequences later. Empty if there was none.
   std::string firstFailure() const;
-  /// Everything said so far, as warnings (the first few, repetitions once), and forgotten here.
+  /// Appends the messages so far to `warnings` (the first few distinct ones) and clears them here.
   void moveTo(std::vector<std::string>& warnings);
   void clear() { messages_.clear(); }
 
@@ -43,21 +43,28 @@ class GdalErrors {
   std::vector<std::pair<CPLErr, std::string>> messages_;
 };
 
-/// Opens for reading; null if GDAL cannot. `flags`: GDAL_OF_RASTER or GDAL_OF_VECTOR.
+/// Opens for reading.
+///
+/// @param flags GDAL_OF_RASTER or GDAL_OF_VECTOR.
+/// @return Null if GDAL cannot open it.
 GdalDatasetPtr openGdal(const std::string& path, unsigned flags);
 
-/// The folder, the empty file or the missing permission that keeps `path` from being read as a file; nothing
-/// if it can be, or if it is no file name but one of GDAL's connection strings.
+/// Checks that a path can be read as a file.
+///
+/// @return An error for a folder, an empty file or a missing permission. Nothing if the file can be read, or
+/// if the path is not a file name, as GDAL's connection strings.
 std::optional<Error> findInputProblem(const std::string& path);
 
-/// Why `path` could not be opened, as a sentence: what findInputProblem() says, that nothing of that name is
-/// there, or what GDAL had to say. `kind` completes "is not a ...", for instance "raster".
+/// The reason why `path` could not be opened: the one of findInputProblem(), a missing file, or GDAL's
+/// message.
+///
+/// @param kind Completes "is not a ...": "raster".
 Error explainOpenFailure(const std::string& path, std::string_view kind, const GdalErrors& errors);
 
-/// Whether it is GDAL's "XYZ", which takes any text of numbers for a raster. Null is none.
+/// @return True for GDAL's driver "XYZ", which identifies any text of numbers as a raster. False for null.
 bool isTextDriver(GDALDriverH driver);
 
-/// The names of GDAL's virtual file systems ("/vsizip/...", "/vsicurl/...").
+/// @return True for a path in one of GDAL's virtual file systems ("/vsizip/...", "/vsicurl/...").
 bool isVirtualPath(std::string_view path);
 
 }  // namespace arete

@@ -10,6 +10,7 @@
 
 namespace arete {
 
+/// The kind of geometries that a reader needs.
 enum class LayerKind {
   points,
   polygons,
@@ -18,9 +19,12 @@ enum class LayerKind {
   surfaces,      ///< polygons, TINs and polyhedral surfaces
 };
 
-/// The layer of that name, or, for an empty name, the only layer that may hold geometries of that kind.
-/// Errors: notFound (no layer of that name), unsupported (no such layer, or several); both list what there
-/// is.
+/// Finds a layer by name or, for an empty name, the only layer that may hold geometries of that kind.
+///
+/// @return Owned by the dataset.
+///
+/// Errors: notFound: no layer of that name. unsupported: no layer of that kind, or several. Both list the
+/// layers.
 Result<OGRLayer*> chooseLayer(GDALDataset& dataset, const std::string& name, LayerKind kind);
 
 }  // namespace arete

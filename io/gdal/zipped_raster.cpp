@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Every file of the archive is shown to GDAL's drivers; the ones a raster driver would open are the
-// candidates. Text that might be points ("XYZ") is no candidate beside a raster proper.
+// The candidates are the files in the archive that a raster driver of GDAL identifies. Text that may be
+// points ("XYZ") is a candidate only if there is no other.
 #include "io/gdal/zipped_raster.h"
 
 #include <cpl_string.h>

@@ -7,17 +7,20 @@
 
 namespace arete {
 
-/// True for the name of a zip archive that is not yet one of GDAL's virtual paths.
+/// @return True for a name that ends in .zip and is not one of GDAL's virtual paths.
 bool isPlainZip(const std::string& path);
 
-/// GDAL's name of the one raster in a zip archive ("/vsizip/{archive.zip}/N48W125.hgt"): drivers that read
-/// the place from the file's name, as SRTM's does, must see the name inside. Where there is no raster proper,
-/// a text of numbers is one. Errors: notFound, unreadable, corrupt (no zip archive), unsupported (no raster
-/// inside, or several: listed).
+/// Finds the only raster in a zip archive. A text of numbers counts as a raster if there is no other.
+///
+/// @return GDAL's path of it: "/vsizip/{archive.zip}/N48W125.hgt". Drivers that take the position from the
+/// file's name, such as SRTMHGT, need the name inside the archive.
+///
+/// Errors: notFound, unreadable. corrupt: not a zip archive. unsupported: no raster inside, or several; lists
+/// them.
 Result<std::string> findZippedRaster(const std::string& archive);
 
-/// What GDAL opens for a path: that of the one raster in it for a plain zip archive, else itself. Errors: as
-/// findZippedRaster().
+/// @return The path for GDAL to open: for a zip archive, that of the only raster in it; otherwise the path
+/// itself. Errors: those of findZippedRaster().
 Result<std::string> rasterPathOf(const std::string& path);
 
 }  // namespace arete

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A hash table of vertex indices with linear probing. The key of an entry is its position in the list of
-// positions. The finaliser of splitmix64 mixes the bits of each coordinate into the hash, so that a regular grid
-// spreads over the whole table.
+// positions. The finaliser of splitmix64 mixes the bits of each coordinate into the hash, so that a regular
+// grid spreads over the whole table.
 #include "io/mesh/vertex_welder.h"
 
 #include <algorithm>

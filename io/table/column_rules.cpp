@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Lists of names in order of preference; the files that people have use few others.
 #include "io/table/column_rules.h"
 
 #include <algorithm>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// GDAL reports a failure while reading only through its error handler: a layer that ends early looks like a
+// shorter one. So the collected errors are checked after the last feature.
 #include "io/table/feature_rows.h"
 
 #include <fmt/format.h>
@@ -43,7 +46,7 @@ PointAttributes::Kind kindOf(OGRFieldType type) {
 
 std::string fieldText(OGRFeature& feature, int field) {
   if (!feature.IsFieldSetAndNotNull(field)) return {};
-  if (feature.GetFieldDefnRef(field)->GetType() == OFTReal)  // all digits, which GDAL's text has not
+  if (feature.GetFieldDefnRef(field)->GetType() == OFTReal)  // all digits, unlike GDAL's text
     return fmt::format("{}", feature.GetFieldAsDouble(field));
   return feature.GetFieldAsString(field);
 }
@@ -58,7 +61,7 @@ Result<CrsTransform> transformOf(const OGRSpatialReference* own, const Georefere
   }
   if (dem.crsWkt.empty())
     return failure(ErrorCode::invalidData,
-                   "has a CRS and the DEM has none, so they cannot be brought together; "
+                   "has a CRS and the DEM has none, so the points cannot be transformed; "
                    "`crs` states the DEM's when it is built");
   if (lonLat) warnings.push_back("has a CRS of its own, so `lonLat` is ignored");
   return CrsTransform::between(wktOf(*own), dem.crsWkt);

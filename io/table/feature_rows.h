@@ -16,21 +16,27 @@
 
 namespace arete {
 
-/// What the readers of layers and tables share.
-
-/// Hands the features of a layer over, one after the other. `errors`: collects since before the layer was
-/// opened, or since now. Errors: those of `add`, which end it; interrupted; unreadable. O(features).
+/// Calls `add` for each feature of a layer, in the order of the layer. Stops at the first error.
+///
+/// @param errors The messages of GDAL while it reads.
+///
+/// Errors: those of `add`. unreadable: GDAL reports a failure. interrupted. O(features).
 Status forFeatures(OGRLayer& layer, const GdalErrors& errors, const RunContext& context,
                    const std::function<Status(OGRFeature&)>& add);
 
+/// @return The kind of column for a type of field.
 PointAttributes::Kind kindOf(OGRFieldType type);
 
-/// The text of a field, all digits of a number; empty where it is not set.
+/// @return The text of a field, with the shortest digits that give the same double; empty if it is not set.
 std::string fieldText(OGRFeature& feature, int field);
 
-/// What brings stated coordinates into the DEM's CRS. `own`: the CRS of the file, may be null; `lonLat`: the
-/// user says that it is WGS 84; `isTable`: the file is of a kind that never has a CRS. Errors: invalidData (a
-/// CRS where the DEM has none), those of CrsTransform.
+/// Makes the transformation from the coordinates of a file to the DEM's CRS.
+///
+/// @param own The CRS of the file; may be null.
+/// @param lonLat Coordinates without a CRS are longitude and latitude of WGS 84.
+/// @param isTable The format has no CRS, so that its absence is not worth a warning.
+///
+/// Errors: invalidData: the file has a CRS and the DEM has none. Also those of CrsTransform.
 Result<CrsTransform> transformOf(const OGRSpatialReference* own, const Georeference& dem, bool lonLat,
                                  bool isTable, std::vector<std::string>& warnings);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// GDAL writes the file under its temporary name. The journal and the waiting for the disk that make a
-// database safe are off: a file that is not finished is never renamed. GDAL tells of failures on closing only
-// through its error handler, so the file is renamed once it is closed and the handler has heard nothing.
+// GDAL writes the file under its temporary name. SQLite's journal and its synchronization with the disk are
+// off: an unfinished file is never renamed. GDAL reports failures on closing only through its error handler,
+// so the file is renamed after it is closed and if the handler has collected no failure.
 #include "io/table/geopackage.h"
 
 #include <cpl_conv.h>

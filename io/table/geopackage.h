@@ -17,24 +17,31 @@ namespace arete {
 /// Fills an empty GeoPackage.
 using GeoPackageFill = std::function<Status(GDALDataset& dataset, GdalErrors& errors)>;
 
-/// A GeoPackage that is there whole or not at all, the same bytes for the same content whatever the day: its
-/// stamps are the first second of 1970.
-/// Errors: those of OutputFile and of `fill`; unreadable, what GDAL says, when it cannot be written.
+/// Writes a GeoPackage, complete or not at all. The same content gives the same bytes: its timestamps are the
+/// first second of 1970.
+///
+/// Errors: those of OutputFile and of `fill`. unreadable: it cannot be written; quotes GDAL.
 Status writeGeoPackage(const std::filesystem::path& path, const GeoPackageFill& fill);
 
-/// What GDAL said first, as an error: unreadable.
+/// @return GDAL's first failure, as an error with the code unreadable.
 tl::unexpected<Error> cannotBeWritten(const GdalErrors& errors);
 
-/// A layer of a geometry type, with a CRS unless `crsWkt` is empty. `options`: GDAL's, of its creation.
-/// Errors: usage (`crsWkt` is no CRS), unreadable.
+/// Creates a layer.
+///
+/// @param crsWkt Empty: no CRS.
+/// @param options GDAL's layer creation options; may be null.
+/// @return Owned by the dataset.
+///
+/// Errors: usage: `crsWkt` is not a CRS. unreadable.
 Result<OGRLayer*> addLayer(GDALDataset& dataset, const std::string& name, const std::string& crsWkt,
                            OGRwkbGeometryType type, const GdalErrors& errors, char** options = nullptr);
 
-/// False where GDAL cannot.
+/// Creates a field. @return False if GDAL cannot.
 bool addField(OGRLayer& layer, const std::string& name, PointAttributes::Kind kind);
 
-/// Fields `at` and on get the values of a row; `at` becomes the field behind them. An empty value leaves its
-/// field unset.
+/// Sets the fields from `at` on to the values of a row. An empty value leaves its field unset.
+///
+/// @param at Index of the first field; on return, of the field behind the last one.
 void setFields(OGRFeature& feature, int& at, const PointAttributes& values, std::size_t row);
 
 }  // namespace arete

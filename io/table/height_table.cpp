@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// CSV goes line by line through a FileWriter, a GeoPackage row by row through GDAL.
 #include "io/table/height_table.h"
 
 #include <fmt/format.h>
@@ -31,7 +33,7 @@ Status writeCsv(const std::string& path, const PointTable& table,
   return {};
 }
 
-/// All rows in one transaction.
+/// Writes all rows in one transaction.
 class GeoPackageRows {
  public:
   GeoPackageRows(const PointTable& table, std::span<const std::optional<SurfaceHeight>> heights)

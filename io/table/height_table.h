@@ -14,23 +14,26 @@
 
 namespace arete {
 
-/// Points with the heights found for them: the input's own columns, then x and y as the input states them,
-/// and height, below and above, which are empty where there is no terrain. Full resolution is within [height
-/// - above, height + below]. A column of the input that has one of these names gets "_in" behind it.
+/// A table of heights has the columns of the input, then x and y as the input states them, and height, below
+/// and above, which are empty without terrain. The height at full resolution is within [height - above,
+/// height + below]. A column of the input with one of these names gets the suffix "_in".
 
-/// "1234.5": twelve digits, which is more than any DEM knows.
+/// @return "1234.5": at most twelve significant digits, more than the precision of any DEM.
 std::string heightText(double height);
 
-/// The table as CSV, RFC 4180 with line feeds: `write` gets the header line and then row after row.
+/// Formats the table as CSV (RFC 4180, with line feeds). Calls `write` for the header line and for each row.
 void forCsvLines(const PointTable& table, std::span<const std::optional<SurfaceHeight>> heights,
                  const std::function<void(std::string_view)>& write);
 
-/// True for a name that writeHeightTable() knows: .csv, .gpkg.
+/// @return True for a name that writeHeightTable() accepts: .csv, .gpkg.
 bool isHeightTable(const std::string& path);
 
 /// Writes the table as CSV or as a GeoPackage (layer "heights", points in the CRS of the input). The file
-/// appears whole or not at all. Precondition: a height or none per point. Errors: usage (another extension),
-/// notFound, unreadable, interrupted. O(points).
+/// appears complete or not at all.
+///
+/// @param heights One per point; nothing without terrain.
+///
+/// Errors: usage: another extension. notFound, unreadable, interrupted. O(points).
 Status writeHeightTable(const std::string& path, const PointTable& table,
                         std::span<const std::optional<SurfaceHeight>> heights,
                         const RunContext& context = {});

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// CSV goes line by line through a FileWriter, a GeoPackage row by row through GDAL.
 #include "io/table/line_table.h"
 
 #include <cmath>
@@ -31,7 +33,7 @@ Status writeCsv(const std::string& path, const LineTable& table, const RunContex
   return {};
 }
 
-/// All rows in one transaction.
+/// Writes all rows in one transaction.
 Status fill(GDALDataset& dataset, const LineTable& table, const GdalErrors& errors,
             const RunContext& context) {
   const Result<OGRLayer*> added = addLayer(dataset, table.layer, table.crsWkt, wkbLineString, errors);

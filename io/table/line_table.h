@@ -14,25 +14,26 @@
 
 namespace arete {
 
-/// Lines with what was found for them: the input's own columns, then ours. A column of the input that has the
-/// name of one of ours gets "_in" behind it.
+/// Lines with results: the columns of the input, then those of the results. A column of the input with the
+/// name of a column of the results gets the suffix "_in".
 struct LineTable {
-  std::string layer;                          ///< name of a GeoPackage's layer
-  std::string crsWkt;                         ///< of the ends; empty = not known
+  std::string layer;                          ///< name of the layer in a GeoPackage
+  std::string crsWkt;                         ///< of the ends; empty: unknown
   std::span<const std::array<Vec2, 2>> ends;  ///< NaN: no geometry
   const PointAttributes* inputs = nullptr;    ///< a row per line
-  const PointAttributes* results = nullptr;   ///< a row per line; empty values are none
+  const PointAttributes* results = nullptr;   ///< a row per line; an empty value is missing
 };
 
-/// The table as CSV, RFC 4180 with line feeds: `write` gets the header line and then row after row.
+/// Formats the table as CSV (RFC 4180, with line feeds). Calls `write` for the header line and for each row.
 void forCsvLines(const LineTable& table, const std::function<void(std::string_view)>& write);
 
-/// True for a name that writeLineTable() knows: .csv, .gpkg.
+/// @return True for a name that writeLineTable() accepts: .csv, .gpkg.
 bool isLineTable(const std::string& path);
 
-/// Writes the table as CSV or as a GeoPackage with a layer of lines, the same bytes for the same table. The
-/// file appears whole or not at all. Errors: usage (another extension), notFound, unreadable, interrupted.
-/// O(rows).
+/// Writes the table as CSV or as a GeoPackage with a layer of lines. The same table gives the same bytes. The
+/// file appears complete or not at all.
+///
+/// Errors: usage: another extension. notFound, unreadable, interrupted. O(rows).
 Status writeLineTable(const std::string& path, const LineTable& table, const RunContext& context = {});
 
 }  // namespace arete

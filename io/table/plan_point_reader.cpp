@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A name or content that looks like text goes to readPointText(), anything else to GDAL.
 #include "io/table/plan_point_reader.h"
 
 #include <fmt/format.h>
@@ -25,7 +27,7 @@ Result<CrsTransform> transformation(const OGRSpatialReference* own, const std::s
   }
   if (targetCrs.empty())
     return failure(ErrorCode::invalidData,
-                   "has a CRS and the DEM has none, so they cannot be brought together; "
+                   "has a CRS and the DEM has none, so the points cannot be transformed; "
                    "`crs` states the DEM's");
   return CrsTransform::between(wktOf(*own), targetCrs);
 }
@@ -34,8 +36,9 @@ Status addPoint(const OGRPoint& point, const CrsTransform& toTarget, std::vector
   if (point.IsEmpty()) return {};
   const auto p = toTarget({point.getX(), point.getY()});
   if (!p || !std::isfinite(p->x) || !std::isfinite(p->y))
-    return failure(ErrorCode::invalidData,
-                   fmt::format("the CRS of the DEM cannot tell the point {} {}", point.getX(), point.getY()));
+    return failure(
+        ErrorCode::invalidData,
+        fmt::format("the point {} {} is outside the domain of the DEM's CRS", point.getX(), point.getY()));
   positions.push_back(*p);
   return {};
 }

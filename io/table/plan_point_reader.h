@@ -10,16 +10,20 @@
 
 namespace arete {
 
+/// Plan positions as read.
 struct PlanPoints {
   std::vector<Vec2> positions;  ///< in the target CRS, in the order of the file
   std::vector<std::string> warnings;
 };
 
-/// Reads plan positions, heights or none: text as readPoints() takes it (where two columns do), or points and
-/// multipoints of any vector format GDAL knows (of a file with one such layer). A text's coordinates are in
-/// the target CRS; a layer's are reprojected into it. `targetCrs`: WKT or any text GDAL takes; empty = not
-/// known. Errors: notFound, unreadable, unsupported, invalidData (a position that is not finite, or that the
-/// target CRS cannot tell; a layer with a CRS where the target has none), interrupted. O(points).
+/// Reads plan positions and ignores heights: from text as for readPoints(), where two columns suffice, or
+/// from the points and multipoints of any vector format of GDAL with one such layer. The coordinates of a
+/// text are in the target CRS; those of a layer are transformed to it.
+///
+/// @param targetCrs WKT or any text that GDAL accepts; empty: unknown.
+///
+/// Errors: notFound, unreadable, unsupported. invalidData: a position that is not finite or outside the
+/// domain of the target CRS; a layer with a CRS and a target without; no point. interrupted. O(points).
 Result<PlanPoints> readPlanPoints(const std::string& path, const std::string& targetCrs,
                                   const RunContext& context = {});
 

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Every value of a column is tried as an integer, then as a double. A leading zero marks a code, such as a
+// postal code, that must stay a text.
 #include "io/table/point_attributes.h"
 
 #include <charconv>

@@ -8,8 +8,7 @@
 
 namespace arete {
 
-/// What a file says of its points beside their places: named columns of values, kept as their texts in one
-/// block of memory.
+/// The attributes of points or lines: named columns of values, stored as texts in one array of characters.
 class PointAttributes {
  public:
   enum class Kind { text, integer, real };
@@ -19,7 +18,7 @@ class PointAttributes {
   };
   std::vector<Column> columns;
 
-  /// Adds the next value, row by row; an empty one is none.
+  /// Appends the next value, row by row. An empty value is missing.
   void add(std::string_view value) {
     text_ += value;
     end_.push_back(text_.size());
@@ -31,7 +30,7 @@ class PointAttributes {
   }
   std::size_t rows() const { return columns.empty() ? 0 : end_.size() / columns.size(); }
 
-  /// Makes columns of texts that are numbers throughout columns of numbers; "007" is none. O(values).
+  /// Makes each column whose values are all numbers a column of numbers. "007" is text. O(values).
   void findKinds();
 
  private:

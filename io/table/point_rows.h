@@ -8,11 +8,11 @@
 
 namespace arete {
 
-/// Points as they were read, before equal ones are merged.
+/// Points as read, before equal ones are merged.
 struct PointRows {
   std::vector<Vec2> positions;
   std::vector<double> heights;
-  std::vector<std::uint64_t> origins;  ///< line number or feature id, to name a point by
+  std::vector<std::uint64_t> origins;  ///< line number or feature id, for messages
 
   void add(double x, double y, double z, std::uint64_t origin) {
     // -0 becomes 0, so that equal positions have equal bytes.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A name or content that looks like text goes to readPointText(), anything else to GDAL.
 #include "io/table/point_table.h"
 
 #include <fmt/format.h>

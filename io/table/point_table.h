@@ -12,26 +12,28 @@
 
 namespace arete {
 
-/// Places to ask about, with all that their file says of them: one row per point, in the order of the file.
+/// Query points with the attributes of their file: a row per point, in the order of the file.
 struct PointTable {
-  std::vector<Vec2> stated;     ///< as the file has them; NaN for a feature without a position
-  std::string crsWkt;           ///< of `stated`; empty = not known
-  std::vector<Vec2> positions;  ///< in the DEM's CRS; NaN where it cannot tell the place
-  PointAttributes attributes;   ///< without the columns that x and y came from
+  std::vector<Vec2> stated;     ///< as in the file; NaN for a feature without a position
+  std::string crsWkt;           ///< of `stated`; empty: unknown
+  std::vector<Vec2> positions;  ///< in the DEM's CRS; NaN outside its domain
+  PointAttributes attributes;   ///< without the columns of x and y
   std::vector<std::string> warnings;
 };
 
 struct PointTableOptions {
-  std::string layer{};  ///< of a file with several
+  std::string layer{};  ///< needed if a file has several
   bool lonLat = false;  ///< coordinates without a CRS are longitude, latitude in degrees (WGS 84)
 };
 
-/// Reads points and their attributes: text as readPoints() takes it (where two columns do), or points and
-/// multipoints of any vector format GDAL knows, one row per point, with the feature's id as "source_fid". A
-/// text's coordinates are the DEM's, or longitude and latitude; a layer's are brought from its CRS into the
-/// DEM's. Errors: notFound, unreadable, unsupported, usage (lonLat and a DEM without a CRS), invalidData (a
-/// line that does not parse, with its number; a layer with a CRS and a DEM without; no point at all),
-/// interrupted. O(points).
+/// Reads points and their attributes: from text as for readPoints(), where two columns suffice, or from the
+/// points and multipoints of any vector format of GDAL, a row per point, with the feature's id in the column
+/// "source_fid". The coordinates of a text are the DEM's, or longitude and latitude; those of a layer are
+/// transformed from its CRS to the DEM's.
+///
+/// Errors: notFound, unreadable, unsupported. usage: options.lonLat and a DEM without a CRS. invalidData: a
+/// line that does not parse, with its number; a layer with a CRS and a DEM without; no point. interrupted.
+/// O(points).
 Result<PointTable> readPointTable(const std::string& path, const Georeference& dem,
                                   const PointTableOptions& options = {}, const RunContext& context = {});
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// GDAL reads CSV as a layer without geometry, so tables and layers take one way: a row's places are columns
-// where there are such, else the ends of its geometry, else, for the second, azimuth and range.
+// GDAL reads CSV as a layer without geometry, so tables and layers share the code. The positions of a row
+// come from columns if there are such, otherwise from the ends of its geometry; a missing second position
+// comes from azimuth and range. Tables of lines have headers and are small, so GDAL's speed suffices
+// (point_text.cpp says where it does not).
 #include "io/table/sight_pairs.h"
 
 #include <fmt/format.h>
@@ -42,7 +44,7 @@ std::optional<double> finiteNumber(std::string_view text) {
   return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
-/// The place so many metres away in a direction: on the ellipsoid, or on the map where there is none.
+/// The position at a distance in a direction: along a geodesic, or on the map without a CRS.
 class GroundDirection {
  public:
   explicit GroundDirection(const Georeference& dem)
@@ -89,7 +91,7 @@ class PairReader {
     range_ = columnNamed(fields_, nameOf, ColumnNames::range());
     if (hasGeometry_) pairs.attributes.columns.push_back({"source_fid", PointAttributes::Kind::integer});
     for (int i = 0; i < fields_; ++i)
-      if (!isPlace(i))
+      if (!isPosition(i))
         pairs.attributes.columns.push_back(
             {std::string(nameOf(std::size_t(i))), kindOf(definition.GetFieldDefn(i)->GetType())});
   }
@@ -103,7 +105,7 @@ class PairReader {
     return {};
   }
 
-  /// The second place is left NaN where azimuth and range say it: see directions().
+  /// Leaves the second position NaN if azimuth and range give it: see directions().
   Status add(OGRFeature& feature) {
     std::array<SightSite, 2> row;
     for (SightSite& site : row) site.stated = {kNone, kNone};
@@ -128,14 +130,14 @@ class PairReader {
     if (hasDirection()) {
       if (Status read = readNumber(feature, azimuth_, direction[0]); !read) return read;
       if (Status read = readNumber(feature, range_, direction[1]); !read) return read;
-      // Behind the first end is where another azimuth leads.
+      // A negative range would be another azimuth.
       if (!std::isfinite(row[1].stated.x) && direction[1] <= 0)
         return failure(ErrorCode::invalidData, "has a range that is not above 0", where(feature));
     }
     directions_.push_back(direction);
     if (hasGeometry_) pairs_.attributes.add(fmt::format("{}", feature.GetFID()));
     for (int i = 0; i < fields_; ++i)
-      if (!isPlace(i)) pairs_.attributes.add(fieldText(feature, i));
+      if (!isPosition(i)) pairs_.attributes.add(fieldText(feature, i));
     pairs_.rows.push_back(row);
     return {};
   }
@@ -144,14 +146,14 @@ class PairReader {
   const std::vector<std::array<double, 2>>& directions() const { return directions_; }
 
  private:
-  bool isPlace(int field) const {
+  bool isPosition(int field) const {
     return std::any_of(x_.begin(), x_.end(), [&](int c) { return c == field; }) ||
            std::any_of(y_.begin(), y_.end(), [&](int c) { return c == field; });
   }
 
   std::string where(const OGRFeature& feature) const { return fmt::format("row {}", feature.GetFID()); }
 
-  /// Leaves NaN for an empty field.
+  /// Leaves the value unchanged for an empty field.
   Status readNumber(OGRFeature& feature, int column, double& value) const {
     const std::string text = fieldText(feature, column);
     if (text.empty()) return {};
@@ -196,14 +198,15 @@ class PairReader {
   std::vector<std::array<double, 2>> directions_;
 };
 
-void place(SightPairs& pairs, const PairReader& reader, const CrsTransform& toDem, const Georeference& dem) {
+void setPositions(SightPairs& pairs, const PairReader& reader, const CrsTransform& toDem,
+                  const Georeference& dem) {
   for (int end = 0; end < 2; ++end) {
-    std::vector<Vec2> places;
-    for (const auto& row : pairs.rows) places.push_back(row[end].stated);
-    toDem.apply(places);
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    std::vector<Vec2> positions;
+    for (const auto& row : pairs.rows) positions.push_back(row[end].stated);
+    toDem.apply(positions);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
       const bool isStated = std::isfinite(pairs.rows[i][end].stated.x + pairs.rows[i][end].stated.y);
-      pairs.rows[i][end].xy = isStated ? places[i] : Vec2{kNone, kNone};
+      pairs.rows[i][end].xy = isStated ? positions[i] : Vec2{kNone, kNone};
     }
   }
   if (!reader.hasDirection()) return;
@@ -247,7 +250,7 @@ Result<SightPairs> readFrom(const std::string& path, const Georeference& dem,
   if (!transform) return tl::unexpected(transform.error());
   errors.moveTo(pairs.warnings);
   pairs.crsWkt = transform->sourceWkt().empty() ? dem.crsWkt : transform->sourceWkt();
-  place(pairs, reader, *transform, dem);
+  setPositions(pairs, reader, *transform, dem);
   return pairs;
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Suffixes are added until a name is unique among ours and among the names before it.
 #include "io/table/table_text.h"
 
 #include <algorithm>

@@ -10,12 +10,13 @@
 
 namespace arete {
 
-/// The names of columns that stand beside ours in a table: one of ours, or of another, gets "_in" behind it.
-/// Upper and lower case are alike, as in databases.
+/// The names of the input's columns in a table that has columns of ours as well. A name that is already used
+/// gets the suffix "_in". Case is ignored, as in databases.
 std::vector<std::string> namesBeside(const PointAttributes& attributes,
                                      std::span<const std::string_view> ours);
 
-/// Appends a field of CSV, in quotes where RFC 4180 (or our own comments) want them.
+/// Appends a field of CSV, in quotes if RFC 4180 requires them, or if it contains a '#', which begins a
+/// comment.
 void appendCsvField(std::string& line, std::string_view value);
 
 }  // namespace arete

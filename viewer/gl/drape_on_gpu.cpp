@@ -103,7 +103,7 @@ Result<DrapeOnGpu> DrapeOnGpu::load(const std::string& path, const TerrainModel&
       if (pixels < 4096)
         return failure(ErrorCode::unsupported,
                        fmt::format("the device has no room for its {} tiles", drape.layers_), path);
-      read.mostPixels = pixels * 3 / 4;
+      read.maxPixels = pixels * 3 / 4;
       continue;
     }
     for (const auto& [name, value] : {std::pair(GL_TEXTURE_MIN_FILTER, GL_LINEAR),

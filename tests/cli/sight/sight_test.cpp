@@ -193,7 +193,7 @@ TEST_F(SightCommands, LosAnswersEveryRowOfAFile) {
       << lines[1];
   EXPECT_EQ(lines[2].rfind("high,140msl,40,1105,1895,140,1505,1895,140,visible,400,90,0,10,0,,,,,0,", 0), 0u)
       << lines[2];
-  EXPECT_NE(lines[3].find("is above no terrain"), std::string::npos) << lines[3];
+  EXPECT_NE(lines[3].find("has no terrain below it"), std::string::npos) << lines[3];
   EXPECT_NE(lines[4].find(",unknown,200,90,0,"), std::string::npos) << lines[4];
 
   ASSERT_EQ(run({"los", "dem.amt", "--pairs", "pairs.csv", "-o", "a.csv", "--threads", "1"}).code, 0);
@@ -256,7 +256,7 @@ TEST_F(SightCommands, LosRefusesWhatMakesNoSense) {
   refused({"los", "dem.amt", "--from", "1,1,1"}, 2, "--from and --to say where");
   refused({"los", "dem.amt", "--from", "1,1,1", "--pairs", "pairs.csv"}, 2, "have no place");
   refused({"los", "dem.amt", "--points", "pairs.csv"}, 2, "needs either --from or --to");
-  refused({"los", "dem.amt", "--from", "1,1,1", "--to", "1105,1895,2"}, 4, "is above no terrain");
+  refused({"los", "dem.amt", "--from", "1,1,1", "--to", "1105,1895,2"}, 4, "has no terrain below it");
   refused({"los", "dem.amt", "--from", "1,1", "--to", "1105,1895,2"}, 2, "a position is X,Y,H");
   refused({"los", "dem.amt", "--pairs", "none.csv"}, 4, "has no columns x1 and y1");
   refused({"los", "dem.amt", "--pairs", "nowhere.csv"}, 3, "there is no such file");
@@ -563,7 +563,7 @@ TEST_F(SightCommands, ViewshedRefusesWhatMakesNoSense) {
   refused({"viewshed", "dem.amt", "-o", "v.tif"}, 2, "says from where");
   refused({"viewshed", "dem.amt", "--observer", "1105,1895,2", "--observer-height", "5", "-o", "v.tif"}, 2,
           "--observer-height: is of --observers");
-  refused({"viewshed", "dem.amt", "--observer", "1,1,2", "-o", "v.tif"}, 4, "is above no terrain");
+  refused({"viewshed", "dem.amt", "--observer", "1,1,2", "-o", "v.tif"}, 4, "has no terrain below it");
   refused({"viewshed", "dem.amt", "--observers", "masts.csv", "-o", "v.tif"}, 2, "has no height");
   refused({"viewshed", "dem.amt", "--observer", "1105,1895,2", "--observer", "1205,1895,2", "--mode",
            "height", "-o", "v.tif"},

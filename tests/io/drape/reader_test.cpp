@@ -315,7 +315,7 @@ TEST(DrapeReader, ALargerPictureIsReadCoarserAndSaysSo) {
       EXPECT_EQ(d->BuildOverviews("AVERAGE", 2, factors, 0, nullptr, nullptr, nullptr), CE_None);
       GDALClose(GDALDataset::ToHandle(d));
     }
-    Result<DrapeReader> reader = DrapeReader::open(path, model, {.bands = {}, .mostPixels = 15000});
+    Result<DrapeReader> reader = DrapeReader::open(path, model, {.bands = {}, .maxPixels = 15000});
     ASSERT_TRUE(reader) << reader.error().describe();
     EXPECT_LE(std::uint64_t(reader->columns()) * reader->rows(), 15000u);
     EXPECT_GT(std::uint64_t(reader->columns()) * reader->rows(), 14000u);

@@ -122,7 +122,7 @@ TEST(GlbRead, NamesWhatItDoesNotKnow) {
   expect(unsupported, "no triangle", [](Foreign& f) { f.json["nodes"][0].erase("mesh"); });
   expect(corrupt, "names vertex 9 of 4", [](Foreign& f) { f.bytes[48] = 9; });
   expect(corrupt, "two parents", [](Foreign& f) { f.json["nodes"][0]["children"] = {0}; });
-  expect(corrupt, "not three of each", [](Foreign& f) { f.json["accessors"][1]["count"] = 5; });
+  expect(corrupt, "not a multiple of three", [](Foreign& f) { f.json["accessors"][1]["count"] = 5; });
   expect(corrupt, "not finite", [](Foreign& f) { f.bytes.replace(0, 4, std::string("\0\0\xC0\x7F", 4)); });
   expect(corrupt, "longer than its bufferView", [](Foreign& f) { f.json["accessors"][0]["count"] = 5; });
   expect(corrupt, "longer than its bufferView",
