@@ -140,7 +140,7 @@ Result<double> demHeight(const PositionArgument& position, const SurfaceHeights&
         ErrorCode::usage,
         isDemEllipsoidal
             ? "the DEM's heights are ellipsoidal, so a height above sea level needs a geoid; use ell or agl"
-            : "the DEM does not say that its heights are ellipsoidal, so this needs a geoid; use msl or agl",
+            : "the DEM's heights are not stated to be ellipsoidal, so this needs a geoid; use msl or agl",
         culprit);
   return position.height;
 }

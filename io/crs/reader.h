@@ -34,7 +34,7 @@ std::string wktOf(const OGRSpatialReference& crs);
 ///
 /// @param own The CRS of the file; may be null.
 /// @param text Stated by a person; empty: none.
-/// @return An empty CRS if there is none. Errors: those of crsFromUser().
+/// @return An empty CRS if there is no CRS. Errors: those of crsFromUser().
 Result<OGRSpatialReference> chooseCrs(const OGRSpatialReference* own, const std::string& text,
                                       std::vector<std::string>& warnings);
 

@@ -14,13 +14,13 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "io/dem/gridded_points.h"
+#include "io/file/memory_guard.h"
 #include "io/file/text_scan.h"
 #include "io/gdal/support.h"
 #include "io/gdal/zipped_raster.h"
@@ -194,15 +194,13 @@ std::optional<std::string> crsWarning(const Heightfield& field) {
 }  // namespace
 
 Result<DemRead> readDem(const std::string& path, const SourceReading& reading, const RunContext& context) {
-  try {
+  return guardMemory(path, [&]() -> Result<DemRead> {
     Result<DemRead> read = readFrom(path, reading, context);
     if (!read) return read;
     if (auto warning = std::visit([](const auto& field) { return crsWarning(field); }, read->heightfield))
       read->warnings.push_back(std::move(*warning));
     return read;
-  } catch (const std::bad_alloc&) {
-    return failure(ErrorCode::unsupported, "is larger than the memory that is free", path);
-  }
+  });
 }
 
 }  // namespace arete

@@ -11,12 +11,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <new>
-#include <stdexcept>
 #include <utility>
 
 #include "io/crs/reader.h"
 #include "io/dem/band_heights.h"
+#include "io/file/memory_guard.h"
 #include "io/gdal/support.h"
 #include "io/gdal/zipped_raster.h"
 
@@ -160,7 +159,7 @@ Result<RasterRead> readOpened(GDALDataset& dataset, const std::string& path, con
 
 Result<RasterRead> readRaster(const std::string& path, const RasterReadOptions& options,
                               const RunContext& context) {
-  try {
+  return guardMemory(path, [&]() -> Result<RasterRead> {
     registerGdal();
     GdalErrors errors;
     const Result<std::string> gdalPath = rasterPathOf(path);
@@ -170,11 +169,7 @@ Result<RasterRead> readRaster(const std::string& path, const RasterReadOptions& 
     auto read = readOpened(*dataset, path, options, errors, context);
     if (!read && read.error().culprit.empty()) read.error().culprit = path;
     return read;
-  } catch (const std::bad_alloc&) {
-    return failure(ErrorCode::unsupported, "is larger than the memory that is free", path);
-  } catch (const std::length_error&) {
-    return failure(ErrorCode::unsupported, "is larger than the memory that is free", path);
-  }
+  });
 }
 
 }  // namespace arete

@@ -15,11 +15,11 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
-#include <new>
 #include <system_error>
 #include <vector>
 
 #include "io/crs/reader.h"
+#include "io/file/memory_guard.h"
 #include "io/file/output_file.h"
 #include "io/file/text_scan.h"
 #include "io/gdal/support.h"
@@ -149,7 +149,7 @@ Status writeGeoTiff(const std::string& path, std::uint32_t columns, std::uint32_
       values.size() != std::size_t(columns) * rows)
     return failure(ErrorCode::invalidData,
                    fmt::format("{} values for {} columns and {} rows", values.size(), columns, rows), path);
-  try {
+  return guardMemory(path, [&]() -> Status {
     registerGdal();
     auto file = OutputFile::create(path);
     if (!file) return tl::unexpected(file.error());
@@ -163,9 +163,7 @@ Status writeGeoTiff(const std::string& path, std::uint32_t columns, std::uint32_
     if (!status && status.error().culprit.empty()) status.error().culprit = path;
     if (status) context.report("writing", 1);
     return status;
-  } catch (const std::bad_alloc&) {
-    return failure(ErrorCode::unsupported, "there is not enough memory to write it", path);
-  }
+  });
 }
 
 }  // namespace arete

@@ -209,18 +209,17 @@ Result<TransformerPtr> drapeTransformer(GDALDataset& picture, const TerrainModel
   std::array<double, 6> transform{};
   const bool hasTransform = picture.GetGeoTransform(transform.data()) == CE_None;
   if (!hasTransform && picture.GetGCPCount() == 0)
-    return failure(
-        ErrorCode::invalidData,
-        picture.GetMetadata("RPC")
-            ? "is placed by RPC coefficients only; gdalwarp -rpc with the DEM makes an orthophoto of it"
-            : "does not say where it lies: it has no georeference (a geotransform, a world file or "
-              "ground control points)");
+    return failure(ErrorCode::invalidData,
+                   picture.GetMetadata("RPC")
+                       ? "has only RPC coefficients; gdalwarp -rpc with the DEM makes an orthophoto of it"
+                       : "has no georeference (a geotransform, a world file or ground control points)");
   const OGRSpatialReference* own = hasTransform ? picture.GetSpatialRef() : picture.GetGCPSpatialRef();
   const std::string& dem = model.georeference.crsWkt;
   const bool hasOwn = own && !own->IsEmpty() && isKnownCrs(own);
   CPLStringList options;
   if (dem.empty()) {
-    if (hasOwn) warnings.emplace_back("the DEM has no CRS: the picture's coordinates are taken for its own");
+    if (hasOwn)
+      warnings.emplace_back("the DEM has no CRS: the coordinates of the image are taken as the DEM's");
   } else if (!hasOwn) {
     return failure(ErrorCode::invalidData,
                    "has no CRS, and the DEM has one; gdal_translate -a_srs states it in a copy");
@@ -237,7 +236,7 @@ Result<TransformerPtr> drapeTransformer(GDALDataset& picture, const TerrainModel
       GDALCreateGenImgProjTransformer2(GDALDataset::ToHandle(&picture), nullptr, options.List()));
   if (!made)
     return failure(ErrorCode::invalidData,
-                   fmt::format("cannot be brought onto the DEM: {}", errors.firstFailure()));
+                   fmt::format("cannot be mapped onto the DEM: {}", errors.firstFailure()));
   return made;
 }
 
@@ -248,7 +247,7 @@ Result<DrapePlacement> placeDrape(GDALDataset& picture, void* transformer, const
   const Box terrain = planBox(model);
   const Extents extents = extentsOf(way, model, terrain, size);
   if (extents.covered.isEmpty())
-    return failure(ErrorCode::invalidData, "no part of it has a place in the CRS of the DEM");
+    return failure(ErrorCode::invalidData, "no part of it is in the domain of the CRS of the DEM");
   const Box box = extents.covered.common(terrain);
   if (box.isEmpty()) return extents.apart();
 

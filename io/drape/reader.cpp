@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// GDAL brings the picture onto the terrain: a virtual raster with the grid of drape_placement.h, made block
-// by block when it is read, with an alpha band for what is not there.
+// GDAL maps the image onto the terrain: a virtual raster with the grid of io/drape/placement.h, computed
+// block by block when it is read, with an alpha band for pixels that are missing.
 #include "io/drape/reader.h"
 
 #include <cpl_string.h>
@@ -28,7 +28,7 @@ struct WarpOptionsCloser {
   void operator()(GDALWarpOptions* options) const { GDALDestroyWarpOptions(options); }
 };
 
-/// The middle 96 of a hundred values, of about a million spread over the window.
+/// The range from the 2nd to the 98th percentile of about a million values spread over the window.
 Result<Range> stretchOf(GDALRasterBand& band, const std::array<double, 4>& window) {
   constexpr int kSide = 1024;
   const int column = int(window[0]), row = int(window[2]);
@@ -59,7 +59,7 @@ Result<Range> stretchOf(GDALRasterBand& band, const std::array<double, 4>& windo
   return range;
 }
 
-/// `transformer`: becomes that of the raster.
+/// The image on the grid of the placement, as a virtual raster that owns the transformer.
 GdalDatasetPtr warped(const DrapeSource& source, TransformerPtr transformer, const DrapePlacement& p,
                       const TerrainModel& model) {
   GDALDataset& dataset = source.dataset();

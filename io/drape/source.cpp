@@ -148,9 +148,10 @@ Result<DrapeSource> openDrapeOverview(const std::string& path, DrapeSource sourc
     }
   }
   if (!best) return source;
-  std::vector<std::string> said;  // once is enough
+  std::vector<std::string> repeated;  // the warnings of the first opening suffice
   const bool isExpanded = source.opened.isExpanded();
-  Result<DrapeSource> smaller = openLevel(path, isExpanded ? std::vector<int>() : source.colors, best, said);
+  Result<DrapeSource> smaller =
+      openLevel(path, isExpanded ? std::vector<int>() : source.colors, best, repeated);
   if (!smaller) return source;
   smaller->coarser = double(file.GetRasterXSize()) / bestColumns;
   return smaller;

@@ -41,7 +41,8 @@ inline std::size_t lineOf(const char* begin, const char* at) {
   return line;
 }
 
-/// Reads a number that ends at white space or at `end`, and moves `at` behind it. False if there is none.
+/// Reads a number that ends at white space or at `end`, and moves `at` behind it. False if there is no
+/// number.
 inline bool scanNumber(const char*& at, const char* end, double& value) {
   const char* from = at;
   if (from < end && *from == '+') ++from;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "io/crs/transform.h"
+#include "io/file/memory_guard.h"
 #include "io/gdal/support.h"
 #include "io/gdal/vector_layer.h"
 #include "io/table/feature_rows.h"
@@ -105,7 +106,7 @@ Result<PointTable> readFrom(const std::string& path, const Georeference& dem,
 
 Result<PointTable> readPointTable(const std::string& path, const Georeference& dem,
                                   const PointTableOptions& options, const RunContext& context) {
-  auto table = readFrom(path, dem, options, context);
+  auto table = guardMemory(path, [&] { return readFrom(path, dem, options, context); });
   if (!table && table.error().culprit.empty()) table.error().culprit = path;
   return table;
 }

@@ -22,6 +22,7 @@
 
 #include "io/crs/lonlat.h"
 #include "io/crs/transform.h"
+#include "io/file/memory_guard.h"
 #include "io/file/number_text.h"
 #include "io/gdal/support.h"
 #include "io/gdal/vector_layer.h"
@@ -258,7 +259,7 @@ Result<SightPairs> readFrom(const std::string& path, const Georeference& dem,
 
 Result<SightPairs> readSightPairs(const std::string& path, const Georeference& dem,
                                   const PointTableOptions& options, const RunContext& context) {
-  auto pairs = readFrom(path, dem, options, context);
+  auto pairs = guardMemory(path, [&] { return readFrom(path, dem, options, context); });
   if (!pairs && pairs.error().culprit.empty()) pairs.error().culprit = path;
   return pairs;
 }

@@ -10,10 +10,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <string_view>
 
 #include "io/crs/reader.h"
+#include "io/file/memory_guard.h"
 #include "io/gdal/support.h"
 #include "io/gdal/vector_layer.h"
 #include "io/mesh/gpkg/gpkg.h"
@@ -150,13 +150,11 @@ Result<MeshFile> readFrom(const std::string& path, const RunContext& context) {
 }  // namespace
 
 Result<MeshFile> readGpkg(const std::filesystem::path& path, const RunContext& context) {
-  try {
+  return guardMemory(path.string(), [&] {
     Result<MeshFile> file = readFrom(path.string(), context);
     if (!file && file.error().culprit.empty()) file.error().culprit = path.string();
     return file;
-  } catch (const std::bad_alloc&) {
-    return failure(ErrorCode::unsupported, "is larger than the memory that is free", path.string());
-  }
+  });
 }
 
 bool holdsSurfaces(const std::filesystem::path& path) {

@@ -7,9 +7,9 @@
 #include <ogrsf_frmts.h>
 
 #include <memory>
-#include <new>
 #include <string>
 
+#include "io/file/memory_guard.h"
 #include "io/mesh/gpkg/gpkg.h"
 #include "io/table/geopackage.h"
 
@@ -88,15 +88,13 @@ Status writeGpkg(const TriangleMesh& mesh, const std::filesystem::path& path, co
         ErrorCode::invalidData,
         fmt::format("{} errors for {} triangles", options.triangleErrors.size(), mesh.triangles.size()),
         path.string());
-  try {
+  return guardMemory(path.string(), [&] {
     Status status = writeGeoPackage(path, [&](GDALDataset& dataset, GdalErrors& errors) {
       return fill(dataset, errors, mesh, options, context);
     });
     if (!status && status.error().culprit.empty()) status.error().culprit = path.string();
     return status;
-  } catch (const std::bad_alloc&) {
-    return failure(ErrorCode::unsupported, "there is not enough memory to write it", path.string());
-  }
+  });
 }
 
 }  // namespace arete

@@ -3,12 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
 #include <random>
-#include <tuple>
 #include <vector>
-
-#include "io/mesh/vertex_welder.h"
 
 namespace arete {
 namespace {
@@ -36,21 +32,6 @@ TEST(Float32Rounding, BoundsTheWayToFloatAndBack) {
     const double back = origin + static_cast<double>(static_cast<float>(x - origin));
     EXPECT_LE(std::abs(back - x), float32Rounding(std::abs(x - origin), origin));
   }
-}
-
-TEST(VertexWelder, NumbersPositionsInTheOrderInWhichTheyCome) {
-  std::mt19937 random(2);
-  VertexWelder welder;
-  std::map<std::tuple<double, double, double>, std::uint32_t> known;
-  for (int i = 0; i < 20000; ++i) {
-    const Vec3 p{double(random() % 20) / 3, double(random() % 20) * 1e6, random() % 2 ? 0.0 : -0.0};
-    const auto [place, isNew] = known.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(known.size()));
-    ASSERT_EQ(welder.add(p), place->second);
-  }
-  const std::vector<Vec3> positions = welder.take();
-  ASSERT_EQ(positions.size(), known.size());
-  for (const auto& [p, number] : known)
-    EXPECT_EQ(positions[number], (Vec3{std::get<0>(p), std::get<1>(p), std::get<2>(p)}));
 }
 
 }  // namespace

@@ -85,45 +85,16 @@ TEST(PositionArgument, SeaLevelAndEllipsoidAreNotMixedWithoutAGeoid) {
   EXPECT_FALSE(demHeight({{1, 1}, 10, HeightKind::seaLevel}, SurfaceHeights(model)));
 }
 
-TEST(CrsTransform, BringsLongitudeAndLatitudeIntoTheDemsCrs) {
+TEST(PositionArgument, OfAPlaceInLongitudeAndLatitudeIsInTheDemsCrs) {
   const auto utm = CrsTransform::fromLonLat(georeferenceOf("EPSG:32611"));
-  ASSERT_TRUE(utm) << utm.error().describe();
-  const auto p = (*utm)({-117, 34});  // the central meridian of zone 11
-  ASSERT_TRUE(p);
-  EXPECT_NEAR(p->x, 500000, 1e-6);
-  EXPECT_NEAR(p->y, 3762155.9776, 1e-4);  // 0.9996 of the meridian arc, integrated numerically
+  ASSERT_TRUE(utm);
   const auto place = readPlaceArgument("--at", "-117,34", *utm);
   ASSERT_TRUE(place);
-  EXPECT_EQ(*place, *p);
-  EXPECT_FALSE(readPlaceArgument("--at", "-117,3400", *utm)) << "no latitude";
-}
-
-TEST(CrsTransform, LeavesLongitudeAndLatitudeOfTheSameCrsToTheBit) {
-  const auto same = CrsTransform::fromLonLat(georeferenceOf("EPSG:4326"));
-  ASSERT_TRUE(same);
-  EXPECT_EQ((*same)({8.123456789, 46.5}).value(), (Vec2{8.123456789, 46.5}));
-}
-
-TEST(CrsTransform, TakesTheLongitudesOfAnotherBodyForItsOwn) {
-  const std::string moon = "+proj=eqc +R=1737400 +units=m +no_defs";
-  const auto transform = CrsTransform::fromLonLat(georeferenceOf(moon));
-  ASSERT_TRUE(transform) << transform.error().describe();
-  const auto p = (*transform)({90, 0});
-  ASSERT_TRUE(p);
-  EXPECT_NEAR(p->x, 1737400 * std::acos(0.0), 1e-3);
-}
-
-TEST(CrsTransform, NeedsACrsAndTellsWhichPositionsItCannotTell) {
-  const auto none = CrsTransform::fromLonLat({});
-  ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().code, ErrorCode::usage);
-  const auto utm = CrsTransform::between("EPSG:4326", "EPSG:32611");
-  ASSERT_TRUE(utm);
-  std::vector<Vec2> places = {{-117, 34}, {-117, 1e9}, {-116, 34}};
-  utm->apply(places);
-  EXPECT_NEAR(places[0].x, 500000, 1e-6);
-  EXPECT_TRUE(std::isnan(places[1].x));
-  EXPECT_NEAR(places[2].x, 592361, 100);
+  EXPECT_EQ(*place, (*utm)({-117, 34}).value());
+  const auto refused = readPlaceArgument("--at", "-117,3400", *utm);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::usage);
+  EXPECT_EQ(refused.error().culprit, "--at -117,3400");
 }
 
 }  // namespace

@@ -115,33 +115,5 @@ TEST_F(OutputFileTest, FollowsLinksAndWritesDevicesInPlace) {
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-TEST_F(OutputFileTest, WriterKeepsEveryByteInOrder) {
-  std::string expected;
-  Result<FileWriter> writer = FileWriter::create(folder_ / "a.bin");
-  ASSERT_TRUE(writer);
-  for (int i = 0; i < 5000; ++i) {
-    const std::string piece(static_cast<std::size_t>(i) * 7 % 1000, static_cast<char>('a' + i % 26));
-    writer->write(piece);
-    putBytes(writer->reserve(sizeof i), i);
-    expected += piece + std::string(reinterpret_cast<const char*>(&i), sizeof i);
-  }
-  const std::string large(3 * FileWriter::kCapacity, 'z');
-  writer->write(large);
-  expected += large;
-  ASSERT_TRUE(writer->finish());
-  EXPECT_TRUE(contents(folder_ / "a.bin") == expected);
-}
-
-TEST_F(OutputFileTest, WriterReportsAFullDisk) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full to play the full disk";
-  Result<FileWriter> writer = FileWriter::create("/dev/full");
-  ASSERT_TRUE(writer);
-  writer->write("something");
-  const Status status = writer->finish();
-  ASSERT_FALSE(status);
-  EXPECT_EQ(status.error().code, ErrorCode::unreadable);
-  EXPECT_EQ(status.error().culprit, "/dev/full");
-}
-
 }  // namespace
 }  // namespace arete

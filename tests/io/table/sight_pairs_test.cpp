@@ -7,7 +7,6 @@
 
 #include "io/crs/reader.h"
 #include "io/io_fixture.h"
-#include "io/table/line_table.h"
 
 namespace arete {
 namespace {
@@ -103,28 +102,6 @@ TEST_F(SightPairsFile, OfSitesHasHeightsAndBeams) {
   EXPECT_EQ(sites->beams[0].range, 5000);
   EXPECT_FALSE(sites->rows[1][0].height);
   EXPECT_TRUE(std::isnan(sites->beams[1].azimuth));
-}
-
-TEST_F(SightPairsFile, ComesBackOutOfALineTable) {
-  PointAttributes inputs, results;
-  inputs.columns = {{"verdict", PointAttributes::Kind::text}, {"n", PointAttributes::Kind::integer}};
-  results.columns = {{"verdict", PointAttributes::Kind::text}, {"clearance", PointAttributes::Kind::real}};
-  for (const char* value : {"mine, \"too\"", "7", "", "8"}) inputs.add(value);
-  for (const char* value : {"visible", "1.5", "", ""}) results.add(value);
-  const std::vector<std::array<Vec2, 2>> ends = {{Vec2{1, 2}, Vec2{3, 4}}, {Vec2{NAN, NAN}, Vec2{3, 4}}};
-  const LineTable table{"sight", utm().crsWkt, ends, &inputs, &results};
-  std::string csv;
-  forCsvLines(table, [&](std::string_view line) { csv += line; });
-  EXPECT_EQ(csv, "verdict_in,n,verdict,clearance\n\"mine, \"\"too\"\"\",7,visible,1.5\n,8,,\n");
-  const std::string path = folder_.file("lines.gpkg");
-  ASSERT_TRUE(writeLineTable(path, table));
-  const auto pairs = readSightPairs(path, utm());
-  ASSERT_TRUE(pairs) << pairs.error().describe();
-  ASSERT_EQ(pairs->rows.size(), 2u);
-  EXPECT_EQ(pairs->rows[0][1].xy, (Vec2{3, 4}));
-  EXPECT_TRUE(std::isnan(pairs->rows[1][0].xy.x));
-  EXPECT_EQ(pairs->attributes.at(0, 1), "mine, \"too\"");
-  EXPECT_EQ(writeLineTable(folder_.file("lines.txt"), table).error().code, ErrorCode::usage);
 }
 
 }  // namespace
