@@ -61,10 +61,10 @@ TEST(DemReader, WarnsOfPlacesThatLookLikeDegreesWithoutACrs) {
   EXPECT_TRUE(isWarnedOf("points.csv", "8.1,46.2,310\n8.3,46.9,450\n8.9,46.4,1290\n8.5,46.6,800\n"));
 }
 
-TEST(DemReader, WarnsOfPlacesThatNoGlobeHasUnderACrsOfDegrees) {
+TEST(DemReader, WarnsOfPositionsOutOfTheRangeOfACrsOfDegrees) {
   TemporaryFolder folder;
   const auto isWarnedOf = [&](const std::string& name, const std::string& text, const std::string& crs) {
-    return contains(warningsUnder(crs, folder.write(name, text)), "which no globe has");
+    return contains(warningsUnder(crs, folder.write(name, text)), "which are out of range");
   };
   const auto grid = [&](const std::string& x, const std::string& y, const std::string& cell) {
     return "ncols 2\nnrows 2\nxllcorner " + x + "\nyllcorner " + y + "\ncellsize " + cell + "\n1 2\n3 4\n";
