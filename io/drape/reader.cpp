@@ -170,7 +170,8 @@ Result<DrapeReader> DrapeReader::open(const std::string& path, const TerrainMode
     }
   if (s.placement.coarser > 1) {
     s.warnings.push_back(
-        fmt::format("is read at {:.2f} times its pixel size, as {} x {} pixels: at most {} are read",
+        fmt::format("is read at a coarser resolution, {:.2f} times its pixel size, as {} x {} pixels: at "
+                    "most {} are read",
                     s.placement.coarser, s.placement.columns, s.placement.rows, options.maxPixels));
     way->reset();
     Result<DrapeSource> smaller = openDrapeOverview(path, std::move(s.source), s.placement.coarser);
