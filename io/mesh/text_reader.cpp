@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 #include "io/file/text_scan.h"
@@ -38,11 +37,6 @@ Result<MeshFile> MeshTextReader::read() {
     return failure(ErrorCode::corrupt, "is truncated: its last line, \"# end\", is missing", path_);
   if (const Status ok = finish(); !ok) return tl::unexpected(ok.error());
   return std::move(mesh_);
-}
-
-const char* MeshTextReader::lineEnd() const {
-  const void* newline = std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_));
-  return newline ? static_cast<const char*>(newline) : end_;
 }
 
 void MeshTextReader::takeComment(std::string_view comment) {

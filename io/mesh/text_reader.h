@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -41,7 +43,10 @@ class MeshTextReader {
   const char*& at() { return at_; }
   const char* end() const { return end_; }
   /// The end of the line that at() is in: its '\n', or end().
-  const char* lineEnd() const;
+  const char* lineEnd() const {
+    const void* newline = std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_));
+    return newline ? static_cast<const char*>(newline) : end_;
+  }
   MeshFile& mesh() { return mesh_; }
   const std::string& path() const { return path_; }
   /// The file has the comment "generator arete".

@@ -78,7 +78,7 @@ TEST(GlbDocument, RefusesNumbersThatWouldOverflow) {
       foreign.json[list][0][key] = number;
       EXPECT_EQ(errorOf(foreign.glb()).code, ErrorCode::corrupt) << key << number;
     }
-  const Json object = {{"n", 4294967295}, {"m", 4294967296}};
+  const Json object = Json::parse(R"({"n": 4294967295, "m": 4294967296})");
   EXPECT_EQ(GlbDocument::wholeNumber(object, "n").value(), 4294967295u);
   EXPECT_FALSE(GlbDocument::wholeNumber(object, "m"));
   EXPECT_FALSE(GlbDocument::wholeNumber(object, "missing"));
