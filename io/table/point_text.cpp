@@ -35,6 +35,7 @@ constexpr std::size_t kMostChunkBytes = std::size_t(1) << 22;
 constexpr std::size_t kLongestRecord = std::size_t(1) << 20;
 constexpr std::size_t kQuotedCharacters = 60;
 constexpr std::size_t kColumnsNamed = 20, kCharactersOfColumn = 30;
+constexpr std::array kSeparators = {';', ',', '\t'};
 constexpr char kSpaces = ' ';
 
 struct FileCloser {
@@ -70,7 +71,7 @@ std::string quoted(std::string_view text) {
 }
 
 char separatorOf(std::string_view line) {
-  for (const char separator : {';', ',', '\t'})
+  for (const char separator : kSeparators)
     if (line.find(separator) != std::string_view::npos) return separator;
   return kSpaces;
 }
@@ -205,8 +206,13 @@ class TextParser {
     const std::size_t lineEnd = text.find('\n');
     const std::string_view line = text.substr(0, lineEnd);
     if (line.find('"') == std::string_view::npos) return lineEnd;
-    const char separator = started_ ? separator_ : separatorOf(line);
-    return separator == kSpaces ? lineEnd : QuoteScanner(separator).recordEnd(text);
+    if (started_) return separator_ == kSpaces ? lineEnd : QuoteScanner(separator_).recordEnd(text);
+    // The first record: its separator may come behind a line break in quotes.
+    for (const char separator : kSeparators) {
+      const std::size_t end = QuoteScanner(separator).recordEnd(text);
+      if (text.substr(0, end).find(separator) != std::string_view::npos) return end;
+    }
+    return lineEnd;
   }
 
   Status addRecord(std::string_view line) {
@@ -250,7 +256,7 @@ class TextParser {
  private:
   /// A stray quote must not join lines that are records of their own.
   Status checkQuotes(std::string_view record) const {
-    QuoteScanner scanner(started_ ? separator_ : separatorOf(record.substr(0, record.find('\n'))));
+    QuoteScanner scanner(started_ ? separator_ : separatorOf(record));
     scanner.recordEnd(record);
     if (scanner.isInQuotes())
       return failure(ErrorCode::invalidData, "a quoted text begins here and does not end", where());

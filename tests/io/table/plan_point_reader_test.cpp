@@ -39,8 +39,8 @@ TEST(PlanPointReader, TransformsALayerAndTakesEveryPointOfIt) {
 
 TEST(PlanPointReader, TakesALayerWithoutACrsAsTheDemsAndWarns) {
   const TemporaryFolder folder;
-  const std::string path = writeVector(folder.file("a.geojsonl"), "ESRI Shapefile",
-                                       {{"a", wkbPoint, {{"POINT (1 2)", 0}}}}, nullptr);
+  const std::string path =
+      writeVector(folder.file("a.shp"), "ESRI Shapefile", {{"a", wkbPoint, {{"POINT (1 2)", 0}}}}, nullptr);
   const auto points = readPlanPoints(path, "EPSG:32611");
   ASSERT_TRUE(points) << points.error().describe();
   EXPECT_EQ(points->positions, (std::vector<Vec2>{{1, 2}}));
