@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "bench/figure.h"
-#include "bench/limits.h"
 #include "bench/sources.h"
 #include "bench/stages/stages.h"
 
@@ -95,8 +94,8 @@ int measureAll(const Arguments& arguments) {
   }
   if (plan.only != std::vector<std::string>{"machine"})
     if (const int failed = measureDems(arguments, plan, report); failed != 0) exitCode = failed;
-  for (const Figures& derived : {geometricMeans(report.figures), limitsOf(report.figures)})
-    report.figures.insert(report.figures.end(), derived.begin(), derived.end());
+  const Figures means = geometricMeans(report.figures);
+  report.figures.insert(report.figures.end(), means.begin(), means.end());
 
   if (!arguments.json.empty())
     if (const Status written = writeReport(report, arguments.json); !written) return fail(written.error());
