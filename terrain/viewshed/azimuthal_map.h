@@ -13,8 +13,8 @@
 
 namespace arete {
 
-/// An azimuthal equidistant map ([Snyder1987], chapter 25) of a raster around one observer. A sample that is s
-/// metres from the observer in the azimuth a has the map coordinates (x, y) with
+/// An azimuthal equidistant map ([Snyder1987], chapter 25) of a raster around one observer. A sample that is
+/// s metres from the observer in the azimuth a has the map coordinates (x, y) with
 ///
 ///     (s sin a, s cos a) = x * steps.x + y * steps.y
 ///

@@ -2,8 +2,8 @@
 //
 // Inside, the slope is a weighted harmonic mean of the secants on either side, 0 where they differ in sign:
 // at most three times the lesser secant, which is enough for a cubic to be monotone
-// [FritschCarlson1980]. At an end it is that of the parabola through three points, held to the same bounds; of two points,
-// their secant.
+// [FritschCarlson1980]. At an end it is that of the parabola through three points, held to the same bounds;
+// of two points, their secant.
 #include "viewer/camera/monotone_curve.h"
 
 #include <algorithm>
