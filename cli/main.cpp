@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// arete: runs the program, and reports what no command has caught.
+// arete: runs the program and reports exceptions that no command has caught.
 #include <cstdio>
 #include <exception>
 #include <new>

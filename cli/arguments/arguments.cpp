@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Text is parsed by std::from_chars, which takes no locale and no trailing characters.
 #include "cli/arguments/arguments.h"
 
 #include <fmt/format.h>
@@ -99,7 +101,7 @@ CLI::Validator finiteBetween(double least, double most) {
 CLI::Validator oneOf(std::vector<std::string> words) {
   return validator([words = std::move(words)](std::string& text) -> std::string {
     if (std::find(words.begin(), words.end(), text) != words.end()) return {};
-    return fmt::format("'{}' is none of {}", text, fmt::join(words, ", "));
+    return fmt::format("'{}' must be one of {}", text, fmt::join(words, ", "));
   });
 }
 
@@ -113,7 +115,7 @@ CLI::Validator oneOfNumbered(std::vector<std::pair<std::string, int>> words) {
       }
       known.push_back(word);
     }
-    return fmt::format("'{}' is none of {}", text, fmt::join(known, ", "));
+    return fmt::format("'{}' must be one of {}", text, fmt::join(known, ", "));
   });
 }
 
@@ -146,29 +148,29 @@ Result<std::pair<double, double>> twoNumbers(const std::string& option, std::str
   const auto numbers = parseNumbers(option, text);
   if (!numbers) return tl::unexpected(numbers.error());
   if (numbers->size() != 2)
-    return failure(ErrorCode::usage, fmt::format("has two numbers, not {}", numbers->size()), culprit);
+    return failure(ErrorCode::usage, fmt::format("must be two numbers, not {}", numbers->size()), culprit);
   return std::pair((*numbers)[0], (*numbers)[1]);
 }
 
 void DemArguments::addTo(CLI::App& command) {
   const std::string group = "Reading the DEM";
-  command.add_option("--band", reading.band, "Band of a raster (default: its first)")
+  command.add_option("--band", reading.band, "Band of a raster (default: the first)")
       ->check(wholeNumber(1, 65535))
       ->type_name("N")
       ->group(group);
-  command.add_option("--layer", reading.layer, "Layer of a file of points with several")
+  command.add_option("--layer", reading.layer, "Layer of points, where the file has several")
       ->type_name("NAME")
       ->group(group);
-  command.add_option("--z-field", reading.zField, "Field or column of points that holds the height")
+  command.add_option("--z-field", reading.zField, "Field or column that holds the height of a point")
       ->type_name("NAME")
       ->group(group);
-  command.add_option("--nodata", reading.nodata, "Raw value that means NODATA, instead of the file's own")
+  command.add_option("--nodata", reading.nodata, "Raw value that means NODATA, instead of the file's")
       ->check(realNumber())
       ->type_name("VALUE")
       ->group(group);
   command
       .add_option("--crs", reading.crs,
-                  "CRS of the coordinates, where the file has none or another one (EPSG:32611, WKT, ...)")
+                  "CRS of the coordinates, where the file has none or a wrong one (EPSG:32611, WKT, ...)")
       ->type_name("CRS")
       ->group(group);
 }
@@ -197,9 +199,9 @@ Status checkOutput(const std::string& option, const std::string& path, const std
     return path == other || fs::equivalent(path, other, ignored);
   };
   if (std::ranges::any_of(inputs, isSame))
-    return failure(ErrorCode::usage, "is the input; writing would destroy it", culprit);
+    return failure(ErrorCode::usage, "is an input; writing would destroy it", culprit);
   if (std::ranges::any_of(outputs, isSame))
-    return failure(ErrorCode::usage, "is written by this command already, as something else", culprit);
+    return failure(ErrorCode::usage, "is written by this command already, as another output", culprit);
   const Result<OutputFile> file = OutputFile::create(path);
   if (!file) return failure(file.error().code, file.error().message, culprit);
   return {};

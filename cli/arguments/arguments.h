@@ -16,14 +16,16 @@
 
 namespace arete {
 
-/// Checks of an option's text; what is wrong is said in a sentence behind the option's name. None takes NaN.
+// Validators of an option's text. An error is a sentence that follows the option's name. All refuse NaN,
+// which CLI::Range and CLI::Number let through.
+
 CLI::Validator wholeNumber(std::int64_t least, std::int64_t most);
 CLI::Validator realNumber();
 CLI::Validator finiteAtLeast(double least);
 CLI::Validator finiteAbove(double bound);
 CLI::Validator finiteBetween(double least, double most);
 CLI::Validator oneOf(std::vector<std::string> words);
-/// One of some words, upper and lower case alike, each of which stands for a value of an enumeration.
+/// One of some words, in upper or lower case, each of which stands for a value of an enumeration.
 CLI::Validator oneOfNumbered(std::vector<std::pair<std::string, int>> words);
 template <class Enum>
 CLI::Validator oneOf(const std::vector<std::pair<std::string, Enum>>& words) {
@@ -36,28 +38,31 @@ CLI::Validator tolerance();
 /// One or more tolerances with commas between.
 CLI::Validator tolerances();
 
-/// The numbers of a text with commas between. Errors: usage, naming the option and what is no number.
+/// Parses numbers with commas between. Errors: usage, naming the option and the part that is not a number.
 Result<std::vector<double>> parseNumbers(const std::string& option, const std::string& text);
 
-/// Two numbers and what stands between them, as in 1920x1080. Errors: usage, naming the option.
+/// Parses two numbers with a separator between, as in 1920x1080. Errors: usage, naming the option.
 Result<std::pair<double, double>> twoNumbers(const std::string& option, std::string text, char separator);
 
-/// Brings places that are typed, or read from a file, into the DEM's CRS, and whole turns of longitude to
-/// where it is. Errors name --lonlat.
+/// The transform of typed places, or places of a file, into the DEM's CRS; longitudes are moved by whole
+/// turns to the DEM.
+///
+/// @param lonLat whether the places are longitude and latitude (WGS 84).
+/// Errors name --lonlat.
 Result<CrsTransform> transformOfPlaces(bool lonLat, const TerrainModel& model);
 
-/// How to read a DEM; the options of all commands that do.
+/// The options of every command that reads a DEM.
 struct DemArguments {
   std::string path;
   SourceReading reading;
 
   void addTo(CLI::App& command);
-  /// readDem(), its warnings said; an error names the option where one is to blame.
+  /// Reads the DEM and writes its warnings. An error names the option that caused it, if one did.
   Result<DemRead> read(const Session& session) const;
 };
 
-/// That a file can be written under that name: it has a folder that can be written to, is none of the inputs
-/// and none of what the command writes beside it. Errors name the option. Nothing is created.
+/// Checks that a file can be written: its folder is writable, and it is neither an input nor another output
+/// of the command. Creates nothing. Errors name the option.
 Status checkOutput(const std::string& option, const std::string& path, const std::vector<std::string>& inputs,
                    const std::vector<std::string>& outputs = {});
 

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Declares the options, checks their combinations, and turns the texts into engine-independent criteria. A
+// camera and a focus need the model: their coordinates are transformed into its CRS, heights resolved on its
+// terrain.
 #include "cli/arguments/criterion.h"
 
 #include <fmt/format.h>
@@ -13,34 +17,35 @@
 #include "terrain/locate/surface_height.h"
 
 namespace arete {
+
 void CriterionArguments::addTo(CLI::App& command) {
   CLI::Option* errors =
       command
           .add_option(
               "--max-error", maxErrors_,
-              "Largest vertical error, in the DEM's unit of height; several with commas, one TIN each")
+              "Largest vertical error, in the DEM's unit of height; several with commas make one TIN each")
           ->check(tolerances())
           ->type_name("E[,E...]");
   command
       .add_option("--max-triangles", maxTriangles_,
-                  "At most so many triangles, spent where the error is largest")
+                  "Largest number of triangles, used where the error is largest")
       ->check(wholeNumber(1, 0xFFFFFFFE))
       ->type_name("N")
       ->excludes(errors);
   command
       .add_option("--method", method_,
-                  "minimal: the fewest triangles (default); saturated: a little more, sooner")
+                  "minimal: fewest triangles (default); saturated: a few more, computed faster")
       ->check(oneOf({"minimal", "saturated"}))
       ->type_name("NAME");
 
   command
       .add_option("--fit", fit_,
-                  "Move the heights of the vertices: for a third fewer triangles within --max-error "
-                  "(triangles), or for a smaller error of the same triangles (error)")
+                  "Adjust the heights of the vertices. triangles: about a third fewer triangles within "
+                  "--max-error; error: a smaller error with the same triangles")
       ->check(oneOf({"triangles", "error"}))
       ->type_name("WHAT");
 
-  const std::string where = "Finer here, coarser there";
+  const std::string where = "Resolution that varies";
   CLI::Option* region =
       command
           .add_option("--region", region_,
@@ -50,7 +55,7 @@ void CriterionArguments::addTo(CLI::App& command) {
           ->group(where);
   command
       .add_option("--distance", distance_,
-                  "All within so many metres of the region belongs to it (without a CRS: the DEM's units)")
+                  "Metres by which the region is extended (without a CRS: the DEM's units)")
       ->check(finiteAbove(0))
       ->needs(region)
       ->type_name("D")
@@ -58,71 +63,71 @@ void CriterionArguments::addTo(CLI::App& command) {
   CLI::Option* focus =
       command
           .add_option("--focus", focus_,
-                      "Where --max-error holds; it grows by --error-growth with the distance "
-                      "from there")
+                      "Place where --max-error holds; the error grows from there by --error-growth")
           ->type_name("X,Y")
           ->group(where)
           ->excludes(region);
-  CLI::Option* growth = command
-                            .add_option("--error-growth", growth_,
-                                        "Error for each metre from the focus (without a CRS: for each unit)")
-                            ->check(finiteAtLeast(0))
-                            ->needs(focus)
-                            ->type_name("G")
-                            ->group(where);
+  CLI::Option* growth =
+      command
+          .add_option("--error-growth", growth_,
+                      "Growth of the error per metre from the focus (without a CRS: per unit)")
+          ->check(finiteAtLeast(0))
+          ->needs(focus)
+          ->type_name("G")
+          ->group(where);
   focus->needs(growth);
   CLI::Option* camera = command
                             .add_option("--camera", camera_,
-                                        "Where a camera stands, H above the ground (agl) or as the DEM's "
-                                        "heights (msl, ell): the error counts in pixels of its picture; "
-                                        "behind it what --look and --fov say, if it is given here")
+                                        "Position of a camera, H above the ground (agl) or in the DEM's "
+                                        "heights (msl, ell); the error is measured in pixels of its picture. "
+                                        "AZIMUTH,PITCH and FOV replace --look and --fov")
                             ->type_name("X,Y,H[agl|msl|ell][,AZIMUTH,PITCH[,FOV]]")
                             ->group(where)
                             ->excludes(region)
                             ->excludes(focus)
                             ->excludes(errors);
   command
-      .add_option("--look", look_,
-                  "Where it looks, in degrees: clockwise from north, above the horizon (default 0,0)")
+      .add_option(
+          "--look", look_,
+          "Direction of the camera in degrees, clockwise from north and above the horizon (default 0,0)")
       ->needs(camera)
       ->type_name("AZIMUTH,PITCH")
       ->group(where);
-  command.add_option("--fov", fieldOfView_, "Its vertical field of view in degrees (default 60)")
+  command.add_option("--fov", fieldOfView_, "Vertical field of view of the camera in degrees (default 60)")
       ->check(finiteBetween(0.01, 179))
       ->needs(camera)
       ->type_name("DEG")
       ->group(where);
-  command.add_option("--viewport", viewport_, "Its picture in pixels (default 1920x1080)")
+  command.add_option("--viewport", viewport_, "Size of the camera's picture in pixels (default 1920x1080)")
       ->needs(camera)
       ->type_name("WxH")
       ->group(where);
   command
       .add_option("--pixel-error", pixelError_,
-                  "Largest error in its picture (default 1; under a budget the smallest there is)")
+                  "Largest error in the picture, in pixels (default 1; with a budget: the smallest possible)")
       ->check(finiteAbove(0))
       ->needs(camera)
       ->type_name("P")
       ->group(where);
   command
       .add_option("--outside-error", outsideError_,
-                  "Largest error outside the region, out of sight, or far from the focus (default: none, the "
-                  "coarsest)")
+                  "Largest error outside the region, out of view, or far from the focus (default: no limit)")
       ->check(tolerance())
       ->type_name("E")
       ->group(where);
-  command.add_flag("--lonlat", isLonLat_, "--focus and --camera are longitude and latitude")->group(where);
+  command.add_flag("--lonlat", isLonLat_, "X,Y of --focus and --camera are longitude and latitude")
+      ->group(where);
 
-  const std::string stop = "When there is not time or room for all";
+  const std::string stop = "Limited time or size";
   command
-      .add_option("--deadline", deadline_,
-                  "Refine for so many milliseconds at most; what there is then is conforming all the same")
+      .add_option("--deadline", deadline_, "Longest time of refinement; the TIN conforms whenever it ends")
       ->check(finiteAbove(0))
       ->type_name("MS")
       ->group(stop);
   command
       .add_option("--order", order_,
-                  "What is refined first under a budget or a deadline: worst (default), breadth, depth, or "
-                  "two-queues: what the camera sees before the rest")
+                  "Order of refinement under a budget or deadline: worst (default), breadth, depth, or "
+                  "two-queues (what the camera sees first)")
       ->check(oneOf({"worst", "breadth", "depth", "two-queues"}))
       ->type_name("NAME")
       ->group(stop);
@@ -131,21 +136,18 @@ void CriterionArguments::addTo(CLI::App& command) {
 Status CriterionArguments::check() const {
   const bool hasBudget = maxTriangles_ >= 0;
   if (maxErrors_.empty() && !hasBudget && camera_.empty() && deadline_ == 0)
-    return failure(ErrorCode::usage,
-                   "--max-error, --max-triangles, --camera or --deadline says how fine the TIN shall be");
+    return failure(ErrorCode::usage, "--max-error, --max-triangles, --camera or --deadline is required");
   if (!std::isnan(outsideError_) && region_.empty() && focus_.empty() && camera_.empty())
-    return failure(ErrorCode::usage, "means something only with --region, --focus or --camera",
-                   "--outside-error");
+    return failure(ErrorCode::usage, "requires --region, --focus or --camera", "--outside-error");
   if (isLonLat_ && focus_.empty() && camera_.empty())
-    return failure(ErrorCode::usage, "means something only with --focus or --camera", "--lonlat");
+    return failure(ErrorCode::usage, "requires --focus or --camera", "--lonlat");
   if (method_ == "saturated" && (deadline_ > 0 || order_ != "worst"))
-    return failure(ErrorCode::usage, "a saturated cut has no order and no time to stop at",
+    return failure(ErrorCode::usage, "cannot be combined with --method saturated",
                    deadline_ > 0 ? "--deadline" : "--order");
   if (order_ != "worst" && !hasBudget && deadline_ == 0)
-    return failure(ErrorCode::usage, "means something only with --max-triangles or --deadline", "--order");
+    return failure(ErrorCode::usage, "requires --max-triangles or --deadline", "--order");
   if (order_ == "two-queues" && camera_.empty())
-    return failure(ErrorCode::usage, "two queues are filled by what a camera sees; state --camera",
-                   "--order");
+    return failure(ErrorCode::usage, "two-queues requires --camera", "--order");
   return checkFit();
 }
 
@@ -153,13 +155,13 @@ Status CriterionArguments::checkFit() const {
   if (fit_ == "none") return {};
   const std::string option = "--fit " + fit_;
   if (!camera_.empty() || !focus_.empty() || deadline_ > 0)
-    return failure(ErrorCode::usage, "cannot be had with --camera, --focus or --deadline", option);
+    return failure(ErrorCode::usage, "cannot be combined with --camera, --focus or --deadline", option);
   if (fit_ == "triangles" && maxErrors_.empty())
-    return failure(ErrorCode::usage, "means fewer triangles within a tolerance; state --max-error", option);
+    return failure(ErrorCode::usage, "requires --max-error", option);
   if (fit_ == "triangles" && method_ == "saturated")
-    return failure(ErrorCode::usage, "begins with the minimal cut; leave --method out", option);
+    return failure(ErrorCode::usage, "cannot be combined with --method saturated", option);
   if (fit_ == "error" && !region_.empty())
-    return failure(ErrorCode::usage, "is for one tolerance everywhere; leave --region out", option);
+    return failure(ErrorCode::usage, "cannot be combined with --region", option);
   return {};
 }
 
@@ -180,7 +182,7 @@ Status CriterionArguments::placeCamera(const TerrainModel& model, ExtractCriteri
   Camera camera = argument->camera;
   if (!look_.empty()) {
     if (argument->statesLook)
-      return failure(ErrorCode::usage, "--camera says already where it looks", "--look " + look_);
+      return failure(ErrorCode::usage, "cannot be combined with a direction in --camera", "--look " + look_);
     const auto look = twoNumbers("--look", look_, ',');
     if (!look) return tl::unexpected(look.error());
     camera.azimuthDegrees = look->first;
@@ -192,14 +194,14 @@ Status CriterionArguments::placeCamera(const TerrainModel& model, ExtractCriteri
     const auto viewport = twoNumbers("--viewport", viewport_, 'x');
     if (!viewport) return tl::unexpected(viewport.error());
     if (viewport->first != std::floor(viewport->first) || viewport->second != std::floor(viewport->second))
-      return failure(ErrorCode::usage, "is not of whole pixels", "--viewport " + viewport_);
+      return failure(ErrorCode::usage, "must be whole pixels", "--viewport " + viewport_);
     camera.widthPixels = viewport->first;
     camera.heightPixels = viewport->second;
     if (const Result<View> view = viewOf(camera, model); !view)
       return failure(view.error().code, view.error().message, "--viewport " + viewport_);
   }
   if (!std::isnan(fieldOfView_) && argument->statesFieldOfView)
-    return failure(ErrorCode::usage, "--camera states its field of view already", "--fov");
+    return failure(ErrorCode::usage, "cannot be combined with a field of view in --camera", "--fov");
   if (!std::isnan(fieldOfView_)) camera.verticalFieldOfViewDegrees = fieldOfView_;
   if (const Result<View> view = viewOf(camera, model); !view)
     return failure(view.error().code, view.error().message, "--camera " + camera_);
@@ -249,12 +251,12 @@ Result<std::vector<ExtractCriterion>> CriterionArguments::criteria(const Terrain
   std::vector<ExtractCriterion> criteria;
   for (const double error : *errors) {
     if (std::ranges::count(*errors, error) > 1)
-      return failure(ErrorCode::usage, fmt::format("names {} twice", error), "--max-error");
+      return failure(ErrorCode::usage, fmt::format("has {} twice", error), "--max-error");
     if (common.outsideError < error)
-      return failure(ErrorCode::usage,
-                     fmt::format("{} outside is below the {} inside; it may only be coarser",
-                                 common.outsideError, error),
-                     "--outside-error");
+      return failure(
+          ErrorCode::usage,
+          fmt::format("{} is below the error {} inside; it must not be smaller", common.outsideError, error),
+          "--outside-error");
     criteria.push_back(common);
     criteria.back().maxError = error;
   }

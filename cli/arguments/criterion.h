@@ -14,19 +14,23 @@
 
 namespace arete {
 
-/// The options that say how fine a TIN shall be: everywhere, in a region, around a place, in a camera's view;
-/// under a budget or a deadline.
+/// The options that set the resolution of a TIN: everywhere, in a region, around a place or in a camera's
+/// view, under a budget or a deadline.
 struct CriterionArguments {
   void addTo(CLI::App& command);
 
-  /// What can be told without a model: options that contradict each other or say nothing. Errors: usage.
+  /// Checks what does not depend on the model: options that contradict each other or have no effect. Errors:
+  /// usage.
   Status check() const;
-  /// Where on the terrain something is placed by its height above the ground, in plan coordinates: a camera.
-  /// `outline`: of the model, its root at least. Errors: usage.
+  /// The place of the camera in plan coordinates, where the terrain is needed to resolve its height; none
+  /// without a camera.
+  ///
+  /// @param outline the model, or its root.
+  /// Errors: usage.
   Result<std::optional<Vec2>> placeAboveGround(const TerrainModel& outline) const;
-  /// One criterion for each tolerance, or the only one. Of the model the root is enough, and what is below
-  /// placeAboveGround(). Precondition: check(). Errors: usage, naming the option; invalidData, a camera above
-  /// no terrain.
+  /// @param model the root, and the terrain at placeAboveGround(), are enough.
+  /// @return one criterion for each tolerance, or the only one.
+  /// Precondition: check(). Errors: usage, naming the option; invalidData: no terrain below the camera.
   Result<std::vector<ExtractCriterion>> criteria(const TerrainModel& model) const;
 
   const std::string& region() const { return region_; }

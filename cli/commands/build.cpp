@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Reads the DEM, chooses the vertices that stay, builds, writes. Each step is timed for the report.
 #include "cli/commands/build.h"
 
 #include <fmt/format.h>
@@ -117,25 +119,27 @@ Status takeShape(BuildArguments& arguments) {
   if (arguments.shape == "fidelity") arguments.options.shape = HoleShape::dataDependent;
   if (arguments.minimumAspect < 0) return {};
   if (arguments.options.shape != HoleShape::dataDependent)
-    return failure(ErrorCode::usage, "means something only with --shape fidelity", "--min-aspect");
+    return failure(ErrorCode::usage, "requires --shape fidelity", "--min-aspect");
   arguments.options.minimumAspect = arguments.minimumAspect;
   return {};
 }
 
-/// From a heightfield that has been read to the file. `finest`: of points, their triangulation.
+/// Builds from a heightfield and writes the file.
+///
+/// @param finest for points: their finest triangulation.
 template <class Heightfield, class... Finest>
-Status buildFrom(BuildArguments& arguments, const FixedVertexOptions& wishes, Session& session,
+Status buildFrom(BuildArguments& arguments, const FixedVertexOptions& fixedChoice, Session& session,
                  Seconds& seconds, const Heightfield& field, Finest... finest) {
   Stopwatch choosing;
-  Result<FixedVertices> fixed = chooseFixedVertices(field, finest..., wishes, session.context());
+  Result<FixedVertices> fixed = chooseFixedVertices(field, finest..., fixedChoice, session.context());
   if (!fixed) return tl::unexpected(fixed.error());
-  if (!wishes.given.empty() && fixed->givenOutside == wishes.given.size())
+  if (!fixedChoice.given.empty() && fixed->givenOutside == fixedChoice.given.size())
     return failure(ErrorCode::invalidData,
-                   fmt::format("none of the {} points lies on the DEM's data", wishes.given.size()),
+                   fmt::format("none of the {} points lies on the DEM's data", fixedChoice.given.size()),
                    fmt::format("--fixed {}", arguments.fixedPath));
   if (fixed->givenOutside > 0)
-    session.warn(fmt::format("--fixed {}: {} of {} points lie beside the DEM's data and are left out",
-                             arguments.fixedPath, fixed->givenOutside, wishes.given.size()));
+    session.warn(fmt::format("--fixed {}: {} of {} points lie outside the DEM's data and are left out",
+                             arguments.fixedPath, fixed->givenOutside, fixedChoice.given.size()));
   arguments.options.fixedVertices = fixed->vertices;
   seconds.features = choosing.seconds();
 
@@ -158,11 +162,9 @@ Status runBuild(BuildArguments& arguments, Session& session) {
   if (Status taken = takeShape(arguments); !taken) return taken;
   const std::string extension = text::lowerExtension(arguments.output);
   if (!extension.empty() && extension != "amt")
-    return failure(
-        ErrorCode::usage,
-        fmt::format("a multitriangulation is an .amt file, not a .{}; arete extract makes others of it",
-                    extension),
-        fmt::format("--output {}", arguments.output));
+    return failure(ErrorCode::usage,
+                   fmt::format("must end in .amt, not .{}; arete extract writes other formats", extension),
+                   fmt::format("--output {}", arguments.output));
   if (Status output = checkOutput("--output", arguments.output, {arguments.dem.path, arguments.fixedPath});
       !output)
     return output;
@@ -173,17 +175,17 @@ Status runBuild(BuildArguments& arguments, Session& session) {
   seconds.read = reading.seconds();
   return std::visit(
       [&](const auto& field) -> Status {
-        const auto wishes = fixedOptions(arguments, field.georeference, session);
-        if (!wishes) return tl::unexpected(wishes.error());
+        const auto fixedChoice = fixedOptions(arguments, field.georeference, session);
+        if (!fixedChoice) return tl::unexpected(fixedChoice.error());
         if constexpr (std::is_same_v<decltype(field), const PointHeightfield&>) {
           if (Status valid = checkBuild(field, arguments.options); !valid) return valid;
           Stopwatch triangulating;
           Result<FinestPoints> finest = finestPoints(field, session.context());
           if (!finest) return tl::unexpected(finest.error());
           seconds.build = triangulating.seconds();
-          return buildFrom(arguments, *wishes, session, seconds, field, std::move(*finest));
+          return buildFrom(arguments, *fixedChoice, session, seconds, field, std::move(*finest));
         } else {
-          return buildFrom(arguments, *wishes, session, seconds, field);
+          return buildFrom(arguments, *fixedChoice, session, seconds, field);
         }
       },
       dem->heightfield);
@@ -194,7 +196,7 @@ Status runBuild(BuildArguments& arguments, Session& session) {
 void addBuildCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<BuildArguments>();
   CLI::App* command =
-      session.addCommand(app, "build", "Turn a DEM into a multitriangulation, once",
+      session.addCommand(app, "build", "Build a multitriangulation of a DEM, once",
                          "  arete build dem.tif -o dem.amt\n"
                          "  arete build N46E008.hgt.zip -o alps.amt --shape fidelity\n"
                          "  arete build points.csv -o points.amt --crs EPSG:32611 --fixed peaks.gpkg\n"
@@ -202,7 +204,7 @@ void addBuildCommand(CLI::App& app, Session& session) {
                          [arguments](Session& s) { return runBuild(*arguments, s); });
   command
       ->add_option("DEM", arguments->dem.path,
-                   "Raster or scattered points: whatever GDAL reads, zipped too, or text (CSV, XYZ)")
+                   "Raster or scattered points: any format that GDAL reads, also zipped, or text (CSV, XYZ)")
       ->required()
       ->type_name("");
   command->add_option("-o,--output", arguments->output, "Multitriangulation to write (.amt)")
@@ -210,58 +212,59 @@ void addBuildCommand(CLI::App& app, Session& session) {
       ->type_name("FILE.amt");
   command->add_flag(
       "--packed", arguments->isPacked,
-      "Write the compressed form: a ninth to a fifteenth of the size, unpacked into memory when it is read");
+      "Write the compressed form: a ninth to a fifteenth of the size; it is unpacked when read");
   command
-      ->add_option("--shape", arguments->shape,
-                   "delaunay: well-shaped triangles (default); fidelity: far fewer triangles at a bound")
+      ->add_option(
+          "--shape", arguments->shape,
+          "delaunay: well-shaped triangles (default); fidelity: far fewer triangles at the same error")
       ->check(oneOf({"delaunay", "fidelity"}))
       ->type_name("NAME");
   command
       ->add_option("--ratio", arguments->options.thresholdRatio,
-                   "Growth of the error threshold from the first level to the second; it falls as\n"
+                   "Growth of the error threshold from the first level to the second; it decreases as\n"
                    "fewer vertices are left (default 1.17; 1.13328 with --shape fidelity)")
       ->check(finiteAbove(1))
       ->type_name("R");
   command
       ->add_option("--max-degree", arguments->options.maxDegree,
-                   "Vertices with more neighbours wait (default 14)")
+                   "Largest number of neighbours of a vertex that is removed (default 14)")
       ->check(wholeNumber(6, 32))
       ->type_name("D");
   command
       ->add_option("--min-aspect", arguments->minimumAspect,
-                   "Fidelity: least altitude of a triangle by its longest edge (default 0.02)")
+                   "For fidelity: smallest ratio of a triangle's altitude to its longest edge (default 0.02)")
       ->check(finiteAtLeast(0))
       ->type_name("A");
   command
       ->add_option("--rim-tolerance", arguments->options.rimTolerance,
-                   "Samples by which the rims of NODATA may be simplified (default 0: exact)")
+                   "Distance in samples by which rims of NODATA may be simplified (default 0: exact)")
       ->check(finiteAtLeast(0))
       ->type_name("SAMPLES");
-  const std::string keeping = "Vertices that stay at every tolerance";
+  const std::string keeping = "Vertices kept at every tolerance";
   CLI::Option* count = command
                            ->add_option("--features", arguments->featureCount,
-                                        "So many of the most persistent peaks, pits and passes (default 64)")
+                                        "Number of the most persistent peaks, pits and passes (default 64)")
                            ->check(wholeNumber(0, 100'000'000))
                            ->type_name("N")
                            ->group(keeping);
   CLI::Option* persistence = command
                                  ->add_option("--feature-persistence", arguments->featurePersistence,
-                                              "All peaks, pits and passes at least this persistent")
+                                              "All peaks, pits and passes of at least this persistence")
                                  ->check(finiteAtLeast(0))
                                  ->type_name("P")
                                  ->group(keeping);
   CLI::Option* none =
-      command->add_flag("--no-features", arguments->noFeatures, "No features")->group(keeping);
+      command->add_flag("--no-features", arguments->noFeatures, "No peaks, pits and passes")->group(keeping);
   count->excludes(persistence)->excludes(none);
   persistence->excludes(none);
   command
       ->add_option("--fixed", arguments->fixedPath,
-                   "Points (GeoPackage, CSV, ...): the sample nearest to each stays")
+                   "Points (GeoPackage, CSV, ...): the sample nearest to each is kept")
       ->type_name("FILE")
       ->group(keeping);
   command
       ->add_option("--crease-angle", arguments->creaseAngleDegrees,
-                   "Vertices on creases sharper than this stay (classes corner and interior edge)")
+                   "Vertices on creases sharper than this (classes corner and interior edge)")
       ->check(finiteBetween(0, 180))
       ->type_name("DEGREES")
       ->group(keeping);

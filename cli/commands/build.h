@@ -5,8 +5,8 @@
 
 namespace arete {
 
-/// `arete build DEM -o OUT.amt`: a DEM in, its multitriangulation out. The session keeps the arguments until
-/// it runs.
+/// Declares `arete build DEM -o OUT.amt`: builds the multitriangulation of a DEM. The session keeps the
+/// arguments until it runs.
 void addBuildCommand(CLI::App& app, Session& session);
 
 }  // namespace arete

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A mesh is read whole and written anew; what the format cannot hold is a warning. An .amt is written plain
+// or packed.
 #include "cli/commands/convert.h"
 
 #include <fmt/format.h>
@@ -31,11 +34,11 @@ bool isAmt(const std::string& path) {
   return text::lowerExtension(path) == "amt";
 }
 
-/// A multitriangulation into its packed form or out of it.
+/// Writes a multitriangulation in the plain or the packed form.
 Status convertAmt(const ConvertArguments& arguments, Session& session) {
   if (!isAmt(arguments.output))
     return failure(ErrorCode::usage,
-                   "a multitriangulation becomes another .amt here; arete extract makes meshes of it",
+                   "must be another .amt for a multitriangulation; arete extract writes meshes",
                    fmt::format("--output {}", arguments.output));
   if (!arguments.crs.empty())
     return failure(ErrorCode::usage, "an .amt has the CRS of its DEM",
@@ -63,7 +66,7 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
 Status runConvert(const ConvertArguments& arguments, Session& session) {
   if (isAmt(arguments.input)) return convertAmt(arguments, session);
   if (arguments.isPacked)
-    return failure(ErrorCode::usage, "is for multitriangulations (.amt), not for meshes", "--packed");
+    return failure(ErrorCode::usage, "requires a multitriangulation (.amt)", "--packed");
   const Result<MeshFormat> format = meshFormatOf(arguments.output);
   if (!format)
     return failure(ErrorCode::usage, format.error().message, fmt::format("--output {}", arguments.output));
@@ -101,25 +104,25 @@ void addConvertCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<ConvertArguments>();
   CLI::App* command = session.addCommand(
       app, "convert",
-      "Write a mesh in another format, with its CRS, unit and errors where that can hold them",
+      "Write a mesh in another format, with its CRS, unit and errors where the format can hold them",
       "  arete convert tin.ply -o tin.glb\n"
       "  arete convert tin.stl -o tin.gpkg --crs EPSG:32611\n"
       "  arete convert tin.gpkg -o tin.2dm --json\n"
       "  arete convert dem.amt -o small.amt --packed",
       [arguments](Session& s) { return runConvert(*arguments, s); });
-  command->add_option("MESH", arguments->input, "A triangle mesh: " + readableMeshExtensions() + "; or .amt")
+  command->add_option("MESH", arguments->input, "Triangle mesh: " + readableMeshExtensions() + "; or .amt")
       ->required()
       ->type_name("");
   command
       ->add_option("-o,--output", arguments->output,
-                   "File to write: " + writableMeshExtensions() + "; .amt of .amt")
+                   "File to write: " + writableMeshExtensions() + "; .amt from .amt")
       ->required()
       ->type_name("FILE");
   command->add_flag("--packed", arguments->isPacked,
-                    "Of an .amt: write the compressed form (without it, the plain one)");
+                    "Write an .amt in the compressed form (default: the plain one)");
   command
       ->add_option("--crs", arguments->crs,
-                   "The CRS of the coordinates, where the file does not say it (nothing is reprojected)")
+                   "CRS of the coordinates, where the file has none; nothing is reprojected")
       ->type_name("CRS");
 }
 

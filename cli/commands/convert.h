@@ -5,7 +5,7 @@
 
 namespace arete {
 
-/// `arete convert`: a mesh from one format into another.
+/// Declares `arete convert`: writes a mesh in another format, or an .amt plain or packed.
 void addConvertCommand(CLI::App& app, Session& session);
 
 }  // namespace arete

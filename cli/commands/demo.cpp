@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Runs the demo of viewer/headless and reports its results as text and JSON.
 #include "cli/commands/demo.h"
 
 #include <fmt/format.h>
@@ -77,12 +79,12 @@ Status demonstrate(DemoArguments& arguments, Session& session) {
 void addDemoCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<DemoArguments>();
   CLI::App* command =
-      session.addCommand(app, "demo", "Build, extract, measure and draw one DEM, to see what comes out",
+      session.addCommand(app, "demo", "Build, extract, measure and draw one DEM, to see the results",
                          "  arete demo dem.tif -o demo\n"
                          "  arete demo dem.tif -o demo --max-error 2,10,50 --shape fidelity",
                          [arguments](Session& s) { return demonstrate(*arguments, s); });
-  command->add_option("DEM", arguments->dem.path, "Any raster GDAL reads")->required();
-  command->add_option("-o,--output", arguments->options.folder, "Folder for the files, made where missing")
+  command->add_option("DEM", arguments->dem.path, "Any raster that GDAL reads")->required();
+  command->add_option("-o,--output", arguments->options.folder, "Folder for the files; created if missing")
       ->required();
   command
       ->add_option("--max-error", arguments->maxErrors,
@@ -90,8 +92,9 @@ void addDemoCommand(CLI::App& app, Session& session) {
       ->check(tolerances())
       ->type_name("E[,E...]");
   command
-      ->add_option("--shape", arguments->options.build.shape,
-                   "delaunay: well-shaped triangles (default); fidelity: far fewer triangles at a bound")
+      ->add_option(
+          "--shape", arguments->options.build.shape,
+          "delaunay: well-shaped triangles (default); fidelity: far fewer triangles at the same error")
       ->transform(
           oneOf<HoleShape>({{"delaunay", HoleShape::delaunay}, {"fidelity", HoleShape::dataDependent}}))
       ->type_name("NAME");

@@ -5,7 +5,7 @@
 
 namespace arete {
 
-/// `arete demo DEM -o DIR`: all of it on one DEM, with pictures.
+/// Declares `arete demo DEM -o DIR`: builds, extracts, measures and draws one DEM.
 void addDemoCommand(CLI::App& app, Session& session);
 
 }  // namespace arete

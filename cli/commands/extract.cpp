@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One request for each tolerance. The requests say which part of the file is read; each is then cut, fitted,
+// measured and written by TinExtractor. A broken promise is reported after all files are written.
 #include "cli/commands/extract.h"
 
 #include <fmt/format.h>
@@ -32,12 +35,12 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPlaceholder = "{}";
 
-/// An option with an optional value takes what follows it: FILE.amt, when that comes last.
+/// --certificate has an optional value, and CLI11 takes the next word for it: FILE.amt, if that comes last.
 CLI::Validator notTheModel() {
   return CLI::Validator(
       [](std::string& text) -> std::string {
         if (fs::path(text).extension() != ".amt") return {};
-        return fmt::format("'{}' cannot be its name; put FILE.amt before --certificate", text);
+        return fmt::format("'{}' cannot be the certificate; put FILE.amt before --certificate", text);
       },
       "");
 }
@@ -68,7 +71,7 @@ std::string certificateBeside(const std::string& output) {
   return fs::path(output).replace_extension(".certificate.json").string();
 }
 
-/// What stands for a criterion in the name of its file.
+/// The part of a file's name that stands for its criterion.
 std::string tagOf(const ExtractCriterion& criterion) {
   if (criterion.maxError) return fmt::format("{}", *criterion.maxError);
   if (criterion.maxTriangles) return std::to_string(*criterion.maxTriangles);
@@ -97,10 +100,8 @@ Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments
     if (Status known = checkExtractOutput(request.output, model); !known)
       return failure(known.error().code, known.error().message, fmt::format("--output {}", request.output));
     if (arguments.criterion.hasDeadline() && isGeoTiffName(request.output))
-      return failure(
-          ErrorCode::usage,
-          "a TIN that a deadline ended cannot be taken a second time to check the raster; write a mesh",
-          fmt::format("--output {}", request.output));
+      return failure(ErrorCode::usage, "cannot be a raster with --deadline; write a mesh",
+                     fmt::format("--output {}", request.output));
     if (request.errorRaster.empty()) continue;
     if (!isGeoTiffName(request.errorRaster))
       return failure(ErrorCode::usage, "the error raster is a GeoTIFF: its name ends in .tif",
@@ -181,7 +182,7 @@ std::string textOf(const ExtractRequest& request, const ExtractedTin& tin, const
   if (tin.pixels && std::isfinite(*tin.pixels))
     text += fmt::format(", {:.3g} pixels in the camera's picture", *tin.pixels);
   else if (tin.pixels)
-    text += ", its pixels around the camera's eye not known";
+    text += ", pixel error unknown around the camera";
   if (!tin.isComplete && request.criterion.deadlineMilliseconds) text += "; ended by the deadline";
   if (tin.fit && request.criterion.fit == ExtractFit::triangles)
     text += fmt::format("; {} triangles before the fit", grouped(tin.fit->trianglesBefore));
@@ -194,7 +195,7 @@ std::string textOf(const ExtractRequest& request, const ExtractedTin& tin, const
   return text + "\n";
 }
 
-/// A promise below what the numbers of the format can hold is not kept to the last digit.
+/// Warns where the format rounds heights by more than the promise allows.
 void warnOfRounding(const ExtractedTin& tin, const std::string& output, const std::string& unit,
                     const Session& session) {
   const double rounding = tin.format.heightRounding;
@@ -213,7 +214,7 @@ std::string brokenPromise(const ExtractedTin& tin) {
   return sentence;
 }
 
-/// The root, and the terrain wherever something is placed above it.
+/// Reads the root, and the terrain below a camera.
 Result<TerrainModel> outlineForPlaces(const AmtFile& file, const CriterionArguments& criterion,
                                       const Session& session) {
   Result<TerrainModel> root = file.read({.wanted = requiredNowhere()}, session.context());
@@ -270,7 +271,7 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
 void addExtractCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<ExtractArguments>();
   CLI::App* command = session.addCommand(
-      app, "extract", "Take TINs from a multitriangulation: by tolerance, budget, region or view",
+      app, "extract", "Extract TINs from a multitriangulation by tolerance, budget, region or view",
       "  arete extract dem.amt -o tin.ply --max-error 5\n"
       "  arete extract dem.amt -o tin.ply --max-error 1,5,20      tin_1.ply, tin_5.ply, tin_20.ply\n"
       "  arete extract dem.amt -o 'out/{}m.obj' --max-error 5     out/5m.obj\n"
@@ -283,24 +284,25 @@ void addExtractCommand(CLI::App& app, Session& session) {
       [arguments](Session& s) { return runExtract(*arguments, s); });
   command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
   command
-      ->add_option("-o,--output", arguments->output,
-                   "File to write: " + writableMeshExtensions() +
-                       ", or .tif (the TIN sampled on the source grid). {} in the name is the tolerance; "
-                       "with several and no {}, _E goes before the extension")
+      ->add_option(
+          "-o,--output", arguments->output,
+          "File to write: " + writableMeshExtensions() +
+              ", or .tif (the TIN sampled on the source grid). {} in the name becomes the tolerance; "
+              "with several tolerances and no {}, _E is put before the extension")
       ->required()
       ->type_name("FILE");
   arguments->criterion.addTo(*command);
   arguments->certificateOption =
       command
           ->add_option("--certificate", arguments->certificate,
-                       "Measure the TIN and write what is promised, found, and how to check it as JSON "
-                       "(default name: the output's, .certificate.json)")
+                       "Measure the TIN and write a certificate as JSON: promised error, measured error, and "
+                       "how to check them (default: the output's name with .certificate.json)")
           ->expected(0, 1)
           ->check(notTheModel())
           ->type_name("[FILE]");
   command
       ->add_option("--error-raster", arguments->errorRaster,
-                   "Also write TIN height minus DEM height, a GeoTIFF on the source grid")
+                   "GeoTIFF to write on the source grid: TIN height minus DEM height")
       ->type_name("FILE");
 }
 

@@ -5,8 +5,8 @@
 
 namespace arete {
 
-/// `arete extract FILE.amt -o OUT --max-error E[,E...]`: TINs for tolerances, a budget or a region, with
-/// proof.
+/// Declares `arete extract FILE.amt -o OUT --max-error E[,E...]`: writes TINs for tolerances, a budget or a
+/// region, with a certificate on request.
 void addExtractCommand(CLI::App& app, Session& session);
 
 }  // namespace arete

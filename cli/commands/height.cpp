@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The places, typed or of a file, say which part of the model is read; each is then located in its triangle.
 #include "cli/commands/height.h"
 
 #include <fmt/format.h>
@@ -31,7 +33,7 @@ struct HeightArguments {
 
 using Heights = std::vector<std::optional<SurfaceHeight>>;
 
-/// The places of --at, as they were typed and in the DEM's CRS.
+/// The places of --at, as typed and in the DEM's CRS.
 Result<PointTable> statedPlaces(const HeightArguments& arguments, const TerrainModel& model) {
   PointTable table;
   const auto toDem = transformOfPlaces(arguments.lonLat, model);
@@ -91,9 +93,9 @@ Json jsonOf(const PointTable& table, const Heights& heights) {
 
 Status runHeight(const HeightArguments& arguments, Session& session) {
   if (arguments.at.empty() == arguments.points.empty())
-    return failure(ErrorCode::usage, "either --at or --points says where");
+    return failure(ErrorCode::usage, "either --at or --points is required");
   if (!arguments.layer.empty() && arguments.points.empty())
-    return failure(ErrorCode::usage, "means something only with --points", "--layer");
+    return failure(ErrorCode::usage, "requires --points", "--layer");
   if (!arguments.output.empty()) {
     const std::string culprit = fmt::format("--output {}", arguments.output);
     if (!isHeightTable(arguments.output))
@@ -154,28 +156,29 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
 void addHeightCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<HeightArguments>();
   CLI::App* command = session.addCommand(
-      app, "height", "Tell the height of the terrain at places",
+      app, "height", "Compute the height of the terrain at places",
       "  arete height dem.amt --at 409050,3801450              409050,3801450,1815.74828193\n"
       "  arete height dem.amt --at -118.05,34.35 --lonlat\n"
       "  arete height dem.amt --points huts.gpkg -o huts_with_heights.gpkg\n"
       "  arete height dem.amt --points places.csv --max-error 2 -o heights.csv\n"
       "\n"
-      "A place outside the DEM or on NODATA has an empty height; where no place has one the exit code is 4.",
+      "A place outside the DEM or on NODATA has an empty height. If no place has a height, the exit code is "
+      "4.",
       [arguments](Session& s) { return runHeight(*arguments, s); });
   command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
   CLI::Option* at = command
                         ->add_option("--at", arguments->at,
-                                     "A place in the DEM's CRS; may be repeated. The answer is X,Y,height")
+                                     "Place in the DEM's CRS; may be repeated. The answer is X,Y,height")
                         ->type_size(1)
                         ->expected(1)
                         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
                         ->type_name("X,Y");
   command
       ->add_option("--points", arguments->points,
-                   "Places from a file: CSV or XYZ in the DEM's CRS, or a layer of points (any vector file)")
+                   "Places of a file: CSV or XYZ in the DEM's CRS, or a layer of points (any vector file)")
       ->type_name("FILE")
       ->excludes(at);
-  command->add_option("--layer", arguments->layer, "Layer of a file of points with several")
+  command->add_option("--layer", arguments->layer, "Layer of points, where the file has several")
       ->type_name("NAME");
   command
       ->add_option(

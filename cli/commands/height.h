@@ -5,8 +5,8 @@
 
 namespace arete {
 
-/// `arete height FILE.amt --at X,Y` or `--points FILE`: how high the terrain is, at full resolution or within
-/// a tolerance.
+/// Declares `arete height FILE.amt --at X,Y` or `--points FILE`: the height of the terrain at places, at full
+/// resolution or within a tolerance.
 void addHeightCommand(CLI::App& app, Session& session);
 
 }  // namespace arete

@@ -170,18 +170,20 @@ Status runInfo(const InfoArguments& arguments, Session& session) {
 
 void addInfoCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<InfoArguments>();
-  CLI::App* command = session.addCommand(app, "info", "Tell what is in a multitriangulation, and its curve",
-                                         "  arete info dem.amt\n"
-                                         "  arete info dem.amt --at 1,5,20\n"
-                                         "  arete info dem.amt --json | jq '.curve'",
-                                         [arguments](Session& s) { return runInfo(*arguments, s); });
+  CLI::App* command = session.addCommand(
+      app, "info", "Describe a multitriangulation, and its curve of triangles against error",
+      "  arete info dem.amt\n"
+      "  arete info dem.amt --at 1,5,20\n"
+      "  arete info dem.amt --json | jq '.curve'",
+      [arguments](Session& s) { return runInfo(*arguments, s); });
   command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
-  CLI::Option* points = command
-                            ->add_option("--curve", arguments->curvePoints,
-                                         "Steps 1, 2, 5, 10 ... of the curve, the coarsest (default 12)")
-                            ->check(wholeNumber(0, 1000))
-                            ->type_name("N");
-  command->add_option("--at", arguments->at, "The curve at these errors")
+  CLI::Option* points =
+      command
+          ->add_option("--curve", arguments->curvePoints,
+                       "Number of steps 1, 2, 5, 10 ... of the curve, from the coarsest (default 12)")
+          ->check(wholeNumber(0, 1000))
+          ->type_name("N");
+  command->add_option("--at", arguments->at, "Errors at which the curve is computed")
       ->check(tolerances())
       ->type_name("E[,E...]")
       ->excludes(points);

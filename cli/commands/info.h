@@ -5,7 +5,7 @@
 
 namespace arete {
 
-/// `arete info FILE.amt`: what is in a file, and its curve of triangles against error.
+/// Declares `arete info FILE.amt`: describes a file, and its curve of triangles against error.
 void addInfoCommand(CLI::App& app, Session& session);
 
 }  // namespace arete

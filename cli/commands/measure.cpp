@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The kind of the second file decides: a DEM is compared sample by sample, a mesh by distances in space.
 #include "cli/commands/measure.h"
 
 #include <fmt/format.h>
@@ -37,14 +39,14 @@ struct MeasureArguments {
   std::string errorMesh;
 };
 
-/// Options that make sense against a DEM only, or against a mesh only, and were given with the other.
+/// Refuses options for a DEM that are given with a mesh, and the other way round.
 Status checkKind(const MeasureArguments& arguments, bool isMesh) {
   const SourceReading& reading = arguments.dem.reading;
   const auto check = [&](const char* option, bool isGiven, bool isForMesh) -> Status {
     if (!isGiven || isForMesh == isMesh) return {};
     return failure(ErrorCode::usage,
-                   isMesh ? fmt::format("is about a DEM, and {} is a mesh", arguments.dem.path)
-                          : fmt::format("is about another mesh, and {} is a DEM", arguments.dem.path),
+                   isMesh ? fmt::format("requires a DEM, and {} is a mesh", arguments.dem.path)
+                          : fmt::format("requires another mesh, and {} is a DEM", arguments.dem.path),
                    option);
   };
   for (const Status& ok :
@@ -197,49 +199,52 @@ void addMeasureCommand(CLI::App& app, Session& session) {
       "ways\n"
       "  arete measure small.ply original.obj --error-mesh distances.ply",
       [arguments](Session& s) { return runMeasure(*arguments, s); });
-  command->add_option("TIN", arguments->tin, "A triangle mesh: " + readableMeshExtensions())
+  command->add_option("TIN", arguments->tin, "Triangle mesh: " + readableMeshExtensions())
       ->required()
       ->type_name("");
-  command->add_option("DEM", arguments->dem.path, "What it shall be near to: a DEM, or another mesh")
+  command->add_option("DEM", arguments->dem.path, "Reference: a DEM, or another mesh")
       ->required()
       ->type_name("");
   command
-      ->add_option("--expect", arguments->expect,
-                   "The promise: every sample covered once, no NODATA covered, no error above this; between "
-                   "meshes, no distance above this, both ways")
+      ->add_option(
+          "--expect", arguments->expect,
+          "Promise to check: every sample covered once, no NODATA covered, no error above this; between "
+          "meshes: no distance above this, both ways")
       ->check(tolerance())
       ->type_name("E");
   command->add_flag("--allow-covered-nodata", arguments->allowCoveredNodata,
-                    "Covered NODATA breaks no promise (a build with --rim-tolerance)");
-  CLI::Option* region = command
-                            ->add_option("--region", arguments->region,
-                                         "Only the samples in there: polygons, with --distance lines too, or "
-                                         "xmin,ymin,xmax,ymax in the DEM's CRS")
-                            ->type_name("FILE|BOX");
+                    "Accept covered NODATA (of a build with --rim-tolerance)");
+  CLI::Option* region =
+      command
+          ->add_option("--region", arguments->region,
+                       "Region whose samples are compared: polygons, with --distance lines too, or "
+                       "xmin,ymin,xmax,ymax in the DEM's CRS")
+          ->type_name("FILE|BOX");
   command
       ->add_option("--distance", arguments->distance,
-                   "And all samples within so many metres of it (without a CRS: the DEM's units)")
+                   "Metres by which the region is extended (without a CRS: the DEM's units)")
       ->check(finiteAbove(0))
       ->needs(region)
       ->type_name("D");
   command
       ->add_option("--error-raster", arguments->errorRaster,
-                   "Write TIN height minus DEM height, a GeoTIFF on the DEM's grid")
+                   "GeoTIFF to write on the DEM's grid: TIN height minus DEM height")
       ->type_name("FILE");
   const std::string group = "Against another mesh";
   command
-      ->add_option("--samples", arguments->samples,
-                   "Samples on each mesh (default: 10 for each triangle of the larger, at least 1 000 000)")
+      ->add_option(
+          "--samples", arguments->samples,
+          "Number of samples on each mesh (default: 10 per triangle of the larger, at least 1 000 000)")
       ->check(wholeNumber(1, 100'000'000'000))
       ->type_name("N")
       ->group(group);
-  command->add_option("--seed", arguments->seed, "Where the samples fall (default 1)")
+  command->add_option("--seed", arguments->seed, "Seed of the samples (default 1)")
       ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()))
       ->type_name("S")
       ->group(group);
   command
       ->add_option("--error-mesh", arguments->errorMesh,
-                   "Write the first mesh as a PLY whose vertices have their distance as 'quality' and colour")
+                   "PLY to write: the first mesh, each vertex with its distance as 'quality' and colour")
       ->type_name("FILE")
       ->group(group);
   arguments->dem.addTo(*command);

@@ -5,7 +5,8 @@
 
 namespace arete {
 
-/// `arete measure TIN DEM`: the independent check of any TIN against any DEM.
+/// Declares `arete measure TIN DEM`: the independent check of a TIN against a DEM, or of a mesh against a
+/// mesh.
 void addMeasureCommand(CLI::App& app, Session& session);
 
 }  // namespace arete

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Meshes in degrees are scaled to metres first; distances are computed by terrain/measure; places are scaled
+// back.
 #include "cli/commands/measure_meshes.h"
 
 #include <fmt/format.h>
@@ -33,9 +36,9 @@ bool areDegrees(const MeshFile& first, const MeshFile& second) {
   return isGeographicCrs(first.crsWkt) && isGeographicCrs(second.crsWkt);
 }
 
-/// The meshes in metres where both are in degrees, else nothing: they are compared as they are. Distances
-/// between degrees and heights would say nothing, and the search for them would not end: no triangle is
-/// nearer than others.
+/// The meshes in metres if both are in degrees; else nothing, and they are compared as they are. A distance
+/// between degrees and heights has no meaning, and the search for the nearest triangle would be slow: all are
+/// about equally near.
 Result<std::optional<MetricMeshes>> inMetres(const MeshFile& first, const MeshFile& second,
                                              const Session& session) {
   if (areDegrees(first, second)) {
@@ -54,8 +57,8 @@ Result<std::optional<MetricMeshes>> inMetres(const MeshFile& first, const MeshFi
   return std::nullopt;
 }
 
-/// Where something is, in the coordinates of the files.
-void sayPlacesAsFilesDo(MeshDistanceReport& report, const MetricMeshes& meshes) {
+/// Scales the places of the report back to the coordinates of the files.
+void restorePlaces(MeshDistanceReport& report, const MetricMeshes& meshes) {
   const auto divide = [](Vec3& place, const Vec3& units) {
     place = {place.x / units.x, place.y / units.y, place.z / units.z};
   };
@@ -65,7 +68,7 @@ void sayPlacesAsFilesDo(MeshDistanceReport& report, const MetricMeshes& meshes) 
   divide(report.backward.worstNearest, meshes.firstUnits);
 }
 
-/// The unit of the distances, where both files say one and the same.
+/// The unit of the distances, if both files have the same.
 std::string unitOf(const MeshFile& first, const MeshFile& second) {
   if (areDegrees(first, second)) return "metre";
   return first.verticalUnit == second.verticalUnit ? first.verticalUnit : "";
@@ -129,7 +132,7 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
       measureDistance(*metric ? (*metric)->first : first->mesh, *metric ? (*metric)->second : second->mesh,
                       options, session.context(), arguments.errorMesh.empty() ? nullptr : &distances);
   if (!report) return tl::unexpected(named(report.error(), arguments));
-  if (*metric) sayPlacesAsFilesDo(*report, **metric);
+  if (*metric) restorePlaces(*report, **metric);
   if (!arguments.errorMesh.empty())
     if (Status written = writeDistances(arguments.errorMesh, *first, arguments.second, distances, session);
         !written)

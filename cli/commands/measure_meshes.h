@@ -9,11 +9,11 @@
 
 namespace arete {
 
-/// What `arete measure MESH MESH` is asked.
+/// The arguments of `arete measure MESH MESH`.
 struct MeasureMeshesArguments {
   std::string first, second;
   double expect = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not stated
-  std::int64_t samples = 0;                                  ///< 0: as many as the library thinks right
+  std::int64_t samples = 0;                                  ///< 0: the library's default
   std::int64_t seed = 1;
   std::string errorMesh;  ///< empty: none
 };

@@ -7,7 +7,7 @@
 
 namespace arete {
 
-/// A measurement for people, a line per fact. `unit` may be empty.
+/// Formats a measurement, a line per figure. `unit` may be empty.
 std::string measureReportText(const MeasureReport& report, const std::string& unit, bool isRaster);
 
 }  // namespace arete

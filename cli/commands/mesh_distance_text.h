@@ -7,7 +7,7 @@
 
 namespace arete {
 
-/// Distances between two meshes for people, a table. `unit` may be empty.
+/// Formats the distances between two meshes as a table. `unit` may be empty.
 std::string meshDistanceText(const MeshDistanceReport& report, const std::string& unit);
 
 }  // namespace arete

@@ -19,18 +19,18 @@
 #include "cli/commands/info.h"
 #include "cli/commands/measure.h"
 #include "cli/commands/validate.h"
-#include "cli/commands/view.h"
 #include "cli/session/exit_code.h"
 #include "cli/session/interrupt.h"
 #include "cli/session/session.h"
 #include "cli/sight/los.h"
 #include "cli/sight/profile.h"
 #include "cli/sight/viewshed.h"
+#include "cli/view/view.h"
 
 namespace arete {
 namespace {
 
-/// CLI11 says that a command is missing where it does not know the one that is there.
+/// A sentence for an unknown command; CLI11 only says that a command is missing.
 std::string unknownCommand(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return {};
   std::string known;
@@ -47,19 +47,19 @@ ExitCode runProgram(int argc, char** argv) {
   Session session;
   CLI::App app{
       "Arete turns a digital elevation model into one multitriangulation and takes TINs of any\n"
-      "tolerance from it, with an error that anybody can measure again."};
+      "tolerance from it, with an error that can be measured independently."};
   app.name("arete");
   app.set_version_flag("--version", "arete " ARETE_VERSION);
   app.require_subcommand(1);
   app.footer(
       "Examples:\n"
       "  arete build dem.tif -o dem.amt                     once\n"
-      "  arete extract dem.amt -o tin.ply --max-error 5     as often as wanted, any tolerance\n"
-      "  arete height dem.amt --at X,Y                      how high the terrain is there\n"
+      "  arete extract dem.amt -o tin.ply --max-error 5     any number of times, at any tolerance\n"
+      "  arete height dem.amt --at X,Y                      height of the terrain there\n"
       "  arete los dem.amt --from X,Y,H --to X,Y,H          whether they see each other\n"
       "  arete measure tin.ply dem.tif --expect 5           the promise, checked independently\n"
       "\n" +
-      std::string(exitCodeTable()) + "\n\nCOMMAND --help tells the options of a command.");
+      std::string(exitCodeTable()) + "\n\nCOMMAND --help lists the options of a command.");
   addBuildCommand(app, session);
   addInfoCommand(app, session);
   addExtractCommand(app, session);

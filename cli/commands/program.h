@@ -5,8 +5,8 @@
 
 namespace arete {
 
-/// Parses the command line, runs its command and returns the exit code of the process. Throws what the
-/// standard library throws; main() reports it.
+/// Parses the command line, runs its command and returns the exit code of the process. Exceptions of
+/// the standard library pass through; main() reports them.
 ExitCode runProgram(int argc, char** argv);
 
 }  // namespace arete

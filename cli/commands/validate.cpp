@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Runs validateModel() and lists the laws it has checked (docs/topics lists them too).
 #include "cli/commands/validate.h"
 
 #include <fmt/format.h>
@@ -36,7 +38,7 @@ constexpr std::array kLaws = {
     Law{9, "every front is Delaunay"},
 };
 
-/// Law 9 is claimed for the Delaunay shape with exact rims only.
+/// Whether the model claims the law: law 9 holds for the Delaunay shape with exact rims only.
 bool isClaimed(const Law& law, const TerrainModel& model) {
   return law.number != 9 || (model.options.shape == HoleShape::delaunay && model.options.rimTolerance == 0);
 }
@@ -73,17 +75,17 @@ Status runValidate(const ValidateArguments& arguments, Session& session) {
 
 void addValidateCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<ValidateArguments>();
-  CLI::App* command = session.addCommand(app, "validate", "Check every law of a multitriangulation",
+  CLI::App* command = session.addCommand(app, "validate", "Check all laws of a multitriangulation",
                                          "  arete validate dem.amt\n"
                                          "  arete validate dem.amt --fronts 100 --seed 7",
                                          [arguments](Session& s) { return runValidate(*arguments, s); });
   command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
   command
       ->add_option("--fronts", arguments->options.randomFronts,
-                   "Fronts of random node sets to check, beside the uniform ones (default 8)")
+                   "Number of random fronts to check, beside the uniform ones (default 8)")
       ->check(wholeNumber(0, 1'000'000))
       ->type_name("N");
-  command->add_option("--seed", arguments->options.seed, "Which random node sets (default 1)")
+  command->add_option("--seed", arguments->options.seed, "Seed of the random fronts (default 1)")
       ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()))
       ->type_name("N");
 }

@@ -5,7 +5,7 @@
 
 namespace arete {
 
-/// `arete validate FILE.amt`: every law of a multitriangulation, checked.
+/// Declares `arete validate FILE.amt`: checks all laws of a multitriangulation.
 void addValidateCommand(CLI::App& app, Session& session);
 
 }  // namespace arete

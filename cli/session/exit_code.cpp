@@ -29,11 +29,11 @@ std::string_view exitCodeTable() {
   return "Exit codes:\n"
          "    0  done\n"
          "    1  an unexpected failure: out of memory, or a bug\n"
-         "    2  the command line makes no sense\n"
-         "    3  a file is not there, cannot be read or written, or is of an unknown kind\n"
+         "    2  the command line is invalid\n"
+         "    3  a file is missing, cannot be read or written, or has an unknown format\n"
          "    4  the data is invalid, degenerate or corrupt\n"
          "    5  a promise is broken: an error above --expect, a law that does not hold\n"
-         "  130  interrupted (Ctrl-C); no half-made file is left";
+         "  130  interrupted (Ctrl-C); no partial file is left";
 }
 
 }  // namespace arete

@@ -7,7 +7,7 @@
 
 namespace arete {
 
-/// What `arete` tells the shell. The table of `arete --help` and of the README is exitCodeTable().
+/// The exit codes of `arete`. exitCodeTable() is their table in `arete --help` and the README.
 enum class ExitCode : int {
   ok = 0,
   internal = 1,
@@ -20,7 +20,7 @@ enum class ExitCode : int {
 
 ExitCode exitCodeOf(ErrorCode code);
 
-/// One line per code, for people.
+/// One line per code, for the help.
 std::string_view exitCodeTable();
 
 }  // namespace arete

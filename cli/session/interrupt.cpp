@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The handler stores into a lock-free atomic, which is all that a signal handler may do.
 #include "cli/session/interrupt.h"
 
 #include <csignal>
@@ -22,7 +24,7 @@ void catchInterrupts() {
     action = {};
     action.sa_handler = setInterrupted;
     sigemptyset(&action.sa_mask);
-    // After the first, the default is back; and what the signal interrupts goes on.
+    // SA_RESETHAND restores the default after the first signal; SA_RESTART resumes interrupted system calls.
     action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
     sigaction(signal, &action, nullptr);
   }

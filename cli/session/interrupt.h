@@ -5,11 +5,11 @@
 
 namespace arete {
 
-/// From here on the first SIGINT, SIGTERM or SIGHUP sets interruptFlag(), and a second one of the kind ends
-/// the program at once. A signal that is ignored already (nohup) stays ignored.
+/// Installs signal handlers: the first SIGINT, SIGTERM or SIGHUP sets interruptFlag(); a second of the same
+/// kind ends the program at once. A signal that is already ignored (nohup) stays ignored.
 void catchInterrupts();
 
-/// What RunContext::cancel points to.
+/// The flag for RunContext::cancel.
 const std::atomic<bool>& interruptFlag();
 
 }  // namespace arete

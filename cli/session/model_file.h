@@ -10,17 +10,23 @@
 
 namespace arete {
 
-// A command that reads no more of a file than its question needs opens it, asks for its outline, by which the
-// question's places are known, and reads as far as they want, with every check.
+// A command that reads only the part of a file that its question needs opens the file, reads the outline,
+// finds with it which places the question touches, and reads the terrain there. Every check is done.
 
-/// All but the terrain itself: of a raster the root alone. Of points everything, since what their coordinates
-/// are rounded by is told by how many there are.
+/// Reads everything but the terrain: of a raster, the root. Of points, the whole model, because the rounding
+/// of their coordinates follows from their number.
+///
+/// Errors: those of AmtFile::read().
 inline Result<TerrainModel> outlineOf(const AmtFile& file, const Session& session) {
   if (!file.model().isRaster) return file.read({}, session.context());
   return file.read({.wanted = requiredNowhere()}, session.context());
 }
 
-/// The model, as far as it is wanted. `outline`: of the file.
+/// Reads the part of the model that a query requires.
+///
+/// @param outline of the file, from outlineOf().
+/// @param wanted the error required at each place.
+/// Errors: those of AmtFile::read().
 inline Result<TerrainModel> readWanted(const AmtFile& file, const TerrainModel& outline,
                                        const RequiredError& wanted, const Session& session) {
   if (!outline.isRaster) return outline;

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A line has 40 ticks: a dot each, and a number at every fourth. Only the ticks since the last report are
+// written.
 #include "cli/session/progress_bar.h"
 
 #include <fmt/format.h>

@@ -7,7 +7,7 @@
 
 namespace arete {
 
-/// Progress in GDAL's manner, one line per stage: "build 0...10...20 ... 100 - done."
+/// Progress as GDAL writes it, one line per stage: "build 0...10...20 ... 100 - done."
 class ProgressBar {
  public:
   explicit ProgressBar(std::FILE* out) : out_(out) {}
@@ -15,11 +15,13 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// A stage that begins, the same one again too, says that the one before is done.
+  /// Advances the line of a stage. A stage that begins, or begins again, finishes the line before.
+  ///
+  /// @param fraction done so far, 0 to 1.
   void report(std::string_view stage, double fraction);
-  /// Fills the line up to 100 - done.
+  /// Completes the line: "100 - done."
   void finishLine();
-  /// Leaves a line that is not done, for somebody else to write.
+  /// Breaks the line where it is, so that other text can follow.
   void endLine();
 
  private:

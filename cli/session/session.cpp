@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Text goes to stdout, everything else to stderr. Before a line is written there, the progress bar ends its
+// own. Errors and warnings of the library pass through withOptionNames().
 #include "cli/session/session.h"
 
 #include <fmt/format.h>
@@ -17,18 +20,19 @@
 namespace arete {
 namespace {
 
-/// What is being said on stderr must not land in the middle of a progress line.
+/// The progress line on stderr, which is ended before anything else is written there.
 ProgressBar& progressBar() {
   static ProgressBar bar(stderr);
   return bar;
 }
 
-/// What stdout does not take it remembers, and is asked for in the end.
+/// Errors are found at the end of the run, by ferror().
 void print(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stdout);
 }
 
-/// Names and texts come out of files: none of them may move the cursor of a terminal or name its window.
+/// Replaces control characters, which names and texts of a file may hold, so that they cannot drive the
+/// terminal.
 std::string withoutControls(std::string text) {
   for (char& c : text)
     if ((static_cast<unsigned char>(c) < 32 && c != '\n' && c != '\t') || c == 127) c = '?';
@@ -41,14 +45,14 @@ CLI::App* Session::addCommand(CLI::App& app, const std::string& name, const std:
                               const std::string& examples, Run run) {
   CLI::App* command = app.add_subcommand(name, summary);
   command->footer("Examples:\n" + examples);
-  command->add_flag("--json", json_, "Answer on stdout as one JSON object")->group("Speaking");
-  command->add_flag("-q,--quiet", quiet_, "Say nothing but errors (and --json's object)")->group("Speaking");
-  command->add_flag("--progress", progress_, "Progress on stderr, also where that is no terminal")
-      ->group("Speaking");
-  command->add_option("--threads", threads_, "Threads to use (default: all); no result depends on it")
+  command->add_flag("--json", json_, "Write the answer to stdout as one JSON object")->group("Output");
+  command->add_flag("-q,--quiet", quiet_, "Write only errors, and the object of --json")->group("Output");
+  command->add_flag("--progress", progress_, "Write progress to stderr even where that is not a terminal")
+      ->group("Output");
+  command->add_option("--threads", threads_, "Number of threads (default: all); results do not depend on it")
       ->check(CLI::Range(1, 4096))
       ->type_name("N")
-      ->group("Speaking");
+      ->group("Output");
   command->callback([this, run = std::move(run)] { run_ = run; });
   return command;
 }
@@ -97,7 +101,7 @@ void Session::answer(const Json& object) {
   if (!json_) return;
   progressBar().finishLine();
   answered_ = true;
-  // A path need not be UTF-8: what is not is replaced rather than thrown over.
+  // A path may not be UTF-8: invalid bytes are replaced; nothing throws.
   print(object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

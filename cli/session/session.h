@@ -16,40 +16,45 @@ namespace arete {
 /// Insertion order is reading order.
 using Json = nlohmann::ordered_json;
 
-/// What all commands share: how they speak, how they stop, what they tell the shell.
+/// One run of the program: output, progress, interruption and exit code, for all commands alike.
 ///
 /// Results go to stdout, either as text or (--json) as one object; progress, warnings and errors go to
-/// stderr. With --quiet only errors are said, and --json's object.
+/// stderr. With --quiet only errors are written, and the object of --json.
 class Session {
  public:
   using Run = std::function<Status(Session&)>;
 
-  /// Declares a command with its examples and the options every command has, and what runs it. The command's
-  /// own options are added to what comes back; `run` is called once they are parsed.
+  /// Declares a command and the options that every command has.
+  ///
+  /// @param examples lines for the end of its help.
+  /// @param run is called by runParsed() if this command was parsed.
+  /// @return the command, for options of its own.
   CLI::App* addCommand(CLI::App& app, const std::string& name, const std::string& summary,
                        const std::string& examples, Run run);
 
-  /// Runs the command that was parsed, says its error if it has one. At most once.
+  /// Runs the command that was parsed and writes its error, if any. Call once.
   ExitCode runParsed();
 
-  /// Says why the command line makes no sense, and whose --help tells what would. `wantsJson`: as far as the
-  /// words tell, since they could not be parsed.
+  /// Writes why a command line cannot be parsed.
+  ///
+  /// @param help the command whose --help is recommended, as "arete build".
+  /// @param wantsJson whether --json is among the words.
   ExitCode refuse(const std::string& sentence, const std::string& help, bool wantsJson);
 
   bool wantsJson() const { return json_; }
-  /// Progress as asked for, and the flag that Ctrl-C sets.
+  /// Progress according to the options, and the cancel flag that Ctrl-C sets.
   RunContext context() const;
 
-  /// Text for stdout; nothing with --json or --quiet.
+  /// Writes text to stdout; not with --json or --quiet.
   void say(const std::string& text) const;
-  /// The object for stdout; nothing without --json. Once per run.
+  /// Writes the object to stdout, with --json only. Call at most once.
   void answer(const Json& object);
-  /// A sentence for stderr, "arete: warning: ..."; nothing with --quiet.
+  /// Writes "arete: warning: ..." to stderr, not with --quiet. Fields in backquotes become options.
   void warn(const std::string& sentence) const;
   void warn(const std::vector<std::string>& sentences, const std::string& culprit) const;
 
  private:
-  ExitCode fail(const Error& error);
+  ExitCode fail(const Error& failed);
   void answerError(const Error& error, ExitCode code);
 
   bool json_ = false, quiet_ = false, progress_ = false, answered_ = false;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The default of --earth depends on the model, so it is resolved after the model is open.
 #include "cli/sight/arguments.h"
 
 #include <utility>
@@ -9,12 +11,12 @@
 namespace arete {
 
 void SightArguments::addEarthTo(CLI::App& command) {
-  const std::string group = "The Earth";
+  const std::string group = "Shape of the Earth";
   command
       .add_option(
           "--earth", earth,
-          "ellipsoid: lines over geodesics of the CRS's ellipsoid (default where there is one); plane: "
-          "the map taken as it is, without curvature")
+          "ellipsoid: lines follow geodesics of the CRS's ellipsoid (default where the CRS has one); plane: "
+          "the map without curvature")
       ->check(oneOf({"ellipsoid", "plane"}))
       ->type_name("ellipsoid|plane")
       ->group(group);
@@ -25,8 +27,8 @@ void SightArguments::addEarthTo(CLI::App& command) {
             refraction = k;
             statesRefraction = true;
           },
-          "Refraction K: the Earth's effective radius is R / (1 - K) (default 1/7; GDAL's curvature "
-          "coefficient is 1 - K)")
+          "Refraction coefficient: the effective radius of the Earth is R / (1 - K) (default 1/7; GDAL's "
+          "curvature coefficient is 1 - K)")
       ->check(finiteBetween(-10, 10))
       ->type_name("K")
       ->group(group);
@@ -35,9 +37,8 @@ void SightArguments::addEarthTo(CLI::App& command) {
 void SightArguments::addNodataTo(CLI::App& command) {
   nodataOption =
       command
-          .add_option(
-              "--nodata", nodata,
-              "What a line over NODATA, or outside the DEM, is there: unknown (default), clear or blocked")
+          .add_option("--nodata", nodata,
+                      "Answer for lines over NODATA or outside the DEM: unknown (default), clear or blocked")
           ->transform(oneOf<NodataSight>({{"unknown", NodataSight::unknown},
                                           {"clear", NodataSight::clear},
                                           {"blocked", NodataSight::blocked}}))
@@ -45,7 +46,7 @@ void SightArguments::addNodataTo(CLI::App& command) {
 }
 
 void SightArguments::addLonLatTo(CLI::App& command) {
-  command.add_flag("--lonlat", lonLat, "X,Y are longitude, latitude in degrees (WGS 84)");
+  command.add_flag("--lonlat", lonLat, "X,Y are longitude and latitude in degrees (WGS 84)");
 }
 
 std::string SightArguments::earthName(const TerrainModel& model) const {
@@ -61,10 +62,9 @@ Result<std::unique_ptr<SightEarth>> SightArguments::makeEarth(const TerrainModel
                                                               Session& session) const {
   if (earthName(model) == "plane") {
     if (statesRefraction && refraction != 0)
-      return failure(ErrorCode::usage, "bends lines over an ellipsoid, and the map is taken as plane",
-                     "--refraction");
+      return failure(ErrorCode::usage, "requires an ellipsoid; the map is taken as a plane", "--refraction");
     if (earth.empty() && !model.georeference.crsWkt.empty())
-      session.warn("the DEM's CRS knows no longitude and latitude: its map is taken as plane");
+      session.warn("the DEM's CRS has no longitude and latitude: its map is taken as a plane");
     return makePlaneEarth(model);
   }
   auto made = makeEllipsoidEarth(model, refraction);

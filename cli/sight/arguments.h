@@ -14,11 +14,11 @@
 
 namespace arete {
 
-/// What los, profile and viewshed are told alike.
+/// The options that los, profile and viewshed share.
 struct SightArguments {
   std::string earth;  ///< "ellipsoid", "plane" or empty: the ellipsoid where the DEM's CRS has one
   double refraction = kUsualRefraction;
-  bool statesRefraction = false;  ///< else it is the usual one
+  bool statesRefraction = false;  ///< false: the default
   NodataSight nodata = NodataSight::unknown;
   bool lonLat = false;
 
@@ -29,11 +29,11 @@ struct SightArguments {
   void addNodataTo(CLI::App& command);
   void addLonLatTo(CLI::App& command);
 
-  /// The Earth as asked for. Errors name the option.
+  /// The shape of the Earth that the options choose. Errors name the option.
   Result<std::unique_ptr<SightEarth>> makeEarth(const TerrainModel& model, Session& session) const;
-  /// Which one that is, for answers.
+  /// Its name for the answer: "ellipsoid" or "plane".
   std::string earthName(const TerrainModel& model) const;
-  /// For answers; null where the Earth is a plane, over which no line bends.
+  /// The refraction for the answer; null over a plane, which has none.
   Json refractionJson(const TerrainModel& model) const;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Whatever states the ends (two positions, a position and a file of sites, a file of pairs) becomes rows of
-// SightPairs; each row becomes a path, or an error; answers go out in the order of the rows.
+// Every way to state the ends (two positions, a position and a file of sites, a file of pairs) becomes rows
+// of SightPairs; each row becomes a path, or an error; answers go out in the order of the rows.
 #include "cli/sight/los.h"
 
 #include <fmt/format.h>
@@ -46,25 +46,24 @@ Status checkArguments(const LosArguments& a) {
   };
   const int ends = !a.from.empty() + !a.to.empty();
   if (!a.pairs.empty() && (ends > 0 || !a.points.empty()))
-    return usage("says both ends of every line, so --from, --to and --points have no place", "--pairs");
+    return usage("cannot be combined with --from, --to or --points", "--pairs");
   if (a.pairs.empty() && a.points.empty() && ends < 2)
-    return usage("--from and --to say where, or --pairs, or one of the two and --points");
+    return usage("--from and --to are required, or --pairs, or --points and one of --from and --to");
   if (!a.points.empty() && ends != 1)
-    return usage("needs either --from or --to for the other end of every line", "--points");
+    return usage("requires either --from or --to, the other end of every line", "--points");
   if (!a.layer.empty() && a.pairs.empty() && a.points.empty())
-    return usage("means something only with --pairs or --points", "--layer");
+    return usage("requires --pairs or --points", "--layer");
   for (const auto& [option, height] :
        {std::pair{"--observer-height", a.observerHeight}, {"--target-height", a.targetHeight}})
     if (!height.empty() && a.pairs.empty() && a.points.empty())
-      return usage("is of ends from a file; of --from and --to it is the H of X,Y,H", option);
+      return usage("requires --pairs or --points; the height in --from and --to is the H of X,Y,H", option);
   if (!a.output.empty() && !isLineTable(a.output) && !isJson(a.output))
     return usage("a table of lines of sight ends in .csv, .gpkg or .json", "--output " + a.output);
-  if (!a.clutter.empty() && a.maxError > 0)
-    return usage("needs full resolution, so --max-error has no place", "--clutter");
+  if (!a.clutter.empty() && a.maxError > 0) return usage("cannot be combined with --max-error", "--clutter");
   return {};
 }
 
-/// The end of "X,Y,H" as a site; its stated place is what was typed.
+/// Reads "X,Y,H" as a site. Its `stated` coordinates are those typed, its `xy` are in the DEM's CRS.
 Result<SightSite> siteOf(const std::string& option, const std::string& text, const CrsTransform& toDem) {
   const auto stated = readPositionArgument(option, text, CrsTransform());
   if (!stated) return tl::unexpected(stated.error());
@@ -73,7 +72,7 @@ Result<SightSite> siteOf(const std::string& option, const std::string& text, con
   return SightSite{stated->xy, position->xy, StatedHeight{position->height, position->kind}};
 }
 
-/// Of rows from a file, in place.
+/// Moves longitudes by whole turns to the DEM.
 void turnLongitudes(SightPairs& pairs, const TerrainModel& model) {
   const LongitudeTurns turns(model);
   for (auto& row : pairs.rows)
@@ -109,7 +108,7 @@ Result<SightPairs> readRows(const LosArguments& a, const TerrainModel& model, Se
   if (!sites) return sites;
   session.warn(sites->warnings, a.points);
   turnLongitudes(*sites, model);
-  // The one end is stated in the DEM's CRS, or in WGS 84; the sites in their own.
+  // `stated` of the typed end becomes a place in the CRS of the sites, so that a table has one CRS.
   SightSite fixed = from ? *from : *to;
   if (sites->crsWkt != (a.sight.lonLat ? toDem->sourceWkt() : dem.crsWkt)) {
     const auto there = CrsTransform::between(dem.crsWkt, sites->crsWkt);
@@ -120,7 +119,7 @@ Result<SightPairs> readRows(const LosArguments& a, const TerrainModel& model, Se
   return sites;
 }
 
-/// Where a row says no height the options may.
+/// Applies the heights of the options to ends that have none.
 Status addUsualHeights(const LosArguments& a, SightPairs& pairs) {
   for (const auto& [end, option, text] :
        {std::tuple{0, "--observer-height", &a.observerHeight}, {1, "--target-height", &a.targetHeight}}) {
@@ -147,8 +146,8 @@ Result<SightPathOptions> optionsOf(const LosArguments& a, const TerrainModel& mo
   return options;
 }
 
-/// What lines of sight need of a packed model, whichever heights they have: all around their ends, and below
-/// them. All of it where a method looks at the samples as a whole.
+/// The terrain that lines of sight require: around both ends and below the line. All of the model where the
+/// method reads all samples.
 RequiredError wantedFor(const LosArguments& a, const SightPairs& pairs, const SightEarth& earth,
                         const TerrainModel& outline) {
   if (bestMethod(a.method, a.maxError, pairs.rows.size(), outline) != SightMethod::descent) return {};
@@ -160,12 +159,13 @@ RequiredError wantedFor(const LosArguments& a, const SightPairs& pairs, const Si
       wanted.add(outline.toPlan(site.xy));
     }
     if (!std::isfinite(from.x + from.y + to.x + to.y)) continue;
-    if (const auto track = earth.track(from, to)) wanted.addTrack(*track);  // else its answer says why
+    if (const auto track = earth.track(from, to))
+      wanted.addTrack(*track);  // without a track, the answer is an error
   }
   return wanted.within(0);
 }
 
-Status tellOne(const SightResults& results, Json json, Session& session) {
+Status reportOne(const SightResults& results, Json json, Session& session) {
   if (const Error* error = results.errorOf(0)) return tl::unexpected(*error);
   json.update(results.jsonOf(0));
   session.say(results.textOf(0));
@@ -181,7 +181,7 @@ Status writeAnswers(const std::string& path, const LineTable& table, const Json&
   return file->finish();
 }
 
-Status tellMany(const LosArguments& a, const SightResults& results, Json json, Session& session) {
+Status reportMany(const LosArguments& a, const SightResults& results, Json json, Session& session) {
   const std::size_t lines = results.rows.count();
   const SightCounts counts = results.counts();
   json["lines"] = lines;
@@ -244,14 +244,14 @@ Status runLos(const LosArguments& a, Session& session) {
   const Result<TerrainModel> model =
       readWanted(*file, *outline, wantedFor(a, *pairs, **earth, *outline), session);
   if (!model) return tl::unexpected(model.error());
-  // Whole profiles at full resolution are walks over the cells of a raster.
+  // Profiles at full resolution walk over the cells of a raster.
   const bool hasProfiles = options->frequencyMegahertz > 0 || options->clutter.height;
   const auto grid = hasProfiles && model->isRaster ? std::make_shared<const SightGrid>(*model) : nullptr;
   const Profiles profiles(*model, grid);
   const SightRows rows = SightRows::of(*pairs, profiles.heights());
   const SightMethod method = bestMethod(a.method, a.maxError, rows.paths.size(), *model);
   if (!model->isRaster && method != SightMethod::descent)
-    return failure(ErrorCode::usage, fmt::format("is for rasters, and {} is of points", a.model),
+    return failure(ErrorCode::usage, fmt::format("requires a raster; {} is made of points", a.model),
                    fmt::format("--method {}", toString(method)));
   const auto engine = makeSightEngine(method, *model, grid, session.context());
   if (!engine) return tl::unexpected(engine.error());
@@ -273,7 +273,8 @@ Status runLos(const LosArguments& a, Session& session) {
                {"maxError", a.maxError},
                {"method", std::string(toString(method))}};
   const bool isOne = a.pairs.empty() && a.points.empty() && a.output.empty();
-  return isOne ? tellOne(results, std::move(json), session) : tellMany(a, results, std::move(json), session);
+  return isOne ? reportOne(results, std::move(json), session)
+               : reportMany(a, results, std::move(json), session);
 }
 
 }  // namespace
@@ -281,19 +282,19 @@ Status runLos(const LosArguments& a, Session& session) {
 void addLosCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<LosArguments>();
   CLI::App* command = session.addCommand(
-      app, "los", "Tell whether places see each other",
+      app, "los", "Compute whether places see each other",
       "  arete los dem.amt --from 409050,3801450,10 --to 411000,3795000,1500msl\n"
       "  arete los dem.amt --from 8.55,46.6,30 --to 8.7,46.55,10 --lonlat --frequency 2400\n"
       "  arete los dem.amt --pairs links.gpkg -o answers.gpkg --observer-height 30 --target-height 10\n"
       "  arete los dem.amt --from 409050,3801450,10 --points huts.gpkg --target-height 2 -o seen.csv\n"
       "\n"
       "The answer is that of full resolution. H is in the DEM's unit: above ground (agl), msl or ell.\n"
-      "docs/topics/visibility.md says what is true when.",
+      "See docs/topics/visibility.md.",
       [arguments](Session& s) { return runLos(*arguments, s); });
   command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
-  command->add_option("--from", arguments->from, "Where the observer is, in the DEM's CRS")
+  command->add_option("--from", arguments->from, "Position of the observer, in the DEM's CRS")
       ->type_name("X,Y,H");
-  command->add_option("--to", arguments->to, "Where the target is")->type_name("X,Y,H");
+  command->add_option("--to", arguments->to, "Position of the target")->type_name("X,Y,H");
   command
       ->add_option(
           "--pairs", arguments->pairs,
@@ -302,16 +303,16 @@ void addLosCommand(CLI::App& app, Session& session) {
       ->type_name("FILE");
   command
       ->add_option("--points", arguments->points,
-                   "The other end of --from or --to, many times, from a file: CSV or a layer of points")
+                   "Other ends of the lines from --from, or to --to: CSV or a layer of points")
       ->type_name("FILE");
-  command->add_option("--layer", arguments->layer, "Layer of a file with several")->type_name("NAME");
+  command->add_option("--layer", arguments->layer, "Layer, where the file has several")->type_name("NAME");
   command
       ->add_option("--observer-height", arguments->observerHeight,
-                   "Height of first ends that the file has none for")
+                   "Height of first ends without one in the file")
       ->type_name("H");
   command
       ->add_option("--target-height", arguments->targetHeight,
-                   "Height of second ends that the file has none for")
+                   "Height of second ends without one in the file")
       ->type_name("H");
   command
       ->add_option(
@@ -322,14 +323,14 @@ void addLosCommand(CLI::App& app, Session& session) {
   arguments->sight.addLonLatTo(*command);
   arguments->sight.addNodataTo(*command);
   command
-      ->add_option("--max-error", arguments->maxError,
-                   "Stop at this detail, in the DEM's unit; the answer may then be undecided (default 0)")
+      ->add_option(
+          "--max-error", arguments->maxError,
+          "Stop refining at this error, in the DEM's unit; answers may then be undecided (default 0)")
       ->check(finiteAtLeast(0))
       ->type_name("E");
   command
-      ->add_option(
-          "--method", arguments->method,
-          "How to find out; all give the same answer: auto (default), descent, pyramid, scan, embree")
+      ->add_option("--method", arguments->method,
+                   "Algorithm; all give the same answer: auto (default), descent, pyramid, scan, embree")
       ->transform(oneOf<SightMethod>({{"auto", SightMethod::automatic},
                                       {"descent", SightMethod::descent},
                                       {"pyramid", SightMethod::pyramid},
@@ -341,25 +342,26 @@ void addLosCommand(CLI::App& app, Session& session) {
   CLI::Option* frequency =
       command
           ->add_option("--frequency", arguments->frequency,
-                       "Tell how much of the first Fresnel zone is clear at this frequency")
+                       "Compute how much of the first Fresnel zone is clear at this frequency")
           ->check(finiteAbove(0))
           ->type_name("MHZ")
           ->group(radio);
-  command->add_option("--fresnel", arguments->fresnel, "The part of it that a link needs clear (default 0.6)")
+  command
+      ->add_option("--fresnel", arguments->fresnel,
+                   "Part of the first Fresnel zone that must be clear (default 0.6)")
       ->check(finiteAtLeast(0))
       ->needs(frequency)
       ->type_name("PART")
       ->group(radio);
   CLI::Option* clutter =
       command
-          ->add_option(
-              "--clutter", arguments->clutter,
-              "What stands on the terrain: a height everywhere, or a raster of heights, in the DEM's unit")
+          ->add_option("--clutter", arguments->clutter,
+                       "Clutter on the terrain: one height, or a raster of heights, in the DEM's unit")
           ->type_name("H|RASTER")
           ->group(radio);
   command
       ->add_option("--clutter-free", arguments->clutterFree,
-                   "Metres about either end without clutter (default 100)")
+                   "Radius around both ends without clutter (default 100)")
       ->check(finiteAtLeast(0))
       ->needs(clutter)
       ->type_name("METRES")

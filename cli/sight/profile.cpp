@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Every line, typed or of a file, becomes a way: vertices, and the heights of both ends where it is a line of
+// sight. A way becomes one track over the terrain, the track a profile; text, JSON and chart are made of the
+// profiles.
 #include "cli/sight/profile.h"
 
 #include <fmt/format.h>
@@ -36,7 +40,8 @@ struct ProfileArguments {
   double maxError = 0, frequency = 0, fresnel = kUsualFresnel;
 };
 
-/// A line to take the profile along, in the DEM's CRS; of two positions with heights, the line of sight too.
+/// A line to take the profile along, in the DEM's CRS. Two positions with heights are a line of sight as
+/// well.
 struct Way {
   std::vector<Vec2> vertices;
   std::optional<std::array<PositionArgument, 2>> ends;
@@ -80,7 +85,7 @@ Result<Way> typedWay(const std::string& text, const CrsTransform& toDem) {
   if (positions.size() == 2 && parts.size() == 2)
     way.ends = {positions[0], positions[1]};
   else if (!positions.empty())
-    return failure(ErrorCode::usage, "heights make a line of sight of two places, X,Y,H:X,Y,H",
+    return failure(ErrorCode::usage, "heights are for a line of sight of two places, X,Y,H:X,Y,H",
                    "--along " + text);
   return way;
 }
@@ -88,14 +93,14 @@ Result<Way> typedWay(const std::string& text, const CrsTransform& toDem) {
 Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference& dem,
                                   const Result<CrsTransform>& toDem, Session& session) {
   if (!isFile(a.along)) {
-    if (!a.layer.empty())
-      return failure(ErrorCode::usage, "means something only with --along FILE", "--layer");
+    if (!a.layer.empty()) return failure(ErrorCode::usage, "requires --along FILE", "--layer");
     auto way = typedWay(a.along, *toDem);
     if (!way) return tl::unexpected(way.error());
     return std::vector<Way>{std::move(*way)};
   }
   if (a.sight.lonLat)
-    return failure(ErrorCode::usage, "says what X,Y of --along are; a file says its CRS itself", "--lonlat");
+    return failure(ErrorCode::usage, "cannot be combined with --along FILE, which has a CRS of its own",
+                   "--lonlat");
   auto read = readRegion(a.along, dem.crsWkt, {.layer = a.layer, .takesLines = true}, session.context());
   if (!read) return tl::unexpected(read.error());
   session.warn(read->warnings, a.along);
@@ -105,7 +110,7 @@ Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference&
   return ways;
 }
 
-/// One track along all of a way.
+/// Joins the tracks between the vertices of a way.
 Result<SightTrack> trackAlong(const Way& way, const SightEarth& earth, const TerrainModel& model) {
   SightTrack whole;
   for (std::size_t i = 1; i < way.vertices.size(); ++i) {
@@ -122,7 +127,7 @@ Result<SightTrack> trackAlong(const Way& way, const SightEarth& earth, const Ter
   return whole;
 }
 
-/// The profile of one way and what is seen over it.
+/// The profile of one way, and the line of sight over it.
 struct Answer {
   Profile profile;
   std::optional<SightLine> line;
@@ -233,13 +238,13 @@ Result<Answer> answerWay(const Way& way, const ProfileArguments& a, const SightE
   return answer;
 }
 
-/// What is below the ways, of a packed model.
+/// The terrain that the ways require.
 RequiredError wantedFor(const std::vector<Way>& ways, const SightEarth& earth, const TerrainModel& outline) {
   QueryFootprint wanted(outline);
   for (const Way& way : ways) {
     for (const Vec2 vertex : way.vertices) wanted.add(outline.toPlan(vertex));
     if (const auto track = trackAlong(way, earth, outline))
-      wanted.addTrack(*track);  // else its answer says why
+      wanted.addTrack(*track);  // without a track, the answer is an error
   }
   return wanted.within(0);
 }
@@ -286,11 +291,11 @@ Status runProfile(const ProfileArguments& a, Session& session) {
   const auto ways = readWays(a, dem, toDem, session);
   if (!ways) return tl::unexpected(ways.error());
   if (a.frequency > 0 && !ways->front().ends)
-    return failure(ErrorCode::usage, "needs a line of sight: --along X,Y,H:X,Y,H", "--frequency");
+    return failure(ErrorCode::usage, "requires a line of sight: --along X,Y,H:X,Y,H", "--frequency");
   if (a.sight.statesNodata() && !ways->front().ends)
-    return failure(ErrorCode::usage, "is for a line of sight: --along X,Y,H:X,Y,H", "--nodata");
+    return failure(ErrorCode::usage, "requires a line of sight: --along X,Y,H:X,Y,H", "--nodata");
   if (!a.png.empty() && ways->size() > 1)
-    return failure(ErrorCode::usage, fmt::format("draws one line, and there are {}", ways->size()), "--png");
+    return failure(ErrorCode::usage, fmt::format("draws one line, not {}", ways->size()), "--png");
   const auto earth = a.sight.makeEarth(*outline, session);
   if (!earth) return tl::unexpected(earth.error());
   const Result<TerrainModel> model = readWanted(*amt, *outline, wantedFor(*ways, **earth, *outline), session);
@@ -312,7 +317,8 @@ Status runProfile(const ProfileArguments& a, Session& session) {
   if (vertices == 0)
     return failure(
         ErrorCode::invalidData,
-        "has no terrain there; X,Y are coordinates of its CRS, or longitude,latitude with --lonlat", a.model);
+        "has no terrain along the line; X,Y are coordinates of its CRS, or longitude,latitude with --lonlat",
+        a.model);
   const ProfileTable table(*model, a.sight.lonLat && !isFile(a.along) ? toDem->sourceWkt() : dem.crsWkt,
                            wavelength);
   Json json = {{"model", a.model},
@@ -347,43 +353,45 @@ Status runProfile(const ProfileArguments& a, Session& session) {
 void addProfileCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<ProfileArguments>();
   CLI::App* command = session.addCommand(
-      app, "profile", "Give the terrain along a line",
+      app, "profile", "Compute the heights of the terrain along a line",
       "  arete profile dem.amt --along 409050,3801450:411000,3795000 > profile.csv\n"
       "  arete profile dem.amt --along road.gpkg --max-error 1 -o road.csv\n"
       "  arete profile dem.amt --along 409050,3801450,10:411000,3795000,30 --frequency 2400 --png link.png\n"
       "\n"
-      "Between two places the line is the geodesic. At full resolution every edge that it crosses is a "
-      "vertex.\n"
-      "Parts of a line are counted from 1; between them there is no terrain.",
+      "Between two places the line is a geodesic. At full resolution the profile has a vertex at every edge "
+      "that\n"
+      "it crosses. Parts of a line are counted from 1; between them there is no terrain.",
       [arguments](Session& s) { return runProfile(*arguments, s); });
   command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
   command
       ->add_option(
           "--along", arguments->along,
-          "The line: a layer of lines, or places; with the heights of two places, X,Y,H:X,Y,H, the line of "
-          "sight as well")
+          "Layer of lines, or places; two places with heights, X,Y,H:X,Y,H, are a line of sight as well")
       ->required()
       ->type_name("FILE|X,Y:X,Y[:...]");
-  command->add_option("--layer", arguments->layer, "Layer of a file with several")->type_name("NAME");
+  command->add_option("--layer", arguments->layer, "Layer, where the file has several")->type_name("NAME");
   command
       ->add_option("--max-error", arguments->maxError,
-                   "How far from full resolution the profile may be, in the DEM's unit (default 0)")
+                   "Largest error of the profile, in the DEM's unit (default 0: full resolution)")
       ->check(tolerance())
       ->type_name("E");
-  command->add_flag("--csv", arguments->csv, "CSV on stdout (default where nothing is written)");
-  command->add_option("-o,--output", arguments->output, "Write the profile as .csv")->type_name("FILE");
+  command->add_flag("--csv", arguments->csv, "Write CSV to stdout (default without --output and --png)");
+  command->add_option("-o,--output", arguments->output, "CSV file to write")->type_name("FILE");
   command->add_option("--png", arguments->png, "Draw the profile, the line of sight and its Fresnel zone")
       ->type_name("FILE");
   arguments->sight.addLonLatTo(*command);
   arguments->sight.addNodataTo(*command);
   arguments->sight.addEarthTo(*command);
   const std::string radio = "Radio";
-  CLI::Option* frequency =
-      command->add_option("--frequency", arguments->frequency, "The first Fresnel zone of the line of sight")
-          ->check(finiteAbove(0))
-          ->type_name("MHZ")
-          ->group(radio);
-  command->add_option("--fresnel", arguments->fresnel, "The part of it that is drawn inside (default 0.6)")
+  CLI::Option* frequency = command
+                               ->add_option("--frequency", arguments->frequency,
+                                            "Frequency whose first Fresnel zone is computed and drawn")
+                               ->check(finiteAbove(0))
+                               ->type_name("MHZ")
+                               ->group(radio);
+  command
+      ->add_option("--fresnel", arguments->fresnel,
+                   "Part of the first Fresnel zone that must be clear, drawn inside it (default 0.6)")
       ->check(finiteAtLeast(0))
       ->needs(frequency)
       ->type_name("PART")

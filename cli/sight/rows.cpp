@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A row becomes a path if both of its ends have coordinates and a height; else it keeps the reason. Answers
+// are per path, texts and columns per row.
 #include "cli/sight/rows.h"
 
 #include <fmt/format.h>
@@ -13,7 +16,7 @@
 namespace arete {
 namespace {
 
-/// Beyond this many lines the samples of a raster are worth reading.
+/// From this many lines on, reading all samples of a raster pays off.
 constexpr std::size_t kManyLines = 1000;
 
 Result<SightPath> pathOf(const std::array<SightSite, 2>& row, const SurfaceHeights& heights) {
@@ -23,11 +26,12 @@ Result<SightPath> pathOf(const std::array<SightSite, 2>& row, const SurfaceHeigh
   for (int end = 0; end < 2; ++end) {
     const SightSite& site = row[end];
     if (!std::isfinite(site.xy.x + site.xy.y) && !std::isfinite(site.stated.x + site.stated.y))
-      return failure(ErrorCode::invalidData, "has no place", kEnds[end]);
+      return failure(ErrorCode::invalidData, "has no coordinates", kEnds[end]);
     if (!std::isfinite(site.xy.x + site.xy.y))
-      return failure(ErrorCode::invalidData, "has no place that the DEM's CRS can tell", kEnds[end]);
+      return failure(ErrorCode::invalidData, "has a place that cannot be expressed in the DEM's CRS",
+                     kEnds[end]);
     if (!site.height)
-      return failure(ErrorCode::usage, fmt::format("has no height; {} says one", kOptions[end]), kEnds[end]);
+      return failure(ErrorCode::usage, fmt::format("has no height; {} sets one", kOptions[end]), kEnds[end]);
     const auto height = demHeight({site.xy, site.height->height, site.height->kind}, heights);
     if (!height) return tl::unexpected(height.error());
     (end == 0 ? path.from : path.to) = sightPlan(heights.model(), site.xy);
@@ -131,11 +135,11 @@ std::string SightResults::textOf(std::size_t row) const {
   if (a.sight.gapMetres > 0)
     text += fmt::format("no terrain   below {:.1f} m of the line\n", a.sight.gapMetres);
   if (a.fresnel)
-    text += fmt::format("Fresnel zone {:.3f} of the first is clear ({} is wanted: {}), at {}\n",
+    text += fmt::format("Fresnel zone {:.3f} of the first is clear ({} is required: {}), at {}\n",
                         a.fresnel->fraction, fresnel, isFresnelClear(a) ? "yes" : "no",
                         placeText(a.fresnel->place));
   else if (hasFresnel)
-    text += "Fresnel zone none is told: an end is below the ground, or no ground is between the ends\n";
+    text += "Fresnel zone no answer: an end is below the ground, or there is no terrain between the ends\n";
   text += fmt::format("visited      {}\n", grouped(a.sight.visited));
   return text;
 }

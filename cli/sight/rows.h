@@ -15,7 +15,7 @@
 
 namespace arete {
 
-/// The paths that rows of a file state; a row that states none has a reason.
+/// The paths that rows of a file state; a row without one has the reason.
 struct SightRows {
   std::vector<SightPath> paths;
   struct Row {
@@ -28,8 +28,8 @@ struct SightRows {
   std::size_t count() const { return rows.size(); }
 };
 
-/// The engine for so many lines: a raster's samples are read once for many, for few the descent is there at
-/// once.
+/// The algorithm for a number of lines: for many, one that reads all samples of a raster first; for few, the
+/// descent, which starts at once.
 SightMethod bestMethod(SightMethod asked, double maxError, std::size_t lines, const TerrainModel& model);
 
 struct SightCounts {

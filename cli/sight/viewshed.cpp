@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The outline of the model places the observers; the places and radii say which part of the file is read;
+// then one viewshed, or the viewsheds of many combined cell by cell, become a GeoTIFF.
 #include "cli/sight/viewshed.h"
 
 #include <fmt/format.h>
@@ -16,6 +19,7 @@
 #include "cli/arguments/arguments.h"
 #include "cli/session/model_file.h"
 #include "cli/sight/arguments.h"
+#include "cli/sight/viewshed_arguments.h"
 #include "io/amt/file.h"
 #include "io/crs/longitude_turns.h"
 #include "io/crs/position_argument.h"
@@ -30,67 +34,12 @@
 namespace arete {
 namespace {
 
-enum class Mode { seen, height, horizon, count, server };
+using Mode = ViewshedMode;
 
-/// What a Byte says.
+/// Values of a raster of bytes.
 constexpr double kSeen = 255, kHidden = 0, kUnknown = 100, kUndecided = 200, kOutside = 1;
 
-struct ViewshedArguments {
-  std::string model, observers, layer, output, observerHeight, azimuths, elevations, like;
-  std::vector<std::string> observer;
-  SightArguments sight;
-  Mode mode = Mode::seen;
-  ViewshedMethod method = ViewshedMethod::automatic;
-  double targetHeight = 0, radius = std::numeric_limits<double>::infinity(), least = 0, maxError = 0;
-};
-
-Result<ViewshedOptions> optionsOf(const ViewshedArguments& a) {
-  ViewshedOptions options;
-  options.targetHeight = a.targetHeight;
-  options.nodata = a.sight.nodata;
-  options.maxError = a.maxError;
-  options.method = a.method;
-  options.field.leastMetres = a.least;
-  options.field.greatestMetres = a.radius;
-  if (a.least > a.radius)
-    return failure(ErrorCode::usage, fmt::format("is beyond --radius {}", a.radius),
-                   fmt::format("--min-distance {}", a.least));
-  options.value = a.mode == Mode::height    ? ViewshedValue::leastHeight
-                  : a.mode == Mode::horizon ? ViewshedValue::horizon
-                                            : ViewshedValue::none;
-  const auto two = [](const std::string& option,
-                      const std::string& text) -> Result<std::pair<double, double>> {
-    const auto numbers = parseNumbers(option, text);
-    if (!numbers) return tl::unexpected(numbers.error());
-    if (numbers->size() != 2 || !std::isfinite((*numbers)[0] + (*numbers)[1]))
-      return failure(ErrorCode::usage, "is two numbers with a comma between",
-                     fmt::format("{} {}", option, text));
-    return std::pair{(*numbers)[0], (*numbers)[1]};
-  };
-  if (!a.azimuths.empty()) {
-    const auto range = two("--azimuth", a.azimuths);
-    if (!range) return tl::unexpected(range.error());
-    const auto turned = [](double v) { return v - 360 * std::floor(v / 360); };
-    options.field.fromAzimuth = turned(range->first);
-    const double span = range->second - range->first;
-    options.field.azimuthSpan = span >= 360 ? 360 : turned(span);
-    if (!(options.field.azimuthSpan > 0))
-      return failure(ErrorCode::usage, "is no field of view: from A clockwise to B there is nothing",
-                     "--azimuth " + a.azimuths);
-  }
-  if (!a.elevations.empty()) {
-    const auto range = two("--elevation", a.elevations);
-    if (!range) return tl::unexpected(range.error());
-    if (!(range->first <= range->second && range->first >= -90 && range->second <= 90))
-      return failure(ErrorCode::usage, "is two angles from -90 to 90, the lower first",
-                     "--elevation " + a.elevations);
-    options.field.lowest = range->first;
-    options.field.highest = range->second;
-  }
-  return options;
-}
-
-/// What a site's own columns say goes before the options.
+/// Applies the columns of a site (range, azimuth, beamwidth), which come before the options.
 Status aim(ViewshedField& field, const SightBeam& beam) {
   if (std::isfinite(beam.range)) {
     if (!(beam.range > 0)) return failure(ErrorCode::invalidData, "has a range that is not above 0");
@@ -107,47 +56,51 @@ Status aim(ViewshedField& field, const SightBeam& beam) {
   return {};
 }
 
-/// An observer whose height is still to be told.
+/// An observer whose height above the terrain is not yet resolved.
 struct PlacedObserver {
   PositionArgument position;
   ViewshedField field;
-  std::string culprit;  // the row of a file; none of an option
+  std::string culprit;  // the row of a file; empty: stated by an option
 };
 
-/// Where they are and where they look, by the outline of the model.
+/// Reads the observers. `outline`: of the model, its root at least. Errors: usage, invalidData, naming the
+/// option or the row.
 Result<std::vector<PlacedObserver>> placeObservers(const ViewshedArguments& a, const ViewshedField& field,
                                                    const TerrainModel& outline, Session& session) {
   std::vector<PlacedObserver> observers;
   const auto toDem = transformOfPlaces(a.sight.lonLat, outline);
   if (!toDem) return tl::unexpected(toDem.error());
-  for (const std::string& text : a.observer) {
+  for (const std::string& text : a.observers.typed) {
     const auto position = readPositionArgument("--observer", text, *toDem);
     if (!position) return tl::unexpected(position.error());
     observers.push_back({*position, field, {}});
   }
-  if (a.observers.empty()) return observers;
+  if (a.observers.file.empty()) return observers;
   std::optional<StatedHeight> usual;
-  if (!a.observerHeight.empty()) {
-    const auto height = readHeightText(a.observerHeight);
+  if (!a.observers.usualHeight.empty()) {
+    const auto height = readHeightText(a.observers.usualHeight);
     if (!height)
-      return failure(height.error().code, height.error().message, "--observer-height " + a.observerHeight);
+      return failure(height.error().code, height.error().message,
+                     "--observer-height " + a.observers.usualHeight);
     usual = *height;
   }
-  const auto sites = readSightSites(a.observers, outline.georeference,
-                                    {.layer = a.layer, .lonLat = a.sight.lonLat}, session.context());
+  const auto sites =
+      readSightSites(a.observers.file, outline.georeference,
+                     {.layer = a.observers.layer, .lonLat = a.sight.lonLat}, session.context());
   if (!sites) return tl::unexpected(sites.error());
-  session.warn(sites->warnings, a.observers);
+  session.warn(sites->warnings, a.observers.file);
   const LongitudeTurns turns(outline);
   for (std::size_t i = 0; i < sites->rows.size(); ++i) {
     SightSite site = sites->rows[i][0];
     site.xy = turns(site.xy);
-    const std::string culprit = fmt::format("{}, row {}", a.observers, i + 1);
+    const std::string culprit = fmt::format("{}, row {}", a.observers.file, i + 1);
     if (!std::isfinite(site.stated.x + site.stated.y))
-      return failure(ErrorCode::invalidData, "has no place", culprit);
+      return failure(ErrorCode::invalidData, "has no coordinates", culprit);
     if (!std::isfinite(site.xy.x + site.xy.y))
-      return failure(ErrorCode::invalidData, "has no place that the DEM's CRS can tell", culprit);
+      return failure(ErrorCode::invalidData, "has a place that cannot be expressed in the DEM's CRS",
+                     culprit);
     const auto height = site.height ? site.height : usual;
-    if (!height) return failure(ErrorCode::usage, "has no height; --observer-height says one", culprit);
+    if (!height) return failure(ErrorCode::usage, "has no height; --observer-height sets one", culprit);
     observers.push_back({{site.xy, height->height, height->kind}, field, culprit});
     if (Status turned = aim(observers.back().field, sites->beams[i]); !turned)
       return failure(turned.error().code, turned.error().message, culprit);
@@ -155,8 +108,7 @@ Result<std::vector<PlacedObserver>> placeObservers(const ViewshedArguments& a, c
   return observers;
 }
 
-/// The terrain within sight of all of them; everything where one looks as far as it goes. Errors:
-/// interrupted.
+/// The part of the model within range of an observer; all of it where one has no limit. Errors: interrupted.
 Result<RequiredError> wantedFor(std::span<const PlacedObserver> observers, const SightEarth& earth,
                                 const TerrainModel& outline, const RunContext& context) {
   QueryFootprint places(outline);
@@ -172,7 +124,7 @@ Result<RequiredError> wantedFor(std::span<const PlacedObserver> observers, const
   return places.within(0);
 }
 
-/// With the heights that they have above the ground.
+/// Resolves the observers' heights on the model.
 Result<std::vector<ViewshedSite>> sitesOf(std::span<const PlacedObserver> observers,
                                           const TerrainModel& model) {
   const SurfaceHeights heights(model);
@@ -257,12 +209,7 @@ const char* descriptionOf(Mode mode) {
   }
 }
 
-/// One observer, and what it sees: no counts, no servers.
-bool isOfOne(const ViewshedArguments& a, std::size_t observers) {
-  return observers == 1 && a.mode != Mode::count && a.mode != Mode::server;
-}
-
-/// What is known before the first cell.
+/// Everything a viewshed is computed from.
 struct Question {
   const ViewshedArguments& arguments;
   const TerrainModel& model;
@@ -270,16 +217,15 @@ struct Question {
   const ViewshedOptions& options;
   std::span<const ViewshedSite> observers;
 
-  bool isOfOne() const { return arete::isOfOne(arguments, observers.size()); }
+  bool isOfOne() const { return arguments.isOfOne(observers.size()); }
 };
 
-/// The grid that is asked for: the DEM's own, with no places, or that of --like.
+/// The grid of the answer: the DEM's own, without places, or that of --like.
 Result<PlacedGrid> gridOf(const Question& q, Session& session) {
   const ViewshedArguments& a = q.arguments;
   if (a.like.empty()) return PlacedGrid{q.model.columns, q.model.rows, q.model.georeference, {}};
   if (!q.isOfOne())
-    return failure(ErrorCode::usage, "is for one observer and what it sees, not for counts and servers",
-                   "--like");
+    return failure(ErrorCode::usage, "requires a single observer, and no --mode count or server", "--like");
   std::vector<std::string> warnings;
   auto grid = readPlacedGrid(a.like, q.model, warnings, session.context());
   session.warn(warnings, a.like);
@@ -312,9 +258,9 @@ Result<Answer> answerMany(const Question& q, const ViewshedMaker& maker, const R
   return Answer{pictureOfMany(mode, *all), std::move(all->cells)};
 }
 
-/// The last words: how many cells are what.
-void tellCounts(const ViewshedArguments& a, const std::vector<ViewshedCell>& cells, Json json,
-                Session& session) {
+/// Reports how many cells have which answer.
+void reportCounts(const ViewshedArguments& a, const std::vector<ViewshedCell>& cells, Json json,
+                  Session& session) {
   const auto count = [&](ViewshedCell which) {
     return static_cast<std::uint64_t>(std::count(cells.begin(), cells.end(), which));
   };
@@ -336,7 +282,7 @@ void tellCounts(const ViewshedArguments& a, const std::vector<ViewshedCell>& cel
 Status answer(const Question& q, Session& session) {
   const ViewshedArguments& a = q.arguments;
   if (!q.model.isRaster)
-    return failure(ErrorCode::usage, "a viewshed is for rasters, and this model is of points", a.model);
+    return failure(ErrorCode::usage, "a viewshed requires a raster; this model is made of points", a.model);
   const auto maker = ViewshedMaker::make(q.model, q.earth, {}, session.context());
   if (!maker) return tl::unexpected(maker.error());
   auto grid = gridOf(q, session);
@@ -351,7 +297,7 @@ Status answer(const Question& q, Session& session) {
   if (!a.like.empty()) json["like"] = a.like;
   auto made = q.isOfOne() ? answerOne(q, *maker, *grid, session.context(), json)
                           : answerMany(q, *maker, session.context());
-  // What a method cannot do is no fault of a file: another option answers.
+  // The sweep does not support every question: another value of the option does.
   if (!made && made.error().code == ErrorCode::unsupported && a.method == ViewshedMethod::sweep)
     return failure(ErrorCode::usage, made.error().message, "--method sweep");
   if (!made) return tl::unexpected(made.error());
@@ -362,36 +308,25 @@ Status answer(const Question& q, Session& session) {
                                     picture.options, session.context());
       !written)
     return written;
-  tellCounts(a, made->cells, std::move(json), session);
+  reportCounts(a, made->cells, std::move(json), session);
   return {};
 }
 
 Status runViewshed(const ViewshedArguments& a, Session& session) {
-  if (a.observer.empty() && a.observers.empty())
-    return failure(ErrorCode::usage, "--observer or --observers says from where");
-  if (!isGeoTiffName(a.output))
-    return failure(ErrorCode::usage, "a viewshed is a GeoTIFF and ends in .tif or .tiff",
-                   "--output " + a.output);
-  if (!a.layer.empty() && a.observers.empty())
-    return failure(ErrorCode::usage, "means something only with --observers", "--layer");
-  if (!a.observerHeight.empty() && a.observers.empty())
-    return failure(ErrorCode::usage, "is of --observers; of --observer it is the H of X,Y,H",
-                   "--observer-height");
-  if (a.method == ViewshedMethod::sweep && a.maxError > 0)
-    return failure(ErrorCode::usage, "has no tolerance, so --max-error has no place", "--method sweep");
-  const auto options = optionsOf(a);
+  if (Status checked = a.check(); !checked) return checked;
+  const auto options = a.options();
   if (!options) return tl::unexpected(options.error());
   const Result<AmtFile> file = openAmt(a.model);
   if (!file) return tl::unexpected(file.error());
   const Result<TerrainModel> outline = outlineOf(*file, session);
   if (!outline) return tl::unexpected(outline.error());
-  if (Status output = checkOutput("--output", a.output, {a.model, a.observers, a.like, outline->source});
+  if (Status output = checkOutput("--output", a.output, {a.model, a.observers.file, a.like, outline->source});
       !output)
     return output;
   const auto placed = placeObservers(a, options->field, *outline, session);
   if (!placed) return tl::unexpected(placed.error());
-  if (!isOfOne(a, placed->size()) && (a.mode == Mode::height || a.mode == Mode::horizon))
-    return failure(ErrorCode::usage, fmt::format("is of one observer, and there are {}", placed->size()),
+  if (!a.isOfOne(placed->size()) && (a.mode == Mode::height || a.mode == Mode::horizon))
+    return failure(ErrorCode::usage, fmt::format("requires one observer, not {}", placed->size()),
                    a.mode == Mode::height ? "--mode height" : "--mode horizon");
   const auto earth = a.sight.makeEarth(*outline, session);
   if (!earth) return tl::unexpected(earth.error());
@@ -409,7 +344,7 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
 void addViewshedCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<ViewshedArguments>();
   CLI::App* command = session.addCommand(
-      app, "viewshed", "Tell what can be seen from places",
+      app, "viewshed", "Compute what is visible from one or more places",
       "  arete viewshed dem.amt --observer 409050,3801450,10 --target-height 2 --radius 20000 -o seen.tif\n"
       "  arete viewshed dem.amt --observer 409050,3801450,10 --mode height -o least_height.tif\n"
       "  arete viewshed dem.amt --observers masts.gpkg --observer-height 30 --mode count -o count.tif\n"
@@ -421,81 +356,7 @@ void addViewshedCommand(CLI::App& app, Session& session) {
       "view. Every sample has the answer that arete los gives for it. count, server: 65533 unknown, 65534\n"
       "undecided, 65535 = NODATA. height: infinite where nothing would be seen, NODATA where it is unknown.",
       [arguments](Session& s) { return runViewshed(*arguments, s); });
-  command->add_option("FILE.amt", arguments->model, "Multitriangulation of a raster")
-      ->required()
-      ->type_name("");
-  command->add_option("-o,--output", arguments->output, "GeoTIFF")->required()->type_name("FILE.tif");
-  command
-      ->add_option("--observer", arguments->observer,
-                   "Where the observer is, in the DEM's CRS; may be repeated")
-      ->type_size(1)
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("X,Y,H");
-  command
-      ->add_option(
-          "--observers", arguments->observers,
-          "Observers from a file: CSV or a layer of points; the columns h, range (metres), azimuth and "
-          "beamwidth (degrees) say what differs between them")
-      ->type_name("FILE");
-  command->add_option("--layer", arguments->layer, "Layer of a file with several")->type_name("NAME");
-  command
-      ->add_option("--like", arguments->like,
-                   "Answer for the samples of this raster's grid, in its CRS, instead of the DEM's")
-      ->type_name("RASTER");
-  command
-      ->add_option("--observer-height", arguments->observerHeight,
-                   "Height of observers that the file has none for")
-      ->type_name("H");
-  command
-      ->add_option("--target-height", arguments->targetHeight,
-                   "Height of what is looked for above the terrain, in the DEM's unit (default 0)")
-      ->check(finiteAtLeast(0))
-      ->type_name("H");
-  command
-      ->add_option(
-          "--mode", arguments->mode,
-          "seen (default); height: the least height above the terrain that would be seen; horizon: its "
-          "elevation, degrees; count: how many observers see it; server: the nearest that does")
-      ->transform(oneOf<Mode>({{"seen", Mode::seen},
-                               {"height", Mode::height},
-                               {"horizon", Mode::horizon},
-                               {"count", Mode::count},
-                               {"server", Mode::server}}))
-      ->type_name("MODE");
-  const std::string field = "The field of view";
-  command->add_option("--radius", arguments->radius, "Greatest distance along the ground")
-      ->check(finiteAbove(0))
-      ->type_name("METRES")
-      ->group(field);
-  command->add_option("--min-distance", arguments->least, "Least distance along the ground (default 0)")
-      ->check(finiteAtLeast(0))
-      ->type_name("METRES")
-      ->group(field);
-  command
-      ->add_option("--azimuth", arguments->azimuths,
-                   "From the first azimuth clockwise to the second, degrees")
-      ->type_name("A,B")
-      ->group(field);
-  command
-      ->add_option("--elevation", arguments->elevations,
-                   "From the lowest to the highest elevation of the target, degrees above the horizontal")
-      ->type_name("A,B")
-      ->group(field);
-  arguments->sight.addLonLatTo(*command);
-  arguments->sight.addNodataTo(*command);
-  command
-      ->add_option("--max-error", arguments->maxError,
-                   "Stop at this detail, in the DEM's unit: samples that it does not decide are undecided")
-      ->check(finiteAtLeast(0))
-      ->type_name("E");
-  command
-      ->add_option("--method", arguments->method, "auto (default), sweep or rays; all give the same answer")
-      ->transform(oneOf<ViewshedMethod>({{"auto", ViewshedMethod::automatic},
-                                         {"sweep", ViewshedMethod::sweep},
-                                         {"rays", ViewshedMethod::rays}}))
-      ->type_name("METHOD");
-  arguments->sight.addEarthTo(*command);
+  arguments->addTo(*command);
 }
 
 }  // namespace arete

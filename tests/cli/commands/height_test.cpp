@@ -104,8 +104,8 @@ TEST_F(HeightCommand, RefusesWhatMakesNoSense) {
   refused({"--points", "nowhere.csv"}, 3, "there is no such file");
   refused({"--points", "dem.tif"}, 4, "cannot be read as a set of points");
   refused({"--points", "places.csv", "-o", "heights.txt"}, 2, "ends in .csv or .gpkg");
-  refused({"--points", "places.csv", "-o", "places.csv"}, 2, "is the input");
-  refused({"--at", "1,1", "--layer", "a"}, 2, "--layer: means something only with --points");
+  refused({"--points", "places.csv", "-o", "places.csv"}, 2, "is an input");
+  refused({"--at", "1,1", "--layer", "a"}, 2, "--layer: requires --points");
   EXPECT_EQ(files(), (std::set<std::string>{"dem.amt", "dem.tif", "places.csv"}));
 }
 

@@ -72,7 +72,7 @@ TEST_F(MeasureMeshes, WritesTheFirstMeshWithADistancePerVertex) {
   EXPECT_EQ(run({"measure", "a.obj", "b.obj", "--error-mesh", "no/such.ply"}).code, 3);
   const Outcome own = run({"measure", "distances.ply", "b.obj", "--error-mesh", "distances.ply"});
   EXPECT_EQ(own.code, 2);
-  EXPECT_NE(own.err.find("is the input"), std::string::npos) << own.err;
+  EXPECT_NE(own.err.find("is an input"), std::string::npos) << own.err;
   EXPECT_EQ(read("distances.ply"), bytes);
 }
 
@@ -93,13 +93,13 @@ TEST_F(MeasureMeshes, RefusesWhatMakesNoSense) {
   refused({"measure", "a.obj", "a.obj", "--seed", "-1"}, 2, "--seed");
   refused({"measure", "a.obj", "a.obj", "--expect", "-1"}, 2, "--expect");
   refused({"measure", "a.obj", "a.obj", "--region", "0,0,1,1"}, 2,
-          "--region: is about a DEM, and a.obj is a mesh");
+          "--region: requires a DEM, and a.obj is a mesh");
   refused({"measure", "a.obj", "a.obj", "--error-raster", "e.tif"}, 2, "--error-raster");
   refused({"measure", "a.obj", "a.obj", "--allow-covered-nodata"}, 2, "--allow-covered-nodata");
   refused({"measure", "a.obj", "a.obj", "--nodata", "3"}, 2, "--nodata");
   makeRaster("dem.tif", "fractal", 20, 20);
   refused({"measure", "a.obj", "dem.tif", "--samples", "5"}, 2,
-          "--samples: is about another mesh, and dem.tif is a DEM");
+          "--samples: requires another mesh, and dem.tif is a DEM");
   refused({"measure", "a.obj", "dem.tif", "--error-mesh", "e.ply"}, 2, "--error-mesh");
 }
 

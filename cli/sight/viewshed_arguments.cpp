@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Declares the options of `arete viewshed` group by group. CLI11 states which options need or exclude each
+// other; check() has the rules that depend on an option's value, or on one of several options.
+#include "cli/sight/viewshed_arguments.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "cli/arguments/arguments.h"
+#include "io/dem/raster_writer.h"
+
+namespace arete {
+namespace {
+
+/// "A,B". Errors: usage, naming the option.
+Result<std::pair<double, double>> readRange(const std::string& option, const std::string& text) {
+  const auto numbers = parseNumbers(option, text);
+  if (!numbers) return tl::unexpected(numbers.error());
+  if (numbers->size() != 2 || !std::isfinite((*numbers)[0] + (*numbers)[1]))
+    return failure(ErrorCode::usage, "must be two numbers with a comma between",
+                   fmt::format("{} {}", option, text));
+  return std::pair{(*numbers)[0], (*numbers)[1]};
+}
+
+}  // namespace
+
+void ObserverArguments::addTo(CLI::App& command) {
+  command.add_option("--observer", typed, "Position of an observer, in the DEM's CRS; may be repeated")
+      ->type_size(1)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("X,Y,H");
+  CLI::Option* table =
+      command
+          .add_option("--observers", file,
+                      "Observers of a file: CSV or a layer of points. Columns h, range (metres), azimuth and "
+                      "beamwidth (degrees) hold for a row and come before the options")
+          ->type_name("FILE");
+  command.add_option("--layer", layer, "Layer, where the file has several")->needs(table)->type_name("NAME");
+  command
+      .add_option("--observer-height", usualHeight,
+                  "Height of the observers of --observers that have none in the file")
+      ->needs(table)
+      ->type_name("H");
+}
+
+void FieldOfViewArguments::addTo(CLI::App& command) {
+  const std::string group = "Field of view";
+  command.add_option("--radius", greatestMetres, "Largest distance along the ground (default: no limit)")
+      ->check(finiteAbove(0))
+      ->type_name("METRES")
+      ->group(group);
+  command.add_option("--min-distance", leastMetres, "Smallest distance along the ground (default 0)")
+      ->check(finiteAtLeast(0))
+      ->type_name("METRES")
+      ->group(group);
+  command.add_option("--azimuth", azimuths, "From the first azimuth clockwise to the second, in degrees")
+      ->type_name("A,B")
+      ->group(group);
+  command
+      .add_option("--elevation", elevations,
+                  "Lowest and highest elevation of the target, in degrees above the horizontal")
+      ->type_name("A,B")
+      ->group(group);
+}
+
+Result<ViewshedField> FieldOfViewArguments::field() const {
+  ViewshedField field;
+  field.leastMetres = leastMetres;
+  field.greatestMetres = greatestMetres;
+  if (leastMetres > greatestMetres)
+    return failure(ErrorCode::usage, fmt::format("is beyond --radius {}", greatestMetres),
+                   fmt::format("--min-distance {}", leastMetres));
+  if (!azimuths.empty()) {
+    const auto range = readRange("--azimuth", azimuths);
+    if (!range) return tl::unexpected(range.error());
+    const auto turned = [](double v) { return v - 360 * std::floor(v / 360); };
+    field.fromAzimuth = turned(range->first);
+    const double span = range->second - range->first;
+    field.azimuthSpan = span >= 360 ? 360 : turned(span);
+    if (!(field.azimuthSpan > 0))
+      return failure(ErrorCode::usage, "is an empty field of view: B must differ from A",
+                     "--azimuth " + azimuths);
+  }
+  if (!elevations.empty()) {
+    const auto range = readRange("--elevation", elevations);
+    if (!range) return tl::unexpected(range.error());
+    if (!(range->first <= range->second && range->first >= -90 && range->second <= 90))
+      return failure(ErrorCode::usage, "must be two angles from -90 to 90, the lower first",
+                     "--elevation " + elevations);
+    field.lowest = range->first;
+    field.highest = range->second;
+  }
+  return field;
+}
+
+void ViewshedArguments::addTo(CLI::App& command) {
+  command.add_option("FILE.amt", model, "Multitriangulation of a raster")->required()->type_name("");
+  command.add_option("-o,--output", output, "GeoTIFF to write")->required()->type_name("FILE.tif");
+  observers.addTo(command);
+  command.add_option("--like", like, "Raster whose grid and CRS the answer has, instead of the DEM's")
+      ->type_name("RASTER");
+  command
+      .add_option("--target-height", targetHeight,
+                  "Height of the target above the terrain, in the DEM's unit (default 0)")
+      ->check(finiteAtLeast(0))
+      ->type_name("H");
+  command
+      .add_option(
+          "--mode", mode,
+          "seen (default); height: least height above the terrain that is seen; horizon: its elevation in "
+          "degrees; count: number of observers that see the sample; server: nearest of them")
+      ->transform(oneOf<ViewshedMode>({{"seen", ViewshedMode::seen},
+                                       {"height", ViewshedMode::height},
+                                       {"horizon", ViewshedMode::horizon},
+                                       {"count", ViewshedMode::count},
+                                       {"server", ViewshedMode::server}}))
+      ->type_name("MODE");
+  fieldOfView.addTo(command);
+  sight.addLonLatTo(command);
+  sight.addNodataTo(command);
+  command
+      .add_option("--max-error", maxError,
+                  "Stop refining at this error, in the DEM's unit; samples that it leaves open are undecided")
+      ->check(finiteAtLeast(0))
+      ->type_name("E");
+  command.add_option("--method", method, "auto (default), sweep or rays; all give the same answer")
+      ->transform(oneOf<ViewshedMethod>({{"auto", ViewshedMethod::automatic},
+                                         {"sweep", ViewshedMethod::sweep},
+                                         {"rays", ViewshedMethod::rays}}))
+      ->type_name("METHOD");
+  sight.addEarthTo(command);
+}
+
+Status ViewshedArguments::check() const {
+  if (observers.typed.empty() && observers.file.empty())
+    return failure(ErrorCode::usage, "--observer or --observers is required");
+  if (!isGeoTiffName(output))
+    return failure(ErrorCode::usage, "a viewshed is a GeoTIFF and ends in .tif or .tiff",
+                   "--output " + output);
+  if (method == ViewshedMethod::sweep && maxError > 0)
+    return failure(ErrorCode::usage, "cannot be combined with --max-error", "--method sweep");
+  return {};
+}
+
+Result<ViewshedOptions> ViewshedArguments::options() const {
+  const Result<ViewshedField> field = fieldOfView.field();
+  if (!field) return tl::unexpected(field.error());
+  ViewshedOptions options;
+  options.targetHeight = targetHeight;
+  options.nodata = sight.nodata;
+  options.maxError = maxError;
+  options.method = method;
+  options.field = *field;
+  options.value = mode == ViewshedMode::height    ? ViewshedValue::leastHeight
+                  : mode == ViewshedMode::horizon ? ViewshedValue::horizon
+                                                  : ViewshedValue::none;
+  return options;
+}
+
+bool ViewshedArguments::isOfOne(std::size_t observerCount) const {
+  return observerCount == 1 && mode != ViewshedMode::count && mode != ViewshedMode::server;
+}
+
+}  // namespace arete

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Declares the options of `arete view` group by group. CLI11 states which options need or exclude each other;
+// check() has the rules that depend on an option's value, or on one of several options.
+#include "cli/view/arguments.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <tuple>
+
+#include "cli/arguments/arguments.h"
+#include "io/file/text_scan.h"
+#include "viewer/headless/headless.h"
+
+namespace arete {
+namespace {
+
+Coloring coloringOf(const std::string& name) {
+  if (name == "slope") return Coloring::slope;
+  if (name == "aspect") return Coloring::aspect;
+  if (name == "plain") return Coloring::plain;
+  if (name == "error") return Coloring::error;
+  return Coloring::hypsometric;
+}
+
+}  // namespace
+
+void ViewpointArguments::addTo(CLI::App& command) {
+  const std::string group = "Viewpoint";
+  CLI::Option* place =
+      command
+          .add_option("--camera", camera,
+                      "Position of the camera, H above the ground (agl) or in the DEM's heights (msl, ell); "
+                      "its direction in degrees, clockwise from north and above the horizon; its vertical "
+                      "field of view (default 60)")
+          ->type_name("X,Y,H[,AZIMUTH,PITCH[,FOV]]")
+          ->group(group);
+  command.add_flag("--lonlat", isLonLat, "X,Y of --camera are longitude and latitude")
+      ->needs(place)
+      ->group(group);
+  command.add_option("--home", home, "View of the whole terrain (default overview)")
+      ->check(oneOf({"overview", "above", "south", "west", "north", "east"}))
+      ->excludes(place)
+      ->type_name("NAME")
+      ->group(group);
+  CLI::Option* flight =
+      command.add_option("--path", path, "Flight through the key frames of a file (docs/topics/flights.md)")
+          ->type_name("FLIGHT.json")
+          ->group(group);
+  command.add_flag("--round", isRound, "Flight around the inside of the terrain")
+      ->excludes(flight)
+      ->group(group);
+}
+
+void DetailArguments::addTo(CLI::App& command) {
+  const std::string group = "Detail";
+  command.add_option("--pixel-error", pixelError, "Largest error in the picture, in pixels (default 1)")
+      ->check(finiteAbove(0))
+      ->type_name("P")
+      ->group(group);
+  command
+      .add_option("--max-triangles", maxTriangles, "Largest number of triangles; the error grows to keep it")
+      ->check(wholeNumber(1, 0xFFFFFFF))
+      ->type_name("N")
+      ->group(group);
+  command
+      .add_option("--cut", cut,
+                  "What computes the triangles to draw: the GPU (device, default) or the processor")
+      ->check(oneOf({"device", "processor"}))
+      ->type_name("NAME")
+      ->group(group);
+  command
+      .add_option("--frame-time", frameTime,
+                  "Longest time of a frame in the window; the error grows to keep it")
+      ->check(finiteAbove(0))
+      ->type_name("MS")
+      ->group(group);
+  command
+      .add_option("--deadline", deadline,
+                  "Longest time of the processor's cut in a frame; the next frame continues it")
+      ->check(finiteAbove(0))
+      ->type_name("MS")
+      ->group(group);
+  command.add_flag("--no-geomorph", isFixed, "Do not move new vertices gradually to their height")
+      ->group(group);
+}
+
+std::string DetailArguments::whatEndsTheCut() const {
+  if (deadline > 0 && maxTriangles > 0) return "budget or the deadline";
+  return deadline > 0 ? "deadline" : maxTriangles > 0 ? "budget" : "room on the device";
+}
+
+void AppearanceArguments::addTo(CLI::App& command) {
+  const std::string group = "Appearance";
+  command.add_option("--color", color, "Colour by height (default), slope, aspect, plain or error")
+      ->check(oneOf({"height", "slope", "aspect", "plain", "error"}))
+      ->type_name("NAME")
+      ->group(group);
+  CLI::Option* picture =
+      command
+          .add_option(
+              "--drape", drape,
+              "Georeferenced picture over the terrain, in any CRS; --color shows where it does not reach")
+          ->type_name("FILE")
+          ->group(group);
+  command
+      .add_option("--drape-bands", drapeBands,
+                  "Bands of the picture: one (grey) or red, green and blue (default: as the file says)")
+      ->needs(picture)
+      ->type_name("R,G,B")
+      ->group(group);
+  command
+      .add_option("--contours", contours,
+                  "Interval of contour lines, in the DEM's unit of height (default: none)")
+      ->check(finiteAbove(0))
+      ->type_name("H")
+      ->group(group);
+  command.add_option("--sun", sun, "Direction of the sun in degrees (default 315,40)")
+      ->type_name("AZIMUTH,ELEVATION")
+      ->group(group);
+  command
+      .add_option("--haze", hazeKilometres,
+                  "Distance at which haze hides about two thirds (default: no haze)")
+      ->check(finiteAbove(0))
+      ->type_name("KM")
+      ->group(group);
+  command.add_option("--exaggeration", exaggeration, "Factor of all heights (default 1)")
+      ->check(finiteBetween(1e-6, 1e6))
+      ->type_name("X")
+      ->group(group);
+  command.add_flag("--curvature", isCurved, "Draw the curvature of the Earth, by the CRS's ellipsoid")
+      ->group(group);
+  command.add_flag("--wireframe", hasWireframe, "Draw the edges of the triangles")->group(group);
+  command.add_flag("--unshaded", isUnshaded, "Draw without sunlight")->group(group);
+}
+
+Result<DrapeOptions> AppearanceArguments::drapeOptions() const {
+  DrapeOptions options;
+  if (drapeBands.empty()) return options;
+  const auto numbers = parseNumbers("--drape-bands", drapeBands);
+  if (!numbers) return tl::unexpected(numbers.error());
+  for (const double n : *numbers) {
+    if (!(n >= 1 && n <= 65535 && n == std::floor(n)) || (numbers->size() != 1 && numbers->size() != 3))
+      return failure(ErrorCode::usage, "must be one band (grey) or three (red, green, blue), counted from 1",
+                     "--drape-bands " + drapeBands);
+    options.read.bands.push_back(static_cast<int>(n));
+  }
+  return options;
+}
+
+Result<ViewLook> AppearanceArguments::look() const {
+  ViewLook look;
+  look.coloring = coloringOf(color);
+  look.isShaded = !isUnshaded;
+  look.contourInterval = contours;
+  look.hazeKilometres = hazeKilometres;
+  look.hasWireframe = hasWireframe;
+  if (sun.empty()) return look;
+  const auto angles = twoNumbers("--sun", sun, ',');
+  if (!angles || !(angles->second >= 0 && angles->second <= 90) || !std::isfinite(angles->first))
+    return failure(ErrorCode::usage, "must be AZIMUTH,ELEVATION, with an elevation from 0 to 90 degrees",
+                   "--sun " + sun);
+  std::tie(look.sunAzimuthDegrees, look.sunElevationDegrees) = *angles;
+  return look;
+}
+
+void PictureArguments::addTo(CLI::App& command) {
+  const std::string group = "Pictures";
+  CLI::Option* headless =
+      command.add_flag("--headless", isHeadless, "Draw without a window or display")->group(group);
+  command.add_option("--size", sizeText, "Size of the picture or window in pixels (default 1280x720)")
+      ->type_name("WxH")
+      ->group(group);
+  command.add_option("--samples", samples, "Samples of each pixel, for smooth edges (default 4)")
+      ->check(wholeNumber(1, 32))
+      ->type_name("N")
+      ->group(group);
+  command.add_option("--screenshot", screenshot, "Write one picture")
+      ->needs(headless)
+      ->type_name("FILE.png")
+      ->group(group);
+  CLI::Option* pictures = command.add_option("--frames", frames, "Write the pictures of the flight")
+                              ->needs(headless)
+                              ->type_name("FOLDER")
+                              ->group(group);
+  command.add_option("--fps", framesPerSecond, "Pictures per second (default: the flight's)")
+      ->check(finiteBetween(0.001, 1000))
+      ->needs(pictures)
+      ->type_name("N")
+      ->group(group);
+  command.add_option("--film", film, "Make a film of the pictures with ffmpeg")
+      ->needs(pictures)
+      ->type_name("FILE.mp4")
+      ->group(group);
+  command.add_option("--figures", figures, "Write triangles, tolerance and times of each frame")
+      ->needs(pictures)
+      ->type_name("FILE.json")
+      ->group(group);
+  // Hidden: pictures of the window itself.
+  command.add_option("--window-screenshot", windowScreenshot)->group("");
+  command.add_option("--window-frames", windowFrames)->group("");
+}
+
+Result<std::pair<int, int>> PictureArguments::size() const {
+  if (sizeText.empty()) return std::pair(1280, 720);
+  const auto size = twoNumbers("--size", sizeText, 'x');
+  const auto isSide = [](double n) { return n >= 1 && n <= 1e6 && n == std::floor(n); };
+  if (!size || !isSide(size->first) || !isSide(size->second))
+    return failure(ErrorCode::usage, "must be WIDTHxHEIGHT, as in 1280x720", "--size " + sizeText);
+  return std::pair(static_cast<int>(size->first), static_cast<int>(size->second));
+}
+
+void ViewArguments::addTo(CLI::App& command) {
+  command.add_option("FILE.amt", model, "Multitriangulation")->required()->type_name("");
+  viewpoint.addTo(command);
+  detail.addTo(command);
+  appearance.addTo(command);
+  pictures.addTo(command);
+  command.get_option("--frame-time")->excludes(command.get_option("--headless"));
+}
+
+Status ViewArguments::check() const {
+  const auto refuse = [](const char* sentence, const std::string& option) {
+    return failure(ErrorCode::usage, sentence, option);
+  };
+  const PictureArguments& p = pictures;
+  if (detail.deadline > 0 && detail.cut == "device") return refuse("requires --cut processor", "--deadline");
+  if (p.isHeadless && p.screenshot.empty() && p.frames.empty())
+    return refuse("requires --screenshot FILE.png or --frames FOLDER", "--headless");
+  if (!p.screenshot.empty() && text::lowerExtension(p.screenshot) != "png")
+    return refuse("a picture ends in .png", "--screenshot " + p.screenshot);
+  if (!p.frames.empty() && !viewpoint.hasFlight())
+    return refuse("requires --path FLIGHT.json or --round", "--frames " + p.frames);
+  if (p.isHeadless && p.screenshot.empty() && viewpoint.statesCamera())
+    return refuse("requires --screenshot; the frames of a flight have cameras of their own",
+                  viewpoint.home.empty() ? "--camera " + viewpoint.camera : "--home " + viewpoint.home);
+  if (p.film.empty()) return {};
+  // Drawing may take hours: a film that cannot be made is refused first.
+  if (Status can = canEncodeFilm(p.film); !can)
+    return failure(can.error().code, can.error().message, "--film " + p.film);
+  return {};
+}
+
+Result<ViewSettings> ViewArguments::settings() const {
+  Result<ViewLook> look = appearance.look();
+  if (!look) return tl::unexpected(look.error());
+  ViewSettings s;
+  s.pixels = detail.pixelError;
+  s.maxTriangles = static_cast<std::uint32_t>(detail.maxTriangles);
+  s.path = detail.cut == "device" ? CutPath::device : CutPath::processor;
+  s.cutMilliseconds = detail.deadline;
+  s.isGeomorphed = !detail.isFixed;
+  s.stretch = appearance.exaggeration;
+  s.isCurved = appearance.isCurved;
+  s.look = *look;
+  return s;
+}
+
+}  // namespace arete

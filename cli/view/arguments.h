@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "engine/base/result.h"
+#include "viewer/gl/drape_on_gpu.h"
+#include "viewer/gl/terrain_view.h"
+
+namespace arete {
+
+// The options of `arete view`, one struct for each group of its help. addTo() declares them on the command.
+
+/// Where the picture is taken from.
+struct ViewpointArguments {
+  std::string camera;  ///< "X,Y,H[,AZIMUTH,PITCH[,FOV]]"; empty = `home`
+  std::string home;    ///< name of a view of the whole terrain; empty = overview
+  std::string path;    ///< file of a flight; empty = none
+  bool isLonLat = false, isRound = false;
+
+  void addTo(CLI::App& command);
+  bool statesCamera() const { return !camera.empty() || !home.empty(); }
+  bool hasFlight() const { return !path.empty() || isRound; }
+};
+
+/// How fine the terrain is drawn. Times in milliseconds; 0 = no limit.
+struct DetailArguments {
+  double pixelError = 1, frameTime = 0, deadline = 0;
+  std::int64_t maxTriangles = 0;  ///< 0 = any number
+  std::string cut = "device";
+  bool isFixed = false;  ///< no geomorphing
+
+  void addTo(CLI::App& command);
+  /// What can end a cut before it reaches the tolerance, for a sentence.
+  std::string whatEndsTheCut() const;
+};
+
+/// Colours, light, the picture on the terrain.
+struct AppearanceArguments {
+  std::string color = "height", sun, drape, drapeBands;
+  double contours = 0, hazeKilometres = 0, exaggeration = 1;
+  bool hasWireframe = false, isUnshaded = false, isCurved = false;
+
+  void addTo(CLI::App& command);
+  /// The bands of the drape that are shown. Errors: usage: not one or three bands, counted from 1.
+  Result<DrapeOptions> drapeOptions() const;
+  /// Errors: usage: a position of the sun that is not two angles.
+  Result<ViewLook> look() const;
+};
+
+/// Pictures and films, and the size of the window.
+struct PictureArguments {
+  bool isHeadless = false;
+  std::string sizeText, screenshot, frames, film, figures;
+  double framesPerSecond = 0;  ///< 0 = the flight's own
+  int samples = 4;
+  std::string windowScreenshot;  ///< for tests: the last picture of the window
+  int windowFrames = 0;          ///< for tests: the window closes after so many frames; 0 = never
+
+  void addTo(CLI::App& command);
+  /// @return width and height in pixels; 1280 x 720 where no size is given. Errors: usage.
+  Result<std::pair<int, int>> size() const;
+};
+
+struct ViewArguments {
+  std::string model;
+  ViewpointArguments viewpoint;
+  DetailArguments detail;
+  AppearanceArguments appearance;
+  PictureArguments pictures;
+
+  void addTo(CLI::App& command);
+  /// The rules between options that CLI11 cannot state. Errors: usage, naming the option; unsupported: a film
+  /// without ffmpeg.
+  Status check() const;
+  /// Errors: usage.
+  Result<ViewSettings> settings() const;
+};
+
+}  // namespace arete

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What `arete view --headless` writes: a screenshot, the frames of a flight, their figures and a film. What
+// is wrong with the pictures, though they were drawn, is a warning.
+#include "cli/view/pictures.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments/arguments.h"
+#include "io/file/file_writer.h"
+
+namespace arete {
+namespace {
+
+Json jsonOf(const Camera& c) {
+  return {{"x", c.xy.x},
+          {"y", c.xy.y},
+          {"height", c.height},
+          {"azimuth", c.azimuthDegrees},
+          {"pitch", c.pitchDegrees},
+          {"fov", c.verticalFieldOfViewDegrees}};
+}
+
+Json jsonOf(const FrameFigures& f) {
+  return {{"triangles", f.triangles},
+          {"moving", f.moving},
+          {"pixelError", std::isfinite(f.pixels) ? Json(f.pixels) : Json()},
+          {"isComplete", f.isComplete},
+          {"showsTerrain", f.showsTerrain},
+          {"jumpPixels", std::isfinite(f.jumpPixels) ? Json(f.jumpPixels) : Json()},
+          {"cutMilliseconds", f.cutMilliseconds},
+          {"drawMilliseconds", f.drawMilliseconds}};
+}
+
+/// "within 1 pixel".
+std::string accuracyOf(const FrameFigures& figures) {
+  if (!std::isfinite(figures.pixels)) return "as coarse as it gets, its error around the eye not known";
+  return fmt::format("within {:.3g} pixel{}", figures.pixels, figures.pixels == 1 ? "" : "s");
+}
+
+/// Frames that an earlier flight left behind those of this one.
+bool hasFramesBehind(const std::string& folder, std::size_t frames) {
+  std::error_code ignored;
+  return std::filesystem::exists(std::filesystem::path(folder) / fmt::format("frame_{:05}.png", frames),
+                                 ignored);
+}
+
+/// The nodes around the eye, whose pixels nothing bounds, are in every cut of the device.
+bool exceedsBudget(const ViewArguments& a, const FrameFigures& figures) {
+  return a.detail.maxTriangles > 0 && figures.triangles > static_cast<std::uint64_t>(a.detail.maxTriangles);
+}
+
+}  // namespace
+
+/// Files beside the frames: none of the inputs, none of each other, none of the frames.
+Status checkPictureOutputs(const ViewArguments& a, const TerrainModel& model) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> outputs;
+  for (const auto& [option, path] : {std::pair{"--screenshot", a.pictures.screenshot},
+                                     {"--film", a.pictures.film},
+                                     {"--figures", a.pictures.figures}}) {
+    if (path.empty()) continue;
+    const fs::path file(path), folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    std::error_code ignored;
+    const bool isFrame = !a.pictures.frames.empty() && file.filename().string().starts_with("frame_") &&
+                         file.extension() == ".png" && fs::equivalent(folder, a.pictures.frames, ignored);
+    if (isFrame) outputs.push_back(path);
+    if (Status ok =
+            checkOutput(option, path, {a.model, a.viewpoint.path, a.appearance.drape, model.source}, outputs);
+        !ok)
+      return ok;
+    outputs.push_back(path);
+  }
+  return {};
+}
+
+Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView& view, Session& session,
+                      Json& json) {
+  const Result<FrameFigures> figures = view.draw(camera);
+  if (!figures)
+    return failure(figures.error().code, figures.error().message,
+                   figures.error().culprit == "camera" && !a.viewpoint.camera.empty()
+                       ? "--camera " + a.viewpoint.camera
+                       : figures.error().culprit);
+  if (Status saved = savePng(view.image(), a.pictures.screenshot); !saved) return saved;
+  if (!figures->showsTerrain) session.warn("the picture shows nothing of the terrain");
+  if (!figures->isComplete)
+    session.warn(fmt::format("the {} ended the cut: the terrain is {}", a.detail.whatEndsTheCut(),
+                             accuracyOf(*figures)));
+  if (exceedsBudget(a, *figures))
+    session.warn(fmt::format("--max-triangles {}: from there the coarsest cut has {}", a.detail.maxTriangles,
+                             grouped(figures->triangles)));
+  session.say(fmt::format("{}: {} triangles, {} vertices on the move, {}\n", a.pictures.screenshot,
+                          grouped(figures->triangles), grouped(figures->moving), accuracyOf(*figures)));
+  json["screenshot"] = {
+      {"file", a.pictures.screenshot}, {"camera", jsonOf(camera)}, {"figures", jsonOf(*figures)}};
+  return {};
+}
+
+Status makeFilm(const ViewArguments& a, const Flight& flight, const SurfaceHeights& heights,
+                HeadlessView& view, Session& session, Json& json) {
+  const auto frames =
+      drawFilm(view, flight, {.folder = a.pictures.frames, .framesPerSecond = a.pictures.framesPerSecond},
+               session.context());
+  if (!frames) return tl::unexpected(frames.error());
+  Json list = Json::array();
+  std::uint64_t triangles = 0;
+  std::size_t unfinished = 0, empty = 0, large = 0, buried = 0;
+  for (const FilmFrame& frame : *frames) {
+    const auto ground = heights.at(frame.camera.xy);
+    buried += ground && frame.camera.height < ground->height ? 1 : 0;
+    unfinished += frame.figures.isComplete ? 0 : 1;
+    empty += frame.figures.showsTerrain ? 0 : 1;
+    large += exceedsBudget(a, frame.figures) ? 1 : 0;
+  }
+  if (empty > 0)
+    session.warn(fmt::format("{} of {} frames show nothing of the terrain", empty, frames->size()));
+  if (buried > 0)
+    session.warn(
+        fmt::format("the camera stands under the ground in {} of {} frames", buried, frames->size()));
+  if (unfinished > 0)
+    session.warn(fmt::format("the {} ended the cut of {} of {} frames", a.detail.whatEndsTheCut(), unfinished,
+                             frames->size()));
+  if (large > 0)
+    session.warn(fmt::format("--max-triangles {}: the coarsest cuts of {} of {} frames have more",
+                             a.detail.maxTriangles, large, frames->size()));
+  if (hasFramesBehind(a.pictures.frames, frames->size()))
+    session.warn(fmt::format("{} has frames of an earlier, longer flight behind these", a.pictures.frames));
+  for (const FilmFrame& frame : *frames) {
+    Json entry = {{"file", frame.file}, {"seconds", frame.seconds}, {"camera", jsonOf(frame.camera)}};
+    entry.update(jsonOf(frame.figures));
+    list.push_back(std::move(entry));
+    triangles += frame.figures.triangles;
+  }
+  json["renderer"] = view.description();
+  json["frames"] = std::move(list);
+  if (!a.pictures.figures.empty()) {
+    auto file = FileWriter::create(a.pictures.figures);
+    if (!file) return tl::unexpected(file.error());
+    file->write(json.dump(1) + "\n");
+    if (Status finished = file->finish(); !finished) return finished;
+  }
+  session.say(fmt::format("{}: {} frame{}, {} triangles in the mean\n", a.pictures.frames, frames->size(),
+                          frames->size() == 1 ? "" : "s", grouped(triangles / frames->size())));
+  if (!a.pictures.film.empty()) {
+    const double rate =
+        a.pictures.framesPerSecond > 0 ? a.pictures.framesPerSecond : flight.plan().framesPerSecond;
+    if (Status encoded =
+            encodeFilm(a.pictures.frames, frames->size(), rate, a.pictures.film, session.context());
+        !encoded)
+      return encoded;
+    session.say(a.pictures.film + "\n");
+    json["film"] = a.pictures.film;
+  }
+  return {};
+}
+
+}  // namespace arete

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cli/session/session.h"
+#include "cli/view/arguments.h"
+#include "engine/base/result.h"
+#include "terrain/locate/surface_height.h"
+#include "terrain/model/camera.h"
+#include "viewer/camera/flight.h"
+#include "viewer/headless/headless.h"
+
+namespace arete {
+
+/// Checks the names of the files that are written beside the frames: none is an input, another output, or a
+/// frame.
+///
+/// @param model the terrain that is drawn, whose source must not be overwritten.
+/// Errors: usage, naming the option; those of checkOutput().
+Status checkPictureOutputs(const ViewArguments& arguments, const TerrainModel& model);
+
+/// Draws one picture and writes it; adds "screenshot" to the JSON answer.
+///
+/// Warns where the picture shows no terrain or the cut ended early. Errors: those of HeadlessView::draw() and
+/// savePng().
+Status takeScreenshot(const ViewArguments& arguments, const Camera& camera, HeadlessView& view,
+                      Session& session, Json& json);
+
+/// Draws the frames of a flight, writes their figures and makes the film, as far as the arguments say; adds
+/// "frames" and "film" to the JSON answer.
+///
+/// @param heights of the terrain, for a warning where the camera is under the ground.
+/// Errors: those of drawFilm() and encodeFilm().
+Status makeFilm(const ViewArguments& arguments, const Flight& flight, const SurfaceHeights& heights,
+                HeadlessView& view, Session& session, Json& json);
+
+}  // namespace arete

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Reads the model, places the camera or the flight, and hands both to the window or, with --headless, to the
+// functions of pictures.h.
+#include "cli/view/view.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include "cli/arguments/arguments.h"
+#include "cli/view/arguments.h"
+#include "cli/view/pictures.h"
+#include "io/amt/file.h"
+#include "io/extract/camera_argument.h"
+#include "terrain/locate/surface_height.h"
+#include "viewer/camera/flight_json.h"
+#include "viewer/camera/home_view.h"
+#include "viewer/camera/round_flight.h"
+#include "viewer/headless/headless.h"
+#include "viewer/scene/curved_home_view.h"
+#include "viewer/window/window.h"
+
+namespace arete {
+namespace {
+
+HomeView homeOf(const std::string& name) {
+  for (const HomeView view : kHomeViews)
+    if (toString(view) == name) return view;
+  return HomeView::overview;
+}
+
+Result<Camera> cameraOf(const ViewArguments& a, const TerrainModel& model, const SurfaceHeights& heights,
+                        int width, int height) {
+  Camera picture;
+  picture.widthPixels = width;
+  picture.heightPixels = height;
+  if (a.viewpoint.camera.empty()) {
+    const CameraSpace space(model);
+    if (!a.appearance.isCurved)
+      return homeCamera(homeOf(a.viewpoint.home), space, metricBox(model), picture,
+                        a.appearance.exaggeration);
+    const auto ground = CurvedGround::create(model);
+    if (!ground) return tl::unexpected(ground.error());
+    return curvedHomeCamera(homeOf(a.viewpoint.home), *ground, space, metricBox(model), picture,
+                            a.appearance.exaggeration);
+  }
+  const auto toDem = transformOfPlaces(a.viewpoint.isLonLat, model);
+  if (!toDem) return tl::unexpected(toDem.error());
+  Result<CameraArgument> stated = readCameraArgument("--camera", a.viewpoint.camera, *toDem, heights);
+  if (!stated) return tl::unexpected(stated.error());
+  stated->camera.widthPixels = width;
+  stated->camera.heightPixels = height;
+  return stated->camera;
+}
+
+Result<std::optional<Flight>> flightOf(const ViewArguments& a, const TerrainModel& model,
+                                       const SurfaceHeights& heights, Session& session) {
+  const CameraSpace space(model);
+  FlightPlan plan;
+  if (!a.viewpoint.path.empty()) {
+    Result<FlightRead> read = readFlight(a.viewpoint.path, model.georeference);
+    if (!read) return tl::unexpected(read.error());
+    session.warn(read->warnings, a.viewpoint.path);
+    plan = std::move(read->plan);
+  } else if (a.viewpoint.isRound) {
+    Result<FlightPlan> round = roundFlight(heights, space, metricBox(model));
+    if (!round) return tl::unexpected(round.error());
+    plan = std::move(*round);
+  } else {
+    return std::optional<Flight>();
+  }
+  Result<Flight> flight = Flight::create(std::move(plan), space);
+  if (!flight && !a.viewpoint.path.empty())
+    return failure(
+        ErrorCode::invalidData, flight.error().message,
+        flight.error().culprit.empty() ? a.viewpoint.path : a.viewpoint.path + ", " + flight.error().culprit);
+  if (!flight) return tl::unexpected(flight.error());
+  return std::optional<Flight>(std::move(*flight));
+}
+
+Status runView(const ViewArguments& a, Session& session) {
+  if (Status ok = a.check(); !ok) return ok;
+  const Result<ViewSettings> settings = a.settings();
+  if (!settings) return tl::unexpected(settings.error());
+  const Result<DrapeOptions> drapeOptions = a.appearance.drapeOptions();
+  if (!drapeOptions) return tl::unexpected(drapeOptions.error());
+  const auto size = a.pictures.size();
+  if (!size) return tl::unexpected(size.error());
+  const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
+  if (!model) return tl::unexpected(model.error());
+  const SurfaceHeights heights(*model);
+  const Result<Camera> camera = cameraOf(a, *model, heights, size->first, size->second);
+  if (!camera) return tl::unexpected(camera.error());
+  if (const auto ground = heights.at(camera->xy); ground && camera->height < ground->height)
+    session.warn(fmt::format("the camera stands {} under the ground",
+                             withUnit(ground->height - camera->height, model->georeference.verticalUnit)));
+  const auto flight = flightOf(a, *model, heights, session);
+  if (!flight) return tl::unexpected(flight.error());
+
+  if (!a.pictures.frames.empty()) {
+    if (const auto count = filmFrames(**flight, a.pictures.framesPerSecond); !count)
+      return failure(
+          count.error().code, count.error().message,
+          a.viewpoint.path.empty() ? count.error().culprit : a.viewpoint.path + ", " + count.error().culprit);
+    std::error_code failed;  // drawFilm() says why; the film may lie in it
+    std::filesystem::create_directories(a.pictures.frames, failed);
+  }
+  if (Status ok = checkPictureOutputs(a, *model); !ok) return ok;
+
+  const auto layDrape = [&](TerrainView& view) -> Status {
+    if (Status laid = view.setDrape(a.appearance.drape, *drapeOptions, session.context()); !laid) return laid;
+    session.warn(view.drape()->warnings(), a.appearance.drape);
+    return {};
+  };
+  if (!a.pictures.isHeadless) {
+    WindowOptions window{.title = fmt::format("arete - {}", a.model)};
+    window.start.settings = *settings;
+    window.start.frameMilliseconds = a.detail.frameTime;
+    if (a.viewpoint.statesCamera())
+      window.start.camera = *camera;
+    else if (*flight)
+      window.start.camera = (*flight)->at(0);
+    if (*flight) window.start.flight = (*flight)->plan();
+    if (!a.viewpoint.path.empty()) window.start.flightPath = a.viewpoint.path;
+    if (!a.pictures.sizeText.empty()) std::tie(window.width, window.height) = *size;
+    window.samples = a.pictures.samples;
+    window.start.hasDrape = !a.appearance.drape.empty();
+    if (!a.appearance.drape.empty()) window.onReady = layDrape;
+    window.lastPicture = a.pictures.windowScreenshot;
+    window.frames = a.pictures.windowFrames;
+    return runWindow(*model, window, session.context());
+  }
+
+  HeadlessOptions options{size->first, size->second, a.pictures.samples, *settings};
+  Result<HeadlessView> view = HeadlessView::create(*model, options, session.context());
+  if (!view) return tl::unexpected(view.error());
+  for (const std::string& warning : view->warnings()) session.warn(warning);
+  Json json = {{"model", a.model}, {"renderer", view->description()}};
+  if (!a.appearance.drape.empty()) {
+    if (Status laid = layDrape(view->view()); !laid) return laid;
+    const DrapeOnGpu& drape = *view->view().drape();
+    json["drape"] = {{"file", a.appearance.drape},
+                     {"columns", drape.columns()},
+                     {"rows", drape.rows()},
+                     {"bytes", drape.bytes()}};
+  }
+  if (!a.pictures.screenshot.empty()) {
+    const bool isStated = a.viewpoint.statesCamera();
+    const Camera from = *flight && !isStated ? (*flight)->at(0) : *camera;
+    if (Status ok = takeScreenshot(a, from, *view, session, json); !ok) return ok;
+  }
+  if (!a.pictures.frames.empty())
+    if (Status ok = makeFilm(a, **flight, heights, *view, session, json); !ok) return ok;
+  session.answer(json);
+  return {};
+}
+
+}  // namespace
+
+void addViewCommand(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<ViewArguments>();
+  CLI::App* command = session.addCommand(
+      app, "view", "Fly over the terrain in a window, or draw pictures without one",
+      "  arete view dem.amt\n"
+      "  arete view dem.amt --headless --screenshot view.png --camera 409050,3801450,300,20,-10\n"
+      "  arete view dem.amt --headless --round --frames frames --film flight.mp4 --figures figures.json",
+      [arguments](Session& s) { return runView(*arguments, s); });
+  arguments->addTo(*command);
+}
+
+}  // namespace arete

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// arete info: the facts of a file, and its curve.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "cli/cli_fixture.h"
+#include "io/dem/raster_reader.h"
+
+namespace arete::cli_test {
+namespace {
+
+using InfoCommand = Cli;
+
+TEST_F(InfoCommand, TellsTheCurve) {
+  makeRaster("dem.tif", "fractal", 70, 70);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  const Json info = run({"info", "dem.amt", "--json"}).json();
+  ASSERT_FALSE(info.is_discarded());
+  EXPECT_EQ(info["samples"], 4900);
+  EXPECT_EQ(info["finestTriangles"], 2 * 69 * 69);
+  const Json curve = info["curve"];
+  ASSERT_GT(curve.size(), 3u);
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    EXPECT_LE(curve[i]["minimal"], curve[i]["saturated"]);
+    if (i == 0) continue;
+    EXPECT_LE(curve[i]["minimal"], curve[i - 1]["minimal"]);
+    EXPECT_GT(curve[i]["maxError"], curve[i - 1]["maxError"]);
+  }
+  const Json at = run({"info", "dem.amt", "--json", "--at", "4"}).json()["curve"];
+  ASSERT_EQ(at.size(), 1u);
+  for (const std::string method : {"minimal", "saturated"}) {
+    const Json tin =
+        run({"extract", "dem.amt", "-o", "tin.ply", "--max-error", "4", "--method", method, "--json"})
+            .json()["exports"][0];
+    EXPECT_EQ(tin["triangles"], at[0][method]) << method;
+  }
+  EXPECT_NE(run({"info", "dem.amt"}).out.find("(finest)"), std::string::npos);
+}
+
+TEST_F(InfoCommand, CountsWhatTheBuildHasCounted) {
+  makeRaster("dem.tif", "fractal", 40, 30);
+  const Json built = run({"build", "dem.tif", "-o", "dem.amt", "--json"}).json();
+  const Outcome text = run({"info", "dem.amt"});
+  EXPECT_EQ(text.code, 0) << text.err;
+  EXPECT_EQ(text.err, "");
+  const Json info = run({"info", "dem.amt", "--json"}).json();
+  const std::string dump = info.dump();
+  for (const char* key : {"triangles", "finestTriangles", "rootTriangles"})
+    EXPECT_NE(dump.find(built[key].dump()), std::string::npos) << key << " " << dump;
+}
+
+TEST_F(InfoCommand, RefusesTwoWaysToStateACurve) {
+  makeRaster("dem.tif", "fractal", 20, 20);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt", "-q"}).code, 0);
+  const Outcome both = run({"info", "dem.amt", "--curve", "3", "--at", "1"});
+  EXPECT_EQ(both.code, 2);
+  EXPECT_NE(both.err.find("excludes --"), std::string::npos) << both.err;
+  EXPECT_EQ(run({"info", "dem.amt", "--at", "-1"}).code, 2);
+  EXPECT_EQ(run({"info", "dem.amt", "--curve", "x"}).code, 2);
+}
+
+}  // namespace
+}  // namespace arete::cli_test

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// arete profile over a plain with a wall.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "cli/sight_fixture.h"
+#include "io/dem/raster_reader.h"
+#include "io/dem/raster_writer.h"
+
+namespace arete::cli_test {
+namespace {
+
+using Profiles = SightCommands;
+
+TEST_F(Profiles, HasAVertexForEveryEdge) {
+  makeModel();
+  const Outcome outcome = run({"profile", "dem.amt", "--along", "1285,1895:1325,1895"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out,
+            "line,part,distance,x,y,height\n1,1,0,1285,1895,100\n1,1,10,1295,1895,100\n1,1,20,1305,1895,130\n"
+            "1,1,30,1315,1895,100\n1,1,40,1325,1895,100\n");
+  const Json corner =
+      run({"profile", "dem.amt", "--along", "1105,1895:1205,1895:1205,1795", "--json"}).json();
+  EXPECT_NEAR(corner["lines"][0]["length"].get<double>(), 200, 1e-9);
+  EXPECT_EQ(corner["lines"][0]["vertices"].back()["y"], 1795);
+  const Json hole = run({"profile", "dem.amt", "--along", "1205,1615:1405,1615", "--json"}).json();
+  EXPECT_NEAR(hole["lines"][0]["gap"].get<double>(), 60, 1e-9);
+  const Json coarse =
+      run({"profile", "dem.amt", "--along", "1105,1895:1505,1895", "--max-error", "40", "--json"}).json();
+  EXPECT_LT(coarse["lines"][0]["vertices"].size(), 41u);
+}
+
+TEST_F(Profiles, RefusesNodataWhereNothingLooksAlongIt) {
+  makeRaster("hills.tif", "fractal", 20, 20);
+  ASSERT_EQ(run({"build", "hills.tif", "-o", "hills.amt", "-q"}).code, 0);
+  const std::vector<std::string> along = {"profile", "hills.amt", "--along", "500100,5199900:500200,5199800",
+                                          "--earth", "plane"};
+  auto withNodata = along;
+  withNodata.insert(withNodata.end(), {"--nodata", "clear"});
+  const Outcome refused = run(withNodata);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("--nodata: requires a line of sight"), std::string::npos) << refused.err;
+  auto asJson = along;
+  asJson.push_back("--json");
+  EXPECT_TRUE(run(asJson).json()["refraction"].is_null()) << "lines over a plane do not bend";
+}
+
+TEST_F(Profiles, DrawsTheLineOfSight) {
+  makeModel();
+  const Outcome outcome = run({"profile", "dem.amt", "--along", "1105,1895,20:1505,1895,20", "--frequency",
+                               "900", "--png", "p.png", "-o", "p.csv", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json line = outcome.json()["lines"][0];
+  EXPECT_EQ(line["verdict"], "blocked");
+  EXPECT_NEAR(line["obstructionDistance"].get<double>(), 200 - 10.0 / 3, 1e-6);
+  EXPECT_LT(line["fresnel"].get<double>(), 0);
+  EXPECT_EQ(read("p.png").substr(1, 3), "PNG");
+  EXPECT_EQ(linesOf(read("p.csv"))[0], "line,part,distance,x,y,height,line_height,clearance,fresnel_radius");
+  write("a.geojson",
+        R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":
+           {"type":"LineString","coordinates":[[1105,1895],[1505,1895]]}}]})");
+  refused({"profile", "dem.amt", "--along", "nowhere.gpkg"}, 2, "is no file and no line");
+  refused({"profile", "dem.amt", "--along", "1,1:2,2"}, 4, "has no terrain along the line");
+  refused({"profile", "dem.amt", "--along", "1105,1895,2:1505,1895"}, 2, "heights are for a line of sight");
+  refused({"profile", "dem.amt", "--along", "1105,1895:1505,1895", "--frequency", "9"}, 2,
+          "requires a line of sight");
+}
+
+}  // namespace
+}  // namespace arete::cli_test
