@@ -7,15 +7,15 @@
 
 namespace arete {
 
-/// Where a camera looks.
+/// The direction of a camera.
 struct Look {
   double azimuthDegrees = 0;  ///< clockwise from north, 0 to below 360
   double pitchDegrees = 0;    ///< above the horizon
 };
 
-/// The metric space of a model (terrain/model/camera.h), in which cameras move, there and back: metres
+/// The metric space of a model (terrain/model/camera.h), in which cameras move, and the conversions: metres
 /// (source units without a CRS), z up. Directions agree with viewOf(). The space may be mirrored against the
-/// map; right() is on the right of the map all the same. A small value without ties to the model.
+/// map; right() is on the right of the map all the same. A small value that does not refer to the model.
 class CameraSpace {
  public:
   explicit CameraSpace(const TerrainModel& model);
@@ -34,7 +34,7 @@ class CameraSpace {
   Vec3 forward(Look look) const;
   Vec3 up(Look look) const;
   Vec3 right(double azimuthDegrees) const;
-  /// Of a direction of any length but 0. One that is straight up or down has no azimuth: `azimuthThere` is.
+  /// Of a direction of any length but 0. A vertical direction has no azimuth and gets `azimuthThere`.
   Look lookAlong(const Vec3& direction, double azimuthThere = 0) const;
 
   /// Metres of one unit of height.

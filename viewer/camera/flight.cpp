@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Keys are cut into runs: as long as neighbours are apart the camera flies through them, as long as they are
-// at one place it turns. In a run everything hangs on one progress, metres gone or degrees turned, so what is
-// smooth in progress is smooth in time where the progress is.
+// Keys are divided into runs: through keys that are apart the camera flies, at keys in one place it turns.
+// Within a run everything is a function of one progress, metres flown or degrees turned; where the progress
+// is smooth in time, so is everything else.
 //
 // Progress over time: from rest to full speed v the speed is v (3 u^2 - 2 u^3), u the part of the ease e
 // gone, hence the way v e (u^3 - u^4 / 2), half of v e in all; then v; the end mirrors the beginning. A run

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Each object is read by the list of its members: name, where its number goes, whether it may be missing. The
-// first problem is the one that is told. Numbers are written with the fewest digits that read back to the
+// first problem is reported. Numbers are written with the fewest digits that read back to the
 // same double.
 #include "viewer/camera/flight_json.h"
 
@@ -95,7 +95,7 @@ std::optional<std::string> findCrsProblem(const json& object, const Georeference
     case CrsAgreement::unknown:
       break;
   }
-  return "its crs is none that is known here";
+  return "its crs is unknown";
 }
 
 /// Reads one key frame; a sentence where that fails.

@@ -5,8 +5,8 @@
 
 namespace arete {
 
-/// A way in the directions of a camera, or a speed: metres, or metres per second (source units without a
-/// CRS).
+/// A displacement in the directions of a camera, or a speed: metres, or metres per second (source units
+/// without a CRS).
 struct CameraStep {
   double tangent = 0;   ///< ahead, where the camera looks
   double binormal = 0;  ///< to the right, always level
@@ -20,18 +20,18 @@ class FreeCamera {
   FreeCamera(const CameraSpace& space, const Camera& camera);
 
   const Camera& camera() const { return camera_; }
-  /// Puts the camera elsewhere: by terrain following, a key, a flight. Its speed stays.
+  /// Sets the camera, as terrain following, a key or a flight does. The speed stays.
   void place(const Camera& camera);
 
   /// To the right and up, in degrees. The pitch stops at straight up and straight down.
   void turn(double rightDegrees, double upDegrees);
   void move(const CameraStep& metres);
 
-  /// Moves on for some time. The speed goes over into the wanted one within about three `inertiaSeconds`,
-  /// and the way is the same however the time is cut into frames. Precondition: seconds >= 0.
+  /// Advances by some time. The speed approaches the wanted one within about three `inertiaSeconds`; the path
+  /// does not depend on how the time is divided into frames. Precondition: seconds >= 0.
   void fly(const CameraStep& wantedSpeed, double seconds, double inertiaSeconds = 0.15);
   const CameraStep& speed() const { return speed_; }
-  /// Stands still at once.
+  /// Sets the speed to zero.
   void stop() { speed_ = {}; }
 
  private:

@@ -60,7 +60,7 @@ double MonotoneCurve::at(double knot) const {
   const double h = knots_[next] - knots_[next - 1];
   const double value = hermite((knot - knots_[next - 1]) / h, h, values_[next - 1], slopes_[next - 1],
                                values_[next], slopes_[next]);
-  // Rounding may leave the interval by a bit; a pitch of 90 degrees and a bit is none.
+  // Rounding may leave the interval by one bit, and a pitch above 90 degrees is invalid.
   const auto [low, high] = std::minmax(values_[next - 1], values_[next]);
   return std::clamp(value, low, high);
 }

@@ -6,10 +6,10 @@
 
 namespace arete {
 
-/// Slopes at the knots for a cubic Hermite curve through (knots, values) that has a continuous slope and
-/// stays between the two values of each interval: no overshoot (Fritsch and Butland 1984). `isClosed`: the
-/// curve goes on at its end as it began, whatever its values differ by there. Precondition: two knots at
-/// least, strictly rising. O(knots).
+/// Computes slopes at the knots for a cubic Hermite curve through (knots, values) that has a continuous slope
+/// and stays between the two values of each interval: no overshoot (Fritsch and Butland 1984). `isClosed`:
+/// the slopes at both ends are equal, whatever the values there. Precondition: two knots at least, strictly
+/// rising. O(knots).
 std::vector<double> monotoneSlopes(std::span<const double> knots, std::span<const double> values,
                                    bool isClosed = false);
 
@@ -19,7 +19,7 @@ inline double hermite(double u, double h, double y0, double m0, double y1, doubl
   return y0 * (1 + 2 * u) * w * w + y1 * u * u * (3 - 2 * u) + h * u * w * (m0 * w - m1 * u);
 }
 
-/// Such a curve.
+/// The curve of monotoneSlopes().
 class MonotoneCurve {
  public:
   MonotoneCurve() = default;

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The camera is a function of the orbit: its position is the target minus the radius times the forward
+// direction.
 #include "viewer/camera/orbit_camera.h"
 
 #include <algorithm>

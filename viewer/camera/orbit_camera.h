@@ -14,10 +14,10 @@ class OrbitCamera {
     double zenithDegrees = 60;  ///< of the camera seen from the target: 0 = straight above, 90 = level
     double radius = 1000;       ///< metres, > 0
   };
-  /// `picture` gives field of view and size; its place and direction do not count.
+  /// `picture` gives field of view and size; its position and direction are ignored.
   OrbitCamera(const CameraSpace& space, const Orbit& orbit, const Camera& picture = {});
 
-  /// The orbit of a camera around what lies ahead of it at a distance: its picture stays.
+  /// The orbit of a camera around the point at a distance ahead of it; the picture does not change.
   /// Precondition: radius > 0.
   static OrbitCamera of(const CameraSpace& space, const Camera& camera, double radius);
 
@@ -29,16 +29,16 @@ class OrbitCamera {
   void turn(double azimuthDegrees, double zenithDegrees);
   /// Multiplies the radius; it stays within the limits.
   void zoom(double factor);
-  /// The same with what is seen at `point` (metric) kept where it is in the picture.
+  /// Zooms so that `point` (metric) stays at its place in the picture.
   void zoomAbout(const Vec3& point, double factor);
   /// Moves camera and target in the plane of the picture, in metres at the target.
   void pan(double right, double up);
-  /// Moves camera and target level, as over a map.
+  /// Moves camera and target horizontally.
   void slide(double right, double ahead);
-  /// Goes to another target; direction and radius stay.
+  /// Sets another target; direction and radius stay.
   void lookAt(const Vec3& target) { orbit_.target = target; }
 
-  /// For zoom(); the radius at hand stays. Precondition: 0 < least <= most.
+  /// Sets the limits of zoom(); the current radius stays. Precondition: 0 < least <= most.
   void limitRadius(double least, double most);
 
  private:

@@ -8,26 +8,26 @@
 
 namespace arete {
 
-/// A smooth way through points in space, asked by the length gone. In the plan it is a centripetal
+/// A smooth curve through points in space, parametrised by its length. In the plan it is a centripetal
 /// Catmull-Rom spline (Barry and Goldman 1988; Yuksel, Schaefer, Keyser 2011), which keeps close to the
 /// points and, of points at one height, makes no loop or cusp between two of them; its z is a cubic that
 /// stays between the two heights of each leg. The direction is continuous.
 class PathCurve {
  public:
   PathCurve() = default;
-  /// `isClosed`: the last point is the first again, and the way goes on there as it began. Precondition: two
+  /// `isClosed`: the last point is the first again, and the direction is continuous there. Precondition: two
   /// points at least, no two neighbours equal, all finite. O(points).
   explicit PathCurve(std::span<const Vec3> points, bool isClosed = false);
 
   double length() const { return lengths_.back(); }
-  /// Where the points come, from 0 to length(), strictly rising.
+  /// The lengths at which the curve meets its points, from 0 to length(), strictly rising.
   std::span<const double> lengthsAtPoints() const { return atPoints_; }
-  /// After so much of the length, put into 0..length(); lengths are true to about 1e-9. O(log
+  /// The point at a length, which is clamped to 0..length(). Relative error of lengths: about 1e-9. O(log
   /// points).
   Vec3 at(double length) const;
 
  private:
-  /// A part of a leg whose length a quadrature tells.
+  /// A part of a leg whose length one quadrature computes.
   struct Piece {
     std::size_t leg = 0;
     double from = 0, to = 1;

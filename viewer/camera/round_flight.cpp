@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A flight's height between two keys stays between theirs (path_curve.h). So it is enough that each key is as
-// high as the ground below both its legs asks. The plan of the path hangs a little on the keys' heights, its
-// knots being apart by distances in space: the keys are raised until nothing on the path as it is asks for
-// more. They are only ever raised, and to what the ground asks, so that ends.
+// The height of a flight between two keys stays between their heights (path_curve.h). So each key must be as
+// high as the ground below both of its legs requires. The plan of the path depends a little on the heights of
+// the keys, because its knots are spaced by distances in space: keys are raised until the whole path is high
+// enough. Keys are never lowered and their heights are bounded by the ground, so this ends.
 #include "viewer/camera/round_flight.h"
 
 #include <algorithm>

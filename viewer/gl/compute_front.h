@@ -13,15 +13,15 @@
 
 namespace arete {
 
-/// Saturated cuts for a view, taken by compute shaders and drawn from where they were written: no list of
+/// Saturated cuts for a view, computed by shaders and drawn from the buffer they are written to: no list of
 /// triangles leaves the device. The nodes of a cut are those of the CPU's (CutMethod::saturated, ViewError),
 /// as single precision decides only where its windows allow and double precision the rest.
 ///
 /// The front never has a gap: where a cut has more triangles than there is room for, the last one stays.
 class ComputeFront {
  public:
-  /// Room for so many triangles, the root's at least. Errors: unsupported, as terrain.refusal or by the
-  /// driver.
+  /// Allocates room for a number of triangles, at least those of the root. Errors: unsupported, as
+  /// terrain.refusal or by the driver.
   static Result<ComputeFront> create(const TerrainOnGpu& terrain, std::uint32_t mostTriangles);
 
   /// The frame's block lies in uniform buffer binding 0. Steps of geomorphing: as many as there may be moving
@@ -29,14 +29,14 @@ class ComputeFront {
   void cut(const TerrainOnGpu& terrain, bool isMorphing, int morphSteps = 12);
 
   struct Counts {
-    std::uint32_t triangles = 0;  ///< of the cut that was asked for
-    std::uint32_t drawn = 0;      ///< of the front that there is
+    std::uint32_t triangles = 0;  ///< of the requested cut
+    std::uint32_t drawn = 0;      ///< of the front that is drawn
     std::uint32_t moving = 0;     ///< vertices
     bool isComplete = true;       ///< false: no room for it, the last one stayed
   };
-  /// Of the last cut: waits for it.
+  /// The figures of the last cut. Waits for it.
   Counts counts() const;
-  /// Of a cut some frames ago, without waiting.
+  /// The figures of a cut some frames ago, without waiting.
   Counts lateCounts();
 
   DrawnFront front() const;

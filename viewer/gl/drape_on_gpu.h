@@ -15,7 +15,7 @@
 namespace arete {
 
 struct DrapeOptions {
-  DrapeReadOptions read;  ///< fewer pixels where the device has no room for so many
+  DrapeReadOptions read;  ///< fewer pixels are read if the device has no room
   /// Of a tile, in texels, at least 4; 0 = as suits the picture.
   std::uint32_t tileSide = 0;
 };
@@ -37,7 +37,7 @@ class DrapeOnGpu {
   /// Plan position p lies p * scale() + shift() pixels from the picture's first corner.
   Vec2 scale() const { return scale_; }
   Vec2 shift() const { return shift_; }
-  /// What the device has of it as sentences: read coarser, bands chosen.
+  /// Differences from the file as sentences: read coarser, bands chosen.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// The texture and the uniforms of shaders/terrain.frag.glsl, for an eye over a plan position and so many

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Writes the parameters of a frame in the layout std140 of shaders/frame.glsl.
 #include "viewer/gl/frame_block.h"
 
 #include <glm/vec2.hpp>

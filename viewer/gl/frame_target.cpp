@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Two framebuffers: a multisampled one to draw into, and one with a sample per pixel to read from.
 #include "viewer/gl/frame_target.h"
 
 #include <fmt/format.h>

@@ -11,17 +11,17 @@
 
 namespace arete {
 
-/// A picture of colours and 32-bit float depths to draw into, with samples to smooth edges by.
+/// A framebuffer of colours and 32-bit float depths, multisampled for smooth edges.
 class FrameTarget {
  public:
   /// Errors: usage, when the device cannot draw so large a picture.
   static Result<FrameTarget> create(int widthPixels, int heightPixels, int samples = 1);
 
-  /// What is drawn from here on goes into it, over a clear depth.
+  /// Binds it and clears its depth.
   void begin() const;
   /// The colours. Waits for the drawing.
   Image image() const;
-  /// Depths along forward in metric units, row by row from the top, infinity where there is nothing. With one
+  /// Depths along forward in metric units, row by row from the top, infinity where nothing is drawn. With one
   /// sample only. `drawnNear`: of the frame that was drawn.
   std::vector<float> depths(double drawnNear) const;
   /// Copies the colours into another framebuffer (0 = the window's), of the same size.

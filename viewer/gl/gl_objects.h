@@ -9,8 +9,8 @@
 
 namespace arete {
 
-/// A name of OpenGL's that is given back. Movable; 0 = nothing. A context is current whenever one is made,
-/// used or destroyed.
+/// Owns an OpenGL name. Movable; 0 = empty. Precondition: a context is current whenever one is created, used
+/// or destroyed.
 template <void (*Delete)(GLuint)>
 class GlName {
  public:
@@ -58,7 +58,7 @@ using GlVertexArray = GlName<gl::deleteVertexArray>;
 using GlProgram = GlName<gl::deleteProgram>;
 using GlQuery = GlName<gl::deleteQuery>;
 
-/// A buffer of so many bytes, at least one; zeros where there are no data.
+/// Creates a buffer of at least one byte; zeros without data.
 inline GlBuffer makeBuffer(std::size_t bytes, const void* data = nullptr,
                            GLbitfield flags = GL_DYNAMIC_STORAGE_BIT) {
   GLuint name = 0;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The shaders are compiled into the program as text (see CMakeLists.txt); a stage is a list of files.
 #include "viewer/gl/gl_program.h"
 
 #include <fmt/format.h>

@@ -9,7 +9,7 @@
 
 namespace arete {
 
-/// The text of a file of viewer/gl/shaders; empty when there is none of that name.
+/// The text of a file of viewer/gl/shaders; empty if it does not exist.
 std::string_view shaderText(std::string_view name);
 
 /// One stage of a program: files of viewer/gl/shaders, put together in this order.
@@ -18,7 +18,7 @@ struct ShaderStage {
   std::initializer_list<std::string_view> files;
 };
 
-/// Compiles and links. Errors: unsupported, with what the driver says, naming the last file of the stage.
+/// Compiles and links. Errors: unsupported, with the driver's message, naming the last file of the stage.
 Result<GlProgram> makeProgram(std::initializer_list<ShaderStage> stages);
 
 }  // namespace arete

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Tries the EGL displays of displays(), then GLFW with a hidden window. The first context with OpenGL 4.5 is
+// used.
 #include "viewer/gl/offscreen.h"
 
 #include <epoxy/egl.h>

@@ -8,18 +8,17 @@
 
 namespace arete {
 
-/// An OpenGL 4.5 core context that no screen shows: EGL without a surface, on the device the machine prefers,
-/// then on any of its devices, then behind a hidden window where there is a display. Current on the thread
-/// that made it until it is destroyed.
+/// An off-screen OpenGL 4.5 core context: EGL without a surface, on the preferred device, then on any other,
+/// then a hidden window if there is a display. Current on the thread that made it until it is destroyed.
 class OffscreenContext {
  public:
-  /// Errors: unsupported, saying what was found instead.
+  /// Errors: unsupported, naming what was found instead.
   static Result<OffscreenContext> create();
   OffscreenContext(OffscreenContext&&) noexcept;
   OffscreenContext& operator=(OffscreenContext&&) noexcept;
   ~OffscreenContext();
 
-  /// What draws: the renderer's name and the version of OpenGL.
+  /// The renderer's name and the version of OpenGL.
   const std::string& description() const;
 
  private:
@@ -28,7 +27,9 @@ class OffscreenContext {
   std::unique_ptr<Held> held_;
 };
 
-/// Of the current context: at least 4.5, or an error that says what it is. Errors: unsupported.
+/// Checks that the current context has OpenGL 4.5.
+///
+/// @return its description. Errors: unsupported, naming the version.
 Result<std::string> checkOpenGl();
 
 }  // namespace arete

@@ -10,8 +10,8 @@
 
 namespace arete {
 
-/// Cuts for a view, taken by the processor on a thread of its own (engine/morph/view_mesh.h): each frame asks
-/// for its view and draws what there is by then; what changed goes to the device.
+/// Cuts for a view, computed by the processor on a thread of its own (engine/morph/view_mesh.h). Each frame
+/// posts its view and draws the front that is finished by then; only changes are uploaded to the device.
 class ProcessorFront {
  public:
   /// Starts at the root. `stretch`: vertical exaggeration. Errors: those of ViewMesh; unsupported, by the
@@ -33,9 +33,12 @@ class ProcessorFront {
     double milliseconds = 0;  ///< of the update
     std::uint64_t updates = 0;
   };
-  /// Takes the place of what was asked and not begun.
+  /// Posts a request. It replaces one that has not begun.
   void ask(const Asked& asked);
-  /// Uploads what there is since the last call. `waits`: for what was asked last. Errors: of the update.
+  /// Uploads the changes since the last call.
+  ///
+  /// @param waits whether to wait for the last request.
+  /// Errors: those of the update.
   Result<Done> receive(TerrainOnGpu& terrain, bool waits);
 
   DrawnFront front() const;

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Uploads the arrays of the multitriangulation into shader storage buffers, if they fit the limits of the
+// device.
 #include "viewer/gl/terrain_on_gpu.h"
 
 #include <fmt/format.h>

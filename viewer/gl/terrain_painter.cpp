@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One draw call for a front, and one for its wireframe; indirect where the device has computed it. The
+// fragment shader colours by height, slope, aspect or error; the sky is a triangle behind everything.
 #include "viewer/gl/terrain_painter.h"
 
 #include <tbb/parallel_for.h>

@@ -28,16 +28,16 @@ class TerrainPainter {
   void setFrame(const FrameView& frame);
 
   /// A picture over the plan: (u, v) = plan * scale + shift, v downwards from its first row; transparent
-  /// where alpha is 0. Empty to take it away.
+  /// where alpha is 0. Empty to remove it.
   void setOverlay(int width, int height, std::span<const std::array<std::uint8_t, 4>> rgba, Vec2 scale,
                   Vec2 shift);
-  /// It stays alive as long as it is here; null to take it away.
+  /// Precondition: it outlives the painter or the next call. Null to remove it.
   void setDrape(const DrapeOnGpu* drape) { drape_ = drape; }
 
   /// Preconditions: the frame is set; colouring by error: terrain.triangleErrors are there.
   void draw(const TerrainOnGpu& terrain, const DrawnFront& front, const ViewLook& look);
   void drawSky(const ViewLook& look);
-  /// One colour, no sky: what a test counts.
+  /// Draws in one colour, without the sky, to count covered pixels.
   void drawFlat(const TerrainOnGpu& terrain, const DrawnFront& front, const glm::vec4& color);
 
   struct LineEnd {

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Combines the front of the device or of the processor with the painter, and rebuilds both when the space
+// that is drawn changes (curvature, exaggeration).
 #include "viewer/gl/terrain_view.h"
 
 #include <algorithm>

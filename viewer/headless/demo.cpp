@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The order is that of a person at work: build, look at the curve of triangles against tolerance, choose
-// tolerances, take the TINs, check them, look at them. The tolerances shown are those of the 1-2-5 ladder
-// that leave out most of the triangles and keep more than a handful: from there on the finest few.
+// Steps in the order of a user's work: build, compute the curve of triangles against tolerance, choose
+// tolerances, extract the TINs, measure them, draw them. The default tolerances are the finest of the 1-2-5
+// ladder that leave out most of the triangles and keep more than a few.
 #include "viewer/headless/demo.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Draws into an off-screen framebuffer. With a budget, the tolerance is adapted by repeated cuts until the
+// triangles fit. A film is PNG files that ffmpeg encodes.
 #include "viewer/headless/headless.h"
 
 #include <fmt/format.h>

@@ -22,8 +22,8 @@ struct HeadlessOptions {
   ViewSettings settings;
 };
 
-/// Pictures of a terrain without a screen: an off-screen OpenGL context, which is current on the thread that
-/// made it.
+/// Draws pictures of a terrain without a screen, in an off-screen OpenGL context that is current on the
+/// thread that created it.
 class HeadlessView {
  public:
   /// The model stays alive as long as this. Errors: unsupported (no OpenGL 4.5, a terrain too large for the
@@ -34,16 +34,16 @@ class HeadlessView {
   HeadlessView& operator=(HeadlessView&&) noexcept;
   ~HeadlessView();
 
-  /// The terrain as the camera sees it. The picture's size is that of the options, whatever the camera says.
-  /// With a budget the tolerance grows until the cut keeps it. Errors: usage, of the camera.
+  /// The terrain as the camera sees it. The size of the picture is that of the options, not of the
+  /// camera. With a budget, the tolerance grows until the cut fits. Errors: usage, of the camera.
   Result<FrameFigures> draw(const Camera& camera);
-  /// What was drawn last.
+  /// The picture that was drawn last.
   Image image() const;
 
   TerrainView& view();
-  /// What draws: the renderer's name and the version of OpenGL.
+  /// The renderer's name and the version of OpenGL.
   const std::string& description() const;
-  /// What the settings asked for and the device cannot, as sentences.
+  /// Settings that the device does not support, as sentences.
   const std::vector<std::string>& warnings() const;
 
  private:
@@ -53,7 +53,7 @@ class HeadlessView {
 };
 
 struct FilmOptions {
-  std::filesystem::path folder;  ///< of frame_00000.png ...; made where it is not there
+  std::filesystem::path folder;  ///< of frame_00000.png ...; created if missing
   double framesPerSecond = 0;    ///< 0 = the flight's
 };
 
@@ -64,20 +64,23 @@ struct FilmFrame {
   FrameFigures figures;
 };
 
-/// How many pictures a flight is, the flight's a second where it is 0. Errors: usage, more than a million.
+/// The number of frames of a flight.
+///
+/// @param framesPerSecond 0 = the flight's.
+/// Errors: usage: more than a million.
 Result<std::uint64_t> filmFrames(const Flight& flight, double framesPerSecond);
 
-/// A flight's frames as PNGs, rising. Errors: usage (more than a million); those of drawing and writing;
-/// interrupted, which leaves whole frames only. What goes wrong with a frame names it.
+/// Draws the frames of a flight in order and writes them as PNG. Errors: usage: more than a million frames;
+/// those of drawing and writing, naming the frame; interrupted, which leaves complete frames only.
 Result<std::vector<FilmFrame>> drawFilm(HeadlessView& view, const Flight& flight, const FilmOptions& options,
                                         const RunContext& context = {});
 
-/// Whether encodeFilm() may be able to make a film of that name. Errors: usage (an ending of nothing that
-/// holds H.264), unsupported (no ffmpeg on this machine).
+/// Checks whether encodeFilm() can make a film. Errors: usage: an extension of a format without H.264;
+/// unsupported: ffmpeg is not installed.
 Status canEncodeFilm(const std::filesystem::path& film);
 
-/// The first frames of a folder as an H.264 film, by the ffmpeg of the machine. Errors: unsupported when
-/// there is none; unreadable when it fails; interrupted. Then there is no film.
+/// Encodes the first frames of a folder as an H.264 film with the installed ffmpeg. Errors: unsupported:
+/// it is not installed; unreadable: it fails; interrupted. No film is left after an error.
 Status encodeFilm(const std::filesystem::path& folder, std::size_t frames, double framesPerSecond,
                   const std::filesystem::path& film, const RunContext& context = {});
 

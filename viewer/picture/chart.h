@@ -14,7 +14,7 @@ namespace arete {
 struct ChartSeries {
   std::string name = {};
   std::vector<Vec2> points = {};  ///< in the order they are joined, both coordinates > 0
-  bool dashed = false;            ///< for what is compared against
+  bool dashed = false;            ///< for a reference
 };
 
 struct ChartOptions {
@@ -24,9 +24,9 @@ struct ChartOptions {
   std::string xLabel = {}, yLabel = {};
 };
 
-/// A line chart with two logarithmic axes, such as triangles against tolerance. Series are told apart by
+/// A line chart with two logarithmic axes, such as triangles against tolerance. Series differ in
 /// colour (of the palette of Okabe and Ito, made for any colour vision) and by the shape of their marks. A
-/// series with a point that is not positive and finite is an error: a logarithm has no place for it. Errors:
+/// series with a point that is not positive and finite is an error, because it has no logarithm. Errors:
 /// usage, for a size without room; invalidData, naming the series. O(points).
 Result<Canvas> drawLogLogChart(std::span<const ChartSeries> series, const ChartOptions& options = {});
 

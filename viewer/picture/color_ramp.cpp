@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Ramps are lists of evenly spaced colours; a colour between two is mixed linearly.
 #include "viewer/picture/color_ramp.h"
 
 #include <algorithm>

@@ -11,8 +11,8 @@ namespace arete {
 /// colour.
 Rgb rampColor(std::span<const Rgb> ramp, double fraction);
 
-/// Blue through near-white to brown, equally dark at both ends: told apart with any colour vision, and in
-/// grey by distance from the middle. For signed values; the middle is zero.
+/// Blue through near-white to brown, equally dark at both ends: distinct with any colour vision, and in grey
+/// by the distance from the middle. For signed values; the middle is zero.
 std::span<const Rgb> divergingRamp();
 
 /// Muted greens, sands and stone, for heights under a hillshade.

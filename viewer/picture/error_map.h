@@ -23,12 +23,11 @@ struct ErrorMapOptions {
 /// Signed errors (TIN minus reference, say) as a map: blue below, brown above, near-white at zero, grey-blue
 /// without data; beside it a colour bar with a histogram, below it the extremes, the mean and the root mean
 /// square. `errors.heights` holds the errors, NaN = none. A picture pixel shows the error of largest size
-/// among the samples it covers, so that no extreme is averaged away. Errors: those of makeMapPage();
+/// among the samples it covers, so that averaging hides no extreme. Errors: those of makeMapPage();
 /// invalidData, when no sample has an error or the limit is negative. O(samples + pixels).
 Result<Canvas> drawErrorMap(const RasterHeightfield& errors, const ErrorMapOptions& options = {});
 
-/// Where drawErrorMap() puts its map and its colour bar on the page; for those who draw over them, and for
-/// tests.
+/// Where drawErrorMap() puts its map and its colour bar on the page: for drawing over them, and for tests.
 struct ErrorMapLayout {
   Rect map;
   Rect colorBar;

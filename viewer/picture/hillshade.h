@@ -7,7 +7,7 @@
 
 namespace arete {
 
-/// The colour of what has no data, in every map.
+/// The colour of NODATA in every map.
 inline constexpr Rgb kNodataColor = {221, 230, 236};
 
 struct HillshadeOptions {
@@ -15,7 +15,7 @@ struct HillshadeOptions {
   double verticalExaggeration = 0;
   /// 0 = shaded white paper, 1 = full hypsometric tint.
   double tint = 1;
-  /// 0 = as it is, 1 = white: makes room for what is drawn over it.
+  /// 0 = unchanged, 1 = white: lightens the relief below other drawing.
   double wash = 0;
 };
 

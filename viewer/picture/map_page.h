@@ -15,12 +15,12 @@ inline constexpr Rgb kInk = {34, 38, 46};
 inline constexpr Rgb kQuietInk = {104, 110, 120};
 inline constexpr Rgb kRule = {188, 193, 200};
 
-/// A page with a map on it: title above, caption below, scale bar and north arrow at the lower right.
+/// A page with a map: title above, caption below, scale bar and north arrow at the lower right.
 struct MapPage {
   Canvas canvas;
   MapView view;  ///< of the whole grid
-  Rect map;      ///< where the view stands on the canvas, whole pixels
-  Rect side;     ///< free space beside the map, empty if none was asked for
+  Rect map;      ///< of the view on the canvas, whole pixels
+  Rect side;     ///< free space beside the map; empty with sideWidth 0
 
   Vec2 toPage(double column, double row) const {
     const Vec2 p = view.toPixel(column, row);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The ground distances of one column and one row at the centre of the grid give the aspect of the picture.
 #include "viewer/picture/map_view.h"
 
 #include <algorithm>

@@ -10,10 +10,10 @@
 
 namespace arete {
 
-/// Which part of a grid is seen in which pixels. Grid coordinates are (column, row) of samples; the whole
-/// grid is [0, columns - 1] x [0, rows - 1], the domain of its triangulation, not the outer edges of its
-/// pixels. The aspect is the ground's: a geographic grid at 60 degrees is drawn half as wide as its columns
-/// say. South-up grids are turned over.
+/// The mapping between a grid and the pixels of a picture. Grid coordinates are (column, row) of samples; the
+/// whole grid is [0, columns - 1] x [0, rows - 1], the domain of its triangulation, not the outer edges of
+/// its pixels. The aspect is the ground's: a geographic grid at 60 degrees is drawn half as wide as its
+/// columns say. South-up grids are turned over.
 struct MapView {
   int width = 0, height = 0;     ///< pixels
   double column0 = 0, row0 = 0;  ///< grid position of the left top corner

@@ -65,7 +65,7 @@ struct TextStyle {
 };
 
 /// A picture to draw on: antialiased lines, areas, text and images, saved as PNG. Text is UTF-8, in DejaVu
-/// Sans. The same calls give the same pixels and the same file. Drawing beyond the edge is cut off.
+/// Sans. The same calls give the same pixels and the same file. Drawing outside the canvas is clipped.
 class Canvas {
  public:
   /// Errors: usage, when a side is not 1..32767 pixels (what cairo can draw); unreadable, when there is no
@@ -87,8 +87,8 @@ class Canvas {
   void fillCircle(Vec2 center, double radius, Rgb color);
   void line(Vec2 from, Vec2 to, const Stroke& stroke);
   void polyline(std::span<const Vec2> points, const Stroke& stroke);
-  /// Many separate lines, ends[2i] to ends[2i + 1], drawn in groups: where lines of a group cross, their ink
-  /// does not add up.
+  /// Many separate lines, ends[2i] to ends[2i + 1], drawn in groups: where lines of a group cross, their
+  /// alpha does not add up.
   void segments(std::span<const Vec2> ends, const Stroke& stroke);
   /// One picture pixel per image pixel.
   void image(const Image& image, int left, int top);

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Distance and height have separate linear scales. The line of sight is drawn as a curve through points of
+// its height above the map.
 #include "viewer/picture/profile_chart.h"
 
 #include <fmt/format.h>

@@ -12,7 +12,7 @@
 
 namespace arete {
 
-/// What is drawn over the terrain of a profile.
+/// The line of sight that is drawn over the terrain of a profile.
 struct ProfileSight {
   const SightLine& line;
   SightAnswer answer = {};
@@ -27,8 +27,8 @@ struct ProfileChartOptions {
   std::string unit = {};  ///< of height; may be empty
 };
 
-/// The terrain along a line: distance to the right, height upwards, on scales of their own. Gaps are grey.
-/// The sight line is as curved as the Earth is on such a chart, green where it is visible, red behind the
+/// The terrain along a line: distance to the right, height upwards, with separate scales. Gaps are grey.
+/// The sight line is curved as the Earth is at these scales, green where it is visible, red behind the
 /// obstruction, which is marked. Errors: usage, for a size without room; degenerate, for a profile without
 /// terrain or length. O(vertices).
 Result<Canvas> drawProfile(const Profile& profile, const std::optional<ProfileSight>& sight,

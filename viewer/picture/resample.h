@@ -17,9 +17,12 @@ struct ViewField {
 /// Value of a grid sample; NaN = none.
 using SampleAt = std::function<double(std::uint32_t column, std::uint32_t row)>;
 
-/// Brings a field of samples to the pixels of a view. Where samples are denser than pixels every sample
-/// counts (a tent as wide as two pixels), where they are sparser it is bilinear. Samples without data take no
-/// part. O(samples in view + pixels).
+/// Resamples a field to the pixels of a view. Where samples are denser than pixels, a tent filter two pixels
+/// wide weights every sample; where they are sparser, the interpolation is bilinear. Samples without data are
+/// left out.
+///
+/// @param sampleAt the value of a sample; NaN = none.
+/// O(samples in view + pixels).
 ViewField resample(std::uint32_t columns, std::uint32_t rows, const SampleAt& sampleAt, const MapView& view);
 
 }  // namespace arete

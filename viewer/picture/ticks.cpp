@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Ticks are multiples of a step of 1, 2 or 5 times a power of ten, counted in whole multiples so that errors
+// do not add up.
 #include "viewer/picture/ticks.h"
 
 #include <fmt/core.h>

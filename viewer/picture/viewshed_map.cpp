@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A pixel shows the sample nearest to its centre: a viewshed is an answer for samples, and mixing answers
-// would make some that nobody gave.
+// A pixel shows the sample nearest to its centre: a viewshed is an answer for samples, and mixed answers have
+// no meaning.
 #include "viewer/picture/viewshed_map.h"
 
 #include <fmt/format.h>

@@ -17,8 +17,8 @@ struct ViewshedMapOptions {
   std::vector<std::string> caption = {};  ///< put before the counts
 };
 
-/// What an observer sees, over the hillshade: seen ground glows, the rest lies in the shade; unknown and
-/// undecided ground is blue. The observer is a dot. Preconditions: the viewshed is of the heightfield's grid;
+/// Draws a viewshed over the hillshade: visible ground is bright, hidden ground dark, unknown and undecided
+/// ground blue. The observer is a dot. Preconditions: the viewshed is of the heightfield's grid;
 /// `observer` in its plan coordinates. Errors: those of makeMapPage(). O(samples + pixels).
 Result<Canvas> drawViewshedMap(const RasterHeightfield& field, const Viewshed& viewshed, Vec2 observer,
                                const ViewshedMapOptions& options = {});

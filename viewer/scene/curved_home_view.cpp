@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The box of the terrain bends with the ground, so that its corners alone say little: a grid over its bottom
-// and its top, so close that the ground between two neighbours rises by far less than the picture has free,
-// of a whole planet too.
+// The box of the terrain bends with the ground, so its corners alone do not bound it. A grid over its bottom
+// and its top does: it is dense enough that the ground between neighbours rises by far less than the free
+// margin of the picture, even for a whole planet.
 #include "viewer/scene/curved_home_view.h"
 
 #include <algorithm>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A multiplicative controller: the tolerance grows by the ratio of time or triangles to their limit, clamped
+// for times, and shrinks by 2 % a frame while both are well below it.
 #include "viewer/scene/tolerance_control.h"
 
 #include <algorithm>
@@ -8,11 +11,11 @@ namespace arete {
 
 double ToleranceControl::next(const Wanted& wanted, const Seen& seen) {
   if (!(pixels_ > 0)) pixels_ = wanted.pixels;
-  double factor = 1 / 1.02;  // towards what is wanted
+  double factor = 1 / 1.02;  // towards the wanted tolerance
   if (wanted.frameMilliseconds > 0 && seen.milliseconds > 0) {
     const double load = seen.milliseconds / wanted.frameMilliseconds;
     if (load > 1) factor = std::clamp(load, 1.02, 1.2);
-    // Between nine tenths of the time and all of it nothing changes: no swinging to and fro.
+    // Between 0.9 and 1 of the time nothing changes, so the tolerance does not oscillate.
     else if (load > 0.9)
       factor = 1;
   }

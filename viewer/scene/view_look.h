@@ -5,16 +5,16 @@ namespace arete {
 
 enum class Coloring { hypsometric, slope, aspect, plain, error };
 
-/// How the terrain is shown.
+/// Colours, light and overlays of the terrain.
 struct ViewLook {
   Coloring coloring = Coloring::hypsometric;
   bool isShaded = true;
   double sunAzimuthDegrees = 315, sunElevationDegrees = 40;
   double contourInterval = 0;  ///< in the unit of heights; 0 = none
-  double hazeKilometres = 0;   ///< where the air hides about two thirds; 0 = clear
+  double hazeKilometres = 0;   ///< distance at which haze hides about two thirds; 0 = none
   bool hasWireframe = false;
-  bool hasDrape = true;    ///< where there is one
-  bool hasOverlay = true;  ///< a viewshed, where there is one
+  bool hasDrape = true;    ///< if one is set
+  bool hasOverlay = true;  ///< a viewshed, if one is set
   /// The error of the hottest colour, in the unit of heights; 0 = as many pixels as the cut allows.
   double heatError = 0;
 };

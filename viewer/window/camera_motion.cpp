@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Dragging takes hold of what is seen: in an orbit the terrain follows the mouse, so the camera goes the
-// other way round. Looking around turns the head: the camera follows. Both come to the same signs, since an
-// orbit turns about what lies ahead.
+// In an orbit, dragging moves the terrain with the mouse, so the camera goes the other way round. In free
+// flight, dragging turns the camera. Both have the same signs, since an orbit turns about a place ahead.
 #include "viewer/window/camera_motion.h"
 
 #include <algorithm>

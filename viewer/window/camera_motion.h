@@ -11,7 +11,7 @@ enum class CameraMode {
   free,   ///< through the air
 };
 
-/// What pixels and keys are worth at the moment.
+/// The current scale of pixels and keys.
 struct MotionScale {
   CameraMode mode = CameraMode::orbit;
   double metresPerSecond = 100;  ///< of free flight
@@ -21,18 +21,18 @@ struct MotionScale {
   double deadZone = 0.15;        ///< of a stick
 };
 
-/// What an input asks of the camera.
+/// The motion that an input means for the camera.
 struct CameraMotion {
   CameraStep speed = {};                  ///< metres per second; free flight only
   double turnRight = 0, turnUp = 0;       ///< degrees: of the camera, or of the orbit
   double zoom = 1;                        ///< factor on the radius of the orbit
-  double slideRight = 0, slideAhead = 0;  ///< metres that the orbit goes over the map
-  double speedFactor = 1;                 ///< on the speed of free flight from here on
+  double slideRight = 0, slideAhead = 0;  ///< metres by which the orbit moves over the map
+  double speedFactor = 1;                 ///< of the speed of free flight from now on
 
   bool isNone() const;
 };
 
-/// The controls (docs/topics/viewer.md): from hands to motion, and nothing else.
+/// Converts an input to a motion (docs/topics/viewer.md).
 CameraMotion motionOf(const InputState& input, const MotionScale& scale);
 
 }  // namespace arete

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Each frame: convert the input to a motion, move the orbit or the free camera, then apply terrain following
+// and the floor.
 #include "viewer/window/camera_rig.h"
 
 #include <algorithm>

@@ -12,10 +12,11 @@
 
 namespace arete {
 
-/// The camera of the window and what a person's hands do to it: an orbit, free flight, a floor under both.
+/// The camera of the window, moved by input: an orbit, free flight, and a lowest height above the ground for
+/// both.
 ///
 /// With vertical exaggeration it moves in the space that is drawn: an orbit stays centred, and flying ahead
-/// goes where the picture's middle is. What it hands out has heights as they are. Keeps references.
+/// goes where the picture's middle is. camera() has heights without exaggeration. Keeps references.
 class CameraRig {
  public:
   /// Preconditions: picker and heights outlive this. The camera begins as an orbit of what it looks at.
@@ -24,14 +25,16 @@ class CameraRig {
   const Camera& camera() const { return camera_; }
   CameraMode mode() const { return mode_; }
 
-  /// One frame: moves as the hands ask and never below the floor. False where nothing was asked.
+  /// Moves the camera for one frame, never below the floor.
+  ///
+  /// @return whether the input moves it.
   bool step(const InputState& input);
 
   /// Changes between orbit and free flight; the picture stays.
   void setMode(CameraMode mode);
-  /// Puts the camera elsewhere, by a flight or a key frame. Picture size and exaggeration stay.
+  /// Sets the camera, as a flight or a key frame does. Picture size and exaggeration stay.
   void place(const Camera& camera);
-  /// A view of all of the terrain, on a curved Earth where there is one.
+  /// A view of all of the terrain, on the curved Earth if it is shown.
   void home(HomeView view, const CurvedGround* ground = nullptr);
   /// Orbits a place of the terrain, from where the camera looks now, at `metres` from it (0 = as far as now).
   void lookAt(const Vec3& metric, double metres = 0);
@@ -43,15 +46,15 @@ class CameraRig {
   /// Keeps the height above the ground in free flight.
   void follow(bool isOn);
   bool follows() const { return follows_; }
-  /// Metres above the ground that nothing gets below of; 0 = the camera may go anywhere.
+  /// The lowest height above the ground in metres; 0 = no limit.
   double floorMetres() const { return floorMetres_; }
   void setFloorMetres(double metres);
   /// Of free flight, metres per second.
   double metresPerSecond() const { return metresPerSecond_; }
   void setMetresPerSecond(double speed);
-  /// How fast it really went in the last frame.
+  /// Its speed in the last frame, in metres per second.
   double lastMetresPerSecond() const { return lastSpeed_; }
-  /// Metres above the terrain; nothing where there is none.
+  /// Height above the terrain in metres; nothing outside the terrain.
   std::optional<double> metresAboveGround() const;
 
  private:

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The flight is created from the keys when it is first needed, and discarded when they change.
 #include "viewer/window/flight_deck.h"
 
 #include <utility>

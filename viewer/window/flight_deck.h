@@ -10,17 +10,17 @@
 
 namespace arete {
 
-/// The flight that a person makes: key frames set one after the other, played, kept in a file.
+/// The flight that the user edits: key frames that are added one after the other, played, and kept in a file.
 class FlightDeck {
  public:
-  /// `metresPerSecond`: of flights that nobody has stated a speed or a duration for.
+  /// `metresPerSecond`: of flights without a stated speed or duration.
   FlightDeck(const CameraSpace& space, double metresPerSecond)
       : space_(space), usualSpeed_(metresPerSecond) {}
 
   const FlightPlan& plan() const { return plan_; }
   void setPlan(const FlightPlan& plan);
 
-  /// Behind the last one.
+  /// Appends a key frame.
   void addKey(const Camera& camera);
   /// Precondition: index < keys.
   void removeKey(std::size_t index);
@@ -33,14 +33,15 @@ class FlightDeck {
   double seconds() const { return time_.value_or(0); }
   double duration() const { return flight_ ? flight_->duration() : 0; }
 
-  /// Goes on by so many seconds. The camera there; nothing where none is played. Stops at the end of a flight
-  /// that is not closed.
+  /// Advances the time. Stops at the end of a flight that is not closed.
+  ///
+  /// @return the camera at the new time; nothing if no flight is playing.
   std::optional<Camera> advance(double seconds);
 
-  /// The flight as its keys are now. Errors: those of Flight::create().
+  /// The flight through the current keys. Errors: those of Flight::create().
   Result<const Flight*> flight();
 
-  /// Errors: those of flight_json.h; a plan that is read takes the place of the one at hand.
+  /// Errors: those of flight_json.h; load() replaces the plan if it succeeds.
   Status save(const std::filesystem::path& path, const Georeference& dem) const;
   Status load(const std::filesystem::path& path, const Georeference& dem);
 

@@ -12,14 +12,14 @@ class FrameHistory {
  public:
   static constexpr std::size_t kFrames = 180;
 
-  /// `work`: what cutting and drawing took; `whole`: from frame to frame, waiting for the screen included.
+  /// `work`: time of cutting and drawing; `whole`: time from frame to frame, with waiting for the screen.
   void add(double workMilliseconds, double wholeMilliseconds) {
     work_[next_] = float(workMilliseconds);
     whole_[next_] = float(wholeMilliseconds);
     next_ = (next_ + 1) % kFrames;
     count_ = std::min(count_ + 1, kFrames);
   }
-  /// Of the last frames, up to half a second's; 0 before the first.
+  /// Mean over the last half second; 0 before the first frame.
   double framesPerSecond() const {
     double sum = 0;
     std::size_t frames = 0;

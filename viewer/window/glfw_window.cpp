@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// GLFW callbacks collect events between frames; held keys and sticks are polled once per frame.
 #include "viewer/window/glfw_window.h"
 
 #include <epoxy/gl.h>

@@ -14,7 +14,7 @@ struct GLFWwindow;
 
 namespace arete {
 
-/// A window of the screen with an OpenGL 4.5 core context, current on this thread, and what hands do to it.
+/// A window of the screen with an OpenGL 4.5 core context, current on this thread, and its input.
 class GlfwWindow {
  public:
   /// Errors: unsupported: no display, or which OpenGL was found instead.
@@ -24,7 +24,7 @@ class GlfwWindow {
   ~GlfwWindow();
 
   GLFWwindow* handle() const;
-  /// What draws: the renderer's name and the version of OpenGL.
+  /// The renderer's name and the version of OpenGL.
   const std::string& description() const;
   bool isClosing() const;
   /// Of the framebuffer; 0 x 0 when the window is hidden.
@@ -32,7 +32,7 @@ class GlfwWindow {
   int heightPixels() const;
   /// Pixels in one unit of mouse positions.
   double pixelsPerUnit() const;
-  /// How much larger than usual letters are on this screen: 1, or 2 on a dense one.
+  /// Scale of text on this screen: 1, or 2 on a dense one.
   float contentScale() const;
 
   struct Events {
@@ -40,9 +40,9 @@ class GlfwWindow {
     std::vector<Action> actions;
     std::optional<Vec2> click;  ///< left, without dragging; pixels from the top left
   };
-  /// What happened since the last call. `isMouseTaken`, `areKeysTaken`: by the panel.
+  /// The input since the last call. `isMouseTaken`, `areKeysTaken`: by the panel.
   Events poll(bool isMouseTaken, bool areKeysTaken);
-  /// Waits for something to happen, at most so long.
+  /// Waits for input, at most this long.
   void wait(double seconds);
   void show();
 

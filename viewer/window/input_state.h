@@ -5,14 +5,14 @@
 
 namespace arete {
 
-/// What a person did with mouse, keys and gamepad since the last frame, whatever window it came from. What
-/// went to the panel is not in it.
+/// Mouse, keys and gamepad since the last frame, independent of the window library. Input that the panel has
+/// taken is not in it.
 struct InputState {
   double seconds = 0;  ///< since the last frame
 
   Vec2 mouse = {};       ///< in pixels of the picture, from its top left, y downwards
   Vec2 mouseMoved = {};  ///< since the last frame
-  double wheel = 0;      ///< notches, away from the hand > 0
+  double wheel = 0;      ///< notches, > 0 away from the user
   bool leftButton = false, middleButton = false, rightButton = false;  ///< held
 
   /// Held keys, each -1, 0 or 1.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One table of keys; help and lookup both read it.
 #include "viewer/window/key_bindings.h"
 
 #include <array>

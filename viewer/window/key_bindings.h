@@ -7,7 +7,7 @@
 
 namespace arete {
 
-/// What a key or a button sets off.
+/// The actions of keys and buttons.
 enum class Action {
   toggleMode,
   nextHome,
@@ -39,16 +39,16 @@ struct KeyBinding {
   std::string_view name, help;
 };
 
-/// All keys that set something off; help and docs/topics/viewer.md say what is here.
+/// All keys with an action. The help and docs/topics/viewer.md list them.
 std::span<const KeyBinding> keyBindings();
 
-/// Nothing for a key that means nothing.
+/// @return nothing for a key without an action.
 std::optional<Action> actionOfKey(int key, bool isWithControl);
 
 /// Buttons of a gamepad as GLFW numbers them.
 std::optional<Action> actionOfButton(int button);
 
-/// What is held or moved rather than pressed, for the help.
+/// A control that is held or moved, for the help.
 struct HeldControl {
   std::string_view what, orbit, free;
 };

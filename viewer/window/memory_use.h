@@ -5,11 +5,11 @@
 
 namespace arete {
 
-/// Bytes of memory that the process holds (resident); 0 where the system does not say.
+/// Resident memory of the process in bytes; 0 if the system does not report it.
 std::uint64_t residentBytes();
 
-/// Bytes of the buffers and textures of the OpenGL context that is current. Names are looked up to the
-/// thousandth: drivers give them out from 1 on. For a panel, about once a second.
+/// Bytes of the buffers and textures of the OpenGL context that is current. Checks the
+/// object names up to 1000, since drivers number from 1. Slow: call about once a second.
 std::uint64_t deviceBytes();
 
 }  // namespace arete

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Two columns of sections, one on either side of the picture: figures and what is drawn on the left, where
-// one is and what one does there on the right.
+// Two columns of sections, one on either side of the picture: figures and settings of
+// the drawing on the left, position and tools on the right.
 #include "viewer/window/panel.h"
 
 #include <fmt/format.h>

@@ -7,10 +7,11 @@
 
 namespace arete {
 
-/// Figures and settings around the picture, with Dear ImGui. A context of it is current and a frame begun.
+/// Figures and settings beside the picture, with Dear ImGui. Precondition: an ImGui context is current and a
+/// frame has begun.
 class Panel {
  public:
-  /// `scale`: pixels of the picture in one of the units that ImGui counts in.
+  /// @param scale pixels of the picture per ImGui unit.
   void draw(ViewerSession& session, double scale);
 
  private:
@@ -26,13 +27,13 @@ class Panel {
   std::string flightPath_, framesFolder_;
 };
 
-/// Font and colours. `scale` of the screen: 1, or 2 on a dense one.
+/// Sets font and colours. `scale` of the screen: 1, or 2 on a dense one.
 void setPanelStyle(float scale);
 
-/// Marks at picks, at the ends of a line of sight and at key frames, over the picture.
+/// Draws marks at picks, at the ends of a line of sight and at key frames, over the picture.
 void drawMarks(const ViewerSession& session, double scale);
 
-/// The keys and what they do.
+/// Draws the list of keys and their actions.
 void drawHelp(ViewerSession& session);
 
 }  // namespace arete

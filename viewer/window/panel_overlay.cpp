@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Marks and help are drawn with ImGui over the picture; positions are projected as the picture is.
 #include <fmt/format.h>
 #include <imgui.h>
 

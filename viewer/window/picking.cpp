@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The ray is cut to the box of the terrain. What is left of it runs straight over the plan, where a profile
+// The ray is cut to the box of the terrain. The rest is a straight line in the plan, along which a profile
 // at full resolution has every edge that it crosses; height above the terrain is linear between two of them,
-// so the first change of its sign is the place.
+// so its first change of sign is the intersection.
 #include "viewer/window/picking.h"
 
 #include <algorithm>

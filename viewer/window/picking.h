@@ -11,17 +11,17 @@
 
 namespace arete {
 
-/// A place of the terrain that somebody pointed at.
+/// A place of the terrain that was picked with the mouse.
 struct TerrainPick {
   Vec2 plan;          ///< plan coordinates of the model
   Vec2 xy;            ///< source coordinates
   double height = 0;  ///< of the terrain, in the DEM's vertical unit
   Vec3 metric;        ///< heights as they are, not exaggerated
-  double metres = 0;  ///< from the eye, straight
+  double metres = 0;  ///< from the eye, in a straight line
 };
 
-/// What of the terrain is at a pixel: the first place at which the ray through it meets the surface at full
-/// resolution, whatever front is drawn. Keeps references; thread-safe.
+/// Finds the place of the terrain at a pixel: the first intersection of its ray with the surface at full
+/// resolution, whichever front is drawn. Keeps references; thread-safe.
 class TerrainPicker {
  public:
   /// Precondition: model and profiles outlive this. O(vertices).
@@ -30,7 +30,8 @@ class TerrainPicker {
   /// From a point in a direction of any length but 0, in metric space. From above or from below the surface.
   /// O(triangles below the ray * depth).
   std::optional<TerrainPick> along(const Vec3& eye, const Vec3& direction) const;
-  /// What a camera has at a pixel, from the top left of its picture, heights drawn `stretch` times as high.
+  /// The place that a camera shows at a pixel, from the top left of its picture, heights drawn `stretch`
+  /// times as high.
   std::optional<TerrainPick> at(const Camera& camera, Vec2 pixel, double stretch = 1) const;
 
   /// The same on a curved Earth, where the ray bends over the map: in chords
@@ -46,7 +47,7 @@ class TerrainPicker {
   const MetricBox& box() const { return box_; }
 
  private:
-  /// The first meeting between two points.
+  /// The first intersection between two points.
   std::optional<TerrainPick> between(const Vec3& first, const Vec3& last, const Vec3& eye) const;
   TerrainPick pickOf(const Vec3& metric, const Vec3& eye) const;
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Typed text is parsed by io/crs/position_argument.h, as on the command line.
 #include "viewer/window/place_text.h"
 
 #include <fmt/format.h>

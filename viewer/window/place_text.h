@@ -9,7 +9,7 @@
 
 namespace arete {
 
-/// Coordinates as a person reads and types them.
+/// Formats and parses coordinates for the user.
 class PlaceText {
  public:
   /// Precondition: the heights outlive this.
@@ -17,21 +17,20 @@ class PlaceText {
 
   /// Source coordinates: decimetres of a projected CRS, a millionth of a degree.
   std::string xy(Vec2 xy) const;
-  /// "8.550000° E, 46.600000° N"; empty where the CRS knows none.
+  /// "8.550000° E, 46.600000° N"; empty if the CRS has no longitude and latitude.
   std::string lonLat(Vec2 xy) const;
   std::string height(double height) const;
   bool hasLonLat() const { return lonLat_.has_value(); }
-  /// Source coordinates are longitude and latitude in degrees themselves: once is enough.
+  /// Whether source coordinates are longitude and latitude in degrees already, so that one text is enough.
   bool isLonLat() const;
 
   struct Goal {
     Vec2 xy;
-    double ground = 0;  ///< height of the terrain there; the middle of the DEM's where there is none
-    std::optional<double> height;  ///< as the DEM's heights; nothing: a place on the ground was asked for
+    double ground = 0;             ///< height of the terrain there; if there is none: the stated height
+    std::optional<double> height;  ///< in the DEM's heights; empty: a place on the ground
   };
   /// "X,Y" or "X,Y,H", H as io/crs/position_argument.h has it; a longitude may be whole turns off. Errors:
-  /// usage, invalidData, naming what was typed;
-  /// a place outside of the terrain has none without a height.
+  /// usage, invalidData, naming the text; invalidData: a place outside the terrain without a height.
   Result<Goal> read(const std::string& text, bool isLonLat) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The line is drawn where its heights are in the terms of the DEM: over an ellipsoid it sags on a flat map,
-// and what it touches there it touches in the picture.
+// The line is drawn with its heights as the DEM counts them: over an ellipsoid it sags on a flat map, and
+// touches in the picture what it touches on the ground.
 #include "viewer/window/sight_tool.h"
 
 #include <fmt/format.h>

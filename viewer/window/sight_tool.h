@@ -11,13 +11,13 @@
 
 namespace arete {
 
-/// A line of sight between two picks, as it is drawn and told.
+/// A line of sight between two picks, ready to draw, with its description.
 struct SightPicture {
   SightPathAnswer answer;
   std::vector<Vec3> points;         ///< along the line, metric, heights as they are; about a hundred
   std::optional<Vec3> obstruction;  ///< on the line
-  std::size_t pointsBefore = 0;     ///< of the points, those up to the obstruction; all without one
-  std::vector<std::string> text;    ///< lines for a person
+  std::size_t pointsBefore = 0;     ///< number of points before the obstruction; all without one
+  std::vector<std::string> text;    ///< lines of the description
 };
 
 /// Answers lines of sight between picks at full resolution, over the ellipsoid of the DEM's CRS where it has

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Every action of keys, mouse and panel ends in one function here; step() advances what depends on time.
 #include "viewer/window/viewer_session.h"
 
 #include <fmt/format.h>

@@ -19,8 +19,8 @@
 
 namespace arete {
 
-/// All that the window shows and what keys, mouse and panel do to it: without OpenGL, so that tests can fly.
-/// Members are live: the panel changes them in place. Not movable.
+/// The state of the window and its changes by keys, mouse and panel: without OpenGL, so that tests can use
+/// it. Members are live: the panel changes them in place. Not movable.
 class ViewerSession {
  public:
   struct Start {
@@ -28,7 +28,7 @@ class ViewerSession {
     ViewSettings settings = {};
     double frameMilliseconds = 0;  ///< 0: the tolerance is not adapted to time
     std::optional<FlightPlan> flight = {};
-    bool hasDrape = false;  ///< the window's onReady hands one to the view
+    bool hasDrape = false;  ///< the window's onReady sets one
     std::filesystem::path flightPath = "flight.json";
   };
   /// Precondition: the model outlives this. O(vertices).
@@ -48,9 +48,9 @@ class ViewerSession {
   /// From the last pick.
   void startViewshed();
   void home(HomeView view);
-  /// To what was typed; a sentence in message() where that is nowhere.
+  /// Moves to a typed place; message() says why if there is none.
   void goTo(const std::string& text, bool isLonLat);
-  /// Says something to the person, for a few seconds.
+  /// Shows a message for a few seconds.
   void say(std::string sentence);
 
   const TerrainModel& model;
@@ -62,12 +62,12 @@ class ViewerSession {
   SightTool sights;
 
   ViewSettings settings;            ///< of the next frame; pixels are ToleranceControl's
-  ToleranceControl::Wanted wanted;  ///< what was asked for
+  ToleranceControl::Wanted wanted;  ///< the user's settings
   FrameFigures figures;             ///< of the last frame
   FrameHistory history;
   std::uint64_t residentBytes = 0, deviceBytes = 0;
-  std::string renderer;       ///< what draws
-  std::string deviceRefusal;  ///< why the device takes no cuts, or empty
+  std::string renderer;       ///< its name and version of OpenGL
+  std::string deviceRefusal;  ///< why the device cannot compute cuts, or empty
 
   std::vector<TerrainPick> picks;             ///< none, one or two
   std::optional<SightPicture> sight;          ///< between two
@@ -84,16 +84,16 @@ class ViewerSession {
   std::optional<Camera> frozen;  ///< the camera that it was taken for
   bool showsFrustum = true;
   bool showsPanel = true, showsHelp = false;
-  bool wantsScreenshot = false;  ///< the window makes one and takes it back
+  bool wantsScreenshot = false;  ///< the window writes one and resets this
   std::filesystem::path flightPath;
   std::filesystem::path framesFolder;
-  bool wantsFrames = false;  ///< the flight rendered into the folder
+  bool wantsFrames = false;  ///< the window renders the flight into the folder
   int mostOverlayPixels = 8192;
 
   const std::string& message() const { return message_; }
 
  private:
-  /// Null on a flat map, and where there is none.
+  /// Null on a flat map, and if the CRS has no ellipsoid.
   const CurvedGround* curvedGround();
 
   std::optional<CurvedGround> ground_;  // once somebody wants it

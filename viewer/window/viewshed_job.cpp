@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A thread computes the viewshed; progress and cancellation are atomics, the result is read after isDone is
+// set.
 #include "viewer/window/viewshed_job.h"
 
 #include <algorithm>

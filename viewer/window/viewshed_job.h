@@ -21,10 +21,13 @@ struct ViewshedOverlay {
   std::uint64_t seen = 0, cells = 0;
 };
 
-/// No side longer than `mostPixels`: then of every so many samples one is shown. O(pixels).
+/// Makes the overlay of a viewshed. A larger viewshed than `mostPixels` is subsampled.
+///
+/// @param mostPixels longest side of the overlay.
+/// O(pixels).
 ViewshedOverlay overlayOf(const Viewshed& viewshed, int mostPixels);
 
-/// A viewshed that is computed while the window goes on. One at a time.
+/// Computes a viewshed in the background, one at a time.
 class ViewshedJob {
  public:
   ViewshedJob() = default;
@@ -32,16 +35,16 @@ class ViewshedJob {
   ViewshedJob& operator=(const ViewshedJob&) = delete;
   ~ViewshedJob() { cancel(); }
 
-  /// Ends what is running. `targetHeight` is above the terrain. Preconditions: model and earth outlive the
-  /// job, or the next cancel().
+  /// Cancels a running job and starts another. `targetHeight` is above the terrain. Preconditions: model and
+  /// earth outlive the job, or the next cancel().
   void start(const TerrainModel& model, const SightEarth& earth, const ViewshedObserver& observer,
              double targetHeight, int mostPixels);
-  /// Waits until nothing runs.
+  /// Cancels the job and waits for its end.
   void cancel();
   bool isRunning() const { return state_ != nullptr; }
   /// 0..1.
   double progress() const;
-  /// Once, when it is done. Errors: those of ViewshedMaker.
+  /// The result, once, when it is done; nothing before and after. Errors: those of ViewshedMaker.
   std::optional<Result<ViewshedOverlay>> take();
 
  private:

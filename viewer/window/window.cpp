@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A frame: hands, camera, cut, terrain into a picture beside (float depths, samples), lines, a copy into the
+// A frame: input, camera, cut, terrain into a picture beside (float depths, samples), lines, a copy into the
 // window, the panel over it. The frame's time is taken up to where the device has finished, before the wait
 // for the screen.
 #include "viewer/window/window.h"

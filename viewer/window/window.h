@@ -28,10 +28,10 @@ struct WindowOptions {
   int frames = 0;  ///< the window closes by itself after so many; 0 = never
 };
 
-/// Opens a window on a terrain and shows it until the person closes it (docs/topics/viewer.md, "In the
+/// Opens a window on a terrain and shows it until the user closes it (docs/topics/viewer.md, "In the
 /// window").
 ///
-/// On the thread of main(); one window at a time. Errors: unsupported (no display; OpenGL below 4.5, saying
+/// On the thread of main(); one window at a time. Errors: unsupported (no display; OpenGL below 4.5, naming
 /// what was found; a terrain too large for the device), interrupted, those of onReady and of saving.
 Status runWindow(const TerrainModel& model, const WindowOptions& options, const RunContext& context = {});
 
