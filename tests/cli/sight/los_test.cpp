@@ -173,8 +173,10 @@ TEST_F(Los, MethodsThatCannotAnswerAreRefusedByName) {
   viewshed({"--observer", at, "--method", "sweep", "--max-error", "5"},
            "--method sweep: cannot be combined with --max-error");
   for (const char* mode : {"height", "horizon"})
-    viewshed({"--observer", at, "--method", "sweep", "--mode", mode}, "--method sweep: over an ellipsoid");
-  viewshed({"--observer", at, "--method", "sweep", "--like", "dem.tif"}, "--method sweep: is for the grid");
+    viewshed({"--observer", at, "--method", "sweep", "--mode", mode},
+             "--method sweep: the sweep is not possible: over an ellipsoid");
+  viewshed({"--observer", at, "--method", "sweep", "--like", "dem.tif"},
+           "--method sweep: the sweep is of the grid");
   std::string points = "x,y,z\n";
   for (int i = 0; i < 40; ++i) points += fmt::format("{},{},{}\n", i * 37 % 40, i * 17 % 40, i % 7);
   write("points.csv", points);

@@ -69,68 +69,24 @@ Camera anyCamera(Random& random, const TerrainModel& model, int width = 320, int
           .heightPixels = double(height)};
 }
 
-std::vector<bool> nodesOf(const std::vector<std::uint32_t>& words, std::uint32_t count) {
-  std::vector<bool> in(count);
-  for (std::uint32_t n = 0; n < count; ++n) in[n] = (words[n / 32] >> (n % 32) & 1) != 0;
-  return in;
-}
-
-TEST(TerrainView, TheDevicesCutIsTheProcessorsNodeForNode) {
-  ARETE_NEEDS_OPENGL(context);
-  int compared = 0;
-  for (const RasterFamily& family : rasterFamilies()) {
-    const std::uint64_t seed = 11;
-    const TerrainModel model = modelOf(family.make(61, 47, seed));
-    Result<TerrainView> view = TerrainView::create(model, {.mostTriangles = 20000});
-    ASSERT_TRUE(view) << view.error().describe();
-    ASSERT_EQ(view->deviceRefusal(), "");
-    Random random(seed);
-    for (int i = 0; i < 8; ++i) {
-      SCOPED_TRACE(std::string(family.name) + ", seed 11, camera " + std::to_string(i));
-      const Camera camera = anyCamera(random, model);
-      ViewSettings settings;
-      settings.pixels = std::pow(2.0, random.between(-3, 6));
-      settings.isGeomorphed = i % 2 == 0;
-      const auto figures = view->cut(camera, settings);
-      ASSERT_TRUE(figures);
-      const auto frame = view->frameOf(camera, settings);
-      const ViewError criterion({.view = frame->view, .pixels = frame->pixels}, model.mt.arrays().metric);
-      const auto nodes = takeNodes(model.mt, criterion, {.method = CutMethod::saturated});
-      ASSERT_TRUE(nodes);
-      const auto members = nodesOf(view->computeFront()->members(), model.mt.nodeCount());
-      for (std::uint32_t n = 0; n < model.mt.nodeCount(); ++n)
-        ASSERT_EQ(members[n], nodes->nodes[n] != 0) << "node " << n;
-      const DrawnMesh mesh = test::readDrawn(*view);
-      EXPECT_EQ(mesh.triangles.size(), front(model.mt, nodes->nodes).triangles.size());
-      EXPECT_EQ(figures->triangles, mesh.triangles.size());
-      EXPECT_EQ(test::whyNotConforming(mesh), "");
-      ++compared;
-    }
+/// The drawn surface at every sample, by laying the triangles over the grid.
+std::vector<double> heightsAtSamples(const DrawnMesh& mesh, const TerrainModel& model) {
+  std::vector<double> heights(std::size_t(model.columns) * model.rows, std::nan(""));
+  for (const auto& t : mesh.triangles) {
+    const Vec2 &a = mesh.plan[t[0]], &b = mesh.plan[t[1]], &c = mesh.plan[t[2]];
+    const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    for (int row = int(std::ceil(std::min({a.y, b.y, c.y}) - 1e-6)); row <= std::max({a.y, b.y, c.y}) + 1e-6;
+         ++row)
+      for (int col = int(std::ceil(std::min({a.x, b.x, c.x}) - 1e-6));
+           col <= std::max({a.x, b.x, c.x}) + 1e-6; ++col) {
+        const double u = ((c.x - b.x) * (row - b.y) - (c.y - b.y) * (col - b.x)) / area,
+                     v = ((a.x - c.x) * (row - c.y) - (a.y - c.y) * (col - c.x)) / area, w = 1 - u - v;
+        if (u < -1e-6 || v < -1e-6 || w < -1e-6) continue;
+        heights[std::size_t(row) * model.columns + std::size_t(col)] =
+            u * mesh.vertices[t[0]].z + v * mesh.vertices[t[1]].z + w * mesh.vertices[t[2]].z;
+      }
   }
-  EXPECT_GT(compared, 50);
-}
-
-TEST(TerrainView, ACutThatHasNoRoomLeavesTheLastFrontWhole) {
-  ARETE_NEEDS_OPENGL(context);
-  const TerrainModel& model = mountains();
-  Result<TerrainView> view = TerrainView::create(model, {.mostTriangles = 3000});
-  ASSERT_TRUE(view);
-  Random random(5);
-  const Camera camera = anyCamera(random, model);
-  ViewSettings settings;
-  settings.pixels = 20;
-  auto figures = view->cut(camera, settings);
-  ASSERT_TRUE(figures);
-  ASSERT_TRUE(figures->isComplete);
-  const DrawnMesh before = test::readDrawn(*view);
-  settings.pixels = 0.01;
-  figures = view->cut(camera, settings);
-  ASSERT_TRUE(figures);
-  EXPECT_FALSE(figures->isComplete);
-  EXPECT_GT(figures->asked, 3000u);
-  const DrawnMesh after = test::readDrawn(*view);
-  EXPECT_EQ(after.triangles, before.triangles);
-  EXPECT_EQ(test::whyNotConforming(after), "");
+  return heights;
 }
 
 TEST(TerrainView, BothPathsDrawTheSameSurface) {
@@ -266,26 +222,6 @@ TEST(TerrainView, NoBackgroundShowsThroughFromAHundredCameras) {
       }
   }
   EXPECT_GT(inside, 1000000u);
-}
-
-/// The drawn surface at every sample, by laying the triangles over the grid.
-std::vector<double> heightsAtSamples(const DrawnMesh& mesh, const TerrainModel& model) {
-  std::vector<double> heights(std::size_t(model.columns) * model.rows, std::nan(""));
-  for (const auto& t : mesh.triangles) {
-    const Vec2 &a = mesh.plan[t[0]], &b = mesh.plan[t[1]], &c = mesh.plan[t[2]];
-    const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    for (int row = int(std::ceil(std::min({a.y, b.y, c.y}) - 1e-6)); row <= std::max({a.y, b.y, c.y}) + 1e-6;
-         ++row)
-      for (int col = int(std::ceil(std::min({a.x, b.x, c.x}) - 1e-6));
-           col <= std::max({a.x, b.x, c.x}) + 1e-6; ++col) {
-        const double u = ((c.x - b.x) * (row - b.y) - (c.y - b.y) * (col - b.x)) / area,
-                     v = ((a.x - c.x) * (row - c.y) - (a.y - c.y) * (col - c.x)) / area, w = 1 - u - v;
-        if (u < -1e-6 || v < -1e-6 || w < -1e-6) continue;
-        heights[std::size_t(row) * model.columns + std::size_t(col)] =
-            u * mesh.vertices[t[0]].z + v * mesh.vertices[t[1]].z + w * mesh.vertices[t[2]].z;
-      }
-  }
-  return heights;
 }
 
 TEST(TerrainView, WhatIsDrawnKeepsItsPixelsAtEverySampleInSight) {

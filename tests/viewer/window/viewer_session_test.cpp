@@ -133,23 +133,6 @@ TEST(Session, AViewshedFromAPickIsThatOfTheMaker) {
   EXPECT_FALSE(s.overlay);
 }
 
-TEST(Session, AnOverlayTooLargeForTheDeviceShowsSomeOfTheSamplesWhereTheyAre) {
-  Viewshed viewshed;
-  viewshed.columns = 100;
-  viewshed.rows = 37;
-  viewshed.cells.assign(3700, ViewshedCell::hidden);
-  for (std::uint32_t row = 0; row < 37; ++row)
-    for (std::uint32_t column = 60; column < 100; ++column)
-      viewshed.cells[row * 100 + column] = ViewshedCell::seen;
-  const ViewshedOverlay o = overlayOf(viewshed, 30);
-  EXPECT_LE(o.width, 30);
-  EXPECT_LE(o.height, 30);
-  for (int x = 0; x < o.width; ++x) {
-    const double column = ((x + 0.5) / o.width - o.shift.x) / o.scale.x;
-    EXPECT_EQ(o.rgba[std::size_t(x)][0] == 255, column > 59.5) << x;
-  }
-}
-
 TEST(Session, AFlightIsSetPlayedStoppedByAHandAndKeptInAFile) {
   ViewerSession s(northUp(), {});
   s.apply(Action::playFlight);

@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <gtest/gtest.h>
+// The camera that hands move, above a terrain.
+#include "viewer/window/camera_rig.h"
 
+#include <gtest/gtest.h>
 #include <cmath>
 #include <optional>
-#include <set>
 
 #include "viewer/camera_models.h"
 #include "viewer/window/camera_motion.h"
-#include "viewer/window/camera_rig.h"
-#include "viewer/window/key_bindings.h"
 
 namespace arete {
 namespace {
 
 using test::apart;
 using test::cameraModels;
-
-const MotionScale kFree{.mode = CameraMode::free, .metresPerSecond = 100};
-const MotionScale kOrbit{.mode = CameraMode::orbit, .metresPerPixel = 2, .degreesPerPixel = 0.3};
 
 struct Flown {
   const TerrainModel& model;
@@ -32,85 +28,7 @@ struct Flown {
   Vec3 eye() const { return picker.space().position(rig.camera()); }
 };
 
-TEST(Controls, HandsThatDoNothingAskForNothing) {
-  InputState still;
-  still.seconds = 0.02;
-  still.mouseMoved = {30, -12};
-  EXPECT_TRUE(motionOf(still, kFree).isNone());
-  EXPECT_TRUE(motionOf(still, kOrbit).isNone());
-}
-
-TEST(Controls, AStickInItsDeadZoneAsksForNothingAndBeyondItStartsFromNothing) {
-  InputState in;
-  in.seconds = 0.02;
-  in.gamepad.leftX = 0.1;
-  in.gamepad.leftY = -0.14;
-  EXPECT_TRUE(motionOf(in, kFree).isNone());
-  in.gamepad.leftY = -0.151;
-  EXPECT_NEAR(motionOf(in, kFree).speed.tangent, 0, 1);
-  in.gamepad.leftY = -1;
-  EXPECT_DOUBLE_EQ(motionOf(in, kFree).speed.tangent, 100);
-}
-
-TEST(Controls, KeysAndSticksTogetherAreNoFasterThanEither) {
-  InputState in;
-  in.seconds = 0.02;
-  in.ahead = 1;
-  in.gamepad.leftY = -1;
-  EXPECT_DOUBLE_EQ(motionOf(in, kFree).speed.tangent, 100);
-}
-
-TEST(Controls, ShiftIsFasterAndAltSlower) {
-  InputState in;
-  in.right = 1;
-  const double usual = motionOf(in, kFree).speed.binormal;
-  in.isFast = true;
-  EXPECT_DOUBLE_EQ(motionOf(in, kFree).speed.binormal, 5 * usual);
-  in.isFast = false;
-  in.isSlow = true;
-  EXPECT_DOUBLE_EQ(motionOf(in, kFree).speed.binormal, 0.2 * usual);
-}
-
-TEST(Controls, WheelNotchesUndoEachOther) {
-  InputState in;
-  in.wheel = 3;
-  const CameraMotion there = motionOf(in, kOrbit), faster = motionOf(in, kFree);
-  in.wheel = -3;
-  EXPECT_NEAR(there.zoom * motionOf(in, kOrbit).zoom, 1, 1e-12);
-  EXPECT_LT(there.zoom, 1);
-  EXPECT_NEAR(faster.speedFactor * motionOf(in, kFree).speedFactor, 1, 1e-12);
-}
-
-TEST(Controls, EachButtonDragsWhatItIsFor) {
-  InputState in;
-  in.mouseMoved = {10, 5};
-  in.leftButton = true;
-  EXPECT_TRUE(motionOf(in, kFree).isNone()) << "left picks";
-  EXPECT_DOUBLE_EQ(motionOf(in, kOrbit).turnRight, 3);
-  EXPECT_DOUBLE_EQ(motionOf(in, kOrbit).turnUp, -1.5);
-  in.leftButton = false;
-  in.rightButton = true;
-  EXPECT_GT(motionOf(in, kFree).turnRight, 0);
-  EXPECT_LT(motionOf(in, kFree).turnUp, 0);
-  EXPECT_DOUBLE_EQ(motionOf(in, kOrbit).slideRight, -20);
-  EXPECT_DOUBLE_EQ(motionOf(in, kOrbit).slideAhead, 10);
-}
-
-TEST(Controls, NoKeyIsGivenTwiceAndEveryActionHasOne) {
-  std::set<std::pair<int, bool>> keys;
-  std::set<Action> actions;
-  for (const KeyBinding& b : keyBindings()) {
-    EXPECT_TRUE(keys.insert({b.key, b.isWithControl}).second) << b.name;
-    EXPECT_EQ(actionOfKey(b.key, b.isWithControl), b.action);
-    EXPECT_FALSE(b.help.empty()) << b.name;
-    actions.insert(b.action);
-  }
-  EXPECT_EQ(actions.size(), std::size_t(Action::help) + 1);
-  for (const int key : {'W', 'A', 'S', 'D', 'Q', 'E'})
-    EXPECT_FALSE(actionOfKey(key, false)) << "moves the camera";
-}
-
-TEST(Rig, DraggingInAnOrbitTurnsAboutWhatIsInTheMiddle) {
+TEST(CameraRig, DraggingInAnOrbitTurnsAboutWhatIsInTheMiddle) {
   for (const test::CameraModel& m : cameraModels()) {
     SCOPED_TRACE(m.name);
     Flown f(m.model);
@@ -131,7 +49,7 @@ TEST(Rig, DraggingInAnOrbitTurnsAboutWhatIsInTheMiddle) {
   }
 }
 
-TEST(Rig, TheWheelInAnOrbitKeepsWhatIsUnderTheMouse) {
+TEST(CameraRig, TheWheelInAnOrbitKeepsWhatIsUnderTheMouse) {
   for (const test::CameraModel& m : cameraModels()) {
     SCOPED_TRACE(m.name);
     Flown f(m.model);
@@ -155,7 +73,7 @@ TEST(Rig, TheWheelInAnOrbitKeepsWhatIsUnderTheMouse) {
   }
 }
 
-TEST(Rig, AnOrbitStaysCentredUnderExaggeration) {
+TEST(CameraRig, AnOrbitStaysCentredUnderExaggeration) {
   Flown f(cameraModels()[0].model);
   f.rig.setFloorMetres(0);
   const auto before = f.picker.at(f.rig.camera(), {400, 300});
@@ -171,7 +89,7 @@ TEST(Rig, AnOrbitStaysCentredUnderExaggeration) {
   EXPECT_NEAR(seen->y, 300, 1e-4);
 }
 
-TEST(Rig, FlyingAheadGoesWhereThePictureLooksWhateverTheFrames) {
+TEST(CameraRig, FlyingAheadGoesWhereThePictureLooksWhateverTheFrames) {
   for (const test::CameraModel& m : cameraModels())
     for (const int frames : {1, 7, 60}) {
       SCOPED_TRACE(m.name);
@@ -193,7 +111,7 @@ TEST(Rig, FlyingAheadGoesWhereThePictureLooksWhateverTheFrames) {
     }
 }
 
-TEST(Rig, NothingTakesTheCameraBelowTheFloorWhetherItIsTheUsualOneOrAnother) {
+TEST(CameraRig, NothingTakesTheCameraBelowTheFloorWhetherItIsTheUsualOneOrAnother) {
   for (const std::optional<double> stated : {std::optional<double>(), std::optional<double>(5)}) {
     Flown f(cameraModels()[0].model);
     if (stated) f.rig.setFloorMetres(*stated);
@@ -221,7 +139,7 @@ TEST(Rig, NothingTakesTheCameraBelowTheFloorWhetherItIsTheUsualOneOrAnother) {
   }
 }
 
-TEST(Rig, ChangingTheModeKeepsThePicture) {
+TEST(CameraRig, ChangingTheModeKeepsThePicture) {
   for (const test::CameraModel& m : cameraModels()) {
     Flown f(m.model);
     const Camera before = f.rig.camera();
