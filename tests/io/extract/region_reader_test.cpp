@@ -194,7 +194,7 @@ TEST(RegionReader, TakesLinesWhereTheyAreAskedFor) {
   EXPECT_FALSE(readRegion(path, ""));
   const auto asked = readRegionArgument(path, "EPSG:4326", 0);
   ASSERT_FALSE(asked);
-  EXPECT_TRUE(contains(asked.error().message, "--distance")) << asked.error().describe();
+  EXPECT_TRUE(contains(asked.error().message, "`distance`")) << asked.error().describe();
   const auto corridor = readRegionArgument(path, "EPSG:4326", 25);
   ASSERT_TRUE(corridor) << corridor.error().describe();
   EXPECT_EQ(corridor->shape.lines.size(), 3u);
