@@ -9,12 +9,14 @@
 
 namespace arete {
 
-/// The points that a hole has below it, laid out for vectors: a triangle of the hole asks of all of them
-/// whether it covers them and how far they are from it. That is told by linear functions in floats, with
-/// what they can be off by; the few points that it does not decide are for exact predicates (PointError).
+/// The conflict lists [ClarksonShor1989] of a star's triangles merged into one, laid out for vector
+/// instructions: the removed points below a hole. A triangle that may fill the hole finds the points that it
+/// covers, and that lie far enough from its plane, by linear functions in floats with bounds of their
+/// rounding errors. The few points that these do not decide are left to exact predicates (PointError).
 class ConflictLists {
  public:
-  /// Forgets all. `apex`: the place that the others are told from, a point like them.
+  /// Removes all points and sets the origin of the coordinates kept. O(1).
+  /// @param apex  a position near all of the points
   void clear(const Vec3& apex) {
     apex_ = apex;
     size_ = 0;
@@ -27,40 +29,44 @@ class ConflictLists {
     z_[size_] = static_cast<float>(position.z - apex_.z);
     ++size_;
   }
-  /// When all are there. `reach`: how far any of them, or any corner of a triangle that will be asked about,
-  /// lies from the apex at most, in each coordinate.
+  /// Ends a series of add(); call before the first Triangle.
+  /// @param reach  in each coordinate, the largest distance from the apex of any point added and of any
+  /// corner
+  ///        of a Triangle to come
   void close(const Vec3& reach) { reach_ = reach; }
 
   std::size_t size() const { return size_; }
-  std::uint32_t operator[](std::size_t k) const { return points_[k]; }
+  /// The point at an index, below size(), in the order of add().
+  std::uint32_t operator[](std::size_t index) const { return points_[index]; }
 
   struct Found {
-    std::size_t place;  ///< size() where there is none
-    bool isCovered;     ///< for certain; else it may be
+    std::size_t index;  ///< size() where no point is left
+    bool isCovered;     ///< true: the triangle covers the point; false: not decided
   };
-  /// A counter-clockwise triangle over them.
+  /// A triangle of the hole, counter-clockwise in the plan. Keeps a reference to the lists.
   class Triangle {
    public:
-    Triangle(const ConflictLists& below, const Vec3& a, const Vec3& b, const Vec3& c);
+    Triangle(const ConflictLists& lists, const Vec3& a, const Vec3& b, const Vec3& c);
 
-    /// The first point from a place on that the triangle may cover and where z_triangle - z may be above
-    /// `above`, or below -`below`. O(points), four at a time. Precondition: neither is negative.
+    /// The first point, from an index on, that the triangle may cover and where z_triangle - z may exceed
+    /// `above` or be less than -`below`. Misses none. Precondition: above, below >= 0. O(points), four at a
+    /// time.
     Found next(std::size_t from, double above, double below) const;
-    /// The first that it may cover.
+    /// The first point, from an index on, that the triangle may cover.
     Found nextCovered(std::size_t from) const;
 
    private:
-    /// value = atApex + alongX * x + alongY * y
+    /// value(x, y) = atApex + alongX * x + alongY * y, with x and y counted from the apex
     struct Linear {
       float atApex, alongX, alongY;
     };
-    /// Twice the area of an edge and a point left of it.
+    /// Twice the signed area of an edge and a point, > 0 for a point left of the edge.
     Linear leftOf(const Vec3& from, const Vec3& to) const;
 
-    const ConflictLists& below_;
+    const ConflictLists& lists_;
     Linear edges_[3];
-    float edgeMargin_;  // what those can be off by
-    Linear plane_;      // the height, from the apex's
+    float edgeMargin_;  // bounds the rounding error of edges_
+    Linear plane_;      // the plane's height above the apex
     float planeMargin_;
   };
 
@@ -70,7 +76,7 @@ class ConflictLists {
   Vec3 apex_, reach_;
   std::size_t size_ = 0;
   std::vector<std::uint32_t> points_;
-  // From the apex; a few more, of any value, for those who read four at a time.
+  // From the apex. Padded by arbitrary values, since they are read four at a time.
   std::vector<float> x_, y_, z_;
 };
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// An edge crosses those of the finest triangulation where it crosses grid columns, grid rows and the
-// diagonals column - row = constant, in whole numbers but for the place itself. Where it does so at a sample
-// there is nothing to tell.
+// An edge crosses edges of the finest triangulation where it crosses grid columns, grid rows and the
+// diagonals column - row = constant. All of this is computed in integers but for the fractions stored.
+// Crossings at a sample are left out.
 #include "terrain/error/edge_crossing_table.h"
 
 namespace arete {
 namespace {
 
-/// a / b, rounded down, and what is left as a part of b. b is not 0.
+/// a / b rounded down, and the remainder as a fraction of b. Precondition: b != 0.
 struct Quotient {
   int whole;
   double part;
@@ -26,7 +26,7 @@ struct Quotient {
 
 EdgeCrossingTable::EdgeCrossingTable(std::uint32_t columns) {
   const auto sample = [&](int x, int y) { return y * static_cast<std::int32_t>(columns) + x; };
-  /// visit(k) for the whole numbers between 0 and `end`.
+  // visit(k) for the whole numbers strictly between 0 and `end`.
   const auto forBetween = [](int end, const auto& visit) {
     const int step = end > 0 ? 1 : -1;
     for (int k = step; k * step < end * step; k += step) visit(k);
@@ -51,7 +51,7 @@ EdgeCrossingTable::EdgeCrossingTable(std::uint32_t columns) {
           crossings_.push_back(
               {sample(x.whole, y), sample(x.whole + 1, y + 1), double(diagonal) / (dx - dy), x.part});
       });
-      first_[place(dx, dy) + 1] = static_cast<std::uint32_t>(crossings_.size());
+      first_[index(dx, dy) + 1] = static_cast<std::uint32_t>(crossings_.size());
     }
 }
 

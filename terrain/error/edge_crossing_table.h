@@ -9,26 +9,27 @@
 
 namespace arete {
 
-/// Where the short edges of triangles over a raster cross the edges of its finest triangulation, from a
-/// table: most edges that a build asks about are so short that finding their crossings takes longer than the
-/// heights there.
+/// A table of the points where short edges between samples of a raster cross the edges of its finest
+/// triangulation. Most edges that a build evaluates are so short that computing their crossings takes longer
+/// than comparing the heights there.
 class EdgeCrossingTable {
  public:
-  /// A crossing with an edge between two samples, other than at one of them.
+  /// A crossing with an edge between two samples, in its interior.
   struct Crossing {
-    std::int32_t from, to;  ///< the samples, counted from the one where the crossing edge starts
-    double along;           ///< how far along the crossing edge it lies, 0 .. 1
-    double between;         ///< how far from `from` to `to`
+    std::int32_t from, to;  ///< the two samples, as offsets from the sample where the short edge starts
+    double along;           ///< position on the short edge, 0 .. 1
+    double between;         ///< position between `from` and `to`, 0 .. 1
   };
 
-  /// Of a raster with so many columns.
+  /// @param columns  of the raster
   explicit EdgeCrossingTable(std::uint32_t columns);
 
+  /// Edges of up to this many columns and rows are in the table.
   static constexpr int kReach = 5;
   static bool isShort(std::int32_t dx, std::int32_t dy) { return isReached(dx) && isReached(dy); }
-  /// Of an edge that goes so many columns and rows. Precondition: isShort(dx, dy). O(1).
+  /// The crossings of an edge of dx columns and dy rows. Precondition: isShort(dx, dy). O(1).
   std::span<const Crossing> of(std::int32_t dx, std::int32_t dy) const {
-    const std::size_t edge = place(dx, dy);
+    const std::size_t edge = index(dx, dy);
     return {crossings_.data() + first_[edge], crossings_.data() + first_[edge + 1]};
   }
 
@@ -37,11 +38,11 @@ class EdgeCrossingTable {
   static bool isReached(std::int32_t x) {
     return static_cast<std::uint32_t>(x + kReach) < static_cast<std::uint32_t>(kSide);
   }
-  static std::size_t place(std::int32_t dx, std::int32_t dy) {
+  static std::size_t index(std::int32_t dx, std::int32_t dy) {
     return static_cast<std::size_t>(dy + kReach) * kSide + static_cast<std::size_t>(dx + kReach);
   }
 
-  std::array<std::uint32_t, std::size_t(kSide) * kSide + 1> first_;  // per edge
+  std::array<std::uint32_t, std::size_t(kSide) * kSide + 1> first_;  // per edge: its first crossing
   std::vector<Crossing> crossings_;
 };
 

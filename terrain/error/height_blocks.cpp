@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The slopes are those of the least squares, found from whole blocks without NODATA; others are taken to be
-// level. Nothing hangs on how good a plane is but time: what the samples differ from it is measured, from its
-// coefficients as they are kept, and rounded outwards.
+// A whole block without NODATA gets its least-squares plane, any other block a level one. The quality of a
+// plane affects the speed only, never the result: the residuals are computed from the coefficients as they
+// are stored (rounded to float), and their bounds are rounded outwards.
 #include "terrain/error/height_blocks.h"
 
 #include <tbb/parallel_for.h>
@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint32_t kSide = HeightBlocks::kSide;
 constexpr double kMiddle = (kSide - 1) / 2.0;
 
-/// rows x columns samples from `heights` on, rows `stride` apart.
+/// The block of rows x columns samples that begins at `heights`, with rows `stride` apart.
 HeightBlocks::Block blockOf(const double* heights, std::size_t stride, std::uint32_t columns,
                             std::uint32_t rows) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

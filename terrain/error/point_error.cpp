@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a triangle covers is told by linear functions with margins (points_below.h); exact predicates decide
-// what these leave open, and only a point that may change the answer is measured by the plane itself.
+// Which points a triangle covers is decided by linear functions with margins (conflict_lists.h), and by exact
+// predicates where those leave a point undecided. The plane itself is evaluated only at points that may
+// change the result.
 #include "terrain/error/point_error.h"
 
 #include <algorithm>
@@ -20,8 +21,8 @@ bool PointError::covers(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::
          plan_.orientation(c, a, p) >= 0;
 }
 
-/// The same where doubles cannot tell the triangle from a line: the largest difference of the sides beside p,
-/// for the plane's lies between two of them.
+/// difference() for a triangle whose area is lost to rounding: the difference of largest magnitude over the
+/// sides beside p, since that of the plane lies between those of two sides.
 double PointError::differenceOnLine(std::uint32_t a, std::uint32_t b, std::uint32_t c,
                                     std::uint32_t p) const {
   const Vec2 q = plan_.planPosition(p);
@@ -46,24 +47,24 @@ double PointError::difference(std::uint32_t a, std::uint32_t b, std::uint32_t c,
   const double bx = pb.x - o.x, by = pb.y - o.y, cx = pc.x - o.x, cy = pc.y - o.y, x = q.x - o.x,
                y = q.y - o.y;
   const double left = bx * cy, right = by * cx, area = left - right;
-  // The terms are rounded: an area far smaller than they are is no area to divide by.
-  constexpr double kTrusted = 0x1p-30;
-  if (!(std::abs(area) > kTrusted * (std::abs(left) + std::abs(right)))) return differenceOnLine(a, b, c, p);
+  // The terms are rounded: an area far smaller than its terms is not reliable enough to divide by.
+  constexpr double kReliable = 0x1p-30;
+  if (!(std::abs(area) > kReliable * (std::abs(left) + std::abs(right)))) return differenceOnLine(a, b, c, p);
   const double u = (x * cy - y * cx) / area, w = (bx * y - by * x) / area;
   return points_[a].z + u * (points_[b].z - points_[a].z) + w * (points_[c].z - points_[a].z) - points_[p].z;
 }
 
 namespace {
-// One hole at a time per thread: what is below it is gathered into arrays that keep their capacity.
-thread_local ConflictLists belowHole;
+// One hole at a time per thread; the arrays keep their capacity from hole to hole.
+thread_local ConflictLists conflictsOfHole;
 }  // namespace
 
-const ConflictLists& PointError::Hole::below() const {
-  if (below_ != nullptr) return *below_;
-  ConflictLists& below = belowHole;
+const ConflictLists& PointError::Hole::conflicts() const {
+  if (conflicts_ != nullptr) return *conflicts_;
+  ConflictLists& conflicts = conflictsOfHole;
   const Vec3 apex = errors_.position(apex_);
-  below.clear(apex);
-  below.add(apex_, apex);
+  conflicts.clear(apex);
+  conflicts.add(apex_, apex);
   Vec3 reach;
   for (const std::uint32_t corner : star_.linkView()) {
     const Vec3& p = errors_.position(corner);
@@ -73,20 +74,21 @@ const ConflictLists& PointError::Hole::below() const {
   for (int i = 0; i < star_.triangleCount; ++i)
     for (std::uint32_t p = errors_.head_[star_.slot(i)]; p != kNone; p = errors_.next_[p]) {
       const Vec3& position = errors_.position(p);
-      below.add(p, position);
+      conflicts.add(p, position);
       reach.z = std::max(reach.z, std::abs(position.z - apex.z));
     }
-  below.close(reach);
-  below_ = &below;
-  return below;
+  conflicts.close(reach);
+  conflicts_ = &conflicts;
+  return conflicts;
 }
 
 ConflictLists::Triangle PointError::Hole::triangle(int i, int j, int m) const {
-  return {below(), position(i), position(j), position(m)};
+  return {conflicts(), position(i), position(j), position(m)};
 }
 
 bool PointError::Hole::isCovered(const ConflictLists::Found& found, int i, int j, int m) const {
-  return found.isCovered || errors_.covers(star_.link[i], star_.link[j], star_.link[m], below()[found.place]);
+  return found.isCovered ||
+         errors_.covers(star_.link[i], star_.link[j], star_.link[m], conflicts()[found.index]);
 }
 
 Vec3 PointError::Hole::fromApex(int i) const {
@@ -102,10 +104,10 @@ double PointError::Hole::apexError(int i, int j, int m) const {
 double PointError::Hole::maximum(int i, int j, int m, double limit) const {
   const ConflictLists::Triangle over = triangle(i, j, m);
   double worst = 0;
-  for (auto found = over.next(0, worst, worst); found.place != below().size();
-       found = over.next(found.place + 1, worst, worst)) {
+  for (auto found = over.next(0, worst, worst); found.index != conflicts().size();
+       found = over.next(found.index + 1, worst, worst)) {
     if (!isCovered(found, i, j, m)) continue;
-    const std::uint32_t p = below()[found.place];
+    const std::uint32_t p = conflicts()[found.index];
     worst = std::max(worst, std::abs(errors_.difference(star_.link[i], star_.link[j], star_.link[m], p)));
     if (worst > limit) break;
   }
@@ -115,10 +117,10 @@ double PointError::Hole::maximum(int i, int j, int m, double limit) const {
 double PointError::Hole::maximum(int i, int j, int m, double limit, SignedBound& bound) const {
   const ConflictLists::Triangle over = triangle(i, j, m);
   double worst = 0;
-  for (auto found = over.next(0, bound.above, bound.below); found.place != below().size();
-       found = over.next(found.place + 1, bound.above, bound.below)) {
+  for (auto found = over.next(0, bound.above, bound.below); found.index != conflicts().size();
+       found = over.next(found.index + 1, bound.above, bound.below)) {
     if (!isCovered(found, i, j, m)) continue;
-    const std::uint32_t p = below()[found.place];
+    const std::uint32_t p = conflicts()[found.index];
     const double d = errors_.difference(star_.link[i], star_.link[j], star_.link[m], p);
     bound.include(d);
     worst = std::max(worst, std::abs(d));
@@ -128,18 +130,18 @@ double PointError::Hole::maximum(int i, int j, int m, double limit, SignedBound&
 }
 
 void PointError::Hole::settle(const HoleTriangulation& floor) {
-  const std::size_t count = below().size();
-  thread_local std::vector<std::uint8_t> isSettled;
-  isSettled.assign(count, 0);
+  const std::size_t count = conflicts().size();
+  thread_local std::vector<std::uint8_t> isAssigned;
+  isAssigned.assign(count, 0);
   for (int t = 0; t < star_.triangleCount; ++t) errors_.head_[star_.slot(t)] = kNone;
   for (int f = 0; f < floor.size; ++f) {
     const auto [i, j, m] = floor.triangles[f];
     std::uint32_t& head = errors_.head_[star_.slot(f)];
     const ConflictLists::Triangle over = triangle(i, j, m);
-    for (auto found = over.nextCovered(0); found.place != count; found = over.nextCovered(found.place + 1)) {
-      if (isSettled[found.place] != 0 || !isCovered(found, i, j, m)) continue;
-      const std::uint32_t p = below()[found.place];
-      isSettled[found.place] = 1;
+    for (auto found = over.nextCovered(0); found.index != count; found = over.nextCovered(found.index + 1)) {
+      if (isAssigned[found.index] != 0 || !isCovered(found, i, j, m)) continue;
+      const std::uint32_t p = conflicts()[found.index];
+      isAssigned[found.index] = 1;
       errors_.next_[p] = head;
       head = p;
     }

@@ -15,15 +15,17 @@
 
 namespace arete {
 
-/// Vertical error of triangles over scattered points, exactly. Every triangle slot of the live mesh keeps the
-/// removed points that it covers; a removal shares the points of its star out among the triangles of the
-/// floor (exact predicates; a point on an edge goes to either side, whose planes agree there).
+/// The exact vertical error of triangles over scattered points. Every triangle slot of the live mesh has a
+/// conflict list [ClarksonShor1989] of the removed points that it covers. A removal distributes the points of
+/// its star among the triangles of the floor by exact predicates; a point on an edge goes to one of the two
+/// sides, whose planes agree there. Points are indices into `points`.
 class PointError {
  public:
   static constexpr std::uint32_t kNone = LiveMesh::kNone;
 
-  /// Keeps the rings of the finest triangulation, in which bounds along edges are found. `points`: those of
-  /// the plan, with their heights.
+  /// Refers to `plan` and `points`; copies the vertex rings of `finest`, which alongEdge() walks. O(points).
+  /// @param points  those of the plan, with their heights
+  /// @param finest  the finest triangulation of the points
   PointError(const PointPlan& plan, std::span<const Vec3> points, const LiveMesh& finest)
       : plan_(plan), points_(points), finest_(finest), head_(finest.triangles.size()), next_(points.size()) {
     std::ranges::fill(head_, kNone);
@@ -37,20 +39,22 @@ class PointError {
     for (int i = 0; i < star.triangleCount; ++i) __builtin_prefetch(&head_[star.slot(i)]);
     for (const std::uint32_t u : star.linkView()) finest_.prefetch(u);
   }
-  /// RasterError knows a rule for the finest triangulation; for points there is none.
+  /// See RasterError. -1: points have no closed form in the finest triangulation.
   double costInFinest(std::uint32_t, std::array<std::uint32_t, 3>&) const { return -1; }
   double boundInFinest(std::uint32_t) const { return -1; }
-  /// See RasterError. Of points the levels are where a build takes most memory.
+  /// See RasterError. A build of points uses most memory in the levels of removals, so it compacts sooner.
   static constexpr double kLeastLive = 0.75;
-  /// The live mesh has moved its triangles (LiveMesh::compact): their points move with them.
+  /// Moves the conflict lists with their triangles after LiveMesh::compact(). O(live slots).
   void compact(const SlotMap& newSlot);
 
-  /// The triangles of one hole, named by corners of its link, against the points of the star and its apex.
-  /// One at a time in each thread: they share the arrays that points are gathered into.
+  /// The hole that a removed vertex (the apex) leaves: geometry and errors of the triangles that may fill it,
+  /// over the apex and the points that its star covers. Triangles are given by the indices of their corners
+  /// in the apex's link. At most one exists per thread at a time: all share the thread's arrays.
   class Hole {
    public:
     Hole(PointError& errors, const Star& star, std::uint32_t apex)
         : errors_(errors), star_(star), apex_(apex), polygon_(errors.plan_, apex, star.linkView()) {}
+    /// See RasterError::maximum().
     double maximum(int i, int j, int m, double limit) const;
     double maximum(int i, int j, int m, double limit, SignedBound& bound) const;
     const PointPlan::Polygon& polygon() const { return polygon_; }
@@ -59,20 +63,21 @@ class PointError {
     int third(int i, int j, const PrefersLater& prefersLater) const {
       return polygon_.third(i, j, prefersLater);
     }
-    /// Where corner i lies from the apex, in the metric of the plan, and by how much it is higher.
+    /// Corner i relative to the apex: x and y in the plan's metric, z in the vertical unit.
     Vec3 fromApex(int i) const;
-    /// Corner i, and the apex, on the plan and with their heights.
+    /// Plan position and height of corner i, and of the apex.
     Vec3 position(int i) const { return errors_.position(star_.link[i]); }
     Vec3 apexPosition() const { return errors_.position(apex_); }
-    /// |z - plane| at the apex, of a triangle over it.
+    /// |z - plane| at the apex. Precondition: the triangle covers the apex.
     double apexError(int i, int j, int m) const;
     SignedBound alongEdge(int i, int j) const { return errors_.alongEdge(star_.link[i], star_.link[j]); }
-    /// See RasterError. The domain of points is their convex hull.
+    /// See RasterError. Always true: the domain of points is their convex hull.
     bool isUnconstrained() const { return true; }
+    /// Distributes the star's points and the apex among the triangles of the floor that replaces the star.
     void settle(const HoleTriangulation& floor);
 
    private:
-    const ConflictLists& below() const;
+    const ConflictLists& conflicts() const;
     ConflictLists::Triangle triangle(int i, int j, int m) const;
     bool isCovered(const ConflictLists::Found& found, int i, int j, int m) const;
 
@@ -80,12 +85,12 @@ class PointError {
     const Star& star_;
     std::uint32_t apex_;
     const PointPlan::Polygon polygon_;
-    mutable const ConflictLists* below_ =
-        nullptr;  // gathered when first asked for: half of the looks never do
+    mutable const ConflictLists* conflicts_ =
+        nullptr;  // built on first use: half of the evaluations need none
   };
 
-  /// Signed difference between the segment a-b and the finest triangulation where it crosses its edges. A
-  /// walk through the triangles it meets.
+  /// Bounds of the signed difference between the segment a-b and the finest triangulation at the points where
+  /// the segment crosses its edges. Walks through the triangles that the segment meets: O(their number).
   SignedBound alongEdge(std::uint32_t a, std::uint32_t b) const;
 
  private:
@@ -96,8 +101,8 @@ class PointError {
   const PointPlan& plan_;
   std::span<const Vec3> points_;
   const VertexRings finest_;
-  PagedArray<std::uint32_t> head_;           // per triangle slot: its first point
-  UninitializedVector<std::uint32_t> next_;  // per point that a triangle has
+  PagedArray<std::uint32_t> head_;           // per triangle slot: the first point of its conflict list
+  UninitializedVector<std::uint32_t> next_;  // per point in a list: the next one of the same triangle
 };
 
 }  // namespace arete

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The walk along a segment a-b through the finest triangulation: at a vertex on the segment, turn through its
-// star to the triangle that the segment enters (or to a neighbour that lies on it); inside a triangle, the
-// corner opposite the edge just crossed lies left of, right of or on the segment, which names the next edge
-// or vertex. Edges that are crossed one after the other share an end, whose ring names the next corner. Every
-// decision is an exact orientation; only the differences at the crossings are computed in doubles.
+// A straight walk along the segment a-b through the finest triangulation [DevillersPionTeillaud2002]. At a
+// vertex on the segment, the walk turns through the vertex's star to the triangle that the segment enters, or
+// to a neighbour that lies on the segment. Inside a triangle, the corner opposite the edge just crossed lies
+// left of, right of or on the segment, which determines the next edge or vertex. Successive crossed edges
+// share an end, whose ring gives the next corner. Every decision is an exact orientation; only the
+// differences at the crossings are computed in doubles.
 //
-// Over the plane that rises along the segment and is level across it, the difference of a vertex is one
-// number, and that of a crossing lies between those of the crossed edge's ends. The bound allows for what
-// rounding can do to it: digits are lost where an end is far away beside the segment, and where both ends are
-// so near it that their sides are rounding the crossing may be anywhere between them.
+// Take the plane that rises along the segment and is level across it. Its difference from a vertex is one
+// number, and its difference at a crossing lies between those of the two ends of the crossed edge. The bound
+// includes the rounding errors: digits are lost where an end lies far from the segment; and where both ends
+// are so near to the segment that their sides are all rounding, the crossing may be anywhere between them.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -23,31 +24,32 @@ SignedBound PointError::alongEdge(std::uint32_t a, std::uint32_t b) const {
   SignedBound bound;
   const Vec3 pa = points_[a], pb = points_[b];
   const double dx = pb.x - pa.x, dy = pb.y - pa.y, climb = pb.z - pa.z, squared = dx * dx + dy * dy;
-  // Of a segment so short that its square is none, all heights between its ends are looked at everywhere.
+  // Where the squared length underflows, any height between those of the ends is possible at every point.
   const bool isShort = squared < 0x1p-900;
   const double rise = isShort ? 0 : climb / squared, unsure = isShort ? std::abs(climb) : 0;
   struct End {
     std::uint32_t vertex = kNone;
     int sign = 0;           ///< exact: > 0 left of the segment, < 0 right of it
     double side = 0;        ///< twice the area of the segment and the vertex left of it
-    double sideLost = 0;    ///< what that can be off by
-    double difference = 0;  ///< of the plane from the vertex
-    double lost = 0;        ///< what that can be off by, the rounding of heights aside
+    double sideLost = 0;    ///< bounds the rounding error of `side`
+    double difference = 0;  ///< z_plane - z_vertex
+    double lost = 0;        ///< bounds the rounding error of `difference`, but for that of heights
   };
   const auto endAt = [&](std::uint32_t v) -> End {
     const Vec3& p = points_[v];
-    const double x = p.x - pa.x, y = p.y - pa.y, forth = dx * y, back = dy * x, side = forth - back;
+    const double x = p.x - pa.x, y = p.y - pa.y, leftTerm = dx * y, rightTerm = dy * x,
+                 side = leftTerm - rightTerm;
     const double alongX = x * dx, alongY = y * dy;
     const double difference = pa.z + (alongX + alongY) * rise - p.z;
-    // A dozen roundings of each term; of the sides three, and small ones may have lost their digits (Shewchuk
-    // 1997, section 4).
+    // The difference has a dozen roundings of each term, a side three; tiny products may have underflowed
+    // [Shewchuk1997, section 4].
     const double lost = 0x1p-49 * (std::abs(alongX) + std::abs(alongY)) * std::abs(rise) + unsure;
-    const double sideLost = 0x1p-51 * (std::abs(forth) + std::abs(back)) + 0x1p-960;
+    const double sideLost = 0x1p-51 * (std::abs(leftTerm) + std::abs(rightTerm)) + 0x1p-960;
     const int sign = int(side > sideLost) - int(side < -sideLost);
     const bool isCertain = sign != 0 || v == a || v == b;
     return {v, isCertain ? sign : plan_.orientation(a, b, v), side, sideLost, difference, lost};
   };
-  // Of two vertices on the segment.
+  // Precondition: both vertices lie on the segment's line.
   const auto isAhead = [&](std::uint32_t from, std::uint32_t v) {
     const Vec3 &p = points_[v], &o = points_[from];
     return dx != 0 ? (p.x > o.x) == (dx > 0) : (p.y > o.y) == (dy > 0);
@@ -55,8 +57,8 @@ SignedBound PointError::alongEdge(std::uint32_t a, std::uint32_t b) const {
   const auto include = [&](double difference, double lost) {
     bound.include({lost - difference, lost + difference});
   };
-  // A point on the segment travels with one of the two triangles at the edge; the bound of the other needs
-  // it.
+  // A point on the segment is in the conflict list of one of the two triangles at the edge only; the bound of
+  // the other one includes it here.
   const auto pass = [&](const End& end) {
     if (end.vertex != b) include(end.difference, unsure);
   };
@@ -69,7 +71,7 @@ SignedBound PointError::alongEdge(std::uint32_t a, std::uint32_t b) const {
   };
 
   for (std::uint32_t at = a; at != b;) {
-    // Out of the vertex `at`: a neighbour on the segment, or the triangle whose far edge the segment crosses.
+    // Leave the vertex `at`: to a neighbour on the segment, or into the triangle whose far edge it crosses.
     const std::span<const std::uint32_t> ring = finest_.of(at);
     std::uint32_t onward = kNone;
     bool isEntered = false;
@@ -92,9 +94,9 @@ SignedBound PointError::alongEdge(std::uint32_t a, std::uint32_t b) const {
       at = onward;
       continue;
     }
-    if (!isEntered) return bound;  // along the hull, within rounding of it: nothing is crossed
+    if (!isEntered) return bound;  // along the hull, within rounding: no edge is crossed
 
-    // From edge to edge around the end that stays, which is the right one or the left.
+    // From edge to edge around the end that both share, the pivot: the right end or the left.
     std::size_t pivot = 0;
     RingPlace place(finest_, ends[0].vertex, ends[1].vertex);
     for (;;) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A triangle is compared row by row (triangle_rows.h), four samples at a time. The rows of a small one are
-// known from a table (small_triangles.h). A wide one is looked at by blocks of 8 x 8 samples: most of them
-// keep so close to a plane (height_blocks.h) that none of their samples can be the one that differs most.
+// A triangle is scan-converted row by row (triangle_rows.h), four samples at a time. The rows of a small
+// triangle come from a table (triangle_scan_table.h). The rows of a wide triangle are scanned by blocks of
+// 8 x 8 samples: most blocks lie so close to a plane (height_blocks.h) that none of their samples can differ
+// more than what was found before, and these are skipped.
 #include "terrain/error/raster_error.h"
 
 #include <algorithm>
@@ -15,20 +16,23 @@
 namespace arete {
 namespace {
 
-/// The largest of some differences, until one is beyond the limit.
+using simd::broadcast;
+using simd::Double2;
+
+/// The largest |difference| so far; the scan stops once it exceeds the limit.
 struct LargestDifference {
   double limit;
   Double2 found = {0, 0};
   void include(Double2 difference) {
-    const Double2 size = magnitude(difference);
+    const Double2 size = simd::abs(difference);
     found = size > found ? size : found;  // false for NODATA
   }
-  bool isEnough() const { return largest(found) > limit; }
-  /// Whether one between the two could change it.
-  bool isChangedBy(double low, double high) const { return std::max(high, -low) > largest(found); }
+  bool isEnough() const { return simd::maxLane(found) > limit; }
+  /// Whether a difference within [low, high] could change the result.
+  bool isChangedBy(double low, double high) const { return std::max(high, -low) > simd::maxLane(found); }
 };
 
-/// The largest of some differences either way, until one is beyond the limit.
+/// The largest and the smallest difference so far; the scan stops once either exceeds the limit.
 struct SignedDifferences {
   double limit;
   Double2 above = {0, 0}, below = {0, 0};
@@ -36,28 +40,31 @@ struct SignedDifferences {
     above = difference > above ? difference : above;  // false for NODATA
     below = difference < below ? difference : below;
   }
-  bool isEnough() const { return largest(larger(above, -below)) > limit; }
-  bool isChangedBy(double low, double high) const { return high > largest(above) || low < smallest(below); }
+  bool isEnough() const { return simd::maxLane(simd::max(above, -below)) > limit; }
+  bool isChangedBy(double low, double high) const {
+    return high > simd::maxLane(above) || low < simd::minLane(below);
+  }
 };
 
-/// What differences from a plane can be off by because it is known by rounded steps along columns and rows:
-/// much of a needle, whose steps are differences of large numbers.
+/// Bounds the rounding error of a difference from the plane. The plane is evaluated from rounded steps along
+/// columns and rows; the steps of a needle are differences of large numbers, so its bound is large.
 [[gnu::always_inline]] inline double roundingOfPlane(const RasterError::Corner& a,
                                                      const RasterError::Corner& b,
                                                      const RasterError::Corner& c) {
   const Double2 ab = {double(b.x - a.x), double(b.y - a.y)}, ac = {double(c.x - a.x), double(c.y - a.y)};
-  const Double2 crossed = ab * swapped(ac), farthest = larger(magnitude(ab), magnitude(ac));
-  const Double2 terms =
-      both(std::abs(b.z - a.z)) * magnitude(swapped(ac)) + both(std::abs(c.z - a.z)) * magnitude(swapped(ab));
+  const Double2 crossed = ab * simd::swapLanes(ac), farthest = simd::max(simd::abs(ab), simd::abs(ac));
+  const Double2 terms = broadcast(std::abs(b.z - a.z)) * simd::abs(simd::swapLanes(ac)) +
+                        broadcast(std::abs(c.z - a.z)) * simd::abs(simd::swapLanes(ab));
   const Double2 products = terms * farthest;
   return 0x1p-49 * (products[0] + products[1]) / (crossed[0] - crossed[1]);
 }
 
 }  // namespace
 
-/// Half of the triangles a build asks about cover one sample beside their corners, or none: by Pick's theorem
-/// those of twice the area 1 none, of 2 the middle of an edge, of 3 their centroid, unless an edge has two.
-/// Then `difference` is z_plane - z there. Over NODATA, 0.
+/// Half of the triangles that a build evaluates cover one sample beside their corners, or none. By Pick's
+/// theorem a triangle of twice the area 1 covers none, of 2 the middle of an edge, of 3 its centroid (or two
+/// samples on an edge). Returns true in these cases, with `difference` = z_plane - z at the sample; 0 where
+/// there is no sample or no data.
 [[gnu::always_inline]] inline bool RasterError::isSmall(const Corner& a, const Corner& b, const Corner& c,
                                                         double& difference) const {
   const std::int64_t area = std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(b.y - a.y) * (c.x - a.x);
@@ -86,11 +93,12 @@ struct SignedDifferences {
   return true;
 }
 
-/// z_plane - z at samples below a triangle, by columns and rows from corner a, which anchors the plane.
+/// Feeds z_plane - z at the samples below a triangle to `Differences`. Columns and rows count from corner a,
+/// through which the plane is evaluated.
 template <class Height, class Differences>
 class RasterError::PlaneDifferences {
  public:
-  /// heights: of the errors' samples.
+  /// `heights`: the first sample of the raster, as doubles or floats.
   [[gnu::always_inline]] PlaneDifferences(const RasterError& errors, const Height* heights, const Corner& a,
                                           double dzB, double dzC, Double2 ab, Double2 ac,
                                           Differences& differences)
@@ -99,9 +107,10 @@ class RasterError::PlaneDifferences {
         columns_(errors.plan_.columns()),
         origin_(heights + (a.y * columns_ + a.x)),
         z_(a.z) {
-    const Double2 crossed = ab * swapped(ac);
+    const Double2 crossed = ab * simd::swapLanes(ac);
     const double inverse = 1.0 / (crossed[0] - crossed[1]);
-    const Double2 steps = (both(dzB) * swapped(ac) - both(dzC) * swapped(ab)) * both(inverse);
+    const Double2 steps =
+        (broadcast(dzB) * simd::swapLanes(ac) - broadcast(dzC) * simd::swapLanes(ab)) * broadcast(inverse);
     stepX_ = steps[0];
     stepY_ = -steps[1];
   }
@@ -109,22 +118,22 @@ class RasterError::PlaneDifferences {
   double stepX() const { return stepX_; }
   double stepY() const { return stepY_; }
   [[gnu::always_inline]] Double2 planeAt(double x, double y) const {
-    return both(z_ + stepX_ * x + stepY_ * y);
+    return broadcast(z_ + stepX_ * x + stepY_ * y);
   }
 
-  /// Includes those of a row, from a column on; four at most.
+  /// Includes `count` samples of row y from column `left` on. Precondition: count <= 4.
   [[gnu::always_inline]] void includeFew(int y, int left, int count) {
     includeFew(planeAt(left, y), kFirstFour, origin_ + (y * columns_ + left), count);
   }
-  /// The same of any number.
+  /// Includes `count` samples of row y from column `left` on, any number.
   [[gnu::always_inline]] void includeRow(double y, double left, double count) {
     const Double2 z = planeAt(left, y);
     const Height* heights = origin_ + static_cast<std::ptrdiff_t>(y * double(columns_) + left);
     Double2 x[2] = {kFirstFour[0], kFirstFour[1]};
     for (; count > 4; count -= 4, heights += 4)
       for (int k = 0; k < 2; ++k) {
-        differences_.include(z + both(stepX_) * x[k] - load(heights + 2 * k));
-        x[k] += both(4);
+        differences_.include(z + broadcast(stepX_) * x[k] - simd::load(heights + 2 * k));
+        x[k] += broadcast(4);
       }
     includeFew(z, x, heights, count);
   }
@@ -132,7 +141,8 @@ class RasterError::PlaneDifferences {
  private:
   static constexpr Double2 kFirstFour[2] = {{0, 1}, {2, 3}};
 
-  /// Of the samples from `heights` on the first `count`, by their columns from where the plane is z.
+  /// Includes the first `count` samples from `heights` on. `x`: their columns, counted from where the plane
+  /// has the height z.
   [[gnu::always_inline]] void includeFew(Double2 z, const Double2 (&x)[2], const Height* heights,
                                          double count) {
     std::array<Height, 4> copy;
@@ -142,8 +152,8 @@ class RasterError::PlaneDifferences {
       heights = copy.data();
     }
     for (int k = 0; k < 2; ++k) {
-      const Double2 difference = z + both(stepX_) * x[k] - load(heights + 2 * k);
-      differences_.include(kFirstFour[k] < both(count) ? difference : both(0));
+      const Double2 difference = z + broadcast(stepX_) * x[k] - simd::load(heights + 2 * k);
+      differences_.include(kFirstFour[k] < broadcast(count) ? difference : broadcast(0));
     }
   }
 
@@ -154,8 +164,8 @@ class RasterError::PlaneDifferences {
   double z_, stepX_, stepY_;
 };
 
-/// Includes z_plane - z at the samples, row after row, until there is enough. The corners are left out: there
-/// the plane is the sample.
+/// Includes z_plane - z at the covered samples, row by row, until `differences` is decided. The corners are
+/// left out: there the plane passes through the sample.
 template <class Differences>
 [[gnu::always_inline]] inline void RasterError::compare(const Corner& a, const Corner& b, const Corner& c,
                                                         Differences& differences) const {
@@ -169,7 +179,7 @@ template <class Height, class Differences>
   const Double2 ab = {double(b.x - a.x), double(b.y - a.y)}, ac = {double(c.x - a.x), double(c.y - a.y)};
   PlaneDifferences<Height, Differences> plane(*this, heights, a, b.z - a.z, c.z - a.z, ab, ac, differences);
 
-  const auto& few = small_.rows(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
+  const auto& few = scanTable_.rows(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
   if (few.count >= 0) {
     for (int k = 0; k < few.count; ++k) {
       plane.includeFew(few.top + k, few.left[k], few.size[k]);
@@ -178,7 +188,7 @@ template <class Height, class Differences>
     return;
   }
 
-  constexpr double kFewWideRows = 48;  // from so many on it is looked at by blocks of samples
+  constexpr double kFewWideRows = 48;  // with more rows, scanning by blocks is faster
   const TriangleRows rows(ab, ac, roundUp_);
   if (rows.last() - rows.first() >= kFewWideRows) return compareByBlocks(a, b, c, rows, plane, differences);
   for (double y = rows.first(); y <= rows.last(); y += 1) {
@@ -188,7 +198,7 @@ template <class Height, class Differences>
   }
 }
 
-/// The same of a wide triangle, one row of blocks after the other.
+/// compareWith() for a wide triangle, one row of blocks after the other.
 template <class Height, class Differences>
 [[gnu::always_inline]] inline void RasterError::compareByBlocks(const Corner& a, const Corner& b,
                                                                 const Corner& c, const TriangleRows& triangle,
@@ -216,7 +226,7 @@ template <class Height, class Differences>
     if (left <= right) {
       const int lastBlock = (a.x + static_cast<int>(right)) >> HeightBlocks::kShift;
       for (int i = (a.x + static_cast<int>(left)) >> HeightBlocks::kShift; i <= lastBlock; ++i) {
-        // What the differences of the block's samples lie between.
+        // An interval that holds the differences of all samples of the block.
         const HeightBlocks::Block& block =
             blocks_.at(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(blockRow));
         const double blockLeft = i * kSide - a.x, blockHeight = double(block.middle);
@@ -243,7 +253,7 @@ double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, d
   if (isSmall(a, b, c, only)) return std::abs(only);
   LargestDifference differences{limit};
   compare(a, b, c, differences);
-  return largest(differences.found);
+  return simd::maxLane(differences.found);
 }
 
 double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, double limit,
@@ -255,7 +265,7 @@ double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, d
   }
   SignedDifferences differences{limit};
   compare(a, b, c, differences);
-  const double high = largest(differences.above), low = smallest(differences.below);
+  const double high = simd::maxLane(differences.above), low = simd::minLane(differences.below);
   const double rounding = roundingOfPlane(a, b, c);
   bound.above = std::max(bound.above, high > 0 ? high + rounding : 0);
   bound.below = std::max(bound.below, low < 0 ? rounding - low : 0);

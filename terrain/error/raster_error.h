@@ -20,12 +20,12 @@ namespace arete {
 
 class TriangleRows;
 
-/// Vertical error of triangles over a raster, exactly: every sample a triangle covers, its edges included, is
-/// compared with the triangle's plane. Triangles are planar in (column, row). NODATA inside a triangle is
-/// passed over.
+/// The exact vertical error of triangles over a raster: every sample that a triangle covers, its edges
+/// included, is compared with the triangle's plane. Triangles are planar in (column, row). Samples without
+/// data are skipped. Thread-safe: all queries are const.
 class RasterError {
  public:
-  /// A sample by column and row, with its height.
+  /// A sample: its column, row and height.
   struct Corner {
     std::int32_t x, y;
     double z;
@@ -35,7 +35,8 @@ class RasterError {
     return {static_cast<std::int32_t>(cell.column), static_cast<std::int32_t>(cell.row), heights_[sample]};
   }
 
-  /// The hole that a vertex leaves: the geometry and the errors of triangles named by corners of its link.
+  /// The hole that a removed vertex (the apex) leaves: geometry and errors of the triangles that may fill it.
+  /// Triangles are given by the indices of their corners in the apex's link.
   class Hole {
    public:
     Hole(const RasterError& errors, const Star& star, std::uint32_t apex)
@@ -53,12 +54,13 @@ class RasterError {
       isSmall_ = spread < 2 * most;  // all within [-most, most), as it is a power of two
     }
 
-    /// Whether nothing but its own corners decides how the hole of a Delaunay triangulation is filled: no
-    /// border of the domain comes between them. So it is where no void is as near to the apex as the farthest
-    /// corner, in columns or rows: the raster itself is convex (docs/decisions/0017).
+    /// Whether the Delaunay triangulation of the hole depends on its own corners alone, that is, no
+    /// constrained edge of the domain's border lies between them. Conservative: true where no NODATA sample
+    /// is as near to the apex, in columns or rows, as the farthest corner; the raster itself is convex
+    /// (docs/decisions/0017).
     bool isUnconstrained() const {
       if (!errors_.clearance_.hasVoids()) return true;
-      if (errors_.reachesBeyondRims_) return false;  // edges may be held that are not Delaunay
+      if (errors_.reachesBeyondRims_) return false;  // there may be constrained edges that are not Delaunay
       const std::int32_t clear =
           errors_.clearance_.at(static_cast<std::uint32_t>(apex_.x), static_cast<std::uint32_t>(apex_.y));
       std::int32_t farthest = 0;
@@ -67,27 +69,27 @@ class RasterError {
       return farthest <= clear;
     }
 
-    /// For the slower queries.
+    /// The hole's outline as a polygon of the plan.
     LatticePlan::Polygon polygon() const {
       return {errors_.plan_, apex_, std::span(corners_.data(), static_cast<std::size_t>(size_))};
     }
 
-    /// Of whether corners i, j and the apex turn left (> 0), right, or not at all; exact.
+    /// > 0 where corner i, corner j, apex turn left, < 0 where they turn right, 0 on one line. Exact.
     std::int64_t orientationToApex(int i, int j) const { return x_[i] * y_[j] - y_[i] * x_[j]; }
 
-    /// The corner between i and j with the largest angle over the edge j -> i, among those that turn left, or
-    /// -1. Of two with the same angle `prefersLater(first, later)` decides. Exact.
+    /// The corner between i and j that sees the edge j -> i under the largest angle, among those left of it;
+    /// -1 without one. Between equal angles prefersLater(first, later) decides. Exact.
     template <class PrefersLater>
     int third(int i, int j, const PrefersLater& prefersLater) const {
       return isSmall_ ? thirdIn<std::int64_t>(i, j, prefersLater) : thirdIn<Wide>(i, j, prefersLater);
     }
 
-    /// Where corner i lies from the apex, in the metric of the plan, and by how much it is higher.
+    /// Corner i relative to the apex: x and y in the plan's metric, z in the vertical unit.
     Vec3 fromApex(int i) const { return {double(x_[i]), double(y_[i]), corners_[i].z - apex_.z}; }
-    /// Corner i, and the apex, on the plan and with their heights.
+    /// Column, row and height of corner i, and of the apex.
     Vec3 position(int i) const { return positionOf(corners_[i]); }
     Vec3 apexPosition() const { return positionOf(apex_); }
-    /// |z - plane| at the apex, of a triangle over it.
+    /// |z - plane| at the apex. Precondition: the triangle covers the apex.
     double apexError(int i, int j, int m) const {
       const Corner &a = corners_[i], &b = corners_[j], &c = corners_[m];
       const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y, x = apex_.x - a.x,
@@ -96,6 +98,7 @@ class RasterError {
                       (apex_.z - a.z) * area) /
              area;
     }
+    /// RasterError::maximum() of the triangle i, j, m.
     double maximum(int i, int j, int m, double limit) const {
       return errors_.maximum(corners_[i], corners_[j], corners_[m], limit);
     }
@@ -103,6 +106,7 @@ class RasterError {
       return errors_.maximum(corners_[i], corners_[j], corners_[m], limit, bound);
     }
     SignedBound alongEdge(int i, int j) const { return errors_.alongEdge(corners_[i], corners_[j]); }
+    /// See PointError::Hole::settle(): a raster has nothing to redistribute.
     void settle(const HoleTriangulation&) const {}
 
    private:
@@ -110,7 +114,7 @@ class RasterError {
 
     static Vec3 positionOf(const Corner& c) { return {double(c.x), double(c.y), c.z}; }
 
-    /// The larger angle has the smaller cotangent, dot / cross, and all crosses are positive.
+    /// Compares angles by their cotangents, dot / cross; all crosses are positive.
     template <class T, class PrefersLater>
     int thirdIn(int i, int j, const PrefersLater& prefersLater) const {
       const T ax = x_[i], ay = y_[i], bx = x_[j], by = y_[j];
@@ -139,7 +143,10 @@ class RasterError {
     std::array<Corner, kMaxHoleCorners> corners_;
   };
 
-  /// `reachesBeyondRims`: triangles may reach beyond the rim of the domain (a rim tolerance is in use).
+  /// Refers to `plan` and `heights`. O(samples), parallel.
+  /// @param heights  row by row, NaN for NODATA
+  /// @param reachesBeyondRims  whether triangles may extend beyond the rim of the domain (a rim tolerance is
+  ///        in use)
   RasterError(const LatticePlan& plan, std::span<const double> heights, bool reachesBeyondRims)
       : plan_(plan),
         heights_(heights),
@@ -148,22 +155,22 @@ class RasterError {
         roundUp_(0.5 - 0.5 / rows_),
         blocks_(heights, plan.columns()),
         clearance_(heights, plan.columns()),
-        shortEdges_(plan.columns()) {
-    // Differences below 2 s f, f the larger of p and q, make a dot and a cross below 8 (s f)^2: the product
-    // of the two must stay below 2^63.
+        edgeCrossings_(plan.columns()) {
+    // With f the larger of p and q, coordinate differences below 2 s f give a dot and a cross product below
+    // 8 (s f)^2; the product of these two must stay below 2^63.
     const double f = std::max(plan.p(), plan.q());
     while (64 * std::pow(2.0 * smallSpread_ * f, 4) < 0x1p62) smallSpread_ *= 2;
   }
 
   double height(std::uint32_t sample) const { return heights_[sample]; }
-  /// Asks for the heights around a vertex that is soon to be evaluated.
+  /// Prefetches the heights around a vertex that is evaluated soon.
   [[gnu::always_inline]] void prefetch(std::uint32_t sample) const {
     const std::size_t columns = plan_.columns();
     heights_.prefetch(sample);
     if (sample >= columns) heights_.prefetch(sample - columns);
     if (sample + columns < heights_.size()) heights_.prefetch(sample + columns);
   }
-  /// Asks for the heights under a star whose vertex is soon to be removed.
+  /// Prefetches the heights under a star whose apex is removed soon.
   [[gnu::always_inline]] void prefetch(const Star& star) const {
     constexpr std::uint32_t kMostRows = 8;
     if (star.linkSize == 0) return;
@@ -178,10 +185,11 @@ class RasterError {
       heights_.prefetch(sample);
   }
 
-  /// What it costs to remove a sample from the finest triangulation, where its six neighbours there are
-  /// valid; -1 elsewhere. Two of the hole's triangles are the outer halves of cells; the other two share one
-  /// diagonal of the rhombus of the four nearest neighbours, whose middle is the sample: the shorter one, or
-  /// of two alike the one that passes closer. `witness`: the corners of one of these.
+  /// The error at a sample when it is removed from the finest triangulation with the Delaunay shape; -1 where
+  /// one of its six neighbours there has no data or is missing. Two of the hole's triangles are the outer
+  /// halves of cells. The other two share a diagonal of the rhombus of the four nearest neighbours, whose
+  /// middle is the sample: the shorter diagonal, or of two equal ones the one closer in height.
+  /// @param witness  receives the corners of one of these two triangles
   double costInFinest(std::uint32_t sample, std::array<std::uint32_t, 3>& witness) const {
     const std::uint32_t columns = plan_.columns();
     const LatticePlan::Cell cell = plan_.cell(sample);
@@ -197,10 +205,10 @@ class RasterError {
     return isAlong ? along : across;
   }
 
-  /// A bound from below of what it costs to remove a sample from the finest triangulation, whatever fills the
-  /// hole: the least error at the sample of the triangles of its neighbours that cover it. -1 where one of
-  /// the six is not valid. A triangle with two neighbours that face each other errs as the middle of the two;
-  /// else it has every other one.
+  /// A lower bound of the error at a sample when it is removed from the finest triangulation, however the
+  /// hole is triangulated: the least error at the sample of any triangle of its six neighbours that covers
+  /// it. -1 where one of the six has no data or is missing. A triangle with two opposite neighbours has the
+  /// error of their mean; any other triangle that covers the sample has every second neighbour as a corner.
   double boundInFinest(std::uint32_t sample) const {
     const std::uint32_t columns = plan_.columns();
     const LatticePlan::Cell cell = plan_.cell(sample);
@@ -216,23 +224,25 @@ class RasterError {
         {facing / 2, std::abs(right + below + leftAbove) / 3, std::abs(rightBelow + left + above) / 3});
   }
 
-  /// When so many of the live mesh's slots are left it is to be made smaller: 2 to 5 % of a build's time
-  /// would be its price sooner, for memory that is not missing at the peak, which is MtRecorder::finish()'s.
+  /// The live mesh is compacted when this part of its slots is in use. Compacting sooner costs 2 to 5 % of a
+  /// build's time and does not lower the peak of memory, which lies in MtRecorder::finish().
   static constexpr double kLeastLive = 0.5;
-  /// The live mesh has moved its triangles: nothing here hangs on them.
+  /// Called when the live mesh has moved its triangles. Does nothing: no data here is kept by triangle.
   void compact(const SlotMap&) {}
 
-  /// max |z - plane| over the samples covered; gives up soon beyond the limit and returns a value > limit.
-  /// Precondition: a, b, c counter-clockwise. O(samples covered + rows); of a wide triangle most often
-  /// O(rows + samples / 64).
+  /// max |z - plane| over the covered samples. Precondition: a, b, c counter-clockwise. O(samples covered +
+  /// rows); for a wide triangle typically O(rows + samples / 64).
+  /// @param limit  the scan stops soon after this is exceeded
+  /// @return the maximum, or some value > limit
   double maximum(const Corner& a, const Corner& b, const Corner& c, double limit) const;
 
-  /// The same, and the signed difference over the covered samples, all of them within the limit.
+  /// The same; also extends `bound` by the signed differences at the covered samples, complete where the
+  /// result is <= limit.
   double maximum(const Corner& a, const Corner& b, const Corner& c, double limit, SignedBound& bound) const;
 
-  /// Signed difference between the segment a-b and the finest triangulation where the segment crosses its
-  /// edges: with the samples inside, these hold the extremes of the difference over a triangle. O(length in
-  /// samples).
+  /// Bounds of the signed difference between the segment a-b and the finest triangulation at the points where
+  /// the segment crosses its edges. Together with the samples inside, these points contain the extremes of
+  /// the difference over a triangle. O(length in samples).
   SignedBound alongEdge(const Corner& a, const Corner& b) const {
     return !reachesBeyondRims_ && EdgeCrossingTable::isShort(b.x - a.x, b.y - a.y) ? alongShortEdge(a, b)
                                                                                    : alongLongEdge(a, b);
@@ -257,11 +267,11 @@ class RasterError {
   SampleHeights heights_;
   std::uint32_t rows_;
   bool reachesBeyondRims_;
-  double roundUp_;  // to the next whole number, as nearest number to the sum: of fractions of a rise in rows
+  double roundUp_;  // see TriangleRows
   HeightBlocks blocks_;
   VoidClearance clearance_;
-  EdgeCrossingTable shortEdges_;
-  const TriangleScanTable& small_ = TriangleScanTable::all();
+  EdgeCrossingTable edgeCrossings_;
+  const TriangleScanTable& scanTable_ = TriangleScanTable::all();
   std::uint32_t smallSpread_ = 1;  // a power of two: spreads below it keep Hole::third() in 64 bits
 };
 

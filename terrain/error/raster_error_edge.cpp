@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The difference between a triangle and the finest triangulation is linear on every piece of the overlay of
-// the two, so its extremes lie at the overlay's vertices: samples inside the triangle, its corners (where it
-// is zero) and crossings of its edges with edges of the finest triangulation: grid columns, grid rows and the
-// diagonals of the cells, which run from the upper-left to the lower-right sample and are the lines column -
-// row = constant. A short edge's are in a table (short_edges.h). Where a triangle reaches beyond the domain's
-// rim, the rim's own half cells add the other diagonals. A crossing at a sample is left out: whoever looks at
-// the samples has it.
+// The difference between a triangle and the finest triangulation is linear on every face of the overlay of
+// the two, so its extremes lie at the overlay's vertices. These are the samples inside the triangle, its
+// corners (where the difference is zero) and the crossings of its edges with edges of the finest
+// triangulation: grid columns, grid rows and the diagonals of the cells. A diagonal runs from the upper-left
+// to the lower-right sample, along a line column - row = constant. The crossings of a short edge come from a
+// table (edge_crossing_table.h). Where a triangle reaches beyond the domain's rim, half cells on the rim add
+// the other diagonals. Crossings at a sample are left out: the scan of the samples includes them.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@
 namespace arete {
 namespace {
 
-/// The segment's height minus that of the finest triangulation where it crosses lines of the lattice.
+/// Collects the segment's height minus the finest triangulation's where the segment crosses lattice lines.
 template <class Height>
 class LongEdge {
  public:
@@ -39,22 +39,22 @@ class LongEdge {
       include(t, h[0], h[columns_], f);
     });
   }
-  /// Precondition: nor along a row.
+  /// Precondition: the segment does not run along a row.
   void crossRows() {
     crossLines(dy_, x0_, dx_, [&](double t, std::int64_t k, std::int64_t column, double f) {
       const Height* h = sample(y0_ + k, column);
       include(t, h[0], h[1], f);
     });
   }
-  /// column - row = constant, through whole cells.
+  /// Diagonals column - row = constant, which cross whole cells.
   void crossDiagonals() {
-    // On the diagonal both fractions are the same; take the one that is exact more often.
+    // On the diagonal both fractions are equal; the one along the column is exact more often.
     crossDiagonals(
         dx_ - dy_, [](double f) { return f; },
         [&](double t, const Height* h, double f) { include(t, h[0], h[columns_ + 1], f); });
   }
-  /// column + row = constant: edges of the finest triangulation in half cells only, from the lower-left to
-  /// the upper-right sample.
+  /// Diagonals column + row = constant, from the lower-left to the upper-right sample: these are edges of
+  /// the finest triangulation in half cells only.
   void crossDiagonalsOfHalfCells() {
     crossDiagonals(
         dx_ + dy_, [](double f) { return 1 - f; },
@@ -67,19 +67,19 @@ class LongEdge {
   SignedBound bound() const { return {std::max(0.0, -low_), std::max(0.0, high_)}; }
 
  private:
-  /// Columns or rows: the segment's end is `lines` of them away, and runs from `from` on by `rise` along
-  /// them.
+  /// Visits the crossings with columns (or rows). `lines`: how many columns the segment's end is away;
+  /// `from`, `rise`: the row where the segment starts, and how many rows its end is away.
   template <class Visit>
   static void crossLines(std::int64_t lines, std::int64_t from, std::int64_t rise, const Visit& visit) {
     const double inverse = 1.0 / double(lines), slope = double(rise) * inverse;
     const std::int64_t step = lines > 0 ? 1 : -1;
     for (std::int64_t k = step; k != lines; k += step) {
-      const double place = double(from) + slope * double(k), base = double(std::int64_t(place));
-      if (place != base) visit(double(k) * inverse, k, std::int64_t(base), place - base);
+      const double at = double(from) + slope * double(k), base = double(std::int64_t(at));
+      if (at != base) visit(double(k) * inverse, k, std::int64_t(base), at - base);
     }
   }
-  /// `across`: how many diagonals the segment's end is away. inRow(f): how far below its cell's row a
-  /// crossing lies that is f right of its column.
+  /// Visits the crossings with diagonals. `across`: how many diagonals the segment's end is away. inRow(f):
+  /// how far below its cell's first row a crossing lies that is f to the right of its cell's first column.
   template <class InRow, class Visit>
   void crossDiagonals(std::int64_t across, const InRow& inRow, const Visit& visit) const {
     if (across == 0) return;
@@ -99,7 +99,7 @@ class LongEdge {
   const Height* sample(std::int64_t row, std::int64_t column) const {
     return heights_ + std::size_t(row) * columns_ + std::size_t(column);
   }
-  /// At the part t of the segment, and f of the way between two samples.
+  /// The crossing at the part t of the segment, a fraction f of the way between two samples' heights.
   void include(double t, double from, double to, double f) {
     const double difference = z0_ + dz_ * t - (from + f * (to - from));
     high_ = difference > high_ ? difference : high_;  // false for NODATA
@@ -122,19 +122,19 @@ SignedBound RasterError::alongShortEdge(const Corner& a, const Corner& b) const 
   double high = 0, low = 0;
   heights_.with([&](const auto* heights) {
     heights += start;
-    for (const EdgeCrossingTable::Crossing& crossing : shortEdges_.of(b.x - a.x, b.y - a.y)) {
+    for (const EdgeCrossingTable::Crossing& crossing : edgeCrossings_.of(b.x - a.x, b.y - a.y)) {
       const double from = heights[crossing.from], to = heights[crossing.to];
       const double difference = a.z + dz * crossing.along - (from + crossing.between * (to - from));
       high = difference > high ? difference : high;  // false for NODATA
       low = difference < low ? difference : low;
     }
   });
-  return {0 - low, high};  // not -low: that would be -0
+  return {0 - low, high};  // -low would give -0
 }
 
 SignedBound RasterError::alongLongEdge(const Corner& a, const Corner& b) const {
   const std::int32_t dx = b.x - a.x, dy = b.y - a.y;
-  // Along a column, a row or a diagonal it crosses edges of the finest triangulation at samples only.
+  // An edge along a column, a row or a diagonal crosses edges of the finest triangulation at samples only.
   if (dx == 0 || dy == 0 || (dx == dy && !reachesBeyondRims_)) return {};
   return heights_.with([&](const auto* heights) {
     LongEdge edge(a, b, heights, plan_.columns(), rows_);

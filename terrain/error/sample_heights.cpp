@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// All heights are converted to floats in parallel; the first valid height that changes by it ends the
+// attempt, and the doubles are used.
 #include "terrain/error/sample_heights.h"
 
 #include <tbb/blocked_range.h>

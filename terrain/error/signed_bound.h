@@ -5,7 +5,8 @@
 
 namespace arete {
 
-/// How far a surface lies from the reference: z_surface - z_reference stays within [-below, above].
+/// Bounds of the signed vertical difference between a surface and its reference: z_surface - z_reference lies
+/// within [-below, above]. Both are >= 0.
 struct SignedBound {
   double below = 0;
   double above = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Every sample in the box around each triangle is asked on which side of the three edges it lies.
+// Each sample in the bounding box of each triangle is tested against the three edges.
 #include "terrain/error/triangle_scan_table.h"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ TriangleScanTable::TriangleScanTable() {
   for (int bx = -kReach; bx <= kReach; ++bx)
     for (int by = -kReach; by <= kReach; ++by)
       for (int cx = -kReach; cx <= kReach; ++cx)
-        for (int cy = -kReach; cy <= kReach; ++cy) table_[place(bx, by, cx, cy)] = rowsOf(bx, by, cx, cy);
+        for (int cy = -kReach; cy <= kReach; ++cy) table_[index(bx, by, cx, cy)] = rowsOf(bx, by, cx, cy);
 }
 
 }  // namespace arete

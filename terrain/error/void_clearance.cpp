@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A king's moves between blocks, in two passes over them (Rosenfeld and Pfaltz 1966, "Sequential operations
-// in digital picture processing"): one more than what the neighbours above and to the left say, then those
-// below and to the right. From any sample of a block so many moves away, another one is at least that many
-// blocks less one of samples away.
+// The Chebyshev distance transform of the blocks (a king's moves on a chessboard) in two sequential passes
+// [RosenfeldPfaltz1966]: each block takes one more than the least of its neighbours above and to the left,
+// then of those below and to the right. A block d moves away from the nearest block with a void is at least
+// d - 1 whole blocks of samples away from it.
 #include "terrain/error/void_clearance.h"
 
 #include <tbb/parallel_for.h>
@@ -18,7 +18,7 @@ VoidClearance::VoidClearance(std::span<const double> heights, std::uint32_t colu
     : columns_((columns + kSide - 1) >> kShift) {
   const auto rows = static_cast<std::uint32_t>(heights.size() / columns);
   const std::size_t across = columns_, down = (rows + kSide - 1) >> kShift;
-  // A frame of blocks that are far from everything spares the passes their borders.
+  // A frame of blocks with the largest distance: the passes need no tests at the borders.
   const std::size_t stride = across + 2;
   std::vector<std::uint8_t> framed(stride * (down + 2), kFar);
   std::atomic<bool> hasVoids = false;

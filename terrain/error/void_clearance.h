@@ -8,18 +8,20 @@
 
 namespace arete {
 
-/// How far the samples of a raster are from those without data, by blocks of 2 x 2: a quarter of a byte a
-/// sample, nothing where all are valid.
+/// A lower bound of the distance from each sample of a raster to the nearest sample without data, kept by
+/// blocks of 2 x 2 samples [RosenfeldPfaltz1966]. A quarter of a byte per sample; no memory where all samples
+/// are valid.
 class VoidClearance {
  public:
-  /// `heights`: row by row, NaN for NODATA. O(samples), the search for them parallel.
+  /// O(samples); the search for voids is parallel, the distance transform is not.
+  /// @param heights  row by row, NaN for NODATA
   VoidClearance(std::span<const double> heights, std::uint32_t columns);
 
   bool hasVoids() const { return !blocks_.empty(); }
 
-  /// All samples of the raster within this Chebyshev distance (columns or rows, whichever are more) are
-  /// valid. Negative where the sample itself may have no data. A bound from below: 506 at most, unless there
-  /// are no voids.
+  /// All samples of the raster within this Chebyshev distance (the larger of columns and rows) are valid.
+  /// @return a lower bound of that distance, 506 at most; negative where the sample itself may have no data;
+  ///         the largest int32 where the raster has no voids
   std::int32_t at(std::uint32_t column, std::uint32_t row) const {
     if (!hasVoids()) return std::numeric_limits<std::int32_t>::max();
     const std::size_t block = std::size_t(row >> kShift) * columns_ + (column >> kShift);
@@ -31,7 +33,7 @@ class VoidClearance {
   static constexpr std::uint8_t kFar = 254;
 
   std::uint32_t columns_;             // of blocks
-  std::vector<std::uint8_t> blocks_;  // a king's moves to the next one with a void, kFar at most
+  std::vector<std::uint8_t> blocks_;  // king's moves to the nearest block with a void, kFar at most
 };
 
 }  // namespace arete

@@ -89,10 +89,10 @@ TEST_P(ConflictListsTest, MissesNoCoveredPointBeyondTheBoundsAndIsCertainOfNoneO
     const ConflictLists::Triangle triangle(below, t[0], t[1], t[2]);
 
     std::vector<int> found(points.size(), 0);
-    for (auto f = triangle.nextCovered(0); f.place != below.size(); f = triangle.nextCovered(f.place + 1)) {
-      found[f.place] = 1;
+    for (auto f = triangle.nextCovered(0); f.index != below.size(); f = triangle.nextCovered(f.index + 1)) {
+      found[f.index] = 1;
       if (f.isCovered) {
-        EXPECT_TRUE(covers(t, points[below[f.place]])) << "seed " << seed;
+        EXPECT_TRUE(covers(t, points[below[f.index]])) << "seed " << seed;
       }
     }
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -102,9 +102,9 @@ TEST_P(ConflictListsTest, MissesNoCoveredPointBeyondTheBoundsAndIsCertainOfNoneO
 
     const double bound = GetParam().relief / 5;
     std::vector<int> beyond(points.size(), 0);
-    for (auto f = triangle.next(0, bound, bound / 2); f.place != below.size();
-         f = triangle.next(f.place + 1, bound, bound / 2))
-      beyond[f.place] = 1;
+    for (auto f = triangle.next(0, bound, bound / 2); f.index != below.size();
+         f = triangle.next(f.index + 1, bound, bound / 2))
+      beyond[f.index] = 1;
     std::size_t spared = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!covers(t, points[i])) continue;
