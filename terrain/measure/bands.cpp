@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The plan is cut into bands of whole rows, by the size of the raster and never by the number of threads. A
-// counting sort lists the triangles of each band in the mesh's order; a band is then one task that nobody
-// else writes to, and the bands' sums are added in their own order. So the report is the same to the last bit
-// for any number of threads.
+// The plan is divided into bands of whole rows, by the size of the raster and never by the number of threads.
+// A counting sort lists the triangles of each band in the mesh's order. Each band is then one task that
+// shares no output with another, and the sums of the bands are added in the order of the bands. So the report
+// is the same to the last bit for any number of threads.
 #include "terrain/measure/bands.h"
 
 #include "engine/parallel/with_threads.h"
@@ -21,24 +21,28 @@ namespace arete::measuring {
 
 namespace {
 
-/// First and last band of a triangle, or last < first.
+/// The first and the last band that a triangle reaches; last < first where it reaches none.
 struct BandRange {
   std::int64_t first = 0, last = -1;
 };
 
 }  // namespace
 
-Status checkInputs(const TriangleMesh& mesh, std::size_t samples, const MeasureOptions& options) {
-  if (Status ok = mesh.validate(); !ok) return ok;
-  if (mesh.triangles.size() >= std::numeric_limits<std::uint32_t>::max())
+Status checkInputs(const Inputs& in, const Status& heightfield, std::size_t samples) {
+  if (!heightfield) return heightfield;
+  if (Status ok = in.mesh.validate(); !ok) return ok;
+  const std::size_t triangles = in.mesh.triangles.size(), values = in.options.mask.size();
+  const double tolerance = in.options.planTolerancePixels;
+  if (triangles >= std::numeric_limits<std::uint32_t>::max())
     return failure(ErrorCode::unsupported,
-                   fmt::format("{} triangles are more than can be measured", mesh.triangles.size()));
-  if (!options.mask.empty() && options.mask.size() != samples)
+                   fmt::format("{} triangles are more than can be measured", triangles));
+  if (values != 0 && values != samples)
+    return failure(ErrorCode::usage, fmt::format("the mask has {} values for {} samples", values, samples),
+                   "mask");
+  if (!(tolerance > 0 && tolerance < 0.25))
     return failure(ErrorCode::usage,
-                   fmt::format("the mask has {} values for {} samples", options.mask.size(), samples));
-  if (!(options.planTolerancePixels > 0 && options.planTolerancePixels < 0.25))
-    return failure(ErrorCode::usage,
-                   fmt::format("a plan tolerance of {} pixels makes no sense", options.planTolerancePixels));
+                   fmt::format("the plan tolerance must lie between 0 and 0.25 pixels, not {}", tolerance),
+                   "planTolerancePixels");
   return {};
 }
 
@@ -100,7 +104,7 @@ void BandTotals::addMeasured(const MeasuredSample& sample) {
   ++counts.covered;
   counts.largestHeight =
       std::max({counts.largestHeight, std::abs(sample.demHeight), std::abs(sample.tinHeight)});
-  // Points come bucket by bucket: among equal errors the first in sample order wins, whatever the band.
+  // Points are scanned by buckets, not in sample order: among equal errors the first sample is kept.
   const bool earlier =
       counts.worst && std::abs(error) == counts.maxAbsError && sample.sample < counts.worst->sample;
   if (!counts.worst || earlier || std::abs(error) > counts.maxAbsError) {
@@ -146,9 +150,33 @@ MeasureReport BandTotals::finish() const {
   return report;
 }
 
+SampleRecorder::SampleRecorder(const Inputs& in, std::size_t samples)
+    : mask_(in.options.mask), rasters_(in.rasters) {
+  if (!rasters_) return;
+  rasters_->tinHeights.resize(samples);
+  rasters_->errors.resize(samples);
+}
+
+Result<MeasureReport> measureBands(const Inputs& in, const TriangleBands& bands,
+                                   const std::function<BandTotals(std::size_t band)>& scan) {
+  std::vector<BandTotals> totals(bands.count());
+  const Status scanned = forEachBand(totals.size(), in.context, "measuring",
+                                     [&](std::size_t band) { totals[band] = scan(band); });
+  if (!scanned) return tl::unexpected(scanned.error());
+
+  BandTotals all;
+  for (const BandTotals& band : totals) all.add(band);
+  MeasureReport report = all.finish();
+  report.triangles = in.mesh.triangles.size();
+  report.vertices = in.mesh.positions.size();
+  report.degenerateTriangles = bands.degenerate;
+  report.tinAreaPixels = bands.areaPixels;
+  return report;
+}
+
 Status forEachBand(std::size_t bands, const RunContext& context, const char* stage,
                    const std::function<void(std::size_t band)>& task) {
-  std::mutex telling;
+  std::mutex reporting;
   std::size_t done = 0;
   withThreads(context, [&] {
     tbb::parallel_for(
@@ -156,7 +184,7 @@ Status forEachBand(std::size_t bands, const RunContext& context, const char* sta
         [&](std::size_t band) {
           if (context.cancelled()) return;
           task(band);
-          const std::lock_guard lock(telling);
+          const std::lock_guard lock(reporting);
           context.report(stage, static_cast<double>(++done) / static_cast<double>(bands));
         },
         tbb::simple_partitioner{});
@@ -172,7 +200,7 @@ namespace arete {
 double planTolerancePixels(const MeasureOptions& options, const Georeference& georeference) {
   const auto& g = georeference.geoTransform;
   const double area = std::abs(georeference.determinant());
-  // Places are doubles: far from the origin a small pixel has few digits left.
+  // Coordinates are doubles: far from the origin few digits are left for a small pixel.
   constexpr double kRounding = 0x1p-51;
   const double x = std::max(std::abs(options.planRounding.x), kRounding * std::abs(g[0])),
                y = std::max(std::abs(options.planRounding.y), kRounding * std::abs(g[3]));

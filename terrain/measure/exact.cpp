@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The place is held when it is right of none of the three sides: exact predicates. The weights of the corners
-// are the areas that the place makes with the sides. Of doubles they are good to a few ulp of the products
-// they are differences of; where that is not far below the triangle's area, as in a sliver, they are computed
-// anew as rational numbers.
+// The triangle holds the point when it lies to the right of none of the three sides: exact predicates. The
+// barycentric weights are the areas of the triangles that the point makes with the sides. In doubles these
+// are exact to a few ulp of the products that they are differences of. Where that is not far below the
+// triangle's area, as in a sliver, they are recomputed as rational numbers.
 #include "terrain/measure/exact.h"
 
 #include <CGAL/Exact_rational.h>
@@ -23,9 +23,9 @@ Vec2 planOf(const Vec3& p) {
   return {p.x, p.y};
 }
 
-/// Twice the area of a, b, c, and how far from it the rounding of its terms may be.
+/// Twice the area of a triangle, and a bound of its rounding error.
 struct Area {
-  double value, doubt;
+  double value, error;
 };
 
 Area roundedArea(Vec2 a, Vec2 b, Vec2 c) {
@@ -41,38 +41,38 @@ Exact exactArea(Vec2 a, Vec2 b, Vec2 c) {
 
 }  // namespace
 
-std::optional<Contact> contactWhereHeld(const std::array<Vec3, 3>& corner, Vec2 place) {
+std::optional<Contact> contactWhereHeld(const std::array<Vec3, 3>& corner, Vec2 point) {
   const auto [xLow, xHigh] = std::minmax({corner[0].x, corner[1].x, corner[2].x});
   const auto [yLow, yHigh] = std::minmax({corner[0].y, corner[1].y, corner[2].y});
-  if (!(place.x >= xLow && place.x <= xHigh && place.y >= yLow && place.y <= yHigh)) return std::nullopt;
+  if (!(point.x >= xLow && point.x <= xHigh && point.y >= yLow && point.y <= yHigh)) return std::nullopt;
 
   const Vec2 a = planOf(corner[0]), b = planOf(corner[1]), c = planOf(corner[2]);
   const int turn = planOrientation(a, b, c);
   if (turn == 0) return std::nullopt;
-  const int left[] = {planOrientation(b, c, place) * turn, planOrientation(c, a, place) * turn,
-                      planOrientation(a, b, place) * turn};
+  const int left[] = {planOrientation(b, c, point) * turn, planOrientation(c, a, point) * turn,
+                      planOrientation(a, b, point) * turn};
   if (std::ranges::min(left) < 0) return std::nullopt;
   const auto sides = std::ranges::count(left, 0);
   Contact contact{.covers = true, .strict = sides == 0, .z = 0, .turn = sides == 0 ? kFullTurn : kHalfTurn};
   for (int i = 0; i < 3; ++i) {
-    if (place != planOf(corner[i])) continue;
+    if (point != planOf(corner[i])) continue;
     const Vec2 next = planOf(corner[(i + 1) % 3]), last = planOf(corner[(i + 2) % 3]);
     contact.z = corner[i].z;
-    contact.turn = turn > 0 ? turnBetween(place, next, last) : turnBetween(place, last, next);
+    contact.turn = turn > 0 ? turnBetween(point, next, last) : turnBetween(point, last, next);
     return contact;
   }
 
   // Relative to one corner, so that a flat triangle is flat to the last bit.
   const double riseB = corner[1].z - corner[0].z, riseC = corner[2].z - corner[0].z;
-  const Area whole = roundedArea(a, b, c), ofB = roundedArea(c, a, place), ofC = roundedArea(a, b, place);
+  const Area whole = roundedArea(a, b, c), ofB = roundedArea(c, a, point), ofC = roundedArea(a, b, point);
   constexpr double kNegligible = 0x1p-40;
-  if (whole.doubt + ofB.doubt + ofC.doubt < kNegligible * std::abs(whole.value)) {
+  if (whole.error + ofB.error + ofC.error < kNegligible * std::abs(whole.value)) {
     contact.z = corner[0].z + (ofB.value * riseB + ofC.value * riseC) / whole.value;
     return contact;
   }
   const Exact area = exactArea(a, b, c);
-  contact.z = corner[0].z + CGAL::to_double(Exact(exactArea(c, a, place) / area)) * riseB +
-              CGAL::to_double(Exact(exactArea(a, b, place) / area)) * riseC;
+  contact.z = corner[0].z + CGAL::to_double(Exact(exactArea(c, a, point) / area)) * riseB +
+              CGAL::to_double(Exact(exactArea(a, b, point) / area)) * riseC;
   return contact;
 }
 

@@ -9,10 +9,11 @@
 
 namespace arete::measuring {
 
-/// How a triangle meets a place of the plan that it holds, edges and corners included; none where it does
-/// not, or has no area. Whether it holds the place, inside, on an edge or at a corner, is decided exactly, on
-/// the doubles as they are, however thin it is; the height is within a few ulp of the corners' differences.
-/// Either orientation. O(1). Precondition: all finite.
-std::optional<Contact> contactWhereHeld(const std::array<Vec3, 3>& corner, Vec2 place);
+/// Whether a triangle holds a point of the plan, and how: inside, on an edge or at a corner. This is decided
+/// exactly, on the doubles as they are, however thin the triangle is; the height is within a few ulp of the
+/// corners' differences. O(1). Precondition: all finite.
+/// @param corner  in either orientation
+/// @return the contact; nothing where the point is outside or the triangle has no area
+std::optional<Contact> contactWhereHeld(const std::array<Vec3, 3>& corner, Vec2 point);
 
 }  // namespace arete::measuring

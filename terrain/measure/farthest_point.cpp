@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Branch and bound. The distance to one triangle of the target, a convex set, is a convex function: over a
-// piece it is largest at a corner, and the distance to the whole target is no larger. So each triangle that a
-// corner is nearest to bounds the piece from above (after Guthe, Borodin, Klein 2005; Tang, Lee, Kim 2009),
-// and so does the distance itself, which changes by no more than the way: every point of a piece is within
-// 1 / sqrt(3) of its longest side of a corner. The bound that served a piece best serves its halves too.
+// Branch and bound over parts of the triangle, which are triangles themselves. The distance to one triangle
+// of the target, a convex set, is a convex function: over a part it is largest at a corner, and the distance
+// to the whole target is no larger. So the target's triangles nearest to the corners bound the part from
+// above [GutheBorodinKlein2005], [TangLeeKim2009]. So does the distance itself, which has the Lipschitz
+// constant 1: every point of a part is within 1 / sqrt(3) of its longest side from a corner. The target
+// triangle that gave a part its bound is tried for its halves too.
 #include "terrain/measure/farthest_point.h"
 
 #include <algorithm>
@@ -18,16 +19,16 @@ namespace {
 
 constexpr std::uint64_t kPointsPerStopCheck = 256;
 
-struct Piece {
+struct Part {
   SpaceTriangle corners;
   std::array<NearestOnMesh::Answer, 3> answers;
-  std::uint32_t guide = 0;  // the triangle of the target whose bound was the least
+  std::uint32_t guide = 0;  // the target's triangle that gave the least bound
   double atMost = 0;
 
-  bool operator<(const Piece& other) const { return atMost < other.atMost; }
+  bool operator<(const Part& other) const { return atMost < other.atMost; }
 };
 
-/// By its first corner.
+/// The index of the side's first corner.
 int longestSide(const SpaceTriangle& corners) {
   int longest = 0;
   double most = -1;
@@ -46,26 +47,26 @@ double distanceTo(const TriangleMesh& target, std::uint32_t triangle, const Vec3
   return distanceToTriangle(p, corners);
 }
 
-void bound(Piece& piece, const TriangleMesh& target) {
-  const int side = longestSide(piece.corners);
-  const double longest = std::sqrt(squaredDistance(piece.corners[side], piece.corners[(side + 1) % 3]));
+void bound(Part& part, const TriangleMesh& target) {
+  const int side = longestSide(part.corners);
+  const double longest = std::sqrt(squaredDistance(part.corners[side], part.corners[(side + 1) % 3]));
   const double farthest =
-      std::max({piece.answers[0].distance, piece.answers[1].distance, piece.answers[2].distance});
-  piece.atMost = farthest + longest * std::numbers::inv_sqrt3;
-  const std::array candidates = {piece.guide, piece.answers[0].triangle, piece.answers[1].triangle,
-                                 piece.answers[2].triangle};
+      std::max({part.answers[0].distance, part.answers[1].distance, part.answers[2].distance});
+  part.atMost = farthest + longest * std::numbers::inv_sqrt3;
+  const std::array candidates = {part.guide, part.answers[0].triangle, part.answers[1].triangle,
+                                 part.answers[2].triangle};
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     if (std::find(candidates.begin(), candidates.begin() + k, candidates[k]) != candidates.begin() + k)
       continue;
     double largest = 0;
-    for (int i = 0; i < 3 && largest < piece.atMost; ++i)
-      largest = std::max(largest, distanceTo(target, candidates[k], piece.corners[i]));
-    if (largest >= piece.atMost) continue;
-    piece.atMost = largest;
-    piece.guide = candidates[k];
+    for (int i = 0; i < 3 && largest < part.atMost; ++i)
+      largest = std::max(largest, distanceTo(target, candidates[k], part.corners[i]));
+    if (largest >= part.atMost) continue;
+    part.atMost = largest;
+    part.guide = candidates[k];
   }
-  // The bound of a convex function at its corners may round below the distance there.
-  piece.atMost = std::max(piece.atMost, farthest);
+  // With rounding, the bound may lie below the distance at a corner.
+  part.atMost = std::max(part.atMost, farthest);
 }
 
 }  // namespace
@@ -81,16 +82,16 @@ FarthestPoint farthestPoint(const SpaceTriangle& triangle, std::span<const Neare
       found.distance = answer.distance;
     }
   };
-  Piece whole{
+  Part whole{
       .corners = triangle, .answers = {answers[0], answers[1], answers[2]}, .guide = answers[0].triangle};
   for (int i = 0; i < 3; ++i) take(triangle[i], answers[i]);
-  const auto isSettled = [&](const Piece& piece) {
+  const auto isSettled = [&](const Part& part) {
     const double reached = std::max(options.known, found.distance);
-    return piece.atMost <= std::max(reached * (1 + options.accuracy), options.slack);
+    return part.atMost <= std::max(reached * (1 + options.accuracy), options.slack);
   };
   bound(whole, target);
   if (!isSettled(whole) && options.budget > 0) {
-    // The middle is nearest to the triangle that bounds it best where the two meshes share it.
+    // Where the two meshes coincide, the target's triangle nearest to the middle gives the best bound.
     const auto& [a, b, c] = triangle;
     const Vec3 middle{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3, (a.z + b.z + c.z) / 3};
     const NearestOnMesh::Answer answer = to.nearest(middle);
@@ -99,29 +100,29 @@ FarthestPoint farthestPoint(const SpaceTriangle& triangle, std::span<const Neare
     bound(whole, target);
   }
 
-  std::priority_queue<Piece> open;
-  const auto keep = [&](const Piece& piece) {
-    if (isSettled(piece))
-      found.atMost = std::max(found.atMost, piece.atMost);
+  std::priority_queue<Part> open;
+  const auto keep = [&](const Part& part) {
+    if (isSettled(part))
+      found.atMost = std::max(found.atMost, part.atMost);
     else
-      open.push(piece);
+      open.push(part);
   };
   keep(whole);
-  for (std::uint64_t asked = 1; asked < options.budget && !open.empty(); ++asked) {
-    if (asked % kPointsPerStopCheck == 0 && options.shouldStop && options.shouldStop()) break;
-    const Piece piece = open.top();
+  for (std::uint64_t queries = 1; queries < options.budget && !open.empty(); ++queries) {
+    if (queries % kPointsPerStopCheck == 0 && options.shouldStop && options.shouldStop()) break;
+    const Part part = open.top();
     open.pop();
-    const int side = longestSide(piece.corners), other = (side + 1) % 3;
-    const Vec3 half = piece.corners[side] + 0.5 * (piece.corners[other] - piece.corners[side]);
-    const NearestOnMesh::Answer answer = to.nearest(half);
-    take(half, answer);
+    const int side = longestSide(part.corners), other = (side + 1) % 3;
+    const Vec3 middle = part.corners[side] + 0.5 * (part.corners[other] - part.corners[side]);
+    const NearestOnMesh::Answer answer = to.nearest(middle);
+    take(middle, answer);
     for (const int replaced : {side, other}) {
-      Piece part = piece;
-      part.corners[replaced] = half;
-      part.answers[replaced] = answer;
-      bound(part, target);
-      part.atMost = std::min(part.atMost, piece.atMost);
-      keep(part);
+      Part half = part;
+      half.corners[replaced] = middle;
+      half.answers[replaced] = answer;
+      bound(half, target);
+      half.atMost = std::min(half.atMost, part.atMost);
+      keep(half);
     }
   }
   found.atMost = std::max(found.atMost, found.distance);

@@ -10,25 +10,26 @@
 
 namespace arete {
 
-/// How far the points of some triangles are from a mesh: the farthest found, and what none can exceed.
+/// The largest distance found from the points of some triangles to a mesh, and an upper bound of it.
 struct FarthestPoint {
   Vec3 from, nearest;
   double distance = -1;  ///< |from - nearest|
-  double atMost = 0;     ///< no point is farther, but for the rounding of doubles
+  double atMost = 0;     ///< upper bound: no point is farther, but for the rounding of doubles
 };
 
 struct FarthestPointOptions {
-  double known = 0;           ///< a distance that is reached: nothing below it is of interest
-  double accuracy = 0.001;    ///< atMost may be this fraction above the farthest point known or found
-  double slack = 0;           ///< and atMost may be this much in any case
-  std::uint64_t budget = 64;  ///< points to ask for, at most, within the triangle
-  std::function<bool()> shouldStop = {};
+  double known = 0;           ///< a distance reached elsewhere: smaller ones need not be found
+  double accuracy = 0.001;    ///< the search ends when atMost exceeds the largest distance by this fraction
+  double slack = 0;           ///< or when atMost is no more than this
+  std::uint64_t budget = 64;  ///< or after this many nearest-point queries
+  std::function<bool()> shouldStop = {};  ///< or when this returns true; may be empty
 };
 
-/// The farthest point of one triangle. `answers` are those of `to` for the corners. Pieces of the triangle
-/// are halved, the one that may hold the farthest point first, until none may hold one that is farther than
-/// options allow, or the budget is spent. O(budget log n) time; 200 bytes for each point asked for at
-/// worst.
+/// The point of a triangle that is farthest from a mesh (one side of the Hausdorff distance), by branch and
+/// bound [GutheBorodinKlein2005], [TangLeeKim2009]: the part of the triangle with the largest upper bound is
+/// bisected until the options end the search. O(budget log n) time; at most 200 bytes per query.
+/// @param answers  to.nearest() of the three corners
+/// @param target  the mesh of `to`
 FarthestPoint farthestPoint(const SpaceTriangle& triangle, std::span<const NearestOnMesh::Answer, 3> answers,
                             const TriangleMesh& target, const NearestOnMesh& to,
                             const FarthestPointOptions& options);

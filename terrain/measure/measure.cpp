@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Vertices go from source to grid coordinates once; one that lands within the plan tolerance of a sample is
-// put on it, which takes out the rounding of large coordinates (a UTM northing keeps 1e-9 m) and makes the
-// arithmetic of every TIN whose vertices are samples exact in integers.
+// Vertices are transformed from source to grid coordinates once. A vertex within the plan tolerance of a
+// sample is moved onto it. This removes the rounding of large coordinates (a UTM northing keeps 1e-9 m), and
+// the arithmetic is then exact in integers for every TIN whose vertices are samples.
 //
 // Then each band of rows scans its triangles row by row. Where a row crosses a triangle, each of the three
-// sides bounds the row from the left or from the right; moving the sides outwards by twice the tolerance
-// gives an interval that no covered sample escapes, moving them inwards by as much gives one whose samples
-// are strictly inside beyond doubt. The second needs no test per sample; the few between the two are decided
-// one by one (PlanTriangle::contact). So rounding in the interval's ends, far below the tolerance, can never
-// lose a sample on an edge.
+// sides bounds the row from the left or from the right. The sides moved outwards by twice the tolerance give
+// an interval that contains every covered sample; the sides moved inwards by as much give an interval whose
+// samples are all strictly inside. The second needs no test per sample; the few samples between the two are
+// decided one by one (PlanTriangle::contact). Rounding errors in the interval's ends are far below the
+// tolerance, so no sample on an edge is ever lost.
 //
-// What the triangles left at each sample is turned into counts when the band is scanned.
+// When all triangles of a band are scanned, its samples are counted.
 #include "terrain/measure/measure.h"
 
 #include "engine/parallel/with_threads.h"
 
-#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -40,47 +39,28 @@ namespace {
 
 class RasterMeasurement {
  public:
-  RasterMeasurement(const TriangleMesh& mesh, const RasterHeightfield& dem, const MeasureOptions& options,
-                    const RunContext& context, MeasureRasters* rasters)
-      : mesh_(mesh),
+  RasterMeasurement(const measuring::Inputs& in, const RasterHeightfield& dem)
+      : in_(in),
         dem_(dem),
-        options_(options),
-        context_(context),
-        rasters_(rasters),
-        tolerance_(planTolerancePixels(options, dem.georeference)) {}
+        recorder_(in, dem.size()),
+        tolerance_(planTolerancePixels(in.options, dem.georeference)) {}
 
   Result<MeasureReport> run() {
     if (const Status ok = toGrid(); !ok) return tl::unexpected(ok.error());
     constexpr std::int64_t kSamplesPerBand = 1 << 17;
     rowsPerBand_ = std::clamp<std::int64_t>(kSamplesPerBand / std::max(dem_.columns, 1u), 8, 1024);
-    bands_ = measuring::sortIntoBands(mesh_, grid_, dem_.rows, 1.0, rowsPerBand_, tolerance_);
-    if (rasters_) {
-      rasters_->tinHeights.resize(dem_.size());
-      rasters_->errors.resize(dem_.size());
-    }
-    std::vector<BandTotals> totals(bands_.begin.size() - 1);
-    const Status scanned = measuring::forEachBand(totals.size(), context_, "measuring",
-                                                  [&](std::size_t band) { totals[band] = scanBand(band); });
-    if (!scanned) return tl::unexpected(scanned.error());
-
-    BandTotals all;
-    for (const BandTotals& band : totals) all.add(band);
-    MeasureReport report = all.finish();
-    report.triangles = mesh_.triangles.size();
-    report.vertices = mesh_.positions.size();
-    report.degenerateTriangles = bands_.degenerate;
-    report.tinAreaPixels = bands_.areaPixels;
-    return report;
+    bands_ = measuring::sortIntoBands(in_.mesh, grid_, dem_.rows, 1.0, rowsPerBand_, tolerance_);
+    return measuring::measureBands(in_, bands_, [&](std::size_t band) { return scanBand(band); });
   }
 
  private:
   Status toGrid() {
-    grid_.resize(mesh_.positions.size());
+    grid_.resize(in_.mesh.positions.size());
     std::atomic<bool> finite = true;
-    withThreads(context_, [&] {
+    withThreads(in_.context, [&] {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid_.size(), 65536), [&](const auto& range) {
         for (std::size_t v = range.begin(); v != range.end(); ++v) {
-          Vec2 p = dem_.georeference.toGrid(mesh_.positions[v].x, mesh_.positions[v].y);
+          Vec2 p = dem_.georeference.toGrid(in_.mesh.positions[v].x, in_.mesh.positions[v].y);
           const Vec2 sample = {std::nearbyint(p.x), std::nearbyint(p.y)};
           if (std::abs(p.x - sample.x) <= tolerance_ && std::abs(p.y - sample.y) <= tolerance_) p = sample;
           // Beyond this the square of a length would overflow; no raster is that large.
@@ -98,20 +78,15 @@ class RasterMeasurement {
     const std::int64_t firstRow = static_cast<std::int64_t>(band) * rowsPerBand_;
     const std::int64_t endRow = std::min<std::int64_t>(firstRow + rowsPerBand_, dem_.rows);
     Gathered gathered(static_cast<std::size_t>(endRow - firstRow) * dem_.columns);
-    PlanTriangle triangle;
-    std::size_t untilCheck = measuring::kTrianglesPerCancelCheck;
-    for (const std::uint32_t id : bands_.of(band)) {
-      if (--untilCheck == 0) {
-        if (context_.cancelled()) return {};
-        untilCheck = measuring::kTrianglesPerCancelCheck;
-      }
-      measuring::setTriangle(triangle, mesh_, grid_, id, tolerance_);
-      scanTriangle(triangle, id, firstRow, endRow, gathered);
-    }
-    return countBand(firstRow, endRow, gathered);
+    const bool isWhole = measuring::forTrianglesOf(band, bands_, in_, grid_, tolerance_,
+                                                   [&](const PlanTriangle& triangle, std::uint32_t id, bool) {
+                                                     scanTriangle(triangle, id, firstRow, endRow, gathered);
+                                                   });
+    return isWhole ? countBand(firstRow, endRow, gathered) : BandTotals{};
   }
 
-  /// Where a row lies on the inner side of all three sides, each moved outwards by `outwards` pixels.
+  /// The part of row y inside of all three sides, each moved outwards by `outwards` pixels. Empty: low >
+  /// high.
   struct Interval {
     double low, high;
   };
@@ -151,7 +126,7 @@ class RasterMeasurement {
                    high = std::floor(std::min(outer.high, boxHigh));
       if (!(low <= high)) continue;
       const auto begin = static_cast<std::int64_t>(low), end = static_cast<std::int64_t>(high) + 1;
-      // Empty strict part: both ends at `end`, all samples are decided one by one.
+      // With an empty strict part both of its ends are `end`: all samples are decided one by one.
       std::int64_t strictBegin = end, strictEnd = end;
       const double strictLow = std::ceil(std::max(inner.low, low)),
                    strictHigh = std::floor(std::min(inner.high, high));
@@ -201,13 +176,10 @@ class RasterMeasurement {
       for (std::int64_t column = 0; column < dem_.columns; ++column) {
         const std::size_t sample = static_cast<std::size_t>(row) * dem_.columns + column;
         const std::size_t here = sample - static_cast<std::size_t>(firstRow) * dem_.columns;
-        if (rasters_) {
-          rasters_->tinHeights[sample] = gathered.z(here);
-          rasters_->errors[sample] = std::numeric_limits<double>::quiet_NaN();
-        }
+        const bool isCounted = recorder_.begin(sample, gathered.z(here));
         if (const int corners = validCorners(column, row); corners >= 3)
           counts.domainAreaPixels += corners == 4 ? 1 : 0.5;
-        if (!options_.mask.empty() && options_.mask[sample] == 0) continue;
+        if (!isCounted) continue;
 
         ++counts.samples;
         counts.doublyCovered += gathered.isDoublyCovered(here);
@@ -224,20 +196,18 @@ class RasterMeasurement {
           ++counts.uncovered;
         } else {
           const Vec2 at = dem_.georeference.toSource(double(column), double(row));
-          totals.addMeasured({sample, std::uint32_t(column), std::uint32_t(row), at.x, at.y, height,
-                              gathered.z(here), gathered.triangle(here)});
-          if (rasters_) rasters_->errors[sample] = gathered.z(here) - height;
+          recorder_.add({sample, std::uint32_t(column), std::uint32_t(row), at.x, at.y, height,
+                         gathered.z(here), gathered.triangle(here)},
+                        totals);
         }
       }
     }
     return totals;
   }
 
-  const TriangleMesh& mesh_;
+  const measuring::Inputs& in_;
   const RasterHeightfield& dem_;
-  const MeasureOptions& options_;
-  const RunContext& context_;
-  MeasureRasters* rasters_;
+  measuring::SampleRecorder recorder_;
   double tolerance_;
   std::int64_t rowsPerBand_ = 1;
   std::vector<Vec2> grid_;
@@ -249,10 +219,10 @@ class RasterMeasurement {
 Result<MeasureReport> measure(const TriangleMesh& mesh, const RasterHeightfield& dem,
                               const MeasureOptions& options, const RunContext& context,
                               MeasureRasters* rasters) {
-  if (const Status ok = dem.validate(); !ok) return tl::unexpected(ok.error());
-  if (const Status ok = measuring::checkInputs(mesh, dem.size(), options); !ok)
+  const measuring::Inputs in{mesh, options, context, rasters};
+  if (const Status ok = measuring::checkInputs(in, dem.validate(), dem.size()); !ok)
     return tl::unexpected(ok.error());
-  return RasterMeasurement(mesh, dem, options, context, rasters).run();
+  return RasterMeasurement(in, dem).run();
 }
 
 }  // namespace arete

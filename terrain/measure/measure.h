@@ -13,13 +13,12 @@
 
 namespace arete {
 
-/// The independent check of the promise: a mesh that somebody hands us, against the samples it claims to be
-/// near.
+/// The independent check of an error bound: measures any mesh against the samples that it approximates.
 ///
-/// Nothing here comes from the builder, and nothing the builder computed is believed: only positions,
-/// triangles and heights count. Errors are z_TIN - z_DEM in the DEM's vertical unit.
+/// This room shares no code with the build and uses nothing that the build computed: its inputs are
+/// positions, triangles and heights. Errors are z_TIN - z_DEM in the DEM's vertical unit.
 
-/// One sample that was compared, and what stood over it.
+/// One sample and the TIN's height there.
 struct MeasuredSample {
   std::uint64_t sample = 0;  ///< row-major index in the raster, or the index of the point
   std::uint32_t column = 0;  ///< of a raster sample; 0 for a point
@@ -32,34 +31,34 @@ struct MeasuredSample {
   double error() const { return tinHeight - demHeight; }
 };
 
-/// What the measurement found. "Pixel" is one step of the grid; for points, their mean spacing.
+/// The result of a measurement. A "pixel" is one step of the grid; for points, their mean spacing.
 ///
-/// valid = covered + uncovered + isolated. Samples outside MeasureOptions::mask are in no count at all.
+/// valid = covered + uncovered + isolated. Samples outside MeasureOptions::mask are in none of the counts.
 struct MeasureReport {
   std::uint64_t triangles = 0;
   std::uint64_t vertices = 0;
-  std::uint64_t degenerateTriangles =
-      0;  ///< no plan area (thinner than the plan tolerance): they cover nothing but points they hold exactly
+  /// Triangles thinner than the plan tolerance: they cover nothing, but for points that they hold exactly.
+  std::uint64_t degenerateTriangles = 0;
 
   std::uint64_t samples = 0;    ///< all of them, NODATA included
   std::uint64_t valid = 0;      ///< with a height
   std::uint64_t covered = 0;    ///< valid, not isolated, in a triangle or within the plan tolerance of one
   std::uint64_t uncovered = 0;  ///< valid, not isolated, in no triangle
-  std::uint64_t isolated = 0;   ///< valid, in no cell with three valid corners: in no statistic below
+  std::uint64_t isolated = 0;   ///< valid, in no cell with three valid corners: left out below
   std::uint64_t doublyCovered = 0;  ///< strictly inside more than one triangle
   /// Samples whose triangles fill more than one full turn around them: the doubly covered ones, and those
-  /// that overlapping triangles touch with an edge or a corner only, which is all there is to see in a TIN at
-  /// full resolution.
+  /// that overlapping triangles touch with an edge or a corner only. (In a TIN at full resolution every
+  /// sample is a corner.)
   std::uint64_t overlapped = 0;
-  /// NODATA samples strictly inside the TIN: of one triangle, or where triangles close the whole turn around
-  /// them.
+  /// NODATA samples strictly inside the TIN: inside one triangle, or surrounded by triangles that fill the
+  /// whole turn around them.
   std::uint64_t nodataCovered = 0;
 
   double maxAbsError = 0;  ///< over the covered samples, as are the next three; 0 when there are none
   double rmsError = 0;
   double meanAbsError = 0;
   double meanError = 0;      ///< signed, z_TIN - z_DEM
-  double largestHeight = 0;  ///< largest |height| compared, of either surface: what rounding is relative to
+  double largestHeight = 0;  ///< largest |height| compared, of either surface; rounding is relative to it
   std::optional<MeasuredSample> worst;  ///< where maxAbsError is; the first in sample order among equals
 
   double tinAreaPixels = 0;     ///< sum of the plan areas of the triangles, in square pixels
@@ -68,58 +67,61 @@ struct MeasureReport {
 
 struct MeasureOptions {
   /// How far outside a triangle a sample still counts as covered by it, and how deep inside it must be to be
-  /// strictly inside, in pixels. Vertices this near a raster sample are taken to stand on it.
+  /// strictly inside, in pixels; between 0 and 0.25. A vertex this near to a raster sample is moved onto it.
   double planTolerancePixels = 1e-6;
-  /// How far the mesh's own x and y may be rounded, in source units (float32 files; 0 = not): raises the plan
-  /// tolerance to twice as much, at most kMostPlanTolerance, so that a border stays where it was meant to be.
+  /// The rounding error of the mesh's own x and y in source units, as in float32 files; 0 = exact. Raises the
+  /// plan tolerance to twice as much, at most kMostPlanTolerance, so that samples on a border stay covered.
   Vec2 planRounding = {};
-  /// When not empty: one value per sample, 0 = leave this sample out (a region of interest).
+  /// Empty, or one value per sample: 0 leaves the sample out (a region of interest).
   std::span<const std::uint8_t> mask = {};
 };
 
-/// The largest plan tolerance that rounding can bring about, in pixels.
+/// The largest plan tolerance that MeasureOptions::planRounding can lead to, in pixels.
 inline constexpr double kMostPlanTolerance = 0.1;
 
-/// The plan tolerance that options come to on a grid, in pixels. Where the grid is so far from the origin
-/// that doubles themselves round more, it is raised as for a mesh that is rounded so.
+/// The plan tolerance in use on a grid, in pixels: that of the options, raised for planRounding, or for the
+/// rounding of doubles where the grid is so far from the origin that this is more.
 double planTolerancePixels(const MeasureOptions& options, const Georeference& georeference);
 
-/// Rasters that the measurement can hand back besides the report: one value per sample, in sample order.
+/// Rasters that measure() can fill beside the report: one value per sample, in sample order.
 struct MeasureRasters {
-  std::vector<double> tinHeights;  ///< the TIN sampled back on the grid; NaN where uncovered
+  std::vector<double> tinHeights;  ///< the TIN's height; NaN where uncovered
   std::vector<double> errors;      ///< z_TIN - z_DEM where it is in the statistics, NaN elsewhere
 };
 
-/// Measures `mesh` (positions in source coordinates, either orientation, z in the DEM's vertical unit)
-/// against every sample. A sample in several triangles has the largest of its errors. `rasters`, when given,
-/// is filled. Errors: invalidData for a mesh or heightfield that makes no sense (validate() of each),
-/// interrupted. The result is the same for any number of threads. O(samples + triangles * bands they touch)
-/// time; about 20 bytes per vertex and 4 per triangle of memory beside the inputs.
+/// Measures a mesh against every sample of a raster. A sample in several triangles has the largest of their
+/// errors. The result is the same for any number of threads. O(samples + triangles * bands they reach) time;
+/// about 20 bytes per vertex and 4 per triangle of memory beside the inputs.
+/// @param mesh  positions in source coordinates, z in the DEM's vertical unit; either orientation
+/// @param rasters  filled where not null
+/// Errors: invalidData: the mesh or the heightfield does not validate(), or a vertex is too far away;
+/// usage, culprit "mask" or "planTolerancePixels": an option out of range; unsupported: 2^32 triangles or
+/// more; interrupted.
 Result<MeasureReport> measure(const TriangleMesh& mesh, const RasterHeightfield& dem,
                               const MeasureOptions& options = {}, const RunContext& context = {},
                               MeasureRasters* rasters = nullptr);
 
 /// The same for scattered points; no point is isolated or NODATA. Unless the mesh's x and y are rounded,
-/// which triangles hold a point, edges included, is decided exactly, however thin they are, and these alone
-/// say how high the TIN is there; the plan tolerance is for points that none holds, and tells overlaps.
+/// which triangles hold a point, edges included, is decided exactly, however thin they are, and they give the
+/// TIN's height there. The plan tolerance applies to points that no triangle holds, and to overlaps.
 Result<MeasureReport> measure(const TriangleMesh& mesh, const PointHeightfield& points,
                               const MeasureOptions& options = {}, const RunContext& context = {},
                               MeasureRasters* rasters = nullptr);
 
-/// What a promise may leave open.
+/// What checkPromise() tolerates.
 struct ExpectOptions {
   bool allowCoveredNodata = false;  ///< for models built with a rim tolerance
 };
 
-/// What "within E" means in doubles: E + max(1e-6 unit, 4 ulp of the largest height compared).
+/// The bound that an error may reach in doubles: E + max(1e-6 unit, 4 ulp of the largest height compared).
 double acceptedError(const MeasureReport& report, double expectedError);
 
-/// Ok when every sample is covered, none twice, no NODATA is covered (unless allowed) and the largest error
-/// is within acceptedError(); else a brokenPromise error that says which of these fails first, and by how
-/// much.
+/// Checks that every sample is covered, none twice, no NODATA is covered (unless allowed), and that the
+/// largest error is within acceptedError(). Errors: brokenPromise: the first of these that fails, with
+/// figures.
 Status checkPromise(const MeasureReport& report, double expectedError, const ExpectOptions& options = {});
 
-/// checkPromise() as a yes or no.
+/// Whether checkPromise() succeeds.
 bool keepsPromise(const MeasureReport& report, double expectedError, const ExpectOptions& options = {});
 
 }  // namespace arete

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Both meshes are moved so that the middle of their common box is the origin: at coordinates of a projected
-// CRS, millions of metres, squares of lengths would lose the millimetres. Then each vertex and each sample of
-// one mesh asks for the nearest point of the other. Blocks of vertices and of samples are tasks of their own;
-// their sums are added in the order of the blocks, so that no rounding depends on the threads.
+// Both meshes are moved so that the middle of their common box is the origin: with the coordinates of a
+// projected CRS, millions of metres, squares of lengths would lose the millimetres. Then the nearest point of
+// the other mesh is computed for each vertex and each sample. Runs of vertices and of samples are independent
+// tasks; their sums are added in order, so that no rounding depends on the number of threads.
 //
-// The largest of these distances is where the search for the farthest point starts
-// (terrain/measure/farthest_point.h): most triangles are settled by their corners, and the rest are halved
-// where a farther point may hide. What one block of triangles finds is not told to another, or the result
-// would depend on who is first.
+// The largest of these distances is the start of the search for the farthest point
+// (terrain/measure/farthest_point.h). Most triangles are decided by their corners; the rest are bisected
+// where a farther point is possible. Tasks of the search do not share what they find: the result would depend
+// on their timing.
 #include "terrain/measure/mesh_distance.h"
 
 #include <fmt/format.h>
@@ -30,8 +30,8 @@
 namespace arete {
 namespace {
 
-constexpr std::uint64_t kPerBlock = 4096;
-constexpr std::size_t kTrianglesPerBlock = 256;
+constexpr std::uint64_t kPerRun = 4096;
+constexpr std::size_t kTrianglesPerRun = 256;
 constexpr std::uint64_t kSearchedPerSample = 4, kLeastSearched = 64, kMostSearched = 1 << 17;
 constexpr double kSearchSlack = 1e-5;  // of the diagonal
 constexpr std::uint64_t kSamplesPerTriangle = 10, kLeastSamples = 1'000'000;
@@ -51,7 +51,7 @@ struct Box3 {
   double diagonal() const { return std::sqrt(squaredDistance(low, high)); }
 };
 
-/// A mesh moved to the common origin, and what is said of it.
+/// A mesh moved to the common origin, and its figures.
 struct Surface {
   TriangleMesh mesh;
   std::vector<std::uint8_t> isUsed;  // per vertex
@@ -97,8 +97,8 @@ Status check(const Surface& surface, const char* which) {
   return failure(ErrorCode::degenerate, "holds no triangle that has area", which);
 }
 
-/// What one block found, or several in a row.
-struct Part {
+/// Maximum and sums over a run of points, or over several runs.
+struct RunTotals {
   double maximum = -1, sum = 0, sumSquares = 0;
   Vec3 worst, worstNearest;
 
@@ -113,24 +113,24 @@ struct Part {
     worst = p;
     worstNearest = nearest;
   }
-  void add(const Part& later) {
+  void add(const RunTotals& later) {
     sum += later.sum;
     sumSquares += later.sumSquares;
     takeWorst(later.maximum, later.worst, later.worstNearest);
   }
 };
 
-std::size_t blocksOf(std::uint64_t items, std::uint64_t perBlock) {
-  return static_cast<std::size_t>((items + perBlock - 1) / perBlock);
+std::size_t runsOf(std::uint64_t items, std::uint64_t perRun) {
+  return static_cast<std::size_t>((items + perRun - 1) / perRun);
 }
 
-Part sum(std::span<const Part> parts) {
-  Part all;
-  for (const Part& part : parts) all.add(part);
+RunTotals sum(std::span<const RunTotals> runs) {
+  RunTotals all;
+  for (const RunTotals& run : runs) all.add(run);
   return all;
 }
 
-/// One mesh's way to the other.
+/// The distance from one mesh to the other.
 class OneWay {
  public:
   OneWay(const Surface& from, const Surface& target, const MeshDistanceOptions& options,
@@ -144,21 +144,21 @@ class OneWay {
         answers_(from.mesh.positions.size()) {}
 
   Result<DistanceOneWay> measure(const std::string& stage, std::vector<double>* vertexDistances) {
-    const std::size_t vertexBlocks = blocksOf(answers_.size(), kPerBlock);
-    std::vector<Part> parts(vertexBlocks + blocksOf(samples_.count(), kPerBlock));
-    Status done = measuring::forEachBand(parts.size(), context_, stage.c_str(), [&](std::size_t block) {
-      if (block < vertexBlocks)
-        takeVertices(block, vertexDistances != nullptr, parts[block]);
+    const std::size_t vertexRuns = runsOf(answers_.size(), kPerRun);
+    std::vector<RunTotals> runs(vertexRuns + runsOf(samples_.count(), kPerRun));
+    Status done = measuring::forEachBand(runs.size(), context_, stage.c_str(), [&](std::size_t index) {
+      if (index < vertexRuns)
+        takeVertices(index, vertexDistances != nullptr, runs[index]);
       else
-        takeSamples(block - vertexBlocks, parts[block]);
+        takeSamples(index - vertexRuns, runs[index]);
     });
     if (!done) return tl::unexpected(done.error());
     if (vertexDistances) {
       vertexDistances->clear();
       for (const NearestOnMesh::Answer& answer : answers_) vertexDistances->push_back(answer.distance);
     }
-    Part all = sum(std::span(parts).first(vertexBlocks));
-    const Part atSamples = sum(std::span(parts).subspan(vertexBlocks));
+    RunTotals all = sum(std::span(runs).first(vertexRuns));
+    const RunTotals atSamples = sum(std::span(runs).subspan(vertexRuns));
     const auto n = static_cast<double>(samples_.count());
     DistanceOneWay found;
     found.samples = samples_.count();
@@ -170,14 +170,14 @@ class OneWay {
 
     found.atMost = std::numeric_limits<double>::infinity();
     if (std::isfinite(options_.accuracy)) {
-      std::vector<FarthestPoint> searched(blocksOf(from_.mesh.triangles.size(), kTrianglesPerBlock));
+      std::vector<FarthestPoint> searched(runsOf(from_.mesh.triangles.size(), kTrianglesPerRun));
       done = measuring::forEachBand(searched.size(), context_, (stage + ", farthest").c_str(),
-                                    [&](std::size_t block) { searched[block] = search(block, all.maximum); });
+                                    [&](std::size_t index) { searched[index] = search(index, all.maximum); });
       if (!done) return tl::unexpected(done.error());
       found.atMost = all.maximum;
-      for (const FarthestPoint& part : searched) {
-        all.takeWorst(part.distance, part.from, part.nearest);
-        found.atMost = std::max(found.atMost, part.atMost);
+      for (const FarthestPoint& run : searched) {
+        all.takeWorst(run.distance, run.from, run.nearest);
+        found.atMost = std::max(found.atMost, run.atMost);
       }
     }
     found.maximum = all.maximum;
@@ -187,36 +187,36 @@ class OneWay {
   }
 
  private:
-  void takeVertices(std::size_t block, bool withUnused, Part& part) {
-    const std::size_t end = std::min<std::size_t>(answers_.size(), (block + 1) * kPerBlock);
-    for (std::size_t v = block * kPerBlock; v < end; ++v) {
+  void takeVertices(std::size_t index, bool withUnused, RunTotals& run) {
+    const std::size_t end = std::min<std::size_t>(answers_.size(), (index + 1) * kPerRun);
+    for (std::size_t v = index * kPerRun; v < end; ++v) {
       if (from_.isUsed[v] == 0 && !withUnused) continue;
       answers_[v] = to_.nearest(from_.mesh.positions[v]);
-      if (from_.isUsed[v] != 0) part.take(from_.mesh.positions[v], answers_[v]);
+      if (from_.isUsed[v] != 0) run.take(from_.mesh.positions[v], answers_[v]);
     }
   }
 
-  void takeSamples(std::size_t block, Part& part) const {
-    const std::uint64_t begin = block * kPerBlock, end = std::min(samples_.count(), begin + kPerBlock);
+  void takeSamples(std::size_t index, RunTotals& run) const {
+    const std::uint64_t begin = index * kPerRun, end = std::min(samples_.count(), begin + kPerRun);
     std::uint32_t triangle = samples_.triangleOf(begin);
     for (std::uint64_t i = begin; i < end; ++i) {
       const Vec3 p = samples_.at(i, triangle);
-      part.take(p, to_.nearest(p));
+      run.take(p, to_.nearest(p));
     }
   }
 
-  FarthestPoint search(std::size_t block, double known) const {
+  FarthestPoint search(std::size_t index, double known) const {
     FarthestPointOptions options;
     options.known = known;
     options.accuracy = options_.accuracy;
     options.slack = kSearchSlack * target_.summary.diagonal;
     options.shouldStop = [this] { return context_.cancelled(); };
     FarthestPoint farthest;
-    const std::size_t end = std::min(from_.mesh.triangles.size(), (block + 1) * kTrianglesPerBlock);
-    for (std::size_t t = block * kTrianglesPerBlock; t < end && !context_.cancelled(); ++t) {
+    const std::size_t end = std::min(from_.mesh.triangles.size(), (index + 1) * kTrianglesPerRun);
+    for (std::size_t t = index * kTrianglesPerRun; t < end && !context_.cancelled(); ++t) {
       const auto& v = from_.mesh.triangles[t];
       const std::array answers = {answers_[v[0]], answers_[v[1]], answers_[v[2]]};
-      // As many points as the triangle's share of the area has samples, four times over.
+      // Four queries for each sample of the triangle.
       options.budget =
           std::min(kMostSearched,
                    kLeastSearched + kSearchedPerSample * samples_.countOf(static_cast<std::uint32_t>(t)));
@@ -268,7 +268,7 @@ Result<MeshDistanceReport> measureDistance(const TriangleMesh& first, const Tria
   const Box3 other = boxOf(second);
   box.include(other.low);
   box.include(other.high);
-  // The fourth power is what the areas of triangles are compared in.
+  // Squared areas of triangles, fourth powers of lengths, are compared.
   if (!std::isfinite(std::pow(box.diagonal(), 4)))
     return failure(ErrorCode::invalidData,
                    "the coordinates are too large, or too far apart, to measure between");
@@ -311,7 +311,7 @@ Result<MeshDistanceReport> measureDistance(const TriangleMesh& first, const Tria
 
 namespace {
 
-/// What "within E" means in doubles.
+/// E with the tolerance for rounding.
 double accepted(const MeshDistanceReport& report, double expectedDistance) {
   const double c = report.largestCoordinate;
   return expectedDistance + 16 * (std::nextafter(c, std::numeric_limits<double>::infinity()) - c);

@@ -10,21 +10,21 @@
 
 namespace arete {
 
-/// How far two meshes are from each other in space, whatever they are: closed or open, overhanging,
-/// intersecting themselves, their triangles facing any way.
+/// The distance between two arbitrary meshes in space: closed or open, overhanging, self-intersecting, with
+/// triangles of any orientation.
 ///
-/// The distance from a point to a mesh is the one to the nearest point of its triangles. From one mesh to
-/// another it has a maximum, a mean and a root mean square over the surface, and it is not the same both
-/// ways. As MeshLab's "Hausdorff Distance" filter and Metro (Cignoni, Rocchini, Scopigno 1998) do, the
-/// surface is sampled; the maximum found is a lower bound of the true one. All lengths are in the unit of the
-/// positions.
+/// The distance from a point to a mesh is that to the nearest point of its triangles. From one mesh to
+/// another it has a maximum, a mean and a root mean square over the surface; these are not symmetric. The
+/// surface is sampled, as in Metro [CignoniRocchiniScopigno1998] and MeshLab's "Hausdorff Distance" filter,
+/// so the maximum found is a lower bound of the true one; a branch-and-bound search adds an upper bound. All
+/// lengths are in the unit of the positions.
 
-/// What a mesh is, for reports.
+/// Figures of one mesh, for reports.
 struct MeshSummary {
   std::uint64_t triangles = 0;
   std::uint64_t vertices = 0;
-  std::uint64_t unusedVertices = 0;       ///< in no triangle: in no statistic
-  std::uint64_t degenerateTriangles = 0;  ///< without area: to be near to, never sampled
+  std::uint64_t unusedVertices = 0;       ///< in no triangle: left out of all figures
+  std::uint64_t degenerateTriangles = 0;  ///< without area: part of the target, never sampled
   double area = 0;
   double diagonal = 0;  ///< of the box around the triangles
 };
@@ -35,7 +35,7 @@ struct DistanceOneWay {
   std::uint64_t samples = 0;
   std::uint64_t vertices = 0;
   double maximum = 0;  ///< the largest found: at `worst`
-  double atMost = 0;   ///< no point is farther, but for the rounding of doubles
+  double atMost = 0;   ///< upper bound: no point is farther, but for the rounding of doubles
   double mean = 0;
   double rms = 0;
   double maximumAtVertices = 0;
@@ -49,42 +49,43 @@ struct MeshDistanceReport {
   DistanceOneWay backward;  ///< from the second to the first
   std::uint64_t seed = 0;
 
-  /// Both ways as one: the larger maximum; mean and RMS over both surfaces, an area counting alike in either.
+  /// Both directions together: the larger maximum; mean and RMS over both surfaces, weighted by area.
   double hausdorff() const;
   double hausdorffAtMost() const;
   double mean() const;
   double rms() const;
-  /// Largest |coordinate|: what rounding is relative to.
+  /// Largest |coordinate|; rounding is relative to it.
   double largestCoordinate = 0;
 };
 
 struct MeshDistanceOptions {
-  /// On each mesh; 0 = ten for each triangle of the larger one, and at least a million.
+  /// Number of samples on each mesh; 0 = ten for each triangle of the larger one, and at least a million.
   std::uint64_t samples = 0;
-  /// Where the samples fall.
+  /// Determines the positions of the samples.
   std::uint64_t seed = 1;
-  /// The search for the farthest point ends when it cannot be farther by more than this fraction, or than a
-  /// hundred-thousandth of the diagonal, or when it has asked for four points for each sample of a triangle.
-  /// Infinity: no search, and no bound.
+  /// The search for the farthest point of a triangle ends when the upper bound exceeds the maximum found by
+  /// no more than this fraction, or is below a hundred-thousandth of the diagonal, or after four queries for
+  /// each sample of the triangle. Infinity: no search, and no upper bound.
   double accuracy = 0.001;
 };
 
-/// Measures both ways. `vertexDistances`, when given, is filled with the distance from each vertex of `first`
-/// to `second`, unused vertices too.
-/// Errors: invalidData for a mesh that does not validate(), degenerate for one without a triangle that has
-/// area, with "first" or "second" as the culprit; invalidData where no double holds the fourth power of the
-/// diagonal of both; interrupted. The result
-/// is the same, to the bit, for any number of threads. O((n + samples) log n); about 250 bytes per triangle.
+/// Measures the distance in both directions. The result is the same, to the bit, for any number of threads.
+/// O((n + samples) log n); about 250 bytes per triangle.
+/// @param vertexDistances  where not null, filled with the distance from each vertex of `first`, unused ones
+///        included, to `second`
+/// Errors, with the culprit "first" or "second": invalidData: the mesh does not validate(); degenerate: it
+/// has no triangle with area. Without a culprit: invalidData: the fourth power of the common diagonal
+/// overflows; interrupted.
 Result<MeshDistanceReport> measureDistance(const TriangleMesh& first, const TriangleMesh& second,
                                            const MeshDistanceOptions& options = {},
                                            const RunContext& context = {},
                                            std::vector<double>* vertexDistances = nullptr);
 
-/// Ok when hausdorff() is within E + 16 ulp of the largest coordinate; else a brokenPromise error that says
-/// where it is not.
+/// Checks that hausdorff() <= E + 16 ulp of the largest coordinate. Errors: brokenPromise: it is not, with
+/// the farthest point.
 Status checkDistance(const MeshDistanceReport& report, double expectedDistance);
 
-/// Whether hausdorffAtMost() is within that too: then no point of either mesh is farther than E.
+/// Whether hausdorffAtMost() is within the same bound: then no point of either mesh is farther than E.
 bool isProven(const MeshDistanceReport& report, double expectedDistance);
 
 }  // namespace arete

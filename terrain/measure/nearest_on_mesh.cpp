@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// CGAL's tree of boxes, walked the nearer child first; a box that is no nearer than the best triangle so far
-// is passed over. The tree's own closest-point query starts from a hint and takes the children as they come,
-// and what it projects onto must not be degenerate; the walk here needs neither.
+// A traversal of CGAL's AABB tree, the nearer child first; a box no nearer than the best triangle so far is
+// skipped. CGAL's own closest-point query is not used: it starts from a hint, visits the children in a fixed
+// order, and requires triangles that are not degenerate.
 #include "terrain/measure/nearest_on_mesh.h"
 
 #include <CGAL/AABB_traits.h>
@@ -31,7 +31,7 @@ class Primitive {
   Id id() const { return id_; }
   const SpaceTriangle& corners() const { return corners_; }
   Datum datum() const { return {point(0), point(1), point(2)}; }
-  /// What the tree sorts by.
+  /// The point by which the tree is sorted.
   Point reference_point() const { return point(0); }
 
  private:
@@ -50,7 +50,7 @@ double squaredDistance(const Vec3& p, const CGAL::Bbox_3& box) {
   return x * x + y * y + z * z;
 }
 
-/// What the walk asks at each node and triangle.
+/// The traversal's state and its decisions at each node and triangle (CGAL's traversal traits).
 class Walk {
  public:
   using Priority = double;

@@ -10,24 +10,23 @@
 
 namespace arete {
 
-/// A search tree over the triangles of a mesh, in space.
+/// Nearest-point queries on a mesh in space, by a bounding volume hierarchy of its triangles.
 class NearestOnMesh {
  public:
   struct Answer {
     Vec3 point;                  ///< on the mesh
-    std::uint32_t triangle = 0;  ///< that it is on; one of them where several are as near
+    std::uint32_t triangle = 0;  ///< one that holds the point
     double distance = 0;
   };
 
-  /// Precondition: the mesh has a triangle and validate()s. Triangles without area count as the segments or
-  /// points they are. O(n log n); about 160 bytes per triangle. The mesh is not needed afterwards.
+  /// Copies the triangles. Those without area are segments or points. Precondition: the mesh has a triangle
+  /// and validate()s. O(n log n); about 160 bytes per triangle.
   explicit NearestOnMesh(const TriangleMesh& mesh);
   ~NearestOnMesh();
   NearestOnMesh(const NearestOnMesh&) = delete;
   NearestOnMesh& operator=(const NearestOnMesh&) = delete;
 
-  /// The point of the mesh that is nearest to `p`, the same whatever was asked before. From any number of
-  /// threads. About O(log n) near the mesh.
+  /// The point of the mesh nearest to `p`. Deterministic and thread-safe. About O(log n) near the mesh.
   Answer nearest(const Vec3& p) const;
 
  private:

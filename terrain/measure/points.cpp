@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The points are sorted into a grid of square buckets of about two points each, row by row; lengths are in
+// The points are sorted into a grid of square buckets of about two points each, row by row. Lengths are in
 // units of the mean spacing ("pixels"), from the lower left of the points, so that the plan tolerance means
-// the same for degrees and for metres. A band is some rows of buckets. Each triangle walks the rows of
-// buckets it reaches; within a row, its extent in x over the row's strip is found by clipping its sides, and
-// the points of the buckets there are decided one by one. A long thin triangle therefore visits the buckets
-// along it and not those of its bounding box.
+// the same for degrees and for metres. A band is a run of rows of buckets. Each triangle is clipped to the
+// rows of buckets that it reaches, and the points of the buckets over its extent in x there are tested one by
+// one. A long thin triangle therefore visits the buckets along it and not those of its bounding box.
 //
-// Points near one line make triangles far thinner than the plan tolerance, and a neighbour's side within it
-// of a point need not be anywhere near the height of the sliver that the point lies in. So which triangles
-// hold a point is decided exactly, on the source coordinates, and these say how high the TIN is there,
-// slivers too thin to count otherwise included; the tolerance is for points that no triangle holds. Triangles
-// overlap at a point where they do so both exactly and by more than the tolerance. Of a mesh whose x and y
-// are rounded there is nothing exact to be had: there the tolerance decides alone.
+// Points near one line make triangles far thinner than the plan tolerance, and a neighbour that is within the
+// tolerance of a point may be nowhere near the height of the sliver that holds the point. So which triangles
+// hold a point is decided exactly, on the source coordinates, and they give the TIN's height there,
+// degenerate ones included; the tolerance applies to points that no triangle holds. Triangles overlap at a
+// point where they do so both exactly and by more than the tolerance. If the mesh's x and y are rounded,
+// nothing exact can be said, and the tolerance alone decides.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -60,12 +59,12 @@ struct PlanScale {
   Vec2 toPlan(double x, double y) const { return {(x - origin.x) / spacing, (y - origin.y) / spacing}; }
 };
 
-/// What the triangles within the tolerance of each point left there, and what those left that hold it. The
-/// second is empty where nothing is exact.
+/// What the triangles within the tolerance of each point left there (`near`), and what those that hold the
+/// point exactly left (`held`; empty where the mesh's coordinates are rounded).
 struct GatheredPoints {
   Gathered near, held;
 
-  /// Which of the two says how high the TIN is at a point.
+  /// The one that gives the TIN's height at a point.
   const Gathered& at(std::size_t point) const {
     return held.size() > 0 && held.isCovered(point) ? held : near;
   }
@@ -73,24 +72,21 @@ struct GatheredPoints {
 
 class PointMeasurement {
  public:
-  PointMeasurement(const TriangleMesh& mesh, const PointHeightfield& points, const MeasureOptions& options,
-                   const RunContext& context, MeasureRasters* rasters)
-      : mesh_(mesh),
+  PointMeasurement(const measuring::Inputs& in, const PointHeightfield& points)
+      : in_(in),
         points_(points),
-        options_(options),
-        context_(context),
-        rasters_(rasters),
+        recorder_(in, points.size()),
         scale_(points.positions),
-        tolerance_(measuring::raisedTolerance(
-            options, {options.planRounding.x / scale_.spacing, options.planRounding.y / scale_.spacing})),
-        isExact_(options.planRounding == Vec2{}) {}
+        tolerance_(measuring::raisedTolerance(in.options, {in.options.planRounding.x / scale_.spacing,
+                                                           in.options.planRounding.y / scale_.spacing})),
+        isExact_(in.options.planRounding == Vec2{}) {}
 
   Result<MeasureReport> run() {
     if (!(scale_.width < 1e18 && scale_.height < 1e18))
       return failure(ErrorCode::invalidData, "the points lie too far apart to be measured", points_.source);
     sortPoints();
-    plan_.reserve(mesh_.positions.size());
-    for (const Vec3& p : mesh_.positions) {
+    plan_.reserve(in_.mesh.positions.size());
+    for (const Vec3& p : in_.mesh.positions) {
       plan_.push_back(scale_.toPlan(p.x, p.y));
       if (!(std::abs(plan_.back().x) < 1e100 && std::abs(plan_.back().y) < 1e100))
         return failure(ErrorCode::invalidData,
@@ -98,25 +94,9 @@ class PointMeasurement {
     }
     constexpr std::int64_t kBands = 128;
     bucketRowsPerBand_ = (bucketRows_ + kBands - 1) / kBands;
-    bands_ = measuring::sortIntoBands(mesh_, plan_, bucketRows_, kBucketSide, bucketRowsPerBand_, tolerance_,
-                                      isExact_);
-    if (rasters_) {
-      rasters_->tinHeights.resize(points_.size());
-      rasters_->errors.resize(points_.size());
-    }
-    std::vector<BandTotals> totals(points_.size() == 0 ? 0 : bands_.begin.size() - 1);
-    const Status scanned = measuring::forEachBand(totals.size(), context_, "measuring",
-                                                  [&](std::size_t band) { totals[band] = scanBand(band); });
-    if (!scanned) return tl::unexpected(scanned.error());
-
-    BandTotals all;
-    for (const BandTotals& band : totals) all.add(band);
-    MeasureReport report = all.finish();
-    report.triangles = mesh_.triangles.size();
-    report.vertices = mesh_.positions.size();
-    report.degenerateTriangles = bands_.degenerate;
-    report.tinAreaPixels = bands_.areaPixels;
-    return report;
+    bands_ = measuring::sortIntoBands(in_.mesh, plan_, bucketRows_, kBucketSide, bucketRowsPerBand_,
+                                      tolerance_, isExact_);
+    return measuring::measureBands(in_, bands_, [&](std::size_t band) { return scanBand(band); });
   }
 
  private:
@@ -149,24 +129,20 @@ class PointMeasurement {
     const std::uint64_t firstPoint = bucketBegin_[firstRow * bucketColumns_];
     const std::uint64_t endPoint = bucketBegin_[endRow * bucketColumns_];
     GatheredPoints gathered{Gathered(endPoint - firstPoint), Gathered(isExact_ ? endPoint - firstPoint : 0)};
-    PlanTriangle triangle;
-    std::size_t untilCheck = measuring::kTrianglesPerCancelCheck;
-    for (const std::uint32_t id : bands_.of(band)) {
-      if (--untilCheck == 0) {
-        if (context_.cancelled()) return {};
-        untilCheck = measuring::kTrianglesPerCancelCheck;
-      }
-      const bool hasArea = measuring::setTriangle(triangle, mesh_, plan_, id, tolerance_);
-      scanTriangle(triangle, hasArea, id, firstRow, endRow, firstPoint, gathered);
-    }
-    return countBand(firstPoint, endPoint, gathered);
+    const bool isWhole = measuring::forTrianglesOf(
+        band, bands_, in_, plan_, tolerance_,
+        [&](const PlanTriangle& triangle, std::uint32_t id, bool hasArea) {
+          scanTriangle(triangle, hasArea, id, firstRow, endRow, firstPoint, gathered);
+        });
+    return isWhole ? countBand(firstPoint, endPoint, gathered) : BandTotals{};
   }
 
   void scanTriangle(const PlanTriangle& t, bool hasArea, std::uint32_t id, std::int64_t firstRow,
                     std::int64_t endRow, std::uint64_t firstPoint, GatheredPoints& gathered) const {
-    const auto& v = mesh_.triangles[id];
-    const std::array<Vec3, 3> corners = {mesh_.positions[v[0]], mesh_.positions[v[1]], mesh_.positions[v[2]]};
-    // Generous: clipping rounds, and every point met is decided by itself.
+    const auto& v = in_.mesh.triangles[id];
+    const auto& p = in_.mesh.positions;
+    const std::array<Vec3, 3> corners = {p[v[0]], p[v[1]], p[v[2]]};
+    // Generous, since clipping rounds; every point visited is tested by itself.
     const double margin = 4 * tolerance_;
     const auto [yLow, yHigh] = std::minmax({t.corner[0].y, t.corner[1].y, t.corner[2].y});
     const auto rowOf = [](double y) { return std::floor(y / kBucketSide); };
@@ -194,13 +170,13 @@ class PointMeasurement {
       const std::uint64_t begin = bucketBegin_[row * bucketColumns_ + static_cast<std::int64_t>(low)];
       const std::uint64_t end = bucketBegin_[row * bucketColumns_ + static_cast<std::int64_t>(high) + 1];
       for (std::uint64_t slot = begin; slot < end; ++slot) {
-        const Vec3& p = sorted_[slot];
+        const Vec3& point = sorted_[slot];
         if (hasArea)
-          if (const Contact c = t.contact(p.x, p.y, tolerance_); c.covers)
-            gathered.near.add(slot - firstPoint, p.z, id, c.z, c.strict, c.turn);
+          if (const Contact c = t.contact(point.x, point.y, tolerance_); c.covers)
+            gathered.near.add(slot - firstPoint, point.z, id, c.z, c.strict, c.turn);
         if (!isExact_) continue;
         if (const auto c = measuring::contactWhereHeld(corners, points_.positions[order_[slot]]))
-          gathered.held.add(slot - firstPoint, p.z, id, c->z, c->strict, c->turn);
+          gathered.held.add(slot - firstPoint, point.z, id, c->z, c->strict, c->turn);
       }
     }
   }
@@ -212,15 +188,11 @@ class PointMeasurement {
       const std::uint64_t point = order_[slot];
       const std::size_t here = slot - firstPoint;
       const Gathered& gathered = both.at(here);
-      if (rasters_) {
-        rasters_->tinHeights[point] = gathered.z(here);
-        rasters_->errors[point] = std::numeric_limits<double>::quiet_NaN();
-      }
-      if (!options_.mask.empty() && options_.mask[point] == 0) continue;
+      if (!recorder_.begin(point, gathered.z(here))) continue;
       ++counts.samples;
       ++counts.valid;
-      // Near a sliver a triangle beside it may seem to fill its turn; and coordinates that were rounded may
-      // make two neighbours hold a place between them.
+      // Both must agree: near a sliver, a triangle beside it may seem to fill part of its turn; and with
+      // rounded coordinates two neighbours may hold a point between them.
       counts.doublyCovered += both.near.isDoublyCovered(here) && gathered.isDoublyCovered(here);
       counts.overlapped += both.near.isOverlapped(here) && gathered.isOverlapped(here);
       if (!gathered.isCovered(here)) {
@@ -228,21 +200,19 @@ class PointMeasurement {
         continue;
       }
       const Vec2& at = points_.positions[point];
-      totals.addMeasured(
-          {point, 0, 0, at.x, at.y, points_.heights[point], gathered.z(here), gathered.triangle(here)});
-      if (rasters_) rasters_->errors[point] = gathered.z(here) - points_.heights[point];
+      recorder_.add(
+          {point, 0, 0, at.x, at.y, points_.heights[point], gathered.z(here), gathered.triangle(here)},
+          totals);
     }
     return totals;
   }
 
-  const TriangleMesh& mesh_;
+  const measuring::Inputs& in_;
   const PointHeightfield& points_;
-  const MeasureOptions& options_;
-  const RunContext& context_;
-  MeasureRasters* rasters_;
+  measuring::SampleRecorder recorder_;
   PlanScale scale_;
   double tolerance_;
-  bool isExact_;  // the mesh says to the bit where its vertices are
+  bool isExact_;  // the mesh's x and y are not rounded
   std::int64_t bucketColumns_ = 1, bucketRows_ = 1, bucketRowsPerBand_ = 1;
   std::vector<std::uint64_t> bucketBegin_;
   std::vector<std::uint64_t> order_;  // slot -> point
@@ -256,10 +226,10 @@ class PointMeasurement {
 Result<MeasureReport> measure(const TriangleMesh& mesh, const PointHeightfield& points,
                               const MeasureOptions& options, const RunContext& context,
                               MeasureRasters* rasters) {
-  if (const Status ok = points.validate(); !ok) return tl::unexpected(ok.error());
-  if (const Status ok = measuring::checkInputs(mesh, points.size(), options); !ok)
+  const measuring::Inputs in{mesh, options, context, rasters};
+  if (const Status ok = measuring::checkInputs(in, points.validate(), points.size()); !ok)
     return tl::unexpected(ok.error());
-  return PointMeasurement(mesh, points, options, context, rasters).run();
+  return PointMeasurement(in, points).run();
 }
 
 }  // namespace arete

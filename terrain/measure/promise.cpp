@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The promise, read off a report: every sample covered, none twice, NODATA left alone, no error above the
-// stated one. Rounding is forgiven where doubles cannot do better, and nowhere else: 4 ulp of the largest
-// height compared, or a millionth of the vertical unit.
+// The promise of a TIN, checked on a report: every sample covered, none twice, no NODATA covered, no error
+// above the stated one. The tolerance for rounding is 4 ulp of the largest height compared, or a millionth of
+// the vertical unit.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Systematic sampling along the triangles' areas laid end to end: with A the whole area, the marks stand at
-// (i + u) A / count, u from the seed, and a triangle has as many samples as marks fall on it: its share,
-// rounded up or down. Within the triangle they follow Roberts' R2 sequence (2018), moved by an amount of the
-// triangle's own and folded from the unit square into the triangle.
+// Systematic sampling along the triangles' areas laid end to end. With A the whole area, marks stand at
+// (i + u) A / count, u from the seed, and a triangle gets as many samples as marks fall on it: its share,
+// rounded up or down. Within the triangle the samples follow the R2 sequence [Roberts2018], shifted by an
+// offset of the triangle's own and folded from the unit square into the triangle.
 #include "terrain/measure/surface_samples.h"
 
 #include <algorithm>

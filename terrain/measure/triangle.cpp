@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A point is strictly inside when it is farther than the tolerance from every side, and away when it is
-// farther outside than the tolerance from one. Between the two lies a thin frame around the triangle, where
-// three things are decided with care:
-//  - Near a sharp corner the frame's mitre reaches far beyond the triangle, so the distance is measured to
-//  the sides
-//    as segments, not as lines.
-//  - Outside, the plane is not continued (that of a needle would shoot off): the height is that of the
-//  nearest point.
-//  - The part of a full turn that the triangle fills around the point: its angle at a corner, half a turn on
-//  a side.
-//    Neighbours in a conforming TIN add up to one full turn at most, whatever the rounding, because a
-//    triangle that claims a side does so within half the tolerance, while its neighbour becomes "strict" only
-//    beyond the whole tolerance.
+// A point is strictly inside when it is farther than the tolerance from every side, and outside when it is
+// beyond one side by more than the tolerance. In the thin frame between the two:
+//  - The distance is measured to the sides as segments, not as lines: at a sharp corner the frame's mitre
+//    extends far beyond the triangle.
+//  - Outside the triangle the height is that of its nearest point: the plane of a needle, continued, would be
+//    far off.
+//  - The part of a full turn that the triangle fills around the point is its angle at a corner, and half a
+//  turn
+//    on a side. In a conforming TIN the parts add up to one full turn at most, whatever the rounding: a point
+//    counts as on a side within half the tolerance, and as strictly inside the neighbour only beyond the
+//    whole tolerance.
 //
 // Angles are pseudo-angles (the position on the diamond |x| + |y| = 1): additive, opposite directions exactly
-// half a turn apart, and no trigonometry.
+// half a turn apart, and free of trigonometry.
 #include "terrain/measure/triangle.h"
 
 #include <algorithm>

@@ -7,12 +7,12 @@
 
 namespace arete::measuring {
 
-/// A whole turn, a half turn, in the additive pseudo-angle used to see whether triangles overlap around a
+/// A full turn and half a turn, in the additive pseudo-angle that detects triangles overlapping around a
 /// sample.
 inline constexpr float kFullTurn = 4, kHalfTurn = 2;
 
-/// The turn counter-clockwise around a point from one place to another: pseudo-angles, additive, opposite
-/// directions exactly half a turn apart. Precondition: neither is the point.
+/// The counter-clockwise turn around a point from one position to another, as a pseudo-angle in [0, 4]:
+/// additive, opposite directions exactly half a turn apart. Precondition: neither position is the point.
 float turnBetween(Vec2 around, Vec2 from, Vec2 to);
 
 /// How a triangle meets a point of the plan.
@@ -23,9 +23,9 @@ struct Contact {
   float turn = 0;       ///< the part of a full turn that the triangle fills around the point
 };
 
-/// A triangle made ready for many point questions. The unit of length is the pixel.
+/// A triangle of the plan prepared for many point queries. The unit of length is the pixel.
 ///
-/// Corners are turned counter-clockwise. Side i is opposite corner i and runs from corner i+1 to corner i+2;
+/// Corners are counter-clockwise. Side i is opposite corner i and runs from corner i+1 to corner i+2;
 /// its side function w_i(p) = cross(side_i, p - corner_{i+1}) is twice the area of (side i, p), so that w_i
 /// over area2 is the barycentric weight of corner i and w_i over length_i the signed distance of p from the
 /// side, positive inside.
@@ -36,7 +36,8 @@ struct PlanTriangle {
   std::array<double, 3> length;
   double area2 = 0;  ///< twice the plan area, > 0
 
-  /// False when the triangle is nowhere thicker than `tolerance`: it has no plan area to speak of.
+  /// Sets the triangle; clockwise corners are reversed.
+  /// @return false where it is degenerate: nowhere thicker than `tolerance`
   bool set(const std::array<Vec2, 3>& corners, const std::array<double, 3>& heights, double tolerance);
 
   double sideFunction(int i, double x, double y) const {
@@ -44,10 +45,11 @@ struct PlanTriangle {
     return side[i].x * (y - from.y) - side[i].y * (x - from.x);
   }
 
-  /// Height of the plane where corners 1 and 2 weigh w1 and w2 (side functions).
+  /// Height of the plane at the point with the side functions w1 and w2 of corners 1 and 2.
   double heightFromWeights(double w1, double w2) const;
 
-  /// Exact where the corners are integers; otherwise within a few ulp of the coordinates' magnitude. O(1).
+  /// How the triangle meets the point (x, y). Exact where the corners are integers; otherwise within a few
+  /// ulp of the coordinates' magnitude. O(1).
   Contact contact(double x, double y, double tolerance) const;
 
  private:
