@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Persistence of dimension 0, twice: the components of the sublevel sets (pits, upwards) and those of the
-// superlevel sets (peaks, downwards). Told upwards: a sweep by height opens a component at every vertex
-// without a lower neighbour; where two components meet, the one with the younger extremum dies (the elder
-// rule), and the vertex that joined them is the pass (Edelsbrunner, Letscher, Zomorodian 2002; Edelsbrunner,
-// Harer, "Computational Topology", 2010, chapter VII).
+// Persistence of dimension 0, twice: of the components of the sublevel sets (pits, upwards) and of the
+// superlevel sets (peaks, downwards). Upwards: a sweep by height opens a component at every vertex without a
+// lower neighbour; where two components meet, the one with the younger extremum ends (the elder rule), and
+// the vertex that joins them is the pass [EdelsbrunnerLetscherZomorodian2002], [EdelsbrunnerHarer2010,
+// chapter VII].
 //
-// Most of the sweep decides nothing: a vertex joins the component of a lower neighbour. So each vertex is
-// hung under one at once, which makes trees, one for each extremum, and only edges between two trees are
-// swept, in the order of their later ends. They are few, and nothing else needs sorting. The trees serve as
-// union-find, with the extremum as the root and paths halved: O(log n) amortised per operation without a
-// second array.
+// Most vertices of the sweep only join the component of a lower neighbour. So each vertex is attached to one
+// lower neighbour in advance, which makes trees, one for each extremum, and only edges between two trees are
+// swept, in the order of their later ends. These are few, and nothing else needs sorting. The trees serve as
+// union-find with the extremum as the root and path halving [TarjanVanLeeuwen1984]: O(log n) amortised per
+// operation without a second array.
 #pragma once
 
 #include <oneapi/tbb/parallel_invoke.h>
@@ -30,7 +30,7 @@
 
 namespace arete {
 
-/// Which of two vertices is the lower one: by height, then by index.
+/// The order of the upward sweep: by height, then by index.
 class LowerVertex {
  public:
   explicit LowerVertex(std::span<const double> heights) : heights_(heights) {}
@@ -42,6 +42,7 @@ class LowerVertex {
   std::span<const double> heights_;
 };
 
+/// The order of the downward sweep, the reverse of LowerVertex.
 class HigherVertex {
  public:
   explicit HigherVertex(std::span<const double> heights) : lower_(heights) {}
@@ -51,11 +52,11 @@ class HigherVertex {
   LowerVertex lower_;
 };
 
-/// The trees of a sweep.
+/// The trees of a sweep, and the union-find structure made of them.
 class FeatureTrees {
  public:
   FeatureTrees() = default;
-  /// `parent`: per vertex a neighbour that comes before it, or itself.
+  /// @param parent  per vertex a neighbour that comes before it in the sweep, or itself
   explicit FeatureTrees(UninitializedVector<std::uint32_t> parent) : parent_(std::move(parent)) {
     for (std::uint32_t v = 0; v < parent_.size(); ++v) parent_[v] = find(v);
   }
@@ -68,22 +69,25 @@ class FeatureTrees {
     return v;
   }
 
-  /// The root of its tree, until trees are hung under each other.
+  /// The root of v's tree. Precondition: attach() has not been called.
   std::uint32_t tree(std::uint32_t v) const { return parent_[v]; }
 
-  void hang(std::uint32_t root, std::uint32_t under) { parent_[root] = under; }
+  void attach(std::uint32_t root, std::uint32_t under) { parent_[root] = under; }
 
  private:
   UninitializedVector<std::uint32_t> parent_;
 };
 
-/// An edge by its ends in the order of a sweep.
+/// An edge between two trees, with its ends in the order of a sweep.
 struct FeatureLink {
   std::uint32_t later, first;
 };
 
-/// Pairs the extrema that `links` join, which are `kind`, with their passes. `before` is the order of the
-/// sweep. Appends to `found`; leaves the surviving extremum of each component as its root.
+/// Pairs extrema with their passes. Afterwards the root of each component is its surviving extremum.
+/// @param links  edges between the trees; sorted here
+/// @param before  the order of the sweep
+/// @param kind  of the extrema: pit or peak
+/// @param found  receives the pairs
 template <class Before>
 void sweepFeatures(FeatureTrees& trees, std::vector<FeatureLink>& links, const Before& before,
                    Feature::Kind kind, std::span<const double> heights, const FeatureOptions& options,
@@ -91,25 +95,27 @@ void sweepFeatures(FeatureTrees& trees, std::vector<FeatureLink>& links, const B
   tbb::parallel_sort(links.begin(), links.end(),
                      [&](const FeatureLink& a, const FeatureLink& b) { return before(a.later, b.later); });
   for (const FeatureLink& link : links) {
-    std::uint32_t staying = trees.find(link.later), dying = trees.find(link.first);
-    if (dying == staying) continue;
-    if (before(dying, staying)) std::swap(dying, staying);
-    trees.hang(dying, staying);
-    const double persistence = std::abs(heights[link.later] - heights[dying]);
+    std::uint32_t elder = trees.find(link.later), younger = trees.find(link.first);
+    if (younger == elder) continue;
+    if (before(younger, elder)) std::swap(younger, elder);
+    trees.attach(younger, elder);
+    const double persistence = std::abs(heights[link.later] - heights[younger]);
     if (persistence > 0 && persistence >= options.minimumPersistence) {
-      found.push_back({kind, dying, heights[dying], persistence});
+      found.push_back({kind, younger, heights[younger], persistence});
       found.push_back({Feature::Kind::pass, link.later, heights[link.later], persistence});
     }
   }
 }
 
-/// Per vertex a neighbour that is lower and one that is higher, or itself.
+/// Per vertex a lower neighbour and a higher one, or itself where there is none.
 struct FeatureParents {
   UninitializedVector<std::uint32_t> lower, higher;
 };
 
-/// rankFeatures() on any surface. linksOf(before, trees): edges enough to join, in time, whatever is joined
-/// by the edges between two trees; called for both sweeps at once. Empty when cancelled.
+/// rankFeatures() on any surface. Empty when cancelled.
+/// @param linksOf  linksOf(before, trees) returns edges between trees that join the same components at the
+/// same
+///        time in the sweep as all edges do; called for both sweeps concurrently
 template <class LinksOf>
 std::vector<Feature> rankFeaturesOf(std::span<const double> heights, FeatureParents parents,
                                     const LinksOf& linksOf, const FeatureOptions& options,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The sweeps are told in feature_sweep.h. Here each vertex is hung under its first neighbour. Not all edges
-// need be looked at: in a triangle with the order a, b, c the edge ab already unites a and b when c comes, so
-// that c need only be joined with a: two links per triangle.
+// See feature_sweep.h for the sweeps. Here each vertex is attached to its first neighbour in the order of the
+// sweep. Not all edges are needed: in a triangle with the order a, b, c the edge ab has joined a and b when c
+// is reached, so c is joined with a only: two edges per triangle.
 #include "terrain/features/features.h"
 
 #include <oneapi/tbb/parallel_invoke.h>

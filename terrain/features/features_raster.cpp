@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The sweeps are told in feature_sweep.h. A sample with six valid neighbours has a whole star, a ring of six
-// triangles whatever lies beyond; which of the six are lower fits into six bits, and tables say the rest: one
-// lower and one higher neighbour to be hung under, and whether the lower ones stand in several runs around
-// the ring. Only then is the sample a pass of either sweep: neighbours in one run are joined by the ring's
-// own edges before it comes, so one of each run is all that it joins. Samples on the border and beside NODATA
-// are few: they ask the triangles of the cells around them.
+// See feature_sweep.h for the sweeps. A sample with six valid neighbours has a closed star of six triangles.
+// Which of the six neighbours are lower is a mask of six bits, and tables give the rest: one lower and one
+// higher neighbour to be attached to, and whether the lower ones form several runs around the ring. Only then
+// can the sample be a pass of either sweep: neighbours in one run are joined by the ring's own edges before
+// the sample is reached, so an edge to one of each run is enough. Samples on the border and beside NODATA are
+// few; for them the triangles of the surrounding cells are visited.
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -22,7 +22,7 @@ namespace {
 constexpr std::string_view kStage = "ranking features";
 constexpr unsigned kRing = 6, kMasks = 1 << kRing;
 
-/// By the mask of a ring: the first of its bits (kRing: none), those where a run of them begins, and whether
+/// For each mask of a ring: its first bit (kRing where it has none), the bits where a run begins, and whether
 /// there are several runs.
 struct RingTables {
   std::array<std::uint8_t, kMasks> first{}, begins{};
@@ -42,8 +42,8 @@ constexpr RingTables kTables;
 class Lattice {
  public:
   explicit Lattice(const RasterHeightfield& field) : field_(field), cells_(field), columns_(field.columns) {
-    // Around the ring, from above on: the first of those that were numbered earlier comes first, whose tree
-    // is known by then.
+    // Around the ring, beginning above. Neighbours with a smaller index come first: FeatureTrees resolves the
+    // vertices in the order of their indices, so their roots are known already.
     ring_ = {-columns_, -columns_ - 1, -1, columns_, columns_ + 1, 1, 0};
   }
 
@@ -55,12 +55,12 @@ class Lattice {
     passesOfRow_.resize(rows);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows, 8), [&](const auto& range) {
       for (std::size_t row = range.begin(); row != range.end(); ++row)
-        lookAlong(static_cast<std::uint32_t>(row), parents);
+        scanRow(static_cast<std::uint32_t>(row), parents);
     });
     return parents;
   }
 
-  /// From each sample that may join trees to lower ones, or higher ones, of other trees.
+  /// From each sample that may join trees, edges to neighbours of other trees that come before it.
   template <class Before>
   std::vector<FeatureLink> links(const Before& before, const FeatureTrees& trees) const {
     std::vector<FeatureLink> links;
@@ -75,8 +75,7 @@ class Lattice {
           continue;
         }
         unsigned mask = 0;
-        for (unsigned place = 0; place < kRing; ++place)
-          mask |= unsigned(before(beside(v, place), v)) << place;
+        for (unsigned bit = 0; bit < kRing; ++bit) mask |= unsigned(before(beside(v, bit), v)) << bit;
         for (unsigned begins = kTables.begins[mask]; begins != 0; begins &= begins - 1)
           join(v, beside(v, unsigned(std::countr_zero(begins))));
       }
@@ -90,7 +89,7 @@ class Lattice {
     bool isRingWhole;
   };
 
-  void lookAlong(std::uint32_t row, FeatureParents& parents) {
+  void scanRow(std::uint32_t row, FeatureParents& parents) {
     std::vector<Pass>& passes = passesOfRow_[row];
     const double* const heights = field_.heights.data();
     const std::uint32_t begin = field_.index(0, row), end = begin + field_.columns;
@@ -99,7 +98,7 @@ class Lattice {
       if (isInside && v > begin && v + 1 < end) {
         const double* const z = heights + v;
         const std::ptrdiff_t c = columns_;
-        // Of equal heights the earlier one is lower. NaN is neither lower nor higher.
+        // Of equal heights the one with the smaller index is lower. NaN is neither lower nor higher.
         const unsigned lower = unsigned(z[-c] <= z[0]) | unsigned(z[-c - 1] <= z[0]) << 1 |
                                unsigned(z[-1] <= z[0]) << 2 | unsigned(z[c] < z[0]) << 3 |
                                unsigned(z[c + 1] < z[0]) << 4 | unsigned(z[1] < z[0]) << 5;
@@ -121,17 +120,17 @@ class Lattice {
     }
   }
 
-  std::uint32_t beside(std::uint32_t v, unsigned place) const {
-    return static_cast<std::uint32_t>(std::ptrdiff_t(v) + ring_[place]);
+  std::uint32_t beside(std::uint32_t v, unsigned bit) const {
+    return static_cast<std::uint32_t>(std::ptrdiff_t(v) + ring_[bit]);
   }
 
-  /// visit(u) for those that share a triangle with v, some of them twice.
+  /// visit(u) for the neighbours of v in the triangulation; some are visited twice.
   template <class Visit>
   void forNeighbours(std::uint32_t v, const Visit& visit) const {
     const std::uint32_t column = v % field_.columns, row = v / field_.columns;
     for (const std::uint32_t r : {row - 1, row})
       for (const std::uint32_t c : {column - 1, column}) {
-        // A column or row of -1 is a large one, and beyond the raster like any other.
+        // Column or row -1 wraps to the largest unsigned number, which is beyond the raster.
         if (c >= field_.columns - 1 || r >= field_.rows - 1) continue;
         cells_.forTriangles(c, r, cells_.valid(c, r), [&](const RasterCells::Corners& corners) {
           if (corners[0] != v && corners[1] != v && corners[2] != v) return;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Each wish (features, given positions, creases) marks samples of the finest triangulation; V_fixed is what
-// is marked. Creases are judged in metres where the CRS is known: an angle means nothing in degrees by
-// metres.
+// Each option (features, given positions, creases) marks samples of the finest triangulation; V_fixed
+// consists of the marked ones. The angles of creases are measured in metres where the CRS is known: they have
+// no meaning between degrees and metres.
 #include "terrain/features/fixed_vertices.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-bool wantsNothing(const FixedVertexOptions& options) {
+bool selectsNothing(const FixedVertexOptions& options) {
   const bool features = options.features && options.features->count > 0;
   return !features && options.given.empty() && !options.creaseAngleDegrees;
 }
@@ -98,7 +98,7 @@ class NearestPoint {
   double lowY_ = std::numeric_limits<double>::infinity(), highY_ = -lowY_;
 };
 
-/// rankedFeatures(): asked for where features are; `triangles`: where creases are.
+/// rankedFeatures() is called only if features are selected; `triangles` is read only for creases.
 template <class Ranked, class Snap>
 Result<FixedVertices> choose(std::size_t vertexCount, const Ranked& rankedFeatures,
                              const Triangles& triangles, const PositionOf& positionOf, const Snap& snapped,
@@ -135,8 +135,8 @@ Result<FixedVertices> choose(std::size_t vertexCount, const Ranked& rankedFeatur
 
 Result<FixedVertices> chooseFixedVertices(const RasterHeightfield& field, const FixedVertexOptions& options,
                                           const RunContext& context) {
-  if (wantsNothing(options)) return FixedVertices{};
-  // Features do without: most builds ask for no more.
+  if (selectsNothing(options)) return FixedVertices{};
+  // Features, all that most builds select, do not need the triangles.
   Triangles triangles;
   if (!options.given.empty() || options.creaseAngleDegrees) {
     triangles = finestTriangulation(field);
@@ -157,7 +157,7 @@ Result<FixedVertices> chooseFixedVertices(const RasterHeightfield& field, const 
 
 Result<FixedVertices> chooseFixedVertices(const PointHeightfield& field, const FixedVertexOptions& options,
                                           const RunContext& context) {
-  if (wantsNothing(options) || field.size() == 0) return FixedVertices{};
+  if (selectsNothing(options) || field.size() == 0) return FixedVertices{};
   const Result<FinestPoints> finest = finestPoints(field, context);
   if (!finest) return tl::unexpected(finest.error());
   return chooseFixedVertices(field, *finest, options, context);
@@ -165,7 +165,7 @@ Result<FixedVertices> chooseFixedVertices(const PointHeightfield& field, const F
 
 Result<FixedVertices> chooseFixedVertices(const PointHeightfield& field, const FinestPoints& finest,
                                           const FixedVertexOptions& options, const RunContext& context) {
-  if (wantsNothing(options)) return FixedVertices{};
+  if (selectsNothing(options)) return FixedVertices{};
   Triangles triangles;
   if (!options.given.empty() || options.creaseAngleDegrees) triangles = finest.trianglesOfPoints();
   std::optional<NearestPoint> nearest;
@@ -180,8 +180,8 @@ Result<FixedVertices> chooseFixedVertices(const PointHeightfield& field, const F
     const Vec2& p = field.positions[v];
     return Vec3{p.x * step.x, p.y * step.y, field.heights[v] * georeference.verticalUnitMetres};
   };
-  // Along the ground neighbours are near each other, and equal heights are told apart whatever the points'
-  // numbers are.
+  // In the spatial order of finestPoints() neighbours are close in memory, and ties between equal heights do
+  // not depend on the order in which the points were given.
   const auto rankedFeatures = [&] {
     std::vector<double> heights(field.size());
     std::ranges::transform(finest.order, heights.begin(), [&](std::uint32_t v) { return field.heights[v]; });

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The fewest triangles. Looser cuts that are fitted afterwards need repair wherever the fit does not reach
-// the tolerance; this goes the other way and never leaves it. It begins with the least cut, which is within
-// the tolerance, and takes out one leaf after the other for which the heights around it can be moved so that
-// all samples stay within it (fit_removals.cpp). So every region finds the coarseness that its terrain
-// allows, and every state on the way is a cut: conforming, Delaunay where the model is, with rims where they
-// were.
+// Fewest triangles: begins with the least cut, which is within the tolerance, and removes one leaf after the
+// other for which the heights around it can be changed so that all samples stay within the tolerance
+// (removals.cpp). Every state is within the tolerance, and every state is a cut of the model: conforming,
+// Delaunay where the model is, with the same rims. (Fitting a coarser cut instead would need repairs wherever
+// the fit misses the tolerance.)
 //
-// The errors handed out are computed from the final heights and the samples, not taken from the solver.
+// The errors returned are computed from the final heights and the samples, not taken from the solver.
 #include "terrain/fit/fit.h"
 
 #include <algorithm>
@@ -22,8 +21,7 @@
 namespace arete {
 namespace {
 
-/// Stored errors leave out the last bits of their arithmetic: 8 ulp of the largest height
-/// (docs/topics/error.md).
+/// The rounding error that stored errors leave out: 8 ulp of the largest height (docs/topics/error.md).
 double roundingOf(const MultiTriangulation& mt) {
   double largest = 0;
   for (std::uint32_t v = 0; v < mt.vertexCount(); ++v)
@@ -31,8 +29,8 @@ double roundingOf(const MultiTriangulation& mt) {
   return 8 * (std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest);
 }
 
-/// Where nothing is asked for, the fit keeps the error that the cut has: vertices out there shall not serve
-/// as levers for a sample at the region's edge.
+/// Outside the region the bound is no larger than the achieved error of the cut: otherwise vertices out there
+/// would be moved far, for the sake of a sample at the region's edge.
 FitBounds boundsOf(const TerrainModel& model, const FitTolerance& tolerance, const Cut& cut) {
   const MultiTriangulation& mt = model.mt;
   FitBounds bounds{.everywhere = tolerance.maxError, .rounding = roundingOf(mt)};
@@ -64,8 +62,8 @@ Result<FitMesh> meshOf(const TerrainModel& model, const Cut& cut, FitBounds boun
   return mesh;
 }
 
-/// The cut that the mesh has come to, with what is known of its triangles. An error that differs from the
-/// tolerance by the last bits of its arithmetic is the tolerance, as stored errors are (error.md).
+/// The cut that the mesh represents now, with the errors of its triangles. An error above the tolerance by no
+/// more than rounding is set to the tolerance, like stored errors (docs/topics/error.md).
 FittedCut fittedCut(const FitMesh& mesh, const Cut& before, double tolerance) {
   const MultiTriangulation& mt = mesh.mt();
   NodeSet nodes(mt.nodeCount(), 0);
@@ -77,7 +75,7 @@ FittedCut fittedCut(const FitMesh& mesh, const Cut& before, double tolerance) {
                    .errorBefore = before.achievedError};
   fitted.cut.isComplete = before.isComplete;
   fitted.heights.reserve(fitted.cut.vertices.size());
-  for (const std::uint32_t v : fitted.cut.vertices) fitted.heights.push_back(mesh.heights()[mesh.place(v)]);
+  for (const std::uint32_t v : fitted.cut.vertices) fitted.heights.push_back(mesh.heights()[mesh.indexOf(v)]);
 
   std::vector<double> errors = mesh.errors();
   for (double& error : errors)
@@ -108,15 +106,18 @@ Result<Cut> leastCut(const TerrainModel& model, const FitTolerance& tolerance, c
 
 Result<FittedCut> fitFewestTriangles(const TerrainModel& model, const FitTolerance& tolerance,
                                      const FitOptions& options, const RunContext& context) {
-  if (!(tolerance.maxError >= 0 && tolerance.outsideError >= tolerance.maxError))
-    return failure(ErrorCode::usage, "a tolerance is at least 0, and outside a region no finer than inside");
+  if (!(tolerance.maxError >= 0))
+    return failure(ErrorCode::usage, "the tolerance must not be negative", "maxError");
+  if (!(tolerance.outsideError >= tolerance.maxError))
+    return failure(ErrorCode::usage, "the tolerance outside the region must not be smaller than inside",
+                   "outsideError");
   const Result<Cut> cut = leastCut(model, tolerance, context);
   if (!cut) return tl::unexpected(cut.error());
   FitBounds bounds = boundsOf(model, tolerance, *cut);
   const double accepted = 1 + bounds.rounding / tolerance.maxError;
   auto mesh = meshOf(model, *cut, std::move(bounds), options, context);
   if (!mesh) return tl::unexpected(mesh.error());
-  // Without a tolerance no height can move, and the cut is what it was.
+  // With the tolerance 0 no height can change, and with an infinite one the cut is the root already.
   if (tolerance.maxError > 0 && std::isfinite(tolerance.maxError)) {
     mesh->setAccepted(accepted);
     if (Status removed = removeWhatFits(*mesh, std::max(1u, options.rings), context); !removed)

@@ -13,13 +13,13 @@
 
 namespace arete {
 
-/// Cuts whose vertices leave the samples: their places in the plan stay, their heights move within the bound.
-/// docs/topics/fit.md.
+/// Fitted cuts: the vertices of a cut keep their positions in the plan, and their heights are changed so that
+/// fewer triangles keep the bound, or the same triangles keep a smaller one. docs/topics/fit.md.
 
 struct FitOptions {
-  /// A patch that cannot be fitted by the vertices around it may move as many rings of vertices, 1 or more.
+  /// How many rings of vertices around a removed vertex may be moved, at most; 1 or more.
   std::uint32_t rings = 3;
-  /// The features and places that were fixed in the build keep their heights.
+  /// Whether vertices that were fixed in the build (features, given positions) keep their heights.
   bool keepsFixedHeights = true;
 };
 
@@ -27,34 +27,35 @@ struct FitOptions {
 struct FitTolerance {
   double maxError = 0;             ///< everywhere, or in the region; >= 0
   const Region* region = nullptr;  ///< in plan coordinates; null = everywhere
-  /// Outside the region; >= maxError. Where it allows more than the least cut needs, the fit does not.
+  /// Outside the region; >= maxError. The fit uses the achieved error of the least cut where that is less.
   double outsideError = std::numeric_limits<double>::infinity();
 };
 
-/// A cut with heights of its own.
+/// A cut with its own heights.
 struct FittedCut {
-  /// A cut of the model like any other; achievedError is that of the fitted surface.
+  /// A cut of the model; achievedError is that of the fitted surface.
   Cut cut;
   std::vector<double> heights = {};  ///< of each vertex of the cut
-  std::vector<double> errors =
-      {};  ///< of each triangle: max |z - plane| over the samples it covers, as fitted
-  std::uint64_t trianglesBefore = 0;  ///< of the cut that the fit began with
-  double errorBefore = 0;             ///< its achieved error, as stored
+  /// Of each triangle: max |z - plane| over the samples that it covers, with the new heights.
+  std::vector<double> errors = {};
+  std::uint64_t trianglesBefore = 0;  ///< of the cut before the fit
+  double errorBefore = 0;             ///< the achieved error of that cut
 };
 
-/// The fewest triangles that a fit finds within the tolerance: at every sample |z_TIN - z_sample| is within
-/// it. Begins with the least cut, and takes out every node that the vertices nearby can do without when they
-/// move; 17 to 41 % fewer triangles on real terrain. The same for any number of threads. Not the fewest that
-/// there are: that is a hard problem.
-///
-/// Errors: usage, a tolerance below 0 or one outside that is finer; interrupted. O(cut) removals are tried,
-/// each O(samples of its patch); 8 bytes per sample of the model and some 100 per vertex of the least cut.
+/// Reduces the triangles of the least cut within a tolerance: at every sample |z_TIN - z_sample| stays within
+/// it. Removes every node whose samples the vertices nearby can still approximate after their heights are
+/// changed; 17 to 41 % fewer triangles on real terrain. A local optimum: the global one is NP-hard
+/// [AgarwalSuri1998]. The result is the same for any number of threads. O(cut) removals are tried, each
+/// O(samples of its patch); 8 bytes per sample of the model and about 100 per vertex of the least cut.
+/// Errors: usage, culprit "maxError" or "outsideError": a tolerance below 0, or a smaller one outside the
+/// region; invalidData: the triangles of the model leave samples uncovered; interrupted.
 Result<FittedCut> fitFewestTriangles(const TerrainModel& model, const FitTolerance& tolerance,
                                      const FitOptions& options = {}, const RunContext& context = {});
 
-/// The triangles of a cut with the smallest largest error that a fit finds, patch by patch around the worst
-/// samples. Within 2 % of the least there is on small grids; on large ones it can stop earlier. Errors:
-/// interrupted. Precondition: the cut is one of the model's. O(samples) for each of some ten bounds.
+/// Reduces the largest error of a cut, keeping its triangles (a Chebyshev fit), patch by patch around the
+/// worst samples. Within 2 % of the optimum on small grids; on large ones it may stop at a larger error.
+/// Precondition: the cut is one of the model. O(samples) for each of some ten bounds. Errors: invalidData, as
+/// above; interrupted.
 Result<FittedCut> fitLeastError(const TerrainModel& model, const Cut& cut, const FitOptions& options = {},
                                 const RunContext& context = {});
 

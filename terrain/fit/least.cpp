@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A bound below the largest error is reached when every triangle that is beyond it can be brought within it,
-// one patch at a time, the worst first, without bringing others farther beyond: each patch leaves fewer
-// violations, so this ends. The least bound that can be reached is looked for by bisection. The largest error
-// sits in a few places, so most bounds touch a few patches only.
+// A bound below the largest error is reached when every triangle beyond it can be brought within it, one
+// patch at a time, the worst first, without increasing other violations: each patch leaves fewer violations,
+// so this terminates. The least bound that can be reached is found by bisection. Few triangles have errors
+// near the largest, so most bounds need a few patches only.
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -14,8 +14,8 @@
 namespace arete {
 namespace {
 
-constexpr double kFirstStep = 0.9;  // of the worst, until a bound cannot be reached
-constexpr double kEnough = 0.995;   // bounds this near to each other are not told apart
+constexpr double kFirstStep = 0.9;  // of the largest error, until a bound is not reached
+constexpr double kEnough = 0.995;   // the ratio of bounds at which the bisection ends
 
 class Lessening {
  public:
@@ -28,16 +28,16 @@ class Lessening {
   Status run() {
     double reached = worst(), missed = 0;
     std::vector<double> best = mesh_.heights();
-    // What is left within rounding is nobody's error, and no patch gets it out of its own arithmetic.
+    // An error within rounding cannot be reduced: patches have rounding errors of their own.
     while (reached > unit_.rounding && missed < kEnough * reached) {
-      const double wanted = missed > 0 ? (missed + reached) / 2 : kFirstStep * reached;
-      const Result<bool> isReached = reach(wanted);
+      const double bound = missed > 0 ? (missed + reached) / 2 : kFirstStep * reached;
+      const Result<bool> isReached = reach(bound);
       if (!isReached) return tl::unexpected(isReached.error());
       if (*isReached) {
-        reached = std::min(wanted, worst());
+        reached = std::min(bound, worst());
         best = mesh_.heights();
       } else {
-        missed = wanted;
+        missed = bound;
         mesh_.setHeights(best);
       }
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The star of a vertex is a list through the corners of its triangles, as in LiveMesh's neighbours it would
-// be a cycle: a fit only ever wants all of them. The samples of a triangle are a list too; a removal hands
-// the lists of a star on to the floor, so no sample is ever searched for twice.
+// The star of a vertex is a linked list through the corners of its triangles, in no particular order: a fit
+// only ever visits all of them. The samples of a triangle are a linked list too; a removal distributes the
+// lists of a star among its floor, so each sample is located only once.
 #include "terrain/fit/mesh.h"
 
 #include <utility>
@@ -55,7 +55,7 @@ FitMesh::Weights FitMesh::weights(const Corners& corners) const {
                right = (w.at[1].y - w.at[0].y) * (w.at[2].x - w.at[0].x), area = left - right;
   w.inverse = 1 / area;
   constexpr double kTrusted = 0x1p-12;
-  // On a lattice the terms are whole numbers and exact.
+  // On a lattice the terms are integers, computed exactly.
   w.isThin = !mt_.vertices().isLattice() && !(area > kTrusted * (std::abs(left) + std::abs(right)));
   return w;
 }
@@ -73,13 +73,13 @@ double FitMesh::severity(std::uint32_t slot) const {
 bool FitMesh::isLeaf(NodeId node) const {
   const std::uint32_t begin = mt_.slotTriangle(node, 0).index(), end = begin + mt_.slotCount(node);
   bool isWhole = true;
-  forStar(place(mt_.apex(node).index()),
+  forStar(indexOf(mt_.apex(node).index()),
           [&](std::uint32_t t) { isWhole = isWhole && triangles_[t].id >= begin && triangles_[t].id < end; });
   return isWhole;
 }
 
 void FitMesh::remove(NodeId leaf, std::span<FloorTriangle> floor) {
-  const std::uint32_t apex = place(mt_.apex(leaf).index());
+  const std::uint32_t apex = indexOf(mt_.apex(leaf).index());
   while (star_[apex] != kNone) {
     const std::uint32_t slot = star_[apex];
     unlink(slot);
@@ -109,7 +109,7 @@ std::vector<double> FitMesh::errors() const {
       const Vec2 p = plan(s);
       const double error = std::abs(residual(corners, w.of(p), s));
       widen(t, error);
-      // The edges it lies on, opposite to these corners; two of them meet in a vertex.
+      // isOn[i]: the sample lies on the edge opposite to corner i. On two of them, it is a vertex.
       std::array<bool, 3> isOn;
       for (int i = 0; i < 3; ++i) isOn[i] = planOrientation(w.at[(i + 1) % 3], w.at[(i + 2) % 3], p) == 0;
       for (int i = 0; i < 3; ++i) {

@@ -16,17 +16,17 @@
 
 namespace arete {
 
-/// How far the surface may be from a sample, in the unit of the heights.
+/// The largest allowed distance of the surface from each sample, in the unit of the heights.
 struct FitBounds {
-  double everywhere = 0;        ///< > 0; where `of` is empty
-  std::vector<double> of = {};  ///< per MT vertex, > 0
-  double rounding = 0;          ///< of heights: what is within a bound and this is within it
+  double everywhere = 0;        ///< > 0; the bound of all samples where `of` is empty
+  std::vector<double> of = {};  ///< per MT vertex, > 0; may be empty
+  double rounding = 0;          ///< tolerance for rounding: an excess up to this is accepted
 
   double at(std::uint32_t sample) const { return of.empty() ? everywhere : of[sample]; }
 };
 
-/// The front of a cut while it is fitted: triangles that know their samples, vertices with heights of their
-/// own. A vertex is named by its place in the vertices of the cut that it began with, a triangle by a slot.
+/// The front of a cut during a fit: triangles with lists of their samples, vertices with their own heights. A
+/// vertex is an index into the vertices of the initial cut; a triangle is a slot. Slots are reused.
 class FitMesh {
  public:
   static constexpr std::uint32_t kNone = FitSamples::kNone;
@@ -34,18 +34,19 @@ class FitMesh {
 
   struct Triangle {
     Corners corners = {};  ///< vertices, counter-clockwise in the plan
-    Corners next = {};     ///< the next triangle of the star of each corner
+    Corners next = {};     ///< per corner: the next triangle of its star
     std::uint32_t id = kNone;
     std::uint32_t firstSample = kNone;
   };
-  /// A triangle of the floor of a node that may leave, and the samples that come to it.
+  /// A triangle of the floor of a node that may be removed, and the samples that it would cover.
   struct FloorTriangle {
     Corners corners = {};
     std::uint32_t id = kNone;
     std::vector<std::uint32_t> samples = {};
   };
 
-  /// Heights are the model's. Precondition: the arguments belong together and outlive this.
+  /// The heights are those of the multitriangulation. Precondition: `samples` is that of `cut`; `mt` outlives
+  /// this. O(vertices + triangles).
   FitMesh(const MultiTriangulation& mt, const Cut& cut, FitSamples samples, FitBounds bounds);
 
   const MultiTriangulation& mt() const { return mt_; }
@@ -56,26 +57,27 @@ class FitMesh {
   bool isLive(std::uint32_t slot) const { return triangles_[slot].id != kNone; }
 
   std::uint32_t mtVertex(std::uint32_t vertex) const { return mtVertices_[vertex]; }
-  /// Precondition: the vertex is one of the cut's. O(log vertices).
-  std::uint32_t place(std::uint32_t mtVertex) const {
+  /// The vertex with an MT vertex. Precondition: it is one of the initial cut. O(log vertices).
+  std::uint32_t indexOf(std::uint32_t mtVertex) const {
     return static_cast<std::uint32_t>(std::ranges::lower_bound(mtVertices_, mtVertex) - mtVertices_.begin());
   }
-  /// Whether any triangle has the vertex.
+  /// Whether the vertex is still in the mesh.
   bool isIn(std::uint32_t vertex) const { return star_[vertex] != kNone; }
 
   const std::vector<double>& heights() const { return heights_; }
   void setHeights(std::vector<double> heights) { heights_ = std::move(heights); }
   void raise(std::uint32_t vertex, double by) { heights_[vertex] += by; }
-  /// A vertex that keeps its height.
+  /// Marks a vertex that must keep its height and must not be removed.
   void fix(std::uint32_t vertex) { isFixed_[vertex] = true; }
   bool isFixed(std::uint32_t vertex) const { return isFixed_[vertex]; }
 
   const FitBounds& bounds() const { return bounds_; }
   void setBounds(FitBounds bounds) { bounds_ = std::move(bounds); }
-  /// 1 and what rounding takes, in units of the bound.
+  /// The largest |residual| / bound that is accepted: 1 and an allowance for rounding.
   double accepted() const { return accepted_; }
   void setAccepted(double accepted) { accepted_ = accepted; }
 
+  /// visit(slot) for the triangles at a vertex.
   template <class Visit>
   void forStar(std::uint32_t vertex, const Visit& visit) const {
     for (std::uint32_t t = star_[vertex]; t != kNone;) {
@@ -87,6 +89,7 @@ class FitMesh {
       t = next;
     }
   }
+  /// visit(sample) for the samples in a triangle's list; samples are MT vertices.
   template <class Visit>
   void forSamples(std::uint32_t slot, const Visit& visit) const {
     for (std::uint32_t s = triangles_[slot].firstSample; s != kNone; s = nextSample_[s]) visit(s);
@@ -97,20 +100,20 @@ class FitMesh {
     if (!v.isLattice()) return v.plan[sample];
     const std::uint32_t s = v.samples[sample];
     const auto row =
-        static_cast<std::uint32_t>((s + 0.5) * perColumn_);  // no division; exact: see TriangleLocator
+        static_cast<std::uint32_t>((s + 0.5) * perColumn_);  // exact: see TriangleLocator::planPosition()
     return {static_cast<double>(s - row * v.columns), static_cast<double>(row)};
   }
-  /// The plan of a triangle, ready to ask for barycentric weights.
+  /// A triangle of the plan, prepared for barycentric coordinates.
   struct Weights {
     std::array<Vec2, 3> at;
     double inverse;
-    bool isThin = false;  ///< so far below the terms it is a difference of that doubles do not tell the area
+    bool isThin = false;  ///< the area is lost to rounding: weights are computed as rational numbers
     std::array<double, 3> of(Vec2 p) const {
       if (isThin) return exactPlanWeights(at[0], at[1], at[2], p);
       const auto turn = [&](int i, int j) {
         return (at[i].x - p.x) * (at[j].y - p.y) - (at[i].y - p.y) * (at[j].x - p.x);
       };
-      // A sample is in its triangle: below zero is rounding.
+      // Samples lie in their triangles, so a negative weight is rounding.
       const double a = std::max(0.0, turn(1, 2) * inverse), b = std::max(0.0, turn(2, 0) * inverse);
       return {a, b, std::max(0.0, 1 - a - b)};
     }
@@ -118,7 +121,7 @@ class FitMesh {
   Weights weights(const Corners& corners) const;
   /// z_TIN - z_sample.
   double residual(const Corners& corners, const std::array<double, 3>& w, std::uint32_t sample) const {
-    // By what the corners are above the sample: weights are rounded, and heights may be far from zero.
+    // From height differences: weights are rounded, and heights may be far from zero.
     const double z = mt_.vertices().height(VertexId(sample));
     return w[0] * (heights_[corners[0]] - z) + w[1] * (heights_[corners[1]] - z) +
            w[2] * (heights_[corners[2]] - z);
@@ -126,9 +129,11 @@ class FitMesh {
   /// The largest |residual| / bound of a triangle's samples. O(samples).
   double severity(std::uint32_t slot) const;
 
-  /// Whether nothing in the front was made of the node's triangles. Precondition: its vertex isIn().
+  /// Whether all of the node's triangles are in the mesh, so that it can be removed. Precondition: its vertex
+  /// isIn().
   bool isLeaf(NodeId node) const;
-  /// Takes a leaf out of the cut: its floor comes back. The vectors of samples are used up.
+  /// Removes a leaf from the cut: its floor replaces its star. Precondition: `floor` has all of the star's
+  /// samples; the vectors of samples are cleared.
   void remove(NodeId leaf, std::span<FloorTriangle> floor);
 
   /// The largest |residual| over the samples that each triangle covers, edges and corners included; by slot,

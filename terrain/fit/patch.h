@@ -8,32 +8,33 @@
 
 namespace arete {
 
-/// One small problem of a fit: by how much to raise a few vertices (the unknowns) so that every sample under
-/// the triangles around them comes within its bound.
+/// The small feasibility problem of a patch: by how much to raise a few vertices (the unknowns) so that every
+/// sample under the triangles around them is within its bound. Solved by a penalty method with Newton steps,
+/// after [Mangasarian2004].
 ///
-/// All is counted in units of a sample's bound: its residual (z_TIN - z_sample) / bound is a row, linear in
-/// the unknowns, and must come to lie within [-accepted, accepted].
+/// Everything is in units of a sample's bound: the residual (z_TIN - z_sample) / bound of a sample is a row,
+/// linear in the unknowns, and must lie within [-accepted, accepted].
 class FitPatch {
  public:
-  /// residual = rest + sum of weight * unknown. Unused places have weight 0 and any unknown.
+  /// residual = rest + sum of weight * unknown. Unused terms have weight 0 and any valid unknown.
   struct Row {
     std::array<double, 3> weight = {};
     std::array<std::uint32_t, 3> unknown = {};
     double rest = 0;
   };
 
-  /// Forgets all rows.
+  /// Begins a problem: removes all rows.
   void start(std::size_t unknowns);
-  /// Precondition: every unknown named is below the number given to start().
+  /// Precondition: the row's unknowns are below the number given to start().
   void add(const Row& row) { rows_.push_back(row); }
   std::size_t rowCount() const { return rows_.size(); }
 
-  /// Looks for values of the unknowns, from 0 on, with all residuals within `accepted` (1 and what rounding
-  /// takes). False when it finds none: there is none, nearly always; the method stops short of a proof. The
-  /// values lie as near to a least-squares fit as it needs to. O(rounds * (rows + unknowns^3)), at most
-  /// kRounds.
+  /// Searches values of the unknowns with all residuals within `accepted`. The values found are close to the
+  /// least-squares fit. O(rounds * (rows + unknowns^3)), at most kRounds rounds.
+  /// @param accepted  1 and an allowance for rounding
+  /// @return false where none were found; nearly always there are none then, but that is not proved
   bool solve(double accepted);
-  /// What solve() came to. Precondition: it said true.
+  /// The values found. Precondition: solve() has returned true.
   std::span<const double> values() const { return values_; }
 
   static constexpr int kRounds = 20;

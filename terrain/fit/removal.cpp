@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The samples of a leaf's star are shared out among its floor. If they are within their bounds there, nothing
-// need move. Otherwise the vertices of the link may: every sample under a triangle that has one of them is a
-// row of a small problem (FitPatch), those of the floor included. If that has no solution, one ring of
-// vertices more may move, and so on: six in seven of the removals that need a move do with the link alone.
+// The samples of a leaf's star are distributed among its floor. If they are within their bounds there, no
+// height has to change. Otherwise the heights of the link may change: every sample under a triangle with a
+// vertex of the link, those of the floor included, is a row of a small problem (FitPatch). If that has no
+// solution, the next ring of vertices is added, and so on. Of the removals that need changes, six in seven
+// need only the link.
 #include "terrain/fit/removal.h"
 
 #include <algorithm>
@@ -15,11 +16,12 @@ namespace arete {
 namespace {
 
 constexpr std::uint32_t kNone = FitMesh::kNone;
-/// Beyond so many times the bound no heights help; measured: never above 2.5.
+/// With an error of more than this many bounds the removal is rejected untried; 2.5 was the most that
+/// succeeded.
 constexpr double kHopeless = 4;
-/// What rounding leaves of a weight that is zero.
+/// Weights up to this are zero but for rounding.
 constexpr double kNoWeight = 1e-12;
-/// A patch of more vertices than this is not grown: solving it costs their cube.
+/// A patch with more unknowns gets no further ring: solving it takes time proportional to their cube.
 constexpr std::size_t kMostUnknowns = 128;
 
 }  // namespace
@@ -93,14 +95,14 @@ bool FitPatches::addRows(const FitMesh::Corners& corners, const Samples& samples
 
 void FitPatches::tryRemoval(NodeId leaf, std::uint32_t rings, RemovalTrial& trial) {
   const MultiTriangulation& mt = mesh_.mt();
-  const std::uint32_t apex = mesh_.place(mt.apex(leaf).index());
+  const std::uint32_t apex = mesh_.indexOf(mt.apex(leaf).index());
   trial.node = leaf;
   trial.isFeasible = false;
   trial.moved.clear();
   trial.rise.clear();
   trial.read.assign(1, apex);
   std::vector<std::uint32_t>& link = trial.read;
-  for (const std::uint32_t v : mt.link(leaf)) link.push_back(mesh_.place(v));
+  for (const std::uint32_t v : mt.link(leaf)) link.push_back(mesh_.indexOf(v));
   const std::size_t linkEnd = link.size();
 
   const auto ids = mt.floor(leaf);
@@ -111,7 +113,7 @@ void FitPatches::tryRemoval(NodeId leaf, std::uint32_t rings, RemovalTrial& tria
     floor[i].id = ids[i];
     floor[i].samples.clear();
     const auto corners = mt.corners(TriangleId(ids[i]));
-    for (int k = 0; k < 3; ++k) floor[i].corners[k] = mesh_.place(corners[k]);
+    for (int k = 0; k < 3; ++k) floor[i].corners[k] = mesh_.indexOf(corners[k]);
   }
   double worst = 0;
   std::vector<FitMesh::Weights> weights;
@@ -140,7 +142,7 @@ void FitPatches::tryRemoval(NodeId leaf, std::uint32_t rings, RemovalTrial& tria
   }
 
   begin();
-  mesh_.forStar(apex, [&](std::uint32_t slot) { slotStamp_[slot] = now_; });  // they are to go
+  mesh_.forStar(apex, [&](std::uint32_t slot) { slotStamp_[slot] = now_; });  // these will be removed
   for (std::size_t i = 1; i < linkEnd; ++i) addUnknown(link[i]);
   for (std::uint32_t ring = 0; ring < rings; ++ring) {
     if (ring > 0) {
@@ -181,7 +183,7 @@ bool FitPatches::tryTriangle(std::uint32_t slot, std::uint32_t rings) {
     for (const std::uint32_t t : slots_)
       isWithin &= addRows(
           mesh_.triangle(t).corners, [&](const auto& visit) { mesh_.forSamples(t, visit); }, t != slot);
-    if (!isWithin) return false;  // its corners are fixed
+    if (!isWithin) return false;  // the triangle's corners are fixed
     if (patch_.solve(mesh_.accepted())) return true;
   }
   return false;

@@ -9,45 +9,47 @@
 
 namespace arete {
 
-/// Whether a node can leave the cut, and what must move for it.
+/// Whether a node can be removed from the cut, and by which changes of heights.
 struct RemovalTrial {
   NodeId node;
   bool isFeasible = false;
-  std::vector<FitMesh::FloorTriangle> floor;  ///< the first floorSize; the rest keep their memory
+  std::vector<FitMesh::FloorTriangle>
+      floor;  ///< the first floorSize are in use; the rest keep their capacity
   std::size_t floorSize = 0;
-  std::vector<std::uint32_t> moved;  ///< vertices, and by how much they rise
+  std::vector<std::uint32_t> moved;  ///< vertices to be raised, by `rise`
   std::vector<double> rise;
-  std::vector<std::uint32_t> read;  ///< every vertex whose height or star the answer depends on
+  std::vector<std::uint32_t> read;  ///< every vertex whose height or star the result depends on; apex first
 };
 
-/// Works out patches of a mesh: which vertices may move, which samples they move. Keeps scratch space; one
-/// for each thread.
+/// Builds and solves patches of a mesh: the vertices that may be raised, and the samples that depend on them.
+/// Keeps temporary arrays, so each thread needs its own.
 class FitPatches {
  public:
   explicit FitPatches(const FitMesh& mesh) : mesh_(mesh) {}
 
-  /// Tries a leaf against the mesh as it is. The vertices of its link may move; where that does not do, those
-  /// of `rings` - 1 rings more. O(samples under the patch * rounds).
+  /// Tries to remove a leaf, without changing the mesh. The vertices of its link may be raised or lowered,
+  /// and if that is not enough, those of up to `rings` - 1 more rings. O(samples under the patch * rounds).
   void tryRemoval(NodeId leaf, std::uint32_t rings, RemovalTrial& trial);
 
-  /// Tries to bring the samples of a triangle within their bounds, by moving its corners or the vertices of
-  /// up to `rings` rings around them, and no other sample farther beyond its own. On success moved() and
-  /// rises() say how.
+  /// Tries to bring the samples of a triangle within their bounds, by raising its corners and the vertices of
+  /// up to `rings` rings around them, without increasing the violation of any other sample.
+  /// @return whether moved() and rises() give a solution
   bool tryTriangle(std::uint32_t slot, std::uint32_t rings);
 
   const std::vector<std::uint32_t>& moved() const { return unknowns_; }
   std::span<const double> rises() const { return patch_.values(); }
-  /// The triangles that the last patch looked at.
+  /// The triangles of the last patch.
   const std::vector<std::uint32_t>& slots() const { return slots_; }
 
  private:
   void begin();
   void addUnknown(std::uint32_t vertex);
-  /// Adds the vertices around those that were last to come.
+  /// Adds the next ring: the neighbours, but for `without`, of the vertices added last.
   void grow(std::uint32_t without);
   void collectSlots();
-  /// False when a sample that nothing moves is beyond its bound. `spares`: a sample that is beyond its bound
-  /// must get no worse, and no better.
+  /// Adds rows for the samples of a triangle.
+  /// @param spares  a sample beyond its bound gets its present violation as the bound
+  /// @return false where a sample that does not depend on the unknowns is beyond its bound
   template <class Samples>
   bool addRows(const FitMesh::Corners& corners, const Samples& samples, bool spares = false);
 
@@ -55,7 +57,7 @@ class FitPatches {
   FitPatch patch_;
   std::vector<std::uint32_t> unknowns_, slots_;
   std::size_t ringBegin_ = 0;
-  // Stamps: what belongs to the patch at hand.
+  // A vertex or triangle belongs to the current patch where its stamp is now_.
   std::uint32_t now_ = 0;
   std::vector<std::uint32_t> vertexStamp_, unknownOf_, slotStamp_;
 };

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A queue of leaves, by rising saturated error. A batch of them is tried against the same mesh, in parallel,
-// and then carried out one after the other. A trial that looked at a vertex which a removal of its own batch
-// has moved, or whose star it has changed, is worth nothing and goes back into the queue. How large a batch
-// is depends on the mesh alone, so the result does not depend on the threads; it is small beside the mesh, so
-// such trials are few (some percent).
+// A queue of leaves, by rising saturated error. A batch of them is tried on the same mesh, in parallel, and
+// the feasible removals are then carried out one after the other. A trial that depends on a vertex whose
+// height or star was changed by an earlier removal of the batch is discarded, and its leaf goes back into the
+// queue. The size of a batch depends on the mesh alone, so the result does not depend on the number of
+// threads; it is small compared with the mesh, so few trials (some percent) are discarded.
 //
-// A removal that worked puts the leaves of its link into the queue (again): their parents, and neighbours
-// that failed before the heights moved.
+// A successful removal puts the leaves of its link into the queue (again): nodes that have become leaves, and
+// neighbours that failed before heights changed.
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -37,7 +37,7 @@ class Removals {
   Status run() {
     for (std::uint32_t v = 0; v < mesh_.vertexCount(); ++v) enqueue(v);
     const double most = static_cast<double>(std::max<std::size_t>(1, queue_.size()));
-    double done = 0, told = 0;
+    double done = 0, reported = 0;
     while (!queue_.empty()) {
       if (context_.cancelled()) return failure(ErrorCode::interrupted, "the fit was interrupted");
       takeBatch();
@@ -49,14 +49,14 @@ class Removals {
       ++round_;
       for (std::size_t i = 0; i < batch_; ++i) conclude(trials_[i]);
       done += static_cast<double>(batch_);
-      told = std::max(told, done / std::max(most, done + static_cast<double>(queue_.size())));
-      context_.report("fitting", told);
+      reported = std::max(reported, done / std::max(most, done + static_cast<double>(queue_.size())));
+      context_.report("fitting", reported);
     }
     return {};
   }
 
  private:
-  using Key = std::pair<std::uint32_t, std::uint32_t>;  // saturated error; later nodes, so smaller, first
+  using Key = std::pair<std::uint32_t, std::uint32_t>;  // saturated error, ~node: later nodes come first
 
   void enqueue(std::uint32_t vertex) {
     const std::uint32_t v = mesh_.mtVertex(vertex), roots = mesh_.mt().rootVertexCount();
@@ -71,7 +71,7 @@ class Removals {
     const std::size_t most = std::clamp<std::size_t>(mesh_.triangleCount() / 1024, 4, 256);
     for (batch_ = 0; batch_ < most && !queue_.empty(); queue_.pop()) {
       const NodeId node(~queue_.top().second);
-      const std::uint32_t vertex = mesh_.place(mesh_.mt().apex(node).index());
+      const std::uint32_t vertex = mesh_.indexOf(mesh_.mt().apex(node).index());
       isQueued_[vertex] = false;
       if (!mesh_.isIn(vertex) || !mesh_.isLeaf(node)) continue;
       if (trials_.size() == batch_) trials_.emplace_back();
@@ -93,7 +93,7 @@ class Removals {
     }
     changed_[apex] = round_;
     for (const std::uint32_t v : mesh_.mt().link(trial.node)) {
-      const std::uint32_t vertex = mesh_.place(v);
+      const std::uint32_t vertex = mesh_.indexOf(v);
       changed_[vertex] = round_;
       enqueue(vertex);
     }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Raster. A triangle's row is an interval between integer quotients, rounded inwards, so a sample on an edge
-// is found by both of its triangles, and the first takes it.
+// Raster: a row of a triangle is an interval between integer quotients, rounded inwards. A sample on an edge
+// is found by both of its triangles; the first one takes it.
 //
-// Points. The sample that a node inserts lies in its floor. The floor triangle over it belongs to the front
-// when its creator is in the cut; otherwise the creator is a node outside the cut whose floor covers all of
-// that triangle, and the search goes on there.
+// Points: the sample that a node inserts lies in the node's floor. The floor triangle over it is in the front
+// if its creator is in the cut. Otherwise the creator is a node outside the cut, whose floor covers all of
+// that triangle, and the search continues there.
 #include "terrain/fit/samples.h"
 
 #include <tbb/blocked_range.h>
@@ -57,10 +57,10 @@ Result<FitSamples> onLattice(const MultiTriangulation& mt, const Cut& cut, const
                     std::vector<std::uint32_t>(mt.vertexCount(), kNone)};
   std::uint32_t last = 0;
   for (const std::uint32_t s : vertices.samples) last = std::max(last, s);
-  std::vector<std::uint32_t> waiting(std::size_t(last) + 1,
-                                     kNone);  // by sample: the vertex, until it is taken
-  for (std::uint32_t v = 0; v < mt.vertexCount(); ++v) waiting[vertices.samples[v]] = v;
-  std::size_t taken = 0;
+  std::vector<std::uint32_t> unassigned(std::size_t(last) + 1,
+                                        kNone);  // per sample: its vertex, until assigned
+  for (std::uint32_t v = 0; v < mt.vertexCount(); ++v) unassigned[vertices.samples[v]] = v;
+  std::size_t assigned = 0;
   for (std::size_t t = 0; t < cut.triangles.size(); ++t) {
     if (t % kCheckEvery == 0 && context.cancelled())
       return failure(ErrorCode::interrupted, "the fit was interrupted");
@@ -70,15 +70,15 @@ Result<FitSamples> onLattice(const MultiTriangulation& mt, const Cut& cut, const
       corner[i] = {s % columns, s / columns};
     }
     scanTriangle(corner, [&](std::int64_t x, std::int64_t y) {
-      std::uint32_t& v = waiting[std::size_t(y) * columns + std::size_t(x)];
-      if (v == kNone) return;  // NODATA, or a neighbour has it
+      std::uint32_t& v = unassigned[std::size_t(y) * columns + std::size_t(x)];
+      if (v == kNone) return;  // NODATA, or assigned to a neighbour
       shared.next[v] = shared.first[t];
       shared.first[t] = v;
       v = kNone;
-      ++taken;
+      ++assigned;
     });
   }
-  if (taken != mt.vertexCount())
+  if (assigned != mt.vertexCount())
     return failure(ErrorCode::invalidData, "the triangles of the model leave samples uncovered");
   return shared;
 }
@@ -88,7 +88,7 @@ Result<FitSamples> onPoints(const MultiTriangulation& mt, const Cut& cut, const 
   std::vector<std::pair<std::uint32_t, std::uint32_t>> byId(cut.ids.size());
   for (std::uint32_t i = 0; i < byId.size(); ++i) byId[i] = {cut.ids[i], i};
   std::ranges::sort(byId);
-  const auto place = [&](std::uint32_t id) {
+  const auto indexOf = [&](std::uint32_t id) {
     return std::ranges::lower_bound(byId, std::pair(id, 0u))->second;
   };
   const auto covers = [&](std::uint32_t id, Vec2 p) {
@@ -121,7 +121,7 @@ Result<FitSamples> onPoints(const MultiTriangulation& mt, const Cut& cut, const 
           }
           const NodeId creator = mt.creator(TriangleId(*found));
           if (!creator.isValid() || nodes[creator.index()])
-            over[v.index()] = place(*found);
+            over[v.index()] = indexOf(*found);
           else
             n = creator.index();
         }

@@ -10,23 +10,24 @@
 
 namespace arete {
 
-/// Which samples the triangles of a cut cover: every vertex of the multitriangulation is a sample, and in the
-/// list of one triangle. One on an edge or a corner is in the list of any of its triangles, whose planes
-/// agree there.
+/// Lists of the samples that each triangle of a cut covers. Every vertex of the multitriangulation is a
+/// sample and is in the list of exactly one triangle; a sample on an edge or at a corner is listed by one of
+/// the triangles there, whose planes agree.
 struct FitSamples {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-  std::vector<std::uint32_t> first;  ///< per triangle of the cut: its first sample, an MT vertex
-  std::vector<std::uint32_t> next;   ///< per MT vertex
+  std::vector<std::uint32_t> first;  ///< per triangle of the cut: its first sample, an MT vertex; or kNone
+  std::vector<std::uint32_t> next;   ///< per MT vertex: the next sample of the same triangle; or kNone
 };
 
-/// Raster: the rows of every triangle are scanned, in integers. O(samples). Points: every one walks up from
-/// the node that inserts it to the first node of the cut, by exact predicates. O(samples * depth), parallel.
-/// The same for any number of threads. Errors: interrupted; invalidData, a model whose triangles do not cover
-/// a sample. Precondition: `cut` is the front of `nodes`.
+/// Assigns the samples to the triangles of a cut. Raster: every triangle is scan-converted in integers,
+/// O(samples). Points: each one is followed from the node that inserts it to the first node of the cut, by
+/// exact predicates, O(samples * depth), parallel. The result is the same for any number of threads.
+/// Precondition: `cut` is the front of `nodes`. Errors: invalidData: no triangle covers some sample;
+/// interrupted.
 Result<FitSamples> shareSamples(const MultiTriangulation& mt, const Cut& cut, const NodeSet& nodes,
                                 const RunContext& context);
 
-/// The nodes of a cut, from its vertices. O(nodes).
+/// The node set of a cut, found from its vertices. O(nodes).
 NodeSet nodesOf(const MultiTriangulation& mt, const Cut& cut);
 
 }  // namespace arete

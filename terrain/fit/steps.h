@@ -9,14 +9,14 @@
 
 namespace arete {
 
-/// Takes leaves out of the cut, by rising saturated error, as long as the vertices around them can be moved
-/// so that all samples are within their bounds. Every state between is within them. The same for any number
-/// of threads. Errors: interrupted. Precondition: all samples are within their bounds.
+/// Removes leaves from the cut, by rising saturated error, as long as the heights around them can be changed
+/// so that all samples are within their bounds; every intermediate state is within them too. The result is
+/// the same for any number of threads. Precondition: all samples are within their bounds. Errors:
+/// interrupted.
 Status removeWhatFits(FitMesh& mesh, std::uint32_t rings, const RunContext& context);
 
-/// Moves heights until the largest |residual| is as small as patches of up to `rings` rings can make it,
-/// within half a hundredth of it, or within the rounding that its bounds state. Leaves uniform bounds behind.
-/// Errors: interrupted.
+/// Changes heights until patches of up to `rings` rings cannot reduce the largest |residual| by more than 0.5
+/// %, or it is within FitBounds::rounding. Replaces the mesh's bounds by uniform ones. Errors: interrupted.
 Status lessenWorst(FitMesh& mesh, std::uint32_t rings, const RunContext& context);
 
 }  // namespace arete

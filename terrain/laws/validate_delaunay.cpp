@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// All triangles are tested for their orientation; then, for each edge with two triangles, the opposite corner
+// of one is tested against the circumcircle of the other. Both use exact predicates on coordinates scaled to
+// the metric of the build, which is exact too.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <fmt/format.h>
 

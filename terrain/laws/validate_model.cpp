@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Laws 5 (orientation) and 7 are checked on the arrays. For law 8 the finest front is compared with the
+// finest triangulation computed anew from the samples. The other parts are checked on a set of fronts: the
+// root, the finest, a series of prefixes of the nodes (uniform cuts), and fronts of random closed node sets.
 #include "terrain/laws/validate_model.h"
 
 #include <fmt/format.h>
@@ -51,8 +55,8 @@ std::uint32_t firstWithoutArea(const MultiTriangulation& mt) {
       [](std::uint32_t a, std::uint32_t b) { return std::min(a, b); });
 }
 
-/// What of law 5 is a triangle's own. The engine lets pass what is wrong by no more than rounding; this is
-/// exact, and asks all triangles, whatever fronts they are in.
+/// The part of law 5 about single triangles: checked exactly, on all triangles. (The engine's check tolerates
+/// rounding.)
 Status law5OfTriangles(const MultiTriangulation& mt) {
   const std::uint32_t t = firstWithoutArea(mt);
   if (t == MultiTriangulation::kNone) return {};
@@ -75,9 +79,9 @@ Status law7(const TerrainModel& model) {
   return {};
 }
 
-/// Points: the finest front is the Delaunay triangulation of all of them, found anew. Cocircular ties leave
-/// its triangles open but not their number, and law 9 is checked on the same front where the shape promises
-/// it.
+/// Points: the finest front must have as many triangles as the Delaunay triangulation computed anew, and
+/// every vertex. With cocircular points the triangles are not unique, but their number is. Law 9 is checked
+/// on the same front where it applies.
 Status law8OfPoints(const TerrainModel& model, const Cut& finest) {
   const auto expected = finestPoints(model.pointSamples());
   if (!expected) return tl::unexpected(expected.error());
@@ -124,8 +128,8 @@ Status law8(const TerrainModel& model) {
 NodeSet randomClosedSet(const MultiTriangulation& mt, std::uint64_t seed, double fraction) {
   NodeSet set(mt.nodeCount(), 0);
   std::uint64_t state = seed;
-  const auto wanted = static_cast<std::uint64_t>(std::ceil(fraction * mt.nodeCount()));
-  for (std::uint64_t i = 0; i < wanted && mt.nodeCount() > 0; ++i) set[splitmix(state) % mt.nodeCount()] = 1;
+  const auto drawn = static_cast<std::uint64_t>(std::ceil(fraction * mt.nodeCount()));
+  for (std::uint64_t i = 0; i < drawn && mt.nodeCount() > 0; ++i) set[splitmix(state) % mt.nodeCount()] = 1;
   closeUpwards(mt, set);
   return set;
 }
@@ -148,7 +152,7 @@ Status validateModel(const TerrainModel& model, const ValidateModelOptions& opti
     if (!s) s.error().message += fmt::format(" ({})", which);
     return s;
   };
-  // The root, the finest front and a ladder of uniform cuts between them.
+  // The root, the finest front and a series of uniform cuts between them.
   const std::uint32_t ladder = 6;
   for (std::uint32_t i = 0; i <= ladder; ++i) {
     if (context.cancelled()) return failure(ErrorCode::interrupted, "the validation was interrupted");
@@ -160,7 +164,7 @@ Status validateModel(const TerrainModel& model, const ValidateModelOptions& opti
   for (std::uint32_t i = 0; i < options.randomFronts; ++i) {
     if (context.cancelled()) return failure(ErrorCode::interrupted, "the validation was interrupted");
     const std::uint64_t seed = splitmix(state);
-    // From a handful of nodes to a tenth of them: ancestors make the sets much larger.
+    // From a few nodes to a tenth of them; with their ancestors the sets are much larger.
     const double fraction = std::pow(0.1, 1 + double(seed % 5));
     if (Status s = check(front(mt, randomClosedSet(mt, seed, fraction)),
                          fmt::format("random closed set, seed {}, fraction {}", seed, fraction));

@@ -11,28 +11,29 @@
 namespace arete {
 
 struct ValidateModelOptions {
-  /// Fronts of random closed node sets on which laws 5 and 9 are checked, beside the root, the finest front
-  /// and a ladder of uniform cuts. Half of them are sets that no threshold produces.
+  /// On how many fronts of random closed node sets laws 5 and 9 are checked, beside the root, the finest
+  /// front and a series of uniform cuts. No threshold produces these sets.
   std::uint32_t randomFronts = 8;
   std::uint64_t seed = 1;
 };
 
-/// Every law of ARCHITECTURE.md on a model: those of engine/laws/validate.h, and
-///   5  every triangle positively oriented, exactly; the rest of it on the fronts above
+/// Checks the laws of a model: those of engine/laws/validate.h, and
+///   5  every triangle is positively oriented, exactly; the rest of law 5 on the fronts above
 ///   7  every fixed vertex is in the root
-///   8  the finest front has every sample of the domain for a vertex (raster: the layout of finest_raster.h,
-///   exactly)
+///   8  every sample of the domain is a vertex of the finest front (raster: it is finestTriangulation())
 ///   9  Delaunay shape without rim tolerance: the fronts above are (constrained) Delaunay in the build's
 ///   metric
-/// Names the first violation. O(triangles * fronts).
+/// O(triangles * fronts). Errors: brokenPromise: the first violation; interrupted.
 Status validateModel(const TerrainModel& model, const ValidateModelOptions& options = {},
                      const RunContext& context = {});
 
-/// Law 9 on one front, by CGAL's exact predicates: every triangle counter-clockwise, every edge with two
-/// triangles locally Delaunay in the build's metric (cocircular ties allowed). O(triangles), parallel.
+/// Checks law 9 on one front by CGAL's exact predicates: every triangle is counter-clockwise, every edge with
+/// two triangles is locally Delaunay in the build's metric (cocircular ties allowed), which makes the whole
+/// front Delaunay [Delaunay1934]. O(triangles), parallel. Errors: brokenPromise: the first violation.
 Status validateDelaunayFront(const TerrainModel& model, const Cut& cut);
 
-/// A closed node set grown from random nodes (a fraction of all of them, then their ancestors).
+/// A random closed node set: random nodes and all of their ancestors.
+/// @param fraction  of all nodes, drawn before the ancestors are added
 NodeSet randomClosedSet(const MultiTriangulation& mt, std::uint64_t seed, double fraction);
 
 }  // namespace arete

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A triangle is clipped to one row of cells after the other, each widened by the margin, and listed in the
-// cells between its least and largest x there. So a long thin triangle is listed where it is, not all over
-// its box. The margin exceeds what rounding does to a position by far; a triangle too many in a list costs a
-// test, no more.
+// cells between its least and largest x there. So a long thin triangle is listed along its length, not in its
+// whole bounding box. The margin is far larger than the rounding error of a position; an extra triangle in a
+// list only costs a test.
 #include "terrain/locate/root_grid.h"
 
 #include <algorithm>
@@ -15,9 +15,10 @@
 namespace arete {
 namespace {
 
-constexpr std::size_t kMostListed = 64;  // cells per root triangle, in the mean
+constexpr std::size_t kMostListed = 64;  // cells per root triangle, on average
 
-/// The x that a triangle takes within a band of y; empty (first > second) where it does not meet it.
+/// The interval of x of a triangle within a band of y; empty (first > second) where it does not meet the
+/// band.
 std::pair<double, double> extentInBand(const std::array<Vec2, 3>& triangle, double low, double high) {
   double least = std::numeric_limits<double>::infinity(), most = -least;
   const auto include = [&](double x) {
@@ -58,8 +59,8 @@ RootGrid::RootGrid(const MultiTriangulation& mt, double margin) {
   }
   margin_ = margin + 1e-9 * std::max(bounds_.xMax - bounds_.xMin, bounds_.yMax - bounds_.yMin);
 
-  // Needles across the whole terrain, or triangles that overlap, as those of no valid file do, could fill
-  // lists without end: then the cells are made larger.
+  // Needles across the whole terrain, or overlapping triangles (in an invalid file), could make the lists too
+  // long: then the cells are made larger.
   double cells = static_cast<double>(triangles.size());
   do {
     layCells(cells);

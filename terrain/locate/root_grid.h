@@ -12,28 +12,30 @@
 
 namespace arete {
 
-/// Which root triangles lie near a plan point: a grid of about as many cells as there are root triangles,
-/// each with a list of the triangles that come within a margin of it. A terrain without NODATA has a handful
-/// of root triangles, one with ragged voids tens of thousands. Thread-safe: it is only read.
+/// A uniform grid over the root triangles, for finding those near a plan point: about as many cells as root
+/// triangles, each with a list of the triangles within a margin of it. A terrain without NODATA has a handful
+/// of root triangles, one with ragged voids tens of thousands. Thread-safe: all queries are const.
 class RootGrid {
  public:
-  /// margin: in plan units, >= 0. O(root triangles + cells they meet).
+  /// O(root triangles + cells they meet).
+  /// @param margin  in plan units, >= 0
   RootGrid(const MultiTriangulation& mt, double margin);
 
-  /// Root triangles, by rising id; every one within the margin of p is among them. Empty for a p that is
-  /// farther than the margin from all of them, or not finite.
+  /// The candidates near a point: every root triangle within the margin of p, and others.
+  /// @return ids, rising; empty where p is not finite or outside bounds() by more than the margin
   std::span<const std::uint32_t> near(Vec2 p) const;
 
-  /// The same for all places of a segment, each triangle once, by rising id. O(cells it meets + triangles of
-  /// their lists, sorted).
+  /// The candidates near any point of a segment. O(c + t log t) for c cells on the segment and t entries in
+  /// their lists.
+  /// @param triangles  receives ids, rising, each once
   void along(Vec2 from, Vec2 to, std::vector<std::uint32_t>& triangles) const;
 
-  /// Of the root triangles, without the margin.
+  /// The bounding box of the root triangles, without the margin.
   const Box2& bounds() const { return bounds_; }
 
  private:
   void layCells(double about);
-  /// Leaves the length of the list of cell i in begin_[i + 1]. False where the lists hold more than `most`.
+  /// Stores the length of the list of cell i in begin_[i + 1]. False where the lists together exceed `most`.
   bool countLists(std::span<const std::array<Vec2, 3>> triangles, std::size_t most);
   template <class Visit>
   void forCellsOf(const std::array<Vec2, 3>& triangle, const Visit& visit) const;
@@ -41,7 +43,7 @@ class RootGrid {
   std::uint32_t row(double y) const;
 
   Box2 bounds_;
-  double margin_ = 0;  // of a list, larger than that of the caller by what rounding takes
+  double margin_ = 0;  // the caller's margin and an allowance for rounding
   std::uint32_t columns_ = 1, rows_ = 1;
   double cellWidth_ = 1, cellHeight_ = 1;
   std::vector<std::uint32_t> begin_, triangles_;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One place takes a chain of nodes from the root to its finest triangle, and nearly all of the time goes into
-// fetching their links and vertices from memory. Places near each other share most of their chains. So many
-// places are visited along a Morton curve (Morton 1966), and what one has fetched the next finds in the
-// cache.
+// A query visits a chain of nodes from the root to a finest triangle, and nearly all of its time is spent on
+// fetching their links and vertices from memory. Positions near each other share most of their chains. So
+// many positions are visited along a Morton curve [Morton1966]: what one query has fetched is still in the
+// cache for the next.
 #include "terrain/locate/surface_height.h"
 
 #include <tbb/blocked_range.h>
@@ -22,7 +22,7 @@
 namespace arete {
 namespace {
 
-constexpr std::size_t kPlacesPerTask = 1024;
+constexpr std::size_t kPositionsPerTask = 1024;
 
 std::uint32_t mortonKey(Vec2 p, const Box2& box) {
   const auto cell = [](double v, double low, double high) {
@@ -34,9 +34,9 @@ std::uint32_t mortonKey(Vec2 p, const Box2& box) {
 
 struct Visit {
   std::uint32_t key;
-  std::uint32_t place;
+  std::uint32_t position;
   bool operator<(const Visit& other) const {
-    return key != other.key ? key < other.key : place < other.place;
+    return key != other.key ? key < other.key : position < other.position;
   }
 };
 
@@ -88,28 +88,28 @@ std::optional<SurfaceHeight> SurfaceHeights::at(Vec2 xy, double maxError) const 
   return inPlan(model_.toPlan(xy), model_.mt.arrays().scale.floorCode(maxError));
 }
 
-Result<std::vector<std::optional<SurfaceHeight>>> SurfaceHeights::at(std::span<const Vec2> places,
+Result<std::vector<std::optional<SurfaceHeight>>> SurfaceHeights::at(std::span<const Vec2> positions,
                                                                      double maxError,
                                                                      const RunContext& context) const {
-  if (places.size() > 0xFFFFFFFFu)
-    return failure(ErrorCode::unsupported, "more places than 32 bits can number");
+  if (positions.size() > 0xFFFFFFFFu)
+    return failure(ErrorCode::unsupported, "more positions than 32 bits can number");
   const OutwardScale::Code allowed = model_.mt.arrays().scale.floorCode(maxError);
-  std::vector<std::optional<SurfaceHeight>> answers(places.size());
-  std::vector<Visit> order(places.size());
-  SharedProgress progress(context, "heights", places.size());
+  std::vector<std::optional<SurfaceHeight>> answers(positions.size());
+  std::vector<Visit> order(positions.size());
+  SharedProgress progress(context, "heights", positions.size());
   context.report("heights", 0);
   withThreads(context, [&] {
-    tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
-      order[i] = {mortonKey(model_.toPlan(places[i]), locator_.roots().bounds()),
+    tbb::parallel_for(std::size_t{0}, positions.size(), [&](std::size_t i) {
+      order[i] = {mortonKey(model_.toPlan(positions[i]), locator_.roots().bounds()),
                   static_cast<std::uint32_t>(i)};
     });
     tbb::parallel_sort(order.begin(), order.end());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places.size(), kPlacesPerTask),
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), kPositionsPerTask),
                       [&](const auto& range) {
                         if (context.cancelled()) return;
                         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                          const std::uint32_t place = order[i].place;
-                          answers[place] = inPlan(model_.toPlan(places[place]), allowed);
+                          const std::uint32_t index = order[i].position;
+                          answers[index] = inPlan(model_.toPlan(positions[index]), allowed);
                         }
                         progress.add(range.size());
                       });

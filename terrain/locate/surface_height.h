@@ -13,43 +13,47 @@
 
 namespace arete {
 
-/// The height of the terrain at a place. Full resolution, the finest triangulation, is within
-/// [height - above, height + below]; both are 0 where the height is that of full resolution.
+/// The height of the terrain at a position. The height of the finest triangulation is within
+/// [height - above, height + below]; both are 0 where `height` is that height.
 struct SurfaceHeight {
   double height = 0;               ///< in the DEM's vertical unit
   double below = 0, above = 0;     ///< the bound of the triangle: z_triangle - z_finest is in [-below, above]
-  TriangleId triangle{};           ///< the triangle of the multitriangulation that decided
+  TriangleId triangle{};           ///< the triangle of the multitriangulation that gave the height
   std::uint32_t nodesVisited = 0;  ///< steps down from the root
 };
 
-/// Answers how high the terrain is, without a cut: from the root triangle over the place down through the
-/// triangles over it, until one has a bound within the tolerance (De Floriani, Magillo, Puppo 1998), or is
-/// one of the finest. A tolerance is kept over the continuous surface, not only at samples.
+/// Point queries of the terrain's height, without a cut: descends from the root triangle over the position
+/// through the triangles over it, until one has an error bound within the tolerance or is one of the finest
+/// [DeFlorianiMagilloPuppo1998]. The tolerance holds over the continuous surface, not only at samples.
 ///
-/// A place on NODATA or outside the DEM has no height, nor has an isolated sample, which is in no triangle.
-/// One beyond a border by less than margin() is put on it, since coordinates are rounded. With a rim
-/// tolerance coarse triangles reach over NODATA; whether there is terrain is then decided by the finest,
-/// which give the height as well.
+/// Positions on NODATA, outside the DEM or on an isolated sample (which is in no triangle) have no height. A
+/// position beyond a border by less than margin() is moved onto it, since coordinates are rounded. With a rim
+/// tolerance coarse triangles may cover NODATA; then the descent always goes on to the finest triangulation,
+/// which decides whether there is terrain.
 ///
-/// Keeps a reference to the model. Thread-safe: it is only read.
+/// Keeps a reference to the model. Thread-safe: all queries are const.
 class SurfaceHeights {
  public:
   /// O(root triangles). Precondition: the model outlives this.
   explicit SurfaceHeights(const TerrainModel& model);
 
-  /// At a place in source coordinates; nothing where there is no terrain. maxError: in the DEM's vertical
-  /// unit, 0 = full resolution. Precondition: maxError >= 0. O(depth * degree).
+  /// O(depth * degree).
+  /// @param xy  source coordinates
+  /// @param maxError  in the DEM's vertical unit, >= 0; 0 = full resolution
+  /// @return nothing where there is no terrain
   std::optional<SurfaceHeight> at(Vec2 xy, double maxError = 0) const;
 
-  /// At many places, in their order; parallel, the same for any number of threads. Places near each other are
-  /// visited one after the other. Errors: interrupted. O(n log n + n * depth * degree).
-  Result<std::vector<std::optional<SurfaceHeight>>> at(std::span<const Vec2> places, double maxError = 0,
+  /// The same at many positions; parallel. The result does not depend on the number of threads. Positions are
+  /// visited in Morton order [Morton1966], so that neighbours share cache lines. O(n log n + n depth degree).
+  /// Errors: unsupported: 2^32 positions or more; interrupted.
+  /// @return one answer per position, in the order given
+  Result<std::vector<std::optional<SurfaceHeight>>> at(std::span<const Vec2> positions, double maxError = 0,
                                                        const RunContext& context = {}) const;
 
   const TerrainModel& model() const { return model_; }
   const TriangleLocator& locator() const { return locator_; }
-  /// How far beyond a border a place still counts as on it, in plan units: 1e-9 of a sample's spacing
-  /// (points: of the mean spacing), and the last bits of a coordinate.
+  /// How far beyond a border a position still counts as on it, in plan units: 1e-9 of the spacing of samples
+  /// (points: of their mean spacing), plus the rounding of a coordinate.
   static double margin(const TerrainModel& model);
 
  private:

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The ceiling of a node is the star of its apex, and it covers what its floor covers. A point of the floor is
-// therefore in the star, and the two spokes it lies between name its triangle: one sign per spoke, and no
-// test against the link. Two signs are enough although a line through the apex meets the star twice: a spoke
-// to the right of the point or on it, followed by one to the left or on it, cannot have the point behind the
-// apex, since the angle between the two is below 180 degrees.
+// The ceiling of a node is the star of its apex and covers the same area as its floor. A point of the floor
+// is therefore in the star, and the two spokes that it lies between determine its triangle: one orientation
+// per spoke, and no test against the link. Two signs are enough although a line through the apex meets the
+// star twice: the angle between two successive spokes is below 180 degrees, so a point left of or on the
+// first and right of or on the second is not behind the apex.
 //
-// Where coarse triangles may reach over NODATA the star can be smaller than the floor: then the link is
-// tested too. A point beyond the border by less than the margin is in no triangle: the nearest one is taken,
-// on every level anew.
+// Where coarse triangles may cover NODATA, the star can be smaller than the floor, and the link is tested
+// too. A point beyond the border by less than the margin is in no triangle; on every level the nearest one is
+// taken.
 #include "terrain/locate/triangle_locator.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 namespace arete {
 namespace {
 
-/// a * b - c * d to within two units in the last place (Kahan; Jeannerod, Louvet, Muller 2013).
+/// a * b - c * d to within two units in the last place, Kahan's algorithm [JeannerodLouvetMuller2013].
 double differenceOfProducts(double a, double b, double c, double d) {
   const double cd = c * d;
   const double rest = std::fma(-c, d, cd);
@@ -97,7 +97,7 @@ std::optional<LocatedTriangle> TriangleLocator::finer(const LocatedTriangle& t, 
 }
 
 std::optional<LocatedTriangle> TriangleLocator::nearestOf(NodeId n, Vec2 p, double within) const {
-  // Under a fill: whatever part of it the finer triangles leave open is not the terrain's.
+  // Over NODATA: the part of a coarse triangle that its finer ones do not cover is no terrain.
   if (options_.mayFill) within = std::min(within, options_.margin * (1 + 1e-6));
   std::optional<LocatedTriangle> nearest;
   const std::span<const std::uint32_t> link = mt_.link(n);
@@ -119,12 +119,12 @@ double TriangleLocator::interpolate(const std::array<std::uint32_t, 3>& corners,
     at[i] = planPosition(corners[i]);
     z[i] = mt_.vertices().height(VertexId(corners[i]));
   }
-  // A weight below zero is rounding, or the point is beyond an edge, on which it is then put.
+  // A negative weight comes from rounding, or from a point beyond an edge, which is moved onto the edge.
   std::array<double, 3> weight;
   for (int i = 0; i < 3; ++i) weight[i] = std::max(0.0, turn(p, at[(i + 1) % 3], at[(i + 2) % 3]));
   const double sum = weight[0] + weight[1] + weight[2];
   if (!(sum > 0)) return z[0];
-  // Seen from the corner with the most weight, a vertex gets its own height to the bit.
+  // Relative to the corner with the largest weight: at a vertex the result is its height to the bit.
   const int i = static_cast<int>(std::max_element(weight.begin(), weight.end()) - weight.begin());
   const int j = (i + 1) % 3, k = (i + 2) % 3;
   return z[i] + (weight[j] / sum * (z[j] - z[i]) + weight[k] / sum * (z[k] - z[i]));

@@ -3,7 +3,6 @@
 
 namespace arete {
 
-// The words that users type and that stand in files.
 std::string_view toString(HoleShape shape) {
   return shape == HoleShape::delaunay ? "delaunay" : "fidelity";
 }

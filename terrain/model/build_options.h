@@ -8,10 +8,10 @@
 
 namespace arete {
 
-/// How the hole that a removed vertex leaves is triangulated.
+/// The shape of the triangles that fill the hole of a removed vertex.
 enum class HoleShape {
-  delaunay,       ///< well-shaped triangles; every front is (constrained) Delaunay
-  dataDependent,  ///< the least vertical error; far fewer triangles at the same bound
+  delaunay,       ///< (constrained) Delaunay triangulation of every front: well-shaped triangles
+  dataDependent,  ///< least vertical error [DynLevinRippa1990]: far fewer triangles at the same bound
 };
 
 /// The threshold ratio of a build that states none: the data-dependent shape takes smaller steps, for some
@@ -27,9 +27,9 @@ struct BuildOptions {
   /// A vertex with more neighbours is not removed until some of them are. 6 .. 32.
   std::uint32_t maxDegree = 14;
 
-  /// A level admits removals whose error is under a threshold that grows by this ratio from the first level
-  /// to the second, and by less from level to level the fewer vertices are left; by more where almost none
-  /// would be removed (simplify.h). > 1. Without a value: defaultThresholdRatio(shape). A model that was
+  /// A level admits removals whose error is below a threshold. The threshold grows by this ratio from the
+  /// first level to the second, by less in later levels as fewer vertices are left, and by more where almost
+  /// none would be removed (simplify.h). > 1. Without a value: defaultThresholdRatio(shape). A model that was
   /// built always has the value.
   std::optional<double> thresholdRatio{};
   double thresholdRatioOrDefault() const { return thresholdRatio.value_or(defaultThresholdRatio(shape)); }
@@ -38,14 +38,15 @@ struct BuildOptions {
   /// rejected.
   double minimumAspect = 0.02;
 
-  /// Rasters with NODATA: a reflex vertex of a rim may go when the domain then reaches at most this far, in
-  /// samples, over NODATA, measured from the original rim. 0 keeps the rims exactly.
+  /// Rasters with NODATA: a reflex vertex of a rim may be removed if the domain then extends at most this
+  /// far, in samples, over NODATA, measured from the original rim. 0 keeps the rims exactly.
   double rimTolerance = 0;
 
-  /// Vertices (sample or point indices) that stay in the root, beside the domain's corners.
+  /// Vertices (sample or point indices) that stay in the root, beside the corners of the domain.
   std::vector<std::uint32_t> fixedVertices{};
 };
 
+/// @return the name that users type and that files contain: "delaunay" or "fidelity"
 std::string_view toString(HoleShape shape);
 
 }  // namespace arete

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From the map to metric space positions go by the geotransform and the metric's scale, which is affine, so
-// the images of the map's two axes are known everywhere; made unit vectors they are east and north. Where the
-// grid's steps are not as long on the ground (degrees), that is what keeps an azimuth an azimuth.
+// The transformation from the map to metric space, by the geotransform and the metric's scale, is affine, so
+// the images of the map's two axes are the same everywhere. Normalised, they are the directions east and
+// north. So azimuths are right also where the steps along the two axes have different lengths on the ground
+// (degrees).
 #include "terrain/model/camera.h"
 
 #include <cmath>
 #include <numbers>
 
 namespace arete {
+
 Vec3 metricPosition(Vec2 xy, double height, const TerrainModel& model) {
   const Vec2 plan = model.toPlan(xy);
   return model.mt.arrays().metric.toMetric({plan.x, plan.y, height});
@@ -21,7 +23,7 @@ Result<View> viewOf(const Camera& camera, const TerrainModel& model) {
     return failure(ErrorCode::usage, "the pitch must lie between -90 and 90 degrees", "camera");
   constexpr double kRadians = std::numbers::pi / 180;
 
-  // One step of the map along each axis: long enough for large coordinates not to swallow it.
+  // A step along each axis of the map, long enough to survive the rounding of large coordinates.
   const auto& g = model.georeference.geoTransform;
   const double step = model.isRaster ? std::hypot(g[1], g[4]) + std::hypot(g[2], g[5]) : 1;
   const Vec3 here = metricPosition(camera.xy, 0, model);

@@ -7,22 +7,24 @@
 
 namespace arete {
 
-/// A camera as a person states it.
+/// A camera in the terms of a map.
 struct Camera {
   Vec2 xy = {};               ///< source coordinates
-  double height = 0;          ///< as the DEM's heights: its vertical unit and datum
+  double height = 0;          ///< in the DEM's vertical unit, above its datum
   double azimuthDegrees = 0;  ///< clockwise from the map's north (the y axis of the source)
   double pitchDegrees = 0;    ///< above the horizon; -90 looks straight down
   double verticalFieldOfViewDegrees = 60;
   double widthPixels = 1920, heightPixels = 1080;
 };
 
-/// The camera in the metric space of the model's MT, where ViewError wants it. Lengths there are metres
-/// (source units without a CRS) and the Earth is flat; on a geographic CRS both are true in the middle of the
-/// DEM. Errors: usage, naming the number that makes no sense.
+/// Transforms a camera to the metric space of the model's multitriangulation, as ViewError takes it. Lengths
+/// there are metres (source units without a CRS) and the Earth is flat; on a geographic CRS both are exact in
+/// the middle of the DEM only. Errors: usage, culprit "camera": a number is out of range.
 Result<View> viewOf(const Camera& camera, const TerrainModel& model);
 
-/// A place of the map in that space.
+/// A position of the map in that space.
+/// @param xy  source coordinates
+/// @param height  in the DEM's vertical unit
 Vec3 metricPosition(Vec2 xy, double height, const TerrainModel& model);
 
 }  // namespace arete

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A node adds one triangle to a front on a border and two elsewhere, so counting needs no front.
+// Including a node adds one triangle to a front on a border and two elsewhere, so the nodes of a cut are
+// counted without building its front.
 #include "terrain/model/error_curve.h"
 
 #include <algorithm>
@@ -25,7 +26,7 @@ double rungValue(int rung) {
 
 std::vector<double> toleranceLadder(const MultiTriangulation& mt, std::size_t most) {
   const auto& saturated = mt.arrays().saturatedError;
-  OutwardScale::Code least = 0;  // but for 0
+  OutwardScale::Code least = 0;  // the least positive error; 0: none found yet
   for (std::uint32_t n = mt.nodeCount(); n-- > 0;) {
     if (least != 0 && MultiTriangulation::bandOf(saturated[n]) > MultiTriangulation::bandOf(least)) break;
     if (saturated[n] != 0 && (least == 0 || saturated[n] < least)) least = saturated[n];

@@ -12,19 +12,20 @@
 
 namespace arete {
 
-/// Triangles of the two cuts at one uniform tolerance.
+/// The numbers of triangles of the minimal and the saturated cut at one uniform tolerance.
 struct CurvePoint {
   double maxError = 0;  ///< in the unit of the heights
   std::uint32_t minimalTriangles = 0;
   std::uint32_t saturatedTriangles = 0;
 };
 
-/// Tolerances 1, 2, 5, 10, ... (times any power of ten) that lie between the finest triangulation and the
-/// root, rising: at most `most` of them, the coarsest. Empty where nothing lies between. O(log N).
+/// The tolerances of the series 1, 2, 5, 10, ... (times any power of ten) between the least positive error of
+/// the model and the error of its root. O(log nodes).
+/// @param most  how many at most; the largest are kept
+/// @return rising
 std::vector<double> toleranceLadder(const MultiTriangulation& mt, std::size_t most);
 
-/// The curve of triangles against error at these tolerances. Errors: interrupted.
-/// O(nodes of the cut) for each.
+/// The numbers of triangles at each of the tolerances. O(nodes of the cut) for each. Errors: interrupted.
 Result<std::vector<CurvePoint>> errorCurve(const MultiTriangulation& mt, std::span<const double> tolerances,
                                            const RunContext& context = {});
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// On a geographic CRS a step of one column or one row is measured as a geodesic on the CRS's own ellipsoid
-// between the two sample positions: exact at the given place, and an ellipsoid of the Moon works as well as
-// the Earth's.
+// On a geographic CRS a step of one column or one row is the length of the geodesic on the CRS's own
+// ellipsoid [Karney2013], centred at the given position. Any ellipsoid works, also that of the Moon.
 #include "terrain/model/georeference.h"
 
 #include <GeographicLib/Geodesic.hpp>
@@ -31,7 +30,7 @@ Vec2 groundStep(const Georeference& georeference, double column, double row) {
     return metres;
   };
   const Vec2 step{distance(g[1], g[4]), distance(g[2], g[5])};
-  // On a pole, and where no latitude is, a step goes nowhere; a plan without extent would know no distances.
+  // At a pole, and beyond it, a step has no length; a metric with zero extent would give no distances.
   const double perRadian = georeference.semiMajorAxisMetres * georeference.angularUnitRadians;
   const Vec2 equatorial{planarX * perRadian, planarY * perRadian};
   constexpr double kNowhere = 1e-9;

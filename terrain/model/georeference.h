@@ -8,7 +8,7 @@
 
 namespace arete {
 
-/// Where a heightfield lies: what a DEM says of its frame, and nothing assumed beyond it.
+/// The position of a heightfield on the ground, as its file states it; nothing else is assumed.
 ///
 /// Grid coordinates (column, row) count samples: sample (0, 0) is the first of the raster and stands at
 /// the centre of its pixel. Source coordinates (x, y) are those of the CRS, or bare numbers without one.
@@ -17,7 +17,7 @@ struct Georeference {
   /// x = g[0] + g[1] * pixel + g[2] * line,  y = g[3] + g[4] * pixel + g[5] * line.
   /// A scattered point set keeps its own x, y: the identity with the half pixel taken out.
   std::array<double, 6> geoTransform = {0, 1, 0, 0, 0, 1};
-  /// False where the file has none and the identity stands in.
+  /// False where the file has no geotransform; then geoTransform is the identity.
   bool hasGeoTransform = false;
 
   std::string crsWkt;         ///< WKT 2 as GDAL exports it; empty = no CRS
@@ -27,9 +27,9 @@ struct Georeference {
   double semiMajorAxisMetres = 6378137;
   double inverseFlattening = 298.257223563;  ///< 0 = sphere
 
-  std::string verticalUnit;       ///< as the file says it ("m", "metre", "ft", ...); may be empty
-  double verticalUnitMetres = 1;  ///< metres in one unit; 1 where the file does not say
-  std::string verticalDatum;      ///< as far as the file says it; may be empty
+  std::string verticalUnit;       ///< as stated in the file ("m", "metre", "ft", ...); may be empty
+  double verticalUnitMetres = 1;  ///< metres in one unit; 1 where the file does not state it
+  std::string verticalDatum;      ///< as stated in the file; may be empty
 
   /// Source coordinates of a sample (real-valued column and row allowed): geotransform(col + 1/2, row + 1/2).
   Vec2 toSource(double column, double row) const {
@@ -49,12 +49,12 @@ struct Georeference {
   double determinant() const { return geoTransform[1] * geoTransform[5] - geoTransform[2] * geoTransform[4]; }
 };
 
-/// Ground size of one step along a row and one along a column, at the given grid position, in metres where
-/// the CRS is known and in source units otherwise. Geographic steps are measured on the ellipsoid
-/// (GeographicLib).
+/// The length on the ground of one step along a row (x) and one along a column (y) at a grid position: in
+/// metres where the CRS is known, in source units otherwise. Geographic steps are geodesics [Karney2013].
 Vec2 groundStep(const Georeference& georeference, double column, double row);
 
-/// Metres east and north that a unit of x and of y, an angle, makes where y is. Precondition: isGeographic.
+/// Metres to the east of one unit of x and to the north of one unit of y (angles), at the latitude y.
+/// Precondition: isGeographic.
 Vec2 groundUnit(const Georeference& georeference, double y);
 
 }  // namespace arete

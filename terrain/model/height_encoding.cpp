@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The three encodings are tried in the order of their size. Each attempt encodes in parallel, decodes every
+// height again as a reader will, and fails at the first one that differs in a bit.
 #include "terrain/model/height_encoding.h"
 
 #include <tbb/blocked_range.h>

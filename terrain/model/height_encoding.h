@@ -9,15 +9,17 @@
 
 namespace arete {
 
-/// Heights in their smallest exact form, in an order of the caller's.
+/// Heights in their smallest exact encoding.
 struct EncodedHeights {
   HeightEncoding encoding;
   UninitializedVector<std::byte> bytes;
 };
 
-/// Encodes heights[order[i]]: as 16-bit integers under the band's own scale and offset, as floats, or as
-/// doubles, whichever is the first that gives every height back to the bit. Precondition: no NaN among them.
-/// O(order.size()), parallel.
+/// Encodes heights[order[i]] as 16-bit integers with a scale and an offset, as floats, or as doubles: the
+/// first of these that restores every height to the bit. Precondition: no NaN among them. O(order.size()),
+/// parallel.
+/// @param order  indices into `heights`, in the order of the result
+/// @param rawScale, rawOffset  as the DEM's band declares them, for the integers
 EncodedHeights encodeHeights(std::span<const double> heights, std::span<const std::uint32_t> order,
                              double rawScale, double rawOffset);
 

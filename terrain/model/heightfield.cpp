@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The checksum is XXH3 with 128 bits over the shape, the positions and the heights; every NaN is replaced by
+// the same one, and -0 by 0, so that the file format does not change the checksum.
 #include "terrain/model/heightfield.h"
 
 #include <fmt/format.h>

@@ -20,7 +20,7 @@ struct RasterHeightfield {
   std::vector<double> heights;
 
   Georeference georeference;
-  double rawScale = 1;  ///< height = raw * rawScale + rawOffset, as the band declares; 1, 0 where it does not
+  double rawScale = 1;  ///< height = raw * rawScale + rawOffset, as the band declares; by default 1 and 0
   double rawOffset = 0;
   std::string source;          ///< the path or name it was read from
   std::string sourceChecksum;  ///< "xxh3-128:<hex>" of the decoded heights; see heightsChecksum()
@@ -32,7 +32,8 @@ struct RasterHeightfield {
   }
   bool isValid(std::uint32_t column, std::uint32_t row) const { return !std::isnan(at(column, row)); }
 
-  /// heights.size() == columns * rows, no infinite height, an invertible geotransform. O(size).
+  /// Checks that heights.size() == columns * rows, that no height is infinite and that the geotransform is
+  /// invertible. O(size). Errors: invalidData, culprit `source`.
   Status validate() const;
 };
 
@@ -47,12 +48,14 @@ struct PointHeightfield {
 
   std::size_t size() const { return heights.size(); }
 
-  /// As many heights as positions, all finite. O(size).
+  /// Checks that there are as many heights as positions, all of them finite. O(size). Errors: invalidData,
+  /// culprit `source`.
   Status validate() const;
 };
 
-/// "xxh3-128:<hex>" over size, grid shape and the bytes of the heights (NaN made canonical): the same samples
-/// give the same checksum whatever file they came in. O(size).
+/// A checksum of the shape and the heights: the same samples have the same checksum whatever the file format
+/// (NaN and zero are normalised). O(size).
+/// @return "xxh3-128:<hex>"
 std::string heightsChecksum(const RasterHeightfield& heightfield);
 std::string heightsChecksum(const PointHeightfield& heightfield);
 

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A projected frame is a translation and a scaling; a geographic one is GeographicLib's LocalCartesian.
+// Longitudes are reduced to half a turn before they are transformed, and returned within half a turn of the
+// spec's middle.
 #include "terrain/model/local_frame.h"
 
 #include <GeographicLib/Geocentric.hpp>
@@ -27,13 +31,13 @@ Result<LocalFrame> LocalFrame::create(const LocalFrameSpec& spec) {
   const auto refuse = [](const char* message) { return failure(ErrorCode::invalidData, message); };
   if (!isFinite(spec.origin)) return refuse("the origin of the local frame is not finite");
   if (!isPositive(spec.linearUnitMetres) || !isPositive(spec.verticalUnitMetres))
-    return refuse("the local frame has a unit that is no length");
+    return refuse("the local frame has an invalid unit of length");
   if (!spec.isGeographic) return LocalFrame(spec);
   if (!isPositive(spec.angularUnitRadians) || !std::isfinite(spec.middleLongitude))
-    return refuse("the local frame has a unit that is no angle, or longitudes that are none");
+    return refuse("the local frame has an invalid unit of angle or an invalid middle longitude");
   if (!isPositive(spec.semiMajorAxisMetres) || !std::isfinite(spec.inverseFlattening) ||
       (spec.inverseFlattening != 0 && spec.inverseFlattening <= 1))
-    return refuse("the local frame has axes that are no ellipsoid's");
+    return refuse("the local frame has an invalid ellipsoid");
   if (std::abs(spec.origin.y * spec.angularUnitRadians) > std::numbers::pi / 2)
     return refuse("the origin of the local frame is beyond the pole");
   return LocalFrame(spec);
@@ -86,7 +90,7 @@ Vec3 LocalFrame::sourceReach(const Vec3& metres, const Vec3& low, const Vec3& hi
   const double farthestLatitude =
       std::min(90.0, std::max(std::abs(low.y), std::abs(high.y)) * degreesPerUnit_) * degree;
   const double along = std::hypot(metres.x, metres.y, metres.z) / std::max(radius, 1.0);
-  // Up here is not up at the origin: what is sideways there is partly upwards here.
+  // The vertical here differs from that at the origin: horizontal there is partly vertical here.
   const double turn = (std::max(high.x - spec_.origin.x, spec_.origin.x - low.x) +
                        std::max(high.y - spec_.origin.y, spec_.origin.y - low.y)) *
                       spec_.angularUnitRadians;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A plain minimum and maximum of coordinates.
 #include "terrain/model/plan_box.h"
 
 #include <algorithm>
@@ -17,10 +19,10 @@ Box2 planBox(const TerrainModel& model) {
   return box;
 }
 
-Box2 planBox(std::span<const Vec2> places) {
-  if (places.empty()) return {0, 0, 0, 0};
-  Box2 box{places[0].x, places[0].y, places[0].x, places[0].y};
-  for (const Vec2& p : places)
+Box2 planBox(std::span<const Vec2> positions) {
+  if (positions.empty()) return {0, 0, 0, 0};
+  Box2 box{positions[0].x, positions[0].y, positions[0].x, positions[0].y};
+  for (const Vec2& p : positions)
     box = {std::min(box.xMin, p.x), std::min(box.yMin, p.y), std::max(box.xMax, p.x),
            std::max(box.yMax, p.y)};
   return box;

@@ -8,11 +8,11 @@
 
 namespace arete {
 
-/// A box around the terrain, in plan coordinates: the grid of a raster; of points that of the root, which
-/// spans all that is there. Of a model without vertices {0, 0, 0, 0}. O(1) of a raster, O(root vertices) of
-/// points.
+/// A bounding box of the terrain in plan coordinates: the whole grid of a raster (O(1)); for points, the box
+/// of the root's vertices, which is that of all points (O(root vertices)). {0, 0, 0, 0} for a model without
+/// vertices.
 Box2 planBox(const TerrainModel& model);
-/// The least around some places; of none {0, 0, 0, 0}. O(places).
-Box2 planBox(std::span<const Vec2> places);
+/// The bounding box of some positions; {0, 0, 0, 0} for none. O(positions).
+Box2 planBox(std::span<const Vec2> positions);
 
 }  // namespace arete

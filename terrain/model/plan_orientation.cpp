@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// CGAL's exact predicate, and rational numbers for the weights.
 #include "terrain/model/plan_orientation.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -8,11 +8,12 @@
 
 namespace arete {
 
-/// The sign of planOrientation() where the filter cannot tell it: CGAL's exact predicate.
+/// planOrientation() without the filter: CGAL's exact predicate.
 int exactPlanOrientation(Vec2 a, Vec2 b, Vec2 c);
 
-/// > 0 when a, b, c turn counter-clockwise, 0 when they lie on one line, < 0 otherwise: exact for all finite
-/// doubles. Two products and a comparison nearly always (the filter of Shewchuk's orient2d, 1997).
+/// The orientation of three points: 1 where a, b, c turn counter-clockwise, 0 where they lie on one line, -1
+/// otherwise. Exact for all finite doubles. In nearly all cases two products and a comparison, the filter of
+/// orient2d [Shewchuk1997].
 inline int planOrientation(Vec2 a, Vec2 b, Vec2 c) {
   constexpr double kRelative = (3 + 16 * 0x1p-53) * 0x1p-53;
   constexpr double kUnderflow = 0x1p-960;
@@ -23,8 +24,9 @@ inline int planOrientation(Vec2 a, Vec2 b, Vec2 c) {
   return exactPlanOrientation(a, b, c);
 }
 
-/// How much a, b and c weigh at p: 0 .. 1 each and together 1 for a p in the triangle, to the last bits
-/// however thin it is. Slow: rational numbers. Precondition: finite, not on one line.
+/// The barycentric coordinates of p in the triangle a, b, c, correct to the last bits however thin the
+/// triangle is. Slow: computed as rational numbers. Precondition: finite, not on one line.
+/// @return the weights of a, b and c: within 0 .. 1 for a p in the triangle, with the sum 1
 std::array<double, 3> exactPlanWeights(Vec2 a, Vec2 b, Vec2 c, Vec2 p);
 
 }  // namespace arete

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The vertices of the region are transformed to plan coordinates; the metric for distances is that of the
+// model, or that of the middle of the heightfield.
 #include "terrain/model/plan_region.h"
 
 #include <algorithm>

@@ -8,9 +8,9 @@
 
 namespace arete {
 
-/// The cells of a raster by their upper left sample, which of their corners are valid, and the triangles of
-/// the finest triangulation that they hold (finest_raster.h). Precondition of all: column < columns - 1,
-/// row < rows - 1.
+/// The cells of a raster, each given by the column and row of its upper left sample: which of its corners are
+/// valid, and its triangles in the finest triangulation (finest_raster.h). Keeps a reference to the
+/// heightfield. Precondition of every member: column < columns - 1, row < rows - 1.
 class RasterCells {
  public:
   using Corners = std::array<std::uint32_t, 3>;
@@ -18,6 +18,7 @@ class RasterCells {
 
   explicit RasterCells(const RasterHeightfield& field) : field_(field) {}
 
+  /// The valid corners of a cell, a sum of Corner values.
   unsigned valid(std::uint32_t column, std::uint32_t row) const {
     const double* above = &field_.heights[field_.index(column, row)];
     const double* under = above + field_.columns;
@@ -25,11 +26,13 @@ class RasterCells {
            unsigned(under[0] == under[0]) * lowerLeft | unsigned(under[1] == under[1]) * lowerRight;
   }
 
+  /// The number of triangles of a cell: 2 with four valid corners, 1 with three, else 0.
   static std::uint32_t triangleCount(unsigned valid) {
     return valid == all ? 2 : valid == 7 || valid == 11 || valid == 13 || valid == 14 ? 1 : 0;
   }
 
-  /// visit(corners) for the triangles of a cell, counter-clockwise.
+  /// Calls visit(corners) for each triangle of a cell: samples, counter-clockwise in (column, row).
+  /// @param valid  valid(column, row)
   template <class Visit>
   void forTriangles(std::uint32_t column, std::uint32_t row, unsigned valid, const Visit& visit) const {
     const std::uint32_t ul = field_.index(column, row), ur = ul + 1, ll = ul + field_.columns, lr = ll + 1;

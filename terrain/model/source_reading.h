@@ -7,12 +7,12 @@
 
 namespace arete {
 
-/// What a reader of elevation data is told, or was, beyond the name of the source: told otherwise, it may
-/// read other terrain. A model remembers it (TerrainModel::reading). What is not told, the source decides.
+/// The options of a reader of elevation data that change which terrain is read, beside the name of the
+/// source. Options left empty are determined by the source. A model stores them (TerrainModel::reading).
 struct SourceReading {
   std::optional<std::uint32_t> band = {};  ///< of a raster, counted from 1
-  std::string layer, zField;               ///< of points; empty = not told
-  std::string crs;                         ///< in any form GDAL takes; empty = not told
+  std::string layer, zField;               ///< of points; empty = not given
+  std::string crs;                         ///< in any form that GDAL accepts; empty = not given
   std::optional<double> nodata = {};       ///< the raw value that means NODATA
 };
 

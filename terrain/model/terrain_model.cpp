@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The samples are read back from the vertices of the multitriangulation, which have exact heights.
 #include "terrain/model/terrain_model.h"
 
 #include <limits>

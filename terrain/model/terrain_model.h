@@ -13,14 +13,14 @@
 
 namespace arete {
 
-/// A valid sample in no cell with three valid corners: kept, in no triangle.
+/// A valid sample in no cell with three valid corners: it is stored, and is in no triangle.
 struct IsolatedSample {
   std::uint32_t sample = 0;
   double height = 0;
 };
 
-/// What a build makes of a heightfield and what an .amt file holds: the multitriangulation and all that is
-/// needed to give its answers in the source's own terms.
+/// The result of a build and the content of an .amt file: the multitriangulation of a heightfield, and what
+/// is needed to answer in the source's coordinates and units.
 struct TerrainModel {
   MultiTriangulation mt;
 
@@ -32,18 +32,18 @@ struct TerrainModel {
   std::string sourceChecksum;
   SourceReading reading = {};  ///< how the source was read
 
-  BuildOptions options;  ///< as built; fixedVertices are samples of a raster, MT vertices of points
+  BuildOptions options;  ///< of the build; fixedVertices are samples of a raster, or MT vertices of points
   std::uint32_t metricP = 1, metricQ = 1;  ///< raster: the Delaunay metric is (p column, q row)
   std::uint32_t levels = 0;
 
-  /// Plan coordinates of the MT to source coordinates: by the geotransform for a raster, themselves for
+  /// From plan coordinates of the MT to source coordinates: by the geotransform for a raster, unchanged for
   /// points.
   Vec2 toSource(Vec2 plan) const { return isRaster ? georeference.toSource(plan.x, plan.y) : plan; }
   Vec2 toPlan(Vec2 xy) const { return isRaster ? georeference.toGrid(xy.x, xy.y) : xy; }
-  /// The map turns the other way round than the plan coordinates: triangles are flipped on the way out.
+  /// Whether the map has the opposite orientation of the plan; then exports reverse the triangles.
   bool isFlipped() const { return isRaster && georeference.determinant() < 0; }
 
-  /// The source's samples, NaN where there are none: what the model was built from, to the bit. O(samples).
+  /// The samples that the model was built from, to the bit; NaN for NODATA. O(samples).
   RasterHeightfield rasterSamples() const;
   PointHeightfield pointSamples() const;
 };
