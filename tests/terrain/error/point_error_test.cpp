@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The bound along an edge against fractions: wherever the edge meets the finest triangulation, told exactly.
+// Triangles over holes of the finest triangulation of points, against planes of rational numbers.
 #include "terrain/error/point_error.h"
 
 #include <CGAL/Exact_rational.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "datasets/families.h"
-#include "terrain/build/checks.h"
 #include "terrain/triangulation/finest_points.h"
 
 namespace arete {
@@ -17,106 +18,65 @@ namespace {
 
 using Exact = CGAL::Exact_rational;
 
-/// A finest triangulation, and the error of its points as a build has it.
-struct Ground {
-  explicit Ground(const PointHeightfield& field) : finest(*finestPoints(field)) {
-    for (const std::uint32_t v : finest.order)
-      points.push_back({field.positions[v].x, field.positions[v].y, field.heights[v]});
-    std::vector<std::uint32_t> pinched;
-    mesh = LiveMesh::fromTriangles(finest.triangles, static_cast<std::uint32_t>(points.size()), pinched);
-  }
-  FinestPoints finest;
-  std::vector<Vec3> points;
-  LiveMesh mesh;
-};
+/// z of the plane through a, b, c minus z of p, at p.
+double exactDifference(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
+  const Exact bx = Exact(b.x) - Exact(a.x), by = Exact(b.y) - Exact(a.y), cx = Exact(c.x) - Exact(a.x),
+              cy = Exact(c.y) - Exact(a.y), x = Exact(p.x) - Exact(a.x), y = Exact(p.y) - Exact(a.y);
+  const Exact area = bx * cy - by * cx;
+  const Exact z =
+      Exact(a.z) +
+      ((x * cy - y * cx) * (Exact(b.z) - Exact(a.z)) + (bx * y - by * x) * (Exact(c.z) - Exact(a.z))) / area;
+  return CGAL::to_double(Exact(z - Exact(p.z)));
+}
 
-struct ExactBound {
-  Exact below = 0, above = 0;
-};
+/// Where doubles cannot give the plane, the error is that of a side (point_error.cpp).
+bool isThin(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double left = (b.x - a.x) * (c.y - a.y), right = (b.y - a.y) * (c.x - a.x);
+  return std::abs(left - right) < 1e-6 * (std::abs(left) + std::abs(right));
+}
 
-ExactBound exactAlong(const Ground& ground, const PointPlan& plan, std::uint32_t a, std::uint32_t b) {
-  struct Place {
-    Exact x, y, z;
-  };
-  const auto placeOf = [&](std::uint32_t v) {
-    const Vec3& p = ground.points[v];
-    return Place{p.x, p.y, p.z};
-  };
-  const Place pa = placeOf(a), pb = placeOf(b);
-  const Exact dx = pb.x - pa.x, dy = pb.y - pa.y;
-  ExactBound bound;
-  const auto meet = [&](const Place& p) {
-    const Exact along = ((p.x - pa.x) * dx + (p.y - pa.y) * dy) / (dx * dx + dy * dy);
-    if (along < 0 || along > 1) return;
-    const Exact difference = pa.z + along * (pb.z - pa.z) - p.z;
-    bound.above = std::max(bound.above, difference);
-    bound.below = std::max(bound.below, Exact(-difference));
-  };
-  for (const auto& t : ground.finest.triangles)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t u = t[i], w = t[(i + 1) % 3];
-      const int side = plan.orientation(a, b, u);
-      const Place pu = placeOf(u), pw = placeOf(w);
-      if (side == 0) meet(pu);
-      if (side * plan.orientation(a, b, w) >= 0) continue;
-      const auto sideOf = [&](const Place& p) { return Exact(dx * (p.y - pa.y) - dy * (p.x - pa.x)); };
-      const Exact part = sideOf(pu) / (sideOf(pu) - sideOf(pw));
-      meet({pu.x + part * (pw.x - pu.x), pu.y + part * (pw.y - pu.y), pu.z + part * (pw.z - pu.z)});
+TEST(PointError, OfTrianglesOverAHoleIsThatOfTheApexWhereTheyCoverIt) {
+  for (const std::uint64_t seed : {1, 2})
+    for (const PointFamily& family : pointFamilies()) {
+      const PointHeightfield field = family.make(70, seed);
+      const auto finest = finestPoints(field);
+      ASSERT_TRUE(finest) << family.name;
+      std::vector<Vec3> points;
+      for (const std::uint32_t v : finest->order)
+        points.push_back({field.positions[v].x, field.positions[v].y, field.heights[v]});
+      std::vector<std::uint32_t> pinched;
+      const auto mesh =
+          LiveMesh::fromTriangles(finest->triangles, static_cast<std::uint32_t>(points.size()), pinched);
+      const PointPlan plan(points, finest->xStretch);
+      PointError errors(plan, points, mesh);
+      int covering = 0;
+      for (std::uint32_t apex = 0; apex < points.size(); ++apex) {
+        SCOPED_TRACE(testing::Message() << family.name << ", seed " << seed << ", apex " << apex);
+        Star star;
+        if (!star.gather(mesh, apex, kMaxHoleCorners - 1)) continue;
+        const PointError::Hole hole(errors, star, apex);
+        for (int i = 0; i < star.linkSize; ++i)
+          for (int j = i + 1; j < star.linkSize; ++j)
+            for (int m = j + 1; m < star.linkSize; ++m) {
+              const std::uint32_t a = star.link[i], b = star.link[j], c = star.link[m];
+              if (plan.orientation(a, b, c) <= 0 || isThin(points[a], points[b], points[c])) continue;
+              const bool isCovered = plan.orientation(a, b, apex) >= 0 && plan.orientation(b, c, apex) >= 0 &&
+                                     plan.orientation(c, a, apex) >= 0;
+              covering += isCovered;
+              const double exact = exactDifference(points[a], points[b], points[c], points[apex]);
+              const double expected = isCovered ? std::abs(exact) : 0, slack = 1e-6 * (1 + std::abs(exact));
+              SignedBound bound;
+              ASSERT_NEAR(hole.maximum(i, j, m, 1e300), expected, slack);
+              ASSERT_NEAR(hole.maximum(i, j, m, 1e300, bound), expected, slack);
+              ASSERT_NEAR(bound.above, isCovered ? std::max(exact, 0.0) : 0, slack);
+              ASSERT_NEAR(bound.below, isCovered ? std::max(-exact, 0.0) : 0, slack);
+              if (isCovered) {
+                ASSERT_NEAR(hole.apexError(i, j, m), expected, slack);
+              }
+            }
+      }
+      EXPECT_GT(covering, 10) << family.name;
     }
-  return bound;
-}
-
-/// Between all of some vertices, near each other on the ground and far.
-void expectBoundsAlongEdges(const PointHeightfield& field, const std::string& name) {
-  const Ground ground(field);
-  const PointPlan plan(ground.points, ground.finest.xStretch);
-  const PointError errors(plan, ground.points, ground.mesh);
-  const auto [low, high] = std::ranges::minmax(field.heights);
-  const double slack = roundingSlack(low, high);
-  const auto count = static_cast<std::uint32_t>(ground.points.size());
-  for (std::uint32_t a = 0; a < count; ++a)
-    for (const std::uint32_t steps : {1u, 2u, 7u, 31u}) {
-      const std::uint32_t b = (a + steps) % count;
-      if (a == b || !ground.mesh.isInTriangle(a) ||
-          !ground.mesh.isInTriangle(b))
-        continue;
-      const SignedBound bound = errors.alongEdge(a, b);
-      const ExactBound exact = exactAlong(ground, plan, a, b);
-      ASSERT_LE(exact.above, Exact(bound.above + slack)) << name << ": " << a << " to " << b;
-      ASSERT_LE(exact.below, Exact(bound.below + slack)) << name << ": " << a << " to " << b;
-    }
-}
-
-TEST(PointError, BoundsWhatAnEdgeMeetsOnEveryFamily) {
-  for (const PointFamily& family : pointFamilies())
-    expectBoundsAlongEdges(family.make(60, 6), std::string(family.name));
-}
-
-TEST(PointError, BoundsWhatAnEdgeMeetsAmongRowsThatDoublesBend) {
-  for (const double slope : {0.37, 0.1, 1.0 / 3}) {
-    PointHeightfield rows, turned;
-    for (int i = 0; i < 84; ++i) {
-      const double x = 0.7 * (1 + i / 3), row = i % 3, height = i * 37 % 20;
-      rows.positions.push_back({x, (slope + 0.1 * row) * x});
-      rows.heights.push_back(height);
-      const double column = i % 12,
-                   line = 1 + i / 12;  // a grid that is turned, and its lines not quite straight
-      turned.positions.push_back({line - slope * column, slope * line + column});
-      turned.heights.push_back(height);
-    }
-    expectBoundsAlongEdges(rows, "rows " + std::to_string(slope));
-    expectBoundsAlongEdges(turned, "grid " + std::to_string(slope));
-  }
-}
-
-TEST(PointError, BoundsWhatAnEdgeMeetsThatIsSteepAndShort) {
-  PointHeightfield field;
-  field.positions = {{0, 0}, {1e-6, 0}, {5e-7, -1e6}, {5e-7, 1e6}, {4e-7, 1e-9}, {6e-7, -1e-9}, {3e-7, 2e-9}};
-  field.heights = {0, 5000, 7, 3, 1, 9, 4};
-  expectBoundsAlongEdges(field, "steep");
-  // So short that its square is no double.
-  field.positions = {{0, 0}, {5e-324, 5e-324}, {1, -1}, {-1, 1}, {0, 5e-324}, {5e-324, 0}, {2, 2}};
-  expectBoundsAlongEdges(field, "short");
 }
 
 }  // namespace

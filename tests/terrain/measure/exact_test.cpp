@@ -8,8 +8,6 @@
 #include <random>
 #include <vector>
 
-#include "terrain/measure/measure.h"
-
 namespace arete {
 namespace {
 
@@ -68,22 +66,6 @@ TEST(MeasureExact, AgreesWithWholeNumbersOnSliversFarFromTheOrigin) {
   EXPECT_GT(flat, 500);
 }
 
-/// A row of points that is a billionth of its length from straight, over a triangle that is not thin.
-struct Row {
-  PointHeightfield points;
-  TriangleMesh mesh;
-
-  Row() {
-    mesh.positions = {{0, 0, 0}, {10, 0, 0}, {5, 1e-9, 100}, {5, -3, 0}};
-    mesh.triangles = {{0, 1, 2}, {0, 3, 1}};
-    for (const Vec3& p : mesh.positions) add(p.x, p.y, p.z);
-  }
-  void add(double x, double y, double z) {
-    points.positions.push_back({x, y});
-    points.heights.push_back(z);
-  }
-};
-
 TEST(MeasureExact, TurnsAroundACornerOfSliversAddUpToOne) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -112,60 +94,6 @@ TEST(MeasureExact, TurnsAroundACornerOfSliversAddUpToOne) {
       EXPECT_NEAR(turn, measuring::kFullTurn, 1e-4) << trial;
     }
   }
-}
-
-TEST(MeasurePoints, JudgesAPointInASliverByTheSliverAndNotByItsNeighbour) {
-  Row row;
-  row.add(3, 3e-10, 50);
-  const Result<MeasureReport> report = measure(row.mesh, row.points);
-  ASSERT_TRUE(report);
-  EXPECT_EQ(report->degenerateTriangles, 1u);
-  EXPECT_EQ(report->covered, 5u);
-  EXPECT_EQ(report->overlapped, 0u);
-  ASSERT_TRUE(report->worst);
-  EXPECT_EQ(report->worst->sample, 4u);
-  EXPECT_EQ(report->worst->triangle, 0u);
-  EXPECT_NEAR(report->worst->tinHeight, 30, 1e-9);
-  EXPECT_TRUE(keepsPromise(*report, 20));
-  EXPECT_FALSE(keepsPromise(*report, 19.99));
-}
-
-TEST(MeasurePoints, FindsAnErrorInASliverThatItsNeighbourWouldHide) {
-  Row row;
-  row.points.heights[2] = 0;  // what the triangle beside the sliver says
-  const Result<MeasureReport> report = measure(row.mesh, row.points);
-  ASSERT_TRUE(report);
-  EXPECT_EQ(report->maxAbsError, 100);
-}
-
-TEST(MeasurePoints, TakesTheLargestErrorOfAllTrianglesThatHoldAPoint) {
-  Row row;
-  row.mesh.positions.insert(row.mesh.positions.end(), {{0, 1, 7}, {10, 1, 7}, {5, -4, 7}});
-  row.mesh.triangles.push_back({4, 6, 5});
-  const Result<MeasureReport> report = measure(row.mesh, row.points);
-  ASSERT_TRUE(report);
-  EXPECT_GT(report->overlapped, 0u);
-  EXPECT_EQ(report->maxAbsError, 93);
-  EXPECT_FALSE(keepsPromise(*report, 1000));
-}
-
-TEST(MeasurePoints, TakesAPointThatNoTriangleHoldsToTheNearestWithinTheTolerance) {
-  Row row;
-  row.add(5, -3 - 1e-7, 4);
-  row.add(5, -3 - 1e-4, 4);
-  const Result<MeasureReport> report = measure(row.mesh, row.points);
-  ASSERT_TRUE(report);
-  EXPECT_EQ(report->covered, 5u);
-  EXPECT_EQ(report->uncovered, 1u);
-  EXPECT_NEAR(report->maxAbsError, 4, 1e-9);
-}
-
-TEST(MeasurePoints, SeesNoSliversInAMeshWhosePlacesAreRounded) {
-  const Row row;
-  const Result<MeasureReport> report = measure(row.mesh, row.points, {.planRounding = {1e-8, 1e-8}});
-  ASSERT_TRUE(report);
-  EXPECT_EQ(report->covered, 4u);
-  EXPECT_EQ(report->maxAbsError, 100);
 }
 
 }  // namespace

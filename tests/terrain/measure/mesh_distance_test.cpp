@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Distances between meshes against closed forms, and against an oracle: every triangle, in long double, by
-// the normal equations instead of cross products.
+// Distances between meshes against closed forms, and against the oracle of measure_meshes.h.
 #include "terrain/measure/mesh_distance.h"
 
 #include <gtest/gtest.h>
@@ -18,108 +17,15 @@
 #include <tuple>
 #include <vector>
 
-#include "terrain/measure/nearest_on_mesh.h"
 #include "terrain/measure/surface_samples.h"
+#include "terrain/measure_meshes.h"
 
 namespace arete {
 namespace {
 
+using namespace measuring_test;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// --- meshes
-// -----------------------------------------------------------------------------------------------------
-
-/// A surface over [0, 1]^2 of n x n cells.
-TriangleMesh sheet(std::uint32_t n, const std::function<Vec3(double u, double v)>& at) {
-  TriangleMesh mesh;
-  for (std::uint32_t r = 0; r <= n; ++r)
-    for (std::uint32_t c = 0; c <= n; ++c) mesh.positions.push_back(at(double(c) / n, double(r) / n));
-  for (std::uint32_t r = 0; r < n; ++r)
-    for (std::uint32_t c = 0; c < n; ++c) {
-      const std::uint32_t i = r * (n + 1) + c;
-      mesh.triangles.push_back({i, i + 1, i + n + 2});
-      mesh.triangles.push_back({i, i + n + 2, i + n + 1});
-    }
-  return mesh;
-}
-
-TriangleMesh plane(std::uint32_t n, double size, double z) {
-  return sheet(n, [=](double u, double v) { return Vec3{size * u, size * v, z}; });
-}
-
-TriangleMesh sphere(std::uint32_t n, double radius) {
-  return sheet(n, [=](double u, double v) {
-    const double around = 2 * std::numbers::pi * u, down = std::numbers::pi * v;
-    return Vec3{radius * std::sin(down) * std::cos(around), radius * std::sin(down) * std::sin(around),
-                radius * std::cos(down)};
-  });
-}
-
-TriangleMesh moved(TriangleMesh mesh, const Vec3& by) {
-  for (Vec3& p : mesh.positions) p = {p.x + by.x, p.y + by.y, p.z + by.z};
-  return mesh;
-}
-
-/// Triangles anywhere, every fifth one a sliver, a segment or a point.
-TriangleMesh soup(std::size_t triangles, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> anywhere(-1, 1);
-  TriangleMesh mesh;
-  const auto point = [&] { return Vec3{anywhere(random), anywhere(random), anywhere(random)}; };
-  for (std::uint32_t t = 0; t < triangles; ++t) {
-    const Vec3 a = point(), b = point();
-    Vec3 c = point();
-    const double along = anywhere(random) * 2, aside = t % 10 == 0 ? 1e-7 : 0;
-    if (t % 5 == 0)
-      c = {a.x + along * (b.x - a.x) + aside, a.y + along * (b.y - a.y), a.z + along * (b.z - a.z)};
-    mesh.positions.insert(mesh.positions.end(), {a, t % 15 == 5 ? a : b, t % 15 == 5 ? a : c});
-    mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
-  }
-  return mesh;
-}
-
-// --- the oracle
-// -------------------------------------------------------------------------------------------------
-
-using Real = long double;
-struct Real3 {
-  Real x, y, z;
-};
-Real3 minus(const Vec3& a, const Vec3& b) {
-  return {Real(a.x) - b.x, Real(a.y) - b.y, Real(a.z) - b.z};
-}
-Real dot(const Real3& a, const Real3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-/// Least |p - a - u (b - a) - v (c - a)| over the triangle: inside where the free minimum lies there, and on
-/// the three sides in any case.
-Real distanceTo(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const auto residual = [&](const Real3& w, const Real3& e, const Real3& f, Real u, Real v) {
-    const Real x = w.x - u * e.x - v * f.x, y = w.y - u * e.y - v * f.y, z = w.z - u * e.z - v * f.z;
-    return std::sqrt(x * x + y * y + z * z);
-  };
-  Real least = std::numeric_limits<Real>::infinity();
-  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-    const Real3 w = minus(p, from), e = minus(to, from);
-    const Real length = dot(e, e), u = length > 0 ? std::clamp(dot(w, e) / length, Real(0), Real(1)) : 0;
-    least = std::min(least, residual(w, e, e, u, 0));
-  }
-  const Real3 w = minus(p, a), e = minus(b, a), f = minus(c, a);
-  const Real ee = dot(e, e), ef = dot(e, f), ff = dot(f, f), det = ee * ff - ef * ef;
-  if (det > 1e-16L * ee * ff) {
-    const Real u = (dot(w, e) * ff - dot(w, f) * ef) / det, v = (dot(w, f) * ee - dot(w, e) * ef) / det;
-    if (u >= 0 && v >= 0 && u + v <= 1) least = std::min(least, residual(w, e, f, u, v));
-  }
-  return least;
-}
-
-Real distanceTo(const Vec3& p, const TriangleMesh& mesh) {
-  Real least = std::numeric_limits<Real>::infinity();
-  for (const auto& t : mesh.triangles)
-    least = std::min(least, distanceTo(p, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]));
-  return least;
-}
 
 MeshDistanceReport measured(const TriangleMesh& a, const TriangleMesh& b, const MeshDistanceOptions& options,
                             std::vector<double>* vertexDistances = nullptr) {
@@ -138,82 +44,6 @@ void expectSame(const DistanceOneWay& a, const DistanceOneWay& b) {
   EXPECT_EQ(a.worstNearest, b.worstNearest);
   EXPECT_EQ(a.samples, b.samples);
   EXPECT_EQ(a.vertices, b.vertices);
-}
-
-// --- the tests
-// --------------------------------------------------------------------------------------------------
-
-TEST(NearestOnMesh, FindsTheNearestPointOfAllTriangles) {
-  std::mt19937_64 random(7);
-  std::normal_distribution<double> spread(0, 1);
-  const auto bumpy = [](double u, double v) { return Vec3{u, v, 0.2 * std::sin(9 * u) * std::cos(7 * v)}; };
-  for (const auto& [name, mesh] : std::map<std::string, TriangleMesh>{{"one triangle", soup(2, 3)},
-                                                                      {"soup", soup(300, 1)},
-                                                                      {"more soup", soup(301, 2)},
-                                                                      {"sheet", sheet(20, bumpy)},
-                                                                      {"sphere", sphere(16, 1)}}) {
-    const NearestOnMesh tree(mesh);
-    for (int i = 0; i < 400; ++i) {
-      const double far = std::pow(10.0, i % 5 - 2);
-      Vec3 p{far * spread(random), far * spread(random), far * spread(random)};
-      if (i % 7 == 0) p = mesh.positions[random() % mesh.positions.size()];
-      SCOPED_TRACE(testing::Message() << name << ", query " << i << ": " << p.x << ' ' << p.y << ' ' << p.z);
-      const NearestOnMesh::Answer answer = tree.nearest(p);
-      const auto expected = static_cast<double>(distanceTo(p, mesh));
-      ASSERT_NEAR(answer.distance, expected, 1e-9 + 1e-12 * expected);
-      ASSERT_LT(answer.triangle, mesh.triangles.size());
-      const auto& t = mesh.triangles[answer.triangle];
-      const auto [a, b, c] = std::array{mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
-      ASSERT_NEAR(static_cast<double>(distanceTo(answer.point, a, b, c)), 0, 1e-9);
-      const auto there = minus(p, answer.point);
-      ASSERT_NEAR(static_cast<double>(std::sqrt(dot(there, there))), answer.distance, 1e-12 + 1e-12 * far);
-    }
-  }
-}
-
-TEST(SurfaceSamples, GiveEachTriangleItsShareAndStayOnIt) {
-  for (const std::uint64_t count : {1u, 7u, 1000u, 20000u}) {
-    TriangleMesh mesh = soup(60, count);
-    const SurfaceSamples samples(mesh, count, 5);
-    ASSERT_EQ(samples.count(), count);
-    std::vector<std::uint64_t> share(mesh.triangles.size());
-    std::uint32_t walked = 0;
-    for (std::uint64_t i = 0; i < count; ++i) {
-      std::uint32_t triangle = samples.triangleOf(i);
-      const Vec3 p = samples.at(i, triangle), again = samples.at(i, walked);
-      ASSERT_EQ(p, again);
-      ASSERT_EQ(triangle, walked);
-      const auto& t = mesh.triangles[triangle];
-      ASSERT_LT(distanceTo(p, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]), 1e-14L);
-      ++share[triangle];
-    }
-    const double area = surfaceArea(mesh);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      TriangleMesh one;
-      one.positions = mesh.positions;
-      one.triangles = {mesh.triangles[t]};
-      EXPECT_NEAR(double(share[t]), surfaceArea(one) / area * double(count), 1 + 1e-9) << "triangle " << t;
-    }
-  }
-}
-
-TEST(SurfaceSamples, FillATriangleEvenly) {
-  TriangleMesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  mesh.triangles = {{0, 1, 2}};
-  for (const std::uint64_t seed : {1u, 2u, 3u}) {
-    const SurfaceSamples samples(mesh, 10000, seed);
-    double x = 0, y = 0, xx = 0, xy = 0;
-    std::uint32_t triangle = 0;
-    for (std::uint64_t i = 0; i < samples.count(); ++i) {
-      const Vec3 p = samples.at(i, triangle);
-      x += p.x / 1e4, y += p.y / 1e4, xx += p.x * p.x / 1e4, xy += p.x * p.y / 1e4;
-    }
-    EXPECT_NEAR(x, 1.0 / 3, 1e-3);
-    EXPECT_NEAR(y, 1.0 / 3, 1e-3);
-    EXPECT_NEAR(xx, 1.0 / 6, 1e-3);
-    EXPECT_NEAR(xy, 1.0 / 12, 1e-3);
-  }
 }
 
 TEST(MeshDistance, OfAMeshToItselfIsZero) {

@@ -9,10 +9,7 @@
 #include <string_view>
 
 #include "datasets/families.h"
-#include "engine/criteria/criterion.h"
-#include "engine/cut/cut.h"
 #include "terrain/build/build.h"
-#include "terrain/model/error_curve.h"
 
 namespace arete {
 namespace {
@@ -40,20 +37,6 @@ TEST(PlanRegion, HoldsTheSamplesItWasDrawnAround) {
   }
 }
 
-TEST(GroundStep, HasALengthOnAPoleAndWhereNoLatitudeIs) {
-  Georeference degrees;
-  degrees.crsWkt = "of longitude and latitude";
-  degrees.isGeographic = true;
-  const Vec2 equator = groundStep(degrees, -0.5, -0.5);
-  EXPECT_NEAR(equator.x, 111319.49, 0.01);
-  for (const double latitude : {90.0, -90.0, 95.0, 5e6, -1e9}) {
-    const Vec2 step = groundStep(degrees, 7, latitude - 0.5);
-    EXPECT_NEAR(step.x, equator.x, 1) << latitude;
-    EXPECT_NEAR(step.y, equator.x, 1) << latitude;
-  }
-  EXPECT_LT(groundStep(degrees, 7, 88.5).x, 2000);
-}
-
 TEST(PlanRegion, ABoxOfTheMapStaysOneOnARotatedGrid) {
   const RasterHeightfield field = made("rotated", 30, 30);
   const Vec2 centre = field.georeference.toSource(15, 15);
@@ -79,37 +62,6 @@ TEST(PlanRegion, KnowsWhetherItMeetsTheDomain) {
   ASSERT_TRUE(model) << model.error().describe();
   EXPECT_TRUE(meetsDomain(planRegion({.rings = {gridBox(field, 5.1, 5.1, 5.2, 5.2)}}, *model), model->mt));
   EXPECT_FALSE(meetsDomain(planRegion({.rings = {gridBox(field, 24, 0, 30, 24)}}, *model), model->mt));
-}
-
-TEST(ErrorCurve, CountsWhatTheCutsHave) {
-  const auto model = build(made("fractal", 40, 40));
-  ASSERT_TRUE(model) << model.error().describe();
-  const std::vector<double> ladder = toleranceLadder(model->mt, 100);
-  ASSERT_GT(ladder.size(), 4u);
-  const auto curve = errorCurve(model->mt, ladder);
-  ASSERT_TRUE(curve);
-  for (const CurvePoint& point : *curve)
-    for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
-      const auto cut = takeCut(model->mt, UniformError(point.maxError), {.method = method});
-      ASSERT_TRUE(cut);
-      EXPECT_EQ(cut->triangles.size(),
-                method == CutMethod::minimal ? point.minimalTriangles : point.saturatedTriangles);
-    }
-}
-
-TEST(ErrorCurve, ClimbsInRoundSteps) {
-  const auto model = build(made("fractal", 40, 40));
-  ASSERT_TRUE(model);
-  const std::vector<double> all = toleranceLadder(model->mt, 100), few = toleranceLadder(model->mt, 3);
-  ASSERT_EQ(few.size(), 3u);
-  EXPECT_TRUE(std::equal(few.begin(), few.end(), all.end() - 3));
-  for (std::size_t i = 1; i < all.size(); ++i) {
-    const double ratio = all[i] / all[i - 1];
-    EXPECT_TRUE(std::abs(ratio - 2) < 1e-9 || std::abs(ratio - 2.5) < 1e-9) << all[i];
-  }
-  const auto flat = build(made("flat", 10, 10));
-  ASSERT_TRUE(flat);
-  EXPECT_TRUE(toleranceLadder(flat->mt, 10).empty());
 }
 
 }  // namespace

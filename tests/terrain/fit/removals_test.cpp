@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Removals on every family: bounds are kept, fixed vertices stay, threads change nothing, no leaf is left.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <vector>
+
+#include "terrain/fit/removal.h"
+#include "terrain/fit/steps.h"
+#include "terrain/fit_fixture.h"
+
+namespace arete {
+namespace {
+
+using namespace fit_test;
+
+constexpr double kAccepted = 1 + 1e-9;
+
+TEST(RemoveWhatFits, KeepsTheBoundsAndLeavesNoLeafThatCouldGo) {
+  std::uint64_t before = 0, after = 0;
+  for (const CutOfModel& c : cutsOfAllFamilies(8)) {
+    SCOPED_TRACE(c.name);
+    FitMesh mesh = meshOf(c, c.maxError);
+    mesh.setAccepted(kAccepted);
+    if (!(c.maxError > 0) || worstSeverity(mesh) > kAccepted) continue;
+    before += mesh.triangleCount();
+    ASSERT_TRUE(removeWhatFits(mesh, 2, {}));
+    after += mesh.triangleCount();
+    ASSERT_LE(worstSeverity(mesh), kAccepted + 1e-9);
+    // A leaf that failed was tried before heights around it changed for the last time.
+    FitPatches patches(mesh);
+    RemovalTrial trial;
+    int left = 0;
+    const std::vector<NodeId> leaves = leavesOf(mesh);
+    for (const NodeId leaf : leaves) {
+      patches.tryRemoval(leaf, 1, trial);
+      left += trial.isFeasible && trial.moved.empty() ? 1 : 0;
+    }
+    EXPECT_LE(left, int(leaves.size()) / 10);
+  }
+  EXPECT_LT(after, before * 9 / 10) << "at least a tenth of all triangles can go";
+}
+
+TEST(RemoveWhatFits, IsTheSameForAnyNumberOfThreads) {
+  for (const CutOfModel& c : cutsOfAllFamilies(9)) {
+    SCOPED_TRACE(c.name);
+    if (!(c.maxError > 0)) continue;
+    std::vector<double> first;
+    for (const int threads : {1, 4}) {
+      RunContext context;
+      context.threads = threads;
+      FitMesh mesh = meshOf(c, c.maxError);
+      mesh.setAccepted(kAccepted);
+      ASSERT_TRUE(removeWhatFits(mesh, 3, context));
+      if (threads == 1)
+        first = mesh.heights();
+      else
+        EXPECT_EQ(mesh.heights(), first);
+    }
+  }
+}
+
+TEST(RemoveWhatFits, KeepsFixedVerticesAndStopsWhenCancelled) {
+  for (const CutOfModel& c : cutsOfAllFamilies(10)) {
+    SCOPED_TRACE(c.name);
+    if (!(c.maxError > 0)) continue;
+    FitMesh mesh = meshOf(c, c.maxError);
+    mesh.setAccepted(kAccepted);
+    const std::vector<double> heights = mesh.heights();
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); v += 3) mesh.fix(v);
+    ASSERT_TRUE(removeWhatFits(mesh, 2, {}));
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); v += 3) {
+      EXPECT_TRUE(mesh.isIn(v));
+      EXPECT_EQ(mesh.heights()[v], heights[v]);
+    }
+    const std::atomic<bool> cancel = true;
+    RunContext context;
+    context.cancel = &cancel;
+    FitMesh other = meshOf(c, c.maxError);
+    if (leavesOf(other).empty()) continue;
+    const Status stopped = removeWhatFits(other, 2, context);
+    ASSERT_FALSE(stopped);
+    EXPECT_EQ(stopped.error().code, ErrorCode::interrupted);
+  }
+}
+
+}  // namespace
+}  // namespace arete
