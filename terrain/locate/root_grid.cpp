@@ -71,7 +71,7 @@ RootGrid::RootGrid(const MultiTriangulation& mt, double margin) {
   triangles_.resize(begin_.back());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
-    forCellsOf(triangles[t], [&](std::size_t cell) { triangles_[next[cell]++] = t; });
+    forCellsOf(triangles[t], [&](std::size_t cell) { triangles_[next[cell]++] = TriangleId(t); });
 }
 
 void RootGrid::layCells(double about) {
@@ -122,7 +122,7 @@ void RootGrid::forCellsOf(const std::array<Vec2, 3>& triangle, const Visit& visi
   }
 }
 
-std::span<const std::uint32_t> RootGrid::near(Vec2 p) const {
+std::span<const TriangleId> RootGrid::near(Vec2 p) const {
   if (!(p.x >= bounds_.xMin - margin_ && p.x <= bounds_.xMax + margin_ && p.y >= bounds_.yMin - margin_ &&
         p.y <= bounds_.yMax + margin_))
     return {};
@@ -130,7 +130,7 @@ std::span<const std::uint32_t> RootGrid::near(Vec2 p) const {
   return std::span(triangles_).subspan(begin_[cell], begin_[cell + 1] - begin_[cell]);
 }
 
-void RootGrid::along(Vec2 from, Vec2 to, std::vector<std::uint32_t>& triangles) const {
+void RootGrid::along(Vec2 from, Vec2 to, std::vector<TriangleId>& triangles) const {
   triangles.clear();
   if (triangles_.empty() || !std::isfinite(from.x + from.y + to.x + to.y)) return;
   forCellsOf({from, to, to}, [&](std::size_t cell) {

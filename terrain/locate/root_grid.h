@@ -23,12 +23,12 @@ class RootGrid {
 
   /// The candidates near a point: every root triangle within the margin of p, and others.
   /// @return ids, rising; empty where p is not finite or outside bounds() by more than the margin
-  std::span<const std::uint32_t> near(Vec2 p) const;
+  std::span<const TriangleId> near(Vec2 p) const;
 
   /// The candidates near any point of a segment. O(c + t log t) for c cells on the segment and t entries in
   /// their lists.
   /// @param triangles  receives ids, rising, each once
-  void along(Vec2 from, Vec2 to, std::vector<std::uint32_t>& triangles) const;
+  void along(Vec2 from, Vec2 to, std::vector<TriangleId>& triangles) const;
 
   /// The bounding box of the root triangles, without the margin.
   const Box2& bounds() const { return bounds_; }
@@ -46,7 +46,8 @@ class RootGrid {
   double margin_ = 0;  // the caller's margin and an allowance for rounding
   std::uint32_t columns_ = 1, rows_ = 1;
   double cellWidth_ = 1, cellHeight_ = 1;
-  std::vector<std::uint32_t> begin_, triangles_;
+  std::vector<std::uint32_t> begin_;  // per cell, and the end
+  std::vector<TriangleId> triangles_;
 };
 
 }  // namespace arete

@@ -33,6 +33,10 @@ double turn(Vec2 p, Vec2 a, Vec2 b) {
   return differenceOfProducts(a.x - p.x, b.y - p.y, a.y - p.y, b.x - p.x);
 }
 
+std::array<VertexId, 3> idsOf(const std::array<std::uint32_t, 3>& corners) {
+  return {VertexId(corners[0]), VertexId(corners[1]), VertexId(corners[2])};
+}
+
 double distanceToSegment(Vec2 p, Vec2 a, Vec2 b) {
   const double dx = b.x - a.x, dy = b.y - a.y, squared = dx * dx + dy * dy;
   const double along = squared > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / squared : 0;
@@ -48,27 +52,29 @@ TriangleLocator::TriangleLocator(MultiTriangulation mt, const LocatorOptions& op
       perColumn_(1.0 / std::max(1u, mt_.vertices().columns)),
       roots_(mt_, options.margin) {}
 
-double TriangleLocator::distance(const std::array<std::uint32_t, 3>& corners, Vec2 p) const {
+double TriangleLocator::distance(const std::array<VertexId, 3>& corners, Vec2 p) const {
   const Vec2 a = planPosition(corners[0]), b = planPosition(corners[1]), c = planPosition(corners[2]);
   return std::min({distanceToSegment(p, a, b), distanceToSegment(p, b, c), distanceToSegment(p, c, a)});
 }
 
 std::optional<LocatedTriangle> TriangleLocator::inRoot(Vec2 p) const {
-  const std::span<const std::uint32_t> candidates = roots_.near(p);
+  const std::span<const TriangleId> candidates = roots_.near(p);
   const auto& rootTriangles = mt_.arrays().rootTriangles;
-  for (const std::uint32_t t : candidates) {
-    const auto& corners = rootTriangles[t];
+  for (const TriangleId t : candidates) {
+    const std::array<VertexId, 3> corners = idsOf(rootTriangles[t.index()]);
     const Vec2 a = planPosition(corners[0]), b = planPosition(corners[1]), c = planPosition(corners[2]);
     if (planOrientation(a, b, p) >= 0 && planOrientation(b, c, p) >= 0 && planOrientation(c, a, p) >= 0)
-      return LocatedTriangle{TriangleId(t), corners};
+      return LocatedTriangle{t, corners};
   }
   std::optional<LocatedTriangle> nearest;
   double least = options_.margin;
-  for (const std::uint32_t t : candidates)
-    if (const double d = distance(rootTriangles[t], p); d < least || (!nearest && d <= least)) {
-      nearest = LocatedTriangle{TriangleId(t), rootTriangles[t], false};
+  for (const TriangleId t : candidates) {
+    const std::array<VertexId, 3> corners = idsOf(rootTriangles[t.index()]);
+    if (const double d = distance(corners, p); d < least || (!nearest && d <= least)) {
+      nearest = LocatedTriangle{t, corners, false};
       least = d;
     }
+  }
   return nearest;
 }
 
@@ -76,20 +82,21 @@ std::optional<LocatedTriangle> TriangleLocator::finer(const LocatedTriangle& t, 
   const NodeId n = mt_.remover(t.triangle);
   if (!t.isInside) return nearestOf(n, p, std::numeric_limits<double>::infinity());
 
-  const std::uint32_t apex = mt_.apex(n).index();
+  const VertexId apex = mt_.apex(n);
   const Vec2 centre = planPosition(apex);
   const std::span<const std::uint32_t> link = mt_.link(n);
   const std::uint32_t count = mt_.ceilingSize(n);
-  Vec2 from = planPosition(link[0]);
+  Vec2 from = planPosition(VertexId(link[0]));
   const Vec2 first = from;
   int sign = planOrientation(centre, from, p);
   const int firstSign = sign;
   for (std::uint32_t i = 0; i < count; ++i) {
     const bool closes = i + 1 == link.size();
-    const Vec2 to = closes ? first : planPosition(link[i + 1]);
+    const Vec2 to = closes ? first : planPosition(VertexId(link[i + 1]));
     const int nextSign = closes ? firstSign : planOrientation(centre, to, p);
     if (sign >= 0 && nextSign <= 0 && (!options_.mayFill || planOrientation(from, to, p) >= 0))
-      return LocatedTriangle{mt_.slotTriangle(n, i), {apex, link[i], link[closes ? 0 : i + 1]}};
+      return LocatedTriangle{mt_.slotTriangle(n, i),
+                             {apex, VertexId(link[i]), VertexId(link[closes ? 0 : i + 1])}};
     from = to;
     sign = nextSign;
   }
@@ -102,8 +109,8 @@ std::optional<LocatedTriangle> TriangleLocator::nearestOf(NodeId n, Vec2 p, doub
   std::optional<LocatedTriangle> nearest;
   const std::span<const std::uint32_t> link = mt_.link(n);
   for (std::uint32_t i = 0; i < mt_.ceilingSize(n); ++i) {
-    const std::array<std::uint32_t, 3> corners = {mt_.apex(n).index(), link[i],
-                                                  link[i + 1 < link.size() ? i + 1 : 0]};
+    const std::array corners = {mt_.apex(n), VertexId(link[i]),
+                                VertexId(link[i + 1 < link.size() ? i + 1 : 0])};
     if (const double d = distance(corners, p); d < within || (!nearest && d <= within)) {
       nearest = LocatedTriangle{mt_.slotTriangle(n, i), corners, false};
       within = d;
@@ -112,12 +119,12 @@ std::optional<LocatedTriangle> TriangleLocator::nearestOf(NodeId n, Vec2 p, doub
   return nearest;
 }
 
-double TriangleLocator::interpolate(const std::array<std::uint32_t, 3>& corners, Vec2 p) const {
+double TriangleLocator::interpolate(const std::array<VertexId, 3>& corners, Vec2 p) const {
   std::array<Vec2, 3> at;
   std::array<double, 3> z;
   for (int i = 0; i < 3; ++i) {
     at[i] = planPosition(corners[i]);
-    z[i] = mt_.vertices().height(VertexId(corners[i]));
+    z[i] = mt_.vertices().height(corners[i]);
   }
   // A negative weight comes from rounding, or from a point beyond an edge, which is moved onto the edge.
   std::array<double, 3> weight;

@@ -14,7 +14,7 @@ namespace arete {
 /// A triangle of the multitriangulation over a plan point.
 struct LocatedTriangle {
   TriangleId triangle;
-  std::array<std::uint32_t, 3> corners;  ///< MT vertices, counter-clockwise in the plan
+  std::array<VertexId, 3> corners;  ///< counter-clockwise in the plan
   /// False for a point beyond the border of the domain by less than the margin: then this is the nearest
   /// triangle.
   bool isInside = true;
@@ -54,23 +54,23 @@ class TriangleLocator {
 
   /// The height at p of the plane through three vertices; outside of their triangle, that of its border
   /// nearby.
-  double interpolate(const std::array<std::uint32_t, 3>& corners, Vec2 p) const;
+  double interpolate(const std::array<VertexId, 3>& corners, Vec2 p) const;
 
   const MultiTriangulation& mt() const { return mt_; }
   const RootGrid& roots() const { return roots_; }
-  Vec2 planPosition(std::uint32_t v) const {
+  Vec2 planPosition(VertexId v) const {
     const VertexArrays& vertices = mt_.vertices();
-    if (!vertices.isLattice()) return vertices.plan[v];
+    if (!vertices.isLattice()) return vertices.plan[v.index()];
     // A descent computes some hundred positions, so the division is replaced by a product. The added half is
     // far larger than the product's rounding error, and far smaller than the distance to the next row.
-    const std::uint32_t sample = vertices.samples[v];
+    const std::uint32_t sample = vertices.samples[v.index()];
     const auto row = static_cast<std::uint32_t>((sample + 0.5) * perColumn_);
     return {static_cast<double>(sample - row * vertices.columns), static_cast<double>(row)};
   }
 
  private:
   std::optional<LocatedTriangle> nearestOf(NodeId n, Vec2 p, double within) const;
-  double distance(const std::array<std::uint32_t, 3>& corners, Vec2 p) const;
+  double distance(const std::array<VertexId, 3>& corners, Vec2 p) const;
 
   MultiTriangulation mt_;
   LocatorOptions options_;

@@ -17,7 +17,7 @@ MtCrossing::MtCrossing(const TriangleLocator& locator, const SightLeg& leg)
       shortest_(kShortestInPlan * std::sqrt(perLength_)) {}
 
 MtCrossing::Projected MtCrossing::project(std::uint32_t vertex) const {
-  const Vec2 p = locator_.planPosition(vertex);
+  const Vec2 p = locator_.planPosition(VertexId(vertex));
   const double x = p.x - leg_.x, y = p.y - leg_.y;
   return {leg_.dx * y - leg_.dy * x, (leg_.dx * x + leg_.dy * y) * perLength_,
           locator_.mt().vertices().height(VertexId(vertex))};
@@ -52,11 +52,11 @@ void MtCrossing::add(std::uint32_t triangle, const Projected& a, const Projected
 }
 
 void MtCrossing::addRoots(std::vector<TriangleSpan>& spans) const {
-  std::vector<std::uint32_t> roots;
+  std::vector<TriangleId> roots;
   locator_.roots().along({leg_.x, leg_.y}, {leg_.x + leg_.dx, leg_.y + leg_.dy}, roots);
-  for (const std::uint32_t r : roots) {
-    const auto& corners = locator_.mt().arrays().rootTriangles[r];
-    add(r, project(corners[0]), project(corners[1]), project(corners[2]), 0, 1, spans);
+  for (const TriangleId r : roots) {
+    const auto& corners = locator_.mt().arrays().rootTriangles[r.index()];
+    add(r.index(), project(corners[0]), project(corners[1]), project(corners[2]), 0, 1, spans);
   }
 }
 

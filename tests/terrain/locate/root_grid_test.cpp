@@ -52,7 +52,7 @@ TEST(RootGrid, ListsEveryTriangleWithinTheMargin) {
         for (int k = 0; k < 3; ++k)
           corners[k] = mt.vertices().planPosition(VertexId(mt.arrays().rootTriangles[t][k]));
         if (plainDistance(corners, p) < margin) {
-          ASSERT_TRUE(std::binary_search(listed.begin(), listed.end(), t))
+          ASSERT_TRUE(std::binary_search(listed.begin(), listed.end(), TriangleId(t)))
               << family.name << " triangle " << t << " at " << p.x << ", " << p.y;
         }
       }
@@ -80,7 +80,7 @@ TEST(RootGrid, ListsEveryTriangleNearASegmentOnce) {
     const double margin = 0.1;
     const RootGrid grid(model->mt, margin);
     Random random(2);
-    std::vector<std::uint32_t> listed;
+    std::vector<TriangleId> listed;
     for (int i = 0; i < 40; ++i) {
       const Vec2 from{random.between(-3, 53), random.between(-3, 43)},
           to{random.between(-3, 53), random.between(-3, 43)};
@@ -88,10 +88,11 @@ TEST(RootGrid, ListsEveryTriangleNearASegmentOnce) {
       EXPECT_TRUE(std::ranges::adjacent_find(listed, std::ranges::greater_equal()) == listed.end());
       for (int k = 0; k <= 20; ++k) {
         const Vec2 p{from.x + (to.x - from.x) * k / 20, from.y + (to.y - from.y) * k / 20};
-        for (const std::uint32_t t : grid.near(p)) {
+        for (const TriangleId t : grid.near(p)) {
           std::array<Vec2, 3> corners;
           for (int c = 0; c < 3; ++c)
-            corners[c] = model->mt.vertices().planPosition(VertexId(model->mt.arrays().rootTriangles[t][c]));
+            corners[c] =
+                model->mt.vertices().planPosition(VertexId(model->mt.arrays().rootTriangles[t.index()][c]));
           if (plainDistance(corners, p) < margin) {
             ASSERT_TRUE(std::ranges::binary_search(listed, t)) << family.name << ", segment " << i;
           }
