@@ -48,7 +48,8 @@ TEST(HeightBlocks, BoundEverySampleOfRastersOfAnySizeWithVoids) {
 
 TEST(HeightBlocks, AreEmptyWithoutAValidSample) {
   const std::vector<double> heights(64, kNaN);
-  const auto& block = HeightBlocks(heights, 8).at(0, 0);
+  const HeightBlocks blocks(heights, 8);
+  const auto& block = blocks.at(0, 0);
   EXPECT_GT(block.low, block.high);
 }
 
@@ -67,7 +68,8 @@ TEST(HeightBlocks, FollowAPlaneAndExcludeNothingWhereFloatsOverflow) {
     }
   std::vector<double> huge(64, 1e300);
   huge[5] = -1e300;
-  const auto& block = HeightBlocks(huge, 8).at(0, 0);
+  const HeightBlocks ofHuge(huge, 8);
+  const auto& block = ofHuge.at(0, 0);
   EXPECT_EQ(block.low, -std::numeric_limits<float>::infinity());
   EXPECT_EQ(block.high, std::numeric_limits<float>::infinity());
 }
