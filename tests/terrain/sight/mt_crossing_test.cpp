@@ -62,7 +62,7 @@ TEST(MtCrossing, StarSpansLieOnTheTrianglesThatANodePutsInPlace) {
     const std::uint32_t node = random.below(model->mt.nodeCount());
     // The last node of a prefix has its whole star in the front.
     const SightOracle oracle(model->mt, frontOfPrefix(model->mt, node + 1));
-    const Vec2 apex = locator.planPosition(model->mt.arrays().rootVertices + node);
+    const Vec2 apex = locator.planPosition(VertexId(model->mt.arrays().rootVertices + node));
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", node " << node);
     const SightLeg leg({{random.between(0, 32), random.between(0, 28)}, 0},
                        {{apex.x + 0.1, apex.y + 0.07}, 1});
