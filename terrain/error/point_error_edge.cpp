@@ -42,7 +42,7 @@ SignedBound PointError::alongEdge(std::uint32_t a, std::uint32_t b) const {
     const double alongX = x * dx, alongY = y * dy;
     const double difference = pa.z + (alongX + alongY) * rise - p.z;
     // The difference has a dozen roundings of each term, a side three; tiny products may have underflowed
-    // [Shewchuk1997, section 4].
+    // [Shewchuk1997].
     const double lost = 0x1p-49 * (std::abs(alongX) + std::abs(alongY)) * std::abs(rise) + unsure;
     const double sideLost = 0x1p-51 * (std::abs(leftTerm) + std::abs(rightTerm)) + 0x1p-960;
     const int sign = int(side > sideLost) - int(side < -sideLost);

@@ -3,8 +3,7 @@
 // Persistence of dimension 0, twice: of the components of the sublevel sets (pits, upwards) and of the
 // superlevel sets (peaks, downwards). Upwards: a sweep by height opens a component at every vertex without a
 // lower neighbour; where two components meet, the one with the younger extremum ends (the elder rule), and
-// the vertex that joins them is the pass [EdelsbrunnerLetscherZomorodian2002], [EdelsbrunnerHarer2010,
-// chapter VII].
+// the vertex that joins them is the pass [EdelsbrunnerLetscherZomorodian2002], [EdelsbrunnerHarer2010].
 //
 // Most vertices of the sweep only join the component of a lower neighbour. So each vertex is attached to one
 // lower neighbour in advance, which makes trees, one for each extremum, and only edges between two trees are
