@@ -6,7 +6,7 @@
 
 namespace arete {
 
-/// The largest float that is at most x: for a float e, e > x as e > floatAtMost(x).
+/// The largest float that is at most x. So for a float e, e > x if and only if e > floatAtMost(x).
 inline float floatAtMost(double x) {
   if (std::isinf(x)) return static_cast<float>(x);
   constexpr float kInfinity = std::numeric_limits<float>::infinity();

@@ -7,7 +7,7 @@
 
 namespace arete {
 
-/// A 32-bit index that remembers what it indexes, so that a vertex cannot be used as a triangle.
+/// A 32-bit index whose type says what it indexes, so that a vertex cannot be used as a triangle.
 /// Invalid by default.
 template <class Tag>
 class Id {

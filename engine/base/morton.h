@@ -5,7 +5,8 @@
 
 namespace arete {
 
-/// The place of a cell on the curve of Morton (1966): the bits of x and y by turns, x's lower. Rises in both.
+/// The index of a cell on a Z-order curve [Morton1966]: the bits of x and y interleaved, those of x lower.
+/// Increases with x and with y.
 constexpr std::uint64_t mortonCode(std::uint32_t x, std::uint32_t y) {
   const auto spread = [](std::uint64_t bits) {
     bits = (bits | bits << 16) & 0x0000FFFF0000FFFF;

@@ -17,11 +17,12 @@ constexpr double squaredDistance(const Vec3& a, const Vec3& b) {
 /// A triangle in space.
 using SpaceTriangle = std::array<Vec3, 3>;
 
-/// Thinner than this fraction of its longest side, a triangle has no plane that doubles can tell: it counts
-/// as without area, and distances to it are those to its sides, wrong by less than that height.
+/// A triangle whose height is below this fraction of its longest side counts as degenerate: doubles cannot
+/// represent its plane. Distances to it are those to its sides, and err by less than its height.
 inline constexpr double kThinnestTriangle = 1e-9;
 
-/// (b - a) x (c - a), twice the area long; zero for a triangle without area (kThinnestTriangle).
+/// The normal (b - a) x (c - a), whose length is twice the area; zero for a degenerate triangle
+/// (kThinnestTriangle).
 inline Vec3 areaNormal(const SpaceTriangle& t) {
   const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], bc = t[2] - t[1];
   const double longest = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
@@ -30,9 +31,9 @@ inline Vec3 areaNormal(const SpaceTriangle& t) {
   return dot(normal, normal) > least * least ? normal : Vec3{};
 }
 
-/// The point of a triangle that is nearest to `p`: over the triangle its foot on the plane, else on a side
-/// that `p` lies beyond (the nearest point of a convex set always is on one of those). Well-defined for
-/// triangles that are a segment or a point. O(1).
+/// The point of a triangle that is nearest to `p`: the foot of the perpendicular if that lies in the
+/// triangle, else the nearest point of the sides that `p` lies beyond. Also defined for triangles that are a
+/// segment or a point. O(1).
 inline Vec3 nearestOnTriangle(const Vec3& p, const SpaceTriangle& t) {
   const Vec3 normal = areaNormal(t);
   const double squared = dot(normal, normal);
@@ -51,7 +52,7 @@ inline Vec3 nearestOnTriangle(const Vec3& p, const SpaceTriangle& t) {
     }
   }
   if (least < std::numeric_limits<double>::infinity()) return nearest;
-  // Reckoned from the nearest corner, a corner is exactly on its own triangle, however thin that is.
+  // Measured from the nearest corner, so that the distance of a corner from its own triangle is exactly 0.
   const Vec3& corner = *std::ranges::min_element(t, {}, [&](const Vec3& c) { return squaredDistance(p, c); });
   return p + (-dot(normal, p - corner) / squared) * normal;
 }

@@ -8,14 +8,14 @@
 
 namespace arete {
 
-/// What kind of thing went wrong. The command line maps each to an exit code (README, "Exit codes").
+/// The kind of an error. The command line maps each to an exit code (README, "Exit codes").
 enum class ErrorCode {
-  usage,          ///< an argument that makes no sense
-  notFound,       ///< a file or layer that is not there
-  unreadable,     ///< a file that cannot be read or written: permissions, disk, truncated
-  unsupported,    ///< a format or feature this build does not know
-  corrupt,        ///< a file that is damaged, altered or hostile
-  invalidData,    ///< data that parses and makes no sense
+  usage,          ///< an invalid argument
+  notFound,       ///< a file or layer does not exist
+  unreadable,     ///< a file cannot be read or written: permissions, disk, truncated
+  unsupported,    ///< a format or feature that this build does not have
+  corrupt,        ///< a file is damaged, altered or hostile
+  invalidData,    ///< data can be parsed but are invalid
   degenerate,     ///< geometry without area: one row, all collinear, no valid sample
   brokenPromise,  ///< a stated bound or a law does not hold
   interrupted,    ///< the caller has cancelled the work
@@ -24,7 +24,7 @@ enum class ErrorCode {
 
 std::string_view toString(ErrorCode code);
 
-/// A sentence for a person, and the thing that is to blame: a path, an option, a line, an id.
+/// A sentence for a person, and its cause: a path, a field, a line or an id.
 struct Error {
   ErrorCode code = ErrorCode::invalidData;
   std::string message;
@@ -34,7 +34,7 @@ struct Error {
   std::string describe() const;
 };
 
-/// A value, or the reason there is none. Bad data never throws; assertions are for our own bugs.
+/// A value, or the error that prevented it. Bad data never throws; assertions are for our own bugs.
 template <class T>
 using Result = tl::expected<T, Error>;
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The segments are halved at the median of their centres along the longer side of the box, in place, down to
-// a few per leaf. Halving makes the shape of the tree a function of the count alone, so that no links are
-// stored.
+// Segments are split at the median of their centres along the longer side of their box, in place, down to a
+// few per leaf. The shape of the tree depends on the count alone, so it stores no child pointers.
 #include "engine/base/segment_bvh.h"
 
 #include <algorithm>

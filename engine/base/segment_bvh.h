@@ -13,9 +13,9 @@ struct Segment2 {
   Vec2 a, b;
 };
 
-/// Segments of the plan, found by box: a balanced binary tree of bounding boxes over them (Goldsmith and
-/// Salmon 1987, split at the median). Immutable. Building: O(n log n); a query: O(log n + segments found) for
-/// segments that do not heap up.
+/// A bounding volume hierarchy over segments of the plan, queried by box: a balanced binary tree of boxes,
+/// split at the median [GoldsmithSalmon1987]. Immutable. Construction: O(n log n). A query: O(log n +
+/// segments found), if segments do not overlap much.
 class SegmentBvh {
  public:
   SegmentBvh() = default;
@@ -25,8 +25,8 @@ class SegmentBvh {
   /// Precondition: not empty.
   const Box2& bounds() const { return boxes_.front(); }
 
-  /// Calls visit(segment) for every segment whose bounding box meets `box`, until one call returns true; says
-  /// whether one did.
+  /// Calls visit(segment) for every segment whose bounding box meets `box`, until a call returns true.
+  /// @return Whether one did.
   template <class Visit>
   bool anyIn(const Box2& box, const Visit& visit) const {
     return !segments_.empty() && anyBelow(0, 0, size(), box, visit);

@@ -5,7 +5,7 @@
 
 namespace arete {
 
-/// Time since it was made.
+/// Time since its construction.
 class Stopwatch {
  public:
   double milliseconds() const {

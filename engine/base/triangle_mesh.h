@@ -10,13 +10,14 @@
 
 namespace arete {
 
-/// An indexed triangle mesh by value: what a cut hands out and what mesh files hold.
-/// Triangles are counter-clockwise seen from +z in the frame of the positions.
+/// An indexed triangle mesh by value, as cuts are exported and mesh files are read. Triangles are
+/// counter-clockwise seen from +z in the frame of the positions.
 struct TriangleMesh {
   std::vector<Vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 
-  /// Every index names a position and every coordinate is finite. O(size).
+  /// Checks that every index refers to a position and every coordinate is finite. Errors: invalidData.
+  /// O(size).
   Status validate() const;
 };
 

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A map M takes a place p of the plan at height h to B(p) + h U(p), U a unit vector. A triangle with the
-// corners (p_i, h_i) has (p, h) at weights l_i, and its curved one, straight between the images of the
-// corners, misses M(p, h) by
+// A map M takes a point p of the plan at height h to B(p) + h U(p), U a unit vector. Let (p, h) be the point
+// of a triangle with the corners (p_i, h_i) at weights l_i. The plane through the images of the corners
+// misses M(p, h) by
 //
 //     sum l_i M(p_i, h_i) - M(p, h) = sum l_i M''[d_i, d_i] / 2,    d_i = (p_i - p, h_i - h),
 //
-// M'' taken somewhere on the way to each corner: at most sum l_i (C |p_i - p|^2 + 2 T |p_i - p| |h_i - h|) /
-// 2 where C bounds M'' along the plan, T the derivative of U; along h there is none. Now sum l_i |p_i - p|^2
-// is the square of the smallest circle's radius r around the corners less that of p's distance from its
-// centre, or smaller, and sum l_i |h_i - h|^2, a variance, at most a quarter of the squared range R of the
-// heights; so by Cauchy and Schwarz the miss is at most C r^2 / 2 + T r R / 2. On a sphere the first is the
-// sag of the chord. A sample is e higher or lower than (p, h), and so is its image, along U: what is missed
-// in all is at most the sum.
+// M'' at some point between p and each corner. That is at most
+//
+//     sum l_i (C |p_i - p|^2 + 2 T |p_i - p| |h_i - h|) / 2,
+//
+// where C bounds M'' along the plan and T the derivative of U; along h there is none. Now sum l_i |p_i - p|^2
+// is at most r^2, r the radius of the smallest circle around the corners, and sum l_i |h_i - h|^2, a
+// variance, is at most a quarter of the squared range R of the heights. So by Cauchy and Schwarz the distance
+// is at most C r^2 / 2 + T r R / 2. On a sphere the first term is the sag of the chord. A sample lies e above
+// or below (p, h), and so does its image, along U: the whole distance is at most the sum.
 #include "engine/mt/curved_mt.h"
 
 #include <tbb/parallel_for.h>
@@ -50,7 +52,7 @@ double squaredRadius(const Vec3& a, const Vec3& b, const Vec3& c) {
   return ab * bc * ca / (4 * twiceArea * twiceArea);
 }
 
-/// Errors of all triangles, curved, in units of height: `each(id, error)`, by nodes in parallel.
+/// Calls each(id, error) with the curved error of every triangle, in units of height; parallel over nodes.
 template <class Each>
 void forEachTriangle(const MultiTriangulation& mt, const Bending& bending, const Each& each) {
   const auto place = [&](std::uint32_t v) { return bending.flat.toMetric(mt.position(VertexId(v))); };
@@ -77,7 +79,7 @@ void forEachTriangle(const MultiTriangulation& mt, const Bending& bending, const
   });
 }
 
-/// No triangle's curved error is larger.
+/// An upper bound of all triangles' curved errors.
 double boundOfErrors(const MultiTriangulation& mt, const Bending& bending) {
   Vec3 low = bending.flat.toMetric(mt.position(VertexId(0))), high = low;
   for (std::uint32_t v = 1; v < mt.vertexCount(); ++v) {

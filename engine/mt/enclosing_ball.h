@@ -12,13 +12,13 @@
 
 namespace arete {
 
-/// A ball that grows around a node's star and the spheres of its children: law 6. The same points and
-/// children in the same order give the same bits.
+/// A ball that grows to enclose a node's star and the spheres of its children (law 6), as a saturated
+/// bounding sphere [LindstromPascucci2002]. Not the smallest one: it is built in one pass. The same points
+/// and children in the same order result in the same bits.
 struct EnclosingBall {
   double x, y, z, radius;
 
-  /// Around points, of which there is at least one, in any order: it starts from the centre of their box, a
-  /// better seed than any one of them.
+  /// Around points: from the centre of their box to the farthest. Precondition: at least one point.
   static EnclosingBall around(std::span<const Vec3> points) {
     Vec3 low = points[0], high = low;
     for (const Vec3& p : points) {
@@ -52,11 +52,11 @@ struct EnclosingBall {
     radius = grown;
   }
 
-  /// As it is stored, outwards.
+  /// As it is stored, rounded outwards.
   Sphere rounded() const {
     Sphere s{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), 0};
     const double moved = std::sqrt((s.x - x) * (s.x - x) + (s.y - y) * (s.y - y) + (s.z - z) * (s.z - z));
-    // The next float of one that is not negative has the next bits.
+    // For floats that are not negative, the next float has the next bit pattern.
     s.radius =
         std::bit_cast<float>(std::bit_cast<std::uint32_t>(static_cast<float>((radius + moved) * kWiden)) + 1);
     return s;

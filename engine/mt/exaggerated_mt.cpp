@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Every node's ball is made anew, as a build makes it: around its star, grown to hold its children's. Scaling
-// the balls that are there would be simpler, and worse twice over: a ball around a exaggerated ball is larger
-// than one around what is in it, and the rounding of centres, which is of the size of the coordinates, could
-// push a small ball out of its parent.
+// Every node's ball is computed anew, as a build does: around its star and its children's balls. Scaling the
+// existing balls would be simpler but worse: a ball around an exaggerated ball is larger than one around its
+// content, and the rounding of centres, which depends on the size of the coordinates, could move a small ball
+// out of its parent.
 #include "engine/mt/exaggerated_mt.h"
 
 #include <cassert>

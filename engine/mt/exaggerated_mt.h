@@ -5,11 +5,10 @@
 
 namespace arete {
 
-/// The same multitriangulation in a metric space whose heights are multiplied: vertical exaggeration. Its
-/// heights, errors and tolerances in the unit of heights are as they were; the scale of the z axis of its
-/// MetricFrame, the spheres and what is derived from them are others, so that a ViewError counts pixels of
-/// the exaggerated terrain and law 6 holds. Keeps the given one alive. 17 bytes per node. Precondition: the
-/// factor is finite and > 0. O(N), children before parents.
+/// The same multitriangulation in a metric space with vertical exaggeration. Heights, errors and tolerances
+/// in the unit of heights do not change. The z scale of its MetricFrame, the spheres and everything derived
+/// from them do, so that a ViewError counts pixels of the exaggerated terrain and law 6 holds. Keeps the
+/// given one alive. Memory: 17 bytes per node. O(N). Precondition: the factor is finite and > 0.
 MultiTriangulation exaggerated(const MultiTriangulation& mt, double factor);
 
 }  // namespace arete

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Counts follow from the arrays alone: a closed star adds two triangles to a front, an open one adds one.
 #include "engine/mt/multitriangulation.h"
 
 #include <algorithm>

@@ -18,9 +18,8 @@ struct Sphere {
   float x = 0, y = 0, z = 0, radius = 0;
 };
 
-/// From plan coordinates and heights to a space where distances mean something: (p - origin) * scale, by
-/// axis. For a raster in a geographic CRS the scale holds the ground size of a column step and a row step in
-/// metres.
+/// The map from plan coordinates and heights to a space in which distances have a unit: (p - origin) * scale,
+/// by axis. For a raster in a geographic CRS the scale is the ground size of a column and of a row in metres.
 struct MetricFrame {
   Vec3 origin;
   Vec3 scale = {1, 1, 1};
@@ -33,7 +32,7 @@ struct MetricFrame {
 /// The flat arrays of a multitriangulation. N nodes, V = rootVertices + N vertices, R root triangles.
 ///
 /// Every node inserts one vertex: node n inserts vertex rootVertices + n, and its ceiling is that vertex's
-/// star. The star is kept as its link, the cycle (or, on a border, the chain) of vertices around it,
+/// star. The star is stored as its link, the cycle (or, on a border, the chain) of vertices around it,
 /// counter-clockwise:
 ///
 ///      link[1]-----link[0]         slot i of the star is the triangle (apex, link[i], link[i + 1])
@@ -45,14 +44,14 @@ struct MetricFrame {
 ///      link[3]-----link[4]
 ///
 /// Triangle ids number the root's triangles first, then the slots of node 0, 1, ... A slot that is no
-/// triangle is "removed" by its own creator, so the one test of the laws drops it from every front:
+/// triangle has its own creator as its remover, so the test for membership in a front excludes it:
 ///
 ///     t is in the front of a cut  <=>  creator(t) in cut (or root)  and  remover(t) not in cut
 ///
-/// Nodes come in bands of saturated error, falling, and parents first. A uniform cut is therefore a prefix of
-/// the nodes and some of one band, and every prefix of the nodes is a cut whose vertices are a prefix of the
-/// vertices. Within a band the nodes follow the ground (docs/decisions/0008), so that what a place needs lies
-/// together. A link names older vertices only: link[i] < apex.
+/// Nodes are sorted by falling band of saturated error, parents first. A uniform cut is therefore a prefix of
+/// the nodes and a part of one band, and every prefix of the nodes is a cut whose vertices are a prefix of
+/// the vertices. Within a band the nodes follow the ground (docs/decisions/0008), so that the nodes of a
+/// region are adjacent in memory. A link contains older vertices only: link[i] < apex.
 struct MtArrays {
   std::uint32_t rootVertices = 0;
   std::span<const std::array<std::uint32_t, 3>> rootTriangles;  ///< R
@@ -66,8 +65,9 @@ struct MtArrays {
   std::span<const std::uint32_t> floor;  ///< S - 2N triangle ids; node n's begin at slotBegin[n] - 2n
   std::span<const std::uint16_t> saturatedError;  ///< N, in falling bands
   std::span<const Sphere> sphere;  ///< N, saturated: encloses the node's region and its children's spheres
-  /// Of every kNodesPerBlock nodes, and after all of these of every kNodesPerPage: the largest saturated
-  /// error and a ball that holds their spheres (engine/mt/node_blocks.h).
+  /// Of every cluster of kNodesPerBlock nodes, and after all of these of every cluster group of
+  /// kNodesPerPage: the largest saturated error and a ball that contains their spheres
+  /// (engine/mt/node_blocks.h).
   std::span<const std::uint16_t> blockError;
   std::span<const Sphere> blockSphere;
   std::span<const std::uint32_t> creatorHint;  ///< ceil(S / 64): the node that owns slot 64 i
@@ -77,8 +77,8 @@ struct MtArrays {
   VertexArrays vertices;
 };
 
-/// A finished, immutable multitriangulation (De Floriani, Magillo, Puppo 1998) of vertex insertions: flat
-/// arrays in memory or in a mapped file, kept alive by an owner. Cheap to copy. Thread-safe: it is only read.
+/// An immutable multitriangulation [DeFlorianiMagilloPuppo1998] of vertex insertions: flat arrays in memory
+/// or in a mapped file, kept alive by an owner. Cheap to copy. Thread-safe: it is only read.
 class MultiTriangulation {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
@@ -105,13 +105,13 @@ class MultiTriangulation {
   std::uint32_t vertexCount() const { return a_.rootVertices + nodeCount(); }
   std::uint32_t rootVertexCount() const { return a_.rootVertices; }
   std::uint32_t rootTriangleCount() const { return static_cast<std::uint32_t>(a_.rootTriangles.size()); }
-  /// Triangle ids, those of slots that are no triangle included.
+  /// The number of triangle ids, including slots that are no triangle.
   std::uint32_t triangleIdCount() const { return static_cast<std::uint32_t>(a_.remover.size()); }
-  /// Triangles of the whole MT. O(N).
+  /// The number of triangles of the whole MT. O(N).
   std::uint64_t triangleCount() const;
-  /// Triangles of the finest front. O(N).
+  /// The number of triangles of the finest front. O(N).
   std::uint32_t finestTriangleCount() const { return prefixTriangleCount(nodeCount()); }
-  /// Triangles in the front of the first n nodes. O(n).
+  /// The number of triangles in the front of the first n nodes. O(n).
   std::uint32_t prefixTriangleCount(std::uint32_t n) const;
   /// The nodes of a band: from bandBegin() to before bandEnd(). O(log N).
   std::uint32_t bandBegin(std::uint32_t band) const;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A ball around spheres: from the middle of the box of their centres to the farthest of them, widened as a
-// parent's sphere is (enclosing_ball.h), so that what touches a node's sphere touches the block's whatever the
-// arithmetic of a test. Pages are made from the nodes, not from the blocks: balls of balls would grow.
+// A ball around spheres has its centre in the middle of the box of their centres and reaches to the farthest
+// of them. It is widened as a parent's sphere is (enclosing_ball.h), so that whatever touches a node's sphere
+// touches its cluster's, in spite of the rounding of any test. Cluster groups are made from nodes, not from
+// clusters: balls around balls would be larger.
 #include "engine/mt/node_blocks.h"
 
 #include <tbb/parallel_for.h>

@@ -13,8 +13,8 @@ namespace arete {
 ///
 /// A code is the top of an IEEE float: 11 bits of mantissa and 5 of exponent, over the 32 binades that end at
 /// the largest magnitude of the model. A magnitude grows by at most one part in 2048; one below largest /
-/// 2^31 grows to that floor; zero stays zero. Codes are ordered as their magnitudes are, so they can be
-/// compared undecoded.
+/// 2^31 grows to that floor; zero stays zero. Codes have the order of their magnitudes, so they can be
+/// compared without decoding.
 class OutwardScale {
  public:
   using Code = std::uint16_t;
@@ -38,7 +38,7 @@ class OutwardScale {
 
   /// The least code whose magnitude is at least x. Precondition: 0 <= x <= decode(kMaxCode).
   Code encode(double x) const {
-    // Without a branch: among the triangles of a build nobody foresees the zeros.
+    // Branch-free: zeros among the triangles of a build are unpredictable.
     const auto code = static_cast<std::int32_t>(roundedUpBits(x) - base_);
     return static_cast<Code>(std::clamp<std::int32_t>(code, 1, kMaxCode) & -std::int32_t(!(x <= 0)));
   }

@@ -8,8 +8,9 @@
 
 namespace arete {
 
-/// The balls of all nodes with the vertices standing elsewhere, as a build makes them: around each node's
-/// star, grown to hold its children's (law 6). place(vertex index): where a vertex stands now. O(slots).
+/// The saturated balls of all nodes for moved vertices, as a build makes them: around each node's star and
+/// its children's balls (law 6). O(slots).
+/// @param place place(vertex index) returns the new position of a vertex, in metric space.
 template <class Place>
 std::vector<Sphere> saturatedBalls(const MultiTriangulation& mt, const Place& place) {
   std::vector<Sphere> balls(mt.nodeCount());

@@ -10,7 +10,7 @@
 
 namespace arete {
 
-/// How heights are stored: height = raw * scale + offset, exactly, raw being of the given type.
+/// How heights are stored: height = raw * scale + offset, exactly, where raw has the given type.
 struct HeightEncoding {
   enum class Type : std::uint32_t { int16 = 1, float32 = 2, float64 = 3 };
   Type type = Type::float64;
@@ -20,9 +20,8 @@ struct HeightEncoding {
   std::size_t bytesPerHeight() const { return type == Type::int16 ? 2 : type == Type::float32 ? 4 : 8; }
 };
 
-/// Vertex positions in plan coordinates and height, in the smallest form that is exact. Vertices of a raster
-/// are sample indices (4 bytes) and raw heights (2 to 8 bytes); others keep their plan coordinates as
-/// doubles.
+/// Vertex positions in plan coordinates and height, in the smallest form that is exact: sample indices (4
+/// bytes) and raw heights (2 to 8 bytes) for vertices of a raster, plan coordinates as doubles for others.
 struct VertexArrays {
   /// Raster: the sample index, row * columns + column. Plan coordinates are (column, row).
   std::span<const std::uint32_t> samples;
