@@ -71,7 +71,6 @@ TEST(Bibliography, HasEveryCitedPaper) {
 }
 
 TEST(Bibliography, HasNoPaperThatIsNotCited) {
-  GTEST_SKIP() << "the papers are being cited room by room";
   std::set<std::string> cited;
   for (const fs::path& file : citingFiles()) cited.merge(keysIn(contentOf(file)));
   for (const std::string& key : entriesOf(contentOf(kBibliography))) EXPECT_TRUE(cited.contains(key)) << key;
@@ -118,7 +117,6 @@ std::set<std::string> filesNamedIn(const std::string& comment) {
 }
 
 TEST(Comments, NameFilesThatExist) {
-  GTEST_SKIP() << "the names are being replaced room by room";
   const std::set<std::string> names = fileNames();
   for (const std::string& folder : kFolders)
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
