@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstddef>
 #include <fstream>
@@ -188,19 +189,28 @@ std::vector<std::string> optionsNamedIn(const Prose& strings) {
 }
 
 TEST(Words, OfTheLibraryNameNoOptionOfTheCommandLine) {
-  GTEST_SKIP() << "io/ still names options in its sentences";
   for (const fs::path& file : sourcesOf({"engine", "terrain", "io", "viewer"})) {
     for (const std::string& match : optionsNamedIn(Lexer(contentOf(file)).take(Kind::strings)))
       ADD_FAILURE() << nameOf(file) << ":" << match;
   }
 }
 
+/// Rooms whose words are still to be replaced.
+bool isToBeReplaced(const fs::path& file) {
+  constexpr std::array kRooms = {
+      "engine/base",   "engine/memory",    "engine/mt",        "engine/parallel",      "engine/simplify",
+      "terrain/error", "terrain/features", "terrain/fit",      "terrain/locate",       "terrain/measure",
+      "terrain/model", "terrain/sight",    "terrain/simplify", "terrain/triangulation"};
+  return std::ranges::find(kRooms, fs::relative(file.parent_path(), kRoot).string()) != kRooms.end();
+}
+
 TEST(Words, OfSourcesLendDataNoMind) {
-  GTEST_SKIP() << "the words are being replaced room by room";
-  for (const fs::path& file : sourcesOf({"engine", "terrain", "io", "viewer", "cli"}))
+  for (const fs::path& file : sourcesOf({"engine", "terrain", "io", "viewer", "cli"})) {
+    if (isToBeReplaced(file)) continue;
     for (const Kind kind : {Kind::comments, Kind::strings})
       for (const std::string& match : matchesIn(Lexer(contentOf(file)).take(kind), wordPattern()))
         ADD_FAILURE() << nameOf(file) << ":" << match;
+  }
 }
 
 TEST(Words, OfPagesLendDataNoMind) {

@@ -26,7 +26,7 @@ class PlaceText {
 
   struct Goal {
     Vec2 xy;
-    double ground = 0;             ///< height of the terrain there; if there is none: the stated height
+    double ground = 0;             ///< height of the terrain there; without terrain there: the stated height
     std::optional<double> height;  ///< in the DEM's heights; empty: a place on the ground
   };
   /// "X,Y" or "X,Y,H", H as io/crs/position_argument.h has it; a longitude may be whole turns off. Errors:

@@ -48,7 +48,7 @@ class ViewerSession {
   /// From the last pick.
   void startViewshed();
   void home(HomeView view);
-  /// Moves to a typed place; message() says why if there is none.
+  /// Moves to a typed place; message() says why it cannot.
   void goTo(const std::string& text, bool isLonLat);
   /// Shows a message for a few seconds.
   void say(std::string sentence);
