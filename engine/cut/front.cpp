@@ -27,7 +27,7 @@
 #include <utility>
 
 #include "engine/base/vector_clones.h"
-#include "engine/memory/page_choice.h"
+#include "engine/memory/pages.h"
 
 namespace arete {
 namespace {

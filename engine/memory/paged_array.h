@@ -11,8 +11,8 @@
 
 namespace arete {
 
-/// An array that can become smaller, and gives back what it no longer needs by whole pieces of pages: for
-/// arrays that take over each other's while a PageKeeper lives. Elements are uninitialised until written.
+/// An array of fixed size that can shrink in place: memory that is no longer used goes back to the system in
+/// whole huge pages (engine/memory/pages.h). Elements are uninitialised until written.
 template <class T>
 class PagedArray {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -42,7 +42,7 @@ class PagedArray {
   const T* begin() const { return data_; }
   const T* end() const { return data_ + size_; }
 
-  /// Keeps the first ones. Precondition: size <= size().
+  /// Keeps the first `size` elements. Precondition: size <= size().
   void shrink(std::size_t size) {
     assert(size <= size_);
     size_ = size;
@@ -57,7 +57,7 @@ class PagedArray {
   }
 
   T* data_ = nullptr;
-  std::size_t size_ = 0, bytes_ = 0;  // as taken, or what is left of it
+  std::size_t size_ = 0, bytes_ = 0;  // bytes_: that are mapped
 };
 
 }  // namespace arete

@@ -11,8 +11,8 @@
 
 namespace arete {
 
-/// An allocator whose new elements are left as the memory was. Large arrays are pages of the system's
-/// (engine/memory/pages.h), which another one may have given back.
+/// An allocator that leaves new elements uninitialised. Arrays of at least a huge page are mapped from the
+/// system (engine/memory/pages.h), smaller ones come from the heap.
 template <class T>
 struct UninitializedAllocator : std::allocator<T> {
   template <class U>
@@ -41,11 +41,11 @@ struct UninitializedAllocator : std::allocator<T> {
   }
 
  private:
-  static bool isLarge(std::size_t count) { return count >= kPieceOfPages / sizeof(T); }
+  static bool isLarge(std::size_t count) { return count >= kHugePage / sizeof(T); }
 };
 
-/// A vector that does not write its elements before somebody does: of large ones the threads that fill them
-/// touch the memory first, each its part, where one thread would wait for all of the system's fresh pages.
+/// A vector whose elements are uninitialised until they are written. So the threads that fill a large one
+/// also touch its memory first, each its part; otherwise one thread would wait for all of its page faults.
 template <class T>
 using UninitializedVector = std::vector<T, UninitializedAllocator<T>>;
 

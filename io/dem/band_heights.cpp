@@ -17,7 +17,7 @@
 #include <limits>
 #include <span>
 
-#include "engine/memory/page_choice.h"
+#include "engine/memory/pages.h"
 #include "io/gdal/support.h"
 
 namespace arete {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "engine/memory/page_choice.h"
+#include "engine/memory/pages.h"
 #include "io/crs/local_origin.h"
 
 namespace arete {

@@ -19,7 +19,7 @@ namespace arete::packed {
 
 bool ZeroedArena::take(std::size_t bytes) {
   memory_ = {};
-  memory_ = {static_cast<std::byte*>(takeZeroPages(bytes)), Free{bytes}};
+  memory_ = {static_cast<std::byte*>(takePages(bytes)), Free{bytes}};
   return memory_ != nullptr;
 }
 
@@ -33,7 +33,7 @@ void ZeroedArena::Free::operator()(std::byte* memory) const {
 #ifdef ARETE_HAS_FENCES
   ASAN_UNPOISON_MEMORY_REGION(memory, bytes);
 #endif
-  giveZeroPagesBack(memory, bytes);
+  givePagesBack(memory, bytes);
 }
 
 }  // namespace arete::packed

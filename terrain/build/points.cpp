@@ -32,7 +32,6 @@ struct OwnedPoints {
 Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints finest,
                                const BuildOptions& options, const TileOptions& tiles,
                                const RunContext& context) {
-  const PageKeeper keeper;  // memory that a step frees is reused by the next
   std::optional<StageClock::Scope> stage(std::in_place, context.clock, "triangulate");
   // In the build, points are numbered along the ground: neighbours are near each other in memory.
   const std::vector<std::uint32_t>& ground = finest.order;

@@ -12,7 +12,6 @@
 #include <memory>
 #include <optional>
 
-#include "engine/memory/pages.h"
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/parallel/parallel_filter.h"
 #include "engine/parallel/with_threads.h"
@@ -102,7 +101,6 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
         fmt::format("{} samples have more triangles than 32-bit half-edges can name", field.size()),
         field.source);
 
-  const PageKeeper keeper;  // memory that a step frees is reused by the next
   context.report("triangulate", 0);
   std::optional<StageClock::Scope> stage(std::in_place, context.clock, "triangulate");
   std::vector<std::uint32_t> pinched;

@@ -2,18 +2,12 @@
 #include "engine/memory/pages.h"
 
 #include <gtest/gtest.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cerrno>
-#include <cstdarg>
 #include <cstdint>
 #include <fstream>
-#include <limits>
 #include <random>
 #include <span>
 #include <thread>
@@ -21,25 +15,6 @@
 
 #include "engine/memory/paged_array.h"
 #include "engine/memory/uninitialized_vector.h"
-
-/// How often the system still moves pages before it refuses; then it has taken away what was there.
-namespace {
-std::atomic<int> movesLeft = std::numeric_limits<int>::max();
-}
-
-/// In the place of the C library's.
-extern "C" void* mremap(void* from, std::size_t size, std::size_t newSize, int flags, ...) noexcept {
-  va_list rest;
-  va_start(rest, flags);
-  void* const to = va_arg(rest, void*);
-  va_end(rest);
-  if (--movesLeft < 0) {
-    munmap(to, newSize);
-    errno = ENOMEM;
-    return MAP_FAILED;
-  }
-  return reinterpret_cast<void*>(syscall(SYS_mremap, from, size, newSize, flags, to));
-}
 
 namespace arete {
 namespace {
@@ -54,154 +29,94 @@ bool isAll(std::span<const std::uint8_t> bytes, std::uint8_t value) {
   return std::ranges::all_of(bytes, [&](std::uint8_t byte) { return byte == value; });
 }
 
-/// Gives 4 MiB back, full of sevens.
-void giveSevensBack() {
-  void* const pages = takePages(4 * kMiB);
-  ASSERT_NE(pages, nullptr);
-  std::ranges::fill(bytesOf(pages, 4 * kMiB), std::uint8_t{7});
-  givePagesBack(pages, 4 * kMiB);
+std::size_t mappedPages() {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages;
 }
 
-TEST(Pages, WhatIsGivenBackIsTakenAgainWhileThereIsAKeeper) {
-  const PageKeeper keeper;
-  giveSevensBack();
-  void* const second = takePages(2 * kMiB);
-  void* const third = takePages(5 * kMiB);
-  EXPECT_TRUE(isAll(bytesOf(second, 2 * kMiB), 7));
-  EXPECT_TRUE(isAll(bytesOf(third, 2 * kMiB), 7)) << "what was left";
-  EXPECT_TRUE(isAll(bytesOf(third, 5 * kMiB).subspan(2 * kMiB), 0)) << "there was no more";
-  givePagesBack(second, 2 * kMiB);
-  givePagesBack(third, 5 * kMiB);
-}
-
-TEST(Pages, AreFreshWhenTheSystemMovesNoMoreAndNobodyElsesAreTouched) {
-  const PageKeeper keeper;
-  giveSevensBack();
-  movesLeft = 1;
-  void* const second = takePages(4 * kMiB);
-  movesLeft = std::numeric_limits<int>::max();
-  ASSERT_NE(second, nullptr);
-  EXPECT_TRUE(isAll(bytesOf(second, 4 * kMiB), 0));
-  givePagesBack(second, 4 * kMiB);
-  void* const third = takePages(4 * kMiB);
-  EXPECT_TRUE(isAll(bytesOf(third, 4 * kMiB), 0)) << "nothing is kept any more";
-  givePagesBack(third, 4 * kMiB);
-}
-
-TEST(Pages, WithoutAKeeperTheyAreFresh) {
-  giveSevensBack();
-  void* const second = takePages(4 * kMiB);
-  EXPECT_TRUE(isAll(bytesOf(second, 4 * kMiB), 0));
-  givePagesBack(second, 4 * kMiB);
-}
-
-TEST(Pages, AKeeperLeavesNothingToTheNext) {
-  {
-    const PageKeeper outer, inner;
-    giveSevensBack();
+TEST(Pages, AreZerosAlsoWhereSomebodyElseHasWritten) {
+  for (const bool isHuge : {true, false}) {
+    setHugePages(isHuge);
+    for (const std::size_t size : {std::size_t{5}, 3 * kMiB, 4 * kMiB, 37 * kMiB + 123}) {
+      for (int round = 0; round < 2; ++round) {
+        void* const pages = takePages(size);
+        ASSERT_NE(pages, nullptr);
+        EXPECT_TRUE(isAll(bytesOf(pages, size), 0)) << size;
+        std::ranges::fill(bytesOf(pages, size), std::uint8_t{7});
+        givePagesBack(pages, size);
+      }
+    }
   }
-  const PageKeeper keeper;
-  void* const pages = takePages(4 * kMiB);
-  EXPECT_TRUE(isAll(bytesOf(pages, 4 * kMiB), 0));
-  givePagesBack(pages, 4 * kMiB);
+  setHugePages(true);
 }
 
-TEST(Pages, ZerosAreZerosWhateverIsKept) {
-  const PageKeeper keeper;
-  void* const used = takePages(4 * kMiB);
-  std::ranges::fill(bytesOf(used, 4 * kMiB), std::uint8_t{7});
-  givePagesBack(used, 4 * kMiB);
-  void* const zeros = takeZeroPages(4 * kMiB);
-  EXPECT_TRUE(isAll(bytesOf(zeros, 4 * kMiB), 0));
-  std::ranges::fill(bytesOf(zeros, 4 * kMiB), std::uint8_t{9});
-  giveZeroPagesBack(zeros, 4 * kMiB);
-  void* const again = takePages(8 * kMiB);
-  EXPECT_TRUE(isAll(bytesOf(again, 4 * kMiB), 7));
-  EXPECT_TRUE(isAll(bytesOf(again, 8 * kMiB).subspan(4 * kMiB), 0)) << "who asked for zeros keeps nothing";
-  givePagesBack(again, 8 * kMiB);
+TEST(Pages, OfLargeArraysStartWhereAHugePageCan) {
+  for (const std::size_t size : {kHugePage, 3 * kMiB, 64 * kMiB}) {
+    void* const pages = takePages(size);
+    EXPECT_EQ(bytesToHugePage(pages), 0u);
+    givePagesBack(pages, size);
+  }
 }
 
-TEST(Pages, AreZerosOfWhicheverKindTheyAre) {
-  // Enough for either kind to be tried some times.
-  constexpr std::size_t kMany = 160 * kMiB + 123;
-  void* const zeros = takeZeroPages(kMany);
-  ASSERT_NE(zeros, nullptr);
-  EXPECT_TRUE(isAll(bytesOf(zeros, kMany), 0));
-  giveZeroPagesBack(zeros, kMany);
+TEST(Pages, GoBackToTheSystem) {
+  const std::size_t before = mappedPages();
+  if (before == 0) GTEST_SKIP() << "this system does not say what is mapped";
+  for (int i = 0; i < 100; ++i) {
+    void* const pages = takePages(64 * kMiB + 5);
+    bytesOf(pages, 1)[0] = 1;
+    givePagesBack(pages, 64 * kMiB + 5);
+  }
+  EXPECT_LT(mappedPages(), before + 64 * kMiB / static_cast<std::size_t>(sysconf(_SC_PAGESIZE)));
 }
 
-TEST(Pages, AnArrayThatShrinksLeavesWholePiecesToTheNextAndKeepsTheRest) {
-  const PageKeeper keeper;
+TEST(Pages, AreNullWhereThereAreNoMore) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  if (before.rlim_cur != RLIM_INFINITY) GTEST_SKIP() << "addresses are limited already";
+  rlimit limit = before;
+  limit.rlim_cur = mappedPages() * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + 64 * kMiB;
+  if (mappedPages() == 0 || setrlimit(RLIMIT_AS, &limit) != 0)
+    GTEST_SKIP() << "addresses cannot be limited here";
+  void* const pages = takePages(512 * kMiB);
+  EXPECT_THROW(UninitializedVector<std::uint8_t>(512 * kMiB), std::bad_alloc);
+  EXPECT_THROW(PagedArray<std::uint8_t>(512 * kMiB), std::bad_alloc);
+  setrlimit(RLIMIT_AS, &before);
+  EXPECT_EQ(pages, nullptr);
+}
+
+TEST(Pages, AnArrayThatShrinksKeepsItsFirstElements) {
   PagedArray<std::uint32_t> numbers(3'000'000);
   for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i + 1;
-  numbers.shrink(1'000'000);
-  PagedArray<std::uint32_t> next(1'500'000);
-  EXPECT_TRUE(std::ranges::all_of(next, [](std::uint32_t n) { return n > 1'000'000; }))
-      << "pages that were left";
-  std::ranges::fill(next, 0u);
-  numbers.shrink(10);
-  numbers.shrink(10);
+  for (const std::size_t size :
+       {std::size_t{1'000'000}, std::size_t{999'999}, std::size_t{10}, std::size_t{10}}) {
+    numbers.shrink(size);
+    ASSERT_EQ(numbers.size(), size);
+    for (std::uint32_t i = 0; i < size; ++i) ASSERT_EQ(numbers[i], i + 1);
+  }
   numbers.shrink(0);
   EXPECT_TRUE(numbers.empty());
-  PagedArray<std::uint32_t> rest = std::move(next);
+  PagedArray<std::uint32_t> rest = PagedArray<std::uint32_t>(1'500'000);
   EXPECT_EQ(rest.size(), 1'500'000u);
   rest = PagedArray<std::uint32_t>(5);
   EXPECT_EQ(rest.size(), 5u);
 }
 
-TEST(Pages, AreFreshWhenSoManyWereMovedThatMappingsMightRunOut) {
-  const PageKeeper keeper;
-  std::uint8_t seen = 1;
-  for (int i = 0; i < (1 << 15) + 2; ++i) {
-    void* const pages = takePages(kPieceOfPages);
-    seen = bytesOf(pages, 1)[0];
-    bytesOf(pages, 1)[0] = 7;
-    givePagesBack(pages, kPieceOfPages);
-    if (i == 1) {
-      EXPECT_EQ(seen, 7);
-    }
-  }
-  EXPECT_EQ(seen, 0);
+TEST(Pages, OfAShrunkArrayGoBackAndNoOthers) {
+  void* const pages = takePages(10 * kMiB);
+  std::ranges::fill(bytesOf(pages, 10 * kMiB), std::uint8_t{3});
+  std::size_t mapped = giveTailBack(pages, 10 * kMiB, 5 * kMiB);
+  EXPECT_EQ(mapped, 6 * kMiB);
+  EXPECT_TRUE(isAll(bytesOf(pages, mapped), 3));
+  mapped = giveTailBack(pages, mapped, 0);
+  EXPECT_EQ(mapped, kHugePage) << "an array keeps its first page";
+  givePagesBack(pages, mapped);
+  void* const small = takePages(100);
+  EXPECT_EQ(giveTailBack(small, 100, 1), 100u) << "small arrays stay as they are";
+  givePagesBack(small, 100);
 }
 
-TEST(Pages, WhatIsKeptGoesWhenTheSystemHasNoMoreAddresses) {
-  rlimit before{};
-  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
-  if (before.rlim_cur != RLIM_INFINITY) GTEST_SKIP() << "addresses are limited already";
-  const PageKeeper keeper;
-  constexpr std::size_t kMost = 512 * kMiB;
-  void* const first = takePages(kMost);
-  ASSERT_NE(first, nullptr);
-  givePagesBack(first, kMost);
-  // What the process has now, all of it kept, and a little more: as much again is not to be had.
-  std::size_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  rlimit limit = before;
-  limit.rlim_cur = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + 64 * kMiB;
-  if (pages == 0 || setrlimit(RLIMIT_AS, &limit) != 0) GTEST_SKIP() << "addresses cannot be limited here";
-  void* const second = takePages(kMost);
-  setrlimit(RLIMIT_AS, &before);
-  ASSERT_NE(second, nullptr);
-  bytesOf(second, kMost)[kMost - 1] = 1;
-  givePagesBack(second, kMost);
-}
-
-TEST(Pages, WhatWasPutTogetherFromKeptOnesOutlivesTheKeeper) {
-  UninitializedVector<std::uint32_t> numbers;
-  {
-    const PageKeeper keeper;
-    // Of sizes that are no whole number of pieces.
-    UninitializedVector<std::uint32_t> a(900'001, 1), b(2'100'003, 2), c(123, 3);
-    UninitializedVector<std::uint32_t>().swap(a);
-    UninitializedVector<std::uint32_t>().swap(b);
-    numbers.resize(3'600'007);
-    for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
-  }
-  for (std::uint32_t i = 0; i < numbers.size(); ++i) ASSERT_EQ(numbers[i], i);
-}
-
-TEST(Pages, NoTwoHaveTheSameWhoeverTakesThem) {
-  const PageKeeper keeper;
+TEST(Pages, TakenByDifferentThreadsDoNotOverlap) {
   std::vector<std::uint8_t> isWhole(4, 0);
   std::vector<std::thread> threads;
   for (std::uint8_t t = 0; t < isWhole.size(); ++t)
@@ -217,6 +132,16 @@ TEST(Pages, NoTwoHaveTheSameWhoeverTakesThem) {
     });
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(isWhole, std::vector<std::uint8_t>(4, 1));
+}
+
+TEST(Pages, AdviceOnHeapBlocksChangesNothingInThem) {
+  std::vector<std::uint32_t> numbers;
+  reserveInPages(numbers, 8'000'000);
+  for (std::uint32_t i = 0; i < 8'000'000; ++i) numbers.push_back(i);
+  adviseHugePages(numbers.data(), numbers.size() * sizeof(std::uint32_t));
+  for (std::uint32_t i = 0; i < numbers.size(); ++i) ASSERT_EQ(numbers[i], i);
+  adviseHugePages(nullptr, 0);
+  giveFreeHeapBack();
 }
 
 }  // namespace
