@@ -32,12 +32,13 @@ int main(int argc, char** argv) {
   const auto cut = arete::takeCut(model->mt, arete::UniformError(maxError));
   if (!cut) return fail(cut.error());
 
-  const arete::TinExport tin = arete::exportTin(*model, *cut);
+  const auto tin = arete::exportTin(*model, *cut);
+  if (!tin) return fail(tin.error());
   arete::MeshWriteOptions options;
   options.crsWkt = model->georeference.crsWkt;
-  options.triangleErrors = tin.errors;
-  if (const auto written = arete::writeMesh(tin.mesh, argv[3], options); !written)
+  options.triangleErrors = tin->errors;
+  if (const auto written = arete::writeMesh(tin->mesh, argv[3], options); !written)
     return fail(written.error());
 
-  std::cout << tin.mesh.triangles.size() << " triangles within " << cut->achievedError << "\n";
+  std::cout << tin->mesh.triangles.size() << " triangles within " << cut->achievedError << "\n";
 }

@@ -179,7 +179,7 @@ Result<Figures> exportStage(const DemSource& source, const std::string& path, co
   const std::string file = path + ".ply";
   Status status;
   const double seconds = medianSeconds(plan.repetition, [&] {
-    const TinExport tin = exportTin(*model, *cut);
+    const TinExport tin = exportTin(*model, *cut).value();
     MeshWriteOptions options;
     options.triangleErrors = tin.errors;
     options.crsWkt = model->georeference.crsWkt;
@@ -205,7 +205,7 @@ Result<Figures> measureStage(const DemSource& source, const std::string& path, c
   const double tolerance = source.tolerances[source.tolerances.size() / 2];
   const Result<Cut> cut = takeCut(model->mt, UniformError(tolerance));
   if (!cut) return tl::unexpected(cut.error());
-  const TinExport tin = exportTin(*model, *cut);
+  const TinExport tin = exportTin(*model, *cut).value();
   const Result<MeasureReport> report = measure(tin.mesh, *field);
   if (!report) return tl::unexpected(report.error());
   if (const Status kept = checkPromise(*report, tolerance); !kept) return tl::unexpected(kept.error());
@@ -240,7 +240,7 @@ Result<Figures> trianglesStage(const DemSource& source, const std::string& delau
       const Result<Cut> cut = takeCut(models[i]->mt, UniformError(baseline.tolerance));
       if (!cut) return tl::unexpected(cut.error());
       // A count that does not keep its tolerance is worth nothing.
-      const Result<MeasureReport> report = measure(exportTin(*models[i], *cut).mesh, *field);
+      const Result<MeasureReport> report = measure(exportTin(*models[i], *cut)->mesh, *field);
       if (!report) return tl::unexpected(report.error());
       if (const Status kept = checkPromise(*report, baseline.tolerance); !kept)
         return tl::unexpected(kept.error());

@@ -20,6 +20,7 @@ ExitCode exitCodeOf(ErrorCode code) {
     case ErrorCode::interrupted:
       return ExitCode::interrupted;
     case ErrorCode::outOfMemory:
+    case ErrorCode::internal:
       return ExitCode::internal;
   }
   return ExitCode::internal;

@@ -25,6 +25,8 @@ std::string_view toString(ErrorCode code) {
       return "interrupted";
     case ErrorCode::outOfMemory:
       return "out of memory";
+    case ErrorCode::internal:
+      return "internal";
   }
   return "unknown";
 }

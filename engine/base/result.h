@@ -20,6 +20,7 @@ enum class ErrorCode {
   brokenPromise,  ///< a stated bound or a law does not hold
   interrupted,    ///< the caller has cancelled the work
   outOfMemory,    ///< an allocation failed
+  internal,       ///< an exception that no code expects: a bug
 };
 
 std::string_view toString(ErrorCode code);

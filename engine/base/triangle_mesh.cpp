@@ -5,9 +5,11 @@
 
 #include <cmath>
 
+#include "engine/base/caught_failure.h"
+
 namespace arete {
 
-Status TriangleMesh::validate() const {
+Status TriangleMesh::validate() const try {
   for (std::size_t v = 0; v < positions.size(); ++v) {
     const Vec3& p = positions[v];
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
@@ -19,6 +21,8 @@ Status TriangleMesh::validate() const {
         return failure(ErrorCode::invalidData,
                        fmt::format("triangle {} names vertex {} of {}", t, v, positions.size()));
   return {};
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

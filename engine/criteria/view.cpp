@@ -12,8 +12,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/caught_failure.h"
+
 namespace arete {
-Status View::validate() const {
+Status View::validate() const try {
   const auto refuse = [](const char* message) { return failure(ErrorCode::usage, message, "view"); };
   if (!isFinite(eye) || !isFinite(forward) || !isFinite(up))
     return refuse("the eye and its directions must be finite");
@@ -27,6 +29,8 @@ Status View::validate() const {
   if (!(nearDistance >= 0 && nearDistance < farDistance))
     return refuse("the near distance must be at least 0 and below the far distance");
   return {};
+} catch (...) {
+  return caughtFailure();
 }
 
 Frustum::Frustum(const View& view)

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/caught_failure.h"
 #include "engine/cut/front.h"
 #include "engine/cut/least_cut.h"
 #include "engine/cut/refine.h"
@@ -27,7 +28,7 @@ tl::unexpected<Error> interrupted() {
 }  // namespace
 
 Status checkCut(const MultiTriangulation& mt, const Criterion& criterion, CutMethod method,
-                std::optional<std::uint32_t> maxTriangles) {
+                std::optional<std::uint32_t> maxTriangles) try {
   if (maxTriangles && *maxTriangles < mt.rootTriangleCount())
     return failure(ErrorCode::usage,
                    fmt::format("{} triangles are fewer than the {} of the root, the coarsest there is",
@@ -38,6 +39,8 @@ Status checkCut(const MultiTriangulation& mt, const Criterion& criterion, CutMet
         ErrorCode::usage,
         "this criterion has no bound over a sphere, so a saturated cut cannot take it; use the minimal cut");
   return {};
+} catch (...) {
+  return caughtFailure();
 }
 
 std::uint32_t closeUpwards(const MultiTriangulation& mt, NodeSet& set) {
@@ -112,7 +115,7 @@ Status checkOptions(const MultiTriangulation& mt, const Criterion& criterion, co
 }  // namespace
 
 Result<NodeCut> takeNodes(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options,
-                          const RunContext& context) {
+                          const RunContext& context) try {
   if (const Status ok = checkOptions(mt, criterion, options); !ok) return tl::unexpected(ok.error());
   if (context.cancelled()) return interrupted();
   return withThreads(context, [&]() -> Result<NodeCut> {
@@ -125,10 +128,12 @@ Result<NodeCut> takeNodes(const MultiTriangulation& mt, const Criterion& criteri
     if (!least) return interrupted();
     return NodeCut{least->toNodeSet(mt.nodeCount()), true};
   });
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, const CutOptions& options,
-                    const RunContext& context) {
+                    const RunContext& context) try {
   if (const Status ok = checkOptions(mt, criterion, options); !ok) return tl::unexpected(ok.error());
   if (context.cancelled()) return interrupted();
   return withThreads(context, [&]() -> Result<Cut> {
@@ -149,6 +154,8 @@ Result<Cut> takeCut(const MultiTriangulation& mt, const Criterion& criterion, co
     cut.isComplete = nodes->isComplete;
     return cut;
   });
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/base/caught_failure.h"
 #include "engine/cut/saturated_cut.h"
 #include "engine/follow/incremental_state.h"
 #include "engine/follow/kinetic_update.h"
@@ -78,7 +79,7 @@ IncrementalCut& IncrementalCut::operator=(IncrementalCut&&) noexcept = default;
 
 Result<IncrementalCut::Update> IncrementalCut::update(const Criterion& criterion,
                                                       const IncrementalOptions& options,
-                                                      const RunContext& context) {
+                                                      const RunContext& context) try {
   State& s = *state_;
   if (const Status ok = checkCut(s.mt, criterion, CutMethod::saturated, options.maxTriangles); !ok)
     return tl::unexpected(ok.error());
@@ -102,13 +103,15 @@ Result<IncrementalCut::Update> IncrementalCut::update(const Criterion& criterion
     for (const CutStep& step : s.steps) ++(step.isRefinement ? update.refined : update.coarsened);
     return update;
   });
+} catch (...) {
+  return caughtFailure();
 }
 
 std::span<const CutStep> IncrementalCut::lastSteps() const {
   return state_->steps;
 }
 
-Status IncrementalCut::apply(std::span<const CutStep> steps) {
+Status IncrementalCut::apply(std::span<const CutStep> steps) try {
   State& s = *state_;
   s.clearCertificates();
   // A copy: the steps may be this cut's own last ones.
@@ -133,6 +136,8 @@ Status IncrementalCut::apply(std::span<const CutStep> steps) {
       s.leave(n);
   }
   return {};
+} catch (...) {
+  return caughtFailure();
 }
 
 const MultiTriangulation& IncrementalCut::mt() const {
@@ -161,7 +166,7 @@ Cut IncrementalCut::front() const {
   return arete::front(state_->mt, nodes());
 }
 
-Status IncrementalCut::validate() const {
+Status IncrementalCut::validate() const try {
   const State& s = *state_;
   const NodeSet set = nodes();
   const auto broken = [](std::string what) { return failure(ErrorCode::brokenPromise, std::move(what)); };
@@ -186,6 +191,8 @@ Status IncrementalCut::validate() const {
   if (ids != arete::front(s.mt, set).ids)
     return broken("the incremental cut's front is not that of its nodes");
   return {};
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

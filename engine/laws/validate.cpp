@@ -21,6 +21,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/base/caught_failure.h"
 #include "engine/laws/front_edges.h"
 #include "engine/mt/node_blocks.h"
 
@@ -200,7 +201,7 @@ tl::unexpected<Error> broken(std::string what) {
 
 }  // namespace
 
-Status validate(const MultiTriangulation& mt, const ValidateOptions& options, const RunContext& context) {
+Status validate(const MultiTriangulation& mt, const ValidateOptions& options, const RunContext& context) try {
   const MtArrays& a = mt.arrays();
   const std::uint32_t nodes = mt.nodeCount();
   for (std::uint32_t n = 0; n + 1 < nodes; ++n)
@@ -247,6 +248,8 @@ Status validate(const MultiTriangulation& mt, const ValidateOptions& options, co
       return broken(fmt::format("law 5: root triangle {} is turned over", t));
   }
   return {};
+} catch (...) {
+  return caughtFailure();
 }
 
 namespace {
@@ -315,7 +318,7 @@ DomainExtent domainExtent(const MultiTriangulation& mt) {
 }
 
 Status validateFront(const MultiTriangulation& mt, const Cut& cut, const DomainExtent& domain,
-                     const ValidateOptions& options) {
+                     const ValidateOptions& options) try {
   const FrontExtent found = frontExtent(mt, cut);
   if (!found.violation.empty()) return broken(found.violation);
   const double slack = found.areaUncertainty + 1e-9 * domain.area;
@@ -328,6 +331,8 @@ Status validateFront(const MultiTriangulation& mt, const Cut& cut, const DomainE
     return broken(fmt::format("law 5: the front's border is {} long, the domain's {}",
                               found.extent.borderLength, domain.borderLength));
   return {};
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/caught_failure.h"
 #include "engine/criteria/view_error.h"
 #include "engine/follow/incremental_cut.h"
 #include "engine/morph/geomorphed_surface.h"
@@ -137,11 +138,13 @@ class ViewMesh::State {
   std::vector<HeightChange> heights_;
 };
 
-Result<ViewMesh> ViewMesh::create(MultiTriangulation mt, const Options& options) {
+Result<ViewMesh> ViewMesh::create(MultiTriangulation mt, const Options& options) try {
   if (!(options.heightScale > 0 && std::isfinite(options.heightScale)))
     return failure(ErrorCode::usage, "heights can be multiplied by a number above 0 only", "view mesh");
   if (options.heightScale != 1) mt = exaggerated(mt, options.heightScale);
   return ViewMesh(std::make_unique<State>(std::move(mt)));
+} catch (...) {
+  return caughtFailure();
 }
 
 ViewMesh::ViewMesh(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -150,8 +153,10 @@ ViewMesh::ViewMesh(ViewMesh&&) noexcept = default;
 ViewMesh& ViewMesh::operator=(ViewMesh&&) noexcept = default;
 
 Result<ViewMesh::Report> ViewMesh::update(const View& view, const UpdateOptions& options,
-                                          const RunContext& context) {
+                                          const RunContext& context) try {
   return state_->update(view, options, context);
+} catch (...) {
+  return caughtFailure();
 }
 
 std::vector<std::array<float, 3>> ViewMesh::positions() const {

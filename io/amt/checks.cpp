@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/caught_failure.h"
 #include "io/amt/index_check.h"
 #include "io/amt/segments.h"
 #include "io/file/memory_guard.h"
@@ -53,13 +54,15 @@ Status checkAmtExtras(const AmtFile& file) {
   return {};
 }
 
-Status checkAmtIndices(const AmtFile& file, const RunContext& context) {
+Status checkAmtIndices(const AmtFile& file, const RunContext& context) try {
   return guardMemory(file.path(), [&]() -> Status {
     if (!file.isPacked())
       if (Status indices = checkMtIndices(file.model().mt, amtGridSamples(file), context); !indices)
         return failure(indices.error().code, indices.error().message, file.path());
     return checkAmtExtras(file);
   });
+} catch (...) {
+  return caughtFailure();
 }
 
 namespace {
@@ -102,7 +105,7 @@ Status checkAmtChunk(const AmtFile& file, const AmtTag& tag) {
   return amtChecksum(file.bytes(*chunk)) == chunk->checksum ? Status() : altered(file, *chunk);
 }
 
-Status checkAmtChecksums(const AmtFile& file, const RunContext& context) {
+Status checkAmtChecksums(const AmtFile& file, const RunContext& context) try {
   const auto checkSums = [&] {
     return file.hasSegments() ? checkSegments(file, context) : checkChunks(file, context);
   };
@@ -121,13 +124,17 @@ Status checkAmtChecksums(const AmtFile& file, const RunContext& context) {
     if (!isLast) end = file.chunks()[i].offset + file.chunks()[i].bytes;
   }
   return {};
+} catch (...) {
+  return caughtFailure();
 }
 
-Status checkAmt(const AmtFile& file, AmtVerify verify, const RunContext& context) {
+Status checkAmt(const AmtFile& file, AmtVerify verify, const RunContext& context) try {
   Status status;
   if (verify == AmtVerify::all) status = checkAmtChecksums(file, context);
   if (status && verify != AmtVerify::none) status = checkAmtIndices(file, context);
   return status;
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "engine/mt/node_blocks.h"
 #include "io/amt/file.h"
 #include "io/amt/part.h"
@@ -253,7 +254,7 @@ Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const 
   return mt;
 }
 
-Result<TerrainModel> AmtFile::read(const AmtReadOptions& options, const RunContext& context) const {
+Result<TerrainModel> AmtFile::read(const AmtReadOptions& options, const RunContext& context) const try {
   return guardMemory(path_, [&]() -> Result<TerrainModel> {
     Result<MultiTriangulation> mt = readMt(options, context);
     if (!mt) return tl::unexpected(mt.error());
@@ -265,17 +266,23 @@ Result<TerrainModel> AmtFile::read(const AmtReadOptions& options, const RunConte
       model.isolated.push_back({isolatedSamples_[i], isolatedHeights_[i]});
     return model;
   });
+} catch (...) {
+  return caughtFailure();
 }
 
-Result<AmtFile> openAmt(const std::string& path, const AmtOpenOptions& options) {
+Result<AmtFile> openAmt(const std::string& path, const AmtOpenOptions& options) try {
   return guardMemory(path, [&] { return AmtOpener::open(path, options); });
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<TerrainModel> loadAmt(const std::string& path, const AmtLoadOptions& options,
-                             const RunContext& context) {
+                             const RunContext& context) try {
   const Result<AmtFile> file = openAmt(path, options.open);
   if (!file) return tl::unexpected(file.error());
   return file->read({options.verify, options.wanted}, context);
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

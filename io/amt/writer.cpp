@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/caught_failure.h"
 #include "io/amt/file.h"
 #include "io/file/file_writer.h"
 #include "io/file/memory_guard.h"
@@ -231,8 +232,10 @@ class AmtWriting {
 }  // namespace
 
 Status writeAmt(const std::string& path, const TerrainModel& model, const RunContext& context,
-                const AmtWriteOptions& options) {
+                const AmtWriteOptions& options) try {
   return guardMemory(path, [&] { return AmtWriting(path, model, context).run(options); });
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

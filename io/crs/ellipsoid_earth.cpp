@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/caught_failure.h"
 #include "io/crs/lonlat.h"
 #include "terrain/model/plan_box.h"
 
@@ -239,7 +240,7 @@ class EllipsoidEarth final : public SightEarth {
 
 }  // namespace
 
-Result<std::unique_ptr<SightEarth>> makeEllipsoidEarth(const TerrainModel& model, double refraction) {
+Result<std::unique_ptr<SightEarth>> makeEllipsoidEarth(const TerrainModel& model, double refraction) try {
   auto lonLat = CrsLonLat::of(model.georeference);
   if (!lonLat) return tl::unexpected(lonLat.error());
   const Georeference& g = model.georeference;
@@ -248,6 +249,8 @@ Result<std::unique_ptr<SightEarth>> makeEllipsoidEarth(const TerrainModel& model
   if (!isEllipsoid || !std::isfinite(refraction))
     return failure(ErrorCode::invalidData, "the ellipsoid or the refraction is invalid");
   return std::make_unique<EllipsoidEarth>(model, std::move(*lonLat), refraction);
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

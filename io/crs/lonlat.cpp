@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/caught_failure.h"
 #include "io/crs/reader.h"
 #include "io/crs/transform.h"
 #include "io/gdal/support.h"
@@ -85,7 +86,7 @@ CrsLonLat::CrsLonLat(CrsLonLat&&) noexcept = default;
 CrsLonLat& CrsLonLat::operator=(CrsLonLat&&) noexcept = default;
 CrsLonLat::~CrsLonLat() = default;
 
-Result<CrsLonLat> CrsLonLat::of(const Georeference& georeference) {
+Result<CrsLonLat> CrsLonLat::of(const Georeference& georeference) try {
   if (georeference.crsWkt.empty())
     return failure(ErrorCode::usage,
                    "the DEM has no CRS, so its places have no longitude and latitude; `crs` "
@@ -115,6 +116,8 @@ Result<CrsLonLat> CrsLonLat::of(const Georeference& georeference) {
   if (!first) return failure(ErrorCode::invalidData, first.error().describe());
   result.pool_->give(std::make_unique<ThereAndBack>(std::move(*first)));
   return result;
+} catch (...) {
+  return caughtFailure();
 }
 
 void CrsLonLat::toLonLat(std::span<Vec2> positions) const {

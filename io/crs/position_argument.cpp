@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/caught_failure.h"
 #include "io/file/number_text.h"
 
 namespace arete {
@@ -77,13 +78,15 @@ std::string_view toString(HeightKind kind) {
   return "unknown";
 }
 
-Result<double> readNumberText(std::string_view text) {
+Result<double> readNumberText(std::string_view text) try {
   const auto number = finiteNumber(text::withoutSpaces(text));
   if (!number) return failure(ErrorCode::usage, fmt::format("'{}' is not a number", text));
   return *number;
+} catch (...) {
+  return caughtFailure();
 }
 
-Result<StatedHeight> readHeightText(std::string_view text) {
+Result<StatedHeight> readHeightText(std::string_view text) try {
   std::string_view height = text::withoutSpaces(text);
   const HeightKind kind = takeKind(height);
   const auto value = finiteNumber(height);
@@ -92,20 +95,24 @@ Result<StatedHeight> readHeightText(std::string_view text) {
         ErrorCode::usage,
         fmt::format("'{}' is not a height: a number, optionally followed by agl, msl or ell", text));
   return StatedHeight{*value, kind};
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<Vec2> readPlaceArgument(const std::string& option, const std::string& text,
-                               const CrsTransform& toDem) {
+                               const CrsTransform& toDem) try {
   const std::string culprit = fmt::format("{} {}", option, text);
   const auto fields = fieldsOf(text);
   if (fields.size() != 2)
     return failure(ErrorCode::usage, fmt::format("a place is two numbers, X,Y, not {}", fields.size()),
                    culprit);
   return placeOf(fields[0], fields[1], toDem, culprit);
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<PositionArgument> readPositionArgument(const std::string& option, const std::string& text,
-                                              const CrsTransform& toDem) {
+                                              const CrsTransform& toDem) try {
   const std::string culprit = fmt::format("{} {}", option, text);
   const auto fields = fieldsOf(text);
   if (fields.size() != 3)
@@ -122,9 +129,11 @@ Result<PositionArgument> readPositionArgument(const std::string& option, const s
   if (!place) return tl::unexpected(place.error());
   position.xy = *place;
   return position;
+} catch (...) {
+  return caughtFailure();
 }
 
-Result<double> demHeight(const PositionArgument& position, const SurfaceHeights& heights) {
+Result<double> demHeight(const PositionArgument& position, const SurfaceHeights& heights) try {
   const std::string culprit =
       fmt::format("{},{},{}{}", position.xy.x, position.xy.y, position.height, toString(position.kind));
   if (position.kind == HeightKind::aboveGround) {
@@ -143,6 +152,8 @@ Result<double> demHeight(const PositionArgument& position, const SurfaceHeights&
             : "the DEM's heights are not stated to be ellipsoidal, so this needs a geoid; use msl or agl",
         culprit);
   return position.height;
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

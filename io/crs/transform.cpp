@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/caught_failure.h"
 #include "io/crs/reader.h"
 #include "io/gdal/support.h"
 
@@ -38,7 +39,7 @@ CrsTransform::CrsTransform(CrsTransform&&) noexcept = default;
 CrsTransform& CrsTransform::operator=(CrsTransform&&) noexcept = default;
 CrsTransform::~CrsTransform() = default;
 
-Result<CrsTransform> CrsTransform::between(const std::string& from, const std::string& to) {
+Result<CrsTransform> CrsTransform::between(const std::string& from, const std::string& to) try {
   registerGdal();
   auto source = crsFromText(from), target = crsFromText(to);
   if (!source) return tl::unexpected(source.error());
@@ -57,9 +58,11 @@ Result<CrsTransform> CrsTransform::between(const std::string& from, const std::s
         fmt::format("there is no transformation from its CRS to the DEM's: {}", errors.firstFailure()));
   result.state_ = std::move(state);
   return result;
+} catch (...) {
+  return caughtFailure();
 }
 
-Result<CrsTransform> CrsTransform::fromLonLat(const Georeference& target) {
+Result<CrsTransform> CrsTransform::fromLonLat(const Georeference& target) try {
   if (target.crsWkt.empty())
     return failure(ErrorCode::usage,
                    "the DEM has no CRS, so longitude and latitude cannot be brought into it; `crs` states "
@@ -71,6 +74,8 @@ Result<CrsTransform> CrsTransform::fromLonLat(const Georeference& target) {
   const std::unique_ptr<OGRSpatialReference> own(crs->CloneGeogCS());
   if (!own) return failure(ErrorCode::invalidData, "the CRS of the DEM has no longitude and latitude");
   return between(wktOf(*own), target.crsWkt);
+} catch (...) {
+  return caughtFailure();
 }
 
 std::optional<Vec2> CrsTransform::operator()(Vec2 p) const {

@@ -11,6 +11,7 @@
 #include <memory>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "io/crs/longitude_turns.h"
 #include "io/crs/transform.h"
 #include "io/dem/raster_reader.h"
@@ -60,7 +61,7 @@ bool mayOverlap(const TerrainModel& model, const RasterHeightfield& raster) {
 }  // namespace
 
 Result<SightClutter> readClutter(const std::string& text, const TerrainModel& model,
-                                 const RunContext& context) {
+                                 const RunContext& context) try {
   SightClutter clutter;
   double height = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), height);
@@ -99,6 +100,8 @@ Result<SightClutter> readClutter(const std::string& text, const TerrainModel& mo
     return std::isnan(z) ? 0.0 : std::max(0.0, z * scale);
   };
   return clutter;
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -19,6 +19,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "io/dem/gridded_points.h"
 #include "io/file/memory_guard.h"
 #include "io/file/text_scan.h"
@@ -193,7 +194,8 @@ std::optional<std::string> crsWarning(const Heightfield& field) {
 
 }  // namespace
 
-Result<DemRead> readDem(const std::string& path, const SourceReading& reading, const RunContext& context) {
+Result<DemRead> readDem(const std::string& path, const SourceReading& reading,
+                        const RunContext& context) try {
   return guardMemory(path, [&]() -> Result<DemRead> {
     Result<DemRead> read = readFrom(path, reading, context);
     if (!read) return read;
@@ -201,6 +203,8 @@ Result<DemRead> readDem(const std::string& path, const SourceReading& reading, c
       read->warnings.push_back(std::move(*warning));
     return read;
   });
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -14,6 +14,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "engine/memory/pages.h"
 #include "io/crs/reader.h"
 #include "io/file/memory_guard.h"
@@ -227,13 +228,15 @@ Result<PointRead> readFrom(const std::string& path, const PointReadOptions& opti
 }  // namespace
 
 Result<PointRead> readPoints(const std::string& path, const PointReadOptions& options,
-                             const RunContext& context) {
+                             const RunContext& context) try {
   return guardMemory(path, [&]() -> Result<PointRead> {
     auto read = readFrom(path, options, context);
     giveFreeHeapBack();  // blocks that growing rows left behind
     if (!read && read.error().culprit.empty()) read.error().culprit = path;
     return read;
   });
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "io/crs/reader.h"
 #include "io/dem/band_heights.h"
 #include "io/file/memory_guard.h"
@@ -158,7 +159,7 @@ Result<RasterRead> readOpened(GDALDataset& dataset, const std::string& path, con
 }  // namespace
 
 Result<RasterRead> readRaster(const std::string& path, const RasterReadOptions& options,
-                              const RunContext& context) {
+                              const RunContext& context) try {
   return guardMemory(path, [&]() -> Result<RasterRead> {
     registerGdal();
     GdalErrors errors;
@@ -170,6 +171,8 @@ Result<RasterRead> readRaster(const std::string& path, const RasterReadOptions& 
     if (!read && read.error().culprit.empty()) read.error().culprit = path;
     return read;
   });
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

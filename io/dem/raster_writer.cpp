@@ -18,6 +18,7 @@
 #include <system_error>
 #include <vector>
 
+#include "engine/base/caught_failure.h"
 #include "io/crs/reader.h"
 #include "io/file/memory_guard.h"
 #include "io/file/output_file.h"
@@ -143,7 +144,7 @@ bool isGeoTiffName(const std::string& path) {
 
 Status writeGeoTiff(const std::string& path, std::uint32_t columns, std::uint32_t rows,
                     std::span<const double> values, const Georeference& georeference,
-                    const GeoTiffOptions& options, const RunContext& context) {
+                    const GeoTiffOptions& options, const RunContext& context) try {
   constexpr std::uint32_t kLargestSide = std::uint32_t(std::numeric_limits<int>::max());
   if (columns == 0 || rows == 0 || columns > kLargestSide || rows > kLargestSide ||
       values.size() != std::size_t(columns) * rows)
@@ -164,6 +165,8 @@ Status writeGeoTiff(const std::string& path, std::uint32_t columns, std::uint32_
     if (status) context.report("writing", 1);
     return status;
   });
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

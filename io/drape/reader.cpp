@@ -14,6 +14,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "io/drape/placement.h"
 #include "io/drape/source.h"
 
@@ -143,7 +144,7 @@ DrapeReader& DrapeReader::operator=(DrapeReader&&) noexcept = default;
 DrapeReader::~DrapeReader() = default;
 
 Result<DrapeReader> DrapeReader::open(const std::string& path, const TerrainModel& model,
-                                      const DrapeReadOptions& options, const RunContext& context) {
+                                      const DrapeReadOptions& options, const RunContext& context) try {
   const auto named = [&](const Error& e) {
     return failure(e.code, e.message, e.culprit.empty() ? path : e.culprit);
   };
@@ -187,6 +188,8 @@ Result<DrapeReader> DrapeReader::open(const std::string& path, const TerrainMode
     return failure(ErrorCode::unreadable,
                    fmt::format("cannot be mapped onto the DEM: {}", errors.firstFailure()), path);
   return DrapeReader(std::move(state));
+} catch (...) {
+  return caughtFailure();
 }
 
 std::uint32_t DrapeReader::columns() const {
@@ -206,7 +209,7 @@ const std::vector<std::string>& DrapeReader::warnings() const {
 }
 
 Status DrapeReader::read(std::uint32_t column, std::uint32_t row, std::uint32_t width, std::uint32_t height,
-                         std::span<Pixel> pixels) {
+                         std::span<Pixel> pixels) try {
   State& s = *state_;
   const std::size_t count = std::size_t(width) * height, colors = s.source.colors.size();
   const auto transfer = [&](std::size_t band, void* into, GDALDataType type, GSpacing step) -> Status {
@@ -237,6 +240,8 @@ Status DrapeReader::read(std::uint32_t column, std::uint32_t row, std::uint32_t 
     for (std::size_t c = 0; c < 3; ++c) p[c] = static_cast<std::uint8_t>((p[c] * p[3] + 127) / 255);
   }
   return {};
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

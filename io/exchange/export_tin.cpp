@@ -7,12 +7,13 @@
 #include <limits>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "engine/memory/pages.h"
 #include "io/crs/local_origin.h"
 
 namespace arete {
 
-TinExport exportTin(const TerrainModel& model, const Cut& cut) {
+Result<TinExport> exportTin(const TerrainModel& model, const Cut& cut) try {
   TinExport tin;
   const auto toSource = [&](std::uint32_t v) {
     const Vec3 p = model.mt.position(VertexId(v));
@@ -33,17 +34,23 @@ TinExport exportTin(const TerrainModel& model, const Cut& cut) {
   for (std::uint32_t v = 0; v < root.size(); ++v) root[v] = toSource(v);
   tin.origin = localOrigin(root);
   return tin;
+} catch (...) {
+  return caughtFailure();
 }
 
-TinExport exportTin(const TerrainModel& model, const FittedCut& fitted) {
-  TinExport tin = exportTin(model, fitted.cut);
+Result<TinExport> exportTin(const TerrainModel& model, const FittedCut& fitted) try {
+  Result<TinExport> exported = exportTin(model, fitted.cut);
+  if (!exported) return exported;
+  TinExport& tin = *exported;
   for (std::size_t v = 0; v < fitted.heights.size(); ++v) tin.mesh.positions[v].z = fitted.heights[v];
   for (std::size_t t = 0; t < fitted.errors.size(); ++t) {
     tin.errors[t] = static_cast<float>(fitted.errors[t]);
     if (tin.errors[t] < fitted.errors[t])
       tin.errors[t] = std::nextafter(tin.errors[t], std::numeric_limits<float>::infinity());
   }
-  return tin;
+  return exported;
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "engine/base/result.h"
 #include "engine/base/triangle_mesh.h"
 #include "engine/cut/cut.h"
 #include "terrain/fit/fit.h"
@@ -19,9 +20,9 @@ struct TinExport {
   Vec3 origin;  ///< for formats of 32-bit floats, in source coordinates; the same for all cuts of a model
 };
 
-/// O(size of the cut). Precondition: the cut is one of the model's.
-TinExport exportTin(const TerrainModel& model, const Cut& cut);
+/// O(size of the cut). Precondition: the cut is one of the model's. Errors: outOfMemory.
+Result<TinExport> exportTin(const TerrainModel& model, const Cut& cut);
 /// With the heights and errors of the fit; the errors are rounded outwards.
-TinExport exportTin(const TerrainModel& model, const FittedCut& fitted);
+Result<TinExport> exportTin(const TerrainModel& model, const FittedCut& fitted);
 
 }  // namespace arete

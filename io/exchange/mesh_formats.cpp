@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/base/caught_failure.h"
 #include "io/file/memory_guard.h"
 #include "io/mesh/2dm/2dm.h"
 #include "io/mesh/glb/glb.h"
@@ -63,7 +64,7 @@ std::string writableMeshExtensions() {
   return extensionsOf([](const MeshFormat& format) { return format.write != nullptr; });
 }
 
-Result<MeshFormat> meshFormatOf(const std::filesystem::path& path) {
+Result<MeshFormat> meshFormatOf(const std::filesystem::path& path) try {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(),
                          [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
@@ -80,6 +81,8 @@ Result<MeshFormat> meshFormatOf(const std::filesystem::path& path) {
                      ? fmt::format("a mesh file needs an extension that names its format: {}", known)
                      : fmt::format("{} is no known mesh format; known are {}", extension, known),
                  path.string());
+} catch (...) {
+  return caughtFailure();
 }
 
 bool isMeshFile(const std::filesystem::path& path) {
@@ -87,7 +90,7 @@ bool isMeshFile(const std::filesystem::path& path) {
   return format && format->read && (format->read != &readGpkg || holdsSurfaces(path));
 }
 
-Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& context) {
+Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& context) try {
   const Result<MeshFormat> format = meshFormatOf(path);
   if (!format) return tl::unexpected(format.error());
   if (!format->read)
@@ -98,16 +101,20 @@ Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& c
   if (file && !std::ranges::all_of(file->triangleErrors, [](float e) { return e >= 0 && std::isfinite(e); }))
     file->triangleErrors.clear();
   return file;
+} catch (...) {
+  return caughtFailure();
 }
 
 Status writeMesh(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
-                 const RunContext& context) {
+                 const RunContext& context) try {
   const Result<MeshFormat> format = meshFormatOf(path);
   if (!format) return tl::unexpected(format.error());
   if (!format->write)
     return failure(ErrorCode::unsupported, fmt::format("{} files can be read, not written", format->name),
                    path.string());
   return guardMemory(path.string(), [&] { return format->write(mesh, path, options, context); });
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/base/caught_failure.h"
 #include "io/crs/reader.h"
 #include "terrain/model/georeference.h"
 
@@ -24,7 +25,7 @@ double heightMetres(const MeshFile& mesh, const Georeference& georeference) {
 
 }  // namespace
 
-Result<MetricMeshes> toMetres(const MeshFile& first, const MeshFile& second) {
+Result<MetricMeshes> toMetres(const MeshFile& first, const MeshFile& second) try {
   const auto crs = crsFromText(first.crsWkt);
   if (!crs) return tl::unexpected(crs.error());
   Georeference axes;
@@ -41,6 +42,8 @@ Result<MetricMeshes> toMetres(const MeshFile& first, const MeshFile& second) {
       secondUnits{unit.x, unit.y, heightMetres(second, axes)};
   return MetricMeshes{scaled(first.mesh, firstUnits), scaled(second.mesh, secondUnits), firstUnits,
                       secondUnits, latitude};
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "engine/base/caught_failure.h"
 #include "io/crs/position_argument.h"
 
 namespace arete {
@@ -37,12 +38,15 @@ Result<StatedCamera> stated(const std::string& option, const std::string& text, 
 
 }  // namespace
 
-Result<Vec2> readCameraPlace(const std::string& option, const std::string& text, const CrsTransform& toDem) {
+Result<Vec2> readCameraPlace(const std::string& option, const std::string& text,
+                             const CrsTransform& toDem) try {
   return stated(option, text, toDem).map([](const StatedCamera& camera) { return camera.position.xy; });
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<CameraArgument> readCameraArgument(const std::string& option, const std::string& text,
-                                          const CrsTransform& toDem, const SurfaceHeights& heights) {
+                                          const CrsTransform& toDem, const SurfaceHeights& heights) try {
   const std::string culprit = fmt::format("{} {}", option, text);
   const auto parts = stated(option, text, toDem);
   if (!parts) return tl::unexpected(parts.error());
@@ -69,6 +73,8 @@ Result<CameraArgument> readCameraArgument(const std::string& option, const std::
   if (const auto view = viewOf(camera, heights.model()); !view)
     return failure(view.error().code, view.error().message, culprit);
   return argument;
+} catch (...) {
+  return caughtFailure();
 }
 
 std::string cameraText(const Camera& camera, const Georeference& dem) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/caught_failure.h"
 #include "io/crs/names.h"
 #include "io/extract/report_json.h"
 #include "io/file/file_writer.h"
@@ -126,13 +127,16 @@ std::string certificateJson(const Certificate& certificate, const TerrainModel& 
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Status writeCertificate(const std::string& path, const Certificate& certificate, const TerrainModel& model) {
+Status writeCertificate(const std::string& path, const Certificate& certificate,
+                        const TerrainModel& model) try {
   return guardMemory(path, [&]() -> Status {
     Result<FileWriter> writer = FileWriter::create(path);
     if (!writer) return tl::unexpected(writer.error());
     writer->write(certificateJson(certificate, model));
     return writer->finish();
   });
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "engine/base/caught_failure.h"
 #include "engine/criteria/refine_order.h"
 #include "engine/criteria/view_error.h"
 
@@ -33,7 +34,8 @@ std::string_view fitName(ExtractFit fit) {
 
 Result<std::shared_ptr<const BoundedCriterion>> engineCriterion(const ExtractCriterion& c,
                                                                 const std::optional<Region>& region,
-                                                                double reserve, const TerrainModel& model) {
+                                                                double reserve,
+                                                                const TerrainModel& model) try {
   const MetricFrame& metric = model.mt.arrays().metric;
   const double maxError = std::max(0.0, c.maxError.value_or(0) - reserve);
   const double outsideError = std::max(maxError, c.outsideError);
@@ -54,10 +56,12 @@ Result<std::shared_ptr<const BoundedCriterion>> engineCriterion(const ExtractCri
                                .farError = outsideError});
   if (region) return std::make_shared<RegionError>(*region, metric, maxError, outsideError);
   return std::make_shared<UniformError>(maxError);
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<RequiredError> requiredBy(std::span<const ExtractCriterion> criteria,
-                                 const std::optional<Region>& region, const TerrainModel& outline) {
+                                 const std::optional<Region>& region, const TerrainModel& outline) try {
   std::vector<std::shared_ptr<const BoundedCriterion>> parts;
   for (const ExtractCriterion& c : criteria) {
     if (!c.maxError || c.camera || c.fit != ExtractFit::none) return RequiredError();
@@ -78,9 +82,11 @@ Result<RequiredError> requiredBy(std::span<const ExtractCriterion> criteria,
     for (const auto& part : parts) least = std::min(least, part->allowedError(around));
     return least;
   });
+} catch (...) {
+  return caughtFailure();
 }
 
-Result<CutOptions> engineOptions(const ExtractCriterion& c, const TerrainModel& model) {
+Result<CutOptions> engineOptions(const ExtractCriterion& c, const TerrainModel& model) try {
   CutOptions options{.method = c.method, .maxTriangles = c.maxTriangles};
   if (c.order == ExtractOrder::breadth) options.order = std::make_shared<BreadthFirst>();
   if (c.order == ExtractOrder::depth) options.order = std::make_shared<DepthFirst>();
@@ -93,6 +99,8 @@ Result<CutOptions> engineOptions(const ExtractCriterion& c, const TerrainModel& 
   if (c.deadlineMilliseconds)
     options.deadline = Deadline::in(std::chrono::duration<double, std::milli>(*c.deadlineMilliseconds));
   return options;
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

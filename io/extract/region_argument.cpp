@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "io/extract/region_reader.h"
 
 namespace arete {
@@ -36,7 +37,7 @@ std::optional<std::vector<double>> numbersOf(std::string_view text) {
 }  // namespace
 
 Result<RegionArgument> readRegionArgument(const std::string& text, const std::string& demCrs, double distance,
-                                          const RunContext& context) {
+                                          const RunContext& context) try {
   const std::string culprit = fmt::format("region {}", text);
   if (const auto box = numbersOf(text); box && text.find(',') != std::string::npos) {
     if (box->size() != 4)
@@ -73,6 +74,8 @@ Result<RegionArgument> readRegionArgument(const std::string& text, const std::st
   return RegionArgument{
       {.rings = std::move(read->rings), .lines = std::move(read->lines), .distance = distance},
       std::move(read->warnings)};
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

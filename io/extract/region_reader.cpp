@@ -14,6 +14,7 @@
 #include <memory>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "io/crs/reader.h"
 #include "io/file/memory_guard.h"
 #include "io/gdal/support.h"
@@ -211,12 +212,14 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
 }  // namespace
 
 Result<RegionRead> readRegion(const std::string& path, const std::string& targetCrs,
-                              const RegionReadOptions& options, const RunContext& context) {
+                              const RegionReadOptions& options, const RunContext& context) try {
   return guardMemory(path, [&] {
     auto read = readFrom(path, targetCrs, options, context);
     if (!read && read.error().culprit.empty()) read.error().culprit = path;
     return read;
   });
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

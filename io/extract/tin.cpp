@@ -14,6 +14,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "engine/cut/cut.h"
 #include "io/dem/raster_writer.h"
 #include "io/exchange/mesh_formats.h"
@@ -69,7 +70,7 @@ ExportFormat formatOf(const std::string& path, const WrittenMesh& written, const
 
 }  // namespace
 
-Status checkExtractOutput(const std::string& path, const TerrainModel& model) {
+Status checkExtractOutput(const std::string& path, const TerrainModel& model) try {
   if (isGeoTiffName(path)) {
     if (model.isRaster) return {};
     return failure(ErrorCode::usage,
@@ -89,6 +90,8 @@ Status checkExtractOutput(const std::string& path, const TerrainModel& model) {
                                     : fmt::format("'.{}' is not a format that can be written", extension),
                   known),
       path);
+} catch (...) {
+  return caughtFailure();
 }
 
 const TinExtractor::Samples& TinExtractor::samples() {
@@ -183,8 +186,10 @@ Status TinExtractor::deepen(double maxError, double reserve, const RunContext& c
 }
 
 Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const RunContext& context,
-                                           std::optional<Cut> taken) {
+                                           std::optional<Cut> taken) try {
   return guardMemory(request.output, [&] { return extractFrom(request, context, std::move(taken)); });
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<ExtractedTin> TinExtractor::extractFrom(const ExtractRequest& request, const RunContext& context,

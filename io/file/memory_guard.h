@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <new>
-#include <stdexcept>
 #include <string>
 
-#include "engine/base/result.h"
+#include "engine/base/caught_failure.h"
 
 namespace arete {
 
@@ -19,10 +17,8 @@ template <class Function>
 auto guardMemory(const std::string& culprit, const Function& function) -> decltype(function()) {
   try {
     return function();
-  } catch (const std::bad_alloc&) {
-    return failure(ErrorCode::outOfMemory, "needs more memory than is free", culprit);
-  } catch (const std::length_error&) {
-    return failure(ErrorCode::outOfMemory, "needs more memory than is free", culprit);
+  } catch (...) {
+    return caughtFailure(culprit);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "engine/base/caught_failure.h"
 #include "engine/parallel/with_threads.h"
 #include "io/file/memory_guard.h"
 #include "io/format/checksum.h"
@@ -447,9 +448,11 @@ class Packer {
 }  // namespace
 }  // namespace packed
 
-Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context) {
+Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context) try {
   return guardMemory(
       "", [&] { return withThreads(context, [&] { return packed::Packer(model, context).run(); }); });
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

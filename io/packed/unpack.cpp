@@ -13,6 +13,7 @@
 #include <new>
 #include <optional>
 
+#include "engine/base/caught_failure.h"
 #include "engine/parallel/with_threads.h"
 #include "io/file/memory_guard.h"
 #include "io/format/checksum.h"
@@ -299,8 +300,10 @@ Result<MultiTriangulation> unpack(const AmtMetadata& metadata, std::span<const s
 
 Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directory,
                                     std::span<const std::byte> tables, std::span<const std::byte> nodes,
-                                    const RequiredError& wanted, const RunContext& context) {
+                                    const RequiredError& wanted, const RunContext& context) try {
   return guardMemory("", [&] { return unpack(metadata, directory, tables, nodes, wanted, context); });
+} catch (...) {
+  return caughtFailure();
 }
 
 double packedErrorBeyond(std::span<const std::byte> directoryBytes, const OutwardScale& scale,

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <vector>
 
+#include "engine/base/caught_failure.h"
 #include "io/file/file_writer.h"
 #include "io/file/memory_guard.h"
 #include "io/file/text_scan.h"
@@ -129,7 +130,8 @@ bool isHeightTable(const std::string& path) {
 }
 
 Status writeHeightTable(const std::string& path, const PointTable& table,
-                        std::span<const std::optional<SurfaceHeight>> heights, const RunContext& context) {
+                        std::span<const std::optional<SurfaceHeight>> heights,
+                        const RunContext& context) try {
   if (!isHeightTable(path))
     return failure(ErrorCode::usage, "a table of heights ends in .csv or .gpkg", path);
   const auto fill = [&](GDALDataset& dataset, const GdalErrors& errors) {
@@ -141,6 +143,8 @@ Status writeHeightTable(const std::string& path, const PointTable& table,
   });
   if (!status && status.error().culprit.empty()) status.error().culprit = path;
   return status;
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/caught_failure.h"
 #include "io/file/file_writer.h"
 #include "io/file/memory_guard.h"
 #include "io/file/text_scan.h"
@@ -101,7 +102,7 @@ bool isLineTable(const std::string& path) {
   return extension == "csv" || extension == "gpkg";
 }
 
-Status writeLineTable(const std::string& path, const LineTable& table, const RunContext& context) {
+Status writeLineTable(const std::string& path, const LineTable& table, const RunContext& context) try {
   if (!isLineTable(path)) return failure(ErrorCode::usage, "a table of lines ends in .csv or .gpkg", path);
   const auto insert = [&](GDALDataset& dataset, const GdalErrors& errors) {
     return fill(dataset, table, errors, context);
@@ -112,6 +113,8 @@ Status writeLineTable(const std::string& path, const LineTable& table, const Run
   });
   if (!status && status.error().culprit.empty()) status.error().culprit = path;
   return status;
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

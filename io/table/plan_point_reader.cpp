@@ -10,6 +10,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "io/crs/reader.h"
 #include "io/crs/transform.h"
 #include "io/file/memory_guard.h"
@@ -89,10 +90,12 @@ Result<PlanPoints> readFrom(const std::string& path, const std::string& targetCr
 }  // namespace
 
 Result<PlanPoints> readPlanPoints(const std::string& path, const std::string& targetCrs,
-                                  const RunContext& context) {
+                                  const RunContext& context) try {
   auto read = guardMemory(path, [&] { return readFrom(path, targetCrs, context); });
   if (!read && read.error().culprit.empty()) read.error().culprit = path;
   return read;
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "io/crs/transform.h"
 #include "io/file/memory_guard.h"
 #include "io/gdal/support.h"
@@ -105,10 +106,12 @@ Result<PointTable> readFrom(const std::string& path, const Georeference& dem,
 }  // namespace
 
 Result<PointTable> readPointTable(const std::string& path, const Georeference& dem,
-                                  const PointTableOptions& options, const RunContext& context) {
+                                  const PointTableOptions& options, const RunContext& context) try {
   auto table = guardMemory(path, [&] { return readFrom(path, dem, options, context); });
   if (!table && table.error().culprit.empty()) table.error().culprit = path;
   return table;
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -20,6 +20,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "io/crs/lonlat.h"
 #include "io/crs/transform.h"
 #include "io/file/memory_guard.h"
@@ -258,14 +259,16 @@ Result<SightPairs> readFrom(const std::string& path, const Georeference& dem,
 }  // namespace
 
 Result<SightPairs> readSightPairs(const std::string& path, const Georeference& dem,
-                                  const PointTableOptions& options, const RunContext& context) {
+                                  const PointTableOptions& options, const RunContext& context) try {
   auto pairs = guardMemory(path, [&] { return readFrom(path, dem, options, context); });
   if (!pairs && pairs.error().culprit.empty()) pairs.error().culprit = path;
   return pairs;
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<SightPairs> readSightSites(const std::string& path, const Georeference& dem,
-                                  const PointTableOptions& options, const RunContext& context) {
+                                  const PointTableOptions& options, const RunContext& context) try {
   auto table = readPointTable(path, dem, options, context);
   if (!table) return tl::unexpected(table.error());
   SightPairs sites;
@@ -307,6 +310,8 @@ Result<SightPairs> readSightSites(const std::string& path, const Georeference& d
     sites.rows.push_back(row);
   }
   return sites;
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

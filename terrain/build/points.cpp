@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "engine/base/caught_failure.h"
 #include "engine/memory/pages.h"
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/parallel/with_threads.h"
@@ -135,23 +136,29 @@ Result<TerrainModel> buildChecked(const PointHeightfield& field, FinestPoints fi
 
 }  // namespace
 
-Status checkBuild(const PointHeightfield& field, const BuildOptions& options) {
+Status checkBuild(const PointHeightfield& field, const BuildOptions& options) try {
   if (Status valid = field.validate(); !valid) return valid;
   if (Status valid = checkOptions(options, field.size()); !valid) return valid;
   if (options.rimTolerance > 0)
     return failure(ErrorCode::usage, "scattered points have no NODATA rims to simplify", "rimTolerance");
   return {};
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<TerrainModel> build(const PointHeightfield& heightfield, const BuildOptions& options,
-                           const RunContext& context) {
+                           const RunContext& context) try {
   return buildInTiles(heightfield, options, TileOptions::of(options.shape), context);
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<TerrainModel> build(const PointHeightfield& heightfield, FinestPoints finest,
-                           const BuildOptions& options, const RunContext& context) {
+                           const BuildOptions& options, const RunContext& context) try {
   if (const Status valid = checkBuild(heightfield, options); !valid) return tl::unexpected(valid.error());
   return buildChecked(heightfield, std::move(finest), options, TileOptions::of(options.shape), context);
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<TerrainModel> buildInTiles(const PointHeightfield& heightfield, const BuildOptions& options,

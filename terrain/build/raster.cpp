@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 
+#include "engine/base/caught_failure.h"
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/parallel/parallel_filter.h"
 #include "engine/parallel/with_threads.h"
@@ -194,8 +195,10 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
 }  // namespace
 
 Result<TerrainModel> build(const RasterHeightfield& heightfield, const BuildOptions& options,
-                           const RunContext& context) {
+                           const RunContext& context) try {
   return buildInTiles(heightfield, options, TileOptions::of(options.shape), context);
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<TerrainModel> buildInTiles(const RasterHeightfield& heightfield, const BuildOptions& options,

@@ -12,6 +12,7 @@
 #include <numeric>
 #include <span>
 
+#include "engine/base/caught_failure.h"
 #include "engine/simplify/vertex_classes.h"
 #include "terrain/triangulation/finest_points.h"
 #include "terrain/triangulation/finest_raster.h"
@@ -134,7 +135,7 @@ Result<FixedVertices> choose(std::size_t vertexCount, const Ranked& rankedFeatur
 }  // namespace
 
 Result<FixedVertices> chooseFixedVertices(const RasterHeightfield& field, const FixedVertexOptions& options,
-                                          const RunContext& context) {
+                                          const RunContext& context) try {
   if (selectsNothing(options)) return FixedVertices{};
   // Features, all that most builds select, do not need the triangles.
   Triangles triangles;
@@ -153,18 +154,22 @@ Result<FixedVertices> chooseFixedVertices(const RasterHeightfield& field, const 
   return choose(
       field.size(), [&] { return rankFeatures(field, *options.features, context); }, triangles, positionOf,
       [&](Vec2 p) { return snap(field, inDomain, p); }, options, context);
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<FixedVertices> chooseFixedVertices(const PointHeightfield& field, const FixedVertexOptions& options,
-                                          const RunContext& context) {
+                                          const RunContext& context) try {
   if (selectsNothing(options) || field.size() == 0) return FixedVertices{};
   const Result<FinestPoints> finest = finestPoints(field, context);
   if (!finest) return tl::unexpected(finest.error());
   return chooseFixedVertices(field, *finest, options, context);
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<FixedVertices> chooseFixedVertices(const PointHeightfield& field, const FinestPoints& finest,
-                                          const FixedVertexOptions& options, const RunContext& context) {
+                                          const FixedVertexOptions& options, const RunContext& context) try {
   if (selectsNothing(options)) return FixedVertices{};
   Triangles triangles;
   if (!options.given.empty() || options.creaseAngleDegrees) triangles = finest.trianglesOfPoints();
@@ -192,6 +197,8 @@ Result<FixedVertices> chooseFixedVertices(const PointHeightfield& field, const F
   return choose(
       field.size(), rankedFeatures, triangles, positionOf, [&](Vec2 p) { return (*nearest)(p); }, options,
       context);
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "engine/criteria/criterion.h"
 #include "terrain/fit/mesh.h"
 #include "terrain/fit/samples.h"
@@ -105,7 +106,7 @@ Result<Cut> leastCut(const TerrainModel& model, const FitTolerance& tolerance, c
 }  // namespace
 
 Result<FittedCut> fitFewestTriangles(const TerrainModel& model, const FitTolerance& tolerance,
-                                     const FitOptions& options, const RunContext& context) {
+                                     const FitOptions& options, const RunContext& context) try {
   if (!(tolerance.maxError >= 0))
     return failure(ErrorCode::usage, "the tolerance must not be negative", "maxError");
   if (!(tolerance.outsideError >= tolerance.maxError))
@@ -124,15 +125,19 @@ Result<FittedCut> fitFewestTriangles(const TerrainModel& model, const FitToleran
       return tl::unexpected(removed.error());
   }
   return fittedCut(*mesh, *cut, tolerance.maxError);
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<FittedCut> fitLeastError(const TerrainModel& model, const Cut& cut, const FitOptions& options,
-                                const RunContext& context) {
+                                const RunContext& context) try {
   auto mesh = meshOf(model, cut, {.everywhere = 1, .rounding = roundingOf(model.mt)}, options, context);
   if (!mesh) return tl::unexpected(mesh.error());
   if (Status done = lessenWorst(*mesh, std::max(1u, options.rings), context); !done)
     return tl::unexpected(done.error());
   return fittedCut(*mesh, cut, 0);
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -10,13 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/caught_failure.h"
 #include "engine/laws/front_edges.h"
 #include "engine/parallel/first_bad.h"
 #include "terrain/laws/validate_model.h"
 
 namespace arete {
 
-Status validateDelaunayFront(const TerrainModel& model, const Cut& cut) {
+Status validateDelaunayFront(const TerrainModel& model, const Cut& cut) try {
   using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
   std::vector<Point> points;
   points.reserve(cut.vertices.size());
@@ -60,6 +61,8 @@ Status validateDelaunayFront(const TerrainModel& model, const Cut& cut) {
       firstBad(edges.vertices(), {}, [&](std::uint32_t low) { return !problemFrom(low).empty(); });
   if (bad) return broken(problemFrom(*bad));
   return {};
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/caught_failure.h"
 #include "engine/laws/validate.h"
 #include "terrain/model/plan_orientation.h"
 #include "terrain/triangulation/finest_points.h"
@@ -135,7 +136,7 @@ NodeSet randomClosedSet(const MultiTriangulation& mt, std::uint64_t seed, double
 }
 
 Status validateModel(const TerrainModel& model, const ValidateModelOptions& options,
-                     const RunContext& context) {
+                     const RunContext& context) try {
   const ValidateOptions engineOptions{.allowsFills = model.options.rimTolerance > 0};
   const bool isDelaunay = model.options.shape == HoleShape::delaunay && !engineOptions.allowsFills;
   context.report("validate", 0);
@@ -173,6 +174,8 @@ Status validateModel(const TerrainModel& model, const ValidateModelOptions& opti
     context.report("validate", 0.6 + 0.4 * (i + 1) / options.randomFronts);
   }
   return {};
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "engine/base/morton.h"
 #include "engine/parallel/shared_progress.h"
 #include "engine/parallel/with_threads.h"
@@ -90,7 +91,7 @@ std::optional<SurfaceHeight> SurfaceHeights::at(Vec2 xy, double maxError) const 
 
 Result<std::vector<std::optional<SurfaceHeight>>> SurfaceHeights::at(std::span<const Vec2> positions,
                                                                      double maxError,
-                                                                     const RunContext& context) const {
+                                                                     const RunContext& context) const try {
   if (positions.size() > 0xFFFFFFFFu)
     return failure(ErrorCode::unsupported, "more positions than 32 bits can number");
   const OutwardScale::Code allowed = model_.mt.arrays().scale.floorCode(maxError);
@@ -117,6 +118,8 @@ Result<std::vector<std::optional<SurfaceHeight>>> SurfaceHeights::at(std::span<c
   if (context.cancelled()) return failure(ErrorCode::interrupted, "the query was stopped");
   context.report("heights", 1);
   return answers;
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -14,6 +14,7 @@
 // When all triangles of a band are scanned, its samples are counted.
 #include "terrain/measure/measure.h"
 
+#include "engine/base/caught_failure.h"
 #include "engine/parallel/with_threads.h"
 
 #include <tbb/blocked_range.h>
@@ -218,11 +219,13 @@ class RasterMeasurement {
 
 Result<MeasureReport> measure(const TriangleMesh& mesh, const RasterHeightfield& dem,
                               const MeasureOptions& options, const RunContext& context,
-                              MeasureRasters* rasters) {
+                              MeasureRasters* rasters) try {
   const measuring::Inputs in{mesh, options, context, rasters};
   if (const Status ok = measuring::checkInputs(in, dem.validate(), dem.size()); !ok)
     return tl::unexpected(ok.error());
   return RasterMeasurement(in, dem).run();
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -22,6 +22,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "terrain/measure/bands.h"
 #include "terrain/measure/farthest_point.h"
 #include "terrain/measure/nearest_on_mesh.h"
@@ -261,7 +262,7 @@ double MeshDistanceReport::rms() const {
 
 Result<MeshDistanceReport> measureDistance(const TriangleMesh& first, const TriangleMesh& second,
                                            const MeshDistanceOptions& options, const RunContext& context,
-                                           std::vector<double>* vertexDistances) {
+                                           std::vector<double>* vertexDistances) try {
   for (const auto& [mesh, which] : {std::pair(&first, "first"), std::pair(&second, "second")})
     if (const Status ok = check(*mesh, which); !ok) return tl::unexpected(ok.error());
   Box3 box = boxOf(first);
@@ -307,6 +308,8 @@ Result<MeshDistanceReport> measureDistance(const TriangleMesh& first, const Tria
     report.largestCoordinate =
         std::max({report.largestCoordinate, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   return report;
+} catch (...) {
+  return caughtFailure();
 }
 
 namespace {
@@ -323,7 +326,7 @@ bool isProven(const MeshDistanceReport& report, double expectedDistance) {
   return report.hausdorffAtMost() <= accepted(report, expectedDistance);
 }
 
-Status checkDistance(const MeshDistanceReport& report, double expectedDistance) {
+Status checkDistance(const MeshDistanceReport& report, double expectedDistance) try {
   // Written so that a NaN fails.
   if (report.hausdorff() <= accepted(report, expectedDistance)) return {};
   const bool isForward = report.forward.maximum >= report.backward.maximum;
@@ -332,6 +335,8 @@ Status checkDistance(const MeshDistanceReport& report, double expectedDistance) 
       ErrorCode::brokenPromise,
       fmt::format("the largest distance is {}, more than {}: from {} {} {} of the {} mesh", way.maximum,
                   expectedDistance, way.worst.x, way.worst.y, way.worst.z, isForward ? "first" : "second"));
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -17,6 +17,7 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/base/caught_failure.h"
 #include "terrain/measure/bands.h"
 #include "terrain/measure/exact.h"
 #include "terrain/measure/measure.h"
@@ -225,11 +226,13 @@ class PointMeasurement {
 
 Result<MeasureReport> measure(const TriangleMesh& mesh, const PointHeightfield& points,
                               const MeasureOptions& options, const RunContext& context,
-                              MeasureRasters* rasters) {
+                              MeasureRasters* rasters) try {
   const measuring::Inputs in{mesh, options, context, rasters};
   if (const Status ok = measuring::checkInputs(in, points.validate(), points.size()); !ok)
     return tl::unexpected(ok.error());
   return PointMeasurement(in, points).run();
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/caught_failure.h"
 #include "terrain/measure/measure.h"
 
 namespace arete {
@@ -19,7 +20,7 @@ double acceptedError(const MeasureReport& report, double expectedError) {
   return expectedError + std::max(1e-6, 4 * ulp);
 }
 
-Status checkPromise(const MeasureReport& report, double expectedError, const ExpectOptions& options) {
+Status checkPromise(const MeasureReport& report, double expectedError, const ExpectOptions& options) try {
   const auto broken = [](std::string message) {
     return failure(ErrorCode::brokenPromise, std::move(message));
   };
@@ -40,6 +41,8 @@ Status checkPromise(const MeasureReport& report, double expectedError, const Exp
                     report.maxAbsError, expectedError, w.x, w.y, w.tinHeight, w.demHeight));
   }
   return {};
+} catch (...) {
+  return caughtFailure();
 }
 
 bool keepsPromise(const MeasureReport& report, double expectedError, const ExpectOptions& options) {

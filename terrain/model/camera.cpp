@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/caught_failure.h"
+
 namespace arete {
 
 Vec3 metricPosition(Vec2 xy, double height, const TerrainModel& model) {
@@ -16,7 +18,7 @@ Vec3 metricPosition(Vec2 xy, double height, const TerrainModel& model) {
   return model.mt.arrays().metric.toMetric({plan.x, plan.y, height});
 }
 
-Result<View> viewOf(const Camera& camera, const TerrainModel& model) {
+Result<View> viewOf(const Camera& camera, const TerrainModel& model) try {
   if (!std::isfinite(camera.azimuthDegrees))
     return failure(ErrorCode::usage, "the azimuth must be a finite number of degrees", "camera");
   if (!(camera.pitchDegrees >= -90 && camera.pitchDegrees <= 90))
@@ -47,6 +49,8 @@ Result<View> viewOf(const Camera& camera, const TerrainModel& model) {
   view.heightPixels = camera.heightPixels;
   if (Status ok = view.validate(); !ok) return failure(ok.error().code, ok.error().message, "camera");
   return view;
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/base/caught_failure.h"
 #include "engine/cut/cut.h"
 
 namespace arete {
@@ -43,7 +44,7 @@ std::vector<double> toleranceLadder(const MultiTriangulation& mt, std::size_t mo
 }
 
 Result<std::vector<CurvePoint>> errorCurve(const MultiTriangulation& mt, std::span<const double> tolerances,
-                                           const RunContext& context) {
+                                           const RunContext& context) try {
   std::vector<CurvePoint> curve;
   for (std::size_t i = 0; i < tolerances.size(); ++i) {
     context.report("curve", static_cast<double>(i) / static_cast<double>(tolerances.size()));
@@ -58,6 +59,8 @@ Result<std::vector<CurvePoint>> errorCurve(const MultiTriangulation& mt, std::sp
   }
   context.report("curve", 1);
   return curve;
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -12,9 +12,11 @@
 #include <limits>
 #include <memory>
 
+#include "engine/base/caught_failure.h"
+
 namespace arete {
 
-Status RasterHeightfield::validate() const {
+Status RasterHeightfield::validate() const try {
   if (heights.size() != std::size_t(columns) * rows)
     return failure(ErrorCode::invalidData,
                    fmt::format("{} heights for {} columns and {} rows", heights.size(), columns, rows),
@@ -28,9 +30,11 @@ Status RasterHeightfield::validate() const {
   if (determinant == 0 || !std::isfinite(determinant))
     return failure(ErrorCode::invalidData, "the geotransform is not invertible", source);
   return {};
+} catch (...) {
+  return caughtFailure();
 }
 
-Status PointHeightfield::validate() const {
+Status PointHeightfield::validate() const try {
   if (heights.size() != positions.size())
     return failure(ErrorCode::invalidData,
                    fmt::format("{} heights for {} positions", heights.size(), positions.size()), source);
@@ -39,6 +43,8 @@ Status PointHeightfield::validate() const {
       return failure(ErrorCode::invalidData, fmt::format("point {} has a coordinate that is not finite", i),
                      source);
   return {};
+} catch (...) {
+  return caughtFailure();
 }
 
 namespace {

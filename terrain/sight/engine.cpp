@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
+
 namespace arete {
 
 std::string_view toString(SightMethod method) {
@@ -23,7 +25,7 @@ std::string_view toString(SightMethod method) {
 
 Result<std::unique_ptr<SightEngine>> makeSightEngine(SightMethod method, const TerrainModel& model,
                                                      std::shared_ptr<const SightGrid> grid,
-                                                     const RunContext& context) {
+                                                     const RunContext& context) try {
   if (method == SightMethod::automatic) method = model.isRaster ? SightMethod::pyramid : SightMethod::descent;
   if (method == SightMethod::descent) return makeSightDescent(model);
   if (!model.isRaster)
@@ -33,6 +35,8 @@ Result<std::unique_ptr<SightEngine>> makeSightEngine(SightMethod method, const T
   if (!grid) grid = std::make_shared<SightGrid>(model);
   return method == SightMethod::scan ? makeSightScan(std::move(grid))
                                      : makeSightPyramid(std::move(grid), context);
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

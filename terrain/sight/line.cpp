@@ -18,6 +18,8 @@
 #include <limits>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
+
 namespace arete {
 namespace {
 
@@ -68,11 +70,13 @@ ValueAndSlope closedForm(double k, double w0, double w1, double length, double s
 }  // namespace
 
 Status checkSightHeights(const SightTrack& track, double fromHeight, double toHeight,
-                         double heightUnitMetres) {
+                         double heightUnitMetres) try {
   for (const double h : {fromHeight, toHeight})
     if (!std::isfinite(h) || track.curvature * h * heightUnitMetres < kDeepest)
       return failure(ErrorCode::invalidData, fmt::format("a height of {:g} makes no line of sight", h));
   return {};
+} catch (...) {
+  return caughtFailure();
 }
 
 SightLine::SightLine(SightTrack track, double fromHeight, double toHeight, double heightUnitMetres)

@@ -13,6 +13,7 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "engine/parallel/shared_progress.h"
 #include "engine/parallel/with_threads.h"
 #include "terrain/sight/judge.h"
@@ -107,17 +108,19 @@ Vec2 sightPlan(const TerrainModel& model, Vec2 xy) {
   return model.isRaster ? sightEnd(model, plan, SurfaceHeights::margin(model)) : plan;
 }
 
-Result<SightLine> sightLine(const SightPath& path, const SightEarth& earth, const TerrainModel& model) {
+Result<SightLine> sightLine(const SightPath& path, const SightEarth& earth, const TerrainModel& model) try {
   auto track = earth.track(path.from, path.to);
   if (!track) return tl::unexpected(track.error());
   const double unit = model.georeference.verticalUnitMetres;
   if (const Status status = checkSightHeights(*track, path.fromHeight, path.toHeight, unit); !status)
     return tl::unexpected(status.error());
   return SightLine(std::move(*track), path.fromHeight, path.toHeight, unit);
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<SightPathAnswer> answerPath(const SightPath& path, const SightEarth& earth, const SightEngine& engine,
-                                   const Profiles& profiles, const SightPathOptions& options) {
+                                   const Profiles& profiles, const SightPathOptions& options) try {
   const auto line = sightLine(path, earth, profiles.heights().model());
   if (!line) return tl::unexpected(line.error());
   const SightTrack& track = line->track();
@@ -141,13 +144,15 @@ Result<SightPathAnswer> answerPath(const SightPath& path, const SightEarth& eart
   if (options.frequencyMegahertz > 0)
     answer.fresnel = leastFresnelClearance(*line, profile, wavelengthMetres(options.frequencyMegahertz));
   return answer;
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<std::vector<Result<SightPathAnswer>>> answerPaths(std::span<const SightPath> paths,
                                                          const SightEarth& earth, const SightEngine& engine,
                                                          const Profiles& profiles,
                                                          const SightPathOptions& options,
-                                                         const RunContext& context) {
+                                                         const RunContext& context) try {
   std::vector<Result<SightPathAnswer>> answers(paths.size(), SightPathAnswer{});
   SharedProgress progress(context, "lines of sight", paths.size());
   context.report("lines of sight", 0);
@@ -162,6 +167,8 @@ Result<std::vector<Result<SightPathAnswer>>> answerPaths(std::span<const SightPa
   if (context.cancelled()) return failure(ErrorCode::interrupted, "the query was stopped");
   context.report("lines of sight", 1);
   return answers;
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -17,6 +17,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "engine/memory/pages.h"
 #include "engine/parallel/with_threads.h"
 #include "engine/simplify/live_mesh.h"
@@ -122,7 +123,7 @@ std::vector<std::array<std::uint32_t, 3>> FinestPoints::trianglesOfPoints() cons
   return ofPoints;
 }
 
-Result<FinestPoints> finestPoints(const PointHeightfield& field, const RunContext& context) {
+Result<FinestPoints> finestPoints(const PointHeightfield& field, const RunContext& context) try {
   if (const Status valid = field.validate(); !valid) return tl::unexpected(valid.error());
   if (field.size() > LiveMesh::kMostTriangles / 2)
     return failure(ErrorCode::unsupported,
@@ -135,6 +136,8 @@ Result<FinestPoints> finestPoints(const PointHeightfield& field, const RunContex
   giveFreeHeapBack();  // CGAL's triangulation was as large as half a build
   context.report("triangulate", 1);
   return finest;
+} catch (...) {
+  return caughtFailure();
 }
 
 double pointMetricStretch(const PointHeightfield& field) {

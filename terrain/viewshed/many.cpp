@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "engine/parallel/with_threads.h"
 
 namespace arete {
@@ -70,7 +71,7 @@ struct Nearest {
 Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainModel& model,
                                       const SightEarth& earth, std::span<const ViewshedSite> sites,
                                       const ViewshedOptions& options, bool wantsServer,
-                                      const RunContext& context) {
+                                      const RunContext& context) try {
   if (sites.empty()) return failure(ErrorCode::usage, "there is no observer", "sites");
   if (sites.size() > kMostObservers)
     return failure(ErrorCode::usage,
@@ -120,6 +121,8 @@ Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainM
     all.server.push_back(isKnown ? sees[i].number : maySee[i].number);
   }
   return all;
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/base/caught_failure.h"
 #include "terrain/sight/earth.h"
 #include "terrain/viewshed/image_plane.h"
 #include "terrain/viewshed/methods.h"
@@ -59,7 +60,8 @@ std::string_view toString(ViewshedMethod method) {
 }
 
 Result<ViewshedMaker> ViewshedMaker::make(const TerrainModel& model, const SightEarth& earth,
-                                          std::shared_ptr<const SightGrid> grid, const RunContext& context) {
+                                          std::shared_ptr<const SightGrid> grid,
+                                          const RunContext& context) try {
   if (!model.isRaster)
     return failure(ErrorCode::unsupported, "viewsheds are of rasters; this model is of points");
   ViewshedMaker maker(model, earth, grid ? std::move(grid) : std::make_shared<SightGrid>(model));
@@ -69,6 +71,8 @@ Result<ViewshedMaker> ViewshedMaker::make(const TerrainModel& model, const Sight
   if (!earth.planeSteps() && earth.geodesicError())
     maker.steepness_ = std::make_shared<const std::vector<float>>(viewshedSteepness(*maker.grid_, context));
   return maker;
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<std::shared_ptr<const SightEngine>> ViewshedMaker::engineFor(const ViewshedOptions& options) const {
@@ -81,7 +85,7 @@ Result<std::shared_ptr<const SightEngine>> ViewshedMaker::engineFor(const Viewsh
 }
 
 Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const ViewshedOptions& options,
-                                     const RunContext& context) const {
+                                     const RunContext& context) const try {
   if (const Status status = check(observer, options); !status) return tl::unexpected(status.error());
   const auto engine = engineFor(options);
   if (!engine) return tl::unexpected(engine.error());
@@ -126,10 +130,12 @@ Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const Vie
   context.report("viewshed", 1);
   countCells(result);
   return result;
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<Viewshed> ViewshedMaker::of(std::span<const Vec2> places, const ViewshedObserver& observer,
-                                   const ViewshedOptions& options, const RunContext& context) const {
+                                   const ViewshedOptions& options, const RunContext& context) const try {
   if (const Status status = check(observer, options); !status) return tl::unexpected(status.error());
   if (options.method == ViewshedMethod::sweep)
     return failure(ErrorCode::unsupported, "the sweep is of the grid of the DEM, not of places", "method");
@@ -152,6 +158,8 @@ Result<Viewshed> ViewshedMaker::of(std::span<const Vec2> places, const ViewshedO
   countCells(result);
   result.rays = places.size() - result.outside;
   return result;
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -42,7 +42,7 @@ void writeModel(const fs::path& folder, const std::string& name, const Result<Te
   check(writeAmt(folder / "amt" / (name + ".amt"), *model, {}, {.writer = "Arete"}));
   check(writeAmt(folder / "amt" / (name + "-packed.amt"), *model, {}, {.writer = "Arete", .isPacked = true}));
   const MultiTriangulation& mt = model->mt;
-  const TinExport tin = exportTin(*model, frontOfPrefix(mt, mt.nodeCount() / 2));
+  const TinExport tin = exportTin(*model, frontOfPrefix(mt, mt.nodeCount() / 2)).value();
   MeshWriteOptions options;
   options.crsWkt = "LOCAL_CS[\"seed\"]";
   options.verticalUnit = "metre";

@@ -207,7 +207,9 @@ class Demo {
     const Result<Cut> cut = takeCut(model_.mt, UniformError(maxError), {}, quiet());
     if (!cut) return tl::unexpected(cut.error());
     const double seconds = watch.seconds();
-    TinExport tin = exportTin(model_, *cut);
+    Result<TinExport> exported = exportTin(model_, *cut);
+    if (!exported) return tl::unexpected(exported.error());
+    TinExport& tin = *exported;
 
     const std::string name = fmt::format("tin-{:g}", maxError);
     MeshWriteOptions mesh;

@@ -125,7 +125,7 @@ TEST_P(Promise, IsKeptAtEveryToleranceForBothCuts) {
     for (const CutMethod method : {CutMethod::minimal, CutMethod::saturated}) {
       const auto cut = takeCut(model->mt, UniformError(tolerance), {.method = method});
       ASSERT_TRUE(cut) << cut.error().describe();
-      const TinExport tin = exportTin(*model, *cut);
+      const TinExport tin = exportTin(*model, *cut).value();
       // Through the file, as a user would.
       const std::string path = folder.file("tin.ply");
       const Status written = writeMesh(tin.mesh, path);
@@ -157,7 +157,7 @@ TEST_P(Promise, IsKeptByFittedHeights) {
   const double tolerance = tolerancesOf(GetParam().dem, *field)[1];
   const auto fitted = fitFewestTriangles(*model, {.maxError = tolerance});
   ASSERT_TRUE(fitted) << fitted.error().describe();
-  const auto report = measure(exportTin(*model, *fitted).mesh, *field);
+  const auto report = measure(exportTin(*model, *fitted)->mesh, *field);
   ASSERT_TRUE(report) << report.error().describe();
   const Status kept = checkPromise(*report, tolerance);
   EXPECT_TRUE(kept) << "tolerance " << tolerance << ": " << kept.error().describe();

@@ -34,7 +34,7 @@ TEST(ExportTin, IsCounterClockwiseOnTheMapWhicheverWayTheGridTurns) {
     ASSERT_TRUE(model) << model.error().describe();
     const auto cut = takeCut(model->mt, UniformError(2));
     ASSERT_TRUE(cut);
-    const TinExport tin = exportTin(*model, *cut);
+    const TinExport tin = exportTin(*model, *cut).value();
     ASSERT_EQ(tin.errors.size(), tin.mesh.triangles.size());
     ASSERT_TRUE(tin.mesh.validate());
     for (std::size_t t = 0; t < tin.errors.size(); ++t) {
@@ -147,7 +147,7 @@ TEST(ExtractTin, WritesTheErrorsOfTheFittedSurface) {
   ASSERT_TRUE(model);
   const auto fitted = fitFewestTriangles(*model, {.maxError = 3});
   ASSERT_TRUE(fitted);
-  const TinExport tin = exportTin(*model, *fitted);
+  const TinExport tin = exportTin(*model, *fitted).value();
   ASSERT_EQ(tin.errors.size(), fitted->errors.size());
   for (std::size_t t = 0; t < tin.errors.size(); ++t) {
     EXPECT_GE(double(tin.errors[t]), fitted->errors[t]);

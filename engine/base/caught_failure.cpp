@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/base/caught_failure.h"
+
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+namespace arete {
+namespace {
+
+/// With the culprit where there is memory for it. The message alone is short enough for std::string to hold
+/// it without an allocation.
+tl::unexpected<Error> outOfMemory(std::string_view culprit) noexcept {
+  try {
+    return failure(ErrorCode::outOfMemory, "out of memory", std::string(culprit));
+  } catch (...) {
+    return failure(ErrorCode::outOfMemory, "out of memory");
+  }
+}
+
+}  // namespace
+
+tl::unexpected<Error> caughtFailure(std::string_view culprit) noexcept {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return outOfMemory(culprit);
+  } catch (const std::length_error&) {
+    return outOfMemory(culprit);
+  } catch (const std::exception& error) {
+    try {
+      return failure(ErrorCode::internal, error.what(), std::string(culprit));
+    } catch (...) {
+      return outOfMemory(culprit);
+    }
+  } catch (...) {
+    return failure(ErrorCode::internal, "a bug");
+  }
+}
+
+}  // namespace arete
