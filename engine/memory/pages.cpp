@@ -3,7 +3,7 @@
 // A large array is a private anonymous mapping that starts at a multiple of kHugePage. madvise(MADV_HUGEPAGE)
 // lets the kernel back it by huge pages at the first touch: one fault instead of 512, and far fewer misses of
 // the translation buffer when the array is read at random. The last, partly used huge page stays small pages,
-// so that an array takes no more memory than it asks for.
+// so that an array takes no more memory than its size.
 #include "engine/memory/pages.h"
 
 #include <malloc.h>

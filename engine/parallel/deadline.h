@@ -7,17 +7,17 @@
 
 namespace arete {
 
-/// When to stop refining. Asked before every modification, so that it is overrun by one at most.
+/// When to stop refining. It is checked before every modification, so it is exceeded by one at most.
 class Deadline {
  public:
-  /// So long from now on.
+  /// A deadline that lies this far ahead.
   static Deadline in(std::chrono::duration<double, std::milli> time) {
     const auto end = std::chrono::steady_clock::now() + time;
     return Deadline([end] {
       return std::chrono::duration<double, std::milli>(end - std::chrono::steady_clock::now()).count();
     });
   }
-  /// By a clock of the caller's: milliseconds left, never growing.
+  /// A deadline by the caller's clock. @param millisecondsLeft  returns the time left; must not increase
   explicit Deadline(std::function<double()> millisecondsLeft) : left_(std::move(millisecondsLeft)) {}
 
   double millisecondsLeft() const { return left_(); }

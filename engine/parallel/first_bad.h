@@ -13,8 +13,9 @@
 
 namespace arete {
 
-/// The least i in [0, size) for which isBad(i), in parallel; of those beyond one that is known few are asked.
-/// Once the context is cancelled nobody is asked any more, and what comes back means nothing.
+/// Finds the least i in [0, size) with isBad(i), in parallel; skips most indices above one that is known to
+/// be bad.
+/// @return nothing if no index is bad; undefined if the context was cancelled meanwhile.
 template <class IsBad>
 std::optional<std::uint32_t> firstBad(std::size_t size, const RunContext& context, const IsBad& isBad) {
   constexpr std::size_t kBlock = 1 << 14;

@@ -8,12 +8,12 @@
 
 namespace arete {
 
-/// Who runs a loop: all threads of the arena, or the calling one alone, because each of the others is at work
-/// on something of its own.
+/// The threads that run a loop: all threads of the arena, or only the calling one, where the others have
+/// tasks of their own.
 enum class LoopThreads { all, caller };
 
-/// Calls body(begin, end) for ranges that make up 0 .. size - 1, of no less than `grain` where threads share
-/// them.
+/// Calls body(begin, end) for disjoint ranges that cover 0 .. size - 1, of at least `grain` elements where
+/// several threads run them.
 template <class Body>
 void forRanges(LoopThreads threads, std::size_t size, std::size_t grain, const Body& body) {
   if (threads == LoopThreads::caller) {

@@ -12,14 +12,15 @@
 
 namespace arete {
 
-/// Keeps of a sequence what shall be kept, in its order, on several threads: each writes down what stays of a
-/// chunk, and the chunks are moved together. Keeps its memory for the next time.
+/// Filters a sequence in parallel and keeps its order: each thread writes the elements that remain of a chunk
+/// to a buffer, then the chunks are copied side by side. The buffer is reused by the next call.
 template <class T>
 class ParallelFilter {
  public:
-  /// fill(begin, end, to) writes what stays of the elements begin .. end - 1 from `to` on, no more than there
-  /// were, and returns the end of what it wrote; called for each chunk once, on any thread. `kept` receives
-  /// all of it: the sequence itself, or another vector. O(size).
+  /// @param fill  fill(begin, end, to) writes the elements of begin .. end - 1 that remain, at most end -
+  /// begin, from
+  ///              `to` on and returns the end of its output; called once per chunk, on any thread
+  /// @param kept  receives the result; may be the filtered sequence itself. O(size).
   template <class Allocator, class Fill>
   void operator()(std::size_t size, std::size_t chunk, std::vector<T, Allocator>& kept, const Fill& fill) {
     const std::size_t chunks = (size + chunk - 1) / chunk;
@@ -38,8 +39,8 @@ class ParallelFilter {
   }
 
  private:
-  UninitializedVector<T> found_;    // each chunk's from where the chunk begins
-  std::vector<std::size_t> first_;  // per chunk: where it goes
+  UninitializedVector<T> found_;    // by chunk, at the chunk's own position
+  std::vector<std::size_t> first_;  // per chunk: its position in the result
 };
 
 }  // namespace arete

@@ -9,16 +9,17 @@
 
 namespace arete {
 
-/// The progress of a stage that many threads work on: one of them tells of it, the others do not wait.
+/// The progress of a stage that many threads work on: one thread at a time reports it, the others do not
+/// wait.
 class SharedProgress {
  public:
-  /// `total` steps go from the fraction `first` of the stage to the fraction `last`. Preconditions: context
-  /// and name outlive this.
+  /// `total` steps lead from the fraction `first` of the stage to the fraction `last`. Precondition: the
+  /// context and the name outlive this object.
   SharedProgress(const RunContext& context, std::string_view stage, std::size_t total, double first = 0,
                  double last = 1)
       : context_(context), stage_(stage), total_(total), first_(first), last_(last) {}
 
-  /// So many more steps are done. Thread-safe; what is told never falls.
+  /// Counts finished steps and reports them. Thread-safe. Reported fractions never decrease.
   void add(std::size_t steps = 1) {
     done_ += steps;
     if (isReporting_.exchange(true)) return;

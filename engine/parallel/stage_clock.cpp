@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Time runs for the innermost open stage: every entering and leaving credits what has passed since the last
-// one. A dozen names are found faster by comparing them than by hashing.
+// Time counts for the innermost open stage: entering and leaving a scope adds the time since the last such
+// event to it. A dozen names are found faster by comparing them than by hashing.
 #include "engine/parallel/stage_clock.h"
 
 #include <algorithm>

@@ -9,20 +9,20 @@
 
 namespace arete {
 
-/// Where the time of a long operation went.
+/// The time that a stage of a long operation took.
 struct StageTime {
   std::string stage;
-  double seconds = 0;     ///< on the wall; what stages opened inside it took is theirs alone
-  double cpuSeconds = 0;  ///< of all threads of the process: over `seconds` it says how many were busy
+  double seconds = 0;     ///< wall time, without that of the stages opened inside it
+  double cpuSeconds = 0;  ///< of all threads of the process; divided by `seconds`: how many were busy
   std::size_t times = 0;  ///< how often the stage was entered
 };
 
-/// Adds up the time spent in named stages. An operation that is given one (RunContext::clock) opens a Scope
-/// for each of its stages; without one a Scope does nothing and asks no clock.
+/// Adds up the time spent in named stages. An operation with a clock (RunContext::clock) opens a Scope for
+/// each of its stages; without a clock a Scope does nothing.
 ///
 /// Scopes are opened and closed on the thread that runs the operation, around its parallel parts and not
 /// within them: a stage is entered once per level of a build, not once per vertex (a scope costs about a
-/// microsecond). They nest; the inner one's time counts for the inner one only, so the stages add up.
+/// microsecond). They nest; the time of an inner scope counts for it alone, so that the stages add up.
 class StageClock {
  public:
   class Scope {
@@ -45,7 +45,7 @@ class StageClock {
   const std::vector<StageTime>& times() const { return times_; }
 
  private:
-  /// Since some moment; cpu of the whole process, which is the same for any thread that asks.
+  /// A point in time: wall time, and processor time of the whole process.
   struct Moment {
     std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
     std::clock_t cpu = std::clock();
@@ -54,7 +54,7 @@ class StageClock {
   StageTime& timeOf(std::string_view stage);
   void enter(std::string_view stage);
   void leave();
-  /// Credits what passed to the innermost open stage.
+  /// Adds the time since the last call to the innermost open stage.
   void settle();
 
   std::vector<StageTime> times_;

@@ -7,7 +7,7 @@
 
 namespace arete {
 
-/// Runs body() on as many threads as the context allows, and returns what it returns.
+/// Runs body() in an arena of as many threads as the context allows. @return the result of body()
 template <class Body>
 auto withThreads(const RunContext& context, const Body& body) {
   if (context.threads <= 0) return body();

@@ -24,7 +24,7 @@ struct TerrainView::State {
   CutPath drawn = CutPath::device;
   GlQuery anySample = makeQuery(GL_ANY_SAMPLES_PASSED);  // of the terrain, when it was drawn last
   std::optional<DrapeOnGpu> drape = {};
-  std::optional<CurvedGround> ground = {};  // once somebody wants it
+  std::optional<CurvedGround> ground = {};  // made at its first use
   bool isBent = false;
   double bentStretch = 1;
 
@@ -40,7 +40,7 @@ struct TerrainView::State {
   bool isReadyFor(const ViewSettings& settings) const {
     return settings.isCurved == isBent && (!isBent || settings.stretch == bentStretch);
   }
-  /// The buffers that the settings want.
+  /// Makes the buffers that the settings need.
   Status prepare(const ViewSettings& settings) {
     if (isReadyFor(settings)) return {};
     MultiTriangulation wanted = model->mt;

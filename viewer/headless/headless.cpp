@@ -190,7 +190,7 @@ Status encodeFilm(const std::filesystem::path& folder, std::size_t frames, doubl
       film.parent_path() / fmt::format(".{}.part{}", film.stem().string(), film.extension().string());
   const std::string rate = fmt::format("{}", framesPerSecond), count = std::to_string(frames),
                     pattern = (folder / "frame_%05d.png").string(), output = part.string();
-  // Of the folder this flight's frames only; the picture's sides made even, which H.264 wants.
+  // Only the frames of this flight; sides of the picture rounded to even numbers, which H.264 needs.
   std::vector<std::string> words = {"ffmpeg",
                                     "-v",
                                     "error",

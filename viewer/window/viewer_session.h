@@ -96,7 +96,7 @@ class ViewerSession {
   /// Null on a flat map, and if the CRS has no ellipsoid.
   const CurvedGround* curvedGround();
 
-  std::optional<CurvedGround> ground_;  // once somebody wants it
+  std::optional<CurvedGround> ground_;  // made at its first use
   std::string message_;
   double messageSeconds_ = 0;
   std::size_t nextHome_ = 0;
