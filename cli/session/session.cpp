@@ -16,6 +16,7 @@
 #include "cli/session/interrupt.h"
 #include "cli/session/option_names.h"
 #include "cli/session/progress_bar.h"
+#include "engine/memory/pages.h"
 
 namespace arete {
 namespace {
@@ -52,6 +53,11 @@ CLI::App* Session::addCommand(CLI::App& app, const std::string& name, const std:
   command->add_option("--threads", threads_, "Number of threads (default: all); results do not depend on it")
       ->check(CLI::Range(1, 4096))
       ->type_name("N")
+      ->group("Output");
+  command
+      ->add_flag_callback(
+          "--no-huge-pages", [] { setHugePages(false); },
+          "Keep large arrays in small memory pages, where huge pages make this machine slower")
       ->group("Output");
   command->callback([this, run = std::move(run)] { run_ = run; });
   return command;

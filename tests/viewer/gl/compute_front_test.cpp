@@ -21,8 +21,6 @@ namespace arete {
 namespace {
 
 using test::DrawnMesh;
-using test::MapCamera;
-using test::ReferencePicture;
 
 /// On a map in metres, north up, far from the origin of its coordinates.
 TerrainModel modelOf(RasterHeightfield field, double pixelMetres = 30) {
