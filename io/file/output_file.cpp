@@ -106,8 +106,12 @@ void OutputFile::discard() noexcept {
   if (!temporary_.empty() && !inPlace_) {
     std::error_code ignored;
     fs::remove(temporary_, ignored);
-    fs::remove(withSuffix(temporary_, kFollowing), ignored);
-    for (const char* suffix : kRemoved) fs::remove(withSuffix(temporary_, suffix), ignored);
+    try {
+      fs::remove(withSuffix(temporary_, kFollowing), ignored);
+      for (const char* suffix : kRemoved) fs::remove(withSuffix(temporary_, suffix), ignored);
+    } catch (...) {
+      // Without memory for their names the side files stay; only GDAL's formats have any.
+    }
   }
   temporary_.clear();
 }
@@ -118,6 +122,8 @@ Status OutputFile::commit() {
     temporary_.clear();
     return {};
   }
+  // Whatever needs memory comes before the file appears under its name.
+  const fs::path following = withSuffix(temporary_, kFollowing), stale = withSuffix(target_, kFollowing);
   std::error_code error;
   fs::rename(temporary_, target_, error);
   if (error) {
@@ -126,7 +132,6 @@ Status OutputFile::commit() {
                    path_.string());
   }
   // A side file of the replaced file does not describe the new one.
-  const fs::path following = withSuffix(temporary_, kFollowing), stale = withSuffix(target_, kFollowing);
   std::error_code ignored;
   if (fs::exists(following, ignored))
     fs::rename(following, stale, ignored);

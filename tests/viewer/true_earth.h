@@ -49,7 +49,7 @@ struct Directions {
     up = {std::cos(b) * std::cos(l), std::cos(b) * std::sin(l), std::sin(b)};
   }
   Vec3 local(const Vec3& p) const {
-    const Vec3 d = minus(p, at);
+    const Vec3 d = p - at;
     return {dot(d, east), dot(d, north), dot(d, up)};
   }
   Vec3 centredOf(const Vec3& p) const {
@@ -197,7 +197,7 @@ struct TrueCamera {
   }
   /// Depth of the ellipsoid itself in a pixel, or infinity.
   double depthOfEllipsoid(int x, int y) const {
-    const Vec3 o = here.at, d = minus(at(x, y, 1), o);
+    const Vec3 o = here.at, d = at(x, y, 1) - o;
     const double a = wgs84().EquatorialRadius(), b = a * (1 - wgs84().Flattening());
     const Vec3 p{o.x / a, o.y / a, o.z / b}, v{d.x / a, d.y / a, d.z / b};
     const double half = dot(p, v), square = dot(v, v), rest = half * half - square * (dot(p, p) - 1);

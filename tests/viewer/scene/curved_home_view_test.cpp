@@ -33,9 +33,8 @@ Seen samplesIn(const Map& map, const CurvedGround& ground, const Camera& camera,
   Seen seen;
   for (std::uint32_t row = 0; row < samples.rows; ++row)
     for (std::uint32_t col = 0; col < samples.columns; ++col) {
-      const Vec3 p = minus(
-          ground.position(map.model.toSource({double(col), double(row)}), samples.at(col, row), stretch),
-          view->eye);
+      const Vec2 place = map.model.toSource({double(col), double(row)});
+      const Vec3 p = ground.position(place, samples.at(col, row), stretch) - view->eye;
       const double depth = dot(p, f);
       const Vec2 at{dot(p, right) / (depth * slope * aspect), dot(p, u) / (depth * slope)};
       seen.nearest = std::min(seen.nearest, depth);
