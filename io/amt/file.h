@@ -76,7 +76,7 @@ class AmtFile {
   /// The number of nodes, of the metadata.
   std::uint64_t nodeCount() const { return nodeCount_; }
   /// Approximately the largest saturated error outside the `nodes` nodes with the largest ones. Reading with
-  /// this error required everywhere reads at least so many nodes, and no other node has a larger error. It
+  /// this error required everywhere reads about so many nodes; no other node has a larger error. It
   /// comes from the unchecked errors of the file's pages, or from the directory of its packed nodes: a guess
   /// at what to read.
   /// @return 0 if everything has to be read

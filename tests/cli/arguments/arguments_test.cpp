@@ -82,7 +82,7 @@ TEST_F(Arguments, RefusesBuildOptionsOutOfRange) {
   build("--band", "7", 2, "there is no band 7");
   build("--crs", "nonsense", 2, "--crs nonsense: is not a CRS");
   build("--nodata", "none", 2, "--nodata: 'none' is not a number");
-  build("--threads", "0", 2, "--threads: must be from 1");
+  build("--threads", "0", 2, "--threads: Value 0 not in range 1 to 4096");
   build("--fixed", "nowhere.csv", 3, "nowhere.csv: there is no such file");
   write("far.csv", "x,y\n1e9,1e9\n");
   before_ = files();

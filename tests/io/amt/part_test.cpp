@@ -276,7 +276,7 @@ TEST(AmtPart, RefusesAFileWhoseSegmentsAreNotAsManyAsItHas) {
   bytes.chunk(amt_tag::kSegmentChecksums).bytes -= 8;
   bytes.sealHeader();
   bytes.save(path);
-  EXPECT_NE(refusalOf(path, everywhere(0)).find("bytes where"), std::string::npos);
+  EXPECT_NE(refusalOf(path, everywhere(0)).find("instead of"), std::string::npos);
 }
 
 TEST(AmtPart, StopsWhenAskedTo) {

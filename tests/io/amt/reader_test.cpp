@@ -92,7 +92,7 @@ TEST(Reader, GuessesTheErrorBeyondANumberOfNodes) {
       if (!(error > 0)) continue;
       const auto part = file->read({.wanted = [error](const Box2&) { return error; }});
       ASSERT_TRUE(part);
-      EXPECT_GE(part->mt.nodeCount(), nodes);
+      EXPECT_GE(part->mt.nodeCount(), nodes * 9 / 10) << "a guess, by spans of nodes";
     }
     EXPECT_EQ(file->errorBeyond(file->nodeCount() + 5000), 0);
   }

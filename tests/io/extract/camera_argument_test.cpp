@@ -77,7 +77,7 @@ TEST(CameraArgument, RefusesWhatIsNoCameraAndNamesIt) {
                {"1,2,3,4,91", "pitch"},
                {"1,2,3,4,5,180", "field of view"},
                {"1,2,3ell,4,5", "geoid"},
-               {"-99,2,3,4,5", "above no terrain", ErrorCode::invalidData}};
+               {"-99,2,3,4,5", "no terrain below it", ErrorCode::invalidData}};
   for (const auto& c : cases) {
     const auto camera = readCameraArgument("--camera", c.text, {}, heights);
     ASSERT_FALSE(camera) << c.text;

@@ -106,8 +106,8 @@ TEST(FlightJson, HoldsTheCrsAgainstTheDems) {
   } cases[] = {
       {"EPSG:4326", dem, "the DEM in WGS 84 / UTM zone 11N"},
       {"EPSG:32612", dem, "the DEM in WGS 84 / UTM zone 11N"},
-      {"nonsense", dem, "none that is known"},
-      {"/etc/passwd", dem, "none that is known"},
+      {"nonsense", dem, "its crs is unknown"},
+      {"/etc/passwd", dem, "its crs is unknown"},
       {"EPSG:32611", {}, "the DEM has none"},
   };
   for (const auto& c : cases) {
