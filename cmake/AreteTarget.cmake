@@ -94,6 +94,8 @@ function(arete_room PATH)
   string(REGEX REPLACE "/.*" "" layer "${PATH}")
   list(TRANSFORM ARG_SOURCES PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
   target_sources(arete_${layer} PRIVATE ${ARG_SOURCES})
+  # A layer that is compiled by rooms (UNITY_BUILD) makes one unit of each.
+  set_source_files_properties(${ARG_SOURCES} TARGET_DIRECTORY arete_${layer} PROPERTIES UNITY_GROUP "${PATH}")
   if(ARG_CGAL_SOURCES)
     list(TRANSFORM ARG_CGAL_SOURCES PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
     target_sources(arete_${layer}_cgal PRIVATE ${ARG_CGAL_SOURCES})

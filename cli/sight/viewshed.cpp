@@ -233,12 +233,12 @@ Result<PlacedGrid> gridOf(const Question& q, Session& session) {
   return grid;
 }
 
-struct Answer {
+struct ViewshedAnswer {
   Picture picture;
   std::vector<ViewshedCell> cells;
 };
 
-Result<Answer> answerOne(const Question& q, const ViewshedMaker& maker, const PlacedGrid& grid,
+Result<ViewshedAnswer> answerOne(const Question& q, const ViewshedMaker& maker, const PlacedGrid& grid,
                          const RunContext& context, Json& json) {
   ViewshedOptions options = q.options;
   options.field = q.observers.front().field;
@@ -248,14 +248,14 @@ Result<Answer> answerOne(const Question& q, const ViewshedMaker& maker, const Pl
   if (!viewshed) return tl::unexpected(viewshed.error());
   json["method"] = std::string(toString(viewshed->method));
   json["rays"] = viewshed->rays;
-  return Answer{pictureOfOne(q.arguments.mode, *viewshed), std::move(viewshed->cells)};
+  return ViewshedAnswer{pictureOfOne(q.arguments.mode, *viewshed), std::move(viewshed->cells)};
 }
 
-Result<Answer> answerMany(const Question& q, const ViewshedMaker& maker, const RunContext& context) {
+Result<ViewshedAnswer> answerMany(const Question& q, const ViewshedMaker& maker, const RunContext& context) {
   const Mode mode = q.arguments.mode;
   auto all = viewshedOfMany(maker, q.model, q.earth, q.observers, q.options, mode == Mode::server, context);
   if (!all) return tl::unexpected(all.error());
-  return Answer{pictureOfMany(mode, *all), std::move(all->cells)};
+  return ViewshedAnswer{pictureOfMany(mode, *all), std::move(all->cells)};
 }
 
 /// Reports how many cells have which answer.
