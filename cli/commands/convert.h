@@ -5,7 +5,7 @@
 
 namespace arete {
 
-/// Declares `arete convert`: writes a mesh in another format, or an .amt plain or packed.
+/// Declares `arete convert`: converts a mesh to another format, or an .amt to its plain or packed form.
 void addConvertCommand(CLI::App& app, Session& session);
 
 }  // namespace arete

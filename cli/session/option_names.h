@@ -23,9 +23,9 @@ std::string withOptionNames(std::string_view sentence);
 
 /// Translates an error of the library.
 ///
-/// The culprit may be a field, or a field and its value ("region 1,2,3,4"): the field becomes its option. An
-/// error about a file (notFound, unreadable, corrupt) keeps its culprit, whatever the file is called. The
-/// sentence is translated by withOptionNames().
+/// If the culprit is a field, or a field and its value ("region 1,2,3,4"), the field becomes its option. The
+/// culprit of an error about a file (notFound, unreadable, corrupt) is kept, even if the file has the name of
+/// a field. The sentence is translated by withOptionNames().
 Error withOptionNames(Error error);
 
 }  // namespace arete

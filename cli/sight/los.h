@@ -7,7 +7,7 @@
 
 namespace arete {
 
-/// arete los: which places see each other.
+/// Declares `arete los`, which tells which places see each other.
 void addLosCommand(CLI::App& app, Session& session);
 
 }  // namespace arete

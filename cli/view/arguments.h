@@ -34,20 +34,20 @@ struct DetailArguments {
   bool isFixed = false;  ///< no geomorphing
 
   void addTo(CLI::App& command);
-  /// What can end a cut before it reaches the tolerance, for a sentence.
+  /// What can end a cut before it reaches the tolerance, as words of a message: "budget or the deadline".
   std::string whatEndsTheCut() const;
 };
 
-/// Colours, light, the picture on the terrain.
+/// Colours, light, and the image draped over the terrain.
 struct AppearanceArguments {
   std::string color = "height", sun, drape, drapeBands;
   double contours = 0, hazeKilometres = 0, exaggeration = 1;
   bool hasWireframe = false, isUnshaded = false, isCurved = false;
 
   void addTo(CLI::App& command);
-  /// The bands of the drape that are shown. Errors: usage: not one or three bands, counted from 1.
+  /// Which bands of the drape to show. Errors: usage: not one or three band numbers, which count from 1.
   Result<DrapeOptions> drapeOptions() const;
-  /// Errors: usage: a position of the sun that is not two angles.
+  /// Errors: usage: `sun` is not two angles.
   Result<ViewLook> look() const;
 };
 
@@ -55,10 +55,10 @@ struct AppearanceArguments {
 struct PictureArguments {
   bool isHeadless = false;
   std::string sizeText, screenshot, frames, film, figures;
-  double framesPerSecond = 0;  ///< 0 = the flight's own
+  double framesPerSecond = 0;  ///< 0 = the rate that the flight states
   int samples = 4;
   std::string windowScreenshot;  ///< for tests: the last picture of the window
-  int windowFrames = 0;          ///< for tests: the window closes after so many frames; 0 = never
+  int windowFrames = 0;          ///< for tests: the window closes after this many frames; 0 = never
 
   void addTo(CLI::App& command);
   /// @return width and height in pixels; 1280 x 720 where no size is given. Errors: usage.

@@ -10,13 +10,13 @@
 
 namespace arete {
 
-/// The edges of a front with their triangles, by which conformity and the Delaunay property are checked.
+/// The edges of a front and the triangles at each, for checks of conformity and of the Delaunay property.
 /// Memory: 8 bytes per side of a triangle.
 class FrontEdges {
  public:
   /// Side i of triangle t of the front, from corner i to the next one, is number 3 t + i.
   struct Side {
-    std::uint32_t high;  ///< the greater of its ends
+    std::uint32_t high;  ///< the end with the higher vertex number
     std::uint32_t number;
 
     std::uint32_t triangle() const { return number / 3; }
@@ -27,7 +27,7 @@ class FrontEdges {
   };
 
   /// The triangles need not form a surface. Parallel; O(triangles) if vertices have few edges. Preconditions:
-  /// corners are vertices of the front; fewer than 2^32 sides, which every MT has.
+  /// corners are vertices of the front; there are fewer than 2^32 sides, as in every MT.
   explicit FrontEdges(const Cut& front);
 
   std::uint32_t vertices() const { return static_cast<std::uint32_t>(begin_.size() - 1); }
@@ -43,7 +43,7 @@ class FrontEdges {
   }
 
  private:
-  UninitializedVector<std::uint32_t> begin_;  ///< per vertex, and the end
+  UninitializedVector<std::uint32_t> begin_;  ///< the first of each vertex's sides; then the end
   UninitializedVector<Side> sides_;
 };
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "engine/simplify/hole_triangulation.h"
+#include "engine/simplify/hole_triangles.h"
 
 namespace arete {
 

@@ -12,7 +12,7 @@
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/mt/recorder.h"
 #include "engine/simplify/floor_joins.h"
-#include "engine/simplify/hole_triangulation.h"
+#include "engine/simplify/hole_triangles.h"
 #include "engine/simplify/slot_map.h"
 
 namespace arete {

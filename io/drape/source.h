@@ -10,8 +10,7 @@
 
 namespace arete {
 
-/// Datasets of which each is derived from the one before. Closes them from the last to the first, as GDAL
-/// requires.
+/// Datasets, each derived from the one before it. Closes them from the last to the first, as GDAL requires.
 class DatasetStack {
  public:
   DatasetStack() = default;
@@ -39,22 +38,22 @@ struct DrapeSource {
   DatasetStack opened;
   std::vector<int> colors;   ///< one band (grey) or three
   int alpha = 0;             ///< band of transparency; 0: none
-  double coarser = 1;        ///< side of a pixel in pixels of the file
-  bool isStretched = false;  ///< not of 8 bits: its range is mapped to 8 bits
+  double coarser = 1;        ///< length of a pixel's side, in pixels of the file
+  bool isStretched = false;  ///< the values are not 8-bit; their range is mapped to 8 bits
 
   GDALDataset& dataset() const { return *opened.last(); }
 };
 
 /// Opens an image. A colour table is expanded to colours.
 ///
-/// @param bands Stated by a person; empty: by the file.
+/// @param bands The bands that the user chose; empty: choose them as the file says.
 ///
-/// Errors: notFound, unreadable, corrupt. usage: missing bands. unsupported: no band, complex numbers.
+/// Errors: notFound, unreadable, corrupt. usage: no such bands. unsupported: no band, complex numbers.
 Result<DrapeSource> openDrapeSource(const std::string& path, const std::vector<int>& bands,
                                     std::vector<std::string>& warnings);
 
-/// Reopens an image at the coarsest of its overviews that is at most `coarser` times as coarse as the file.
-/// Without such an overview returns `source`.
+/// Reopens an image at the coarsest overview whose pixels are at most `coarser` times those of the file.
+/// Returns `source` if there is none.
 Result<DrapeSource> openDrapeOverview(const std::string& path, DrapeSource source, double coarser);
 
 }  // namespace arete

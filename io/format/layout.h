@@ -9,9 +9,9 @@
 namespace arete {
 
 /// The bytes of an .amt file (docs/topics/amt-format.md): a header, a directory of chunks, the chunks. All
-/// numbers are little-endian. The directory follows the header. Each chunk begins at the first multiple of 64
-/// at or behind the end of the chunk before it (the first one: of the directory), and the file ends at such a
-/// multiple. The bytes between are zero.
+/// numbers are little-endian. The directory follows the header. Every chunk begins at a multiple of 64: the
+/// first one at or after the end of what precedes it, the directory or a chunk. The file ends at such a
+/// multiple, too. The bytes between are zero.
 
 inline constexpr std::uint32_t kAmtVersion = 2;
 inline constexpr std::uint64_t kAmtAlignment = 64;
@@ -23,8 +23,8 @@ inline constexpr std::uint64_t kAmtMaxMetadataBytes = std::uint64_t{1} << 20;
 /// and checked alone.
 inline constexpr std::uint64_t kAmtSegmentBytes = std::uint64_t{1} << 16;
 
-/// As in PNG: a byte beyond ASCII, the name, and line ends of every kind, so that a transfer in text mode is
-/// detected.
+/// Like PNG's: a byte outside ASCII, the format's name, and line ends of every kind, so that damage by a
+/// transfer in text mode is detected.
 inline constexpr std::array<char, 8> kAmtMagic = {'\x89', 'A', 'M', 'T', '\r', '\n', '\x1a', '\n'};
 inline constexpr std::uint32_t kAmtByteOrder = 0x01020304;
 inline constexpr std::uint32_t kAmtByteOrderSwapped = 0x04030201;
@@ -53,7 +53,7 @@ using AmtTag = std::array<char, 4>;
 struct AmtChunk {
   AmtTag tag{};
   AmtScalar scalar = AmtScalar::u8;
-  std::uint32_t elementBytes = 1;  ///< of one element: the scalar's size times the components
+  std::uint32_t elementBytes = 1;  ///< size of one element: that of the scalar times the number of components
   std::uint32_t reserved = 0;
   std::uint64_t offset = 0;    ///< from the beginning of the file
   std::uint64_t bytes = 0;     ///< without the padding behind it
@@ -87,15 +87,15 @@ inline constexpr AmtTag kCreatorHint = {'H', 'I', 'N', 'T'};
 inline constexpr AmtTag kSamples = {'S', 'A', 'M', 'P'};
 inline constexpr AmtTag kPlan = {'P', 'L', 'A', 'N'};
 inline constexpr AmtTag kHeights = {'H', 'G', 'H', 'T'};
-// Of a packed file, instead of all above but the metadata:
+// In a packed file, in place of all of the above except the metadata:
 inline constexpr AmtTag kPackedDirectory = {'P', 'D', 'I', 'R'};
 inline constexpr AmtTag kPackedTables = {'P', 'T', 'A', 'B'};
 inline constexpr AmtTag kPackedNodes = {'P', 'N', 'O', 'D'};
-// Of every file:
+// In every file:
 inline constexpr AmtTag kIsolatedSamples = {'I', 'S', 'A', 'M'};
 inline constexpr AmtTag kIsolatedHeights = {'I', 'H', 'G', 'T'};
 inline constexpr AmtTag kFixedVertices = {'F', 'I', 'X', 'V'};
-// The last of a file that is not packed; files of earlier builds of Arete do not have it:
+// The last chunk of a plain file; files written by earlier builds of Arete lack it:
 inline constexpr AmtTag kSegmentChecksums = {'P', 'S', 'U', 'M'};
 }  // namespace amt_tag
 

@@ -19,8 +19,8 @@ struct MeshFrame {
   std::string coordinates = "float64";  ///< their type, for a report: "float32 relative to the origin"
   /// The file's origin in source coordinates; missing if the file states none.
   std::optional<Vec3> origin = {};
-  /// Largest distance, per axis, between a position as read and as written, in source units. It comes from
-  /// the rounding of the file's numbers; 0 if they are doubles.
+  /// Per axis, in source units: the most by which rounding to the file's numbers may have moved a position;
+  /// 0 if they are doubles.
   Vec3 rounding = {};
 };
 
@@ -34,14 +34,14 @@ struct MeshFile {
   MeshFrame frame;
 };
 
-/// What a mesh file holds besides the triangles. A format without a field for a value omits it.
+/// What to write besides the triangles. A value is left out if the format has no field for it.
 struct MeshWriteOptions {
   std::string crsWkt = {};
   std::string verticalUnit = {};
-  double verticalUnitMetres = 0;  ///< 0: by the name of the unit, else by the CRS, else 1
+  double verticalUnitMetres = 0;  ///< 0: derive it from verticalUnit, else from the CRS, else 1
   /// Empty, or one per triangle.
   std::span<const float> triangleErrors = {};
-  /// Empty, or one per vertex. Programs show a PLY's "quality" in colours.
+  /// Empty, or one per vertex; a PLY's "quality", which viewers show as colours.
   std::span<const float> vertexQualities = {};
   std::span<const std::array<std::uint8_t, 3>> vertexColors = {};
   /// The origin of a format of 32-bit floats (io/crs/local_origin.h), in the coordinates of the positions.
@@ -53,7 +53,7 @@ struct MeshWriteOptions {
 
 /// What a format can hold.
 struct MeshFormatTraits {
-  bool isExact = false;  ///< doubles, to the bit; otherwise float32 relative to a recorded origin
+  bool isExact = false;  ///< keeps doubles bit by bit; else float32 relative to a recorded origin
   bool holdsCrs = false;
   bool holdsVerticalUnit = false;
   bool holdsErrors = false;     ///< one per triangle

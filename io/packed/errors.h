@@ -11,7 +11,7 @@
 namespace arete::packed {
 
 /// Error codes of triangles of a lattice with whole-numbered heights: such an error is a whole number divided
-/// by the doubled area.
+/// by the doubled area. NodeCoder::triangleError() (io/packed/node_coder.h) encodes and decodes them.
 
 /// Up to this doubled area the error is coded as the whole number error * doubled area / height step.
 inline constexpr unsigned kLatticeErrorArea = 64;

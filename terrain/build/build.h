@@ -20,9 +20,9 @@ Result<TerrainModel> build(const RasterHeightfield& heightfield, const BuildOpti
                            const RunContext& context = {});
 Result<TerrainModel> build(const PointHeightfield& heightfield, const BuildOptions& options = {},
                            const RunContext& context = {});
-/// The checks that build() starts with, for callers with work to do before it. O(points).
+/// The checks that build() starts with, for callers that do other work before calling it. O(points).
 Status checkBuild(const PointHeightfield& heightfield, const BuildOptions& options);
-/// `finest`: finestPoints() of the same points.
+/// `finest`: the result of finestPoints() for the same points.
 Result<TerrainModel> build(const PointHeightfield& heightfield, FinestPoints finest,
                            const BuildOptions& options = {}, const RunContext& context = {});
 

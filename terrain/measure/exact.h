@@ -9,9 +9,9 @@
 
 namespace arete::measuring {
 
-/// Whether a triangle holds a point of the plan, and how: inside, on an edge or at a corner. This is decided
-/// exactly, on the doubles as they are, however thin the triangle is; the height is within a few ulp of the
-/// corners' differences. O(1). Precondition: all finite.
+/// Whether a triangle contains a point of the plan: inside, on an edge or at a corner. This is decided by
+/// exact arithmetic, so it is right for any thin triangle. The height is off by at most a few ulp of the
+/// differences between the corners' heights. O(1). Precondition: all coordinates are finite.
 /// @param corner  in either orientation
 /// @return the contact; nothing where the point is outside or the triangle has no area
 std::optional<Contact> contactWhereHeld(const std::array<Vec3, 3>& corner, Vec2 point);

@@ -8,11 +8,11 @@
 
 namespace arete {
 
-/// A bounding box of the terrain in plan coordinates: the whole grid of a raster (O(1)); for points, the box
-/// of the root's vertices, which is that of all points (O(root vertices)). {0, 0, 0, 0} for a model without
-/// vertices.
+/// A bounding box of the terrain in plan coordinates: for a raster the whole grid (O(1)); for points the box
+/// of the root's vertices, which is also that of all points (O(root vertices)); {0, 0, 0, 0} if the model
+/// has no vertices.
 Box2 planBox(const TerrainModel& model);
-/// The bounding box of some positions; {0, 0, 0, 0} for none. O(positions).
+/// The bounding box of `positions`; {0, 0, 0, 0} if there are none. O(positions).
 Box2 planBox(std::span<const Vec2> positions);
 
 }  // namespace arete

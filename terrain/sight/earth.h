@@ -11,7 +11,7 @@
 namespace arete {
 
 /// How the ground is measured and how it curves: the tracks of sight lines between two places. Places are in
-/// plan coordinates of the model. Thread-safe.
+/// plan coordinates of the model. Thread-safe. Tracks on the ellipsoid need a CRS: io/crs/ellipsoid_earth.h.
 class SightEarth {
  public:
   virtual ~SightEarth() = default;
@@ -19,8 +19,7 @@ class SightEarth {
   ///     is out of reach of the Earth model, for example of a projection's inverse.
   virtual Result<SightTrack> track(Vec2 from, Vec2 to) const = 0;
   /// @return metres along the ground between two places; nothing if unknown. May be known where track()
-  /// fails.
-  ///     O(track).
+  ///     fails. O(track).
   virtual std::optional<double> distance(Vec2 from, Vec2 to) const;
   /// Metres east and north of a step of one plan unit along x, along y.
   struct PlaneSteps {

@@ -37,8 +37,7 @@ class SightJudge {
   /// Gives a bound out of order: the terrain is at least z high at s, so matters() can rule out more.
   void hint(double s, double z);
   /// @return false if the terrain of a hint was not reported: it is a single point, which engines may pass
-  /// over.
-  ///     Then too much was ruled out, and the line has to be evaluated again without hints.
+  ///     over. Then too much was ruled out, and the line has to be evaluated again without hints.
   bool areHintsKept() const { return !(most_ > hint_ + line_.tolerance()); }
 
   /// @return whether nothing that follows can change the answer.

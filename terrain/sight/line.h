@@ -74,8 +74,7 @@ class SightLine {
   }
 
   /// @return clearances within this of 0 count as touching: 1e-6 m + 1e-12 of the length, in the DEM's
-  /// vertical
-  ///     unit.
+  ///     vertical unit.
   double tolerance() const { return tolerance_; }
   double heightUnitMetres() const { return unit_; }
   double fromHeight() const { return from_; }
@@ -118,8 +117,7 @@ class SightLine {
 
 /// Checks the heights of a line's ends, in the DEM's vertical unit.
 /// @return Errors: invalidData: a height is not finite or is more than half of the effective Earth's radius
-/// deep,
-///     below the ground or, on a concave Earth, above it.
+///     deep, below the ground or, on a concave Earth, above it.
 Status checkSightHeights(const SightTrack& track, double fromHeight, double toHeight,
                          double heightUnitMetres = 1);
 
@@ -127,8 +125,7 @@ Status checkSightHeights(const SightTrack& track, double fromHeight, double toHe
 /// @param distance metres along the ground, more than 0.
 /// @param height metres of what is seen, above the ground there.
 /// @return the tangent of the elevation angle. It rises with height: of two things in one direction, the one
-/// of
-///     the larger tangent is seen above the other.
+///     of the larger tangent is seen above the other.
 double sightTangent(double curvature, double height0, double distance, double height);
 
 /// The inverse of sightTangent() in the height.

@@ -40,8 +40,7 @@ class Profiles {
 
   /// O(vertices * depth * degree), over cells O(vertices).
   /// @param maxError in the DEM's vertical unit: the profile is within it of full resolution everywhere; 0 =
-  /// full
-  ///     resolution.
+  ///     full resolution.
   /// @return the profile; of a track without length, one vertex, or none where there is no terrain.
   Profile along(const SightTrack& track, double maxError = 0) const;
 

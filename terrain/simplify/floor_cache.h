@@ -9,9 +9,9 @@
 
 namespace arete {
 
-/// The floors that the evaluations of a level measure, kept until the chosen vertices are removed; only of
-/// levels that are small enough for a processor's cache. Late levels are, and there measuring takes most of
-/// the time.
+/// Keeps the floors (triangulated holes) that a level's evaluations measure until the chosen vertices are
+/// removed, but only if the level fits a processor's cache. Late levels fit, and measuring takes most of
+/// their time.
 class FloorCache {
  public:
   /// Starts a level.
@@ -24,8 +24,8 @@ class FloorCache {
     if (evaluationOf_.size() <= indices) evaluationOf_.resize(indices + 1);
   }
 
-  /// The floor, empty, that the i-th evaluation fills; null if the level is too large. Called for each
-  /// evaluation. Thread-safe for different ones.
+  /// An empty floor for the i-th evaluation to fill; null if the level is too large. Call it once for each
+  /// evaluation. Thread-safe for different evaluations.
   /// @param index of the vertex in the ThresholdList.
   MeasuredFloor* keep(std::size_t i, std::uint32_t index) {
     if (!isKeeping_) return nullptr;
@@ -34,8 +34,8 @@ class FloorCache {
     return &floors_[i];
   }
 
-  /// The floor that was kept of the vertex with this index; null if the level is too large. Precondition:
-  /// keep() was called for it in this level.
+  /// The floor that was kept for the vertex with this index; null if the level is too large. Precondition:
+  /// keep() was called for this index in this level.
   MeasuredFloor* of(std::uint32_t index) { return isKeeping_ ? &floors_[evaluationOf_[index]] : nullptr; }
 
  private:

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/simplify/hole_triangulation.h"
+#include "engine/simplify/hole_triangles.h"
 
 namespace arete {
 

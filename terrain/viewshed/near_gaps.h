@@ -18,8 +18,7 @@ class ViewshedNearGaps {
   void setError(double radians) { error_ = radians; }
   /// Adds a triangle or a square.
   /// @param corners in order, in steps from the observer. The part of it in the directions given to towards()
-  /// is at most
-  ///     two steps away.
+  ///     is at most two steps away.
   void add(std::span<const Vec2> corners);
 
   struct Crossing {

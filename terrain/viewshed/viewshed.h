@@ -98,8 +98,7 @@ class ViewshedMaker {
   /// lattice line counts as on it. The sweep takes O(samples) for usual terrain and O(samples * side) at
   /// worst; rays take O(samples) answers of an engine. Memory: the result, and O(side) per thread.
   /// @return Errors: usage: options out of range (the culprit is the field); unsupported: the sweep cannot do
-  /// it;
-  ///     interrupted; those of the earth.
+  ///     it; interrupted; those of the earth.
   Result<Viewshed> from(const ViewshedObserver& observer, const ViewshedOptions& options = {},
                         const RunContext& context = {}) const;
 

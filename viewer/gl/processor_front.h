@@ -10,12 +10,12 @@
 
 namespace arete {
 
-/// Cuts for a view, computed by the processor on a thread of its own (engine/morph/view_mesh.h). Each frame
-/// posts its view and draws the front that is finished by then; only changes are uploaded to the device.
+/// Computes cuts for views on the processor, in a separate thread (engine/morph/view_mesh.h). Each frame
+/// posts its view and draws the newest finished front; only changes are uploaded to the device.
 class ProcessorFront {
  public:
-  /// Starts at the root. `stretch`: vertical exaggeration. Errors: those of ViewMesh; unsupported, by the
-  /// driver.
+  /// Starts with the root's triangles. `stretch`: vertical exaggeration. Errors: those of ViewMesh;
+  /// unsupported: the driver cannot do it.
   static Result<ProcessorFront> create(const MultiTriangulation& mt, double stretch);
   ProcessorFront(ProcessorFront&&) noexcept;
   ProcessorFront& operator=(ProcessorFront&&) noexcept;
@@ -33,11 +33,11 @@ class ProcessorFront {
     double milliseconds = 0;  ///< of the update
     std::uint64_t updates = 0;
   };
-  /// Posts a request. It replaces one that has not begun.
+  /// Posts a request. It replaces an earlier one if work on that has not begun.
   void ask(const Asked& asked);
   /// Uploads the changes since the last call.
   ///
-  /// @param waits whether to wait for the last request.
+  /// @param waits whether to wait until the last request is finished.
   /// Errors: those of the update.
   Result<Done> receive(TerrainOnGpu& terrain, bool waits);
 

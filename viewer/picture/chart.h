@@ -13,7 +13,7 @@ namespace arete {
 
 struct ChartSeries {
   std::string name = {};
-  std::vector<Vec2> points = {};  ///< in the order they are joined, both coordinates > 0
+  std::vector<Vec2> points = {};  ///< in the order in which lines join them; both coordinates > 0
   bool dashed = false;            ///< for a reference
 };
 
@@ -24,10 +24,10 @@ struct ChartOptions {
   std::string xLabel = {}, yLabel = {};
 };
 
-/// A line chart with two logarithmic axes, such as triangles against tolerance. Series differ in
-/// colour (of the palette of Okabe and Ito, made for any colour vision) and by the shape of their marks. A
-/// series with a point that is not positive and finite is an error, because it has no logarithm. Errors:
-/// usage, for a size without room; invalidData, naming the series. O(points).
+/// A line chart with two logarithmic axes, such as triangles against tolerance. Series differ in colour (from
+/// the palette of Okabe and Ito, which colour-blind people can tell apart) and in the shape of their marks.
+/// Errors: usage: the size leaves no room for the chart; invalidData, naming the series: a coordinate is not
+/// positive and finite, so has no logarithm. O(points).
 Result<Canvas> drawLogLogChart(std::span<const ChartSeries> series, const ChartOptions& options = {});
 
 }  // namespace arete

@@ -12,8 +12,8 @@ namespace arete {
 
 /// The mapping between a grid and the pixels of a picture. Grid coordinates are (column, row) of samples; the
 /// whole grid is [0, columns - 1] x [0, rows - 1], the domain of its triangulation, not the outer edges of
-/// its pixels. The aspect is the ground's: a geographic grid at 60 degrees is drawn half as wide as its
-/// columns say. South-up grids are turned over.
+/// its pixels. The picture has the proportions of the ground: a geographic grid at 60 degrees of latitude is
+/// drawn half as wide as its columns suggest. Grids with south at the top are flipped.
 struct MapView {
   int width = 0, height = 0;     ///< pixels
   double column0 = 0, row0 = 0;  ///< grid position of the left top corner
@@ -27,15 +27,15 @@ struct MapView {
   }
   Vec2 toGrid(double x, double y) const { return {column0 + x * columnsPerPixel, row0 + y * rowsPerPixel}; }
 
-  /// The part of this view in the given pixels, enlarged `zoom` times.
+  /// The view of the given pixels of this one only, enlarged `zoom` times.
   MapView crop(const Rect& pixels, double zoom) const;
 };
 
-/// The whole grid, as large as fits `maxWidth` x `maxHeight` pixels. Precondition: at least 2 x 2 samples.
+/// The whole grid, as large as fits in `maxWidth` x `maxHeight` pixels. Precondition: 2 x 2 samples or more.
 MapView fitGrid(std::uint32_t columns, std::uint32_t rows, const Georeference& georeference, int maxWidth,
                 int maxHeight);
 
-/// Direction of grid north in the picture, y downwards, of length 1; none where no CRS says what north is.
+/// Unit vector to grid north in the picture (y points down); nothing if no CRS says where north is.
 std::optional<Vec2> northInView(const MapView& view, const Georeference& georeference);
 
 }  // namespace arete

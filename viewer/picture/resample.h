@@ -8,18 +8,17 @@
 
 namespace arete {
 
-/// A field in the pixels of a view.
+/// A value for each pixel of a view.
 struct ViewField {
   std::vector<float> values;    ///< row-major; NaN where coverage is 0
-  std::vector<float> coverage;  ///< 0..1, how much of the pixel's surroundings has data
+  std::vector<float> coverage;  ///< 0..1: the share of the pixel's surroundings that has data
 };
 
 /// Value of a grid sample; NaN = none.
 using SampleAt = std::function<double(std::uint32_t column, std::uint32_t row)>;
 
-/// Resamples a field to the pixels of a view. Where samples are denser than pixels, a tent filter two pixels
-/// wide weights every sample; where they are sparser, the interpolation is bilinear. Samples without data are
-/// left out.
+/// Resamples a grid to the pixels of a view: if samples are denser than pixels, by a tent filter two pixels
+/// wide over all samples; if they are sparser, by bilinear interpolation. Samples without data are left out.
 ///
 /// @param sampleAt the value of a sample; NaN = none.
 /// O(samples in view + pixels).

@@ -11,13 +11,13 @@ namespace arete {
 /// four corners (E3T, E4Q), with any numbers and in any order. Skips node strings, names, materials and
 /// one-dimensional elements. Understands the comments "# crs <WKT>" and "# vertical_unit <unit>".
 ///
-/// Errors: those of readMesh(). corrupt: also a file of Arete without its last line. unsupported: also
-/// elements with curved sides (E6T, E8Q, E9Q).
+/// Errors: those of readMesh(). corrupt: also a file written by Arete that lacks its last line. unsupported:
+/// also elements with curved sides (E6T, E8Q, E9Q).
 Result<MeshFile> read2dm(const std::filesystem::path& path, const RunContext& context = {});
 
-/// Writes nodes and elements numbered from 1. Coordinates have the shortest digits that give the same double.
-/// The format has no card for a CRS or a unit: both are comments, which QGIS ignores (it prompts for the
-/// CRS).
+/// Writes nodes and elements numbered from 1. Coordinates have the fewest digits that read back as the same
+/// double. The format has no line type for a CRS or a unit, so both are comments. QGIS ignores them (it asks
+/// for the CRS).
 ///
 /// Errors: those of writeMesh().
 Status write2dm(const TriangleMesh& mesh, const std::filesystem::path& path,

@@ -9,8 +9,8 @@
 
 namespace arete {
 
-/// A triangulation of a star polygon, as corners of the polygon. Each triangle starts at its least corner;
-/// the list is in the order found, the same for the same polygon and the same way of finding it.
+/// The triangles that fill a star-shaped polygon, as numbers of its corners. Each starts at its lowest one.
+/// They are in the order in which they were found; the same algorithm on the same polygon finds the same.
 struct HoleTriangulation {
   std::array<std::array<std::uint8_t, 3>, kMaxHoleCorners - 2> triangles;
   int size = 0;
