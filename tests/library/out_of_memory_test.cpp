@@ -32,6 +32,10 @@
 #include "terrain/measure/measure.h"
 #include "terrain/measure/mesh_distance.h"
 #include "terrain/model/error_curve.h"
+#include "terrain/sight/earth.h"
+#include "terrain/sight/engine.h"
+#include "terrain/sight/paths.h"
+#include "terrain/viewshed/viewshed.h"
 
 namespace {
 
@@ -203,6 +207,24 @@ TEST_F(OutOfMemory, IsAnErrorOfValidation) {
 TEST_F(OutOfMemory, IsAnErrorOfMeasurements) {
   failAllocationsOf("raster", [&] { return measure(tin_, raster_); });
   failAllocationsOf("distance", [&] { return measureDistance(tin_, tin_); });
+}
+
+TEST_F(OutOfMemory, IsAnErrorOfVisibility) {
+  const std::unique_ptr<SightEarth> earth = makePlaneEarth(model_);
+  const Profiles profiles(model_);
+  const SightPath path{.from = {3, 4}, .to = {50, 40}, .fromHeight = 1e4, .toHeight = 1e4};
+  for (const SightMethod method : {SightMethod::descent, SightMethod::pyramid, SightMethod::scan}) {
+    failAllocationsOf("engine", [&] { return makeSightEngine(method, model_); });
+    const auto engine = makeSightEngine(method, model_);
+    ASSERT_TRUE(engine);
+    failAllocationsOf("paths", [&] {
+      return answerPaths(std::array{path, path}, *earth, **engine, profiles, {});
+    });
+  }
+  failAllocationsOf("maker", [&] { return ViewshedMaker::make(model_, *earth); });
+  const auto maker = ViewshedMaker::make(model_, *earth);
+  ASSERT_TRUE(maker);
+  failAllocationsOf("viewshed", [&] { return maker->from({.plan = {20, 20}, .height = 1e4}); });
 }
 
 TEST_F(OutOfMemory, IsAnErrorOfFits) {
