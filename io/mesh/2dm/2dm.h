@@ -16,8 +16,8 @@ namespace arete {
 Result<MeshFile> read2dm(const std::filesystem::path& path, const RunContext& context = {});
 
 /// Writes nodes and elements numbered from 1. Coordinates have the fewest digits that read back as the same
-/// double. The format has no line type for a CRS or a unit, so both are comments. QGIS ignores them (it asks
-/// for the CRS).
+/// double. The format has no line type for a CRS or a unit, so both are comments. QGIS ignores them and
+/// prompts for the CRS.
 ///
 /// Errors: those of writeMesh().
 Status write2dm(const TriangleMesh& mesh, const std::filesystem::path& path,
