@@ -29,7 +29,7 @@ struct HmmRun {
   double peakBytes = 0;
 };
 
-/// Runs the program at `hmm` (github.com/fogleman/hmm, MIT; built by whoever measures) with a tolerance in
+/// Runs the program at `hmm` (github.com/fogleman/hmm, MIT; built by the user) with a tolerance in
 /// the DEM's vertical unit. The caller must not have started threads. Errors: notFound; unreadable (it fails,
 /// or says nothing that can be understood).
 Result<HmmRun> runHmm(const std::string& hmm, const HmmInput& input, double tolerance);

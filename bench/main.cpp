@@ -42,7 +42,7 @@ bool isWanted(const std::string& name, const std::vector<std::string>& wanted) {
          });
 }
 
-/// Every wanted stage on every wanted DEM, into the report. Returns what the program shall end with.
+/// Every wanted stage on every wanted DEM, into the report. Returns the exit code.
 int measureDems(const Arguments& arguments, const Plan& plan, Report& report) {
   std::vector<DemSource> sources = realDems(arguments.data);
   if (sources.empty())

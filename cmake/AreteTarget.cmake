@@ -10,7 +10,7 @@
 # MAY_INCLUDE names the rooms, of its own layer and of those below, whose headers its files may include; tests/house
 # walks all includes and fails on any other (rooms.txt in the build folder is what it reads). HEADERS are public: part of
 # the library that others install (cmake/AreteInstall.cmake). What they include is installed with them; a header that is
-# not listed may change any day all the same. CGAL_SOURCES are compiled with the flags that CGAL asks for, of which
+# not listed may change at any time. CGAL_SOURCES are compiled with the flags that CGAL requires, of which
 # -frounding-math would slow down everything else.
 
 set(CMAKE_CXX_STANDARD 20)
@@ -23,7 +23,7 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}")
 option(ARETE_PRECOMPILE "Precompile the headers that most files include" ON)
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
-  # The sloppiness and -fpch-preprocess are what ccache asks for where headers are precompiled.
+  # The sloppiness and -fpch-preprocess are required by ccache where headers are precompiled.
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${CCACHE_PROGRAM}")
   if(ARETE_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     add_compile_options(-fpch-preprocess)

@@ -12,7 +12,7 @@
 
 namespace arete {
 
-/// A DEM that somebody publishes and anybody may read over https.
+/// A published DEM that can be read over https.
 struct PublicDem {
   std::string_view name;     ///< as a command names it
   std::string_view summary;  ///< what it is, in a line

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // own_renderer FILE.amt FRAMES OUT.pgm: flies across a terrain with a renderer that knows nothing of Arete
-// but the buffers it is told: positions once, then what changes. The last frame is drawn, in grey, into
+// but the buffers it receives: positions once, then what changes. The last frame is drawn, in grey, into
 // OUT.pgm.
 #include <arete/engine/morph/view_mesh.h>
 #include <arete/io/amt/file.h>

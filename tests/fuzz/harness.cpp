@@ -91,7 +91,7 @@ void useMesh(const Result<MeshFile>& file) {
 }
 
 RunContext oneThread() {
-  // For the whole program: a context that asks for one thread makes an arena each time it is used.
+  // For the whole program: a context of one thread makes an arena each time it is used.
   static const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
   return {};
 }

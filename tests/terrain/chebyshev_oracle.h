@@ -7,7 +7,7 @@
 
 namespace arete::testing {
 
-/// |sum of factor * unknown + rest|, of which the largest shall be small.
+/// |sum of factor * unknown + rest|, of which the largest is minimised.
 struct LinearResidual {
   std::vector<std::pair<std::uint32_t, double>> terms;
   double rest = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Tests that open a window run again, each by itself, on a screen that nobody sees.
+// Tests that open a window run again, each by itself, on a virtual screen.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A renderer of the test's own: it keeps buffers by the changes that it is told, and everything is asked of
+// A renderer of the test's own: it updates its buffers by the changes it receives, and everything is asked of
 // these buffers. Its camera, and what a surface over the samples is, are morph_oracle.h's.
 #include "engine/morph/view_mesh.h"
 

@@ -57,7 +57,7 @@ TEST(StageClock, DoesNotRunBetweenScopes) {
 }
 
 TEST(StageClock, IsOptional) {
-  const StageClock::Scope scope(nullptr, "nobody listens");
+  const StageClock::Scope scope(nullptr, "no clock");
 }
 
 }  // namespace

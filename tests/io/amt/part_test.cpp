@@ -222,7 +222,7 @@ TEST(AmtPart, RefusesOrSurvivesWhateverTheBytesAre) {
   field.georeference.geoTransform = {0, 30, 0, 0, 0, -30};
   ASSERT_TRUE(writeAmt(path, built(build(field))));
   const AmtBytes good = AmtBytes::of(path);
-  const RequiredError wishes[] = {everywhere(3), in({5, 5, 12, 9}, 0), in({50, 50, 50, 50}, 0.7)};
+  const RequiredError required[] = {everywhere(3), in({5, 5, 12, 9}, 0), in({50, 50, 50, 50}, 0.7)};
   std::mt19937 random(9);
   int refused = 0, survived = 0;
   for (int round = 0; round < 500; ++round) {
@@ -230,7 +230,7 @@ TEST(AmtPart, RefusesOrSurvivesWhateverTheBytesAre) {
     bytes.spoil(random);
     bytes.seal();
     bytes.save(path);
-    for (const RequiredError& wanted : wishes) {
+    for (const RequiredError& wanted : required) {
       const Result<TerrainModel> some = loadAmt(path, {.open = {}, .wanted = wanted});
       if (!some) {
         ++refused;

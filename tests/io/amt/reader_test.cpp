@@ -39,7 +39,7 @@ TEST(Reader, SkipsAChunkWhoseTagItDoesNotKnow) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.amt");
   ASSERT_TRUE(writeAmt(path, test::tinyModel()));
-  // The checksums of segments, under a tag that nobody knows.
+  // The checksums of segments, under an unknown tag.
   AmtBytes bytes = AmtBytes::of(path);
   bytes.chunk(amt_tag::kSegmentChecksums).tag = {'N', 'E', 'W', '1'};
   bytes.sealHeader();

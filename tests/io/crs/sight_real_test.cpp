@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Lines of sight on real terrain: where they run, against geodesics integrated step by step, and what they
-// see, against the oracle. ARETE_FULL=1 asks for 100 000 pairs on each DEM.
+// see, against the oracle. ARETE_FULL=1 takes 100 000 pairs on each DEM.
 #include <gtest/gtest.h>
 
 #include <algorithm>

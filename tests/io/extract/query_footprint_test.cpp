@@ -239,7 +239,7 @@ void expectSameViewshed(const Viewshed& x, const Viewshed& y) {
   EXPECT_EQ(x.method, y.method);
 }
 
-/// From places in the terrain, as far as somebody looks.
+/// From places in the terrain, as far as a camera sees.
 void expectViewshedsOfTheWhole(const Filed& filed, const SightEarth& earth, double metres, Random& random) {
   const auto ofWhole = ViewshedMaker::make(filed.whole, earth);
   ASSERT_TRUE(ofWhole);

@@ -385,7 +385,7 @@ void expectRefusesOrSurvives(const TerrainModel& model, std::size_t step) {
     for (std::size_t at = 0; at < size; at += stride) {
       AmtBytes changed = original;
       changed.array<std::uint8_t>(tag)[at] ^= static_cast<std::uint8_t>(1u << random() % 8);
-      // The checksums of the packed packets too: whoever changes bytes can do so.
+      // Recomputes the checksums of the packets too, as a forger can.
       std::string ignored;
       const auto bytes = std::as_bytes(changed.array<std::uint8_t>(amt_tag::kPackedDirectory));
       if (auto directory = packed::directoryOf(bytes, ignored)) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Every engine against the oracle: pairs of places over generated terrain, most of them made to be hard.
-// ARETE_FULL=1 asks for a million of them.
+// ARETE_FULL=1 takes a million of them.
 #include "terrain/sight/engine.h"
 
 #include <gtest/gtest.h>

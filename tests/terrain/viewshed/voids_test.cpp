@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Viewsheds where NODATA is scattered all over, from places that are beside it, at its border and in it: cell
-// by cell against one ray for each, and against the oracle. ARETE_FULL=1 asks for fifteen times as many.
+// by cell against one ray for each, and against the oracle. ARETE_FULL=1 takes fifteen times as many.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -34,7 +34,7 @@ TEST(MapView, TurnsASouthUpGridOver) {
   EXPECT_EQ(view.toPixel(0, 5).y, 0);
   EXPECT_EQ(view.toPixel(0, 0).y, view.height);
   EXPECT_NEAR(northInView(view, h.georeference)->y, -1, 1e-12);
-  EXPECT_FALSE(northInView(view, Georeference{})) << "without a CRS nobody knows where north is";
+  EXPECT_FALSE(northInView(view, Georeference{})) << "north is unknown without a CRS";
 }
 
 }  // namespace

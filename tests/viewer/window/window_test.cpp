@@ -91,7 +91,7 @@ TEST(Window, GoesBackFromWhereACurvedEarthCannotBeSeen) {
   ARETE_UNDER_XVFB("");
   const RasterFamily& family = rasterFamilies()[2];
   for (const bool isKnown : {true, false}) {
-    SCOPED_TRACE(isKnown ? "a camera beyond the pole" : "a CRS that nobody knows");
+    SCOPED_TRACE(isKnown ? "a camera beyond the pole" : "an unknown CRS");
     TerrainModel model = test::modelOn(family, {10, 0.001, 0, 60.015, 0, -0.001}, true);
     if (isKnown) model.georeference.crsWkt = "EPSG:4326";
     WindowOptions options{
