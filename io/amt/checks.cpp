@@ -17,7 +17,6 @@
 #include "engine/base/caught_failure.h"
 #include "io/amt/index_check.h"
 #include "io/amt/segments.h"
-#include "io/file/memory_guard.h"
 #include "io/format/checksum.h"
 
 namespace arete {
@@ -55,14 +54,12 @@ Status checkAmtExtras(const AmtFile& file) {
 }
 
 Status checkAmtIndices(const AmtFile& file, const RunContext& context) try {
-  return guardMemory(file.path(), [&]() -> Status {
-    if (!file.isPacked())
-      if (Status indices = checkMtIndices(file.model().mt, amtGridSamples(file), context); !indices)
-        return failure(indices.error().code, indices.error().message, file.path());
-    return checkAmtExtras(file);
-  });
+  if (!file.isPacked())
+    if (Status indices = checkMtIndices(file.model().mt, amtGridSamples(file), context); !indices)
+      return failure(indices.error().code, indices.error().message, file.path());
+  return checkAmtExtras(file);
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(file.path());
 }
 
 namespace {
@@ -106,10 +103,8 @@ Status checkAmtChunk(const AmtFile& file, const AmtTag& tag) {
 }
 
 Status checkAmtChecksums(const AmtFile& file, const RunContext& context) try {
-  const auto checkSums = [&] {
-    return file.hasSegments() ? checkSegments(file, context) : checkChunks(file, context);
-  };
-  if (Status sums = guardMemory(file.path(), checkSums); !sums) return sums;
+  if (Status sums = file.hasSegments() ? checkSegments(file, context) : checkChunks(file, context); !sums)
+    return sums;
   std::uint64_t end = sizeof(AmtHeader) + file.chunks().size() * sizeof(AmtChunk);
   const auto isZeroUpTo = [&](std::uint64_t begin) {
     const auto padding = file.bytes().subspan(end, begin - end);
@@ -125,7 +120,7 @@ Status checkAmtChecksums(const AmtFile& file, const RunContext& context) try {
   }
   return {};
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(file.path());
 }
 
 Status checkAmt(const AmtFile& file, AmtVerify verify, const RunContext& context) try {

@@ -17,7 +17,6 @@
 #include "engine/mt/node_blocks.h"
 #include "io/amt/file.h"
 #include "io/amt/part.h"
-#include "io/file/memory_guard.h"
 #include "io/format/checksum.h"
 #include "io/format/metadata.h"
 #include "io/packed/packed.h"
@@ -255,25 +254,23 @@ Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const 
 }
 
 Result<TerrainModel> AmtFile::read(const AmtReadOptions& options, const RunContext& context) const try {
-  return guardMemory(path_, [&]() -> Result<TerrainModel> {
-    Result<MultiTriangulation> mt = readMt(options, context);
-    if (!mt) return tl::unexpected(mt.error());
-    TerrainModel model = model_;
-    model.mt = std::move(*mt);
-    model.options.fixedVertices.assign(fixedVertices_.begin(), fixedVertices_.end());
-    model.isolated.reserve(isolatedSamples_.size());
-    for (std::size_t i = 0; i < isolatedSamples_.size(); ++i)
-      model.isolated.push_back({isolatedSamples_[i], isolatedHeights_[i]});
-    return model;
-  });
+  Result<MultiTriangulation> mt = readMt(options, context);
+  if (!mt) return tl::unexpected(mt.error());
+  TerrainModel model = model_;
+  model.mt = std::move(*mt);
+  model.options.fixedVertices.assign(fixedVertices_.begin(), fixedVertices_.end());
+  model.isolated.reserve(isolatedSamples_.size());
+  for (std::size_t i = 0; i < isolatedSamples_.size(); ++i)
+    model.isolated.push_back({isolatedSamples_[i], isolatedHeights_[i]});
+  return model;
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(path_);
 }
 
 Result<AmtFile> openAmt(const std::string& path, const AmtOpenOptions& options) try {
-  return guardMemory(path, [&] { return AmtOpener::open(path, options); });
+  return AmtOpener::open(path, options);
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(path);
 }
 
 Result<TerrainModel> loadAmt(const std::string& path, const AmtLoadOptions& options,

@@ -13,7 +13,6 @@
 #include "engine/base/caught_failure.h"
 #include "io/amt/file.h"
 #include "io/file/file_writer.h"
-#include "io/file/memory_guard.h"
 #include "io/format/checksum.h"
 #include "io/format/metadata.h"
 #include "io/packed/packed.h"
@@ -233,9 +232,9 @@ class AmtWriting {
 
 Status writeAmt(const std::string& path, const TerrainModel& model, const RunContext& context,
                 const AmtWriteOptions& options) try {
-  return guardMemory(path, [&] { return AmtWriting(path, model, context).run(options); });
+  return AmtWriting(path, model, context).run(options);
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(path);
 }
 
 }  // namespace arete

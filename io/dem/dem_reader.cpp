@@ -21,7 +21,6 @@
 
 #include "engine/base/caught_failure.h"
 #include "io/dem/gridded_points.h"
-#include "io/file/memory_guard.h"
 #include "io/file/text_scan.h"
 #include "io/gdal/support.h"
 #include "io/gdal/zipped_raster.h"
@@ -196,15 +195,13 @@ std::optional<std::string> crsWarning(const Heightfield& field) {
 
 Result<DemRead> readDem(const std::string& path, const SourceReading& reading,
                         const RunContext& context) try {
-  return guardMemory(path, [&]() -> Result<DemRead> {
-    Result<DemRead> read = readFrom(path, reading, context);
-    if (!read) return read;
-    if (auto warning = std::visit([](const auto& field) { return crsWarning(field); }, read->heightfield))
-      read->warnings.push_back(std::move(*warning));
-    return read;
-  });
+  Result<DemRead> read = readFrom(path, reading, context);
+  if (!read) return read;
+  if (auto warning = std::visit([](const auto& field) { return crsWarning(field); }, read->heightfield))
+    read->warnings.push_back(std::move(*warning));
+  return read;
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(path);
 }
 
 }  // namespace arete

@@ -17,7 +17,6 @@
 #include "engine/base/caught_failure.h"
 #include "engine/memory/pages.h"
 #include "io/crs/reader.h"
-#include "io/file/memory_guard.h"
 #include "io/gdal/support.h"
 #include "io/gdal/vector_layer.h"
 #include "io/table/feature_rows.h"
@@ -229,14 +228,12 @@ Result<PointRead> readFrom(const std::string& path, const PointReadOptions& opti
 
 Result<PointRead> readPoints(const std::string& path, const PointReadOptions& options,
                              const RunContext& context) try {
-  return guardMemory(path, [&]() -> Result<PointRead> {
-    auto read = readFrom(path, options, context);
-    giveFreeHeapBack();  // blocks that growing rows left behind
-    if (!read && read.error().culprit.empty()) read.error().culprit = path;
-    return read;
-  });
+  auto read = readFrom(path, options, context);
+  giveFreeHeapBack();  // blocks that growing rows left behind
+  if (!read && read.error().culprit.empty()) read.error().culprit = path;
+  return read;
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(path);
 }
 
 }  // namespace arete

@@ -16,7 +16,6 @@
 #include "engine/base/caught_failure.h"
 #include "io/crs/reader.h"
 #include "io/dem/band_heights.h"
-#include "io/file/memory_guard.h"
 #include "io/gdal/support.h"
 #include "io/gdal/zipped_raster.h"
 
@@ -160,19 +159,17 @@ Result<RasterRead> readOpened(GDALDataset& dataset, const std::string& path, con
 
 Result<RasterRead> readRaster(const std::string& path, const RasterReadOptions& options,
                               const RunContext& context) try {
-  return guardMemory(path, [&]() -> Result<RasterRead> {
-    registerGdal();
-    GdalErrors errors;
-    const Result<std::string> gdalPath = rasterPathOf(path);
-    if (!gdalPath) return tl::unexpected(gdalPath.error());
-    const GdalDatasetPtr dataset = openGdal(*gdalPath, GDAL_OF_RASTER);
-    if (!dataset) return tl::unexpected(explainOpenFailure(*gdalPath, "raster", errors));
-    auto read = readOpened(*dataset, path, options, errors, context);
-    if (!read && read.error().culprit.empty()) read.error().culprit = path;
-    return read;
-  });
+  registerGdal();
+  GdalErrors errors;
+  const Result<std::string> gdalPath = rasterPathOf(path);
+  if (!gdalPath) return tl::unexpected(gdalPath.error());
+  const GdalDatasetPtr dataset = openGdal(*gdalPath, GDAL_OF_RASTER);
+  if (!dataset) return tl::unexpected(explainOpenFailure(*gdalPath, "raster", errors));
+  auto read = readOpened(*dataset, path, options, errors, context);
+  if (!read && read.error().culprit.empty()) read.error().culprit = path;
+  return read;
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(path);
 }
 
 }  // namespace arete

@@ -20,7 +20,6 @@
 
 #include "engine/base/caught_failure.h"
 #include "io/crs/reader.h"
-#include "io/file/memory_guard.h"
 #include "io/file/output_file.h"
 #include "io/file/text_scan.h"
 #include "io/gdal/support.h"
@@ -150,23 +149,21 @@ Status writeGeoTiff(const std::string& path, std::uint32_t columns, std::uint32_
       values.size() != std::size_t(columns) * rows)
     return failure(ErrorCode::invalidData,
                    fmt::format("{} values for {} columns and {} rows", values.size(), columns, rows), path);
-  return guardMemory(path, [&]() -> Status {
-    registerGdal();
-    auto file = OutputFile::create(path);
-    if (!file) return tl::unexpected(file.error());
-    Status status =
-        writeTo(file->temporaryPath().string(), columns, rows, values, georeference, options, context);
-    if (status) status = file->commit();
-    // Overviews and masks of an older file do not describe this one.
-    std::error_code ignored;
-    if (status)
-      for (const char* sidecar : kStaleSidecars) std::filesystem::remove(path + sidecar, ignored);
-    if (!status && status.error().culprit.empty()) status.error().culprit = path;
-    if (status) context.report("writing", 1);
-    return status;
-  });
+  registerGdal();
+  auto file = OutputFile::create(path);
+  if (!file) return tl::unexpected(file.error());
+  Status status =
+      writeTo(file->temporaryPath().string(), columns, rows, values, georeference, options, context);
+  if (status) status = file->commit();
+  // Overviews and masks of an older file do not describe this one.
+  std::error_code ignored;
+  if (status)
+    for (const char* sidecar : kStaleSidecars) std::filesystem::remove(path + sidecar, ignored);
+  if (!status && status.error().culprit.empty()) status.error().culprit = path;
+  if (status) context.report("writing", 1);
+  return status;
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(path);
 }
 
 }  // namespace arete

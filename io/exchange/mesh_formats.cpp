@@ -10,7 +10,6 @@
 #include <cmath>
 
 #include "engine/base/caught_failure.h"
-#include "io/file/memory_guard.h"
 #include "io/mesh/2dm/2dm.h"
 #include "io/mesh/glb/glb.h"
 #include "io/mesh/gpkg/gpkg.h"
@@ -96,13 +95,13 @@ Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& c
   if (!format->read)
     return failure(ErrorCode::unsupported, fmt::format("{} files can be written, not read", format->name),
                    path.string());
-  Result<MeshFile> file = guardMemory(path.string(), [&] { return format->read(path, context); });
+  Result<MeshFile> file = format->read(path, context);
   // A NaN, infinite or negative error is invalid; then the file counts as one without errors.
   if (file && !std::ranges::all_of(file->triangleErrors, [](float e) { return e >= 0 && std::isfinite(e); }))
     file->triangleErrors.clear();
   return file;
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(path.native());
 }
 
 Status writeMesh(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
@@ -112,9 +111,9 @@ Status writeMesh(const TriangleMesh& mesh, const std::filesystem::path& path, co
   if (!format->write)
     return failure(ErrorCode::unsupported, fmt::format("{} files can be read, not written", format->name),
                    path.string());
-  return guardMemory(path.string(), [&] { return format->write(mesh, path, options, context); });
+  return format->write(mesh, path, options, context);
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(path.native());
 }
 
 }  // namespace arete

@@ -8,7 +8,6 @@
 #include "io/crs/names.h"
 #include "io/extract/report_json.h"
 #include "io/file/file_writer.h"
-#include "io/file/memory_guard.h"
 
 namespace arete {
 namespace {
@@ -129,14 +128,12 @@ std::string certificateJson(const Certificate& certificate, const TerrainModel& 
 
 Status writeCertificate(const std::string& path, const Certificate& certificate,
                         const TerrainModel& model) try {
-  return guardMemory(path, [&]() -> Status {
-    Result<FileWriter> writer = FileWriter::create(path);
-    if (!writer) return tl::unexpected(writer.error());
-    writer->write(certificateJson(certificate, model));
-    return writer->finish();
-  });
+  Result<FileWriter> writer = FileWriter::create(path);
+  if (!writer) return tl::unexpected(writer.error());
+  writer->write(certificateJson(certificate, model));
+  return writer->finish();
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(path);
 }
 
 }  // namespace arete

@@ -24,12 +24,12 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/caught_failure.h"
 #include "engine/criteria/view_error.h"
 #include "engine/cut/cut.h"
 #include "io/exchange/mesh_formats.h"
 #include "io/extract/criterion.h"
 #include "io/extract/view_footprint.h"
-#include "io/file/memory_guard.h"
 
 namespace arete {
 namespace {
@@ -184,8 +184,10 @@ Result<PartAndCut> readPart(const AmtFile& file, std::span<const ExtractRequest>
 }  // namespace
 
 Result<PartAndCut> readForExtract(const AmtFile& file, std::span<const ExtractRequest> requests,
-                                  const TerrainModel& outline, const RunContext& context) {
-  return guardMemory(file.path(), [&] { return readPart(file, requests, outline, context); });
+                                  const TerrainModel& outline, const RunContext& context) try {
+  return readPart(file, requests, outline, context);
+} catch (...) {
+  return caughtFailure(file.path());
 }
 
 }  // namespace arete

@@ -16,7 +16,6 @@
 
 #include "engine/base/caught_failure.h"
 #include "io/crs/reader.h"
-#include "io/file/memory_guard.h"
 #include "io/gdal/support.h"
 #include "io/gdal/vector_layer.h"
 
@@ -213,13 +212,11 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
 
 Result<RegionRead> readRegion(const std::string& path, const std::string& targetCrs,
                               const RegionReadOptions& options, const RunContext& context) try {
-  return guardMemory(path, [&] {
-    auto read = readFrom(path, targetCrs, options, context);
-    if (!read && read.error().culprit.empty()) read.error().culprit = path;
-    return read;
-  });
+  auto read = readFrom(path, targetCrs, options, context);
+  if (!read && read.error().culprit.empty()) read.error().culprit = path;
+  return read;
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(path);
 }
 
 }  // namespace arete

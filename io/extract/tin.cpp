@@ -20,7 +20,6 @@
 #include "io/exchange/mesh_formats.h"
 #include "io/exchange/written_mesh.h"
 #include "io/extract/criterion.h"
-#include "io/file/memory_guard.h"
 #include "io/file/text_scan.h"
 #include "terrain/model/plan_region.h"
 
@@ -187,9 +186,9 @@ Status TinExtractor::deepen(double maxError, double reserve, const RunContext& c
 
 Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const RunContext& context,
                                            std::optional<Cut> taken) try {
-  return guardMemory(request.output, [&] { return extractFrom(request, context, std::move(taken)); });
+  return extractFrom(request, context, std::move(taken));
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(request.output);
 }
 
 Result<ExtractedTin> TinExtractor::extractFrom(const ExtractRequest& request, const RunContext& context,

@@ -12,7 +12,6 @@
 
 #include "engine/base/caught_failure.h"
 #include "engine/parallel/with_threads.h"
-#include "io/file/memory_guard.h"
 #include "io/format/checksum.h"
 #include "io/packed/bounds.h"
 #include "io/packed/errors.h"
@@ -449,8 +448,7 @@ class Packer {
 }  // namespace packed
 
 Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context) try {
-  return guardMemory(
-      "", [&] { return withThreads(context, [&] { return packed::Packer(model, context).run(); }); });
+  return withThreads(context, [&] { return packed::Packer(model, context).run(); });
 } catch (...) {
   return caughtFailure();
 }

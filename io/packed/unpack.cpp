@@ -15,7 +15,6 @@
 
 #include "engine/base/caught_failure.h"
 #include "engine/parallel/with_threads.h"
-#include "io/file/memory_guard.h"
 #include "io/format/checksum.h"
 #include "io/format/metadata.h"
 #include "io/packed/bounds.h"
@@ -301,7 +300,7 @@ Result<MultiTriangulation> unpack(const AmtMetadata& metadata, std::span<const s
 Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directory,
                                     std::span<const std::byte> tables, std::span<const std::byte> nodes,
                                     const RequiredError& wanted, const RunContext& context) try {
-  return guardMemory("", [&] { return unpack(metadata, directory, tables, nodes, wanted, context); });
+  return unpack(metadata, directory, tables, nodes, wanted, context);
 } catch (...) {
   return caughtFailure();
 }

@@ -12,7 +12,6 @@
 
 #include "engine/base/caught_failure.h"
 #include "io/file/file_writer.h"
-#include "io/file/memory_guard.h"
 #include "io/file/text_scan.h"
 #include "io/table/geopackage.h"
 #include "io/table/table_text.h"
@@ -137,14 +136,12 @@ Status writeHeightTable(const std::string& path, const PointTable& table,
   const auto fill = [&](GDALDataset& dataset, const GdalErrors& errors) {
     return GeoPackageRows(table, heights).fill(dataset, errors, context);
   };
-  Status status = guardMemory(path, [&] {
-    return text::lowerExtension(path) == "csv" ? writeCsv(path, table, heights, context)
-                                               : writeGeoPackage(path, fill);
-  });
+  Status status = text::lowerExtension(path) == "csv" ? writeCsv(path, table, heights, context)
+                                                      : writeGeoPackage(path, fill);
   if (!status && status.error().culprit.empty()) status.error().culprit = path;
   return status;
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(path);
 }
 
 }  // namespace arete

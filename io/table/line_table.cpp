@@ -9,7 +9,6 @@
 
 #include "engine/base/caught_failure.h"
 #include "io/file/file_writer.h"
-#include "io/file/memory_guard.h"
 #include "io/file/text_scan.h"
 #include "io/table/geopackage.h"
 #include "io/table/table_text.h"
@@ -107,14 +106,12 @@ Status writeLineTable(const std::string& path, const LineTable& table, const Run
   const auto insert = [&](GDALDataset& dataset, const GdalErrors& errors) {
     return fill(dataset, table, errors, context);
   };
-  Status status = guardMemory(path, [&] {
-    return text::lowerExtension(path) == "csv" ? writeCsv(path, table, context)
-                                               : writeGeoPackage(path, insert);
-  });
+  Status status =
+      text::lowerExtension(path) == "csv" ? writeCsv(path, table, context) : writeGeoPackage(path, insert);
   if (!status && status.error().culprit.empty()) status.error().culprit = path;
   return status;
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(path);
 }
 
 }  // namespace arete

@@ -13,7 +13,6 @@
 #include "engine/base/caught_failure.h"
 #include "io/crs/reader.h"
 #include "io/crs/transform.h"
-#include "io/file/memory_guard.h"
 #include "io/gdal/support.h"
 #include "io/gdal/vector_layer.h"
 #include "io/table/point_text.h"
@@ -91,11 +90,11 @@ Result<PlanPoints> readFrom(const std::string& path, const std::string& targetCr
 
 Result<PlanPoints> readPlanPoints(const std::string& path, const std::string& targetCrs,
                                   const RunContext& context) try {
-  auto read = guardMemory(path, [&] { return readFrom(path, targetCrs, context); });
+  auto read = readFrom(path, targetCrs, context);
   if (!read && read.error().culprit.empty()) read.error().culprit = path;
   return read;
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(path);
 }
 
 }  // namespace arete

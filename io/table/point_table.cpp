@@ -12,7 +12,6 @@
 
 #include "engine/base/caught_failure.h"
 #include "io/crs/transform.h"
-#include "io/file/memory_guard.h"
 #include "io/gdal/support.h"
 #include "io/gdal/vector_layer.h"
 #include "io/table/feature_rows.h"
@@ -107,11 +106,11 @@ Result<PointTable> readFrom(const std::string& path, const Georeference& dem,
 
 Result<PointTable> readPointTable(const std::string& path, const Georeference& dem,
                                   const PointTableOptions& options, const RunContext& context) try {
-  auto table = guardMemory(path, [&] { return readFrom(path, dem, options, context); });
+  auto table = readFrom(path, dem, options, context);
   if (!table && table.error().culprit.empty()) table.error().culprit = path;
   return table;
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(path);
 }
 
 }  // namespace arete

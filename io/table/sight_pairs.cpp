@@ -23,7 +23,6 @@
 #include "engine/base/caught_failure.h"
 #include "io/crs/lonlat.h"
 #include "io/crs/transform.h"
-#include "io/file/memory_guard.h"
 #include "io/file/number_text.h"
 #include "io/gdal/support.h"
 #include "io/gdal/vector_layer.h"
@@ -260,11 +259,11 @@ Result<SightPairs> readFrom(const std::string& path, const Georeference& dem,
 
 Result<SightPairs> readSightPairs(const std::string& path, const Georeference& dem,
                                   const PointTableOptions& options, const RunContext& context) try {
-  auto pairs = guardMemory(path, [&] { return readFrom(path, dem, options, context); });
+  auto pairs = readFrom(path, dem, options, context);
   if (!pairs && pairs.error().culprit.empty()) pairs.error().culprit = path;
   return pairs;
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(path);
 }
 
 Result<SightPairs> readSightSites(const std::string& path, const Georeference& dem,

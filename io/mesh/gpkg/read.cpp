@@ -13,7 +13,6 @@
 #include <string_view>
 
 #include "io/crs/reader.h"
-#include "io/file/memory_guard.h"
 #include "io/gdal/support.h"
 #include "io/gdal/vector_layer.h"
 #include "io/mesh/gpkg/gpkg.h"
@@ -150,11 +149,9 @@ Result<MeshFile> readFrom(const std::string& path, const RunContext& context) {
 }  // namespace
 
 Result<MeshFile> readGpkg(const std::filesystem::path& path, const RunContext& context) {
-  return guardMemory(path.string(), [&] {
-    Result<MeshFile> file = readFrom(path.string(), context);
-    if (!file && file.error().culprit.empty()) file.error().culprit = path.string();
-    return file;
-  });
+  Result<MeshFile> file = readFrom(path.string(), context);
+  if (!file && file.error().culprit.empty()) file.error().culprit = path.string();
+  return file;
 }
 
 bool holdsSurfaces(const std::filesystem::path& path) {

@@ -9,7 +9,6 @@
 #include <memory>
 #include <string>
 
-#include "io/file/memory_guard.h"
 #include "io/mesh/gpkg/gpkg.h"
 #include "io/table/geopackage.h"
 
@@ -88,13 +87,11 @@ Status writeGpkg(const TriangleMesh& mesh, const std::filesystem::path& path, co
         ErrorCode::invalidData,
         fmt::format("{} errors for {} triangles", options.triangleErrors.size(), mesh.triangles.size()),
         path.string());
-  return guardMemory(path.string(), [&] {
-    Status status = writeGeoPackage(path, [&](GDALDataset& dataset, GdalErrors& errors) {
-      return fill(dataset, errors, mesh, options, context);
-    });
-    if (!status && status.error().culprit.empty()) status.error().culprit = path.string();
-    return status;
+  Status status = writeGeoPackage(path, [&](GDALDataset& dataset, GdalErrors& errors) {
+    return fill(dataset, errors, mesh, options, context);
   });
+  if (!status && status.error().culprit.empty()) status.error().culprit = path.string();
+  return status;
 }
 
 }  // namespace arete
