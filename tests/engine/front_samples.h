@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 
 #include "engine/cut/cut.h"
+#include "engine/grid_points_of.h"
 #include "terrain/model/terrain_model.h"
 
 namespace arete {
@@ -19,20 +19,10 @@ inline void forSamples(const TerrainModel& model, const Cut& cut,
   for (const auto& triangle : cut.triangles) {
     std::array<Vec3, 3> p;
     for (int i = 0; i < 3; ++i) p[i] = model.mt.position(VertexId(cut.vertices[triangle[i]]));
-    const double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
-    const int x0 = int(std::min({p[0].x, p[1].x, p[2].x})), x1 = int(std::max({p[0].x, p[1].x, p[2].x}));
-    const int y0 = int(std::min({p[0].y, p[1].y, p[2].y})), y1 = int(std::max({p[0].y, p[1].y, p[2].y}));
-    for (int y = y0; y <= y1; ++y)
-      for (int x = x0; x <= x1; ++x) {
-        std::array<double, 3> w;
-        for (int i = 0; i < 3; ++i) {
-          const Vec3 &a = p[(i + 1) % 3], &b = p[(i + 2) % 3];
-          w[i] = ((a.x - x) * (b.y - y) - (b.x - x) * (a.y - y)) / area;
-        }
-        if (w[0] < 0 || w[1] < 0 || w[2] < 0) continue;
-        const double z = field.heights[field.index(std::uint32_t(x), std::uint32_t(y))];
-        if (!std::isnan(z)) visit({double(x), double(y), z}, w[0] * p[0].z + w[1] * p[1].z + w[2] * p[2].z);
-      }
+    test::forGridPointsOf(p, [&](int x, int y, double onFront) {
+      const double z = field.heights[field.index(std::uint32_t(x), std::uint32_t(y))];
+      if (!std::isnan(z)) visit({double(x), double(y), z}, onFront);
+    });
   }
 }
 

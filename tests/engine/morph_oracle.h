@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/criteria/view_error.h"
+#include "engine/grid_points_of.h"
 #include "terrain/model/terrain_model.h"
 
 /// Geomorphing written a second time, plainly: recursion by the definition, a camera of the tests' own.
@@ -124,19 +125,7 @@ inline std::vector<double> heightsOver(const TerrainModel& model, std::span<cons
       p[i] = model.mt.position(VertexId(corners[i]));
       p[i].z = height(corners[i]);
     }
-    const double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
-    const int x0 = int(std::min({p[0].x, p[1].x, p[2].x})), x1 = int(std::max({p[0].x, p[1].x, p[2].x}));
-    const int y0 = int(std::min({p[0].y, p[1].y, p[2].y})), y1 = int(std::max({p[0].y, p[1].y, p[2].y}));
-    for (int y = y0; y <= y1; ++y)
-      for (int x = x0; x <= x1; ++x) {
-        std::array<double, 3> w;
-        for (int i = 0; i < 3; ++i) {
-          const Vec3 &a = p[(i + 1) % 3], &b = p[(i + 2) % 3];
-          w[i] = ((a.x - x) * (b.y - y) - (b.x - x) * (a.y - y)) / area;
-        }
-        if (w[0] < 0 || w[1] < 0 || w[2] < 0) continue;
-        over[std::size_t(y) * model.columns + x] = w[0] * p[0].z + w[1] * p[1].z + w[2] * p[2].z;
-      }
+    test::forGridPointsOf(p, [&](int x, int y, double z) { over[std::size_t(y) * model.columns + x] = z; });
   }
   return over;
 }

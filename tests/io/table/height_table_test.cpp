@@ -4,27 +4,18 @@
 #include "io/crs/reader.h"
 #include "io/io_fixture.h"
 #include "io/table/point_table.h"
+#include "io/table_fixture.h"
 
 namespace arete {
 namespace {
 
+using test::csvOf;
 using test::TemporaryFolder;
-
-Georeference utm() {
-  Georeference georeference;
-  EXPECT_TRUE(describeCrs(*crsFromText("EPSG:32611"), georeference));
-  return georeference;
-}
+using test::utm;
 
 std::string contentOf(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-std::string csvOf(const PointTable& table, const std::vector<std::optional<SurfaceHeight>>& heights) {
-  std::string text;
-  forCsvLines(table, heights, [&](std::string_view line) { text += line; });
-  return text;
 }
 
 TEST(HeightTable, WritesAGeoPackageThatReadsBackWithEveryRowAndColumn) {

@@ -8,24 +8,15 @@
 #include "io/crs/reader.h"
 #include "io/io_fixture.h"
 #include "io/table/height_table.h"
+#include "io/table_fixture.h"
 #include "io/vector_fixture.h"
 
 namespace arete {
 namespace {
 
+using test::csvOf;
 using test::TemporaryFolder;
-
-Georeference utm() {
-  Georeference georeference;
-  EXPECT_TRUE(describeCrs(*crsFromText("EPSG:32611"), georeference));
-  return georeference;
-}
-
-std::string csvOf(const PointTable& table, const std::vector<std::optional<SurfaceHeight>>& heights) {
-  std::string text;
-  forCsvLines(table, heights, [&](std::string_view line) { text += line; });
-  return text;
-}
+using test::utm;
 
 TEST(PointTable, KeepsTheOtherColumnsOfATextWithTheirNames) {
   const TemporaryFolder folder;
