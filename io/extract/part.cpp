@@ -160,8 +160,10 @@ Result<PartAndCut> readForView(const AmtFile& file, const ExtractCriterion& requ
   return readAll(file, context);
 }
 
-Result<PartAndCut> readPart(const AmtFile& file, std::span<const ExtractRequest> requests,
-                            const TerrainModel& outline, const RunContext& context) {
+}  // namespace
+
+Result<PartAndCut> readForExtract(const AmtFile& file, std::span<const ExtractRequest> requests,
+                                  const TerrainModel& outline, const RunContext& context) try {
   std::vector<ExtractCriterion> criteria;
   std::optional<Region> region;
   for (const ExtractRequest& request : requests) {
@@ -179,13 +181,6 @@ Result<PartAndCut> readPart(const AmtFile& file, std::span<const ExtractRequest>
   Result<TerrainModel> part = file.read({.wanted = *required}, context);
   if (!part) return tl::unexpected(part.error());
   return PartAndCut{std::move(*part), std::nullopt};
-}
-
-}  // namespace
-
-Result<PartAndCut> readForExtract(const AmtFile& file, std::span<const ExtractRequest> requests,
-                                  const TerrainModel& outline, const RunContext& context) try {
-  return readPart(file, requests, outline, context);
 } catch (...) {
   return caughtFailure(file.path());
 }

@@ -186,13 +186,6 @@ Status TinExtractor::deepen(double maxError, double reserve, const RunContext& c
 
 Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const RunContext& context,
                                            std::optional<Cut> taken) try {
-  return extractFrom(request, context, std::move(taken));
-} catch (...) {
-  return caughtFailure(request.output);
-}
-
-Result<ExtractedTin> TinExtractor::extractFrom(const ExtractRequest& request, const RunContext& context,
-                                               std::optional<Cut> taken) {
   ExtractedTin tin;
   Result<TriangleMesh> mesh = cutAndWrite(request, 0, std::move(taken), tin, context);
   if (!mesh) return tl::unexpected(mesh.error());
@@ -212,6 +205,8 @@ Result<ExtractedTin> TinExtractor::extractFrom(const ExtractRequest& request, co
     if (Status measured = measureAndWrite(request, *mesh, tin, context); !measured)
       return tl::unexpected(measured.error());
   return tin;
+} catch (...) {
+  return caughtFailure(request.output);
 }
 
 Status TinExtractor::measureAndWrite(const ExtractRequest& request, const TriangleMesh& mesh,

@@ -84,9 +84,6 @@ class TinExtractor {
  private:
   using Samples = std::variant<RasterHeightfield, PointHeightfield>;
 
-  /// extract(), which may throw std::bad_alloc.
-  Result<ExtractedTin> extractFrom(const ExtractRequest& request, const RunContext& context,
-                                   std::optional<Cut> taken);
   const Samples& samples();
   /// Reads the whole model if the part is not enough for a tolerance smaller by `reserve`.
   Status deepen(double maxError, double reserve, const RunContext& context);
