@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 #include <new>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -32,8 +33,9 @@ struct UninitializedAllocator : std::allocator<T> {
       std::allocator<T>::deallocate(at, count);
   }
   template <class U>
-  void construct(U* at) {
-    ::new (static_cast<void*>(at)) U;
+  void construct([[maybe_unused]] U* at) {
+    // An id is set by its constructor, but not here: one thread would write the whole array.
+    if constexpr (!std::is_trivially_copyable_v<U>) ::new (static_cast<void*>(at)) U;
   }
   template <class U, class... Args>
   void construct(U* at, Args&&... args) {
@@ -44,8 +46,9 @@ struct UninitializedAllocator : std::allocator<T> {
   static bool isLarge(std::size_t count) { return count >= kHugePage / sizeof(T); }
 };
 
-/// A vector whose elements are uninitialised until they are written. So the threads that fill a large one
-/// also touch its memory first, each its part; otherwise one thread would wait for all of its page faults.
+/// A vector whose elements are uninitialised until they are written, ids too. So the threads that fill a
+/// large one also touch its memory first, each its part; otherwise one thread would wait for all of its page
+/// faults.
 template <class T>
 using UninitializedVector = std::vector<T, UninitializedAllocator<T>>;
 

@@ -36,7 +36,7 @@ MtRecorder::MtRecorder(std::uint32_t finestTriangles, std::uint32_t mostRemovals
   slotBegin_[0] = 0;
 }
 
-std::uint32_t MtRecorder::beginBatch(BatchOrder order, std::span<const std::uint8_t> linkSizes) {
+RemovalId MtRecorder::beginBatch(BatchOrder order, std::span<const std::uint8_t> linkSizes) {
   const std::lock_guard lock(growing_);
   const std::uint32_t first = removals_;
   const std::size_t count = linkSizes.size();
@@ -51,36 +51,37 @@ std::uint32_t MtRecorder::beginBatch(BatchOrder order, std::span<const std::uint
   link_.resize(slots);
   ceiling_.resize(slots);
   floor_.resize(floorTriangles);
-  return first;
+  return RemovalId(first);
 }
 
-void MtRecorder::record(std::uint32_t removal, const VertexRemoval& what) {
+void MtRecorder::record(RemovalId id, const VertexRemoval& what) {
+  const std::uint32_t removal = id.index();
   const std::uint32_t begin = slotBegin_[removal];
   const std::size_t slots = what.link.size();
   assert(slots == slotBegin_[removal + 1] - begin && slots >= 3);
   assert(what.ceiling.size() == slots - (what.isOpen ? 1 : 0) && what.floor.size() == slots - 2);
 
-  vertex_[removal] = what.vertex;
+  vertex_[removal] = what.vertex.index();
   for (std::size_t i = 0; i < slots; ++i) {
-    link_[begin + i] = what.link[i];
-    ceiling_[begin + i] = i < what.ceiling.size() ? what.ceiling[i] : kNone;
+    link_[begin + i] = what.link[i].index();
+    ceiling_[begin + i] = i < what.ceiling.size() ? what.ceiling[i].index() : kNone;
   }
 
   const std::size_t firstFloor = begin - 2 * std::size_t(removal);
   for (std::size_t i = 0; i < slots - 2; ++i) floor_[firstFloor + i] = what.floor[i];
 }
 
-void MtRecorder::saturate(std::uint32_t removal, const VertexRemoval& what) {
+void MtRecorder::saturate(RemovalId removal, const VertexRemoval& what) {
   std::uint16_t saturated = 0;
   for (const FloorCodes& codes : what.floor) saturated = std::max(saturated, codes.error);
   EnclosingBall ball = EnclosingBall::around(what.metricPositions);
-  for (const std::uint32_t child : what.ceilingCreator) {
-    if (child == kNone) continue;
-    saturated = std::max(saturated, saturated_[child]);
-    ball.encloseChild(sphere_[child]);
+  for (const RemovalId child : what.ceilingCreator) {
+    if (!child.isValid()) continue;
+    saturated = std::max(saturated, saturated_[child.index()]);
+    ball.encloseChild(sphere_[child.index()]);
   }
-  saturated_[removal] = saturated;
-  sphere_[removal] = ball.rounded();
+  saturated_[removal.index()] = saturated;
+  sphere_[removal.index()] = ball.rounded();
 }
 
 MultiTriangulation withVertices(const MultiTriangulation& mt, const VertexArrays& vertices,

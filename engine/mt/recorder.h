@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/ids.h"
 #include "engine/memory/chunked_array.h"
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/mt/multitriangulation.h"
@@ -15,33 +16,38 @@
 
 namespace arete {
 
+/// The number of a recorded removal, in the order in which removals were announced. Invalid (the default):
+/// none, as of the triangles of the finest triangulation, which no removal created.
+using RemovalId = Id<struct RemovalTag>;
+/// The number of a triangle while recording (MtRecorder).
+using RecorderId = Id<struct RecorderTag>;
+
 /// What is recorded of a new triangle: its error and signed bounds, coded by the recorder's OutwardScale.
 struct FloorCodes {
   std::uint16_t error = 0, below = 0, above = 0;
 };
 
 /// One vertex removal, from fine to coarse: the star of a vertex (the node's ceiling) is replaced by a
-/// triangulation of the hole (its floor). Vertices have the caller's ids, triangles recorder ids
-/// (MtRecorder).
+/// triangulation of the hole (its floor). Vertices have the caller's ids.
 struct VertexRemoval {
-  std::uint32_t vertex = 0;
+  VertexId vertex;
   /// The star's link, counter-clockwise: k vertices of a closed star, k + 1 of an open one with k triangles.
-  std::span<const std::uint32_t> link;
+  std::span<const VertexId> link;
   bool isOpen = false;
   /// Metric positions of the link's vertices, then of the vertex itself.
   std::span<const Vec3> metricPositions;
-  /// Recorder ids of the star's triangles (vertex, link[i], link[i + 1]).
-  std::span<const std::uint32_t> ceiling;
-  /// For each, the removal that created it (kNone for triangles of the finest triangulation).
-  std::span<const std::uint32_t> ceilingCreator;
+  /// The star's triangles (vertex, link[i], link[i + 1]).
+  std::span<const RecorderId> ceiling;
+  /// For each, the removal that created it (invalid for triangles of the finest triangulation).
+  std::span<const RemovalId> ceilingCreator;
   /// Of each new triangle. Their recorder ids are consecutive, from firstFloorTriangle(i).
   std::span<const FloorCodes> floor;
 };
 
 /// A triangle that no removal took away: it belongs to the root.
 struct SurvivingTriangle {
-  std::uint32_t id = 0;  ///< its recorder id
-  std::array<std::uint32_t, 3> corners{};
+  RecorderId id;
+  std::array<VertexId, 3> corners{};
 };
 
 /// Records vertex removals from the finest triangulation to the coarsest and turns them into a finished
@@ -59,8 +65,6 @@ struct SurvivingTriangle {
 /// 130.
 class MtRecorder {
  public:
-  static constexpr std::uint32_t kNone = MultiTriangulation::kNone;
-
   /// The position of a batch among the others: by its group, then by its part. Batches of equal order follow
   /// each other as they were announced, and one thread announces them. The removals that created a batch's
   /// ceilings belong to earlier batches.
@@ -80,33 +84,33 @@ class MtRecorder {
 
   /// Announces removals. Thread-safe.
   /// @param linkSizes The sizes of their links, in order.
-  /// @return The index of the first; the others follow.
-  std::uint32_t beginBatch(BatchOrder order, std::span<const std::uint8_t> linkSizes);
+  /// @return The first; the others follow.
+  RemovalId beginBatch(BatchOrder order, std::span<const std::uint8_t> linkSizes);
   /// The recorder id of the first floor triangle of a removal.
-  std::uint32_t firstFloorTriangle(std::uint32_t removal) const {
-    return finestTriangles_ + slotBegin_[removal] - 2 * removal;
+  RecorderId firstFloorTriangle(RemovalId removal) const {
+    return RecorderId(finestTriangles_ + slotBegin_[removal.index()] - 2 * removal.index());
   }
-  /// The number of slots (one per link vertex) of all removals before this one. Also of the index after the
-  /// last removal of a batch.
-  std::uint32_t firstSlot(std::uint32_t removal) const { return slotBegin_[removal]; }
+  /// The number of slots (one per link vertex) of all removals before this one. Also of the number after
+  /// that of the last removal of a batch.
+  std::uint32_t firstSlot(RemovalId removal) const { return slotBegin_[removal.index()]; }
   /// The codes recorded of a triangle; zeros for triangles of the finest triangulation. Precondition: the
   /// removal that created it belongs to an earlier batch.
-  FloorCodes codes(std::uint32_t recorderId) const {
-    return recorderId < finestTriangles_ ? FloorCodes{} : floor_[recorderId - finestTriangles_];
+  FloorCodes codes(RecorderId triangle) const {
+    return triangle.index() < finestTriangles_ ? FloorCodes{} : floor_[triangle.index() - finestTriangles_];
   }
   /// Records an announced removal: record() all of it but the saturated error and the sphere, which
   /// saturate() computes. Both are thread-safe for different removals of a batch. Preconditions: link.size()
   /// as announced, at least 3; the removals that created its ceiling belong to earlier batches, which are
   /// complete.
-  void record(std::uint32_t removal, const VertexRemoval& what);
-  void saturate(std::uint32_t removal, const VertexRemoval& what);
+  void record(RemovalId removal, const VertexRemoval& what);
+  void saturate(RemovalId removal, const VertexRemoval& what);
 
   /// Prefetches what saturate() and codes() read of a ceiling triangle and of the removal that created it.
-  [[gnu::always_inline]] void prefetch(std::uint32_t creator, std::uint32_t recorderId) const {
-    if (creator == kNone) return;
-    __builtin_prefetch(&saturated_[creator]);
-    __builtin_prefetch(&sphere_[creator]);
-    __builtin_prefetch(&floor_[recorderId - finestTriangles_]);
+  [[gnu::always_inline]] void prefetch(RemovalId creator, RecorderId triangle) const {
+    if (!creator.isValid()) return;
+    __builtin_prefetch(&saturated_[creator.index()]);
+    __builtin_prefetch(&sphere_[creator.index()]);
+    __builtin_prefetch(&floor_[triangle.index() - finestTriangles_]);
   }
 
   /// The finished MT, without vertex positions (MtArrays::vertices): the caller adds them by withVertices().
@@ -116,12 +120,14 @@ class MtRecorder {
   /// @param callerVertexCount All of the caller's vertex ids are below it.
   /// @param vertexOrder Receives the caller's vertex of every MT vertex.
   /// @param clock May be null (RunContext::clock).
-  MultiTriangulation finish(std::span<const std::uint32_t> rootVertices,
+  MultiTriangulation finish(std::span<const VertexId> rootVertices,
                             std::span<const SurvivingTriangle> surviving, std::uint32_t callerVertexCount,
                             UninitializedVector<std::uint32_t>& vertexOrder, StageClock* clock = nullptr);
 
  private:
   class Finishing;
+  /// A slot without a triangle: the last one of an open star.
+  static constexpr std::uint32_t kNone = MultiTriangulation::kNone;
 
   std::uint32_t finestTriangles_;
   OutwardScale scale_;
@@ -135,6 +141,7 @@ class MtRecorder {
   std::vector<Batch> batches_;
   std::uint32_t removals_ = 0;
 
+  // Raw numbers from here on: finish() turns one kind into another in place.
   ChunkedArray<std::uint32_t> slotBegin_;  // per removal, and the end
   ChunkedArray<std::uint32_t> vertex_;     // per removal
   ChunkedArray<std::uint16_t> saturated_;  // per removal

@@ -79,7 +79,7 @@ struct OwnedArrays {
 /// The passes of finish(), and the arrays that live between them.
 class MtRecorder::Finishing {
  public:
-  Finishing(MtRecorder& recorder, std::span<const std::uint32_t> rootVertices,
+  Finishing(MtRecorder& recorder, std::span<const VertexId> rootVertices,
             std::span<const SurvivingTriangle> surviving)
       : recorder_(recorder),
         rootVertices_(rootVertices),
@@ -174,8 +174,8 @@ class MtRecorder::Finishing {
     vertexOrder.resize(std::size_t(rootVertexCount) + nodes_);
     newVertex_.assign(callerVertexCount, kNone);
     for (std::uint32_t i = 0; i < rootVertexCount; ++i) {
-      vertexOrder[i] = rootVertices_[i];
-      newVertex_[rootVertices_[i]] = i;
+      vertexOrder[i] = rootVertices_[i].index();
+      newVertex_[rootVertices_[i].index()] = i;
     }
     UninitializedVector<std::uint32_t>& slotBegin = out_->slotBegin;
     slotBegin.resize(std::size_t(nodes_) + 1);
@@ -210,7 +210,7 @@ class MtRecorder::Finishing {
     out_->rootTriangles.resize(roots_);
     for (std::uint32_t i = 0; i < roots_; ++i) {
       const auto& c = surviving_[i].corners;
-      out_->rootTriangles[i] = {newVertex_[c[0]], newVertex_[c[1]], newVertex_[c[2]]};
+      out_->rootTriangles[i] = {newVertex_[c[0].index()], newVertex_[c[1].index()], newVertex_[c[2].index()]};
     }
   }
 
@@ -239,7 +239,7 @@ class MtRecorder::Finishing {
       out_->remover.setRecorderId(id, recorderId);
       if (const std::uint32_t f = floorIndex(recorderId); f < floorTriangles_) newIdOf_[f] = id;
     };
-    for (std::uint32_t i = 0; i < roots_; ++i) assign(i, surviving_[i].id);
+    for (std::uint32_t i = 0; i < roots_; ++i) assign(i, surviving_[i].id.index());
     forRange(nodes_, [&](std::uint32_t n) {
       prefetchSlots(n, recorder_.ceiling_);
       if (const std::uint32_t first = firstPrefetchedSlot(n + kNearAhead); first != kNone)
@@ -287,7 +287,8 @@ class MtRecorder::Finishing {
   void connectFloors() {
     out_->floor.resize(floorTriangles_);
     forRange(nodes_, [&](std::uint32_t n) {
-      const std::uint32_t r = removalOf_[n], first = floorIndex(recorder_.firstFloorTriangle(r)),
+      const std::uint32_t r = removalOf_[n],
+                          first = floorIndex(recorder_.firstFloorTriangle(RemovalId(r)).index()),
                           to = out_->slotBegin[n] - 2 * n;
       for (std::uint32_t i = 0; i + 2 < recorder_.slotBegin_[r + 1] - recorder_.slotBegin_[r]; ++i) {
         const std::uint32_t id = newIdOf_[first + i];
@@ -329,7 +330,7 @@ class MtRecorder::Finishing {
   }
 
   MtRecorder& recorder_;
-  const std::span<const std::uint32_t> rootVertices_;
+  const std::span<const VertexId> rootVertices_;
   const std::span<const SurvivingTriangle> surviving_;
   const std::uint32_t nodes_, slots_, roots_, floorTriangles_;
 
@@ -339,7 +340,7 @@ class MtRecorder::Finishing {
   std::shared_ptr<OwnedArrays> out_;
 };
 
-MultiTriangulation MtRecorder::finish(std::span<const std::uint32_t> rootVertices,
+MultiTriangulation MtRecorder::finish(std::span<const VertexId> rootVertices,
                                       std::span<const SurvivingTriangle> surviving,
                                       std::uint32_t callerVertexCount,
                                       UninitializedVector<std::uint32_t>& vertexOrder, StageClock* clock) {

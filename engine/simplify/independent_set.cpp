@@ -36,10 +36,10 @@ void store(std::uint32_t& where, std::uint32_t value) {
 }  // namespace
 
 template <class Keep>
-void IndependentSet::filter(std::span<const std::uint32_t> vertices, std::vector<std::uint32_t>& kept,
+void IndependentSet::filter(std::span<const VertexId> vertices, std::vector<VertexId>& kept,
                             const Keep& keep) {
-  filter_(vertices.size(), kSpan, kept, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
-    for (const std::uint32_t v : vertices.subspan(begin, end - begin)) {
+  filter_(vertices.size(), kSpan, kept, [&](std::size_t begin, std::size_t end, VertexId* to) {
+    for (const VertexId v : vertices.subspan(begin, end - begin)) {
       *to = v;
       to += keep(v) ? 1 : 0;
     }
@@ -47,11 +47,12 @@ void IndependentSet::filter(std::span<const std::uint32_t> vertices, std::vector
   });
 }
 
-IndependentSet::Decision IndependentSet::decide(std::uint32_t v, const Link& link, std::uint32_t level,
+IndependentSet::Decision IndependentSet::decide(VertexId v, const Link& link, std::uint32_t level,
                                                 int& steps) {
   bool isBlocked = false, isUndecided = false;
   for (int i = 0; i < link.size && !isBlocked; ++i) {
-    const std::uint32_t u = link.vertices[i], selection = load(records_[u].selection);
+    const VertexId u = link.vertices[i];
+    const std::uint32_t selection = load(records_[u].selection);
     if (selection / 4 != level || selection % 4 == kBlocked || !precedes(u, v)) continue;
     auto decision = static_cast<Decision>(selection % 4);
     if (decision == kOpen && --steps > 0) {
@@ -67,19 +68,19 @@ IndependentSet::Decision IndependentSet::decide(std::uint32_t v, const Link& lin
   return decision;
 }
 
-void IndependentSet::gather(std::uint32_t v, Link& link) const {
+void IndependentSet::gather(VertexId v, Link& link) const {
   link.size = 0;
-  forLink(mesh_, v, [&](std::uint32_t u) {
+  forLink(mesh_, v, [&](VertexId u) {
     __builtin_prefetch(&records_[u]);
     link.vertices[link.size++] = u;
     return true;
   });
 }
 
-void IndependentSet::choose(std::span<const std::uint32_t> candidates, std::uint32_t level,
-                            std::vector<std::uint32_t>& chosen) {
-  const auto isOpen = [&](std::uint32_t v) { return load(records_[v].selection) % 4 == kOpen; };
-  std::span<const std::uint32_t> open = candidates;
+void IndependentSet::choose(std::span<const VertexId> candidates, std::uint32_t level,
+                            std::vector<VertexId>& chosen) {
+  const auto isOpen = [&](VertexId v) { return load(records_[v].selection) % 4 == kOpen; };
+  std::span<const VertexId> open = candidates;
   for (int round = 0; round < kRounds && !open.empty(); ++round) {
     const bool isBackwards = round % 2 == 1;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, open.size(), 256), [&](const auto& range) {
@@ -102,7 +103,7 @@ void IndependentSet::choose(std::span<const std::uint32_t> candidates, std::uint
     open = ordered_;
   }
   sortByCost(ordered_);
-  for (const std::uint32_t v : ordered_) {
+  for (const VertexId v : ordered_) {
     Link link;
     gather(v, link);
     int steps = 1;
@@ -111,14 +112,14 @@ void IndependentSet::choose(std::span<const std::uint32_t> candidates, std::uint
   collectChosen(candidates, level, chosen);
 }
 
-void IndependentSet::sortByCost(std::vector<std::uint32_t>& vertices) const {
+void IndependentSet::sortByCost(std::vector<VertexId>& vertices) const {
   tbb::parallel_sort(vertices.begin(), vertices.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return precedes(a, b); });
+                     [&](VertexId a, VertexId b) { return precedes(a, b); });
 }
 
-void IndependentSet::collectChosen(std::span<const std::uint32_t> candidates, std::uint32_t level,
-                                   std::vector<std::uint32_t>& chosen) {
-  filter(candidates, chosen, [&](std::uint32_t v) { return records_[v].selection == 4 * level + kChosen; });
+void IndependentSet::collectChosen(std::span<const VertexId> candidates, std::uint32_t level,
+                                   std::vector<VertexId>& chosen) {
+  filter(candidates, chosen, [&](VertexId v) { return records_[v].selection == 4 * level + kChosen; });
 }
 
 }  // namespace arete

@@ -23,35 +23,39 @@
 
 namespace arete {
 
-LiveMesh LiveMesh::fromTriangles(std::vector<Corners> corners, std::uint32_t vertexCount,
-                                 std::vector<std::uint32_t>& pinched) {
+LiveMesh LiveMesh::fromTriangles(std::vector<std::array<std::uint32_t, 3>> corners, std::uint32_t vertexCount,
+                                 std::vector<VertexId>& pinched) {
   LiveMesh mesh;
   const std::size_t count = corners.size();
   assert(count <= kMostTriangles);
-  mesh.triangles = PagedArray<Triangle>(count);
-  for (std::uint32_t t = 0; t < count; ++t) mesh.triangles[t] = {corners[t], {}, t, kNone};
-  std::vector<Corners>().swap(corners);
-  mesh.vertexHalfedge = PagedArray<HalfedgeId>(vertexCount);
+  mesh.triangles = decltype(mesh.triangles)(count);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    const auto [a, b, c] = corners[t];
+    mesh.triangles[SlotId(t)] = {{VertexId(a), VertexId(b), VertexId(c)}, {}, RecorderId(t), RemovalId()};
+  }
+  std::vector<std::array<std::uint32_t, 3>>().swap(corners);
+  mesh.vertexHalfedge = decltype(mesh.vertexHalfedge)(vertexCount);
   std::fill(mesh.vertexHalfedge.begin(), mesh.vertexHalfedge.end(), HalfedgeId());
 
   // A linked list of outgoing half-edges per vertex: each twin is found among the few edges at one end.
-  std::vector<HalfedgeId> nextOutgoing(count * 4);
-  std::vector<std::uint8_t> degree(vertexCount, 0);
+  IdArray<HalfedgeId, std::vector<HalfedgeId>> nextOutgoing(count * 4);
+  IdArray<VertexId, std::vector<std::uint8_t>> degree(vertexCount, std::uint8_t(0));
   for (std::uint32_t t = 0; t < count; ++t) {
     for (std::uint32_t i = 0; i < 3; ++i) {
-      const std::uint32_t v = mesh.triangles[t].corners[i];
-      nextOutgoing[halfedge(t, i).index()] = mesh.vertexHalfedge[v];
-      mesh.vertexHalfedge[v] = halfedge(t, i);
+      const HalfedgeId h = halfedge(SlotId(t), i);
+      const VertexId v = mesh.origin(h);
+      nextOutgoing[h] = mesh.vertexHalfedge[v];
+      mesh.vertexHalfedge[v] = h;
       if (degree[v] < 255) ++degree[v];
     }
   }
   for (std::uint32_t i = 0; i < 4 * count; ++i) {
     const HalfedgeId h(i);
     if (sideOf(h) == 3 || mesh.twinOf(h).isValid()) continue;
-    const std::uint32_t from = mesh.origin(h), to = mesh.origin(nextInTriangle(h));
+    const VertexId from = mesh.origin(h), to = mesh.origin(nextInTriangle(h));
     // The twin leaves `to`, and the half-edge after it leaves `from`: the end with fewer edges is searched.
     const bool isAtEnd = degree[to] <= degree[from];
-    for (HalfedgeId g = mesh.vertexHalfedge[isAtEnd ? to : from]; g.isValid(); g = nextOutgoing[g.index()]) {
+    for (HalfedgeId g = mesh.vertexHalfedge[isAtEnd ? to : from]; g.isValid(); g = nextOutgoing[g]) {
       const HalfedgeId twin = isAtEnd ? g : previousInTriangle(g);
       if (mesh.origin(isAtEnd ? nextInTriangle(g) : twin) != (isAtEnd ? from : to)) continue;
       mesh.setTwin(h, twin);
@@ -59,9 +63,10 @@ LiveMesh LiveMesh::fromTriangles(std::vector<Corners> corners, std::uint32_t ver
       break;
     }
   }
-  for (std::uint32_t v = 0; v < vertexCount; ++v) {
+  for (std::uint32_t i = 0; i < vertexCount; ++i) {
+    const VertexId v(i);
     if (!mesh.isInTriangle(v)) continue;
-    for (HalfedgeId g = mesh.vertexHalfedge[v]; g.isValid(); g = nextOutgoing[g.index()])
+    for (HalfedgeId g = mesh.vertexHalfedge[v]; g.isValid(); g = nextOutgoing[g])
       if (!mesh.twinOf(g).isValid()) {
         mesh.vertexHalfedge[v] = g;
         break;
@@ -77,12 +82,12 @@ LiveMesh LiveMesh::fromTriangles(std::vector<Corners> corners, std::uint32_t ver
   return mesh;
 }
 
-SlotMap LiveMesh::compact(std::span<const std::uint32_t> vertices) {
-  SlotMap newSlot(triangles.size(), [&](std::size_t t) { return !triangles[t].isDead(); });
+SlotMap LiveMesh::compact(std::span<const VertexId> vertices) {
+  SlotMap newSlot(triangles.size(), [&](SlotId slot) { return !triangles[slot].isDead(); });
   const auto moved = [&](HalfedgeId h) {
     return h.isValid() ? halfedge(newSlot.ofLive(slotOf(h)), sideOf(h)) : HalfedgeId();
   };
-  newSlot.forLiveInPlace([&](std::size_t from, std::uint32_t to) {
+  newSlot.forLiveInPlace([&](SlotId from, SlotId to) {
     const Triangle triangle = triangles[from];
     triangles[to] = {triangle.corners,
                      {moved(triangle.twin[0]), moved(triangle.twin[1]), moved(triangle.twin[2])},
@@ -92,29 +97,29 @@ SlotMap LiveMesh::compact(std::span<const std::uint32_t> vertices) {
   triangles.shrink(newSlot.liveCount());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices.size(), 4096), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i)
-      if (vertices[i] != kNone) vertexHalfedge[vertices[i]] = moved(vertexHalfedge[vertices[i]]);
+      if (vertices[i].isValid()) vertexHalfedge[vertices[i]] = moved(vertexHalfedge[vertices[i]]);
   });
   return newSlot;
 }
 
-UninitializedVector<std::uint32_t> LiveMesh::verticesInOrder() const {
-  UninitializedVector<std::uint32_t> inOrder;
-  ParallelFilter<std::uint32_t> halfedges;
-  halfedges(4 * triangles.size(), 1 << 16, inOrder,
-            [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
-              for (std::size_t t = begin / 4; t != end / 4; ++t) {
-                if (triangles[t].isDead()) continue;
-                for (std::uint32_t side = 0; side < 3; ++side) {
-                  const std::uint32_t v = triangles[t].corners[side];
-                  if (vertexHalfedge[v] == halfedge(static_cast<std::uint32_t>(t), side)) *to++ = v;
-                }
-              }
-              return to;
-            });
+UninitializedVector<VertexId> LiveMesh::verticesInOrder() const {
+  UninitializedVector<VertexId> inOrder;
+  ParallelFilter<VertexId> halfedges;
+  halfedges(4 * triangles.size(), 1 << 16, inOrder, [&](std::size_t begin, std::size_t end, VertexId* to) {
+    for (std::size_t t = begin / 4; t != end / 4; ++t) {
+      const SlotId slot(static_cast<std::uint32_t>(t));
+      if (triangles[slot].isDead()) continue;
+      for (std::uint32_t side = 0; side < 3; ++side) {
+        const VertexId v = triangles[slot].corners[side];
+        if (vertexHalfedge[v] == halfedge(slot, side)) *to++ = v;
+      }
+    }
+    return to;
+  });
   return inOrder;
 }
 
-bool Star::gather(const LiveMesh& mesh, std::uint32_t v, int maxLink) {
+bool Star::gather(const LiveMesh& mesh, VertexId v, int maxLink) {
   const HalfedgeId first = mesh.vertexHalfedge[v];
   if (!first.isValid()) return false;
   isOpen = false;
@@ -143,22 +148,22 @@ bool Star::gather(const LiveMesh& mesh, std::uint32_t v, int maxLink) {
 }
 
 void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, const FloorJoins& joins,
-            std::uint32_t firstId, std::uint32_t removal, std::span<Seam> seams) {
+            RecorderId firstId, RemovalId removal, std::span<Seam> seams) {
   const int corners = star.linkSize;
   assert(floor.size == corners - 2 && seams.size() == static_cast<std::size_t>(corners));
   const auto halfedge = [&](FloorJoins::Side s) { return LiveMesh::halfedge(star.slot(s.triangle), s.side); };
 
-  std::uint32_t before = star.isOpen ? LiveMesh::kNone : star.slot(corners - 1);
+  SlotId before = star.isOpen ? SlotId() : star.slot(corners - 1);
   for (int i = 0; i < corners; ++i) {
     const bool isClosing = i == star.triangleCount;  // the new border edge of an open star
     const HalfedgeId rim = isClosing ? HalfedgeId() : star.rim(i);
-    const std::uint32_t own = isClosing ? LiveMesh::kNone : star.slot(i);
+    const SlotId own = isClosing ? SlotId() : star.slot(i);
     seams[i] = {rim, halfedge(joins.rim[i]), isClosing ? HalfedgeId() : mesh.twinOf(rim)};
     // About a third of the link's vertices refer to a half-edge of this star, which is rewritten. Another
     // thread may be changing the same reference to a half-edge of its own star: neither its old nor its new
     // value is of this star then.
     HalfedgeId& reference = mesh.vertexHalfedge[star.link[i]];
-    const std::uint32_t t = LiveMesh::slotOf(std::atomic_ref(reference).load(std::memory_order_relaxed));
+    const SlotId t = LiveMesh::slotOf(std::atomic_ref(reference).load(std::memory_order_relaxed));
     storeIf((t == own) | (t == before), reference, seams[i].movedTo);
     before = own;
   }
@@ -172,11 +177,11 @@ void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, co
     const auto& local = floor.triangles[f];
     LiveMesh::Triangle& triangle = mesh.triangles[star.slot(f)];
     triangle.corners = {star.link[local[0]], star.link[local[1]], star.link[local[2]]};
-    triangle.recorderId = firstId + static_cast<std::uint32_t>(f);
+    triangle.recorderId = RecorderId(firstId.index() + static_cast<std::uint32_t>(f));
     triangle.creator = removal;
   }
   for (int i = floor.size; i < star.triangleCount; ++i) {
-    mesh.triangles[star.slot(i)].corners[0] = LiveMesh::kNone;
+    mesh.triangles[star.slot(i)].corners[0] = VertexId();
     mesh.triangles[star.slot(i)].creator = removal;
   }
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/id_array.h"
 #include "engine/base/ids.h"
 #include "engine/memory/paged_array.h"
 #include "engine/memory/uninitialized_vector.h"
@@ -38,42 +39,41 @@ using HalfedgeId = Id<struct HalfedgeTag>;
 ///
 /// A removal reuses the first slots of its star and leaves two of them dead, one if the star is open.
 struct LiveMesh {
-  static constexpr std::uint32_t kNone = MtRecorder::kNone;  ///< no vertex, no removal
-  using Corners = std::array<std::uint32_t, 3>;              ///< vertices
+  using Corners = std::array<VertexId, 3>;
 
   /// One triangle in half a cache line: the time of a walk around a star is that of the lines it touches.
   struct alignas(32) Triangle {
-    Corners corners;                 ///< corners[0] = kNone: the slot is dead
+    Corners corners;                 ///< corners[0] is invalid: the slot is dead
     std::array<HalfedgeId, 3> twin;  ///< twin[i]: of the half-edge from corner i
-    std::uint32_t recorderId;        ///< its id before MtRecorder::finish()
-    std::uint32_t creator;           ///< the removal that added the triangle, kNone in the finest
-                                     ///< triangulation; of a dead slot: the removal that emptied it
-    bool isDead() const { return corners[0] == kNone; }
+    RecorderId recorderId;
+    RemovalId creator;  ///< the removal that added the triangle, invalid in the finest triangulation; of a
+                        ///< dead slot: the removal that emptied it
+    bool isDead() const { return !corners[0].isValid(); }
   };
-  PagedArray<Triangle> triangles;         ///< by slot
-  PagedArray<HalfedgeId> vertexHalfedge;  ///< by vertex; invalid if the vertex is in no triangle
+  IdArray<SlotId, PagedArray<Triangle>> triangles;
+  IdArray<VertexId, PagedArray<HalfedgeId>> vertexHalfedge;  ///< invalid if the vertex is in no triangle
 
   /// Makes the mesh of counter-clockwise triangles: finds the twins, numbers the triangles by their order.
   /// O(triangles). Precondition: an edge has at most one triangle on either side; there are no more than
   /// kMostTriangles.
   /// @param pinched receives the vertices whose triangles form more than one fan.
-  static LiveMesh fromTriangles(std::vector<Corners> corners, std::uint32_t vertexCount,
-                                std::vector<std::uint32_t>& pinched);
+  static LiveMesh fromTriangles(std::vector<std::array<std::uint32_t, 3>> corners, std::uint32_t vertexCount,
+                                std::vector<VertexId>& pinched);
 
   /// Drops dead slots; the others move up and keep their order. Without it, levels that remove a few vertices
   /// of a mesh with few triangles left would touch all of its former memory. O(slots + vertices), parallel.
-  /// @param vertices all vertices that are in a triangle; entries kNone are skipped.
+  /// @param vertices all vertices that are in a triangle; invalid ones are skipped.
   /// @return where each slot moved.
-  SlotMap compact(std::span<const std::uint32_t> vertices);
+  SlotMap compact(std::span<const VertexId> vertices);
 
   /// The vertices that are in a triangle, in the order of their half-edges. O(slots), parallel.
-  UninitializedVector<std::uint32_t> verticesInOrder() const;
+  UninitializedVector<VertexId> verticesInOrder() const;
 
   /// The largest number of triangles whose half-edges have 32-bit ids.
   static constexpr std::uint32_t kMostTriangles = (HalfedgeId::kInvalid >> 2) - 1;
 
-  static HalfedgeId halfedge(std::uint32_t slot, std::uint32_t side) { return HalfedgeId(4 * slot + side); }
-  static std::uint32_t slotOf(HalfedgeId h) { return h.index() >> 2; }
+  static HalfedgeId halfedge(SlotId slot, std::uint32_t side) { return HalfedgeId(4 * slot.index() + side); }
+  static SlotId slotOf(HalfedgeId h) { return SlotId(h.index() >> 2); }
   static std::uint32_t sideOf(HalfedgeId h) { return h.index() & 3; }
   // A table of two bits for each side instead of a comparison: the side is not predictable.
   static HalfedgeId nextInTriangle(HalfedgeId h) {
@@ -83,29 +83,29 @@ struct LiveMesh {
     return HalfedgeId((h.index() & ~3u) | (0b01'00'10u >> 2 * sideOf(h) & 3));
   }
   // Preconditions: h is valid.
-  std::uint32_t origin(HalfedgeId h) const { return triangles[slotOf(h)].corners[sideOf(h)]; }
+  VertexId origin(HalfedgeId h) const { return triangles[slotOf(h)].corners[sideOf(h)]; }
   HalfedgeId twinOf(HalfedgeId h) const { return triangles[slotOf(h)].twin[sideOf(h)]; }
   void setTwin(HalfedgeId h, HalfedgeId to) { triangles[slotOf(h)].twin[sideOf(h)] = to; }
 
   std::size_t vertexCount() const { return vertexHalfedge.size(); }
-  bool isInTriangle(std::uint32_t vertex) const { return vertexHalfedge[vertex].isValid(); }
+  bool isInTriangle(VertexId vertex) const { return vertexHalfedge[vertex].isValid(); }
 };
 
 /// The star of a vertex of a LiveMesh: its triangles, and its link counter-clockwise. Triangle i lies between
 /// link[i] and link[i + 1]; the link of a closed star is a cycle, that of an open one a path along which it
 /// has one vertex more than triangles.
 struct Star {
-  std::array<std::uint32_t, kMaxHoleCorners> link;
+  std::array<VertexId, kMaxHoleCorners> link;
   std::array<HalfedgeId, kMaxHoleCorners> outgoing;  ///< half-edge vertex -> link[i] of triangle i
   int linkSize = 0;
   int triangleCount = 0;
   bool isOpen = false;  ///< the vertex lies on a border
 
   /// The slot of triangle i.
-  std::uint32_t slot(int i) const { return LiveMesh::slotOf(outgoing[i]); }
+  SlotId slot(int i) const { return LiveMesh::slotOf(outgoing[i]); }
   /// Half-edge link[i] -> link[i + 1].
   HalfedgeId rim(int i) const { return LiveMesh::nextInTriangle(outgoing[i]); }
-  std::span<const std::uint32_t> linkView() const { return {link.data(), std::size_t(linkSize)}; }
+  std::span<const VertexId> linkView() const { return {link.data(), std::size_t(linkSize)}; }
 
   /// How many slots of a star are dead after the removal of its vertex.
   static std::size_t slotsLeftDead(bool isOpen) { return isOpen ? 1 : 2; }
@@ -113,13 +113,13 @@ struct Star {
   /// Gathers the star of v.
   /// @return false if the link has more than maxLink vertices, or v is in no triangle; the star is then
   /// undefined.
-  bool gather(const LiveMesh& mesh, std::uint32_t v, int maxLink);
+  bool gather(const LiveMesh& mesh, VertexId v, int maxLink);
 };
 
 /// Calls visit(u) for each link vertex u of v, counter-clockwise, until it returns false. Precondition: v is
 /// in a triangle.
 template <class Visit>
-void forLink(const LiveMesh& mesh, std::uint32_t v, const Visit& visit) {
+void forLink(const LiveMesh& mesh, VertexId v, const Visit& visit) {
   const HalfedgeId first = mesh.vertexHalfedge[v];
   for (HalfedgeId h = first;;) {
     if (!visit(mesh.origin(LiveMesh::nextInTriangle(h)))) return;
@@ -145,11 +145,10 @@ struct Seam {
 /// half-edges of the link's vertices. Writes nothing outside the star; the caller joins the new triangles to
 /// their neighbours: by sewAlone() at once, or by sew() when all stars of a batch are rewritten.
 /// @param joins of the floor.
-/// @param firstId the recorder's id of the floor's first triangle; the others follow.
-/// @param removal the removal's number in the recorder.
+/// @param firstId of the floor's first triangle; those of the others follow.
 /// @param seams one for each vertex of the link, filled in.
 void refill(LiveMesh& mesh, const Star& star, const HoleTriangulation& floor, const FloorJoins& joins,
-            std::uint32_t firstId, std::uint32_t removal, std::span<Seam> seams);
+            RecorderId firstId, RemovalId removal, std::span<Seam> seams);
 
 /// Joins an edge of a floor's rim to its neighbour, which has not moved since the star was rewritten.
 inline void sewAlone(LiveMesh& mesh, const Seam& seam) {
@@ -161,10 +160,10 @@ inline void sewAlone(LiveMesh& mesh, const Seam& seam) {
 /// @param firstRemoval of the batch: a slot whose creator is this removal or a later one has moved.
 /// @param seamsOf seamsOf(removal): the seams of a removal of the batch.
 template <class SeamsOf>
-void sew(LiveMesh& mesh, const Seam& seam, std::uint32_t firstRemoval, const SeamsOf& seamsOf) {
+void sew(LiveMesh& mesh, const Seam& seam, RemovalId firstRemoval, const SeamsOf& seamsOf) {
   if (!seam.beyond.isValid()) return sewAlone(mesh, seam);
-  const std::uint32_t creator = mesh.triangles[LiveMesh::slotOf(seam.beyond)].creator;
-  if (creator == LiveMesh::kNone || creator < firstRemoval) return sewAlone(mesh, seam);
+  const RemovalId creator = mesh.triangles[LiveMesh::slotOf(seam.beyond)].creator;
+  if (!creator.isValid() || creator < firstRemoval) return sewAlone(mesh, seam);
   for (const Seam& other : seamsOf(creator))
     if (other.movedFrom == seam.beyond) {
       mesh.setTwin(seam.movedTo, other.movedTo);

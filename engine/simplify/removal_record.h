@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "engine/base/ids.h"
+
 namespace arete {
 
 /// What a build stores of a vertex that may be removed: 16 bytes, four to a cache line. RemovalRecord{}: the
@@ -45,18 +47,16 @@ struct RemovalRecord {
     return state == State::stuck ? std::numeric_limits<float>::infinity() : cost;
   }
 
-  void setWitness(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    witness = hash(a) | hash(b) << 10 | hash(c) << 20;
-  }
+  void setWitness(VertexId a, VertexId b, VertexId c) { witness = hash(a) | hash(b) << 10 | hash(c) << 20; }
   /// Whether v may be a corner of the witness. Ten bits of a hash for each corner: a false match leads to an
   /// evaluation that was not needed, never to a wrong cost.
-  bool isWitnessedBy(std::uint32_t v) const {
+  bool isWitnessedBy(VertexId v) const {
     const std::uint32_t h = hash(v);
     return ((witness & 1023) == h) | (((witness >> 10) & 1023) == h) | (((witness >> 20) & 1023) == h);
   }
 
  private:
-  static std::uint32_t hash(std::uint32_t v) { return (v * 0x9E3779B1u) >> 22; }
+  static std::uint32_t hash(VertexId v) { return (v.index() * 0x9E3779B1u) >> 22; }
 };
 static_assert(sizeof(RemovalRecord) == 16);
 

@@ -10,7 +10,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/ids.h"
+
 namespace arete {
+
+/// The place of a triangle in a LiveMesh, and of what is kept by triangle. A removal fills it anew.
+using SlotId = Id<struct SlotTag>;
 
 /// Where the slots of an array went when the dead ones were dropped; the others kept their order.
 class SlotMap {
@@ -22,7 +27,7 @@ class SlotMap {
       for (std::size_t w = range.begin(); w != range.end(); ++w) {
         std::uint32_t live = 0;
         for (std::size_t slot = kBits * w; slot < std::min(kBits * w + kBits, size); ++slot)
-          live |= std::uint32_t(isLive(slot)) << slot % kBits;
+          live |= std::uint32_t(isLive(SlotId(static_cast<std::uint32_t>(slot)))) << slot % kBits;
         words_[w].live = live;
       }
     });
@@ -33,9 +38,9 @@ class SlotMap {
   }
 
   /// The new slot of a live one.
-  std::uint32_t ofLive(std::size_t slot) const {
-    const Word& word = words_[slot / kBits];
-    return word.before + count(word.live & ((std::uint32_t{1} << slot % kBits) - 1));
+  SlotId ofLive(SlotId slot) const {
+    const Word& word = words_[slot.index() / kBits];
+    return SlotId(word.before + count(word.live & ((std::uint32_t{1} << slot.index() % kBits) - 1)));
   }
   std::uint32_t liveCount() const { return liveCount_; }
 
@@ -71,7 +76,9 @@ class SlotMap {
   void forLiveOf(std::size_t w, const Visit& visit) const {
     std::uint32_t to = words_[w].before;
     for (std::uint32_t live = words_[w].live; live != 0; live &= live - 1)
-      visit(kBits * w + static_cast<std::size_t>(std::countr_zero(live)), to++);
+      visit(
+          SlotId(static_cast<std::uint32_t>(kBits * w) + static_cast<std::uint32_t>(std::countr_zero(live))),
+          SlotId(to++));
   }
 
   static constexpr std::size_t kBits = 32, kFewWords = 128;

@@ -14,7 +14,7 @@ constexpr std::size_t kSpan = 1 << 14;
 
 }  // namespace
 
-void ThresholdList::assign(std::span<const std::uint32_t> vertices, std::span<const std::uint8_t> isFixed) {
+void ThresholdList::assign(std::span<const VertexId> vertices, std::span<const std::uint8_t> isFixed) {
   // All threads fill the arrays: the first write to fresh memory is what takes time.
   index_.resize(isFixed.size());
   forRanges(LoopThreads::all, index_.size(), kSpan, [&](std::size_t begin, std::size_t end) {
@@ -22,18 +22,18 @@ void ThresholdList::assign(std::span<const std::uint32_t> vertices, std::span<co
   });
   vertices_.resize(vertices.size() + 1);
   thresholds_.resize(vertices_.size());
-  vertices_[kNoIndex] = kNone;
+  vertices_[kNoIndex] = VertexId();
   thresholds_[kNoIndex] = kNow;
   std::atomic<std::size_t> fixed = 0;
   forRanges(LoopThreads::all, vertices.size(), kSpan, [&](std::size_t begin, std::size_t end) {
     std::size_t fixedHere = 0;
     for (std::size_t i = begin; i != end; ++i) {
-      const std::uint32_t v = vertices[i];
+      const VertexId v = vertices[i];
       const std::size_t index = kNoIndex + 1 + i;
       vertices_[index] = v;
-      thresholds_[index] = isFixed[v] != 0 ? kNever : kNow;
+      thresholds_[index] = isFixed[v.index()] != 0 ? kNever : kNow;
       index_[v] = static_cast<std::uint32_t>(index);
-      fixedHere += isFixed[v] != 0 ? 1 : 0;
+      fixedHere += isFixed[v.index()] != 0 ? 1 : 0;
     }
     fixed += fixedHere;
   });
@@ -41,21 +41,20 @@ void ThresholdList::assign(std::span<const std::uint32_t> vertices, std::span<co
   removable_ = vertices.size() - fixed_;
 }
 
-void ThresholdList::collect(double threshold, std::vector<std::uint32_t>& due, Scratch& scratch) const {
-  scratch(all().size(), kSpan, due, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+void ThresholdList::collect(double threshold, std::vector<VertexId>& due, Scratch& scratch) const {
+  scratch(all().size(), kSpan, due, [&](std::size_t begin, std::size_t end, VertexId* to) {
     const std::size_t first = all().begin;
     return collectTo(first + begin, first + end, threshold, to);
   });
 }
 
-void ThresholdList::collect(Tile tile, double threshold, UninitializedVector<std::uint32_t>& due) const {
+void ThresholdList::collect(Tile tile, double threshold, UninitializedVector<VertexId>& due) const {
   due.resize(tile.size());
-  std::uint32_t* const end = collectTo(tile.begin, tile.end, threshold, due.data());
+  VertexId* const end = collectTo(tile.begin, tile.end, threshold, due.data());
   due.resize(static_cast<std::size_t>(end - due.data()));
 }
 
-std::uint32_t* ThresholdList::collectTo(std::size_t begin, std::size_t end, double threshold,
-                                        std::uint32_t* to) const {
+VertexId* ThresholdList::collectTo(std::size_t begin, std::size_t end, double threshold, VertexId* to) const {
   for (std::size_t index = begin; index < end; ++index) {
     *to = vertices_[index];
     to += thresholds_[index] <= threshold ? 1 : 0;
@@ -63,10 +62,10 @@ std::uint32_t* ThresholdList::collectTo(std::size_t begin, std::size_t end, doub
   return to;
 }
 
-void ThresholdList::collect(std::span<const std::uint32_t> some, double threshold,
-                            std::vector<std::uint32_t>& due, Scratch& scratch) const {
-  scratch(some.size(), kSpan, due, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
-    for (const std::uint32_t v : some.subspan(begin, end - begin)) {
+void ThresholdList::collect(std::span<const VertexId> some, double threshold, std::vector<VertexId>& due,
+                            Scratch& scratch) const {
+  scratch(some.size(), kSpan, due, [&](std::size_t begin, std::size_t end, VertexId* to) {
+    for (const VertexId v : some.subspan(begin, end - begin)) {
       *to = v;
       to += index_[v] != kNoIndex && thresholds_[index_[v]] <= threshold ? 1 : 0;
     }
@@ -74,20 +73,20 @@ void ThresholdList::collect(std::span<const std::uint32_t> some, double threshol
   });
 }
 
-void ThresholdList::remove(std::span<const std::uint32_t> removed, LoopThreads threads) {
+void ThresholdList::remove(std::span<const VertexId> removed, LoopThreads threads) {
   forRanges(threads, removed.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (const std::uint32_t v : removed.subspan(begin, end - begin)) {
+    for (const VertexId v : removed.subspan(begin, end - begin)) {
       std::uint32_t& index = index_[v];
       thresholds_[index] = kNever;
-      vertices_[index] = kNone;
+      vertices_[index] = VertexId();
       index = kNoIndex;
     }
   });
   removable_ -= removed.size();
 }
 
-void ThresholdList::sort(std::vector<std::uint32_t>& vertices) const {
-  std::ranges::sort(vertices, {}, [&](std::uint32_t v) { return index_[v]; });
+void ThresholdList::sort(std::vector<VertexId>& vertices) const {
+  std::ranges::sort(vertices, {}, [&](VertexId v) { return index_[v]; });
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }
 
@@ -113,14 +112,15 @@ void ThresholdList::compact() {
   if (removable_ + fixed_ + 1 >= vertices_.size() / 2) return;
   UninitializedVector<std::uint32_t> kept;  // indices
   const std::size_t first = all().begin;
-  Scratch()(all().size(), kSpan, kept, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
-    for (std::size_t index = first + begin; index < first + end; ++index) {
-      *to = static_cast<std::uint32_t>(index);
-      to += vertices_[index] != kNone ? 1 : 0;
-    }
-    return to;
-  });
-  UninitializedVector<std::uint32_t> vertices(first + kept.size());
+  ParallelFilter<std::uint32_t>()(all().size(), kSpan, kept,
+                                  [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+                                    for (std::size_t index = first + begin; index < first + end; ++index) {
+                                      *to = static_cast<std::uint32_t>(index);
+                                      to += vertices_[index].isValid() ? 1 : 0;
+                                    }
+                                    return to;
+                                  });
+  UninitializedVector<VertexId> vertices(first + kept.size());
   UninitializedVector<float> thresholds(vertices.size());
   vertices[kNoIndex] = vertices_[kNoIndex];
   thresholds[kNoIndex] = thresholds_[kNoIndex];

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "engine/base/branchless.h"
+#include "engine/base/id_array.h"
+#include "engine/base/ids.h"
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/parallel/loop_threads.h"
 #include "engine/parallel/parallel_filter.h"
@@ -23,8 +25,7 @@ namespace arete {
 /// threshold.
 class ThresholdList {
  public:
-  static constexpr std::uint32_t kNone = 0xFFFFFFFF;  ///< no vertex
-  static constexpr float kNow = 0;                    ///< due in every level
+  static constexpr float kNow = 0;  ///< due in every level
   static constexpr float kNever = std::numeric_limits<float>::infinity();
 
   /// Indices from `begin` to before `end`: a tile of the ground.
@@ -34,12 +35,12 @@ class ThresholdList {
   };
 
   /// Scratch memory of collect().
-  using Scratch = ParallelFilter<std::uint32_t>;
+  using Scratch = ParallelFilter<VertexId>;
 
   /// Replaces the list. All vertices that are not fixed are due now. O(vertices), parallel.
   /// @param vertices in the order in which levels visit them, fixed ones included.
   /// @param isFixed per vertex, not 0 = yes.
-  void assign(std::span<const std::uint32_t> vertices, std::span<const std::uint8_t> isFixed);
+  void assign(std::span<const VertexId> vertices, std::span<const std::uint8_t> isFixed);
 
   /// The number of vertices that are neither fixed nor removed.
   std::size_t size() const { return removable_; }
@@ -48,32 +49,32 @@ class ThresholdList {
   /// All indices.
   Tile all() const { return {kNoIndex + 1, static_cast<std::uint32_t>(vertices_.size())}; }
   /// Whether the index of v lies in the tile. Precondition: v is not removed.
-  bool isWithin(Tile tile, std::uint32_t v) const { return index_[v] - tile.begin < tile.size(); }
-  /// The vertex of each index of all(), in order; kNone if it is removed.
-  std::span<const std::uint32_t> vertices() const { return std::span(vertices_).subspan(kNoIndex + 1); }
+  bool isWithin(Tile tile, VertexId v) const { return index_[v] - tile.begin < tile.size(); }
+  /// The vertex of each index of all(), in order; invalid if it is removed.
+  std::span<const VertexId> vertices() const { return std::span(vertices_).subspan(kNoIndex + 1); }
   /// The index of v, the same until compact(). Precondition: v is not removed.
-  std::uint32_t indexOf(std::uint32_t v) const { return index_[v]; }
+  std::uint32_t indexOf(VertexId v) const { return index_[v]; }
   /// Drops the removed vertices if they are more than half: indices change. O(size), parallel.
   void compact();
 
   /// `due` receives the vertices that are due at a threshold, in order. O(indices), parallel.
-  void collect(double threshold, std::vector<std::uint32_t>& due, Scratch& scratch) const;
+  void collect(double threshold, std::vector<VertexId>& due, Scratch& scratch) const;
   /// The same of the vertices of a tile, on the calling thread. O(size of the tile).
-  void collect(Tile tile, double threshold, UninitializedVector<std::uint32_t>& due) const;
+  void collect(Tile tile, double threshold, UninitializedVector<VertexId>& due) const;
   /// The same of `some` vertices; removed ones are never due. O(some), parallel.
-  void collect(std::span<const std::uint32_t> some, double threshold, std::vector<std::uint32_t>& due,
+  void collect(std::span<const VertexId> some, double threshold, std::vector<VertexId>& due,
                Scratch& scratch) const;
 
   /// Sets the threshold of v. Thread-safe for different vertices that are in the list. No effect if v is
   /// removed or not in the list, as for makeDueIf().
-  void set(std::uint32_t v, float threshold) { thresholds_[index_[v]] = threshold; }
+  void set(VertexId v, float threshold) { thresholds_[index_[v]] = threshold; }
   /// Makes v due now if the condition holds, without a branch. Thread-safe, for the same vertex too, but not
   /// beside set() of the same vertex.
-  void makeDueIf(bool condition, std::uint32_t v) { storeIf(condition, thresholds_[index_[v]], kNow); }
+  void makeDueIf(bool condition, VertexId v) { storeIf(condition, thresholds_[index_[v]], kNow); }
   /// Removes vertices from the list. Thread-safe for different vertices. O(removed).
-  void remove(std::span<const std::uint32_t> removed, LoopThreads threads);
+  void remove(std::span<const VertexId> removed, LoopThreads threads);
   /// Sorts vertices by their indices and drops repeats. Precondition: none is removed.
-  void sort(std::vector<std::uint32_t>& vertices) const;
+  void sort(std::vector<VertexId>& vertices) const;
 
   /// The least threshold; kNever if no vertex will be due. O(size).
   float least() const;
@@ -84,17 +85,17 @@ class ThresholdList {
   float quantile(double fraction) const;
 
   /// Prefetches what set() and makeDueIf() read.
-  [[gnu::always_inline]] void prefetch(std::uint32_t v) const { __builtin_prefetch(&index_[v]); }
+  [[gnu::always_inline]] void prefetch(VertexId v) const { __builtin_prefetch(&index_[v]); }
 
  private:
   /// Writes the vertices of some indices that are due to `to`, which has room for all of them.
   /// @return the end of what was written.
-  std::uint32_t* collectTo(std::size_t begin, std::size_t end, double threshold, std::uint32_t* to) const;
+  VertexId* collectTo(std::size_t begin, std::size_t end, double threshold, VertexId* to) const;
 
   static constexpr std::uint32_t kNoIndex = 0;  // shared by all vertices that are not in the list; never read
-  UninitializedVector<std::uint32_t> vertices_;  // by index; kNone if removed
-  UninitializedVector<float> thresholds_;        // by index
-  UninitializedVector<std::uint32_t> index_;     // by vertex
+  UninitializedVector<VertexId> vertices_;      // by index; invalid if removed
+  UninitializedVector<float> thresholds_;       // by index
+  IdArray<VertexId, UninitializedVector<std::uint32_t>> index_;
   std::atomic<std::size_t> removable_ = 0;
   std::size_t fixed_ = 0;
 };

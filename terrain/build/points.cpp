@@ -38,7 +38,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
   const std::vector<std::uint32_t>& ground = finest.order;
   const auto finestCount = static_cast<std::uint32_t>(finest.triangles.size());
   const auto pointCount = static_cast<std::uint32_t>(field.size());
-  std::vector<std::uint32_t> pinched;
+  std::vector<VertexId> pinched;
   LiveMesh mesh = LiveMesh::fromTriangles(std::move(finest.triangles), pointCount, pinched);
   giveFreeHeapBack();  // the triangles that it took
   stage.emplace(context.clock, "prepare");
@@ -52,7 +52,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
   model.options.thresholdRatio = options.thresholdRatioOrDefault();
 
   std::vector<std::uint8_t> isFixed(pointCount, 0);
-  for (const std::uint32_t v : pinched) isFixed[v] = 1;
+  for (const VertexId v : pinched) isFixed[v.index()] = 1;
   std::vector<std::uint8_t> isFixedPoint(pointCount, 0);
   for (const std::uint32_t p : options.fixedVertices) isFixedPoint[p] = 1;
   for (std::uint32_t v = 0; v < pointCount; ++v) isFixed[v] |= isFixedPoint[ground[v]];

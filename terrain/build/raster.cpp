@@ -80,7 +80,7 @@ std::vector<std::uint32_t> isolatedSamples(const RasterHeightfield& field, const
   ParallelFilter<std::uint32_t>()(
       field.size(), kSamplesAtOnce, isolated, [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
         for (std::size_t v = begin; v != end; ++v)
-          if (!mesh.isInTriangle(static_cast<std::uint32_t>(v)) && !std::isnan(field.heights[v]))
+          if (!mesh.isInTriangle(VertexId(static_cast<std::uint32_t>(v))) && !std::isnan(field.heights[v]))
             *to++ = static_cast<std::uint32_t>(v);
         return to;
       });
@@ -104,7 +104,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
 
   context.report("triangulate", 0);
   std::optional<StageClock::Scope> stage(std::in_place, context.clock, "triangulate");
-  std::vector<std::uint32_t> pinched;
+  std::vector<VertexId> pinched;
   LiveMesh mesh = finestMesh(field, pinched);
   if (mesh.triangles.empty()) return failure(ErrorCode::degenerate, whyNoTriangle(field), field.source);
   const auto finestCount = static_cast<std::uint32_t>(mesh.triangles.size());
@@ -122,9 +122,9 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   model.options.thresholdRatio = options.thresholdRatioOrDefault();
 
   std::vector<std::uint8_t> isFixed(sampleCount, 0);
-  for (const std::uint32_t v : pinched) isFixed[v] = 1;
+  for (const VertexId v : pinched) isFixed[v.index()] = 1;
   for (const std::uint32_t v : options.fixedVertices) {
-    if (!mesh.isInTriangle(v))
+    if (!mesh.isInTriangle(VertexId(v)))
       return failure(
           ErrorCode::invalidData,
           fmt::format(

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/ids.h"
 #include "engine/base/vec.h"
 
 namespace arete {
@@ -21,7 +22,7 @@ class ConflictLists {
     apex_ = apex;
     size_ = 0;
   }
-  void add(std::uint32_t point, const Vec3& position) {
+  void add(VertexId point, const Vec3& position) {
     if (size_ == points_.size()) grow();
     points_[size_] = point;
     x_[size_] = static_cast<float>(position.x - apex_.x);
@@ -37,7 +38,7 @@ class ConflictLists {
 
   std::size_t size() const { return size_; }
   /// The point at an index, below size(), in the order of add().
-  std::uint32_t operator[](std::size_t index) const { return points_[index]; }
+  VertexId operator[](std::size_t index) const { return points_[index]; }
 
   struct Found {
     std::size_t index;  ///< size() where no point is left
@@ -75,7 +76,7 @@ class ConflictLists {
 
   Vec3 apex_, reach_;
   std::size_t size_ = 0;
-  std::vector<std::uint32_t> points_;
+  std::vector<VertexId> points_;
   // From the apex. Padded by arbitrary values, since they are read four at a time.
   std::vector<float> x_, y_, z_;
 };

@@ -11,7 +11,7 @@
 
 namespace arete {
 
-bool PointError::covers(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t p) const {
+bool PointError::covers(VertexId a, VertexId b, VertexId c, VertexId p) const {
   const Vec2 pa = plan_.planPosition(a), pb = plan_.planPosition(b), pc = plan_.planPosition(c),
              q = plan_.planPosition(p);
   if (q.x < std::min({pa.x, pb.x, pc.x}) || q.x > std::max({pa.x, pb.x, pc.x}) ||
@@ -23,8 +23,7 @@ bool PointError::covers(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::
 
 /// difference() for a triangle whose area is lost to rounding: the difference of largest magnitude over the
 /// sides beside p, since that of the plane lies between those of two sides.
-double PointError::differenceOnLine(std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                                    std::uint32_t p) const {
+double PointError::differenceOnLine(VertexId a, VertexId b, VertexId c, VertexId p) const {
   const Vec2 q = plan_.planPosition(p);
   double largest = 0;
   for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
@@ -34,14 +33,14 @@ double PointError::differenceOnLine(std::uint32_t a, std::uint32_t b, std::uint3
     constexpr double kBeside = 0.01;
     if (along < -kBeside || along > 1 + kBeside) continue;
     const double t = std::clamp(along, 0.0, 1.0);
-    const double d = points_[from].z + t * (points_[to].z - points_[from].z) - points_[p].z;
+    const double d = position(from).z + t * (position(to).z - position(from).z) - position(p).z;
     if (std::abs(d) > std::abs(largest)) largest = d;
   }
   return largest;
 }
 
 /// z of the plane through a, b, c minus z of p, at p.
-double PointError::difference(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t p) const {
+double PointError::difference(VertexId a, VertexId b, VertexId c, VertexId p) const {
   const Vec2 o = plan_.planPosition(a), pb = plan_.planPosition(b), pc = plan_.planPosition(c),
              q = plan_.planPosition(p);
   const double bx = pb.x - o.x, by = pb.y - o.y, cx = pc.x - o.x, cy = pc.y - o.y, x = q.x - o.x,
@@ -51,7 +50,8 @@ double PointError::difference(std::uint32_t a, std::uint32_t b, std::uint32_t c,
   constexpr double kReliable = 0x1p-30;
   if (!(std::abs(area) > kReliable * (std::abs(left) + std::abs(right)))) return differenceOnLine(a, b, c, p);
   const double u = (x * cy - y * cx) / area, w = (bx * y - by * x) / area;
-  return points_[a].z + u * (points_[b].z - points_[a].z) + w * (points_[c].z - points_[a].z) - points_[p].z;
+  return position(a).z + u * (position(b).z - position(a).z) + w * (position(c).z - position(a).z) -
+         position(p).z;
 }
 
 namespace {
@@ -66,13 +66,13 @@ const ConflictLists& PointError::Hole::conflicts() const {
   conflicts.clear(apex);
   conflicts.add(apex_, apex);
   Vec3 reach;
-  for (const std::uint32_t corner : star_.linkView()) {
+  for (const VertexId corner : star_.linkView()) {
     const Vec3& p = errors_.position(corner);
     reach = {std::max(reach.x, std::abs(p.x - apex.x)), std::max(reach.y, std::abs(p.y - apex.y)),
              std::max(reach.z, std::abs(p.z - apex.z))};
   }
   for (int i = 0; i < star_.triangleCount; ++i)
-    for (std::uint32_t p = errors_.head_[star_.slot(i)]; p != kNone; p = errors_.next_[p]) {
+    for (VertexId p = errors_.head_[star_.slot(i)]; p.isValid(); p = errors_.next_[p]) {
       const Vec3& position = errors_.position(p);
       conflicts.add(p, position);
       reach.z = std::max(reach.z, std::abs(position.z - apex.z));
@@ -92,7 +92,7 @@ bool PointError::Hole::isCovered(const ConflictLists::Found& found, int i, int j
 }
 
 Vec3 PointError::Hole::fromApex(int i) const {
-  const std::uint32_t corner = star_.link[i];
+  const VertexId corner = star_.link[i];
   const PointPlan::Point o = errors_.plan_.point(apex_), p = errors_.plan_.point(corner);
   return {p.x() - o.x(), p.y() - o.y(), errors_.position(corner).z - errors_.position(apex_).z};
 }
@@ -107,7 +107,7 @@ double PointError::Hole::maximum(int i, int j, int m, double limit) const {
   for (auto found = over.next(0, worst, worst); found.index != conflicts().size();
        found = over.next(found.index + 1, worst, worst)) {
     if (!isCovered(found, i, j, m)) continue;
-    const std::uint32_t p = conflicts()[found.index];
+    const VertexId p = conflicts()[found.index];
     worst = std::max(worst, std::abs(errors_.difference(star_.link[i], star_.link[j], star_.link[m], p)));
     if (worst > limit) break;
   }
@@ -120,7 +120,7 @@ double PointError::Hole::maximum(int i, int j, int m, double limit, SignedBound&
   for (auto found = over.next(0, bound.above, bound.below); found.index != conflicts().size();
        found = over.next(found.index + 1, bound.above, bound.below)) {
     if (!isCovered(found, i, j, m)) continue;
-    const std::uint32_t p = conflicts()[found.index];
+    const VertexId p = conflicts()[found.index];
     const double d = errors_.difference(star_.link[i], star_.link[j], star_.link[m], p);
     bound.include(d);
     worst = std::max(worst, std::abs(d));
@@ -133,14 +133,14 @@ void PointError::Hole::settle(const HoleTriangulation& floor) {
   const std::size_t count = conflicts().size();
   thread_local std::vector<std::uint8_t> isAssigned;
   isAssigned.assign(count, 0);
-  for (int t = 0; t < star_.triangleCount; ++t) errors_.head_[star_.slot(t)] = kNone;
+  for (int t = 0; t < star_.triangleCount; ++t) errors_.head_[star_.slot(t)] = VertexId();
   for (int f = 0; f < floor.size; ++f) {
     const auto [i, j, m] = floor.triangles[f];
-    std::uint32_t& head = errors_.head_[star_.slot(f)];
+    VertexId& head = errors_.head_[star_.slot(f)];
     const ConflictLists::Triangle over = triangle(i, j, m);
     for (auto found = over.nextCovered(0); found.index != count; found = over.nextCovered(found.index + 1)) {
       if (isAssigned[found.index] != 0 || !isCovered(found, i, j, m)) continue;
-      const std::uint32_t p = conflicts()[found.index];
+      const VertexId p = conflicts()[found.index];
       isAssigned[found.index] = 1;
       errors_.next_[p] = head;
       head = p;
@@ -149,7 +149,7 @@ void PointError::Hole::settle(const HoleTriangulation& floor) {
 }
 
 void PointError::compact(const SlotMap& newSlot) {
-  newSlot.forLiveInPlace([&](std::size_t from, std::uint32_t to) { head_[to] = head_[from]; });
+  newSlot.forLiveInPlace([&](SlotId from, SlotId to) { head_[to] = head_[from]; });
   head_.shrink(newSlot.liveCount());
 }
 

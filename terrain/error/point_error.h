@@ -18,30 +18,28 @@ namespace arete {
 /// The exact vertical error of triangles over scattered points. Every triangle slot of the live mesh has a
 /// conflict list [ClarksonShor1989] of the removed points that it covers. A removal distributes the points of
 /// its star among the triangles of the floor by exact predicates; a point on an edge goes to one of the two
-/// sides, whose planes agree there. Points are indices into `points`.
+/// sides, whose planes agree there. A point has the number of its vertex.
 class PointError {
  public:
-  static constexpr std::uint32_t kNone = LiveMesh::kNone;
-
   /// Refers to `plan` and `points`; copies the vertex rings of `finest`, which alongEdge() walks. O(points).
   /// @param points  those of the plan, with their heights
   /// @param finest  the finest triangulation of the points
   PointError(const PointPlan& plan, std::span<const Vec3> points, const LiveMesh& finest)
       : plan_(plan), points_(points), finest_(finest), head_(finest.triangles.size()), next_(points.size()) {
-    std::ranges::fill(head_, kNone);
+    std::ranges::fill(head_, VertexId());
   }
 
-  const Vec3& position(std::uint32_t point) const { return points_[point]; }
-  [[gnu::always_inline]] void prefetch(std::uint32_t point) const {
-    __builtin_prefetch(points_.data() + point);
+  const Vec3& position(VertexId point) const { return points_[point.index()]; }
+  [[gnu::always_inline]] void prefetch(VertexId point) const {
+    __builtin_prefetch(points_.data() + point.index());
   }
   [[gnu::always_inline]] void prefetch(const Star& star) const {
     for (int i = 0; i < star.triangleCount; ++i) __builtin_prefetch(&head_[star.slot(i)]);
-    for (const std::uint32_t u : star.linkView()) finest_.prefetch(u);
+    for (const VertexId u : star.linkView()) finest_.prefetch(u);
   }
   /// See RasterError. -1: points have no closed form in the finest triangulation.
-  double costInFinest(std::uint32_t, std::array<std::uint32_t, 3>&) const { return -1; }
-  double boundInFinest(std::uint32_t) const { return -1; }
+  double costInFinest(VertexId, std::array<VertexId, 3>&) const { return -1; }
+  double boundInFinest(VertexId) const { return -1; }
   /// See RasterError. A build of points uses most memory in the levels of removals, so it compacts sooner.
   static constexpr double kLeastLive = 0.75;
   /// Moves the conflict lists with their triangles after LiveMesh::compact(). O(live slots).
@@ -52,7 +50,7 @@ class PointError {
   /// in the apex's link. At most one exists per thread at a time: all share the thread's arrays.
   class Hole {
    public:
-    Hole(PointError& errors, const Star& star, std::uint32_t apex)
+    Hole(PointError& errors, const Star& star, VertexId apex)
         : errors_(errors), star_(star), apex_(apex), polygon_(errors.plan_, apex, star.linkView()) {}
     /// See RasterError::maximum().
     double maximum(int i, int j, int m, double limit) const;
@@ -83,7 +81,7 @@ class PointError {
 
     PointError& errors_;
     const Star& star_;
-    std::uint32_t apex_;
+    VertexId apex_;
     const PointPlan::Polygon polygon_;
     mutable const ConflictLists* conflicts_ =
         nullptr;  // built on first use: half of the evaluations need none
@@ -91,18 +89,19 @@ class PointError {
 
   /// Bounds of the signed difference between the segment a-b and the finest triangulation at the points where
   /// the segment crosses its edges. Walks through the triangles that the segment meets: O(their number).
-  SignedBound alongEdge(std::uint32_t a, std::uint32_t b) const;
+  SignedBound alongEdge(VertexId a, VertexId b) const;
 
  private:
-  bool covers(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t p) const;
-  double difference(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t p) const;
-  double differenceOnLine(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t p) const;
+  bool covers(VertexId a, VertexId b, VertexId c, VertexId p) const;
+  double difference(VertexId a, VertexId b, VertexId c, VertexId p) const;
+  double differenceOnLine(VertexId a, VertexId b, VertexId c, VertexId p) const;
 
   const PointPlan& plan_;
   std::span<const Vec3> points_;
   const VertexRings finest_;
-  PagedArray<std::uint32_t> head_;           // per triangle slot: the first point of its conflict list
-  UninitializedVector<std::uint32_t> next_;  // per point in a list: the next one of the same triangle
+  IdArray<SlotId, PagedArray<VertexId>> head_;  // the first point of the conflict list of a triangle
+  IdArray<VertexId, UninitializedVector<VertexId>>
+      next_;  // of a point in a list: the next one of the triangle
 };
 
 }  // namespace arete

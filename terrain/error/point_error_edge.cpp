@@ -20,23 +20,23 @@
 
 namespace arete {
 
-SignedBound PointError::alongEdge(std::uint32_t a, std::uint32_t b) const {
+SignedBound PointError::alongEdge(VertexId a, VertexId b) const {
   SignedBound bound;
-  const Vec3 pa = points_[a], pb = points_[b];
+  const Vec3 pa = position(a), pb = position(b);
   const double dx = pb.x - pa.x, dy = pb.y - pa.y, climb = pb.z - pa.z, squared = dx * dx + dy * dy;
   // Where the squared length underflows, any height between those of the ends is possible at every point.
   const bool isShort = squared < 0x1p-900;
   const double rise = isShort ? 0 : climb / squared, unsure = isShort ? std::abs(climb) : 0;
   struct End {
-    std::uint32_t vertex = kNone;
+    VertexId vertex;
     int sign = 0;           ///< exact: > 0 left of the segment, < 0 right of it
     double side = 0;        ///< twice the area of the segment and the vertex left of it
     double sideLost = 0;    ///< bounds the rounding error of `side`
     double difference = 0;  ///< z_plane - z_vertex
     double lost = 0;        ///< bounds the rounding error of `difference`, but for that of heights
   };
-  const auto endAt = [&](std::uint32_t v) -> End {
-    const Vec3& p = points_[v];
+  const auto endAt = [&](VertexId v) -> End {
+    const Vec3& p = position(v);
     const double x = p.x - pa.x, y = p.y - pa.y, leftTerm = dx * y, rightTerm = dy * x,
                  side = leftTerm - rightTerm;
     const double alongX = x * dx, alongY = y * dy;
@@ -50,8 +50,8 @@ SignedBound PointError::alongEdge(std::uint32_t a, std::uint32_t b) const {
     return {v, isCertain ? sign : plan_.orientation(a, b, v), side, sideLost, difference, lost};
   };
   // Precondition: both vertices lie on the segment's line.
-  const auto isAhead = [&](std::uint32_t from, std::uint32_t v) {
-    const Vec3 &p = points_[v], &o = points_[from];
+  const auto isAhead = [&](VertexId from, VertexId v) {
+    const Vec3 &p = position(v), &o = position(from);
     return dx != 0 ? (p.x > o.x) == (dx > 0) : (p.y > o.y) == (dy > 0);
   };
   const auto include = [&](double difference, double lost) {
@@ -70,15 +70,15 @@ SignedBound PointError::alongEdge(std::uint32_t a, std::uint32_t b) const {
     include(u.difference + part * apart, u.lost + w.lost + partLost * std::abs(apart));
   };
 
-  for (std::uint32_t at = a; at != b;) {
+  for (VertexId at = a; at != b;) {
     // Leave the vertex `at`: to a neighbour on the segment, or into the triangle whose far edge it crosses.
-    const std::span<const std::uint32_t> ring = finest_.of(at);
-    std::uint32_t onward = kNone;
+    const std::span<const VertexId> ring = finest_.of(at);
+    VertexId onward;
     bool isEntered = false;
     std::array<End, 2> ends;  // of the crossed edge: right and left
-    ends[0] = ring.back() == kNone ? End{} : endAt(ring.back());
-    for (const std::uint32_t neighbour : ring) {
-      if (neighbour == kNone) break;
+    ends[0] = ring.back().isValid() ? endAt(ring.back()) : End{};
+    for (const VertexId neighbour : ring) {
+      if (!neighbour.isValid()) break;
       ends[1] = endAt(neighbour);
       if (ends[1].sign == 0 && isAhead(at, neighbour)) {
         onward = neighbour;
@@ -90,7 +90,7 @@ SignedBound PointError::alongEdge(std::uint32_t a, std::uint32_t b) const {
       if (isEntered) break;
       ends[0] = ends[1];
     }
-    if (onward != kNone) {
+    if (onward.isValid()) {
       at = onward;
       continue;
     }
@@ -101,8 +101,8 @@ SignedBound PointError::alongEdge(std::uint32_t a, std::uint32_t b) const {
     RingPlace place(finest_, ends[0].vertex, ends[1].vertex);
     for (;;) {
       cross(ends[0], ends[1]);
-      const std::uint32_t beyond = pivot == 0 ? place.previous() : place.next();
-      if (beyond == kNone) return bound;
+      const VertexId beyond = pivot == 0 ? place.previous() : place.next();
+      if (!beyond.isValid()) return bound;
       const End apex = endAt(beyond);
       if (apex.sign == 0) {
         at = beyond;

@@ -30,16 +30,17 @@ class RasterError {
     std::int32_t x, y;
     double z;
   };
-  Corner corner(std::uint32_t sample) const {
-    const LatticePlan::Cell cell = plan_.cell(sample);
-    return {static_cast<std::int32_t>(cell.column), static_cast<std::int32_t>(cell.row), heights_[sample]};
+  Corner corner(VertexId vertex) const {
+    const LatticePlan::Cell cell = plan_.cell(vertex);
+    return {static_cast<std::int32_t>(cell.column), static_cast<std::int32_t>(cell.row),
+            heights_[vertex.index()]};
   }
 
   /// The hole that a removed vertex (the apex) leaves: geometry and errors of the triangles that may fill it.
   /// Triangles are given by the indices of their corners in the apex's link.
   class Hole {
    public:
-    Hole(const RasterError& errors, const Star& star, std::uint32_t apex)
+    Hole(const RasterError& errors, const Star& star, VertexId apex)
         : errors_(errors), apex_(errors.corner(apex)), size_(star.linkSize) {
       const std::int64_t p = errors.plan_.p(), q = errors.plan_.q();
       const std::uint32_t most = errors.smallSpread_;
@@ -162,10 +163,9 @@ class RasterError {
     while (64 * std::pow(2.0 * smallSpread_ * f, 4) < 0x1p62) smallSpread_ *= 2;
   }
 
-  double height(std::uint32_t sample) const { return heights_[sample]; }
   /// Prefetches the heights around a vertex that is evaluated soon.
-  [[gnu::always_inline]] void prefetch(std::uint32_t sample) const {
-    const std::size_t columns = plan_.columns();
+  [[gnu::always_inline]] void prefetch(VertexId vertex) const {
+    const std::size_t columns = plan_.columns(), sample = vertex.index();
     heights_.prefetch(sample);
     if (sample >= columns) heights_.prefetch(sample - columns);
     if (sample + columns < heights_.size()) heights_.prefetch(sample + columns);
@@ -190,9 +190,9 @@ class RasterError {
   /// halves of cells. The other two share a diagonal of the rhombus of the four nearest neighbours, whose
   /// middle is the sample: the shorter diagonal, or of two equal ones the one closer in height.
   /// @param witness  receives the corners of one of these two triangles
-  double costInFinest(std::uint32_t sample, std::array<std::uint32_t, 3>& witness) const {
-    const std::uint32_t columns = plan_.columns();
-    const LatticePlan::Cell cell = plan_.cell(sample);
+  double costInFinest(VertexId vertex, std::array<VertexId, 3>& witness) const {
+    const std::uint32_t columns = plan_.columns(), sample = vertex.index();
+    const LatticePlan::Cell cell = plan_.cell(vertex);
     if (cell.column == 0 || cell.row == 0 || cell.column + 1 == columns || cell.row + 1 == rows_) return -1;
     const double* z = &heights_.given()[sample];
     const std::ptrdiff_t down = columns;
@@ -200,8 +200,9 @@ class RasterError {
                  across = std::abs(z[0] - (z[-down] + z[down]) / 2);
     if (std::isnan(along + across + z[-down - 1] + z[down + 1])) return -1;
     const bool isAlong = plan_.p() != plan_.q() ? plan_.p() < plan_.q() : along < across;
-    witness = isAlong ? std::array{sample - 1, sample + 1, sample + columns}
-                      : std::array{sample - columns, sample + columns, sample + 1};
+    const std::array neighbours = isAlong ? std::array{sample - 1, sample + 1, sample + columns}
+                                          : std::array{sample - columns, sample + columns, sample + 1};
+    std::ranges::transform(neighbours, witness.begin(), [](std::uint32_t v) { return VertexId(v); });
     return isAlong ? along : across;
   }
 
@@ -209,11 +210,11 @@ class RasterError {
   /// hole is triangulated: the least error at the sample of any triangle of its six neighbours that covers
   /// it. -1 where one of the six has no data or is missing. A triangle with two opposite neighbours has the
   /// error of their mean; any other triangle that covers the sample has every second neighbour as a corner.
-  double boundInFinest(std::uint32_t sample) const {
+  double boundInFinest(VertexId vertex) const {
     const std::uint32_t columns = plan_.columns();
-    const LatticePlan::Cell cell = plan_.cell(sample);
+    const LatticePlan::Cell cell = plan_.cell(vertex);
     if (cell.column == 0 || cell.row == 0 || cell.column + 1 == columns || cell.row + 1 == rows_) return -1;
-    const double* z = &heights_.given()[sample];
+    const double* z = &heights_.given()[vertex.index()];
     const std::ptrdiff_t down = columns;
     const double right = z[1] - z[0], rightBelow = z[down + 1] - z[0], below = z[down] - z[0],
                  left = z[-1] - z[0], leftAbove = z[-down - 1] - z[0], above = z[-down] - z[0];

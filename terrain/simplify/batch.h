@@ -31,8 +31,8 @@ class RemovalBatch {
     isOpen_.resize(linkSizes.size());
   }
 
-  /// The i-th removal's number in the recorder.
-  std::uint32_t removal(std::size_t i) const { return first_ + static_cast<std::uint32_t>(i); }
+  /// The i-th removal.
+  RemovalId removal(std::size_t i) const { return RemovalId(first_.index() + static_cast<std::uint32_t>(i)); }
   /// The seams that the i-th removal fills in. It also calls setOpen().
   std::span<Seam> seams(std::size_t i) {
     const std::size_t from = firstSlotAfter(i);
@@ -42,7 +42,7 @@ class RemovalBatch {
 
   /// Joins the new triangles to their neighbours. Precondition: all removals have rewritten their stars.
   /// @param removed the vertices, in the order of the removals.
-  void end(std::span<const std::uint32_t> removed) {
+  void end(std::span<const VertexId> removed) {
     sewSeams();
     if (s_.rim != nullptr)
       for (std::size_t i = 0; i < removed.size(); ++i)
@@ -60,7 +60,8 @@ class RemovalBatch {
       for (std::size_t i = begin; i != end; ++i) {
         if (i + kSeamsAhead < end && seams_[i + kSeamsAhead].beyond.isValid())
           __builtin_prefetch(&s_.mesh.triangles[LiveMesh::slotOf(seams_[i + kSeamsAhead].beyond)], 1);
-        sew(s_.mesh, seams_[i], first_, [&](std::uint32_t removal) { return seams(removal - first_); });
+        sew(s_.mesh, seams_[i], first_,
+            [&](RemovalId removal) { return seams(removal.index() - first_.index()); });
       }
     });
   }
@@ -73,7 +74,7 @@ class RemovalBatch {
 
   State& s_;
   StageClock* clock_;
-  std::uint32_t first_ = 0;
+  RemovalId first_;
   std::vector<std::uint8_t> isOpen_;  // per removal
   std::vector<Seam> seams_;           // per slot of the batch
 };

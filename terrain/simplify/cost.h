@@ -31,7 +31,7 @@ class RemovalCost {
 
   /// Stores the cost of removing v, or a lower bound, by the formula for the finest triangulation; leaves the
   /// record as it is if there is none. Precondition: no neighbour of v is removed.
-  void evaluateInFinest(std::uint32_t v, RemovalRecord& record) const {
+  void evaluateInFinest(VertexId v, RemovalRecord& record) const {
     if (s_.options.shape == HoleShape::dataDependent) {
       const double bound = s_.errors.boundInFinest(v);
       if (bound < 0) return;
@@ -39,7 +39,7 @@ class RemovalCost {
       record.state = State::atLeast;
       return;
     }
-    std::array<std::uint32_t, 3> witness;
+    std::array<VertexId, 3> witness;
     const double cost = s_.errors.costInFinest(v, witness);
     if (cost < 0) return;
     record.cost = static_cast<float>(cost);
@@ -50,13 +50,12 @@ class RemovalCost {
 
   /// Stores the cost of removing v in its record, exactly if it is at most threshold * kExactUpTo.
   /// @param star receives the star of v, unless its link is too large for a removal.
-  void evaluate(std::uint32_t v, Star& star, double threshold, RemovalRecord& record) const {
+  void evaluate(VertexId v, Star& star, double threshold, RemovalRecord& record) const {
     evaluateAndKeep(v, star, threshold, record, KeepNothing{});
   }
   /// The same; `floor` receives the floor whose error the cost is, if the evaluation finished and has one.
   /// Undefined unless the cost is exact. Precondition: `floor` is empty.
-  void evaluate(std::uint32_t v, Star& star, double threshold, RemovalRecord& record,
-                MeasuredFloor& floor) const {
+  void evaluate(VertexId v, Star& star, double threshold, RemovalRecord& record, MeasuredFloor& floor) const {
     evaluateAndKeep(v, star, threshold, record, KeepFloor{floor});
   }
 
@@ -86,7 +85,7 @@ class RemovalCost {
   };
 
   template <class Keep>
-  void evaluateAndKeep(std::uint32_t v, Star& star, double threshold, RemovalRecord& record,
+  void evaluateAndKeep(VertexId v, Star& star, double threshold, RemovalRecord& record,
                        const Keep& keep) const {
     const auto most = static_cast<int>(s_.options.maxDegree);
     if (!star.gather(s_.mesh, v, most + 1) || star.triangleCount > most || !s_.isRemovable(star, v)) {

@@ -16,7 +16,7 @@ template <class State, class Vertices>
                                                          std::size_t i) {
   prefetchStars(state.mesh, i, vertices.size(), [&](std::size_t k) { return vertices[k]; });
   if (i + kHeightsAhead >= vertices.size()) return;
-  const std::uint32_t v = vertices[i + kHeightsAhead];
+  const VertexId v = vertices[i + kHeightsAhead];
   state.errors.prefetch(v);
   __builtin_prefetch(&state.records[v], 1);
   state.thresholds.prefetch(v);

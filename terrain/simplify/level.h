@@ -52,7 +52,7 @@ class LevelWorkers {
     return level(threshold, number, order);
   }
   /// A level of some of them.
-  std::size_t levelOf(std::span<const std::uint32_t> some, double threshold, std::uint32_t number,
+  std::size_t levelOf(std::span<const VertexId> some, double threshold, std::uint32_t number,
                       MtRecorder::BatchOrder order) {
     {
       const StageClock::Scope stage(clock_, "simplify: collect");
@@ -80,11 +80,11 @@ class LevelWorkers {
     // The cost of the data-dependent shape is found without its floor: the removal finds the floor.
     if (s_.options.shape == HoleShape::delaunay) floors_.begin(due_.size(), s_.thresholds.all().size());
     filter_(due_.size(), shareOf(due_.size(), 128), due_,
-            [&](std::size_t begin, std::size_t end, std::uint32_t* to) {
+            [&](std::size_t begin, std::size_t end, VertexId* to) {
               Star star;
               for (std::size_t i = begin; i != end; ++i) {
                 prefetchForEvaluation(s_, due_, i);
-                const std::uint32_t v = due_[i];
+                const VertexId v = due_[i];
                 RemovalRecord& record = s_.records[v];
                 record.settle();
                 MeasuredFloor* const floor = floors_.keep(i, s_.thresholds.indexOf(v));
@@ -109,9 +109,9 @@ class LevelWorkers {
       set_.choose(due_, number, chosen_);
     } else {
       Star star;
-      set_.chooseInTurn(due_, number, chosen_, [&](std::uint32_t v) {
+      set_.chooseInTurn(due_, number, chosen_, [&](VertexId v) {
         star.gather(s_.mesh, v, kMaxHoleCorners);
-        const std::uint32_t before = star.link[star.linkSize - 1], after = star.link[0];
+        const VertexId before = star.link[star.linkSize - 1], after = star.link[0];
         const bool isFill = star.isOpen && s_.plan.orientation(before, v, after) != 0;
         return !isFill || s_.rim->claim(before, after, number);
       });
@@ -169,9 +169,9 @@ class LevelWorkers {
   RemovalBatch<Plan, Errors> batch_;
   StageClock* clock_;
 
-  ParallelFilter<std::uint32_t> filter_;
-  std::vector<std::uint32_t> due_;  // vertices to evaluate, then the candidates
-  std::vector<std::uint32_t> chosen_;
+  ParallelFilter<VertexId> filter_;
+  std::vector<VertexId> due_;  // vertices to evaluate, then the candidates
+  std::vector<VertexId> chosen_;
   std::vector<std::uint8_t> linkSizes_;  // per chosen
 };
 

@@ -32,7 +32,7 @@ class VertexRemover {
       const LiveMesh::Triangle& triangle = s_.mesh.triangles[star.slot(k)];
       s_.recorder.prefetch(triangle.creator, triangle.recorderId);
     }
-    for (const std::uint32_t u : star.linkView()) {
+    for (const VertexId u : star.linkView()) {
       __builtin_prefetch(&s_.records[u], 1);
       s_.thresholds.prefetch(u);
       __builtin_prefetch(&s_.mesh.vertexHalfedge[u], 1);
@@ -43,10 +43,8 @@ class VertexRemover {
   /// Removes v, whose cost is known exactly.
   /// @param star of v.
   /// @param floor the measured floor that RemovalCost has kept; empty: it is found and measured here.
-  /// @param removal the removal's number in the recorder.
   /// @param seams one for each vertex of the link, filled in; the caller joins them.
-  void remove(std::uint32_t v, const Star& star, MeasuredFloor& floor, std::uint32_t removal,
-              std::span<Seam> seams) {
+  void remove(VertexId v, const Star& star, MeasuredFloor& floor, RemovalId removal, std::span<Seam> seams) {
     typename Errors::Hole hole(s_.errors, star, v);
     if (floor.isEmpty()) fill(v, star, hole, floor);
     const FloorJoins joins(floor.triangulation);
@@ -62,7 +60,7 @@ class VertexRemover {
   }
 
  private:
-  void fill(std::uint32_t v, const Star& star, const typename Errors::Hole& hole, MeasuredFloor& floor) {
+  void fill(VertexId v, const Star& star, const typename Errors::Hole& hole, MeasuredFloor& floor) {
     if (s_.options.shape == HoleShape::dataDependent) {
       // The cost was found with other roundings and is stored as a float.
       const double limit =
@@ -111,8 +109,7 @@ class VertexRemover {
   }
 
   /// The spans refer to arrays of this object and are valid until the next removal.
-  VertexRemoval describe(std::uint32_t v, const Star& star, const typename Errors::Hole& hole,
-                         int floorSize) {
+  VertexRemoval describe(VertexId v, const Star& star, const typename Errors::Hole& hole, int floorSize) {
     for (int i = 0; i < star.triangleCount; ++i) {
       ceiling_[i] = s_.mesh.triangles[star.slot(i)].recorderId;
       creator_[i] = s_.mesh.triangles[star.slot(i)].creator;
@@ -135,10 +132,10 @@ class VertexRemover {
 
   /// Records at the neighbours of v that v is removed. Two stars can share a link vertex: both threads store
   /// the same values.
-  void updateLink(std::uint32_t v, const Star& star) {
+  void updateLink(VertexId v, const Star& star) {
     using State = RemovalRecord::State;
     const bool isWitnessUnknown = s_.options.shape != HoleShape::delaunay || star.isOpen;
-    for (const std::uint32_t u : star.linkView()) {
+    for (const VertexId u : star.linkView()) {
       RemovalRecord& record = s_.records[u];
       const bool isWitnessGone = isWitnessUnknown | record.isWitnessedBy(v);
       std::atomic_ref(record.isTouched).store(1, std::memory_order_relaxed);
@@ -159,7 +156,8 @@ class VertexRemover {
   SimplifyState<Plan, Errors>& s_;
   // Members, so that no removal initialises them.
   std::array<FloorCodes, kMaxHoleCorners> codes_;
-  std::array<std::uint32_t, kMaxHoleCorners> ceiling_, creator_;
+  std::array<RecorderId, kMaxHoleCorners> ceiling_;
+  std::array<RemovalId, kMaxHoleCorners> creator_;
   std::array<Vec3, kMaxHoleCorners + 1> positions_;
 };
 

@@ -42,7 +42,7 @@ namespace arete {
 
 /// What the levels leave over: the root of the MT.
 struct SimplifiedRoot {
-  std::vector<std::uint32_t> vertices;
+  std::vector<VertexId> vertices;
   std::vector<SurvivingTriangle> triangles;
   std::uint32_t levels = 0;
 };
@@ -98,10 +98,11 @@ class Simplifier {
     const StageClock::Scope stage(context_.clock, "simplify: evaluate");
     const RemovalCost<Plan, Errors> cost(s_);
     forRanges(LoopThreads::all, vertexCount, 4096, [&](std::size_t begin, std::size_t end) {
-      for (auto v = static_cast<std::uint32_t>(begin); v != end; ++v) {
+      for (std::size_t i = begin; i != end; ++i) {
+        const VertexId v(static_cast<std::uint32_t>(i));
         RemovalRecord& record = s_.records[v];
         record = {};
-        if (isFixed[v] != 0) {
+        if (isFixed[i] != 0) {
           record.state = RemovalRecord::State::fixed;
           continue;
         }
@@ -151,7 +152,7 @@ class Simplifier {
       return everything.begin + static_cast<std::uint32_t>(everything.size() * tile / tiles);
     };
 
-    std::vector<std::vector<std::uint32_t>> held(tiles);
+    std::vector<std::vector<VertexId>> held(tiles);
     {
       const StageClock::Scope stage(context_.clock, "simplify: tiles");
       tbb::parallel_for(
@@ -171,9 +172,9 @@ class Simplifier {
     levels_ += levels;
     numbers_ += levels;
 
-    std::vector<std::uint32_t> some;
-    for (const std::vector<std::uint32_t>& of : held) some.insert(some.end(), of.begin(), of.end());
-    for (const std::uint32_t v : some) s_.thresholds.set(v, ThresholdList::kNow);
+    std::vector<VertexId> some;
+    for (const std::vector<VertexId>& of : held) some.insert(some.end(), of.begin(), of.end());
+    for (const VertexId v : some) s_.thresholds.set(v, ThresholdList::kNow);
     for (std::uint32_t k = 0; k < levels && !context_.cancelled(); ++k)
       progress_->add(together_.levelOf(some, thresholds[k], ++numbers_, {groups_, tiles}));
     return thresholds.back();
@@ -182,18 +183,17 @@ class Simplifier {
   SimplifiedRoot root() const {
     SimplifiedRoot root;
     root.levels = levels_;
-    std::vector<std::uint8_t> seen(s_.mesh.vertexHalfedge.size(), 0);
+    IdArray<VertexId, std::vector<std::uint8_t>> seen(s_.mesh.vertexCount(), std::uint8_t(0));
     for (const LiveMesh::Triangle& triangle : s_.mesh.triangles) {
       if (triangle.isDead()) continue;
       root.triangles.push_back({triangle.recorderId, triangle.corners});
-      for (const std::uint32_t v : triangle.corners) seen[v] = 1;
+      for (const VertexId v : triangle.corners) seen[v] = 1;
     }
     for (std::uint32_t v = 0; v < seen.size(); ++v)
-      if (seen[v]) root.vertices.push_back(v);
+      if (seen[VertexId(v)] != 0) root.vertices.push_back(VertexId(v));
     return root;
   }
 
-  static_assert(ThresholdList::kNone == LiveMesh::kNone);  // see LiveMesh::compact()
   static constexpr double kLeastGrowth = 0.015;
   static constexpr double kLargest = std::numeric_limits<float>::max();  // below ThresholdList::kNever
   static constexpr std::size_t kMostLevels = 16;                         // of one pass over the tiles

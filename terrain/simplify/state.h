@@ -8,6 +8,7 @@
 
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/mt/recorder.h"
+#include "engine/simplify/independent_set.h"
 #include "engine/simplify/live_mesh.h"
 #include "engine/simplify/removal_record.h"
 #include "engine/simplify/threshold_list.h"
@@ -43,15 +44,15 @@ struct SimplifyState {
   double boundSlack = 0;     ///< largest rounding error of a bound between samples
 
   ThresholdList thresholds = {};
-  UninitializedVector<RemovalRecord> records = {};  ///< per vertex
+  IndependentSet::Records records = {};
   std::atomic<std::size_t> liveTriangles = 0;
 
   /// Whether v can be removed, at any cost, from its present star. On a border: only if the border is
   /// straight at v, or if Rim::mayFill() allows it.
-  bool isRemovable(const Star& star, std::uint32_t v) const {
+  bool isRemovable(const Star& star, VertexId v) const {
     if (!star.isOpen) return star.linkSize >= 3;
     if (star.linkSize < 3) return false;
-    const std::uint32_t after = star.link[0], before = star.link[star.linkSize - 1];
+    const VertexId after = star.link[0], before = star.link[star.linkSize - 1];
     if (before == after) return false;  // v is the end of a slit: Rim::closeVoid()
     const int turn = plan.orientation(before, v, after);
     if (turn == 0) return true;

@@ -49,7 +49,7 @@ class TileWorker {
 
   /// The vertices that levelOf() has held, in no order, some more than once; their threshold is kNever. The
   /// caller empties the list.
-  std::vector<std::uint32_t>& held() { return held_; }
+  std::vector<VertexId>& held() { return held_; }
 
  private:
   using RecordState = RemovalRecord::State;
@@ -65,26 +65,26 @@ class TileWorker {
     linkSizes_.clear();
     for (std::size_t i = 0; i != due_.size(); ++i) {
       prefetchForEvaluation(s_, due_, i);
-      const std::uint32_t v = due_[i];
+      const VertexId v = due_[i];
       RemovalRecord& record = s_.records[v];
       if (record.selection == isSkipped) continue;
       if (taken_.size() == space_.size()) space_.emplace_back();
       Taken& one = space_[taken_.size()];
       if (!costsAtMost(threshold, v, record, one)) continue;
       const auto link = one.star.linkView();
-      if (!std::ranges::all_of(link, [&](std::uint32_t u) { return s_.thresholds.isWithin(tile, u); })) {
+      if (!std::ranges::all_of(link, [&](VertexId u) { return s_.thresholds.isWithin(tile, u); })) {
         held_.push_back(v);
         s_.thresholds.set(v, ThresholdList::kNever);
         continue;
       }
-      for (const std::uint32_t u : link) s_.records[u].selection = isSkipped;
+      for (const VertexId u : link) s_.records[u].selection = isSkipped;
       taken_.push_back(v);
       linkSizes_.push_back(static_cast<std::uint8_t>(link.size()));
     }
   }
 
   /// Whether removing v costs at most the threshold; then `one` has its star.
-  bool costsAtMost(double threshold, std::uint32_t v, RemovalRecord& record, Taken& one) {
+  bool costsAtMost(double threshold, VertexId v, RemovalRecord& record, Taken& one) {
     record.settle();
     one.floor.clear();
     if (record.state == RecordState::exact) {
@@ -98,13 +98,14 @@ class TileWorker {
   }
 
   void remove(MtRecorder::BatchOrder order) {
-    const std::uint32_t first = s_.recorder.beginBatch(order, linkSizes_);
+    const RemovalId first = s_.recorder.beginBatch(order, linkSizes_);
     std::size_t dead = 0;
     for (std::size_t i = 0; i != taken_.size(); ++i) {
       if (i + kStarsAhead < taken_.size()) remover_.prefetch(space_[i + kStarsAhead].star);
       Taken& one = space_[i];
       const std::span<Seam> seams(seams_.data(), static_cast<std::size_t>(one.star.linkSize));
-      remover_.remove(taken_[i], one.star, one.floor, first + static_cast<std::uint32_t>(i), seams);
+      remover_.remove(taken_[i], one.star, one.floor,
+                      RemovalId(first.index() + static_cast<std::uint32_t>(i)), seams);
       for (const Seam& seam : seams) sewAlone(s_.mesh, seam);
       dead += Star::slotsLeftDead(one.star.isOpen);
     }
@@ -118,12 +119,12 @@ class TileWorker {
   RemovalCost<Plan, Errors> cost_;
   VertexRemover<Plan, Errors> remover_;
 
-  UninitializedVector<std::uint32_t> due_;
-  std::vector<std::uint32_t> taken_;
+  UninitializedVector<VertexId> due_;
+  std::vector<VertexId> taken_;
   std::vector<Taken> space_;             // per taken; reused by the next level
   std::vector<std::uint8_t> linkSizes_;  // per taken
   std::array<Seam, kMaxHoleCorners> seams_;
-  std::vector<std::uint32_t> held_;
+  std::vector<VertexId> held_;
 };
 
 }  // namespace arete

@@ -26,6 +26,10 @@ namespace {
 
 constexpr std::uint32_t kSquare = 32;  // cells along a side
 
+HalfedgeId halfedgeOf(std::uint32_t slot, std::uint32_t side) {
+  return LiveMesh::halfedge(SlotId(slot), side);
+}
+
 /// A square of cells, by its column and row among the squares.
 struct Square {
   std::uint32_t column, row;
@@ -79,19 +83,19 @@ class Cells : public RasterCells {
   // The half-edges on the four sides of a cell whose first triangle has the slot `first`, in the order in
   // which forTriangles() visits its triangles; invalid if no triangle of the cell has that side.
   static HalfedgeId topEdge(unsigned valid, std::uint32_t first) {
-    return (valid & 3) == 3 && triangleCount(valid) > 0 ? LiveMesh::halfedge(first, 0) : HalfedgeId();
+    return (valid & 3) == 3 && triangleCount(valid) > 0 ? halfedgeOf(first, 0) : HalfedgeId();
   }
   static HalfedgeId rightEdge(unsigned valid, std::uint32_t first) {
     if ((valid & 10) != 10 || triangleCount(valid) == 0) return {};
-    return LiveMesh::halfedge(first, (valid & upperLeft) != 0 ? 1 : 0);
+    return halfedgeOf(first, (valid & upperLeft) != 0 ? 1 : 0);
   }
   static HalfedgeId bottomEdge(unsigned valid, std::uint32_t first) {
     if ((valid & 12) != 12 || triangleCount(valid) == 0) return {};
-    return LiveMesh::halfedge(first + (valid == all ? 1 : 0), 1);
+    return halfedgeOf(first + (valid == all ? 1 : 0), 1);
   }
   static HalfedgeId leftEdge(unsigned valid, std::uint32_t first) {
     if ((valid & 5) != 5 || triangleCount(valid) == 0) return {};
-    return LiveMesh::halfedge(first + (valid == all ? 1 : 0), 2);
+    return halfedgeOf(first + (valid == all ? 1 : 0), 2);
   }
 
  private:
@@ -155,13 +159,13 @@ class MeshLayout {
     const std::uint32_t begin = first[0], end = begin + Cells::triangleCount(valid[0]);
     if (begin == end) return;
     std::uint32_t t = begin;
-    cells_.forTriangles(column, row, valid[0], [&](const LiveMesh::Corners& corners) {
-      mesh.triangles[t] = {corners, {}, t, LiveMesh::kNone};
+    cells_.forTriangles(column, row, valid[0], [&](const RasterCells::Corners& corners) {
+      write(mesh, t, corners, {});
       ++t;
     });
     if (valid[0] == Cells::all) {
-      mesh.setTwin(LiveMesh::halfedge(begin, 2), LiveMesh::halfedge(begin + 1, 0));
-      mesh.setTwin(LiveMesh::halfedge(begin + 1, 0), LiveMesh::halfedge(begin, 2));
+      mesh.setTwin(halfedgeOf(begin, 2), halfedgeOf(begin + 1, 0));
+      mesh.setTwin(halfedgeOf(begin + 1, 0), halfedgeOf(begin, 2));
     }
     const auto join = [&](HalfedgeId own, HalfedgeId beyond) {
       if (own.isValid()) mesh.setTwin(own, beyond);
@@ -172,7 +176,7 @@ class MeshLayout {
     join(Cells::leftEdge(valid[0], begin), Cells::rightEdge(valid[-1], first[-1]));
     for (t = begin; t < end; ++t)
       for (std::uint32_t side = 0; side < 3; ++side)
-        leave(mesh.triangles[t].corners[side], LiveMesh::halfedge(t, side));
+        leave(mesh.origin(halfedgeOf(t, side)), halfedgeOf(t, side));
   }
 
  private:
@@ -181,19 +185,20 @@ class MeshLayout {
   void layWhole(std::uint32_t ul, const std::uint32_t* first, LiveMesh& mesh, const Leave& leave) const {
     const std::uint32_t t = first[0], ur = ul + 1, ll = ul + columns_, lr = ll + 1;
     const std::ptrdiff_t down = columns_;
-    mesh.triangles[t] = {{ul, ur, lr},
-                         {LiveMesh::halfedge(first[-down] + 1, 1), LiveMesh::halfedge(first[1] + 1, 2),
-                          LiveMesh::halfedge(t + 1, 0)},
-                         t,
-                         LiveMesh::kNone};
-    mesh.triangles[t + 1] = {
-        {ul, lr, ll},
-        {LiveMesh::halfedge(t, 2), LiveMesh::halfedge(first[down], 0), LiveMesh::halfedge(first[-1], 1)},
-        t + 1,
-        LiveMesh::kNone};
-    leave(ur, LiveMesh::halfedge(t, 1));
+    write(mesh, t, {ul, ur, lr},
+          {halfedgeOf(first[-down] + 1, 1), halfedgeOf(first[1] + 1, 2), halfedgeOf(t + 1, 0)});
+    write(mesh, t + 1, {ul, lr, ll},
+          {halfedgeOf(t, 2), halfedgeOf(first[down], 0), halfedgeOf(first[-1], 1)});
+    leave(VertexId(ur), halfedgeOf(t, 1));
     for (const auto& [v, side] : {std::pair(ul, 0u), {lr, 1u}, {ll, 2u}})
-      leave(v, LiveMesh::halfedge(t + 1, side));
+      leave(VertexId(v), halfedgeOf(t + 1, side));
+  }
+  static void write(LiveMesh& mesh, std::uint32_t t, const RasterCells::Corners& corners,
+                    const std::array<HalfedgeId, 3>& twins) {
+    mesh.triangles[SlotId(t)] = {{VertexId(corners[0]), VertexId(corners[1]), VertexId(corners[2])},
+                                 twins,
+                                 RecorderId(t),
+                                 RemovalId()};
   }
 
   const Cells& cells_;
@@ -213,24 +218,24 @@ std::vector<std::array<std::uint32_t, 3>> finestTriangulation(const RasterHeight
   for (std::size_t square = 0; square < cells.squareCount(); ++square)
     cells.forSquare(square, [&](std::uint32_t column, std::uint32_t row) {
       cells.forTriangles(column, row, cells.valid(column, row),
-                         [&](const LiveMesh::Corners& corners) { triangles.push_back(corners); });
+                         [&](const RasterCells::Corners& corners) { triangles.push_back(corners); });
     });
   return triangles;
 }
 
-LiveMesh finestMesh(const RasterHeightfield& heightfield, std::vector<std::uint32_t>& pinched) {
+LiveMesh finestMesh(const RasterHeightfield& heightfield, std::vector<VertexId>& pinched) {
   LiveMesh mesh;
   if (!hasCells(heightfield)) return mesh;
   const Cells cells(heightfield);
   const MeshLayout layout(heightfield, cells);
-  mesh.triangles = PagedArray<LiveMesh::Triangle>(layout.triangleCount());
-  mesh.vertexHalfedge = PagedArray<HalfedgeId>(heightfield.size());
+  mesh.triangles = decltype(mesh.triangles)(layout.triangleCount());
+  mesh.vertexHalfedge = decltype(mesh.vertexHalfedge)(heightfield.size());
   forRanges(LoopThreads::all, heightfield.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
-    std::fill(&mesh.vertexHalfedge[begin], &mesh.vertexHalfedge[begin] + (end - begin), HalfedgeId());
+    std::fill(mesh.vertexHalfedge.begin() + begin, mesh.vertexHalfedge.begin() + end, HalfedgeId());
   });
   std::vector<std::vector<HalfedgeId>> borders(cells.squareCount());  // half-edges without a twin
   // A vertex refers to the last half-edge that leaves it; threads compete for a vertex between squares.
-  const auto claim = [&](std::uint32_t v, HalfedgeId h) {
+  const auto claim = [&](VertexId v, HalfedgeId h) {
     const std::atomic_ref last(mesh.vertexHalfedge[v]);
     HalfedgeId seen = last.load(std::memory_order_relaxed);
     while ((!seen.isValid() || seen < h) && !last.compare_exchange_weak(seen, h, std::memory_order_relaxed)) {
@@ -239,7 +244,7 @@ LiveMesh finestMesh(const RasterHeightfield& heightfield, std::vector<std::uint3
   tbb::parallel_for(std::size_t(0), cells.squareCount(), [&](std::size_t square) {
     cells.forSquare(square, [&](std::uint32_t column, std::uint32_t row) {
       const bool isInside = (column + 1) % kSquare > 1 && (row + 1) % kSquare > 1;
-      layout.lay(column, row, mesh, [&](std::uint32_t v, HalfedgeId h) {
+      layout.lay(column, row, mesh, [&](VertexId v, HalfedgeId h) {
         if (isInside)
           mesh.vertexHalfedge[v] = h;
         else

@@ -18,6 +18,6 @@ std::vector<std::array<std::uint32_t, 3>> finestTriangulation(const RasterHeight
 
 /// The same triangles in the same order as a mesh; `pinched` receives the vertices with more than one fan.
 /// O(samples), parallel.
-LiveMesh finestMesh(const RasterHeightfield& heightfield, std::vector<std::uint32_t>& pinched);
+LiveMesh finestMesh(const RasterHeightfield& heightfield, std::vector<VertexId>& pinched);
 
 }  // namespace arete

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <span>
 
+#include "engine/base/ids.h"
 #include "engine/base/vec.h"
 #include "terrain/triangulation/delaunay_hole.h"
 
@@ -14,7 +15,7 @@ namespace arete {
 
 /// The plan geometry of a raster, exact in integers: sample (column, row) has the coordinates (p * column,
 /// q * row), where p / q is a small rational near the true ground aspect. This metric decides which triangles
-/// are Delaunay; nothing else depends on it.
+/// are Delaunay; nothing else depends on it. A vertex has the number of its sample.
 class LatticePlan {
  public:
   /// Precondition: columns > 1; p, q > 0.
@@ -25,9 +26,10 @@ class LatticePlan {
     std::uint32_t column, row;
   };
 
-  /// The column and row of a sample, by a multiplication in place of a division. Exact: the factor, 2^64 /
+  /// The column and row of a vertex, by a multiplication in place of a division. Exact: the factor, 2^64 /
   /// columns rounded up, is off by less than one, so the row of a sample below 2^32 by less than 2^-32.
-  Cell cell(std::uint32_t sample) const {
+  Cell cell(VertexId vertex) const {
+    const std::uint32_t sample = vertex.index();
     const auto row = static_cast<std::uint32_t>((UnsignedWide(sample) * reciprocal_) >> 64);
     return {sample - row * columns_, row};
   }
@@ -36,14 +38,14 @@ class LatticePlan {
   std::uint32_t p() const { return p_; }
   std::uint32_t q() const { return q_; }
 
-  Vec2 planPosition(std::uint32_t sample) const {
-    const Cell c = cell(sample);
+  Vec2 planPosition(VertexId vertex) const {
+    const Cell c = cell(vertex);
     return {double(c.column), double(c.row)};
   }
 
   /// > 0 when a, b, c turn counter-clockwise in (column, row); exact (the products are below columns * rows *
   /// p * q).
-  int orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+  int orientation(VertexId a, VertexId b, VertexId c) const {
     const Cell ca = cell(a), cb = cell(b), cc = cell(c);
     const std::int64_t d = (std::int64_t(cb.column) - ca.column) * (std::int64_t(cc.row) - ca.row) -
                            (std::int64_t(cb.row) - ca.row) * (std::int64_t(cc.column) - ca.column);

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/ids.h"
 #include "engine/base/vec.h"
 #include "terrain/triangulation/delaunay_hole.h"
 
@@ -26,19 +27,18 @@ class PointPlan {
   /// Precondition: xStretch is a power of two.
   PointPlan(std::span<const Vec3> points, double xStretch) : points_(points), xStretch_(xStretch) {}
 
-  Vec2 planPosition(std::uint32_t v) const { return {points_[v].x, points_[v].y}; }
-  Point point(std::uint32_t v) const { return {points_[v].x * xStretch_, points_[v].y}; }
+  Vec2 planPosition(VertexId v) const { return {points_[v.index()].x, points_[v.index()].y}; }
+  Point point(VertexId v) const { return {points_[v.index()].x * xStretch_, points_[v.index()].y}; }
 
   /// > 0 when a, b, c turn counter-clockwise; exact.
-  int orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+  int orientation(VertexId a, VertexId b, VertexId c) const {
     return static_cast<int>(CGAL::orientation(point(a), point(b), point(c)));
   }
 
   /// A star polygon and its apex; the same queries as LatticePlan::Polygon.
   class Polygon {
    public:
-    Polygon(const PointPlan& plan, std::uint32_t apex, std::span<const std::uint32_t> link)
-        : apex_(plan.point(apex)) {
+    Polygon(const PointPlan& plan, VertexId apex, std::span<const VertexId> link) : apex_(plan.point(apex)) {
       for (std::size_t i = 0; i < link.size(); ++i) corners_[i] = plan.point(link[i]);
     }
     int orientation(int i, int j, int m) const {

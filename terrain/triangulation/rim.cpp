@@ -18,22 +18,22 @@ Rim::Rim(const LiveMesh& mesh, const LatticePlan& plan, double tolerance)
     : mesh_(mesh),
       plan_(plan),
       tolerance_(tolerance),
-      originalNext_(mesh.vertexCount(), LiveMesh::kNone),
-      originalPrevious_(mesh.vertexCount(), LiveMesh::kNone),
-      claimedAt_(mesh.vertexCount(), 0) {
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    for (std::uint32_t i = 0; i < 3; ++i)
-      if (!mesh.triangles[t].twin[i].isValid()) {
-        const std::uint32_t from = mesh.triangles[t].corners[i], to = mesh.triangles[t].corners[(i + 1) % 3];
+      originalNext_(mesh.vertexCount(), VertexId()),
+      originalPrevious_(mesh.vertexCount(), VertexId()),
+      claimedAt_(mesh.vertexCount(), 0u) {
+  for (const LiveMesh::Triangle& triangle : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!triangle.twin[i].isValid()) {
+        const VertexId from = triangle.corners[i], to = triangle.corners[(i + 1) % 3];
         originalNext_[from] = to;
         originalPrevious_[to] = from;
       }
 }
 
-bool Rim::mayFill(std::uint32_t before, std::uint32_t v, std::uint32_t after) const {
+bool Rim::mayFill(VertexId before, VertexId v, VertexId after) const {
   const Vec2 a = plan_.planPosition(before), b = plan_.planPosition(after), o = plan_.planPosition(v);
   const double dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
-  const auto isNear = [&](std::uint32_t u) {
+  const auto isNear = [&](VertexId u) {
     const Vec2 p = plan_.planPosition(u);
     return std::abs(dx * (p.y - a.y) - dy * (p.x - a.x)) <= tolerance_ * length * (1 + 1e-12);
   };
@@ -41,10 +41,10 @@ bool Rim::mayFill(std::uint32_t before, std::uint32_t v, std::uint32_t after) co
   // within the limit means no.
   constexpr int kLongestChain = 4096;
   int steps = 0;
-  for (std::uint32_t u = v; u != after; u = originalNext_[u])
-    if (u == LiveMesh::kNone || ++steps > kLongestChain || !isNear(u)) return false;
-  for (std::uint32_t u = v; u != before; u = originalPrevious_[u])
-    if (u == LiveMesh::kNone || ++steps > kLongestChain || !isNear(u)) return false;
+  for (VertexId u = v; u != after; u = originalNext_[u])
+    if (!u.isValid() || ++steps > kLongestChain || !isNear(u)) return false;
+  for (VertexId u = v; u != before; u = originalPrevious_[u])
+    if (!u.isValid() || ++steps > kLongestChain || !isNear(u)) return false;
 
   const auto columnLow = static_cast<std::int64_t>(std::min({a.x, b.x, o.x}));
   const auto columnHigh = static_cast<std::int64_t>(std::max({a.x, b.x, o.x}));
@@ -52,7 +52,7 @@ bool Rim::mayFill(std::uint32_t before, std::uint32_t v, std::uint32_t after) co
   const auto rowHigh = static_cast<std::int64_t>(std::max({a.y, b.y, o.y}));
   for (std::int64_t row = rowLow; row <= rowHigh; ++row)
     for (std::int64_t column = columnLow; column <= columnHigh; ++column) {
-      const auto u = static_cast<std::uint32_t>(row * plan_.columns() + column);
+      const VertexId u(static_cast<std::uint32_t>(row * plan_.columns() + column));
       if (u == before || u == v || u == after || !mesh_.isInTriangle(u)) continue;
       // The fill is the triangle before, after, v seen from outside: clockwise in the domain's sense.
       if (plan_.orientation(before, v, u) <= 0 && plan_.orientation(v, after, u) <= 0 &&
@@ -62,15 +62,15 @@ bool Rim::mayFill(std::uint32_t before, std::uint32_t v, std::uint32_t after) co
   return true;
 }
 
-bool Rim::claim(std::uint32_t before, std::uint32_t after, std::uint32_t level) {
+bool Rim::claim(VertexId before, VertexId after, std::uint32_t level) {
   if (claimedAt_[before] == level || claimedAt_[after] == level) return false;
   claimedAt_[before] = claimedAt_[after] = level;
   return true;
 }
 
 void Rim::closeVoid(LiveMesh& mesh, HalfedgeId newBorderHalfedge) {
-  const std::uint32_t from = mesh.origin(newBorderHalfedge),
-                      to = mesh.origin(LiveMesh::nextInTriangle(newBorderHalfedge));
+  const VertexId from = mesh.origin(newBorderHalfedge),
+                 to = mesh.origin(LiveMesh::nextInTriangle(newBorderHalfedge));
   const auto runsBack = [&](HalfedgeId h) {
     return !mesh.twinOf(h).isValid() && mesh.origin(h) == to &&
            mesh.origin(LiveMesh::nextInTriangle(h)) == from;

@@ -21,11 +21,11 @@ class Rim {
   /// Whether the reflex rim vertex v may be removed. O(original rim between its neighbours + samples in the
   /// box of the triangle).
   /// @param before, after its rim neighbours: the domain is to the left of before -> v -> after.
-  bool mayFill(std::uint32_t before, std::uint32_t v, std::uint32_t after) const;
+  bool mayFill(VertexId before, VertexId v, VertexId after) const;
 
   /// Reserves both ends of a fill for a level: two fills of one level must not share a rim vertex.
   /// @return false if either end is reserved already; nothing is reserved then.
-  bool claim(std::uint32_t before, std::uint32_t after, std::uint32_t level);
+  bool claim(VertexId before, VertexId after, std::uint32_t level);
 
   /// Joins the new border edge to the border edge that runs back between the same vertices, if there is one:
   /// then the void between the two has no area left. The edge is not found if both vertices are pinched;
@@ -36,8 +36,8 @@ class Rim {
   const LiveMesh& mesh_;
   const LatticePlan& plan_;
   double tolerance_;
-  std::vector<std::uint32_t> originalNext_, originalPrevious_;
-  std::vector<std::uint32_t> claimedAt_;
+  IdArray<VertexId, std::vector<VertexId>> originalNext_, originalPrevious_;
+  IdArray<VertexId, std::vector<std::uint32_t>> claimedAt_;  // the level
 };
 
 }  // namespace arete

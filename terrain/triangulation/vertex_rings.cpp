@@ -17,13 +17,13 @@ template <class Visit>
 void forVertices(const LiveMesh& mesh, const Visit& visit) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertexCount(), 1 << 13), [&](const auto& range) {
     for (std::size_t v = range.begin(); v != range.end(); ++v)
-      if (mesh.vertexHalfedge[v].isValid()) visit(static_cast<std::uint32_t>(v));
+      if (const VertexId id(static_cast<std::uint32_t>(v)); mesh.isInTriangle(id)) visit(id);
   });
 }
 
-/// visit(u) for the neighbours of a vertex and, if it is on a border, for kNone.
+/// visit(u) for the neighbours of a vertex and, if it is on a border, for an invalid one.
 template <class Visit>
-void forRing(const LiveMesh& mesh, std::uint32_t v, const Visit& visit) {
+void forRing(const LiveMesh& mesh, VertexId v, const Visit& visit) {
   const HalfedgeId first = mesh.vertexHalfedge[v];
   HalfedgeId h = first;
   do {
@@ -32,7 +32,7 @@ void forRing(const LiveMesh& mesh, std::uint32_t v, const Visit& visit) {
     h = mesh.twinOf(last);
     if (!h.isValid()) visit(mesh.origin(last));
   } while (h.isValid() && h != first);
-  if (!h.isValid()) visit(LiveMesh::kNone);
+  if (!h.isValid()) visit(VertexId());
 }
 
 }  // namespace
@@ -40,13 +40,13 @@ void forRing(const LiveMesh& mesh, std::uint32_t v, const Visit& visit) {
 VertexRings::VertexRings(const LiveMesh& mesh) {
   const std::size_t vertices = mesh.vertexCount();
   begin_.assign(vertices + 1, 0);
-  forVertices(mesh, [&](std::uint32_t v) { forRing(mesh, v, [&](std::uint32_t) { ++begin_[v]; }); });
+  forVertices(mesh, [&](VertexId v) { forRing(mesh, v, [&](VertexId) { ++begin_[v.index()]; }); });
   std::uint32_t next = 0;
   for (std::uint32_t& begin : begin_) next += std::exchange(begin, next);
   neighbours_.resize(next);
-  forVertices(mesh, [&](std::uint32_t v) {
-    std::uint32_t* to = neighbours_.data() + begin_[v];
-    forRing(mesh, v, [&](std::uint32_t u) { *to++ = u; });
+  forVertices(mesh, [&](VertexId v) {
+    VertexId* to = neighbours_.data() + begin_[v.index()];
+    forRing(mesh, v, [&](VertexId u) { *to++ = u; });
   });
 }
 

@@ -14,49 +14,47 @@ namespace arete {
 /// neighbours of a vertex are contiguous in memory.
 class VertexRings {
  public:
-  static constexpr std::uint32_t kNone = LiveMesh::kNone;
-
   /// O(vertices), parallel. Preconditions: the triangles of each vertex that a walk visits form one fan;
   /// there are fewer than 2^31 edges (each is in two rings).
   explicit VertexRings(const LiveMesh& mesh);
 
-  /// The neighbours of a vertex, counter-clockwise; kNone after the last if the vertex is on a border. Empty
-  /// if it is in no triangle.
-  std::span<const std::uint32_t> of(std::uint32_t vertex) const {
-    return {neighbours_.data() + begin_[vertex], neighbours_.data() + begin_[vertex + 1]};
+  /// The neighbours of a vertex, counter-clockwise; an invalid one after the last if the vertex is on a
+  /// border. Empty if it is in no triangle.
+  std::span<const VertexId> of(VertexId vertex) const {
+    return {neighbours_.data() + begin_[vertex.index()], neighbours_.data() + begin_[vertex.index() + 1]};
   }
 
   /// Prefetches the ring of a vertex.
-  [[gnu::always_inline]] void prefetch(std::uint32_t vertex) const {
-    __builtin_prefetch(neighbours_.data() + begin_[vertex]);
+  [[gnu::always_inline]] void prefetch(VertexId vertex) const {
+    __builtin_prefetch(neighbours_.data() + begin_[vertex.index()]);
   }
 
  private:
-  UninitializedVector<std::uint32_t> begin_;       // per vertex, and the end
-  UninitializedVector<std::uint32_t> neighbours_;  // by vertex
+  UninitializedVector<std::uint32_t> begin_;  // per vertex, and the end
+  UninitializedVector<VertexId> neighbours_;  // by vertex
 };
 
 /// A position in the ring of a vertex, at one of its neighbours.
 class RingPlace {
  public:
   /// Precondition: the two are neighbours.
-  RingPlace(const VertexRings& rings, std::uint32_t vertex, std::uint32_t neighbour)
+  RingPlace(const VertexRings& rings, VertexId vertex, VertexId neighbour)
       : ring_(rings.of(vertex)), index_(0) {
     while (ring_[index_] != neighbour) ++index_;
   }
-  /// Moves to the next neighbour, counter-clockwise; kNone if a border lies between the two.
-  std::uint32_t next() {
+  /// Moves to the next neighbour, counter-clockwise; invalid if a border lies between the two.
+  VertexId next() {
     index_ = index_ + 1 < ring_.size() ? index_ + 1 : 0;
     return ring_[index_];
   }
-  /// Moves to the previous neighbour, or kNone.
-  std::uint32_t previous() {
+  /// Moves to the previous neighbour; invalid if a border lies between the two.
+  VertexId previous() {
     index_ = (index_ > 0 ? index_ : ring_.size()) - 1;
     return ring_[index_];
   }
 
  private:
-  std::span<const std::uint32_t> ring_;
+  std::span<const VertexId> ring_;
   std::size_t index_;
 };
 

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "datasets/random.h"
+#include "engine/base/id_array.h"
+#include "engine/ids_of.h"
 #include "engine/mt/recorder.h"
 #include "terrain/error/raster_error.h"
 #include "terrain/simplify/state.h"
@@ -18,7 +20,7 @@ namespace arete {
 /// A small raster of hills and noise, with all that a simplification works on; nothing is removed yet.
 struct SmallSimplification {
   RasterHeightfield field;
-  std::vector<std::uint32_t> pinched;
+  std::vector<VertexId> pinched;
   LiveMesh mesh;
   LatticePlan plan;
   RasterError errors;
@@ -48,36 +50,39 @@ struct SmallSimplification {
     state.liveTriangles = mesh.triangles.size();
   }
 
+  /// All vertices of the finest triangulation.
+  auto vertices() const { return test::idsBelow<VertexId>(field.size()); }
   /// The raster's corners.
-  std::vector<std::uint8_t> isFixed() const {
-    std::vector<std::uint8_t> fixed(field.size(), 0);
+  IdArray<VertexId, std::vector<std::uint8_t>> isFixed() const {
+    IdArray<VertexId, std::vector<std::uint8_t>> fixed(field.size(), 0);
     for (const std::uint32_t column : {0u, field.columns - 1})
-      for (const std::uint32_t row : {0u, field.rows - 1}) fixed[field.index(column, row)] = 1;
+      for (const std::uint32_t row : {0u, field.rows - 1}) fixed[VertexId(field.index(column, row))] = 1;
     return fixed;
   }
-  std::set<std::uint32_t> linkOf(std::uint32_t v) const {
-    std::set<std::uint32_t> link;
+  std::set<VertexId> linkOf(VertexId v) const {
+    std::set<VertexId> link;
     for (const LiveMesh::Triangle& t : mesh.triangles)
       if (!t.isDead() && std::ranges::count(t.corners, v) != 0)
-        for (const std::uint32_t u : t.corners)
+        for (const VertexId u : t.corners)
           if (u != v) link.insert(u);
     return link;
   }
-  std::set<std::uint32_t> verticesLeft() const {
-    std::set<std::uint32_t> left;
+  std::set<VertexId> verticesLeft() const {
+    std::set<VertexId> left;
     for (const LiveMesh::Triangle& t : mesh.triangles)
       if (!t.isDead()) left.insert(t.corners.begin(), t.corners.end());
     return left;
   }
   /// The largest error of a triangle, by a scan of all samples.
-  double plainError(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    const auto at = [&](std::uint32_t v) {
+  double plainError(VertexId a, VertexId b, VertexId c) const {
+    const auto at = [&](VertexId vertex) {
+      const std::uint32_t v = vertex.index();
       return Vec3{double(v % field.columns), double(v / field.columns), field.heights[v]};
     };
     const Vec3 p = at(a), q = at(b), r = at(c);
     const double area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
     double error = 0;
-    for (std::uint32_t v = 0; v < field.size(); ++v) {
+    for (const VertexId v : vertices()) {
       const Vec3 s = at(v);
       const double u = (s.x - p.x) * (r.y - p.y) - (s.y - p.y) * (r.x - p.x),
                    w = (q.x - p.x) * (s.y - p.y) - (q.y - p.y) * (s.x - p.x);
@@ -89,8 +94,8 @@ struct SmallSimplification {
   /// The live triangles cover the raster once, and every twin is the reverse edge.
   bool isWhole() const {
     double area = 0;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    std::map<std::pair<VertexId, VertexId>, SlotId> edges;
+    for (const SlotId t : test::idsBelow<SlotId>(mesh.triangles.size())) {
       if (mesh.triangles[t].isDead()) continue;
       const auto& c = mesh.triangles[t].corners;
       const Vec2 p = plan.planPosition(c[0]), q = plan.planPosition(c[1]), r = plan.planPosition(c[2]);

@@ -8,15 +8,18 @@
 #include <random>
 #include <set>
 
+#include "engine/ids_of.h"
 #include "terrain/triangulation/finest_raster.h"
 
 namespace arete {
 namespace {
 
+using test::idsBelow;
+
 struct Grid {
   LiveMesh mesh;
-  UninitializedVector<RemovalRecord> records;
-  std::vector<std::uint32_t> candidates;
+  IndependentSet::Records records;
+  std::vector<VertexId> candidates;
 };
 
 /// A grid of which some vertices are candidates; costs from few values, so that many are alike.
@@ -25,36 +28,36 @@ Grid someGrid(std::uint32_t columns, std::uint32_t rows, int distinctCosts, std:
   field.columns = columns;
   field.rows = rows;
   field.heights.assign(std::size_t(columns) * rows, 0);
-  std::vector<std::uint32_t> pinched;
+  std::vector<VertexId> pinched;
   Grid grid;
   grid.mesh = LiveMesh::fromTriangles(finestTriangulation(field), columns * rows, pinched);
   grid.records.assign(std::size_t(columns) * rows, RemovalRecord{});
   std::mt19937_64 random(seed);
-  for (std::uint32_t v = 0; v < grid.records.size(); ++v) {
+  for (const VertexId v : idsBelow<VertexId>(grid.records.size())) {
     grid.records[v].cost = static_cast<float>(random() % static_cast<unsigned>(distinctCosts));
     if (random() % 4 != 0) grid.candidates.push_back(v);
   }
   return grid;
 }
 
-std::set<std::uint32_t> linkOf(const LiveMesh& mesh, std::uint32_t v) {
-  std::set<std::uint32_t> link;
+std::set<VertexId> linkOf(const LiveMesh& mesh, VertexId v) {
+  std::set<VertexId> link;
   for (const LiveMesh::Triangle& t : mesh.triangles)
     if (std::find(t.corners.begin(), t.corners.end(), v) != t.corners.end())
-      for (const std::uint32_t u : t.corners)
+      for (const VertexId u : t.corners)
         if (u != v) link.insert(u);
   return link;
 }
 
 /// The definition, word for word.
-std::vector<std::uint32_t> greedy(const Grid& grid, const IndependentSet& set) {
-  std::vector<std::uint32_t> order = grid.candidates;
+std::vector<VertexId> greedy(const Grid& grid, const IndependentSet& set) {
+  std::vector<VertexId> order = grid.candidates;
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return set.precedes(a, b); });
-  std::set<std::uint32_t> blocked, chosen;
-  for (const std::uint32_t v : order) {
+  std::set<VertexId> blocked, chosen;
+  for (const VertexId v : order) {
     if (blocked.contains(v)) continue;
     chosen.insert(v);
-    for (const std::uint32_t u : linkOf(grid.mesh, v)) blocked.insert(u);
+    for (const VertexId u : linkOf(grid.mesh, v)) blocked.insert(u);
   }
   return {chosen.begin(), chosen.end()};
 }
@@ -66,8 +69,8 @@ TEST(IndependentSet, IsTheOneAGreedyPassTakesForAnyNumberOfThreads) {
       for (const int threads : {1, 2, 4}) {
         Grid grid = someGrid(23, 17, distinctCosts, seed);
         IndependentSet set(grid.mesh, grid.records);
-        for (const std::uint32_t v : grid.candidates) set.enter(v, 7);
-        std::vector<std::uint32_t> chosen;
+        for (const VertexId v : grid.candidates) set.enter(v, 7);
+        std::vector<VertexId> chosen;
         tbb::task_arena(threads).execute([&] { set.choose(grid.candidates, 7, chosen); });
         std::sort(chosen.begin(), chosen.end());
         EXPECT_EQ(chosen, greedy(grid, set));
@@ -79,13 +82,13 @@ TEST(IndependentSet, DecidesAChainLongerThanItsDepth) {
   // A strip whose costs rise along it: every vertex waits for the one before.
   Grid grid = someGrid(4000, 2, 1, 1);
   grid.candidates.clear();
-  for (std::uint32_t v = 0; v < grid.records.size(); ++v) {
-    grid.records[v].cost = static_cast<float>(4000 - v % 4000);
+  for (const VertexId v : idsBelow<VertexId>(grid.records.size())) {
+    grid.records[v].cost = static_cast<float>(4000 - v.index() % 4000);
     grid.candidates.push_back(v);
   }
   IndependentSet set(grid.mesh, grid.records);
-  for (const std::uint32_t v : grid.candidates) set.enter(v, 1);
-  std::vector<std::uint32_t> chosen;
+  for (const VertexId v : grid.candidates) set.enter(v, 1);
+  std::vector<VertexId> chosen;
   set.choose(grid.candidates, 1, chosen);
   std::sort(chosen.begin(), chosen.end());
   EXPECT_EQ(chosen, greedy(grid, set));
@@ -94,13 +97,13 @@ TEST(IndependentSet, DecidesAChainLongerThanItsDepth) {
 TEST(IndependentSet, TakenInTurnItIsTheSameWhereNothingIsRefused) {
   Grid one = someGrid(23, 17, 5, 3), other = someGrid(23, 17, 5, 3);
   IndependentSet set(one.mesh, one.records), inTurn(other.mesh, other.records);
-  for (const std::uint32_t v : one.candidates) {
+  for (const VertexId v : one.candidates) {
     set.enter(v, 2);
     inTurn.enter(v, 2);
   }
-  std::vector<std::uint32_t> chosen, chosenInTurn;
+  std::vector<VertexId> chosen, chosenInTurn;
   set.choose(one.candidates, 2, chosen);
-  inTurn.chooseInTurn(other.candidates, 2, chosenInTurn, [](std::uint32_t) { return true; });
+  inTurn.chooseInTurn(other.candidates, 2, chosenInTurn, [](VertexId) { return true; });
   EXPECT_EQ(chosen, chosenInTurn);
   EXPECT_FALSE(chosen.empty());
 }
@@ -108,10 +111,11 @@ TEST(IndependentSet, TakenInTurnItIsTheSameWhereNothingIsRefused) {
 TEST(IndependentSet, ARejectedCandidateBlocksNoNeighbour) {
   Grid grid = someGrid(9, 9, 5, 3);
   IndependentSet set(grid.mesh, grid.records);
-  for (const std::uint32_t v : grid.candidates) set.enter(v, 2);
-  std::vector<std::uint32_t> chosen;
-  set.chooseInTurn(grid.candidates, 2, chosen, [](std::uint32_t v) { return v == 40 || v == 0; });
-  for (const std::uint32_t v : chosen) EXPECT_TRUE(v == 40 || v == 0);
+  for (const VertexId v : grid.candidates) set.enter(v, 2);
+  const std::set<VertexId> accepted = {VertexId(0), VertexId(40)};
+  std::vector<VertexId> chosen;
+  set.chooseInTurn(grid.candidates, 2, chosen, [&](VertexId v) { return accepted.contains(v); });
+  for (const VertexId v : chosen) EXPECT_TRUE(accepted.contains(v)) << v.index();
 }
 
 }  // namespace

@@ -8,17 +8,22 @@
 #include <map>
 #include <random>
 
+#include "engine/ids_of.h"
+
 namespace arete {
 namespace {
 
+using test::idsBelow;
+using test::idsOf;
+
 /// The oracle: the order, and a threshold for each vertex that is left.
 struct Ledger {
-  std::vector<std::uint32_t> order;
-  std::map<std::uint32_t, float> thresholds;
+  std::vector<VertexId> order;
+  std::map<VertexId, float> thresholds;
 
-  std::vector<std::uint32_t> due(double threshold) const {
-    std::vector<std::uint32_t> result;
-    for (const std::uint32_t v : order)
+  std::vector<VertexId> due(double threshold) const {
+    std::vector<VertexId> result;
+    for (const VertexId v : order)
       if (const auto found = thresholds.find(v); found != thresholds.end() && found->second <= threshold)
         result.push_back(v);
     return result;
@@ -45,23 +50,23 @@ TEST(ThresholdList, FindsTheDueVerticesInOrderHoweverManyAreRemoved) {
     std::mt19937 random(seed);
     constexpr std::uint32_t kVertices = 20'000;
     Ledger ledger;
-    for (std::uint32_t v = 0; v < kVertices; ++v)
+    for (const VertexId v : idsBelow<VertexId>(kVertices))
       if (random() % 8 != 0) ledger.order.push_back(v);
     std::shuffle(ledger.order.begin(), ledger.order.end(), random);
-    for (const std::uint32_t v : ledger.order) ledger.thresholds[v] = ThresholdList::kNow;
+    for (const VertexId v : ledger.order) ledger.thresholds[v] = ThresholdList::kNow;
 
     ThresholdList list;
-    std::vector<std::uint8_t> isFixed(kVertices, 0);
-    const std::vector<std::uint32_t> listed = ledger.order;
+    IdArray<VertexId, std::vector<std::uint8_t>> isFixed(kVertices, 0);
+    const std::vector<VertexId> listed = ledger.order;
     for (std::size_t i = 0; i < ledger.order.size(); i += 7) {
       isFixed[ledger.order[i]] = 1;
       ledger.thresholds.erase(ledger.order[i]);
     }
-    std::erase_if(ledger.order, [&](std::uint32_t v) { return isFixed[v] != 0; });
+    std::erase_if(ledger.order, [&](VertexId v) { return isFixed[v] != 0; });
     list.assign(listed, isFixed);
-    for (std::uint32_t v = 0; v < kVertices; ++v)
+    for (const VertexId v : idsBelow<VertexId>(kVertices))
       list.makeDueIf(isFixed[v] == 0, v);  // some are not in the list
-    std::vector<std::uint32_t> due;
+    std::vector<VertexId> due;
     ThresholdList::Scratch scratch;
     const auto collect = [&](double threshold) {
       list.compact();
@@ -75,18 +80,18 @@ TEST(ThresholdList, FindsTheDueVerticesInOrderHoweverManyAreRemoved) {
       collect(threshold);
       ASSERT_EQ(due, ledger.due(threshold)) << "threshold " << threshold;
       // Tile by tile the result is the same.
-      std::vector<std::uint32_t> inTiles, ofSome;
-      UninitializedVector<std::uint32_t> ofTile;
+      std::vector<VertexId> inTiles, ofSome;
+      UninitializedVector<VertexId> ofTile;
       const ThresholdList::Tile all = list.all();
       for (std::uint32_t from = all.begin; from < all.end; from += 1000) {
         const ThresholdList::Tile tile{from, std::min(from + 1000, all.end)};
         list.collect(tile, threshold, ofTile);
-        for (const std::uint32_t v : ofTile) ASSERT_TRUE(list.isWithin(tile, v));
+        for (const VertexId v : ofTile) ASSERT_TRUE(list.isWithin(tile, v));
         inTiles.insert(inTiles.end(), ofTile.begin(), ofTile.end());
       }
       ASSERT_EQ(inTiles, due);
       // And of some vertices, however they are listed.
-      std::vector<std::uint32_t> shuffled = due;
+      std::vector<VertexId> shuffled = due;
       shuffled.insert(shuffled.end(), due.begin(), due.begin() + std::ptrdiff_t(due.size() / 2));
       std::shuffle(shuffled.begin(), shuffled.end(), random);
       list.sort(shuffled);
@@ -100,9 +105,9 @@ TEST(ThresholdList, FindsTheDueVerticesInOrderHoweverManyAreRemoved) {
         ASSERT_GT(ledger.partDue(fifth), 0.1);
         ASSERT_LT(ledger.partDue(std::nextafter(tenth, 0.0f)), 0.2);
       }
-      for (const std::uint32_t v : due) ASSERT_EQ(list.vertices()[list.indexOf(v) - all.begin], v);
-      std::vector<std::uint32_t> removed;
-      for (const std::uint32_t v : due) {
+      for (const VertexId v : due) ASSERT_EQ(list.vertices()[list.indexOf(v) - all.begin], v);
+      std::vector<VertexId> removed;
+      for (const VertexId v : due) {
         const unsigned fate = random() % 4;
         const float later =
             fate == 0 ? ThresholdList::kNever : static_cast<float>(threshold * (1 + random() % 5));
@@ -115,7 +120,7 @@ TEST(ThresholdList, FindsTheDueVerticesInOrderHoweverManyAreRemoved) {
         }
       }
       list.remove(removed, removed.size() % 2 == 0 ? LoopThreads::all : LoopThreads::caller);
-      for (const std::uint32_t v : ledger.order)
+      for (const VertexId v : ledger.order)
         if (random() % 32 == 0) {  // those that have removed stay away
           list.makeDueIf(true, v);
           if (ledger.thresholds.count(v) != 0) ledger.thresholds[v] = ThresholdList::kNow;
@@ -131,7 +136,7 @@ TEST(ThresholdList, FindsTheDueVerticesInOrderHoweverManyAreRemoved) {
 TEST(ThresholdList, WithoutVerticesIsEmpty) {
   ThresholdList list;
   list.assign({}, std::vector<std::uint8_t>(10, 0));
-  std::vector<std::uint32_t> due{1};
+  std::vector<VertexId> due = idsOf<VertexId>({1});
   ThresholdList::Scratch scratch;
   list.collect(1, due, scratch);
   EXPECT_TRUE(due.empty() && list.empty());

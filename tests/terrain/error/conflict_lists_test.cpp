@@ -80,7 +80,7 @@ TEST_P(ConflictListsTest, MissesNoCoveredPointBeyondTheBoundsAndIsCertainOfNoneO
                std::max(reach.z, std::abs(p.z - apex.z))};
     };
     for (std::uint32_t i = 0; i < points.size(); ++i) {
-      below.add(i, points[i]);
+      below.add(VertexId(i), points[i]);
       reachTo(points[i]);
     }
     for (const Vec3& corner : t) reachTo(corner);
@@ -92,7 +92,7 @@ TEST_P(ConflictListsTest, MissesNoCoveredPointBeyondTheBoundsAndIsCertainOfNoneO
     for (auto f = triangle.nextCovered(0); f.index != below.size(); f = triangle.nextCovered(f.index + 1)) {
       found[f.index] = 1;
       if (f.isCovered) {
-        EXPECT_TRUE(covers(t, points[below[f.index]])) << "seed " << seed;
+        EXPECT_TRUE(covers(t, points[below[f.index].index()])) << "seed " << seed;
       }
     }
     for (std::size_t i = 0; i < points.size(); ++i)

@@ -9,6 +9,8 @@
 #include <cmath>
 
 #include "datasets/families.h"
+#include "engine/base/id_array.h"
+#include "engine/ids_of.h"
 #include "terrain/build/checks.h"
 #include "terrain/triangulation/finest_points.h"
 
@@ -22,11 +24,11 @@ struct Ground {
   explicit Ground(const PointHeightfield& field) : finest(*finestPoints(field)) {
     for (const std::uint32_t v : finest.order)
       points.push_back({field.positions[v].x, field.positions[v].y, field.heights[v]});
-    std::vector<std::uint32_t> pinched;
+    std::vector<VertexId> pinched;
     mesh = LiveMesh::fromTriangles(finest.triangles, static_cast<std::uint32_t>(points.size()), pinched);
   }
   FinestPoints finest;
-  std::vector<Vec3> points;
+  IdArray<VertexId, std::vector<Vec3>> points;
   LiveMesh mesh;
 };
 
@@ -34,11 +36,11 @@ struct ExactBound {
   Exact below = 0, above = 0;
 };
 
-ExactBound exactAlong(const Ground& ground, const PointPlan& plan, std::uint32_t a, std::uint32_t b) {
+ExactBound exactAlong(const Ground& ground, const PointPlan& plan, VertexId a, VertexId b) {
   struct Place {
     Exact x, y, z;
   };
-  const auto placeOf = [&](std::uint32_t v) {
+  const auto placeOf = [&](VertexId v) {
     const Vec3& p = ground.points[v];
     return Place{p.x, p.y, p.z};
   };
@@ -54,7 +56,7 @@ ExactBound exactAlong(const Ground& ground, const PointPlan& plan, std::uint32_t
   };
   for (const auto& t : ground.finest.triangles)
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t u = t[i], w = t[(i + 1) % 3];
+      const VertexId u(t[i]), w(t[(i + 1) % 3]);
       const int side = plan.orientation(a, b, u);
       const Place pu = placeOf(u), pw = placeOf(w);
       if (side == 0) meet(pu);
@@ -74,16 +76,14 @@ void expectBoundsAlongEdges(const PointHeightfield& field, const std::string& na
   const auto [low, high] = std::ranges::minmax(field.heights);
   const double slack = roundingSlack(low, high);
   const auto count = static_cast<std::uint32_t>(ground.points.size());
-  for (std::uint32_t a = 0; a < count; ++a)
+  for (const VertexId a : test::idsBelow<VertexId>(count))
     for (const std::uint32_t steps : {1u, 2u, 7u, 31u}) {
-      const std::uint32_t b = (a + steps) % count;
-      if (a == b || !ground.mesh.isInTriangle(a) ||
-          !ground.mesh.isInTriangle(b))
-        continue;
+      const VertexId b((a.index() + steps) % count);
+      if (a == b || !ground.mesh.isInTriangle(a) || !ground.mesh.isInTriangle(b)) continue;
       const SignedBound bound = errors.alongEdge(a, b);
       const ExactBound exact = exactAlong(ground, plan, a, b);
-      ASSERT_LE(exact.above, Exact(bound.above + slack)) << name << ": " << a << " to " << b;
-      ASSERT_LE(exact.below, Exact(bound.below + slack)) << name << ": " << a << " to " << b;
+      ASSERT_LE(exact.above, Exact(bound.above + slack)) << name << ": " << a.index() << " to " << b.index();
+      ASSERT_LE(exact.below, Exact(bound.below + slack)) << name << ": " << a.index() << " to " << b.index();
     }
 }
 

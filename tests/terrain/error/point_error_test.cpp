@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "datasets/families.h"
+#include "engine/base/id_array.h"
+#include "engine/ids_of.h"
 #include "terrain/triangulation/finest_points.h"
 
 namespace arete {
@@ -41,24 +43,24 @@ TEST(PointError, OfTrianglesOverAHoleIsThatOfTheApexWhereTheyCoverIt) {
       const PointHeightfield field = family.make(70, seed);
       const auto finest = finestPoints(field);
       ASSERT_TRUE(finest) << family.name;
-      std::vector<Vec3> points;
+      IdArray<VertexId, std::vector<Vec3>> points;
       for (const std::uint32_t v : finest->order)
         points.push_back({field.positions[v].x, field.positions[v].y, field.heights[v]});
-      std::vector<std::uint32_t> pinched;
+      std::vector<VertexId> pinched;
       const auto mesh =
           LiveMesh::fromTriangles(finest->triangles, static_cast<std::uint32_t>(points.size()), pinched);
       const PointPlan plan(points, finest->xStretch);
       PointError errors(plan, points, mesh);
       int covering = 0;
-      for (std::uint32_t apex = 0; apex < points.size(); ++apex) {
-        SCOPED_TRACE(testing::Message() << family.name << ", seed " << seed << ", apex " << apex);
+      for (const VertexId apex : test::idsBelow<VertexId>(points.size())) {
+        SCOPED_TRACE(testing::Message() << family.name << ", seed " << seed << ", apex " << apex.index());
         Star star;
         if (!star.gather(mesh, apex, kMaxHoleCorners - 1)) continue;
         const PointError::Hole hole(errors, star, apex);
         for (int i = 0; i < star.linkSize; ++i)
           for (int j = i + 1; j < star.linkSize; ++j)
             for (int m = j + 1; m < star.linkSize; ++m) {
-              const std::uint32_t a = star.link[i], b = star.link[j], c = star.link[m];
+              const VertexId a = star.link[i], b = star.link[j], c = star.link[m];
               if (plan.orientation(a, b, c) <= 0 || isThin(points[a], points[b], points[c])) continue;
               const bool isCovered = plan.orientation(a, b, apex) >= 0 && plan.orientation(b, c, apex) >= 0 &&
                                      plan.orientation(c, a, apex) >= 0;

@@ -77,7 +77,9 @@ void expectErrorsOfEverySample(const Oracle& oracle, std::uint32_t reach, int tr
   };
   for (int k = 0; k < triangles; ++k) {
     const std::uint32_t x = random() % columns, y = random() % rows;
-    const auto corner = [&] { return errors.corner(some(rows, int(y)) * columns + some(columns, int(x))); };
+    const auto corner = [&] {
+      return errors.corner(VertexId(some(rows, int(y)) * columns + some(columns, int(x))));
+    };
     const RasterError::Corner a = corner(), b = corner(), c = corner();
     if (std::isnan(a.z + b.z + c.z)) continue;
     if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) <= 0) continue;
@@ -152,9 +154,10 @@ TEST(RasterError, BoundsOfNeedlesAreNeverTooSmall) {
     cy += ay + along * dy;
     if (cx < 0 || cy < 0 || cx >= kSide || cy >= kSide) continue;
     ++needles;
-    const RasterError::Corner a = errors.corner(std::uint32_t(ay * kSide + ax)),
-                              b = errors.corner(std::uint32_t(by * kSide + bx)),
-                              c = errors.corner(std::uint32_t(cy * kSide + cx));
+    const auto corner = [&](std::int64_t x, std::int64_t y) {
+      return errors.corner(VertexId(std::uint32_t(y * kSide + x)));
+    };
+    const RasterError::Corner a = corner(ax, ay), b = corner(bx, by), c = corner(cx, cy);
     SignedBound found;
     errors.maximum(a, b, c, 1e300, found);
     const auto turn = [](const auto& u, const auto& v, std::int64_t x, std::int64_t y) {

@@ -19,7 +19,7 @@ TEST(RemovalCost, IsTheLargestErrorOfTheFloorByAPlainScan) {
     SmallSimplification small(11, 9, seed, HoleShape::delaunay);
     const Cost cost(small.state);
     int measured = 0;
-    for (std::uint32_t v = 0; v < small.field.size(); ++v) {
+    for (const VertexId v : small.vertices()) {
       Star star;
       RemovalRecord record{};
       MeasuredFloor floor;
@@ -49,7 +49,7 @@ TEST(RemovalCost, OfTheFinestTriangulationIsWhatAnEvaluationFinds) {
   SmallSimplification small(11, 9, 3, HoleShape::delaunay);
   const Cost cost(small.state);
   int known = 0;
-  for (std::uint32_t v = 0; v < small.field.size(); ++v) {
+  for (const VertexId v : small.vertices()) {
     RemovalRecord byFormula{}, byEvaluation{};
     cost.evaluateInFinest(v, byFormula);
     if (byFormula.state == State::stale) continue;
@@ -68,7 +68,7 @@ TEST(RemovalCost, AboveTheThresholdIsALowerBound) {
     SmallSimplification small(11, 9, 4, shape);
     const Cost cost(small.state);
     int bounded = 0;
-    for (std::uint32_t v = 0; v < small.field.size(); ++v) {
+    for (const VertexId v : small.vertices()) {
       Star star;
       RemovalRecord whole{}, early{};
       cost.evaluate(v, star, kHigh, whole);
@@ -92,13 +92,13 @@ TEST(RemovalCost, OfTheDataDependentShapeIsAtMostThatOfDelaunays) {
   SmallSimplification delaunay(11, 9, 5, HoleShape::delaunay), free(11, 9, 5, HoleShape::dataDependent);
   free.options.minimumAspect = 0;
   const Cost of(delaunay.state), ofFree(free.state);
-  for (std::uint32_t v = 0; v < free.field.size(); ++v) {
+  for (const VertexId v : free.vertices()) {
     Star star;
     RemovalRecord a{}, b{};
     of.evaluate(v, star, kHigh, a);
     ofFree.evaluate(v, star, kHigh, b);
     if (a.state == State::exact && b.state == State::exact) {
-      EXPECT_LE(b.cost, a.cost * (1 + 1e-5)) << v;
+      EXPECT_LE(b.cost, a.cost * (1 + 1e-5)) << v.index();
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/ids_of.h"
 #include "terrain/simplify/tile.h"
 #include "terrain/simplify_fixture.h"
 
@@ -12,14 +13,16 @@ namespace arete {
 namespace {
 
 using Workers = LevelWorkers<LatticePlan, RasterError>;
+using Costs = IdArray<VertexId, std::vector<RemovalRecord>>;
+using Links = IdArray<VertexId, std::vector<std::set<VertexId>>>;
 constexpr double kThreshold = 4;
 
 /// The costs of all vertices before a level, by evaluations to the end.
-std::vector<RemovalRecord> costsOf(SmallSimplification& small) {
-  std::vector<RemovalRecord> costs(small.field.size());
+Costs costsOf(SmallSimplification& small) {
+  Costs costs(small.field.size());
   const RemovalCost<LatticePlan, RasterError> cost(small.state);
   Star star;
-  for (std::uint32_t v = 0; v < costs.size(); ++v) {
+  for (const VertexId v : small.vertices()) {
     costs[v] = {};
     if (small.isFixed()[v] == 0 && small.mesh.isInTriangle(v))
       cost.evaluate(v, star, SmallSimplification::kRange, costs[v]);
@@ -27,28 +30,33 @@ std::vector<RemovalRecord> costsOf(SmallSimplification& small) {
   return costs;
 }
 
+Links linksOf(const SmallSimplification& small) {
+  Links links;
+  for (const VertexId v : small.vertices()) links.push_back(small.linkOf(v));
+  return links;
+}
+
 TEST(LevelWorkers, RemoveAMaximalIndependentSetOfTheVerticesUnderTheThreshold) {
   for (const HoleShape shape : {HoleShape::delaunay, HoleShape::dataDependent}) {
     SmallSimplification small(17, 13, 1, shape);
     const auto costs = costsOf(small);
-    std::vector<std::set<std::uint32_t>> links;
-    for (std::uint32_t v = 0; v < small.field.size(); ++v) links.push_back(small.linkOf(v));
+    const Links links = linksOf(small);
     Workers workers(small.state, nullptr);
     const std::size_t count = workers.levelOfAll(kThreshold, 1, {1, 0});
-    const std::set<std::uint32_t> left = small.verticesLeft();
+    const std::set<VertexId> left = small.verticesLeft();
     EXPECT_EQ(left.size(), small.field.size() - count);
     EXPECT_GT(count, 10u);
     EXPECT_TRUE(small.isWhole());
     EXPECT_EQ(small.state.thresholds.size(), small.field.size() - 4 - count);
-    for (std::uint32_t v = 0; v < small.field.size(); ++v) {
+    for (const VertexId v : small.vertices()) {
       const bool isCandidate = costs[v].state == RemovalRecord::State::exact && costs[v].cost <= kThreshold;
       const bool hasRemovedNeighbour =
-          std::ranges::any_of(links[v], [&](std::uint32_t u) { return !left.contains(u); });
+          std::ranges::any_of(links[v], [&](VertexId u) { return !left.contains(u); });
       if (!left.contains(v)) {
-        EXPECT_TRUE(isCandidate) << v;
-        EXPECT_FALSE(hasRemovedNeighbour) << v;
+        EXPECT_TRUE(isCandidate) << v.index();
+        EXPECT_FALSE(hasRemovedNeighbour) << v.index();
       } else if (isCandidate) {
-        EXPECT_TRUE(hasRemovedNeighbour) << v << ": nothing prevents its removal";
+        EXPECT_TRUE(hasRemovedNeighbour) << v.index() << ": nothing prevents its removal";
       }
     }
   }
@@ -63,13 +71,13 @@ TEST(LevelWorkers, RemoveNothingAboveTheThreshold) {
 
 TEST(LevelWorkers, OfSomeVerticesRemoveNoOther) {
   SmallSimplification small(17, 13, 3, HoleShape::delaunay);
-  const std::vector<std::uint32_t> some = {40, 41, 42, 100, 130, 200};
+  const std::vector<VertexId> some = test::idsOf<VertexId>({40, 41, 42, 100, 130, 200});
   Workers workers(small.state, nullptr);
   const std::size_t count = workers.levelOf(some, 100, 1, {1, 0});
   EXPECT_GE(count, 4u) << "41 is between two others";
-  for (std::uint32_t v = 0; v < small.field.size(); ++v)
+  for (const VertexId v : small.vertices())
     if (!small.mesh.isInTriangle(v)) {
-      EXPECT_NE(std::ranges::find(some, v), some.end()) << v;
+      EXPECT_NE(std::ranges::find(some, v), some.end()) << v.index();
     }
 }
 
@@ -77,35 +85,34 @@ TEST(TileWorker, RemovesVerticesOfItsTileAndHoldsThoseWithNeighboursOutside) {
   for (const HoleShape shape : {HoleShape::delaunay, HoleShape::dataDependent}) {
     SmallSimplification small(17, 13, 1, shape);
     const auto costs = costsOf(small);
-    std::vector<std::set<std::uint32_t>> links;
-    for (std::uint32_t v = 0; v < small.field.size(); ++v) links.push_back(small.linkOf(v));
+    const Links links = linksOf(small);
     const ThresholdList::Tile all = small.state.thresholds.all();
     const ThresholdList::Tile tile{all.begin + all.size() / 4, all.begin + 3 * all.size() / 4};
-    std::vector<std::uint32_t> inTile;
-    for (std::uint32_t v = 0; v < small.field.size(); ++v)
+    std::vector<VertexId> inTile;
+    for (const VertexId v : small.vertices())
       if (small.state.thresholds.isWithin(tile, v)) inTile.push_back(v);
-    const auto isIn = [&](std::uint32_t v) { return std::ranges::binary_search(inTile, v); };
+    const auto isIn = [&](VertexId v) { return std::ranges::binary_search(inTile, v); };
 
     TileWorker<LatticePlan, RasterError> worker(small.state);
     const std::size_t count = worker.levelOf(tile, kThreshold, 1, {1, 0});
     EXPECT_GT(count, 5u);
     EXPECT_TRUE(small.isWhole());
     std::size_t removed = 0;
-    for (std::uint32_t v = 0; v < small.field.size(); ++v) {
+    for (const VertexId v : small.vertices()) {
       if (small.mesh.isInTriangle(v)) continue;
       ++removed;
-      EXPECT_TRUE(isIn(v)) << v;
+      EXPECT_TRUE(isIn(v)) << v.index();
       EXPECT_LE(costs[v].cost, kThreshold);
-      for (const std::uint32_t u : links[v]) {
+      for (const VertexId u : links[v]) {
         EXPECT_TRUE(isIn(u)) << "a removed vertex has all its neighbours in the tile";
         EXPECT_TRUE(small.mesh.isInTriangle(u)) << "and none of them is removed in the same level";
       }
     }
     EXPECT_EQ(removed, count);
     EXPECT_FALSE(worker.held().empty());
-    for (const std::uint32_t v : worker.held()) {
+    for (const VertexId v : worker.held()) {
       EXPECT_TRUE(isIn(v) && small.mesh.isInTriangle(v));
-      EXPECT_FALSE(std::ranges::all_of(links[v], isIn)) << v;
+      EXPECT_FALSE(std::ranges::all_of(links[v], isIn)) << v.index();
     }
   }
 }

@@ -5,14 +5,17 @@
 
 #include <array>
 
+#include "engine/ids_of.h"
 #include "terrain/simplify/cost.h"
 #include "terrain/simplify_fixture.h"
 
 namespace arete {
 namespace {
 
+using test::idsOf;
+
 /// Removes v and joins its floor; returns its link.
-std::set<std::uint32_t> removeAlone(SmallSimplification& small, std::uint32_t v, bool isFloorKept) {
+std::set<VertexId> removeAlone(SmallSimplification& small, VertexId v, bool isFloorKept) {
   Star star;
   MeasuredFloor floor;
   const RemovalCost<LatticePlan, RasterError> cost(small.state);
@@ -20,7 +23,7 @@ std::set<std::uint32_t> removeAlone(SmallSimplification& small, std::uint32_t v,
   EXPECT_EQ(small.state.records[v].state, RemovalRecord::State::exact);
   if (!isFloorKept) floor.clear();
   const std::array<std::uint8_t, 1> size{static_cast<std::uint8_t>(star.linkSize)};
-  const std::uint32_t removal = small.recorder.beginBatch({v, 0}, size);
+  const RemovalId removal = small.recorder.beginBatch({v.index(), 0}, size);
   std::array<Seam, kMaxHoleCorners> seams;
   const std::span<Seam> own(seams.data(), std::size_t(star.linkSize));
   VertexRemover<LatticePlan, RasterError>(small.state).remove(v, star, floor, removal, own);
@@ -34,14 +37,14 @@ TEST(VertexRemover, LeavesAWholeMeshAndUpdatesTheLink) {
       if (shape == HoleShape::dataDependent && isFloorKept) continue;  // its cost keeps no floor
       SmallSimplification small(9, 8, 1, shape);
       std::size_t removed = 0;
-      for (const std::uint32_t v : {20u, 41u, 30u, 3u}) {  // inside, then on the upper border
-        const std::set<std::uint32_t> expected = small.linkOf(v);
+      for (const VertexId v : idsOf<VertexId>({20, 41, 30, 3})) {  // inside, then on the upper border
+        const std::set<VertexId> expected = small.linkOf(v);
         EXPECT_EQ(removeAlone(small, v, isFloorKept), expected);
         ++removed;
-        EXPECT_TRUE(small.isWhole()) << v;
+        EXPECT_TRUE(small.isWhole()) << v.index();
         EXPECT_FALSE(small.mesh.isInTriangle(v));
         EXPECT_EQ(small.verticesLeft().size(), small.field.size() - removed);
-        for (const std::uint32_t u : expected) EXPECT_EQ(small.state.records[u].isTouched, 1) << u;
+        for (const VertexId u : expected) EXPECT_EQ(small.state.records[u].isTouched, 1) << u.index();
       }
       std::size_t touched = 0, dead = 0;
       for (const RemovalRecord& record : small.state.records) touched += record.isTouched;
@@ -53,10 +56,10 @@ TEST(VertexRemover, LeavesAWholeMeshAndUpdatesTheLink) {
 
 TEST(VertexRemover, RecordsErrorsOfTheFloorThatAreRoundedOutwards) {
   SmallSimplification small(9, 8, 2, HoleShape::delaunay);
-  for (const std::uint32_t v : {20u, 41u, 30u, 31u}) removeAlone(small, v, false);
+  for (const VertexId v : idsOf<VertexId>({20, 41, 30, 31})) removeAlone(small, v, false);
   int checked = 0;
   for (const auto& t : small.mesh.triangles) {
-    if (t.isDead() || t.creator == LiveMesh::kNone) continue;
+    if (t.isDead() || !t.creator.isValid()) continue;
     const double plain = small.plainError(t.corners[0], t.corners[1], t.corners[2]);
     const double stored = small.recorder.scale().decode(small.recorder.codes(t.recorderId).error);
     EXPECT_GE(stored, plain - 1e-9);

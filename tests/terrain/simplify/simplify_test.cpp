@@ -5,6 +5,7 @@
 
 #include <atomic>
 
+#include "engine/ids_of.h"
 #include "terrain/simplify_fixture.h"
 
 namespace arete {
@@ -14,13 +15,13 @@ TEST(Simplifier, RemovesAllButTheFixedVerticesInAnyNumberOfTiles) {
   for (const HoleShape shape : {HoleShape::delaunay, HoleShape::dataDependent})
     for (const std::uint32_t vertices : {8192u, 40u}) {
       SmallSimplification small(25, 19, 1, shape);
-      std::vector<std::uint8_t> isFixed = small.isFixed();
-      isFixed[100] = isFixed[230] = 1;  // on the border, and inside
+      auto isFixed = small.isFixed();
+      isFixed[VertexId(100)] = isFixed[VertexId(230)] = 1;  // on the border, and inside
       const RunContext context;
       const TileOptions tiles{.most = vertices, .least = vertices, .fewest = 2, .span = 1.5};
       const auto root = Simplifier(small.state, tiles, context).run(isFixed);
       ASSERT_TRUE(root);
-      EXPECT_EQ(root->vertices, (std::vector<std::uint32_t>{0, 24, 100, 230, 450, 474}));
+      EXPECT_EQ(root->vertices, test::idsOf<VertexId>({0, 24, 100, 230, 450, 474}));
       EXPECT_EQ(root->triangles.size(), 2u + 1 + 2) << "one more on the border, two more inside";
       EXPECT_GT(root->levels, 10u);
       EXPECT_TRUE(small.isWhole());

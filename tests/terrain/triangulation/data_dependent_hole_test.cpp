@@ -23,12 +23,16 @@ struct Place {
   int x, y;
 };
 
+VertexId vertexAt(const Place& place) {
+  return VertexId(std::uint32_t(place.y * kColumns + place.x));
+}
+
 /// A polygon that is star-shaped about the middle of a raster, convex or not, with random heights.
 struct SomeHole {
   std::vector<double> heights;
   std::vector<Place> places;  // of the corners
   Star star;
-  std::uint32_t apex = kMiddle * kColumns + kMiddle;
+  VertexId apex = vertexAt({kMiddle, kMiddle});
 };
 
 std::int64_t turn(const Place& a, const Place& b, const Place& c) {
@@ -55,9 +59,7 @@ SomeHole someHole(std::mt19937_64& random, int reach, int wanted) {
     if (!isStar) continue;
     hole.places = around;
     hole.star.linkSize = hole.star.triangleCount = wanted;
-    for (int i = 0; i < wanted; ++i)
-      hole.star.link[std::size_t(i)] =
-          std::uint32_t(around[std::size_t(i)].y * kColumns + around[std::size_t(i)].x);
+    std::ranges::transform(around, hole.star.link.begin(), vertexAt);
     return hole;
   }
 }

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <random>
 #include <set>
 
+#include "engine/ids_of.h"
 #include "terrain/error/raster_error.h"
 #include "terrain/triangulation/lattice_plan.h"
 
@@ -16,11 +18,15 @@ namespace {
 
 constexpr std::uint32_t kColumns = 64, kRows = 64;
 
+VertexId vertexAt(int column, int row) {
+  return VertexId(static_cast<std::uint32_t>(row * int(kColumns) + column));
+}
+
 /// A star polygon on a lattice about the middle of a raster, convex or not, with random heights.
 struct SomeHole {
   std::vector<double> heights;
   Star star;
-  std::uint32_t apex = 32 * kColumns + 32;
+  VertexId apex = vertexAt(32, 32);
 };
 
 SomeHole someHole(std::mt19937_64& random, int reach) {
@@ -55,8 +61,15 @@ SomeHole someHole(std::mt19937_64& random, int reach) {
   half(points.rbegin(), points.rend());
   hole.star.linkSize = hole.star.triangleCount = static_cast<int>(hull.size());
   for (std::size_t i = 0; i < hull.size(); ++i)
-    hole.star.link[i] = static_cast<std::uint32_t>((32 + hull[i][1]) * int(kColumns) + 32 + hull[i][0]);
+    hole.star.link[i] = vertexAt(32 + hull[i][0], 32 + hull[i][1]);
   return hole;
+}
+
+Star starOf(std::initializer_list<std::uint32_t> link) {
+  Star star;
+  star.linkSize = star.triangleCount = static_cast<int>(link.size());
+  std::ranges::copy(test::idsOf<VertexId>(link), star.link.begin());
+  return star;
 }
 
 double signedArea(const LatticePlan& plan, const Star& star, const std::array<std::uint8_t, 3>& t) {
@@ -127,8 +140,7 @@ TEST(HoleTriangulation, OfAnyStarPolygonIsConstrainedDelaunay) {
     ++tried;
     some.star.linkSize = some.star.triangleCount = static_cast<int>(corners.size());
     for (std::size_t i = 0; i < corners.size(); ++i)
-      some.star.link[i] =
-          static_cast<std::uint32_t>((32 + corners[i][1]) * int(kColumns) + 32 + corners[i][0]);
+      some.star.link[i] = vertexAt(32 + corners[i][0], 32 + corners[i][1]);
     const LatticePlan plan(kColumns, 1 + run % 3, 1 + run % 2);
     const RasterError errors(plan, some.heights, false);
     const RasterError::Hole hole(errors, some.star, some.apex);
@@ -189,31 +201,28 @@ TEST(HoleTriangulation, OfAnUntouchedSampleCostsWhatTheRuleSays) {
     const LatticePlan plan(kWidth, 1 + run % 4, 1 + (run / 4) % 4);
     const RasterError errors(plan, heights, false);
     // The link of the middle sample, whose cells' diagonals run from the upper left to the lower right.
-    Star star;
-    star.linkSize = star.triangleCount = 6;
-    star.link = {1, 5, 8, 7, 3, 0};
-    const RasterError::Hole hole(errors, star, 4);
+    const VertexId middle(4);
+    const Star star = starOf({1, 5, 8, 7, 3, 0});
+    const RasterError::Hole hole(errors, star, middle);
     double worst = 0;
     const HoleTriangulation filled = triangulateHoleDelaunay(6, hole, true);
     for (const auto& t : filled.view()) worst = std::max(worst, hole.maximum(t[0], t[1], t[2], 1e9));
-    std::array<std::uint32_t, 3> witness;
-    EXPECT_NEAR(errors.costInFinest(4, witness), worst, 1e-12) << "run " << run;
-    for (const std::uint32_t border : {0u, 1u, 2u, 3u, 5u, 6u, 7u, 8u})
+    std::array<VertexId, 3> witness;
+    EXPECT_NEAR(errors.costInFinest(middle, witness), worst, 1e-12) << "run " << run;
+    for (const VertexId border : test::idsOf<VertexId>({0, 1, 2, 3, 5, 6, 7, 8}))
       EXPECT_EQ(errors.costInFinest(border, witness), -1);
-    heights[star.link[random() % 6]] = std::nan("");
-    EXPECT_EQ(errors.costInFinest(4, witness), -1) << "beside NODATA";
+    heights[star.link[random() % 6].index()] = std::nan("");
+    EXPECT_EQ(errors.costInFinest(middle, witness), -1) << "beside NODATA";
   }
 }
 
 TEST(HoleTriangulation, OfASquareTakesTheDiagonalCloserToTheApex) {
   std::vector<double> heights(9, 0);
   const LatticePlan plan(3, 1, 1);
-  Star star;
-  star.linkSize = star.triangleCount = 4;
-  star.link = {0, 2, 8, 6};
+  const Star star = starOf({0, 2, 8, 6});
   heights[0] = heights[8] = 10;  // the apex, 4, lies at 0 and so does the diagonal from 2 to 6
   const RasterError errors(plan, heights, false);
-  const RasterError::Hole hole(errors, star, 4);
+  const RasterError::Hole hole(errors, star, VertexId(4));
   for (const bool isUnconstrained : {true, false}) {
     const HoleTriangulation result = triangulateHoleDelaunay(4, hole, isUnconstrained);
     double worst = 0;
@@ -239,8 +248,9 @@ TEST(HoleTriangulation, MeasuresATriangleAsALookAtEverySampleDoes) {
     Star star;
     star.linkSize = star.triangleCount = 3;
     for (std::size_t i = 0; i < 3; ++i) {
-      star.link[i] = static_cast<std::uint32_t>(c[i][1] * int(kColumns) + c[i][0]);
-      if (std::isnan(heights[star.link[i]])) heights[star.link[i]] = 1;
+      star.link[i] = vertexAt(c[i][0], c[i][1]);
+      double& height = heights[star.link[i].index()];
+      if (std::isnan(height)) height = 1;
     }
     double above = 0, below = 0;
     for (int y = 0; y < int(kRows); ++y)
@@ -253,7 +263,7 @@ TEST(HoleTriangulation, MeasuresATriangleAsALookAtEverySampleDoes) {
         const double z = heights[std::size_t(y) * kColumns + std::size_t(x)];
         if (std::min({weight[0], weight[1], weight[2]}) < 0 || std::isnan(z)) continue;
         double plane = 0;
-        for (std::size_t i = 0; i < 3; ++i) plane += weight[i] * heights[star.link[i]];
+        for (std::size_t i = 0; i < 3; ++i) plane += weight[i] * heights[star.link[i].index()];
         above = std::max(above, plane - z);
         below = std::max(below, z - plane);
       }

@@ -8,11 +8,14 @@
 
 #include "datasets/families.h"
 #include "engine/cut/cut.h"
+#include "engine/ids_of.h"
 #include "terrain/build/build.h"
 #include "terrain/laws/validate_model.h"
 
 namespace arete {
 namespace {
+
+using test::idsBelow;
 
 TEST(FinestRaster, SplitsWholeCellsFromUpperLeftToLowerRightAndKeepsHalfCells) {
   RasterHeightfield field;
@@ -37,26 +40,25 @@ TEST(FinestRaster, IsTheSameAsAMeshThatLooksForItsNeighbours) {
   for (const RasterFamily& family : rasterFamilies())
     for (const auto& [columns, rows] : {std::pair{2u, 2u}, {37u, 29u}, {33u, 70u}}) {
       const RasterHeightfield field = family.make(columns, rows, 5);
-      std::vector<std::uint32_t> pinched, pinchedOfSearch;
+      std::vector<VertexId> pinched, pinchedOfSearch;
       const LiveMesh mesh = finestMesh(field, pinched);
       const LiveMesh searched = LiveMesh::fromTriangles(
           finestTriangulation(field), static_cast<std::uint32_t>(field.size()), pinchedOfSearch);
       ASSERT_EQ(mesh.triangles.size(), searched.triangles.size()) << family.name;
-      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (const SlotId t : idsBelow<SlotId>(mesh.triangles.size())) {
         EXPECT_EQ(mesh.triangles[t].corners, searched.triangles[t].corners) << family.name;
         EXPECT_EQ(mesh.triangles[t].twin, searched.triangles[t].twin) << family.name;
-        EXPECT_EQ(mesh.triangles[t].recorderId, t);
+        EXPECT_EQ(mesh.triangles[t].recorderId, RecorderId(t.index()));
       }
       std::sort(pinched.begin(), pinched.end());
       std::sort(pinchedOfSearch.begin(), pinchedOfSearch.end());
       EXPECT_EQ(pinched, pinchedOfSearch) << family.name;
-      for (std::uint32_t v = 0; v < field.size(); ++v) {
+      for (const VertexId v : idsBelow<VertexId>(field.size())) {
         const HalfedgeId h = mesh.vertexHalfedge[v], other = searched.vertexHalfedge[v];
         ASSERT_EQ(h.isValid(), other.isValid()) << family.name;
         if (!h.isValid()) continue;
         EXPECT_EQ(mesh.origin(h), v);
-        EXPECT_EQ(mesh.twinOf(h).isValid(), searched.twinOf(other).isValid())
-            << family.name;
+        EXPECT_EQ(mesh.twinOf(h).isValid(), searched.twinOf(other).isValid()) << family.name;
       }
     }
 }

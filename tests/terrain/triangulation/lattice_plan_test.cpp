@@ -24,7 +24,7 @@ TEST(LatticePlan, DividesEverySampleExactly) {
        {2u, 3u, 7u, 1201u, 3601u, 65'535u, 65'536u, 1'000'003u, 4'294'967'295u}) {
     const LatticePlan plan(columns, 1, 1);
     const auto check = [&](std::uint32_t sample) {
-      const LatticePlan::Cell cell = plan.cell(sample);
+      const LatticePlan::Cell cell = plan.cell(VertexId(sample));
       ASSERT_EQ(cell.row, sample / columns) << sample << " of " << columns;
       ASSERT_EQ(cell.column, sample % columns) << sample << " of " << columns;
     };
@@ -41,10 +41,11 @@ TEST(LatticePlan, DividesEverySampleExactly) {
 
 TEST(LatticePlan, TurnsCounterclockwiseInColumnAndRow) {
   const LatticePlan plan(10, 3, 2);
-  EXPECT_GT(plan.orientation(0, 1, 10), 0);
-  EXPECT_LT(plan.orientation(0, 10, 1), 0);
-  EXPECT_EQ(plan.orientation(0, 11, 22), 0);
-  EXPECT_EQ(plan.planPosition(37), (Vec2{7, 3})) << "columns and rows: the metric is not in it";
+  const VertexId a(0), right(1), above(10);
+  EXPECT_GT(plan.orientation(a, right, above), 0);
+  EXPECT_LT(plan.orientation(a, above, right), 0);
+  EXPECT_EQ(plan.orientation(a, VertexId(11), VertexId(22)), 0);
+  EXPECT_EQ(plan.planPosition(VertexId(37)), (Vec2{7, 3})) << "columns and rows: the metric is not in it";
 }
 
 TEST(LatticePlan, JudgesCirclesInTheMetric) {

@@ -6,7 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
+
+#include "engine/ids_of.h"
 
 namespace arete {
 namespace {
@@ -23,9 +24,9 @@ int exactThird(const PointPlan::Polygon& polygon, int i, int j) {
 /// The first is the apex.
 void expectExactThirds(const std::vector<Vec3>& points, double stretch, const std::string& name) {
   const PointPlan plan(points, stretch);
-  std::vector<std::uint32_t> link(points.size() - 1);
-  std::iota(link.begin(), link.end(), 1u);
-  const PointPlan::Polygon polygon(plan, 0, link);
+  const auto all = test::idsBelow<VertexId>(points.size());
+  const std::vector<VertexId> link(all.begin() + 1, all.end());
+  const PointPlan::Polygon polygon(plan, all.front(), link);
   const int corners = static_cast<int>(link.size());
   for (int i = 0; i < corners; ++i)
     for (int j = i + 2; j < corners; ++j)

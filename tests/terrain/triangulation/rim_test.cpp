@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "datasets/random.h"
+#include "engine/ids_of.h"
 #include "terrain/triangulation/finest_raster.h"
 
 namespace arete {
@@ -17,12 +18,14 @@ namespace {
 /// A raster with samples without data, and its finest mesh.
 struct Ground {
   RasterHeightfield field;
-  std::vector<std::uint32_t> pinched;
+  std::vector<VertexId> pinched;
   LiveMesh mesh;
   LatticePlan plan;
 
   explicit Ground(const std::vector<std::array<std::uint32_t, 2>>& voids)
       : field(with(voids)), mesh(finestMesh(field, pinched)), plan(field.columns, 1, 1) {}
+
+  auto vertices() const { return test::idsBelow<VertexId>(field.size()); }
 
  private:
   static RasterHeightfield with(const std::vector<std::array<std::uint32_t, 2>>& voids) {
@@ -44,12 +47,12 @@ TEST(Rim, AdmitsAReflexVertexWithinTheToleranceOnly) {
   for (const double tolerance : {0.2, 1.0, 3.0}) {
     const Rim rim(ground.mesh, ground.plan, tolerance);
     int here = 0;
-    for (std::uint32_t v = 0; v < ground.field.size(); ++v) {
+    for (const VertexId v : ground.vertices()) {
       if (!ground.mesh.isInTriangle(v)) continue;
       ASSERT_TRUE(star.gather(ground.mesh, v, kMaxHoleCorners));
       const LatticePlan::Cell cell = ground.plan.cell(v);
       if (!star.isOpen || cell.column == 0 || cell.row == 0 || cell.column == 11 || cell.row == 9) continue;
-      const std::uint32_t after = star.link[0], before = star.link[star.linkSize - 1];
+      const VertexId after = star.link[0], before = star.link[star.linkSize - 1];
       if (ground.plan.orientation(before, v, after) >= 0) continue;
       ++reflex;
       if (!rim.mayFill(before, v, after)) continue;
@@ -77,7 +80,7 @@ TEST(Rim, RejectsEveryFillThatWouldCoverAVertex) {
     const Ground ground(voids);
     if (!ground.pinched.empty()) continue;
     const Rim rim(ground.mesh, ground.plan, 1e6);  // the distance excludes nothing
-    std::map<std::uint32_t, std::uint32_t> next, previous;
+    std::map<VertexId, VertexId> next, previous;
     for (const LiveMesh::Triangle& t : ground.mesh.triangles)
       for (std::size_t i = 0; i < 3; ++i)
         if (!t.twin[i].isValid()) {
@@ -88,20 +91,20 @@ TEST(Rim, RejectsEveryFillThatWouldCoverAVertex) {
     for (const auto& entry : next)
       for (int forth = 1; forth <= 4; ++forth)
         for (int back = 1; back <= 4; ++back) {
-          const std::uint32_t v = entry.first;
-          std::uint32_t before = v, after = v;
+          const VertexId v = entry.first;
+          VertexId before = v, after = v;
           for (int i = 0; i < forth; ++i) after = next.at(after);
           for (int i = 0; i < back; ++i) before = previous.at(before);
           if (before == after || before == v || after == v) continue;
           if (ground.plan.orientation(before, v, after) >= 0) continue;
           bool isCovered = false;
-          for (std::uint32_t u = 0; u < ground.field.size(); ++u)
+          for (const VertexId u : ground.vertices())
             if (u != before && u != v && u != after && ground.mesh.isInTriangle(u))
               isCovered = isCovered || (ground.plan.orientation(v, before, u) >= 0 &&
                                         ground.plan.orientation(after, v, u) >= 0 &&
                                         ground.plan.orientation(before, after, u) >= 0);
           EXPECT_EQ(rim.mayFill(before, v, after), !isCovered)
-              << "trial " << trial << ": " << before << ", " << v << ", " << after;
+              << "trial " << trial << ": " << before.index() << ", " << v.index() << ", " << after.index();
           ++(isCovered ? covered : free);
         }
   }
@@ -112,26 +115,28 @@ TEST(Rim, RejectsEveryFillThatWouldCoverAVertex) {
 TEST(Rim, LetsOneFillOfALevelHaveAVertex) {
   const Ground ground({{5, 5}});
   Rim rim(ground.mesh, ground.plan, 1);
-  EXPECT_TRUE(rim.claim(1, 2, 7));
-  EXPECT_FALSE(rim.claim(2, 3, 7)) << "2 is taken";
-  EXPECT_TRUE(rim.claim(3, 4, 7)) << "a rejected claim takes neither end";
-  EXPECT_TRUE(rim.claim(2, 3, 8)) << "another level";
+  const VertexId a(1), b(2), c(3), d(4);
+  EXPECT_TRUE(rim.claim(a, b, 7));
+  EXPECT_FALSE(rim.claim(b, c, 7)) << "b is taken";
+  EXPECT_TRUE(rim.claim(c, d, 7)) << "a rejected claim takes neither end";
+  EXPECT_TRUE(rim.claim(b, c, 8)) << "another level";
 }
 
 TEST(Rim, ClosesASlitBetweenTwoVertices) {
   // Two triangles side by side that do not know each other: 0-1-2 and 2-1-3.
-  std::vector<std::uint32_t> pinched;
+  std::vector<VertexId> pinched;
   LiveMesh mesh = LiveMesh::fromTriangles({{0, 1, 2}, {2, 1, 3}}, 4, pinched);
-  const HalfedgeId h = LiveMesh::halfedge(0, 1), g = LiveMesh::halfedge(1, 0);  // 1 -> 2 and 2 -> 1
+  const SlotId first(0), second(1);
+  const HalfedgeId h = LiveMesh::halfedge(first, 1), g = LiveMesh::halfedge(second, 0);  // 1 -> 2 and 2 -> 1
   ASSERT_EQ(mesh.twinOf(h), g);
   mesh.setTwin(h, HalfedgeId());
   mesh.setTwin(g, HalfedgeId());
-  mesh.vertexHalfedge[2] = g;
+  mesh.vertexHalfedge[VertexId(2)] = g;
   Rim::closeVoid(mesh, h);
   EXPECT_EQ(mesh.twinOf(h), g);
   EXPECT_EQ(mesh.twinOf(g), h);
 
-  const HalfedgeId outer = LiveMesh::halfedge(0, 0);  // 0 -> 1: nothing runs back
+  const HalfedgeId outer = LiveMesh::halfedge(first, 0);  // 0 -> 1: nothing runs back
   Rim::closeVoid(mesh, outer);
   EXPECT_FALSE(mesh.twinOf(outer).isValid());
 }
