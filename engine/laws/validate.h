@@ -14,15 +14,16 @@ struct ValidateOptions {
   bool allowsFills = false;
 };
 
-/// Checks laws 1, 2, 3, 4 and 6 of ARCHITECTURE.md on every node, and the order of the arrays. Errors:
-/// brokenPromise: the violation with the smallest node; the message names the law, the node and the
-/// triangles.
+/// Checks laws 1, 2, 3, 4 and 6 of docs/topics/multitriangulation.md on every node, and the order of the
+/// arrays. Errors: brokenPromise: the violation with the smallest node; the message names the law, the node
+/// and the triangles.
 ///   1  acyclic: a floor's triangles were created by older nodes
 ///   2  floor and ceiling have the same boundary cycle and the same signed area
 ///   3  one creator, at most one remover, no triangle twice
 ///   4  minimal: the floor is one polygon, connected across its inner edges, and no part of it is a
-///   modification by itself 6  saturated errors and spheres contain the node's own and its children's, those
-///   of clusters and cluster groups their nodes'
+///      modification by itself
+///   6  saturated errors and spheres contain the node's own and its children's, those of clusters and cluster
+///      groups their nodes'
 /// Orientation is evaluated in double precision with an error bound, and reported only if it is certainly
 /// wrong; terrain/laws checks it exactly. Precondition: indices are in range. O(triangles), parallel.
 Status validate(const MultiTriangulation& mt, const ValidateOptions& options = {},
