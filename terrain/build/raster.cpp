@@ -157,18 +157,18 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
   SimplifiedRoot root;
   stage.emplace(context.clock, "simplify");
   {
-    RasterError errors(plan, field.heights, options.rimTolerance > 0);
-    SimplifyState<LatticePlan, RasterError> state{
-        .mesh = mesh,
-        .plan = plan,
-        .errors = errors,
-        .recorder = recorder,
-        .rim = rim.get(),
-        .options = options,
-        .metric = metric,
-        .heightRange = high - low,
-        .roundingSlack = roundingSlack(low, high),
-        .boundSlack = crossingSlack(low, high, field.columns, field.rows)};
+    const double crossing = crossingSlack(low, high, field.columns, field.rows);
+    RasterError errors(plan, field.heights, options.rimTolerance > 0, crossing);
+    SimplifyState<LatticePlan, RasterError> state{.mesh = mesh,
+                                                  .plan = plan,
+                                                  .errors = errors,
+                                                  .recorder = recorder,
+                                                  .rim = rim.get(),
+                                                  .options = options,
+                                                  .metric = metric,
+                                                  .heightRange = high - low,
+                                                  .roundingSlack = roundingSlack(low, high),
+                                                  .boundSlack = crossing};
     Result<SimplifiedRoot> simplified = Simplifier(state, tiles, context).run(isFixed);
     if (!simplified) return tl::unexpected(simplified.error());
     root = std::move(*simplified);

@@ -9,7 +9,15 @@
 #include <cmath>
 #include <utility>
 
+#include "terrain/error/exact_error.h"
+
 namespace arete {
+namespace {
+
+// Products below the first may have lost digits; the second is more than any of them has lost.
+constexpr double kUnderflow = 0x1p-900, kTiny = 0x1p-1030;
+
+}  // namespace
 
 bool PointError::covers(VertexId a, VertexId b, VertexId c, VertexId p) const {
   const Vec2 pa = plan_.planPosition(a), pb = plan_.planPosition(b), pc = plan_.planPosition(c),
@@ -39,8 +47,8 @@ double PointError::differenceOnLine(VertexId a, VertexId b, VertexId c, VertexId
   return largest;
 }
 
-/// z of the plane through a, b, c minus z of p, at p.
-double PointError::difference(VertexId a, VertexId b, VertexId c, VertexId p) const {
+/// z of the plane through a, b, c minus z of p, at p. Precondition: the triangle covers p.
+PointError::Difference PointError::difference(VertexId a, VertexId b, VertexId c, VertexId p) const {
   const Vec2 o = plan_.planPosition(a), pb = plan_.planPosition(b), pc = plan_.planPosition(c),
              q = plan_.planPosition(p);
   const double bx = pb.x - o.x, by = pb.y - o.y, cx = pc.x - o.x, cy = pc.y - o.y, x = q.x - o.x,
@@ -48,10 +56,25 @@ double PointError::difference(VertexId a, VertexId b, VertexId c, VertexId p) co
   const double left = bx * cy, right = by * cx, area = left - right;
   // The terms are rounded: an area far smaller than its terms is not reliable enough to divide by.
   constexpr double kReliable = 0x1p-30;
-  if (!(std::abs(area) > kReliable * (std::abs(left) + std::abs(right)))) return differenceOnLine(a, b, c, p);
+  const double terms = std::abs(left) + std::abs(right), riseB = position(b).z - position(a).z,
+               riseC = position(c).z - position(a).z;
+  if (riseB == 0 && riseC == 0) {  // level ground
+    const double value = position(a).z - position(p).z;
+    return {value, 0x1p-53 * std::abs(value)};
+  }
+  // The weights are between 0 and 1, so a height is right to the rises at worst.
+  if (!(std::abs(area) > kReliable * terms && terms > kUnderflow)) {
+    const double value = differenceOnLine(a, b, c, p);
+    return {value, 2 * (std::abs(riseB) + std::abs(riseC)) + 0x1p-50 * std::abs(position(a).z)};
+  }
   const double u = (x * cy - y * cx) / area, w = (bx * y - by * x) / area;
-  return position(a).z + u * (position(b).z - position(a).z) + w * (position(c).z - position(a).z) -
-         position(p).z;
+  const double value = position(a).z + u * riseB + w * riseC - position(p).z;
+  // A difference of coordinates is rounded once, a product of two of them and its sum four times.
+  const double lostU = std::abs(x * cy) + std::abs(y * cx) + std::abs(u) * terms,
+               lostW = std::abs(bx * y) + std::abs(by * x) + std::abs(w) * terms;
+  const double rounding = 0x1p-49 * (lostU * std::abs(riseB) + lostW * std::abs(riseC)) / std::abs(area) +
+                          0x1p-50 * (std::abs(riseB) + std::abs(riseC) + std::abs(position(a).z)) + kTiny;
+  return {value, rounding + 0x1p-52 * std::abs(value)};
 }
 
 namespace {
@@ -98,7 +121,7 @@ Vec3 PointError::Hole::fromApex(int i) const {
 }
 
 double PointError::Hole::apexError(int i, int j, int m) const {
-  return std::abs(errors_.difference(star_.link[i], star_.link[j], star_.link[m], apex_));
+  return std::abs(errors_.difference(star_.link[i], star_.link[j], star_.link[m], apex_).value);
 }
 
 double PointError::Hole::maximum(int i, int j, int m, double limit) const {
@@ -108,25 +131,46 @@ double PointError::Hole::maximum(int i, int j, int m, double limit) const {
        found = over.next(found.index + 1, worst, worst)) {
     if (!isCovered(found, i, j, m)) continue;
     const VertexId p = conflicts()[found.index];
-    worst = std::max(worst, std::abs(errors_.difference(star_.link[i], star_.link[j], star_.link[m], p)));
+    worst =
+        std::max(worst, std::abs(errors_.difference(star_.link[i], star_.link[j], star_.link[m], p).value));
     if (worst > limit) break;
   }
   return worst;
 }
 
-double PointError::Hole::maximum(int i, int j, int m, double limit, SignedBound& bound) const {
+double PointError::Hole::maximum(int i, int j, int m, double limit, SignedBound& bound,
+                                 double& rounding) const {
   const ConflictLists::Triangle over = triangle(i, j, m);
   double worst = 0;
+  rounding = 0;
   for (auto found = over.next(0, bound.above, bound.below); found.index != conflicts().size();
        found = over.next(found.index + 1, bound.above, bound.below)) {
     if (!isCovered(found, i, j, m)) continue;
     const VertexId p = conflicts()[found.index];
-    const double d = errors_.difference(star_.link[i], star_.link[j], star_.link[m], p);
-    bound.include(d);
-    worst = std::max(worst, std::abs(d));
+    const Difference d = errors_.difference(star_.link[i], star_.link[j], star_.link[m], p);
+    bound.include({d.rounding - d.value, d.rounding + d.value});
+    worst = std::max(worst, std::abs(d.value));
+    rounding = std::max(rounding, d.rounding);
     if (worst > limit) break;
   }
   return worst;
+}
+
+bool PointError::Hole::isAbove(int i, int j, int m, double, double, double bound) const {
+  const ConflictLists::Triangle over = triangle(i, j, m);
+  const VertexId a = star_.link[i], b = star_.link[j], c = star_.link[m];
+  for (auto found = over.next(0, bound, bound); found.index != conflicts().size();
+       found = over.next(found.index + 1, bound, bound)) {
+    if (!isCovered(found, i, j, m)) continue;
+    const VertexId p = conflicts()[found.index];
+    const Difference d = errors_.difference(a, b, c, p);
+    if (std::abs(d.value) + d.rounding <= bound) continue;
+    if (std::abs(d.value) - d.rounding > bound) return true;
+    if (isErrorAbove(errors_.position(a), errors_.position(b), errors_.position(c), errors_.position(p),
+                     bound))
+      return true;
+  }
+  return false;
 }
 
 void PointError::Hole::settle(const HoleTriangulation& floor) {

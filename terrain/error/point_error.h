@@ -54,7 +54,13 @@ class PointError {
         : errors_(errors), star_(star), apex_(apex), polygon_(errors.plan_, apex, star.linkView()) {}
     /// See RasterError::maximum().
     double maximum(int i, int j, int m, double limit) const;
-    double maximum(int i, int j, int m, double limit, SignedBound& bound) const;
+    double maximum(int i, int j, int m, double limit, SignedBound& bound, double& rounding) const;
+    double maximum(int i, int j, int m, double limit, SignedBound& bound) const {
+      double rounding;
+      return maximum(i, j, m, limit, bound, rounding);
+    }
+    /// Whether the error of the triangle exceeds `bound`. Exact arithmetic decides points near it.
+    bool isAbove(int i, int j, int m, double error, double rounding, double bound) const;
     const PointPlan::Polygon& polygon() const { return polygon_; }
     int orientationToApex(int i, int j) const { return polygon_.orientationToApex(i, j); }
     template <class PrefersLater>
@@ -93,7 +99,11 @@ class PointError {
 
  private:
   bool covers(VertexId a, VertexId b, VertexId c, VertexId p) const;
-  double difference(VertexId a, VertexId b, VertexId c, VertexId p) const;
+  struct Difference {
+    double value;     ///< z of the plane minus z of the point
+    double rounding;  ///< bounds the rounding error of `value`
+  };
+  Difference difference(VertexId a, VertexId b, VertexId c, VertexId p) const;
   double differenceOnLine(VertexId a, VertexId b, VertexId c, VertexId p) const;
 
   const PointPlan& plan_;

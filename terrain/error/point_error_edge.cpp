@@ -27,13 +27,15 @@ SignedBound PointError::alongEdge(VertexId a, VertexId b) const {
   // Where the squared length underflows, any height between those of the ends is possible at every point.
   const bool isShort = squared < 0x1p-900;
   const double rise = isShort ? 0 : climb / squared, unsure = isShort ? std::abs(climb) : 0;
+  // The heights are rounded too; on level ground they are not.
+  const double heightLost = climb == 0 ? 0 : 0x1p-50 * (std::abs(pa.z) + std::abs(climb));
   struct End {
     VertexId vertex;
     int sign = 0;           ///< exact: > 0 left of the segment, < 0 right of it
     double side = 0;        ///< twice the area of the segment and the vertex left of it
     double sideLost = 0;    ///< bounds the rounding error of `side`
     double difference = 0;  ///< z_plane - z_vertex
-    double lost = 0;        ///< bounds the rounding error of `difference`, but for that of heights
+    double lost = 0;        ///< bounds the rounding error of `difference`
   };
   const auto endAt = [&](VertexId v) -> End {
     const Vec3& p = position(v);
@@ -43,7 +45,8 @@ SignedBound PointError::alongEdge(VertexId a, VertexId b) const {
     const double difference = pa.z + (alongX + alongY) * rise - p.z;
     // The difference has a dozen roundings of each term, a side three; tiny products may have underflowed
     // [Shewchuk1997].
-    const double lost = 0x1p-49 * (std::abs(alongX) + std::abs(alongY)) * std::abs(rise) + unsure;
+    const double lost =
+        0x1p-49 * (std::abs(alongX) + std::abs(alongY)) * std::abs(rise) + heightLost + unsure;
     const double sideLost = 0x1p-51 * (std::abs(leftTerm) + std::abs(rightTerm)) + 0x1p-960;
     const int sign = int(side > sideLost) - int(side < -sideLost);
     const bool isCertain = sign != 0 || v == a || v == b;
@@ -60,7 +63,7 @@ SignedBound PointError::alongEdge(VertexId a, VertexId b) const {
   // A point on the segment is in the conflict list of one of the two triangles at the edge only; the bound of
   // the other one includes it here.
   const auto pass = [&](const End& end) {
-    if (end.vertex != b) include(end.difference, unsure);
+    if (end.vertex != b) include(end.difference, end.lost);
   };
   const auto cross = [&](const End& u, const End& w) {
     const double su = std::abs(u.side), sw = std::abs(w.side), sides = su + sw,

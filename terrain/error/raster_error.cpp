@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "terrain/error/double2.h"
+#include "terrain/error/exact_error.h"
 #include "terrain/error/triangle_rows.h"
 
 namespace arete {
@@ -35,7 +37,7 @@ struct LargestDifference {
 /// The largest and the smallest difference so far; the scan stops once either exceeds the limit.
 struct SignedDifferences {
   double limit;
-  Double2 above = {0, 0}, below = {0, 0};
+  Double2 above, below;
   void include(Double2 difference) {
     above = difference > above ? difference : above;  // false for NODATA
     below = difference < below ? difference : below;
@@ -45,6 +47,11 @@ struct SignedDifferences {
     return high > simd::maxLane(above) || low < simd::minLane(below);
   }
 };
+
+/// Twice the area of a triangle. Exact: less than twice the number of samples.
+double areaOf(const RasterError::Corner& a, const RasterError::Corner& b, const RasterError::Corner& c) {
+  return double(b.x - a.x) * double(c.y - a.y) - double(b.y - a.y) * double(c.x - a.x);
+}
 
 /// Bounds the rounding error of a difference from the plane. The plane is evaluated from rounded steps along
 /// columns and rows; the steps of a needle are differences of large numbers, so its bound is large.
@@ -59,14 +66,17 @@ struct SignedDifferences {
   return 0x1p-49 * (products[0] + products[1]) / (crossed[0] - crossed[1]);
 }
 
+/// Where numbers are so small that digits are lost below the least double, no rounding error exceeds this.
+constexpr double kTiny = 0x1p-1030;
+
 }  // namespace
 
 /// Half of the triangles that a build evaluates cover one sample beside their corners, or none. By Pick's
 /// theorem a triangle of twice the area 1 covers none, of 2 the middle of an edge, of 3 its centroid (or two
 /// samples on an edge). Returns true in these cases, with `difference` = z_plane - z at the sample; 0 where
-/// there is no sample or no data.
+/// there is no sample or no data. `rounding` bounds its rounding error, but for that of the subtraction of z.
 [[gnu::always_inline]] inline bool RasterError::isSmall(const Corner& a, const Corner& b, const Corner& c,
-                                                        double& difference) const {
+                                                        double& difference, double& rounding) const {
   const std::int64_t area = std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(b.y - a.y) * (c.x - a.x);
   if (area > 3) return false;
   std::int64_t x, y;
@@ -76,16 +86,20 @@ struct SignedDifferences {
     const Corner &u = isAB ? a : c, &v = isAB || isBC ? b : a;
     x = (u.x + v.x) / 2;
     y = (u.y + v.y) / 2;
-    z = (u.z + v.z) / 2;
+    const double sum = u.z + v.z, part = sum - u.z;
+    z = sum / 2;
+    rounding = std::abs((u.z - (sum - part)) + (v.z - part));  // the exact error of the sum [Shewchuk1997]
   } else if (area == 3) {
     x = std::int64_t(a.x) + b.x + c.x;
     y = std::int64_t(a.y) + b.y + c.y;
     if (x % 3 != 0 || y % 3 != 0) return false;
     x /= 3;
     y /= 3;
-    z = a.z + ((b.z - a.z) + (c.z - a.z)) / 3;  // of flat ground exactly its height
+    const double rise = (b.z - a.z) + (c.z - a.z), terms = std::abs(b.z - a.z) + std::abs(c.z - a.z);
+    z = a.z + rise / 3;  // of flat ground exactly its height
+    rounding = terms > 0 ? 0x1p-51 * (terms + std::abs(a.z)) + kTiny : 0;
   } else {
-    difference = 0;
+    difference = rounding = 0;
     return true;
   }
   const double height = heights_[std::size_t(y) * plan_.columns() + std::size_t(x)];
@@ -249,27 +263,78 @@ template <class Height, class Differences>
 }
 
 double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, double limit) const {
-  double only = 0;
-  if (isSmall(a, b, c, only)) return std::abs(only);
+  double only = 0, rounding = 0;
+  if (isSmall(a, b, c, only, rounding)) return std::abs(only);
   LargestDifference differences{limit};
   compare(a, b, c, differences);
   return simd::maxLane(differences.found);
 }
 
 double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, double limit,
-                            SignedBound& bound) const {
+                            SignedBound& bound, double& rounding) const {
   double only = 0;
-  if (isSmall(a, b, c, only)) {
-    bound.include(only);
+  if (isSmall(a, b, c, only, rounding)) {
+    if (rounding < unit_ / 8)
+      bound.include(only);
+    else
+      bound.include({rounding - only, rounding + only});
+    rounding += 0x1p-52 * std::abs(only);
     return std::abs(only);
   }
-  SignedDifferences differences{limit};
+  const double ofPlane = roundingOfPlane(a, b, c), area = areaOf(a, b, c);
+  rounding = ofPlane > 0 ? ofPlane + 0x1p-50 * std::abs(a.z) + kTiny : 0;
+  // The signs of multiples of unit_ / area survive a smaller rounding error. Where they may be lost, a
+  // difference within the rounding error counts as one of either sign.
+  const double unsure = rounding * area < unit_ / 4 ? 0 : rounding;
+  SignedDifferences differences{limit, broadcast(-unsure), broadcast(unsure)};
   compare(a, b, c, differences);
   const double high = simd::maxLane(differences.above), low = simd::minLane(differences.below);
-  const double rounding = roundingOfPlane(a, b, c);
-  bound.above = std::max(bound.above, high > 0 ? high + rounding : 0);
-  bound.below = std::max(bound.below, low < 0 ? rounding - low : 0);
-  return std::max(high, -low);
+  const double widening = std::max(ofPlane, unsure);
+  bound.above = std::max(bound.above, high > -unsure ? high + widening : 0);
+  bound.below = std::max(bound.below, low < unsure ? widening - low : 0);
+  const double error = std::max({high, -low, 0.0});
+  rounding += 0x1p-52 * error;
+  return error;
+}
+
+bool RasterError::isAbove(const Corner& a, const Corner& b, const Corner& c, double error, double rounding,
+                          double bound) const {
+  const double area = areaOf(a, b, c), units = error * area / unit_;
+  constexpr double kMost = 0x1p50;
+  // Both products are exact: a bound is a float.
+  if (rounding * area < unit_ / 4 && units < kMost) return std::nearbyint(units) * unit_ > bound * area;
+  return isAnySampleAbove(a, b, c, bound);
+}
+
+bool RasterError::isAnySampleAbove(const Corner& a, const Corner& b, const Corner& c, double bound) const {
+  const std::array corners = {a, b, c};
+  const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
+  const auto floorOf = [](std::int64_t numerator, std::int64_t denominator) {  // denominator > 0
+    return numerator >= 0 ? numerator / denominator : -((denominator - 1 - numerator) / denominator);
+  };
+  const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y, dzB = b.z - a.z,
+               dzC = c.z - a.z, area = bx * cy - by * cx;
+  const double rounding = 0x1p-49 * (std::abs(dzB) + std::abs(dzC) + std::abs(a.z)) + kTiny;
+  const auto vecOf = [](const Corner& p) { return Vec3{double(p.x), double(p.y), p.z}; };
+  for (std::int64_t y = top; y <= bottom; ++y) {
+    std::int64_t left = std::numeric_limits<std::int64_t>::min(), right = -(left + 1);
+    for (int i = 0; i < 3; ++i) {
+      const Corner &from = corners[i], &to = corners[(i + 1) % 3];
+      const std::int64_t dx = to.x - from.x, dy = to.y - from.y;
+      if (dy > 0) right = std::min(right, from.x + floorOf(dx * (y - from.y), dy));
+      if (dy < 0) left = std::max(left, from.x - floorOf(dx * (y - from.y), -dy));
+    }
+    for (std::int64_t x = left; x <= right; ++x) {
+      const double z = heights_[std::size_t(y) * plan_.columns() + std::size_t(x)];
+      // The weights are exact and between 0 and 1.
+      const double dx = double(x - a.x), dy = double(y - a.y);
+      const double difference = (a.z - z) + ((dx * cy - dy * cx) * dzB + (bx * dy - by * dx) * dzC) / area;
+      if (!(std::abs(difference) + rounding + 0x1p-51 * std::abs(difference) > bound))
+        continue;  // NODATA too
+      if (isErrorAbove(vecOf(a), vecOf(b), vecOf(c), {double(x), double(y), z}, bound)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace arete

@@ -10,6 +10,7 @@
 #include "engine/simplify/live_mesh.h"
 #include "terrain/error/edge_crossing_table.h"
 #include "terrain/error/height_blocks.h"
+#include "terrain/error/height_unit.h"
 #include "terrain/error/sample_heights.h"
 #include "terrain/error/signed_bound.h"
 #include "terrain/error/triangle_scan_table.h"
@@ -103,8 +104,16 @@ class RasterError {
     double maximum(int i, int j, int m, double limit) const {
       return errors_.maximum(corners_[i], corners_[j], corners_[m], limit);
     }
+    double maximum(int i, int j, int m, double limit, SignedBound& bound, double& rounding) const {
+      return errors_.maximum(corners_[i], corners_[j], corners_[m], limit, bound, rounding);
+    }
     double maximum(int i, int j, int m, double limit, SignedBound& bound) const {
-      return errors_.maximum(corners_[i], corners_[j], corners_[m], limit, bound);
+      double rounding;
+      return maximum(i, j, m, limit, bound, rounding);
+    }
+    /// RasterError::isAbove() of the triangle i, j, m.
+    bool isAbove(int i, int j, int m, double error, double rounding, double bound) const {
+      return errors_.isAbove(corners_[i], corners_[j], corners_[m], error, rounding, bound);
     }
     SignedBound alongEdge(int i, int j) const { return errors_.alongEdge(corners_[i], corners_[j]); }
     /// See PointError::Hole::settle(): a raster has nothing to redistribute.
@@ -148,12 +157,17 @@ class RasterError {
   /// @param heights  row by row, NaN for NODATA
   /// @param reachesBeyondRims  whether triangles may extend beyond the rim of the domain (a rim tolerance is
   ///        in use)
-  RasterError(const LatticePlan& plan, std::span<const double> heights, bool reachesBeyondRims)
+  /// @param crossingRounding  bounds the rounding error of alongEdge()
+  RasterError(const LatticePlan& plan, std::span<const double> heights, bool reachesBeyondRims,
+              double crossingRounding = 0)
       : plan_(plan),
         heights_(heights),
         rows_(static_cast<std::uint32_t>(heights.size() / plan.columns())),
         reachesBeyondRims_(reachesBeyondRims),
         roundUp_(0.5 - 0.5 / rows_),
+        unit_(commonUnit(heights)),
+        crossingRounding_(crossingRounding),
+        areCrossingsSure_(4 * crossingRounding * std::max(plan.columns(), rows_) < unit_),
         blocks_(heights, plan.columns()),
         clearance_(heights, plan.columns()),
         edgeCrossings_(plan.columns()) {
@@ -239,7 +253,20 @@ class RasterError {
 
   /// The same; also extends `bound` by the signed differences at the covered samples, complete where the
   /// result is <= limit.
-  double maximum(const Corner& a, const Corner& b, const Corner& c, double limit, SignedBound& bound) const;
+  /// @param rounding  receives a bound of the result's rounding error
+  double maximum(const Corner& a, const Corner& b, const Corner& c, double limit, SignedBound& bound,
+                 double& rounding) const;
+  double maximum(const Corner& a, const Corner& b, const Corner& c, double limit, SignedBound& bound) const {
+    double rounding;
+    return maximum(a, b, c, limit, bound, rounding);
+  }
+
+  /// Whether the error of a triangle exceeds `bound`, exactly. All heights being multiples of a unit, the
+  /// error is a multiple of unit / doubled area; where its rounding error is less than half of that, this is
+  /// O(1). Otherwise the samples are scanned, and exact arithmetic decides those near the bound.
+  /// @param error, rounding  from maximum(), not stopped by a limit
+  bool isAbove(const Corner& a, const Corner& b, const Corner& c, double error, double rounding,
+               double bound) const;
 
   /// Bounds of the signed difference between the segment a-b and the finest triangulation at the points where
   /// the segment crosses its edges. Together with the samples inside, these points contain the extremes of
@@ -252,7 +279,8 @@ class RasterError {
  private:
   SignedBound alongShortEdge(const Corner& a, const Corner& b) const;
   SignedBound alongLongEdge(const Corner& a, const Corner& b) const;
-  bool isSmall(const Corner& a, const Corner& b, const Corner& c, double& difference) const;
+  bool isSmall(const Corner& a, const Corner& b, const Corner& c, double& difference, double& rounding) const;
+  bool isAnySampleAbove(const Corner& a, const Corner& b, const Corner& c, double bound) const;
   template <class Height, class Differences>
   class PlaneDifferences;
   template <class Differences>
@@ -268,7 +296,10 @@ class RasterError {
   SampleHeights heights_;
   std::uint32_t rows_;
   bool reachesBeyondRims_;
-  double roundUp_;  // see TriangleRows
+  double roundUp_;           // see TriangleRows
+  double unit_;              // see commonUnit()
+  double crossingRounding_;  // of alongEdge()
+  bool areCrossingsSure_;    // whether the sign of a difference along an edge is never lost to rounding
   HeightBlocks blocks_;
   VoidClearance clearance_;
   EdgeCrossingTable edgeCrossings_;

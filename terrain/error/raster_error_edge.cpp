@@ -16,12 +16,19 @@
 namespace arete {
 namespace {
 
+/// What the rounding error of a difference may be where the segment rises `dz` and the crossed edge
+/// `between`: nothing on level ground.
+inline double lostOf(double dz, double between, double rounding) {
+  return dz == 0 && between == 0 ? 0 : rounding;
+}
+
 /// Collects the segment's height minus the finest triangulation's where the segment crosses lattice lines.
-template <class Height>
+/// Unless kIsSure, a difference within `rounding` counts as one of either sign.
+template <bool kIsSure, class Height>
 class LongEdge {
  public:
   LongEdge(const RasterError::Corner& a, const RasterError::Corner& b, const Height* heights,
-           std::size_t columns, std::uint32_t rows)
+           std::size_t columns, std::uint32_t rows, double rounding)
       : x0_(a.x),
         y0_(a.y),
         dx_(b.x - a.x),
@@ -30,7 +37,8 @@ class LongEdge {
         dz_(b.z - a.z),
         heights_(heights),
         columns_(columns),
-        rows_(rows) {}
+        rows_(rows),
+        rounding_(rounding) {}
 
   /// Precondition: the segment does not run along a column.
   void crossColumns() {
@@ -102,8 +110,9 @@ class LongEdge {
   /// The crossing at the part t of the segment, a fraction f of the way between two samples' heights.
   void include(double t, double from, double to, double f) {
     const double difference = z0_ + dz_ * t - (from + f * (to - from));
-    high_ = difference > high_ ? difference : high_;  // false for NODATA
-    low_ = difference < low_ ? difference : low_;
+    const double lost = kIsSure ? 0 : lostOf(dz_, to - from, rounding_);
+    high_ = difference + lost > high_ ? difference + lost : high_;  // false for NODATA
+    low_ = difference - lost < low_ ? difference - lost : low_;
   }
 
   std::int64_t x0_, y0_, dx_, dy_;
@@ -111,6 +120,7 @@ class LongEdge {
   const Height* heights_;
   std::size_t columns_;
   std::uint32_t rows_;
+  double rounding_;
   double high_ = 0, low_ = 0;
 };
 
@@ -120,14 +130,21 @@ SignedBound RasterError::alongShortEdge(const Corner& a, const Corner& b) const 
   const double dz = b.z - a.z;
   const std::size_t start = std::size_t(a.y) * plan_.columns() + std::size_t(a.x);
   double high = 0, low = 0;
-  heights_.with([&](const auto* heights) {
+  const auto include = [&](const auto* heights, const auto& lostAt) {
     heights += start;
     for (const EdgeCrossingTable::Crossing& crossing : edgeCrossings_.of(b.x - a.x, b.y - a.y)) {
       const double from = heights[crossing.from], to = heights[crossing.to];
       const double difference = a.z + dz * crossing.along - (from + crossing.between * (to - from));
-      high = difference > high ? difference : high;  // false for NODATA
-      low = difference < low ? difference : low;
+      const double lost = lostAt(to - from);
+      high = difference + lost > high ? difference + lost : high;  // false for NODATA
+      low = difference - lost < low ? difference - lost : low;
     }
+  };
+  heights_.with([&](const auto* heights) {
+    if (areCrossingsSure_)
+      include(heights, [](double) { return 0.0; });
+    else
+      include(heights, [&](double between) { return lostOf(dz, between, crossingRounding_); });
   });
   return {0 - low, high};  // -low would give -0
 }
@@ -136,13 +153,17 @@ SignedBound RasterError::alongLongEdge(const Corner& a, const Corner& b) const {
   const std::int32_t dx = b.x - a.x, dy = b.y - a.y;
   // An edge along a column, a row or a diagonal crosses edges of the finest triangulation at samples only.
   if (dx == 0 || dy == 0 || (dx == dy && !reachesBeyondRims_)) return {};
-  return heights_.with([&](const auto* heights) {
-    LongEdge edge(a, b, heights, plan_.columns(), rows_);
+  const auto boundOf = [&](auto&& edge) {
     edge.crossColumns();
     edge.crossRows();
     edge.crossDiagonals();
     if (reachesBeyondRims_) edge.crossDiagonalsOfHalfCells();
     return edge.bound();
+  };
+  return heights_.with([&]<class Height>(const Height* heights) {
+    const std::size_t columns = plan_.columns();
+    if (areCrossingsSure_) return boundOf(LongEdge<true, Height>(a, b, heights, columns, rows_, 0));
+    return boundOf(LongEdge<false, Height>(a, b, heights, columns, rows_, crossingRounding_));
   });
 }
 

@@ -74,8 +74,10 @@ class RemovalCost {
     MeasuredFloor& floor;
     double measure(const Hole& hole, int i, int j, int m, double limit) const {
       SignedBound bound;
-      const double error = hole.maximum(i, j, m, limit, bound);
+      double rounding;
+      const double error = hole.maximum(i, j, m, limit, bound, rounding);
       const auto f = static_cast<std::size_t>(floor.triangulation.size);
+      floor.roundings[f] = rounding;
       floor.errors[f] = error;
       floor.bounds[f] = bound;
       floor.triangulation.add(i, j, m);

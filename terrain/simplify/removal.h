@@ -85,8 +85,7 @@ class VertexRemover {
     const OutwardScale& scale = s_.recorder.scale();
     const auto encode = [&](double bound) { return scale.encode(outward(bound)); };
     for (int f = 0; f < floor.triangulation.size; ++f)
-      codes_[f] = {scale.encode(withoutRounding(floor.errors[f])), encode(floor.bounds[f].below),
-                   encode(floor.bounds[f].above)};
+      codes_[f] = {errorCode(hole, floor, f), encode(floor.bounds[f].below), encode(floor.bounds[f].above)};
     // The bounds of the star's triangles hold for their edges too. So a rim edge is scanned only if the
     // bounds of its former triangle exceed those of the floor's triangle, which is rare.
     const int corners = star.linkSize;
@@ -148,10 +147,28 @@ class VertexRemover {
   /// A bound enlarged by the rounding of the scan, as it must hold exactly. 0 stays 0. (A multiplication
   /// instead of a branch: zeros are not predictable.)
   double outward(double x) const { return (x * (1 + 1e-9) + s_.boundSlack) * (x == 0 ? 0 : 1); }
-  /// An error lessened by the rounding of its arithmetic, so that an error that equals a code of the scale
-  /// but for its last bits is stored as that code: with integer heights errors of exactly 1 are common, and a
-  /// tolerance of 1 must admit them.
-  double withoutRounding(double x) const { return std::max(0.0, x - s_.roundingSlack); }
+  /// The least code whose magnitude is at least the exact error of triangle f. Where codes lie within the
+  /// rounding error of the computed one, exact arithmetic decides: with integer heights errors of exactly 1
+  /// are common, and a tolerance of 1 must admit them.
+  OutwardScale::Code errorCode(const typename Errors::Hole& hole, const MeasuredFloor& floor, int f) const {
+    const OutwardScale& scale = s_.recorder.scale();
+    const double error = floor.errors[f], rounding = floor.roundings[f];
+    OutwardScale::Code low = scale.encode(std::max(0.0, error - rounding));
+    if (scale.decode(low) >= error + rounding) [[likely]]
+      return low;
+    // No error exceeds the range of the heights, however much the arithmetic may have lost.
+    OutwardScale::Code high =
+        scale.encode(std::min(error + rounding, static_cast<double>(scale.decode(OutwardScale::kMaxCode))));
+    const auto [i, j, m] = floor.triangulation.triangles[f];
+    while (low < high) {
+      const auto middle = static_cast<OutwardScale::Code>((low + high) / 2);
+      if (hole.isAbove(i, j, m, error, rounding, scale.decode(middle)))
+        low = static_cast<OutwardScale::Code>(middle + 1);
+      else
+        high = middle;
+    }
+    return low;
+  }
 
   SimplifyState<Plan, Errors>& s_;
   // Members, so that no removal initialises them.

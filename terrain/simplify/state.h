@@ -26,7 +26,9 @@ namespace arete {
 ///   hole.fromApex(i)                             a corner relative to the apex
 ///   hole.maximum(i, j, m, limit)                 error of the triangle of three corners, or some value
 ///                                                above the limit
-///   hole.maximum(i, j, m, limit, bound)          the same, with the signed difference at the samples
+///   hole.maximum(i, j, m, limit, bound, rounding)  the same, with the signed difference at the samples
+///                                                and a bound of the result's rounding error
+///   hole.isAbove(i, j, m, error, rounding, x)    whether the exact error exceeds x
 ///   hole.position(i), hole.apexPosition()        corner and apex, plan coordinates and height
 ///   hole.alongEdge(i, j)                         signed difference along an edge
 ///   hole.settle(floor)                           after a refill: assigns samples to the new triangles
@@ -40,7 +42,7 @@ struct SimplifyState {
   const BuildOptions& options;
   MetricFrame metric;
   double heightRange = 0;
-  double roundingSlack = 0;  ///< largest rounding error of a triangle's error
+  double roundingSlack = 0;  ///< by how much two ways of computing an error may differ
   double boundSlack = 0;     ///< largest rounding error of a bound between samples
 
   ThresholdList thresholds = {};
