@@ -8,9 +8,11 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <variant>
 
 #include "cli/arguments/arguments.h"
 #include "io/amt/file.h"
+#include "terrain/laws/compare_source.h"
 #include "terrain/laws/validate_model.h"
 
 namespace arete {
@@ -18,6 +20,7 @@ namespace {
 
 struct ValidateArguments {
   std::string model;
+  DemArguments source;
   ValidateModelOptions options;
 };
 
@@ -36,6 +39,7 @@ constexpr std::array kLaws = {
     Law{7, "fixed vertices are in the root"},
     Law{8, "the finest front is the source's samples"},
     Law{9, "every front is Delaunay"},
+    Law{10, "stored errors and bounds are at least the true ones"},
 };
 
 /// Whether the model claims the law: law 9 holds for the Delaunay shape with exact rims only.
@@ -43,16 +47,61 @@ bool isClaimed(const Law& law, const TerrainModel& model) {
   return law.number != 9 || (model.options.shape == HoleShape::delaunay && model.options.rimTolerance == 0);
 }
 
+/// How the source is read: as the command says, or as it was read for the build.
+SourceReading readingOf(const SourceReading& stated, const SourceReading& built) {
+  SourceReading reading = stated;
+  if (!reading.band) reading.band = built.band;
+  if (reading.layer.empty()) reading.layer = built.layer;
+  if (reading.zField.empty()) reading.zField = built.zField;
+  if (reading.crs.empty()) reading.crs = built.crs;
+  if (!reading.nodata) reading.nodata = built.nodata;
+  return reading;
+}
+
+/// Compares every height with the source.
+/// @return the number of heights compared
+Result<std::uint64_t> compare(const ValidateArguments& arguments, const TerrainModel& model,
+                              Session& session) {
+  DemArguments source = arguments.source;
+  source.reading = readingOf(source.reading, model.reading);
+  const Result<DemRead> dem = source.read(session);
+  if (!dem) return tl::unexpected(dem.error());
+  return std::visit([&](const auto& field) { return compareWithSource(model, field); }, dem->heightfield);
+}
+
+/// What the checks of a law covered, where that is not everything.
+std::string scopeOf(const Law& law, const ErrorsChecked& checked) {
+  if (law.number != 10) return {};
+  return checked.areAll()
+             ? fmt::format(" (all {} triangles)", checked.triangles)
+             : fmt::format(" ({} of {} triangles; --full checks all)", checked.checked, checked.triangles);
+}
+
 Status runValidate(const ValidateArguments& arguments, Session& session) {
   const Result<TerrainModel> model = loadAmt(arguments.model, {}, session.context());
   if (!model) return tl::unexpected(model.error());
-  const Status valid = validateModel(*model, arguments.options, session.context());
+  ErrorsChecked checked;
+  Status valid = validateModel(*model, arguments.options, session.context(), &checked);
   if (!valid && valid.error().code == ErrorCode::interrupted) return valid;
+  std::uint64_t compared = 0;
+  if (valid && !arguments.source.path.empty()) {
+    const auto same = compare(arguments, *model, session);
+    if (same)
+      compared = *same;
+    else if (same.error().code != ErrorCode::brokenPromise)
+      return tl::unexpected(same.error());
+    else
+      valid = tl::unexpected(same.error());
+  }
   if (valid) {
     std::string text = fmt::format("{}: checksums, indices and every law hold\n", arguments.model);
     for (const Law& law : kLaws)
-      text += fmt::format("  law {}  {}  {}\n", law.number,
-                          isClaimed(law, *model) ? "holds" : "is not claimed", law.says);
+      text +=
+          fmt::format("  law {:<2}  {}  {}{}\n", law.number,
+                      isClaimed(law, *model) ? "holds" : "is not claimed", law.says, scopeOf(law, checked));
+    text += arguments.source.path.empty()
+                ? "  heights not compared with the source (--against)\n"
+                : fmt::format("  heights all {} are those of {}\n", compared, arguments.source.path);
     session.say(text);
   }
   Json laws = Json::array();
@@ -62,6 +111,12 @@ Status runValidate(const ValidateArguments& arguments, Session& session) {
                {"holds", valid.has_value()},
                {"randomFronts", arguments.options.randomFronts},
                {"seed", arguments.options.seed}};
+  if (valid) {
+    json["errorsChecked"] = {{"triangles", checked.checked}, {"of", checked.triangles}};
+    json["heightsCompared"] = arguments.source.path.empty()
+                                  ? Json("not compared")
+                                  : Json({{"with", arguments.source.path}, {"heights", compared}});
+  }
   if (valid)
     json["laws"] = std::move(laws);
   else
@@ -77,6 +132,7 @@ void addValidateCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<ValidateArguments>();
   CLI::App* command = session.addCommand(app, "validate", "Check all laws of a multitriangulation",
                                          "  arete validate dem.amt\n"
+                                         "  arete validate dem.amt --full --against dem.tif\n"
                                          "  arete validate dem.amt --fronts 100 --seed 7",
                                          [arguments](Session& s) { return runValidate(*arguments, s); });
   command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
@@ -85,9 +141,18 @@ void addValidateCommand(CLI::App& app, Session& session) {
                    "Number of random fronts to check, beside the uniform ones (default 8)")
       ->check(wholeNumber(0, 1'000'000))
       ->type_name("N");
-  command->add_option("--seed", arguments->options.seed, "Seed of the random fronts (default 1)")
+  command
+      ->add_option("--seed", arguments->options.seed,
+                   "Seed of the random fronts and of the triangles of law 10 (default 1)")
       ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()))
       ->type_name("N");
+  command->add_flag("--full", arguments->options.everyTriangle,
+                    "Check law 10 on every triangle (default: on 65 536 where there are more)");
+  command
+      ->add_option("--against", arguments->source.path,
+                   "DEM that the model was built from: every height is compared")
+      ->type_name("DEM");
+  arguments->source.addTo(*command);
 }
 
 }  // namespace arete

@@ -17,6 +17,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "engine/base/caught_failure.h"
@@ -25,6 +26,7 @@
 #include "io/gdal/support.h"
 #include "io/gdal/zipped_raster.h"
 #include "io/table/point_text.h"
+#include "terrain/model/lone_heights.h"
 
 namespace arete {
 namespace {
@@ -191,6 +193,20 @@ std::optional<std::string> crsWarning(const Heightfield& field) {
          "heights; state the CRS (EPSG:4326 for longitude and latitude)";
 }
 
+/// A warning of heights that stand alone. A reader of rasters warns itself of heights beyond 1e30.
+template <class Heightfield>
+std::optional<std::string> loneHeightsWarning(const Heightfield& field) {
+  double scale = 1, offset = 0;
+  if constexpr (std::is_same_v<Heightfield, RasterHeightfield>) {
+    scale = field.rawScale;
+    offset = field.rawOffset;
+  }
+  const LoneHeights lone = loneHeights(field.heights, scale, offset);
+  constexpr double kHuge = 1e30;
+  if (lone.count == 0 || std::max(-lone.lowest, lone.highest) > kHuge) return std::nullopt;
+  return describe(lone, scale, offset);
+}
+
 }  // namespace
 
 Result<DemRead> readDem(const std::string& path, const SourceReading& reading,
@@ -198,6 +214,9 @@ Result<DemRead> readDem(const std::string& path, const SourceReading& reading,
   Result<DemRead> read = readFrom(path, reading, context);
   if (!read) return read;
   if (auto warning = std::visit([](const auto& field) { return crsWarning(field); }, read->heightfield))
+    read->warnings.push_back(std::move(*warning));
+  if (auto warning =
+          std::visit([](const auto& field) { return loneHeightsWarning(field); }, read->heightfield))
     read->warnings.push_back(std::move(*warning));
   return read;
 } catch (...) {

@@ -28,8 +28,6 @@ namespace {
 
 /// Heights are written as float32 if rounding changes them by less than this, in their unit.
 constexpr double kNegligibleRounding = 1e-3;
-/// Rounding that does not break a promise, in the unit of the heights: acceptedError() of measure.h.
-constexpr double kForgivenRounding = 1e-6;
 
 /// The largest stored error of the triangles that meet the region.
 double storedErrorInside(const TerrainModel& model, const Cut& cut, const Region& region) {
@@ -189,10 +187,10 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
   ExtractedTin tin;
   Result<TriangleMesh> mesh = cutAndWrite(request, 0, std::move(taken), tin, context);
   if (!mesh) return tl::unexpected(mesh.error());
-  // Twice, because another cut may be rounded differently. measure() itself accepts a millionth.
+  // Twice, because another cut may be rounded differently.
   const double reserve = 2 * tin.format.heightRounding;
   const double promised = tin.promisedError;
-  if (reserve > kForgivenRounding && request.criterion.promisesMaxError() && reserve < promised &&
+  if (reserve > 0 && request.criterion.promisesMaxError() && reserve < promised &&
       tin.storedError + reserve > promised) {
     if (Status deep = deepen(promised, reserve, context); !deep) return tl::unexpected(deep.error());
     mesh = cutAndWrite(request, reserve, std::nullopt, tin, context);

@@ -45,6 +45,30 @@ Status checkSpan(const Vec3& span, const std::string& source) {
       source);
 }
 
+Status checkPositions(const RasterHeightfield& heightfield) {
+  // Twice this, and the tolerance of measure() would reach a tenth of a pixel.
+  constexpr double kMostPixels = 1.0 / 80;
+  const Georeference& georeference = heightfield.georeference;
+  const auto& g = georeference.geoTransform;
+  const double area = std::abs(georeference.determinant());
+  for (const double column : {-0.5, heightfield.columns - 0.5})
+    for (const double row : {-0.5, heightfield.rows - 0.5}) {
+      const Vec2 at = georeference.toSource(column, row);
+      const double x = 0x1p-53 * std::max(std::abs(at.x), std::abs(g[0])),
+                   y = 0x1p-53 * std::max(std::abs(at.y), std::abs(g[3]));
+      const double pixels =
+          std::max(x * std::abs(g[5]) + y * std::abs(g[2]), x * std::abs(g[4]) + y * std::abs(g[1])) / area;
+      if (!(pixels <= kMostPixels))
+        return failure(
+            ErrorCode::invalidData,
+            fmt::format("x {} and y {} are too far from the origin for pixels so small: numbers of 64 "
+                        "bits round positions there by {:.2g} pixels",
+                        at.x, at.y, pixels),
+            heightfield.source);
+    }
+  return {};
+}
+
 std::string whyNoTriangle(const RasterHeightfield& heightfield) {
   std::size_t valid = 0;
   for (const double z : heightfield.heights) valid += std::isnan(z) ? 0 : 1;

@@ -19,6 +19,10 @@ Status checkOptions(const BuildOptions& options, std::size_t sampleCount);
 /// invalidData.
 Status checkSpan(const Vec3& span, const std::string& source);
 
+/// Whether coordinates far from the origin still tell the samples of a raster apart: to a hundredth of a
+/// pixel. Errors: invalidData.
+Status checkPositions(const RasterHeightfield& heightfield);
+
 /// A sentence for a raster without a single triangle.
 std::string whyNoTriangle(const RasterHeightfield& heightfield);
 

@@ -15,6 +15,7 @@
 #include "terrain/build/build.h"
 #include "terrain/build/build_in_tiles.h"
 #include "terrain/build/checks.h"
+#include "terrain/build/remote_heights.h"
 #include "terrain/error/point_error.h"
 #include "terrain/model/height_encoding.h"
 #include "terrain/model/plan_box.h"
@@ -57,25 +58,28 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
   for (const std::uint32_t p : options.fixedVertices) isFixedPoint[p] = 1;
   for (std::uint32_t v = 0; v < pointCount; ++v) isFixed[v] |= isFixedPoint[ground[v]];
 
-  const auto [low, high] = std::minmax_element(field.heights.begin(), field.heights.end());
-  if (!(*high - *low < 1e30))
-    return failure(ErrorCode::invalidData, fmt::format("heights from {} to {} span too much", *low, *high),
-                   field.source);
+  const auto [lowest, highest] = std::minmax_element(field.heights.begin(), field.heights.end());
+  if (!(*highest - *lowest < 1e30))
+    return failure(ErrorCode::invalidData,
+                   fmt::format("heights from {} to {} span too much", *lowest, *highest), field.source);
+  const auto [low, high] = fixRemoteHeights(
+      mesh, loneHeights(field.heights), [&](std::uint32_t v) { return field.heights[ground[v]]; },
+      {*lowest, *highest}, isFixed);
   const Box2 box = planBox(field.positions);
   const Vec2 centre{(box.xMin + box.xMax) / 2, (box.yMin + box.yMax) / 2};
   const Vec2 grid = field.georeference.toGrid(centre.x, centre.y);
   const Vec2 step = groundStep(field.georeference, grid.x, grid.y);
   MetricFrame metric;
-  metric.origin = {centre.x, centre.y, (*low + *high) / 2};
+  metric.origin = {centre.x, centre.y, (low + high) / 2};
   metric.scale = {step.x, step.y, field.georeference.verticalUnitMetres};
   const Vec3 span{(box.xMax - box.xMin) * step.x, (box.yMax - box.yMin) * step.y,
-                  (*high - *low) * metric.scale.z};
+                  (high - low) * metric.scale.z};
   if (const Status valid = checkSpan(span, field.source); !valid) return tl::unexpected(valid.error());
   const double stretch = finest.xStretch;
   model.metricP = stretch >= 1 ? static_cast<std::uint32_t>(stretch) : 1;
   model.metricQ = stretch >= 1 ? 1 : static_cast<std::uint32_t>(1 / stretch);
 
-  MtRecorder recorder(finestCount, pointCount, OutwardScale(*high - *low), metric);
+  MtRecorder recorder(finestCount, pointCount, OutwardScale(high - low), metric);
   SimplifiedRoot root;
   stage.emplace(context.clock, "simplify");
   {
@@ -86,7 +90,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
     }
     const PointPlan plan(points, stretch);
     PointError errors(plan, points, mesh);
-    const double slack = roundingSlack(*low, *high);
+    const double slack = roundingSlack(low, high);
     SimplifyState<PointPlan, PointError> state{.mesh = mesh,
                                                .plan = plan,
                                                .errors = errors,
@@ -94,7 +98,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
                                                .rim = nullptr,
                                                .options = options,
                                                .metric = metric,
-                                               .heightRange = *high - *low,
+                                               .heightRange = high - low,
                                                .roundingSlack = slack,
                                                .boundSlack = slack};
     Result<SimplifiedRoot> simplified = Simplifier(state, tiles, context).run(isFixed);

@@ -19,6 +19,7 @@
 #include "terrain/build/build.h"
 #include "terrain/build/build_in_tiles.h"
 #include "terrain/build/checks.h"
+#include "terrain/build/remote_heights.h"
 #include "terrain/error/raster_error.h"
 #include "terrain/model/height_encoding.h"
 #include "terrain/simplify/simplify.h"
@@ -96,6 +97,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
                                const TileOptions& tiles, const RunContext& context) {
   if (const Status valid = field.validate(); !valid) return tl::unexpected(valid.error());
   if (const Status valid = checkOptions(options, field.size()); !valid) return tl::unexpected(valid.error());
+  if (const Status valid = checkPositions(field); !valid) return tl::unexpected(valid.error());
   if (field.size() > LiveMesh::kMostTriangles / 2)
     return failure(
         ErrorCode::unsupported,
@@ -133,11 +135,14 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
           field.source);
     isFixed[v] = 1;
   }
-  const auto [low, high] = rangeOf(field.heights);
+  const Range all = rangeOf(field.heights);
   for (const std::uint32_t v : isolatedSamples(field, mesh)) model.isolated.push_back({v, field.heights[v]});
-  if (!(high - low < 1e30))
-    return failure(ErrorCode::invalidData, fmt::format("heights from {} to {} span too much", low, high),
-                   field.source);
+  if (!(all.high - all.low < 1e30))
+    return failure(ErrorCode::invalidData,
+                   fmt::format("heights from {} to {} span too much", all.low, all.high), field.source);
+  const auto [low, high] = fixRemoteHeights(
+      mesh, loneHeights(field.heights, field.rawScale, field.rawOffset),
+      [&](std::uint32_t v) { return field.heights[v]; }, {all.low, all.high}, isFixed);
 
   const Vec2 step = groundStep(field.georeference, (field.columns - 1) / 2.0, (field.rows - 1) / 2.0);
   const Ratio ratio = nearestRatio(step.x / step.y);

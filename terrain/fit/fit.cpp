@@ -22,19 +22,15 @@
 namespace arete {
 namespace {
 
-/// The rounding error that stored errors leave out: 8 ulp of the largest height (docs/topics/error.md).
-double roundingOf(const MultiTriangulation& mt) {
-  double largest = 0;
-  for (std::uint32_t v = 0; v < mt.vertexCount(); ++v)
-    largest = std::max(largest, std::abs(mt.vertices().height(VertexId(v))));
-  return 8 * (std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest);
-}
+/// By which part of itself an error in doubles may exceed the exact one. More than it ever does, so that no
+/// triangle is lost; where heights have changed, the solver stays as far below the tolerance (removal.cpp).
+constexpr double kRounding = 0x1p-40;
 
 /// Outside the region the bound is no larger than the achieved error of the cut: otherwise vertices out there
 /// would be moved far, for the sake of a sample at the region's edge.
 FitBounds boundsOf(const TerrainModel& model, const FitTolerance& tolerance, const Cut& cut) {
   const MultiTriangulation& mt = model.mt;
-  FitBounds bounds{.everywhere = tolerance.maxError, .rounding = roundingOf(mt)};
+  FitBounds bounds{.everywhere = tolerance.maxError, .rounding = kRounding * tolerance.maxError};
   if (tolerance.region == nullptr) return bounds;
   const double outside = std::max(tolerance.maxError, std::min(tolerance.outsideError, cut.achievedError));
   bounds.of.resize(mt.vertexCount());
@@ -64,7 +60,7 @@ Result<FitMesh> meshOf(const TerrainModel& model, const Cut& cut, FitBounds boun
 }
 
 /// The cut that the mesh represents now, with the errors of its triangles. An error above the tolerance by no
-/// more than rounding is set to the tolerance, like stored errors (docs/topics/error.md).
+/// more than rounding is set to the tolerance.
 FittedCut fittedCut(const FitMesh& mesh, const Cut& before, double tolerance) {
   const MultiTriangulation& mt = mesh.mt();
   NodeSet nodes(mt.nodeCount(), 0);
@@ -80,7 +76,7 @@ FittedCut fittedCut(const FitMesh& mesh, const Cut& before, double tolerance) {
 
   std::vector<double> errors = mesh.errors();
   for (double& error : errors)
-    if (error > tolerance && error <= tolerance + mesh.bounds().rounding) error = tolerance;
+    if (error > tolerance && error <= tolerance * (1 + 2 * kRounding)) error = tolerance;
   std::vector<std::pair<std::uint32_t, double>> byId;
   for (std::uint32_t t = 0; t < mesh.slotCount(); ++t)
     if (mesh.isLive(t)) byId.emplace_back(mesh.triangle(t).id, errors[t]);
@@ -115,12 +111,11 @@ Result<FittedCut> fitFewestTriangles(const TerrainModel& model, const FitToleran
   const Result<Cut> cut = leastCut(model, tolerance, context);
   if (!cut) return tl::unexpected(cut.error());
   FitBounds bounds = boundsOf(model, tolerance, *cut);
-  const double accepted = 1 + bounds.rounding / tolerance.maxError;
   auto mesh = meshOf(model, *cut, std::move(bounds), options, context);
   if (!mesh) return tl::unexpected(mesh.error());
   // With the tolerance 0 no height can change, and with an infinite one the cut is the root already.
   if (tolerance.maxError > 0 && std::isfinite(tolerance.maxError)) {
-    mesh->setAccepted(accepted);
+    mesh->setAccepted(1 + kRounding);
     if (Status removed = removeWhatFits(*mesh, std::max(1u, options.rings), context); !removed)
       return tl::unexpected(removed.error());
   }
@@ -131,7 +126,8 @@ Result<FittedCut> fitFewestTriangles(const TerrainModel& model, const FitToleran
 
 Result<FittedCut> fitLeastError(const TerrainModel& model, const Cut& cut, const FitOptions& options,
                                 const RunContext& context) try {
-  auto mesh = meshOf(model, cut, {.everywhere = 1, .rounding = roundingOf(model.mt)}, options, context);
+  auto mesh =
+      meshOf(model, cut, {.everywhere = 1, .rounding = kRounding * cut.achievedError}, options, context);
   if (!mesh) return tl::unexpected(mesh.error());
   if (Status done = lessenWorst(*mesh, std::max(1u, options.rings), context); !done)
     return tl::unexpected(done.error());

@@ -107,7 +107,11 @@ std::vector<double> FitMesh::errors() const {
     const Weights w = weights(corners);
     forSamples(t, [&](std::uint32_t s) {
       const Vec2 p = plan(s);
-      const double error = std::abs(residual(corners, w.of(p), s));
+      // A weight is right to a few ulp, and so is each height difference.
+      const double z = mt_.vertices().height(VertexId(s));
+      const double apart = std::max({std::abs(heights_[corners[0]] - z), std::abs(heights_[corners[1]] - z),
+                                     std::abs(heights_[corners[2]] - z)});
+      const double error = std::abs(residual(corners, w.of(p), s)) + 0x1p-50 * apart;
       widen(t, error);
       // isOn[i]: the sample lies on the edge opposite to corner i. On two of them, it is a vertex.
       std::array<bool, 3> isOn;

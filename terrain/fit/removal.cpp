@@ -19,6 +19,9 @@ constexpr std::uint32_t kNone = FitMesh::kNone;
 /// With an error of more than this many bounds the removal is rejected untried; 2.5 was the most that
 /// succeeded.
 constexpr double kHopeless = 4;
+/// The largest |residual| / bound of samples under heights that change: so far below 1 that no rounding
+/// breaks the bound.
+constexpr double kSolved = 1 - 0x1p-36;
 /// Weights up to this are zero but for rounding.
 constexpr double kNoWeight = 1e-12;
 /// A patch with more unknowns gets no further ring: solving it takes time proportional to their cube.
@@ -159,7 +162,7 @@ void FitPatches::tryRemoval(NodeId leaf, std::uint32_t rings, RemovalTrial& tria
     for (const std::uint32_t slot : slots_)
       isWithin &=
           addRows(mesh_.triangle(slot).corners, [&](const auto& visit) { mesh_.forSamples(slot, visit); });
-    trial.isFeasible = isWithin && patch_.solve(mesh_.accepted());
+    trial.isFeasible = isWithin && patch_.solve(kSolved);
     if (trial.isFeasible) break;
   }
   for (const std::uint32_t slot : slots_)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Laws 5 (orientation) and 7 are checked on the arrays. For law 8 the finest front is compared with the
-// finest triangulation computed anew from the samples. The other parts are checked on a set of fronts: the
+// finest triangulation computed anew from the samples. Law 10 is checked by validate_errors.cpp. The other
+// parts are checked on a set of fronts: the
 // root, the finest, a series of prefixes of the nodes (uniform cuts), and fronts of random closed node sets.
 #include "terrain/laws/validate_model.h"
 
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "engine/base/caught_failure.h"
 #include "engine/laws/validate.h"
@@ -97,10 +99,21 @@ Status law8OfPoints(const TerrainModel& model, const Cut& finest) {
   return {};
 }
 
-Status law8(const TerrainModel& model) {
-  const Cut finest = frontOfPrefix(model.mt, model.mt.nodeCount());
+/// The checksum is that of decoded heights: whoever changes one without the other is found out.
+Status law8OfHeights(const TerrainModel& model, const RasterHeightfield& samples) {
+  constexpr std::string_view kKind = "xxh3-128:";
+  if (!model.sourceChecksum.starts_with(kKind)) return {};
+  const std::string checksum = heightsChecksum(samples);
+  if (checksum == model.sourceChecksum) return {};
+  return broken(fmt::format("law 8: the heights have the checksum {}, those of the source had {}", checksum,
+                            model.sourceChecksum));
+}
+
+Status law8(const TerrainModel& model, const Cut& finest) {
   if (!model.isRaster) return law8OfPoints(model, finest);
-  std::vector<std::array<std::uint32_t, 3>> found, expected = finestTriangulation(model.rasterSamples());
+  const RasterHeightfield samples = model.rasterSamples();
+  if (Status s = law8OfHeights(model, samples); !s) return s;
+  std::vector<std::array<std::uint32_t, 3>> found, expected = finestTriangulation(samples);
   found.reserve(finest.triangles.size());
   const auto smallestFirst = [](std::array<std::uint32_t, 3>& t) {
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
@@ -136,16 +149,21 @@ NodeSet randomClosedSet(const MultiTriangulation& mt, std::uint64_t seed, double
 }
 
 Status validateModel(const TerrainModel& model, const ValidateModelOptions& options,
-                     const RunContext& context) try {
+                     const RunContext& context, ErrorsChecked* checked) try {
   const ValidateOptions engineOptions{.allowsFills = model.options.rimTolerance > 0};
   const bool isDelaunay = model.options.shape == HoleShape::delaunay && !engineOptions.allowsFills;
   context.report("validate", 0);
   if (Status s = validate(model.mt, engineOptions, context); !s) return s;
   if (Status s = law5OfTriangles(model.mt); !s) return s;
   if (Status s = law7(model); !s) return s;
-  if (Status s = law8(model); !s) return s;
-
   const MultiTriangulation& mt = model.mt;
+  {
+    const Cut finest = frontOfPrefix(mt, mt.nodeCount());
+    if (Status s = law8(model, finest); !s) return s;
+    const auto errors = validateErrors(model, finest, options.everyTriangle, options.seed, context);
+    if (!errors) return tl::unexpected(errors.error());
+    if (checked) *checked = *errors;
+  }
   const DomainExtent domain = domainExtent(mt);
   const auto check = [&](const Cut& cut, const std::string& which) -> Status {
     Status s = validateFront(mt, cut, domain, engineOptions);

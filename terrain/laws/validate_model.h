@@ -6,6 +6,7 @@
 #include "engine/base/result.h"
 #include "engine/cut/cut.h"
 #include "engine/parallel/run_context.h"
+#include "terrain/laws/validate_errors.h"
 #include "terrain/model/terrain_model.h"
 
 namespace arete {
@@ -15,17 +16,22 @@ struct ValidateModelOptions {
   /// front and a series of uniform cuts. No threshold produces these sets.
   std::uint32_t randomFronts = 8;
   std::uint64_t seed = 1;
+  /// Whether law 10 is checked on every triangle, or on a sample where there are many.
+  bool everyTriangle = false;
 };
 
 /// Checks the laws of a model: those of engine/laws/validate.h, and
 ///   5  every triangle is positively oriented, exactly; the rest of law 5 on the fronts above
 ///   7  every fixed vertex is in the root
-///   8  every sample of the domain is a vertex of the finest front (raster: it is finestTriangulation())
+///   8  every sample of the domain is a vertex of the finest front (raster: it is finestTriangulation(), and
+///   the heights have the source's checksum)
 ///   9  Delaunay shape without rim tolerance: the fronts above are (constrained) Delaunay in the build's
 ///   metric
+///   10  validateErrors(): stored errors and bounds are at least the true ones
 /// O(triangles * fronts). Errors: brokenPromise: the first violation; interrupted.
+/// @param checked  receives of how many triangles law 10 was checked; may be null
 Status validateModel(const TerrainModel& model, const ValidateModelOptions& options = {},
-                     const RunContext& context = {});
+                     const RunContext& context = {}, ErrorsChecked* checked = nullptr);
 
 /// Checks law 9 on one front by CGAL's exact predicates: every triangle is counter-clockwise, every edge with
 /// two triangles is locally Delaunay in the build's metric (cocircular ties allowed), which makes the whole

@@ -15,11 +15,16 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <mutex>
+
+#include "terrain/measure/exact.h"
 
 namespace arete::measuring {
 
 namespace {
+
+constexpr double kForgivenUlps = 4;
 
 /// The first and the last band that a triangle reaches; last < first where it reaches none.
 struct BandRange {
@@ -102,8 +107,6 @@ void BandTotals::addMeasured(const MeasuredSample& sample) {
   sumAbs += std::abs(error);
   sumSquares += error * error;
   ++counts.covered;
-  counts.largestHeight =
-      std::max({counts.largestHeight, std::abs(sample.demHeight), std::abs(sample.tinHeight)});
   // Points are scanned by buckets, not in sample order: among equal errors the first sample is kept.
   const bool earlier =
       counts.worst && std::abs(error) == counts.maxAbsError && sample.sample < counts.worst->sample;
@@ -111,6 +114,16 @@ void BandTotals::addMeasured(const MeasuredSample& sample) {
     counts.maxAbsError = std::abs(error);
     counts.worst = sample;
   }
+}
+
+void BandTotals::addBeyondRounding(const MeasuredSample& sample, const std::array<Vec3, 3>& corner, Vec2 at) {
+  const double error =
+      std::abs(errorWhereHeld(corner, {at.x, at.y, sample.demHeight}).value_or(sample.error()));
+  double height = std::abs(sample.demHeight);
+  for (const Vec3& c : corner) height = std::max(height, std::abs(c.z));
+  const double ulp = std::nextafter(height, std::numeric_limits<double>::infinity()) - height;
+  const double beyond = error - kForgivenUlps * ulp;
+  if (!(beyond <= counts.errorBeyondRounding)) counts.errorBeyondRounding = beyond;  // also if it is NaN
 }
 
 void BandTotals::add(const BandTotals& later) {
@@ -124,7 +137,8 @@ void BandTotals::add(const BandTotals& later) {
   counts.overlapped += c.overlapped;
   counts.nodataCovered += c.nodataCovered;
   counts.domainAreaPixels += c.domainAreaPixels;
-  counts.largestHeight = std::max(counts.largestHeight, c.largestHeight);
+  if (!(c.errorBeyondRounding <= counts.errorBeyondRounding))
+    counts.errorBeyondRounding = c.errorBeyondRounding;
   if (c.worst) {
     const bool larger = !counts.worst || c.maxAbsError > counts.maxAbsError;
     const bool earlier =
@@ -151,7 +165,7 @@ MeasureReport BandTotals::finish() const {
 }
 
 SampleRecorder::SampleRecorder(const Inputs& in, std::size_t samples)
-    : mask_(in.options.mask), rasters_(in.rasters) {
+    : mesh_(in.mesh), mask_(in.options.mask), rasters_(in.rasters) {
   if (!rasters_) return;
   rasters_->tinHeights.resize(samples);
   rasters_->errors.resize(samples);

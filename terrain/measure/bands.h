@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -119,6 +120,9 @@ struct BandTotals {
   double sumSquares = 0, sumAbs = 0, sum = 0;
 
   void addMeasured(const MeasuredSample& sample);
+  /// Raises MeasureReport::errorBeyondRounding to that of one more sample.
+  /// @param corner  of the triangle at the sample, in the plan of `at`
+  void addBeyondRounding(const MeasuredSample& sample, const std::array<Vec3, 3>& corner, Vec2 at);
   void add(const BandTotals& later);
   /// @return the counts, with the means computed from the sums
   MeasureReport finish() const;
@@ -141,12 +145,24 @@ class SampleRecorder {
     return mask_.empty() || mask_[sample] != 0;
   }
   /// Adds a covered sample to the totals, and stores its error.
-  void add(const MeasuredSample& sample, BandTotals& totals) {
+  /// @param plan  positions of the mesh's vertices in the plan in which the sample is at `at`; called only
+  ///              where the sample may count most
+  template <class Plan>
+  void add(const MeasuredSample& sample, Vec2 at, const Plan& plan, BandTotals& totals) {
     totals.addMeasured(sample);
     if (rasters_) rasters_->errors[sample.sample] = sample.error();
+    if (std::abs(sample.error()) <= totals.counts.errorBeyondRounding) return;
+    std::array<Vec3, 3> corner;
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t v = mesh_.triangles[sample.triangle][i];
+      const Vec2 p = plan(v);
+      corner[i] = {p.x, p.y, mesh_.positions[v].z};
+    }
+    totals.addBeyondRounding(sample, corner, at);
   }
 
  private:
+  const TriangleMesh& mesh_;
   std::span<const std::uint8_t> mask_;
   MeasureRasters* rasters_;
 };

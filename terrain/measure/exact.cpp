@@ -7,6 +7,7 @@
 #include "terrain/measure/exact.h"
 
 #include <CGAL/Exact_rational.h>
+#include <CGAL/Mpzf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +75,33 @@ std::optional<Contact> contactWhereHeld(const std::array<Vec3, 3>& corner, Vec2 
   contact.z = corner[0].z + CGAL::to_double(Exact(exactArea(c, a, point) / area)) * riseB +
               CGAL::to_double(Exact(exactArea(a, b, point) / area)) * riseC;
   return contact;
+}
+
+std::optional<double> errorWhereHeld(const std::array<Vec3, 3>& corner, const Vec3& sample) {
+  double sum = sample.x + sample.y + sample.z;
+  for (const Vec3& c : corner) sum += c.x + c.y + c.z;
+  if (!std::isfinite(sum)) return std::nullopt;
+  using Number = CGAL::Mpzf;  // dyadic: products and sums of doubles are exact
+  const Number x(sample.x), y(sample.y), z(sample.z);
+  std::array<Number, 3> dx, dy;
+  for (int i = 0; i < 3; ++i) {
+    dx[i] = Number(corner[i].x) - x;
+    dy[i] = Number(corner[i].y) - y;
+  }
+  std::array<Number, 3> weight;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    weight[i] = dx[j] * dy[k] - dy[j] * dx[k];
+  }
+  const Number area = weight[0] + weight[1] + weight[2];
+  const auto turn = CGAL::sign(area);
+  if (turn == CGAL::ZERO) return std::nullopt;
+  Number error;
+  for (int i = 0; i < 3; ++i) {
+    if (CGAL::sign(weight[i]) == -turn) return std::nullopt;
+    error = error + weight[i] * (Number(corner[i].z) - z);
+  }
+  return CGAL::to_double(error) / CGAL::to_double(area);
 }
 
 }  // namespace arete::measuring

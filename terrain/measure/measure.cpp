@@ -197,9 +197,10 @@ class RasterMeasurement {
           ++counts.uncovered;
         } else {
           const Vec2 at = dem_.georeference.toSource(double(column), double(row));
-          recorder_.add({sample, std::uint32_t(column), std::uint32_t(row), at.x, at.y, height,
-                         gathered.z(here), gathered.triangle(here)},
-                        totals);
+          recorder_.add(
+              {sample, std::uint32_t(column), std::uint32_t(row), at.x, at.y, height, gathered.z(here),
+               gathered.triangle(here)},
+              {double(column), double(row)}, [&](std::uint32_t v) { return grid_[v]; }, totals);
         }
       }
     }

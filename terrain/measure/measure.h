@@ -57,8 +57,10 @@ struct MeasureReport {
   double maxAbsError = 0;  ///< over the covered samples, as are the next three; 0 when there are none
   double rmsError = 0;
   double meanAbsError = 0;
-  double meanError = 0;      ///< signed, z_TIN - z_DEM
-  double largestHeight = 0;  ///< largest |height| compared, of either surface; rounding is relative to it
+  double meanError = 0;  ///< signed, z_TIN - z_DEM
+  /// The least bound that the errors keep but for rounding: the largest of |error| - 4 ulp, the ulp being
+  /// that of the largest |height| of the sample and of its triangle's corners.
+  double errorBeyondRounding = 0;
   std::optional<MeasuredSample> worst;  ///< where maxAbsError is; the first in sample order among equals
 
   double tinAreaPixels = 0;     ///< sum of the plan areas of the triangles, in square pixels
@@ -113,12 +115,9 @@ struct ExpectOptions {
   bool allowCoveredNodata = false;  ///< for models built with a rim tolerance
 };
 
-/// The bound that an error may reach in doubles: E + max(1e-6 unit, 4 ulp of the largest height compared).
-double acceptedError(const MeasureReport& report, double expectedError);
-
-/// Checks that every sample is covered, none twice, no NODATA is covered (unless allowed), and that the
-/// largest error is within acceptedError(). Errors: brokenPromise: the first of these that fails, with
-/// figures.
+/// Checks that every sample is covered, none twice, no NODATA is covered (unless allowed), and that no error
+/// exceeds the expected one by more than MeasureReport::errorBeyondRounding leaves out. Errors:
+/// brokenPromise: the first of these that fails, with figures.
 Status checkPromise(const MeasureReport& report, double expectedError, const ExpectOptions& options = {});
 
 /// Whether checkPromise() succeeds.

@@ -202,7 +202,10 @@ class PointMeasurement {
       }
       const Vec2& at = points_.positions[point];
       recorder_.add(
-          {point, 0, 0, at.x, at.y, points_.heights[point], gathered.z(here), gathered.triangle(here)},
+          {point, 0, 0, at.x, at.y, points_.heights[point], gathered.z(here), gathered.triangle(here)}, at,
+          [&](std::uint32_t v) {
+            return Vec2{in_.mesh.positions[v].x, in_.mesh.positions[v].y};
+          },
           totals);
     }
     return totals;

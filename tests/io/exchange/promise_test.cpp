@@ -136,8 +136,7 @@ TEST_P(Promise, IsKeptAtEveryToleranceForBothCuts) {
       ASSERT_TRUE(report) << report.error().describe();
       const Status kept = checkPromise(*report, tolerance);
       EXPECT_TRUE(kept) << "tolerance " << tolerance << ": " << kept.error().describe();
-      EXPECT_LE(report->maxAbsError, acceptedError(*report, cut->achievedError))
-          << "the stored error is a bound too";
+      EXPECT_LE(report->errorBeyondRounding, cut->achievedError) << "the stored error is a bound too";
       EXPECT_EQ(report->isolated, model->isolated.size());
     }
 }
@@ -161,7 +160,7 @@ TEST_P(Promise, IsKeptByFittedHeights) {
   ASSERT_TRUE(report) << report.error().describe();
   const Status kept = checkPromise(*report, tolerance);
   EXPECT_TRUE(kept) << "tolerance " << tolerance << ": " << kept.error().describe();
-  EXPECT_LE(report->maxAbsError, acceptedError(*report, fitted->cut.achievedError));
+  EXPECT_LE(report->errorBeyondRounding, fitted->cut.achievedError);
   // What is flat, or has steps of whole units, leaves less to fit.
   EXPECT_LE(fitted->cut.triangles.size(), fitted->trianglesBefore);
   RecordProperty("triangles", std::to_string(fitted->cut.triangles.size()) + " of " +

@@ -100,7 +100,7 @@ void expectFitted(const TerrainModel& model, const FittedCut& fitted, double max
   const MeasureReport report = measured(model, fitted);
   const Status kept = checkPromise(report, maxError, {.allowCoveredNodata = model.options.rimTolerance > 0});
   EXPECT_TRUE(kept) << kept.error().describe();
-  EXPECT_LE(report.maxAbsError, acceptedError(report, fitted.cut.achievedError));
+  EXPECT_LE(report.errorBeyondRounding, fitted.cut.achievedError);
   EXPECT_LE(fitted.cut.achievedError, maxError);
   EXPECT_LE(fitted.cut.triangles.size(), fitted.trianglesBefore);
   ASSERT_EQ(fitted.heights.size(), fitted.cut.vertices.size());

@@ -127,13 +127,14 @@ TEST(SampleRecorder, FillsTheRastersAndAppliesTheMask) {
   const std::vector<std::uint8_t> mask = {1, 0, 1};
   const MeasureOptions options{.mask = mask};
   const RunContext context;
-  const TriangleMesh mesh;
+  const TriangleMesh mesh{.positions = {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}}, .triangles = {{0, 1, 2}}};
+  const auto plan = [&](std::uint32_t v) { return Vec2{mesh.positions[v].x, mesh.positions[v].y}; };
   MeasureRasters rasters;
   const Inputs in{mesh, options, context, &rasters};
   SampleRecorder recorder(in, 3);
   BandTotals totals;
   EXPECT_TRUE(recorder.begin(0, 5));
-  recorder.add({.sample = 0, .demHeight = 3, .tinHeight = 5}, totals);
+  recorder.add({.sample = 0, .demHeight = 3, .tinHeight = 5}, {0, 0}, plan, totals);
   EXPECT_FALSE(recorder.begin(1, 6));
   EXPECT_TRUE(recorder.begin(2, kNaN));
   EXPECT_EQ(rasters.tinHeights[0], 5);
@@ -142,6 +143,7 @@ TEST(SampleRecorder, FillsTheRastersAndAppliesTheMask) {
   EXPECT_EQ(rasters.errors[0], 2);
   EXPECT_TRUE(std::isnan(rasters.errors[1]) && std::isnan(rasters.errors[2]));
   EXPECT_EQ(totals.counts.covered, 1u);
+  EXPECT_EQ(totals.counts.errorBeyondRounding, 2 - 4 * 0x1p-50);
 }
 
 TEST(Bands, RunEachOnceAndStopWhenCancelled) {

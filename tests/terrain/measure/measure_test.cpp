@@ -401,20 +401,37 @@ TEST(Measure, HandsBackTheSampledTinAndTheErrors) {
   EXPECT_TRUE(std::isnan(rasters.errors[dem.index(8, 0)]));
 }
 
-TEST(Measure, AcceptsRoundingAndNoMore) {
+TEST(Measure, AcceptsFourUlpOfTheHeightsThereAndNoMore) {
+  for (const double base : {1.0, 100.0, 1e9, 1e20})
+    for (const int ulps : {0, 3, 4, 5, 6}) {
+      SCOPED_TRACE(testing::Message() << "base " << base << ", " << ulps << " ulp");
+      const double ulp = std::nextafter(base, 2 * base) - base;
+      RasterHeightfield dem = raster(3, 3, [&](double, double) { return base; });
+      dem.heights[1] = base + (16 + ulps) * ulp;
+      const MeasureReport report = measured(twoTriangles(dem), dem);
+      EXPECT_EQ(report.maxAbsError, (16 + ulps) * ulp);
+      EXPECT_EQ(keepsPromise(report, 16 * ulp), ulps <= 4);
+      EXPECT_FALSE(keepsPromise(report, kNaN));
+    }
   MeasureReport report;
-  report.largestHeight = 2000;
-  EXPECT_EQ(acceptedError(report, 5), 5 + 1e-6);
-  report.largestHeight = 1e12;
-  EXPECT_EQ(acceptedError(report, 5), 5 + 4 * 0.0001220703125);
-  report.largestHeight = 100;
-  report.maxAbsError = 5.0000009;
-  EXPECT_TRUE(keepsPromise(report, 5));
-  report.maxAbsError = 5.0000011;
+  report.errorBeyondRounding = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(keepsPromise(report, 5));
-  EXPECT_FALSE(keepsPromise(report, kNaN));
-  report.maxAbsError = std::numeric_limits<double>::infinity();
-  EXPECT_FALSE(keepsPromise(report, 5));
+}
+
+TEST(Measure, ForgivesNothingBecauseAHeightElsewhereIsLarge) {
+  RasterHeightfield dem =
+      raster(9, 9, [](double column, double row) { return column + row == 0 ? 1e20 : 0; });
+  const TriangleMesh mesh = finest(dem);
+  dem.heights[70] = 1;
+  EXPECT_TRUE(keepsPromise(measured(mesh, dem), 1));
+  EXPECT_FALSE(keepsPromise(measured(mesh, dem), 1 - 1e-9));
+}
+
+TEST(Measure, IsNotMisledByTheRoundingOfLargeHeights) {
+  // At a third of an edge that rises by 1, where doubles are 1/8 apart.
+  RasterHeightfield dem = raster(4, 4, [](double column, double) { return 1e15 + column / 3; });
+  dem.heights[1] = 1e15 - 10;
+  EXPECT_NEAR(measured(twoTriangles(dem), dem).errorBeyondRounding, 10 + 1 / 3.0 - 4 * 0.125, 1e-9);
 }
 
 }  // namespace
