@@ -63,7 +63,7 @@ Result<TerrainModel> buildHere(const PointHeightfield& field, FinestPoints fines
     return failure(ErrorCode::invalidData,
                    fmt::format("heights from {} to {} span too much", *lowest, *highest), field.source);
   const auto [low, high] = fixRemoteHeights(
-      mesh, loneHeights(field.heights), [&](std::uint32_t v) { return field.heights[ground[v]]; },
+      mesh, loneHeights(field.heights), [&](VertexId v) { return field.heights[ground[v.index()]]; },
       {*lowest, *highest}, isFixed);
   const Box2 box = planBox(field.positions);
   const Vec2 centre{(box.xMin + box.xMax) / 2, (box.yMin + box.yMax) / 2};

@@ -142,7 +142,7 @@ Result<TerrainModel> buildHere(const RasterHeightfield& field, const BuildOption
                    fmt::format("heights from {} to {} span too much", all.low, all.high), field.source);
   const auto [low, high] = fixRemoteHeights(
       mesh, loneHeights(field.heights, field.rawScale, field.rawOffset),
-      [&](std::uint32_t v) { return field.heights[v]; }, {all.low, all.high}, isFixed);
+      [&](VertexId v) { return field.heights[v.index()]; }, {all.low, all.high}, isFixed);
 
   const Vec2 step = groundStep(field.georeference, (field.columns - 1) / 2.0, (field.rows - 1) / 2.0);
   const Ratio ratio = nearestRatio(step.x / step.y);

@@ -32,9 +32,9 @@ ErrorRange fixRemoteHeights(const LiveMesh& mesh, const LoneHeights& lone, const
                             ErrorRange whole, std::vector<std::uint8_t>& isFixed) {
   constexpr std::size_t kMostPart = 16, kFew = 64;
   if (!lone.areRemote()) return whole;
-  std::vector<std::uint32_t> corners;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const LiveMesh::Corners& c = mesh.triangles[t].corners;
+  std::vector<VertexId> corners;
+  for (const LiveMesh::Triangle& triangle : mesh.triangles) {
+    const LiveMesh::Corners& c = triangle.corners;
     const double z0 = heightOf(c[0]), z1 = heightOf(c[1]), z2 = heightOf(c[2]);
     const bool isLevel = z0 == z1 && z0 == z2;
     if (!isLevel && (lone.isLone(z0) || lone.isLone(z1) || lone.isLone(z2)))
@@ -43,7 +43,7 @@ ErrorRange fixRemoteHeights(const LiveMesh& mesh, const LoneHeights& lone, const
   std::ranges::sort(corners);
   corners.erase(std::ranges::unique(corners).begin(), corners.end());
   if (corners.size() > std::max(kFew, isFixed.size() / kMostPart)) return whole;
-  for (const std::uint32_t v : corners) isFixed[v] = 1;
+  for (const VertexId v : corners) isFixed[v.index()] = 1;
   return {lone.low, lone.high};
 }
 
