@@ -49,13 +49,19 @@ void CriterionArguments::addTo(CLI::App& command) {
   CLI::Option* region =
       command
           .add_option("--region", region_,
-                      "Where --max-error holds: polygons (any vector file), with --distance lines too, or "
-                      "xmin,ymin,xmax,ymax in the DEM's CRS")
+                      "Where --max-error holds: polygons (any vector file), with --distance lines and points "
+                      "too, or xmin,ymin,xmax,ymax in the DEM's CRS")
           ->type_name("FILE|BOX")
           ->group(where);
   command
+      .add_option("--region-crs", regionCrs_,
+                  "CRS of the region, where its file has none or a wrong one, or of the box (EPSG:4326, ...)")
+      ->needs(region)
+      ->type_name("CRS")
+      ->group(where);
+  command
       .add_option("--distance", distance_,
-                  "Metres by which the region is extended (without a CRS: the DEM's units)")
+                  "Metres along the ground by which the region is extended (without a CRS: the DEM's units)")
       ->check(finiteAbove(0))
       ->needs(region)
       ->type_name("D")
@@ -229,6 +235,7 @@ Result<std::vector<ExtractCriterion>> CriterionArguments::criteria(const Terrain
   ExtractCriterion common;
   if (maxTriangles_ >= 0) common.maxTriangles = static_cast<std::uint32_t>(maxTriangles_);
   common.region = region_;
+  common.regionCrs = regionCrs_;
   common.distance = distance_;
   if (!std::isnan(outsideError_)) common.outsideError = outsideError_;
   common.method = method_ == "saturated" ? CutMethod::saturated : CutMethod::minimal;

@@ -10,6 +10,7 @@
 
 #include "engine/base/result.h"
 #include "io/extract/criterion.h"
+#include "io/extract/region_argument.h"
 #include "terrain/model/terrain_model.h"
 
 namespace arete {
@@ -34,7 +35,7 @@ struct CriterionArguments {
   Result<std::vector<ExtractCriterion>> criteria(const TerrainModel& model) const;
 
   const std::string& region() const { return region_; }
-  double distance() const { return distance_; }
+  RegionText regionText() const { return {region_, distance_, regionCrs_}; }
   bool hasDeadline() const { return deadline_ > 0; }
 
  private:
@@ -47,7 +48,7 @@ struct CriterionArguments {
   std::string maxErrors_;
   std::int64_t maxTriangles_ = -1;  // < 0: not stated
   std::string method_ = "minimal", order_ = "worst";
-  std::string region_;
+  std::string region_, regionCrs_;
   double distance_ = 0, outsideError_ = kUnstated;
   std::string focus_;
   double growth_ = kUnstated;

@@ -46,6 +46,7 @@ std::string optionsOf(const ExtractCriterion& c) {
   if (c.maxError) add("max-error", *c.maxError);
   if (c.maxTriangles) add("max-triangles", *c.maxTriangles);
   if (!c.region.empty()) add("region", shellQuoted(c.region));
+  if (!c.regionCrs.empty()) add("region-crs", shellQuoted(c.regionCrs));
   if (c.distance > 0) add("distance", c.distance);
   if (c.focus) {
     add("focus", shellQuoted(c.focus->text));
@@ -82,6 +83,7 @@ std::string checkCommand(const ExtractRequest& request, const TerrainModel& mode
                          promisedError);
   command += readingOptions(model.reading);
   if (!c.region.empty()) command += fmt::format(" --region {}", shellQuoted(c.region));
+  if (!c.regionCrs.empty()) command += fmt::format(" --region-crs {}", shellQuoted(c.regionCrs));
   if (c.distance > 0) command += fmt::format(" --distance {}", c.distance);
   if (model.options.rimTolerance > 0) command += " --allow-covered-nodata";
   return command;

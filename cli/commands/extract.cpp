@@ -135,11 +135,10 @@ Result<std::optional<Region>> regionOf(const ExtractArguments& arguments, const 
                                        Session& session) {
   const std::string& text = arguments.criterion.region();
   if (text.empty()) return std::nullopt;
-  auto read =
-      readRegionArgument(text, model.georeference.crsWkt, arguments.criterion.distance(), session.context());
+  auto read = readRegionArgument(arguments.criterion.regionText(), model.georeference, LongitudeTurns(model),
+                                 session.context());
   if (!read) return tl::unexpected(read.error());
   session.warn(read->warnings, text);
-  LongitudeTurns(model).apply(read->shape);
   Region region = planRegion(std::move(read->shape), model);
   if (region.isEmpty() || !meetsDomain(region, model.mt))
     return failure(ErrorCode::usage, fmt::format("does not meet the data of {}", arguments.model),

@@ -32,7 +32,7 @@ struct MeasureArguments {
   std::string tin;
   DemArguments dem;
   double expect = std::numeric_limits<double>::quiet_NaN();  // NaN: not stated
-  std::string region, errorRaster;
+  std::string region, regionCrs, errorRaster;
   double distance = 0;
   bool allowCoveredNodata = false;
   std::int64_t samples = 0, seed = -1;  // of another mesh; not stated
@@ -77,11 +77,10 @@ template <class Heightfield>
 Result<std::vector<std::uint8_t>> maskOf(const MeasureArguments& arguments, const Heightfield& field,
                                          Session& session) {
   if (arguments.region.empty()) return std::vector<std::uint8_t>();
-  auto read =
-      readRegionArgument(arguments.region, field.georeference.crsWkt, arguments.distance, session.context());
+  auto read = readRegionArgument({arguments.region, arguments.distance, arguments.regionCrs},
+                                 field.georeference, LongitudeTurns(field), session.context());
   if (!read) return tl::unexpected(read.error());
   session.warn(read->warnings, arguments.region);
-  LongitudeTurns(field).apply(read->shape);
   std::vector<std::uint8_t> mask = samplesInside(planRegion(std::move(read->shape), field), field);
   bool any = false;
   for (std::size_t i = 0; i < mask.size() && !any; ++i) any = mask[i] != 0 && !std::isnan(field.heights[i]);
@@ -216,13 +215,20 @@ void addMeasureCommand(CLI::App& app, Session& session) {
                     "Accept covered NODATA (of a build with --rim-tolerance)");
   CLI::Option* region =
       command
-          ->add_option("--region", arguments->region,
-                       "Region whose samples are compared: polygons, with --distance lines too, or "
-                       "xmin,ymin,xmax,ymax in the DEM's CRS")
+          ->add_option(
+              "--region", arguments->region,
+              "Region whose samples are compared: polygons, with --distance lines and points too, or "
+              "xmin,ymin,xmax,ymax in the DEM's CRS")
           ->type_name("FILE|BOX");
   command
+      ->add_option(
+          "--region-crs", arguments->regionCrs,
+          "CRS of the region, where its file has none or a wrong one, or of the box (EPSG:4326, ...)")
+      ->needs(region)
+      ->type_name("CRS");
+  command
       ->add_option("--distance", arguments->distance,
-                   "Metres by which the region is extended (without a CRS: the DEM's units)")
+                   "Metres along the ground by which the region is extended (without a CRS: the DEM's units)")
       ->check(finiteAbove(0))
       ->needs(region)
       ->type_name("D");

@@ -53,6 +53,7 @@ constexpr std::array kNames = {
     Name{"pixelError", "--pixel-error"},
     Name{"refraction", "--refraction"},
     Name{"region", "--region"},
+    Name{"region-crs", "--region-crs"},
     Name{"rimTolerance", "--rim-tolerance"},
     Name{"samples", "--samples"},
     Name{"seed", "--seed"},

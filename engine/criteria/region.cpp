@@ -54,6 +54,7 @@ bool isEdgeWithin(const SegmentBvh& edges, Vec2 p, double distance) {
 }
 
 void appendEdges(const std::vector<Vec2>& chain, bool isClosed, std::vector<Segment2>& edges) {
+  if (chain.size() == 1) edges.push_back({chain[0], chain[0]});
   for (std::size_t i = 0; i + (isClosed ? 0 : 1) < chain.size(); ++i) {
     const Vec2 a = chain[i], b = chain[i + 1 < chain.size() ? i + 1 : 0];
     if (a != b) edges.push_back({a, b});
@@ -65,7 +66,7 @@ void appendEdges(const std::vector<Vec2>& chain, bool isClosed, std::vector<Segm
 Region::Region(RegionShape shape, const MetricFrame& metric) : shape_(std::move(shape)) {
   if (shape_.distance > 0) frame_ = metric;
   std::erase_if(shape_.rings, [](const auto& ring) { return ring.size() < 3; });
-  std::erase_if(shape_.lines, [](const auto& line) { return line.size() < 2; });
+  std::erase_if(shape_.lines, [](const auto& line) { return line.empty(); });
   Box2 bounds{kInfinity, kInfinity, -kInfinity, -kInfinity};
   std::vector<Segment2> edges, ringEdges;
   for (auto* chains : {&shape_.rings, &shape_.lines})

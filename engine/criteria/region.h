@@ -12,7 +12,7 @@ namespace arete {
 /// The shapes that make up a region.
 struct RegionShape {
   std::vector<std::vector<Vec2>> rings = {};  ///< polygons by the even-odd rule; each is closed implicitly
-  std::vector<std::vector<Vec2>> lines = {};  ///< open chains: a road, a flight path
+  std::vector<std::vector<Vec2>> lines = {};  ///< open chains: a road, a flight path; of one vertex: a point
   double distance = 0;  ///< points within this distance of them belong to the region; metric units
 };
 
@@ -20,7 +20,7 @@ struct RegionShape {
 /// plan coordinates. O(log n + edges near the query) each.
 class Region {
  public:
-  /// @param shape In plan coordinates. Rings of fewer than 3 points and lines of fewer than 2 are ignored.
+  /// @param shape In plan coordinates. Rings of fewer than 3 points and empty lines are ignored.
   /// @param metric The space in which the shape's distance is measured; not used without a distance.
   explicit Region(RegionShape shape, const MetricFrame& metric = {});
   explicit Region(std::vector<std::vector<Vec2>> rings) : Region(RegionShape{std::move(rings)}) {}

@@ -4,47 +4,82 @@
 // exact.
 #include "io/crs/longitude_turns.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
+#include <ogr_spatialref.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include "io/crs/lonlat.h"
+#include "io/crs/reader.h"
 #include "terrain/model/plan_box.h"
 
 namespace arete {
 namespace {
 
-double turnOf(const Georeference& georeference) {
-  const double turn = 2 * std::numbers::pi / georeference.angularUnitRadians;
-  return std::abs(turn - 360) < 1e-9 ? 360 : turn;  // degrees to the last bit
+/// Of a projected CRS: x at two longitudes a quarter of a turn apart, if its projection is cylindrical.
+double turnOfMap(const Georeference& georeference) {
+  const auto crs = crsFromText(georeference.crsWkt);
+  if (!crs) return 0;
+  const char* name = crs->GetAttrValue("PROJECTION");
+  const std::string_view projection = name ? name : "";
+  constexpr std::string_view kCylindrical[] = {SRS_PT_MERCATOR_1SP,
+                                               SRS_PT_MERCATOR_2SP,
+                                               SRS_PT_EQUIRECTANGULAR,
+                                               SRS_PT_CYLINDRICAL_EQUAL_AREA,
+                                               SRS_PT_MILLER_CYLINDRICAL,
+                                               SRS_PT_GALL_STEREOGRAPHIC,
+                                               SRS_PT_MERCATOR_AUXILIARY_SPHERE};
+  if (std::ranges::find(kCylindrical, projection) == std::end(kCylindrical)) return 0;
+  const auto lonLat = CrsLonLat::of(georeference);
+  if (!lonLat) return 0;
+  std::array<Vec2, 4> at = {Vec2{0, 0}, {120, 0}, {-120, 0}, {0, 0}};
+  lonLat->toCrs(at);
+  // One of the three lies across the seam of the map; the longest way is the one that crosses it not.
+  double third = 0;
+  for (const auto& [a, b] : {std::pair{0, 1}, {2, 0}, {1, 2}}) {
+    const double step = at[std::size_t(b)].x - at[std::size_t(a)].x;
+    if (std::isfinite(step) && step > 0) third = std::max(third, step);
+  }
+  return 3 * third;
 }
 
 }  // namespace
 
+double turnOf(const Georeference& georeference) {
+  if (!georeference.isGeographic) return georeference.crsWkt.empty() ? 0 : turnOfMap(georeference);
+  const double turn = 2 * std::numbers::pi / georeference.angularUnitRadians;
+  return std::abs(turn - 360) < 1e-9 ? 360 : turn;  // degrees to the last bit
+}
+
 LongitudeTurns::LongitudeTurns(const TerrainModel& model) {
-  if (!model.georeference.isGeographic) return;
+  turn_ = turnOf(model.georeference);
+  if (!(turn_ > 0)) return;
   const Box2 box = planBox(model);
   for (const double x : {box.xMin, box.xMax})
     for (const double y : {box.yMin, box.yMax}) add(model.toSource({x, y}).x);
-  turn_ = turnOf(model.georeference);
 }
 
 LongitudeTurns::LongitudeTurns(const Georeference& georeference, std::uint32_t columns, std::uint32_t rows) {
-  if (!georeference.isGeographic) return;
+  turn_ = turnOf(georeference);
+  if (!(turn_ > 0)) return;
   for (const double column : {-0.5, columns - 0.5})
     for (const double row : {-0.5, rows - 0.5}) add(georeference.toSource(column, row).x);
-  turn_ = turnOf(georeference);
 }
 
 LongitudeTurns::LongitudeTurns(const RasterHeightfield& field)
     : LongitudeTurns(field.georeference, field.columns, field.rows) {}
 
 LongitudeTurns::LongitudeTurns(const PointHeightfield& field) {
-  if (!field.georeference.isGeographic) return;
+  turn_ = turnOf(field.georeference);
+  if (!(turn_ > 0)) return;
   const Box2 box = planBox(field.positions);
   add(box.xMin);
   add(box.xMax);
-  turn_ = turnOf(field.georeference);
 }
 
 void LongitudeTurns::add(double x) {
@@ -67,20 +102,14 @@ void LongitudeTurns::apply(std::span<Vec2> positions) const {
     for (Vec2& p : positions) p = (*this)(p);
 }
 
-void LongitudeTurns::apply(RegionShape& shape) const {
-  if (!(turn_ > 0)) return;
-  double west = std::numeric_limits<double>::infinity(), east = -west;
-  for (const auto* chains : {&shape.rings, &shape.lines})
-    for (const auto& chain : *chains)
-      for (const Vec2& p : chain) {
-        west = std::min(west, p.x);
-        east = std::max(east, p.x);
-      }
-  if (!(west <= east) || (west <= east_ && east >= west_)) return;
-  const double turns = turnsOf((west + east) / 2);
-  for (auto* chains : {&shape.rings, &shape.lines})
-    for (auto& chain : *chains)
-      for (Vec2& p : chain) p.x += turns;
+std::vector<double> LongitudeTurns::shiftsOnto(double west, double east) const {
+  if (!(turn_ > 0) || !(west <= east) || !std::isfinite(west) || !std::isfinite(east)) return {0};
+  std::vector<double> shifts;
+  constexpr double kMostTurns = 1000;  // what goes round more often is not a shape on the Earth
+  const double first = std::max(std::ceil((west_ - east) / turn_), -kMostTurns),
+               last = std::min(std::floor((east_ - west) / turn_), kMostTurns);
+  for (double k = first; k <= last; ++k) shifts.push_back(k * turn_);
+  return shifts;
 }
 
 }  // namespace arete

@@ -4,16 +4,21 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "engine/base/vec.h"
-#include "engine/criteria/region.h"
 #include "terrain/model/heightfield.h"
 #include "terrain/model/terrain_model.h"
 
 namespace arete {
 
-/// Shifts longitudes by whole turns onto a DEM: a position in a geographic CRS that lies east or west of the
-/// DEM becomes the equivalent position nearest to the middle of the DEM. Other positions do not change.
+/// How far a whole turn about the Earth leads along x, in the unit of the CRS: of a geographic CRS, and of a
+/// projected one whose x is proportional to the longitude (Mercator, also EPSG:3857, and other cylindrical
+/// projections). 0 for all others, and without a CRS.
+double turnOf(const Georeference& georeference);
+
+/// Shifts positions by whole turns (turnOf()) onto a DEM: a position that lies east or west of the DEM
+/// becomes the equivalent position nearest to the middle of the DEM. Other positions do not change.
 class LongitudeTurns {
  public:
   /// The identity.
@@ -29,8 +34,9 @@ class LongitudeTurns {
   Vec2 operator()(Vec2 p) const;
   /// In place. O(positions).
   void apply(std::span<Vec2> positions) const;
-  /// Shifts a shape as a whole, if all of it lies beside the DEM. O(positions).
-  void apply(RegionShape& shape) const;
+  /// The shifts, whole turns, by which something that reaches from `west` to `east` meets the DEM; rising.
+  /// {0} where nothing turns, or nothing is finite.
+  std::vector<double> shiftsOnto(double west, double east) const;
 
  private:
   void add(double x);

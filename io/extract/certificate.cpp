@@ -26,6 +26,7 @@ Json criterionJson(const ExtractCriterion& criterion) {
   if (criterion.maxError) json["maxError"] = limit(*criterion.maxError);
   if (criterion.maxTriangles) json["maxTriangles"] = *criterion.maxTriangles;
   if (!criterion.region.empty()) json["region"] = criterion.region;
+  if (!criterion.regionCrs.empty()) json["regionCrs"] = criterion.regionCrs;
   if (criterion.distance > 0) json["distance"] = criterion.distance;
   if (criterion.focus)
     json["focus"] = {

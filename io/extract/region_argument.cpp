@@ -7,12 +7,16 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "io/crs/reader.h"
+#include "io/extract/ground_buffer.h"
 #include "io/extract/region_reader.h"
+#include "io/gdal/polygon_set.h"
 
 namespace arete {
 namespace {
@@ -34,33 +38,55 @@ std::optional<std::vector<double>> numbersOf(std::string_view text) {
   return numbers;
 }
 
-}  // namespace
-
-Result<RegionArgument> readRegionArgument(const std::string& text, const std::string& demCrs, double distance,
-                                          const RunContext& context) try {
-  const std::string culprit = fmt::format("region {}", text);
-  if (const auto box = numbersOf(text); box && text.find(',') != std::string::npos) {
-    if (box->size() != 4)
-      return failure(ErrorCode::usage,
-                     fmt::format("a box has four numbers, xmin,ymin,xmax,ymax, not {}", box->size()),
-                     culprit);
-    const double xMin = (*box)[0], yMin = (*box)[1], xMax = (*box)[2], yMax = (*box)[3];
-    for (const double value : *box)
-      if (!std::isfinite(value)) return failure(ErrorCode::usage, "a box needs finite numbers", culprit);
-    if (!(xMin < xMax && yMin < yMax))
-      return failure(ErrorCode::usage, "xmin must be below xmax, and ymin below ymax", culprit);
-    return RegionArgument{
-        {.rings = {{{xMin, yMin}, {xMax, yMin}, {xMax, yMax}, {xMin, yMax}}}, .distance = distance}, {}};
+/// The corners of a box, brought into the DEM's CRS; nothing if the text is no list of numbers.
+Result<std::optional<std::vector<Vec2>>> readBox(const RegionText& region, const Georeference& dem) {
+  const auto box = numbersOf(region.text);
+  if (!box || region.text.find(',') == std::string::npos) return std::nullopt;
+  if (box->size() != 4)
+    return failure(ErrorCode::usage,
+                   fmt::format("a box has four numbers, xmin,ymin,xmax,ymax, not {}", box->size()));
+  for (const double value : *box)
+    if (!std::isfinite(value)) return failure(ErrorCode::usage, "a box needs finite numbers");
+  const double xMin = (*box)[0], yMin = (*box)[1], yMax = (*box)[3];
+  double xMax = (*box)[2];
+  Georeference axes = dem;
+  if (!region.crs.empty()) {
+    const auto crs = crsFromUser(region.crs);
+    if (!crs) return tl::unexpected(crs.error());
+    axes = {};
+    if (Status described = describeCrs(*crs, axes); !described) return tl::unexpected(described.error());
   }
-  auto read = readRegion(text, demCrs, {.takesLines = distance > 0}, context);
+  if (xMin > xMax && axes.isGeographic) xMax += turnOf(axes);
+  if (!(xMin < xMax && yMin < yMax))
+    return failure(ErrorCode::usage, "xmin must be below xmax, and ymin below ymax");
+  std::vector<Vec2> corners = {{xMin, yMin}, {xMax, yMin}, {xMax, yMax}, {xMin, yMax}};
+  if (region.crs.empty()) return corners;
+  if (dem.crsWkt.empty())
+    return failure(ErrorCode::usage,
+                   "has a CRS and the DEM has none, so the two cannot be brought together; "
+                   "state the DEM's with `crs` when it is read");
+  auto projected = reprojectRing(corners, region.crs, dem.crsWkt);
+  if (!projected) return tl::unexpected(projected.error());
+  return std::move(*projected);
+}
+
+Result<RegionArgument> readFile(const RegionText& region, const std::string& demCrs,
+                                const RunContext& context) {
+  const std::string& text = region.text;
+  const bool hasDistance = region.distance > 0;
+  auto read = readRegion(text, demCrs,
+                         {.crs = region.crs, .takesLines = hasDistance, .takesPoints = hasDistance}, context);
   if (!read) {
     Error error = read.error();
-    if (distance == 0 && (error.code == ErrorCode::unsupported || error.code == ErrorCode::invalidData))
-      if (const auto lines = readRegion(text, demCrs, {.takesLines = true}, context);
+    if (!hasDistance && (error.code == ErrorCode::unsupported || error.code == ErrorCode::invalidData))
+      if (const auto lines =
+              readRegion(text, demCrs, {.crs = region.crs, .takesLines = true, .takesPoints = true}, context);
           lines && lines->rings.empty())
-        return failure(ErrorCode::usage,
-                       "holds lines, and a line has no inside; state how far around them with `distance`",
-                       culprit);
+        return failure(
+            ErrorCode::usage,
+            lines->lines.empty()
+                ? "holds points, and a point has no inside; state how far around them with `distance`"
+                : "holds lines, and a line has no inside; state how far around them with `distance`");
     if (error.code == ErrorCode::notFound && text.find(',') != std::string::npos)
       error.message += ", nor are these the four numbers xmin,ymin,xmax,ymax";
     return tl::unexpected(error);
@@ -69,11 +95,78 @@ Result<RegionArgument> readRegionArgument(const std::string& text, const std::st
     return failure(ErrorCode::usage,
                    demCrs.empty() ? "has a CRS and the DEM has none, so the two cannot be brought together; "
                                     "state the DEM's with `crs` when it is read"
-                                  : "has no CRS and the DEM has one, so the two cannot be brought together",
-                   culprit);
-  return RegionArgument{
-      {.rings = std::move(read->rings), .lines = std::move(read->lines), .distance = distance},
-      std::move(read->warnings)};
+                                  : "has no CRS and the DEM has one, so the two cannot be brought together; "
+                                    "`region-crs` states it");
+  RegionShape shape{.rings = std::move(read->rings), .lines = std::move(read->lines)};
+  for (const Vec2& point : read->points) shape.lines.push_back({point});
+  return RegionArgument{std::move(shape), std::move(read->warnings)};
+}
+
+/// Adds a copy for each whole turn by which the shape meets the DEM. Where there are several, or the shape is
+/// longer than a turn, GEOS unites them.
+void turnOnto(const LongitudeTurns& turns, RegionArgument& region) {
+  RegionShape& shape = region.shape;
+  double west = std::numeric_limits<double>::infinity(), east = -west;
+  for (const auto* chains : {&shape.rings, &shape.lines})
+    for (const auto& chain : *chains)
+      for (const Vec2& p : chain) {
+        west = std::min(west, p.x);
+        east = std::max(east, p.x);
+      }
+  const std::vector<double> shifts = turns.shiftsOnto(west, east);
+  if (shifts.empty()) return;  // not on the DEM, wherever it is
+  const auto copied = [](const std::vector<std::vector<Vec2>>& chains, double dx) {
+    std::vector<std::vector<Vec2>> copies = chains;
+    for (auto& chain : copies)
+      for (Vec2& p : chain) p.x += dx;
+    return copies;
+  };
+  if (shifts.size() == 1) {
+    if (shifts[0] == 0) return;
+    shape.rings = copied(shape.rings, shifts[0]);
+    shape.lines = copied(shape.lines, shifts[0]);
+    return;
+  }
+  OGRMultiPolygon all;
+  std::vector<std::vector<Vec2>> lines;
+  for (const double dx : shifts) {
+    for (auto& line : copied(shape.lines, dx)) lines.push_back(std::move(line));
+    const OGRMultiPolygon copy = polygonsOf(copied(shape.rings, dx));
+    for (const OGRPolygon* polygon : copy) all.addGeometry(polygon);
+  }
+  shape.lines = std::move(lines);
+  shape.rings = ringsOf(united(repaired(all, region.warnings), region.warnings));
+}
+
+Result<RegionArgument> readAndPlace(const RegionText& text, const Georeference& dem,
+                                    const LongitudeTurns& turns, const RunContext& context) {
+  auto box = readBox(text, dem);
+  if (!box) return tl::unexpected(box.error());
+  RegionArgument region;
+  if (*box) {
+    region.shape.rings = {std::move(**box)};
+  } else {
+    auto read = readFile(text, dem.crsWkt, context);
+    if (!read) return read;
+    region = std::move(*read);
+  }
+  region.shape.distance = text.distance;
+  if (text.distance > 0 && !dem.crsWkt.empty()) {
+    auto extended = extendedOnGround(region.shape, dem, region.warnings, context);
+    if (!extended) return tl::unexpected(extended.error());
+    region.shape = std::move(*extended);
+  }
+  turnOnto(turns, region);
+  return region;
+}
+
+}  // namespace
+
+Result<RegionArgument> readRegionArgument(const RegionText& region, const Georeference& dem,
+                                          const LongitudeTurns& turns, const RunContext& context) try {
+  auto read = readAndPlace(region, dem, turns, context);
+  if (!read && read.error().culprit.empty()) read.error().culprit = fmt::format("region {}", region.text);
+  return read;
 } catch (...) {
   return caughtFailure();
 }

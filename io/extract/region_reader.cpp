@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Lines and polygons are collected apart. GEOS unites several polygons before the reprojection, while shared
-// borders still have the same numbers. The rings are then reprojected vertex by vertex; an edge, which is
-// straight in the file, is bisected until its reprojection bends by no more than the tolerance.
+// Lines, points and polygons are collected apart. GEOS unites several polygons before the reprojection, while
+// shared borders still have the same numbers. The rings are then reprojected (io/crs/chain_projection.h).
 #include "io/extract/region_reader.h"
 
 #include <fmt/format.h>
@@ -12,18 +11,20 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "io/crs/chain_projection.h"
+#include "io/crs/longitude_turns.h"
 #include "io/crs/reader.h"
+#include "io/gdal/polygon_set.h"
 #include "io/gdal/support.h"
 #include "io/gdal/vector_layer.h"
 
 namespace arete {
 namespace {
 
-constexpr double kBendTolerance = 1e-4;
-constexpr int kMostBisections = 12;
 constexpr std::size_t kFeaturesPerReport = 256;
 
 using Chain = std::vector<Vec2>;
@@ -33,12 +34,14 @@ struct TransformationCloser {
 };
 using TransformationPtr = std::unique_ptr<OGRCoordinateTransformation, TransformationCloser>;
 
-/// The geometries of a layer; lines only if takesLines.
+/// The geometries of a layer; lines and points only if they are taken.
 struct Shapes {
-  bool takesLines = false;
+  bool takesLines = false, takesPoints = false;
   OGRMultiPolygon polygons = {};
   OGRMultiLineString lines = {};
-  std::size_t others = 0;  // geometries that are neither
+  Chain points = {};
+  std::size_t others = 0;  // geometries that are none of these
+  bool isEmpty() const { return polygons.IsEmpty() && lines.IsEmpty() && points.empty(); }
 };
 
 void collect(const OGRGeometry& geometry, Shapes& all) {
@@ -51,6 +54,9 @@ void collect(const OGRGeometry& geometry, Shapes& all) {
     OGRLineString line(*geometry.toLineString());
     line.flattenTo2D();
     if (line.getNumPoints() > 1) all.lines.addGeometry(&line);
+  } else if (type == wkbPoint && all.takesPoints) {
+    const OGRPoint* point = geometry.toPoint();
+    if (!point->IsEmpty()) all.points.push_back({point->getX(), point->getY()});
   } else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
     for (const OGRGeometry* part : *geometry.toGeometryCollection()) collect(*part, all);
   } else {
@@ -76,94 +82,99 @@ Status collectLayer(OGRLayer& layer, Shapes& all, std::vector<std::string>& warn
     return failure(ErrorCode::unreadable,
                    fmt::format("the layer '{}' cannot be read: {}", layer.GetName(), errors.firstFailure()));
   errors.moveTo(warnings);
-  if (all.polygons.IsEmpty() && all.lines.IsEmpty())
-    return failure(ErrorCode::invalidData, fmt::format("the layer '{}' has no polygon{}", layer.GetName(),
-                                                       all.takesLines ? " and no line" : ""));
+  if (all.isEmpty())
+    return failure(ErrorCode::invalidData,
+                   fmt::format("the layer '{}' has no polygon{}{}", layer.GetName(),
+                               all.takesLines ? " and no line" : "", all.takesPoints ? " and no point" : ""));
   if (all.others > 0)
-    warnings.push_back(fmt::format("{} geometries that are no polygons{} are left out", all.others,
-                                   all.takesLines ? " or lines" : ""));
+    warnings.push_back(fmt::format("{} geometries that are no polygons{}{} are left out", all.others,
+                                   all.takesLines ? " or lines" : "", all.takesPoints ? " or points" : ""));
   return {};
 }
 
-/// The union of the polygons, or the polygons themselves, with a warning, where GEOS cannot make it.
-OGRMultiPolygon unite(const OGRMultiPolygon& all, std::vector<std::string>& warnings) {
-  if (all.getNumGeometries() < 2) return all;
-  GdalErrors quiet;
-  const std::unique_ptr<OGRGeometry> united(OGRGeometryFactory::haveGEOS() ? all.UnionCascaded() : nullptr);
-  Shapes result;
-  if (united) collect(*united, result);
-  if (!result.polygons.IsEmpty()) return result.polygons;
-  warnings.push_back("the polygons cannot be united; where two of them overlap counts as outside");
-  return all;
-}
-
-/// Reprojects positions; a null transformation leaves them.
+/// Reprojects chains; without transformation they stay.
 class Reprojection {
  public:
   Status prepare(const OGRSpatialReference& source, const OGRSpatialReference& target) {
     if (source.IsSame(&target)) return {};
     GdalErrors errors;
-    transformation_.reset(OGRCreateCoordinateTransformation(&source, &target));
-    if (transformation_) return {};
-    return failure(ErrorCode::invalidData,
-                   fmt::format("there is no way from its CRS to that of the DEM: {}", errors.firstFailure()));
-  }
-
-  bool operator()(Vec2& p) const {
-    return !transformation_ ||
-           (transformation_->Transform(1, &p.x, &p.y) && std::isfinite(p.x) && std::isfinite(p.y));
-  }
-
-  bool isIdentity() const { return transformation_ == nullptr; }
-
- private:
-  TransformationPtr transformation_;
-};
-
-/// Appends the reprojected vertices of the edge a -> b that lie strictly inside it.
-bool bendEdge(const Reprojection& reproject, Vec2 a, Vec2 b, Vec2 projectedA, Vec2 projectedB, int bisections,
-              Chain& ring) {
-  const Vec2 middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
-  Vec2 projected = middle;
-  if (!reproject(projected)) return false;
-  const double bend = std::hypot(projected.x - (projectedA.x + projectedB.x) / 2,
-                                 projected.y - (projectedA.y + projectedB.y) / 2);
-  const double length = std::hypot(projectedB.x - projectedA.x, projectedB.y - projectedA.y);
-  if (bend <= kBendTolerance * length || bisections == 0) return true;
-  if (!bendEdge(reproject, a, middle, projectedA, projected, bisections - 1, ring)) return false;
-  ring.push_back(projected);
-  return bendEdge(reproject, middle, b, projected, projectedB, bisections - 1, ring);
-}
-
-/// Appends a ring, or a line, reprojected; nothing where too few vertices differ.
-Status addChain(const OGRSimpleCurve& source, bool isRing, const Reprojection& reproject,
-                std::vector<Chain>& chains) {
-  Chain original;
-  for (int i = 0; i < source.getNumPoints(); ++i) {
-    const Vec2 p{source.getX(i), source.getY(i)};
-    if (!std::isfinite(p.x) || !std::isfinite(p.y))
-      return failure(ErrorCode::invalidData, "has a vertex that is not finite");
-    if (original.empty() || !(original.back() == p)) original.push_back(p);
-  }
-  while (isRing && original.size() > 1 && original.front() == original.back()) original.pop_back();
-  if (original.size() < (isRing ? 3 : 2)) return {};
-  if (reproject.isIdentity()) {
-    chains.push_back(std::move(original));
+    there_.reset(OGRCreateCoordinateTransformation(&source, &target));
+    back_.reset(there_ ? OGRCreateCoordinateTransformation(&target, &source) : nullptr);
+    if (!there_ || !back_)
+      return failure(
+          ErrorCode::invalidData,
+          fmt::format("there is no way from its CRS to that of the DEM: {}", errors.firstFailure()));
+    chains_.forward = mapBy(*there_);
+    chains_.back = mapBy(*back_);
+    Georeference onTarget;
+    if (Status described = describeCrs(target, onTarget); !described) return described;
+    chains_.turn = turnOf(onTarget);
+    // In a cylindrical map no pole is nearer than this; in some it is infinitely far.
+    chains_.pole = target.IsGeographic() ? chains_.turn / 4 : chains_.turn;
     return {};
   }
-  Chain chain, projected = original;
-  bool inside = true;
-  for (Vec2& p : projected) inside = inside && reproject(p);
-  for (std::size_t i = 0; inside && i < original.size(); ++i) {
-    chain.push_back(projected[i]);
-    const std::size_t next = (i + 1) % original.size();
-    if (next == 0 && !isRing) break;
-    inside = bendEdge(reproject, original[i], original[next], projected[i], projected[next], kMostBisections,
-                      chain);
+
+  bool isIdentity() const { return there_ == nullptr; }
+
+  Result<Chain> operator()(const Chain& chain, bool isRing) const {
+    if (isIdentity()) return chain;
+    const GdalErrors quiet;
+    auto projected = isRing ? projectRing(chain, chains_) : projectLine(chain, chains_);
+    if (!projected)
+      return failure(ErrorCode::invalidData, "has a vertex, or an edge, that the CRS of the DEM cannot tell");
+    return std::move(*projected);
   }
-  if (!inside) return failure(ErrorCode::invalidData, "has a vertex that the CRS of the DEM cannot tell");
-  chains.push_back(std::move(chain));
+
+ private:
+  static ChainProjection::Map mapBy(OGRCoordinateTransformation& transformation) {
+    return [&transformation](Vec2 p) -> std::optional<Vec2> {
+      if (!transformation.Transform(1, &p.x, &p.y) || !std::isfinite(p.x) || !std::isfinite(p.y))
+        return std::nullopt;
+      return p;
+    };
+  }
+
+  TransformationPtr there_, back_;
+  ChainProjection chains_;
+};
+
+Status checkFinite(const Chain& chain) {
+  for (const Vec2& p : chain)
+    if (!std::isfinite(p.x) || !std::isfinite(p.y))
+      return failure(ErrorCode::invalidData, "has a vertex that is not finite");
   return {};
+}
+
+Status checkFinite(const OGRMultiPolygon& polygons) {
+  for (const OGRPolygon* polygon : polygons)
+    for (const OGRLinearRing* ring : *polygon)
+      for (const OGRPoint& point : *ring)
+        if (Status ok = checkFinite(Chain{{point.getX(), point.getY()}}); !ok) return ok;
+  return {};
+}
+
+/// The vertices without repetitions.
+Chain chainOf(const OGRLineString& line) {
+  Chain chain;
+  for (int i = 0; i < line.getNumPoints(); ++i) {
+    const Vec2 p{line.getX(i), line.getY(i)};
+    if (chain.empty() || !(chain.back() == p)) chain.push_back(p);
+  }
+  return chain;
+}
+
+/// The polygons as rings that the even-odd rule understands, before they are reprojected.
+Result<std::vector<Chain>> regionRings(const OGRMultiPolygon& polygons, const OGRSpatialReference& source,
+                                       bool isReprojected, std::vector<std::string>& warnings) {
+  if (Status ok = checkFinite(polygons); !ok) return tl::unexpected(ok.error());
+  OGRMultiPolygon all = united(repaired(polygons, warnings), warnings);
+  if (isReprojected) {
+    Georeference onSource;
+    if (Status described = describeCrs(source, onSource); !described)
+      return tl::unexpected(described.error());
+    all = withinOneTurn(all, turnOf(onSource), warnings);
+  }
+  return ringsOf(all);
 }
 
 Result<RegionRead> readFrom(const std::string& path, const std::string& targetCrs,
@@ -175,12 +186,13 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
   const GdalDatasetPtr dataset = openGdal(path, GDAL_OF_VECTOR);
   if (!dataset) return tl::unexpected(explainOpenFailure(path, "set of polygons", errors));
   auto layer = chooseLayer(*dataset, options.layer,
-                           options.takesLines ? LayerKind::polygonsAndLines : LayerKind::polygons);
+                           options.takesPoints  ? LayerKind::shapes
+                           : options.takesLines ? LayerKind::polygonsAndLines
+                                                : LayerKind::polygons);
   if (!layer) return tl::unexpected(layer.error());
-  Shapes shapes{.takesLines = options.takesLines};
+  Shapes shapes{.takesLines = options.takesLines, .takesPoints = options.takesPoints};
   if (Status status = collectLayer(**layer, shapes, read.warnings, context); !status)
     return tl::unexpected(status.error());
-  const OGRMultiPolygon polygons = unite(shapes.polygons, read.warnings);
 
   auto source = chooseCrs((*layer)->GetSpatialRef(), options.crs, read.warnings);
   if (!source) return tl::unexpected(source.error());
@@ -194,14 +206,28 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
     read.warnings.push_back(fmt::format("the CRS of the {} is not known; coordinates are taken as the DEM's",
                                         source->IsEmpty() ? "region" : "DEM"));
   }
-  for (const OGRPolygon* polygon : polygons)
-    for (const OGRLinearRing* ring : *polygon)
-      if (Status status = addChain(*ring, true, reproject, read.rings); !status)
-        return tl::unexpected(status.error());
-  for (const OGRLineString* line : shapes.lines)
-    if (Status status = addChain(*line, false, reproject, read.lines); !status)
-      return tl::unexpected(status.error());
-  if (read.rings.empty() && read.lines.empty())
+  const auto rings = regionRings(shapes.polygons, *source, !reproject.isIdentity(), read.warnings);
+  if (!rings) return tl::unexpected(rings.error());
+  for (const Chain& ring : *rings) {
+    auto projected = reproject(ring, true);
+    if (!projected) return tl::unexpected(projected.error());
+    read.rings.push_back(std::move(*projected));
+  }
+  for (const OGRLineString* line : shapes.lines) {
+    const Chain chain = chainOf(*line);
+    if (Status ok = checkFinite(chain); !ok) return tl::unexpected(ok.error());
+    if (chain.size() < 2) continue;
+    auto projected = reproject(chain, false);
+    if (!projected) return tl::unexpected(projected.error());
+    read.lines.push_back(std::move(*projected));
+  }
+  for (const Vec2& point : shapes.points) {
+    if (Status ok = checkFinite(Chain{point}); !ok) return tl::unexpected(ok.error());
+    const auto projected = reproject(Chain{point}, false);
+    if (!projected) return tl::unexpected(projected.error());
+    read.points.push_back(projected->front());
+  }
+  if (read.rings.empty() && read.lines.empty() && read.points.empty())
     return failure(ErrorCode::invalidData, options.takesLines
                                                ? "has no polygon with an area and no line with a length"
                                                : "has no polygon with an area");
@@ -217,6 +243,19 @@ Result<RegionRead> readRegion(const std::string& path, const std::string& target
   return read;
 } catch (...) {
   return caughtFailure(path);
+}
+
+Result<std::vector<Vec2>> reprojectRing(const std::vector<Vec2>& ring, const std::string& fromCrs,
+                                        const std::string& toCrs) try {
+  registerGdal();
+  const auto source = crsFromUser(fromCrs), target = crsFromText(toCrs);
+  if (!source) return tl::unexpected(source.error());
+  if (!target) return tl::unexpected(target.error());
+  Reprojection reproject;
+  if (Status status = reproject.prepare(*source, *target); !status) return tl::unexpected(status.error());
+  return reproject(ring, true);
+} catch (...) {
+  return caughtFailure();
 }
 
 }  // namespace arete

@@ -23,6 +23,14 @@ bool mayHold(OGRwkbGeometryType declared, LayerKind kind) {
 }  // namespace
 
 Result<OGRLayer*> chooseLayer(GDALDataset& dataset, const std::string& name, LayerKind kind) {
+  if (kind == LayerKind::shapes) {
+    bool hasOthers = false, hasPoints = false;
+    for (OGRLayer* layer : dataset.GetLayers()) {
+      hasOthers = hasOthers || mayHold(layer->GetGeomType(), LayerKind::polygonsAndLines);
+      hasPoints = hasPoints || mayHold(layer->GetGeomType(), LayerKind::points);
+    }
+    kind = hasOthers || !hasPoints ? LayerKind::polygonsAndLines : LayerKind::points;
+  }
   std::vector<std::string> all, fitting;
   OGRLayer* found = nullptr;
   for (int i = 0; i < dataset.GetLayerCount(); ++i) {

@@ -15,6 +15,7 @@ enum class LayerKind {
   points,
   polygons,
   polygonsAndLines,
+  shapes,        ///< polygons and lines, or else points
   linesOrTable,  ///< lines, points, or rows without a geometry
   surfaces,      ///< polygons, TINs and polyhedral surfaces
 };

@@ -106,7 +106,7 @@ TEST(EllipsoidEarth, AzimuthsGoClockwiseFromNorth) {
   EXPECT_NEAR(trackOf(model, {500, 500}, {499, 500}).azimuthDegrees, 270, 1e-3);
 }
 
-/// The middles of the pieces are within 1/1000 of a step; with half as many pieces one would not be.
+/// The quarters of the pieces are within 1/1000 of a step; with half as many pieces one would not be.
 void expectStraightEnough(const TerrainModel& model, Vec2 from, Vec2 to) {
   const SightTrack track = trackOf(model, from, to);
   const auto lonLat = CrsLonLat::of(model.georeference);
@@ -128,9 +128,12 @@ void expectStraightEnough(const TerrainModel& model, Vec2 from, Vec2 to) {
     double most = 0;
     for (std::size_t i = 0; i < pieces; ++i) {
       const double step = length / double(pieces);
-      const Vec2 p = placeAt(double(i) * step), q = placeAt(double(i + 1) * step),
-                 m = placeAt((double(i) + 0.5) * step);
-      most = std::max({most, std::abs((p.x + q.x) / 2 - m.x), std::abs((p.y + q.y) / 2 - m.y)});
+      const Vec2 p = placeAt(double(i) * step), q = placeAt(double(i + 1) * step);
+      for (const double t : {0.25, 0.5, 0.75}) {
+        const Vec2 m = placeAt((double(i) + t) * step);
+        most = std::max(
+            {most, std::abs((1 - t) * p.x + t * q.x - m.x), std::abs((1 - t) * p.y + t * q.y - m.y)});
+      }
     }
     return most;
   };

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <random>
 #include <vector>
+
+#include "io/georeference_fixture.h"
 
 namespace arete {
 namespace {
@@ -53,21 +56,35 @@ TEST(LongitudeTurns, CountInTheUnitOfTheCrs) {
   EXPECT_NEAR(p.x, 390, 1e-9);
 }
 
-TEST(LongitudeTurns, ShiftAShapeAsAWhole) {
-  const LongitudeTurns turns = worldFrom(0, 90);
-  RegionShape beside;
-  beside.rings = {{{361, 0}, {362, 0}, {362, 1}}};
-  beside.lines = {{{370, 0}, {400, 0}}};
-  turns.apply(beside);
-  EXPECT_EQ(beside.rings[0][0], (Vec2{1, 0}));
-  EXPECT_EQ(beside.lines[0][1], (Vec2{40, 0}));
-  RegionShape across;  // reaches over the border of the DEM: parts of it would be torn apart
-  across.lines = {{{-5, 0}, {5, 0}}};
-  turns.apply(across);
-  EXPECT_EQ(across.lines[0][0], (Vec2{-5, 0}));
-  RegionShape empty;
-  turns.apply(empty);
-  EXPECT_TRUE(empty.rings.empty());
+TEST(LongitudeTurns, NameEveryShiftThatMeetsTheDem) {
+  using Shifts = std::vector<double>;
+  const LongitudeTurns fiji = worldFrom(179, 2);  // 179 to 181
+  EXPECT_EQ(fiji.shiftsOnto(-180, 180), (Shifts{0, 360})) << "cut at the antimeridian: both parts count";
+  EXPECT_EQ(fiji.shiftsOnto(-180, -179.5), (Shifts{360}));
+  EXPECT_EQ(fiji.shiftsOnto(179.5, 180.5), (Shifts{0}));
+  EXPECT_EQ(fiji.shiftsOnto(539.5, 540.5), (Shifts{-360}));
+  EXPECT_EQ(fiji.shiftsOnto(0, 10), Shifts{});
+  const LongitudeTurns east = worldFrom(0, 360);
+  EXPECT_EQ(east.shiftsOnto(-5, 5), (Shifts{0, 360}));
+  EXPECT_EQ(east.shiftsOnto(350, 370), (Shifts{-360, 0}));
+  EXPECT_EQ(east.shiftsOnto(10, 20), (Shifts{0}));
+  EXPECT_EQ(LongitudeTurns().shiftsOnto(-1e9, 1e9), (Shifts{0}));
+  EXPECT_EQ(fiji.shiftsOnto(1, 0), (Shifts{0})) << "of no shape";
+}
+
+TEST(LongitudeTurns, AreThoseOfCylindricalMapsToo) {
+  const double turn = 2 * std::numbers::pi * 6378137;
+  EXPECT_NEAR(turnOf(test::georeferenceOf("EPSG:3857")), turn, 1e-6);
+  EXPECT_NEAR(turnOf(test::georeferenceOf("EPSG:3395")), turn, 1e-6);
+  EXPECT_NEAR(turnOf(test::georeferenceOf("EPSG:3832")), turn, 1e-6) << "about 150 degrees east";
+  EXPECT_NEAR(turnOf(test::georeferenceOf("EPSG:4087")), turn, 1e-6);
+  EXPECT_NEAR(turnOf(test::georeferenceOf("+proj=merc +lon_0=-100 +R=1000 +units=km +type=crs")),
+              2 * std::numbers::pi, 1e-9);
+  EXPECT_EQ(turnOf(test::georeferenceOf("EPSG:4326")), 360);
+  EXPECT_NEAR(turnOf(test::georeferenceOf("EPSG:4807")), 400, 1e-9) << "grads";
+  for (const char* crs : {"EPSG:32601", "EPSG:3035", "EPSG:3413", "ESRI:54030"})
+    EXPECT_EQ(turnOf(test::georeferenceOf(crs)), 0) << crs;
+  EXPECT_EQ(turnOf({}), 0);
 }
 
 TEST(LongitudeTurns, OfPointsComeFromTheirExtent) {

@@ -8,6 +8,7 @@
 
 #include "io/dem/raster_reader.h"
 #include "io/extract/region_argument.h"
+#include "io/georeference_fixture.h"
 #include "io/io_fixture.h"
 
 namespace arete {
@@ -192,13 +193,13 @@ TEST(RegionReader, TakesLinesWhereTheyAreAskedFor) {
   ASSERT_EQ(read->lines.size(), 3u);
   EXPECT_EQ(read->lines[0], (std::vector<Vec2>{{0, 0}, {5, 0}, {5, 7}})) << "repeated vertices count once";
   EXPECT_FALSE(readRegion(path, ""));
-  const auto asked = readRegionArgument(path, "EPSG:4326", 0);
+  const auto asked = readRegionArgument({path}, test::georeferenceOf("EPSG:4326"), {});
   ASSERT_FALSE(asked);
   EXPECT_TRUE(contains(asked.error().message, "`distance`")) << asked.error().describe();
-  const auto corridor = readRegionArgument(path, "EPSG:4326", 25);
+  const auto corridor = readRegionArgument({path, 25}, test::georeferenceOf("EPSG:4326"), {});
   ASSERT_TRUE(corridor) << corridor.error().describe();
-  EXPECT_EQ(corridor->shape.lines.size(), 3u);
-  EXPECT_EQ(corridor->shape.distance, 25);
+  EXPECT_EQ(corridor->shape.rings.size(), 3u);
+  EXPECT_EQ(corridor->shape.distance, 0) << "the ground within it is in the rings";
 }
 
 TEST(RegionReader, BendsLinesAsItReprojectsThemAndLeavesThemOpen) {
