@@ -72,6 +72,12 @@ CLI::Validator realNumber() {
   });
 }
 
+CLI::Validator rawValue() {
+  return validator([](std::string& text) -> std::string {
+    return numberOf(text) ? "" : fmt::format("'{}' is not a number", text);
+  });
+}
+
 CLI::Validator finiteAtLeast(double least) {
   return validator([least](std::string& text) -> std::string {
     const std::optional<double> value = numberOf(text);
@@ -152,6 +158,25 @@ Result<std::pair<double, double>> twoNumbers(const std::string& option, std::str
   return std::pair((*numbers)[0], (*numbers)[1]);
 }
 
+void DemArguments::addFilesTo(CLI::App& command, const std::string& help) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "DEM",
+          [this](const std::vector<std::string>& names) {
+            path = names.front();
+            reading.otherFiles.assign(names.begin() + 1, names.end());
+          },
+          help)
+      ->required()
+      ->type_name("");
+}
+
+std::vector<std::string> DemArguments::files() const {
+  std::vector<std::string> all = {path};
+  all.insert(all.end(), reading.otherFiles.begin(), reading.otherFiles.end());
+  return all;
+}
+
 void DemArguments::addTo(CLI::App& command) {
   const std::string group = "Reading the DEM";
   command.add_option("--band", reading.band, "Band of a raster (default: the first)")
@@ -165,8 +190,21 @@ void DemArguments::addTo(CLI::App& command) {
       ->type_name("NAME")
       ->group(group);
   command.add_option("--nodata", reading.nodata, "Raw value that means NODATA, instead of the file's")
-      ->check(realNumber())
+      ->check(rawValue())
       ->type_name("VALUE")
+      ->group(group);
+  command
+      .add_option("--vertical-unit", reading.verticalUnit,
+                  "Unit of the heights, where the file states none or a wrong one (m, ft, us-ft, ...)")
+      ->type_name("UNIT")
+      ->group(group);
+  command
+      .add_option_function<std::string>(
+          "--positive", [this](const std::string& word) { reading.isDepth = word == "down"; },
+          "Direction in which the values count, instead of the file's: up, or down for depths, which are\n"
+          "negated; a CRS that points down, and CF's positive: down, say so too")
+      ->check(oneOf({"up", "down"}))
+      ->type_name("DIRECTION")
       ->group(group);
   command
       .add_option("--crs", reading.crs,
@@ -188,6 +226,8 @@ Result<DemRead> DemArguments::read(const Session& session) const {
     session.warn(dem->warnings, path);
   else if (!reading.crs.empty() && dem.error().culprit == reading.crs)
     dem.error().culprit = fmt::format("--crs {}", reading.crs);
+  else if (!reading.verticalUnit.empty() && dem.error().culprit == reading.verticalUnit)
+    dem.error().culprit = fmt::format("--vertical-unit {}", reading.verticalUnit);
   return dem;
 }
 

@@ -16,11 +16,13 @@
 
 namespace arete {
 
-// Validators of an option's text. An error is a sentence that follows the option's name. All refuse NaN,
-// which CLI::Range and CLI::Number let through.
+// Validators of an option's text. An error is a sentence that follows the option's name. All but rawValue()
+// refuse NaN, which CLI::Range and CLI::Number let through.
 
 CLI::Validator wholeNumber(std::int64_t least, std::int64_t most);
 CLI::Validator realNumber();
+/// A raw value of a file, which may be nan or infinite.
+CLI::Validator rawValue();
 CLI::Validator finiteAtLeast(double least);
 CLI::Validator finiteAbove(double bound);
 CLI::Validator finiteBetween(double least, double most);
@@ -57,6 +59,10 @@ struct DemArguments {
   SourceReading reading;
 
   void addTo(CLI::App& command);
+  /// Adds the argument that names one DEM or the files of one.
+  void addFilesTo(CLI::App& command, const std::string& help);
+  /// The path and what was named after it.
+  std::vector<std::string> files() const;
   /// Reads the DEM and writes its warnings. An error names the option that caused it, if one did.
   Result<DemRead> read(const Session& session) const;
 };

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -18,6 +19,7 @@
 #include "io/amt/file.h"
 #include "io/crs/names.h"
 #include "io/dem/dem_reader.h"
+#include "io/dem/raster_reader.h"
 #include "io/file/text_scan.h"
 #include "io/table/plan_point_reader.h"
 #include "terrain/build/build.h"
@@ -39,6 +41,9 @@ struct BuildArguments {
   double creaseAngleDegrees = -1;  // < 0: not stated
   double minimumAspect = -1;       // < 0: not stated
 };
+
+/// What a build needs at the least; rough terrain takes up to twice as much (terrain/build/build.h).
+constexpr double kLeastBuildBytesPerSample = 164;
 
 struct Seconds {
   double read = 0, features = 0, build = 0, write = 0;
@@ -143,6 +148,19 @@ Status buildFrom(BuildArguments& arguments, const FixedVertexOptions& fixedChoic
   arguments.options.fixedVertices = fixed->vertices;
   seconds.features = choosing.seconds();
 
+  // Samples without data take no memory.
+  const double valid = static_cast<double>(
+      field.heights.size() - static_cast<std::size_t>(std::ranges::count_if(
+                                 field.heights, [](double height) { return std::isnan(height); })));
+  if (Status memory = checkMemory(
+          valid * kLeastBuildBytesPerSample + static_cast<double>(field.heights.size() * sizeof(double)),
+          fmt::format("a build of {} samples would", grouped(static_cast<std::uint64_t>(valid))));
+      !memory)
+    return failure(memory.error().code,
+                   memory.error().message +
+                       ": build a part of it (gdal_translate -srcwin) or a coarser DEM (gdalwarp -tr)",
+                   arguments.dem.path);
+
   Stopwatch building;
   Result<TerrainModel> model = build(field, std::move(finest)..., arguments.options, session.context());
   if (!model) return tl::unexpected(model.error());
@@ -165,9 +183,9 @@ Status runBuild(BuildArguments& arguments, Session& session) {
     return failure(ErrorCode::usage,
                    fmt::format("must end in .amt, not .{}; arete extract writes other formats", extension),
                    fmt::format("--output {}", arguments.output));
-  if (Status output = checkOutput("--output", arguments.output, {arguments.dem.path, arguments.fixedPath});
-      !output)
-    return output;
+  std::vector<std::string> inputs = arguments.dem.files();
+  inputs.push_back(arguments.fixedPath);
+  if (Status output = checkOutput("--output", arguments.output, inputs); !output) return output;
   Seconds seconds;
   Stopwatch reading;
   Result<DemRead> dem = arguments.dem.read(session);
@@ -199,14 +217,14 @@ void addBuildCommand(CLI::App& app, Session& session) {
       session.addCommand(app, "build", "Build a multitriangulation of a DEM, once",
                          "  arete build dem.tif -o dem.amt\n"
                          "  arete build N46E008.hgt.zip -o alps.amt --shape fidelity\n"
+                         "  arete build tiles/*.tif -o all.amt\n"
                          "  arete build points.csv -o points.amt --crs EPSG:32611 --fixed peaks.gpkg\n"
                          "  arete build dem.tif -o dem.amt --feature-persistence 100 --rim-tolerance 2",
                          [arguments](Session& s) { return runBuild(*arguments, s); });
-  command
-      ->add_option("DEM", arguments->dem.path,
-                   "Raster or scattered points: any format that GDAL reads, also zipped, or text (CSV, XYZ)")
-      ->required()
-      ->type_name("");
+  arguments->dem.addFilesTo(
+      *command,
+      "Raster or scattered points: any format that GDAL reads, also zipped, or text (CSV, XYZ); several\n"
+      "rasters, a folder of them or a pattern become one DEM: later ones lie over earlier ones");
   command->add_option("-o,--output", arguments->output, "Multitriangulation to write (.amt)")
       ->required()
       ->type_name("FILE.amt");

@@ -32,6 +32,8 @@ std::string readingOptions(const SourceReading& reading) {
   if (!reading.layer.empty()) options += " --layer " + shellQuoted(reading.layer);
   if (!reading.zField.empty()) options += " --z-field " + shellQuoted(reading.zField);
   if (reading.nodata) options += fmt::format(" --nodata {}", *reading.nodata);
+  if (!reading.verticalUnit.empty()) options += " --vertical-unit " + shellQuoted(reading.verticalUnit);
+  if (reading.isDepth) options += fmt::format(" --positive {}", *reading.isDepth ? "down" : "up");
   if (!reading.crs.empty()) options += " --crs " + shellQuoted(reading.crs);
   return options;
 }
@@ -79,8 +81,9 @@ std::string checkCommand(const ExtractRequest& request, const TerrainModel& mode
     command += optionsOf(c);
     command += " && ";
   }
-  command += fmt::format("arete measure {} {} --expect {}", shellQuoted(tin), shellQuoted(model.source),
-                         promisedError);
+  command += fmt::format("arete measure {} {}", shellQuoted(tin), shellQuoted(model.source));
+  for (const std::string& file : model.reading.otherFiles) command += " " + shellQuoted(file);
+  command += fmt::format(" --expect {}", promisedError);
   command += readingOptions(model.reading);
   if (!c.region.empty()) command += fmt::format(" --region {}", shellQuoted(c.region));
   if (!c.regionCrs.empty()) command += fmt::format(" --region-crs {}", shellQuoted(c.regionCrs));

@@ -56,6 +56,9 @@ Status checkKind(const MeasureArguments& arguments, bool isMesh) {
         check("--band", reading.band.has_value(), false), check("--layer", !reading.layer.empty(), false),
         check("--z-field", !reading.zField.empty(), false),
         check("--nodata", reading.nodata.has_value(), false), check("--crs", !reading.crs.empty(), false),
+        check("--vertical-unit", !reading.verticalUnit.empty(), false),
+        check("--positive", reading.isDepth.has_value(), false),
+        check("more than one file", !reading.otherFiles.empty(), false),
         check("--samples", arguments.samples != 0, true), check("--seed", arguments.seed >= 0, true),
         check("--error-mesh", !arguments.errorMesh.empty(), true)})
     if (!ok) return ok;
@@ -171,10 +174,9 @@ Status runMeasure(const MeasureArguments& arguments, Session& session) {
     if (!isGeoTiffName(arguments.errorRaster))
       return failure(ErrorCode::usage, "the error raster is a GeoTIFF: its name ends in .tif",
                      fmt::format("--error-raster {}", arguments.errorRaster));
-    if (Status output =
-            checkOutput("--error-raster", arguments.errorRaster, {arguments.tin, arguments.dem.path});
-        !output)
-      return output;
+    std::vector<std::string> inputs = arguments.dem.files();
+    inputs.push_back(arguments.tin);
+    if (Status output = checkOutput("--error-raster", arguments.errorRaster, inputs); !output) return output;
   }
   const Result<MeshFile> tin = readMesh(arguments.tin, session.context());
   if (!tin) return tl::unexpected(tin.error());
@@ -201,9 +203,8 @@ void addMeasureCommand(CLI::App& app, Session& session) {
   command->add_option("TIN", arguments->tin, "Triangle mesh: " + readableMeshExtensions())
       ->required()
       ->type_name("");
-  command->add_option("DEM", arguments->dem.path, "Reference: a DEM, or another mesh")
-      ->required()
-      ->type_name("");
+  arguments->dem.addFilesTo(*command,
+                            "Reference: a DEM, or the files of one as build takes them, or another mesh");
   command
       ->add_option(
           "--expect", arguments->expect,

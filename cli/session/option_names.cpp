@@ -38,6 +38,7 @@ constexpr std::array kNames = {
     Name{"frequency", "--frequency"},
     Name{"growth", "--error-growth"},
     Name{"headless", "--headless"},
+    Name{"isDepth", "--positive"},
     Name{"isLonLat", "--lonlat"},
     Name{"layer", "--layer"},
     Name{"like", "--like"},
@@ -60,6 +61,7 @@ constexpr std::array kNames = {
     Name{"shape", "--shape"},
     Name{"targetHeight", "--target-height"},
     Name{"thresholdRatio", "--ratio"},
+    Name{"verticalUnit", "--vertical-unit"},
     Name{"viewport", "--viewport"},
     Name{"zField", "--z-field"},
 };

@@ -21,8 +21,11 @@
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "io/dem/declared_length.h"
+#include "io/dem/dem_files.h"
 #include "io/dem/gridded_points.h"
 #include "io/file/text_scan.h"
+#include "io/gdal/network_files.h"
 #include "io/gdal/support.h"
 #include "io/gdal/zipped_raster.h"
 #include "io/table/point_text.h"
@@ -32,6 +35,7 @@ namespace arete {
 namespace {
 
 bool isPointCloud(const std::string& path) {
+  const GdalErrors quiet;
   constexpr std::array<std::string_view, 3> kExtensions = {"las", "laz", "e57"};
   if (std::find(kExtensions.begin(), kExtensions.end(), text::lowerExtension(path)) != kExtensions.end())
     return true;
@@ -46,14 +50,24 @@ bool isPointCloud(const std::string& path) {
 /// True if GDAL reads the file as a raster. Otherwise sets `opensAsVector`.
 bool isRaster(const std::string& path, bool& opensAsVector) {
   GdalErrors quiet;
-  GDALDriverH driver = GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
+  GDALDriverH driver = GDALIdentifyDriverEx(networkPathOf(path).c_str(), GDAL_OF_RASTER, nullptr, nullptr);
   const bool identified = driver && !isTextDriver(driver);
   if (identified) {
-    const GdalDatasetPtr dataset = openGdal(path, GDAL_OF_RASTER);
+    const GdalDatasetPtr dataset = openRasterForLength(path);
     if (dataset && (dataset->GetRasterCount() > 0 || dataset->GetMetadata("SUBDATASETS"))) return true;
   }
   opensAsVector = openGdal(path, GDAL_OF_VECTOR) != nullptr;
   return identified && !opensAsVector;
+}
+
+RasterReadOptions rasterOptions(const SourceReading& reading) {
+  RasterReadOptions options;
+  if (reading.band) options.band = static_cast<int>(*reading.band);
+  options.crs = reading.crs;
+  options.nodata = reading.nodata;
+  options.verticalUnit = reading.verticalUnit;
+  options.isDepth = reading.isDepth;
+  return options;
 }
 
 Result<DemRead> readAsRaster(const std::string& path, const SourceReading& reading,
@@ -64,11 +78,7 @@ Result<DemRead> readAsRaster(const std::string& path, const SourceReading& readi
   if (!reading.zField.empty())
     return failure(ErrorCode::usage,
                    fmt::format("is a raster, which has bands and no field '{}'", reading.zField), path);
-  RasterReadOptions rasterOptions;
-  if (reading.band) rasterOptions.band = static_cast<int>(*reading.band);
-  rasterOptions.crs = reading.crs;
-  rasterOptions.nodata = reading.nodata;
-  auto read = readRaster(path, rasterOptions, context);
+  auto read = readRaster(path, rasterOptions(reading), context);
   if (!read) return tl::unexpected(read.error());
   return DemRead{std::move(read->heightfield), std::move(read->warnings)};
 }
@@ -82,6 +92,8 @@ Result<DemRead> readAsPoints(const std::string& path, bool text, const SourceRea
   pointOptions.zField = reading.zField;
   pointOptions.crs = reading.crs;
   pointOptions.nodata = reading.nodata;
+  pointOptions.verticalUnit = reading.verticalUnit;
+  pointOptions.isDepth = reading.isDepth;
   auto read = readPoints(path, pointOptions, context);
   if (!read) return tl::unexpected(read.error());
   if (text) {
@@ -109,8 +121,40 @@ Result<DemRead> readZipped(const std::string& archive, const SourceReading& read
   return readAsRaster(archive, reading, context);
 }
 
-Result<DemRead> readFrom(const std::string& path, const SourceReading& reading, const RunContext& context) {
+/// Reads several rasters as one.
+Result<DemRead> readSeveral(const std::string& path, const std::vector<std::string>& files,
+                            const SourceReading& reading, const RunContext& context) {
+  for (const auto& [name, value] : {std::pair{"layer", &reading.layer}, std::pair{"zField", &reading.zField}})
+    if (!value->empty())
+      return failure(ErrorCode::usage, "is for points, and several files are read as one raster", name);
+  for (const std::string& file : files) {
+    if (isPlainZip(file)) continue;
+    GdalErrors errors;
+    bool opensAsVector = false;
+    if (isRaster(file, opensAsVector)) continue;
+    if (opensAsVector || looksLikePointText(file))
+      return failure(ErrorCode::unsupported,
+                     "holds points: several files are read as one only if all of them are rasters", file);
+    openGdal(file, GDAL_OF_RASTER);
+    return tl::unexpected(explainOpenFailure(file, "raster", errors));
+  }
+  auto read = readRasters(files, rasterOptions(reading), context);
+  if (!read) return tl::unexpected(read.error());
+  read->heightfield.source = path;
+  return DemRead{std::move(read->heightfield), std::move(read->warnings)};
+}
+
+Result<DemRead> readFrom(const std::string& given, const SourceReading& reading, const RunContext& context) {
   registerGdal();
+  std::string path = given;
+  if (!reading.otherFiles.empty() || namesSeveralFiles(path)) {
+    std::vector<std::string> names = {path};
+    names.insert(names.end(), reading.otherFiles.begin(), reading.otherFiles.end());
+    const auto files = demFilesOf(names);
+    if (!files) return tl::unexpected(files.error());
+    if (files->size() > 1) return readSeveral(path, *files, reading, context);
+    path = files->front();
+  }
   if (isPointCloud(path))
     if (VSIStatBufL status; VSIStatL(path.c_str(), &status) == 0)
       return failure(
@@ -122,8 +166,11 @@ Result<DemRead> readFrom(const std::string& path, const SourceReading& reading, 
   if (isPlainZip(path)) return readZipped(path, reading, context);
   bool opensAsVector = false;
   if (isRaster(path, opensAsVector)) return readAsRaster(path, reading, context);
+  if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped", path);
 
   GdalErrors errors;
+  if (Status status = checkLengthByContent(networkPathOf(path)); !status)
+    return failure(status.error().code, status.error().message, path);
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
   const bool text = looksLikePointText(path);
   if (text || opensAsVector) return readAsPoints(path, text, reading, context);
@@ -211,6 +258,7 @@ std::optional<std::string> loneHeightsWarning(const Heightfield& field) {
 
 Result<DemRead> readDem(const std::string& path, const SourceReading& reading,
                         const RunContext& context) try {
+  NetworkReading network(context.cancel);
   Result<DemRead> read = readFrom(path, reading, context);
   if (!read) return read;
   if (auto warning = std::visit([](const auto& field) { return crsWarning(field); }, read->heightfield))

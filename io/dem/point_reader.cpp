@@ -17,6 +17,7 @@
 #include "engine/base/caught_failure.h"
 #include "engine/memory/pages.h"
 #include "io/crs/reader.h"
+#include "io/crs/vertical.h"
 #include "io/gdal/support.h"
 #include "io/gdal/vector_layer.h"
 #include "io/table/feature_rows.h"
@@ -185,8 +186,11 @@ Result<PointRead> finish(PointRows rows, std::string_view originName, const OGRS
   points.georeference.hasGeoTransform = true;
   auto chosen = chooseCrs(crs, options.crs, read.warnings);
   if (!chosen) return tl::unexpected(chosen.error());
-  if (Status status = describeCrs(*chosen, points.georeference); !status)
-    return tl::unexpected(status.error());
+  const auto isDepth = describeVertical(*chosen, {}, {options.verticalUnit, options.isDepth},
+                                        points.georeference, read.warnings);
+  if (!isDepth) return tl::unexpected(isDepth.error());
+  if (*isDepth)
+    for (double& height : rows.heights) height = 0 - height;
   rows.positions.shrink_to_fit();
   rows.heights.shrink_to_fit();
   points.positions = std::move(rows.positions);

@@ -17,6 +17,8 @@ struct PointReadOptions {
   std::string zField;
   std::string crs;               ///< as for rasters
   std::optional<double> nodata;  ///< points of that height are left out, with a warning
+  std::string verticalUnit;      ///< as for rasters
+  std::optional<bool> isDepth;   ///< as for rasters
 };
 
 struct PointRead {
@@ -34,7 +36,8 @@ struct PointRead {
 /// y, z.
 ///
 /// Keeps the order of the file. Of equal points (x, y and z) the first is kept; a warning counts the others.
-/// The georeference is the identity: grid coordinates equal source coordinates.
+/// The georeference is the identity: grid coordinates equal source coordinates. Heights count upwards: the
+/// depths of a CRS that points down are negated, with a warning.
 ///
 /// Errors: notFound, unreadable, corrupt. unsupported: no layer of points, or several (lists them); other
 /// geometries. usage: no such column or field; not a CRS. invalidData: a line that does not parse, with its

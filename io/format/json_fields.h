@@ -14,6 +14,7 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "engine/base/vec.h"
 
@@ -32,7 +33,8 @@ namespace arete::json_fields {
 /// field()           a bool, an unsigned number, a double, a text, a row of doubles or a Vec3; required
 /// choice()          an enumerator by its name; required
 /// object()          an object, whose fields the function visits; required
-/// optional()        a field that is absent when the value is empty (or a number that is not finite)
+/// optional()        a field, or a row of texts, that is absent when the value is empty (or a number that is
+///                   not finite)
 /// optionalObject()  an object that is absent when none of its fields is present
 
 /// A name for a value.
@@ -101,6 +103,11 @@ class Writer {
   }
   void optional(const char* key, const std::string& text) {
     if (!text.empty()) field(key, text);
+  }
+  void optional(const char* key, const std::vector<std::string>& texts) {
+    if (texts.empty()) return;
+    nlohmann::ordered_json& row = object_[key] = nlohmann::ordered_json::array();
+    for (const std::string& text : texts) row.push_back(exactText(text));
   }
   template <class Visit>
   void optionalObject(const char* key, Visit visit) {
@@ -202,6 +209,15 @@ class Reader {
   }
   void optional(const char* key, std::string& text) {
     if (object_.contains(key)) field(key, text);
+  }
+  void optional(const char* key, std::vector<std::string>& texts) {
+    if (!object_.contains(key)) return;
+    if (!object_[key].is_array()) return fail(key, "is not an array of texts");
+    for (const Json& element : object_[key]) {
+      // Each is read as a field of its own, so that the forms of a text are known in one place.
+      const Json single = {{key, element}};
+      Reader(single, prefix_, problem_).field(key, texts.emplace_back());
+    }
   }
   template <class Visit>
   void optionalObject(const char* key, Visit visit) {

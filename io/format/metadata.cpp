@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -46,6 +47,7 @@ AmtScalar scalarOf(HeightEncoding::Type type) {
 struct Stored {
   std::uint32_t scaleBase = 0;
   double thresholdRatio = 0;
+  std::string nodataWord;  ///< a stated NODATA value that JSON has no number for: nan, inf or -inf
 };
 
 /// Visits the fields of the metadata, in the order of the file.
@@ -112,6 +114,10 @@ void visitMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
     reading.optional("zField", r.zField);
     reading.optional("crs", r.crs);
     reading.optional("nodata", r.nodata);
+    reading.optional("nodataWord", stored.nodataWord);
+    reading.optional("verticalUnit", r.verticalUnit);
+    reading.optional("isDepth", r.isDepth);
+    reading.optional("otherFiles", r.otherFiles);
   });
 }
 
@@ -219,7 +225,9 @@ std::optional<std::string> findAmtProblem(const AmtMetadata& m) {
 std::string toAmtJson(const AmtMetadata& metadata) {
   nlohmann::ordered_json object = nlohmann::ordered_json::object();
   json_fields::Writer writer(object);
-  const Stored stored{metadata.scale.base(), metadata.model.options.thresholdRatioOrDefault()};
+  const std::optional<double> nodata = metadata.model.reading.nodata;
+  const Stored stored{metadata.scale.base(), metadata.model.options.thresholdRatioOrDefault(),
+                      nodata && !std::isfinite(*nodata) ? fmt::format("{}", *nodata) : ""};
   visitMetadata(writer, metadata, stored);
   return object.dump(1) + "\n";
 }
@@ -234,6 +242,9 @@ Result<AmtMetadata> fromAmtJson(std::string_view text) {
   visitMetadata(reader, m, stored);
   m.scale = OutwardScale::fromBase(stored.scaleBase);
   m.model.options.thresholdRatio = stored.thresholdRatio;
+  if (stored.nodataWord == "nan") m.model.reading.nodata = std::numeric_limits<double>::quiet_NaN();
+  if (stored.nodataWord == "inf") m.model.reading.nodata = std::numeric_limits<double>::infinity();
+  if (stored.nodataWord == "-inf") m.model.reading.nodata = -std::numeric_limits<double>::infinity();
   if (problem.empty()) problem = findAmtProblem(m).value_or("");
   if (!problem.empty()) return failure(ErrorCode::corrupt, fmt::format("the metadata is wrong: {}", problem));
   return m;

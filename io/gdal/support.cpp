@@ -15,6 +15,7 @@
 #include <mutex>
 
 #include "io/file/text_scan.h"
+#include "io/gdal/network_files.h"
 
 namespace arete {
 namespace {
@@ -29,11 +30,33 @@ std::string onOneLineWithoutDot(const char* message) {
   return text;
 }
 
+/// What to do with a compressed file or an archive, by its name; empty for other names.
+std::string archiveHint(const std::string& path, std::string_view kind) {
+  if (isVirtualPath(path)) return {};
+  const std::string name = text::lowered(path);
+  const auto endsIn = [&](std::initializer_list<const char*> extensions) {
+    return std::any_of(extensions.begin(), extensions.end(),
+                       [&](const char* extension) { return name.ends_with(extension); });
+  };
+  if (endsIn({".zip"})) return fmt::format("is an archive: name the {} in it, /vsizip/{}/NAME", kind, path);
+  if (endsIn({".tar", ".tgz", ".tar.gz"}))
+    return fmt::format("is an archive: name the {} in it, /vsitar/{}/NAME", kind, path);
+  if (endsIn({".gz"}))
+    return fmt::format("is compressed: /vsigzip/{} reads it, and gunzip unpacks it for other programs", path);
+  if (endsIn({".bz2", ".xz", ".zst", ".7z", ".rar", ".z", ".lzma", ".tbz", ".txz"}))
+    return fmt::format("is compressed or an archive: unpack it and name the {} in it", kind);
+  return {};
+}
+
 }  // namespace
 
 void registerGdal() {
   static std::once_flag once;
-  std::call_once(once, [] { GDALAllRegister(); });
+  std::call_once(once, [] {
+    const GdalErrors quiet;  // of a damaged plugin
+    GDALAllRegister();
+    installNetworkFiles();
+  });
 }
 
 GdalErrors::GdalErrors() {
@@ -60,6 +83,10 @@ std::string GdalErrors::firstFailure() const {
   return {};
 }
 
+std::string GdalErrors::firstMessage() const {
+  return messages_.empty() ? std::string() : messages_.front().second;
+}
+
 void GdalErrors::moveTo(std::vector<std::string>& warnings) {
   std::vector<std::string> distinct;
   for (const auto& [severity, message] : messages_)
@@ -73,7 +100,8 @@ void GdalErrors::moveTo(std::vector<std::string>& warnings) {
 
 GdalDatasetPtr openGdal(const std::string& path, unsigned flags) {
   registerGdal();
-  return GdalDatasetPtr(GDALDataset::Open(path.c_str(), flags | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+  const std::string name = (flags & GDAL_OF_RASTER) != 0 ? networkPathOf(path) : path;
+  return GdalDatasetPtr(GDALDataset::Open(name.c_str(), flags | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
 }
 
 std::optional<Error> findInputProblem(const std::string& path) {
@@ -94,7 +122,12 @@ std::optional<Error> findInputProblem(const std::string& path) {
   return Error{ErrorCode::unreadable, fmt::format("cannot be opened: {}", std::strerror(errno)), path};
 }
 
-Error explainOpenFailure(const std::string& path, std::string_view kind, const GdalErrors& errors) {
+Error explainOpenFailure(const std::string& given, std::string_view kind, const GdalErrors& errors) {
+  const std::string path = networkPathOf(given);
+  if (const std::string problem = networkProblem(path); !problem.empty())
+    return {problem.ends_with("answers 404") || problem.ends_with("answers 410") ? ErrorCode::notFound
+                                                                                 : ErrorCode::unreadable,
+            "cannot be read: " + problem, given};
   if (auto problem = findInputProblem(path)) return *problem;
   VSIStatBufL status;
   const bool there = VSIStatL(path.c_str(), &status) == 0;
@@ -106,9 +139,8 @@ Error explainOpenFailure(const std::string& path, std::string_view kind, const G
     return {ErrorCode::notFound, said.empty() ? "there is no such file" : "cannot be opened: " + said, path};
   if (GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR, nullptr, nullptr) && !said.empty())
     return {ErrorCode::corrupt, fmt::format("cannot be read as a {}: {}", kind, said), path};
-  if (text::lowerExtension(path) == "zip" && !isVirtualPath(path))
-    return {ErrorCode::unsupported,
-            fmt::format("is an archive: name the {} in it, /vsizip/{}/NAME", kind, path), path};
+  if (const std::string hint = archiveHint(path, kind); !hint.empty())
+    return {ErrorCode::unsupported, hint, path};
   return {ErrorCode::unsupported, fmt::format("is not a {} in any format GDAL knows", kind), path};
 }
 

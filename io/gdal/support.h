@@ -34,6 +34,8 @@ class GdalErrors {
   bool anyFailure() const;
   /// The first failure, which is the cause: GDAL reports consequences later. Empty if there was none.
   std::string firstFailure() const;
+  /// The first message that is at least a warning. Empty if there was none.
+  std::string firstMessage() const;
   /// Appends the messages so far to `warnings` (the first few distinct ones) and clears them here.
   void moveTo(std::vector<std::string>& warnings);
   void clear() { messages_.clear(); }

@@ -22,7 +22,14 @@ AmtMetadata tiny() {
 
 TEST(Metadata, ReadsBackToTheSameText) {
   AmtMetadata m = tiny();
-  m.model.reading = {.band = 2, .layer = "a\xff", .zField = "z", .crs = "EPSG:32611", .nodata = -9999};
+  m.model.reading = {.band = 2,
+                     .layer = "a\xff",
+                     .zField = "z",
+                     .crs = "EPSG:32611",
+                     .nodata = -9999,
+                     .verticalUnit = "ft",
+                     .isDepth = true,
+                     .otherFiles = {"b.tif", "c\xff.tif"}};
   m.model.options.shape = HoleShape::dataDependent;
   m.model.options.rimTolerance = 0.1 + 0.2;
   const std::string text = toAmtJson(m);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/dem/band_heights.h"
+#include "io/dem/band_reader.h"
 
 #include <gtest/gtest.h>
 
-#include <atomic>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -18,21 +18,39 @@ using test::joined;
 using test::RasterSpec;
 using test::TemporaryFolder;
 
-/// The heights of the first band of a raster made for the test.
-class BandHeightsTest : public ::testing::Test {
+struct BandHeights {
+  std::vector<double> heights;
+  double scale = 1, offset = 0;
+};
+
+/// The heights of the first band of a raster made for the test, read strip by strip.
+class BandReaderTest : public ::testing::Test {
  protected:
-  Result<BandHeights> read(const RasterSpec& spec, std::optional<double> nodata = {},
-                           const RunContext& context = {}) {
+  Result<BandHeights> read(const RasterSpec& spec, std::optional<double> nodata = {}) {
     warnings_.clear();
     const GdalDatasetPtr dataset = openGdal(test::writeRaster(folder_.file("a.tif"), spec), GDAL_OF_RASTER);
     EXPECT_NE(dataset, nullptr);
-    return readBandHeights(*dataset->GetRasterBand(1), nodata, warnings_, context);
+    GDALRasterBand& band = *dataset->GetRasterBand(1);
+    auto reader = BandReader::of(band, nodata);
+    if (!reader) return tl::unexpected(reader.error());
+    BandHeights read;
+    read.scale = reader->scale();
+    read.offset = reader->offset();
+    const std::size_t columns = std::size_t(band.GetXSize());
+    for (int row = 0; row < band.GetYSize(); row += reader->stripRows()) {
+      const int count = std::min(reader->stripRows(), band.GetYSize() - row);
+      std::vector<double> strip(columns * std::size_t(count));
+      if (Status status = reader->read(row, count, strip); !status) return tl::unexpected(status.error());
+      read.heights.insert(read.heights.end(), strip.begin(), strip.end());
+    }
+    reader->report(warnings_);
+    return read;
   }
   TemporaryFolder folder_;
   std::vector<std::string> warnings_;
 };
 
-TEST_F(BandHeightsTest, StatedNodataReplacesTheDeclaredOne) {
+TEST_F(BandReaderTest, StatedNodataReplacesTheDeclaredOne) {
   RasterSpec spec;
   spec.adjust = [](GDALDataset& dataset) { dataset.GetRasterBand(1)->SetNoDataValue(2); };
   const auto declared = read(spec), stated = read(spec, 5);
@@ -42,7 +60,7 @@ TEST_F(BandHeightsTest, StatedNodataReplacesTheDeclaredOne) {
   EXPECT_TRUE(std::isnan(stated->heights[4]));
 }
 
-TEST_F(BandHeightsTest, ScaleAndOffsetApplyBehindNodata) {
+TEST_F(BandReaderTest, ScaleAndOffsetApplyBehindNodata) {
   RasterSpec spec;
   spec.adjust = [](GDALDataset& dataset) {
     dataset.GetRasterBand(1)->SetNoDataValue(2);
@@ -57,7 +75,7 @@ TEST_F(BandHeightsTest, ScaleAndOffsetApplyBehindNodata) {
   EXPECT_EQ(read->offset, 100);
 }
 
-TEST_F(BandHeightsTest, AreWarnedOfWhereTheyAreHugeOrInfinite) {
+TEST_F(BandReaderTest, AreWarnedOfWhereTheyAreHugeOrInfinite) {
   RasterSpec spec;
   spec.type = GDT_Float32;
   spec.values = {1, -3.4e38, 3, std::numeric_limits<double>::infinity(), 5, 6};
@@ -69,7 +87,7 @@ TEST_F(BandHeightsTest, AreWarnedOfWhereTheyAreHugeOrInfinite) {
   EXPECT_TRUE(contains(joined(warnings_), "`nodata`")) << joined(warnings_);
 }
 
-TEST_F(BandHeightsTest, RefuseAScaleThatIsNotANumber) {
+TEST_F(BandReaderTest, RefuseAScaleThatIsNotANumber) {
   for (const double scale : {0.0, std::numeric_limits<double>::quiet_NaN()}) {
     RasterSpec spec;
     spec.adjust = [&](GDALDataset& dataset) { dataset.GetRasterBand(1)->SetScale(scale); };
@@ -79,7 +97,7 @@ TEST_F(BandHeightsTest, RefuseAScaleThatIsNotANumber) {
   }
 }
 
-TEST_F(BandHeightsTest, RefuseComplexNumbers) {
+TEST_F(BandReaderTest, RefuseComplexNumbers) {
   RasterSpec spec;
   spec.type = GDT_CFloat32;
   const auto read = this->read(spec);
@@ -87,7 +105,7 @@ TEST_F(BandHeightsTest, RefuseComplexNumbers) {
   EXPECT_EQ(read.error().code, ErrorCode::unsupported);
 }
 
-TEST_F(BandHeightsTest, AreReadStripByStripInOrder) {
+TEST_F(BandReaderTest, AreReadStripByStripInOrder) {
   // More than a million samples in three columns: several strips.
   RasterSpec spec;
   spec.columns = 3;
@@ -99,15 +117,6 @@ TEST_F(BandHeightsTest, AreReadStripByStripInOrder) {
   ASSERT_TRUE(read);
   EXPECT_TRUE(read->heights.size() == spec.values.size() &&
               std::equal(read->heights.begin(), read->heights.end(), spec.values.begin()));
-}
-
-TEST_F(BandHeightsTest, StopWhenCancelled) {
-  const std::atomic<bool> stop = true;
-  RunContext context;
-  context.cancel = &stop;
-  const auto read = this->read({}, {}, context);
-  ASSERT_FALSE(read);
-  EXPECT_EQ(read.error().code, ErrorCode::interrupted);
 }
 
 }  // namespace
