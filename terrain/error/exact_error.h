@@ -5,9 +5,18 @@
 
 namespace arete {
 
-/// Whether the plane through a, b, c differs at p from the height of p by more than `bound`, decided by exact
-/// arithmetic. O(1), about a microsecond. Preconditions: a, b, c counter-clockwise in the plan, not on a
-/// line; everything finite.
+// Decisions by exact arithmetic, where doubles do not suffice. Each is O(1) and takes about a microsecond.
+// Precondition of all: every number is finite.
+
+/// Whether the plane through a, b, c differs at p from the height of p by more than `bound`. Precondition: a,
+/// b, c are counter-clockwise in the plan and not on a line.
 bool isErrorAbove(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p, double bound);
+
+/// Whether that plane lies above p (> 0), below it (< 0) or passes through it. Precondition: as above.
+int signAt(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p);
+
+/// Whether the segment a-b passes above the segment p-q (> 0), below it (< 0) or through it. Precondition: in
+/// the plan they cross, and are not parallel.
+int signAtCrossing(const Vec3& a, const Vec3& b, const Vec3& p, const Vec3& q);
 
 }  // namespace arete

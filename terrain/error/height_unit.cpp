@@ -32,18 +32,26 @@ int lowestBit(double height) {
 
 }  // namespace
 
-double commonUnit(std::span<const double> heights) {
+HeightUnit HeightUnit::of(std::span<const double> heights) {
+  struct Found {
+    int lowest = kNone;
+    double largest = 0;
+  };
   constexpr std::size_t kHeightsAtOnce = 1 << 16;
-  const int lowest = tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, heights.size(), kHeightsAtOnce), kNone,
-      [&](const auto& part, int least) {
-        for (const double height : heights.subspan(part.begin(), part.size()))
-          least = std::min(least, lowestBit(height));
-        return least;
+  const Found found = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, heights.size(), kHeightsAtOnce), Found{},
+      [&](const auto& part, Found so) {
+        for (const double height : heights.subspan(part.begin(), part.size())) {
+          so.lowest = std::min(so.lowest, lowestBit(height));
+          so.largest = std::abs(height) > so.largest ? std::abs(height) : so.largest;  // false for NODATA
+        }
+        return so;
       },
-      [](int a, int b) { return std::min(a, b); });
+      [](const Found& a, const Found& b) {
+        return Found{std::min(a.lowest, b.lowest), std::max(a.largest, b.largest)};
+      });
   constexpr int kMost = 1000;
-  return std::abs(lowest) < kMost ? std::ldexp(1.0, lowest) : 0;
+  return {std::abs(found.lowest) < kMost ? std::ldexp(1.0, found.lowest) : 0, found.largest};
 }
 
 }  // namespace arete

@@ -48,26 +48,36 @@ struct SignedDifferences {
   }
 };
 
-/// Twice the area of a triangle. Exact: less than twice the number of samples.
-double areaOf(const RasterError::Corner& a, const RasterError::Corner& b, const RasterError::Corner& c) {
-  return double(b.x - a.x) * double(c.y - a.y) - double(b.y - a.y) * double(c.x - a.x);
+Vec3 vecOf(const RasterError::Corner& p) {
+  return {double(p.x), double(p.y), p.z};
 }
 
-/// Bounds the rounding error of a difference from the plane. The plane is evaluated from rounded steps along
-/// columns and rows; the steps of a needle are differences of large numbers, so its bound is large.
-[[gnu::always_inline]] inline double roundingOfPlane(const RasterError::Corner& a,
-                                                     const RasterError::Corner& b,
-                                                     const RasterError::Corner& c) {
+/// Where numbers are so small that digits are lost below the least double, no rounding error exceeds this.
+constexpr double kTiny = 0x1p-1030;
+
+struct PlaneRounding {
+  double bound;  ///< of the rounding error of a difference from the plane, but for that of heights
+  double area;   ///< twice the triangle's area, exactly
+};
+
+/// The plane is evaluated from rounded steps along columns and rows; the steps of a needle are differences of
+/// large numbers, so its bound is large. 0 on level ground.
+[[gnu::always_inline]] inline PlaneRounding roundingOfPlane(const RasterError::Corner& a,
+                                                            const RasterError::Corner& b,
+                                                            const RasterError::Corner& c) {
   const Double2 ab = {double(b.x - a.x), double(b.y - a.y)}, ac = {double(c.x - a.x), double(c.y - a.y)};
   const Double2 crossed = ab * simd::swapLanes(ac), farthest = simd::max(simd::abs(ab), simd::abs(ac));
   const Double2 terms = broadcast(std::abs(b.z - a.z)) * simd::abs(simd::swapLanes(ac)) +
                         broadcast(std::abs(c.z - a.z)) * simd::abs(simd::swapLanes(ab));
   const Double2 products = terms * farthest;
-  return 0x1p-49 * (products[0] + products[1]) / (crossed[0] - crossed[1]);
+  const double area = crossed[0] - crossed[1];
+  return {0x1p-49 * (products[0] + products[1]) / area, area};
 }
 
-/// Where numbers are so small that digits are lost below the least double, no rounding error exceeds this.
-constexpr double kTiny = 0x1p-1030;
+/// Bounds the rounding error of a difference, but for that of the subtraction of the sample's height.
+[[gnu::always_inline]] inline double roundingOf(const PlaneRounding& plane, const RasterError::Corner& a) {
+  return plane.bound > 0 ? plane.bound + 0x1p-50 * std::abs(a.z) + kTiny : 0;
+}
 
 }  // namespace
 
@@ -86,9 +96,8 @@ constexpr double kTiny = 0x1p-1030;
     const Corner &u = isAB ? a : c, &v = isAB || isBC ? b : a;
     x = (u.x + v.x) / 2;
     y = (u.y + v.y) / 2;
-    const double sum = u.z + v.z, part = sum - u.z;
-    z = sum / 2;
-    rounding = std::abs((u.z - (sum - part)) + (v.z - part));  // the exact error of the sum [Shewchuk1997]
+    z = (u.z + v.z) / 2;
+    rounding = areMiddlesExact_ ? 0 : 0x1p-53 * std::abs(z) * (u.z != v.z);
   } else if (area == 3) {
     x = std::int64_t(a.x) + b.x + c.x;
     y = std::int64_t(a.y) + b.y + c.y;
@@ -274,39 +283,37 @@ double RasterError::maximum(const Corner& a, const Corner& b, const Corner& c, d
                             SignedBound& bound, double& rounding) const {
   double only = 0;
   if (isSmall(a, b, c, only, rounding)) {
-    if (rounding < unit_ / 8)
+    if (rounding < leastSmallDifference_ || std::abs(only) > rounding)
       bound.include(only);
-    else
-      bound.include({rounding - only, rounding + only});
-    rounding += 0x1p-52 * std::abs(only);
+    else  // of either sign
+      bound.include({rounding, rounding});
+    rounding += rounding > 0 || !areMiddlesExact_ ? 0x1p-52 * std::abs(only) : 0;
     return std::abs(only);
   }
-  const double ofPlane = roundingOfPlane(a, b, c), area = areaOf(a, b, c);
-  rounding = ofPlane > 0 ? ofPlane + 0x1p-50 * std::abs(a.z) + kTiny : 0;
-  // The signs of multiples of unit_ / area survive a smaller rounding error. Where they may be lost, a
-  // difference within the rounding error counts as one of either sign.
-  const double unsure = rounding * area < unit_ / 4 ? 0 : rounding;
-  SignedDifferences differences{limit, broadcast(-unsure), broadcast(unsure)};
+  // The signs of differences that are multiples of unit_ / area survive a rounding error below that. Where
+  // the unit is fine, differences within the rounding error are looked at again.
+  const double start = isUnitCoarse_ ? 0 : roundingOf(roundingOfPlane(a, b, c), a);
+  SignedDifferences differences{limit, broadcast(-start), broadcast(start)};
   compare(a, b, c, differences);
   const double high = simd::maxLane(differences.above), low = simd::minLane(differences.below);
-  const double widening = std::max(ofPlane, unsure);
-  bound.above = std::max(bound.above, high > -unsure ? high + widening : 0);
-  bound.below = std::max(bound.below, low < unsure ? widening - low : 0);
+  const PlaneRounding ofPlane = roundingOfPlane(a, b, c);
+  rounding = roundingOf(ofPlane, a);
+  const bool isUnsure = !(rounding * ofPlane.area < unit_ / 4);
+  const auto include = [&](double& side, double found, int sign) {
+    if (found > 0)
+      side = std::max(side, found + ofPlane.bound);
+    else if (isUnsure && (isUnitCoarse_ || found > -start) && isAnySampleSigned(a, b, c, sign)) [[unlikely]]
+      side = std::max(side, 2 * rounding);
+  };
+  include(bound.above, high, 1);
+  include(bound.below, -low, -1);
   const double error = std::max({high, -low, 0.0});
   rounding += 0x1p-52 * error;
   return error;
 }
 
-bool RasterError::isAbove(const Corner& a, const Corner& b, const Corner& c, double error, double rounding,
-                          double bound) const {
-  const double area = areaOf(a, b, c), units = error * area / unit_;
-  constexpr double kMost = 0x1p50;
-  // Both products are exact: a bound is a float.
-  if (rounding * area < unit_ / 4 && units < kMost) return std::nearbyint(units) * unit_ > bound * area;
-  return isAnySampleAbove(a, b, c, bound);
-}
-
-bool RasterError::isAnySampleAbove(const Corner& a, const Corner& b, const Corner& c, double bound) const {
+template <class Visit>
+bool RasterError::isAnySample(const Corner& a, const Corner& b, const Corner& c, const Visit& visit) const {
   const std::array corners = {a, b, c};
   const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
   const auto floorOf = [](std::int64_t numerator, std::int64_t denominator) {  // denominator > 0
@@ -314,11 +321,10 @@ bool RasterError::isAnySampleAbove(const Corner& a, const Corner& b, const Corne
   };
   const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y, dzB = b.z - a.z,
                dzC = c.z - a.z, area = bx * cy - by * cx;
-  const double rounding = 0x1p-49 * (std::abs(dzB) + std::abs(dzC) + std::abs(a.z)) + kTiny;
-  const auto vecOf = [](const Corner& p) { return Vec3{double(p.x), double(p.y), p.z}; };
+  const double rounding = 0x1p-49 * (std::abs(dzB) + std::abs(dzC)) + kTiny;
   for (std::int64_t y = top; y <= bottom; ++y) {
     std::int64_t left = std::numeric_limits<std::int64_t>::min(), right = -(left + 1);
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       const Corner &from = corners[i], &to = corners[(i + 1) % 3];
       const std::int64_t dx = to.x - from.x, dy = to.y - from.y;
       if (dy > 0) right = std::min(right, from.x + floorOf(dx * (y - from.y), dy));
@@ -326,15 +332,28 @@ bool RasterError::isAnySampleAbove(const Corner& a, const Corner& b, const Corne
     }
     for (std::int64_t x = left; x <= right; ++x) {
       const double z = heights_[std::size_t(y) * plan_.columns() + std::size_t(x)];
+      if (std::isnan(z)) continue;
       // The weights are exact and between 0 and 1.
       const double dx = double(x - a.x), dy = double(y - a.y);
       const double difference = (a.z - z) + ((dx * cy - dy * cx) * dzB + (bx * dy - by * dx) * dzC) / area;
-      if (!(std::abs(difference) + rounding + 0x1p-51 * std::abs(difference) > bound))
-        continue;  // NODATA too
-      if (isErrorAbove(vecOf(a), vecOf(b), vecOf(c), {double(x), double(y), z}, bound)) return true;
+      if (visit(Vec3{double(x), double(y), z}, difference, rounding + 0x1p-51 * std::abs(difference)))
+        return true;
     }
   }
   return false;
+}
+
+bool RasterError::isAnySampleAbove(const Corner& a, const Corner& b, const Corner& c, double bound) const {
+  return isAnySample(a, b, c, [&](const Vec3& sample, double difference, double rounding) {
+    return std::abs(difference) + rounding > bound &&
+           isErrorAbove(vecOf(a), vecOf(b), vecOf(c), sample, bound);
+  });
+}
+
+bool RasterError::isAnySampleSigned(const Corner& a, const Corner& b, const Corner& c, int sign) const {
+  return isAnySample(a, b, c, [&](const Vec3& sample, double difference, double rounding) {
+    return difference * sign > -rounding && signAt(vecOf(a), vecOf(b), vecOf(c), sample) == sign;
+  });
 }
 
 }  // namespace arete

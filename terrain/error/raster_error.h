@@ -160,22 +160,7 @@ class RasterError {
   /// @param crossingRounding  bounds the rounding error of alongEdge()
   RasterError(const LatticePlan& plan, std::span<const double> heights, bool reachesBeyondRims,
               double crossingRounding = 0)
-      : plan_(plan),
-        heights_(heights),
-        rows_(static_cast<std::uint32_t>(heights.size() / plan.columns())),
-        reachesBeyondRims_(reachesBeyondRims),
-        roundUp_(0.5 - 0.5 / rows_),
-        unit_(commonUnit(heights)),
-        crossingRounding_(crossingRounding),
-        areCrossingsSure_(4 * crossingRounding * std::max(plan.columns(), rows_) < unit_),
-        blocks_(heights, plan.columns()),
-        clearance_(heights, plan.columns()),
-        edgeCrossings_(plan.columns()) {
-    // With f the larger of p and q, coordinate differences below 2 s f give a dot and a cross product below
-    // 8 (s f)^2; the product of these two must stay below 2^63.
-    const double f = std::max(plan.p(), plan.q());
-    while (64 * std::pow(2.0 * smallSpread_ * f, 4) < 0x1p62) smallSpread_ *= 2;
-  }
+      : RasterError(plan, heights, reachesBeyondRims, crossingRounding, HeightUnit::of(heights)) {}
 
   /// Prefetches the heights around a vertex that is evaluated soon.
   [[gnu::always_inline]] void prefetch(VertexId vertex) const {
@@ -266,7 +251,16 @@ class RasterError {
   /// O(1). Otherwise the samples are scanned, and exact arithmetic decides those near the bound.
   /// @param error, rounding  from maximum(), not stopped by a limit
   bool isAbove(const Corner& a, const Corner& b, const Corner& c, double error, double rounding,
-               double bound) const;
+               double bound) const {
+    const double area = double(b.x - a.x) * double(c.y - a.y) - double(b.y - a.y) * double(c.x - a.x);
+    const double units = error * area * perUnit_;
+    // All products are exact: a bound is a float.
+    if (rounding * area < unit_ / 4 && units < 0x1p50) {
+      constexpr double kShift = 0x1.8p52;  // rounds to the nearest whole number
+      return (units + kShift - kShift) * unit_ > bound * area;
+    }
+    return isAnySampleAbove(a, b, c, bound);
+  }
 
   /// Bounds of the signed difference between the segment a-b and the finest triangulation at the points where
   /// the segment crosses its edges. Together with the samples inside, these points contain the extremes of
@@ -277,10 +271,37 @@ class RasterError {
   }
 
  private:
+  RasterError(const LatticePlan& plan, std::span<const double> heights, bool reachesBeyondRims,
+              double crossingRounding, const HeightUnit& heightUnit)
+      : plan_(plan),
+        heights_(heights),
+        rows_(static_cast<std::uint32_t>(heights.size() / plan.columns())),
+        reachesBeyondRims_(reachesBeyondRims),
+        roundUp_(0.5 - 0.5 / rows_),
+        unit_(heightUnit.unit),
+        perUnit_(unit_ > 0 ? 1 / unit_ : 0),
+        leastSmallDifference_(unit_ / 8),
+        areMiddlesExact_(heightUnit.areMiddlesExact()),
+        isUnitCoarse_(heightUnit.isCoarse()),
+        crossingRounding_(crossingRounding),
+        areCrossingsSure_(4 * crossingRounding * std::max(plan.columns(), rows_) < unit_),
+        blocks_(heights, plan.columns()),
+        clearance_(heights, plan.columns()),
+        edgeCrossings_(plan.columns()) {
+    // With f the larger of p and q, coordinate differences below 2 s f give a dot and a cross product below
+    // 8 (s f)^2; the product of these two must stay below 2^63.
+    const double f = std::max(plan.p(), plan.q());
+    while (64 * std::pow(2.0 * smallSpread_ * f, 4) < 0x1p62) smallSpread_ *= 2;
+  }
+
   SignedBound alongShortEdge(const Corner& a, const Corner& b) const;
+  SignedBound alongUnsureEdge(const Corner& a, const Corner& b) const;
   SignedBound alongLongEdge(const Corner& a, const Corner& b) const;
   bool isSmall(const Corner& a, const Corner& b, const Corner& c, double& difference, double& rounding) const;
+  template <class Visit>
+  bool isAnySample(const Corner& a, const Corner& b, const Corner& c, const Visit& visit) const;
   bool isAnySampleAbove(const Corner& a, const Corner& b, const Corner& c, double bound) const;
+  bool isAnySampleSigned(const Corner& a, const Corner& b, const Corner& c, int sign) const;
   template <class Height, class Differences>
   class PlaneDifferences;
   template <class Differences>
@@ -296,10 +317,13 @@ class RasterError {
   SampleHeights heights_;
   std::uint32_t rows_;
   bool reachesBeyondRims_;
-  double roundUp_;           // see TriangleRows
-  double unit_;              // see commonUnit()
-  double crossingRounding_;  // of alongEdge()
-  bool areCrossingsSure_;    // whether the sign of a difference along an edge is never lost to rounding
+  double roundUp_;               // see TriangleRows
+  double unit_, perUnit_;        // all heights are multiples of the unit; 0: not known
+  double leastSmallDifference_;  // no difference that isSmall() finds is smaller, but for 0
+  bool areMiddlesExact_;         // HeightUnit::areMiddlesExact()
+  bool isUnitCoarse_;            // HeightUnit::isCoarse()
+  double crossingRounding_;      // of alongEdge()
+  bool areCrossingsSure_;        // whether the sign of a difference along an edge is never lost to rounding
   HeightBlocks blocks_;
   VoidClearance clearance_;
   EdgeCrossingTable edgeCrossings_;

@@ -11,19 +11,44 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "terrain/error/exact_error.h"
 #include "terrain/error/raster_error.h"
 
 namespace arete {
 namespace {
 
-/// What the rounding error of a difference may be where the segment rises `dz` and the crossed edge
-/// `between`: nothing on level ground.
-inline double lostOf(double dz, double between, double rounding) {
-  return dz == 0 && between == 0 ? 0 : rounding;
+Vec3 position(const RasterError::Corner& p) {
+  return {double(p.x), double(p.y), p.z};
 }
 
+/// The differences at crossings. Unless kIsSure, exact arithmetic decides the signs of those that may have
+/// lost theirs to rounding, and such a difference counts as one of the size of the rounding error.
+template <bool kIsSure>
+class Crossings {
+ public:
+  explicit Crossings(double rounding) : rounding_(rounding) {}
+
+  /// @param isLevel  whether both edges are level, which leaves no rounding error
+  /// @param sign     of the exact difference
+  template <class Sign>
+  void include(double difference, bool isLevel, const Sign& sign) {
+    high_ = difference > high_ ? difference : high_;  // false for NODATA
+    low_ = difference < low_ ? difference : low_;
+    if constexpr (!kIsSure)
+      if (std::abs(difference) <= rounding_ && !isLevel) [[unlikely]] {
+        const double decided = rounding_ * sign();
+        high_ = std::max(high_, decided);
+        low_ = std::min(low_, decided);
+      }
+  }
+  SignedBound bound() const { return {0 - low_, high_}; }  // -low_ would give -0
+
+ private:
+  double rounding_;
+  double high_ = 0, low_ = 0;
+};
+
 /// Collects the segment's height minus the finest triangulation's where the segment crosses lattice lines.
-/// Unless kIsSure, a difference within `rounding` counts as one of either sign.
 template <bool kIsSure, class Height>
 class LongEdge {
  public:
@@ -35,23 +60,24 @@ class LongEdge {
         dy_(b.y - a.y),
         z0_(a.z),
         dz_(b.z - a.z),
+        endHeight_(b.z),
         heights_(heights),
         columns_(columns),
         rows_(rows),
-        rounding_(rounding) {}
+        crossings_(rounding) {}
 
   /// Precondition: the segment does not run along a column.
   void crossColumns() {
     crossLines(dx_, y0_, dy_, [&](double t, std::int64_t k, std::int64_t row, double f) {
       const Height* h = sample(row, x0_ + k);
-      include(t, h[0], h[columns_], f);
+      include(t, h, h + columns_, f);
     });
   }
   /// Precondition: the segment does not run along a row.
   void crossRows() {
     crossLines(dy_, x0_, dx_, [&](double t, std::int64_t k, std::int64_t column, double f) {
       const Height* h = sample(y0_ + k, column);
-      include(t, h[0], h[1], f);
+      include(t, h, h + 1, f);
     });
   }
   /// Diagonals column - row = constant, which cross whole cells.
@@ -59,7 +85,7 @@ class LongEdge {
     // On the diagonal both fractions are equal; the one along the column is exact more often.
     crossDiagonals(
         dx_ - dy_, [](double f) { return f; },
-        [&](double t, const Height* h, double f) { include(t, h[0], h[columns_ + 1], f); });
+        [&](double t, const Height* h, double f) { include(t, h, h + columns_ + 1, f); });
   }
   /// Diagonals column + row = constant, from the lower-left to the upper-right sample: these are edges of
   /// the finest triangulation in half cells only.
@@ -68,11 +94,11 @@ class LongEdge {
         dx_ + dy_, [](double f) { return 1 - f; },
         [&](double t, const Height* h, double f) {
           const bool isHalfCell = std::isnan(h[0]) != std::isnan(h[columns_ + 1]);
-          if (isHalfCell) include(t, h[columns_], h[1], f);
+          if (isHalfCell) include(t, h + columns_, h + 1, f);
         });
   }
 
-  SignedBound bound() const { return {std::max(0.0, -low_), std::max(0.0, high_)}; }
+  SignedBound bound() const { return crossings_.bound(); }
 
  private:
   /// Visits the crossings with columns (or rows). `lines`: how many columns the segment's end is away;
@@ -107,21 +133,25 @@ class LongEdge {
   const Height* sample(std::int64_t row, std::int64_t column) const {
     return heights_ + std::size_t(row) * columns_ + std::size_t(column);
   }
-  /// The crossing at the part t of the segment, a fraction f of the way between two samples' heights.
-  void include(double t, double from, double to, double f) {
-    const double difference = z0_ + dz_ * t - (from + f * (to - from));
-    const double lost = kIsSure ? 0 : lostOf(dz_, to - from, rounding_);
-    high_ = difference + lost > high_ ? difference + lost : high_;  // false for NODATA
-    low_ = difference - lost < low_ ? difference - lost : low_;
+  /// The crossing at the part t of the segment, a fraction f of the way between two samples.
+  void include(double t, const Height* p, const Height* q, double f) {
+    const double from = *p, to = *q;
+    crossings_.include(z0_ + dz_ * t - (from + f * (to - from)), dz_ == 0 && from == to, [&] {
+      const Vec3 start{double(x0_), double(y0_), z0_}, end{double(x0_ + dx_), double(y0_ + dy_), endHeight_};
+      return signAtCrossing(start, end, at(p), at(q));
+    });
+  }
+  Vec3 at(const Height* sample) const {
+    const auto index = static_cast<std::size_t>(sample - heights_);
+    return {double(index % columns_), double(index / columns_), double(*sample)};
   }
 
   std::int64_t x0_, y0_, dx_, dy_;
-  double z0_, dz_;
+  double z0_, dz_, endHeight_;
   const Height* heights_;
   std::size_t columns_;
   std::uint32_t rows_;
-  double rounding_;
-  double high_ = 0, low_ = 0;
+  Crossings<kIsSure> crossings_;
 };
 
 }  // namespace
@@ -129,24 +159,34 @@ class LongEdge {
 SignedBound RasterError::alongShortEdge(const Corner& a, const Corner& b) const {
   const double dz = b.z - a.z;
   const std::size_t start = std::size_t(a.y) * plan_.columns() + std::size_t(a.x);
+  if (!areCrossingsSure_) [[unlikely]]
+    return alongUnsureEdge(a, b);
   double high = 0, low = 0;
-  const auto include = [&](const auto* heights, const auto& lostAt) {
+  heights_.with([&](const auto* heights) {
     heights += start;
     for (const EdgeCrossingTable::Crossing& crossing : edgeCrossings_.of(b.x - a.x, b.y - a.y)) {
       const double from = heights[crossing.from], to = heights[crossing.to];
       const double difference = a.z + dz * crossing.along - (from + crossing.between * (to - from));
-      const double lost = lostAt(to - from);
-      high = difference + lost > high ? difference + lost : high;  // false for NODATA
-      low = difference - lost < low ? difference - lost : low;
+      high = difference > high ? difference : high;  // false for NODATA
+      low = difference < low ? difference : low;
     }
-  };
-  heights_.with([&](const auto* heights) {
-    if (areCrossingsSure_)
-      include(heights, [](double) { return 0.0; });
-    else
-      include(heights, [&](double between) { return lostOf(dz, between, crossingRounding_); });
   });
   return {0 - low, high};  // -low would give -0
+}
+
+SignedBound RasterError::alongUnsureEdge(const Corner& a, const Corner& b) const {
+  const double dz = b.z - a.z;
+  const auto start = std::int64_t(a.y) * plan_.columns() + a.x;
+  const auto at = [&](std::int32_t offset) {
+    return position(corner(static_cast<std::uint32_t>(start + offset)));
+  };
+  Crossings<false> crossings(crossingRounding_);
+  for (const EdgeCrossingTable::Crossing& crossing : edgeCrossings_.of(b.x - a.x, b.y - a.y)) {
+    const Vec3 p = at(crossing.from), q = at(crossing.to);
+    crossings.include(a.z + dz * crossing.along - (p.z + crossing.between * (q.z - p.z)),
+                      dz == 0 && p.z == q.z, [&] { return signAtCrossing(position(a), position(b), p, q); });
+  }
+  return crossings.bound();
 }
 
 SignedBound RasterError::alongLongEdge(const Corner& a, const Corner& b) const {

@@ -107,6 +107,18 @@ std::vector<std::size_t> partsOf(const Histogram& histogram) {
   return begins;
 }
 
+/// Whether every sixteenth height shows that no long run of bins is empty, as in most DEMs.
+bool isFilled(std::span<const double> heights, const Range& range) {
+  constexpr std::size_t kEvery = 16;
+  if (!(range.half() > 0)) return true;
+  const Bins bins(range);
+  Histogram histogram{};
+  histogram.front() = histogram.back() = 1;
+  for (std::size_t i = 0; i < heights.size(); i += kEvery)
+    if (heights[i] == heights[i]) histogram[bins.of(heights[i])] = 1;
+  return partsOf(histogram).size() == 1;
+}
+
 struct Search {
   std::span<const double> heights;
   double scale, offset;
@@ -178,28 +190,24 @@ bool LoneHeights::areRemote() const {
 }
 
 LoneHeights loneHeights(std::span<const double> heights, double scale, double offset) {
-  struct Whole {
-    Range range;
-    std::uint64_t count = 0;
-  };
-  const auto whole = reduce(
-      heights, Whole{},
-      [](Whole& found, double z) {
-        found.range.take(z);
-        found.count += z == z ? 1 : 0;
-      },
-      [](Whole a, const Whole& b) {
-        a.range.take(b.range);
-        a.count += b.count;
+  const Range whole = reduce(
+      heights, Range{}, [](Range& found, double z) { found.take(z); },
+      [](Range a, const Range& b) {
+        a.take(b);
         return a;
       });
   LoneHeights result;
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   result.low = result.high = kNone;
-  if (whole.count == 0) return result;
-  Range others = whole.range;
+  if (!(whole.low <= whole.high)) return result;
+  result.low = whole.low;
+  result.high = whole.high;
+  if (isFilled(heights, whole)) return result;
+  Range others = whole;
   Part lone;
-  const Search search{heights, scale, offset, whole.count};
+  const auto samples =
+      static_cast<std::uint64_t>(std::ranges::count_if(heights, [](double z) { return z == z; }));
+  const Search search{heights, scale, offset, samples};
   for (int round = 0; round < kMostRounds && search.narrow(others, lone); ++round) {
   }
   result.low = others.low;

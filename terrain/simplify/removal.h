@@ -156,10 +156,11 @@ class VertexRemover {
     OutwardScale::Code low = scale.encode(std::max(0.0, error - rounding));
     if (scale.decode(low) >= error + rounding) [[likely]]
       return low;
+    const auto [i, j, m] = floor.triangulation.triangles[f];
+    if (!hole.isAbove(i, j, m, error, rounding, scale.decode(low))) return low;
     // No error exceeds the range of the heights, however much the arithmetic may have lost.
     OutwardScale::Code high =
         scale.encode(std::min(error + rounding, static_cast<double>(scale.decode(OutwardScale::kMaxCode))));
-    const auto [i, j, m] = floor.triangulation.triangles[f];
     while (low < high) {
       const auto middle = static_cast<OutwardScale::Code>((low + high) / 2);
       if (hole.isAbove(i, j, m, error, rounding, scale.decode(middle)))
