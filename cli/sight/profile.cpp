@@ -91,7 +91,8 @@ Result<Way> typedWay(const std::string& text, const CrsTransform& toDem) {
 }
 
 Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference& dem,
-                                  const Result<CrsTransform>& toDem, Session& session) {
+                                  const LongitudeTurns& turns, const Result<CrsTransform>& toDem,
+                                  Session& session) {
   if (!isFile(a.along)) {
     if (!a.layer.empty()) return failure(ErrorCode::usage, "requires --along FILE", "--layer");
     auto way = typedWay(a.along, *toDem);
@@ -106,7 +107,10 @@ Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference&
   session.warn(read->warnings, a.along);
   if (read->lines.empty()) return failure(ErrorCode::invalidData, "holds no line", a.along);
   std::vector<Way> ways;
-  for (auto& line : read->lines) ways.push_back({std::move(line), std::nullopt});
+  for (auto& line : read->lines) {
+    turns.apply(line);
+    ways.push_back({std::move(line), std::nullopt});
+  }
   return ways;
 }
 
@@ -288,7 +292,7 @@ Status runProfile(const ProfileArguments& a, Session& session) {
   const Georeference& dem = outline->georeference;
   const auto toDem = transformOfPlaces(a.sight.lonLat, *outline);
   if (!toDem) return tl::unexpected(toDem.error());
-  const auto ways = readWays(a, dem, toDem, session);
+  const auto ways = readWays(a, dem, LongitudeTurns(*outline), toDem, session);
   if (!ways) return tl::unexpected(ways.error());
   if (a.frequency > 0 && !ways->front().ends)
     return failure(ErrorCode::usage, "requires a line of sight: --along X,Y,H:X,Y,H", "--frequency");

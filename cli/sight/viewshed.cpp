@@ -239,7 +239,7 @@ struct ViewshedAnswer {
 };
 
 Result<ViewshedAnswer> answerOne(const Question& q, const ViewshedMaker& maker, const PlacedGrid& grid,
-                         const RunContext& context, Json& json) {
+                                 const RunContext& context, Json& json) {
   ViewshedOptions options = q.options;
   options.field = q.observers.front().field;
   const ViewshedObserver& observer = q.observers.front().observer;
@@ -259,10 +259,14 @@ Result<ViewshedAnswer> answerMany(const Question& q, const ViewshedMaker& maker,
 }
 
 /// Reports how many cells have which answer.
-void reportCounts(const ViewshedArguments& a, const std::vector<ViewshedCell>& cells, Json json,
-                  Session& session) {
+void reportCounts(const ViewshedArguments& a, const std::vector<ViewshedCell>& cells, const PlacedGrid& grid,
+                  Json json, Session& session) {
   const auto count = [&](ViewshedCell which) {
-    return static_cast<std::uint64_t>(std::count(cells.begin(), cells.end(), which));
+    std::uint64_t number = 0;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      if (cells[i] == which && !(grid.georeference.repeatsFirstColumn && (i + 1) % grid.columns == 0))
+        ++number;
+    return number;
   };
   const std::uint64_t seen = count(ViewshedCell::seen), hidden = count(ViewshedCell::hidden),
                       unknown = count(ViewshedCell::unknown), undecided = count(ViewshedCell::undecided);
@@ -308,7 +312,7 @@ Status answer(const Question& q, Session& session) {
                                     picture.options, session.context());
       !written)
     return written;
-  reportCounts(a, made->cells, std::move(json), session);
+  reportCounts(a, made->cells, *grid, std::move(json), session);
   return {};
 }
 

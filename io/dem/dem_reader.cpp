@@ -21,9 +21,11 @@
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "io/crs/map_scale.h"
 #include "io/dem/declared_length.h"
 #include "io/dem/dem_files.h"
 #include "io/dem/gridded_points.h"
+#include "io/dem/seam_column.h"
 #include "io/file/text_scan.h"
 #include "io/gdal/network_files.h"
 #include "io/gdal/support.h"
@@ -212,6 +214,10 @@ Extent extentOf(const PointHeightfield& field) {
   return extent;
 }
 
+Vec2 middleOf(const Extent& e) {
+  return {(e.low.x + e.high.x) / 2, (e.low.y + e.high.y) / 2};
+}
+
 /// A warning if the positions do not fit the CRS, or look like degrees without one. The numbers are the only
 /// evidence.
 template <class Heightfield>
@@ -261,11 +267,14 @@ Result<DemRead> readDem(const std::string& path, const SourceReading& reading,
   NetworkReading network(context.cancel);
   Result<DemRead> read = readFrom(path, reading, context);
   if (!read) return read;
+  if (auto* raster = std::get_if<RasterHeightfield>(&read->heightfield)) repeatFirstColumn(*raster);
   if (auto warning = std::visit([](const auto& field) { return crsWarning(field); }, read->heightfield))
     read->warnings.push_back(std::move(*warning));
   if (auto warning =
           std::visit([](const auto& field) { return loneHeightsWarning(field); }, read->heightfield))
     read->warnings.push_back(std::move(*warning));
+  std::visit([](auto& field) { stateMapScale(field.georeference, middleOf(extentOf(field))); },
+             read->heightfield);
   return read;
 } catch (...) {
   return caughtFailure(path);

@@ -25,8 +25,9 @@ struct DemRead {
 /// Reads elevation data of any kind: a raster as readRaster() does, or scattered points as readPoints() does.
 /// A folder, a pattern ("tiles/*.tif") and SourceReading::otherFiles stand for several rasters, which are
 /// read as one (io/dem/mosaic.h). A text whose points fill at least half of a regular grid becomes a raster.
-/// Warns of positions that look like degrees without a CRS, and of positions outside the range of a
-/// geographic CRS.
+/// The first column of a raster that goes round the Earth is repeated (io/dem/seam_column.h), and the scale
+/// of a map stated (io/crs/map_scale.h). Warns of positions that look like degrees without a CRS, and of
+/// positions outside the range of a geographic CRS.
 ///
 /// Errors: those of readRasters(), readPoints() and demFilesOf(). usage: also a `reading` for the other kind
 /// of data. unsupported: also point clouds (LAS, LAZ, COPC, E57); the message says what to do instead.

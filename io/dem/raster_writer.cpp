@@ -69,8 +69,8 @@ Status describe(GDALDataset& dataset, const Georeference& georeference, const Ge
 }
 
 template <class Sample>
-Status writeRows(GDALRasterBand& band, std::span<const double> values, GDALDataType type, double nodata,
-                 const GdalErrors& errors, const RunContext& context) {
+Status writeRows(GDALRasterBand& band, std::span<const double> values, std::size_t stride, GDALDataType type,
+                 double nodata, const GdalErrors& errors, const RunContext& context) {
   const std::size_t columns = std::size_t(band.GetXSize());
   const int rows = band.GetYSize();
   std::vector<Sample> strip;
@@ -78,9 +78,9 @@ Status writeRows(GDALRasterBand& band, std::span<const double> values, GDALDataT
     if (context.cancelled()) return failure(ErrorCode::interrupted, "writing was stopped");
     context.report("writing", double(row) / rows);
     const int count = std::min(kTileSize, rows - row);
-    const auto source = values.subspan(std::size_t(row) * columns, std::size_t(count) * columns);
     strip.clear();
-    for (const double value : source) {
+    for (std::size_t i = 0; i < std::size_t(count) * columns; ++i) {
+      const double value = values[(std::size_t(row) + i / columns) * stride + i % columns];
       using Limits = std::numeric_limits<Sample>;
       if constexpr (Limits::is_integer) {
         const double whole = std::isnan(value) ? nodata : value;
@@ -114,7 +114,8 @@ Status writeTo(const std::string& path, std::uint32_t columns, std::uint32_t row
                             : options.sample == Sample::uint8   ? GDT_Byte
                                                                 : GDT_UInt16;
   const CPLStringList list = creationOptions(*driver, options);
-  GdalDatasetPtr dataset(driver->Create(path.c_str(), int(columns), int(rows), 1, type, list.List()));
+  const std::uint32_t written = georeference.repeatsFirstColumn && columns > 1 ? columns - 1 : columns;
+  GdalDatasetPtr dataset(driver->Create(path.c_str(), int(written), int(rows), 1, type, list.List()));
   if (!dataset)
     return failure(ErrorCode::unreadable, fmt::format("cannot be created: {}", errors.firstFailure()));
   if (Status status = describe(*dataset, georeference, options); !status) return status;
@@ -122,7 +123,7 @@ Status writeTo(const std::string& path, std::uint32_t columns, std::uint32_t row
 
   GDALRasterBand& band = *dataset->GetRasterBand(1);
   const auto write = [&](auto sample) {
-    return writeRows<decltype(sample)>(band, values, type, options.nodata, errors, context);
+    return writeRows<decltype(sample)>(band, values, columns, type, options.nodata, errors, context);
   };
   Status status = options.sample == Sample::float64   ? write(double{})
                   : options.sample == Sample::float32 ? write(float{})

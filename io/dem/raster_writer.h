@@ -31,7 +31,8 @@ struct GeoTiffOptions {
 /// the band; CRS and geotransform come from the georeference, if it has them. The file appears complete or
 /// not at all. It replaces an older one together with its GDAL sidecar files (.aux.xml, .ovr, .msk).
 ///
-/// @param values Row by row.
+/// @param values Row by row. The last column is left out where the georeference says that it repeats the
+/// first.
 ///
 /// Errors: invalidData: values.size() != columns * rows, or either is 0; a value that the sample type cannot
 /// hold. notFound: no such folder. unreadable: the file cannot be written. interrupted. O(values); memory:

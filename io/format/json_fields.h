@@ -35,6 +35,7 @@ namespace arete::json_fields {
 /// object()          an object, whose fields the function visits; required
 /// optional()        a field, or a row of texts, that is absent when the value is empty (or a number that is
 ///                   not finite)
+/// flag()            a truth value that is absent when it is false
 /// optionalObject()  an object that is absent when none of its fields is present
 
 /// A name for a value.
@@ -108,6 +109,9 @@ class Writer {
     if (texts.empty()) return;
     nlohmann::ordered_json& row = object_[key] = nlohmann::ordered_json::array();
     for (const std::string& text : texts) row.push_back(exactText(text));
+  }
+  void flag(const char* key, bool isSet) {
+    if (isSet) field(key, isSet);
   }
   template <class Visit>
   void optionalObject(const char* key, Visit visit) {
@@ -218,6 +222,9 @@ class Reader {
       const Json single = {{key, element}};
       Reader(single, prefix_, problem_).field(key, texts.emplace_back());
     }
+  }
+  void flag(const char* key, bool& isSet) {
+    if (object_.contains(key)) field(key, isSet);
   }
   template <class Visit>
   void optionalObject(const char* key, Visit visit) {

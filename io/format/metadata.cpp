@@ -82,10 +82,12 @@ void visitMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
     auto& g = model.georeference;
     georeference.field("geoTransform", g.geoTransform);
     georeference.field("hasGeoTransform", g.hasGeoTransform);
+    georeference.flag("repeatsFirstColumn", g.repeatsFirstColumn);
     georeference.field("crsWkt", g.crsWkt);
     georeference.field("isGeographic", g.isGeographic);
     georeference.field("angularUnitRadians", g.angularUnitRadians);
     georeference.field("linearUnitMetres", g.linearUnitMetres);
+    georeference.optional("mapScale", g.mapScale);
     georeference.field("semiMajorAxisMetres", g.semiMajorAxisMetres);
     georeference.field("inverseFlattening", g.inverseFlattening);
     georeference.field("verticalUnit", g.verticalUnit);
@@ -157,8 +159,9 @@ std::optional<std::string> findNumberProblem(const AmtMetadata& m) {
   if (s.x < 0 || s.y < 0 || s.z < 0) return "the metric frame has a negative scale";
   for (const auto& [what, value] :
        {std::pair{"angular unit", g.angularUnitRadians}, std::pair{"linear unit", g.linearUnitMetres},
-        std::pair{"semi-major axis", g.semiMajorAxisMetres},
-        std::pair{"vertical unit", g.verticalUnitMetres}})
+        std::pair{"semi-major axis", g.semiMajorAxisMetres}, std::pair{"vertical unit", g.verticalUnitMetres},
+        std::pair{"scale of the map", g.mapScale ? (*g.mapScale)[0] : 1},
+        std::pair{"scale of the map", g.mapScale ? (*g.mapScale)[1] : 1}})
     if (!(value > 0 && std::isfinite(value)))
       return fmt::format("the {} is {}, not a positive number", what, value);
   if (!(g.inverseFlattening == 0 || (g.inverseFlattening > 1 && std::isfinite(g.inverseFlattening))))

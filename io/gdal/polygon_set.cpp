@@ -3,6 +3,8 @@
 // GEOS, through OGR, does the geometry.
 #include "io/gdal/polygon_set.h"
 
+#include <ogr_api.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -45,6 +47,55 @@ std::unique_ptr<OGRGeometry> shifted(const OGRMultiPolygon& polygons, double dx)
     for (OGRLinearRing* ring : *polygon)
       for (int i = 0; i < ring->getNumPoints(); ++i) ring->setPoint(i, ring->getX(i) + dx, ring->getY(i));
   return copy;
+}
+
+/// How often a ring goes around a point that is not on it, counted with its direction.
+int windingNumber(const OGRLinearRing& ring, const OGRPoint& p) {
+  int winding = 0;
+  for (int i = 0; i + 1 < ring.getNumPoints(); ++i) {
+    const double y0 = ring.getY(i), y1 = ring.getY(i + 1);
+    if ((y0 > p.getY()) == (y1 > p.getY())) continue;
+    const double side =
+        (ring.getX(i + 1) - ring.getX(i)) * (p.getY() - y0) - (p.getX() - ring.getX(i)) * (y1 - y0);
+    if ((side > 0) == (y1 > y0)) winding += y1 > y0 ? 1 : -1;
+  }
+  return winding;
+}
+
+/// All that a ring goes around: of the faces between its edges, those that it goes around at least once. Null
+/// where GEOS fails.
+std::unique_ptr<OGRGeometry> goneAround(const OGRLinearRing& ring) {
+  OGRLineString line;
+  line.addSubLineString(&ring);
+  const std::unique_ptr<OGRGeometry> crossed(line.Union(&line));  // edges end where they cross
+  if (!crossed) return nullptr;
+  OGRGeometryCollection edges;
+  if (OGR_GT_IsSubClassOf(wkbFlatten(crossed->getGeometryType()), wkbGeometryCollection))
+    for (const OGRGeometry* edge : *crossed->toGeometryCollection()) edges.addGeometry(edge);
+  else
+    edges.addGeometry(crossed.get());
+  const std::unique_ptr<OGRGeometry> faces(edges.Polygonize());
+  if (!faces) return nullptr;
+  OGRMultiPolygon all, kept;
+  collect(*faces, all);
+  for (OGRPolygon* face : all) {
+    const std::unique_ptr<OGRGeometry> inside(
+        OGRGeometry::FromHandle(OGR_G_PointOnSurface(OGRGeometry::ToHandle(face))));
+    if (inside && wkbFlatten(inside->getGeometryType()) == wkbPoint &&
+        windingNumber(ring, *inside->toPoint()) != 0)
+      kept.addGeometry(face);
+  }
+  return std::unique_ptr<OGRGeometry>(kept.UnionCascaded());
+}
+
+/// All that the outer ring of a polygon goes around but its holes do not.
+std::unique_ptr<OGRGeometry> goneAround(const OGRPolygon& polygon) {
+  const OGRLinearRing* outer = polygon.getExteriorRing();
+  auto area = outer ? goneAround(*outer) : nullptr;
+  for (int i = 0; area && i < polygon.getNumInteriorRings(); ++i)
+    if (const auto hole = goneAround(*polygon.getInteriorRing(i)); hole && !hole->IsEmpty())
+      area.reset(area->Difference(hole.get()));
+  return area;
 }
 
 }  // namespace
@@ -92,7 +143,7 @@ OGRMultiPolygon repaired(const OGRMultiPolygon& polygons, std::vector<std::strin
       continue;
     }
     OGRMultiPolygon valid;
-    if (const std::unique_ptr<OGRGeometry> made(polygon->MakeValid()); made) collect(*made, valid);
+    if (const auto made = goneAround(*polygon)) collect(*made, valid);
     if (valid.IsEmpty() && !isWarned) {
       warnings.emplace_back("a polygon crosses itself and cannot be repaired");
       isWarned = true;

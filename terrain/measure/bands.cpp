@@ -107,6 +107,11 @@ void BandTotals::addMeasured(const MeasuredSample& sample) {
   sumAbs += std::abs(error);
   sumSquares += error * error;
   ++counts.covered;
+  addLargest(sample);
+}
+
+void BandTotals::addLargest(const MeasuredSample& sample) {
+  const double error = sample.error();
   // Points are scanned by buckets, not in sample order: among equal errors the first sample is kept.
   const bool earlier =
       counts.worst && std::abs(error) == counts.maxAbsError && sample.sample < counts.worst->sample;

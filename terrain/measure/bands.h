@@ -123,6 +123,8 @@ struct BandTotals {
   /// Raises MeasureReport::errorBeyondRounding to that of one more sample.
   /// @param corner  of the triangle at the sample, in the plan of `at`
   void addBeyondRounding(const MeasuredSample& sample, const std::array<Vec3, 3>& corner, Vec2 at);
+  /// Takes part in the largest error only.
+  void addLargest(const MeasuredSample& sample);
   void add(const BandTotals& later);
   /// @return the counts, with the means computed from the sums
   MeasureReport finish() const;
@@ -151,6 +153,18 @@ class SampleRecorder {
   void add(const MeasuredSample& sample, Vec2 at, const Plan& plan, BandTotals& totals) {
     totals.addMeasured(sample);
     if (rasters_) rasters_->errors[sample.sample] = sample.error();
+    addBeyondRounding(sample, at, plan, totals);
+  }
+  /// As add(), for a sample that is counted elsewhere: it takes part in the largest errors only.
+  template <class Plan>
+  void addRepeated(const MeasuredSample& sample, Vec2 at, const Plan& plan, BandTotals& totals) {
+    totals.addLargest(sample);
+    addBeyondRounding(sample, at, plan, totals);
+  }
+
+ private:
+  template <class Plan>
+  void addBeyondRounding(const MeasuredSample& sample, Vec2 at, const Plan& plan, BandTotals& totals) {
     if (std::abs(sample.error()) <= totals.counts.errorBeyondRounding) return;
     std::array<Vec3, 3> corner;
     for (int i = 0; i < 3; ++i) {
@@ -161,7 +175,6 @@ class SampleRecorder {
     totals.addBeyondRounding(sample, corner, at);
   }
 
- private:
   const TriangleMesh& mesh_;
   std::span<const std::uint8_t> mask_;
   MeasureRasters* rasters_;

@@ -170,6 +170,11 @@ class RasterMeasurement {
            validCorners(column - 1, row) < 3 && validCorners(column, row) < 3;
   }
 
+  /// The first column again, which is counted once; where it is not covered it is missed like any other.
+  bool isRepeated(std::int64_t column) const {
+    return dem_.georeference.repeatsFirstColumn && column + 1 == dem_.columns;
+  }
+
   BandTotals countBand(std::int64_t firstRow, std::int64_t endRow, const Gathered& gathered) {
     BandTotals totals;
     MeasureReport& counts = totals.counts;
@@ -181,11 +186,23 @@ class RasterMeasurement {
         if (const int corners = validCorners(column, row); corners >= 3)
           counts.domainAreaPixels += corners == 4 ? 1 : 0.5;
         if (!isCounted) continue;
+        const double height = dem_.heights[sample];
+        const auto measured = [&] {
+          const Vec2 at = dem_.georeference.toSource(double(column), double(row));
+          return MeasuredSample{sample, std::uint32_t(column), std::uint32_t(row),     at.x, at.y,
+                                height, gathered.z(here),      gathered.triangle(here)};
+        };
+        const Vec2 plan{double(column), double(row)};
+        const auto planOf = [&](std::uint32_t v) { return grid_[v]; };
+        if (isRepeated(column) && (std::isnan(height) || isIsolated(column, row))) continue;
+        if (isRepeated(column) && gathered.isCovered(here)) {
+          recorder_.addRepeated(measured(), plan, planOf, totals);
+          continue;
+        }
 
         ++counts.samples;
         counts.doublyCovered += gathered.isDoublyCovered(here);
         counts.overlapped += gathered.isOverlapped(here);
-        const double height = dem_.heights[sample];
         if (std::isnan(height)) {
           counts.nodataCovered += gathered.isInterior(here);
           continue;
@@ -196,11 +213,7 @@ class RasterMeasurement {
         } else if (!gathered.isCovered(here)) {
           ++counts.uncovered;
         } else {
-          const Vec2 at = dem_.georeference.toSource(double(column), double(row));
-          recorder_.add(
-              {sample, std::uint32_t(column), std::uint32_t(row), at.x, at.y, height, gathered.z(here),
-               gathered.triangle(here)},
-              {double(column), double(row)}, [&](std::uint32_t v) { return grid_[v]; }, totals);
+          recorder_.add(measured(), plan, planOf, totals);
         }
       }
     }

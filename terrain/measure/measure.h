@@ -33,7 +33,8 @@ struct MeasuredSample {
 
 /// The result of a measurement. A "pixel" is one step of the grid; for points, their mean spacing.
 ///
-/// valid = covered + uncovered + isolated. Samples outside MeasureOptions::mask are in none of the counts.
+/// valid = covered + uncovered + isolated. Samples outside MeasureOptions::mask are in none of the counts. A
+/// first column that is repeated (Georeference::repeatsFirstColumn) counts once; errors of both are compared.
 struct MeasureReport {
   std::uint64_t triangles = 0;
   std::uint64_t vertices = 0;

@@ -15,8 +15,12 @@ Vec2 groundStep(const Georeference& georeference, double column, double row) {
   const auto& g = georeference.geoTransform;
   const double planarX = std::hypot(g[1], g[4]), planarY = std::hypot(g[2], g[5]);
   if (georeference.crsWkt.empty()) return {planarX, planarY};
-  if (!georeference.isGeographic)
-    return {planarX * georeference.linearUnitMetres, planarY * georeference.linearUnitMetres};
+  if (!georeference.isGeographic) {
+    const double unit = georeference.linearUnitMetres;
+    if (!georeference.mapScale) return {planarX * unit, planarY * unit};
+    const auto [x, y] = *georeference.mapScale;
+    return {std::hypot(g[1] / x, g[4] / y) * unit, std::hypot(g[2] / x, g[5] / y) * unit};
+  }
 
   const double flattening = georeference.inverseFlattening == 0 ? 0 : 1 / georeference.inverseFlattening;
   const GeographicLib::Geodesic geodesic(georeference.semiMajorAxisMetres, flattening);
@@ -41,7 +45,7 @@ Vec2 groundStep(const Georeference& georeference, double column, double row) {
 Vec2 groundUnit(const Georeference& georeference, double y) {
   constexpr double kStep = 1e-3;
   Georeference axes = georeference;
-  axes.geoTransform = {0, kStep, 0, y, 0, kStep};
+  axes.geoTransform = {-kStep / 2, kStep, 0, y - kStep / 2, 0, kStep};  // its first sample is at 0, y
   const Vec2 step = groundStep(axes, 0, 0);
   return {step.x / kStep, step.y / kStep};
 }

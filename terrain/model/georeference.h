@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "engine/base/vec.h"
@@ -19,11 +20,17 @@ struct Georeference {
   std::array<double, 6> geoTransform = {0, 1, 0, 0, 0, 1};
   /// False where the file has no geotransform; then geoTransform is the identity.
   bool hasGeoTransform = false;
+  /// The last column of the raster is its first one again, a whole turn of longitudes farther: the source
+  /// goes round the Earth and has no cell between its last column and its first (io/dem/seam_column.h).
+  bool repeatsFirstColumn = false;
 
   std::string crsWkt;         ///< WKT 2 as GDAL exports it; empty = no CRS
   bool isGeographic = false;  ///< x, y are longitude, latitude in angularUnitRadians
   double angularUnitRadians = 0.017453292519943295;
   double linearUnitMetres = 1;  ///< of a projected CRS
+  /// Lengths along x and y on the map for a length of 1 on the ground, in the middle of the DEM: 2, 2 in
+  /// EPSG:3857 at 60 degrees. Stated where one of them is off 1 by a hundredth (io/crs/map_scale.h).
+  std::optional<std::array<double, 2>> mapScale = {};
   double semiMajorAxisMetres = 6378137;
   double inverseFlattening = 298.257223563;  ///< 0 = sphere
 
@@ -50,7 +57,8 @@ struct Georeference {
 };
 
 /// The length on the ground of one step along a row (x) and one along a column (y) at a grid position: in
-/// metres where the CRS is known, in source units otherwise. Geographic steps are geodesics [Karney2013].
+/// metres where the CRS is known, in source units otherwise. Geographic steps are geodesics [Karney2013];
+/// those of a map have its scale in the middle of the DEM.
 Vec2 groundStep(const Georeference& georeference, double column, double row);
 
 /// Metres to the east of one unit of x and to the north of one unit of y (angles), at the latitude y.

@@ -30,7 +30,8 @@ struct LocalFrame::Cartesian {
 Result<LocalFrame> LocalFrame::create(const LocalFrameSpec& spec) {
   const auto refuse = [](const char* message) { return failure(ErrorCode::invalidData, message); };
   if (!isFinite(spec.origin)) return refuse("the origin of the local frame is not finite");
-  if (!isPositive(spec.linearUnitMetres) || !isPositive(spec.verticalUnitMetres))
+  if (!isPositive(spec.linearUnitMetres) || !isPositive(spec.verticalUnitMetres) ||
+      !isPositive(spec.mapScale[0]) || !isPositive(spec.mapScale[1]))
     return refuse("the local frame has an invalid unit of length");
   if (!spec.isGeographic) return LocalFrame(spec);
   if (!isPositive(spec.angularUnitRadians) || !std::isfinite(spec.middleLongitude))
@@ -43,7 +44,8 @@ Result<LocalFrame> LocalFrame::create(const LocalFrameSpec& spec) {
   return LocalFrame(spec);
 }
 
-LocalFrame::LocalFrame(const LocalFrameSpec& spec) : spec_(spec) {
+LocalFrame::LocalFrame(const LocalFrameSpec& spec)
+    : spec_(spec), unit_{spec.linearUnitMetres / spec.mapScale[0], spec.linearUnitMetres / spec.mapScale[1]} {
   if (!spec.isGeographic) return;
   degreesPerUnit_ = spec.angularUnitRadians * 180 / std::numbers::pi;
   const double flattening = spec.inverseFlattening == 0 ? 0 : 1 / spec.inverseFlattening;
@@ -56,7 +58,7 @@ LocalFrame::LocalFrame(const LocalFrameSpec& spec) : spec_(spec) {
 Vec3 LocalFrame::toLocal(const Vec3& source) const {
   const Vec3& o = spec_.origin;
   if (!cartesian_)
-    return {(source.x - o.x) * spec_.linearUnitMetres, (source.y - o.y) * spec_.linearUnitMetres,
+    return {(source.x - o.x) * unit_.x, (source.y - o.y) * unit_.y,
             (source.z - o.z) * spec_.verticalUnitMetres};
   Vec3 local;
   cartesian_->transform.Forward(source.y * degreesPerUnit_,
@@ -68,8 +70,7 @@ Vec3 LocalFrame::toLocal(const Vec3& source) const {
 Vec3 LocalFrame::toSource(const Vec3& local) const {
   const Vec3& o = spec_.origin;
   if (!cartesian_)
-    return {o.x + local.x / spec_.linearUnitMetres, o.y + local.y / spec_.linearUnitMetres,
-            o.z + local.z / spec_.verticalUnitMetres};
+    return {o.x + local.x / unit_.x, o.y + local.y / unit_.y, o.z + local.z / spec_.verticalUnitMetres};
   double latitude = 0, longitude = 0, height = 0;
   cartesian_->transform.Reverse(local.x, local.y, local.z, latitude, longitude, height);
   const double middle = spec_.middleLongitude * degreesPerUnit_;
@@ -78,9 +79,7 @@ Vec3 LocalFrame::toSource(const Vec3& local) const {
 }
 
 Vec3 LocalFrame::sourceReach(const Vec3& metres, const Vec3& low, const Vec3& high) const {
-  if (!cartesian_)
-    return {metres.x / spec_.linearUnitMetres, metres.y / spec_.linearUnitMetres,
-            metres.z / spec_.verticalUnitMetres};
+  if (!cartesian_) return {metres.x / unit_.x, metres.y / unit_.y, metres.z / spec_.verticalUnitMetres};
   // The smallest radius of curvature of the ellipsoid, less the deepest height.
   const double flattening = spec_.inverseFlattening == 0 ? 0 : 1 / spec_.inverseFlattening;
   const double squeeze = (1 - flattening) * (1 - flattening);
@@ -105,6 +104,9 @@ LocalFrameSpec localFrameSpec(const Georeference& georeference, const Vec3& orig
   return {.origin = origin,
           .isGeographic = hasCrs && georeference.isGeographic,
           .linearUnitMetres = hasCrs && !georeference.isGeographic ? georeference.linearUnitMetres : 1,
+          .mapScale = hasCrs && !georeference.isGeographic
+                          ? georeference.mapScale.value_or(std::array<double, 2>{1, 1})
+                          : std::array<double, 2>{1, 1},
           .verticalUnitMetres = georeference.verticalUnitMetres,
           .angularUnitRadians = georeference.angularUnitRadians,
           .semiMajorAxisMetres = georeference.semiMajorAxisMetres,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "engine/base/result.h"
@@ -13,7 +14,8 @@ namespace arete {
 struct LocalFrameSpec {
   Vec3 origin = {};  ///< in source coordinates
   bool isGeographic = false;
-  double linearUnitMetres = 1;  ///< of a projected CRS, or without one
+  double linearUnitMetres = 1;              ///< of a projected CRS, or without one
+  std::array<double, 2> mapScale = {1, 1};  ///< along x and y of a projected CRS: Georeference::mapScale
   double verticalUnitMetres = 1;
   double angularUnitRadians = 0.017453292519943295;  ///< of a geographic CRS, as are the next three
   double semiMajorAxisMetres = 6378137;
@@ -27,7 +29,8 @@ struct LocalFrameSpec {
 
 /// A right-handed frame of metres about an origin: x east, y north, z up.
 ///
-/// With a projected CRS (or none): the map's own axes, scaled to metres; the height axis is straight, as on
+/// With a projected CRS (or none): the map's own axes, scaled to metres on the
+/// ground by its unit and its scale; the height axis is straight, as on
 /// the map. With a geographic CRS: a Cartesian frame tangent to the ellipsoid at the origin (GeographicLib's
 /// LocalCartesian), in which the Earth is curved. Heights are used as heights above the ellipsoid whatever
 /// their datum, since no geoid is assumed.
@@ -57,6 +60,7 @@ class LocalFrame {
   explicit LocalFrame(const LocalFrameSpec& spec);
 
   LocalFrameSpec spec_;
+  Vec2 unit_ = {1, 1};  // metres on the ground along x and y of a map
   double degreesPerUnit_ = 1;
   std::shared_ptr<const Cartesian> cartesian_;  // of a geographic CRS
 };

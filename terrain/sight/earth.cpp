@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Plane tracks: the map coordinates of both ends, scaled to metres by the units of the CRS.
+// Plane tracks: the map coordinates of both ends, scaled to metres by the units and the scale of the CRS.
 #include "terrain/sight/earth.h"
 
 #include <cmath>
@@ -14,6 +14,10 @@ class PlaneEarth final : public SightEarth {
   explicit PlaneEarth(const TerrainModel& model) : model_(model) {
     const Georeference& g = model.georeference;
     perX_ = perY_ = g.crsWkt.empty() ? 1 : g.linearUnitMetres;
+    if (g.mapScale) {
+      perX_ /= (*g.mapScale)[0];
+      perY_ /= (*g.mapScale)[1];
+    }
     if (g.isGeographic && model.isRaster) {
       const Vec2 unit = groundUnit(g, g.toSource((model.columns - 1) / 2.0, (model.rows - 1) / 2.0).y);
       perX_ = unit.x;

@@ -28,7 +28,7 @@ class SightEarth {
   /// @return the steps, if all tracks are straight in plan, distances are linear in it and nothing curves.
   virtual std::optional<PlaneSteps> planeSteps() const { return std::nullopt; }
   /// @return e, in plan units along x and along y, if tracks follow geodesics: a track is a geodesic cut into
-  ///     the fewest equal legs (2^k) in whose middles the leg is within e of the geodesic, and all of each
+  ///     the fewest equal legs (2^k) at whose quarters the leg is within e of the geodesic, and all of each
   ///     leg is within e. Tracks from one place in one direction then lie on one geodesic.
   virtual std::optional<double> geodesicError() const { return std::nullopt; }
 };
@@ -38,7 +38,7 @@ class SightEarth {
 Vec2 sightEnd(const TerrainModel& model, Vec2 plan, double margin = kShortestInPlan);
 
 /// The map as a plane: tracks are straight in plan and nothing curves. Distances are those of the map in
-/// metres; of a geographic CRS, those of the ground size of a sample's steps in the middle of the DEM.
+/// metres, by its scale, or the size of a degree, in the middle of the DEM.
 /// Precondition: the model outlives the result.
 std::unique_ptr<SightEarth> makePlaneEarth(const TerrainModel& model);
 

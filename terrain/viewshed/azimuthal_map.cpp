@@ -5,7 +5,7 @@
 // (MapErrors); they are reduced by maxima, which do not depend on the order, and become the error bounds of
 // the map.
 //
-// Why tracks are nearly straight. A track is a geodesic cut into the fewest legs (2^k) in whose middles the
+// Why tracks are nearly straight. A track is a geodesic cut into the fewest legs (2^k) at whose quarters the
 // chords are within the Earth's error e of the geodesic. Where the curvature of geodesics in the plan is at
 // most c, a leg of length L is c L^2 / 8 from its chord; since legs of twice the length are not within e,
 // c (2 L)^2 / 8 > e, and therefore

@@ -29,6 +29,7 @@ nlohmann::ordered_json toJson(const GlbFrame& frame) {
     json["middleLongitude"] = s.middleLongitude;
   } else {
     json["linearUnitMetres"] = s.linearUnitMetres;
+    if (s.mapScale != std::array<double, 2>{1, 1}) json["mapScale"] = s.mapScale;
   }
   if (!frame.notes.empty()) json["notes"] = frame.notes;
   return json;
@@ -67,6 +68,12 @@ Result<GlbFrame> glbFrameFromJson(const nlohmann::json& json) {
     take("middleLongitude", s.middleLongitude);
   } else {
     take("linearUnitMetres", s.linearUnitMetres);
+    if (const auto scale = json.find("mapScale"); scale != json.end()) {
+      if (scale->is_array() && scale->size() == 2 && (*scale)[0].is_number() && (*scale)[1].is_number())
+        s.mapScale = {(*scale)[0].get<double>(), (*scale)[1].get<double>()};
+      else if (wrong.empty())
+        wrong = "mapScale";
+    }
   }
   const auto origin = json.find("origin");
   if (origin != json.end() && origin->is_array() && origin->size() == 3 && (*origin)[0].is_number() &&

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "datasets/random.h"
 #include "io/crs/lonlat.h"
 #include "io/crs/reader.h"
 
@@ -160,6 +161,86 @@ TEST(EllipsoidEarth, CutsTheGeodesicAsLittleAsItMay) {
   expectStraightEnough(modelOf("EPSG:2056", {2600000, 2, 0, 1200000, 0, -2}), {10, 900}, {1000, 0});
   expectStraightEnough(modelOf("EPSG:3413", {-500000, 100, 0, 500000, 0, -100}, 10001, 10001), {2000, 3000},
                        {9000, 8000});
+}
+
+/// The largest deviation of a track from the geodesic between its ends, in steps, at many points of each leg:
+/// by GeographicLib and PROJ.
+double deviationOf(const TerrainModel& model, Vec2 from, Vec2 to) {
+  const SightTrack track = trackOf(model, from, to);
+  const auto lonLat = CrsLonLat::of(model.georeference);
+  std::array ends = {model.toSource(track.points.front().plan), model.toSource(track.points.back().plan)};
+  lonLat->toLonLat(ends);
+  const double rf = model.georeference.inverseFlattening;
+  const GeographicLib::Geodesic geodesic(model.georeference.semiMajorAxisMetres, rf == 0 ? 0 : 1 / rf);
+  double length = 0, azimuth = 0, unused = 0;
+  geodesic.Inverse(ends[0].y, ends[0].x, ends[1].y, ends[1].x, length, azimuth, unused);
+  EXPECT_NEAR(track.points.back().distance, length, 1e-6);
+  double worst = 0;
+  constexpr int kPerLeg = 33;  // no point of the track's own tests but the middle
+  for (std::size_t i = 1; i < track.points.size(); ++i) {
+    const SightPoint &a = track.points[i - 1], &b = track.points[i];
+    for (int k = 0; k <= kPerLeg; ++k) {
+      const double t = double(k) / kPerLeg;
+      Vec2 p;
+      geodesic.Direct(ends[0].y, ends[0].x, azimuth, a.distance + t * (b.distance - a.distance), p.y, p.x);
+      if (lonLat->isPlain()) p.x += 360 * std::round((model.toSource(a.plan).x - p.x) / 360);
+      lonLat->toCrs({&p, 1});
+      p = model.toPlan(p);
+      worst = std::max({worst, std::abs((1 - t) * a.plan.x + t * b.plan.x - p.x),
+                        std::abs((1 - t) * a.plan.y + t * b.plan.y - p.y)});
+    }
+  }
+  return worst;
+}
+
+TEST(EllipsoidEarth, FollowsGeodesicsThatAreSymmetricAboutTheirMiddle) {
+  // Across the equator a geodesic bends to both sides of its chord, and not in the middle.
+  for (const double reach : {0.5, 1.0, 2.5, 5.0, 20.0, 40.0}) {
+    const double step = reach / 500;
+    const TerrainModel model = geographic(-reach, reach, step);
+    EXPECT_LE(deviationOf(model, {0, 1000}, {1000, 0}), 1.1e-3) << reach;
+    EXPECT_LE(deviationOf(model, {100, 700}, {900, 300}), 1.1e-3) << reach;
+  }
+  // The central meridian of UTM, and the poles of azimuthal maps, are such middles too.
+  EXPECT_LE(deviationOf(modelOf("EPSG:32633", {200000, 600, 0, 5900000, 0, -600}), {0, 900}, {1000, 100}),
+            1.1e-3);
+  EXPECT_LE(deviationOf(modelOf("EPSG:3035", {2321000, 4000, 0, 5210000, 0, -4000}), {0, 900}, {1000, 100}),
+            1.1e-3);
+  EXPECT_LE(deviationOf(modelOf("EPSG:3857", {-2000000, 4000, 0, 2000000, 0, -4000}), {0, 900}, {1000, 100}),
+            1.1e-3);
+}
+
+TEST(EllipsoidEarth, IsWithinItsStatedErrorOfEveryGeodesic) {
+  constexpr std::uint64_t kSeed = 4102;
+  Random random(kSeed);
+  const std::array<TerrainModel, 7> models = {geographic(-179.5, 89.5, 1, 360, 180),
+                                              geographic(0.5, 89.5, 1, 360, 180),
+                                              geographic(179, -16, 0.002),
+                                              geographic(-181, 62, 0.002),
+                                              modelOf("EPSG:3413", {-1500000, 3000, 0, 1500000, 0, -3000}),
+                                              modelOf("EPSG:3031", {-1500000, 3000, 0, 1500000, 0, -3000}),
+                                              modelOf("EPSG:3035", {2500000, 3000, 0, 5500000, 0, -3000})};
+  int lines = 0;
+  for (std::size_t m = 0; m < models.size(); ++m)
+    for (int i = 0; i < 20; ++i) {
+      const TerrainModel& model = models[m];
+      const auto place = [&] {
+        return Vec2{random.between(0, model.columns - 1), random.between(0.1, 0.9) * (model.rows - 1)};
+      };
+      const Vec2 from = place(), to = place();
+      const auto earth = makeEllipsoidEarth(model);
+      // Lines over a pole of a map in degrees, or around its back, are errors by name.
+      const auto track = (*earth)->track(from, to);
+      if (!track || track->points.size() > 5000) continue;
+      bool isTurned = false;  // led around a map of the world
+      for (std::size_t k = 1; k < track->points.size(); ++k)
+        isTurned = isTurned || track->points[k].distance == track->points[k - 1].distance;
+      if (isTurned) continue;
+      ++lines;
+      EXPECT_LE(deviationOf(model, from, to), 1.1e-3) << "seed " << kSeed << ", model " << m << ": " << from.x
+                                                      << ", " << from.y << " to " << to.x << ", " << to.y;
+    }
+  EXPECT_GE(lines, 100);
 }
 
 TEST(EllipsoidEarth, HasTheSameLineForAnyWayARasterLies) {

@@ -51,5 +51,60 @@ TEST(RegionArgument, OfLinesNeedsADistance) {
   EXPECT_TRUE(corridor->shape.lines.empty());
 }
 
+TEST(RegionArgument, LiesWhereTheDemLies) {
+  const auto degrees = test::georeferenceOf("EPSG:4326");
+  struct Case {
+    const char* box;
+    double west;  ///< of the DEM
+    std::uint32_t columns;
+    std::vector<double> inside, outside;  ///< longitudes
+  };
+  for (const Case& c :
+       {Case{"-180.5,0,-179.5,1", 179, 2, {179.6, 180, 180.4}, {179.4, 180.6}},
+        Case{"179.5,0,-179.5,1", 179, 2, {179.6, 180, 180.4}, {179.4, 180.6}},
+        Case{"179.5,0,-179.5,1", -181, 2, {-180.4, -180, -179.6}, {-180.6, -179.4}},
+        Case{"-10,0,10,1", 0, 360, {5, 355}, {15, 345}}, Case{"350,0,370,1", 0, 360, {5, 355}, {15, 345}},
+        Case{"350,0,10,1", -180, 360, {-5, 5}, {-15, 15}},
+        Case{"-180,0,180,1", 0, 360, {1, 179, 180, 181, 359}, {}}}) {
+    const auto read = readRegionArgument(
+        {c.box}, degrees,
+        LongitudeTurns(test::georeferenceOf("EPSG:4326", {c.west, 1, 0, 1, 0, -1}), c.columns, 1));
+    ASSERT_TRUE(read) << c.box << read.error().describe();
+    EXPECT_TRUE(read->warnings.empty());
+    const Region region(read->shape);
+    for (const double x : c.inside) EXPECT_TRUE(region.contains({x, 0.5})) << c.box << " at " << x;
+    for (const double x : c.outside) EXPECT_FALSE(region.contains({x, 0.5})) << c.box << " at " << x;
+  }
+  EXPECT_EQ(readRegionArgument({"2,0,1,1"}, test::georeferenceOf("EPSG:32611"), {}).error().code,
+            ErrorCode::usage)
+      << "only longitudes go round";
+  const auto elsewhere = readRegionArgument({.text = "-117,34,-116,35", .crs = "EPSG:4326"},
+                                            test::georeferenceOf("EPSG:32611"), {});
+  ASSERT_TRUE(elsewhere) << elsewhere.error().describe();
+  EXPECT_NEAR(elsewhere->shape.rings.at(0).at(0).x, 500000, 1e-3);
+}
+
+TEST(RegionArgument, MayBePointsWithADistance) {
+  const TemporaryFolder folder;
+  const std::string points =
+      folder.write("p.geojson", R"({"type":"MultiPoint","coordinates":[[-117,34],[-117,35]]})");
+  const auto refused = readRegionArgument({points}, test::georeferenceOf("EPSG:4326"), {}).error();
+  EXPECT_EQ(refused.code, ErrorCode::usage);
+  EXPECT_NE(refused.message.find("points"), std::string::npos) << refused.message;
+  const auto discs = readRegionArgument({points, 500}, test::georeferenceOf("EPSG:32611"), {});
+  ASSERT_TRUE(discs) << discs.error().describe();
+  EXPECT_EQ(discs->shape.rings.size(), 2u);
+  const std::string plain = folder.write("p.csv", "WKT,id\nPOINT(3 4),1\n");
+  const auto without = readRegionArgument({plain, 2}, {}, {});
+  ASSERT_TRUE(without) << without.error().describe();
+  const Region region(without->shape);
+  EXPECT_TRUE(region.contains({3, 5.9}));
+  EXPECT_TRUE(region.contains({3, 4}));
+  EXPECT_FALSE(region.contains({4.5, 5.5}));
+  EXPECT_TRUE(region.meetsTriangle({0, 0}, {9, 0}, {0, 9}));
+  EXPECT_TRUE(region.meetsTriangle({4, 4}, {9, 4}, {9, 9}));
+  EXPECT_FALSE(region.meetsTriangle({6, 4}, {9, 4}, {9, 9}));
+}
+
 }  // namespace
 }  // namespace arete

@@ -215,5 +215,61 @@ TEST(RegionReader, BendsLinesAsItReprojectsThemAndLeavesThemOpen) {
             4e5);
 }
 
+TEST(RegionReader, CoversWhatARingGoesAround) {
+  const TemporaryFolder folder;
+  const std::string twice =
+      R"({"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,9],[0,0],[9,0],[9,9],[0,9],[0,0]]]})";
+  const std::string twiceAndSmaller =
+      R"({"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,9],[0,0],[8,1],[8,8],[1,8],[0,0]]]})";
+  const std::string bowTie = R"({"type":"Polygon","coordinates":[[[0,0],[9,9],[9,0],[0,9],[0,0]]]})";
+  for (const auto& [name, text] :
+       {std::pair{"twice", twice}, {"smaller", twiceAndSmaller}, {"bow tie", bowTie}}) {
+    const RegionRead region = readOrFail(folder.write("r.geojson", geoJson({text}, "32611")), "EPSG:32611");
+    EXPECT_TRUE(isInside(region, 1.5, 4.4)) << name;
+    EXPECT_TRUE(isInside(region, 8.5, 4.4)) << name;
+    EXPECT_FALSE(isInside(region, 10, 4.4)) << name;
+    EXPECT_TRUE(region.warnings.empty()) << name << test::joined(region.warnings);
+  }
+}
+
+TEST(RegionReader, ReadsATableOfWktWithAStatedCrs) {
+  const TemporaryFolder folder;
+  const std::string path =
+      folder.write("r.csv", "id,WKT\n1,\"POLYGON((-117 34,-116 34,-116 35,-117 34))\"\n");
+  const auto georeference = test::georeferenceOf("EPSG:32611");
+  const auto refused = readRegionArgument({path}, georeference, {});
+  ASSERT_FALSE(refused);
+  EXPECT_TRUE(contains(refused.error().message, "`region-crs`")) << refused.error().describe();
+  const auto read = readRegionArgument({.text = path, .crs = "EPSG:4326"}, georeference, {});
+  ASSERT_TRUE(read) << read.error().describe();
+  EXPECT_NEAR(read->shape.rings.at(0).at(0).x, 500000, 1e-3) << "on the central meridian";
+}
+
+TEST(RegionReader, UnitesPolygonsThatOverlapATurnAway) {
+  const TemporaryFolder folder;
+  const std::string west =
+      R"({"type":"Polygon","coordinates":[[[170,60],[190,60],[190,70],[170,70],[170,60]]]})";
+  const std::string east =
+      R"({"type":"Polygon","coordinates":[[[-180,60],[-175,60],[-175,70],[-180,70],[-180,60]]]})";
+  const RegionRead region = readOrFail(folder.write("r.geojson", geoJson({west, east})), "EPSG:3413");
+  OGRSpatialReference geographic, polar;
+  geographic.SetFromUserInput("OGC:CRS84");
+  polar.SetFromUserInput("EPSG:3413");
+  polar.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  OGRCoordinateTransformation* toPolar = OGRCreateCoordinateTransformation(&geographic, &polar);
+  for (const auto& [lon, isIn] : {std::pair{169.0, false},
+                                  {171.0, true},
+                                  {179.0, true},
+                                  {-179.0, true},
+                                  {-176.0, true},
+                                  {-173.0, true},
+                                  {-169.0, false}}) {
+    double x = lon, y = 65;
+    ASSERT_TRUE(toPolar->Transform(1, &x, &y));
+    EXPECT_EQ(isInside(region, x, y), isIn) << lon;
+  }
+  OGRCoordinateTransformation::DestroyCT(toPolar);
+}
+
 }  // namespace
 }  // namespace arete

@@ -60,8 +60,8 @@ TEST(GroundStep, OnASphereIsAnArcOfItsParallelAndItsMeridian) {
     EXPECT_NEAR(step.x, kRadius * std::cos(latitude * kRadians) * kStep * kRadians, 1e-5) << latitude;
     EXPECT_NEAR(step.y, kRadius * kStep * kRadians, 1e-5) << latitude;
     const Vec2 unit = groundUnit(g, latitude);
-    EXPECT_NEAR(unit.x, step.x / kStep, 2e-4 * step.x / kStep) << latitude;
-    EXPECT_NEAR(unit.y, step.y / kStep, 2e-4 * step.y / kStep) << latitude;
+    EXPECT_NEAR(unit.x, step.x / kStep, 1e-8 * step.x / kStep) << latitude;
+    EXPECT_NEAR(unit.y, step.y / kStep, 1e-8 * step.y / kStep) << latitude;
   }
   // The same ground in gons.
   g.angularUnitRadians = std::numbers::pi / 200;
