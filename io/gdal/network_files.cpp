@@ -38,7 +38,7 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-constexpr std::string_view kPrefix = "/vsicurl/";
+constexpr std::string_view kPrefix = "/vsicurl/";  // GDAL keeps the pointer
 constexpr std::uint64_t kPiece = std::uint64_t(1) << 18;
 constexpr std::uint64_t kMostPieces = 16;
 constexpr std::size_t kPiecesKept = 128;
@@ -230,9 +230,10 @@ class RemoteFile {
     }
     while (count > 0) {
       const std::uint64_t number = offset / kPiece, from = offset % kPiece;
-      if (!pieces_.contains(number))
-        if (std::string problem = fetch(number, (from + count + kPiece - 1) / kPiece); !problem.empty())
-          return problem;
+      // A driver that takes no notice of a failure goes on reading: the server is not asked again.
+      if (broken_.empty() && !pieces_.contains(number))
+        broken_ = fetch(number, (from + count + kPiece - 1) / kPiece);
+      if (!broken_.empty()) return broken_;
       const Bytes& piece = pieces_.at(number);
       const std::uint64_t part = std::min<std::uint64_t>(count, piece.size() - from);
       std::memcpy(target, piece.data() + from, part);
@@ -288,7 +289,7 @@ class RemoteFile {
     return {};
   }
 
-  std::string url_, problem_, version_;
+  std::string url_, problem_, version_, broken_;
   bool isAbsent_ = false;
   std::uint64_t length_ = 0;
   std::mutex mutex_;
@@ -416,7 +417,7 @@ void installNetworkFiles() {
   callbacks->read = readHandle;
   callbacks->eof = isHandleAtEnd;
   callbacks->close = closeHandle;
-  VSIInstallPluginHandler(std::string(kPrefix).c_str(), callbacks);
+  VSIInstallPluginHandler(kPrefix.data(), callbacks);
   VSIFreeFilesystemPluginCallbacksStruct(callbacks);
 }
 

@@ -7,15 +7,18 @@
 
 #include <cpl_error.h>
 #include <cpl_vsi.h>
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <mutex>
 
 #include "io/file/text_scan.h"
 #include "io/gdal/network_files.h"
+#include "io/gdal/quiet.h"
 
 namespace arete {
 namespace {
@@ -48,7 +51,21 @@ std::string archiveHint(const std::string& path, std::string_view kind) {
   return {};
 }
 
+/// HDF5 writes its errors to stderr unless it is told not to, thread by thread. It comes with GDAL, so it is
+/// looked up where it is.
+void silenceHdf5() {
+  thread_local bool isSilent = false;
+  if (isSilent) return;
+  isSilent = true;
+  using SetAuto = int (*)(std::int64_t stack, void* function, void* data);
+  if (void* found = dlsym(RTLD_DEFAULT, "H5Eset_auto2")) reinterpret_cast<SetAuto>(found)(0, nullptr, nullptr);
+}
+
 }  // namespace
+
+void silenceGdal() {
+  CPLSetErrorHandler(CPLQuietErrorHandler);
+}
 
 void registerGdal() {
   static std::once_flag once;
@@ -100,6 +117,7 @@ void GdalErrors::moveTo(std::vector<std::string>& warnings) {
 
 GdalDatasetPtr openGdal(const std::string& path, unsigned flags) {
   registerGdal();
+  silenceHdf5();
   const std::string name = (flags & GDAL_OF_RASTER) != 0 ? networkPathOf(path) : path;
   return GdalDatasetPtr(GDALDataset::Open(name.c_str(), flags | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
 }

@@ -251,15 +251,22 @@ TEST(RasterReader, KeepsRotatedAndSouthUpAndOblongGrids) {
   }
 }
 
-TEST(RasterReader, GivesTheIdentityWhereThereIsNoGeotransform) {
+TEST(RasterReader, PlacesThePictureOfATerrainWithItsFirstRowInTheNorth) {
   TemporaryFolder folder;
   RasterSpec spec;
   spec.geoTransform.reset();
   spec.crs.clear();
-  const RasterHeightfield read = readOrFail(writeRaster(folder.file("bare.tif"), spec));
-  EXPECT_FALSE(read.georeference.hasGeoTransform);
-  EXPECT_EQ(read.georeference.geoTransform, (std::array<double, 6>{0, 1, 0, 0, 0, 1}));
-  EXPECT_TRUE(read.georeference.crsWkt.empty());
+  std::vector<std::string> warnings;
+  for (const char* crs : {"", "EPSG:4326"}) {
+    spec.crs = crs;
+    warnings.clear();
+    const RasterHeightfield read = readOrFail(writeRaster(folder.file("bare.tif"), spec), {}, &warnings);
+    EXPECT_FALSE(read.georeference.hasGeoTransform);
+    EXPECT_EQ(read.georeference.geoTransform, (std::array<double, 6>{0, 1, 0, 2, 0, -1}));
+    EXPECT_LT(read.georeference.determinant(), 0) << "mirrored";
+    EXPECT_TRUE(read.georeference.crsWkt.empty()) << "columns are no degrees";
+    EXPECT_TRUE(contains(joined(warnings), "has no georeference")) << joined(warnings);
+  }
 }
 
 TEST(RasterReader, RefusesAGeotransformWithoutInverse) {
@@ -269,31 +276,6 @@ TEST(RasterReader, RefusesAGeotransformWithoutInverse) {
       "<VRTDataset rasterXSize=\"2\" rasterYSize=\"2\"><GeoTransform>0, 1, 1, 0, 1, 1</GeoTransform>"
       "<VRTRasterBand dataType=\"Float32\" band=\"1\"/></VRTDataset>");
   EXPECT_EQ(errorOf(path).code, ErrorCode::invalidData);
-}
-
-TEST(RasterReader, WarnsOfGroundControlPoints) {
-  TemporaryFolder folder;
-  RasterSpec spec;
-  spec.geoTransform.reset();
-  spec.crs.clear();
-  spec.adjust = [](GDALDataset& d) {
-    std::array<GDAL_GCP, 4> points{};
-    GDALInitGCPs(4, points.data());
-    for (int i = 0; i < 4; ++i) {
-      points[std::size_t(i)].dfGCPPixel = i % 2 * 3 + i;
-      points[std::size_t(i)].dfGCPLine = i / 2 * 2;
-      points[std::size_t(i)].dfGCPX = 10 + i * i;
-      points[std::size_t(i)].dfGCPY = 50 - i;
-    }
-    OGRSpatialReference crs;
-    crs.SetFromUserInput("EPSG:4326");
-    d.SetGCPs(4, points.data(), &crs);
-    GDALDeinitGCPs(4, points.data());
-  };
-  std::vector<std::string> warnings;
-  const RasterHeightfield read = readOrFail(writeRaster(folder.file("gcp.tif"), spec), {}, &warnings);
-  EXPECT_FALSE(read.georeference.hasGeoTransform);
-  EXPECT_TRUE(contains(joined(warnings), "ground control points")) << joined(warnings);
 }
 
 TEST(RasterReader, DescribesProjectedGeographicAndLocalFrames) {
