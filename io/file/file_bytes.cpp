@@ -10,8 +10,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 #include <new>
+#include <string>
 #include <system_error>
+
+#include "io/file/text_decoder.h"
 
 namespace arete {
 
@@ -53,6 +57,28 @@ Result<FileBytes> FileBytes::read(const std::filesystem::path& path) {
     done += static_cast<std::size_t>(got);
   }
   return result;
+}
+
+Result<FileBytes> FileBytes::readText(const std::filesystem::path& path) {
+  Result<FileBytes> file = read(path);
+  if (!file) return file;
+  if (const Status ok = file->decodeText(path); !ok) return tl::unexpected(ok.error());
+  return file;
+}
+
+Status FileBytes::decodeText(const std::filesystem::path& path) {
+  if (!TextDecoder::isNeededFor(view())) return {};
+  TextDecoder decoder;
+  std::string text;
+  decoder.decode(view(), text);
+  decoder.finish(text);
+  bytes_.reset(new (std::nothrow) char[text.size() + 1]);
+  if (!bytes_)
+    return failure(ErrorCode::outOfMemory, fmt::format("its {} bytes do not fit into memory", text.size()),
+                   path.string());
+  std::memcpy(bytes_.get(), text.data(), text.size());
+  size_ = text.size();
+  return {};
 }
 
 }  // namespace arete

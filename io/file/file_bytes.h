@@ -18,6 +18,14 @@ class FileBytes {
   /// it is read.
   static Result<FileBytes> read(const std::filesystem::path& path);
 
+  /// The same for a text: UTF-16 becomes UTF-8, and carriage returns without line feeds become line feeds
+  /// (io/file/text_decoder.h). Errors: also outOfMemory.
+  static Result<FileBytes> readText(const std::filesystem::path& path);
+  /// Decodes bytes that turn out to be a text.
+  ///
+  /// Errors: outOfMemory.
+  Status decodeText(const std::filesystem::path& path);
+
   const char* begin() const { return bytes_.get(); }
   const char* end() const { return bytes_.get() + size_; }
   std::size_t size() const { return size_; }

@@ -15,22 +15,29 @@
 namespace arete {
 
 Result<FileWriter> FileWriter::create(const std::filesystem::path& path) {
-  Result<OutputFile> file = OutputFile::create(path);
-  if (!file) return tl::unexpected(file.error());
-  const int descriptor =
-      ::open(file->temporaryPath().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  std::optional<OutputFile> file;
+  int descriptor = -1;
+  if (path == kStandardOutput) {
+    descriptor = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+  } else {
+    Result<OutputFile> created = OutputFile::create(path);
+    if (!created) return tl::unexpected(created.error());
+    file = std::move(*created);
+    descriptor = ::open(file->temporaryPath().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  }
   if (descriptor < 0)
     return failure(ErrorCode::unreadable,
                    fmt::format("cannot be written: {}", std::generic_category().message(errno)),
                    path.string());
-  return FileWriter(std::move(*file), descriptor);
+  return FileWriter(path, std::move(file), descriptor);
 }
 
-FileWriter::FileWriter(OutputFile file, int descriptor)
-    : file_(std::move(file)), descriptor_(descriptor), buffer_(new char[kCapacity]) {}
+FileWriter::FileWriter(std::filesystem::path path, std::optional<OutputFile> file, int descriptor)
+    : path_(std::move(path)), file_(std::move(file)), descriptor_(descriptor), buffer_(new char[kCapacity]) {}
 
 FileWriter::FileWriter(FileWriter&& other) noexcept
-    : file_(std::move(other.file_)),
+    : path_(std::move(other.path_)),
+      file_(std::move(other.file_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
       error_(other.error_),
       buffer_(std::move(other.buffer_)),
@@ -69,8 +76,8 @@ Status FileWriter::finish() {
   if (error_ != 0)
     return failure(ErrorCode::unreadable,
                    fmt::format("cannot be written: {}", std::generic_category().message(error_)),
-                   file_.path().string());
-  return file_.commit();
+                   path_.string());
+  return file_ ? file_->commit() : Status();
 }
 
 }  // namespace arete

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 
@@ -13,8 +14,12 @@
 
 namespace arete {
 
-/// A buffered byte stream into an OutputFile. The first error is kept and later writes do nothing; finish()
-/// returns it.
+/// The name by which a FileWriter writes to stdout as it is: what it was redirected to is neither cut nor
+/// replaced.
+inline constexpr std::string_view kStandardOutput = "/dev/stdout";
+
+/// A buffered byte stream into an OutputFile or stdout. The first error is kept and later writes do nothing;
+/// finish() returns it.
 class FileWriter {
  public:
   /// Errors: those of OutputFile::create(). unreadable: the file cannot be opened.
@@ -53,12 +58,13 @@ class FileWriter {
   static constexpr std::size_t kCapacity = std::size_t{1} << 20;
 
  private:
-  FileWriter(OutputFile file, int descriptor);
+  FileWriter(std::filesystem::path path, std::optional<OutputFile> file, int descriptor);
   void writeThrough(std::string_view bytes);
   void flush();
   void toDisk(const char* bytes, std::size_t count);
 
-  OutputFile file_;
+  std::filesystem::path path_;
+  std::optional<OutputFile> file_;  // nothing for stdout
   int descriptor_ = -1;
   int error_ = 0;  // errno of the first failure
   std::unique_ptr<char[]> buffer_;

@@ -24,7 +24,7 @@ struct MeshFrame {
   Vec3 rounding = {};
 };
 
-/// A mesh as read from a file. Polygons are split into fans of triangles.
+/// A mesh as read from a file. Polygons are split into triangles (io/mesh/polygon.h).
 struct MeshFile {
   TriangleMesh mesh;         ///< in source coordinates if the file states its frame, else as in the file
   std::string crsWkt;        ///< empty if the file has none
@@ -32,6 +32,8 @@ struct MeshFile {
   /// One per triangle, finite and not negative; empty if the file has none.
   std::vector<float> triangleErrors;
   MeshFrame frame;
+  /// What was left out or guessed, each a sentence about the file.
+  std::vector<std::string> warnings;
 };
 
 /// What to write besides the triangles. A value is left out if the format has no field for it.
@@ -47,6 +49,8 @@ struct MeshWriteOptions {
   /// The origin of a format of 32-bit floats (io/crs/local_origin.h), in the coordinates of the positions.
   /// Default: a vertex near the middle of the mesh. Files with the same origin align in any program.
   std::optional<Vec3> origin = {};
+  /// The format by its extension ("ply"), where the file name does not say it: a pipe has none.
+  std::string format = {};
   /// Further comment lines.
   std::vector<std::string> notes = {};
 };

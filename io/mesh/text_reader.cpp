@@ -15,7 +15,6 @@ namespace arete {
 namespace {
 
 constexpr std::size_t kLinesPerCancelCheck = 1 << 16;
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 }  // namespace
 
@@ -23,8 +22,6 @@ MeshTextReader::MeshTextReader(const FileBytes& file, std::string path, const Ru
     : begin_(file.begin()), at_(file.begin()), end_(file.end()), path_(std::move(path)), context_(context) {}
 
 Result<MeshFile> MeshTextReader::read() {
-  if (std::string_view(at_, static_cast<std::size_t>(end_ - at_)).starts_with(kByteOrderMark))
-    at_ += kByteOrderMark.size();
   for (std::size_t line = 0; at_ < end_; ++line) {
     if (line % kLinesPerCancelCheck == 0) {
       context_.report("reading the mesh", double(at_ - begin_) / double(end_ - begin_));
@@ -36,6 +33,8 @@ Result<MeshFile> MeshTextReader::read() {
   if (isOurs_ && !hasEnd_)
     return failure(ErrorCode::corrupt, "is truncated: its last line, \"# end\", is missing", path_);
   if (const Status ok = finish(); !ok) return tl::unexpected(ok.error());
+  if (const Status ok = faces_.finish(mesh_, context_); !ok)
+    return failure(ok.error().code, ok.error().message, path_);
   return std::move(mesh_);
 }
 

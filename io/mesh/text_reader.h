@@ -9,6 +9,7 @@
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
 #include "io/file/file_bytes.h"
+#include "io/mesh/faces.h"
 #include "io/mesh/file.h"
 
 namespace arete {
@@ -21,7 +22,7 @@ inline constexpr std::string_view kMeshTextGenerator = "generator arete", kMeshT
 /// the comments that Arete writes, and reports progress. A format implements readLine() and finish().
 class MeshTextReader {
  public:
-  /// @param file Must outlive the reader.
+  /// @param file The bytes of FileBytes::readText(). Must outlive the reader.
   MeshTextReader(const FileBytes& file, std::string path, const RunContext& context);
   MeshTextReader(const MeshTextReader&) = delete;
   MeshTextReader& operator=(const MeshTextReader&) = delete;
@@ -48,6 +49,8 @@ class MeshTextReader {
     return newline ? static_cast<const char*>(newline) : end_;
   }
   MeshFile& mesh() { return mesh_; }
+  /// Takes the faces of more than three corners; read() triangulates them after finish().
+  MeshFaces& faces() { return faces_; }
   const std::string& path() const { return path_; }
   /// The file has the comment "generator arete".
   bool isOurs() const { return isOurs_; }
@@ -67,6 +70,7 @@ class MeshTextReader {
   std::string path_;
   const RunContext& context_;
   MeshFile mesh_;
+  MeshFaces faces_;
   bool isOurs_ = false, hasEnd_ = false;
 };
 

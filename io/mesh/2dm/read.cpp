@@ -3,7 +3,7 @@
 // One pass over the lines; the first word of each is its card. Elements name nodes by number, and a node may
 // come after the elements that name it, so numbers become indices at the end: directly where the nodes are
 // numbered 1, 2, 3, ..., as most programs do, by a sorted list otherwise. Lines with an unknown card are
-// skipped.
+// skipped, and so are lines without a card behind them: the points of a curve (XYS) are such.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -56,6 +57,7 @@ class TwoDmReader final : public MeshTextReader {
       takeComment(std::string_view(card.data() + 1, static_cast<std::size_t>(lineEnd_ - card.data() - 1)));
       return {};
     }
+    const bool isBehindUnknown = std::exchange(isBehindUnknown_, false);
     if (card == "ND") return readNode();
     if (card == "E3T") return readElement(3);
     if (card == "E4Q") return readElement(4);
@@ -65,8 +67,10 @@ class TwoDmReader final : public MeshTextReader {
               .value();
       return unsupported(error.message);
     }
-    if (!isKeyword(card))
+    const bool isData = std::string_view("0123456789+-.\"").find(card.front()) != std::string_view::npos;
+    if (isData ? !isBehindUnknown : !isKeyword(card))
       return corrupt(line_, fmt::format("begins with {}: unknown 2DM card", text::quotedToken(card)));
+    isBehindUnknown_ = card != "MESH2D";
     return {};
   }
 
@@ -102,8 +106,7 @@ class TwoDmReader final : public MeshTextReader {
     for (int k = 0; k < corners; ++k)
       if (!nextNumber(nodes[std::size_t(k)]))
         return corrupt(line_, fmt::format("is an element without {} nodes", corners));
-    mesh().mesh.triangles.push_back({nodes[0], nodes[1], nodes[2]});
-    if (corners == 4) mesh().mesh.triangles.push_back({nodes[0], nodes[2], nodes[3]});
+    faces().add(mesh().mesh.triangles, std::span(nodes).first(std::size_t(corners)));
     return {};
   }
 
@@ -154,12 +157,13 @@ class TwoDmReader final : public MeshTextReader {
   const char* lineEnd_ = nullptr;
   std::vector<std::uint32_t> numbers_;
   bool areInOrder_ = true, isMesh_ = false;
+  bool isBehindUnknown_ = false;  // the last card is not read, and may have lines of its own
 };
 
 }  // namespace
 
 Result<MeshFile> read2dm(const std::filesystem::path& path, const RunContext& context) {
-  const Result<FileBytes> file = FileBytes::read(path);
+  const Result<FileBytes> file = FileBytes::readText(path);
   if (!file) return tl::unexpected(file.error());
   return TwoDmReader(*file, path.string(), context).read();
 }

@@ -8,12 +8,12 @@
 namespace arete {
 
 /// Reads the triangles of a GeoPackage: the polygons, multipolygons, triangles, TINs and polyhedral surfaces
-/// of its only layer that may hold surfaces, each polygon with three corners with heights. Corners at equal
-/// positions become one vertex, in the order of first occurrence. A numeric field "error" that is set in
-/// every feature gives the errors of the triangles.
+/// of its only layer that may hold surfaces, with heights. Polygons, with holes or without, are triangulated
+/// (io/mesh/polygon.h). Corners at equal positions become one vertex, in the order of first occurrence. A
+/// numeric field "error" that is set in every feature gives the errors of the triangles.
 ///
-/// Errors: those of readMesh(). unsupported: also polygons that are not triangles or have no heights, and
-/// several layers of surfaces.
+/// Errors: those of readMesh(). unsupported: also polygons without heights, polygons with holes whose rings
+/// cross, and several layers of surfaces.
 Result<MeshFile> readGpkg(const std::filesystem::path& path, const RunContext& context = {});
 
 /// @return True if a GeoPackage holds surfaces and no points. False if it cannot be opened.

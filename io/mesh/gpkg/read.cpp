@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Feature by feature: collections and surfaces are split into polygons, and the outer ring of each must have
-// three corners. Corners are welded, since the format repeats them.
+// Feature by feature: collections and surfaces are split into polygons, and these into triangles, as seen
+// from above: so are polygons valid or not in GIS. Corners are welded, since the format repeats them.
 #include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogr_geometry.h>
@@ -11,11 +11,13 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <vector>
 
 #include "io/crs/reader.h"
 #include "io/gdal/support.h"
 #include "io/gdal/vector_layer.h"
 #include "io/mesh/gpkg/gpkg.h"
+#include "io/mesh/polygon.h"
 #include "io/mesh/vertex_welder.h"
 
 namespace arete {
@@ -57,6 +59,10 @@ class GpkgReader {
                                                      errors.firstFailure()));
     if (!hasErrors) result_.triangleErrors.clear();
     result_.mesh.positions = welder_.take();
+    if (crossing_ > 0)
+      result_.warnings.push_back(fmt::format(
+          "{} polygons cross themselves, so their triangles are a guess (the first is feature {})", crossing_,
+          firstCrossing_));
     return std::move(result_);
   }
 
@@ -91,30 +97,48 @@ class GpkgReader {
   Status addPolygon(const OGRPolygon& polygon) {
     if (polygon.IsEmpty()) return {};
     if (!polygon.Is3D()) return refuse(ErrorCode::unsupported, "has no heights");
-    if (polygon.getNumInteriorRings() > 0)
-      return refuse(ErrorCode::unsupported, "is a polygon with a hole, not a triangle");
-    const OGRLinearRing& ring = *polygon.getExteriorRing();
+    corners_.clear();
+    ringEnds_.clear();
+    for (const OGRLinearRing* ring : polygon)
+      if (Status ok = addRing(*ring); !ok) return ok;
+    PolygonTriangles triangles = triangulatePolygon(corners_, PolygonView::above, ringEnds_);
+    if (!triangles.isSimple) {
+      if (ringEnds_.size() > 1) return refuse(ErrorCode::unsupported, "is a polygon whose rings cross");
+      if (crossing_++ == 0) firstCrossing_ = id_;
+    }
+    if (result_.mesh.triangles.size() + triangles.triangles.size() > kMostTriangles)
+      return refuse(ErrorCode::unsupported, "is one triangle more than an index can name");
+    std::vector<std::uint32_t> vertices;
+    vertices.reserve(corners_.size());
+    for (const Vec3& p : corners_) vertices.push_back(welder_.add(p));
+    for (const auto& [a, b, c] : triangles.triangles)
+      result_.mesh.triangles.push_back({vertices[a], vertices[b], vertices[c]});
+    return {};
+  }
+
+  Status addRing(const OGRLinearRing& ring) {
     const int points = ring.getNumPoints();
     const auto at = [&](int i) { return Vec3{ring.getX(i), ring.getY(i), ring.getZ(i)}; };
-    if (points != 4 || !(at(0) == at(3)))
-      return refuse(ErrorCode::unsupported, fmt::format("is a ring of {} points, not a triangle", points));
-    if (result_.mesh.triangles.size() == kMostTriangles)
-      return refuse(ErrorCode::unsupported, "is one triangle more than an index can name");
-    std::array<std::uint32_t, 3> triangle;
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 p = at(k);
+    if (points < 4 || !(at(0) == at(points - 1)))
+      return refuse(ErrorCode::unsupported,
+                    fmt::format("has a ring of {} points that bounds no area", points));
+    for (int i = 0; i + 1 < points; ++i) {
+      const Vec3 p = at(i);
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
         return refuse(ErrorCode::corrupt, "has a coordinate that is not finite");
-      triangle[static_cast<std::size_t>(k)] = welder_.add(p);
+      corners_.push_back(p);
     }
-    result_.mesh.triangles.push_back(triangle);
+    ringEnds_.push_back(static_cast<std::uint32_t>(corners_.size()));
     return {};
   }
 
   OGRLayer& layer_;
   const RunContext& context_;
-  GIntBig id_ = 0;
+  GIntBig id_ = 0, firstCrossing_ = 0;
+  std::size_t crossing_ = 0;
   VertexWelder welder_;
+  std::vector<Vec3> corners_;  // of a polygon
+  std::vector<std::uint32_t> ringEnds_;
   MeshFile result_;
 };
 

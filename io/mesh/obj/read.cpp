@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <string_view>
+#include <vector>
 
 #include "io/file/file_bytes.h"
 #include "io/file/text_scan.h"
@@ -84,9 +85,8 @@ class ObjReader final : public MeshTextReader {
   }
 
   Status readFace(const char* line) {
-    std::uint32_t first = 0, before = 0;
-    std::size_t corners = 0;
-    for (; toNextWord(); ++corners) {
+    corners_.clear();
+    while (toNextWord()) {
       const char*& p = at();
       std::int64_t index = 0;
       const auto [behind, error] = std::from_chars(p, end(), index);
@@ -103,12 +103,10 @@ class ObjReader final : public MeshTextReader {
         largestIndex_ = index;
         largestIndexLine_ = line;
       }
-      const auto vertex = static_cast<std::uint32_t>(index - 1);
-      if (corners == 0) first = vertex;
-      if (corners >= 2) mesh().mesh.triangles.push_back({first, before, vertex});
-      before = vertex;
+      corners_.push_back(static_cast<std::uint32_t>(index - 1));
     }
-    if (corners < 3) return corrupt(line, fmt::format("is a face of {} corners", corners));
+    if (corners_.size() < 3) return corrupt(line, fmt::format("is a face of {} corners", corners_.size()));
+    faces().add(mesh().mesh.triangles, corners_);
     at() = lineEnd();
     return {};
   }
@@ -125,6 +123,7 @@ class ObjReader final : public MeshTextReader {
     return {};
   }
 
+  std::vector<std::uint32_t> corners_;
   std::int64_t largestIndex_ = 0;
   const char* largestIndexLine_ = nullptr;
 };
@@ -132,7 +131,7 @@ class ObjReader final : public MeshTextReader {
 }  // namespace
 
 Result<MeshFile> readObj(const std::filesystem::path& path, const RunContext& context) {
-  const Result<FileBytes> file = FileBytes::read(path);
+  const Result<FileBytes> file = FileBytes::readText(path);
   if (!file) return tl::unexpected(file.error());
   return ObjReader(*file, path.string(), context).read();
 }

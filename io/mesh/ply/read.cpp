@@ -19,6 +19,7 @@
 
 #include "io/file/file_bytes.h"
 #include "io/file/text_scan.h"
+#include "io/mesh/faces.h"
 #include "io/mesh/ply/header.h"
 #include "io/mesh/ply/ply.h"
 
@@ -81,7 +82,8 @@ struct BinaryScalars {
   }
 };
 
-/// The next scalar of an ascii file: the next token. Line breaks count as blanks.
+/// The next scalar of an ascii file: the next token. Line breaks count as blanks, since some writers break
+/// long records.
 struct TextScalars {
   const char* at;
   const char* end;
@@ -107,12 +109,21 @@ class PlyReader {
 
   /// Fills the mesh and, if every face has one, the errors of `file`.
   Status readInto(MeshFile& file) {
-    for (const PlyElement& element : header_.elements)
+    for (const PlyElement& element : header_.elements) {
       if (element.name == "vertex") vertexCount_ = element.count;
+      if (!element.properties.empty()) records_ += element.count;
+    }
     for (const PlyElement& element : header_.elements)
       if (Status ok = readElement(element); !ok) return ok;
     file.mesh = std::move(mesh_);
     file.triangleErrors = std::move(errors_);
+    if (recordsWithMore_ > 0)
+      file.warnings.push_back(fmt::format(
+          "{} lines have more values than the header states; these are left out (the first is line "
+          "{})",
+          recordsWithMore_, lineWithMore_));
+    if (const Status ok = faces_.finish(file, context_); !ok)
+      return failure(ok.error().code, ok.error().message, path_);
     return {};
   }
 
@@ -178,8 +189,37 @@ class PlyReader {
         if (context_.cancelled()) return failure(ErrorCode::interrupted, "reading was interrupted", path_);
       }
       if (Status ok = readRecord(element, roles, isVertex, record); !ok) return ok;
+      if constexpr (std::is_same_v<Scalars, TextScalars>) skipSurplus();
     }
     return {};
+  }
+
+  /// Skips the values that a line has beyond the properties of its record. Where there are fewer lines than
+  /// records, several records share a line, and nothing is skipped.
+  void skipSurplus() {
+    const char* next = scalars_.at;
+    while (next < scalars_.end && text::isBlank(*next)) ++next;
+    if (next == scalars_.end || *next == '\n' || !everyRecordHasALine()) return;
+    if (recordsWithMore_++ == 0) lineWithMore_ = text::lineOf(file_.begin(), next);
+    scalars_.at = std::find(next, scalars_.end, '\n');
+  }
+
+  bool everyRecordHasALine() {
+    if (!lines_) {
+      lines_ = 0;
+      const char* const begin = file_.begin() + header_.dataBegin;
+      bool isEmpty = true;
+      for (const char* at = begin; at < scalars_.end; ++at) {
+        if (*at != '\n') {
+          isEmpty = isEmpty && text::isBlank(*at);
+        } else {
+          *lines_ += isEmpty ? 0 : 1;
+          isEmpty = true;
+        }
+      }
+      *lines_ += isEmpty ? 0 : 1;
+    }
+    return *lines_ >= records_;
   }
 
   Status readRecord(const PlyElement& element, const std::vector<Role>& roles, bool isVertex,
@@ -233,18 +273,16 @@ class PlyReader {
     if (role == Role::indices && count < 3)
       return corruptRecord(element, record, fmt::format("has {} corners", count));
 
-    std::uint32_t first = 0, before = 0;
+    if (role == Role::indices) corners_.clear();
     for (std::uint64_t i = 0; i < count; ++i) {
       double value = 0;
       if (!scalars_.next(property.type, value)) return corruptRecord(element, record, noValue(property));
       if (role != Role::indices) continue;
       if (!(value >= 0 && value < static_cast<double>(vertexCount_) && value == std::floor(value)))
         return corruptRecord(element, record, fmt::format("names vertex {} of {}", value, vertexCount_));
-      const auto vertex = static_cast<std::uint32_t>(value);
-      if (i == 0) first = vertex;
-      if (i >= 2) mesh_.triangles.push_back({first, before, vertex});
-      before = vertex;
+      corners_.push_back(static_cast<std::uint32_t>(value));
     }
+    if (role == Role::indices) faces_.add(mesh_.triangles, corners_);
     return {};
   }
 
@@ -259,8 +297,14 @@ class PlyReader {
   const RunContext& context_;
   Scalars scalars_;
   std::uint64_t vertexCount_ = 0;
+  std::uint64_t records_ = 0;           // of all elements that have properties
+  std::optional<std::uint64_t> lines_;  // that are not empty, once counted
+  std::uint64_t recordsWithMore_ = 0;
+  std::size_t lineWithMore_ = 0;
   TriangleMesh mesh_;
   std::vector<float> errors_;
+  MeshFaces faces_;
+  std::vector<std::uint32_t> corners_;
 };
 
 Status checkElements(const PlyHeader& header, const std::string& path) {
@@ -285,6 +329,23 @@ Status checkElements(const PlyHeader& header, const std::string& path) {
   return {};
 }
 
+/// Gives elements and properties the names that the reader knows where only upper and lower case differ:
+/// "X" is "x", unless there is an "x" as well.
+void useKnownNames(PlyHeader& header) {
+  const auto rename = [](auto& named, std::initializer_list<std::string_view> known) {
+    for (const std::string_view name : known) {
+      if (std::ranges::any_of(named, [&](const auto& one) { return one.name == name; })) continue;
+      for (auto& one : named)
+        if (text::lowered(one.name) == name) one.name = name;
+    }
+  };
+  rename(header.elements, {"vertex", "face", "tristrips"});
+  for (PlyElement& element : header.elements) {
+    if (element.name == "vertex") rename(element.properties, {"x", "y", "z"});
+    if (element.name == "face") rename(element.properties, {"vertex_indices", "vertex_index", "error"});
+  }
+}
+
 /// "crs X" sets `value` to X, and "crs+ Y" appends Y.
 void takeComment(std::string_view comment, std::string_view key, std::string& value) {
   if (!comment.starts_with(key)) return;
@@ -299,10 +360,17 @@ void takeComment(std::string_view comment, std::string_view key, std::string& va
 
 Result<MeshFile> readPly(const std::filesystem::path& path, const RunContext& context) {
   const std::string name = path.string();
-  const Result<FileBytes> file = FileBytes::read(path);
+  Result<FileBytes> file = FileBytes::read(path);
   if (!file) return tl::unexpected(file.error());
-  const Result<PlyHeader> header = parsePlyHeader(file->view(), name);
+  // A text in UTF-16, or with a byte order mark.
+  if (!file->view().starts_with("ply"))
+    if (const Status ok = file->decodeText(path); !ok) return tl::unexpected(ok.error());
+  Result<PlyHeader> header = parsePlyHeader(file->view(), name);
   if (!header) return tl::unexpected(header.error());
+  // Carriage returns that end the lines of the data.
+  if (header->format == PlyFormat::ascii)
+    if (const Status ok = file->decodeText(path); !ok) return tl::unexpected(ok.error());
+  useKnownNames(*header);
   if (const Status ok = checkElements(*header, name); !ok) return tl::unexpected(ok.error());
 
   MeshFile result;

@@ -38,7 +38,7 @@ class LineKeeper final : public MeshTextReader {
 class MeshTextReaderTest : public ::testing::Test {
  protected:
   Result<MeshFile> read(const std::string& text, const RunContext& context = {}) {
-    const auto bytes = FileBytes::read(folder_.write("a.txt", text));
+    const auto bytes = FileBytes::readText(folder_.write("a.txt", text));
     EXPECT_TRUE(bytes);
     LineKeeper keeper(*bytes, "a.txt", context);
     Result<MeshFile> file = keeper.read();

@@ -80,6 +80,29 @@ TEST(TwoDmRead, NamesWhatIsWrong) {
     EXPECT_EQ(refusal(folder.write("a.2dm", text)).code, ErrorCode::corrupt);
 }
 
+TEST(TwoDmRead, SkipsTheLinesOfCardsThatItDoesNotRead) {
+  const TemporaryFolder folder;
+  const std::string element = "E3T 1 1 2 3 1\n";
+  for (const std::string& rest :
+       {std::string("BEGCURVE Version: 1\nXYS 1 4 \"Curve\"\n0.0 0.02\n6000.0 0.053\n12000.0 0.0365\n18000.0 "
+                    "0.02\nENDCURVE\n"),
+        std::string("XY1 1 3 0 0 0 0 \"series\"\n0 1\n-1.5e3 2\n.5 3\n+2 4\n"),
+        std::string("XYS 2 2\n 1 2\n\n 3 4\nXYS 3 1\n5 6\n"), std::string("GM \"Mesh\"\n\"a second line\"\n"),
+        std::string("NS 1 2 3 -4\nNS 1 2\n")}) {
+    for (const std::string& text :
+         {"MESH2D\n" + element + kNodes + rest, "MESH2D\n" + rest + kNodes + element,
+          "MESH2D\n" + kNodes + rest + element}) {
+      const Result<MeshFile> file = readMesh(folder.write("a.2dm", text));
+      ASSERT_TRUE(file) << text << file.error().describe();
+      EXPECT_EQ(file->mesh.triangles.size(), 1u) << text;
+    }
+  }
+  // Numbers behind a node or an element are no lines of another card: the file is damaged.
+  for (const std::string& text :
+       {"MESH2D\n" + kNodes + "1 2 3\n" + element, "MESH2D\n" + kNodes + element + "0.5 1\n"})
+    EXPECT_EQ(refusal(folder.write("a.2dm", text)).code, ErrorCode::corrupt) << text;
+}
+
 TEST(TwoDmRead, NoticesThatAFileOfOursIsCutShort) {
   const TemporaryFolder folder;
   const TriangleMesh mesh = {{{0.1, 0, 1}, {1, 0, 2}, {0, 1, -1e-7}}, {{0, 1, 2}}};

@@ -113,8 +113,8 @@ TEST(GpkgRead, ReadsForeignSurfaces) {
 
 TEST(GpkgRead, NamesWhatIsNoTriangle) {
   const TemporaryFolder folder;
-  for (const char* wkt : {"POLYGON ((0 0,1 0,0 1,0 0))", "POLYGON Z ((0 0 1,1 0 1,1 1 1,0 1 1,0 0 1))",
-                          "POLYGON Z ((0 0 1,9 0 2,0 9 3,0 0 1),(1 1 1,2 1 1,1 2 1,1 1 1))",
+  for (const char* wkt : {"POLYGON ((0 0,1 0,0 1,0 0))", "POLYGON Z ((0 0 1,1 0 1,0 0 1))",
+                          "POLYGON Z ((0 0 1,9 0 2,0 9 3,0 0 1),(1 1 1,20 1 1,1 2 1,1 1 1))",
                           "POINT Z (1 2 3)", "LINESTRING Z (1 2 3,4 5 6)"}) {
     const Error error = refusal(foreignGpkg(folder, {wkt}));
     EXPECT_EQ(error.code, ErrorCode::unsupported) << wkt;

@@ -35,6 +35,23 @@ TEST_F(ObjRead, ReadsAForeignFile) {
   }
 }
 
+TEST_F(ObjRead, ReadsUtf16AndReturns) {
+  const std::string text = "# a\nv 0 0 1\nv 1 0 2\nv 0 1 3\nf 1 2 3\n";
+  std::vector<std::string> files = {text};
+  std::ranges::replace(files[0], '\n', '\r');
+  for (const std::string mark : {"\xFF\xFE", "\xFE\xFF", ""}) {
+    std::string wide = mark;
+    for (const char c : text) wide += mark == "\xFE\xFF" ? std::string{'\0', c} : std::string{c, '\0'};
+    files.push_back(wide);
+  }
+  for (const std::string& bytes : files) {
+    const Result<MeshFile> file = readMesh(put("a.obj", bytes));
+    ASSERT_TRUE(file) << file.error().describe();
+    EXPECT_EQ(file->mesh.positions, (std::vector<Vec3>{{0, 0, 1}, {1, 0, 2}, {0, 1, 3}}));
+    EXPECT_EQ(file->mesh.triangles.size(), 1u);
+  }
+}
+
 TEST_F(ObjRead, RefusesWhatMakesNoSense) {
   const std::string start = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   EXPECT_TRUE(readMesh(put("a.obj", start + "f 1 2 3\n")));

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstring>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -178,6 +179,85 @@ TEST_F(PlyRead, BelievesNoHeader) {
             std::string::npos);
   refusal("a.ply", ply("ascii", one, "0 nan 0\n3 0 0 0\n"));
   refusal("a.ply", ply("ascii", one, "0 1e999 0\n3 0 0 0\n"));
+}
+
+TEST_F(PlyRead, FindsNamesInCapitals) {
+  const std::string body = "end_header\n0 0 1\n1 0 2\n0 1 3\n3 0 1 2\n";
+  for (const char* names : {"property double X\nproperty double Y\nproperty double Z\n",
+                            "property float x\nproperty float Y\nproperty float Z\n"})
+    for (const char* elements :
+         {"vertex face vertex_indices", "VERTEX Face Vertex_Indices", "Vertex FACE vertex_Index"}) {
+      std::istringstream words(elements);
+      std::string vertex, face, list;
+      words >> vertex >> face >> list;
+      const Result<MeshFile> file =
+          readMesh(put("a.ply", "ply\nformat ascii 1.0\nelement " + vertex + " 3\n" + names + "element " +
+                                    face + " 1\nproperty list uchar uint " + list + "\n" + body));
+      ASSERT_TRUE(file) << file.error().describe();
+      EXPECT_EQ(file->mesh.positions, (std::vector<Vec3>{{0, 0, 1}, {1, 0, 2}, {0, 1, 3}}));
+      EXPECT_EQ(file->mesh.triangles.size(), 1u);
+    }
+  // Where both are there, the small letters are meant; two of one name are none.
+  const std::string both =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float X\nproperty float x\nproperty float "
+      "y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n9 0 0 1\n9 1 0 2\n9 0 1 3\n3 0 1 "
+      "2\n";
+  EXPECT_EQ(readMesh(put("a.ply", both))->mesh.positions[1], (Vec3{1, 0, 2}));
+}
+
+TEST_F(PlyRead, LeavesOutWhatLinesHaveBeyondTheirProperties) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face 2\n"
+      "property list uchar int vertex_indices\nend_header\n";
+  const std::vector<Vec3> positions = {{0, 0, 1}, {1, 0, 2}, {1, 1, 3}, {0, 1, 4}};
+  struct Case {
+    const char* body;
+    const char* warning;
+  };
+  for (const Case& one :
+       {Case{"0 0 1\n1 0 2\n1 1 3\n0 1 4\n3 0 1 2\n3 0 2 3\n", ""},
+        // colours that the header does not state, in all lines or in some
+        Case{"0 0 1 255 0 0\n1 0 2 255 0 0\n1 1 3 255 0 0\n0 1 4 255 0 0\n3 0 1 2\n3 0 2 3\n", "4 lines"},
+        Case{"0 0 1\n1 0 2 7\n1 1 3\n0 1 4\n3 0 1 2 255 255 255\n3 0 2 3\n", "2 lines"},
+        Case{"0 0 1 x\n\n1 0 2\n1 1 3\n0 1 4\n3 0 1 2\n3 0 2 3\n", "1 lines"},
+        // fewer lines than records: some share one, and every value counts
+        Case{"0 0 1 1 0 2\n1 1 3 0 1 4\n3 0 1 2 3 0 2 3\n", ""},
+        Case{"0 0 1 1 0 2 1 1 3 0 1 4 3 0 1 2 3 0 2 3", ""},
+        // records over several lines
+        Case{"0\n0 1\n1 0 2\n1 1\n3\n0 1 4\n3\n0 1 2\n3 0 2 3\n", ""}}) {
+    for (const bool returns : {false, true}) {
+      std::string text = head + one.body;
+      if (returns) std::ranges::replace(text, '\n', '\r');
+      const Result<MeshFile> file = readMesh(put("a.ply", text));
+      ASSERT_TRUE(file) << one.body << file.error().describe();
+      EXPECT_EQ(file->mesh.positions, positions) << one.body;
+      EXPECT_EQ(file->mesh.triangles.size(), 2u);
+      EXPECT_EQ(file->mesh.triangles.back(), (std::array<std::uint32_t, 3>{0, 2, 3})) << one.body;
+      const std::string warning = file->warnings.empty() ? "" : file->warnings[0];
+      EXPECT_TRUE(*one.warning == 0 ? warning.empty() : warning.starts_with(one.warning))
+          << one.body << warning;
+    }
+  }
+  // Too few values in a line are taken from the next, so the file ends early.
+  EXPECT_EQ(refusal("a.ply", head + "0 0 1\n1 0\n1 1 3\n0 1 4\n3 0 1 2\n3 0 2 3\n").code, ErrorCode::corrupt);
+}
+
+TEST_F(PlyRead, ReadsUtf16) {
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 1\n1 0 2\n0 1 3\n3 0 1 2\n";
+  std::string wide;
+  for (const char c : "\xEF\xBB\xBF" + text) wide += c;
+  EXPECT_TRUE(readMesh(put("mark.ply", wide)));
+  for (const std::string mark : {"\xFF\xFE", ""}) {
+    wide = mark;
+    for (const char c : text) wide += std::string{c, '\0'};
+    const Result<MeshFile> file = readMesh(put("wide.ply", wide));
+    ASSERT_TRUE(file) << file.error().describe();
+    EXPECT_EQ(file->mesh.positions[2], (Vec3{0, 1, 3}));
+  }
 }
 
 }  // namespace
