@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A file is binary if its size is the one that its triangle count implies. Otherwise it is ASCII if it begins
-// with "solid" (any case, after blanks), and a truncated or altered binary file if it does not.
+// with "solid" (any case, after blanks) and its start is text; binary headers may begin with that word, but
+// bytes that no text has follow. Otherwise it is binary: with bytes to spare, which are left out with a
+// warning, or truncated.
 //
 // ASCII is read word by word: facets of exactly three vertices between "solid" and "endsolid". The rest of
 // the lines of these two is a name. Several solids become one mesh.
@@ -13,11 +15,11 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <optional>
 #include <string_view>
 
 #include "io/crs/local_origin.h"
 #include "io/file/file_bytes.h"
+#include "io/file/text_decoder.h"
 #include "io/file/text_scan.h"
 #include "io/mesh/stl/stl.h"
 #include "io/mesh/vertex_welder.h"
@@ -33,6 +35,8 @@ constexpr std::size_t kTrianglesPerCancelCheck = 1 << 16;
 /// A vertex of a TIN is in six triangles on average.
 constexpr std::size_t kTrianglesPerVertex = 2;
 constexpr std::uint64_t kMostTriangles = std::numeric_limits<std::uint32_t>::max() / 3;
+/// Bytes at the start of a file that show whether it is a text.
+constexpr std::size_t kProbe = 4096;
 constexpr std::string_view kOriginKey = "arete origin ";
 
 bool equalsWord(std::string_view a, std::string_view lower) {
@@ -40,18 +44,24 @@ bool equalsWord(std::string_view a, std::string_view lower) {
                             [](char c, char d) { return (c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c) == d; });
 }
 
-/// The triangle count of a file whose size matches it.
-std::optional<std::uint32_t> binaryCount(std::string_view file) {
-  if (file.size() < kPreambleSize) return std::nullopt;
+std::uint32_t binaryCount(std::string_view file) {
   std::uint32_t count = 0;
   std::memcpy(&count, file.data() + kHeaderSize, sizeof count);
-  if (file.size() != kPreambleSize + std::uint64_t{count} * kRecordSize) return std::nullopt;
   return count;
 }
 
-bool beginsWithSolid(std::string_view file) {
+std::uint64_t binarySize(std::uint32_t count) {
+  return kPreambleSize + std::uint64_t{count} * kRecordSize;
+}
+
+bool isAscii(std::string_view file) {
+  const std::string_view start = file.substr(0, kProbe);
   while (!file.empty() && text::isSpace(file.front())) file.remove_prefix(1);
-  return file.size() > 5 && equalsWord(file.substr(0, 5), "solid") && text::isSpace(file[5]);
+  const bool beginsWithSolid =
+      file.size() > 5 && equalsWord(file.substr(0, 5), "solid") && text::isSpace(file[5]);
+  return beginsWithSolid && std::ranges::none_of(start, [](char c) {
+           return static_cast<unsigned char>(c) < 32 && !text::isSpace(c);
+         });
 }
 
 /// The largest |coordinate| of each axis so far, before the origin is added.
@@ -232,12 +242,29 @@ class AsciiStlReader {
 }  // namespace
 
 Result<MeshFile> readStl(const std::filesystem::path& path, const RunContext& context) {
-  const Result<FileBytes> bytes = FileBytes::read(path);
+  Result<FileBytes> bytes = FileBytes::read(path);
   if (!bytes) return tl::unexpected(bytes.error());
+  const bool hasPreamble = bytes->size() >= kPreambleSize;
+  const std::uint32_t count = hasPreamble ? binaryCount(bytes->view()) : 0;
+  if (hasPreamble && bytes->size() == binarySize(count))
+    return BinaryStlReader(bytes->view(), count, path.string(), context).read();
+  if (TextDecoder::isNeededFor(bytes->view().substr(0, kProbe))) {
+    Result<FileBytes> text = FileBytes::readText(path);
+    if (!text) return tl::unexpected(text.error());
+    if (isAscii(text->view())) return AsciiStlReader(text->view(), path.string(), context).read();
+  }
   const std::string_view file = bytes->view();
-  if (const auto count = binaryCount(file))
-    return BinaryStlReader(file, *count, path.string(), context).read();
-  if (beginsWithSolid(file)) return AsciiStlReader(file, path.string(), context).read();
+  if (isAscii(file)) return AsciiStlReader(file, path.string(), context).read();
+  const std::uint64_t spare =
+      hasPreamble && file.size() > binarySize(count) ? file.size() - binarySize(count) : 0;
+  if (count > 0 && spare % kRecordSize != 0) {
+    Result<MeshFile> mesh =
+        BinaryStlReader(file.substr(0, binarySize(count)), count, path.string(), context).read();
+    if (mesh)
+      mesh->warnings.push_back(
+          fmt::format("{} bytes follow its {} triangles and are left out", spare, count));
+    return mesh;
+  }
   if (file.size() < kPreambleSize)
     return failure(
         ErrorCode::corrupt,
@@ -245,12 +272,14 @@ Result<MeshFile> readStl(const std::filesystem::path& path, const RunContext& co
                     "with {} bytes of header",
                     file.size(), kPreambleSize),
         path.string());
-  std::uint32_t count = 0;
-  std::memcpy(&count, file.data() + kHeaderSize, sizeof count);
-  return failure(ErrorCode::corrupt,
-                 fmt::format("is truncated or not an STL: {} triangles need {} bytes, the file has {}", count,
-                             kPreambleSize + std::uint64_t{count} * kRecordSize, file.size()),
-                 path.string());
+  return failure(
+      ErrorCode::corrupt,
+      spare > 0 ? fmt::format("is not an STL, or its header is wrong: it states {} triangles, and {} bytes "
+                              "follow them, as many as {} more",
+                              count, spare, spare / kRecordSize)
+                : fmt::format("is truncated or not an STL: {} triangles need {} bytes, the file has {}",
+                              count, binarySize(count), file.size()),
+      path.string());
 }
 
 }  // namespace arete

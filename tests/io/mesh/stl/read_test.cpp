@@ -141,7 +141,41 @@ TEST(StlRead, RefusesABinaryFileCutAtAnyByte) {
     const std::string whole = binaryStl(header, kTwo, 2);
     for (std::size_t length = 0; length < whole.size(); ++length)
       EXPECT_EQ(refusal(folder.write("a.stl", whole.substr(0, length))).code, ErrorCode::corrupt) << length;
-    EXPECT_EQ(refusal(folder.write("a.stl", whole + "x")).code, ErrorCode::corrupt);
+  }
+}
+
+TEST(StlRead, LeavesOutBytesBehindTheTrianglesOfABinaryFile) {
+  const TemporaryFolder folder;
+  // "solid" begins the headers of some binary files; what lies behind may be anything.
+  for (const char* header : {"arete origin 1 2 0 ", "other", "solid part", "SOLID part\n facet normal"})
+    for (const std::string& spare :
+         {std::string("x"), std::string(6, '\0'), std::string(" endsolid"), std::string(133, 'z')}) {
+      const std::string whole = binaryStl(header, kTwo, 2);
+      const Result<MeshFile> exact = readMesh(folder.write("a.stl", whole));
+      const Result<MeshFile> longer = readMesh(folder.write("b.stl", whole + spare));
+      ASSERT_TRUE(exact && longer) << header << spare;
+      EXPECT_EQ(longer->mesh.positions, exact->mesh.positions);
+      EXPECT_EQ(longer->mesh.triangles, exact->mesh.triangles);
+      EXPECT_TRUE(exact->warnings.empty());
+      ASSERT_EQ(longer->warnings.size(), 1u);
+      EXPECT_NE(longer->warnings[0].find(std::to_string(spare.size()) + " bytes"), std::string::npos);
+    }
+  // Whole records more than the header states: the header is wrong, and which it meant is not known.
+  EXPECT_EQ(refusal(folder.write("a.stl", binaryStl("solid x", kTwo, 1))).code, ErrorCode::corrupt);
+}
+
+TEST(StlRead, ReadsTextInUtf16AndWithReturns) {
+  const TemporaryFolder folder;
+  const std::string text =
+      "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 1\nvertex 1 0 2\nvertex 0 1 3\n"
+      "endloop\nendfacet\nendsolid a\n";
+  std::string wide = "\xFF\xFE", returns = text;
+  for (const char c : text) wide += std::string{c, '\0'};
+  std::ranges::replace(returns, '\n', '\r');
+  for (const std::string& bytes : {wide, returns, "\xEF\xBB\xBF" + text}) {
+    const Result<MeshFile> file = readMesh(folder.write("a.stl", bytes));
+    ASSERT_TRUE(file) << file.error().describe();
+    EXPECT_EQ(file->mesh.triangles.size(), 1u);
   }
 }
 
