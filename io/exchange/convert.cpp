@@ -40,15 +40,17 @@ Status stateCrs(MeshFile& mesh, const std::string& text, std::vector<std::string
 
 Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& path,
                                   const ConvertOptions& options, const RunContext& context) {
-  const Result<MeshFormat> format = meshFormatOf(path);
+  const Result<MeshFormat> format = meshFormatOf(path, options.format);
   if (!format) return tl::unexpected(format.error());
   ConvertedMesh converted;
+  converted.warnings = std::move(mesh.warnings);
   if (const Status ok = stateCrs(mesh, options.crs, converted.warnings); !ok)
     return tl::unexpected(ok.error());
   const MeshWriteOptions writing{.crsWkt = mesh.crsWkt,
                                  .verticalUnit = mesh.verticalUnit,
                                  .triangleErrors = mesh.triangleErrors,
                                  .origin = mesh.frame.origin,
+                                 .format = options.format,
                                  .notes = {}};
   const Result<WrittenMesh> written = writeAndReadBack(std::move(mesh.mesh), path, writing, true, context);
   if (!written) return tl::unexpected(written.error());

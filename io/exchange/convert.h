@@ -12,7 +12,8 @@
 namespace arete {
 
 struct ConvertOptions {
-  std::string crs = {};  ///< any text that GDAL accepts; empty: that of the mesh. Nothing is reprojected.
+  std::string crs = {};     ///< any text that GDAL accepts; empty: that of the mesh. Nothing is reprojected.
+  std::string format = {};  ///< MeshWriteOptions::format
 };
 
 /// The result of a conversion.
@@ -24,8 +25,8 @@ struct ConvertedMesh {
   std::vector<std::string> warnings;
 };
 
-/// Writes a mesh in the format that the extension of `path` names, with its CRS, unit and errors as far as
-/// the format can hold them.
+/// Writes a mesh in the format that options.format or the extension of `path` names, with its CRS, unit and
+/// errors as far as the format can hold them.
 ///
 /// Errors: those of writeMesh(). usage, with the text as culprit: options.crs is not a CRS. O(size).
 Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& path,

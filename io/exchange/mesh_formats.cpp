@@ -10,10 +10,13 @@
 #include <cmath>
 
 #include "engine/base/caught_failure.h"
+#include "io/file/file_writer.h"
+#include "io/file/text_scan.h"
 #include "io/mesh/2dm/2dm.h"
 #include "io/mesh/glb/glb.h"
 #include "io/mesh/gpkg/gpkg.h"
 #include "io/mesh/obj/obj.h"
+#include "io/mesh/off/off.h"
 #include "io/mesh/ply/ply.h"
 #include "io/mesh/stl/stl.h"
 
@@ -35,8 +38,10 @@ constexpr MeshFormatTraits kHoldsFrame = {.holdsCrs = true, .holdsVerticalUnit =
 constexpr std::array kFormats = {
     MeshFormat{"PLY", ".ply", &readPly, &writePly, kHoldsQualities},
     MeshFormat{"OBJ", ".obj", &readObj, &writeObj, kHoldsNoErrors},
+    MeshFormat{"OFF", ".off", &readOff, &writeOff, kHoldsNoErrors},
     MeshFormat{"STL", ".stl", &readStl, &writeStl, {}},
     MeshFormat{"GLB", ".glb", &readGlb, &writeGlb, kHoldsFrame},
+    MeshFormat{"glTF", ".gltf", &readGltf, &writeGltf, kHoldsFrame},
     MeshFormat{"2DM", ".2dm", &read2dm, &write2dm, kHoldsNoErrors},
     MeshFormat{"GeoPackage", ".gpkg", &readGpkg, &writeGpkg, kHoldsAll},
 };
@@ -63,10 +68,9 @@ std::string writableMeshExtensions() {
   return extensionsOf([](const MeshFormat& format) { return format.write != nullptr; });
 }
 
-Result<MeshFormat> meshFormatOf(const std::filesystem::path& path) try {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+Result<MeshFormat> meshFormatOf(const std::filesystem::path& path, std::string_view name) try {
+  const std::string extension =
+      text::lowered(name.empty() ? path.extension().string() : fmt::format(".{}", name));
   for (const MeshFormat& format : kFormats)
     if (extension == format.extension) return format;
   if (extension == ".amt")
@@ -82,6 +86,14 @@ Result<MeshFormat> meshFormatOf(const std::filesystem::path& path) try {
                  path.string());
 } catch (...) {
   return caughtFailure();
+}
+
+bool isNoFile(const std::filesystem::path& path) {
+  if (path == kStandardOutput) return true;
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+         !std::filesystem::is_directory(status);
 }
 
 bool isMeshFile(const std::filesystem::path& path) {
@@ -106,10 +118,13 @@ Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& c
 
 Status writeMesh(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
                  const RunContext& context) try {
-  const Result<MeshFormat> format = meshFormatOf(path);
+  const Result<MeshFormat> format = meshFormatOf(path, options.format);
   if (!format) return tl::unexpected(format.error());
   if (!format->write)
     return failure(ErrorCode::unsupported, fmt::format("{} files can be read, not written", format->name),
+                   path.string());
+  if (format->write == &writeGpkg && isNoFile(path))
+    return failure(ErrorCode::unsupported, "is not a file, and a GeoPackage is a database that needs one",
                    path.string());
   return format->write(mesh, path, options, context);
 } catch (...) {

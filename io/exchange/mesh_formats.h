@@ -29,9 +29,15 @@ std::span<const MeshFormat> meshFormats();
 std::string readableMeshExtensions();
 std::string writableMeshExtensions();
 
-/// Finds the format by the extension of the path, in either case. Errors: unsupported: lists the known
-/// formats.
-Result<MeshFormat> meshFormatOf(const std::filesystem::path& path);
+/// Finds the format by the extension of the path, in either case, or by its name.
+///
+/// @param name "ply": the extension without its dot, in either case; empty: the path decides.
+///
+/// Errors: unsupported: lists the known formats.
+Result<MeshFormat> meshFormatOf(const std::filesystem::path& path, std::string_view name = {});
+
+/// @return True for stdout, a pipe, a terminal or another device: what is written there cannot be read back.
+bool isNoFile(const std::filesystem::path& path);
 
 /// @return True if readMesh() can read the path: by its extension and, for a GeoPackage, if it holds surfaces
 /// rather than points or a raster.
@@ -44,9 +50,11 @@ bool isMeshFile(const std::filesystem::path& path);
 /// unsupported. corrupt: truncated, altered or invalid. interrupted. O(file size).
 Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& context = {});
 
-/// Writes a mesh in the format that the extension of `path` names. The file appears complete or not at all.
+/// Writes a mesh in the format that options.format or the extension of `path` names. The file appears
+/// complete or not at all; a pipe or a device is written in place.
 ///
-/// Errors: unsupported. invalidData: the mesh does not validate(). notFound, unreadable, interrupted.
+/// Errors: unsupported; a GeoPackage to a pipe. invalidData: the mesh does not validate(). notFound,
+/// unreadable, interrupted.
 Status writeMesh(const TriangleMesh& mesh, const std::filesystem::path& path,
                  const MeshWriteOptions& options = {}, const RunContext& context = {});
 

@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The bound adds, per triangle, the largest vertical change of a corner and the largest shift times the
-// slope.
+// slope. What goes to a pipe is written to a temporary file first, and that is read back.
 #include "io/exchange/written_mesh.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstdlib>
+#include <system_error>
 #include <utility>
+
+#include "io/file/file_bytes.h"
+#include "io/file/file_writer.h"
 
 namespace arete {
 
@@ -40,18 +49,65 @@ double largestHeightChange(const TriangleMesh& before, const TriangleMesh& after
   return largest;
 }
 
+/// A file in the folder for such, removed at the end.
+class TemporaryMesh {
+ public:
+  TemporaryMesh() = default;
+  TemporaryMesh(const TemporaryMesh&) = delete;
+  TemporaryMesh& operator=(const TemporaryMesh&) = delete;
+  ~TemporaryMesh() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove(path_, ignored);
+  }
+
+  Status create(std::string_view extension) {
+    std::error_code error;
+    std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+    if (error) folder = "/tmp";
+    std::string name = (folder / fmt::format("arete-XXXXXX{}", extension)).string();
+    const int descriptor = ::mkstemps(name.data(), static_cast<int>(extension.size()));
+    if (descriptor < 0)
+      return failure(
+          ErrorCode::unreadable,
+          fmt::format("a temporary file cannot be made: {}", std::generic_category().message(errno)), name);
+    ::close(descriptor);
+    path_ = name;
+    return {};
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Copies the bytes of a file to a pipe.
+Status passOn(const std::filesystem::path& from, const std::filesystem::path& to) {
+  const Result<FileBytes> bytes = FileBytes::read(from);
+  if (!bytes) return tl::unexpected(bytes.error());
+  Result<FileWriter> pipe = FileWriter::create(to);
+  if (!pipe) return tl::unexpected(pipe.error());
+  pipe->write(bytes->view());
+  return pipe->finish();
+}
+
 }  // namespace
 
 Result<WrittenMesh> writeAndReadBack(TriangleMesh mesh, const std::filesystem::path& path,
                                      const MeshWriteOptions& options, bool onGrid,
                                      const RunContext& context) {
-  const Result<MeshFormat> format = meshFormatOf(path);
+  const Result<MeshFormat> format = meshFormatOf(path, options.format);
   if (!format) return tl::unexpected(format.error());
-  if (const Status written = writeMesh(mesh, path, options, context); !written)
-    return tl::unexpected(written.error());
+  const bool mustPassOn = !format->holds.isExact && isNoFile(path);
+  TemporaryMesh temporary;
+  if (mustPassOn)
+    if (const Status made = temporary.create(format->extension); !made) return tl::unexpected(made.error());
+  const std::filesystem::path& written = mustPassOn ? temporary.path() : path;
+  if (const Status ok = writeMesh(mesh, written, options, context); !ok) return tl::unexpected(ok.error());
   if (format->holds.isExact) return WrittenMesh{.mesh = std::move(mesh), .frame = {}};
-  Result<MeshFile> file = readMesh(path, context);
+  Result<MeshFile> file = format->read(written, context);
   if (!file) return tl::unexpected(file.error());
+  if (mustPassOn)
+    if (const Status passed = passOn(written, path); !passed) return tl::unexpected(passed.error());
   if (file->mesh.triangles.size() != mesh.triangles.size())
     return failure(ErrorCode::corrupt, "does not hold the triangles that were written to it", path.string());
   const double change = largestHeightChange(mesh, file->mesh, onGrid);

@@ -18,8 +18,8 @@ struct WrittenMesh {
   double heightRounding = 0;
 };
 
-/// Writes a mesh and, if the format does not hold doubles, reads it back, so that later measurements use the
-/// mesh of the file.
+/// Writes a mesh, to a file or a pipe, and, if the format does not hold doubles, reads it back, so that later
+/// measurements use the mesh of the file.
 ///
 /// @param onGrid The vertices are at samples of a grid, to which measure() snaps them, so only heights are
 /// rounded. Otherwise a sideways shift of a vertex changes the height of a slope.

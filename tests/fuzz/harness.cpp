@@ -66,6 +66,7 @@ void requireClear(std::span<const std::string> warnings) {
 
 void useMesh(const Result<MeshFile>& file) {
   if (!file) return requireClear(file.error());
+  requireClear(file->warnings);
   const TriangleMesh& mesh = file->mesh;
   require(mesh.validate().has_value(), "a mesh that was read has valid indices and finite coordinates");
   require(file->triangleErrors.empty() || file->triangleErrors.size() == mesh.triangles.size(),

@@ -9,6 +9,7 @@
 
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "io/file/text_scan.h"
@@ -53,16 +54,14 @@ std::uint64_t componentsOf(std::string_view type) {
 
 }  // namespace
 
-Result<GlbDocument> GlbDocument::open(std::string_view file) {
-  if (file.size() < kHeaderSize || !file.starts_with("glTF"))
-    return corrupt("is not a GLB: it does not begin with \"glTF\"");
+Result<nlohmann::json> GltfDocument::parseGlb(std::string_view file, std::string_view& chunkBin) {
+  if (file.size() < kHeaderSize) return corrupt("is truncated: it ends in its header");
   if (const std::uint32_t version = numberAt(file, 4); version != 2)
     return failure(ErrorCode::unsupported, fmt::format("is a GLB of version {}, not 2", version));
   if (const std::uint32_t length = numberAt(file, 8); length != file.size())
     return corrupt(
         fmt::format("is truncated or altered: its header says {} bytes, it has {}", length, file.size()));
   std::string_view text;
-  GlbDocument document;
   bool hasBytes = false;
   for (std::size_t at = kHeaderSize, chunk = 0; at < file.size(); ++chunk) {
     if (file.size() - at < kChunkHeaderSize) return corrupt(fmt::format("chunk {} is cut off", chunk));
@@ -72,11 +71,37 @@ Result<GlbDocument> GlbDocument::open(std::string_view file) {
       return corrupt(fmt::format("chunk {} of {} bytes is longer than the file", chunk, length));
     if ((chunk == 0) != (type == kJsonChunk)) return corrupt("does not begin with its only chunk of JSON");
     if (chunk == 0) text = file.substr(at, length);
-    if (type == kBinChunk && !std::exchange(hasBytes, true)) document.bytes_ = file.substr(at, length);
+    if (type == kBinChunk && !std::exchange(hasBytes, true)) chunkBin = file.substr(at, length);
     at += length;
   }
-  document.json_ = nlohmann::json::parse(text, nullptr, false);
-  if (!document.json_.is_object()) return corrupt("its chunk of JSON is not a JSON object");
+  nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object()) return corrupt("its chunk of JSON is not a JSON object");
+  return json;
+}
+
+Status GltfDocument::checkVersion() const {
+  const nlohmann::json::json_pointer place("/asset/version");
+  if (!json_.contains(place) || !json_.at(place).is_string()) return {};
+  const std::string& version = json_.at(place).get_ref<const std::string&>();
+  if (version.starts_with("2.")) return {};
+  return failure(ErrorCode::unsupported,
+                 fmt::format("is glTF of version {}, not 2", text::quotedToken(version)));
+}
+
+Result<GltfDocument> GltfDocument::open(std::string_view file, const std::filesystem::path& folder) {
+  GltfDocument document;
+  std::string_view chunk;
+  if (file.starts_with("glTF")) {
+    Result<nlohmann::json> json = parseGlb(file, chunk);
+    if (!json) return tl::unexpected(json.error());
+    document.json_ = std::move(*json);
+  } else {
+    document.json_ = nlohmann::json::parse(file, nullptr, false);
+    if (!document.json_.is_object())
+      return corrupt("is not glTF: it neither begins with \"glTF\" nor is a JSON object, or it is truncated");
+  }
+  document.buffers_ = std::make_shared<GltfBuffers>(folder, chunk);
+  if (const Status ok = document.checkVersion(); !ok) return tl::unexpected(ok.error());
   const auto required = document.json_.find("extensionsRequired");
   if (required != document.json_.end() && !(required->is_array() && required->empty())) {
     std::string names;
@@ -90,7 +115,7 @@ Result<GlbDocument> GlbDocument::open(std::string_view file) {
   return document;
 }
 
-Result<std::uint64_t> GlbDocument::wholeNumber(const nlohmann::json& object, const char* key) {
+Result<std::uint64_t> GltfDocument::wholeNumber(const nlohmann::json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end() || !found->is_number_unsigned() ||
       found->get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max())
@@ -98,20 +123,20 @@ Result<std::uint64_t> GlbDocument::wholeNumber(const nlohmann::json& object, con
   return found->get<std::uint64_t>();
 }
 
-Result<std::uint64_t> GlbDocument::wholeNumber(const nlohmann::json& object, const char* key,
-                                               std::uint64_t fallback) {
+Result<std::uint64_t> GltfDocument::wholeNumber(const nlohmann::json& object, const char* key,
+                                                std::uint64_t fallback) {
   if (!object.contains(key)) return fallback;
   return wholeNumber(object, key);
 }
 
-Result<const nlohmann::json*> GlbDocument::element(const char* list, std::uint64_t number) const {
+Result<const nlohmann::json*> GltfDocument::element(const char* list, std::uint64_t number) const {
   const auto found = json_.find(list);
   if (found == json_.end() || !found->is_array() || number >= found->size() || !(*found)[number].is_object())
     return corrupt(fmt::format("names element {} of \"{}\", which does not exist", number, list));
   return &(*found)[number];
 }
 
-Result<GlbDocument::Elements> GlbDocument::accessor(std::uint64_t number, std::string_view type) const {
+Result<GltfDocument::Elements> GltfDocument::accessor(std::uint64_t number, std::string_view type) const {
   const auto found = element("accessors", number);
   if (!found) return tl::unexpected(found.error());
   const nlohmann::json& accessor = **found;
@@ -142,17 +167,17 @@ Result<GlbDocument::Elements> GlbDocument::accessor(std::uint64_t number, std::s
     if (!*value) return corrupt(fmt::format("bufferView {}: {}", *viewNumber, value->error().message));
   const auto buffer = element("buffers", *bufferNumber);
   if (!buffer) return tl::unexpected(buffer.error());
-  if (*bufferNumber != 0 || (*buffer)->contains("uri"))
-    return wrong(ErrorCode::unsupported, "lies in a buffer outside the GLB, which Arete does not read");
-  if (*viewOffset + *viewLength > bytes_.size())
+  const Result<std::string_view> bytes = buffers_->bytesOf(*bufferNumber, **buffer);
+  if (!bytes) return tl::unexpected(bytes.error());
+  if (*viewOffset + *viewLength > bytes->size())
     return corrupt(fmt::format("bufferView {} ends at byte {} of {}", *viewNumber, *viewOffset + *viewLength,
-                               bytes_.size()));
+                               bytes->size()));
   if (*stride < size)
     return corrupt(fmt::format("bufferView {} has a stride of {} bytes", *viewNumber, *stride));
   if (*count == 0) return wrong(ErrorCode::corrupt, "has no elements");
   if (*offset + (*count - 1) * *stride + size > *viewLength)
     return wrong(ErrorCode::corrupt, fmt::format("of {} elements is longer than its bufferView", *count));
-  return Elements{bytes_.data() + *viewOffset + *offset, *count, *stride, static_cast<int>(*component)};
+  return Elements{bytes->data() + *viewOffset + *offset, *count, *stride, static_cast<int>(*component)};
 }
 
 }  // namespace arete

@@ -2,23 +2,27 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
 #include "engine/base/result.h"
+#include "io/mesh/glb/buffers.h"
 
 namespace arete {
 
-/// A GLB file: its JSON, and its accessors as ranges of bytes that are checked to lie in the file. Errors
-/// have no culprit; the caller adds the path.
-class GlbDocument {
+/// A glTF file, binary (GLB) or as text: its JSON, and its accessors as ranges of bytes that are checked to
+/// lie in its buffers. Errors have no culprit; the caller adds the path.
+class GltfDocument {
  public:
-  /// @param file Must outlive the document.
+  /// @param file Must outlive the document. A GLB if it begins with "glTF", else JSON.
+  /// @param folder That of the file, for buffers beside it (io/mesh/glb/buffers.h); empty: none are read.
   ///
-  /// Errors: corrupt: not a GLB, truncated, chunks that do not fit, invalid JSON. unsupported: another
-  /// version, a required extension.
-  static Result<GlbDocument> open(std::string_view file);
+  /// Errors: corrupt: neither, truncated, chunks that do not fit, invalid JSON. unsupported: another version,
+  /// a required extension.
+  static Result<GltfDocument> open(std::string_view file, const std::filesystem::path& folder = {});
 
   const nlohmann::json& json() const { return json_; }
 
@@ -33,8 +37,8 @@ class GlbDocument {
   /// @param number Index of the accessor.
   /// @param type The required type: "VEC3", "SCALAR".
   ///
-  /// Errors: corrupt: a missing accessor, another type, bytes outside the file. unsupported: a sparse
-  /// accessor, a buffer outside the file.
+  /// Errors: those of GltfBuffers. corrupt: a missing accessor, another type, bytes outside the buffer.
+  /// unsupported: a sparse accessor.
   Result<Elements> accessor(std::uint64_t number, std::string_view type) const;
 
   /// An element of a top-level list: element("nodes", 3). Errors: corrupt: it is missing or not an object.
@@ -48,8 +52,12 @@ class GlbDocument {
   static Result<std::uint64_t> wholeNumber(const nlohmann::json& object, const char* key);
 
  private:
+  /// Errors: those of open(). `chunk` becomes that of the name BIN.
+  static Result<nlohmann::json> parseGlb(std::string_view file, std::string_view& chunk);
+  Status checkVersion() const;
+
   nlohmann::json json_;
-  std::string_view bytes_;  // of the chunk BIN
+  std::shared_ptr<GltfBuffers> buffers_;
 };
 
 }  // namespace arete

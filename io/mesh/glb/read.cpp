@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The nodes of the scene are visited with their transforms, from the roots, without recursion. The format
-// allows a node one parent, so a second visit is an error. Each primitive is copied: its positions are
-// transformed by the node and, in a file that Arete wrote, from the local frame to source coordinates.
+// allows a node one parent, so a second visit is an error. The positions of a primitive are moved by its
+// morph targets, transformed by the node and, in a file that Arete wrote, from the local frame to source
+// coordinates. Many primitives may share one accessor and use few of its positions, so the primitives of a
+// mesh are grouped by what they share (vertex_group.h), and each group becomes the vertices that it uses.
 // Several nodes may use one mesh; the size of the file bounds the total.
 #include <fmt/format.h>
 
@@ -21,6 +23,7 @@
 #include "io/mesh/glb/frame.h"
 #include "io/mesh/glb/glb.h"
 #include "io/mesh/glb/transform.h"
+#include "io/mesh/glb/vertex_group.h"
 
 namespace arete {
 
@@ -36,7 +39,7 @@ constexpr std::uint64_t kMostPerByte = 1, kMostAtLeast = 1'000'000;
 
 class GlbReader {
  public:
-  GlbReader(const GlbDocument& document, std::size_t fileSize, const RunContext& context)
+  GlbReader(const GltfDocument& document, std::size_t fileSize, const RunContext& context)
       : document_(document), context_(context), most_(std::max(kMostAtLeast, kMostPerByte * fileSize)) {}
 
   Result<MeshFile> read() {
@@ -102,7 +105,7 @@ class GlbReader {
   Status addRoots(std::vector<Visit>& open, std::size_t nodes) const {
     const Json& json = document_.json();
     if (json.contains("scenes")) {
-      const auto number = GlbDocument::wholeNumber(json, "scene", 0);
+      const auto number = GltfDocument::wholeNumber(json, "scene", 0);
       if (!number) return tl::unexpected(number.error());
       const auto scene = document_.element("scenes", *number);
       if (!scene) return tl::unexpected(scene.error());
@@ -136,91 +139,184 @@ class GlbReader {
   }
 
   Status addMesh(const Json& node, const Affine& placed) {
-    const auto number = GlbDocument::wholeNumber(node, "mesh");
+    const auto number = GltfDocument::wholeNumber(node, "mesh");
     if (!number) return tl::unexpected(number.error());
     const auto mesh = document_.element("meshes", *number);
     if (!mesh) return tl::unexpected(mesh.error());
     const auto primitives = (*mesh)->find("primitives");
     if (primitives == (*mesh)->end() || !primitives->is_array())
       return failure(ErrorCode::corrupt, fmt::format("mesh {} has no primitives", *number));
+    const auto weights = weightsOf(node.contains("weights") ? node : **mesh);
+    if (!weights)
+      return failure(ErrorCode::corrupt, fmt::format("mesh {} has {}", *number, weights.error().message));
+    const auto named = [&](std::size_t p, Status status) {
+      if (!status)
+        status.error().message = fmt::format("mesh {} primitive {}: {}", *number, p, status.error().message);
+      return status;
+    };
+
+    std::vector<VertexGroup> groups;
+    std::vector<Corners> corners;
     for (std::size_t p = 0; p < primitives->size(); ++p) {
-      Status ok = addPrimitive((*primitives)[p], placed);
-      if (ok) continue;
-      ok.error().message = fmt::format("mesh {} primitive {}: {}", *number, p, ok.error().message);
-      return ok;
+      Result<Corners> read = readPrimitive((*primitives)[p], *weights, groups);
+      if (!read) return named(p, tl::unexpected(read.error()));
+      corners.push_back(*read);
     }
+    for (std::size_t p = 0; p < corners.size(); ++p)
+      if (Status ok = named(p, useVertices(corners[p], groups[corners[p].group])); !ok) return ok;
+    for (VertexGroup& group : groups)
+      if (Status ok = addVertices(group, placed); !ok) return ok;
+    for (std::size_t p = 0; p < corners.size(); ++p)
+      if (Status ok = named(p, addTriangles(corners[p], groups[corners[p].group], placed.mirrors())); !ok)
+        return ok;
     return {};
   }
 
-  Status addPrimitive(const Json& primitive, const Affine& placed) {
+  /// The weights of the morph targets of a node or a mesh; empty: all 0.
+  static Result<std::vector<double>> weightsOf(const Json& object) {
+    std::vector<double> weights;
+    const auto list = object.find("weights");
+    if (list == object.end()) return weights;
+    for (const Json& weight : *list) {
+      if (!list->is_array() || !weight.is_number())
+        return failure(ErrorCode::corrupt, "\"weights\" that are not a list of numbers");
+      weights.push_back(weight.get<double>());
+    }
+    return weights;
+  }
+
+  /// The corners of a primitive: indices of the vertices of a group.
+  struct Corners {
+    std::size_t group = 0;
+    std::uint64_t count = 0;
+    std::optional<GltfDocument::Elements> indices;  // missing: 0, 1, 2, ...
+
+    std::uint32_t at(std::uint64_t i) const {
+      return indices ? indexAt(*indices, i) : static_cast<std::uint32_t>(i);
+    }
+  };
+
+  Result<Corners> readPrimitive(const Json& primitive, const std::vector<double>& weights,
+                                std::vector<VertexGroup>& groups) const {
     if (!primitive.is_object() || !primitive.contains("attributes") || !primitive["attributes"].is_object())
       return failure(ErrorCode::corrupt, "has no attributes");
-    const auto mode = GlbDocument::wholeNumber(primitive, "mode", kTriangleList);
+    const auto mode = GltfDocument::wholeNumber(primitive, "mode", kTriangleList);
     if (!mode) return tl::unexpected(mode.error());
     if (*mode != kTriangleList)
       return failure(ErrorCode::unsupported, fmt::format("is of mode {}, not a list of triangles", *mode));
-    const auto position = GlbDocument::wholeNumber(primitive["attributes"], "POSITION");
+    const auto position = GltfDocument::wholeNumber(primitive["attributes"], "POSITION");
     if (!position) return tl::unexpected(position.error());
-    const auto positions = document_.accessor(*position, "VEC3");
+    const auto positions = positionsOf(*position, "positions");
     if (!positions) return tl::unexpected(positions.error());
-    if (positions->componentType != kFloat)
-      return failure(ErrorCode::unsupported, "has positions that are not 32-bit floats");
-    std::optional<GlbDocument::Elements> indices;
+    auto targets = targetsOf(primitive, weights, positions->count);
+    if (!targets) return tl::unexpected(targets.error());
+
+    Corners corners;
+    corners.count = positions->count;
     if (primitive.contains("indices")) {
-      const auto number = GlbDocument::wholeNumber(primitive, "indices");
+      const auto number = GltfDocument::wholeNumber(primitive, "indices");
       if (!number) return tl::unexpected(number.error());
       const auto found = document_.accessor(*number, "SCALAR");
       if (!found) return tl::unexpected(found.error());
       if (found->componentType != kUbyte && found->componentType != kUshort && found->componentType != kUint)
         return failure(ErrorCode::corrupt, "has indices that are not unsigned whole numbers");
-      indices = *found;
+      corners.indices = *found;
+      corners.count = found->count;
     }
-    return addTriangles(*positions, indices, placed);
+    if (corners.count % 3 != 0)
+      return failure(ErrorCode::corrupt,
+                     fmt::format("has {} corners, not a multiple of three", corners.count));
+    const auto same = std::ranges::find_if(groups, [&](const VertexGroup& group) {
+      return group.position == *position && group.targets == *targets;
+    });
+    corners.group = std::size_t(same - groups.begin());
+    if (same == groups.end()) groups.emplace_back(*position, *positions, std::move(*targets));
+    groups[corners.group].corners += corners.count;
+    return corners;
   }
 
-  Status addTriangles(const GlbDocument::Elements& positions,
-                      const std::optional<GlbDocument::Elements>& indices, const Affine& placed) {
-    TriangleMesh& mesh = result_.mesh;
-    const std::uint64_t corners = indices ? indices->count : positions.count;
-    if (corners % 3 != 0)
-      return failure(ErrorCode::corrupt, fmt::format("has {} corners, not a multiple of three", corners));
-    if (mesh.positions.size() + mesh.triangles.size() + positions.count + corners / 3 > most_)
+  Result<GltfDocument::Elements> positionsOf(std::uint64_t accessor, const char* what) const {
+    const auto positions = document_.accessor(accessor, "VEC3");
+    if (positions && positions->componentType != kFloat)
+      return failure(ErrorCode::unsupported, fmt::format("has {} that are not 32-bit floats", what));
+    return positions;
+  }
+
+  /// The morph targets that move positions.
+  Result<std::vector<MorphTarget>> targetsOf(const Json& primitive, const std::vector<double>& weights,
+                                             std::uint64_t positions) const {
+    std::vector<MorphTarget> moving;
+    const auto targets = primitive.find("targets");
+    if (targets == primitive.end()) return moving;
+    if (!targets->is_array()) return failure(ErrorCode::corrupt, "has targets that are not a list");
+    if (!weights.empty() && weights.size() != targets->size())
+      return failure(ErrorCode::corrupt,
+                     fmt::format("has {} morph targets and {} weights", targets->size(), weights.size()));
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const Json& target = (*targets)[i];
+      if (weights[i] == 0 || !target.is_object() || !target.contains("POSITION")) continue;
+      const auto number = GltfDocument::wholeNumber(target, "POSITION");
+      if (!number) return tl::unexpected(number.error());
+      const auto elements = positionsOf(*number, "a morph target of positions");
+      if (!elements) return tl::unexpected(elements.error());
+      if (elements->count != positions)
+        return failure(ErrorCode::corrupt,
+                       fmt::format("has {} positions and a morph target of {}", positions, elements->count));
+      moving.push_back({*number, weights[i], *elements});
+    }
+    return moving;
+  }
+
+  Status useVertices(const Corners& corners, VertexGroup& group) const {
+    const TriangleMesh& mesh = result_.mesh;
+    if (mesh.positions.size() + mesh.triangles.size() + group.corners / 3 > most_)
       return failure(ErrorCode::unsupported,
                      "is repeated so often that the mesh is far larger than the file");
-    if (mesh.positions.size() + positions.count >= std::numeric_limits<std::uint32_t>::max())
-      return failure(ErrorCode::unsupported, "is one vertex more than an index can name");
-    const auto base = static_cast<std::uint32_t>(mesh.positions.size());
-    for (std::uint64_t v = 0; v < positions.count; ++v) {
-      if (Status ok = reportAndCheck(v, positions.count); !ok) return ok;
-      std::array<float, 3> xyz;
-      std::memcpy(&xyz, positions.first + v * positions.stride, sizeof xyz);
-      const Vec3 local = gltfToLocal(placed({xyz[0], xyz[1], xyz[2]}));
-      const Vec3 p = frame_ ? frame_->toSource(local) : local;
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-        return failure(ErrorCode::corrupt, fmt::format("vertex {} of {} has a coordinate that is not finite",
-                                                       v, positions.count));
-      largest_ = {std::max(largest_.x, std::abs(local.x)), std::max(largest_.y, std::abs(local.y)),
-                  std::max(largest_.z, std::abs(local.z))};
-      mesh.positions.push_back(p);
-    }
-    const bool flips = placed.mirrors();
-    for (std::uint64_t c = 0; c < corners; c += 3) {
-      if (Status ok = reportAndCheck(c, corners); !ok) return ok;
-      std::array<std::uint32_t, 3> triangle;
-      for (std::uint64_t k = 0; k < 3; ++k) {
-        const std::uint32_t index = indices ? indexAt(*indices, c + k) : static_cast<std::uint32_t>(c + k);
-        if (index >= positions.count)
-          return failure(ErrorCode::corrupt,
-                         fmt::format("triangle {} names vertex {} of {}", c / 3, index, positions.count));
-        triangle[k] = base + index;
-      }
-      if (flips) std::swap(triangle[1], triangle[2]);
-      mesh.triangles.push_back(triangle);
+    for (std::uint64_t c = 0; c < corners.count; ++c) {
+      if (Status ok = reportAndCheck(c, corners.count); !ok) return ok;
+      if (!group.use(corners.at(c)))
+        return failure(ErrorCode::corrupt, fmt::format("triangle {} names vertex {} of {}", c / 3,
+                                                       corners.at(c), group.positions.count));
     }
     return {};
   }
 
-  static std::uint32_t indexAt(const GlbDocument::Elements& indices, std::uint64_t i) {
+  Status addVertices(VertexGroup& group, const Affine& placed) {
+    TriangleMesh& mesh = result_.mesh;
+    // A mesh of ours keeps the vertices that no triangle has.
+    const std::uint64_t used = group.number(mesh.positions.size(), frame_.has_value());
+    if (mesh.positions.size() + mesh.triangles.size() + used + group.corners / 3 > most_)
+      return failure(ErrorCode::unsupported,
+                     "a mesh is repeated so often that it is far larger than the file");
+    if (mesh.positions.size() + used >= std::numeric_limits<std::uint32_t>::max())
+      return failure(ErrorCode::unsupported, "holds more vertices than an index can name");
+    for (std::uint64_t i = 0; i < used; ++i) {
+      if (Status ok = reportAndCheck(i, used); !ok) return ok;
+      const std::uint32_t v = group.vertex(i);
+      const Vec3 local = gltfToLocal(placed(group.positionOf(v)));
+      const Vec3 p = frame_ ? frame_->toSource(local) : local;
+      if (!isFinite(p))
+        return failure(ErrorCode::corrupt, fmt::format("vertex {} of {} has a coordinate that is not finite",
+                                                       v, group.positions.count));
+      largest_ = {std::max(largest_.x, std::abs(local.x)), std::max(largest_.y, std::abs(local.y)),
+                  std::max(largest_.z, std::abs(local.z))};
+      mesh.positions.push_back(p);
+    }
+    return {};
+  }
+
+  Status addTriangles(const Corners& corners, const VertexGroup& group, bool flips) {
+    for (std::uint64_t c = 0; c < corners.count; c += 3) {
+      if (Status ok = reportAndCheck(c, corners.count); !ok) return ok;
+      std::array<std::uint32_t, 3> triangle;
+      for (std::uint64_t k = 0; k < 3; ++k) triangle[k] = group.indexOf(corners.at(c + k));
+      if (flips) std::swap(triangle[1], triangle[2]);
+      result_.mesh.triangles.push_back(triangle);
+    }
+    return {};
+  }
+
+  static std::uint32_t indexAt(const GltfDocument::Elements& indices, std::uint64_t i) {
     const char* at = indices.first + i * indices.stride;
     if (indices.componentType == kUbyte) return static_cast<std::uint8_t>(*at);
     std::uint32_t index = 0;
@@ -255,7 +351,7 @@ class GlbReader {
                               reach.z + ulps(low.z, high.z)};
   }
 
-  const GlbDocument& document_;
+  const GltfDocument& document_;
   const RunContext& context_;
   std::uint64_t most_;
   std::optional<LocalFrame> frame_;
@@ -263,16 +359,26 @@ class GlbReader {
   MeshFile result_;
 };
 
+/// Where the files are that a glTF names.
+std::filesystem::path folderOf(const std::filesystem::path& path) {
+  const std::filesystem::path folder = path.parent_path();
+  return folder.empty() ? "." : folder;
+}
+
 }  // namespace
 
 Result<MeshFile> readGlb(const std::filesystem::path& path, const RunContext& context) {
   const Result<FileBytes> bytes = FileBytes::read(path);
   if (!bytes) return tl::unexpected(bytes.error());
-  const Result<GlbDocument> document = GlbDocument::open(bytes->view());
+  const Result<GltfDocument> document = GltfDocument::open(bytes->view(), folderOf(path));
   if (!document) return failure(document.error().code, document.error().message, path.string());
   Result<MeshFile> file = GlbReader(*document, bytes->size(), context).read();
   if (!file && file.error().culprit.empty()) file.error().culprit = path.string();
   return file;
+}
+
+Result<MeshFile> readGltf(const std::filesystem::path& path, const RunContext& context) {
+  return readGlb(path, context);
 }
 
 }  // namespace arete

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A GLB is a header, a chunk of JSON and a chunk of bytes. The bytes are positions, normals, errors and
-// indices, in this order; every element is a multiple of four bytes, the alignment that the format requires.
-// A vertex normal is the normalized sum of the cross products of the triangles around the vertex, so larger
-// triangles weigh more. It is computed from the rounded positions.
+// A GLB is a header, a chunk of JSON and a chunk of bytes; as text, the JSON has the bytes in base 64. The
+// bytes are positions, normals, errors and indices, in this order; every element is a multiple of four bytes,
+// the alignment that the format requires. A vertex normal is the normalized sum of the cross products of the
+// triangles around the vertex, so larger triangles weigh more. It is computed from the rounded positions.
 #include "io/mesh/glb/glb.h"
 
 #include <fmt/format.h>
@@ -12,6 +12,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "io/crs/reader.h"
 #include "io/file/file_writer.h"
 #include "io/gdal/support.h"
+#include "io/mesh/glb/base64.h"
 #include "io/mesh/glb/frame.h"
 
 namespace arete {
@@ -157,22 +159,71 @@ Json documentOf(const TriangleMesh& mesh, const std::vector<Float3>& positions, 
   return document;
 }
 
+/// Where the bytes of the buffer go: into the file, or in base 64.
+class ByteSink {
+ public:
+  ByteSink(FileWriter& file, bool isText) : file_(file), isText_(isText) {}
+
+  template <class T>
+  void put(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const std::string_view bytes(reinterpret_cast<const char*>(&value), sizeof value);
+    if (!isText_) return file_.write(bytes);
+    base64_.add(bytes, text_);
+    if (text_.size() >= kTextAtOnce) writeText();
+  }
+  void finish() {
+    base64_.finish(text_);
+    writeText();
+  }
+
+ private:
+  static constexpr std::size_t kTextAtOnce = 1 << 16;
+  void writeText() {
+    file_.write(text_);
+    text_.clear();
+  }
+
+  FileWriter& file_;
+  bool isText_;
+  Base64Writer base64_;
+  std::string text_;
+};
+
 /// Writes the elements one by one. False if the context was cancelled.
 template <class Values>
-bool writeAll(FileWriter& file, const Values& values, const RunContext& context, double from, double to) {
+bool writeAll(ByteSink& sink, const Values& values, const RunContext& context, double from, double to) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (i % kRecordsPerCancelCheck == 0) {
       context.report("writing the mesh",
                      from + (to - from) * static_cast<double>(i) / static_cast<double>(values.size()));
       if (context.cancelled()) return false;
     }
-    putBytes(file.reserve(sizeof values[i]), values[i]);
+    sink.put(values[i]);
   }
   return true;
 }
 
-Status writeTo(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
-               const RunContext& context) {
+/// Writes the JSON with the buffer in it.
+///
+/// @param writeBuffer Writes the bytes. False if it was cancelled.
+Status writeText(Json document, FileWriter& file, const std::function<bool(ByteSink&)>& writeBuffer) {
+  const bool hasBuffer = document.contains("buffers");
+  constexpr std::string_view kBegin = "data:application/octet-stream;base64,";
+  if (hasBuffer) document["buffers"][0]["uri"] = kBegin;
+  const std::string json = document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  // The buffers are the last list of the document.
+  const std::size_t at = hasBuffer ? json.rfind(kBegin) + kBegin.size() : json.size();
+  file.write(std::string_view(json).substr(0, at));
+  ByteSink sink(file, true);
+  if (hasBuffer && !writeBuffer(sink)) return failure(ErrorCode::interrupted, "writing was interrupted");
+  sink.finish();
+  file.write(std::string_view(json).substr(at));
+  return {};
+}
+
+Status writeTo(const TriangleMesh& mesh, const std::filesystem::path& path, bool asText,
+               const MeshWriteOptions& options, const RunContext& context) {
   const Result<GlbFrame> spec = frameOf(mesh, options);
   if (!spec) return tl::unexpected(spec.error());
   const Result<LocalFrame> frame = LocalFrame::create(spec->local);
@@ -181,8 +232,22 @@ Status writeTo(const TriangleMesh& mesh, const std::filesystem::path& path, cons
   if (!positions) return tl::unexpected(positions.error());
   const std::vector<float> errors = vertexErrors(mesh, options.triangleErrors);
   std::uint64_t bufferSize = 0;
-  std::string json = documentOf(mesh, *positions, !errors.empty(), *spec, bufferSize)
-                         .dump(-1, ' ', false, Json::error_handler_t::replace);
+  Json document = documentOf(mesh, *positions, !errors.empty(), *spec, bufferSize);
+  const auto writeBuffer = [&](ByteSink& sink) {
+    return writeAll(sink, *positions, context, 0, 0.25) &&
+           writeAll(sink, normalsOf(mesh, *positions), context, 0.25, 0.5) &&
+           writeAll(sink, errors, context, 0.5, 0.6) && writeAll(sink, mesh.triangles, context, 0.6, 1);
+  };
+  if (asText) {
+    if (bufferSize > std::numeric_limits<std::uint32_t>::max())
+      return failure(ErrorCode::invalidData,
+                     fmt::format("{} bytes are more than Arete reads from a glTF, 4 GiB", bufferSize));
+    Result<FileWriter> file = FileWriter::create(path);
+    if (!file) return tl::unexpected(file.error());
+    if (Status written = writeText(std::move(document), *file, writeBuffer); !written) return written;
+    return file->finish();
+  }
+  std::string json = document.dump(-1, ' ', false, Json::error_handler_t::replace);
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const std::uint64_t total = 12 + 8 + json.size() + (bufferSize > 0 ? 8 + bufferSize : 0);
   if (total > std::numeric_limits<std::uint32_t>::max())
@@ -203,28 +268,35 @@ Status writeTo(const TriangleMesh& mesh, const std::filesystem::path& path, cons
   if (bufferSize > 0) {
     put(bufferSize);
     file->write(std::string_view("BIN\0", 4));
-    const bool whole = writeAll(*file, *positions, context, 0, 0.25) &&
-                       writeAll(*file, normalsOf(mesh, *positions), context, 0.25, 0.5) &&
-                       writeAll(*file, errors, context, 0.5, 0.6) &&
-                       writeAll(*file, mesh.triangles, context, 0.6, 1);
-    if (!whole) return failure(ErrorCode::interrupted, "writing was interrupted");
+    ByteSink sink(*file, false);
+    if (!writeBuffer(sink)) return failure(ErrorCode::interrupted, "writing was interrupted");
   }
   return file->finish();
 }
 
-}  // namespace
-
-Status writeGlb(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
-                const RunContext& context) {
+Status write(const TriangleMesh& mesh, const std::filesystem::path& path, bool asText,
+             const MeshWriteOptions& options, const RunContext& context) {
   Status status = mesh.validate();
   if (!status) status = failure(ErrorCode::invalidData, status.error().message);
   if (status && !options.triangleErrors.empty() && options.triangleErrors.size() != mesh.triangles.size())
     status = failure(
         ErrorCode::invalidData,
         fmt::format("{} errors for {} triangles", options.triangleErrors.size(), mesh.triangles.size()));
-  if (status) status = writeTo(mesh, path, options, context);
+  if (status) status = writeTo(mesh, path, asText, options, context);
   if (!status && status.error().culprit.empty()) status.error().culprit = path.string();
   return status;
+}
+
+}  // namespace
+
+Status writeGlb(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
+                const RunContext& context) {
+  return write(mesh, path, false, options, context);
+}
+
+Status writeGltf(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
+                 const RunContext& context) {
+  return write(mesh, path, true, options, context);
 }
 
 }  // namespace arete

@@ -15,7 +15,7 @@ using namespace test;
 
 /// The error of opening, or of the accessor of that number.
 Error errorOf(const std::string& glb, std::uint64_t accessor = 0, std::string_view type = "VEC3") {
-  const Result<GlbDocument> document = GlbDocument::open(glb);
+  const Result<GltfDocument> document = GltfDocument::open(glb);
   if (!document) return document.error();
   const auto elements = document->accessor(accessor, type);
   if (!elements) return elements.error();
@@ -23,10 +23,10 @@ Error errorOf(const std::string& glb, std::uint64_t accessor = 0, std::string_vi
   return {};
 }
 
-TEST(GlbDocument, HandsOutTheElementsOfItsAccessors) {
+TEST(GltfDocument, HandsOutTheElementsOfItsAccessors) {
   const Foreign foreign;
   const std::string glb = foreign.glb();
-  const Result<GlbDocument> document = GlbDocument::open(glb);
+  const Result<GltfDocument> document = GltfDocument::open(glb);
   ASSERT_TRUE(document) << document.error().describe();
   const auto positions = document->accessor(0, "VEC3");
   ASSERT_TRUE(positions) << positions.error().describe();
@@ -43,27 +43,27 @@ TEST(GlbDocument, HandsOutTheElementsOfItsAccessors) {
   EXPECT_FALSE(document->element("asset", 0));
 }
 
-TEST(GlbDocument, TakesEachAccessorToTheLastByteAndNoFurther) {
+TEST(GltfDocument, TakesEachAccessorToTheLastByteAndNoFurther) {
   Foreign foreign;
   Json& view = foreign.json["bufferViews"][0];
   Json& accessor = foreign.json["accessors"][0];
   // Three elements from byte 12 on end with the view; a fourth would not.
   accessor["byteOffset"] = 12;
   accessor["count"] = 3;
-  EXPECT_TRUE(GlbDocument::open(foreign.glb())->accessor(0, "VEC3"));
+  EXPECT_TRUE(GltfDocument::open(foreign.glb())->accessor(0, "VEC3"));
   accessor["count"] = 4;
   EXPECT_EQ(errorOf(foreign.glb()).code, ErrorCode::corrupt);
   // With a stride the last element needs its own bytes only.
   accessor = {{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}};
   view["byteStride"] = 18;
-  EXPECT_TRUE(GlbDocument::open(foreign.glb())->accessor(0, "VEC3"));
+  EXPECT_TRUE(GltfDocument::open(foreign.glb())->accessor(0, "VEC3"));
   view["byteStride"] = 19;
   EXPECT_EQ(errorOf(foreign.glb()).code, ErrorCode::corrupt);
   view["byteStride"] = 11;
   EXPECT_EQ(errorOf(foreign.glb()).code, ErrorCode::corrupt);
 }
 
-TEST(GlbDocument, RefusesNumbersThatWouldOverflow) {
+TEST(GltfDocument, RefusesNumbersThatWouldOverflow) {
   for (const Json& number : {Json(std::numeric_limits<std::uint64_t>::max()), Json(4294967296), Json(-1),
                              Json(0.5), Json("4"), Json()})
     for (const auto& [list, key] : {std::pair{"accessors", "count"},
@@ -79,13 +79,13 @@ TEST(GlbDocument, RefusesNumbersThatWouldOverflow) {
       EXPECT_EQ(errorOf(foreign.glb()).code, ErrorCode::corrupt) << key << number;
     }
   const Json object = Json::parse(R"({"n": 4294967295, "m": 4294967296})");
-  EXPECT_EQ(GlbDocument::wholeNumber(object, "n").value(), 4294967295u);
-  EXPECT_FALSE(GlbDocument::wholeNumber(object, "m"));
-  EXPECT_FALSE(GlbDocument::wholeNumber(object, "missing"));
-  EXPECT_EQ(GlbDocument::wholeNumber(object, "missing", 7).value(), 7u);
+  EXPECT_EQ(GltfDocument::wholeNumber(object, "n").value(), 4294967295u);
+  EXPECT_FALSE(GltfDocument::wholeNumber(object, "m"));
+  EXPECT_FALSE(GltfDocument::wholeNumber(object, "missing"));
+  EXPECT_EQ(GltfDocument::wholeNumber(object, "missing", 7).value(), 7u);
 }
 
-TEST(GlbDocument, NamesWhatAreteDoesNotRead) {
+TEST(GltfDocument, NamesWhatAreteDoesNotRead) {
   const auto unsupported = [](const Foreign& foreign) {
     const Error error = errorOf(foreign.glb());
     EXPECT_EQ(error.code, ErrorCode::unsupported) << error.describe();
@@ -105,7 +105,7 @@ TEST(GlbDocument, NamesWhatAreteDoesNotRead) {
   EXPECT_EQ(errorOf(version).code, ErrorCode::unsupported);
 }
 
-TEST(GlbDocument, RefusesWhatIsNotAGlb) {
+TEST(GltfDocument, RefusesWhatIsNotAGlb) {
   const std::string glb = Foreign{}.glb();
   for (const std::string& text : {std::string(), std::string("glTF"), "x" + glb, glb + "x",
                                   glb.substr(0, glb.size() - 1), glbOf("[]", ""), glbOf("{", "")})

@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <random>
+#include <set>
 
 #include "io/crs/names.h"
 #include "io/glb_fixture.h"
@@ -102,6 +103,83 @@ TEST(GlbRead, FollowsTheTransformsOfNodes) {
   EXPECT_EQ(file->mesh.triangles[2], (std::array<std::uint32_t, 3>{4, 6, 5}));
 }
 
+TEST(GlbRead, GivesPrimitivesThatShareAnAccessorTheVerticesThatTheyUse) {
+  const TemporaryFolder folder;
+  // One accessor of 3 000 positions, of which 48 primitives use a few each, some the same ones.
+  Foreign foreign;
+  std::vector<float> positions;
+  for (int v = 0; v < 3000; ++v) positions.insert(positions.end(), {float(v), float(v % 7), float(-v % 11)});
+  std::vector<std::uint16_t> indices;
+  std::set<std::uint16_t> used;
+  std::mt19937 random(7);
+  Json primitives = Json::array(),
+       accessors = {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3000}, {"type", "VEC3"}}};
+  for (int p = 0; p < 48; ++p) {
+    accessors.push_back({{"bufferView", 1},
+                         {"byteOffset", indices.size() * 2},
+                         {"componentType", 5123},
+                         {"count", 3},
+                         {"type", "SCALAR"}});
+    primitives.push_back({{"attributes", {{"POSITION", 0}}}, {"indices", p + 1}});
+    for (int k = 0; k < 3; ++k) {
+      indices.push_back(std::uint16_t(100 * (random() % 20) + 17));
+      used.insert(indices.back());
+    }
+  }
+  foreign.json["accessors"] = accessors;
+  foreign.json["meshes"][0]["primitives"] = primitives;
+  foreign.json["bufferViews"] = {{{"buffer", 0}, {"byteLength", 36000}},
+                                 {{"buffer", 0}, {"byteOffset", 36000}, {"byteLength", 288}}};
+  foreign.bytes = packed(positions) + packed(indices);
+  for (const bool inOneMesh : {true, false}) {
+    if (!inOneMesh) {
+      // Each in a mesh of its own: meshes are not joined.
+      Json meshes = Json::array(), nodes = Json::array(), roots = Json::array();
+      for (int p = 0; p < 48; ++p) {
+        meshes.push_back({{"primitives", Json::array({primitives[std::size_t(p)]})}});
+        nodes.push_back({{"mesh", p}});
+        roots.push_back(p);
+      }
+      foreign.json["meshes"] = meshes;
+      foreign.json["nodes"] = nodes;
+      foreign.json["scenes"][0]["nodes"] = roots;
+    }
+    const Result<MeshFile> file = readMesh(folder.write("a.glb", foreign.glb()));
+    ASSERT_TRUE(file) << file.error().describe();
+    ASSERT_EQ(file->mesh.triangles.size(), 48u);
+    EXPECT_TRUE(file->mesh.positions.size() == used.size() || !inOneMesh) << file->mesh.positions.size();
+    EXPECT_LE(file->mesh.positions.size(), 144u);
+    for (std::size_t t = 0; t < 48; ++t)
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(file->mesh.positions[file->mesh.triangles[t][k]].x, indices[3 * t + k]);
+  }
+}
+
+TEST(GlbRead, AppliesMorphTargetsByTheirWeights) {
+  const TemporaryFolder folder;
+  Foreign foreign;
+  foreign.bytes += packed<float>({0, 0, 0, 1, 0, 0, 0, 8, 0, 0, 0, -4}) +
+                   packed<float>({9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9});
+  for (const int offset : {60, 108}) {
+    foreign.json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", 48}});
+    foreign.json["accessors"].push_back(
+        {{"bufferView", offset == 60 ? 2 : 3}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}});
+  }
+  foreign.json["meshes"][0]["primitives"][0]["targets"] = {
+      {{"POSITION", 2}}, {{"POSITION", 3}}, {{"NORMAL", 3}}};
+  const auto positions = [&] { return readMesh(folder.write("a.glb", foreign.glb()))->mesh.positions; };
+  EXPECT_EQ(positions(), kTwo.positions);  // without weights they do not move
+  foreign.json["meshes"][0]["weights"] = {0.5, 0, 1};
+  // In glTF 1.5, 2, 0; 0, 7, -1; 1, 4, -3.
+  EXPECT_EQ(positions(), (std::vector<Vec3>{{0, 0, 1}, {1.5, 0, 2}, {0, 1, 7}, {1, 3, 4}}));
+  // The weights of the node come before those of the mesh.
+  foreign.json["nodes"][0]["weights"] = {0, 1, 0};
+  EXPECT_EQ(positions()[0], (Vec3{9, -9, 10}));
+  // Two primitives with one accessor and other targets are two sets of vertices.
+  foreign.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"indices", 1}});
+  EXPECT_EQ(positions().size(), 8u);
+}
+
 TEST(GlbRead, NamesWhatItDoesNotKnow) {
   const TemporaryFolder folder;
   const auto expect = [&](ErrorCode code, const char* said, const std::function<void(Foreign&)>& change) {
@@ -115,7 +193,19 @@ TEST(GlbRead, NamesWhatItDoesNotKnow) {
   expect(unsupported, "KHR_draco_mesh_compression",
          [](Foreign& f) { f.json["extensionsRequired"] = {"KHR_draco_mesh_compression"}; });
   expect(unsupported, "sparse", [](Foreign& f) { f.json["accessors"][0]["sparse"] = Json::object(); });
-  expect(unsupported, "outside the GLB", [](Foreign& f) { f.json["buffers"][0]["uri"] = "data.bin"; });
+  expect(notFound, "\"data.bin\"", [](Foreign& f) { f.json["buffers"][0]["uri"] = "data.bin"; });
+  expect(corrupt, "3 weights", [](Foreign& f) {
+    f.json["meshes"][0]["weights"] = {1, 0, 0};
+    f.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
+  });
+  expect(corrupt, "morph target of 2", [](Foreign& f) {
+    f.json["meshes"][0]["weights"] = {1};
+    f.json["accessors"].push_back(f.json["accessors"][0]);
+    f.json["accessors"][2]["count"] = 2;
+    f.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 2}}};
+  });
+  expect(corrupt, "weights", [](Foreign& f) { f.json["nodes"][0]["weights"] = {"a"}; });
+  expect(corrupt, "targets", [](Foreign& f) { f.json["meshes"][0]["primitives"][0]["targets"] = 1; });
   expect(unsupported, "mode 5", [](Foreign& f) { f.json["meshes"][0]["primitives"][0]["mode"] = 5; });
   expect(unsupported, "32-bit floats", [](Foreign& f) { f.json["accessors"][0]["componentType"] = 5122; });
   expect(unsupported, "skin", [](Foreign& f) { f.json["nodes"][0]["skin"] = 0; });

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Where most positions are used, a table has the number of each. Where few are, as of an accessor that many
+// small meshes share, the used ones are a sorted list.
+#include "io/mesh/glb/vertex_group.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace arete {
+
+namespace {
+
+Vec3 floatsAt(const GltfDocument::Elements& elements, std::uint32_t i) {
+  std::array<float, 3> xyz;
+  std::memcpy(&xyz, elements.first + i * elements.stride, sizeof xyz);
+  return {xyz[0], xyz[1], xyz[2]};
+}
+
+}  // namespace
+
+bool VertexGroup::use(std::uint32_t vertex) {
+  if (vertex >= positions.count) return false;
+  if (isDense()) {
+    if (table_.empty()) table_.resize(positions.count, 0);
+    table_[vertex] = 1;
+  } else {
+    used_.push_back(vertex);
+  }
+  return true;
+}
+
+std::uint64_t VertexGroup::number(std::uint64_t base, bool all) {
+  base_ = static_cast<std::uint32_t>(base);
+  std::uint64_t count = 0;
+  if (isDense()) {
+    for (const std::uint32_t mark : table_) count += mark;
+  } else {
+    std::ranges::sort(used_);
+    used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
+    count = used_.size();
+  }
+  if (all || count == positions.count) {
+    used_.clear();
+    table_.clear();
+    return positions.count;
+  }
+  if (!isDense()) return count;
+  used_.reserve(count);
+  for (std::uint32_t v = 0; v < table_.size(); ++v) {
+    if (table_[v] == 0) continue;
+    table_[v] = static_cast<std::uint32_t>(used_.size());
+    used_.push_back(v);
+  }
+  return count;
+}
+
+std::uint32_t VertexGroup::indexOf(std::uint32_t vertex) const {
+  if (used_.empty()) return base_ + vertex;
+  if (!table_.empty()) return base_ + table_[vertex];
+  return base_ + static_cast<std::uint32_t>(std::ranges::lower_bound(used_, vertex) - used_.begin());
+}
+
+Vec3 VertexGroup::positionOf(std::uint32_t vertex) const {
+  Vec3 p = floatsAt(positions, vertex);
+  for (const MorphTarget& target : targets) p = p + target.weight * floatsAt(target.moves, vertex);
+  return p;
+}
+
+}  // namespace arete

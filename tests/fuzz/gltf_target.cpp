@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// glTF as text, with its bytes in base 64. The folder of the input, from which buffers are read, holds other
+// open files of this program and nothing else.
+#include "fuzz/harness.h"
+#include "io/mesh/glb/glb.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const arete::fuzz::MemoryFile file;
+  file.set({data, size});
+  arete::fuzz::useMesh(arete::readGltf(file.path(), arete::fuzz::oneThread()));
+  return 0;
+}
