@@ -80,6 +80,9 @@ Result<DemRead> readAsRaster(const std::string& path, const SourceReading& readi
   if (!reading.zField.empty())
     return failure(ErrorCode::usage,
                    fmt::format("is a raster, which has bands and no field '{}'", reading.zField), path);
+  if (!reading.samePlace.empty())
+    return failure(ErrorCode::usage,
+                   "is a raster, which has one height at a place; `samePlace` is for points", path);
   auto read = readRaster(path, rasterOptions(reading), context);
   if (!read) return tl::unexpected(read.error());
   return DemRead{std::move(read->heightfield), std::move(read->warnings)};
@@ -92,6 +95,13 @@ Result<DemRead> readAsPoints(const std::string& path, bool text, const SourceRea
   PointReadOptions pointOptions;
   pointOptions.layer = reading.layer;
   pointOptions.zField = reading.zField;
+  if (!reading.samePlace.empty()) {
+    const auto rule = samePlaceNamed(reading.samePlace);
+    if (!rule)
+      return failure(ErrorCode::usage, "must be error, min, max, mean or first",
+                     "samePlace " + reading.samePlace);
+    pointOptions.samePlace = *rule;
+  }
   pointOptions.crs = reading.crs;
   pointOptions.nodata = reading.nodata;
   pointOptions.verticalUnit = reading.verticalUnit;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -26,6 +27,25 @@
 
 namespace arete {
 namespace {
+
+constexpr std::array kSamePlaceNames = {std::pair{SamePlace::refuse, std::string_view("error")},
+                                        std::pair{SamePlace::least, std::string_view("min")},
+                                        std::pair{SamePlace::greatest, std::string_view("max")},
+                                        std::pair{SamePlace::mean, std::string_view("mean")},
+                                        std::pair{SamePlace::first, std::string_view("first")}};
+
+std::string_view samePlaceClause(SamePlace rule) {
+  switch (rule) {
+    case SamePlace::least:
+      return "the least";
+    case SamePlace::greatest:
+      return "the greatest";
+    case SamePlace::mean:
+      return "the mean";
+    default:
+      return "the first";
+  }
+}
 
 constexpr std::size_t kPointLimit = (std::size_t(1) << 32) - 2;
 
@@ -70,6 +90,10 @@ class FeatureCollector {
                                  "the field that holds it (the fields: {})",
                                  feature.GetFID(), layer_.GetName(), fieldNames(*layer_.GetLayerDefn())));
     const double z = zField_ < 0 ? point.getZ() : feature.GetFieldAsDouble(zField_);
+    if (std::isnan(z) && std::isfinite(point.getX()) && std::isfinite(point.getY())) {
+      ++skipped;
+      return {};
+    }
     for (const double value : {point.getX(), point.getY(), z})
       if (!std::isfinite(value))
         return failure(ErrorCode::invalidData,
@@ -129,9 +153,34 @@ void dropNodata(PointRows& rows, double nodata, std::vector<std::string>& warnin
   rows.origins.resize(kept);
 }
 
-/// Keeps the first of each set of equal points. Equal positions with different heights are an error, which
-/// names the first such pair in the file.
-Status mergeEqual(PointRows& rows, std::string_view originName, std::vector<std::string>& warnings) {
+/// The points of one place as one height.
+class PlaceHeight {
+ public:
+  PlaceHeight(SamePlace rule, double first) : rule_(rule), height_(first), sum_(first) {}
+
+  void add(double height) {
+    ++count_;
+    sum_ += height;
+    if (rule_ == SamePlace::least) height_ = std::min(height_, height);
+    if (rule_ == SamePlace::greatest) height_ = std::max(height_, height);
+  }
+  double height() const {
+    if (rule_ != SamePlace::mean) return height_;
+    const double mean = sum_ / double(count_);
+    return std::isfinite(mean) ? mean : height_;  // a sum beyond the range of doubles
+  }
+
+ private:
+  SamePlace rule_;
+  double height_, sum_;
+  std::size_t count_ = 1;
+};
+
+/// Keeps the first of each set of equal points, and one point of each set at one place, with the height by
+/// the rule. Without a rule equal positions with different heights are an error, which names the first such
+/// pair in the file.
+Status mergeEqual(PointRows& rows, SamePlace rule, std::string_view originName,
+                  std::vector<std::string>& warnings) {
   const std::size_t count = rows.heights.size();
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0u);
@@ -140,26 +189,44 @@ Status mergeEqual(PointRows& rows, std::string_view originName, std::vector<std:
     return std::tie(p[a].x, p[a].y, a) < std::tie(p[b].x, p[b].y, b);
   });
   std::vector<bool> repeated(count, false);
-  std::size_t merged = 0;
+  std::size_t merged = 0, joined = 0, places = 0;
+  double widest = 0;
   std::pair<std::uint32_t, std::uint32_t> conflict{0, std::numeric_limits<std::uint32_t>::max()};
-  for (std::size_t first = 0, next = 1; next < count; ++next) {
-    const std::uint32_t a = order[first], b = order[next];
-    if (!(p[a] == p[b])) {
-      first = next;
-    } else if (rows.heights[a] == rows.heights[b]) {
+  for (std::size_t first = 0, next = 0; first < count; first = next) {
+    const std::uint32_t a = order[first];
+    const double own = rows.heights[a];
+    PlaceHeight place(rule, own);
+    std::size_t different = 0;
+    for (next = first + 1; next < count && p[a] == p[order[next]]; ++next) {
+      const std::uint32_t b = order[next];
       repeated[b] = true;
-      ++merged;
-    } else if (b < conflict.second) {
-      conflict = {a, b};
+      place.add(rows.heights[b]);
+      if (rows.heights[b] == own) {
+        ++merged;
+        continue;
+      }
+      ++different;
+      if (b < conflict.second) conflict = {a, b};
+      widest = std::max(widest, std::abs(rows.heights[b] - own));
     }
+    if (different > 0 && rule != SamePlace::refuse) rows.heights[a] = place.height();
+    joined += different;
+    places += different > 0 ? 1 : 0;
   }
-  if (const auto [a, b] = conflict; b < count)
+  if (const auto [a, b] = conflict; b < count && rule == SamePlace::refuse)
     return failure(ErrorCode::degenerate,
-                   fmt::format("two points at x {}, y {} have different heights: {} ({} {}) and {} ({} {})",
+                   fmt::format("two points at x {}, y {} have different heights: {} ({} {}) and {} ({} {}); "
+                               "`samePlace` says which height a place has",
                                p[a].x, p[a].y, rows.heights[a], originName, rows.origins[a], rows.heights[b],
                                originName, rows.origins[b]));
-  if (merged == 0) return {};
-  warnings.push_back(fmt::format("{} points repeat another one exactly and are left out", merged));
+  if (merged > 0)
+    warnings.push_back(fmt::format("{} points repeat another one exactly and are left out", merged));
+  if (joined > 0)
+    warnings.push_back(
+        fmt::format("{} places have several heights, up to {:.6g} from the first; each gets one, "
+                    "{}, and {} points are left out",
+                    places, widest, samePlaceClause(rule), joined));
+  if (merged + joined == 0) return {};
   std::size_t kept = 0;
   for (std::size_t i = 0; i < count; ++i) {
     if (repeated[i]) continue;
@@ -178,7 +245,7 @@ Result<PointRead> finish(PointRows rows, std::string_view originName, const OGRS
   if (rows.heights.size() >= kPointLimit)
     return failure(ErrorCode::unsupported,
                    fmt::format("holds {} points; {} can be numbered", rows.heights.size(), kPointLimit - 1));
-  if (Status status = mergeEqual(rows, originName, read.warnings); !status)
+  if (Status status = mergeEqual(rows, options.samePlace, originName, read.warnings); !status)
     return tl::unexpected(status.error());
 
   PointHeightfield& points = read.heightfield;
@@ -229,6 +296,12 @@ Result<PointRead> readFrom(const std::string& path, const PointReadOptions& opti
 }
 
 }  // namespace
+
+std::optional<SamePlace> samePlaceNamed(std::string_view name) {
+  for (const auto& [rule, known] : kSamePlaceNames)
+    if (name == known) return rule;
+  return std::nullopt;
+}
 
 Result<PointRead> readPoints(const std::string& path, const PointReadOptions& options,
                              const RunContext& context) try {

@@ -114,6 +114,7 @@ void visitMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
     reading.optional("band", r.band);
     reading.optional("layer", r.layer);
     reading.optional("zField", r.zField);
+    reading.optional("samePlace", r.samePlace);
     reading.optional("crs", r.crs);
     reading.optional("nodata", r.nodata);
     reading.optional("nodataWord", stored.nodataWord);

@@ -2,9 +2,9 @@
 //
 // The file is read in chunks and split into records where it lies; the unfinished last record of a chunk
 // moves to the front of the next. A record is a line, or several if a quoted text contains line breaks (RFC
-// 4180). The first record with content determines the separator (the first of semicolon, comma, tab that
-// occurs in it, else spaces) and the columns. Numbers go through std::from_chars: exact, and independent of
-// the locale.
+// 4180). The first record with content determines the separator (separator.h) and the columns. Numbers go
+// through std::from_chars: exact, and independent of the locale; what is no plain number is looked at more
+// closely (cell_number.h).
 //
 // GDAL's CSV driver is not used: it reads points at 0.2 of this speed (2 million rows with a header,
 // processor time), has no comments, and numbers features instead of lines. The rules for columns are shared:
@@ -22,11 +22,14 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 
-#include "io/file/number_text.h"
+#include "io/file/text_decoder.h"
 #include "io/file/text_scan.h"
 #include "io/gdal/support.h"
+#include "io/table/cell_number.h"
 #include "io/table/column_rules.h"
+#include "io/table/separator.h"
 
 namespace arete {
 namespace {
@@ -34,9 +37,11 @@ namespace {
 constexpr std::size_t kMostChunkBytes = std::size_t(1) << 22;
 constexpr std::size_t kLongestRecord = std::size_t(1) << 20;
 constexpr std::size_t kQuotedCharacters = 60;
+constexpr std::size_t kLinesThatCount = 3;
 constexpr std::size_t kColumnsNamed = 20, kCharactersOfColumn = 30;
-constexpr std::array kSeparators = {';', ',', '\t'};
-constexpr char kSpaces = ' ';
+constexpr std::array kSeparators = {';', ',', '\t', '|'};
+/// What spreadsheets write before the first line to state the separator: "sep=;".
+constexpr std::string_view kStatedSeparator = "sep=";
 
 struct FileCloser {
   void operator()(VSILFILE* file) const { VSIFCloseL(file); }
@@ -52,28 +57,24 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-std::string_view unquoted(std::string_view text) {
-  text = trimmed(text);
-  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
-  return trimmed(text);
-}
-
-/// The start of the comment of a record, or npos. In quotes '#' is text.
+/// The start of the comment of a record, or npos. In quotes '#' is text, and in "1.#QNAN" and "1.#INF", as
+/// older C libraries write what is no number.
 std::size_t findComment(std::string_view line) {
   std::size_t at = line.find('#');
-  const auto isQuoted = [&] { return std::count(line.begin(), line.begin() + std::ptrdiff_t(at), '"') % 2; };
-  while (at != std::string_view::npos && isQuoted()) at = line.find('#', at + 1);
+  const auto isQuoted = [&] {
+    return std::count(line.begin(), line.begin() + std::ptrdiff_t(at), '"') % 2 != 0;
+  };
+  const auto isInWord = [&] {
+    const std::string_view behind = line.substr(at + 1, 1);
+    return line.substr(0, at).ends_with("1.") && !behind.empty() && text::lowered(behind) >= "a" &&
+           text::lowered(behind) <= "z";
+  };
+  while (at != std::string_view::npos && (isQuoted() || isInWord())) at = line.find('#', at + 1);
   return at;
 }
 
 std::string quoted(std::string_view text) {
   return fmt::format("'{}'", text::printable(text, kQuotedCharacters));
-}
-
-char separatorOf(std::string_view line) {
-  for (const char separator : kSeparators)
-    if (line.find(separator) != std::string_view::npos) return separator;
-  return kSpaces;
 }
 
 /// Scans a record for the line breaks that its quoted texts contain. A quote opens a text only at the start
@@ -117,33 +118,6 @@ class QuoteScanner {
   char separator_;
   bool inQuotes_ = false, atFieldStart_ = true, isClosed_ = false, hasTextBehindQuotes_ = false;
 };
-
-/// Takes the next field off the front of `rest`. False if none is left.
-bool nextField(std::string_view& rest, char separator, std::string_view& field) {
-  if (separator == kSpaces) {
-    rest = trimmed(rest);
-    if (rest.empty()) return false;
-    std::size_t end = 0;
-    while (end < rest.size() && !isBlank(rest[end])) ++end;
-    field = unquoted(rest.substr(0, end));
-    rest.remove_prefix(end);
-    return true;
-  }
-  if (rest.data() == nullptr) return false;
-  std::size_t end = 0;
-  bool inQuotes = false;
-  for (; end < rest.size() && (inQuotes || rest[end] != separator); ++end)
-    if (rest[end] == '"') inQuotes = !inQuotes;
-  field = unquoted(rest.substr(0, end));
-  rest = end < rest.size() ? rest.substr(end + 1) : std::string_view();
-  return true;
-}
-
-std::vector<std::string_view> fieldsOf(std::string_view line, char separator) {
-  std::vector<std::string_view> fields;
-  for (std::string_view field; nextField(line, separator, field);) fields.push_back(field);
-  return fields;
-}
 
 /// The names of the first columns, for a message.
 std::string columnNames(std::span<const std::string_view> fields) {
@@ -224,27 +198,48 @@ class TextParser {
     }
     line = line.substr(0, findComment(line));
     if (trimmed(line).empty()) return {};
-    if (!started_) {
-      started_ = true;
-      separator_ = separatorOf(line);
-      const std::vector<std::string_view> fields = fieldsOf(line, separator_);
-      if (std::none_of(fields.begin(), fields.end(),
-                       [](std::string_view f) { return text::parseNumber(f).has_value(); })) {
-        auto columns = columnsByName(fields, zColumn_, kind_, warnings_);
-        if (!columns) return failure(columns.error().code, columns.error().message, path_);
-        columns_ = *columns;
-        nameAttributes(fields, true);
-        return {};
-      }
-      nameAttributes(fields, false);
-      if (!zColumn_.empty())
-        return failure(ErrorCode::usage,
-                       fmt::format("has no line of column names in which to find '{}'", zColumn_), path_);
+    if (started_) return addPoint(line);
+    if (const std::string_view stated = trimmed(line);
+        stated.size() == kStatedSeparator.size() + 1 && text::lowered(stated).starts_with(kStatedSeparator)) {
+      statedSeparator_ = stated.back();
+      return {};
     }
+    started_ = true;
+    separator_ = statedSeparator_.value_or(separatorOf(line));
+    const std::vector<std::string_view> fields = fieldsOf(line, separator_);
+    if (std::ranges::none_of(fields, isNumber)) {
+      auto columns = columnsByName(fields, zColumn_, kind_, warnings_);
+      if (!columns) return failure(columns.error().code, columns.error().message, path_);
+      columns_ = *columns;
+      namedColumns_ = fields.size();
+      nameAttributes(fields, true);
+      return {};
+    }
+    const std::size_t needed = kind_ == PointTextColumns::plan ? 2 : 3;
+    if (startsWithLabel(fields, needed)) {
+      for (std::size_t& column : columns_.at) ++column;
+      warnings_.push_back(
+          "has no line of column names; its first column is not a number and is taken for a label");
+    }
+    mayCountLines_ = columns_.at[0] == 0 && fields.size() > needed &&
+                     std::all_of(fields.begin(), fields.begin() + std::ptrdiff_t(needed) + 1, isNumber);
+    nameAttributes(fields, false);
+    if (!zColumn_.empty())
+      return failure(ErrorCode::usage,
+                     fmt::format("has no line of column names in which to find '{}'", zColumn_), path_);
     return addPoint(line);
   }
 
   PointRows takeRows() {
+    if (withoutHeight_ > 0)
+      warnings_.push_back(fmt::format("{} points have no height and are left out (the first is on line {})",
+                                      withoutHeight_, lineWithoutHeight_));
+    if (lineWithComma_ > 0) warnings_.push_back("its numbers have a decimal comma");
+    if (mayCountLines_ && rows_.positions.size() >= kLinesThatCount)
+      warnings_.push_back(
+          "has no line of column names, and its first column, which is taken for x, counts the points: if it "
+          "is a "
+          "number of the point, put a line of column names before the first");
     if (surplusFields_ > 0)
       warnings_.push_back(
           fmt::format("{} fields stand beyond the last column and are left out", surplusFields_));
@@ -268,8 +263,11 @@ class TextParser {
   }
 
   Status addPoint(std::string_view line) {
+    if (namedColumns_ > 0)
+      if (Status ok = checkCommas(line); !ok) return ok;
     const std::size_t last = *std::max_element(columns_.at.begin(), columns_.at.end());
     std::array<double, 3> values{};
+    bool hasHeight = true;
     std::string_view rest = line, field;
     for (std::size_t i = 0; i <= last; ++i) {
       if (!nextField(rest, separator_, field))
@@ -278,18 +276,66 @@ class TextParser {
                        where());
       for (std::size_t k = 0; k < 3; ++k) {
         if (columns_.at[k] != i) continue;
-        const auto value = text::parseNumber(field);
-        if (!value)
-          return failure(ErrorCode::invalidData, fmt::format("{} is not a number", quoted(field)), where());
-        if (!std::isfinite(*value))
+        const CellNumber number = readCell(field);
+        if (number.kind == CellNumber::Kind::missing && k == 2 && kind_ == PointTextColumns::spatial) {
+          hasHeight = false;
+          continue;
+        }
+        if (number.kind == CellNumber::Kind::notANumber)
+          return failure(ErrorCode::invalidData, fmt::format("{} {}", quoted(field), whyNotANumber(field)),
+                         where());
+        if (number.kind == CellNumber::Kind::missing || !std::isfinite(number.value))
           return failure(ErrorCode::invalidData, fmt::format("{} is not a finite number", quoted(field)),
                          where());
-        values[k] = *value;
+        if (Status ok = takeDecimalSign(field, number); !ok) return ok;
+        values[k] = number.value;
       }
+    }
+    mayCountLines_ = mayCountLines_ && (rows_.positions.empty() ? values[0] == 0 || values[0] == 1
+                                                                : values[0] == rows_.positions.back().x + 1);
+    if (!hasHeight) {
+      if (withoutHeight_++ == 0) lineWithoutHeight_ = lineNumber_;
+      return {};
     }
     rows_.add(values[0], values[1], values[2], lineNumber_);
     if (attributes_) addAttributes(line);
     return {};
+  }
+
+  static bool isNumber(std::string_view field) { return readCell(field).kind == CellNumber::Kind::number; }
+
+  static bool startsWithLabel(std::span<const std::string_view> fields, std::size_t needed) {
+    return fields.size() > needed && !isNumber(fields[0]) &&
+           std::all_of(fields.begin() + 1, fields.begin() + std::ptrdiff_t(needed) + 1, isNumber);
+  }
+
+  /// With commas as separators and as decimal signs, the first line has twice as many fields as columns.
+  Status checkCommas(std::string_view line) {
+    const std::size_t columns = std::exchange(namedColumns_, 0);
+    if (separator_ != ',') return {};
+    const std::vector<std::string_view> fields = fieldsOf(line, separator_);
+    if (fields.size() != 2 * columns || !std::ranges::all_of(fields, isNumber)) return {};
+    return failure(
+        ErrorCode::invalidData,
+        fmt::format("{} has {} numbers for {} columns: its commas seem to be decimal signs as well as "
+                    "separators, so that none is certain",
+                    quoted(trimmed(line)), fields.size(), columns),
+        where());
+  }
+
+  /// A text has decimal points or decimal commas, not both. Where commas separate the fields as well, a
+  /// number such as "1,234" may have grouped digits.
+  Status takeDecimalSign(std::string_view field, const CellNumber& number) {
+    if (number.hasDecimalComma && separator_ == ',' && number.mayBeGrouped)
+      return failure(ErrorCode::invalidData,
+                     fmt::format("{} may have a decimal comma or grouped digits", quoted(field)), where());
+    if (number.hasDecimalComma && lineWithComma_ == 0) lineWithComma_ = lineNumber_;
+    if (lineWithPoint_ == 0 && field.find('.') != std::string_view::npos) lineWithPoint_ = lineNumber_;
+    if (lineWithComma_ == 0 || lineWithPoint_ == 0) return {};
+    return failure(ErrorCode::invalidData,
+                   fmt::format("{}: the text has decimal points (line {}) and decimal commas (line {})",
+                               quoted(field), lineWithPoint_, lineWithComma_),
+                   where());
   }
 
   bool isAttribute(std::size_t field) const {
@@ -336,6 +382,10 @@ class TextParser {
   std::size_t fieldCount_ = 0, surplusFields_ = 0;
   PointRows rows_;
   Columns columns_;
+  std::size_t namedColumns_ = 0;  // until the first point
+  std::optional<char> statedSeparator_;
+  std::uint64_t withoutHeight_ = 0, lineWithoutHeight_ = 0, lineWithPoint_ = 0, lineWithComma_ = 0;
+  bool mayCountLines_ = false;  // x is 1, 2, 3, ... and three more numbers follow
   char separator_ = kSpaces;
   bool started_ = false;
   std::uint64_t lineNumber_ = 0, nextLine_ = 1;  // first line of this record, and of the next
@@ -349,7 +399,10 @@ bool looksLikePointText(const std::string& path) {
   const std::unique_ptr<VSILFILE, FileCloser> file(VSIFOpenL(path.c_str(), "rb"));
   if (!file) return false;
   std::array<char, 4096> head;
-  std::string_view text(head.data(), VSIFReadL(head.data(), 1, head.size(), file.get()));
+  const std::string_view bytes(head.data(), VSIFReadL(head.data(), 1, head.size(), file.get()));
+  std::string decoded;
+  TextDecoder().decode(bytes, decoded);
+  std::string_view text = decoded;
   if (text.find('\0') != std::string_view::npos) return false;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
@@ -357,9 +410,13 @@ bool looksLikePointText(const std::string& path) {
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.empty() || line.front() == '#') continue;
     const std::vector<std::string_view> fields = fieldsOf(line, separatorOf(line));
-    return fields.size() >= 3 && std::all_of(fields.begin(), fields.begin() + 3, [](std::string_view f) {
-             return text::parseNumber(f).has_value();
-           });
+    const auto areNumbers = [&](std::size_t from) {
+      return fields.size() >= from + 3 &&
+             std::all_of(fields.begin() + std::ptrdiff_t(from), fields.begin() + std::ptrdiff_t(from) + 3,
+                         [](std::string_view f) { return readCell(f).kind != CellNumber::Kind::notANumber; });
+    };
+    return areNumbers(0) || areNumbers(1) ||
+           (fields.size() >= 2 && findField(fields, ColumnNames::x()) && findField(fields, ColumnNames::y()));
   }
   return false;
 }
@@ -378,19 +435,19 @@ Result<PointRows> readPointText(const std::string& path, const std::string& zCol
   // One more than a small file has, so that its end is seen at once.
   const std::size_t chunkBytes = size > 0 && size < kMostChunkBytes ? std::size_t(size) + 1 : kMostChunkBytes;
   TextParser parser(path, zColumn, columns, warnings, attributes);
-  std::string buffer;
+  TextDecoder decoder;
+  std::string buffer, bytes;
   double bytesRead = 0;
-  for (bool first = true, more = true; more; first = false) {
+  for (bool more = true; more;) {
     if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped", path);
     context.report("reading", size > 0 ? std::min(1.0, bytesRead / size) : 0);
-    const std::size_t kept = buffer.size();
-    buffer.resize(kept + chunkBytes);
-    const std::size_t got = VSIFReadL(buffer.data() + kept, 1, chunkBytes, file.get());
-    buffer.resize(kept + got);
-    bytesRead += double(got);
-    more = got == chunkBytes;
+    bytes.resize(chunkBytes);
+    bytes.resize(VSIFReadL(bytes.data(), 1, chunkBytes, file.get()));
+    bytesRead += double(bytes.size());
+    more = bytes.size() == chunkBytes;
+    decoder.decode(bytes, buffer);
+    if (!more) decoder.finish(buffer);
     std::string_view text = buffer;
-    if (first && text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
     while (!text.empty()) {
       std::size_t end = parser.recordEnd(text);
       if (end == std::string_view::npos) {

@@ -33,6 +33,8 @@ namespace arete {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr std::string_view kStandardInput = "/vsistdin/";
+
 int columnNamed(int count, const std::function<std::string_view(std::size_t)>& nameOf,
                 std::span<const std::string_view> names) {
   const auto found = findColumn(std::size_t(count), nameOf, names);
@@ -230,7 +232,9 @@ Result<SightPairs> readFrom(const std::string& path, const Georeference& dem,
   GdalErrors errors;
   SightPairs pairs;
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
-  const GdalDatasetPtr dataset = openGdal(path, GDAL_OF_VECTOR);
+  // A table from stdin has no name by which GDAL knows it.
+  const GdalDatasetPtr dataset =
+      openGdal(path.starts_with(kStandardInput) ? fmt::format("CSV:{}", path) : path, GDAL_OF_VECTOR);
   if (!dataset) return tl::unexpected(explainOpenFailure(path, "set of lines", errors));
   const auto layer = chooseLayer(*dataset, options.layer, LayerKind::linesOrTable);
   if (!layer) return tl::unexpected(layer.error());

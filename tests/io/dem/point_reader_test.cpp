@@ -62,6 +62,42 @@ TEST(PointText, ReadsEverySeparator) {
   }
 }
 
+TEST(PointText, ReadsWhatOtherProgramsWrite) {
+  TemporaryFolder folder;
+  const std::string utf8 = "x;y;z\n1;2;3,5\n-4;500;6\n7;8;0,1\n";
+  std::string wide = "\xFF\xFE", returns = utf8;
+  for (const char c : utf8) wide += std::string{c, '\0'};
+  std::ranges::replace(returns, '\n', '\r');
+  for (const std::string& text :
+       {utf8, wide, returns, std::string("1|2|3.5\n-4|5e2|6\n7|8|0.1\n"),
+        std::string("x | y | z\n1 | 2 | 3.5\n-4 | 5e2 | 6\n7 | 8 | 0.1\n"),
+        std::string("1,0 2,0 3,5\n-4 500 6\n7 8 0,1\n"), std::string("1,0\t2\t3,5\n-4\t500\t6\n7\t8\t0,1\n"),
+        std::string("x y z\n1,0 2,0 3,5\n-4 500 6\n7 8 0,1\n"), std::string("1|2|3,5\n-4|500|6\n7|8|0,1\n"),
+        std::string("x,y,z\n1,2,\"3,5\"\n-4,500,6\n7,8,\"0,1\"\n"),
+        std::string("sep=;\n1;2;3.5\n-4;500;6\n7;8;0.1\n"),
+        std::string("  0.1D+01 0.2D1 3.5d0\n -4.0D0 5.0D+02 6.D0\n 7 8 1.0D-01\n"),
+        std::string("P1 1 2 3.5\nP2 -4 500 6\nP3 7 8 0.1\n"),
+        std::string("P1,1,2,3.5,oak\nP2,-4,500,6,ash\nP3,7,8,0.1,elm\n"),
+        std::string("1 2 3.5\n0 0 nan\n-4 500 6\n1 1 NaN\n2 2 -nan\n3 3 -1.#IND\n7 8 0.1\n"),
+        std::string("1,2,3.5\n0,0,\n-4,500,6\n1,1,NA\n2,2,null\n7,8,0.1\n")}) {
+    SCOPED_TRACE(text);
+    expectTheThree(readOrFail(folder.write("points.txt", text)));
+  }
+  // Each is said, but what is no guess.
+  const auto warnings = [&](const char* text) {
+    return joined(readOrFail(folder.write("points.txt", text)).warnings);
+  };
+  EXPECT_TRUE(contains(warnings("1;2;3,5\n4;5;6\n7;9;8\n"), "decimal comma"));
+  EXPECT_TRUE(contains(warnings("A 1 2 3\nB 4 5 6\nC 7 9 8\n"), "taken for a label"));
+  EXPECT_TRUE(contains(warnings("1 2 3\n0 1 nan\n4 5 6\n0 2 nan\n7 9 8\n"), "2 points have no height"));
+  EXPECT_TRUE(contains(warnings("1 2 3\n0 1 nan\n4 5 6\n0 2 nan\n7 9 8\n"), "line 2"));
+  // Number, easting, northing, height: without names it is read as x, y, z, and said.
+  EXPECT_TRUE(contains(warnings("1,400,500,9\n2,410,510,8\n3,420,500,7\n"), "counts the points"));
+  EXPECT_EQ(warnings("1,400,500\n2,410,510\n3,420,500\n"), "");
+  EXPECT_EQ(warnings("1,400,500,9\n2,410,510,8\n5,420,500,7\n"), "");
+  EXPECT_EQ(warnings("1 2 3.5 | one\n-4 500 6 | two\n7 8 0.1 | three\n"), "");
+}
+
 TEST(PointText, FindsColumnsByName) {
   TemporaryFolder folder;
   for (const char* text :
@@ -96,10 +132,15 @@ TEST(PointText, NamesFileLineAndTextOfAnError) {
     int line;
     const char* offending;
   };
-  for (const Case& c : {Case{"1,2,3\n4,five,6\n", 2, "'five'"}, Case{"x,y,z\n1,2,3\n4,5\n", 3, "'4,5'"},
-                        Case{"1,2,3\n\n# no\n4,5,nan\n", 4, "'nan'"}, Case{"1,2,inf\n", 1, "'inf'"},
-                        Case{"1,2,1e999\n", 1, "'1e999'"}, Case{"1;2;3\n1;2;3,5\n", 2, "'3,5'"},
-                        Case{"1,2,3m\n", 1, "'3m'"}, Case{"1,2,\n", 1, "''"}}) {
+  for (const Case& c :
+       {Case{"1,2,3\n4,five,6\n", 2, "'five'"}, Case{"x,y,z\n1,2,3\n4,5\n", 3, "'4,5'"},
+        Case{"1,2,3\n\n# no\n4,nan,5\n", 4, "'nan'"}, Case{"1,2,inf\n", 1, "'inf'"},
+        Case{"1,2,1e999\n", 1, "'1e999'"}, Case{"1;2;3.5\n1;2;3,5\n", 2, "'3,5'"},
+        Case{"1,2,3m\n", 1, "'3m'"}, Case{"1,,2\n", 1, "''"}, Case{"1;2;1.234,5\n", 1, "a point and a comma"},
+        Case{"1;2;1,234,567\n", 1, "several commas"}, Case{"1;2;1'234\n", 1, "grouped"},
+        Case{"a,1,b\n", 1, "'a'"}, Case{"1,2,-1.#INF\n", 1, "'-1.#INF'"},
+        Case{"1,2,\"1,234\"\n", 1, "grouped digits"}, Case{"1,2,3D\n", 1, "'3D'"},
+        Case{"x,y,z\n1,5,2,5,3,5\n", 2, "6 numbers for 3 columns"}}) {
     const std::string path = folder.write("bad.csv", c.text);
     const Error error = errorOf(path);
     EXPECT_EQ(error.code, ErrorCode::invalidData);
@@ -166,6 +207,30 @@ TEST(PointReader, NamesTwoPointsOfOnePlaceAndDifferentHeight) {
   const Error error = errorOf(folder.write("fold.csv", "x,y,z\n1,2,3\n4,5,6\n\n9,9,9\n4,5,6.5\n9,9,8\n"));
   EXPECT_EQ(error.code, ErrorCode::degenerate);
   EXPECT_TRUE(contains(error.message, "line 3") && contains(error.message, "line 6")) << error.describe();
+}
+
+TEST(PointReader, GivesAPlaceOneHeightByTheRuleStated) {
+  TemporaryFolder folder;
+  // Four heights at 4, 5, one of them twice, and two at 9, 9.
+  const std::string path =
+      folder.write("fold.csv", "x,y,z\n1,2,3\n4,5,6\n9,9,9\n4,5,6.5\n9,9,8\n4,5,1\n4,5,6\n");
+  for (const auto& [rule, at45, at99] :
+       {std::tuple{SamePlace::least, 1.0, 8.0}, std::tuple{SamePlace::greatest, 6.5, 9.0},
+        std::tuple{SamePlace::mean, 4.875, 8.5}, std::tuple{SamePlace::first, 6.0, 9.0}}) {
+    const PointRead read = readOrFail(path, {.samePlace = rule});
+    EXPECT_EQ(read.heightfield.positions, (std::vector<Vec2>{{1, 2}, {4, 5}, {9, 9}}));
+    EXPECT_EQ(read.heightfield.heights, (std::vector<double>{3, at45, at99}));
+    EXPECT_TRUE(contains(joined(read.warnings), "2 places have several heights, up to 5 from the first"))
+        << joined(read.warnings);
+    EXPECT_TRUE(contains(joined(read.warnings), "3 points are left out")) << joined(read.warnings);
+    EXPECT_TRUE(contains(joined(read.warnings), "1 points repeat")) << joined(read.warnings);
+  }
+  EXPECT_EQ(errorOf(path).code, ErrorCode::degenerate);
+  const PointRead huge = readOrFail(folder.write("huge.csv", "0,0,1.5e308\n0,0,1.7e308\n1,0,2\n0,1,3\n"),
+                                    {.samePlace = SamePlace::mean});
+  EXPECT_TRUE(std::isfinite(huge.heightfield.heights[0]));
+  for (const char* name : {"error", "min", "max", "mean", "first"}) EXPECT_TRUE(samePlaceNamed(name)) << name;
+  EXPECT_FALSE(samePlaceNamed("median"));
 }
 
 TEST(PointReader, LeavesNodataPointsOut) {

@@ -25,6 +25,7 @@ TEST(Metadata, ReadsBackToTheSameText) {
   m.model.reading = {.band = 2,
                      .layer = "a\xff",
                      .zField = "z",
+                     .samePlace = "mean",
                      .crs = "EPSG:32611",
                      .nodata = -9999,
                      .verticalUnit = "ft",

@@ -136,6 +136,20 @@ TEST_F(PointTextFile, NeedsAHeightOnlyWhereItIsSpatial) {
 TEST_F(PointTextFile, IsRecognizedByItsNameOrItsFirstNumbers) {
   EXPECT_TRUE(looksLikePointText("nowhere.CSV"));
   EXPECT_TRUE(looksLikePointText(folder_.write("a.dat", "# comment\n\n 1 2 3\n")));
+  for (const char* text :
+       {"x,y,z\n", "id;Lon;Lat;elev\n", "easting northing\n", "P1 1 2 3\n", "1;2,5;3\n", "1 2 nan\n",
+        "\xEF\xBB\xBF"
+        "1\t2\t3\n",
+        "X|Y|H\r1|2|3\r"})
+    EXPECT_TRUE(looksLikePointText(folder_.write("a.dat", text))) << text;
+  for (const char* text :
+       {"ncols 10\n", "{\"type\": \"Feature\"}\n", "<x y=\"1\">\n", "x marks the spot\n", "", "1\n"})
+    EXPECT_FALSE(looksLikePointText(folder_.write("b.dat", text))) << text;
+  EXPECT_TRUE(looksLikePointText(folder_.write("a.dat", std::string("\xFF\xFE"
+                                                                    "1\0,\0"
+                                                                    "2\0,\0"
+                                                                    "3\0\n\0",
+                                                                    14))));
   EXPECT_FALSE(looksLikePointText(folder_.write("b.dat", "1 2\n")));
   EXPECT_FALSE(looksLikePointText(folder_.write("c.dat", std::string("1 2 3\0", 6))));
   EXPECT_FALSE(looksLikePointText(folder_.file("no.dat")));
