@@ -14,10 +14,14 @@
 #include <system_error>
 #include <utility>
 
+#include "io/exchange/mesh_formats.h"
+#include "io/file/file_writer.h"
 #include "io/file/output_file.h"
 
 namespace arete {
 namespace {
+
+constexpr std::string_view kStandardStream = "-";
 
 namespace fs = std::filesystem;
 
@@ -189,6 +193,13 @@ void DemArguments::addTo(CLI::App& command) {
   command.add_option("--z-field", reading.zField, "Field or column that holds the height of a point")
       ->type_name("NAME")
       ->group(group);
+  command
+      .add_option(
+          "--same-place", reading.samePlace,
+          "Height of a place where points have different ones: min, max, mean, first (default: error)")
+      ->check(oneOf({"error", "min", "max", "mean", "first"}))
+      ->type_name("RULE")
+      ->group(group);
   command.add_option("--nodata", reading.nodata, "Raw value that means NODATA, instead of the file's")
       ->check(rawValue())
       ->type_name("VALUE")
@@ -213,6 +224,33 @@ void DemArguments::addTo(CLI::App& command) {
       ->group(group);
 }
 
+std::string inputPath(const std::string& path) {
+  return path == kStandardStream ? "/vsistdin/" : path;
+}
+
+void MeshOutput::addTo(CLI::App& command, const std::string& help, const std::string& more) {
+  command
+      .add_option("-o,--output", path,
+                  fmt::format("{}: {}{}; - is stdout", help, writableMeshExtensions(), more))
+      ->required()
+      ->type_name("FILE");
+  std::vector<std::string> names;
+  for (const MeshFormat& known : meshFormats())
+    if (known.write) names.emplace_back(known.extension.substr(1));
+  command
+      .add_option("--format", format,
+                  fmt::format("Format of the output, where its name does not say it, as of a pipe: {}",
+                              fmt::join(names, ", ")))
+      ->check(oneOf(names))
+      ->type_name("NAME");
+}
+
+std::string MeshOutput::open(Session& session) const {
+  if (path != kStandardStream) return path;
+  session.leaveStdout();
+  return std::string(kStandardOutput);
+}
+
 Result<CrsTransform> transformOfPlaces(bool lonLat, const TerrainModel& model) {
   Result<CrsTransform> toDem = lonLat ? CrsTransform::fromLonLat(model.georeference) : CrsTransform();
   if (!toDem && toDem.error().culprit.empty()) toDem.error().culprit = "--lonlat";
@@ -221,7 +259,7 @@ Result<CrsTransform> transformOfPlaces(bool lonLat, const TerrainModel& model) {
 }
 
 Result<DemRead> DemArguments::read(const Session& session) const {
-  Result<DemRead> dem = readDem(path, reading, session.context());
+  Result<DemRead> dem = readDem(inputPath(path), reading, session.context());
   if (dem)
     session.warn(dem->warnings, path);
   else if (!reading.crs.empty() && dem.error().culprit == reading.crs)
@@ -234,6 +272,7 @@ Result<DemRead> DemArguments::read(const Session& session) const {
 Status checkOutput(const std::string& option, const std::string& path, const std::vector<std::string>& inputs,
                    const std::vector<std::string>& outputs) {
   const std::string culprit = fmt::format("{} {}", option, path);
+  if (path == kStandardOutput) return {};
   const auto isSame = [&](const std::string& other) {
     std::error_code ignored;
     return path == other || fs::equivalent(path, other, ignored);

@@ -67,6 +67,19 @@ struct DemArguments {
   Result<DemRead> read(const Session& session) const;
 };
 
+/// "-" stands for stdin, which GDAL reads under a name of its own.
+std::string inputPath(const std::string& path);
+
+/// The output of a mesh: a file, or "-" for stdout, and the format where the name does not say it.
+struct MeshOutput {
+  std::string path, format;
+
+  /// Adds --output and --format. `help` begins the help of --output.
+  void addTo(CLI::App& command, const std::string& help, const std::string& more);
+  /// @return The path to write to. If that is stdout, the session leaves it to the mesh.
+  std::string open(Session& session) const;
+};
+
 /// Checks that a file can be written: its folder is writable, and it is neither an input nor another output
 /// of the command. Creates nothing. Errors name the option.
 Status checkOutput(const std::string& option, const std::string& path, const std::vector<std::string>& inputs,

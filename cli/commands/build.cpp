@@ -60,7 +60,7 @@ Result<FixedVertexOptions> fixedOptions(const BuildArguments& arguments, const G
   if (arguments.noFeatures) fixed.features.reset();
   if (arguments.creaseAngleDegrees >= 0) fixed.creaseAngleDegrees = arguments.creaseAngleDegrees;
   if (!arguments.fixedPath.empty()) {
-    auto points = readPlanPoints(arguments.fixedPath, georeference.crsWkt, session.context());
+    auto points = readPlanPoints(inputPath(arguments.fixedPath), georeference.crsWkt, session.context());
     if (!points) return tl::unexpected(points.error());
     session.warn(points->warnings, arguments.fixedPath);
     fixed.given = std::move(points->positions);

@@ -31,6 +31,7 @@ std::string readingOptions(const SourceReading& reading) {
   if (reading.band) options += fmt::format(" --band {}", *reading.band);
   if (!reading.layer.empty()) options += " --layer " + shellQuoted(reading.layer);
   if (!reading.zField.empty()) options += " --z-field " + shellQuoted(reading.zField);
+  if (!reading.samePlace.empty()) options += " --same-place " + shellQuoted(reading.samePlace);
   if (reading.nodata) options += fmt::format(" --nodata {}", *reading.nodata);
   if (!reading.verticalUnit.empty()) options += " --vertical-unit " + shellQuoted(reading.verticalUnit);
   if (reading.isDepth) options += fmt::format(" --positive {}", *reading.isDepth ? "down" : "up");

@@ -22,7 +22,8 @@ namespace arete {
 namespace {
 
 struct ConvertArguments {
-  std::string input, output, crs;
+  std::string input, crs;
+  MeshOutput output;
   bool isPacked = false;
 };
 
@@ -36,26 +37,29 @@ bool isAmt(const std::string& path) {
 
 /// Writes a multitriangulation in the plain or the packed form.
 Status convertAmt(const ConvertArguments& arguments, Session& session) {
-  if (!isAmt(arguments.output))
+  const std::string& output = arguments.output.path;
+  if (!arguments.output.format.empty())
+    return failure(ErrorCode::usage, "is for meshes; an .amt is written as .amt",
+                   fmt::format("--format {}", arguments.output.format));
+  if (!isAmt(output))
     return failure(ErrorCode::usage,
                    "must be another .amt for a multitriangulation; arete extract writes meshes",
-                   fmt::format("--output {}", arguments.output));
+                   fmt::format("--output {}", output));
   if (!arguments.crs.empty())
     return failure(ErrorCode::usage, "an .amt has the CRS of its DEM",
                    fmt::format("--crs {}", arguments.crs));
-  if (Status output = checkOutput("--output", arguments.output, {arguments.input}); !output) return output;
+  if (Status checked = checkOutput("--output", output, {arguments.input}); !checked) return checked;
   const Result<TerrainModel> model = loadAmt(arguments.input, {}, session.context());
   if (!model) return tl::unexpected(model.error());
   const AmtWriteOptions options{.isPacked = arguments.isPacked};
-  if (Status written = writeAmt(arguments.output, *model, session.context(), options); !written)
-    return written;
+  if (Status written = writeAmt(output, *model, session.context(), options); !written) return written;
   std::error_code error;
-  const auto size = std::filesystem::file_size(arguments.output, error);
+  const auto size = std::filesystem::file_size(output, error);
   const std::uint64_t bytes = error ? 0 : size, samples = model->mt.vertexCount() + model->isolated.size();
   const double perSample = static_cast<double>(bytes) / static_cast<double>(samples);
-  session.say(fmt::format("{}: {}, {:.1f} bytes a sample\n", arguments.output, byteCount(bytes), perSample));
+  session.say(fmt::format("{}: {}, {:.1f} bytes a sample\n", output, byteCount(bytes), perSample));
   session.answer({{"input", arguments.input},
-                  {"output", arguments.output},
+                  {"output", output},
                   {"format", "AMT"},
                   {"isPacked", arguments.isPacked},
                   {"bytes", bytes},
@@ -67,15 +71,17 @@ Status runConvert(const ConvertArguments& arguments, Session& session) {
   if (isAmt(arguments.input)) return convertAmt(arguments, session);
   if (arguments.isPacked)
     return failure(ErrorCode::usage, "requires a multitriangulation (.amt)", "--packed");
-  const Result<MeshFormat> format = meshFormatOf(arguments.output);
+  const Result<MeshFormat> format = meshFormatOf(arguments.output.path, arguments.output.format);
   if (!format)
-    return failure(ErrorCode::usage, format.error().message, fmt::format("--output {}", arguments.output));
-  if (Status output = checkOutput("--output", arguments.output, {arguments.input}); !output) return output;
+    return failure(ErrorCode::usage, format.error().message,
+                   fmt::format("--output {}", arguments.output.path));
+  const std::string output = arguments.output.open(session);
+  if (Status checked = checkOutput("--output", output, {arguments.input}); !checked) return checked;
   Result<MeshFile> mesh = readMesh(arguments.input, session.context());
   if (!mesh) return tl::unexpected(mesh.error());
   const std::uint64_t triangles = mesh->mesh.triangles.size(), vertices = mesh->mesh.positions.size();
-  const Result<ConvertedMesh> converted =
-      convertMesh(std::move(*mesh), arguments.output, {.crs = arguments.crs}, session.context());
+  const Result<ConvertedMesh> converted = convertMesh(
+      std::move(*mesh), output, {.crs = arguments.crs, .format = arguments.output.format}, session.context());
   if (!converted) {
     Error error = converted.error();
     if (error.code == ErrorCode::usage) error.culprit = fmt::format("--crs {}", arguments.crs);
@@ -84,10 +90,9 @@ Status runConvert(const ConvertArguments& arguments, Session& session) {
   session.warn(converted->warnings, arguments.input);
   if (!converted->lost.empty())
     session.warn(fmt::format("{} cannot hold {}", format->name, fmt::join(converted->lost, ", or ")));
-  session.say(fmt::format("{}: {} triangles, {} vertices\n", arguments.output, grouped(triangles),
-                          grouped(vertices)));
+  session.say(fmt::format("{}: {} triangles, {} vertices\n", output, grouped(triangles), grouped(vertices)));
   session.answer({{"input", arguments.input},
-                  {"output", arguments.output},
+                  {"output", output},
                   {"format", format->name},
                   {"triangles", triangles},
                   {"vertices", vertices},
@@ -108,16 +113,13 @@ void addConvertCommand(CLI::App& app, Session& session) {
       "  arete convert tin.ply -o tin.glb\n"
       "  arete convert tin.stl -o tin.gpkg --crs EPSG:32611\n"
       "  arete convert tin.gpkg -o tin.2dm --json\n"
+      "  arete convert scan.gltf -o - --format ply | gzip > scan.ply.gz\n"
       "  arete convert dem.amt -o small.amt --packed",
       [arguments](Session& s) { return runConvert(*arguments, s); });
   command->add_option("MESH", arguments->input, "Triangle mesh: " + readableMeshExtensions() + "; or .amt")
       ->required()
       ->type_name("");
-  command
-      ->add_option("-o,--output", arguments->output,
-                   "File to write: " + writableMeshExtensions() + "; .amt from .amt")
-      ->required()
-      ->type_name("FILE");
+  arguments->output.addTo(*command, "File to write", "; .amt from .amt");
   command->add_flag("--packed", arguments->isPacked,
                     "Write an .amt in the compressed form (default: the plain one)");
   command

@@ -46,7 +46,8 @@ CLI::Validator notTheModel() {
 }
 
 struct ExtractArguments {
-  std::string model, output;
+  std::string model;
+  MeshOutput output;
   CriterionArguments criterion;
   std::string certificate, errorRaster;
   CLI::Option* certificateOption = nullptr;
@@ -79,17 +80,24 @@ std::string tagOf(const ExtractCriterion& criterion) {
   return fmt::format("{}ms", criterion.deadlineMilliseconds.value_or(0));
 }
 
-Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments, const TerrainModel& model) {
+Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments, const TerrainModel& model,
+                                               Session& session) {
   auto criteria = arguments.criterion.criteria(model);
   if (!criteria) return tl::unexpected(criteria.error());
   std::vector<ExtractRequest> requests;
   const bool wantsCertificate = arguments.certificateOption->count() > 0;
   const bool several = criteria->size() > 1;
+  const std::string output = arguments.output.open(session);
+  if (several && output != arguments.output.path)
+    return failure(ErrorCode::usage, "takes one tolerance", "--output -");
+  if (wantsCertificate && arguments.certificate.empty() && output != arguments.output.path)
+    return failure(ErrorCode::usage, "needs a name if the mesh goes to stdout", "--certificate");
   for (ExtractCriterion& criterion : *criteria) {
     ExtractRequest request;
     request.criterion = std::move(criterion);
     const std::string tag = tagOf(request.criterion);
-    request.output = named(arguments.output, tag, several);
+    request.output = named(output, tag, several);
+    request.format = arguments.output.format;
     if (wantsCertificate)
       request.certificate = arguments.certificate.empty() ? certificateBeside(request.output)
                                                           : named(arguments.certificate, tag, several);
@@ -97,9 +105,9 @@ Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments
     requests.push_back(std::move(request));
   }
   for (const ExtractRequest& request : requests) {
-    if (Status known = checkExtractOutput(request.output, model); !known)
+    if (Status known = checkExtractOutput(request.output, model, request.format); !known)
       return failure(known.error().code, known.error().message, fmt::format("--output {}", request.output));
-    if (arguments.criterion.hasDeadline() && isGeoTiffName(request.output))
+    if (arguments.criterion.hasDeadline() && request.format.empty() && isGeoTiffName(request.output))
       return failure(ErrorCode::usage, "cannot be a raster with --deadline; write a mesh",
                      fmt::format("--output {}", request.output));
     if (request.errorRaster.empty()) continue;
@@ -232,7 +240,7 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   if (!file) return tl::unexpected(file.error());
   const Result<TerrainModel> outline = outlineForPlaces(*file, arguments.criterion, session);
   if (!outline) return tl::unexpected(outline.error());
-  auto requests = requestsOf(arguments, *outline);
+  auto requests = requestsOf(arguments, *outline, session);
   if (!requests) return tl::unexpected(requests.error());
   if (Status outputs = checkOutputs(*requests, arguments, *outline); !outputs) return outputs;
   const auto region = regionOf(arguments, *outline, session);
@@ -279,17 +287,14 @@ void addExtractCommand(CLI::App& app, Session& session) {
       "  arete extract dem.amt -o tin.ply --max-error 1 --region park.gpkg --outside-error 20\n"
       "  arete extract dem.amt -o tin.ply --max-error 1 --region road.gpkg --distance 500\n"
       "  arete extract dem.amt -o tin.ply --camera 384000,3800000,50 --look 120,-10 --pixel-error 2\n"
+      "  arete extract dem.amt -o - --format ply --max-error 5 | gzip > tin.ply.gz\n"
       "  arete extract dem.amt -o smooth.tif --max-error 5 --error-raster error.tif",
       [arguments](Session& s) { return runExtract(*arguments, s); });
   command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
-  command
-      ->add_option(
-          "-o,--output", arguments->output,
-          "File to write: " + writableMeshExtensions() +
-              ", or .tif (the TIN sampled on the source grid). {} in the name becomes the tolerance; "
-              "with several tolerances and no {}, _E is put before the extension")
-      ->required()
-      ->type_name("FILE");
+  arguments->output.addTo(
+      *command, "File to write",
+      ", or .tif (the TIN sampled on the source grid). {} in the name becomes the tolerance; "
+      "with several tolerances and no {}, _E is put before the extension");
   arguments->criterion.addTo(*command);
   arguments->certificateOption =
       command

@@ -52,7 +52,7 @@ Result<PointTable> statedPlaces(const HeightArguments& arguments, const TerrainM
 
 Result<PointTable> readPlaces(const HeightArguments& arguments, const TerrainModel& model, Session& session) {
   if (arguments.points.empty()) return statedPlaces(arguments, model);
-  auto table = readPointTable(arguments.points, model.georeference,
+  auto table = readPointTable(inputPath(arguments.points), model.georeference,
                               {.layer = arguments.layer, .lonLat = arguments.lonLat}, session.context());
   if (!table) return table;
   session.warn(table->warnings, arguments.points);

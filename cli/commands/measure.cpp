@@ -55,6 +55,7 @@ Status checkKind(const MeasureArguments& arguments, bool isMesh) {
         check("--allow-covered-nodata", arguments.allowCoveredNodata, false),
         check("--band", reading.band.has_value(), false), check("--layer", !reading.layer.empty(), false),
         check("--z-field", !reading.zField.empty(), false),
+        check("--same-place", !reading.samePlace.empty(), false),
         check("--nodata", reading.nodata.has_value(), false), check("--crs", !reading.crs.empty(), false),
         check("--vertical-unit", !reading.verticalUnit.empty(), false),
         check("--positive", reading.isDepth.has_value(), false),
@@ -180,6 +181,7 @@ Status runMeasure(const MeasureArguments& arguments, Session& session) {
   }
   const Result<MeshFile> tin = readMesh(arguments.tin, session.context());
   if (!tin) return tl::unexpected(tin.error());
+  session.warn(tin->warnings, arguments.tin);
   const Result<DemRead> dem = arguments.dem.read(session);
   if (!dem) return tl::unexpected(dem.error());
   return std::visit([&](const auto& field) { return compare(arguments, *tin, field, session); },

@@ -120,6 +120,8 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
   if (!first) return tl::unexpected(first.error());
   const Result<MeshFile> second = readMesh(arguments.second, session.context());
   if (!second) return tl::unexpected(second.error());
+  session.warn(first->warnings, arguments.first);
+  session.warn(second->warnings, arguments.second);
   compareFrames(*first, *second, session);
 
   const Result<std::optional<MetricMeshes>> metric = inMetres(*first, *second, session);

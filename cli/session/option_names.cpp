@@ -56,6 +56,7 @@ constexpr std::array kNames = {
     Name{"region", "--region"},
     Name{"region-crs", "--region-crs"},
     Name{"rimTolerance", "--rim-tolerance"},
+    Name{"samePlace", "--same-place"},
     Name{"samples", "--samples"},
     Name{"seed", "--seed"},
     Name{"shape", "--shape"},

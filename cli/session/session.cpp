@@ -28,8 +28,8 @@ ProgressBar& progressBar() {
 }
 
 /// Errors are found at the end of the run, by ferror().
-void print(const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
+void print(const std::string& text, std::FILE* out) {
+  std::fwrite(text.data(), 1, text.size(), out);
 }
 
 /// Replaces control characters, which names and texts of a file may hold, so that they cannot drive the
@@ -99,8 +99,8 @@ RunContext Session::context() const {
 void Session::say(const std::string& text) const {
   if (json_ || quiet_) return;
   progressBar().finishLine();
-  print(withoutControls(text));
-  std::fflush(stdout);
+  print(withoutControls(text), out_);
+  std::fflush(out_);
 }
 
 void Session::answer(const Json& object) {
@@ -108,7 +108,7 @@ void Session::answer(const Json& object) {
   progressBar().finishLine();
   answered_ = true;
   // A path may not be UTF-8: invalid bytes are replaced; nothing throws.
-  print(object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  print(object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", out_);
 }
 
 void Session::warn(const std::string& sentence) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -45,6 +46,9 @@ class Session {
   /// Progress according to the options, and the cancel flag that Ctrl-C sets.
   RunContext context() const;
 
+  /// Leaves stdout to a file that the command writes there: text and the object of --json go to stderr.
+  void leaveStdout() { out_ = stderr; }
+
   /// Writes text to stdout; not with --json or --quiet.
   void say(const std::string& text) const;
   /// Writes the object to stdout, with --json only. Call at most once.
@@ -59,6 +63,7 @@ class Session {
 
   bool json_ = false, quiet_ = false, progress_ = false, answered_ = false;
   int threads_ = 0;
+  std::FILE* out_ = stdout;
   Run run_;
 };
 

@@ -83,7 +83,7 @@ Result<SightPairs> readRows(const LosArguments& a, const TerrainModel& model, Se
   const Georeference& dem = model.georeference;
   const PointTableOptions options{.layer = a.layer, .lonLat = a.sight.lonLat};
   if (!a.pairs.empty()) {
-    auto pairs = readSightPairs(a.pairs, dem, options, session.context());
+    auto pairs = readSightPairs(inputPath(a.pairs), dem, options, session.context());
     if (!pairs) return pairs;
     session.warn(pairs->warnings, a.pairs);
     turnLongitudes(*pairs, model);
@@ -104,7 +104,7 @@ Result<SightPairs> readRows(const LosArguments& a, const TerrainModel& model, Se
     one.rows.push_back({*from, *to});
     return one;
   }
-  auto sites = readSightSites(a.points, dem, options, session.context());
+  auto sites = readSightSites(inputPath(a.points), dem, options, session.context());
   if (!sites) return sites;
   session.warn(sites->warnings, a.points);
   turnLongitudes(*sites, model);

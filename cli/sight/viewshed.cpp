@@ -85,7 +85,7 @@ Result<std::vector<PlacedObserver>> placeObservers(const ViewshedArguments& a, c
     usual = *height;
   }
   const auto sites =
-      readSightSites(a.observers.file, outline.georeference,
+      readSightSites(inputPath(a.observers.file), outline.georeference,
                      {.layer = a.observers.layer, .lonLat = a.sight.lonLat}, session.context());
   if (!sites) return tl::unexpected(sites.error());
   session.warn(sites->warnings, a.observers.file);

@@ -38,7 +38,8 @@ namespace {
 constexpr std::uint64_t kGuessGrowth = 8;
 
 bool needsAllSamples(const ExtractRequest& request) {
-  return !meshFormatOf(request.output) || !request.certificate.empty() || !request.errorRaster.empty();
+  return !meshFormatOf(request.output, request.format) || !request.certificate.empty() ||
+         !request.errorRaster.empty();
 }
 
 /// Whether the spheres of nodes decide which nodes are in the cut. A packed file stores none, and those made
@@ -51,7 +52,7 @@ bool dependsOnSpheres(const ExtractRequest& request) {
 /// The criterion with the smallest tolerance that rounding by the format may lead to.
 ExtractCriterion readFor(const ExtractRequest& request) {
   ExtractCriterion criterion = request.criterion;
-  const Result<MeshFormat> format = meshFormatOf(request.output);
+  const Result<MeshFormat> format = meshFormatOf(request.output, request.format);
   if (format && !format->holds.isExact && criterion.promisesMaxError())
     criterion.maxError = (1 - TinExtractor::kReadReserve) * *criterion.maxError;
   return criterion;

@@ -29,6 +29,10 @@ namespace {
 /// Heights are written as float32 if rounding changes them by less than this, in their unit.
 constexpr double kNegligibleRounding = 1e-3;
 
+bool isRaster(const ExtractRequest& request) {
+  return request.format.empty() && isGeoTiffName(request.output);
+}
+
 /// The largest stored error of the triangles that meet the region.
 double storedErrorInside(const TerrainModel& model, const Cut& cut, const Region& region) {
   const VertexArrays& v = model.mt.vertices();
@@ -55,7 +59,7 @@ Status within(Status status, const std::string& path) {
 }
 
 ExportFormat formatOf(const std::string& path, const WrittenMesh& written, const MeshWriteOptions& options) {
-  const Result<MeshFormat> format = meshFormatOf(path);
+  const Result<MeshFormat> format = meshFormatOf(path, options.format);
   if (!format) return {};
   return {.name = std::string(format->name),
           .frame = written.frame,
@@ -67,8 +71,8 @@ ExportFormat formatOf(const std::string& path, const WrittenMesh& written, const
 
 }  // namespace
 
-Status checkExtractOutput(const std::string& path, const TerrainModel& model) try {
-  if (isGeoTiffName(path)) {
+Status checkExtractOutput(const std::string& path, const TerrainModel& model, const std::string& name) try {
+  if (name.empty() && isGeoTiffName(path)) {
     if (model.isRaster) return {};
     return failure(ErrorCode::usage,
                    "the model was built from scattered points: there is no source grid to sample the TIN on",
@@ -77,7 +81,7 @@ Status checkExtractOutput(const std::string& path, const TerrainModel& model) tr
   std::string known;
   for (const MeshFormat& format : meshFormats())
     if (format.write) known += fmt::format("{} ({}), ", format.extension, format.name);
-  const Result<MeshFormat> format = meshFormatOf(path);
+  const Result<MeshFormat> format = meshFormatOf(path, name);
   if (format && format->write) return {};
   const std::string extension = text::lowerExtension(path);
   return failure(
@@ -153,7 +157,7 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
   Result<TinExport> made = takeTin(request, reserve, std::move(taken), tin, context);
   if (!made) return tl::unexpected(made.error());
   TinExport& exported = *made;
-  if (isGeoTiffName(request.output)) {
+  if (isRaster(request)) {
     tin.format = {.name = "GeoTIFF",
                   .saysCrs = !model_.georeference.crsWkt.empty(),
                   .saysVerticalUnit = !model_.georeference.verticalUnit.empty()};
@@ -164,6 +168,7 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
                                .verticalUnitMetres = model_.georeference.verticalUnitMetres,
                                .triangleErrors = exported.errors,
                                .origin = exported.origin,
+                               .format = request.format,
                                .notes = {commentOf(request, model_, tin)}};
   Result<WrittenMesh> written =
       writeAndReadBack(std::move(exported.mesh), request.output, write, model_.isRaster, context);
@@ -197,8 +202,8 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
     if (!mesh) return tl::unexpected(mesh.error());
   }
   // A fit promises nothing before it is measured.
-  const bool needsMeasure = tin.fit || isGeoTiffName(request.output) || !request.certificate.empty() ||
-                            !request.errorRaster.empty();
+  const bool needsMeasure =
+      tin.fit || isRaster(request) || !request.certificate.empty() || !request.errorRaster.empty();
   if (needsMeasure)
     if (Status measured = measureAndWrite(request, *mesh, tin, context); !measured)
       return tl::unexpected(measured.error());
@@ -209,7 +214,7 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
 
 Status TinExtractor::measureAndWrite(const ExtractRequest& request, const TriangleMesh& mesh,
                                      ExtractedTin& tin, const RunContext& context) {
-  const bool wantsRasters = isGeoTiffName(request.output) || !request.errorRaster.empty();
+  const bool wantsRasters = isRaster(request) || !request.errorRaster.empty();
   MeasureRasters rasters;
   const Vec3& rounding = tin.format.frame.rounding;
   const auto measureWith = [&](MeasureOptions options, MeasureRasters* into) {
@@ -233,7 +238,7 @@ Status TinExtractor::measureAndWrite(const ExtractRequest& request, const Triang
   tin.isKept =
       keepsPromise(tin.measuredInside ? *tin.measuredInside : *tin.measured, tin.promisedError, expect);
 
-  if (!isGeoTiffName(request.output))
+  if (!isRaster(request))
     tin.format.planTolerancePixels =
         planTolerancePixels({.planRounding = {rounding.x, rounding.y}}, model_.georeference);
   if (Status written = writeRasters(request, rasters, tin, context); !written) return written;
@@ -256,7 +261,7 @@ Status TinExtractor::measureAndWrite(const ExtractRequest& request, const Triang
 
 Status TinExtractor::writeRasters(const ExtractRequest& request, const MeasureRasters& rasters,
                                   ExtractedTin& tin, const RunContext& context) const {
-  if (isGeoTiffName(request.output)) {
+  if (isRaster(request)) {
     double largest = 0;
     for (const double z : rasters.tinHeights)
       if (!std::isnan(z)) largest = std::max(largest, std::abs(z));

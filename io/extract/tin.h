@@ -25,6 +25,7 @@ struct ExtractRequest {
   ExtractCriterion criterion;
   std::optional<Region> region;  ///< criterion.region in plan coordinates
   std::string output;       ///< a mesh by its extension, or .tif: the TIN sampled back on the source grid
+  std::string format;       ///< MeshWriteOptions::format; empty: by the extension
   std::string certificate;  ///< JSON; empty = none
   std::string errorRaster;  ///< GeoTIFF of z_TIN - z_DEM; empty = none
 };
@@ -43,9 +44,10 @@ struct ExtractedTin {
   bool isKept = true;                           ///< false when the measurement contradicts the promise
 };
 
-/// Checks that an output's extension names a format that can be written; .tif needs a model of a raster.
-/// Errors: usage: an unknown extension (the message lists the known ones), .tif for scattered points.
-Status checkExtractOutput(const std::string& path, const TerrainModel& model);
+/// Checks that an output's format, or else its extension, names a format that can be written; .tif needs a
+/// model of a raster. Errors: usage: an unknown extension (the message lists the known ones), .tif for
+/// scattered points.
+Status checkExtractOutput(const std::string& path, const TerrainModel& model, const std::string& format = {});
 
 /// Takes TINs from one model and writes them. Keeps the model's samples once a measurement needed them.
 class TinExtractor {

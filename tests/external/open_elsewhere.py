@@ -17,7 +17,7 @@ ROOT = HERE.parent.parent
 SKIPPED = 77
 # Debian's own interpreter: the one that has the bindings of QGIS and GDAL.
 SYSTEM_PYTHON = "/usr/bin/python3"
-FORMATS = ("ply", "obj", "stl", "glb", "2dm", "gpkg", "tif")
+FORMATS = ("ply", "obj", "off", "stl", "glb", "gltf", "2dm", "gpkg", "tif")
 
 
 class Missing(Exception):
@@ -209,7 +209,7 @@ MEASURES = ' <filter name="Compute Geometric Measures"/>\n'
 def step_meshlab(arguments):
     made = terrains(arguments)
     for t in made:
-        for extension, origin in (("ply", [0, 0, 0]), ("stl", stl_origin(t.files["stl"]))):
+        for extension, origin in (("ply", [0, 0, 0]), ("off", [0, 0, 0]), ("stl", stl_origin(t.files["stl"]))):
             said = meshlab(arguments, [t.files[extension]], MEASURES)
             counts = meshlab_counts(said, t.files[extension])
             check(counts == (t.vertices, t.triangles), f"{extension} in MeshLab: {counts}")
@@ -247,20 +247,20 @@ def check_box(t, corners, origin, decimals, what):
 def step_assimp(arguments):
     need_program("assimp", "assimp-utils")
     for t in terrains(arguments):
-        for extension in ("ply", "obj", "stl", "glb"):
+        for extension in ("ply", "obj", "off", "stl", "glb", "gltf"):
             said = run(["assimp", "info", t.files[extension], "--raw"])
             number = lambda what: int(re.search(what + r": +(\d+)", said)[1])
-            # It splits the corners of an STL and of an OBJ; the other two keep their vertices.
-            expected = {"ply": t.vertices, "glb": t.vertices}.get(extension, 3 * t.triangles)
+            # It splits the corners of an STL, an OBJ and an OFF; the others keep their vertices.
+            expected = {"ply": t.vertices, "glb": t.vertices, "gltf": t.vertices}.get(extension, 3 * t.triangles)
             check((number("Vertices"), number("Faces")) == (expected, t.triangles),
                   f"{extension} in Assimp: {number('Vertices')} vertices, {number('Faces')} faces")
             corners = [[float(number) for number in re.search(which + r" point +\((.*?)\)", said)[1].split()]
                        for which in ("Minimum", "Maximum")]
-            if extension != "glb":  # has metres in a frame of its own: the step "gltf"
+            if extension not in ("glb", "gltf"):  # have metres in a frame of its own: the step "gltf"
                 origin = stl_origin(t.files["stl"]) if extension == "stl" else [0, 0, 0]
                 check_box(t, corners, origin, 1e-6, f"{extension} in Assimp")
             print(f"ok: {t.name}: {extension.upper()} in Assimp: {t.triangles} faces"
-                  f"{'' if extension == 'glb' else ', box and heights of the DEM'}")
+                  f"{'' if extension in ('glb', 'gltf') else ', box and heights of the DEM'}")
 
 
 VALIDATOR = """
@@ -282,12 +282,13 @@ def step_gltf(arguments):
         except Broken:
             raise Missing("the Khronos glTF validator could not be fetched (npm package gltf-validator)")
     for t in terrains(arguments):
-        report = json.loads(run(["node", "-e", VALIDATOR, t.files["glb"]], cwd=modules))
-        issues, info = report["issues"], report["info"]
-        check(issues["numErrors"] == 0 and issues["numWarnings"] == 0, f"{t.files['glb']}: {issues['messages']}")
-        check((info["totalVertexCount"], info["totalTriangleCount"]) == (t.vertices, t.triangles),
-              f"GLB: {info['totalVertexCount']} vertices, {info['totalTriangleCount']} triangles")
-        print(f"ok: {t.name}: GLB in the Khronos validator {report['validatorVersion']}: no error, no warning, "
+        for extension in ("gltf", "glb"):
+            report = json.loads(run(["node", "-e", VALIDATOR, t.files[extension]], cwd=modules))
+            issues, info = report["issues"], report["info"]
+            check(issues["numErrors"] == 0 and issues["numWarnings"] == 0, f"{t.files[extension]}: {issues['messages']}")
+            check((info["totalVertexCount"], info["totalTriangleCount"]) == (t.vertices, t.triangles),
+                  f"{extension}: {info['totalVertexCount']} vertices, {info['totalTriangleCount']} triangles")
+        print(f"ok: {t.name}: GLB and glTF in the Khronos validator {report['validatorVersion']}: no error, no warning, "
               f"{info['totalVertexCount']} vertices, {info['totalTriangleCount']} triangles")
         place = json.loads(run([SYSTEM_PYTHON, HERE / "read_with_gdal.py", "glb", t.files["glb"], t.files["gpkg"]]))
         near(place["farthestMetres"], 0, 0.01, "GLB: metres between its vertices and where PROJ puts them")

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,47 @@ TEST_F(BuildCommand, TakesScatteredPoints) {
   const Outcome noGrid = run({"extract", "p.amt", "-o", "p.tif", "--max-error", "1"});
   EXPECT_EQ(noGrid.code, 2);
   EXPECT_NE(noGrid.err.find("scattered points"), std::string::npos) << noGrid.err;
+}
+
+TEST_F(BuildCommand, GivesAPlaceOneHeightByTheRuleStatedAndMeasuresByIt) {
+  std::string text = "x,y,z\n";
+  for (int i = 0; i < 40; ++i)
+    text += std::to_string(i * 7 % 23) + "," + std::to_string(i * 11 % 29) + "," + std::to_string(i) + "\n";
+  write("points.csv", text + "0,0,100\n7,11,50\n");
+  const Outcome refused = run({"build", "points.csv", "-o", "a.amt"});
+  EXPECT_EQ(refused.code, 4);
+  EXPECT_NE(refused.err.find("--same-place"), std::string::npos) << refused.err;
+  for (const std::string rule : {"min", "max", "mean", "first"}) {
+    const Outcome built = run({"build", "points.csv", "-o", rule + ".amt", "--same-place", rule});
+    ASSERT_EQ(built.code, 0) << built.err;
+    EXPECT_NE(built.err.find("2 places have several heights"), std::string::npos) << built.err;
+    ASSERT_EQ(run({"extract", rule + ".amt", "-o", rule + ".ply", "--max-error", "1", "--certificate"}).code,
+              0);
+    const std::string check = readJson(rule + ".certificate.json")["check"].get<std::string>();
+    EXPECT_NE(check.find("--same-place " + rule), std::string::npos) << check;
+    EXPECT_EQ(run({"measure", rule + ".ply", "points.csv", "--same-place", rule, "--expect", "1"}).code, 0);
+  }
+  EXPECT_EQ(run({"measure", "min.ply", "points.csv", "--same-place", "max", "--expect", "1"}).code, 5);
+  EXPECT_EQ(run({"build", "points.csv", "-o", "a.amt", "--same-place", "median"}).code, 2);
+}
+
+TEST_F(BuildCommand, ReadsPointsFromStdinByTheirNames) {
+  write("points.csv", "id,northing,easting,height\na,0,0,1\nb,1,5,2\nc,7,1,3\nd,9,9,4\n");
+  ASSERT_EQ(run({"build", "points.csv", "-o", "file.amt"}).code, 0);
+  for (const char* name : {"-", "/vsistdin/"}) {
+    const std::string command = "cd '" + path("") + "' && cat points.csv | '" ARETE_PROGRAM "' build " +
+                                std::string(name) + " -o stdin.amt > said 2>&1";
+    ASSERT_EQ(std::system(command.c_str()), 0) << read("said");
+    EXPECT_EQ(run({"height", "stdin.amt", "--at", "5,1"}).out, "5,1,2\n");
+  }
+  const std::string pairs = "cd '" + path("") +
+                            "' && printf 'x1,y1,h1,x2,y2,h2\\n0,0,9,5,1,9\\n' | '" ARETE_PROGRAM
+                            "' los file.amt --pairs - > said 2>&1";
+  EXPECT_EQ(std::system(pairs.c_str()), 0) << read("said");
+  const std::string places = "cd '" + path("") +
+                             "' && printf 'x,y\\n5,1\\n' | '" ARETE_PROGRAM
+                             "' height file.amt --points - > said 2>&1";
+  EXPECT_EQ(std::system(places.c_str()), 0) << read("said");
 }
 
 TEST_F(BuildCommand, KeepsFeaturesAndFixedPointsInTheRoot) {

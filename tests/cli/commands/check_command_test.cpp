@@ -29,9 +29,11 @@ TEST(CheckCommand, StatesHowTheSourceWasRead) {
   ExtractRequest request;
   request.criterion.maxError = 5;
   request.output = "tin.ply";
-  model.reading = {.band = 2, .layer = "a layer", .zField = "z", .crs = "EPSG:32611", .nodata = -9999};
+  model.reading = {
+      .band = 2, .layer = "a layer", .zField = "z", .samePlace = "min", .crs = "EPSG:32611", .nodata = -9999};
   EXPECT_EQ(checkCommand(request, model, "m.amt", 5),
-            "arete measure tin.ply dem.tif --expect 5 --band 2 --layer 'a layer' --z-field z --nodata -9999 "
+            "arete measure tin.ply dem.tif --expect 5 --band 2 --layer 'a layer' --z-field z --same-place "
+            "min --nodata -9999 "
             "--crs EPSG:32611");
 }
 

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes from one format into another, as far as the formats can say what there is to say.
+#include <sys/stat.h>
+
+#include <cstdlib>
+#include <fstream>
+
 #include "cli/cli_fixture.h"
 #include "io/exchange/mesh_formats.h"
 
@@ -52,6 +57,57 @@ TEST_F(Convert, SaysInOneLineWhatIsLost) {
   EXPECT_NE(readMesh(path("tin.glb"))->crsWkt.find("32611"), std::string::npos);
   const Outcome replaced = run({"convert", "tin.ply", "-o", "other.ply", "--crs", "EPSG:4326"});
   EXPECT_NE(replaced.err.find("is replaced"), std::string::npos) << replaced.err;
+}
+
+TEST_F(Convert, WritesToStdoutAndToAPipeInTheFormatStated) {
+  makeRaster("dem.tif", "fractal", 20, 20);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  ASSERT_EQ(run({"extract", "dem.amt", "-o", "tin.ply", "--max-error", "5"}).code, 0);
+  for (const MeshFormat& format : meshFormats()) {
+    const std::string extension(format.extension), name = extension.substr(1);
+    SCOPED_TRACE(name);
+    if (name == "gpkg") {
+      const Outcome refused = run({"convert", "tin.ply", "-o", "-", "--format", name});
+      EXPECT_EQ(refused.code, 4) << refused.err;
+      EXPECT_NE(refused.err.find("database"), std::string::npos) << refused.err;
+      continue;
+    }
+    ASSERT_EQ(run({"convert", "tin.ply", "-o", "file" + extension}).code, 0);
+    const Outcome piped = run({"convert", "tin.ply", "-o", "-", "--format", name});
+    EXPECT_EQ(piped.code, 0) << piped.err;
+    EXPECT_TRUE(piped.out == read("file" + extension));
+    EXPECT_NE(piped.err.find("triangles"), std::string::npos) << piped.err;
+    // A named pipe, whose name says nothing.
+    ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+    std::string received;
+    const Outcome named = run({"convert", "tin.ply", "-o", "pipe", "--format", name, "--json"}, [&](pid_t) {
+      std::ifstream pipe(path("pipe"), std::ios::binary);
+      received.assign(std::istreambuf_iterator<char>(pipe), {});
+    });
+    EXPECT_EQ(named.code, 0) << named.err;
+    EXPECT_TRUE(received == read("file" + extension));
+    EXPECT_EQ(named.json()["output"], "pipe");
+    fs::remove(path("pipe"));
+  }
+  // What stdout was redirected to is written on, not replaced.
+  const std::string command = "cd '" + path("") +
+                              "' && (echo first; '" ARETE_PROGRAM
+                              "' convert tin.ply -o - --format obj) > both 2> said";
+  ASSERT_EQ(std::system(command.c_str()), 0) << read("said");
+  EXPECT_EQ(read("both"), "first\n" + read("file.obj"));
+  // The format comes before the name's, and is needed without one.
+  ASSERT_EQ(run({"convert", "tin.ply", "-o", "mesh.dat", "--format", "stl"}).code, 0);
+  EXPECT_EQ(read("mesh.dat"), read("file.stl"));
+  EXPECT_EQ(run({"convert", "tin.ply", "-o", "-"}).code, 2);
+  EXPECT_EQ(run({"convert", "tin.ply", "-o", "x", "--format", "doc"}).code, 2);
+  EXPECT_EQ(run({"convert", "dem.amt", "-o", "x.amt", "--format", "ply"}).code, 2);
+}
+
+TEST_F(Convert, WarnsOfWhatTheReaderLeftOutOrGuessed) {
+  write("bow.obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n");
+  const Outcome bow = run({"convert", "bow.obj", "-o", "bow.ply"});
+  EXPECT_EQ(bow.code, 0);
+  EXPECT_NE(bow.err.find("warning: bow.obj: 1 of its 1 faces"), std::string::npos) << bow.err;
 }
 
 TEST_F(Convert, RefusesWhatMakesNoSenseAndOverwritesNoInput) {

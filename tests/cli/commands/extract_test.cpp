@@ -88,6 +88,28 @@ TEST_F(ExtractCommand, NamesTheOutputsOfSeveralTolerances) {
   EXPECT_GE(exports[1]["triangles"], exports[2]["triangles"]);
 }
 
+TEST_F(ExtractCommand, WritesToStdoutInTheFormatStated) {
+  makeRaster("dem.tif", "fractal", 40, 40);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  for (const std::string format : {"ply", "stl", "off"}) {
+    ASSERT_EQ(run({"extract", "dem.amt", "-o", "tin." + format, "--max-error", "2"}).code, 0);
+    const Outcome piped = run(
+        {"extract", "dem.amt", "-o", "-", "--format", format, "--max-error", "2", "--certificate", "c.json"});
+    EXPECT_EQ(piped.code, 0) << piped.err;
+    EXPECT_TRUE(piped.out == read("tin." + format)) << format;
+    EXPECT_NE(piped.err.find("triangles"), std::string::npos) << piped.err;
+    EXPECT_TRUE(readJson("c.json")["kept"].get<bool>() || !readJson("c.json").contains("kept"));
+  }
+  const Outcome json =
+      run({"extract", "dem.amt", "-o", "-", "--format", "off", "--max-error", "2", "--json"});
+  EXPECT_TRUE(json.out == read("tin.off"));
+  EXPECT_FALSE(Json::parse(json.err, nullptr, false).is_discarded());
+  EXPECT_EQ(run({"extract", "dem.amt", "-o", "-", "--format", "ply", "--max-error", "1,2"}).code, 2);
+  EXPECT_EQ(run({"extract", "dem.amt", "-o", "-", "--max-error", "1"}).code, 2);
+  EXPECT_EQ(
+      run({"extract", "dem.amt", "-o", "-", "--format", "ply", "--max-error", "2", "--certificate"}).code, 2);
+}
+
 TEST_F(ExtractCommand, PutsTheToleranceWhereverTheNameAsksForIt) {
   makeRaster("dem.tif", "fractal", 30, 30);
   ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt", "-q"}).code, 0);
