@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Pass by pass: vertices, triangles, topology, self-intersections. Triangles with a vertex twice have no
+// place in the topology: one of their edges has no length, and the other two are one edge.
+#include "surface/diagnosis/diagnosis.h"
+
+#include <limits>
+
+#include "engine/base/caught_failure.h"
+#include "engine/parallel/with_threads.h"
+#include "surface/diagnosis/parts.h"
+
+namespace arete {
+namespace {
+
+Result<MeshDiagnosis> diagnoseHere(const TriangleMesh& mesh, const DiagnosisOptions& options,
+                                   const RunContext& context) {
+  if (const Status valid = mesh.validate(); !valid) return tl::unexpected(valid.error());
+  if (mesh.triangles.size() >= std::numeric_limits<std::uint32_t>::max() / 3)
+    return failure(ErrorCode::unsupported,
+                   "the mesh has more triangles than 32-bit numbers of corners allow");
+  MeshDiagnosis result;
+  result.vertices = mesh.positions.size();
+  result.triangles = mesh.triangles.size();
+  context.report("diagnose", 0);
+  diagnosis::examineVertices(mesh, options, result);
+  diagnosis::examineFaces(mesh, options, result);
+  if (context.cancelled()) return failure(ErrorCode::interrupted, "the diagnosis was interrupted");
+  std::vector<diagnosis::Triangle> kept;
+  std::vector<std::uint32_t> keptTriangle;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    if (a == b || b == c || c == a) continue;
+    kept.push_back(mesh.triangles[t]);
+    keptTriangle.push_back(t);
+  }
+  diagnosis::examineTopology(mesh, kept, keptTriangle, options, result);
+  if (options.selfIntersections) {
+    const auto pairs = diagnosis::findSelfIntersections(mesh, context);
+    if (!pairs) return failure(ErrorCode::interrupted, "the diagnosis was interrupted");
+    MeshFindings& found = result.selfIntersections.emplace();
+    for (const auto& [first, second] : *pairs)
+      diagnosis::add(found, options.mostPlaces, {first, second}, diagnosis::centroid(mesh, first));
+  }
+  context.report("diagnose", 1);
+  return result;
+}
+
+}  // namespace
+
+Result<MeshDiagnosis> diagnose(const TriangleMesh& mesh, const DiagnosisOptions& options,
+                               const RunContext& context) try {
+  return withThreads(context, [&] { return diagnoseHere(mesh, options, context); });
+} catch (...) {
+  return caughtFailure();
+}
+
+}  // namespace arete

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/base/vec.h"
+#include "engine/parallel/run_context.h"
+#include "surface/diagnosis/diagnosis.h"
+#include "surface/topology/edges.h"
+
+// The passes of diagnose(). Each fills its own members of the diagnosis.
+namespace arete::diagnosis {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// Counts a finding, and keeps its place while there are fewer than `most`.
+void add(MeshFindings& findings, std::size_t most, std::vector<std::uint32_t> elements, const Vec3& place);
+
+Vec3 centroid(const TriangleMesh& mesh, std::uint32_t triangle);
+
+/// Vertices: unused, double; the box.
+void examineVertices(const TriangleMesh& mesh, const DiagnosisOptions& options, MeshDiagnosis& result);
+/// Triangles: degenerate, duplicate, double-sided.
+void examineFaces(const TriangleMesh& mesh, const DiagnosisOptions& options, MeshDiagnosis& result);
+/// Edges, fans, borders and components.
+/// @param kept the triangles with three different vertices, and
+/// @param keptTriangle the number in the mesh of each.
+void examineTopology(const TriangleMesh& mesh, std::span<const Triangle> kept,
+                     std::span<const std::uint32_t> keptTriangle, const DiagnosisOptions& options,
+                     MeshDiagnosis& result);
+
+/// Whether three points are on one line. Exact.
+bool areCollinear(const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// A vertex inside an edge.
+struct TJunction {
+  std::uint32_t vertex, low, high;
+  auto operator<=>(const TJunction&) const = default;
+};
+/// The vertices that lie within a distance of an edge and farther than it from its ends.
+/// @return in increasing order. O(n log n) but where many boxes overlap.
+std::vector<TJunction> findTJunctions(std::span<const Vec3> positions,
+                                      std::span<const std::array<std::uint32_t, 2>> edges,
+                                      std::span<const std::uint32_t> vertices, double distance);
+
+/// The pairs of triangles that meet elsewhere than in the vertices and the edge they share; degenerate
+/// triangles are left out.
+/// @return pairs first < second, in increasing order. Missing: interrupted.
+std::optional<std::vector<std::pair<std::uint32_t, std::uint32_t>>> findSelfIntersections(
+    const TriangleMesh& mesh, const RunContext& context);
+
+}  // namespace arete::diagnosis
