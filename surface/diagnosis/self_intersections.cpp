@@ -13,7 +13,6 @@
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>
-#include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 
@@ -95,19 +94,17 @@ std::optional<std::vector<Pair>> findSelfIntersections(const TriangleMesh& mesh,
   for (const Box& box : boxes) pointers.push_back(&box);
 
   const Meeting meet(mesh);
-  tbb::enumerable_thread_specific<std::vector<Pair>> found;
+  std::vector<Pair> pairs;
   const auto visit = [&](const Box* a, const Box* b) {
     if (context.cancelled()) throw Interrupted();
     const std::uint32_t first = std::min(a->info(), b->info()), second = std::max(a->info(), b->info());
-    if (meet(first, second)) found.local().push_back({first, second});
+    if (meet(first, second)) pairs.push_back({first, second});
   };
   try {
-    CGAL::box_self_intersection_d<CGAL::Parallel_tag>(pointers.begin(), pointers.end(), visit);
+    CGAL::box_self_intersection_d(pointers.begin(), pointers.end(), visit);
   } catch (const Interrupted&) {
     return std::nullopt;
   }
-  std::vector<Pair> pairs;
-  for (const std::vector<Pair>& of : found) pairs.insert(pairs.end(), of.begin(), of.end());
   std::ranges::sort(pairs);
   return pairs;
 }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "surface/repair/repair.h"
+
+// The passes of repair(). Each works on the draft, keeps what it says of its source, and counts what it
+// mends.
+namespace arete::repair_passes {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// A mesh in repair.
+struct Draft {
+  TriangleMesh mesh;
+  std::vector<std::uint32_t> vertexOf, triangleOf;  ///< as in RepairedMesh
+  RepairCounts counts;
+
+  explicit Draft(const TriangleMesh& source);
+
+  /// A copy of a vertex. Returns its number.
+  std::uint32_t copyVertex(std::uint32_t vertex);
+  /// Leaves out the triangles for which isGone[t] is not 0; the others keep their order.
+  void removeTriangles(const std::vector<std::uint8_t>& isGone);
+  /// Leaves out the vertices that no triangle uses.
+  void removeUnusedVertices();
+};
+
+void removeDuplicates(Draft& draft);
+void removeDegenerate(Draft& draft);
+/// @param distance within which a vertex is inside an edge.
+/// @return whether any edge was split.
+bool splitAtTJunctions(Draft& draft, double distance);
+void splitSheets(Draft& draft);
+void orient(Draft& draft);
+void splitFans(Draft& draft);
+void fillHoles(Draft& draft, std::uint32_t mostEdges);
+
+}  // namespace arete::repair_passes

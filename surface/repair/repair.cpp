@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The passes one after the other, and all of them again until none finds anything: what one mends can be what
+// another one waits for, as a border that ends at a sheet which was split. Edges only become shorter and
+// vertices only get copies for fans that there are, so it ends.
+#include "surface/repair/repair.h"
+
+#include <cmath>
+#include <utility>
+
+#include "engine/base/caught_failure.h"
+#include "surface/repair/draft.h"
+
+namespace arete {
+namespace {
+
+double diagonalOf(const TriangleMesh& mesh) {
+  if (mesh.triangles.empty()) return 0;
+  Vec3 low = mesh.positions[mesh.triangles[0][0]], high = low;
+  for (const auto& t : mesh.triangles)
+    for (const std::uint32_t v : t) {
+      const Vec3& p = mesh.positions[v];
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+  return std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
+}
+
+}  // namespace
+
+Result<RepairedMesh> repair(const TriangleMesh& mesh, const RepairOptions& options,
+                            const RunContext& context) try {
+  if (const Status valid = mesh.validate(); !valid) return tl::unexpected(valid.error());
+  repair_passes::Draft draft(mesh);
+  const double distance = options.tJunctionTolerance * diagonalOf(mesh);
+  context.report("repair", 0);
+  for (RepairCounts before = {.unusedVertices = 1}; before != draft.counts;) {
+    before = draft.counts;
+    if (context.cancelled()) return failure(ErrorCode::interrupted, "the repair was interrupted");
+    do {
+      repair_passes::removeDuplicates(draft);
+      repair_passes::removeDegenerate(draft);
+    } while (repair_passes::splitAtTJunctions(draft, distance));
+    repair_passes::orient(draft);
+    if (options.splitsSheets) repair_passes::splitSheets(draft);
+    repair_passes::splitFans(draft);
+    repair_passes::fillHoles(draft, options.mostHoleEdges);
+  }
+  draft.removeUnusedVertices();
+
+  Result<MeshDiagnosis> diagnosis = diagnose(draft.mesh, {.selfIntersections = false}, context);
+  if (!diagnosis) return tl::unexpected(diagnosis.error());
+  RepairedMesh repaired;
+  repaired.mesh = std::move(draft.mesh);
+  repaired.vertexOf = std::move(draft.vertexOf);
+  repaired.triangleOf = std::move(draft.triangleOf);
+  repaired.counts = draft.counts;
+  repaired.diagnosis = std::move(*diagnosis);
+  context.report("repair", 1);
+  return repaired;
+} catch (...) {
+  return caughtFailure();
+}
+
+}  // namespace arete

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/base/triangle_mesh.h"
+#include "engine/parallel/run_context.h"
+#include "surface/diagnosis/diagnosis.h"
+
+namespace arete {
+
+struct RepairOptions {
+  /// Edges of more than two triangles become several edges, one for each sheet.
+  bool splitsSheets = false;
+  /// Borders of at most so many edges are filled; 0: none. Filling adds triangles, no vertices.
+  std::uint32_t mostHoleEdges = 0;
+  /// How far from a border edge a vertex may lie to be inside it, as a part of the diagonal.
+  double tJunctionTolerance = 1e-9;
+};
+
+/// How often each thing was mended.
+struct RepairCounts {
+  std::uint64_t duplicateTriangles = 0;   ///< left out; the first of each stays
+  std::uint64_t degenerateTriangles = 0;  ///< left out
+  std::uint64_t joinedVertices =
+      0;                         ///< with another one at the same position, to close a degenerate triangle
+  std::uint64_t tJunctions = 0;  ///< edges split at a vertex inside them
+  std::uint64_t splitSheetEdges = 0;  ///< edges of more than two triangles that were split
+  std::uint64_t turnedTriangles = 0;
+  std::uint64_t addedVertices = 0;  ///< copies, one for each further fan of a vertex
+  std::uint64_t filledHoles = 0, fillingTriangles = 0;
+  std::uint64_t unusedVertices = 0;  ///< left out
+  bool operator==(const RepairCounts&) const = default;
+
+  bool isNothing() const { return *this == RepairCounts{}; }
+};
+
+/// A mended mesh, and where its parts come from.
+struct RepairedMesh {
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+
+  TriangleMesh mesh;
+  /// By vertex: the vertex of the source that it is, or is a copy of. Its position is the same to the bit.
+  std::vector<std::uint32_t> vertexOf;
+  /// By triangle: the triangle of the source that it is or is a part of; kNone in a filled hole. A corner
+  /// that is no corner of that triangle lies on one of its sides.
+  std::vector<std::uint32_t> triangleOf;
+  RepairCounts counts;
+  MeshDiagnosis diagnosis;  ///< of the result, without self-intersections
+};
+
+/// Mends a mesh. No vertex moves. In this order: duplicate and degenerate triangles are left out, so that
+/// nothing opens that was closed; border edges with a vertex inside them are split there; edges of more than
+/// two triangles are split if asked for; triangles are turned so that neighbours agree, the fewer in each
+/// part; the further fans of a vertex get copies of it; small holes are filled if asked for. Sheets with two
+/// sides, parts that touch and self-intersections stay as they are. Mending twice changes nothing more.
+///
+/// O(n log n). Errors: as diagnose().
+Result<RepairedMesh> repair(const TriangleMesh& mesh, const RepairOptions& options = {},
+                            const RunContext& context = {});
+
+}  // namespace arete

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The triangle at a border edge becomes a fan around its apex, with the vertices inside the edge in their
+// order. A vertex is left out where the fan would get an edge that has two triangles already, an edge to the
+// apex that exists, or no area.
+#include <algorithm>
+#include <map>
+
+#include "surface/diagnosis/parts.h"
+#include "surface/repair/draft.h"
+#include "surface/repair/neighbourhood.h"
+#include "surface/topology/edges.h"
+
+namespace arete::repair_passes {
+namespace {
+
+/// The vertices inside one side of a triangle, in the order in which the side runs.
+std::vector<std::uint32_t> inOrder(const TriangleMesh& mesh, std::uint32_t from,
+                                   std::vector<std::uint32_t> inside) {
+  const auto distance = [&](std::uint32_t v) { return norm(mesh.positions[v] - mesh.positions[from]); };
+  std::ranges::sort(inside, [&](std::uint32_t a, std::uint32_t b) {
+    const double da = distance(a), db = distance(b);
+    return da != db ? da < db : a < b;
+  });
+  return inside;
+}
+
+}  // namespace
+
+bool splitAtTJunctions(Draft& draft, double distance) {
+  TriangleMesh& mesh = draft.mesh;
+  std::map<CornerId, std::vector<std::uint32_t>> insideOf;  // by border side
+  {
+    const MeshEdges edges(mesh.triangles, mesh.positions.size());
+    std::map<std::array<std::uint32_t, 2>, CornerId> sideOf;
+    std::vector<std::array<std::uint32_t, 2>> borders;
+    std::vector<std::uint32_t> vertices;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const MeshEdges::Edge edge = edges[e];
+      if (!edge.isBorder()) continue;
+      borders.push_back({edge.low.index(), edge.high.index()});
+      sideOf[borders.back()] = edge.sides[0];
+      vertices.insert(vertices.end(), borders.back().begin(), borders.back().end());
+    }
+    std::ranges::sort(vertices);
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    for (const diagnosis::TJunction& t :
+         diagnosis::findTJunctions(mesh.positions, borders, vertices, distance))
+      insideOf[sideOf.at({t.low, t.high})].push_back(t.vertex);
+  }
+  if (insideOf.empty()) return false;
+
+  Neighbourhood neighbours(mesh);
+  bool isAnySplit = false;
+  TriangleId lastSplit;
+  for (const auto& [corner, inside] : insideOf) {
+    // One side of a triangle at a time: the split gives its other sides to other triangles. The next call
+    // finds them.
+    if (triangleOf(corner) == lastSplit) continue;
+    const std::uint32_t t = triangleOf(corner).index(), side = corner.index() % 3;
+    const std::uint32_t from = mesh.triangles[t][side], to = mesh.triangles[t][(side + 1) % 3],
+                        apex = mesh.triangles[t][(side + 2) % 3];
+    if (neighbours.atEdge(from, to).size() != 1) continue;
+    std::uint32_t last = from;
+    for (const std::uint32_t v : inOrder(mesh, from, inside)) {
+      const auto& p = mesh.positions;
+      const bool isFree =
+          v != apex && neighbours.atEdge(last, v).size() < 2 && neighbours.atEdge(v, to).size() < 2 &&
+          neighbours.atEdge(v, apex).empty() && norm(p[v] - p[last]) > distance &&
+          !diagnosis::areCollinear(p[last], p[v], p[apex]) && !diagnosis::areCollinear(p[v], p[to], p[apex]);
+      if (!isFree) continue;
+      // last -> v becomes a triangle of its own, what is left runs from v on.
+      mesh.triangles.push_back({last, v, apex});
+      draft.triangleOf.push_back(draft.triangleOf[t]);
+      neighbours.add(static_cast<std::uint32_t>(mesh.triangles.size() - 1));
+      neighbours.remove(t);
+      mesh.triangles[t] = {v, to, apex};
+      neighbours.add(t);
+      last = v;
+      ++draft.counts.tJunctions;
+      isAnySplit = true;
+      lastSplit = triangleOf(corner);
+    }
+  }
+  return isAnySplit;
+}
+
+}  // namespace arete::repair_passes

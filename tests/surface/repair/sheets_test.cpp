@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "surface/repair/repair.h"
+#include "surface/shapes.h"
+
+namespace arete {
+namespace {
+
+/// Surfaces of unit cubes at whole places, one vertex for each position.
+TriangleMesh cubes(const std::vector<Vec3>& places) {
+  TriangleMesh mesh;
+  const auto vertex = [&](const Vec3& p) {
+    const auto found = std::ranges::find(mesh.positions, p);
+    if (found == mesh.positions.end()) mesh.positions.push_back(p);
+    return static_cast<std::uint32_t>(std::ranges::find(mesh.positions, p) - mesh.positions.begin());
+  };
+  constexpr std::array<std::array<int, 3>, 12> kFaces = {{{0, 2, 1},
+                                                          {1, 2, 3},
+                                                          {4, 5, 6},
+                                                          {5, 7, 6},
+                                                          {0, 1, 4},
+                                                          {1, 5, 4},
+                                                          {2, 6, 3},
+                                                          {3, 6, 7},
+                                                          {0, 4, 2},
+                                                          {2, 4, 6},
+                                                          {1, 3, 5},
+                                                          {3, 7, 5}}};
+  for (const Vec3& place : places)
+    for (const auto& face : kFaces) {
+      shapes::Triangle t{};
+      for (std::size_t i = 0; i < 3; ++i)
+        t[i] = vertex(place + Vec3{double(face[i] & 1), double(face[i] >> 1 & 1), double(face[i] >> 2)});
+      mesh.triangles.push_back(t);
+    }
+  return mesh;
+}
+
+TEST(Repair, TakesCubesThatShareAnEdgeApartIfAsked) {
+  const TriangleMesh mesh = cubes({{0, 0, 0}, {1, 1, 0}});
+  const auto kept = repair(mesh);
+  ASSERT_TRUE(kept);
+  EXPECT_TRUE(kept->counts.isNothing());
+  EXPECT_EQ(kept->diagnosis.nonManifoldEdges.count, 1u);
+  for (const bool isTurned : {false, true}) {
+    TriangleMesh source = mesh;
+    if (isTurned)
+      for (std::size_t t = 12; t < 24; ++t) std::swap(source.triangles[t][0], source.triangles[t][1]);
+    const auto split = repair(source, {.splitsSheets = true});
+    ASSERT_TRUE(split);
+    EXPECT_EQ(split->counts.splitSheetEdges, 1u);
+    EXPECT_EQ(split->diagnosis.components.size(), 2u);
+    EXPECT_TRUE(split->diagnosis.borders.empty());
+    for (const ComponentDiagnosis& c : split->diagnosis.components) EXPECT_EQ(c.genus, 0);
+  }
+}
+
+TEST(Repair, TakesAChainOfCubesApart) {
+  const TriangleMesh mesh =
+      cubes({{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}, {4, 4, 1}});  // the last touches in a vertex
+  const auto split = repair(mesh, {.splitsSheets = true});
+  ASSERT_TRUE(split);
+  EXPECT_EQ(split->diagnosis.components.size(), 5u);
+  EXPECT_TRUE(split->diagnosis.borders.empty());
+  EXPECT_EQ(split->diagnosis.nonManifoldEdges.count + split->diagnosis.nonManifoldVertices.count, 0u);
+}
+
+TEST(Repair, GivesCubesThatShareAVertexOneEach) {
+  const auto repaired = repair(cubes({{0, 0, 0}, {1, 1, 1}}));
+  ASSERT_TRUE(repaired);
+  EXPECT_EQ(repaired->counts.addedVertices, 1u);
+  EXPECT_EQ(repaired->mesh.positions.size(), 16u);
+  EXPECT_EQ(repaired->diagnosis.nonManifoldVertices.count, 0u);
+  EXPECT_EQ(repaired->vertexOf.back(), 7u) << "the copy knows what it is a copy of";
+}
+
+TEST(Repair, AFinOnASheetGetsABorderIfAsked) {
+  TriangleMesh mesh = shapes::sheet(4, 4);
+  mesh.positions.push_back({2, 2, 3});
+  mesh.triangles.push_back({12, 13, 25});
+  const auto split = repair(mesh, {.splitsSheets = true});
+  ASSERT_TRUE(split);
+  EXPECT_EQ(split->diagnosis.nonManifoldEdges.count, 0u);
+  EXPECT_EQ(split->diagnosis.components.size(), 2u);
+  EXPECT_EQ(split->mesh.triangles.size(), mesh.triangles.size());
+}
+
+}  // namespace
+}  // namespace arete
