@@ -1,9 +1,9 @@
 # What `cmake --install` leaves behind: the program, and Arete as a library.
 #
 #   bin/arete
-#   lib/libarete_{engine,terrain,io}.a      the layers of the library
+#   lib/libarete_{engine,surface,terrain,io}.a the layers of the library
 #   include/arete/<room>/<header>.h         users write #include <arete/engine/cut/cut.h>
-#   lib/cmake/Arete/                        find_package(Arete) gives Arete::engine, Arete::terrain, Arete::io
+#   lib/cmake/Arete/                        find_package(Arete) gives Arete::engine, Arete::surface, Arete::terrain, Arete::io
 #
 # In the source tree headers include each other as "engine/cut/cut.h"; on the way to include/arete that becomes
 # "arete/engine/cut/cut.h" (install_headers.cmake), so that no folder named engine or io gets into anybody's include path.

@@ -178,7 +178,7 @@ SignedBound RasterError::alongUnsureEdge(const Corner& a, const Corner& b) const
   const double dz = b.z - a.z;
   const auto start = std::int64_t(a.y) * plan_.columns() + a.x;
   const auto at = [&](std::int32_t offset) {
-    return position(corner(static_cast<std::uint32_t>(start + offset)));
+    return position(corner(VertexId(static_cast<std::uint32_t>(start + offset))));
   };
   Crossings<false> crossings(crossingRounding_);
   for (const EdgeCrossingTable::Crossing& crossing : edgeCrossings_.of(b.x - a.x, b.y - a.y)) {

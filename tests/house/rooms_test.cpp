@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kRoot = ARETE_SOURCE_FOLDER;
-const std::vector<std::string> kLayers = {"engine", "terrain", "io", "viewer", "cli"};
+const std::vector<std::string> kLayers = {"engine", "surface", "terrain", "io", "viewer", "cli"};
 
 Rooms declaredRooms() {
   return readRooms(ARETE_ROOMS);
@@ -49,6 +49,15 @@ TEST(Rooms, IncludeNoLayerAboveTheirOwn) {
   for (const auto& [room, declared] : declaredRooms())
     for (const std::string& other : declared)
       EXPECT_LE(rank(other), rank(room)) << room << " declares " << other;
+}
+
+// The two stand beside each other over engine/.
+TEST(Rooms, OfTerrainAndSurfaceDoNotIncludeEachOther) {
+  for (const auto& [room, declared] : declaredRooms())
+    for (const std::string& other : declared) {
+      const std::set<std::string> layers = {layerOf(room), layerOf(other)};
+      EXPECT_FALSE(layers.contains("terrain") && layers.contains("surface")) << room << " declares " << other;
+    }
 }
 
 TEST(Rooms, HoldEverySourceFileOfTheirLayer) {

@@ -125,7 +125,8 @@ Prose wholeText(const std::string& text) {
 /// "line: match", for each match of a pattern.
 std::vector<std::string> matchesIn(const Prose& prose, const std::regex& pattern) {
   std::vector<std::string> found;
-  for (std::sregex_iterator match(prose.text.begin(), prose.text.end(), pattern), end; match != end; ++match) {
+  for (std::sregex_iterator match(prose.text.begin(), prose.text.end(), pattern), end; match != end;
+       ++match) {
     if (match->size() > 1 && (*match)[1].matched && match->str().ends_with("none")) continue;
     found.push_back(
         fmt::format("{}: {}", prose.lines[static_cast<std::size_t>(match->position(0))], match->str()));
@@ -139,10 +140,12 @@ const std::regex& optionPattern() {
   return pattern;
 }
 
-/// Words that make data think. "is none of" and "there is none" are plain English: the latter is the first group.
+/// Words that make data think. "is none of" and "there is none" are plain English: the latter is the first
+/// group.
 const std::regex& wordPattern() {
   static const std::regex pattern(
-      "\\b(there\\s+)?(nobody|whoever|foresees?|wishes|(is|are)\\s+told|asks\\s+for|shall|is\\s+none(?!\\s+of))\\b",
+      "\\b(there\\s+)?(nobody|whoever|foresees?|wishes|(is|are)\\s+told|asks\\s+for|shall|is\\s+none(?!\\s+"
+      "of))\\b",
       std::regex::icase);
   return pattern;
 }
@@ -191,14 +194,14 @@ std::vector<std::string> optionsNamedIn(const Prose& strings) {
 }
 
 TEST(Words, OfTheLibraryNameNoOptionOfTheCommandLine) {
-  for (const fs::path& file : sourcesOf({"engine", "terrain", "io", "viewer"})) {
+  for (const fs::path& file : sourcesOf({"engine", "surface", "terrain", "io", "viewer"})) {
     for (const std::string& match : optionsNamedIn(Lexer(contentOf(file)).take(Kind::strings)))
       ADD_FAILURE() << nameOf(file) << ":" << match;
   }
 }
 
 TEST(Words, OfSourcesLendDataNoMind) {
-  for (const fs::path& file : sourcesOf({"engine", "terrain", "io", "viewer", "cli"})) {
+  for (const fs::path& file : sourcesOf({"engine", "surface", "terrain", "io", "viewer", "cli"})) {
     for (const Kind kind : {Kind::comments, Kind::strings})
       for (const std::string& match : matchesIn(Lexer(contentOf(file)).take(kind), wordPattern()))
         ADD_FAILURE() << nameOf(file) << ":" << match;
