@@ -32,6 +32,15 @@ bool isErrorAbove(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p, do
   return CGAL::abs(difference.numerator) > Exact(bound) * difference.denominator;
 }
 
+bool isErrorAboveOnLine(const Vec3& a, const Vec3& b, const Vec3& p, double bound) {
+  // By the coordinate that differs: any does, as p is on the line.
+  const bool isAlongX = a.x != b.x;
+  const Exact start(isAlongX ? a.x : a.y), whole = Exact(isAlongX ? b.x : b.y) - start,
+                                           part = Exact(isAlongX ? p.x : p.y) - start;
+  const Exact difference = (Exact(a.z) - Exact(p.z)) * whole + (Exact(b.z) - Exact(a.z)) * part;
+  return CGAL::abs(difference) > Exact(bound) * CGAL::abs(whole);
+}
+
 int signAt(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
   return static_cast<int>(CGAL::sign(differenceAt(a, b, c, p).numerator));
 }

@@ -18,9 +18,13 @@ namespace arete {
 /// The exact vertical error of triangles over scattered points. Every triangle slot of the live mesh has a
 /// conflict list [ClarksonShor1989] of the removed points that it covers. A removal distributes the points of
 /// its star among the triangles of the floor by exact predicates; a point on an edge goes to one of the two
-/// sides, whose planes agree there. A point has the number of its vertex.
+/// sides, whose planes agree there; alongEdge() finds it for the other side. A point has the number of
+/// its vertex.
 class PointError {
  public:
+  /// See RasterError: points on an edge are with one of its triangles.
+  static constexpr bool kCoversEdges = false;
+
   /// Refers to `plan` and `points`; copies the vertex rings of `finest`, which alongEdge() walks. O(points).
   /// @param points  those of the plan, with their heights
   /// @param finest  the finest triangulation of the points
@@ -74,7 +78,11 @@ class PointError {
     Vec3 apexPosition() const { return errors_.position(apex_); }
     /// |z - plane| at the apex. Precondition: the triangle covers the apex.
     double apexError(int i, int j, int m) const;
-    SignedBound alongEdge(int i, int j) const { return errors_.alongEdge(star_.link[i], star_.link[j]); }
+    EdgeDifference alongEdge(int i, int j) const { return errors_.alongEdge(star_.link[i], star_.link[j]); }
+    /// Whether the error at a point on the edge exceeds `bound`, exactly.
+    bool isAboveOnEdge(int i, int j, double bound) const {
+      return errors_.isAboveOnEdge(star_.link[i], star_.link[j], bound);
+    }
     /// See RasterError. Always true: the domain of points is their convex hull.
     bool isUnconstrained() const { return true; }
     /// Distributes the star's points and the apex among the triangles of the floor that replaces the star.
@@ -95,9 +103,13 @@ class PointError {
 
   /// Bounds of the signed difference between the segment a-b and the finest triangulation at the points where
   /// the segment crosses its edges. Walks through the triangles that the segment meets: O(their number).
-  SignedBound alongEdge(VertexId a, VertexId b) const;
+  EdgeDifference alongEdge(VertexId a, VertexId b) const;
+  bool isAboveOnEdge(VertexId a, VertexId b, double bound) const;
 
  private:
+  /// @param visit  called with every point on the segment, but for its ends
+  template <class Visit>
+  EdgeDifference alongEdge(VertexId a, VertexId b, const Visit& visit) const;
   bool covers(VertexId a, VertexId b, VertexId c, VertexId p) const;
   struct Difference {
     double value;     ///< z of the plane minus z of the point

@@ -11,17 +11,21 @@
 // number, and its difference at a crossing lies between those of the two ends of the crossed edge. The bound
 // includes the rounding errors: digits are lost where an end lies far from the segment; and where both ends
 // are so near to the segment that their sides are all rounding, the crossing may be anywhere between them.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
 
+#include "terrain/error/exact_error.h"
 #include "terrain/error/point_error.h"
 
 namespace arete {
 
-SignedBound PointError::alongEdge(VertexId a, VertexId b) const {
-  SignedBound bound;
+template <class Visit>
+EdgeDifference PointError::alongEdge(VertexId a, VertexId b, const Visit& visit) const {
+  EdgeDifference found;
+  SignedBound& bound = found.bound;
   const Vec3 pa = position(a), pb = position(b);
   const double dx = pb.x - pa.x, dy = pb.y - pa.y, climb = pb.z - pa.z, squared = dx * dx + dy * dy;
   // Where the squared length underflows, any height between those of the ends is possible at every point.
@@ -60,10 +64,14 @@ SignedBound PointError::alongEdge(VertexId a, VertexId b) const {
   const auto include = [&](double difference, double lost) {
     bound.include({lost - difference, lost + difference});
   };
-  // A point on the segment is in the conflict list of one of the two triangles at the edge only; the bound of
-  // the other one includes it here.
+  // A point on the segment is in the conflict list of one of the two triangles at the edge only; the other
+  // one gets it here.
   const auto pass = [&](const End& end) {
-    if (end.vertex != b) include(end.difference, end.lost);
+    if (end.vertex == b) return;
+    include(end.difference, end.lost);
+    found.error = std::max(found.error, std::abs(end.difference));
+    found.rounding = std::max(found.rounding, end.lost + 0x1p-52 * std::abs(end.difference));
+    visit(end.vertex);
   };
   const auto cross = [&](const End& u, const End& w) {
     const double su = std::abs(u.side), sw = std::abs(w.side), sides = su + sw,
@@ -97,7 +105,7 @@ SignedBound PointError::alongEdge(VertexId a, VertexId b) const {
       at = onward;
       continue;
     }
-    if (!isEntered) return bound;  // along the hull, within rounding: no edge is crossed
+    if (!isEntered) return found;  // along the hull, within rounding: no edge is crossed
 
     // From edge to edge around the end that both share, the pivot: the right end or the left.
     std::size_t pivot = 0;
@@ -105,7 +113,7 @@ SignedBound PointError::alongEdge(VertexId a, VertexId b) const {
     for (;;) {
       cross(ends[0], ends[1]);
       const VertexId beyond = pivot == 0 ? place.previous() : place.next();
-      if (!beyond.isValid()) return bound;
+      if (!beyond.isValid()) return found;
       const End apex = endAt(beyond);
       if (apex.sign == 0) {
         at = beyond;
@@ -119,7 +127,19 @@ SignedBound PointError::alongEdge(VertexId a, VertexId b) const {
       place = RingPlace(finest_, ends[pivot].vertex, beyond);
     }
   }
-  return bound;
+  return found;
+}
+
+bool PointError::isAboveOnEdge(VertexId a, VertexId b, double bound) const {
+  bool isAbove = false;
+  alongEdge(a, b, [&](VertexId p) {
+    isAbove = isAbove || isErrorAboveOnLine(position(a), position(b), position(p), bound);
+  });
+  return isAbove;
+}
+
+EdgeDifference PointError::alongEdge(VertexId a, VertexId b) const {
+  return alongEdge(a, b, [](VertexId) {});
 }
 
 }  // namespace arete

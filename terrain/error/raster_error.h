@@ -26,6 +26,8 @@ class TriangleRows;
 /// data are skipped. Thread-safe: all queries are const.
 class RasterError {
  public:
+  /// Whether maximum() includes the samples on a triangle's edges.
+  static constexpr bool kCoversEdges = true;
   /// A sample: its column, row and height.
   struct Corner {
     std::int32_t x, y;
@@ -115,7 +117,9 @@ class RasterError {
     bool isAbove(int i, int j, int m, double error, double rounding, double bound) const {
       return errors_.isAbove(corners_[i], corners_[j], corners_[m], error, rounding, bound);
     }
-    SignedBound alongEdge(int i, int j) const { return errors_.alongEdge(corners_[i], corners_[j]); }
+    /// Samples on an edge are covered by both triangles: no error is left for the edge.
+    EdgeDifference alongEdge(int i, int j) const { return {errors_.alongEdge(corners_[i], corners_[j])}; }
+    bool isAboveOnEdge(int, int, double) const { return false; }
     /// See PointError::Hole::settle(): a raster has nothing to redistribute.
     void settle(const HoleTriangulation&) const {}
 

@@ -21,4 +21,12 @@ struct SignedBound {
   }
 };
 
+/// The differences along an edge: the bound, and the largest of samples on the edge that only one of the
+/// triangles beside it covers by itself.
+struct EdgeDifference {
+  SignedBound bound;
+  double error = 0;     ///< |difference| at these samples
+  double rounding = 0;  ///< bounds its rounding error
+};
+
 }  // namespace arete

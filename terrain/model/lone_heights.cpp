@@ -20,15 +20,15 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kBins = 1024, kLongRun = kBins / 5, kSamplesAtOnce = 1 << 16;
-constexpr double kFar = 2, kFarIfUsual = 0.5, kRemote = 1000;
-constexpr std::uint64_t kFewSamples = 64, kRare = 1000;  // one of so many
+constexpr double kFar = 2, kFarIfSingle = 10, kFarIfUsual = 0.5, kRemote = 1000, kHuge = 1e19;
+constexpr std::uint64_t kFewSamples = 64, kManySamples = 4096, kRare = 1000;  // one of so many
 constexpr int kMostRounds = 8;
 
 /// Raw values that producers of DEMs use for missing data.
 bool isUsualMark(double raw) {
   constexpr std::array kMarks = {-9999.0, 9999.0,  -99999.0, 99999.0, -999999.0,    -32768.0,     -32767.0,
                                  32767.0, 65535.0, -999.0,   -9998.0, 2147483647.0, -2147483648.0};
-  return std::ranges::find(kMarks, raw) != kMarks.end() || std::abs(raw) >= 1e19;
+  return std::ranges::find(kMarks, raw) != kMarks.end();
 }
 
 struct Range {
@@ -124,18 +124,24 @@ struct Search {
   double scale, offset;
   std::uint64_t samples = 0;
 
-  bool isAlone(const Part& part, const Part& terrain) const {
-    const bool isUsual = part.isListed() && std::ranges::all_of(part.values, [&](const auto& value) {
-                           return isUsualMark(std::nearbyint((value.height - offset) / scale * 1e6) / 1e6);
-                         });
+  /// @param next  the part beside it on the side of the terrain
+  bool isAlone(const Part& part, const Part& next, const Part& terrain) const {
+    const Range& rest = terrain.range;
+    const bool isUsual =
+        part.isListed() && std::ranges::all_of(part.values, [&](const auto& value) {
+          const double raw = std::nearbyint((value.height - offset) / scale * 1e6) / 1e6;
+          return isUsualMark(raw) ||
+                 (std::abs(raw) >= kHuge && std::max(-rest.low, rest.high) < kHuge && rest.half() > 0);
+        });
     if (!part.isListed() && part.count > std::max<std::uint64_t>(8, samples / kRare)) return false;
     if (part.count * 2 > samples && !isUsual) return false;
-    const Range& rest = terrain.range;
-    const double gap =
-        part.range.low > rest.high ? part.range.low / 2 - rest.high / 2 : rest.low / 2 - part.range.high / 2;
+    const double gap = part.range.low > next.range.high ? part.range.low / 2 - next.range.high / 2
+                                                        : next.range.low / 2 - part.range.high / 2;
     if (isUsual && gap > kFarIfUsual * rest.half()) return true;
     if (rest.half() == 0) return 2 * gap > kRemote * std::max(1.0, std::abs(rest.low));
-    return gap > (samples < kFewSamples ? kRemote : kFar) * rest.half();
+    const bool isSparse = samples < kFewSamples || terrain.isListed();
+    const bool isSingle = part.count < 8 && samples < kManySamples;  // a peak may stand out by chance
+    return gap > (isSparse ? kRemote : isSingle ? kFarIfSingle : kFar) * rest.half();
   }
 
   /// Takes lone heights out of the range of the others; false where none are found.
@@ -168,8 +174,8 @@ struct Search {
         parts, {}, [](const Part& part) { return std::pair(part.range.half() > 0, part.count); });
     // What stands alone lies below or above all others, not between them.
     auto first = parts.begin(), last = parts.end() - 1;
-    for (; first != terrain && isAlone(*first, *terrain); ++first) lone.take(*first);
-    for (; last != terrain && isAlone(*last, *terrain); --last) lone.take(*last);
+    for (; first != terrain && isAlone(*first, *(first + 1), *terrain); ++first) lone.take(*first);
+    for (; last != terrain && isAlone(*last, *(last - 1), *terrain); --last) lone.take(*last);
     const bool isFound = first != parts.begin() || last != parts.end() - 1;
     others = {first->range.low, last->range.high};
     return isFound;

@@ -78,16 +78,21 @@ class VertexRemover {
                     MeasuredFloor& floor) {
     for (int d = 0; d < joins.diagonalCount; ++d) {
       const FloorJoins::Diagonal& diagonal = joins.diagonals[d];
-      const SignedBound bound = hole.alongEdge(diagonal.from, diagonal.to);
-      floor.bounds[diagonal.forth.triangle].include(bound);
-      floor.bounds[diagonal.back.triangle].include(bound);
+      const EdgeDifference edge = hole.alongEdge(diagonal.from, diagonal.to);
+      for (const int f : {int(diagonal.forth.triangle), int(diagonal.back.triangle)}) {
+        floor.bounds[f].include(edge.bound);
+        if constexpr (Errors::kCoversEdges) continue;
+        floor.errors[f] = std::max(floor.errors[f], edge.error);
+        floor.roundings[f] = std::max(floor.roundings[f], edge.rounding);
+      }
     }
     const OutwardScale& scale = s_.recorder.scale();
     const auto encode = [&](double bound) { return scale.encode(outward(bound)); };
     for (int f = 0; f < floor.triangulation.size; ++f)
       codes_[f] = {errorCode(hole, floor, f), encode(floor.bounds[f].below), encode(floor.bounds[f].above)};
-    // The bounds of the star's triangles hold for their edges too. So a rim edge is scanned only if the
-    // bounds of its former triangle exceed those of the floor's triangle, which is rare.
+    // What is stored with the star's triangles holds for their edges too. So a rim edge is scanned only if
+    // the bounds of its former triangle exceed those of the floor's triangle, which is rare, or the error of
+    // points.
     const int corners = star.linkSize;
     std::array<std::uint8_t, kMaxHoleCorners> scanned;
     int count = 0;
@@ -95,15 +100,21 @@ class VertexRemover {
       const FloorCodes own = codes_[joins.rim[i].triangle],
                        beside = s_.recorder.codes(s_.mesh.triangles[star.slot(i)].recorderId);
       scanned[count] = static_cast<std::uint8_t>(i);
-      count += (beside.below > own.below) | (beside.above > own.above);
+      count += (beside.below > own.below) | (beside.above > own.above) |
+               (!Errors::kCoversEdges & (beside.error > own.error));
     }
     if (star.isOpen) scanned[count++] = static_cast<std::uint8_t>(corners - 1);
     for (int k = 0; k < count; ++k) {
       const int i = scanned[k];
       FloorCodes& own = codes_[joins.rim[i].triangle];
-      const SignedBound bound = hole.alongEdge(i, i + 1 < corners ? i + 1 : 0);
-      const std::uint16_t below = encode(bound.below), above = encode(bound.above);
+      const int next = i + 1 < corners ? i + 1 : 0;
+      const EdgeDifference edge = hole.alongEdge(i, next);
+      const std::uint16_t below = encode(edge.bound.below), above = encode(edge.bound.above);
       own = {own.error, std::max(own.below, below), std::max(own.above, above)};
+      if constexpr (!Errors::kCoversEdges)
+        own.error = std::max(own.error, leastCode(edge.error, edge.rounding, [&](double bound) {
+                               return hole.isAboveOnEdge(i, next, bound);
+                             }));
     }
   }
 
@@ -147,28 +158,35 @@ class VertexRemover {
   /// A bound enlarged by the rounding of the scan, as it must hold exactly. 0 stays 0. (A multiplication
   /// instead of a branch: zeros are not predictable.)
   double outward(double x) const { return (x * (1 + 1e-9) + s_.boundSlack) * (x == 0 ? 0 : 1); }
-  /// The least code whose magnitude is at least the exact error of triangle f. Where codes lie within the
-  /// rounding error of the computed one, exact arithmetic decides: with integer heights errors of exactly 1
-  /// are common, and a tolerance of 1 must admit them.
-  OutwardScale::Code errorCode(const typename Errors::Hole& hole, const MeasuredFloor& floor, int f) const {
+  /// The least code whose magnitude is at least an exact error. Where codes lie within the rounding error of
+  /// the computed one, exact arithmetic decides: with integer heights errors of exactly 1 are common, and a
+  /// tolerance of 1 must admit them.
+  /// @param isAbove  whether the exact error exceeds a bound
+  template <class IsAbove>
+  OutwardScale::Code leastCode(double error, double rounding, const IsAbove& isAbove) const {
     const OutwardScale& scale = s_.recorder.scale();
-    const double error = floor.errors[f], rounding = floor.roundings[f];
     OutwardScale::Code low = scale.encode(std::max(0.0, error - rounding));
     if (scale.decode(low) >= error + rounding) [[likely]]
       return low;
-    const auto [i, j, m] = floor.triangulation.triangles[f];
-    if (!hole.isAbove(i, j, m, error, rounding, scale.decode(low))) return low;
+    if (!isAbove(scale.decode(low))) return low;
     // No error exceeds the range of the heights, however much the arithmetic may have lost.
     OutwardScale::Code high =
         scale.encode(std::min(error + rounding, static_cast<double>(scale.decode(OutwardScale::kMaxCode))));
     while (low < high) {
       const auto middle = static_cast<OutwardScale::Code>((low + high) / 2);
-      if (hole.isAbove(i, j, m, error, rounding, scale.decode(middle)))
+      if (isAbove(scale.decode(middle)))
         low = static_cast<OutwardScale::Code>(middle + 1);
       else
         high = middle;
     }
     return low;
+  }
+  /// The code of the error of triangle f.
+  OutwardScale::Code errorCode(const typename Errors::Hole& hole, const MeasuredFloor& floor, int f) const {
+    return leastCode(floor.errors[f], floor.roundings[f], [&](double bound) {
+      const auto [i, j, m] = floor.triangulation.triangles[f];
+      return hole.isAbove(i, j, m, floor.errors[f], floor.roundings[f], bound);
+    });
   }
 
   SimplifyState<Plan, Errors>& s_;

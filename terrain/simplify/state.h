@@ -30,7 +30,9 @@ namespace arete {
 ///                                                and a bound of the result's rounding error
 ///   hole.isAbove(i, j, m, error, rounding, x)    whether the exact error exceeds x
 ///   hole.position(i), hole.apexPosition()        corner and apex, plan coordinates and height
-///   hole.alongEdge(i, j)                         signed difference along an edge
+///   hole.alongEdge(i, j)                         differences along an edge
+///   hole.isAboveOnEdge(i, j, x)                  whether the exact error at a sample on the edge, if
+///                                                maximum() does not include it, exceeds x
 ///   hole.settle(floor)                           after a refill: assigns samples to the new triangles
 template <class Plan, class Errors>
 struct SimplifyState {

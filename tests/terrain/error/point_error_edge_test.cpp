@@ -80,7 +80,7 @@ void expectBoundsAlongEdges(const PointHeightfield& field, const std::string& na
     for (const std::uint32_t steps : {1u, 2u, 7u, 31u}) {
       const VertexId b((a.index() + steps) % count);
       if (a == b || !ground.mesh.isInTriangle(a) || !ground.mesh.isInTriangle(b)) continue;
-      const SignedBound bound = errors.alongEdge(a, b);
+      const SignedBound bound = errors.alongEdge(a, b).bound;
       const ExactBound exact = exactAlong(ground, plan, a, b);
       ASSERT_LE(exact.above, Exact(bound.above + slack)) << name << ": " << a.index() << " to " << b.index();
       ASSERT_LE(exact.below, Exact(bound.below + slack)) << name << ": " << a.index() << " to " << b.index();
