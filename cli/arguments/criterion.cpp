@@ -75,8 +75,10 @@ void CriterionArguments::addTo(CLI::App& command) {
           ->excludes(region);
   CLI::Option* growth =
       command
-          .add_option("--error-growth", growth_,
-                      "Growth of the error per metre from the focus (without a CRS: per unit)")
+          .add_option(
+              "--error-growth", growth_,
+              "Growth of the error per metre from the focus, by the scale of the map in the middle of "
+              "the DEM (without a CRS: per unit)")
           ->check(finiteAtLeast(0))
           ->needs(focus)
           ->type_name("G")

@@ -20,12 +20,14 @@
 #include "cli/commands/check_command.h"
 #include "cli/session/model_file.h"
 #include "io/crs/longitude_turns.h"
+#include "io/crs/map_scale.h"
 #include "io/dem/raster_writer.h"
 #include "io/exchange/mesh_formats.h"
 #include "io/extract/part.h"
 #include "io/extract/region_argument.h"
 #include "io/extract/report_json.h"
 #include "io/extract/tin.h"
+#include "terrain/model/plan_box.h"
 #include "terrain/model/plan_region.h"
 
 namespace arete {
@@ -234,6 +236,23 @@ Result<TerrainModel> outlineForPlaces(const AmtFile& file, const CriterionArgume
   return file.read({.wanted = wanted.within(0)}, session.context());
 }
 
+/// Warns where metres are asked for of a model that was built before the scale of its map was stored.
+void warnOfMapMetres(const std::vector<ExtractRequest>& requests, const TerrainModel& outline,
+                     const Session& session) {
+  Georeference known = outline.georeference;
+  const Box2 box = planBox(outline);
+  if (known.mapScale) return;
+  stateMapScale(known, outline.toSource({(box.xMin + box.xMax) / 2, (box.yMin + box.yMax) / 2}));
+  const bool wantsMetres = std::ranges::any_of(requests, [](const ExtractRequest& request) {
+    return request.criterion.focus || request.criterion.camera || request.output.ends_with(".glb");
+  });
+  if (known.mapScale && wantsMetres)
+    session.warn(fmt::format(
+        "the model was built without the scale of its map, {:.3g} and {:.3g}: metres are those of "
+        "the map, not of the ground; build it again",
+        (*known.mapScale)[0], (*known.mapScale)[1]));
+}
+
 Status runExtract(const ExtractArguments& arguments, Session& session) {
   if (Status ok = arguments.criterion.check(); !ok) return ok;
   const Result<AmtFile> file = openAmt(arguments.model);
@@ -243,6 +262,7 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   auto requests = requestsOf(arguments, *outline, session);
   if (!requests) return tl::unexpected(requests.error());
   if (Status outputs = checkOutputs(*requests, arguments, *outline); !outputs) return outputs;
+  warnOfMapMetres(*requests, *outline, session);
   const auto region = regionOf(arguments, *outline, session);
   if (!region) return tl::unexpected(region.error());
   for (ExtractRequest& request : *requests) request.region = *region;

@@ -16,7 +16,7 @@ void SightArguments::addEarthTo(CLI::App& command) {
       .add_option(
           "--earth", earth,
           "ellipsoid: lines follow geodesics of the CRS's ellipsoid (default where the CRS has one); plane: "
-          "the map without curvature")
+          "the map without curvature, with metres by its scale in the middle of the DEM")
       ->check(oneOf({"ellipsoid", "plane"}))
       ->type_name("ellipsoid|plane")
       ->group(group);

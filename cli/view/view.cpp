@@ -18,6 +18,7 @@
 #include "cli/view/arguments.h"
 #include "cli/view/pictures.h"
 #include "io/amt/file.h"
+#include "io/crs/longitude_turns.h"
 #include "io/extract/camera_argument.h"
 #include "terrain/locate/surface_height.h"
 #include "viewer/camera/flight_json.h"
@@ -65,7 +66,7 @@ Result<std::optional<Flight>> flightOf(const ViewArguments& a, const TerrainMode
   const CameraSpace space(model);
   FlightPlan plan;
   if (!a.viewpoint.path.empty()) {
-    Result<FlightRead> read = readFlight(a.viewpoint.path, model.georeference);
+    Result<FlightRead> read = readFlight(a.viewpoint.path, model.georeference, LongitudeTurns(model));
     if (!read) return tl::unexpected(read.error());
     session.warn(read->warnings, a.viewpoint.path);
     plan = std::move(read->plan);

@@ -13,6 +13,7 @@
 
 #include "engine/base/caught_failure.h"
 #include "io/crs/longitude_turns.h"
+#include "io/crs/map_scale.h"
 #include "io/crs/transform.h"
 #include "io/dem/raster_reader.h"
 #include "terrain/model/plan_box.h"
@@ -73,6 +74,9 @@ Result<SightClutter> readClutter(const std::string& text, const TerrainModel& mo
   }
   auto read = readRaster(text, {}, context);
   if (!read) return tl::unexpected(read.error());
+  stateMapScale(
+      read->heightfield.georeference,
+      read->heightfield.georeference.toSource(read->heightfield.columns / 2.0, read->heightfield.rows / 2.0));
   const Georeference& own = read->heightfield.georeference;
   const Georeference& dem = model.georeference;
   if (own.crsWkt.empty() != dem.crsWkt.empty() || (!own.crsWkt.empty() && own.crsWkt != dem.crsWkt && [&] {

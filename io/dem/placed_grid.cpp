@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "io/crs/longitude_turns.h"
 #include "io/crs/transform.h"
 #include "io/dem/raster_reader.h"
 #include "terrain/sight/paths.h"
@@ -35,6 +36,7 @@ Result<PlacedGrid> readPlacedGrid(const std::string& path, const TerrainModel& m
     if (!transform) return tl::unexpected(transform.error());
     transform->apply(grid.places);
   }
+  LongitudeTurns(model).apply(grid.places);
   bool hasPlace = false;
   for (Vec2& place : grid.places) {
     place = sightPlan(model, place);

@@ -20,6 +20,7 @@
 #include <optional>
 #include <span>
 
+#include "io/crs/longitude_turns.h"
 #include "io/crs/reader.h"
 #include "io/crs/transform.h"
 
@@ -40,6 +41,7 @@ struct Box {
   Box common(const Box& b) const {
     return {std::max(left, b.left), std::min(right, b.right), std::max(low, b.low), std::min(high, b.high)};
   }
+  bool holds(Vec2 p) const { return left <= p.x && p.x <= right && low <= p.y && p.y <= high; }
   Vec2 at(double u, double v) const { return {left + u * (right - left), low + v * (high - low)}; }
 };
 
@@ -50,8 +52,11 @@ std::string textOf(const Box& b) {
 /// Maps pixels of the file to plan positions and back.
 class PictureToPlan {
  public:
-  PictureToPlan(void* transformer, const TerrainModel& model) : transformer_(transformer), model_(model) {}
+  PictureToPlan(void* transformer, const TerrainModel& model)
+      : transformer_(transformer), model_(model), turns_(model) {}
   std::optional<Vec2> toMap(Vec2 pixel) const { return transformed(pixel, false); }
+  /// Where a plan position lies that is whole turns away from the terrain.
+  Vec2 turned(Vec2 plan) const { return model_.toPlan(turns_(model_.toSource(plan))); }
   std::optional<Vec2> toPlan(Vec2 pixel) const {
     const auto map = toMap(pixel);
     return map ? std::optional(model_.toPlan(*map)) : std::nullopt;
@@ -70,6 +75,7 @@ class PictureToPlan {
   }
   void* transformer_;
   const TerrainModel& model_;
+  LongitudeTurns turns_;
 };
 
 Box planBox(const TerrainModel& model) {
@@ -126,7 +132,10 @@ Extents extentsOf(const PictureToPlan& way, const TerrainModel& model, const Box
     extents.pictureOnMap.add(model.toSource(plan));
   };
   overGrid([&](double u, double v) {
-    if (const auto plan = way.toPlan({u * size.x, v * size.y})) add(*plan);
+    if (const auto plan = way.toPlan({u * size.x, v * size.y})) {
+      add(*plan);
+      if (const Vec2 turned = way.turned(*plan); terrain.holds(turned)) add(turned);
+    }
     const Vec2 place = terrain.at(u, v);
     extents.terrainOnMap.add(model.toSource(place));
     if (const auto pixel = way.toPixel(place); pixel && isInside(*pixel, size)) add(place);

@@ -17,6 +17,7 @@
 #include "engine/base/caught_failure.h"
 #include "io/drape/placement.h"
 #include "io/drape/source.h"
+#include "io/drape/turned_picture.h"
 
 namespace arete {
 namespace {
@@ -58,6 +59,19 @@ Result<Range> stretchOf(GDALRasterBand& band, const std::array<double, 4>& windo
   if (!(range.high > range.low)) range = {at(0), at(1)};
   if (!(range.high > range.low)) range = {range.low - 1, range.high + 1};
   return range;
+}
+
+/// GDAL's approximate transformer tests the middle of a row alone, and a deviation to both sides of it would
+/// pass. It is given short pieces of the row, which no map bends to both sides.
+int transformPieces(void* approximation, int isBack, int count, double* x, double* y, double* z,
+                    int* isKnown) {
+  constexpr int kPiece = 64;
+  int isDone = TRUE;
+  for (int begin = 0; begin < count; begin += kPiece)
+    if (!GDALApproxTransform(approximation, isBack, std::min(kPiece, count - begin), x + begin, y + begin,
+                             z + begin, isKnown + begin))
+      isDone = FALSE;
+  return isDone;
 }
 
 /// The image on the grid of the placement, as a virtual raster that owns the transformer.
@@ -114,7 +128,7 @@ GdalDatasetPtr warped(const DrapeSource& source, TransformerPtr transformer, con
   constexpr double kLargestError = 0.125;  // pixels
   if (p.isWarped) {
     w->pTransformerArg = GDALCreateApproxTransformer(GDALGenImgProjTransform, way, kLargestError);
-    w->pfnTransformer = GDALApproxTransform;
+    w->pfnTransformer = transformPieces;
     GDALApproxTransformerOwnsSubtransformer(w->pTransformerArg, TRUE);
   } else {
     w->pTransformerArg = way;
@@ -155,6 +169,7 @@ Result<DrapeReader> DrapeReader::open(const std::string& path, const TerrainMode
   Result<DrapeSource> source = openDrapeSource(path, options.bands, s.warnings);
   if (!source) return named(source.error());
   s.source = std::move(*source);
+  s.source.turned = turnedOnto(s.source.dataset(), model, s.warnings);
   Result<TransformerPtr> way = drapeTransformer(s.source.dataset(), model, s.warnings);
   if (!way) return named(way.error());
   const auto placement =
@@ -175,10 +190,12 @@ Result<DrapeReader> DrapeReader::open(const std::string& path, const TerrainMode
                     "most {} are read",
                     s.placement.coarser, s.placement.columns, s.placement.rows, options.maxPixels));
     way->reset();
+    s.source.turned.reset();
     Result<DrapeSource> smaller = openDrapeOverview(path, std::move(s.source), s.placement.coarser);
     if (!smaller) return named(smaller.error());
     s.source = std::move(*smaller);
     std::vector<std::string> said;
+    s.source.turned = turnedOnto(s.source.dataset(), model, said);
     way = drapeTransformer(s.source.dataset(), model, said);
     if (!way) return named(way.error());
   }

@@ -36,12 +36,13 @@ class DatasetStack {
 /// An opened image with its bands of colours and of transparency.
 struct DrapeSource {
   DatasetStack opened;
+  GdalDatasetPtr turned;     ///< what is opened, whole turns away; null: where it lies itself
   std::vector<int> colors;   ///< one band (grey) or three
   int alpha = 0;             ///< band of transparency; 0: none
   double coarser = 1;        ///< length of a pixel's side, in pixels of the file
   bool isStretched = false;  ///< the values are not 8-bit; their range is mapped to 8 bits
 
-  GDALDataset& dataset() const { return *opened.last(); }
+  GDALDataset& dataset() const { return turned ? *turned : *opened.last(); }
 };
 
 /// Opens an image. A colour table is expanded to colours.

@@ -163,6 +163,32 @@ Chain chainOf(const OGRLineString& line) {
   return chain;
 }
 
+/// Whether an edge leads over more than half a turn, as where a shape that crosses the antimeridian is not
+/// cut there. Edges along whole turns, as those of a box around the Earth, are meant.
+bool hasLongEdge(const OGRSimpleCurve& chain, double turn) {
+  for (int i = 1; i < chain.getNumPoints(); ++i) {
+    const double way = std::abs(chain.getX(i) - chain.getX(i - 1));
+    if (way > turn / 2 && way < turn * (1 - 1e-9)) return true;
+  }
+  return false;
+}
+
+void warnOfLongEdges(const Shapes& shapes, const OGRSpatialReference& source,
+                     std::vector<std::string>& warnings) {
+  Georeference onSource;
+  if (source.IsEmpty() || !source.IsGeographic() || !describeCrs(source, onSource)) return;
+  const double turn = turnOf(onSource);
+  bool isFound = false;
+  for (const OGRPolygon* polygon : shapes.polygons)
+    for (const OGRLinearRing* ring : *polygon) isFound = isFound || hasLongEdge(*ring, turn);
+  for (const OGRLineString* line : shapes.lines) isFound = isFound || hasLongEdge(*line, turn);
+  if (isFound)
+    warnings.emplace_back(
+        "has an edge over more than half a turn of longitudes, which is taken as it is drawn, the long way; "
+        "a shape "
+        "that crosses the antimeridian is cut there, or goes on beyond 180 degrees");
+}
+
 /// The polygons as rings that the even-odd rule understands, before they are reprojected.
 Result<std::vector<Chain>> regionRings(const OGRMultiPolygon& polygons, const OGRSpatialReference& source,
                                        bool isReprojected, std::vector<std::string>& warnings) {
@@ -206,6 +232,7 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
     read.warnings.push_back(fmt::format("the CRS of the {} is not known; coordinates are taken as the DEM's",
                                         source->IsEmpty() ? "region" : "DEM"));
   }
+  warnOfLongEdges(shapes, *source, read.warnings);
   const auto rings = regionRings(shapes.polygons, *source, !reproject.isIdentity(), read.warnings);
   if (!rings) return tl::unexpected(rings.error());
   for (const Chain& ring : *rings) {

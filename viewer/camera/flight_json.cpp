@@ -114,7 +114,8 @@ std::optional<std::string> findFrameProblem(const json& object, Camera& key) {
 
 }  // namespace
 
-Result<FlightRead> readFlightText(std::string_view text, const std::string& name, const Georeference& dem) {
+Result<FlightRead> readFlightText(std::string_view text, const std::string& name, const Georeference& dem,
+                                  const LongitudeTurns& turns) {
   const json object = json::parse(text, nullptr, false);
   if (object.is_discarded())
     return failure(ErrorCode::corrupt, "is not JSON (which knows no NaN), or has a number too large", name);
@@ -149,15 +150,17 @@ Result<FlightRead> readFlightText(std::string_view text, const std::string& name
       return refuse(fmt::format("key frame {}: {}", i + 1, *problem));
     if (heightUnit != dem.verticalUnitMetres) key.height *= heightUnit / dem.verticalUnitMetres;
     warnOfStrangers((*frames)[i], kFrameMembers, fmt::format("key frame {} ", i + 1), read.warnings);
+    key.xy = turns(key.xy);
     read.plan.keys.push_back(key);
   }
   return read;
 }
 
-Result<FlightRead> readFlight(const std::filesystem::path& path, const Georeference& dem) {
+Result<FlightRead> readFlight(const std::filesystem::path& path, const Georeference& dem,
+                              const LongitudeTurns& turns) {
   const auto bytes = FileBytes::read(path);
   if (!bytes) return tl::unexpected(bytes.error());
-  return readFlightText(bytes->view(), path.string(), dem);
+  return readFlightText(bytes->view(), path.string(), dem, turns);
 }
 
 std::string flightText(const FlightPlan& plan, const Georeference& dem) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "io/crs/longitude_turns.h"
 #include "terrain/model/georeference.h"
 #include "viewer/camera/flight.h"
 
@@ -24,10 +25,14 @@ struct FlightRead {
 /// Errors, naming the file and the key frame: those of reading a file; corrupt (no JSON); invalidData (a
 /// number that is missing, no number or not finite; a CRS that is not the DEM's or that it cannot be held
 /// against).
-Result<FlightRead> readFlight(const std::filesystem::path& path, const Georeference& dem);
+///
+/// @param turns Onto the DEM: key frames that are whole turns away are brought there.
+Result<FlightRead> readFlight(const std::filesystem::path& path, const Georeference& dem,
+                              const LongitudeTurns& turns = {});
 
 /// The same of a text; `name` stands for the file in errors.
-Result<FlightRead> readFlightText(std::string_view text, const std::string& name, const Georeference& dem);
+Result<FlightRead> readFlightText(std::string_view text, const std::string& name, const Georeference& dem,
+                                  const LongitudeTurns& turns = {});
 
 /// The text that reads back to the same plan, to the bit. The keys' picture sizes are not kept.
 std::string flightText(const FlightPlan& plan, const Georeference& dem);

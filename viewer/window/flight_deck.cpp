@@ -61,8 +61,9 @@ Status FlightDeck::save(const std::filesystem::path& path, const Georeference& d
   return writeFlight(path, plan_, dem);
 }
 
-Status FlightDeck::load(const std::filesystem::path& path, const Georeference& dem) {
-  Result<FlightRead> read = readFlight(path, dem);
+Status FlightDeck::load(const std::filesystem::path& path, const Georeference& dem,
+                        const LongitudeTurns& turns) {
+  Result<FlightRead> read = readFlight(path, dem, turns);
   if (!read) return tl::unexpected(read.error());
   const Result<Flight> made = Flight::create(read->plan, space_);
   if (!made) return tl::unexpected(made.error());

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/base/result.h"
+#include "io/crs/longitude_turns.h"
 #include "terrain/model/georeference.h"
 #include "viewer/camera/flight.h"
 
@@ -43,7 +44,7 @@ class FlightDeck {
 
   /// Errors: those of flight_json.h; load() replaces the plan if it succeeds.
   Status save(const std::filesystem::path& path, const Georeference& dem) const;
-  Status load(const std::filesystem::path& path, const Georeference& dem);
+  Status load(const std::filesystem::path& path, const Georeference& dem, const LongitudeTurns& turns = {});
 
  private:
   CameraSpace space_;

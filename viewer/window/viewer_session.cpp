@@ -108,7 +108,7 @@ void ViewerSession::apply(Action action) {
       break;
     }
     case Action::loadFlight: {
-      const Status loaded = deck.load(flightPath, model.georeference);
+      const Status loaded = deck.load(flightPath, model.georeference, LongitudeTurns(model));
       say(loaded ? fmt::format("{}: {} key frames", flightPath.string(), deck.plan().keys.size())
                  : loaded.error().describe());
       break;

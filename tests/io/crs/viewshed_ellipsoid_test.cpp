@@ -122,6 +122,35 @@ TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngine) {
   EXPECT_LT(all.rays, all.cells / 2);
 }
 
+TEST(ViewshedEllipsoid, GivesTheAnswersOfAnEngineOnMapsOfTheWorldAndAboutTheirCentres) {
+  // Across the equator and about the centres of azimuthal maps geodesics bend to both sides of their chords.
+  const Map maps[] = {{"EPSG:4326", {-2.5, 0.07, 0, 2.9, 0, -0.07}},
+                      {"EPSG:4326", {179, 0.03, 0, -16, 0, -0.03}},
+                      {"EPSG:4326", {0, 5, 0, 80, 0, -1.9}},
+                      {"EPSG:3035", {4144000, 5000, 0, 3390000, 0, -5000}},
+                      {"EPSG:3413", {-355000, 10000, 0, 420000, 0, -10000}},
+                      {"EPSG:3857", {0, 3000, 0, 130000, 0, -3000}}};
+  constexpr std::uint32_t kSeed = 41;
+  Random random(kSeed);
+  int observers = 0;
+  for (const Map& map : maps)
+    for (const std::size_t family : {std::size_t{1}, std::size_t{3}}) {
+      const Ground terrain(rasterFamilies()[family].make(71, 84, kSeed), georeferenceOf(map));
+      ASSERT_NE(terrain.earth, nullptr) << map.crs;
+      Tally tally;
+      const std::string what = std::string(rasterFamilies()[family].name) + " on " + map.crs;
+      for (const Vec2 plan : {Vec2{3, 80}, placeOn(terrain, random), placeOn(terrain, random)}) {
+        const double ground = terrain.grid->at(plan);
+        ViewshedOptions options;
+        options.targetHeight = 1000;
+        compare(terrain, {plan, (std::isnan(ground) ? 100 : ground) + 1000}, options, 3, what, tally);
+        ++observers;
+      }
+      EXPECT_EQ(tally.wrong, 0u) << what << ", seed " << kSeed;
+    }
+  EXPECT_EQ(observers, 36);
+}
+
 TEST(ViewshedEllipsoid, TheSweepGivesTheAnswersOfAnEngineToObserversAsHighAsSatellites) {
   Random random(13);
   const Tally all = onEveryGround(5, [&](const Ground& terrain, const std::string& what, Tally& tally) {

@@ -393,5 +393,79 @@ TEST(DrapeReader, WhatCannotBeLaidOverTheTerrainIsToldWhy) {
   EXPECT_EQ(stopped.error().code, ErrorCode::interrupted);
 }
 
+TEST(DrapeReader, LiesOnADemThatIsAWholeTurnAway) {
+  const TemporaryFolder folder;
+  struct Case {
+    Transform dem;
+    int demColumns;
+    Transform picture;
+    int columns;
+    bool goesRound;
+  };
+  for (const Case& c : {Case{{179, .05, 0, -16, 0, -.05}, 41, {-180, .5, 0, 90, 0, -.5}, 720, true},
+                        Case{{179, .05, 0, -16, 0, -.05}, 41, {0, .5, 0, 90, 0, -.5}, 720, true},
+                        Case{{0, 10, 0, 80, 0, -5}, 36, {-180, .5, 0, 90, 0, -.5}, 720, true},
+                        Case{{179, .05, 0, -16, 0, -.05}, 41, {-181.5, .1, 0, -15, 0, -.1}, 40, false},
+                        Case{{-181, .05, 0, -16, 0, -.05}, 41, {178, .1, 0, -15, 0, -.1}, 40, false}}) {
+    SCOPED_TRACE(testing::Message() << c.dem[0] << ", " << c.picture[0]);
+    const TerrainModel model = terrainAt(folder, "EPSG:4326", c.dem, c.demColumns);
+    const std::string path = writePicture(
+        folder.file("picture.tif"),
+        {.columns = c.columns, .rows = 360, .transform = c.picture, .crs = "EPSG:4326", .value = anyByte});
+    Result<DrapeReader> reader = DrapeReader::open(path, model);
+    ASSERT_TRUE(reader) << reader.error().describe();
+    EXPECT_TRUE(reader->warnings().empty());
+    const Whole all = readAll(*reader);
+    std::size_t compared = 0;
+    for (std::uint32_t r = 0; r < all.rows; ++r)
+      for (std::uint32_t col = 0; col < all.columns; ++col) {
+        Vec2 xy = placeOf(*reader, model, col, r);
+        const double middle = c.picture[0] + c.picture[1] * c.columns / 2;
+        xy.x -= 360 * std::round((xy.x - middle) / 360);
+        const Vec2 p = inPicture(c.picture, xy);
+        if (p.x < 0 || p.x >= c.columns || p.y < 0 || p.y >= 360) continue;
+        ++compared;
+        for (int b = 0; b < 3; ++b)
+          ASSERT_EQ(all.at(col, r)[std::size_t(b)], anyByte(int(p.x), int(p.y), b)) << xy.x << ", " << xy.y;
+        ASSERT_EQ(all.at(col, r)[3], 255);
+      }
+    // All of the DEM where the picture goes round, from edge to edge.
+    const double across = reader->scale().x * c.demColumns;
+    if (c.goesRound) {
+      EXPECT_GE(all.columns, std::floor(across));
+    }
+    EXPECT_EQ(compared, std::size_t{all.columns} * all.rows);
+  }
+}
+
+TEST(DrapeReader, OfTwoPartsAWholeTurnApartTheLargerIsDrawn) {
+  const TemporaryFolder folder;
+  const TerrainModel model = terrainAt(folder, "EPSG:4326", {-180, 10, 0, 80, 0, -5}, 36);
+  const std::string path = writePicture(folder.file("picture.tif"), {.columns = 100,
+                                                                     .rows = 20,
+                                                                     .transform = {160, .5, 0, 20, 0, -.5},
+                                                                     .crs = "EPSG:4326",
+                                                                     .value = anyByte});
+  Result<DrapeReader> reader = DrapeReader::open(path, model);
+  ASSERT_TRUE(reader) << reader.error().describe();
+  ASSERT_EQ(reader->warnings().size(), 1u);
+  EXPECT_NE(reader->warnings()[0].find("whole turns apart"), std::string::npos) << reader->warnings()[0];
+  EXPECT_LT(placeOf(*reader, model, 0, 0).x, -150) << "30 of its 50 degrees";
+}
+
+TEST(DrapeReader, FromAMapAcrossTheAntimeridianCoversBothSides) {
+  const TemporaryFolder folder;
+  const TerrainModel model = terrainAt(folder, "EPSG:4326", {179, .05, 0, -16, 0, -.05});
+  const PictureSpec spec{.columns = 400,
+                         .rows = 300,
+                         .transform = {-150000 + 820000, 1000, 0, 8300000, 0, -1000},
+                         .crs = "EPSG:32760",
+                         .value = checker};
+  Result<DrapeReader> reader = DrapeReader::open(writePicture(folder.file("picture.tif"), spec), model);
+  ASSERT_TRUE(reader) << reader.error().describe();
+  expectCells(*reader, model, spec, "EPSG:4326");
+  EXPECT_GT(placeOf(*reader, model, reader->columns() - 1, 0).x, 180.9);
+}
+
 }  // namespace
 }  // namespace arete

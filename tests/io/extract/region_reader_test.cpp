@@ -245,6 +245,23 @@ TEST(RegionReader, ReadsATableOfWktWithAStatedCrs) {
   EXPECT_NEAR(read->shape.rings.at(0).at(0).x, 500000, 1e-3) << "on the central meridian";
 }
 
+TEST(RegionReader, WarnsOfAShapeThatIsNotCutAtTheAntimeridian) {
+  const TemporaryFolder folder;
+  const std::string uncut =
+      R"({"type":"Polygon","coordinates":[[[179,0],[-179,0],[-179,1],[179,1],[179,0]]]})";
+  const std::string beyond =
+      R"({"type":"Polygon","coordinates":[[[179,0],[181,0],[181,1],[179,1],[179,0]]]})";
+  const std::string world =
+      R"({"type":"Polygon","coordinates":[[[-180,0],[180,0],[180,1],[-180,1],[-180,0]]]})";
+  for (const auto& [shape, warnings] : {std::pair{uncut, 1u}, {beyond, 0u}, {world, 0u}}) {
+    const RegionRead region = readOrFail(folder.write("r.geojson", geoJson({shape})), "EPSG:4326");
+    ASSERT_EQ(region.warnings.size(), warnings) << shape;
+    if (warnings > 0) {
+      EXPECT_TRUE(contains(region.warnings[0], "half a turn")) << region.warnings[0];
+    }
+  }
+}
+
 TEST(RegionReader, UnitesPolygonsThatOverlapATurnAway) {
   const TemporaryFolder folder;
   const std::string west =

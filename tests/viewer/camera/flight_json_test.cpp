@@ -174,5 +174,21 @@ TEST(FlightJson, WritesAFileWholeAndReadsIt) {
   EXPECT_FALSE(writeFlight("/no/such/folder/flight.json", plan, {}));
 }
 
+TEST(FlightJson, BringsKeyFramesOntoTheDemByWholeTurns) {
+  Georeference dem;
+  dem.isGeographic = true;
+  dem.geoTransform = {179, 0.02, 0, -16, 0, -0.02};
+  const auto frame = [](double x) {
+    return R"({"x": )" + std::to_string(x) + R"(, "y": -16.5, "height": 900, "azimuth": 0, "pitch": 0})";
+  };
+  const std::string text =
+      R"({"speed": 100, "frames": [)" + frame(179.5) + "," + frame(-179.5) + "," + frame(540) + "]}";
+  const auto read = readFlightText(text, "f", dem, LongitudeTurns(dem, 100, 50));
+  ASSERT_TRUE(read) << read.error().describe();
+  EXPECT_EQ(read->plan.keys.at(0).xy.x, 179.5);
+  EXPECT_EQ(read->plan.keys.at(1).xy.x, 180.5);
+  EXPECT_EQ(read->plan.keys.at(2).xy.x, 180);
+}
+
 }  // namespace
 }  // namespace arete
