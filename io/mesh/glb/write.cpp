@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "io/crs/local_origin.h"
+#include "io/crs/map_scale.h"
 #include "io/crs/reader.h"
 #include "io/file/file_writer.h"
 #include "io/gdal/support.h"
@@ -49,8 +50,10 @@ Result<GlbFrame> frameOf(const TriangleMesh& mesh, const MeshWriteOptions& optio
     georeference.verticalUnitMetres =
         metresPerUnit(options.verticalUnit).value_or(georeference.verticalUnitMetres);
   if (options.verticalUnitMetres > 0) georeference.verticalUnitMetres = options.verticalUnitMetres;
+  const Vec3 origin = options.origin.value_or(localOrigin(mesh.positions));
+  stateMapScale(georeference, {origin.x, origin.y});  // of the origin: tiles with one origin fit together
   GlbFrame frame{
-      .local = localFrameSpec(georeference, options.origin.value_or(localOrigin(mesh.positions))),
+      .local = localFrameSpec(georeference, origin),
       .crsWkt = options.crsWkt,
       .verticalUnit = options.verticalUnit.empty() ? georeference.verticalUnit : options.verticalUnit,
       .notes = options.notes};

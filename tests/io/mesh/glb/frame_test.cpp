@@ -47,7 +47,7 @@ TEST(GlbFrames, OfEitherKindComeBackFromJson) {
     if (isGeographic)
       frame.local.middleLongitude = 179.5;
     else
-      frame.local.linearUnitMetres = 1200.0 / 3937;
+      frame.local.linearUnitMetres = 1200.0 / 3937, frame.local.mapScale = {2, 1.0 / 3};
     frame.crsWkt = "PROJCRS[\"a\"]";
     frame.verticalUnit = "ft";
     frame.notes = {"not read"};

@@ -61,6 +61,25 @@ TEST(GlbWrite, TurnsAFootIntoMetres) {
   EXPECT_EQ(jsonOf(bytesOf(folder.file("a.glb")))["accessors"][0]["max"][1], 8);
 }
 
+TEST(GlbWrite, IsInMetresOnTheGroundOfAStretchedMap) {
+  const TemporaryFolder folder;
+  const double y60 =
+      8399737.89;  // 60 degrees north in EPSG:3857, where a metre on the ground is two on the map
+  const TriangleMesh mesh{{{1e6, y60, 10}, {1e6 + 2000, y60, 30}, {1e6, y60 + 2000, 50}}, {{0, 1, 2}}};
+  ASSERT_TRUE(writeMesh(mesh, folder.file("a.glb"), {.crsWkt = "EPSG:3857"}));
+  const Json json = jsonOf(bytesOf(folder.file("a.glb")));
+  const Json& box = json["accessors"][0];
+  EXPECT_NEAR(box["max"][0].get<double>() - box["min"][0].get<double>(), 1000, 6);
+  EXPECT_NEAR(box["max"][2].get<double>() - box["min"][2].get<double>(), 1000, 6);
+  EXPECT_EQ(box["max"][1].get<double>() - box["min"][1].get<double>(), 40) << "heights are metres already";
+  const Result<MeshFile> back = readMesh(folder.file("a.glb"));
+  ASSERT_TRUE(back) << back.error().describe();
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(back->mesh.positions[i].x, mesh.positions[i].x, 2e-4);
+    EXPECT_NEAR(back->mesh.positions[i].y, mesh.positions[i].y, 2e-4);
+  }
+}
+
 TEST(GlbWrite, HoldsAnEmptyMesh) {
   const TemporaryFolder folder;
   ASSERT_TRUE(writeMesh(TriangleMesh{}, folder.file("a.glb"), {.crsWkt = "EPSG:4326"}));
