@@ -93,10 +93,12 @@ Result<bool> describeVertical(const OGRSpatialReference& crs, const VerticalSign
   const bool isDepth = options.isDepth.value_or(!reason.empty() && !signs.isUp);
   if (!options.isDepth && isDepth)
     warnings.push_back(fmt::format(
-        "{}: depths are negated, so that heights count upwards; `isDepth` up takes them as they are", reason));
+        "{}: depths are negated, so that heights count upwards; `isDepth` up takes them as they are",
+        reason));
   else if (!options.isDepth && !reason.empty())
     warnings.push_back(fmt::format(
-        "{}, but its format demands heights: they are taken as they are; `isDepth` down negates them", reason));
+        "{}, but its format demands heights: they are taken as they are; `isDepth` down negates them",
+        reason));
 
   takeUnit(signs.unit, georeference, warnings);
   if (georeference.verticalDatum.empty()) georeference.verticalDatum = signs.datum;

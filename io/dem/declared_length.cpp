@@ -88,9 +88,9 @@ std::optional<std::uint64_t> pcrasterLength(const Head& head) {
   return 256 + number(100, 4) * number(104, 4) * (std::uint64_t(1) << (number(66, 2) & 3));
 }
 
-/// The header counts blocks of 512 bytes.
-std::optional<std::uint64_t> pcidskLength(const Head& head) {
-  if (textOf(head, 0, 8) != "PCIDSK  ") return std::nullopt;
+/// The header counts blocks of 512 bytes. Tiles are counted in advance, before they are written.
+std::optional<std::uint64_t> pcidskLength(const Head& head, bool isTiled) {
+  if (textOf(head, 0, 8) != "PCIDSK  " || (textOf(head, 360, 4) == "FILE") != isTiled) return std::nullopt;
   const auto blocks = numberIn(textOf(head, 16, 16));
   return blocks ? std::optional(*blocks * 512) : std::nullopt;
 }
@@ -254,11 +254,29 @@ Status checkLengthByContent(const std::string& path) {
   if (readHead(path, head) == 0) return {};
   const auto there = lengthOf(path);
   if (!there) return {};
-  for (const auto& wanted : {dtedLength(head), pcrasterLength(head), pcidskLength(head), sqliteLength(head)})
+  for (const auto& wanted :
+       {dtedLength(head), pcrasterLength(head), pcidskLength(head, false), sqliteLength(head)})
     if (wanted) return compare(*wanted, *there, "its header");
-  if (textOf(head, 0, 3) == "CDF")
+  if (textOf(head, 0, 3) == "CDF" && (head[3] == 1 || head[3] == 2 || head[3] == 5)) {
     if (const auto wanted = classicNetcdfLength(path)) return compare(*wanted, *there, "its header");
+    return failure(
+        ErrorCode::unreadable,
+        fmt::format("is cut short or damaged: its header does not end within the {} bytes that are there",
+                    *there));
+  }
   return checkTile(path, *there);
+}
+
+void warnOfLength(const std::string& path, std::vector<std::string>& warnings) {
+  const GdalErrors quiet;
+  Head head;
+  if (readHead(path, head) == 0) return;
+  const auto wanted = pcidskLength(head, true), there = lengthOf(path);
+  if (wanted && there && *wanted > *there)
+    warnings.push_back(fmt::format(
+        "its header counts {} bytes and {} are there: tiles that were not written, or have been cut off, "
+        "are heights of 0",
+        *wanted, *there));
 }
 
 GdalDatasetPtr openRasterForLength(const std::string& path) {

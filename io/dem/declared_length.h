@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/base/result.h"
 #include "io/gdal/support.h"
@@ -22,6 +23,9 @@ std::optional<std::uint64_t> classicNetcdfLength(const std::string& path);
 ///
 /// Errors: unreadable: the file is shorter; the message has both numbers.
 Status checkLengthByContent(const std::string& path);
+
+/// Warns where the length of a file does not say whether it is whole: PCIDSK in tiles.
+void warnOfLength(const std::string& path, std::vector<std::string>& warnings);
 
 /// Opens a raster as openGdal() does, except that GDAL's own check of raw files, whose message has no
 /// numbers, is left to checkDeclaredLength().

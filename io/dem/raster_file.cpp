@@ -6,11 +6,9 @@
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
-#include <cpl_vsi.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -106,56 +104,9 @@ VerticalSigns verticalSignsOf(GDALDataset& dataset, GDALRasterBand& band) {
   return signs;
 }
 
-/// A copy of a file of the network in memory, for GDAL's drivers that read only whole local files.
-class LocalCopy {
- public:
-  LocalCopy() = default;
-  LocalCopy(const LocalCopy&) = delete;
-  LocalCopy& operator=(const LocalCopy&) = delete;
-  ~LocalCopy() {
-    if (!folder_.empty()) VSIRmdirRecursive(folder_.c_str());
-  }
-
-  /// @return The path of the copy. Errors: unreadable.
-  Result<std::string> make(const std::string& path) {
-    static std::atomic<unsigned> number = 0;
-    folder_ = fmt::format("/vsimem/arete-{}", number++);
-    const std::string copy = fmt::format("{}/{}", folder_, CPLGetFilename(path.c_str()));
-    GdalErrors errors;
-    if (VSIMkdir(folder_.c_str(), 0700) != 0 || CPLCopyFile(copy.c_str(), path.c_str()) != 0 ||
-        errors.anyFailure())
-      return failure(ErrorCode::unreadable, fmt::format("cannot be read: {}", errors.firstFailure()));
-    return copy;
-  }
-
- private:
-  std::string folder_;
-};
-
-/// The driver of netCDF waits for pages of a file of the network that never come when the connection is lost.
-Result<std::string> localPathOf(const std::string& path, LocalCopy& copy) {
-  if (!isNetworkPath(path)) return path;
-  const GdalErrors quiet;
-  GDALDriverH driver = GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
-  if (!driver || !EQUAL(GDALGetDriverShortName(driver), "netCDF")) return path;
-  const std::size_t begin = path.find("/vsi");
-  std::size_t end = path.size();
-  std::string variable;
-  if (begin > 0) {  // NETCDF:"file":variable
-    end = path.rfind(':');
-    if (end == path.npos || end <= begin + 8) return path;
-    variable = path.substr(end);
-    if (path[end - 1] == '"') --end;
-  }
-  auto local = copy.make(path.substr(begin, end - begin));
-  if (!local) return local;
-  return begin > 0 ? fmt::format("NETCDF:\"{}\"{}", *local, variable) : *local;
-}
-
 }  // namespace
 
 struct RasterFile::Opened {
-  LocalCopy copy;
   GdalDatasetPtr dataset;
   std::optional<BandReader> reader;
   Georeference georeference;
@@ -184,10 +135,10 @@ Result<RasterFile> RasterFile::open(const std::string& path, const RasterReadOpt
   if (!gdalPath) return blame(gdalPath.error());
   if (Status status = checkLengthByContent(*gdalPath); !status) return blame(status.error());
 
+  warnOfLength(*gdalPath, warnings);
+
   auto opened = std::make_unique<Opened>();
-  const Result<std::string> local = localPathOf(*gdalPath, opened->copy);
-  if (!local) return blame(local.error());
-  opened->dataset = openRasterForLength(*local);
+  opened->dataset = openRasterForLength(*gdalPath);
   if (!opened->dataset) return tl::unexpected(explainOpenFailure(*gdalPath, "raster", errors));
   GDALDataset& dataset = *opened->dataset;
   const auto band = chooseBand(dataset, options, warnings);

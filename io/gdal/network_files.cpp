@@ -5,7 +5,7 @@
 // reading, see io/dem/band_reader.h) and is recorded.
 //
 // A file is known after its first request, which asks for its first piece. Pieces of 256 KiB are kept, the
-// newest 128 of each file; where a read follows the one before, more pieces are requested at once, up to 16.
+// newest 128 of each file; where a read follows the one before, more pieces are requested at once, up to 32.
 #include "io/gdal/network_files.h"
 
 #include <cpl_conv.h>
@@ -16,13 +16,14 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <cstring>
 #include <deque>
-#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -39,8 +40,9 @@ namespace {
 using Bytes = std::vector<unsigned char>;
 
 constexpr std::string_view kPrefix = "/vsicurl/";  // GDAL keeps the pointer
+constexpr std::string_view kCopies = "/vsimem/arete-network-";
 constexpr std::uint64_t kPiece = std::uint64_t(1) << 18;
-constexpr std::uint64_t kMostPieces = 16;
+constexpr std::uint64_t kMostPieces = 32;
 constexpr std::size_t kPiecesKept = 128;
 constexpr const char* kMostBytes = "2147483647";
 constexpr const char* kStallSeconds = "30";
@@ -85,22 +87,55 @@ struct Answer {
   double retryAfter = 0;     ///< seconds
 };
 
-int keepGoing(double, const char*, void*) {
-  return isCancelled() ? FALSE : TRUE;
-}
-
 struct ResultCloser {
   void operator()(CPLHTTPResult* result) const { CPLHTTPDestroyResult(result); }
 };
+using ResultPtr = std::unique_ptr<CPLHTTPResult, ResultCloser>;
+
+/// A request of GDAL on a thread of its own: GDAL asks whether to go on only once an answer has begun, so a
+/// server that says nothing can only be left waiting. The thread then ends by itself when its time is over;
+/// it shares nothing with the others but this object.
+struct Job {
+  std::string url;
+  CPLStringList options;
+  std::atomic<bool> isAbandoned = false;
+  std::mutex mutex;
+  std::condition_variable isDone;
+  bool done = false;
+  ResultPtr result;
+
+  static int keepGoing(double, const char*, void* job) {
+    return static_cast<Job*>(job)->isAbandoned ? FALSE : TRUE;
+  }
+  void run() {
+    const GdalErrors quiet;
+    ResultPtr fetched(CPLHTTPFetchEx(url.c_str(), options.List(), keepGoing, this, nullptr, nullptr));
+    const std::lock_guard lock(mutex);
+    result = std::move(fetched);
+    done = true;
+    isDone.notify_one();
+  }
+};
+
+/// @return Null if GDAL reads nothing over the network, or the request was cut off.
+ResultPtr fetch(const std::string& url, const CPLStringList& options) {
+  auto job = std::make_shared<Job>();
+  job->url = url;
+  job->options = options;
+  std::thread([job] { job->run(); }).detach();
+  std::unique_lock lock(job->mutex);
+  while (!job->isDone.wait_for(lock, std::chrono::milliseconds(20), [&] { return job->done; }))
+    if (isCancelled()) {
+      job->isAbandoned = true;
+      return nullptr;
+    }
+  return std::move(job->result);
+}
 
 std::string headersFor(std::uint64_t first, std::uint64_t last) {
   const char* own = CPLGetConfigOption("GDAL_HTTP_HEADERS", "");
   return fmt::format("{}{}Range: bytes={}-{}\r\nAccept-Encoding: identity", own, *own ? "\r\n" : "", first,
                      last);
-}
-
-std::string connectionName() {
-  return fmt::format("arete-{}", std::hash<std::thread::id>{}(std::this_thread::get_id()));
 }
 
 /// Fills in what the headers of an answer without an error say, and checks the bytes against it.
@@ -142,19 +177,16 @@ Answer requestOnce(const std::string& url, std::uint64_t first, std::uint64_t la
   options.SetNameValue("HEADERS", headersFor(first, last).c_str());
   options.SetNameValue("MAX_RETRY", "0");
   options.SetNameValue("MAX_FILE_SIZE", kMostBytes);
-  options.SetNameValue("PERSISTENT", connectionName().c_str());
   if (!CPLGetConfigOption("GDAL_HTTP_LOW_SPEED_TIME", nullptr)) {
     options.SetNameValue("LOW_SPEED_TIME", kStallSeconds);
     options.SetNameValue("LOW_SPEED_LIMIT", "1");
   }
   if (!CPLGetConfigOption("GDAL_HTTP_CONNECTTIMEOUT", nullptr))
     options.SetNameValue("CONNECTTIMEOUT", kStallSeconds);
-  const GdalErrors quiet;
-  const std::unique_ptr<CPLHTTPResult, ResultCloser> result(
-      CPLHTTPFetchEx(url.c_str(), options.List(), keepGoing, nullptr, nullptr, nullptr));
+  const ResultPtr result = fetch(url, options);
   Answer answer;
   if (!result) {
-    answer.problem = "this GDAL reads nothing over the network";
+    answer.problem = isCancelled() ? "reading was stopped" : "this GDAL reads nothing over the network";
     return answer;
   }
   answer.curl = result->nStatus;
@@ -430,6 +462,38 @@ std::string networkPathOf(const std::string& path) {
   return isAddress ? std::string(kPrefix) + path : path;
 }
 
+std::string pathWithoutNetcdf(const std::string& path) {
+  if (!isNetworkPath(path)) return path;
+  GDALDriverH driver = GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
+  if (!driver || !EQUAL(GDALGetDriverShortName(driver), "netCDF")) return path;
+  const std::size_t begin = path.find("/vsi");
+  std::size_t end = path.size();
+  std::string variable;
+  if (begin > 0) {  // NETCDF:"file":variable
+    end = path.rfind(':');
+    if (end <= begin + kPrefix.size()) return {};
+    variable = path.substr(end);
+    if (path[end - 1] == '"') --end;
+  }
+  const std::string file = path.substr(begin, end - begin);
+  static std::atomic<unsigned> number = 0;
+  const std::string folder = fmt::format("{}{}", kCopies, number++);
+  const std::string copy = fmt::format("{}/{}", folder, CPLGetFilename(file.c_str()));
+  const std::string failedBefore = tReading ? tReading->failed : "";
+  if (VSIMkdir(folder.c_str(), 0700) != 0 || CPLCopyFile(copy.c_str(), file.c_str()) != 0 || isCancelled() ||
+      (tReading && tReading->failed != failedBefore)) {
+    removeNetworkCopy(copy);
+    return {};
+  }
+  return begin > 0 ? fmt::format("NETCDF:\"{}\"{}", copy, variable) : copy;
+}
+
+void removeNetworkCopy(const std::string& description) {
+  const std::size_t begin = description.find(kCopies);
+  if (begin == description.npos) return;
+  VSIRmdirRecursive(description.substr(begin, description.find('/', begin + kCopies.size()) - begin).c_str());
+}
+
 std::string networkProblem(const std::string& path) {
   if (!path.starts_with(kPrefix)) return {};
   const GdalErrors quiet;
@@ -446,11 +510,6 @@ NetworkReading::~NetworkReading() {
   tCancel = cancelBefore_;
   if (isInner_) return;
   tReading.reset();
-  if (state_->files.empty()) return;
-  CPLStringList options;
-  options.SetNameValue("CLOSE_PERSISTENT", connectionName().c_str());
-  const GdalErrors quiet;
-  if (CPLHTTPResult* result = CPLHTTPFetch("", options.List())) CPLHTTPDestroyResult(result);
 }
 
 Status NetworkReading::finish() {

@@ -26,6 +26,14 @@ bool isNetworkPath(const std::string& path);
 /// @return "/vsicurl/http..." for an address, any other path as it is.
 std::string networkPathOf(const std::string& path);
 
+/// GDAL's driver of netCDF waits for pages of a file of the network that never come when the connection is
+/// lost. So such a file is copied into memory as a whole.
+///
+/// @return The path for GDAL to open; `path` itself for other files, and where the copy fails, which is an
+/// error of GDAL. removeNetworkCopy() takes the description of the dataset, after it is closed.
+std::string pathWithoutNetcdf(const std::string& path);
+void removeNetworkCopy(const std::string& description);
+
 /// Why the file of a network path cannot be read; empty if it can. May ask the server.
 std::string networkProblem(const std::string& path);
 

@@ -58,7 +58,8 @@ void silenceHdf5() {
   if (isSilent) return;
   isSilent = true;
   using SetAuto = int (*)(std::int64_t stack, void* function, void* data);
-  if (void* found = dlsym(RTLD_DEFAULT, "H5Eset_auto2")) reinterpret_cast<SetAuto>(found)(0, nullptr, nullptr);
+  if (void* found = dlsym(RTLD_DEFAULT, "H5Eset_auto2"))
+    reinterpret_cast<SetAuto>(found)(0, nullptr, nullptr);
 }
 
 }  // namespace
@@ -115,10 +116,16 @@ void GdalErrors::moveTo(std::vector<std::string>& warnings) {
   messages_.clear();
 }
 
+void GdalDatasetCloser::operator()(GDALDataset* dataset) const {
+  const std::string description = dataset->GetDescription();
+  GDALClose(GDALDataset::ToHandle(dataset));
+  removeNetworkCopy(description);
+}
+
 GdalDatasetPtr openGdal(const std::string& path, unsigned flags) {
   registerGdal();
   silenceHdf5();
-  const std::string name = (flags & GDAL_OF_RASTER) != 0 ? networkPathOf(path) : path;
+  const std::string name = (flags & GDAL_OF_RASTER) != 0 ? pathWithoutNetcdf(networkPathOf(path)) : path;
   return GdalDatasetPtr(GDALDataset::Open(name.c_str(), flags | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
 }
 

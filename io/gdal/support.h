@@ -18,7 +18,7 @@ namespace arete {
 void registerGdal();
 
 struct GdalDatasetCloser {
-  void operator()(GDALDataset* dataset) const { GDALClose(GDALDataset::ToHandle(dataset)); }
+  void operator()(GDALDataset* dataset) const;
 };
 using GdalDatasetPtr = std::unique_ptr<GDALDataset, GdalDatasetCloser>;
 
