@@ -18,7 +18,7 @@ struct Georeference {
   /// x = g[0] + g[1] * pixel + g[2] * line,  y = g[3] + g[4] * pixel + g[5] * line.
   /// A scattered point set keeps its own x, y: the identity with the half pixel taken out.
   std::array<double, 6> geoTransform = {0, 1, 0, 0, 0, 1};
-  /// False where the file has no geotransform; then geoTransform is the identity.
+  /// False where the file has no position; then x counts columns and y rows, upwards from the last.
   bool hasGeoTransform = false;
   /// The last column of the raster is its first one again, a whole turn of longitudes farther: the source
   /// goes round the Earth and has no cell between its last column and its first (io/dem/seam_column.h).
