@@ -42,6 +42,11 @@ class TriangleRewriter {
     at_ = first + count;
   }
 
+  /// Leaves triangles as they are.
+  void keep(std::size_t first, std::size_t count) {
+    if (isMoving_) moveTo(first + count);
+  }
+
   void finish() {
     if (!isMoving_) return;
     moveTo(triangles_.size());
@@ -116,6 +121,10 @@ Status MeshFaces::finish(MeshFile& file, const RunContext& context) {
     positions.clear();
     for (const std::uint32_t v : corners) positions.push_back(file.mesh.positions[v]);
 
+    if (hasRightFan(positions, view)) {
+      rewriter.keep(fan.first, fan.corners - 2);
+      continue;
+    }
     const PolygonTriangles polygon = triangulatePolygon(positions, view);
     if (!polygon.isSimple && crossing++ == 0) firstCrossing = fan.face;
     triangles.clear();

@@ -81,27 +81,37 @@ std::vector<Vec3> scaled(std::span<const Vec3> corners) {
   return result;
 }
 
-/// Twice the vector area of a ring, by the sum of Newell.
+/// Adds an edge to twice the vector area of a ring, by the sum of Newell.
+void addEdge(Vec3& sum, const Vec3& p, const Vec3& q) {
+  sum = {sum.x + (p.y - q.y) * (p.z + q.z), sum.y + (p.z - q.z) * (p.x + q.x),
+         sum.z + (p.x - q.x) * (p.y + q.y)};
+}
+
 Vec3 areaOf(const std::vector<Vec3>& corners, const std::vector<std::uint32_t>& ring) {
   Vec3 sum;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vec3 &p = corners[ring[i]], &q = corners[ring[(i + 1) % ring.size()]];
-    sum = {sum.x + (p.y - q.y) * (p.z + q.z), sum.y + (p.z - q.z) * (p.x + q.x),
-           sum.z + (p.x - q.x) * (p.y + q.y)};
-  }
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    addEdge(sum, corners[ring[i]], corners[ring[(i + 1) % ring.size()]]);
   return sum;
 }
 
-/// The coordinates that are left when the polygon is seen along an axis, from the side from which an area of
-/// that sign is counter-clockwise.
+Vec3 areaOf(std::span<const Vec3> corners) {
+  Vec3 sum;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    addEdge(sum, corners[i] - corners[0], corners[(i + 1) % corners.size()] - corners[0]);
+  return sum;
+}
+
+/// The coordinates that are left when a point is seen along an axis, from the side from which an area of that
+/// sign is counter-clockwise.
+Point2 seenAlong(int axis, bool fromBelow, const Vec3& p) {
+  const double u = axis == 0 ? p.y : axis == 1 ? p.z : p.x, v = axis == 0 ? p.z : axis == 1 ? p.x : p.y;
+  return fromBelow ? Point2(v, u) : Point2(u, v);
+}
+
 std::vector<Point2> seenAlong(int axis, bool fromBelow, std::span<const Vec3> corners) {
   std::vector<Point2> points;
   points.reserve(corners.size());
-  for (const Vec3& p : corners) {
-    double u = axis == 0 ? p.y : axis == 1 ? p.z : p.x, v = axis == 0 ? p.z : axis == 1 ? p.x : p.y;
-    if (fromBelow) std::swap(u, v);
-    points.emplace_back(u, v);
-  }
+  for (const Vec3& p : corners) points.push_back(seenAlong(axis, fromBelow, p));
   return points;
 }
 
@@ -123,11 +133,19 @@ std::vector<Triangle> fanOf(const std::vector<std::uint32_t>& ring) {
 }
 
 /// True if the first corner sees every edge at its left, all within half a turn: the fan is right.
-bool fanIsRight(const std::vector<Point2>& points) {
-  for (std::size_t i = 2; i < points.size(); ++i)
-    if (CGAL::orientation(points[0], points[i - 1], points[i]) != CGAL::LEFT_TURN ||
-        CGAL::orientation(points[0], points[1], points[i]) != CGAL::LEFT_TURN)
+///
+/// @param pointOf The projection of a corner.
+template <class PointOf>
+bool fanIsRight(std::size_t corners, PointOf pointOf) {
+  const Point2 first = pointOf(0), second = pointOf(1);
+  Point2 before = second;
+  for (std::size_t i = 2; i < corners; ++i) {
+    const Point2 point = pointOf(i);
+    if (CGAL::orientation(first, before, point) != CGAL::LEFT_TURN ||
+        CGAL::orientation(first, second, point) != CGAL::LEFT_TURN)
       return false;
+    before = point;
+  }
   return true;
 }
 
@@ -358,7 +376,7 @@ PolygonTriangles triangulatePolygon(std::span<const Vec3> corners, PolygonView w
   if (wanted == PolygonView::above) views.insert(views.begin(), 2);
 
   const auto triangulateSeen = [&](const std::vector<Point2>& points) {
-    if (rings.size() == 1 && fanIsRight(points)) {
+    if (rings.size() == 1 && fanIsRight(points.size(), [&](std::size_t i) { return points[i]; })) {
       result.triangles = fanOf(outline);
       return View::simple;
     }
@@ -380,6 +398,16 @@ PolygonTriangles triangulatePolygon(std::span<const Vec3> corners, PolygonView w
   result.triangles =
       !isLine && outline.size() <= kMostCornersForLeastArea ? leastArea(unit, outline) : fanOf(outline);
   return result;
+}
+
+bool hasRightFan(std::span<const Vec3> corners, PolygonView view) {
+  if (corners.size() <= 3) return true;
+  const Vec3 normal = areaOf(corners);
+  const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
+  if (!(x + y + z > 0 && x + y + z < std::numeric_limits<double>::infinity())) return false;
+  const int axis = view == PolygonView::above ? 2 : x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+  const bool fromBelow = (axis == 0 ? normal.x : axis == 1 ? normal.y : normal.z) < 0;
+  return fanIsRight(corners.size(), [&](std::size_t i) { return seenAlong(axis, fromBelow, corners[i]); });
 }
 
 }  // namespace arete

@@ -49,4 +49,8 @@ enum class PolygonView {
 PolygonTriangles triangulatePolygon(std::span<const Vec3> corners, PolygonView view = PolygonView::along,
                                     std::span<const std::uint32_t> ringEnds = {});
 
+/// True if triangulatePolygon() of a polygon of one ring gives the fan about its first corner. O(corners),
+/// without memory. Preconditions: those of triangulatePolygon().
+bool hasRightFan(std::span<const Vec3> corners, PolygonView view = PolygonView::along);
+
 }  // namespace arete

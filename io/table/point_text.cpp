@@ -204,6 +204,7 @@ class TextParser {
       statedSeparator_ = stated.back();
       return {};
     }
+    if (isGap(line)) return {};
     started_ = true;
     separator_ = statedSeparator_.value_or(separatorOf(line));
     const std::vector<std::string_view> fields = fieldsOf(line, separator_);
@@ -267,7 +268,7 @@ class TextParser {
       if (Status ok = checkCommas(line); !ok) return ok;
     const std::size_t last = *std::max_element(columns_.at.begin(), columns_.at.end());
     std::array<double, 3> values{};
-    bool hasHeight = true;
+    std::array<bool, 3> isMissing{};
     std::string_view rest = line, field;
     for (std::size_t i = 0; i <= last; ++i) {
       if (!nextField(rest, separator_, field))
@@ -277,8 +278,8 @@ class TextParser {
       for (std::size_t k = 0; k < 3; ++k) {
         if (columns_.at[k] != i) continue;
         const CellNumber number = readCell(field);
-        if (number.kind == CellNumber::Kind::missing && k == 2 && kind_ == PointTextColumns::spatial) {
-          hasHeight = false;
+        if (number.kind == CellNumber::Kind::missing && kind_ == PointTextColumns::spatial) {
+          isMissing[k] = true;
           continue;
         }
         if (number.kind == CellNumber::Kind::notANumber)
@@ -291,15 +292,29 @@ class TextParser {
         values[k] = number.value;
       }
     }
+    // A line without any of the three is a gap between the parts of a file.
+    if (isMissing[0] && isMissing[1] && isMissing[2]) return {};
+    if (isMissing[0] || isMissing[1])
+      return failure(ErrorCode::invalidData,
+                     fmt::format("{} has no {} that is a finite number", quoted(trimmed(line)),
+                                 isMissing[0] ? "x" : "y"),
+                     where());
     mayCountLines_ = mayCountLines_ && (rows_.positions.empty() ? values[0] == 0 || values[0] == 1
                                                                 : values[0] == rows_.positions.back().x + 1);
-    if (!hasHeight) {
+    if (isMissing[2]) {
       if (withoutHeight_++ == 0) lineWithoutHeight_ = lineNumber_;
       return {};
     }
     rows_.add(values[0], values[1], values[2], lineNumber_);
     if (attributes_) addAttributes(line);
     return {};
+  }
+
+  /// Words for missing values and nothing else.
+  static bool isGap(std::string_view line) {
+    return std::ranges::all_of(fieldsOf(line, separatorOf(line)), [](std::string_view field) {
+      return !field.empty() && readCell(field).kind == CellNumber::Kind::missing;
+    });
   }
 
   static bool isNumber(std::string_view field) { return readCell(field).kind == CellNumber::Kind::number; }

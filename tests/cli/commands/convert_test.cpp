@@ -68,7 +68,7 @@ TEST_F(Convert, WritesToStdoutAndToAPipeInTheFormatStated) {
     SCOPED_TRACE(name);
     if (name == "gpkg") {
       const Outcome refused = run({"convert", "tin.ply", "-o", "-", "--format", name});
-      EXPECT_EQ(refused.code, 4) << refused.err;
+      EXPECT_EQ(refused.code, 3) << refused.err;
       EXPECT_NE(refused.err.find("database"), std::string::npos) << refused.err;
       continue;
     }
@@ -77,6 +77,7 @@ TEST_F(Convert, WritesToStdoutAndToAPipeInTheFormatStated) {
     EXPECT_EQ(piped.code, 0) << piped.err;
     EXPECT_TRUE(piped.out == read("file" + extension));
     EXPECT_NE(piped.err.find("triangles"), std::string::npos) << piped.err;
+    if (name != "ply" && name != "stl") continue;  // one that is exact, one that is read back
     // A named pipe, whose name says nothing.
     ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
     std::string received;

@@ -156,6 +156,8 @@ TEST(Polygon, TriangulatesAnyShapeInAnyPlaneInEitherDirectionFromAnyCorner) {
       const PolygonTriangles polygon = triangulatePolygon(corners);
       EXPECT_TRUE(polygon.isSimple);
       EXPECT_EQ(polygon.triangles.size(), corners.size() - 2);
+      for (std::uint32_t t = 0; t < polygon.triangles.size() && hasRightFan(corners); ++t)
+        EXPECT_EQ(polygon.triangles[t], (std::array<std::uint32_t, 3>{0, t + 1, t + 2}));
       expectConforming(corners, {}, polygon.triangles);
       // Placed at 4e6, coordinates are rounded to 1e-9.
       EXPECT_NEAR(sumOfAreas(corners, polygon.triangles), std::abs(area), 1e-7 * (1 + std::abs(area)));
