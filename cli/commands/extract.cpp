@@ -208,8 +208,7 @@ std::string textOf(const ExtractRequest& request, const ExtractedTin& tin, const
 void warnOfRounding(const ExtractedTin& tin, const std::string& output, const std::string& unit,
                     const Session& session) {
   const double rounding = tin.format.heightRounding;
-  constexpr double kForgiven = 1e-6;
-  if (!tin.measured && rounding > kForgiven && tin.storedError + rounding > tin.promisedError + kForgiven)
+  if (!tin.measured && rounding > 0 && tin.storedError + rounding > tin.promisedError)
     session.warn(fmt::format("{}: {} rounds heights by up to {}, which a promise of {} does not allow for",
                              output, tin.format.name, withUnit(rounding, unit),
                              withUnit(tin.promisedError, unit)));

@@ -97,8 +97,8 @@ Status runValidate(const ValidateArguments& arguments, Session& session) {
     std::string text = fmt::format("{}: checksums, indices and every law hold\n", arguments.model);
     for (const Law& law : kLaws)
       text +=
-          fmt::format("  law {:<2}  {}  {}{}\n", law.number,
-                      isClaimed(law, *model) ? "holds" : "is not claimed", law.says, scopeOf(law, checked));
+          fmt::format("  law {}  {}  {}{}\n", law.number, isClaimed(law, *model) ? "holds" : "is not claimed",
+                      law.says, scopeOf(law, checked));
     text += arguments.source.path.empty()
                 ? "  heights not compared with the source (--against)\n"
                 : fmt::format("  heights all {} are those of {}\n", compared, arguments.source.path);

@@ -97,7 +97,7 @@ struct PlaneRounding {
     x = (u.x + v.x) / 2;
     y = (u.y + v.y) / 2;
     z = (u.z + v.z) / 2;
-    rounding = areMiddlesExact_ ? 0 : 0x1p-53 * std::abs(z) * (u.z != v.z);
+    rounding = areMiddlesExact_ || u.z == v.z ? 0 : 0x1p-53 * std::abs(z) + kTiny;
   } else if (area == 3) {
     x = std::int64_t(a.x) + b.x + c.x;
     y = std::int64_t(a.y) + b.y + c.y;

@@ -75,8 +75,16 @@ FittedCut fittedCut(const FitMesh& mesh, const Cut& before, double tolerance) {
   for (const std::uint32_t v : fitted.cut.vertices) fitted.heights.push_back(mesh.heights()[mesh.indexOf(v)]);
 
   std::vector<double> errors = mesh.errors();
-  for (double& error : errors)
+  for (std::uint32_t t = 0; t < mesh.slotCount(); ++t) {
+    if (!mesh.isLive(t)) continue;
+    double& error = errors[t];
+    // Where no height has changed, the stored error is an upper bound too.
+    const bool isUnchanged = std::ranges::all_of(mesh.triangle(t).corners, [&](std::uint32_t v) {
+      return mesh.heights()[v] == mt.vertices().height(VertexId(mesh.mtVertex(v)));
+    });
+    if (isUnchanged) error = std::min(error, mt.error(TriangleId(mesh.triangle(t).id)));
     if (error > tolerance && error <= tolerance * (1 + 2 * kRounding)) error = tolerance;
+  }
   std::vector<std::pair<std::uint32_t, double>> byId;
   for (std::uint32_t t = 0; t < mesh.slotCount(); ++t)
     if (mesh.isLive(t)) byId.emplace_back(mesh.triangle(t).id, errors[t]);

@@ -99,7 +99,7 @@ Status law8OfPoints(const TerrainModel& model, const Cut& finest) {
   return {};
 }
 
-/// The checksum is that of decoded heights: whoever changes one without the other is found out.
+/// The checksum is that of the decoded heights: a change of either without the other is found.
 Status law8OfHeights(const TerrainModel& model, const RasterHeightfield& samples) {
   constexpr std::string_view kKind = "xxh3-128:";
   if (!model.sourceChecksum.starts_with(kKind)) return {};

@@ -129,5 +129,28 @@ TEST_F(BuildCommand, WritesAFileThatRemembersItsOptions) {
   EXPECT_NE(run({"info", "dem.amt", "--json"}).out.find("fidelity"), std::string::npos);
 }
 
+TEST_F(BuildCommand, WarnsOfHeightsThatStandAloneAndNamesTheRemedy) {
+  RasterHeightfield field = rasterFamilies()[0].make(60, 50, 1);
+  for (std::size_t i = 0; i < field.heights.size(); ++i)
+    field.heights[i] = std::nearbyint(300 * std::sin(double(i % 60) / 9) * std::cos(double(i / 60) / 7));
+  for (const double mark : {-9999.0, -32768.0, 1e20}) {
+    SCOPED_TRACE(mark);
+    for (const std::size_t at : {100u, 101u, 1500u}) field.heights[at] = mark;
+    GeoTiffOptions options;
+    options.sample = GeoTiffOptions::Sample::float64;
+    ASSERT_TRUE(writeGeoTiff(path("dem.tif"), 60, 50, field.heights, field.georeference, options));
+    const Outcome plain = run({"build", "dem.tif", "-o", "dem.amt"});
+    EXPECT_EQ(plain.code, 0) << plain.err;
+    const std::string value = fmt::format("{}", mark);
+    EXPECT_NE(plain.err.find("warning"), std::string::npos) << plain.err;
+    EXPECT_NE(plain.err.find("the value " + value + " occurs 3 times"), std::string::npos) << plain.err;
+    EXPECT_NE(plain.err.find("--nodata " + value), std::string::npos) << plain.err;
+    const Outcome stated = run({"build", "dem.tif", "-o", "stated.amt", "--nodata", value});
+    EXPECT_EQ(stated.code, 0) << stated.err;
+    EXPECT_EQ(stated.err.find("stand"), std::string::npos) << stated.err;
+    EXPECT_EQ(stated.err.find("occurs"), std::string::npos) << stated.err;
+  }
+}
+
 }  // namespace
 }  // namespace arete::cli_test

@@ -50,5 +50,33 @@ TEST_F(ValidateCommand, ClaimsLawNineForTheDelaunayShapeOnly) {
   }
 }
 
+TEST_F(ValidateCommand, SaysWhatItCompared) {
+  makeRaster("dem.tif", "fractal", 40, 30);
+  makeRaster("other.tif", "ramp", 40, 30);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt", "-q"}).code, 0);
+  const Outcome alone = run({"validate", "dem.amt"});
+  EXPECT_NE(alone.out.find("law 10  holds"), std::string::npos) << alone.out;
+  EXPECT_NE(alone.out.find("(all "), std::string::npos) << alone.out;
+  EXPECT_NE(alone.out.find("not compared"), std::string::npos) << alone.out;
+  EXPECT_EQ(run({"validate", "dem.amt", "--json"}).json()["heightsCompared"], "not compared");
+
+  const Outcome same = run({"validate", "dem.amt", "--full", "--against", "dem.tif"});
+  EXPECT_EQ(same.code, 0) << same.err;
+  EXPECT_NE(same.out.find("all 1200 are those of dem.tif"), std::string::npos) << same.out;
+  EXPECT_EQ(same.out.find("not compared"), std::string::npos);
+  const Outcome other = run({"validate", "dem.amt", "--against", "other.tif"});
+  EXPECT_EQ(other.code, 5) << other.out;
+  EXPECT_NE(other.err.find("of 1200 heights differ from the source"), std::string::npos) << other.err;
+  EXPECT_EQ(run({"validate", "dem.amt", "--against", "missing.tif"}).code, 3);
+}
+
+TEST_F(ValidateCommand, ReadsTheSourceAsTheBuildDid) {
+  write("points.csv", "x,y,low,top\n0,0,1,5\n10,0,2,6\n0,10,3,7\n11,12,4,9\n5,5,2,6\n");
+  ASSERT_EQ(run({"build", "points.csv", "-o", "p.amt", "--z-field", "top", "--nodata", "9", "-q"}).code, 0);
+  const Outcome same = run({"validate", "p.amt", "--against", "points.csv"});
+  EXPECT_EQ(same.code, 0) << same.err;
+  EXPECT_EQ(run({"validate", "p.amt", "--against", "points.csv", "--z-field", "low"}).code, 5);
+}
+
 }  // namespace
 }  // namespace arete::cli_test
