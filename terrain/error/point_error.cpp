@@ -170,7 +170,7 @@ bool PointError::Hole::isAbove(int i, int j, int m, double, double, double bound
                      bound))
       return true;
   }
-  return isAboveOnEdge(i, j, bound) || isAboveOnEdge(j, m, bound) || isAboveOnEdge(m, i, bound);
+  return false;
 }
 
 void PointError::Hole::settle(const HoleTriangulation& floor) {

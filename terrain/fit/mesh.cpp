@@ -107,15 +107,22 @@ std::vector<double> FitMesh::errors() const {
     const Weights w = weights(corners);
     forSamples(t, [&](std::uint32_t s) {
       const Vec2 p = plan(s);
-      // A weight is right to a few ulp, and so is each height difference.
-      const double z = mt_.vertices().height(VertexId(s));
-      const double apart = std::max({std::abs(heights_[corners[0]] - z), std::abs(heights_[corners[1]] - z),
-                                     std::abs(heights_[corners[2]] - z)});
-      const double error = std::abs(residual(corners, w.of(p), s)) + 0x1p-50 * apart;
-      widen(t, error);
       // isOn[i]: the sample lies on the edge opposite to corner i. On two of them, it is a vertex.
       std::array<bool, 3> isOn;
       for (int i = 0; i < 3; ++i) isOn[i] = planOrientation(w.at[(i + 1) % 3], w.at[(i + 2) % 3], p) == 0;
+      // A weight is right to a few ulp, so the error is right to a few ulp of the height differences. Corners
+      // opposite to an edge with the sample have no weight, and at a vertex nothing is rounded.
+      std::array<double, 3> part = w.of(p);
+      double apart = 0;
+      for (int i = 0; i < 3; ++i) {
+        const bool isVertex = isOn[(i + 1) % 3] && isOn[(i + 2) % 3];
+        if (isOn[i]) part[i] = 0;
+        if (isVertex) part[i] = 1;
+        const double difference = heights_[corners[i]] - mt_.vertices().height(VertexId(s));
+        if (!isOn[i] && !isVertex) apart = std::max(apart, std::abs(difference));
+      }
+      const double error = std::abs(residual(corners, part, s)) + 0x1p-50 * apart;
+      widen(t, error);
       for (int i = 0; i < 3; ++i) {
         const std::uint32_t from = corners[(i + 1) % 3], to = corners[(i + 2) % 3];
         if (isOn[(i + 1) % 3] && isOn[(i + 2) % 3])  // the vertex opposite to edge i

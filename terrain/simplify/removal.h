@@ -79,17 +79,22 @@ class VertexRemover {
     for (int d = 0; d < joins.diagonalCount; ++d) {
       const FloorJoins::Diagonal& diagonal = joins.diagonals[d];
       const EdgeDifference edge = hole.alongEdge(diagonal.from, diagonal.to);
-      for (const int f : {int(diagonal.forth.triangle), int(diagonal.back.triangle)}) {
-        floor.bounds[f].include(edge.bound);
-        if constexpr (Errors::kCoversEdges) continue;
-        floor.errors[f] = std::max(floor.errors[f], edge.error);
-        floor.roundings[f] = std::max(floor.roundings[f], edge.rounding);
-      }
+      floor.bounds[diagonal.forth.triangle].include(edge.bound);
+      floor.bounds[diagonal.back.triangle].include(edge.bound);
+      if constexpr (!Errors::kCoversEdges) edges_[d] = {edge.error, edge.rounding};
     }
     const OutwardScale& scale = s_.recorder.scale();
     const auto encode = [&](double bound) { return scale.encode(outward(bound)); };
     for (int f = 0; f < floor.triangulation.size; ++f)
       codes_[f] = {errorCode(hole, floor, f), encode(floor.bounds[f].below), encode(floor.bounds[f].above)};
+    if constexpr (!Errors::kCoversEdges)
+      for (int d = 0; d < joins.diagonalCount; ++d) {
+        const FloorJoins::Diagonal& diagonal = joins.diagonals[d];
+        const OutwardScale::Code code =
+            edgeCode(hole, diagonal.from, diagonal.to, edges_[d].error, edges_[d].rounding);
+        for (const int f : {int(diagonal.forth.triangle), int(diagonal.back.triangle)})
+          codes_[f].error = std::max(codes_[f].error, code);
+      }
     // What is stored with the star's triangles holds for their edges too. So a rim edge is scanned only if
     // the bounds of its former triangle exceed those of the floor's triangle, which is rare, or the error of
     // points.
@@ -112,9 +117,7 @@ class VertexRemover {
       const std::uint16_t below = encode(edge.bound.below), above = encode(edge.bound.above);
       own = {own.error, std::max(own.below, below), std::max(own.above, above)};
       if constexpr (!Errors::kCoversEdges)
-        own.error = std::max(own.error, leastCode(edge.error, edge.rounding, [&](double bound) {
-                               return hole.isAboveOnEdge(i, next, bound);
-                             }));
+        own.error = std::max(own.error, edgeCode(hole, i, next, edge.error, edge.rounding));
     }
   }
 
@@ -181,6 +184,11 @@ class VertexRemover {
     }
     return low;
   }
+  /// The code of the error of the samples on an edge.
+  OutwardScale::Code edgeCode(const typename Errors::Hole& hole, int from, int to, double error,
+                              double rounding) const {
+    return leastCode(error, rounding, [&](double bound) { return hole.isAboveOnEdge(from, to, bound); });
+  }
   /// The code of the error of triangle f.
   OutwardScale::Code errorCode(const typename Errors::Hole& hole, const MeasuredFloor& floor, int f) const {
     return leastCode(floor.errors[f], floor.roundings[f], [&](double bound) {
@@ -190,7 +198,11 @@ class VertexRemover {
   }
 
   SimplifyState<Plan, Errors>& s_;
+  struct EdgeError {
+    double error, rounding;
+  };
   // Members, so that no removal initialises them.
+  std::array<EdgeError, kMaxHoleCorners> edges_;
   std::array<FloorCodes, kMaxHoleCorners> codes_;
   std::array<RecorderId, kMaxHoleCorners> ceiling_;
   std::array<RemovalId, kMaxHoleCorners> creator_;
