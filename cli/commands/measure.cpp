@@ -210,8 +210,8 @@ void addMeasureCommand(CLI::App& app, Session& session) {
   command
       ->add_option(
           "--expect", arguments->expect,
-          "Promise to check: every sample covered once, no NODATA covered, no error above this; between "
-          "meshes: no distance above this, both ways")
+          "Promise to check: every sample covered once, no NODATA covered, no error above this by more than "
+          "4 ulp of the heights there; between meshes: no distance above this, both ways")
       ->check(tolerance())
       ->type_name("E");
   command->add_flag("--allow-covered-nodata", arguments->allowCoveredNodata,
