@@ -165,28 +165,36 @@ Chain chainOf(const OGRLineString& line) {
 
 /// Whether an edge leads over more than half a turn, as where a shape that crosses the antimeridian is not
 /// cut there. Edges along whole turns, as those of a box around the Earth, are meant.
-bool hasLongEdge(const OGRSimpleCurve& chain, double turn) {
-  for (int i = 1; i < chain.getNumPoints(); ++i) {
-    const double way = std::abs(chain.getX(i) - chain.getX(i - 1));
-    if (way > turn / 2 && way < turn * (1 - 1e-9)) return true;
-  }
-  return false;
+bool isLong(double way, double turn) {
+  return std::abs(way) > turn / 2 && std::abs(way) < turn * (1 - 1e-9);
 }
 
-void warnOfLongEdges(const Shapes& shapes, const OGRSpatialReference& source,
-                     std::vector<std::string>& warnings) {
+/// Of a geographic CRS; 0 of others.
+double turnOfDegrees(const OGRSpatialReference& source) {
   Georeference onSource;
-  if (source.IsEmpty() || !source.IsGeographic() || !describeCrs(source, onSource)) return;
-  const double turn = turnOf(onSource);
+  return !source.IsEmpty() && source.IsGeographic() && describeCrs(source, onSource) ? turnOf(onSource) : 0;
+}
+
+void warnOfLongEdges(const OGRMultiPolygon& polygons, double turn, std::vector<std::string>& warnings) {
+  if (turn == 0) return;
   bool isFound = false;
-  for (const OGRPolygon* polygon : shapes.polygons)
-    for (const OGRLinearRing* ring : *polygon) isFound = isFound || hasLongEdge(*ring, turn);
-  for (const OGRLineString* line : shapes.lines) isFound = isFound || hasLongEdge(*line, turn);
+  for (const OGRPolygon* polygon : polygons)
+    for (const OGRLinearRing* ring : *polygon)
+      for (int i = 1; i < ring->getNumPoints(); ++i)
+        isFound = isFound || isLong(ring->getX(i) - ring->getX(i - 1), turn);
   if (isFound)
     warnings.emplace_back(
-        "has an edge over more than half a turn of longitudes, which is taken as it is drawn, the long way; "
-        "a shape "
-        "that crosses the antimeridian is cut there, or goes on beyond 180 degrees");
+        "has a polygon with an edge over more than half a turn of longitudes, which is taken as it is drawn, "
+        "the long "
+        "way; a shape that crosses the antimeridian is cut there, or goes on beyond 180 degrees");
+}
+
+/// Leads a line the short way where an edge is long.
+void takeShortWays(Chain& line, double turn) {
+  if (turn == 0) return;
+  for (std::size_t i = 1; i < line.size(); ++i)
+    if (const double way = line[i].x - line[i - 1].x; isLong(way, turn))
+      line[i].x -= turn * std::round(way / turn);
 }
 
 /// The polygons as rings that the even-odd rule understands, before they are reprojected.
@@ -232,7 +240,8 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
     read.warnings.push_back(fmt::format("the CRS of the {} is not known; coordinates are taken as the DEM's",
                                         source->IsEmpty() ? "region" : "DEM"));
   }
-  warnOfLongEdges(shapes, *source, read.warnings);
+  const double turn = turnOfDegrees(*source);
+  warnOfLongEdges(shapes.polygons, turn, read.warnings);
   const auto rings = regionRings(shapes.polygons, *source, !reproject.isIdentity(), read.warnings);
   if (!rings) return tl::unexpected(rings.error());
   for (const Chain& ring : *rings) {
@@ -241,7 +250,8 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
     read.rings.push_back(std::move(*projected));
   }
   for (const OGRLineString* line : shapes.lines) {
-    const Chain chain = chainOf(*line);
+    Chain chain = chainOf(*line);
+    takeShortWays(chain, turn);
     if (Status ok = checkFinite(chain); !ok) return tl::unexpected(ok.error());
     if (chain.size() < 2) continue;
     auto projected = reproject(chain, false);

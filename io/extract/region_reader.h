@@ -37,7 +37,8 @@ struct RegionRead {
 /// reprojection. Where the target's x are longitudes they are continuous along a ring, which may leave
 /// -180..180, and a ring around a pole is led over it. Otherwise the coordinates are used as they are, with a
 /// warning if one of the two is known.
-/// An edge over more than half a turn of longitudes is taken as it is drawn, with a warning.
+/// An edge of a polygon over more than half a turn of longitudes is taken as it is drawn, with a warning; one
+/// of a line is led the short way.
 ///
 /// @param targetCrs  WKT or any text that GDAL accepts; empty = not known
 /// Errors: notFound, unreadable, corrupt; unsupported: no such layer, or several (the message lists them);

@@ -262,6 +262,19 @@ TEST(RegionReader, WarnsOfAShapeThatIsNotCutAtTheAntimeridian) {
   }
 }
 
+TEST(RegionReader, LeadsLinesTheShortWay) {
+  const TemporaryFolder folder;
+  const std::string line = R"({"type":"LineString","coordinates":[[179,60],[-179,60],[178,60],[10,60]]})";
+  const std::string path = folder.write("l.geojson", geoJson({line}));
+  const auto degrees = readRegion(path, "EPSG:4326", {.takesLines = true});
+  ASSERT_TRUE(degrees) << degrees.error().describe();
+  EXPECT_TRUE(degrees->warnings.empty());
+  EXPECT_EQ(degrees->lines.at(0), (std::vector<Vec2>{{179, 60}, {181, 60}, {178, 60}, {10, 60}}));
+  const auto polar = readRegion(path, "EPSG:3995", {.takesLines = true});
+  ASSERT_TRUE(polar) << polar.error().describe();
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_GT(polar->lines.at(0).at(i).y, 3e6) << "near the antimeridian";
+}
+
 TEST(RegionReader, UnitesPolygonsThatOverlapATurnAway) {
   const TemporaryFolder folder;
   const std::string west =
