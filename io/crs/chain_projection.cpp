@@ -16,6 +16,8 @@ namespace {
 constexpr int kMostBisections = 20;
 /// An edge that deviates by this part of its length after them is torn by a seam.
 constexpr double kTorn = 0.05;
+/// Rounding of a projection, in parts of the coordinates.
+constexpr double kRounding = 1e-11;
 
 class Projector {
  public:
@@ -60,7 +62,10 @@ class Projector {
       }
     }
     const double size = std::hypot(b.x - a.x, b.y - a.y);
-    const double tolerance = std::min(p_.bend, size > 0 ? p_.deviation / size : p_.bend) * length;
+    // Below the rounding of projections no bend can be told: edges shorter than a millimetre are straight.
+    const double rounding = kRounding * (std::abs(imageA.x) + std::abs(imageA.y));
+    const double tolerance =
+        std::max(std::min(p_.bend, size > 0 ? p_.deviation / size : p_.bend) * length, rounding);
     const bool isShort = p_.turn == 0 || std::abs(along.x) <= p_.turn / 4;
     if ((deviation <= tolerance && isShort) || depth == kMostBisections) {
       if (p_.turn == 0 && deviation > std::max(kTorn * length, tolerance)) return false;

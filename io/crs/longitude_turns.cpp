@@ -53,6 +53,7 @@ double turnOfMap(const Georeference& georeference) {
 double turnOf(const Georeference& georeference) {
   if (!georeference.isGeographic) return georeference.crsWkt.empty() ? 0 : turnOfMap(georeference);
   const double turn = 2 * std::numbers::pi / georeference.angularUnitRadians;
+  if (!std::isfinite(turn)) return 0;
   return std::abs(turn - 360) < 1e-9 ? 360 : turn;  // degrees to the last bit
 }
 
@@ -105,7 +106,7 @@ void LongitudeTurns::apply(std::span<Vec2> positions) const {
 std::vector<double> LongitudeTurns::shiftsOnto(double west, double east) const {
   if (!(turn_ > 0) || !(west <= east) || !std::isfinite(west) || !std::isfinite(east)) return {0};
   std::vector<double> shifts;
-  constexpr double kMostTurns = 1000;  // what goes round more often is not a shape on the Earth
+  constexpr double kMostTurns = 16;  // what goes round more often is not a shape on the Earth
   const double first = std::max(std::ceil((west_ - east) / turn_), -kMostTurns),
                last = std::min(std::floor((east_ - west) / turn_), kMostTurns);
   for (double k = first; k <= last; ++k) shifts.push_back(k * turn_);

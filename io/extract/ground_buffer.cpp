@@ -34,6 +34,8 @@ using GeographicLib::Geodesic;
 /// Parts of the distance: what the buffer is wider by, how far an edge may be from the geodesic that stands
 /// for it, and a ring in the CRS from the ring of the buffer.
 constexpr double kWider = 1.018, kEdgeDeviation = 1e-3, kRingDeviation = 2e-3;
+/// The least of these deviations, in metres.
+constexpr double kLeastSlack = 1e-3;
 constexpr int kQuadrantSegments = 16;
 /// Extent of a run in metres: within these, and at most kRunDistances times the distance.
 constexpr double kShortestRun = 1e3, kLongestRun = 5e4, kRunDistances = 2e3;
@@ -54,6 +56,7 @@ class GroundBuffer {
         azimuthal_(geodesic_),
         radius_(georeference.semiMajorAxisMetres),
         distance_(distance),
+        slack_(std::max(kEdgeDeviation * distance, kLeastSlack)),
         run_(std::clamp(kRunDistances * distance, kShortestRun, kLongestRun)) {
     projection_.turn = turnOf(georeference);
     projection_.pole = georeference.isGeographic ? projection_.turn / 4 : projection_.turn;
@@ -123,9 +126,8 @@ class GroundBuffer {
       const auto at = placeOf((1 - t) * a.xy + t * b.xy);
       if (!at) return false;
       const Vec2 p = onLocalMap(a, *at);
-      isStraight = length == 0 ? p.x == 0 && p.y == 0
-                               : std::abs(cross(end, p)) <= kEdgeDeviation * distance_ * length &&
-                                     std::hypot(p.x, p.y) <= length * (1 + kEdgeDeviation);
+      isStraight = std::abs(cross(end, p)) <= slack_ * length &&
+                   std::hypot(p.x, p.y) <= length * (1 + kEdgeDeviation) + kLeastSlack;
     }
     if (isStraight || depth == kMostBisections) {
       places.push_back(b);
@@ -147,7 +149,7 @@ class GroundBuffer {
     // Across the direction from its centre the map stretches lengths by 1 + r^2 / (6 R^2), and hardly more on
     // an ellipsoid.
     const double angle = (farthest + 1.1 * distance_) / radius_;
-    const double wide = distance_ * (kWider + angle * angle / 5);
+    const double wide = distance_ * (kWider + angle * angle / 5) + 2 * kLeastSlack;
     const GdalErrors quiet;
     const OGRPoint point(line.getX(0), line.getY(0));
     const bool isPoint = farthest == 0;
@@ -170,7 +172,7 @@ class GroundBuffer {
 
   ChainProjection aboutPlace(const Place& centre) const {
     ChainProjection projection = projection_;
-    projection.deviation = kRingDeviation * distance_;
+    projection.deviation = std::max(kRingDeviation * distance_, kLeastSlack);
     projection.forward = [this, centre](Vec2 p) -> std::optional<Vec2> {
       Vec2 at;
       azimuthal_.Reverse(centre.lonLat.y, centre.lonLat.x, p.x, p.y, at.y, at.x);
@@ -189,7 +191,7 @@ class GroundBuffer {
   Geodesic geodesic_;
   AzimuthalEquidistant azimuthal_;
   ChainProjection projection_;
-  double radius_, distance_, run_;
+  double radius_, distance_, slack_, run_;
 };
 
 }  // namespace

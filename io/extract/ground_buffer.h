@@ -16,7 +16,8 @@ inline constexpr double kLargestGroundDistance = 1e6;
 
 /// Extends a shape by its distance along the ground, in geodesic metres on the ellipsoid of the CRS
 /// [Karney2013], whatever the scale of the map there. The result contains everything within the distance, and
-/// nothing beyond 1.04 times it. Its x may leave -180..180; a pole within the distance belongs to it.
+/// nothing beyond 1.04 times it and 4 mm. Its x may leave -180..180; a pole within the distance belongs to
+/// it.
 ///
 /// @param shape In the coordinates of the CRS; its edges are straight there. A line of one vertex is a point.
 /// @return Rings without a distance. The shape itself if its distance is 0, or if the CRS has no longitude

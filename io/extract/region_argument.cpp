@@ -168,7 +168,7 @@ Result<RegionArgument> readRegionArgument(const RegionText& region, const Georef
   if (!read && read.error().culprit.empty()) read.error().culprit = fmt::format("region {}", region.text);
   return read;
 } catch (...) {
-  return caughtFailure();
+  return caughtFailure(fmt::format("region {}", region.text));
 }
 
 }  // namespace arete

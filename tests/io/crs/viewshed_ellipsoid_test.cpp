@@ -143,7 +143,7 @@ TEST(ViewshedEllipsoid, GivesTheAnswersOfAnEngineOnMapsOfTheWorldAndAboutTheirCe
         const double ground = terrain.grid->at(plan);
         ViewshedOptions options;
         options.targetHeight = 1000;
-        compare(terrain, {plan, (std::isnan(ground) ? 100 : ground) + 1000}, options, 3, what, tally);
+        compare(terrain, {plan, (std::isnan(ground) ? 100 : ground) + 1000}, options, 7, what, tally);
         ++observers;
       }
       EXPECT_EQ(tally.wrong, 0u) << what << ", seed " << kSeed;

@@ -84,6 +84,33 @@ TEST(RegionArgument, LiesWhereTheDemLies) {
   EXPECT_NEAR(elsewhere->shape.rings.at(0).at(0).x, 500000, 1e-3);
 }
 
+TEST(RegionArgument, TakesTheShortestEdgesAndDistances) {
+  const TemporaryFolder folder;
+  // Vertices a tenth of a nanometre, a micrometre and a metre apart.
+  const std::string ring = folder.write(
+      "r.csv",
+      "WKT,id\n\"POLYGON((10 47,10.000000000000002 47,10.00000000001 47,10.00001 47,10.00001 47.00001,10 "
+      "47))\",1\n");
+  const std::string line =
+      folder.write("l.csv", "WKT,id\n\"LINESTRING(10 47,10.000000000000002 47,13 48)\",1\n");
+  for (const char* crs : {"EPSG:32632", "EPSG:3035", "EPSG:3857", "EPSG:4326"}) {
+    const auto dem = test::georeferenceOf(crs);
+    for (const double distance : {0.0, 1e-12, 1e-3, 1.0}) {
+      const auto read = readRegionArgument({ring, distance, "EPSG:4326"}, dem, {});
+      ASSERT_TRUE(read) << crs << ", " << distance << ": " << read.error().describe();
+      EXPECT_GE(read->shape.rings.at(0).size(), 3u);
+      EXPECT_LT(read->shape.rings.at(0).size(), 1000u) << crs << ", " << distance;
+    }
+    for (const double distance : {1e-6, 10.0}) {
+      const auto read = readRegionArgument({line, distance, "EPSG:4326"}, dem, {});
+      ASSERT_TRUE(read) << crs << ", " << distance << ": " << read.error().describe();
+      EXPECT_EQ(read->shape.rings.size(), 1u) << crs << ", " << distance;
+    }
+  }
+  EXPECT_EQ(readRegionArgument({line, 2e6, "EPSG:4326"}, test::georeferenceOf("EPSG:4326"), {}).error().code,
+            ErrorCode::usage);
+}
+
 TEST(RegionArgument, MayBePointsWithADistance) {
   const TemporaryFolder folder;
   const std::string points =

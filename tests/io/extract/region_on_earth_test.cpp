@@ -183,7 +183,7 @@ void compare(const Place& place, const Chain& chain, bool isRing, double distanc
   const Proj toRegion(place.crs, place.regionCrs), toLonLat(place.crs, "OGC:CRS84"),
       fromRegion(place.regionCrs, "OGC:CRS84");
   const auto& earth = GeographicLib::Geocentric::WGS84();
-  constexpr int kPerEdge = 400;
+  constexpr int kPerEdge = 250;
   const std::vector<Vec3> border = inSpace(chain, isRing, fromRegion, earth, kPerEdge);
   double step = 0;
   for (std::size_t i = 1; i < border.size(); ++i)
