@@ -18,7 +18,7 @@
 namespace arete {
 namespace {
 
-constexpr std::uint64_t kMostElements = std::uint64_t(1) << 20;
+constexpr std::uint64_t kMostNumbers = std::uint64_t(1) << 22;  // against endless headers of zeros
 constexpr std::uint64_t kStreaming = 0xFFFFFFFFu;
 
 /// Reads big-endian numbers one after the other; after the end of the file it only fails.
@@ -34,7 +34,8 @@ class HeaderReader {
   bool isGood() const { return file_ && isGood_; }
   std::uint64_t number(int bytes) {
     unsigned char raw[8] = {};
-    isGood_ = isGood() && VSIFReadL(raw, 1, std::size_t(bytes), file_) == std::size_t(bytes);
+    isGood_ = isGood() && ++numbers_ <= kMostNumbers &&
+              VSIFReadL(raw, 1, std::size_t(bytes), file_) == std::size_t(bytes);
     std::uint64_t value = 0;
     for (int i = 0; i < bytes; ++i) value = value << 8 | raw[i];
     return isGood_ ? value : 0;
@@ -47,6 +48,7 @@ class HeaderReader {
  private:
   VSILFILE* file_;
   bool isGood_ = true;
+  std::uint64_t numbers_ = 0;
 };
 
 std::uint64_t bytesOfType(std::uint64_t type) {
@@ -97,7 +99,7 @@ class ClassicHeader {
   std::uint64_t listSize() {
     in_.number(4);  // the tag
     const std::uint64_t count = in_.number(wide_);
-    return in_.isGood() && count <= kMostElements ? count : 0;
+    return in_.isGood() ? count : 0;
   }
   void skipName() { in_.skipPadded(in_.number(wide_)); }
   void readDimensions() {

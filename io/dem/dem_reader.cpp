@@ -275,8 +275,14 @@ std::optional<std::string> loneHeightsWarning(const Heightfield& field) {
 Result<DemRead> readDem(const std::string& path, const SourceReading& reading,
                         const RunContext& context) try {
   NetworkReading network(context.cancel);
-  Result<DemRead> read = readFrom(path, reading, context);
-  if (!read) return read;
+  // GDAL's driver of addresses fetches them by itself, and does not stop when told.
+  const std::string opened = networkPathOf(path);
+  Result<DemRead> read = readFrom(opened, reading, context);
+  if (!read) {
+    if (read.error().culprit == opened) read.error().culprit = path;
+    return read;
+  }
+  if (opened != path) std::visit([&](auto& field) { field.source = path; }, read->heightfield);
   if (auto* raster = std::get_if<RasterHeightfield>(&read->heightfield)) repeatFirstColumn(*raster);
   if (auto warning = std::visit([](const auto& field) { return crsWarning(field); }, read->heightfield))
     read->warnings.push_back(std::move(*warning));

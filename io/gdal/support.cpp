@@ -125,7 +125,8 @@ void GdalDatasetCloser::operator()(GDALDataset* dataset) const {
 GdalDatasetPtr openGdal(const std::string& path, unsigned flags) {
   registerGdal();
   silenceHdf5();
-  const std::string name = (flags & GDAL_OF_RASTER) != 0 ? pathWithoutNetcdf(networkPathOf(path)) : path;
+  std::string name = networkPathOf(path);
+  if ((flags & GDAL_OF_RASTER) != 0) name = pathWithoutNetcdf(name);
   return GdalDatasetPtr(GDALDataset::Open(name.c_str(), flags | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "io/file/text_scan.h"
+#include "io/gdal/network_files.h"
 #include "io/gdal/support.h"
 
 namespace arete {
@@ -30,11 +31,12 @@ bool isSidecar(const std::string& name) {
 }  // namespace
 
 bool isPlainZip(const std::string& path) {
-  return !isVirtualPath(path) && text::lowerExtension(path) == "zip";
+  return (!isVirtualPath(path) || path.starts_with("/vsicurl/")) && text::lowerExtension(path) == "zip";
 }
 
-Result<std::string> findZippedRaster(const std::string& archive) {
+Result<std::string> findZippedRaster(const std::string& given) {
   registerGdal();
+  const std::string archive = networkPathOf(given);
   GdalErrors errors;
   if (auto problem = findInputProblem(archive)) return tl::unexpected(*problem);
   VSIStatBufL status;

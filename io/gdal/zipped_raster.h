@@ -7,7 +7,7 @@
 
 namespace arete {
 
-/// @return True for a name that ends in .zip and is not one of GDAL's virtual paths.
+/// @return True for a name that ends in .zip and is not one of GDAL's virtual paths but "/vsicurl/...".
 bool isPlainZip(const std::string& path);
 
 /// Finds the only raster in a zip archive. A text of numbers counts as a raster if there is no other.

@@ -13,11 +13,11 @@ namespace arete {
 struct SourceReading {
   std::optional<std::uint32_t> band = {};  ///< of a raster, counted from 1
   std::string layer, zField;               ///< of points; empty = not given
-  std::string samePlace;              ///< of points: min, max, mean, first; empty = different heights are
+  std::string samePlace = {};         ///< of points: min, max, mean, first; empty = different heights are
                                       ///< an error
-  std::string crs;                    ///< in any form that GDAL accepts; empty = not given
+  std::string crs = {};               ///< in any form that GDAL accepts; empty = not given
   std::optional<double> nodata = {};  ///< the raw value that means NODATA; NaN: no other value does
-  std::string verticalUnit;           ///< of the heights, instead of the source's; empty = not given
+  std::string verticalUnit = {};      ///< of the heights, instead of the source's; empty = not given
   std::optional<bool> isDepth = {};   ///< whether the values count downwards and are to be negated
   /// What was named after the first source: more rasters of a mosaic, or folders or patterns of them.
   std::vector<std::string> otherFiles = {};

@@ -3,6 +3,7 @@
 // Rasters over the network, from a server that loses connections, sends too little, replaces files and asks
 // for patience.
 #include <cpl_conv.h>
+#include <cpl_vsi.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -89,6 +90,28 @@ TEST_F(Network, GivesTheHeightsOfTheFile) {
         EXPECT_EQ(field.sourceChecksum, local->heightfield.sourceChecksum);
         EXPECT_EQ(field.georeference.geoTransform, local->heightfield.georeference.geoTransform);
       }
+    }
+  }
+}
+
+TEST_F(Network, FindsTheOneRasterInAnArchive) {
+  TemporaryFolder folder;
+  const std::string zip = folder.file("a.zip");
+  VSILFILE* out = VSIFOpenL(("/vsizip/" + zip + "/N46E008.hgt").c_str(), "wb");
+  ASSERT_NE(out, nullptr);
+  const std::string& tile = files_.at("N46E008.hgt");
+  VSIFWriteL(tile.data(), 1, tile.size(), out);
+  VSIFCloseL(out);
+  for (const bool isDropped : {false, true}) {
+    const HttpServer server({{"a.zip", contentOf(zip)}}, [&](const std::string&, int number) {
+      HttpFault fault;
+      fault.isDropped = isDropped && number > 1;
+      return fault;
+    });
+    for (const std::string& path : {"/vsicurl/" + server.address("a.zip"), server.address("a.zip"),
+                                    "/vsizip//vsicurl/" + server.address("a.zip") + "/N46E008.hgt"}) {
+      const auto read = readDem(path);
+      EXPECT_EQ(read.has_value(), !isDropped) << path << (read ? "" : read.error().describe());
     }
   }
 }
