@@ -13,6 +13,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <variant>
 
 #include "io/exchange/mesh_formats.h"
 #include "io/file/file_writer.h"
@@ -225,7 +226,9 @@ void DemArguments::addTo(CLI::App& command) {
 }
 
 std::string inputPath(const std::string& path) {
-  return path == kStandardStream ? "/vsistdin/" : path;
+  // Files are opened several times, to see what they are: GDAL keeps what it has read, by default a mebibyte.
+  const bool isStdin = path == kStandardStream || path == "/vsistdin/";
+  return isStdin ? "/vsistdin?buffer_limit=-1" : path;
 }
 
 void MeshOutput::addTo(CLI::App& command, const std::string& help, const std::string& more) {
@@ -260,6 +263,7 @@ Result<CrsTransform> transformOfPlaces(bool lonLat, const TerrainModel& model) {
 
 Result<DemRead> DemArguments::read(const Session& session) const {
   Result<DemRead> dem = readDem(inputPath(path), reading, session.context());
+  if (dem && path == kStandardStream) std::visit([&](auto& field) { field.source = path; }, dem->heightfield);
   if (dem)
     session.warn(dem->warnings, path);
   else if (!reading.crs.empty() && dem.error().culprit == reading.crs)

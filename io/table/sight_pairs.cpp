@@ -33,7 +33,7 @@ namespace arete {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr std::string_view kStandardInput = "/vsistdin/";
+constexpr std::string_view kStandardInput = "/vsistdin";
 
 int columnNamed(int count, const std::function<std::string_view(std::size_t)>& nameOf,
                 std::span<const std::string_view> names) {

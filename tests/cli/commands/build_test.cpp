@@ -69,6 +69,14 @@ TEST_F(BuildCommand, ReadsPointsFromStdinByTheirNames) {
     ASSERT_EQ(std::system(command.c_str()), 0) << read("said");
     EXPECT_EQ(run({"height", "stdin.amt", "--at", "5,1"}).out, "5,1,2\n");
   }
+  // More than GDAL keeps of stdin by itself.
+  std::string many = "x,y,z\n";
+  for (int i = 0; i < 90'000; ++i) many += fmt::format("{},{},{}\n", i % 300, i / 300, 1000 + i % 7);
+  write("many.csv", many);
+  const std::string whole =
+      "cd '" + path("") + "' && cat many.csv | '" ARETE_PROGRAM "' build - -o many.amt --json > said 2>&1";
+  ASSERT_EQ(std::system(whole.c_str()), 0) << read("said");
+  EXPECT_NE(read("said").find("\"samples\": 90000"), std::string::npos) << read("said");
   const std::string pairs = "cd '" + path("") +
                             "' && printf 'x1,y1,h1,x2,y2,h2\\n0,0,9,5,1,9\\n' | '" ARETE_PROGRAM
                             "' los file.amt --pairs - > said 2>&1";
