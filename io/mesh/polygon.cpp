@@ -209,8 +209,15 @@ class ProjectedPolygon {
       near = at_[corner]->face();
     };
     for (const std::uint32_t corner : firstTriangle()) insertCorner(corner);
-    for (const auto& ring : rings_)
-      for (const std::uint32_t corner : ring) insertCorner(corner);
+    // Few corners of the whole first, as in a random order [AmentaChoiRote2003]: each search is short, since
+    // it starts at a neighbour, and no corner on a long straight edge is one more corner of the hull.
+    constexpr std::size_t kRound = 16;
+    std::size_t stride = 1;
+    while (stride * kRound < points_.size()) stride *= kRound;
+    for (; stride > 0; stride /= kRound)
+      for (const auto& ring : rings_)
+        for (std::size_t i = 0; i < ring.size(); i += stride)
+          if (at_[ring[i]] == Vertex()) insertCorner(ring[i]);
     try {
       forEdges([&](std::uint32_t a, std::uint32_t b) { delaunay_.insert_constraint(at_[a], at_[b]); });
     } catch (const Delaunay::Intersection_of_constraints_exception&) {
