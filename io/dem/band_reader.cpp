@@ -43,9 +43,11 @@ int stripRowsOf(GDALRasterBand& band) {
 }
 
 /// @return Whether the driver knows which blocks are absent, and some are.
-bool hasAbsentBlocks(GDALRasterBand& band) {
-  const GdalErrors quiet;
+/// @param said Receives what GDAL says meanwhile, which it does not repeat.
+bool hasAbsentBlocks(GDALRasterBand& band, std::string& said) {
+  const GdalErrors errors;
   const int status = band.GetDataCoverageStatus(0, 0, band.GetXSize(), band.GetYSize(), 0, nullptr);
+  said = errors.firstMessage();
   return (status & GDAL_DATA_COVERAGE_STATUS_UNIMPLEMENTED) == 0 &&
          (status & GDAL_DATA_COVERAGE_STATUS_EMPTY) != 0;
 }
@@ -99,7 +101,7 @@ BandReader::BandReader(GDALRasterBand& band, std::optional<double> nodata)
   const int flags = band.GetMaskFlags();
   if ((flags & (GMF_ALL_VALID | GMF_ALPHA)) == 0 && flags != GMF_NODATA) masks_.push_back(band.GetMaskBand());
   if (GDALRasterBand* alpha = alphaBandOf(band)) masks_.push_back(alpha);
-  mayBeSparse_ = hasAbsentBlocks(band);
+  mayBeSparse_ = hasAbsentBlocks(band, saidBefore_);
 }
 
 Result<BandReader> BandReader::of(GDALRasterBand& band, std::optional<double> nodata, bool isDepth) {
@@ -128,7 +130,9 @@ Status BandReader::transfer(GDALRasterBand& band, int firstRow, int rowCount, vo
   if (status == CE_None && said.empty()) return {};
   return failure(ErrorCode::unreadable,
                  fmt::format("rows {} to {} cannot be read: {}", firstRow, firstRow + rowCount - 1,
-                             said.empty() ? "GDAL gives no reason" : said));
+                             !said.empty()          ? said
+                             : !saidBefore_.empty() ? saidBefore_
+                                                    : "GDAL gives no reason"));
 }
 
 Status BandReader::readPlain(int firstRow, int rowCount, std::span<double> raw) {

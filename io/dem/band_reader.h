@@ -69,6 +69,7 @@ class BandReader {
   bool signedByte_ = false;
   bool hasWideNodata_ = false;
   bool mayBeSparse_ = false;
+  std::string saidBefore_;  ///< by GDAL, before the first row was read
   std::int64_t signedNodata_ = 0;
   std::uint64_t unsignedNodata_ = 0;
   NodataTest nodata_{std::nullopt, GDT_Float64};

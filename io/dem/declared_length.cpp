@@ -130,7 +130,7 @@ Status checkTile(const std::string& path, std::uint64_t length) {
 Status compare(std::uint64_t wanted, std::uint64_t there, const std::string& what) {
   if (there >= wanted) return {};
   return failure(ErrorCode::unreadable,
-                 fmt::format("is cut short: {} asks for {} bytes and {} are there", what, wanted, there));
+                 fmt::format("is cut short: {} states {} bytes and {} are there", what, wanted, there));
 }
 
 /// The end of the samples of a raw band in its file.

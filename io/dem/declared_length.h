@@ -13,12 +13,12 @@
 
 namespace arete {
 
-/// The number of bytes that the header of a classic netCDF file (CDF-1, -2 or -5) asks for.
+/// The number of bytes that the header of a classic netCDF file (CDF-1, -2 or -5) states.
 ///
 /// @return Nothing for other files and for headers that cannot be followed. O(header).
 std::optional<std::uint64_t> classicNetcdfLength(const std::string& path);
 
-/// Holds the length of a file against the one that its header asks for: classic netCDF, DTED, PCRaster,
+/// Holds the length of a file against the one that its header states: classic netCDF, DTED, PCRaster,
 /// PCIDSK, SQLite (GeoPackage, MBTiles), and files named as .hgt tiles are. Other files pass.
 ///
 /// Errors: unreadable: the file is shorter; the message has both numbers.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Opens the file, chooses the band, checks that it may hold heights and that the file is as long as its
-// header asks for, and reads its georeference (position, CRS, vertical unit, datum and direction).
+// header states, and reads its georeference (position, CRS, vertical unit, datum and direction).
 #include "io/dem/raster_file.h"
 
 #include <cpl_conv.h>

@@ -4,7 +4,7 @@
 // its buffer held before. Here a read that cannot be answered in full is an error of GDAL (which ends a
 // reading, see io/dem/band_reader.h) and is recorded.
 //
-// A file is known after its first request, which asks for its first piece. Pieces of 256 KiB are kept, the
+// A file is known after its first request, for its first piece. Pieces of 256 KiB are kept, the
 // newest 128 of each file; where a read follows the one before, more pieces are requested at once, up to 32.
 #include "io/gdal/network_files.h"
 

@@ -14,7 +14,7 @@ namespace arete {
 ///
 /// Each answer is held against the length, the ETag and the date of the first one. Answers 429, 500, 502, 503
 /// and 504, lost connections and answers cut short are tried again: GDAL_HTTP_MAX_RETRY times (default 4),
-/// after as many seconds as the server asks for (at most 30), or GDAL_HTTP_RETRY_DELAY (default 0.25), twice
+/// after as many seconds as the server states (at most 30), or GDAL_HTTP_RETRY_DELAY (default 0.25), twice
 /// as many each time. A server that stalls for 30 seconds counts as a lost connection. Files are read in
 /// pieces; a server that knows no ranges sends a file as a whole, of at most 2 GiB.
 void installNetworkFiles();

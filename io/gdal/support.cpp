@@ -51,7 +51,7 @@ std::string archiveHint(const std::string& path, std::string_view kind) {
   return {};
 }
 
-/// HDF5 writes its errors to stderr unless it is told not to, thread by thread. It comes with GDAL, so it is
+/// HDF5 writes its errors to stderr unless that is turned off, thread by thread. It comes with GDAL, so it is
 /// looked up where it is.
 void silenceHdf5() {
   thread_local bool isSilent = false;

@@ -209,14 +209,15 @@ TEST(AbsentBlocks, OfASparseFileAreNodataAndCounted) {
       EXPECT_EQ(contains(joined(read->warnings), sentence), absent > 0) << joined(read->warnings) << sentence;
 
       // A virtual raster reads absent blocks as 0 where nothing declares NODATA.
+      const std::string size =
+          " xSize=\"" + std::to_string(columns) + "\" ySize=\"" + std::to_string(rows) + "\"";
       const std::string over = folder.write(
           "over.vrt",
           "<VRTDataset rasterXSize=\"" + std::to_string(columns + 5) + "\" rasterYSize=\"" +
               std::to_string(rows + 3) + "\"><VRTRasterBand dataType=\"Int16\" band=\"1\"" + ">" +
               (hasNodata ? "<NoDataValue>-32768</NoDataValue>" : "") + "<SimpleSource><SourceFilename>" +
-              path + "</SourceFilename><SourceBand>1</SourceBand><DstRect xOff=\"5\" yOff=\"3\" xSize=\"" +
-              std::to_string(columns) + "\" ySize=\"" + std::to_string(rows) +
-              "\"/></SimpleSource></VRTRasterBand></VRTDataset>");
+              path + "</SourceFilename><SourceBand>1</SourceBand><SrcRect xOff=\"0\" yOff=\"0\"" + size +
+              "/><DstRect xOff=\"5\" yOff=\"3\"" + size + "/></SimpleSource></VRTRasterBand></VRTDataset>");
       const auto virtually = readRaster(over);
       if (!hasNodata && absent > 0) {
         ASSERT_FALSE(virtually);
@@ -235,8 +236,10 @@ TEST(AbsentBlocks, OfAVirtualRasterAreWhatNoSourceCovers) {
   const std::string tile = writeRaster(folder.file("tile.tif"), {});
   const auto source = [&](int x, int y) {
     return "<SimpleSource><SourceFilename>" + tile +
-           "</SourceFilename><SourceBand>1</SourceBand><DstRect xOff=\"" + std::to_string(x) + "\" yOff=\"" +
-           std::to_string(y) + "\" xSize=\"3\" ySize=\"2\"/></SimpleSource>";
+           "</SourceFilename><SourceBand>1</SourceBand><SrcRect xOff=\"0\" yOff=\"0\" xSize=\"3\" "
+           "ySize=\"2\"/><DstRect xOff=\"" +
+           std::to_string(x) + "\" yOff=\"" + std::to_string(y) +
+           "\" xSize=\"3\" ySize=\"2\"/></SimpleSource>";
   };
   const auto read = readRaster(folder.write(
       "gap.vrt",
@@ -246,7 +249,8 @@ TEST(AbsentBlocks, OfAVirtualRasterAreWhatNoSourceCovers) {
   for (unsigned y = 0; y < 5; ++y)
     for (unsigned x = 0; x < 8; ++x) {
       const bool isCovered = (x < 3 && y < 2) || (x >= 4 && x < 7 && y >= 2 && y < 4);
-      EXPECT_EQ(std::isnan(read->heightfield.at(x, y)), !isCovered)
+      const double wanted = !isCovered ? kNan : y < 2 ? 1 + x + 3 * y : 1 + (x - 4) + 3 * (y - 2);
+      EXPECT_TRUE(isCovered ? read->heightfield.at(x, y) == wanted : std::isnan(read->heightfield.at(x, y)))
           << x << ", " << y << ": " << read->heightfield.at(x, y);
     }
   EXPECT_TRUE(contains(joined(read->warnings), "28 samples")) << joined(read->warnings);
