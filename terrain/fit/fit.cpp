@@ -59,9 +59,13 @@ Result<FitMesh> meshOf(const TerrainModel& model, const Cut& cut, FitBounds boun
   return mesh;
 }
 
+tl::unexpected<Error> notOneCut() {
+  return failure(ErrorCode::invalidData, "the triangles of the model are not those of a multitriangulation");
+}
+
 /// The cut that the mesh represents now, with the errors of its triangles. An error above the tolerance by no
 /// more than rounding is set to the tolerance.
-FittedCut fittedCut(const FitMesh& mesh, const Cut& before, double tolerance) {
+Result<FittedCut> fittedCut(const FitMesh& mesh, const Cut& before, double tolerance) {
   const MultiTriangulation& mt = mesh.mt();
   NodeSet nodes(mt.nodeCount(), 0);
   for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v)
@@ -72,7 +76,11 @@ FittedCut fittedCut(const FitMesh& mesh, const Cut& before, double tolerance) {
                    .errorBefore = before.achievedError};
   fitted.cut.isComplete = before.isComplete;
   fitted.heights.reserve(fitted.cut.vertices.size());
-  for (const std::uint32_t v : fitted.cut.vertices) fitted.heights.push_back(mesh.heights()[mesh.indexOf(v)]);
+  for (const std::uint32_t v : fitted.cut.vertices) {
+    const std::uint32_t vertex = mesh.indexOf(v);
+    if (vertex == FitMesh::kNone) return notOneCut();
+    fitted.heights.push_back(mesh.heights()[vertex]);
+  }
 
   std::vector<double> errors = mesh.errors();
   for (std::uint32_t t = 0; t < mesh.slotCount(); ++t) {
@@ -92,8 +100,11 @@ FittedCut fittedCut(const FitMesh& mesh, const Cut& before, double tolerance) {
   fitted.errors.reserve(fitted.cut.ids.size());
   fitted.cut.achievedError = 0;
   for (const std::uint32_t id : fitted.cut.ids) {
-    fitted.errors.push_back(
-        std::ranges::lower_bound(byId, id, {}, &std::pair<std::uint32_t, double>::first)->second);
+    const auto found = std::ranges::lower_bound(byId, id, {}, &std::pair<std::uint32_t, double>::first);
+    if (found == byId.end() || found->first != id) return notOneCut();
+    if (!std::isfinite(found->second))
+      return failure(ErrorCode::invalidData, "the heights of the model are too large for their errors");
+    fitted.errors.push_back(found->second);
     fitted.cut.achievedError = std::max(fitted.cut.achievedError, fitted.errors.back());
   }
   return fitted;

@@ -5,6 +5,7 @@
 // so this terminates. The least bound that can be reached is found by bisection. Few triangles have errors
 // near the largest, so most bounds need a few patches only.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -29,8 +30,9 @@ class Lessening {
     double reached = worst(), missed = 0;
     std::vector<double> best = mesh_.heights();
     // An error within rounding cannot be reduced: patches have rounding errors of their own.
-    while (reached > unit_.rounding && missed < kEnough * reached) {
+    while (reached > unit_.rounding && missed < kEnough * reached && std::isfinite(reached)) {
       const double bound = missed > 0 ? (missed + reached) / 2 : kFirstStep * reached;
+      if (!(missed < bound && bound < reached)) break;  // neighbouring doubles
       const Result<bool> isReached = reach(bound);
       if (!isReached) return tl::unexpected(isReached.error());
       if (*isReached) {

@@ -72,10 +72,14 @@ double FitMesh::severity(std::uint32_t slot) const {
 
 bool FitMesh::isLeaf(NodeId node) const {
   const std::uint32_t begin = mt_.slotTriangle(node, 0).index(), end = begin + mt_.slotCount(node);
+  std::uint32_t own = 0;
   bool isWhole = true;
-  forStar(indexOf(mt_.apex(node).index()),
-          [&](std::uint32_t t) { isWhole = isWhole && triangles_[t].id >= begin && triangles_[t].id < end; });
-  return isWhole;
+  forStar(indexOf(mt_.apex(node).index()), [&](std::uint32_t t) {
+    isWhole = isWhole && triangles_[t].id >= begin && triangles_[t].id < end;
+    ++own;
+  });
+  // A damaged model may have removed some of them away from the apex.
+  return isWhole && own == mt_.ceilingSize(node);
 }
 
 void FitMesh::remove(NodeId leaf, std::span<FloorTriangle> floor) {

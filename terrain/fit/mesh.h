@@ -45,8 +45,8 @@ class FitMesh {
     std::vector<std::uint32_t> samples = {};
   };
 
-  /// The heights are those of the multitriangulation. Precondition: `samples` is that of `cut`; `mt` outlives
-  /// this. O(vertices + triangles).
+  /// The heights are those of the multitriangulation. Precondition: `samples` is what shareSamples() gave for
+  /// `cut`, so its triangles are counter-clockwise; `mt` outlives this. O(vertices + triangles).
   FitMesh(const MultiTriangulation& mt, const Cut& cut, FitSamples samples, FitBounds bounds);
 
   const MultiTriangulation& mt() const { return mt_; }
@@ -57,9 +57,11 @@ class FitMesh {
   bool isLive(std::uint32_t slot) const { return triangles_[slot].id != kNone; }
 
   std::uint32_t mtVertex(std::uint32_t vertex) const { return mtVertices_[vertex]; }
-  /// The vertex with an MT vertex. Precondition: it is one of the initial cut. O(log vertices).
+  /// The vertex with an MT vertex; kNone where it is not one of the initial cut. O(log vertices).
   std::uint32_t indexOf(std::uint32_t mtVertex) const {
-    return static_cast<std::uint32_t>(std::ranges::lower_bound(mtVertices_, mtVertex) - mtVertices_.begin());
+    const auto found = std::ranges::lower_bound(mtVertices_, mtVertex);
+    if (found == mtVertices_.end() || *found != mtVertex) return kNone;
+    return static_cast<std::uint32_t>(found - mtVertices_.begin());
   }
   /// Whether the vertex is still in the mesh.
   bool isIn(std::uint32_t vertex) const { return star_[vertex] != kNone; }
@@ -132,8 +134,8 @@ class FitMesh {
   /// Whether all of the node's triangles are in the mesh, so that it can be removed. Precondition: its vertex
   /// isIn().
   bool isLeaf(NodeId node) const;
-  /// Removes a leaf from the cut: its floor replaces its star. Precondition: `floor` has all of the star's
-  /// samples; the vectors of samples are cleared.
+  /// Removes a leaf from the cut: its floor replaces its star. Precondition: `floor` is that of the leaf, its
+  /// triangles are counter-clockwise and have all of the star's samples; the vectors of samples are cleared.
   void remove(NodeId leaf, std::span<FloorTriangle> floor);
 
   /// The largest |residual| over the samples that each triangle covers, edges and corners included; by slot,

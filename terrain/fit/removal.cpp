@@ -96,6 +96,17 @@ bool FitPatches::addRows(const FitMesh::Corners& corners, const Samples& samples
   return isWithin;
 }
 
+bool FitPatches::isInMesh(std::uint32_t vertex) const {
+  return vertex != kNone && mesh_.isIn(vertex);
+}
+
+bool FitPatches::isTriangle(const FitMesh::Corners& corners) const {
+  if (!std::ranges::all_of(corners, [&](std::uint32_t v) { return isInMesh(v); })) return false;
+  std::array<Vec2, 3> at;
+  for (int k = 0; k < 3; ++k) at[k] = mesh_.plan(mesh_.mtVertex(corners[k]));
+  return planOrientation(at[0], at[1], at[2]) > 0;
+}
+
 void FitPatches::tryRemoval(NodeId leaf, std::uint32_t rings, RemovalTrial& trial) {
   const MultiTriangulation& mt = mesh_.mt();
   const std::uint32_t apex = mesh_.indexOf(mt.apex(leaf).index());
@@ -106,6 +117,10 @@ void FitPatches::tryRemoval(NodeId leaf, std::uint32_t rings, RemovalTrial& tria
   trial.read.assign(1, apex);
   std::vector<std::uint32_t>& link = trial.read;
   for (const std::uint32_t v : mt.link(leaf)) link.push_back(mesh_.indexOf(v));
+  if (!std::ranges::all_of(link, [&](std::uint32_t v) { return isInMesh(v); })) {
+    link.resize(1);
+    return;
+  }
   const std::size_t linkEnd = link.size();
 
   const auto ids = mt.floor(leaf);
@@ -117,6 +132,7 @@ void FitPatches::tryRemoval(NodeId leaf, std::uint32_t rings, RemovalTrial& tria
     floor[i].samples.clear();
     const auto corners = mt.corners(TriangleId(ids[i]));
     for (int k = 0; k < 3; ++k) floor[i].corners[k] = mesh_.indexOf(corners[k]);
+    if (!isTriangle(floor[i].corners)) return;  // of a damaged model
   }
   double worst = 0;
   std::vector<FitMesh::Weights> weights;

@@ -43,6 +43,10 @@ class FitPatches {
 
  private:
   void begin();
+  /// Whether a result of FitMesh::indexOf() is a vertex that is in the mesh.
+  bool isInMesh(std::uint32_t vertex) const;
+  /// Whether corners are in the mesh and counter-clockwise: in a damaged model a floor may be anything.
+  bool isTriangle(const FitMesh::Corners& corners) const;
   void addUnknown(std::uint32_t vertex);
   /// Adds the next ring: the neighbours, but for `without`, of the vertices added last.
   void grow(std::uint32_t without);

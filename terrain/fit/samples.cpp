@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
+// A file may hold any numbers, so the triangles are checked first: each must be counter-clockwise, and
+// together they must not be larger than the grid. That bounds the scan below, and the weights of a fit exist.
+//
 // Raster: a row of a triangle is an interval between integer quotients, rounded inwards. A sample on an edge
 // is found by both of its triangles; the first one takes it.
 //
@@ -8,6 +11,7 @@
 // that triangle, and the search continues there.
 #include "terrain/fit/samples.h"
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -17,6 +21,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/memory/required_memory.h"
 #include "engine/parallel/with_threads.h"
 #include "terrain/model/plan_orientation.h"
 
@@ -24,7 +29,15 @@ namespace arete {
 namespace {
 
 constexpr std::uint32_t kNone = FitSamples::kNone;
-constexpr std::size_t kCheckEvery = 1 << 14;
+constexpr std::size_t kCheckEvery = 1 << 14;      // triangles
+constexpr std::uint64_t kCheckSamples = 1 << 22;  // samples
+
+tl::unexpected<Error> interrupted() {
+  return failure(ErrorCode::interrupted, "the fit was interrupted");
+}
+tl::unexpected<Error> uncovered() {
+  return failure(ErrorCode::invalidData, "the triangles of the model leave samples uncovered");
+}
 
 struct LatticePoint {
   std::int64_t x, y;
@@ -34,9 +47,9 @@ std::int64_t floorOf(std::int64_t numerator, std::int64_t denominator) {  // den
   return numerator >= 0 ? numerator / denominator : -((denominator - 1 - numerator) / denominator);
 }
 
-/// take(x, y) for every lattice point in the closed, counter-clockwise triangle.
-template <class Take>
-void scanTriangle(const std::array<LatticePoint, 3>& p, const Take& take) {
+/// takeRow(y, left, right) for every row of lattice points in the closed, counter-clockwise triangle.
+template <class TakeRow>
+void scanTriangle(const std::array<LatticePoint, 3>& p, const TakeRow& takeRow) {
   const auto [low, high] = std::minmax({p[0].y, p[1].y, p[2].y});
   for (std::int64_t y = low; y <= high; ++y) {
     std::int64_t left = std::numeric_limits<std::int64_t>::min(), right = -(left + 1);
@@ -46,8 +59,28 @@ void scanTriangle(const std::array<LatticePoint, 3>& p, const Take& take) {
       if (dy > 0) right = std::min(right, a.x + floorOf(dx * (y - a.y), dy));
       if (dy < 0) left = std::max(left, a.x - floorOf(dx * (y - a.y), -dy));
     }
-    for (std::int64_t x = left; x <= right; ++x) take(x, y);
+    takeRow(y, left, right);
   }
+}
+
+/// Checks that all triangles are counter-clockwise and, on a lattice, that together they have no more than
+/// its area.
+Status checkTriangles(const MultiTriangulation& mt, const Cut& cut) {
+  const VertexArrays& vertices = mt.vertices();
+  double area = 0, xMax = 0, yMax = 0;
+  for (std::size_t t = 0; t < cut.triangles.size(); ++t) {
+    std::array<Vec2, 3> c;
+    for (int i = 0; i < 3; ++i) c[i] = vertices.planPosition(VertexId(cut.vertices[cut.triangles[t][i]]));
+    if (planOrientation(c[0], c[1], c[2]) <= 0)
+      return failure(ErrorCode::invalidData,
+                     fmt::format("triangle {} of the model is not counter-clockwise", cut.ids[t]));
+    area += (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x);
+    for (const Vec2& p : c) xMax = std::max(xMax, p.x), yMax = std::max(yMax, p.y);
+  }
+  // Twice the areas: on a lattice whole numbers, rounded at the most beyond 2^53, where 1 % is plenty.
+  if (vertices.isLattice() && area > 2.02 * xMax * yMax)
+    return failure(ErrorCode::invalidData, "the triangles of the model overlap");
+  return {};
 }
 
 Result<FitSamples> onLattice(const MultiTriangulation& mt, const Cut& cut, const RunContext& context) {
@@ -57,29 +90,37 @@ Result<FitSamples> onLattice(const MultiTriangulation& mt, const Cut& cut, const
                     std::vector<std::uint32_t>(mt.vertexCount(), kNone)};
   std::uint32_t last = 0;
   for (const std::uint32_t s : vertices.samples) last = std::max(last, s);
+  requireMemory((std::uint64_t(last) + 1) * sizeof(std::uint32_t));
   std::vector<std::uint32_t> unassigned(std::size_t(last) + 1,
                                         kNone);  // per sample: its vertex, until assigned
   for (std::uint32_t v = 0; v < mt.vertexCount(); ++v) unassigned[vertices.samples[v]] = v;
   std::size_t assigned = 0;
+  std::uint64_t visited = 0;
+  bool isStopped = false;
   for (std::size_t t = 0; t < cut.triangles.size(); ++t) {
-    if (t % kCheckEvery == 0 && context.cancelled())
-      return failure(ErrorCode::interrupted, "the fit was interrupted");
+    if (isStopped || (t % kCheckEvery == 0 && context.cancelled())) return interrupted();
     std::array<LatticePoint, 3> corner;
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t s = vertices.samples[cut.vertices[cut.triangles[t][i]]];
       corner[i] = {s % columns, s / columns};
     }
-    scanTriangle(corner, [&](std::int64_t x, std::int64_t y) {
-      std::uint32_t& v = unassigned[std::size_t(y) * columns + std::size_t(x)];
-      if (v == kNone) return;  // NODATA, or assigned to a neighbour
-      shared.next[v] = shared.first[t];
-      shared.first[t] = v;
-      v = kNone;
-      ++assigned;
+    scanTriangle(corner, [&](std::int64_t y, std::int64_t left, std::int64_t right) {
+      for (std::int64_t x = left; x <= right; ++x) {
+        std::uint32_t& v = unassigned[std::size_t(y) * columns + std::size_t(x)];
+        if (v == kNone) continue;  // NODATA, or assigned to a neighbour
+        shared.next[v] = shared.first[t];
+        shared.first[t] = v;
+        v = kNone;
+        ++assigned;
+      }
+      visited += static_cast<std::uint64_t>(right - left + 1);
+      if (visited < kCheckSamples) return;
+      visited = 0;
+      isStopped = isStopped || context.cancelled();
     });
   }
-  if (assigned != mt.vertexCount())
-    return failure(ErrorCode::invalidData, "the triangles of the model leave samples uncovered");
+  if (isStopped) return interrupted();
+  if (assigned != mt.vertexCount()) return uncovered();
   return shared;
 }
 
@@ -89,7 +130,8 @@ Result<FitSamples> onPoints(const MultiTriangulation& mt, const Cut& cut, const 
   for (std::uint32_t i = 0; i < byId.size(); ++i) byId[i] = {cut.ids[i], i};
   std::ranges::sort(byId);
   const auto indexOf = [&](std::uint32_t id) {
-    return std::ranges::lower_bound(byId, std::pair(id, 0u))->second;
+    const auto found = std::ranges::lower_bound(byId, std::pair(id, 0u));
+    return found != byId.end() && found->first == id ? found->second : kNone;
   };
   const auto covers = [&](std::uint32_t id, Vec2 p) {
     const auto corners = mt.corners(TriangleId(id));
@@ -120,16 +162,20 @@ Result<FitSamples> onPoints(const MultiTriangulation& mt, const Cut& cut, const 
             break;
           }
           const NodeId creator = mt.creator(TriangleId(*found));
-          if (!creator.isValid() || nodes[creator.index()])
-            over[v.index()] = indexOf(*found);
-          else
+          if (creator.isValid() && !nodes[creator.index()]) {
             n = creator.index();
+            continue;
+          }
+          over[v.index()] = indexOf(*found);
+          if (over[v.index()] != kNone) continue;
+          isLost = true;
+          break;
         }
       }
     });
   });
-  if (context.cancelled()) return failure(ErrorCode::interrupted, "the fit was interrupted");
-  if (isLost) return failure(ErrorCode::invalidData, "the triangles of the model leave samples uncovered");
+  if (context.cancelled()) return interrupted();
+  if (isLost || std::ranges::find(over, kNone) != over.end()) return uncovered();
   FitSamples shared{std::vector<std::uint32_t>(cut.triangles.size(), kNone),
                     std::vector<std::uint32_t>(mt.vertexCount(), kNone)};
   for (std::uint32_t v = mt.vertexCount(); v-- > 0;) {
@@ -143,6 +189,7 @@ Result<FitSamples> onPoints(const MultiTriangulation& mt, const Cut& cut, const 
 
 Result<FitSamples> shareSamples(const MultiTriangulation& mt, const Cut& cut, const NodeSet& nodes,
                                 const RunContext& context) {
+  if (Status checked = checkTriangles(mt, cut); !checked) return tl::unexpected(checked.error());
   return mt.vertices().isLattice() ? onLattice(mt, cut, context) : onPoints(mt, cut, nodes, context);
 }
 

@@ -22,8 +22,10 @@ struct FitSamples {
 /// Assigns the samples to the triangles of a cut. Raster: every triangle is scan-converted in integers,
 /// O(samples). Points: each one is followed from the node that inserts it to the first node of the cut, by
 /// exact predicates, O(samples * depth), parallel. The result is the same for any number of threads.
-/// Precondition: `cut` is the front of `nodes`. Errors: invalidData: no triangle covers some sample;
-/// interrupted.
+/// Precondition: `cut` is the front of `nodes`. The positions need not be those of a triangulation: a file
+/// may hold any. Errors: invalidData: a triangle is not counter-clockwise, triangles overlap, no triangle
+/// covers some sample; interrupted. Where there are none, all triangles of the cut are counter-clockwise.
+/// @throw std::bad_alloc
 Result<FitSamples> shareSamples(const MultiTriangulation& mt, const Cut& cut, const NodeSet& nodes,
                                 const RunContext& context);
 

@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "engine/memory/required_memory.h"
+
 namespace arete {
 
 RasterHeightfield TerrainModel::rasterSamples() const {
@@ -16,6 +18,7 @@ RasterHeightfield TerrainModel::rasterSamples() const {
   field.sourceChecksum = sourceChecksum;
   field.rawScale = mt.vertices().encoding.scale;
   field.rawOffset = mt.vertices().encoding.offset;
+  requireMemory(std::uint64_t(columns) * rows * sizeof(double));
   field.heights.assign(std::size_t(columns) * rows, std::numeric_limits<double>::quiet_NaN());
   for (std::uint32_t v = 0; v < mt.vertexCount(); ++v)
     field.heights[mt.vertices().samples[v]] = mt.vertices().height(VertexId(v));

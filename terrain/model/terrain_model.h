@@ -44,6 +44,7 @@ struct TerrainModel {
   bool isFlipped() const { return isRaster && georeference.determinant() < 0; }
 
   /// The samples that the model was built from, to the bit; NaN for NODATA. O(samples).
+  /// @throw std::bad_alloc
   RasterHeightfield rasterSamples() const;
   PointHeightfield pointSamples() const;
 };

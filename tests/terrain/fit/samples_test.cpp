@@ -9,6 +9,8 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "terrain/fit_fixture.h"
@@ -60,6 +62,36 @@ TEST(FitSamples, StopWhenCancelled) {
     const auto samples = shareSamples(c.model.mt, c.cut, nodesOf(c.model.mt, c.cut), context);
     ASSERT_FALSE(samples) << c.name;
     EXPECT_EQ(samples.error().code, ErrorCode::interrupted);
+  }
+}
+
+TEST(FitSamples, AreRefusedWhereTrianglesAreNoTriangulation) {
+  // As a file may say: two vertices in each other's place, all in one place, all on a line.
+  for (const CutOfModel& c : cutsOfAllFamilies(3)) {
+    const MtArrays& arrays = c.model.mt.arrays();
+    const VertexArrays& vertices = arrays.vertices;
+    for (const int kind : {0, 1, 2}) {
+      SCOPED_TRACE(c.name + ", kind " + std::to_string(kind));
+      std::vector<std::uint32_t> samples(vertices.samples.begin(), vertices.samples.end());
+      std::vector<Vec2> plan(vertices.plan.begin(), vertices.plan.end());
+      const auto change = [&](auto& of) {
+        if (of.empty()) return;
+        if (kind == 0) std::swap(of.front(), of.back());
+        for (auto& each : of)
+          if (kind == 1) each = of.front();
+      };
+      change(samples);
+      change(plan);
+      for (std::size_t i = 0; kind == 2 && i < plan.size(); ++i) plan[i].y = 2 * plan[i].x;
+      for (std::size_t i = 0; kind == 2 && i < samples.size(); ++i) samples[i] %= vertices.columns;
+      MtArrays changed = arrays;
+      changed.vertices.samples = samples;
+      changed.vertices.plan = plan;
+      const MultiTriangulation mt(changed, nullptr);
+      const auto shared = shareSamples(mt, c.cut, nodesOf(mt, c.cut), {});
+      ASSERT_FALSE(shared);
+      EXPECT_EQ(shared.error().code, ErrorCode::invalidData) << shared.error().describe();
+    }
   }
 }
 
