@@ -40,12 +40,17 @@ QueryFootprint::QueryFootprint(const TerrainModel& outline)
   rowsPerUnit_ = height > 0 ? kCells / height : 0;
 }
 
+int QueryFootprint::cellOf(double cells) {
+  // NaN, of a domain that overflows doubles or has no extent, is the first cell.
+  return cells > 0 ? static_cast<int>(std::min(cells, kCells - 1.0)) : 0;
+}
+
 int QueryFootprint::columnOf(double x) const {
-  return static_cast<int>(std::clamp((x - domain_.xMin) * columnsPerUnit_, 0.0, kCells - 1.0));
+  return cellOf((x - domain_.xMin) * columnsPerUnit_);
 }
 
 int QueryFootprint::rowOf(double y) const {
-  return static_cast<int>(std::clamp((y - domain_.yMin) * rowsPerUnit_, 0.0, kCells - 1.0));
+  return cellOf((y - domain_.yMin) * rowsPerUnit_);
 }
 
 QueryFootprint::Cells QueryFootprint::cellsAround(Vec2 low, Vec2 high) const {
@@ -76,7 +81,7 @@ void QueryFootprint::addLine(Vec2 from, Vec2 to) {
   const Vec2 way{to.x - from.x, to.y - from.y};
   if (!std::isfinite(from.x + from.y) || !std::isfinite(way.x + way.y)) return;
   const double cells = std::max(std::fabs(way.x) * columnsPerUnit_, std::fabs(way.y) * rowsPerUnit_);
-  const int steps = static_cast<int>(std::ceil(std::clamp(cells, 1.0, kMostSteps)));
+  const int steps = cells > 1 ? static_cast<int>(std::ceil(std::min(cells, kMostSteps))) : 1;
   Vec2 begin = from;
   for (int i = 1; i <= steps; ++i) {
     const double part = static_cast<double>(i) / steps;

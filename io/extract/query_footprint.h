@@ -60,6 +60,7 @@ class QueryFootprint {
   Cells cellsAround(Vec2 low, Vec2 high) const;
   bool areMarked(const Cells& cells) const;
   void mark(const Cells& cells);
+  static int cellOf(double cells);
   int columnOf(double x) const;
   int rowOf(double y) const;
 

@@ -17,6 +17,12 @@ namespace {
 
 constexpr std::size_t kMostListed = 64;  // cells per root triangle, on average
 
+/// The cell of `count` that holds a place, in cells from the first. NaN, where bounds overflow doubles or
+/// have no extent, is in the first.
+std::uint32_t cellOf(double place, std::uint32_t count) {
+  return place > 0 ? static_cast<std::uint32_t>(std::min(place, count - 1.0)) : 0;
+}
+
 /// The interval of x of a triangle within a band of y; empty (first > second) where it does not meet the
 /// band.
 std::pair<double, double> extentInBand(const std::array<Vec2, 3>& triangle, double low, double high) {
@@ -76,7 +82,8 @@ RootGrid::RootGrid(const MultiTriangulation& mt, double margin) {
 
 void RootGrid::layCells(double about) {
   const double width = bounds_.xMax - bounds_.xMin, height = bounds_.yMax - bounds_.yMin;
-  const double aspect = width > 0 && height > 0 ? width / height : 1;
+  const bool hasAspect = width > 0 && height > 0 && std::isfinite(width) && std::isfinite(height);
+  const double aspect = hasAspect ? width / height : 1;
   const auto along = [&](double count) {
     return static_cast<std::uint32_t>(std::clamp(std::round(std::sqrt(count)), 1.0, std::max(1.0, about)));
   };
@@ -100,13 +107,11 @@ bool RootGrid::countLists(std::span<const std::array<Vec2, 3>> triangles, std::s
 }
 
 std::uint32_t RootGrid::column(double x) const {
-  return static_cast<std::uint32_t>(
-      std::clamp(std::floor((x - bounds_.xMin) / cellWidth_), 0.0, columns_ - 1.0));
+  return cellOf((x - bounds_.xMin) / cellWidth_, columns_);
 }
 
 std::uint32_t RootGrid::row(double y) const {
-  return static_cast<std::uint32_t>(
-      std::clamp(std::floor((y - bounds_.yMin) / cellHeight_), 0.0, rows_ - 1.0));
+  return cellOf((y - bounds_.yMin) / cellHeight_, rows_);
 }
 
 template <class Visit>
