@@ -290,6 +290,12 @@ Status checkOutput(const std::string& option, const std::string& path, const std
   return {};
 }
 
+void addOverwriteTo(CLI::App& command, ExistingFile& existing) {
+  command.add_flag_callback(
+      "--overwrite", [&existing] { existing = ExistingFile::isReplaced; },
+      "Replace a GeoPackage that exists as a whole (default: its other layers are kept)");
+}
+
 std::string grouped(std::uint64_t count) {
   std::string text = std::to_string(count);
   for (std::size_t i = text.size(); i > 3;) text.insert(i -= 3, 1, ' ');

@@ -11,6 +11,7 @@
 #include "engine/base/result.h"
 #include "io/crs/transform.h"
 #include "io/dem/dem_reader.h"
+#include "io/file/existing_file.h"
 #include "terrain/model/source_reading.h"
 #include "terrain/model/terrain_model.h"
 
@@ -84,6 +85,9 @@ struct MeshOutput {
 /// of the command. Creates nothing. Errors name the option.
 Status checkOutput(const std::string& option, const std::string& path, const std::vector<std::string>& inputs,
                    const std::vector<std::string>& outputs = {});
+
+/// The option --overwrite of a command that may write a GeoPackage.
+void addOverwriteTo(CLI::App& command, ExistingFile& existing);
 
 /// 769671 as "769 671".
 std::string grouped(std::uint64_t count);

@@ -25,6 +25,7 @@ struct ConvertArguments {
   std::string input, crs;
   MeshOutput output;
   bool isPacked = false;
+  ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
 
 Json roundingJson(const Vec3& rounding) {
@@ -81,7 +82,9 @@ Status runConvert(const ConvertArguments& arguments, Session& session) {
   if (!mesh) return tl::unexpected(mesh.error());
   const std::uint64_t triangles = mesh->mesh.triangles.size(), vertices = mesh->mesh.positions.size();
   const Result<ConvertedMesh> converted = convertMesh(
-      std::move(*mesh), output, {.crs = arguments.crs, .format = arguments.output.format}, session.context());
+      std::move(*mesh), output,
+      {.crs = arguments.crs, .format = arguments.output.format, .existing = arguments.existing},
+      session.context());
   if (!converted) {
     Error error = converted.error();
     if (error.code == ErrorCode::usage) error.culprit = fmt::format("--crs {}", arguments.crs);
@@ -120,6 +123,7 @@ void addConvertCommand(CLI::App& app, Session& session) {
       ->required()
       ->type_name("");
   arguments->output.addTo(*command, "File to write", "; .amt from .amt");
+  addOverwriteTo(*command, arguments->existing);
   command->add_flag("--packed", arguments->isPacked,
                     "Write an .amt in the compressed form (default: the plain one)");
   command

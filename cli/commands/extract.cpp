@@ -52,6 +52,7 @@ struct ExtractArguments {
   MeshOutput output;
   CriterionArguments criterion;
   std::string certificate, errorRaster;
+  ExistingFile existing = ExistingFile::keepsOtherLayers;
   CLI::Option* certificateOption = nullptr;
 };
 
@@ -96,6 +97,7 @@ Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments
     return failure(ErrorCode::usage, "needs a name if the mesh goes to stdout", "--certificate");
   for (ExtractCriterion& criterion : *criteria) {
     ExtractRequest request;
+    request.existing = arguments.existing;
     request.criterion = std::move(criterion);
     const std::string tag = tagOf(request.criterion);
     request.output = named(output, tag, several);
@@ -314,6 +316,7 @@ void addExtractCommand(CLI::App& app, Session& session) {
       *command, "File to write",
       ", or .tif (the TIN sampled on the source grid). {} in the name becomes the tolerance; "
       "with several tolerances and no {}, _E is put before the extension");
+  addOverwriteTo(*command, arguments->existing);
   arguments->criterion.addTo(*command);
   arguments->certificateOption =
       command

@@ -29,6 +29,7 @@ struct HeightArguments {
   std::string points, layer, output;
   bool lonLat = false;
   double maxError = 0;
+  ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
 
 using Heights = std::vector<std::optional<SurfaceHeight>>;
@@ -130,7 +131,9 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
     session.say(textOf(arguments, *table, *heights));
     json["points"] = jsonOf(*table, *heights);
   } else {
-    if (Status written = writeHeightTable(arguments.output, *table, *heights, session.context()); !written)
+    if (Status written =
+            writeHeightTable(arguments.output, *table, *heights, session.context(), arguments.existing);
+        !written)
       return written;
     session.say(fmt::format("{}: {} of {} places have a height\n", arguments.output, grouped(found),
                             grouped(heights->size())));
@@ -186,6 +189,7 @@ void addHeightCommand(CLI::App& app, Session& session) {
           "Write a table (.csv or .gpkg): the columns of the file, x, y, height and its bounds below, "
           "above (default: CSV on stdout)")
       ->type_name("FILE");
+  addOverwriteTo(*command, arguments->existing);
   command
       ->add_option(
           "--max-error", arguments->maxError,

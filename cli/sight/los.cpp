@@ -34,6 +34,7 @@ struct LosArguments {
   SightArguments sight;
   SightMethod method = SightMethod::automatic;
   double maxError = 0, frequency = 0, fresnel = kUsualFresnel, clutterFree = 100;
+  ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
 
 bool isJson(const std::string& path) {
@@ -196,7 +197,8 @@ Status reportMany(const LosArguments& a, const SightResults& results, Json json,
                         .crsWkt = results.pairs.crsWkt,
                         .ends = ends,
                         .inputs = &results.pairs.attributes,
-                        .results = &columns};
+                        .results = &columns,
+                        .existing = a.existing};
   if (a.output.empty() || isJson(a.output)) {
     Json all = Json::array();
     for (std::size_t i = 0; i < lines; ++i) all.push_back(results.jsonOf(i));
@@ -320,6 +322,7 @@ void addLosCommand(CLI::App& app, Session& session) {
           "Write the answers (.csv, .gpkg or .json): the columns of the file, verdict, distance, azimuth, "
           "elevation, clearance, obstruction (default: CSV on stdout)")
       ->type_name("FILE");
+  addOverwriteTo(*command, arguments->existing);
   arguments->sight.addLonLatTo(*command);
   arguments->sight.addNodataTo(*command);
   command

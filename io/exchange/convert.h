@@ -14,6 +14,8 @@ namespace arete {
 struct ConvertOptions {
   std::string crs = {};     ///< any text that GDAL accepts; empty: that of the mesh. Nothing is reprojected.
   std::string format = {};  ///< MeshWriteOptions::format
+  /// What happens to the other layers of a GeoPackage that exists.
+  ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
 
 /// The result of a conversion.

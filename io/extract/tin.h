@@ -28,6 +28,8 @@ struct ExtractRequest {
   std::string format;       ///< MeshWriteOptions::format; empty: by the extension
   std::string certificate;  ///< JSON; empty = none
   std::string errorRaster;  ///< GeoTIFF of z_TIN - z_DEM; empty = none
+  /// What happens to the other layers of a GeoPackage that exists.
+  ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
 
 /// What extract() made of a request.

@@ -11,6 +11,7 @@
 #include "engine/base/result.h"
 #include "engine/base/triangle_mesh.h"
 #include "engine/parallel/run_context.h"
+#include "io/file/existing_file.h"
 
 namespace arete {
 
@@ -53,6 +54,8 @@ struct MeshWriteOptions {
   std::string format = {};
   /// Further comment lines.
   std::vector<std::string> notes = {};
+  /// What happens to the other layers of a GeoPackage that exists.
+  ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
 
 /// What a format can hold.

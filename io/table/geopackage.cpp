@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// GDAL writes the file under its temporary name. SQLite's journal and its synchronization with the disk are
-// off: an unfinished file is never renamed. GDAL reports failures on closing only through its error handler,
-// so the file is renamed after it is closed and if the handler has collected no failure.
+// GDAL writes the file under its temporary name. A file that exists is copied to that name first, and what is
+// written replaces the layer of that name in the copy. SQLite's journal and its synchronization with the disk
+// are off: an unfinished file is never renamed. GDAL reports failures on closing only through its error
+// handler, so the file is renamed after it is closed and if the handler has collected no failure.
 #include "io/table/geopackage.h"
 
 #include <cpl_conv.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <charconv>
 #include <optional>
 #include <system_error>
@@ -15,6 +17,7 @@
 
 #include "io/crs/reader.h"
 #include "io/file/output_file.h"
+#include "io/table/geopackage_copy.h"
 
 namespace arete {
 
@@ -22,18 +25,47 @@ tl::unexpected<Error> cannotBeWritten(const GdalErrors& errors) {
   return failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", errors.firstFailure()));
 }
 
-Status writeGeoPackage(const std::filesystem::path& path, const GeoPackageFill& fill) {
+namespace {
+
+/// Whether there is a file that may hold other layers. An empty one, as mktemp makes it, holds none.
+bool mayHoldLayers(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored) && std::filesystem::file_size(path, ignored) > 0;
+}
+
+GdalDatasetPtr openToAdd(const std::string& path) {
+  constexpr std::array<const char*, 2> kDrivers = {"GPKG", nullptr};
+  return GdalDatasetPtr(GDALDataset::Open(
+      path.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE | GDAL_OF_VERBOSE_ERROR, kDrivers.data()));
+}
+
+}  // namespace
+
+Status writeGeoPackage(const std::filesystem::path& path, ExistingFile existing, const OwnLayer& layer,
+                       const GeoPackageFill& fill, const RunContext& context) {
   registerGdal();
   Result<OutputFile> file = OutputFile::create(path);
   if (!file) return tl::unexpected(file.error());
+  std::optional<GeoPackageCopy> copy;
+  if (existing == ExistingFile::keepsOtherLayers && mayHoldLayers(path)) {
+    auto made = GeoPackageCopy::make(path, file->temporaryPath(), layer, context);
+    if (!made) return failure(made.error().code, made.error().message, path.string());
+    copy = std::move(*made);
+  }
   const CPLConfigOptionSetter noWait("OGR_SQLITE_SYNCHRONOUS", "OFF", false);
   const CPLConfigOptionSetter noJournal("OGR_SQLITE_JOURNAL", "OFF", false);
   const CPLConfigOptionSetter noClock("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z", false);
   GdalErrors errors;
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
   if (!driver) return failure(ErrorCode::unsupported, "this GDAL cannot write GeoPackages");
-  GdalDatasetPtr dataset(
-      driver->Create(file->temporaryPath().string().c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  const std::string temporary = file->temporaryPath().string();
+  GdalDatasetPtr dataset =
+      copy && copy->isMade()
+          ? openToAdd(temporary)
+          : GdalDatasetPtr(driver->Create(temporary.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  if (!dataset && copy)
+    return failure(ErrorCode::invalidData,
+                   fmt::format("exists and cannot be added to: {}", errors.firstFailure()));
   if (!dataset)
     return failure(ErrorCode::unreadable, fmt::format("cannot be created: {}", errors.firstFailure()));
   Status filled = fill(*dataset, errors);

@@ -7,21 +7,28 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
+#include "io/file/existing_file.h"
 #include "io/gdal/support.h"
+#include "io/table/geopackage_copy.h"
 #include "io/table/point_attributes.h"
 
 namespace arete {
 
-/// Fills an empty GeoPackage.
+/// Adds a layer to a GeoPackage, by addLayer().
 using GeoPackageFill = std::function<Status(GDALDataset& dataset, GdalErrors& errors)>;
 
 /// Writes a GeoPackage, complete or not at all. The same content gives the same bytes: its timestamps are the
-/// first second of 1970.
+/// first second of 1970. A file that exists keeps everything but the layer that is written, unless it is to
+/// be replaced; other programs cannot write to it meanwhile.
 ///
-/// Errors: those of OutputFile and of `fill`. unreadable: it cannot be written; quotes GDAL.
-Status writeGeoPackage(const std::filesystem::path& path, const GeoPackageFill& fill);
+/// Errors: those of OutputFile, GeoPackageCopy::make() and `fill`. unreadable: it cannot be written; quotes
+/// GDAL. O(size of the file that exists), besides `fill`.
+Status writeGeoPackage(const std::filesystem::path& path, ExistingFile existing, const OwnLayer& layer,
+                       const GeoPackageFill& fill, const RunContext& context);
 
 /// @return GDAL's first failure, as an error with the code unreadable.
 tl::unexpected<Error> cannotBeWritten(const GdalErrors& errors);
@@ -32,7 +39,7 @@ tl::unexpected<Error> cannotBeWritten(const GdalErrors& errors);
 /// @param options GDAL's layer creation options; may be null.
 /// @return Owned by the dataset.
 ///
-/// Errors: usage: `crsWkt` is not a CRS. unreadable.
+/// Errors: invalidData: `crsWkt` is not a CRS. unreadable.
 Result<OGRLayer*> addLayer(GDALDataset& dataset, const std::string& name, const std::string& crsWkt,
                            OGRwkbGeometryType type, const GdalErrors& errors, char** options = nullptr);
 

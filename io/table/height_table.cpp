@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::array<std::string_view, 7> kOwnNames = {"x", "y", "height", "below", "above", "fid", "geom"};
 constexpr std::array<const char*, 5> kOwnFields = {"x", "y", "height", "below", "above"};
+constexpr const char* kLayer = "heights";
 constexpr std::size_t kRowsPerReport = 4096;
 
 Status writeCsv(const std::string& path, const PointTable& table,
@@ -41,7 +42,7 @@ class GeoPackageRows {
       : table_(table), heights_(heights) {}
 
   Status fill(GDALDataset& dataset, const GdalErrors& errors, const RunContext& context) {
-    const Result<OGRLayer*> layer = addLayer(dataset, "heights", table_.crsWkt, wkbPoint, errors);
+    const Result<OGRLayer*> layer = addLayer(dataset, kLayer, table_.crsWkt, wkbPoint, errors);
     if (!layer) return tl::unexpected(layer.error());
     if (!createFields(**layer) || dataset.StartTransaction() != OGRERR_NONE) return cannotBeWritten(errors);
     for (std::size_t row = 0; row < table_.stated.size(); ++row) {
@@ -129,15 +130,16 @@ bool isHeightTable(const std::string& path) {
 }
 
 Status writeHeightTable(const std::string& path, const PointTable& table,
-                        std::span<const std::optional<SurfaceHeight>> heights,
-                        const RunContext& context) try {
+                        std::span<const std::optional<SurfaceHeight>> heights, const RunContext& context,
+                        ExistingFile existing) try {
   if (!isHeightTable(path))
     return failure(ErrorCode::usage, "a table of heights ends in .csv or .gpkg", path);
   const auto fill = [&](GDALDataset& dataset, const GdalErrors& errors) {
     return GeoPackageRows(table, heights).fill(dataset, errors, context);
   };
+  const OwnLayer layer{kLayer, {kOwnFields.begin(), kOwnFields.end()}};
   Status status = text::lowerExtension(path) == "csv" ? writeCsv(path, table, heights, context)
-                                                      : writeGeoPackage(path, fill);
+                                                      : writeGeoPackage(path, existing, layer, fill, context);
   if (!status && status.error().culprit.empty()) status.error().culprit = path;
   return status;
 } catch (...) {

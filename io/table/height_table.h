@@ -9,6 +9,7 @@
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
+#include "io/file/existing_file.h"
 #include "io/table/point_table.h"
 #include "terrain/locate/surface_height.h"
 
@@ -32,10 +33,12 @@ bool isHeightTable(const std::string& path);
 /// appears complete or not at all.
 ///
 /// @param heights One per point; nothing without terrain.
+/// @param existing What happens to the other layers of a GeoPackage that exists.
 ///
-/// Errors: usage: another extension. notFound, unreadable, interrupted. O(points).
+/// Errors: usage: another extension. notFound, unreadable, interrupted. invalidData: a file of that name is
+/// no GeoPackage, or has a layer "heights" with other columns. O(points).
 Status writeHeightTable(const std::string& path, const PointTable& table,
-                        std::span<const std::optional<SurfaceHeight>> heights,
-                        const RunContext& context = {});
+                        std::span<const std::optional<SurfaceHeight>> heights, const RunContext& context = {},
+                        ExistingFile existing = ExistingFile::keepsOtherLayers);
 
 }  // namespace arete

@@ -17,6 +17,8 @@ namespace arete {
 namespace {
 
 constexpr std::size_t kRowsPerReport = 4096;
+/// Results that tables of one layer always have; which others depends on the question.
+constexpr std::size_t kFieldsOfAll = 7;
 
 std::vector<std::string> inputNames(const LineTable& table) {
   std::vector<std::string_view> ours = {"fid", "geom"};
@@ -106,8 +108,12 @@ Status writeLineTable(const std::string& path, const LineTable& table, const Run
   const auto insert = [&](GDALDataset& dataset, const GdalErrors& errors) {
     return fill(dataset, table, errors, context);
   };
-  Status status =
-      text::lowerExtension(path) == "csv" ? writeCsv(path, table, context) : writeGeoPackage(path, insert);
+  OwnLayer layer{table.layer, {}};
+  for (const auto& column : table.results->columns)
+    if (layer.fields.size() < kFieldsOfAll) layer.fields.push_back(column.name);
+  Status status = text::lowerExtension(path) == "csv"
+                      ? writeCsv(path, table, context)
+                      : writeGeoPackage(path, table.existing, layer, insert, context);
   if (!status && status.error().culprit.empty()) status.error().culprit = path;
   return status;
 } catch (...) {

@@ -10,6 +10,7 @@
 #include "engine/base/result.h"
 #include "engine/base/vec.h"
 #include "engine/parallel/run_context.h"
+#include "io/file/existing_file.h"
 #include "io/table/point_attributes.h"
 
 namespace arete {
@@ -22,6 +23,8 @@ struct LineTable {
   std::span<const std::array<Vec2, 2>> ends;  ///< NaN: no geometry
   const PointAttributes* inputs = nullptr;    ///< a row per line
   const PointAttributes* results = nullptr;   ///< a row per line; an empty value is missing
+  /// What happens to the other layers of a GeoPackage that exists.
+  ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
 
 /// Formats the table as CSV (RFC 4180, with line feeds). Calls `write` for the header line and for each row.
@@ -33,7 +36,8 @@ bool isLineTable(const std::string& path);
 /// Writes the table as CSV or as a GeoPackage with a layer of lines. The same table gives the same bytes. The
 /// file appears complete or not at all.
 ///
-/// Errors: usage: another extension. notFound, unreadable, interrupted. O(rows).
+/// Errors: usage: another extension. notFound, unreadable, interrupted. invalidData: a file of that name is
+/// no GeoPackage, or has a layer of that name with other columns. O(rows).
 Status writeLineTable(const std::string& path, const LineTable& table, const RunContext& context = {});
 
 }  // namespace arete

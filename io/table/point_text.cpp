@@ -411,6 +411,7 @@ class TextParser {
 bool looksLikePointText(const std::string& path) {
   const std::string extension = text::lowerExtension(path);
   if (extension == "csv" || extension == "tsv" || extension == "txt" || extension == "xyz") return true;
+  if (findPipeProblem(path)) return false;
   const std::unique_ptr<VSILFILE, FileCloser> file(VSIFOpenL(path.c_str(), "rb"));
   if (!file) return false;
   std::array<char, 4096> head;

@@ -29,6 +29,21 @@ constexpr std::uint64_t kMostTriangles = std::numeric_limits<std::uint32_t>::max
 constexpr std::array<const char*, 2> kDrivers = {"GPKG", nullptr};
 constexpr const char* kUnitKey = "VERTICAL_UNIT";
 
+/// The layer that writeGpkg() makes; null where there is none.
+OGRLayer* ownLayer(GDALDataset& dataset) {
+  OGRLayer* layer = dataset.GetLayerByName("triangles");
+  return layer && layer->GetGeomType() == wkbPolygon25D &&
+                 layer->GetLayerDefn()->GetFieldIndex("triangle") >= 0
+             ? layer
+             : nullptr;
+}
+
+/// The layer of triangles among those of a project.
+Result<OGRLayer*> surfacesOf(GDALDataset& dataset) {
+  if (OGRLayer* own = ownLayer(dataset)) return own;
+  return chooseLayer(dataset, {}, LayerKind::surfaces);
+}
+
 class GpkgReader {
  public:
   GpkgReader(OGRLayer& layer, const RunContext& context) : layer_(layer), context_(context) {}
@@ -154,7 +169,7 @@ Result<MeshFile> readFrom(const std::string& path, const RunContext& context) {
       error = {ErrorCode::corrupt, "is damaged or not a GeoPackage", path};
     return tl::unexpected(std::move(error));
   }
-  const Result<OGRLayer*> layer = chooseLayer(*dataset, {}, LayerKind::surfaces);
+  const Result<OGRLayer*> layer = surfacesOf(*dataset);
   if (!layer) return tl::unexpected(layer.error());
   Result<MeshFile> file = GpkgReader(**layer, context).read();
   if (!file) return file;
@@ -180,11 +195,13 @@ Result<MeshFile> readGpkg(const std::filesystem::path& path, const RunContext& c
 
 bool holdsSurfaces(const std::filesystem::path& path) {
   registerGdal();
+  if (findPipeProblem(path.string())) return false;
   GdalErrors quiet;
   const GdalDatasetPtr dataset(
       GDALDataset::Open(path.string().c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, kDrivers.data()));
-  return dataset && chooseLayer(*dataset, {}, LayerKind::surfaces) &&
-         !chooseLayer(*dataset, {}, LayerKind::points);
+  if (!dataset) return false;
+  return ownLayer(*dataset) ||
+         (chooseLayer(*dataset, {}, LayerKind::surfaces) && !chooseLayer(*dataset, {}, LayerKind::points));
 }
 
 }  // namespace arete

@@ -87,9 +87,10 @@ Status writeGpkg(const TriangleMesh& mesh, const std::filesystem::path& path, co
         ErrorCode::invalidData,
         fmt::format("{} errors for {} triangles", options.triangleErrors.size(), mesh.triangles.size()),
         path.string());
-  Status status = writeGeoPackage(path, [&](GDALDataset& dataset, GdalErrors& errors) {
+  const auto insert = [&](GDALDataset& dataset, GdalErrors& errors) {
     return fill(dataset, errors, mesh, options, context);
-  });
+  };
+  Status status = writeGeoPackage(path, options.existing, {kLayer, {"triangle"}}, insert, context);
   if (!status && status.error().culprit.empty()) status.error().culprit = path.string();
   return status;
 }

@@ -72,7 +72,7 @@ TEST(GpkgRead, KeepsACompoundCrsAndHasNoneWhereThereIsNone) {
   EXPECT_EQ(bare->crsWkt, "");
   EXPECT_EQ(bare->verticalUnit, "");
   EXPECT_TRUE(bare->triangleErrors.empty());
-  EXPECT_EQ(writeMesh(kTwo, folder.file("c.gpkg"), {.crsWkt = "gibberish"}).error().code, ErrorCode::usage);
+  EXPECT_EQ(writeMesh(kTwo, folder.file("c.gpkg"), {.crsWkt = "gibberish"}).error().code, ErrorCode::invalidData);
   EXPECT_EQ(folder.count(), 2u);
 }
 
