@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 
+#include "io/crs/proj_files.h"
 #include "io/file/text_scan.h"
 #include "io/gdal/support.h"
 
@@ -87,6 +88,16 @@ void describeVertical(const OGRSpatialReference& crs, Georeference& georeference
   }
 }
 
+/// The beginning of a text, on one line.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kMost = 60;
+  std::string line = text.substr(0, kMost);
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return c < 32; }, ' ');
+  while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0xC0) == 0x80) line.pop_back();
+  return line.size() < text.size() ? line + "..." : line;
+}
+
 Result<OGRSpatialReference> parsedCrs(const std::string& text, CSLConstList limitations) {
   GdalErrors errors;
   OGRSpatialReference crs;
@@ -127,10 +138,21 @@ std::string wktOf(const OGRSpatialReference& crs) {
 }
 
 Result<OGRSpatialReference> crsFromText(const std::string& text) {
-  return parsedCrs(text, OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get());
+  if (const std::string name = fileNamedBy(text); !name.empty())
+    return failure(
+        ErrorCode::invalidData,
+        fmt::format("its CRS names '{}', and what stands in a file does not make other files be opened; "
+                    "state the CRS with `crs`, or put the grid into PROJ's data directory",
+                    name));
+  auto crs = parsedCrs(text, OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get());
+  if (crs) return crs;
+  // Of a file, not of the command line: the caller knows which.
+  return failure(ErrorCode::invalidData,
+                 fmt::format("its CRS, '{}', {}", shortened(text), crs.error().message));
 }
 
 Result<OGRSpatialReference> crsFromUser(const std::string& text) {
+  allowProjFiles(text);
   return parsedCrs(text, nullptr);
 }
 

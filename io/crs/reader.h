@@ -14,13 +14,16 @@
 namespace arete {
 
 /// Parses a CRS that comes from a file: WKT, PROJJSON, a PROJ string, a code ("EPSG:32611",
-/// "EPSG:4326+5773"). The name of a file or an address is an error, so that data cannot make the program open
-/// anything.
+/// "EPSG:4326+5773"). The name of a file or an address is an error, also within a PROJ string or as a
+/// parameter (fileNamedBy()), so that data cannot make the program open anything.
 ///
-/// Errors: usage, with the text as culprit: not a CRS, or a vertical CRS alone.
+/// Errors: invalidData, without a culprit: not a CRS, a vertical CRS alone, or one that names a file.
 Result<OGRSpatialReference> crsFromText(const std::string& text);
 
-/// Parses a CRS that comes from a person: as crsFromText(), and also a .prj file or an address.
+/// Parses a CRS that comes from a person: as crsFromText(), and also a .prj file or an address, and with
+/// grids of any path.
+///
+/// Errors: usage, with the text as culprit: not a CRS, or a vertical CRS alone.
 Result<OGRSpatialReference> crsFromUser(const std::string& text);
 
 /// @return True if a layer has a CRS. A layer of a GeoPackage without one has "Undefined ... SRS".

@@ -25,8 +25,7 @@ class CrsTransform {
 
   /// @param from,to WKT or any text that crsFromText() accepts.
   ///
-  /// Errors: usage: not a CRS. invalidData: there is no transformation, for instance between celestial
-  /// bodies.
+  /// Errors: invalidData: not a CRS, or there is no transformation, for instance between celestial bodies.
   static Result<CrsTransform> between(const std::string& from, const std::string& to);
 
   /// From longitude and latitude in degrees: of WGS 84 if the target is on the Earth, of the target's own

@@ -26,8 +26,13 @@ TEST(CrsReader, RefusesWhatIsNotACrsAndNamesIt) {
   for (const char* text : {"", "gibberish", "EPSG:99999999", "EPSG:5773"}) {
     const auto parsed = crsFromText(text);
     ASSERT_FALSE(parsed) << text;
-    EXPECT_EQ(parsed.error().code, ErrorCode::usage) << text;
-    EXPECT_EQ(parsed.error().culprit, text);
+    EXPECT_EQ(parsed.error().code, ErrorCode::invalidData) << text;
+    EXPECT_EQ(parsed.error().culprit, "") << "the caller knows the file";
+    EXPECT_NE(parsed.error().message.find(text), std::string::npos);
+    const auto stated = crsFromUser(text);
+    ASSERT_FALSE(stated) << text;
+    EXPECT_EQ(stated.error().code, ErrorCode::usage) << text;
+    EXPECT_EQ(stated.error().culprit, text);
   }
 }
 

@@ -146,7 +146,7 @@ TEST(RegionReader, SaysWhatIsWrong) {
   const std::string flat = "{\"type\":\"Polygon\",\"coordinates\":[[[1,1],[1,1],[1,1],[1,1]]]}";
   EXPECT_EQ(errorOf(folder.write("flat.geojson", geoJson({flat}))).code, ErrorCode::invalidData);
   const std::string path = folder.write("hole.geojson", geoJson({kWithHole}));
-  EXPECT_EQ(errorOf(path, "EPSG:nothing").code, ErrorCode::usage);
+  EXPECT_EQ(errorOf(path, "EPSG:nothing").code, ErrorCode::invalidData);
   RegionReadOptions options;
   options.layer = "lakes";
   EXPECT_TRUE(contains(errorOf(path, {}, options).message, "lakes"));

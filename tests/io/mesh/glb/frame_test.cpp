@@ -35,7 +35,7 @@ TEST(GlbFrames, ThatMakeNoSenseAreRefusedInAFile) {
                 .error()
                 .code,
             ErrorCode::invalidData);
-  EXPECT_EQ(writeMesh(kTwo, folder.file("c.glb"), {.crsWkt = "gibberish"}).error().code, ErrorCode::usage);
+  EXPECT_EQ(writeMesh(kTwo, folder.file("c.glb"), {.crsWkt = "gibberish"}).error().code, ErrorCode::invalidData);
   EXPECT_EQ(folder.count(), 2u);
 }
 
