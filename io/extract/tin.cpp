@@ -46,9 +46,14 @@ double storedErrorInside(const TerrainModel& model, const Cut& cut, const Region
   return largest;
 }
 
+/// A file's name without its folder, which an export does not tell.
+std::string nameOf(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
 std::string commentOf(const ExtractRequest& request, const TerrainModel& model, const ExtractedTin& tin) {
   return fmt::format(
-      "arete: TIN of {} ({}), vertical error at most {}{}{}{}", model.source, model.sourceChecksum,
+      "arete: TIN of {} ({}), vertical error at most {}{}{}{}", nameOf(model.source), model.sourceChecksum,
       tin.promisedError, model.georeference.verticalUnit.empty() ? "" : " " + model.georeference.verticalUnit,
       request.region ? " in the region " + request.criterion.region : "", tin.fit ? ", heights fitted" : "");
 }
@@ -169,7 +174,8 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
                                .triangleErrors = exported.errors,
                                .origin = exported.origin,
                                .format = request.format,
-                               .notes = {commentOf(request, model_, tin)}};
+                               .notes = {commentOf(request, model_, tin)},
+                               .existing = request.existing};
   Result<WrittenMesh> written =
       writeAndReadBack(std::move(exported.mesh), request.output, write, model_.isRaster, context);
   if (!written) return tl::unexpected(within(tl::unexpected(written.error()), request.output).error());

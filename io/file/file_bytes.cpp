@@ -56,6 +56,11 @@ Result<FileBytes> FileBytes::read(const std::filesystem::path& path) {
     if (got == 0) return failure(ErrorCode::unreadable, "became shorter while it was read", path.string());
     done += static_cast<std::size_t>(got);
   }
+  struct stat after {};
+  if (::fstat(file.value, &after) != 0) return unreadable(errno);
+  if (after.st_size != status.st_size || after.st_mtim.tv_sec != status.st_mtim.tv_sec ||
+      after.st_mtim.tv_nsec != status.st_mtim.tv_nsec)
+    return failure(ErrorCode::unreadable, "was changed while it was read", path.string());
   return result;
 }
 

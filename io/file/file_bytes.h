@@ -14,8 +14,8 @@ namespace arete {
 /// this is an error, not a signal.
 class FileBytes {
  public:
-  /// Errors: notFound. unreadable: with the system's reason; a folder or a device; a file that shrinks while
-  /// it is read.
+  /// Errors: notFound. unreadable: with the system's reason; a folder or a device; a file that is
+  /// changed while it is read.
   static Result<FileBytes> read(const std::filesystem::path& path);
 
   /// The same for a text: UTF-16 becomes UTF-8, and carriage returns without line feeds become line feeds

@@ -13,6 +13,8 @@
 #include <cerrno>
 #include <system_error>
 
+#include "io/file/watched_files.h"
+
 namespace arete {
 namespace {
 
@@ -39,9 +41,10 @@ Result<std::shared_ptr<const MappedFile>> MappedFile::open(const std::string& pa
   struct stat status {};
   if (::fstat(file.value, &status) != 0) return systemFailure(errno, path);
   if (S_ISDIR(status.st_mode)) return failure(ErrorCode::unreadable, "is a folder, not a file", path);
-  if (!S_ISREG(status.st_mode)) return failure(ErrorCode::unreadable, "is a device, not a file", path);
+  if (!S_ISREG(status.st_mode)) return failure(ErrorCode::unreadable, "is a pipe or a device, not a file", path);
   if (status.st_size == 0) return failure(ErrorCode::unreadable, "is empty", path);
   const auto size = static_cast<std::size_t>(status.st_size);
+  watchInputFile(path);
   void* const begin = ::mmap(nullptr, size, PROT_READ, MAP_SHARED, file.value, 0);
   if (begin == MAP_FAILED) return systemFailure(errno, path);
   return std::shared_ptr<const MappedFile>(new MappedFile(static_cast<const std::byte*>(begin), size));

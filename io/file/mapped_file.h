@@ -13,7 +13,7 @@ namespace arete {
 
 /// A file mapped for reading. Pages are read on first access. The mapping stays valid if the file is replaced
 /// by renaming (as OutputFile does). If the file is truncated in place, an access to the lost part ends the
-/// program with SIGBUS, as with every mapping.
+/// program with SIGBUS, as with every mapping; arete says why (cli/session/faults.h).
 class MappedFile {
  public:
   /// Errors: notFound. unreadable: with the system's reason; a folder, a device, an empty file.

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The temporary name is ".<stem>.<process id>-<random>-<counter><extension>": hidden, in the same folder
-// (rename is atomic only within a file system), unique within the process by the counter and across machines
-// that share the folder by the random part.
+// The temporary file is in the folder of the target: rename is atomic only within a file system.
 #include "io/file/output_file.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
-#include <atomic>
 #include <cerrno>
-#include <random>
 #include <system_error>
 #include <utility>
+
+#include "io/file/temporary_files.h"
+#include "io/file/watched_files.h"
 
 namespace arete {
 
@@ -32,19 +30,20 @@ fs::path withSuffix(const fs::path& path, const char* suffix) {
   return result;
 }
 
-fs::path temporaryBeside(const fs::path& target) {
-  static const unsigned processTag = std::random_device{}();
-  static std::atomic<unsigned> counter = 0;
-  // Common file systems limit names to 255 bytes. The stem only makes the name readable.
-  constexpr std::size_t kLongestStem = 100;
-  const std::string stem = target.stem().string(), extension = target.extension().string();
-  return target.parent_path() / fmt::format(".{}.{}-{:08x}-{}{}",
-                                            stem.substr(0, std::min(stem.size(), kLongestStem)), ::getpid(),
-                                            processTag, counter++, extension);
-}
-
 std::string systemMessage(int error) {
   return std::generic_category().message(error);
+}
+
+/// What a chain of symbolic links leads to, whether that exists or not.
+fs::path followed(fs::path path) {
+  constexpr int kMostLinks = 40;  // as the system has it
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
+    const fs::path to = fs::read_symlink(path, error);
+    if (error) break;
+    path = to.is_absolute() ? to : path.parent_path() / to;
+  }
+  return path;
 }
 
 }  // namespace
@@ -64,7 +63,7 @@ Result<OutputFile> OutputFile::create(const fs::path& path) {
     file.target_ = file.temporary_ = path;
     return file;
   }
-  file.target_ = fs::weakly_canonical(fs::absolute(path, error), error);
+  file.target_ = fs::weakly_canonical(fs::absolute(followed(path), error), error);
   if (error)
     return failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", error.message()),
                    path.string());
@@ -77,7 +76,9 @@ Result<OutputFile> OutputFile::create(const fs::path& path) {
         ErrorCode::unreadable,
         fmt::format("the folder {} cannot be written to: {}", folder.string(), systemMessage(errno)),
         path.string());
+  removeAbandonedFiles(folder);
   file.temporary_ = temporaryBeside(file.target_);
+  noteTemporary(file.temporary_);
   return file;
 }
 
@@ -112,6 +113,7 @@ void OutputFile::discard() noexcept {
     } catch (...) {
       // Without memory for their names the side files stay; only GDAL's formats have any.
     }
+    noteRemoved(temporary_);
   }
   temporary_.clear();
 }
@@ -121,6 +123,11 @@ Status OutputFile::commit() {
   if (inPlace_) {
     temporary_.clear();
     return {};
+  }
+  forgetInputFile(target_.string());
+  if (const char* const changed = changedInputFile()) {
+    discard();
+    return failure(ErrorCode::unreadable, "was changed while it was read", changed);
   }
   // Whatever needs memory comes before the file appears under its name.
   const fs::path following = withSuffix(temporary_, kFollowing), stale = withSuffix(target_, kFollowing);

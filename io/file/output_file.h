@@ -18,7 +18,8 @@ namespace arete {
 /// because some drivers refuse to overwrite. commit() renames GDAL's side file ("<name>.aux.xml") too.
 ///
 /// An existing target that is not a regular file (/dev/null, a pipe) is written in place. If the target is a
-/// symbolic link, the file that it points to is replaced and the link stays.
+/// symbolic link, the file that it points to, which need not exist, is replaced and the link stays. What
+/// killed runs have left in the folder is removed.
 class OutputFile {
  public:
   /// Errors: notFound: the folder does not exist. unreadable: the folder is not writable, or `path` is a
@@ -38,8 +39,9 @@ class OutputFile {
 
   /// Renames the temporary file to its final name. At most once.
   ///
-  /// Errors: unreadable, with the path as culprit: there is no temporary file, or renaming failed. The
-  /// temporary file is then removed.
+  /// Errors: unreadable, with the path as culprit: there is no temporary file, or renaming failed; with the
+  /// input as culprit: a watched file was changed (io/file/watched_files.h). The temporary file is then
+  /// removed.
   Status commit();
 
  private:

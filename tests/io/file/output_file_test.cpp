@@ -2,6 +2,7 @@
 #include "io/file/output_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -10,6 +11,8 @@
 #include <string>
 
 #include "io/file/file_writer.h"
+#include "io/file/temporary_files.h"
+#include "io/file/watched_files.h"
 
 namespace arete {
 namespace {
@@ -113,6 +116,65 @@ TEST_F(OutputFileTest, FollowsLinksAndWritesDevicesInPlace) {
   null->write("nothing");
   EXPECT_TRUE(null->finish());
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST_F(OutputFileTest, FollowsALinkToWhatIsNotThereYet) {
+  fs::create_directory(folder_ / "far");
+  fs::create_symlink("far/real.ply", folder_ / "link.ply");
+  fs::create_symlink("link.ply", folder_ / "link2.ply");
+  Result<FileWriter> writer = FileWriter::create(folder_ / "link2.ply");
+  ASSERT_TRUE(writer);
+  writer->write("new");
+  ASSERT_TRUE(writer->finish());
+  EXPECT_EQ(contents(folder_ / "far" / "real.ply"), "new");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link.ply") && fs::is_symlink(folder_ / "link2.ply"));
+  fs::create_symlink("nowhere/real.ply", folder_ / "link3.ply");
+  EXPECT_EQ(OutputFile::create(folder_ / "link3.ply").error().code, ErrorCode::notFound);
+  fs::create_symlink("loop.ply", folder_ / "loop.ply");
+  EXPECT_FALSE(OutputFile::create(folder_ / "loop.ply"));
+}
+
+TEST_F(OutputFileTest, RemovesWhatKilledRunsHaveLeft) {
+  const pid_t child = fork();
+  if (child == 0) {
+    // The child is ended in the middle of its work.
+    Result<OutputFile> file = OutputFile::create(folder_ / "a.gpkg");
+    put(file->temporaryPath(), "half");
+    put(file->temporaryPath().string() + "-journal", "half");
+    ::_exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  put(folder_ / ".a.1-00000000-0.gpkg", "of another machine");
+  put(folder_ / ".hidden", "of somebody");
+  ASSERT_EQ(filesThere(), 4);
+  removeAbandonedFiles(fs::canonical(folder_));
+  EXPECT_EQ(filesThere(), 2);
+  EXPECT_TRUE(fs::exists(folder_ / ".a.1-00000000-0.gpkg") && fs::exists(folder_ / ".hidden"));
+}
+
+TEST_F(OutputFileTest, IsNotWrittenFromAnInputThatChanged) {
+  watchInputFiles();
+  const std::string input = (folder_ / "input").string();
+  put(input, "before");
+  watchInputFile(input);
+  EXPECT_EQ(changedInputFile(), nullptr);
+  {
+    Result<FileWriter> writer = FileWriter::create(folder_ / "a.ply");
+    ASSERT_TRUE(writer);
+    put(input, "longer than before");
+    EXPECT_STREQ(changedInputFile(), input.c_str());
+    const Status finished = writer->finish();
+    ASSERT_FALSE(finished);
+    EXPECT_EQ(finished.error().culprit, input);
+  }
+  EXPECT_EQ(filesThere(), 1);
+  // A file that this process replaces is its own.
+  Result<FileWriter> writer = FileWriter::create(input);
+  ASSERT_TRUE(writer);
+  forgetInputFile(input);
+  EXPECT_TRUE(writer->finish());
+  EXPECT_EQ(changedInputFile(), nullptr);
 }
 
 }  // namespace
