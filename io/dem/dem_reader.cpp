@@ -127,7 +127,7 @@ bool isTextOfNumbers(const std::string& path) {
 /// Reads the only raster in an archive, or its only text of points.
 Result<DemRead> readZipped(const std::string& archive, const SourceReading& reading,
                            const RunContext& context) {
-  const Result<std::string> inside = findZippedRaster(archive);
+  const Result<std::string> inside = findZippedRaster(archive, context);
   if (!inside) return tl::unexpected(inside.error());
   if (isTextOfNumbers(*inside)) return readAsPoints(*inside, true, reading, context);
   return readAsRaster(archive, reading, context);
@@ -167,6 +167,7 @@ Result<DemRead> readFrom(const std::string& given, const SourceReading& reading,
     if (files->size() > 1) return readSeveral(path, *files, reading, context);
     path = files->front();
   }
+  if (auto problem = findPipeProblem(path)) return tl::unexpected(*problem);
   if (isPointCloud(path))
     if (VSIStatBufL status; VSIStatL(path.c_str(), &status) == 0)
       return failure(

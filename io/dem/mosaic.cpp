@@ -162,14 +162,15 @@ struct DemMosaic::Parts {
   double largestDifference = 0;
   std::string differentFiles;
 
-  Result<RasterFile> openPart(Part& part, std::vector<std::string>& warnings) const {
-    return RasterFile::open(part.path, options, warnings);
+  Result<RasterFile> openPart(Part& part, std::vector<std::string>& warnings,
+                              const RunContext& context) const {
+    return RasterFile::open(part.path, options, warnings, context);
   }
 
   Status find(const RunContext& context) {
     for (Part& part : parts) {
       if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
-      auto file = openPart(part, part.warnings);
+      auto file = openPart(part, part.warnings, context);
       if (!file) return tl::unexpected(file.error());
       part.columns = file->columns();
       part.rows = file->rows();
@@ -298,7 +299,7 @@ Status DemMosaic::read(std::uint32_t firstRow, std::uint32_t rowCount, std::span
     if (begin < end) {
       std::vector<std::string> repeated;  // the warnings of the first opening suffice
       if (!part.file) {
-        auto file = all.openPart(part, repeated);
+        auto file = all.openPart(part, repeated, context);
         if (!file) return tl::unexpected(file.error());
         if (file->columns() != part.columns || file->rows() != part.rows)
           return failure(ErrorCode::unreadable, "was replaced while it was read", part.path);

@@ -124,14 +124,14 @@ RasterFile& RasterFile::operator=(RasterFile&&) noexcept = default;
 RasterFile::~RasterFile() = default;
 
 Result<RasterFile> RasterFile::open(const std::string& path, const RasterReadOptions& options,
-                                    std::vector<std::string>& warnings) {
+                                    std::vector<std::string>& warnings, const RunContext& context) {
   registerGdal();
   GdalErrors errors;
   const auto blame = [&](Error error) {
     if (error.culprit.empty()) error.culprit = path;
     return tl::unexpected(std::move(error));
   };
-  const Result<std::string> gdalPath = rasterPathOf(networkPathOf(path));
+  const Result<std::string> gdalPath = rasterPathOf(networkPathOf(path), context);
   if (!gdalPath) return blame(gdalPath.error());
   if (Status status = checkLengthByContent(*gdalPath); !status) return blame(status.error());
 

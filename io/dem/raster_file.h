@@ -16,9 +16,10 @@ namespace arete {
 /// A raster that is open, found to hold heights, and placed. Its rows are read on demand.
 class RasterFile {
  public:
-  /// Errors: those of readRaster(), with a culprit. Warnings go to `warnings`.
+  /// Errors: those of readRaster(), with a culprit; interrupted while an archive is searched. Warnings go to
+  /// `warnings`.
   static Result<RasterFile> open(const std::string& path, const RasterReadOptions& options,
-                                 std::vector<std::string>& warnings);
+                                 std::vector<std::string>& warnings, const RunContext& context);
 
   std::uint32_t columns() const;
   std::uint32_t rows() const;

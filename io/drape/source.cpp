@@ -109,6 +109,7 @@ Result<DrapeSource> openLevel(const std::string& path, const std::vector<int>& b
                               std::optional<int> overview, std::vector<std::string>& warnings) {
   registerGdal();
   GdalErrors errors;
+  if (auto problem = findPipeProblem(path)) return tl::unexpected(*problem);
   const Result<std::string> gdalPath = rasterPathOf(path);
   if (!gdalPath) return tl::unexpected(gdalPath.error());
   DrapeSource source;

@@ -9,6 +9,7 @@
 #include <cpl_vsi.h>
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -17,6 +18,8 @@
 #include <mutex>
 
 #include "io/file/text_scan.h"
+#include "io/file/watched_files.h"
+#include "io/gdal/confined.h"
 #include "io/gdal/network_files.h"
 #include "io/gdal/quiet.h"
 
@@ -125,13 +128,25 @@ void GdalDatasetCloser::operator()(GDALDataset* dataset) const {
 GdalDatasetPtr openGdal(const std::string& path, unsigned flags) {
   registerGdal();
   silenceHdf5();
+  if (findPipeProblem(path)) return nullptr;
+  watchInputFile(path);
   std::string name = networkPathOf(path);
   if ((flags & GDAL_OF_RASTER) != 0) name = pathWithoutNetcdf(name);
   return GdalDatasetPtr(GDALDataset::Open(name.c_str(), flags | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
 }
 
+std::optional<Error> findPipeProblem(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  const mode_t mode = status.st_mode;
+  if (!S_ISFIFO(mode) && !S_ISCHR(mode) && !S_ISBLK(mode) && !S_ISSOCK(mode)) return std::nullopt;
+  return Error{ErrorCode::unreadable, "is a pipe or a device, not a file; /vsistdin/ reads standard input",
+               path};
+}
+
 std::optional<Error> findInputProblem(const std::string& path) {
   if (path.empty()) return Error{ErrorCode::usage, "the name of the input file is empty", {}};
+  if (auto problem = findPipeProblem(path)) return problem;
   VSIStatBufL status;
   if (VSIStatL(path.c_str(), &status) != 0) return std::nullopt;
   // A file geodatabase is a folder.
@@ -167,7 +182,10 @@ Error explainOpenFailure(const std::string& given, std::string_view kind, const 
     return {ErrorCode::corrupt, fmt::format("cannot be read as a {}: {}", kind, said), path};
   if (const std::string hint = archiveHint(path, kind); !hint.empty())
     return {ErrorCode::unsupported, hint, path};
-  return {ErrorCode::unsupported, fmt::format("is not a {} in any format GDAL knows", kind), path};
+  return {ErrorCode::unsupported,
+          fmt::format("is not a {} in any format {}", kind,
+                      gdalIsConfined() ? "that is read without looking at other files" : "GDAL knows"),
+          path};
 }
 
 bool isTextDriver(GDALDriverH driver) {

@@ -51,10 +51,14 @@ class GdalErrors {
 /// @return Null if GDAL cannot open it.
 GdalDatasetPtr openGdal(const std::string& path, unsigned flags);
 
+/// @return An error for a pipe, a socket or a device: opening one may block, and no format can be read from
+/// one.
+std::optional<Error> findPipeProblem(const std::string& path);
+
 /// Checks that a path can be read as a file.
 ///
-/// @return An error for a folder, an empty file or a missing permission. Nothing if the file can be read, or
-/// if the path is not a file name, as GDAL's connection strings.
+/// @return An error for a pipe, a folder, an empty file or a missing permission. Nothing if the file can be
+/// read, or if the path is not a file name, as GDAL's connection strings.
 std::optional<Error> findInputProblem(const std::string& path);
 
 /// The reason why `path` could not be opened: the one of findInputProblem(), a missing file, or GDAL's

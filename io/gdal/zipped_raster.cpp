@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The candidates are the files in the archive that a raster driver of GDAL identifies. Text that may be
-// points ("XYZ") is a candidate only if there is no other.
+// points ("XYZ") is a candidate only if there is no other. GDAL would list the whole archive for each file,
+// to find its sidecars: it is given those with the same name up to the extension.
 #include "io/gdal/zipped_raster.h"
 
 #include <cpl_string.h>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -21,11 +23,30 @@ namespace arete {
 namespace {
 
 constexpr std::size_t kNamesListed = 10;
+constexpr int kNamesPerCheck = 64;
 
 bool isSidecar(const std::string& name) {
   const std::string extension = text::lowerExtension(name);
   constexpr std::string_view kSidecars[] = {"xml", "prj", "tfw", "wld", "ovr", "msk", "txt", "pdf", "html"};
   return std::find(std::begin(kSidecars), std::end(kSidecars), extension) != std::end(kSidecars);
+}
+
+std::string withoutExtension(const std::string& name) {
+  const std::size_t slash = name.rfind('/');
+  const std::size_t dot = name.find('.', slash == name.npos ? 0 : slash + 1);
+  return text::lowered(name.substr(0, dot));
+}
+
+std::string withoutFolder(const std::string& name) {
+  return name.substr(name.rfind('/') + 1);
+}
+
+/// The names without folder of the files that share a name up to the extension.
+std::unordered_map<std::string, CPLStringList> siblingsOf(const CPLStringList& names) {
+  std::unordered_map<std::string, CPLStringList> siblings;
+  for (int i = 0; i < names.Count(); ++i)
+    siblings[withoutExtension(names[i])].AddString(withoutFolder(names[i]).c_str());
+  return siblings;
 }
 
 }  // namespace
@@ -34,7 +55,7 @@ bool isPlainZip(const std::string& path) {
   return (!isVirtualPath(path) || path.starts_with("/vsicurl/")) && text::lowerExtension(path) == "zip";
 }
 
-Result<std::string> findZippedRaster(const std::string& given) {
+Result<std::string> findZippedRaster(const std::string& given, const RunContext& context) {
   registerGdal();
   const std::string archive = networkPathOf(given);
   GdalErrors errors;
@@ -48,11 +69,16 @@ Result<std::string> findZippedRaster(const std::string& given) {
   if (names.Count() == 0)
     return failure(ErrorCode::corrupt, "is not a zip archive, or an empty one", archive);
   std::vector<std::string> rasters, texts;
+  auto siblings = siblingsOf(names);
   for (int i = 0; i < names.Count(); ++i) {
+    if (i % kNamesPerCheck == 0) {
+      if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was interrupted", archive);
+      context.report("looking into the archive", double(i) / names.Count());
+    }
     const std::string name = names[i];
     if (name.back() == '/' || isSidecar(name)) continue;
-    GDALDriverH driver =
-        GDALIdentifyDriverEx(fmt::format("{}/{}", root, name).c_str(), GDAL_OF_RASTER, nullptr, nullptr);
+    GDALDriverH driver = GDALIdentifyDriverEx(fmt::format("{}/{}", root, name).c_str(), GDAL_OF_RASTER,
+                                              nullptr, siblings[withoutExtension(name)].List());
     if (driver) (isTextDriver(driver) ? texts : rasters).push_back(name);
   }
   if (rasters.empty()) rasters = std::move(texts);
@@ -70,8 +96,8 @@ Result<std::string> findZippedRaster(const std::string& given) {
   return root + "/" + rasters.front();
 }
 
-Result<std::string> rasterPathOf(const std::string& path) {
-  return isPlainZip(path) ? findZippedRaster(path) : Result<std::string>(path);
+Result<std::string> rasterPathOf(const std::string& path, const RunContext& context) {
+  return isPlainZip(path) ? findZippedRaster(path, context) : Result<std::string>(path);
 }
 
 }  // namespace arete

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
 
 namespace arete {
 
@@ -16,11 +17,11 @@ bool isPlainZip(const std::string& path);
 /// file's name, such as SRTMHGT, need the name inside the archive.
 ///
 /// Errors: notFound, unreadable. corrupt: not a zip archive. unsupported: no raster inside, or several; lists
-/// them.
-Result<std::string> findZippedRaster(const std::string& archive);
+/// them. interrupted.
+Result<std::string> findZippedRaster(const std::string& archive, const RunContext& context = {});
 
 /// @return The path for GDAL to open: for a zip archive, that of the only raster in it; otherwise the path
 /// itself. Errors: those of findZippedRaster().
-Result<std::string> rasterPathOf(const std::string& path);
+Result<std::string> rasterPathOf(const std::string& path, const RunContext& context = {});
 
 }  // namespace arete
