@@ -6,10 +6,12 @@
 #include <new>
 
 #include "cli/commands/program.h"
+#include "cli/session/faults.h"
 #include "cli/session/interrupt.h"
 
 int main(int argc, char** argv) {
   try {
+    arete::prepareForFaults();
     arete::catchInterrupts();
     return static_cast<int>(arete::runProgram(argc, argv));
   } catch (const std::bad_alloc&) {

@@ -76,9 +76,10 @@ ExitCode runProgram(int argc, char** argv) {
   addDemoCommand(app, session);
 
   if (argc < 2) {
-    fmt::print(stderr, "{}", app.help());
+    std::fputs(app.help().c_str(), stderr);
     return ExitCode::usage;
   }
+  session.setWords({argv + 1, argv + argc});
   const bool wantsJson = std::find(argv + 1, argv + argc, std::string_view("--json")) != argv + argc;
   if (const std::string sentence = unknownCommand(app, argc, argv); !sentence.empty())
     return session.refuse(sentence, "arete", wantsJson);

@@ -24,8 +24,9 @@ void catchInterrupts() {
     action = {};
     action.sa_handler = setInterrupted;
     sigemptyset(&action.sa_mask);
-    // SA_RESETHAND restores the default after the first signal; SA_RESTART resumes interrupted system calls.
-    action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+    // SA_RESETHAND restores the default after the first signal. Without SA_RESTART it ends an open() or
+    // read() that blocks, in libraries too.
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
     sigaction(signal, &action, nullptr);
   }
 }

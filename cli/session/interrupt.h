@@ -5,8 +5,9 @@
 
 namespace arete {
 
-/// Installs signal handlers: the first SIGINT, SIGTERM or SIGHUP sets interruptFlag(); a second of the same
-/// kind ends the program at once. A signal that is already ignored (nohup) stays ignored.
+/// Installs signal handlers: the first SIGINT, SIGTERM or SIGHUP sets interruptFlag() and ends a system call
+/// that blocks; a second of the same kind ends the program at once. A signal that is already ignored (nohup)
+/// stays ignored.
 void catchInterrupts();
 
 /// The flag for RunContext::cancel.

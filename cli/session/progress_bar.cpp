@@ -4,8 +4,6 @@
 // written.
 #include "cli/session/progress_bar.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace arete {
@@ -28,11 +26,12 @@ void ProgressBar::report(std::string_view stage, double fraction) {
 
 void ProgressBar::advance(int ticks) {
   if (ticks <= ticks_) return;
-  if (ticks_ < 0) fmt::print(out_, "{} ", stage_);
+  // Not fmt::print(), which throws where stderr is closed.
+  if (ticks_ < 0) std::fputs((stage_ + " ").c_str(), out_);
   while (ticks_ < ticks) {
     ++ticks_;
     if (ticks_ % 4 == 0)
-      fmt::print(out_, "{}", ticks_ * 100 / kTicks);
+      std::fputs(std::to_string(ticks_ * 100 / kTicks).c_str(), out_);
     else
       std::fputc('.', out_);
   }

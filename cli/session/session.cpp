@@ -16,7 +16,11 @@
 #include "cli/session/interrupt.h"
 #include "cli/session/option_names.h"
 #include "cli/session/progress_bar.h"
+#include "cli/session/proj_guard.h"
 #include "engine/memory/pages.h"
+#include "io/file/watched_files.h"
+#include "io/gdal/confined.h"
+#include "io/gdal/unclaimed_messages.h"
 
 namespace arete {
 namespace {
@@ -25,6 +29,32 @@ namespace {
 ProgressBar& progressBar() {
   static ProgressBar bar(stderr);
   return bar;
+}
+
+/// Not fmt::print(), which throws where stderr is closed or full: an error keeps its exit code.
+void tell(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+}
+
+void warnOfGdal(const char* line) {
+  progressBar().endLine();
+  tell(fmt::format("arete: warning: GDAL: {}\n", line));
+}
+
+/// The words of a command line that may name files: neither options nor numbers. Of "--option=VALUE" the
+/// value.
+std::vector<std::string> fileNamesOf(const std::vector<std::string>& words) {
+  std::vector<std::string> names;
+  for (std::size_t i = 1; i < words.size(); ++i) {  // the first is the command
+    std::string word = words[i];
+    if (word.starts_with("-")) {
+      const std::size_t equals = word.find('=');
+      if (equals == word.npos) continue;
+      word.erase(0, equals + 1);
+    }
+    if (word.find_first_not_of("0123456789.,-+eE") != word.npos) names.push_back(std::move(word));
+  }
+  return names;
 }
 
 /// Errors are found at the end of the run, by ferror().
@@ -59,7 +89,16 @@ CLI::App* Session::addCommand(CLI::App& app, const std::string& name, const std:
           "--no-huge-pages", [] { setHugePages(false); },
           "Keep large arrays in small memory pages, where huge pages make this machine slower")
       ->group("Output");
-  command->callback([this, run = std::move(run)] { run_ = run; });
+  command
+      ->add_flag(
+          "--confined", isConfined_,
+          "Read only the named files and sidecars beside them: no links out of a folder, no formats that "
+          "refer to other files, no network. For services that read files of strangers")
+      ->group("Output");
+  command->callback([this, command, run = std::move(run)] {
+    run_ = run;
+    command_ = command;
+  });
   return command;
 }
 
@@ -70,21 +109,49 @@ ExitCode Session::runParsed() {
                                                   static_cast<std::size_t>(threads_));
   ExitCode code = ExitCode::ok;
   try {
-    const Status status = run_(*this);
-    if (status)
+    Status status = prepareGdal();
+    if (status) status = run_(*this);
+    if (Status explained = explain(std::move(status)); explained)
       progressBar().finishLine();
     else
-      code = fail(status.error());
+      code = fail(explained.error());
   } catch (const std::bad_alloc&) {
     progressBar().endLine();
-    fmt::print(stderr, "arete: there is not enough memory for this\n");
+    tell("arete: there is not enough memory for this\n");
     return ExitCode::internal;
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    fmt::print(stderr, "arete: stdout cannot be written to\n");
+    tell("arete: stdout cannot be written to\n");
     return ExitCode::file;
   }
   return code;
+}
+
+Status Session::prepareGdal() {
+  sendUnclaimedGdalMessages(quiet_ ? nullptr : warnOfGdal);
+  guardProjFiles();
+  return isConfined_ ? confineGdal(fileNamesOf(words_)) : Status();
+}
+
+Status Session::explain(Status status) const {
+  if (const char* const changed = changedInputFile())
+    return failure(ErrorCode::unreadable, "was changed while it was read", changed);
+  if (status) return status;
+  Error& error = status.error();
+  // What a signal ended may look like a file that cannot be opened.
+  const bool isAboutAFile = error.code == ErrorCode::notFound || error.code == ErrorCode::unreadable ||
+                            error.code == ErrorCode::unsupported || error.code == ErrorCode::corrupt;
+  if (interruptFlag() && isAboutAFile) return failure(ErrorCode::interrupted, "interrupted", error.culprit);
+  if (error.culprit.empty() && (isAboutAFile || error.code == ErrorCode::invalidData))
+    error.culprit = subject();
+  return status;
+}
+
+std::string Session::subject() const {
+  if (command_ == nullptr) return {};
+  for (const CLI::Option* option : command_->get_options())
+    if (option->get_positional() && option->count() > 0) return option->results().front();
+  return {};
 }
 
 RunContext Session::context() const {
@@ -97,14 +164,14 @@ RunContext Session::context() const {
 }
 
 void Session::say(const std::string& text) const {
-  if (json_ || quiet_) return;
+  if (json_ || quiet_ || changedInputFile() != nullptr) return;
   progressBar().finishLine();
   print(withoutControls(text), out_);
   std::fflush(out_);
 }
 
 void Session::answer(const Json& object) {
-  if (!json_) return;
+  if (!json_ || (changedInputFile() != nullptr && !object.contains("error"))) return;
   progressBar().finishLine();
   answered_ = true;
   // A path may not be UTF-8: invalid bytes are replaced; nothing throws.
@@ -114,7 +181,7 @@ void Session::answer(const Json& object) {
 void Session::warn(const std::string& sentence) const {
   if (quiet_) return;
   progressBar().endLine();
-  fmt::print(stderr, "arete: warning: {}\n", withoutControls(withOptionNames(sentence)));
+  tell(fmt::format("arete: warning: {}\n", withoutControls(withOptionNames(sentence))));
 }
 
 void Session::warn(const std::vector<std::string>& sentences, const std::string& culprit) const {
@@ -125,14 +192,14 @@ ExitCode Session::fail(const Error& failed) {
   progressBar().endLine();
   const Error error = withOptionNames(failed);
   const ExitCode code = exitCodeOf(error.code);
-  fmt::print(stderr, "arete: {}\n", withoutControls(error.describe()));
+  tell(fmt::format("arete: {}\n", withoutControls(error.describe())));
   answerError(error, code);
   return code;
 }
 
 ExitCode Session::refuse(const std::string& sentence, const std::string& help, bool wantsJson) {
   json_ = wantsJson;
-  fmt::print(stderr, "arete: {}\nSee {} --help.\n", withoutControls(sentence), help);
+  tell(fmt::format("arete: {}\nSee {} --help.\n", withoutControls(sentence), help));
   answerError({ErrorCode::usage, sentence, ""}, ExitCode::usage);
   return ExitCode::usage;
 }

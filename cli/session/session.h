@@ -57,14 +57,27 @@ class Session {
   void warn(const std::string& sentence) const;
   void warn(const std::vector<std::string>& sentences, const std::string& culprit) const;
 
+  /// The words of the command line, behind the program's name: among them are the files that --confined
+  /// allows.
+  void setWords(std::vector<std::string> words) { words_ = std::move(words); }
+
  private:
+  Status prepareGdal();
+  /// The status of a run, or why it says what it says: an input was changed, a signal ended it. An error of
+  /// data without a culprit is one of the command's file.
+  Status explain(Status status) const;
+  /// The file that the command is about: its first argument that is no option.
+  std::string subject() const;
   ExitCode fail(const Error& failed);
   void answerError(const Error& error, ExitCode code);
 
   bool json_ = false, quiet_ = false, progress_ = false, answered_ = false;
   int threads_ = 0;
+  bool isConfined_ = false;
   std::FILE* out_ = stdout;
+  std::vector<std::string> words_;
   Run run_;
+  const CLI::App* command_ = nullptr;
 };
 
 }  // namespace arete

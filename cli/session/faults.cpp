@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The handler calls only what a signal handler may: stat(), write(), unlink(), _exit().
+#include "cli/session/faults.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cstring>
+
+#include "cli/session/exit_code.h"
+#include "io/file/temporary_files.h"
+#include "io/file/watched_files.h"
+
+namespace arete {
+namespace {
+
+struct sigaction gBusBefore, gSegvBefore;
+
+void writeError(const char* text, std::size_t size) {
+  while (size > 0) {
+    const ssize_t written = ::write(STDERR_FILENO, text, size);
+    if (written <= 0) return;
+    text += written;
+    size -= static_cast<std::size_t>(written);
+  }
+}
+
+extern "C" void onFault(int signal, siginfo_t*, void*) {
+  if (const char* const name = changedInputFile()) {
+    constexpr char kBefore[] = "arete: ", kAfter[] = ": was changed while it was read\n";
+    writeError(kBefore, sizeof kBefore - 1);
+    for (const char* c = name; *c; ++c) {  // a name may hold what drives a terminal
+      const char shown = static_cast<unsigned char>(*c) < 32 || *c == 127 ? '?' : *c;
+      writeError(&shown, 1);
+    }
+    writeError(kAfter, sizeof kAfter - 1);
+    removeNotedFiles();
+    ::_exit(static_cast<int>(ExitCode::file));
+  }
+  // The instruction runs again on return, and meets what was there before this.
+  ::sigaction(signal, signal == SIGBUS ? &gBusBefore : &gSegvBefore, nullptr);
+}
+
+void openClosed(int descriptor, int flags) {
+  if (::fcntl(descriptor, F_GETFD) >= 0) return;
+  // The lowest free number is this one, because those below are open.
+  ::open("/dev/null", flags);
+}
+
+}  // namespace
+
+void prepareForFaults() {
+  openClosed(STDIN_FILENO, O_RDONLY);
+  openClosed(STDOUT_FILENO, O_RDONLY);  // not for writing: an answer that cannot be written is an error
+  openClosed(STDERR_FILENO, O_WRONLY);
+  struct sigaction action = {};
+  action.sa_sigaction = onFault;
+  action.sa_flags = SA_SIGINFO;
+  sigemptyset(&action.sa_mask);
+  ::sigaction(SIGBUS, &action, &gBusBefore);
+  ::sigaction(SIGSEGV, &action, &gSegvBefore);
+  ::signal(SIGXFSZ, SIG_IGN);
+  watchInputFiles();
+}
+
+}  // namespace arete
