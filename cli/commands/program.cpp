@@ -26,7 +26,6 @@
 #include "cli/sight/profile.h"
 #include "cli/sight/viewshed.h"
 #include "cli/view/view.h"
-#include "io/gdal/quiet.h"
 
 namespace arete {
 namespace {
@@ -45,7 +44,6 @@ std::string unknownCommand(const CLI::App& app, int argc, char** argv) {
 }  // namespace
 
 ExitCode runProgram(int argc, char** argv) {
-  silenceGdal();
   Session session;
   CLI::App app{
       "Arete turns a digital elevation model into one multitriangulation and takes TINs of any\n"

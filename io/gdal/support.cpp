@@ -21,7 +21,6 @@
 #include "io/file/watched_files.h"
 #include "io/gdal/confined.h"
 #include "io/gdal/network_files.h"
-#include "io/gdal/quiet.h"
 
 namespace arete {
 namespace {
@@ -66,10 +65,6 @@ void silenceHdf5() {
 }
 
 }  // namespace
-
-void silenceGdal() {
-  CPLSetErrorHandler(CPLQuietErrorHandler);
-}
 
 void registerGdal() {
   static std::once_flag once;
