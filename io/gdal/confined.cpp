@@ -19,6 +19,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -112,10 +113,12 @@ class Fence {
   std::vector<fs::path> data_;
 };
 
+std::shared_ptr<const Fence> theFence;  // set once, before isConfined
+
 /// Stands before the handler of local files.
 class FencedFiles : public VSIFilesystemHandler {
  public:
-  FencedFiles(VSIFilesystemHandler* files, Fence fence) : files_(files), fence_(std::move(fence)) {}
+  FencedFiles(VSIFilesystemHandler* files, const Fence& fence) : files_(files), fence_(fence) {}
 
   VSIVirtualHandle* Open(const char* path, const char* access, bool setsError,
                          CSLConstList options) override {
@@ -152,7 +155,7 @@ class FencedFiles : public VSIFilesystemHandler {
   }
 
   VSIFilesystemHandler* files_;
-  Fence fence_;
+  const Fence& fence_;
 };
 
 /// In place of a remote file system.
@@ -211,10 +214,10 @@ Status confineGdal(const std::vector<std::string>& names) try {
       return failure(ErrorCode::unreadable, fmt::format("is a link to {}, out of its folder", to.string()),
                      name);
   }
-  Fence fence(names);
+  theFence = std::make_shared<const Fence>(names);
   removeDrivers();
   removeNetwork();
-  VSIFileManager::InstallHandler("", new FencedFiles(VSIFileManager::GetHandler(""), std::move(fence)));
+  VSIFileManager::InstallHandler("", new FencedFiles(VSIFileManager::GetHandler(""), *theFence));
   isConfined = true;
   return {};
 } catch (...) {
@@ -223,6 +226,10 @@ Status confineGdal(const std::vector<std::string>& names) try {
 
 bool gdalIsConfined() noexcept {
   return isConfined;
+}
+
+bool mayRead(const std::filesystem::path& file) {
+  return !isConfined || theFence->mayRead(file.c_str());
 }
 
 }  // namespace arete

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -25,5 +26,9 @@ Status confineGdal(const std::vector<std::string>& names);
 
 /// Whether confineGdal() was called.
 bool gdalIsConfined() noexcept;
+
+/// Whether a file may be read: any, unless confineGdal() was called. For readers that open the files that a
+/// file names without GDAL.
+bool mayRead(const std::filesystem::path& file);
 
 }  // namespace arete

@@ -32,6 +32,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/gdal/confined.h"
 #include "io/gdal/support.h"
 
 namespace arete {
@@ -440,7 +441,7 @@ int closeHandle(void* handle) {
 }  // namespace
 
 void installNetworkFiles() {
-  if (!CPLHTTPEnabled()) return;
+  if (!CPLHTTPEnabled() || gdalIsConfined()) return;
   VSIFilesystemPluginCallbacksStruct* callbacks = VSIAllocFilesystemPluginCallbacksStruct();
   callbacks->open = openHandle;
   callbacks->stat = statHandle;

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "io/file/text_scan.h"
+#include "io/gdal/confined.h"
 #include "io/mesh/glb/base64.h"
 
 namespace arete {
@@ -102,6 +103,7 @@ Result<std::string_view> GltfBuffers::fileNamed(const std::string& uri) {
   // One file may be named in many ways: it is read once.
   const auto readOnce = [&](const std::string& name) -> Result<std::string_view> {
     const std::string path = (folder_ / name).lexically_normal().string();
+    if (!mayRead(path)) return failure(ErrorCode::unsupported, "is another file, which is not read");
     auto known = files_.find(path);
     if (known == files_.end()) {
       Result<FileBytes> file = FileBytes::read(path);
