@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The handler calls only what a signal handler may: stat(), write(), unlink(), _exit().
+// The handler calls only what a signal handler may: stat(), write(), unlink(), _exit(), pause().
 #include "cli/session/faults.h"
 
 #include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstring>
 
 #include "cli/session/exit_code.h"
@@ -17,6 +18,7 @@ namespace arete {
 namespace {
 
 struct sigaction gBusBefore, gSegvBefore;
+std::atomic_flag gIsEnding;
 
 void writeError(const char* text, std::size_t size) {
   while (size > 0) {
@@ -29,6 +31,9 @@ void writeError(const char* text, std::size_t size) {
 
 extern "C" void onFault(int signal, siginfo_t*, void*) {
   if (const char* const name = changedInputFile()) {
+    // Several threads may meet the change at once: one tells of it and ends them all.
+    if (gIsEnding.test_and_set())
+      for (;;) ::pause();
     constexpr char kBefore[] = "arete: ", kAfter[] = ": was changed while it was read\n";
     writeError(kBefore, sizeof kBefore - 1);
     for (const char* c = name; *c; ++c) {  // a name may hold what drives a terminal
