@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The handler stores into a lock-free atomic, which is all that a signal handler may do.
+// The handlers store into a lock-free atomic and call alarm(), which is all that a signal handler may do. A
+// system call that begins to block just after the signal would not see it: the alarm comes once a second from
+// then on, and ends such a call too.
 #include "cli/session/interrupt.h"
+
+#include <unistd.h>
 
 #include <csignal>
 
@@ -13,11 +17,20 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only
 
 extern "C" void setInterrupted(int) {
   gInterrupted.store(true, std::memory_order_relaxed);
+  ::alarm(1);
+}
+
+extern "C" void endBlockedCall(int) {
+  ::alarm(1);
 }
 
 }  // namespace
 
 void catchInterrupts() {
+  struct sigaction repeated = {};
+  repeated.sa_handler = endBlockedCall;
+  sigemptyset(&repeated.sa_mask);
+  sigaction(SIGALRM, &repeated, nullptr);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction action = {};
     if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) continue;
