@@ -90,10 +90,8 @@ CLI::App* Session::addCommand(CLI::App& app, const std::string& name, const std:
           "Keep large arrays in small memory pages, where huge pages make this machine slower")
       ->group("Output");
   command
-      ->add_flag(
-          "--confined", isConfined_,
-          "Read only the named files and sidecars beside them: no links out of a folder, no formats that "
-          "refer to other files, no network. For services that read files of strangers")
+      ->add_flag("--confined", isConfined_,
+                 "Read the named files and their sidecars only, without network (for services)")
       ->group("Output");
   command->callback([this, command, run = std::move(run)] {
     run_ = run;
