@@ -47,16 +47,6 @@ struct FileCloser {
   void operator()(VSILFILE* file) const { VSIFCloseL(file); }
 };
 
-bool isBlank(char c) {
-  return c == ' ' || c == '\t' || c == '\r';
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 /// The start of the comment of a record, or npos. In quotes '#' is text, and in "1.#QNAN" and "1.#INF", as
 /// older C libraries write what is no number.
 std::size_t findComment(std::string_view line) {

@@ -9,8 +9,6 @@
 
 namespace arete {
 
-namespace {
-
 bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == '\r';
 }
@@ -20,6 +18,8 @@ std::string_view trimmed(std::string_view text) {
   while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
   return text;
 }
+
+namespace {
 
 std::string_view unquoted(std::string_view text) {
   text = trimmed(text);

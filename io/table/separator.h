@@ -9,6 +9,10 @@ namespace arete {
 /// What stands between the fields of a text: a semicolon, comma, tab, vertical bar, or runs of blanks.
 inline constexpr char kSpaces = ' ';
 
+bool isBlank(char c);  ///< space, tab, or the carriage return of a line end
+/// The text without blanks around it.
+std::string_view trimmed(std::string_view text);
+
 /// Takes the next field off the front of `rest`, without blanks and quotes around it. False if none is left.
 bool nextField(std::string_view& rest, char separator, std::string_view& field);
 std::vector<std::string_view> fieldsOf(std::string_view line, char separator);

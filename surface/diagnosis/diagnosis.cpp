@@ -29,8 +29,7 @@ Result<MeshDiagnosis> diagnoseHere(const TriangleMesh& mesh, const DiagnosisOpti
   std::vector<diagnosis::Triangle> kept;
   std::vector<std::uint32_t> keptTriangle;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    if (a == b || b == c || c == a) continue;
+    if (diagnosis::hasRepeat(mesh.triangles[t])) continue;
     kept.push_back(mesh.triangles[t]);
     keptTriangle.push_back(t);
   }

@@ -8,10 +8,6 @@
 namespace arete::diagnosis {
 namespace {
 
-bool hasRepeat(const Triangle& t) {
-  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
-
 /// Whether the corners are an even permutation of their sorted order.
 bool isEven(const Triangle& t) {
   return ((t[0] > t[1]) + (t[0] > t[2]) + (t[1] > t[2])) % 2 == 0;

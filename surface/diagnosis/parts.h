@@ -22,6 +22,16 @@ void add(MeshFindings& findings, std::size_t most, std::vector<std::uint32_t> el
 
 Vec3 centroid(const TriangleMesh& mesh, std::uint32_t triangle);
 
+/// Whether a triangle has a vertex twice.
+inline bool hasRepeat(const Triangle& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+/// The lowest and the highest coordinates of the vertices that triangles use; zeros if there is none.
+std::array<Vec3, 2> boxOf(const TriangleMesh& mesh);
+/// The length of its diagonal, also where the squares of its sides overflow.
+double diagonalOf(const std::array<Vec3, 2>& box);
+
 /// Vertices: unused, double; the box.
 void examineVertices(const TriangleMesh& mesh, const DiagnosisOptions& options, MeshDiagnosis& result);
 /// Triangles: degenerate, duplicate, double-sided.

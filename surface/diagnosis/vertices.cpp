@@ -3,7 +3,6 @@
 // Double vertices: sorted by position, equal ones are side by side.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -15,12 +14,27 @@ void add(MeshFindings& findings, std::size_t most, std::vector<std::uint32_t> el
   if (findings.count++ < most) findings.places.push_back({std::move(elements), place});
 }
 
+std::array<Vec3, 2> boxOf(const TriangleMesh& mesh) {
+  if (mesh.triangles.empty()) return {};
+  Vec3 low = mesh.positions[mesh.triangles[0][0]], high = low;
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) {
+      const Vec3& p = mesh.positions[v];
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+  return {low, high};
+}
+
+double diagonalOf(const std::array<Vec3, 2>& box) {
+  const Vec3 span = box[1] - box[0];
+  return std::hypot(span.x, span.y, span.z);
+}
+
 void examineVertices(const TriangleMesh& mesh, const DiagnosisOptions& options, MeshDiagnosis& result) {
   std::vector<std::uint8_t> isUsed(mesh.positions.size(), 0);
   for (const Triangle& t : mesh.triangles)
     for (const std::uint32_t v : t) isUsed[v] = 1;
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  Vec3 low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
   std::vector<std::uint32_t> used;
   for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
     const Vec3& p = mesh.positions[v];
@@ -29,13 +43,12 @@ void examineVertices(const TriangleMesh& mesh, const DiagnosisOptions& options, 
       continue;
     }
     used.push_back(v);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   if (used.empty()) return;
-  result.boxLow = low;
-  result.boxHigh = high;
-  result.diagonal = std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
+  const std::array<Vec3, 2> box = boxOf(mesh);
+  result.boxLow = box[0];
+  result.boxHigh = box[1];
+  result.diagonal = diagonalOf(box);
 
   // Adding 0 makes -0 and 0 one key, as they are one position.
   const auto key = [&](std::uint32_t v) {

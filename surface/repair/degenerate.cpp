@@ -22,9 +22,7 @@
 namespace arete::repair_passes {
 namespace {
 
-bool hasRepeat(const Triangle& t) {
-  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
+using diagnosis::hasRepeat;
 
 class DegeneratePass {
  public:

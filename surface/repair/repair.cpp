@@ -5,34 +5,19 @@
 // vertices only get copies for fans that there are, so it ends.
 #include "surface/repair/repair.h"
 
-#include <cmath>
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "surface/diagnosis/parts.h"
 #include "surface/repair/draft.h"
 
 namespace arete {
-namespace {
-
-double diagonalOf(const TriangleMesh& mesh) {
-  if (mesh.triangles.empty()) return 0;
-  Vec3 low = mesh.positions[mesh.triangles[0][0]], high = low;
-  for (const auto& t : mesh.triangles)
-    for (const std::uint32_t v : t) {
-      const Vec3& p = mesh.positions[v];
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  return std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
-}
-
-}  // namespace
 
 Result<RepairedMesh> repair(const TriangleMesh& mesh, const RepairOptions& options,
                             const RunContext& context) try {
   if (const Status valid = mesh.validate(); !valid) return tl::unexpected(valid.error());
   repair_passes::Draft draft(mesh);
-  const double distance = options.tJunctionTolerance * diagonalOf(mesh);
+  const double distance = options.tJunctionTolerance * diagnosis::diagonalOf(diagnosis::boxOf(mesh));
   context.report("repair", 0);
   for (RepairCounts before = {.unusedVertices = 1}; before != draft.counts;) {
     before = draft.counts;

@@ -31,8 +31,8 @@ struct WeldedMesh {
 /// one vertex at each end. Where more than two border edges lie in one place, those of one connected part are
 /// joined, if there are two of them; else those that bound the same solid, by the turns of their triangles.
 /// So parts that are whole by themselves and only touch stay apart. An edge gets more than two triangles only
-/// where both of its ends lie on seams that two sheets share. Triangles keep their order, also those that a
-/// distance makes degenerate: there are none, as vertices of one triangle are not joined.
+/// where both of its ends lie on seams that two sheets share. Triangles keep their order. Vertices of one
+/// triangle are not joined, so none becomes degenerate.
 ///
 /// With a distance, a border vertex within it of another one moves there first, the nearest pairs first; it
 /// moves back if no edge is joined there.

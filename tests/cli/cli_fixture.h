@@ -63,6 +63,18 @@ class Cli : public ::testing::Test {
     return names;
   }
 
+  /// For `meanwhile` of run(): waits for the process, and kills it after about twenty seconds.
+  static void killIfItHangs(pid_t child) {
+    for (int i = 0; i < 20'000; ++i) {
+      siginfo_t ended{};
+      if (waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+          ended.si_pid == child)
+        return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    kill(child, SIGKILL);
+  }
+
   /// Runs arete in the folder. `meanwhile` is called with its process id while it runs.
   Outcome run(const std::vector<std::string>& arguments,
               const std::function<void(pid_t)>& meanwhile = {}) const {

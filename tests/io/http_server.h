@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A small HTTP server on this machine that misbehaves as it is told.
+// A small HTTP server on this machine that misbehaves as its caller states.
 #pragma once
 
 #include <arpa/inet.h>
