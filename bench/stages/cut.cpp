@@ -183,7 +183,8 @@ Result<Figures> exportStage(const DemSource& source, const std::string& path, co
     MeshWriteOptions options;
     options.triangleErrors = tin.errors;
     options.crsWkt = model->georeference.crsWkt;
-    status = writeMesh(tin.mesh, file, options);
+    const auto written = writeMesh(tin.mesh, file, options);
+    status = written ? Status() : Status(tl::unexpected(written.error()));
     return status.has_value();
   });
   if (!status) return tl::unexpected(status.error());

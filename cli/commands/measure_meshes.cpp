@@ -94,7 +94,10 @@ Status writeDistances(const std::string& path, const MeshFile& mesh, const std::
   options.vertexColors = colors;
   options.notes = {
       fmt::format("quality is the distance to {}, colours are from 0 to {}", reference, largest)};
-  return writeMesh(mesh.mesh, path, options, session.context());
+  const TriangleMesh& shape = mesh.mesh;
+  if (auto written = writeMesh(shape, path, options, session.context()); !written)
+    return tl::unexpected(written.error());
+  return {};
 }
 
 /// The library knows the meshes as the first and the second.

@@ -52,13 +52,16 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
                                  .origin = mesh.frame.origin,
                                  .format = options.format,
                                  .notes = {},
-                                 .existing = options.existing};
-  const Result<WrittenMesh> written = writeAndReadBack(std::move(mesh.mesh), path, writing, true, context);
+                                 .existing = options.existing,
+                                 .up = mesh.up,
+                                 .pictureFolder = mesh.folder};
+  const Result<WrittenMesh> written = writeAndReadBack(mesh.mesh, path, writing, true, context);
   // A CRS that this format needs and GDAL does not understand is a fault of the mesh, not of the output.
   if (!written && written.error().code == ErrorCode::invalidData && !mesh.crsWkt.empty())
     if (auto crs = crsFromText(mesh.crsWkt); !crs) return tl::unexpected(crs.error());
   if (!written) return tl::unexpected(written.error());
   converted.frame = written->frame;
+  converted.lost = written->report.lost;
   const auto lose = [&](bool isHeld, bool isThere, std::string what) {
     if (!isHeld && isThere) converted.lost.push_back(std::move(what));
   };

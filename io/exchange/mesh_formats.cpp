@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "engine/base/caught_failure.h"
+#include "io/exchange/joined.h"
 #include "io/file/file_writer.h"
 #include "io/file/text_scan.h"
 #include "io/mesh/2dm/2dm.h"
@@ -101,23 +102,29 @@ bool isMeshFile(const std::filesystem::path& path) {
   return format && format->read && (format->read != &readGpkg || holdsSurfaces(path));
 }
 
-Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& context) try {
-  const Result<MeshFormat> format = meshFormatOf(path);
+Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& context,
+                          std::string_view name) try {
+  const Result<MeshFormat> format = meshFormatOf(path, name);
   if (!format) return tl::unexpected(format.error());
   if (!format->read)
     return failure(ErrorCode::unsupported, fmt::format("{} files can be written, not read", format->name),
                    path.string());
   Result<MeshFile> file = format->read(path, context);
+  if (!file) return file;
   // A NaN, infinite or negative error is invalid; then the file counts as one without errors.
-  if (file && !std::ranges::all_of(file->triangleErrors, [](float e) { return e >= 0 && std::isfinite(e); }))
+  if (!std::ranges::all_of(file->triangleErrors, [](float e) { return e >= 0 && std::isfinite(e); }))
     file->triangleErrors.clear();
+  if (!file->crsWkt.empty()) file->up = MeshUp::z;
+  if (!isNoFile(path)) file->folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (const Status joined = joinSoup(*file, context); !joined)
+    return failure(joined.error().code, joined.error().message, path.string());
   return file;
 } catch (...) {
   return caughtFailure(path.native());
 }
 
-Status writeMesh(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
-                 const RunContext& context) try {
+Result<MeshWriteReport> writeMesh(MeshRef mesh, const std::filesystem::path& path,
+                                  const MeshWriteOptions& options, const RunContext& context) try {
   const Result<MeshFormat> format = meshFormatOf(path, options.format);
   if (!format) return tl::unexpected(format.error());
   if (!format->write)

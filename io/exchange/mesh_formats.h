@@ -16,9 +16,9 @@ struct MeshFormat {
   std::string_view extension;  ///< lower case, with its dot: ".ply"
   Result<MeshFile> (*read)(const std::filesystem::path& path,
                            const RunContext& context);  ///< null: not supported
-  Status (*write)(const TriangleMesh& mesh, const std::filesystem::path& path,
-                  const MeshWriteOptions& options,
-                  const RunContext& context);  ///< null: not supported
+  Result<MeshWriteReport> (*write)(MeshRef mesh, const std::filesystem::path& path,
+                                   const MeshWriteOptions& options,
+                                   const RunContext& context);  ///< null: not supported
   MeshFormatTraits holds = {};
 };
 
@@ -43,19 +43,22 @@ bool isNoFile(const std::filesystem::path& path);
 /// rather than points or a raster.
 bool isMeshFile(const std::filesystem::path& path);
 
-/// Reads a mesh in the format that the extension names. Every index of the result is valid and every
-/// coordinate finite.
+/// Reads a mesh in the format that the extension or `name` says. Every index of the result is valid and every
+/// coordinate finite. A soup is joined (io/exchange/joined.h).
+///
+/// @param name as in meshFormatOf().
 ///
 /// Errors, with the path as culprit and the line or element in the message: notFound, unreadable,
 /// unsupported. corrupt: truncated, altered or invalid. interrupted. O(file size).
-Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& context = {});
+Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& context = {},
+                          std::string_view name = {});
 
 /// Writes a mesh in the format that options.format or the extension of `path` names. The file appears
 /// complete or not at all; a pipe or a device is written in place.
 ///
 /// Errors: unsupported; a GeoPackage to a pipe. invalidData: the mesh does not validate(). notFound,
 /// unreadable, interrupted.
-Status writeMesh(const TriangleMesh& mesh, const std::filesystem::path& path,
-                 const MeshWriteOptions& options = {}, const RunContext& context = {});
+Result<MeshWriteReport> writeMesh(MeshRef mesh, const std::filesystem::path& path,
+                                  const MeshWriteOptions& options = {}, const RunContext& context = {});
 
 }  // namespace arete

@@ -92,7 +92,7 @@ Status passOn(const std::filesystem::path& from, const std::filesystem::path& to
 
 }  // namespace
 
-Result<WrittenMesh> writeAndReadBack(TriangleMesh mesh, const std::filesystem::path& path,
+Result<WrittenMesh> writeAndReadBack(MeshRef mesh, const std::filesystem::path& path,
                                      const MeshWriteOptions& options, bool onGrid,
                                      const RunContext& context) {
   const Result<MeshFormat> format = meshFormatOf(path, options.format);
@@ -102,17 +102,20 @@ Result<WrittenMesh> writeAndReadBack(TriangleMesh mesh, const std::filesystem::p
   if (mustPassOn)
     if (const Status made = temporary.create(format->extension); !made) return tl::unexpected(made.error());
   const std::filesystem::path& written = mustPassOn ? temporary.path() : path;
-  if (const Status ok = writeMesh(mesh, written, options, context); !ok) return tl::unexpected(ok.error());
-  if (format->holds.isExact) return WrittenMesh{.mesh = std::move(mesh), .frame = {}};
-  Result<MeshFile> file = format->read(written, context);
+  Result<MeshWriteReport> report = writeMesh(mesh, written, options, context);
+  if (!report) return tl::unexpected(report.error());
+  if (format->holds.isExact) return WrittenMesh{.mesh = {}, .frame = {}, .report = std::move(*report)};
+  Result<MeshFile> file = readMesh(written, context, options.format);
   if (!file) return tl::unexpected(file.error());
   if (mustPassOn)
     if (const Status passed = passOn(written, path); !passed) return tl::unexpected(passed.error());
-  if (file->mesh.triangles.size() != mesh.triangles.size())
+  if (file->mesh.triangles.size() != mesh.shape.triangles.size())
     return failure(ErrorCode::corrupt, "does not hold the triangles that were written to it", path.string());
-  const double change = largestHeightChange(mesh, file->mesh, onGrid);
-  return WrittenMesh{
-      .mesh = std::move(file->mesh), .frame = std::move(file->frame), .heightRounding = change};
+  const double change = largestHeightChange(mesh.shape, file->mesh, onGrid);
+  return WrittenMesh{.mesh = std::move(file->mesh),
+                     .frame = std::move(file->frame),
+                     .heightRounding = change,
+                     .report = std::move(*report)};
 }
 
 }  // namespace arete

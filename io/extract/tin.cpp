@@ -177,11 +177,11 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
                                .notes = {commentOf(request, model_, tin)},
                                .existing = request.existing};
   Result<WrittenMesh> written =
-      writeAndReadBack(std::move(exported.mesh), request.output, write, model_.isRaster, context);
+      writeAndReadBack(exported.mesh, request.output, write, model_.isRaster, context);
   if (!written) return tl::unexpected(within(tl::unexpected(written.error()), request.output).error());
   tin.format = formatOf(request.output, *written, write);
   if (!request.criterion.promisesMaxError()) tin.promisedError += tin.format.heightRounding;
-  return std::move(written->mesh);
+  return written->mesh ? std::move(*written->mesh) : std::move(exported.mesh);
 }
 
 Status TinExtractor::deepen(double maxError, double reserve, const RunContext& context) {

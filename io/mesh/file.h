@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include "engine/base/triangle_mesh.h"
 #include "engine/parallel/run_context.h"
 #include "io/file/existing_file.h"
+#include "surface/model/surface_mesh.h"
 
 namespace arete {
 
@@ -25,19 +27,27 @@ struct MeshFrame {
   Vec3 rounding = {};
 };
 
-/// A mesh as read from a file. Polygons are split into triangles (io/mesh/polygon.h).
+/// Which axis of a mesh points up.
+enum class MeshUp : std::uint8_t { unknown, y, z };
+
+/// A mesh as read from a file, with its attributes. Polygons are split into triangles (io/mesh/polygon.h).
 struct MeshFile {
-  TriangleMesh mesh;         ///< in source coordinates if the file states its frame, else as in the file
+  SurfaceMesh mesh;          ///< in source coordinates if the file states its frame, else as in the file
   std::string crsWkt;        ///< empty if the file has none
   std::string verticalUnit;  ///< empty if the file has none
   /// One per triangle, finite and not negative; empty if the file has none.
   std::vector<float> triangleErrors;
   MeshFrame frame;
+  /// z if the file has a CRS or states Arete's frame, y in another glTF, else unknown.
+  MeshUp up = MeshUp::unknown;
+  /// Where the pictures are that materials name by a path; empty: nowhere, as of standard input.
+  std::filesystem::path folder;
+  std::uint64_t joinedVertices = 0;  ///< of a soup, at reading
   /// What was left out or guessed, each a sentence about the file.
   std::vector<std::string> warnings;
 };
 
-/// What to write besides the triangles. A value is left out if the format has no field for it.
+/// What to write besides the mesh. A value is left out if the format has no field for it.
 struct MeshWriteOptions {
   std::string crsWkt = {};
   std::string verticalUnit = {};
@@ -56,6 +66,18 @@ struct MeshWriteOptions {
   std::vector<std::string> notes = {};
   /// What happens to the other layers of a GeoPackage that exists.
   ExistingFile existing = ExistingFile::keepsOtherLayers;
+  /// A glTF of a mesh whose z is up is turned and has a frame; of any other its axes are those of the mesh.
+  MeshUp up = MeshUp::z;
+  /// MeshFile::folder.
+  std::filesystem::path pictureFolder = {};
+};
+
+/// What became of a mesh that was written.
+struct MeshWriteReport {
+  /// What the mesh has and the file does not, each a noun that follows "cannot hold": "the names of its
+  /// objects".
+  std::vector<std::string> lost = {};
+  std::vector<std::filesystem::path> filesBeside = {};  ///< MTL, pictures
 };
 
 /// What a format can hold.

@@ -13,40 +13,39 @@ namespace {
 
 /// Calls visit(T()) with the type of the numbers.
 template <class Visit>
-decltype(auto) withType(ScalarType type, const Visit &visit) {
+decltype(auto) withType(ScalarType type, const Visit& visit) {
   switch (type) {
-  case ScalarType::int8:
-    return visit(std::int8_t());
-  case ScalarType::uint8:
-    return visit(std::uint8_t());
-  case ScalarType::int16:
-    return visit(std::int16_t());
-  case ScalarType::uint16:
-    return visit(std::uint16_t());
-  case ScalarType::int32:
-    return visit(std::int32_t());
-  case ScalarType::uint32:
-    return visit(std::uint32_t());
-  case ScalarType::float32:
-    return visit(float());
-  default:
-    return visit(double());
+    case ScalarType::int8:
+      return visit(std::int8_t());
+    case ScalarType::uint8:
+      return visit(std::uint8_t());
+    case ScalarType::int16:
+      return visit(std::int16_t());
+    case ScalarType::uint16:
+      return visit(std::uint16_t());
+    case ScalarType::int32:
+      return visit(std::int32_t());
+    case ScalarType::uint32:
+      return visit(std::uint32_t());
+    case ScalarType::float32:
+      return visit(float());
+    default:
+      return visit(double());
   }
 }
 
-template <class T> T rounded(double number) {
+template <class T>
+T rounded(double number) {
   if constexpr (std::is_floating_point_v<T>) {
     return static_cast<T>(number);
   } else {
-    if (std::isnan(number))
-      return 0;
-    return static_cast<T>(std::clamp(std::round(number),
-                                     double(std::numeric_limits<T>::min()),
+    if (std::isnan(number)) return 0;
+    return static_cast<T>(std::clamp(std::round(number), double(std::numeric_limits<T>::min()),
                                      double(std::numeric_limits<T>::max())));
   }
 }
 
-} // namespace
+}  // namespace
 
 std::size_t sizeOf(ScalarType type) {
   return withType(type, [](auto zero) { return sizeof zero; });
@@ -70,13 +69,13 @@ void Attribute::append(std::span<const double> numbers) {
   withType(type, [&](auto zero) {
     for (const double number : numbers) {
       const auto value = rounded<decltype(zero)>(number);
-      const auto *const bytes = reinterpret_cast<const std::byte *>(&value);
+      const auto* const bytes = reinterpret_cast<const std::byte*>(&value);
       values.insert(values.end(), bytes, bytes + sizeof value);
     }
   });
 }
 
-Attribute emptyLike(const Attribute &attribute) {
+Attribute emptyLike(const Attribute& attribute) {
   Attribute empty;
   empty.name = attribute.name;
   empty.meaning = attribute.meaning;
@@ -84,21 +83,18 @@ Attribute emptyLike(const Attribute &attribute) {
   empty.components = attribute.components;
   empty.isNormalized = attribute.isNormalized;
   empty.colorSpace = attribute.colorSpace;
+  empty.isFromTop = attribute.isFromTop;
   return empty;
 }
 
-Status checkAttribute(const Attribute &attribute, std::size_t elements) {
+Status checkAttribute(const Attribute& attribute, std::size_t elements) {
   if (attribute.components == 0)
-    return failure(
-        ErrorCode::invalidData,
-        fmt::format("attribute '{}' has no components", attribute.name));
+    return failure(ErrorCode::invalidData, fmt::format("attribute '{}' has no components", attribute.name));
   if (attribute.values.size() != elements * attribute.elementBytes())
-    return failure(
-        ErrorCode::invalidData,
-        fmt::format("attribute '{}' has {} bytes for {} elements of {}",
-                    attribute.name, attribute.values.size(), elements,
-                    attribute.elementBytes()));
+    return failure(ErrorCode::invalidData,
+                   fmt::format("attribute '{}' has {} bytes for {} elements of {}", attribute.name,
+                               attribute.values.size(), elements, attribute.elementBytes()));
   return {};
 }
 
-} // namespace arete
+}  // namespace arete

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -27,12 +28,16 @@ enum class AttributeMeaning : std::uint8_t {
   other,          ///< any numbers; integers are labels
   normal,         ///< a direction
   tangent,        ///< a direction, and the sign of the third one
-  textureCoords,  ///< a place in a picture, from its lower left corner
+  textureCoords,  ///< a place in a picture; see Attribute::isFromTop
   color,          ///< red, green, blue, perhaps alpha
 };
 
 /// How the numbers of a color relate to light.
 enum class ColorSpace : std::uint8_t { none, srgb, linear };
+
+/// Names of attributes that have a meaning. Further sets have a number behind the name: "texcoord1".
+inline constexpr std::string_view kNormalName = "normal", kTangentName = "tangent",
+                                  kTexcoordName = "texcoord", kColorName = "color";
 
 /// Numbers that belong to the elements of a mesh: vertices, wedges or
 /// triangles. They are kept as the bytes of the file's own type, so that they
@@ -44,6 +49,9 @@ struct Attribute {
   std::uint8_t components = 1;  ///< of an element
   bool isNormalized = false;    ///< integers stand for fractions of their largest value
   ColorSpace colorSpace = ColorSpace::none;
+  /// Of texture coordinates: the second one is counted from the upper side of the picture, as in glTF, not
+  /// from the lower one, as in OBJ and PLY.
+  bool isFromTop = false;
   std::vector<std::byte> values = {};  ///< element by element, component by component
 
   std::size_t elementBytes() const { return sizeOf(type) * components; }

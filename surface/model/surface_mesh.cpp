@@ -10,87 +10,64 @@
 namespace arete {
 namespace {
 
-Status checkNumbers(const std::vector<std::uint32_t> &numbers,
-                    std::size_t triangles, std::size_t count,
-                    const char *what) {
+Status checkNumbers(const std::vector<std::uint32_t>& numbers, std::size_t triangles, std::size_t count,
+                    const char* what) {
   if (!numbers.empty() && numbers.size() != triangles)
     return failure(ErrorCode::invalidData,
-                   fmt::format("{} triangles have a {}, of {}", numbers.size(),
-                               what, triangles));
+                   fmt::format("{} triangles have a {}, of {}", numbers.size(), what, triangles));
   for (std::size_t t = 0; t < numbers.size(); ++t)
     if (numbers[t] != SurfaceMesh::kNone && numbers[t] >= count)
       return failure(ErrorCode::invalidData,
-                     fmt::format("triangle {} has {} {}, of {}", t, what,
-                                 numbers[t], count));
+                     fmt::format("triangle {} has {} {}, of {}", t, what, numbers[t], count));
   return {};
 }
 
-Status checkAttributes(const std::vector<Attribute> &attributes,
-                       std::size_t elements) {
-  for (const Attribute &attribute : attributes) {
-    if (Status valid = checkAttribute(attribute, elements); !valid)
-      return valid;
+Status checkAttributes(const std::vector<Attribute>& attributes, std::size_t elements) {
+  for (const Attribute& attribute : attributes) {
+    if (Status valid = checkAttribute(attribute, elements); !valid) return valid;
     if (std::ranges::count(attributes, attribute.name, &Attribute::name) != 1)
-      return failure(
-          ErrorCode::invalidData,
-          fmt::format("there are two attributes '{}'", attribute.name));
+      return failure(ErrorCode::invalidData, fmt::format("there are two attributes '{}'", attribute.name));
   }
   return {};
 }
 
-} // namespace
+}  // namespace
 
-Status SurfaceMesh::validate() const try {
+MeshRef::MeshRef(const TriangleMesh& mesh)
+    : shape(mesh), attributes([]() -> const MeshAttributes& {
+        static const MeshAttributes none;
+        return none;
+      }()) {}
+
+Status SurfaceMesh::validate() const {
+  return MeshRef(*this).validate();
+}
+
+Status MeshRef::validate() const try {
+  const MeshAttributes& of = attributes;
   const std::size_t triangles = shape.triangles.size();
-  if (Status valid = shape.validate(); !valid)
-    return valid;
-  if (Status valid = checkAttributes(vertexAttributes, shape.positions.size());
-      !valid)
-    return valid;
-  if (Status valid = checkAttributes(wedgeAttributes, wedgeCount); !valid)
-    return valid;
-  if (Status valid = checkAttributes(triangleAttributes, triangles); !valid)
-    return valid;
-  if (hasWedges() && wedges.size() != triangles)
+  if (Status valid = shape.validate(); !valid) return valid;
+  if (Status valid = checkAttributes(of.vertexAttributes, shape.positions.size()); !valid) return valid;
+  if (Status valid = checkAttributes(of.wedgeAttributes, of.wedgeCount); !valid) return valid;
+  if (Status valid = checkAttributes(of.triangleAttributes, triangles); !valid) return valid;
+  if (of.hasWedges() && of.wedges.size() != triangles)
     return failure(ErrorCode::invalidData,
-                   fmt::format("{} triangles have wedges, of {}", wedges.size(),
-                               triangles));
-  if (!hasWedges() && triangles > 0 && !wedgeAttributes.empty())
-    return failure(ErrorCode::invalidData,
-                   "there are attributes of wedges and no wedges");
-  for (std::size_t t = 0; t < wedges.size(); ++t)
-    for (const std::uint32_t wedge : wedges[t])
-      if (wedge >= wedgeCount)
+                   fmt::format("{} triangles have wedges, of {}", of.wedges.size(), triangles));
+  if (!of.hasWedges() && triangles > 0 && !of.wedgeAttributes.empty())
+    return failure(ErrorCode::invalidData, "there are attributes of wedges and no wedges");
+  for (std::size_t t = 0; t < of.wedges.size(); ++t)
+    for (const std::uint32_t wedge : of.wedges[t])
+      if (wedge >= of.wedgeCount)
         return failure(ErrorCode::invalidData,
-                       fmt::format("triangle {} has wedge {}, of {}", t, wedge,
-                                   wedgeCount));
-  if (!faceOf.empty() && faceOf.size() != triangles)
+                       fmt::format("triangle {} has wedge {}, of {}", t, wedge, of.wedgeCount));
+  if (!of.faceOf.empty() && of.faceOf.size() != triangles)
     return failure(ErrorCode::invalidData,
-                   fmt::format("{} triangles have a face, of {}", faceOf.size(),
-                               triangles));
-  if (Status valid =
-          checkNumbers(objectOf, triangles, objects.size(), "object");
-      !valid)
-    return valid;
-  if (Status valid = checkNumbers(groupOf, triangles, groups.size(), "group");
-      !valid)
-    return valid;
-  return checkNumbers(materialOf, triangles, materials.size(), "material");
+                   fmt::format("{} triangles have a face, of {}", of.faceOf.size(), triangles));
+  if (Status valid = checkNumbers(of.objectOf, triangles, of.objects.size(), "object"); !valid) return valid;
+  if (Status valid = checkNumbers(of.groupOf, triangles, of.groups.size(), "group"); !valid) return valid;
+  return checkNumbers(of.materialOf, triangles, of.materials.size(), "material");
 } catch (...) {
   return caughtFailure();
 }
 
-bool SurfaceMesh::operator==(const SurfaceMesh &o) const {
-  return shape.positions == o.shape.positions &&
-         shape.triangles == o.shape.triangles &&
-         vertexAttributes == o.vertexAttributes &&
-         wedgeAttributes == o.wedgeAttributes &&
-         triangleAttributes == o.triangleAttributes &&
-         wedgeCount == o.wedgeCount && wedges == o.wedges &&
-         faceOf == o.faceOf && objects == o.objects && groups == o.groups &&
-         objectOf == o.objectOf && groupOf == o.groupOf &&
-         materials == o.materials && materialOf == o.materialOf &&
-         pictures == o.pictures;
-}
-
-} // namespace arete
+}  // namespace arete

@@ -44,41 +44,55 @@ struct EmbeddedPicture {
   bool operator==(const EmbeddedPicture&) const = default;
 };
 
-/// A triangle mesh with everything that its file says of it. Positions and
-/// triangles are those of `shape`.
+/// Everything that a file says of a triangle mesh but its positions and triangles.
 ///
-/// A wedge is what corners at one vertex share that have the same attributes: a
-/// texture seam splits the corners of a vertex into two wedges. Attributes of
-/// corners belong to wedges; without any, `wedges` is empty.
-struct SurfaceMesh {
+/// A wedge is what corners at one vertex share that have the same attributes: a texture seam splits the
+/// corners of a vertex into two wedges. Attributes of corners belong to wedges; without any, `wedges` is
+/// empty.
+struct MeshAttributes {
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
-  TriangleMesh shape;
-  std::vector<Attribute> vertexAttributes, wedgeAttributes, triangleAttributes;
+  std::vector<Attribute> vertexAttributes = {}, wedgeAttributes = {}, triangleAttributes = {};
 
   std::uint32_t wedgeCount = 0;
   /// By triangle: the wedges of its corners. Empty, or one for each triangle.
-  std::vector<std::array<std::uint32_t, 3>> wedges;
+  std::vector<std::array<std::uint32_t, 3>> wedges = {};
 
-  /// By triangle: the number in the file of the face it is a part of. Empty:
-  /// triangles are the faces.
-  std::vector<std::uint32_t> faceOf;
+  /// By triangle: the number in the file, from 0, of the face it is a part of. Empty: triangles are the
+  /// faces.
+  std::vector<std::uint32_t> faceOf = {};
 
-  std::vector<std::string> objects, groups;
-  std::vector<std::uint32_t> objectOf,
-      groupOf;  ///< by triangle, kNone: in none; empty: none is
+  std::vector<std::string> objects = {}, groups = {};
+  /// By triangle, kNone: in none; empty: none is.
+  std::vector<std::uint32_t> objectOf = {}, groupOf = {};
 
-  std::vector<Material> materials;
-  std::vector<std::uint32_t> materialOf;  ///< by triangle, kNone: none; empty: none has one
-  std::vector<EmbeddedPicture> pictures;
+  std::vector<Material> materials = {};
+  std::vector<std::uint32_t> materialOf = {};  ///< by triangle, kNone: none; empty: none has one
+  std::vector<EmbeddedPicture> pictures = {};
 
   bool hasWedges() const { return !wedges.empty(); }
 
-  /// Checks the shape, the sizes of all arrays, and every index. Errors:
-  /// invalidData. O(size).
+  bool operator==(const MeshAttributes&) const = default;
+};
+
+/// A triangle mesh with everything that its file says of it.
+struct SurfaceMesh : TriangleMesh, MeshAttributes {
+  /// Checks the triangles, the sizes of all arrays, and every index. Errors: invalidData. O(size).
   Status validate() const;
 
-  bool operator==(const SurfaceMesh& other) const;
+  bool operator==(const SurfaceMesh&) const = default;
+};
+
+/// Refers to a mesh with attributes or without. Valid as long as the mesh is.
+struct MeshRef {
+  const TriangleMesh& shape;
+  const MeshAttributes& attributes;
+
+  MeshRef(const TriangleMesh& mesh);  // NOLINT(google-explicit-constructor): without attributes
+  MeshRef(const SurfaceMesh& mesh) : shape(mesh), attributes(mesh) {}  // NOLINT(google-explicit-constructor)
+
+  /// As SurfaceMesh::validate().
+  Status validate() const;
 };
 
 }  // namespace arete

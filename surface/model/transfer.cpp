@@ -22,59 +22,50 @@ using Weights = std::array<double, 3>;
 
 /// The weights of the corners of a triangle at a point of its plane:
 /// barycentric coordinates, held within [0, 1].
-Weights weightsAt(const Vec3 &p, const Vec3 &a, const Vec3 &b, const Vec3 &c) {
+Weights weightsAt(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 normal = cross(b - a, c - a);
   const double area = dot(normal, normal);
   Weights w{};
   if (area > 0) {
-    w = {dot(normal, cross(b - p, c - p)) / area,
-         dot(normal, cross(c - p, a - p)) / area, 0};
+    w = {dot(normal, cross(b - p, c - p)) / area, dot(normal, cross(c - p, a - p)) / area, 0};
     w[2] = 1 - w[0] - w[1];
-  } else { // a triangle without area: the nearest corner
+  } else {  // a triangle without area: the nearest corner
     const std::array<double, 3> apart = {norm(p - a), norm(p - b), norm(p - c)};
     w[std::size_t(std::ranges::min_element(apart) - apart.begin())] = 1;
   }
   double sum = 0;
-  for (double &x : w)
-    sum += x = std::clamp(x, 0.0, 1.0);
-  for (double &x : w)
-    x /= sum;
+  for (double& x : w) sum += x = std::clamp(x, 0.0, 1.0);
+  for (double& x : w) x /= sum;
   return w;
 }
 
 /// Adds the average of three elements; of labels the one with the largest
 /// weight.
-void appendAverage(Attribute &to, const Attribute &from,
-                   const std::array<std::uint32_t, 3> &elements,
-                   const Weights &weights) {
-  const std::size_t heaviest =
-      std::size_t(std::ranges::max_element(weights) - weights.begin());
-  if (!from.isContinuous())
-    return to.append(from.element(elements[heaviest]));
+void appendAverage(Attribute& to, const Attribute& from, const std::array<std::uint32_t, 3>& elements,
+                   const Weights& weights) {
+  const std::size_t heaviest = std::size_t(std::ranges::max_element(weights) - weights.begin());
+  if (!from.isContinuous()) return to.append(from.element(elements[heaviest]));
   std::vector<double> sum(from.components, 0);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::vector<double> numbers = from.numbers(elements[i]);
-    for (std::size_t c = 0; c < sum.size(); ++c)
-      sum[c] += weights[i] * numbers[c];
+    for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += weights[i] * numbers[c];
   }
   if (from.meaning == AttributeMeaning::normal && from.components == 3) {
     const double length = std::hypot(sum[0], sum[1], sum[2]);
     const std::vector<double> first = from.numbers(elements[heaviest]);
     const double wanted = std::hypot(first[0], first[1], first[2]);
     if (length > 0)
-      for (double &x : sum)
-        x *= wanted / length;
+      for (double& x : sum) x *= wanted / length;
   }
   to.append(sum);
 }
 
 class Transfer {
-public:
-  Transfer(const SurfaceMesh &source, TriangleMesh shape,
-           std::span<const std::uint32_t> vertexOf,
+ public:
+  Transfer(const SurfaceMesh& source, TriangleMesh shape, std::span<const std::uint32_t> vertexOf,
            std::span<const std::uint32_t> triangleOf)
       : source_(source), vertexOf_(vertexOf), triangleOf_(triangleOf) {
-    result_.shape = std::move(shape);
+    static_cast<TriangleMesh&>(result_) = std::move(shape);
     result_.objects = source.objects;
     result_.groups = source.groups;
     result_.materials = source.materials;
@@ -82,20 +73,15 @@ public:
   }
 
   SurfaceMesh run() {
-    for (const Attribute &attribute : source_.vertexAttributes) {
-      Attribute &to =
-          result_.vertexAttributes.emplace_back(emptyLike(attribute));
-      for (const std::uint32_t v : vertexOf_)
-        to.append(attribute.element(v));
+    for (const Attribute& attribute : source_.vertexAttributes) {
+      Attribute& to = result_.vertexAttributes.emplace_back(emptyLike(attribute));
+      for (const std::uint32_t v : vertexOf_) to.append(attribute.element(v));
     }
-    for (const Attribute &attribute : source_.triangleAttributes) {
-      Attribute &to =
-          result_.triangleAttributes.emplace_back(emptyLike(attribute));
-      const std::vector<std::byte> zeros(attribute.elementBytes(),
-                                         std::byte{0});
+    for (const Attribute& attribute : source_.triangleAttributes) {
+      Attribute& to = result_.triangleAttributes.emplace_back(emptyLike(attribute));
+      const std::vector<std::byte> zeros(attribute.elementBytes(), std::byte{0});
       for (const std::uint32_t t : triangleOf_)
-        to.append(t == SurfaceMesh::kNone ? std::span<const std::byte>(zeros)
-                                          : attribute.element(t));
+        to.append(t == SurfaceMesh::kNone ? std::span<const std::byte>(zeros) : attribute.element(t));
     }
     carry(source_.objectOf, result_.objectOf);
     carry(source_.groupOf, result_.groupOf);
@@ -104,43 +90,36 @@ public:
       result_.faceOf.assign(triangleOf_.begin(), triangleOf_.end());
     else
       carry(source_.faceOf, result_.faceOf);
-    if (source_.hasWedges())
-      carryWedges();
+    if (source_.hasWedges()) carryWedges();
     return std::move(result_);
   }
 
-private:
-  void carry(const std::vector<std::uint32_t> &from,
-             std::vector<std::uint32_t> &to) const {
-    if (from.empty())
-      return;
+ private:
+  void carry(const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to) const {
+    if (from.empty()) return;
     for (const std::uint32_t t : triangleOf_)
       to.push_back(t == SurfaceMesh::kNone ? SurfaceMesh::kNone : from[t]);
   }
 
   void carryWedges() {
-    for (const Attribute &attribute : source_.wedgeAttributes)
+    for (const Attribute& attribute : source_.wedgeAttributes)
       result_.wedgeAttributes.push_back(emptyLike(attribute));
-    result_.wedges.resize(result_.shape.triangles.size());
-    std::vector<std::uint32_t> anyWedge(result_.shape.positions.size(),
-                                        SurfaceMesh::kNone);
+    result_.wedges.resize(result_.triangles.size());
+    std::vector<std::uint32_t> anyWedge(result_.positions.size(), SurfaceMesh::kNone);
     for (const bool isFilling : {false, true})
       for (std::size_t t = 0; t < result_.wedges.size(); ++t) {
-        if ((triangleOf_[t] == SurfaceMesh::kNone) != isFilling)
-          continue;
+        if ((triangleOf_[t] == SurfaceMesh::kNone) != isFilling) continue;
         for (std::size_t i = 0; i < 3; ++i) {
-          std::uint32_t &any = anyWedge[result_.shape.triangles[t][i]];
-          if (isFilling && any == SurfaceMesh::kNone)
-            any = addZeros();
+          std::uint32_t& any = anyWedge[result_.triangles[t][i]];
+          if (isFilling && any == SurfaceMesh::kNone) any = addZeros();
           result_.wedges[t][i] = isFilling ? any : wedgeAt(t, i);
-          if (any == SurfaceMesh::kNone)
-            any = result_.wedges[t][i];
+          if (any == SurfaceMesh::kNone) any = result_.wedges[t][i];
         }
       }
   }
 
   std::uint32_t addZeros() {
-    for (Attribute &to : result_.wedgeAttributes) {
+    for (Attribute& to : result_.wedgeAttributes) {
       const std::vector<std::byte> zeros(to.elementBytes(), std::byte{0});
       to.append(std::span<const std::byte>(zeros));
     }
@@ -148,70 +127,55 @@ private:
   }
 
   std::uint32_t wedgeAt(std::size_t triangle, std::size_t corner) {
-    const std::uint32_t vertex = result_.shape.triangles[triangle][corner],
-                        from = triangleOf_[triangle];
-    const Vec3 &p = result_.shape.positions[vertex];
-    const auto &corners = source_.shape.triangles[from];
+    const std::uint32_t vertex = result_.triangles[triangle][corner], from = triangleOf_[triangle];
+    const Vec3& p = result_.positions[vertex];
+    const auto& corners = source_.triangles[from];
     // The vertex itself, else a corner at its position.
     std::optional<std::size_t> same;
     for (std::size_t i = 0; i < 3; ++i)
-      if (corners[i] == vertexOf_[vertex])
-        same = i;
+      if (corners[i] == vertexOf_[vertex]) same = i;
     for (std::size_t i = 0; i < 3 && !same; ++i)
-      if (source_.shape.positions[corners[i]] == p)
-        same = i;
-    const std::uint32_t key =
-        same ? source_.wedges[from][*same] : source_.wedgeCount + from;
-    const auto [found, isNew] =
-        wedgeOf_.try_emplace({vertex, key}, result_.wedgeCount);
-    if (!isNew)
-      return found->second;
+      if (source_.positions[corners[i]] == p) same = i;
+    const std::uint32_t key = same ? source_.wedges[from][*same] : source_.wedgeCount + from;
+    const auto [found, isNew] = wedgeOf_.try_emplace({vertex, key}, result_.wedgeCount);
+    if (!isNew) return found->second;
     for (std::size_t a = 0; a < result_.wedgeAttributes.size(); ++a) {
-      const Attribute &attribute = source_.wedgeAttributes[a];
+      const Attribute& attribute = source_.wedgeAttributes[a];
       if (same) {
         result_.wedgeAttributes[a].append(attribute.element(key));
       } else {
-        const auto &at = source_.shape.positions;
-        appendAverage(
-            result_.wedgeAttributes[a], attribute, source_.wedges[from],
-            weightsAt(p, at[corners[0]], at[corners[1]], at[corners[2]]));
+        const auto& at = source_.positions;
+        appendAverage(result_.wedgeAttributes[a], attribute, source_.wedges[from],
+                      weightsAt(p, at[corners[0]], at[corners[1]], at[corners[2]]));
       }
     }
     return result_.wedgeCount++;
   }
 
-  const SurfaceMesh &source_;
+  const SurfaceMesh& source_;
   std::span<const std::uint32_t> vertexOf_, triangleOf_;
   SurfaceMesh result_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> wedgeOf_;
 };
 
-} // namespace
+}  // namespace
 
-Result<SurfaceMesh>
-transferAttributes(const SurfaceMesh &source, TriangleMesh shape,
-                   std::span<const std::uint32_t> vertexOf,
-                   std::span<const std::uint32_t> triangleOf) try {
-  if (const Status valid = source.validate(); !valid)
-    return tl::unexpected(valid.error());
-  if (const Status valid = shape.validate(); !valid)
-    return tl::unexpected(valid.error());
-  const auto isWithin = [](std::span<const std::uint32_t> numbers,
-                           std::size_t count, bool mayBeNone) {
-    return std::ranges::all_of(numbers, [&](std::uint32_t n) {
-      return n < count || (mayBeNone && n == SurfaceMesh::kNone);
-    });
+Result<SurfaceMesh> transferAttributes(const SurfaceMesh& source, TriangleMesh shape,
+                                       std::span<const std::uint32_t> vertexOf,
+                                       std::span<const std::uint32_t> triangleOf) try {
+  if (const Status valid = source.validate(); !valid) return tl::unexpected(valid.error());
+  if (const Status valid = shape.validate(); !valid) return tl::unexpected(valid.error());
+  const auto isWithin = [](std::span<const std::uint32_t> numbers, std::size_t count, bool mayBeNone) {
+    return std::ranges::all_of(
+        numbers, [&](std::uint32_t n) { return n < count || (mayBeNone && n == SurfaceMesh::kNone); });
   };
-  if (vertexOf.size() != shape.positions.size() ||
-      triangleOf.size() != shape.triangles.size() ||
-      !isWithin(vertexOf, source.shape.positions.size(), false) ||
-      !isWithin(triangleOf, source.shape.triangles.size(), true))
-    return failure(
-        ErrorCode::invalidData,
-        "the sources of vertices and triangles do not fit the meshes");
+  if (vertexOf.size() != shape.positions.size() || triangleOf.size() != shape.triangles.size() ||
+      !isWithin(vertexOf, source.positions.size(), false) ||
+      !isWithin(triangleOf, source.triangles.size(), true))
+    return failure(ErrorCode::invalidData, "the sources of vertices and triangles do not fit the meshes");
   return Transfer(source, std::move(shape), vertexOf, triangleOf).run();
 } catch (...) {
   return caughtFailure();
 }
 
-} // namespace arete
+}  // namespace arete

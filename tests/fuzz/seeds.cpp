@@ -53,7 +53,8 @@ void writeModel(const fs::path& folder, const std::string& name, const Result<Te
     if (!format.write || !format.read || format.extension == ".gpkg") continue;
     const fs::path kind = folder / format.extension.substr(1);
     fs::create_directories(kind);
-    check(writeMesh(tin.mesh, kind / (name + std::string(format.extension)), options));
+    const auto written = writeMesh(tin.mesh, kind / (name + std::string(format.extension)), options);
+    if (!written) check(tl::unexpected(written.error()));
   }
 }
 

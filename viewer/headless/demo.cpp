@@ -218,7 +218,8 @@ class Demo {
     mesh.triangleErrors = tin.errors;
     mesh.notes = {fmt::format("within {} of {}", withUnit(maxError, report_.unit), report_.dem)};
     const std::string file = written(name + ".ply");
-    if (Status status = writeMesh(tin.mesh, file, mesh, quiet()); !status) return status;
+    if (const auto written = writeMesh(tin.mesh, file, mesh, quiet()); !written)
+      return tl::unexpected(written.error());
 
     MeasureRasters rasters;
     const Result<MeasureReport> measured =

@@ -20,7 +20,7 @@ Result<MeshFile> read2dm(const std::filesystem::path& path, const RunContext& co
 /// prompts for the CRS.
 ///
 /// Errors: those of writeMesh().
-Status write2dm(const TriangleMesh& mesh, const std::filesystem::path& path,
-                const MeshWriteOptions& options = {}, const RunContext& context = {});
+Result<MeshWriteReport> write2dm(MeshRef mesh, const std::filesystem::path& path,
+                                 const MeshWriteOptions& options = {}, const RunContext& context = {});
 
 }  // namespace arete

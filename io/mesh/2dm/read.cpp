@@ -106,7 +106,7 @@ class TwoDmReader final : public MeshTextReader {
     for (int k = 0; k < corners; ++k)
       if (!nextNumber(nodes[std::size_t(k)]))
         return corrupt(line_, fmt::format("is an element without {} nodes", corners));
-    faces().add(mesh().mesh.triangles, std::span(nodes).first(std::size_t(corners)));
+    faces().add(mesh().mesh, std::span(nodes).first(std::size_t(corners)));
     return {};
   }
 

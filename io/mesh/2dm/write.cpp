@@ -11,13 +11,15 @@
 #include "io/file/write_progress.h"
 #include "io/mesh/2dm/2dm.h"
 #include "io/mesh/comments.h"
+#include "io/mesh/losses.h"
 #include "io/mesh/text_reader.h"
 
 namespace arete {
 
-Status write2dm(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
-                const RunContext& context) {
-  if (const Status ok = mesh.validate(); !ok)
+Result<MeshWriteReport> write2dm(MeshRef written, const std::filesystem::path& path,
+                                 const MeshWriteOptions& options, const RunContext& context) {
+  const TriangleMesh& mesh = written.shape;
+  if (const Status ok = written.validate(); !ok)
     return failure(ErrorCode::invalidData, ok.error().message, path.string());
   Result<FileWriter> file = FileWriter::create(path);
   if (!file) return tl::unexpected(file.error());
@@ -41,7 +43,8 @@ Status write2dm(const TriangleMesh& mesh, const std::filesystem::path& path, con
     writeUpTo(fmt::format_to(line, FMT_COMPILE("ND {} {} {} {}\n"), ++number, p.x, p.y, p.z));
   }
   file->write(fmt::format("# {}\n", kMeshTextEnd));
-  return file->finish();
+  if (const Status ok = file->finish(); !ok) return tl::unexpected(ok.error());
+  return MeshWriteReport{.lost = lossesOf(written.attributes, {})};
 }
 
 }  // namespace arete

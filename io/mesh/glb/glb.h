@@ -11,7 +11,7 @@ namespace arete {
 /// with the transforms of their nodes, moved by the morph targets that have a weight. Primitives of one mesh
 /// that share their positions share vertices; vertices without a triangle are left out. Positions of a file
 /// that Arete wrote are in source coordinates, within the rounding of 32-bit floats, and all its vertices are
-/// kept. In other files x, -z, y are taken as x, y, height. Materials, normals, cameras and animations are
+/// kept. In other files they are as in the file, y up. Materials, normals, cameras and animations are
 /// ignored. Every offset, length and index is checked. Buffers may be in the file, as a chunk or in base 64,
 /// or files beside it (io/mesh/glb/buffers.h).
 ///
@@ -30,13 +30,13 @@ Result<MeshFile> readGltf(const std::filesystem::path& path, const RunContext& c
 ///
 /// Errors: those of writeMesh(). usage: a CRS that GDAL does not understand. invalidData: also a latitude
 /// beyond the pole, and more than 4 GiB.
-Status writeGlb(const TriangleMesh& mesh, const std::filesystem::path& path,
-                const MeshWriteOptions& options = {}, const RunContext& context = {});
+Result<MeshWriteReport> writeGlb(MeshRef mesh, const std::filesystem::path& path,
+                                 const MeshWriteOptions& options = {}, const RunContext& context = {});
 
 /// Writes the same as text: JSON that has the bytes in base 64, a third more, in one file.
 ///
 /// Errors: those of writeGlb().
-Status writeGltf(const TriangleMesh& mesh, const std::filesystem::path& path,
-                 const MeshWriteOptions& options = {}, const RunContext& context = {});
+Result<MeshWriteReport> writeGltf(MeshRef mesh, const std::filesystem::path& path,
+                                  const MeshWriteOptions& options = {}, const RunContext& context = {});
 
 }  // namespace arete

@@ -55,12 +55,14 @@ class GlbReader {
   Status readFrame() {
     const Json::json_pointer place("/asset/extras/arete");
     result_.frame.coordinates = "float32";
+    result_.up = MeshUp::y;
     if (!document_.json().contains(place)) return {};
     Result<GlbFrame> stated = glbFrameFromJson(document_.json().at(place));
     if (!stated) return tl::unexpected(stated.error());
     const Result<LocalFrame> frame = LocalFrame::create(stated->local);
     if (!frame) return failure(ErrorCode::corrupt, frame.error().message);
     frame_ = *frame;
+    result_.up = MeshUp::z;
     result_.crsWkt = std::move(stated->crsWkt);
     result_.verticalUnit = std::move(stated->verticalUnit);
     result_.frame.coordinates = stated->local.isGeographic
@@ -293,7 +295,7 @@ class GlbReader {
     for (std::uint64_t i = 0; i < used; ++i) {
       if (Status ok = reportAndCheck(i, used); !ok) return ok;
       const std::uint32_t v = group.vertex(i);
-      const Vec3 local = gltfToLocal(placed(group.positionOf(v)));
+      const Vec3 inFile = placed(group.positionOf(v)), local = frame_ ? gltfToLocal(inFile) : inFile;
       const Vec3 p = frame_ ? frame_->toSource(local) : local;
       if (!isFinite(p))
         return failure(ErrorCode::corrupt, fmt::format("vertex {} of {} has a coordinate that is not finite",

@@ -25,6 +25,7 @@
 #include "io/gdal/support.h"
 #include "io/mesh/glb/base64.h"
 #include "io/mesh/glb/frame.h"
+#include "io/mesh/losses.h"
 
 namespace arete {
 
@@ -277,9 +278,10 @@ Status writeTo(const TriangleMesh& mesh, const std::filesystem::path& path, bool
   return file->finish();
 }
 
-Status write(const TriangleMesh& mesh, const std::filesystem::path& path, bool asText,
-             const MeshWriteOptions& options, const RunContext& context) {
-  Status status = mesh.validate();
+Result<MeshWriteReport> write(MeshRef written, const std::filesystem::path& path, bool asText,
+                              const MeshWriteOptions& options, const RunContext& context) {
+  const TriangleMesh& mesh = written.shape;
+  Status status = written.validate();
   if (!status) status = failure(ErrorCode::invalidData, status.error().message);
   if (status && !options.triangleErrors.empty() && options.triangleErrors.size() != mesh.triangles.size())
     status = failure(
@@ -287,18 +289,19 @@ Status write(const TriangleMesh& mesh, const std::filesystem::path& path, bool a
         fmt::format("{} errors for {} triangles", options.triangleErrors.size(), mesh.triangles.size()));
   if (status) status = writeTo(mesh, path, asText, options, context);
   if (!status && status.error().culprit.empty()) status.error().culprit = path.string();
-  return status;
+  if (!status) return tl::unexpected(status.error());
+  return MeshWriteReport{.lost = lossesOf(written.attributes, {})};
 }
 
 }  // namespace
 
-Status writeGlb(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
-                const RunContext& context) {
+Result<MeshWriteReport> writeGlb(MeshRef mesh, const std::filesystem::path& path,
+                                 const MeshWriteOptions& options, const RunContext& context) {
   return write(mesh, path, false, options, context);
 }
 
-Status writeGltf(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
-                 const RunContext& context) {
+Result<MeshWriteReport> writeGltf(MeshRef mesh, const std::filesystem::path& path,
+                                  const MeshWriteOptions& options, const RunContext& context) {
   return write(mesh, path, true, options, context);
 }
 

@@ -28,7 +28,7 @@ bool holdsSurfaces(const std::filesystem::path& path);
 /// of 1970. A file that exists keeps its other layers (options.existing).
 ///
 /// Errors: those of writeMesh() and writeGeoPackage(). usage: a CRS that GDAL does not understand.
-Status writeGpkg(const TriangleMesh& mesh, const std::filesystem::path& path,
-                 const MeshWriteOptions& options = {}, const RunContext& context = {});
+Result<MeshWriteReport> writeGpkg(MeshRef mesh, const std::filesystem::path& path,
+                                  const MeshWriteOptions& options = {}, const RunContext& context = {});
 
 }  // namespace arete

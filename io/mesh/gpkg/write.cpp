@@ -10,6 +10,7 @@
 #include <string>
 
 #include "io/mesh/gpkg/gpkg.h"
+#include "io/mesh/losses.h"
 #include "io/table/geopackage.h"
 
 namespace arete {
@@ -78,9 +79,10 @@ Status fill(GDALDataset& dataset, GdalErrors& errors, const TriangleMesh& mesh,
 
 }  // namespace
 
-Status writeGpkg(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
-                 const RunContext& context) {
-  if (const Status ok = mesh.validate(); !ok)
+Result<MeshWriteReport> writeGpkg(MeshRef written, const std::filesystem::path& path,
+                                  const MeshWriteOptions& options, const RunContext& context) {
+  const TriangleMesh& mesh = written.shape;
+  if (const Status ok = written.validate(); !ok)
     return failure(ErrorCode::invalidData, ok.error().message, path.string());
   if (!options.triangleErrors.empty() && options.triangleErrors.size() != mesh.triangles.size())
     return failure(
@@ -92,7 +94,8 @@ Status writeGpkg(const TriangleMesh& mesh, const std::filesystem::path& path, co
   };
   Status status = writeGeoPackage(path, options.existing, {kLayer, {"triangle"}}, insert, context);
   if (!status && status.error().culprit.empty()) status.error().culprit = path.string();
-  return status;
+  if (!status) return tl::unexpected(status.error());
+  return MeshWriteReport{.lost = lossesOf(written.attributes, {})};
 }
 
 }  // namespace arete

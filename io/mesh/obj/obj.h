@@ -18,7 +18,7 @@ Result<MeshFile> readObj(const std::filesystem::path& path, const RunContext& co
 /// options.triangleErrors.
 ///
 /// Errors: those of writeMesh().
-Status writeObj(const TriangleMesh& mesh, const std::filesystem::path& path,
-                const MeshWriteOptions& options = {}, const RunContext& context = {});
+Result<MeshWriteReport> writeObj(MeshRef mesh, const std::filesystem::path& path,
+                                 const MeshWriteOptions& options = {}, const RunContext& context = {});
 
 }  // namespace arete

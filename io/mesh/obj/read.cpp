@@ -106,7 +106,7 @@ class ObjReader final : public MeshTextReader {
       corners_.push_back(static_cast<std::uint32_t>(index - 1));
     }
     if (corners_.size() < 3) return corrupt(line, fmt::format("is a face of {} corners", corners_.size()));
-    faces().add(mesh().mesh.triangles, corners_);
+    faces().add(mesh().mesh, corners_);
     at() = lineEnd();
     return {};
   }

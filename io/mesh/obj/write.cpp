@@ -9,14 +9,16 @@
 #include "io/file/file_writer.h"
 #include "io/file/write_progress.h"
 #include "io/mesh/comments.h"
+#include "io/mesh/losses.h"
 #include "io/mesh/obj/obj.h"
 #include "io/mesh/text_reader.h"
 
 namespace arete {
 
-Status writeObj(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
-                const RunContext& context) {
-  if (const Status ok = mesh.validate(); !ok)
+Result<MeshWriteReport> writeObj(MeshRef written, const std::filesystem::path& path,
+                                 const MeshWriteOptions& options, const RunContext& context) {
+  const TriangleMesh& mesh = written.shape;
+  if (const Status ok = written.validate(); !ok)
     return failure(ErrorCode::invalidData, ok.error().message, path.string());
   Result<FileWriter> file = FileWriter::create(path);
   if (!file) return tl::unexpected(file.error());
@@ -37,7 +39,8 @@ Status writeObj(const TriangleMesh& mesh, const std::filesystem::path& path, con
                              std::uint64_t{t[1]} + 1, std::uint64_t{t[2]} + 1));
   }
   file->write(fmt::format("# {}\n", kMeshTextEnd));
-  return file->finish();
+  if (const Status ok = file->finish(); !ok) return tl::unexpected(ok.error());
+  return MeshWriteReport{.lost = lossesOf(written.attributes, {})};
 }
 
 }  // namespace arete

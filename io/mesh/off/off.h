@@ -21,7 +21,7 @@ Result<MeshFile> readOff(const std::filesystem::path& path, const RunContext& co
 /// options.triangleErrors.
 ///
 /// Errors: those of writeMesh().
-Status writeOff(const TriangleMesh& mesh, const std::filesystem::path& path,
-                const MeshWriteOptions& options = {}, const RunContext& context = {});
+Result<MeshWriteReport> writeOff(MeshRef mesh, const std::filesystem::path& path,
+                                 const MeshWriteOptions& options = {}, const RunContext& context = {});
 
 }  // namespace arete

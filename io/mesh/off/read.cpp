@@ -206,7 +206,7 @@ class OffReader final : public MeshTextReader {
     if (corners_.size() < 3)
       ++smallFaces_;
     else
-      faces().add(mesh().mesh.triangles, corners_);
+      faces().add(mesh().mesh, corners_);
     if (++facesRead_ == faceCount_) stage_ = Stage::done;
     return {};
   }

@@ -7,14 +7,16 @@
 #include "io/file/file_writer.h"
 #include "io/file/write_progress.h"
 #include "io/mesh/comments.h"
+#include "io/mesh/losses.h"
 #include "io/mesh/off/off.h"
 #include "io/mesh/text_reader.h"
 
 namespace arete {
 
-Status writeOff(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
-                const RunContext& context) {
-  if (const Status ok = mesh.validate(); !ok)
+Result<MeshWriteReport> writeOff(MeshRef written, const std::filesystem::path& path,
+                                 const MeshWriteOptions& options, const RunContext& context) {
+  const TriangleMesh& mesh = written.shape;
+  if (const Status ok = written.validate(); !ok)
     return failure(ErrorCode::invalidData, ok.error().message, path.string());
   Result<FileWriter> file = FileWriter::create(path);
   if (!file) return tl::unexpected(file.error());
@@ -35,7 +37,8 @@ Status writeOff(const TriangleMesh& mesh, const std::filesystem::path& path, con
     writeUpTo(fmt::format_to(line, FMT_COMPILE("3 {} {} {}\n"), t[0], t[1], t[2]));
   }
   file->write(fmt::format("# {}\n", kMeshTextEnd));
-  return file->finish();
+  if (const Status ok = file->finish(); !ok) return tl::unexpected(ok.error());
+  return MeshWriteReport{.lost = lossesOf(written.attributes, {})};
 }
 
 }  // namespace arete

@@ -21,7 +21,7 @@ Result<MeshFile> readPly(const std::filesystem::path& path, const RunContext& co
 /// has a float "quality" and uchar red, green, blue. Exact to the bit.
 ///
 /// Errors: those of writeMesh().
-Status writePly(const TriangleMesh& mesh, const std::filesystem::path& path,
-                const MeshWriteOptions& options = {}, const RunContext& context = {});
+Result<MeshWriteReport> writePly(MeshRef mesh, const std::filesystem::path& path,
+                                 const MeshWriteOptions& options = {}, const RunContext& context = {});
 
 }  // namespace arete

@@ -282,7 +282,7 @@ class PlyReader {
         return corruptRecord(element, record, fmt::format("names vertex {} of {}", value, vertexCount_));
       corners_.push_back(static_cast<std::uint32_t>(value));
     }
-    if (role == Role::indices) faces_.add(mesh_.triangles, corners_);
+    if (role == Role::indices) faces_.add(mesh_, corners_);
     return {};
   }
 
@@ -301,7 +301,7 @@ class PlyReader {
   std::optional<std::uint64_t> lines_;  // that are not empty, once counted
   std::uint64_t recordsWithMore_ = 0;
   std::size_t lineWithMore_ = 0;
-  TriangleMesh mesh_;
+  SurfaceMesh mesh_;
   std::vector<float> errors_;
   MeshFaces faces_;
   std::vector<std::uint32_t> corners_;

@@ -10,6 +10,7 @@
 #include "io/file/file_writer.h"
 #include "io/file/text_scan.h"
 #include "io/file/write_progress.h"
+#include "io/mesh/losses.h"
 #include "io/mesh/ply/ply.h"
 
 namespace arete {
@@ -53,12 +54,13 @@ std::string headerOf(const TriangleMesh& mesh, const MeshWriteOptions& options) 
 
 }  // namespace
 
-Status writePly(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
-                const RunContext& context) {
+Result<MeshWriteReport> writePly(MeshRef written, const std::filesystem::path& path,
+                                 const MeshWriteOptions& options, const RunContext& context) {
+  const TriangleMesh& mesh = written.shape;
   const auto refuse = [&](std::string message) {
     return failure(ErrorCode::invalidData, std::move(message), path.string());
   };
-  if (const Status ok = mesh.validate(); !ok) return refuse(ok.error().message);
+  if (const Status ok = written.validate(); !ok) return refuse(ok.error().message);
   if (mesh.positions.size() > std::size_t(std::numeric_limits<std::int32_t>::max()))
     return refuse(
         fmt::format("{} vertices are more than a PLY of int indices can name", mesh.positions.size()));
@@ -92,7 +94,8 @@ Status writePly(const TriangleMesh& mesh, const std::filesystem::path& path, con
     for (const std::uint32_t v : mesh.triangles[t]) to = putBytes(to, static_cast<std::int32_t>(v));
     if (withErrors) putBytes(to, options.triangleErrors[t]);
   }
-  return file->finish();
+  if (const Status ok = file->finish(); !ok) return tl::unexpected(ok.error());
+  return MeshWriteReport{.lost = lossesOf(written.attributes, {})};
 }
 
 }  // namespace arete

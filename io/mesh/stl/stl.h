@@ -21,7 +21,7 @@ Result<MeshFile> readStl(const std::filesystem::path& path, const RunContext& co
 /// STL holds nothing else of `options`.
 ///
 /// Errors: those of writeMesh(). invalidData: also coordinates beyond the range of float32.
-Status writeStl(const TriangleMesh& mesh, const std::filesystem::path& path,
-                const MeshWriteOptions& options = {}, const RunContext& context = {});
+Result<MeshWriteReport> writeStl(MeshRef mesh, const std::filesystem::path& path,
+                                 const MeshWriteOptions& options = {}, const RunContext& context = {});
 
 }  // namespace arete

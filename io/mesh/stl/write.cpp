@@ -13,6 +13,7 @@
 
 #include "io/crs/local_origin.h"
 #include "io/file/file_writer.h"
+#include "io/mesh/losses.h"
 #include "io/mesh/stl/stl.h"
 
 namespace arete {
@@ -41,12 +42,13 @@ std::array<float, 3> normalOf(const std::array<Vec3, 3>& c) {
 
 }  // namespace
 
-Status writeStl(const TriangleMesh& mesh, const std::filesystem::path& path, const MeshWriteOptions& options,
-                const RunContext& context) {
+Result<MeshWriteReport> writeStl(MeshRef written, const std::filesystem::path& path,
+                                 const MeshWriteOptions& options, const RunContext& context) {
+  const TriangleMesh& mesh = written.shape;
   const auto refuse = [&](std::string message) {
     return failure(ErrorCode::invalidData, std::move(message), path.string());
   };
-  if (const Status ok = mesh.validate(); !ok) return refuse(ok.error().message);
+  if (const Status ok = written.validate(); !ok) return refuse(ok.error().message);
   if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max())
     return refuse(
         fmt::format("{} triangles are more than the 32-bit count of an STL", mesh.triangles.size()));
@@ -73,18 +75,19 @@ Status writeStl(const TriangleMesh& mesh, const std::filesystem::path& path, con
       if (context.cancelled())
         return failure(ErrorCode::interrupted, "writing was interrupted", path.string());
     }
-    std::array<std::array<float, 3>, 3> written;
+    std::array<std::array<float, 3>, 3> rounded;
     std::array<Vec3, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3& p = mesh.positions[mesh.triangles[t][k]];
-      written[k] = {static_cast<float>(p.x - origin.x), static_cast<float>(p.y - origin.y),
+      rounded[k] = {static_cast<float>(p.x - origin.x), static_cast<float>(p.y - origin.y),
                     static_cast<float>(p.z - origin.z)};
-      corners[k] = {written[k][0], written[k][1], written[k][2]};
+      corners[k] = {rounded[k][0], rounded[k][1], rounded[k][2]};
     }
     char* to = putBytes(file->reserve(kRecordSize), normalOf(corners));
-    putBytes(putBytes(to, written), std::uint16_t{0});
+    putBytes(putBytes(to, rounded), std::uint16_t{0});
   }
-  return file->finish();
+  if (const Status ok = file->finish(); !ok) return tl::unexpected(ok.error());
+  return MeshWriteReport{.lost = lossesOf(written.attributes, {})};
 }
 
 }  // namespace arete

@@ -47,7 +47,7 @@ TEST_F(MeshFormats, RoundTripsToTheBit) {
 }
 
 TEST_F(MeshFormats, NamesTheFormatsItKnows) {
-  for (const Error& error : {readMesh("model.dxf").error(), writeMesh({}, "model.dxf").error()}) {
+  for (const Error& error : {readMesh("model.dxf").error(), writeMesh(TriangleMesh{}, "model.dxf").error()}) {
     EXPECT_EQ(error.code, ErrorCode::unsupported);
     EXPECT_NE(error.message.find("PLY (.ply)"), std::string::npos);
     EXPECT_NE(error.message.find("OBJ (.obj)"), std::string::npos);

@@ -128,7 +128,7 @@ TEST_P(Promise, IsKeptAtEveryToleranceForBothCuts) {
       const TinExport tin = exportTin(*model, *cut).value();
       // Through the file, as a user would.
       const std::string path = folder.file("tin.ply");
-      const Status written = writeMesh(tin.mesh, path);
+      const auto written = writeMesh(tin.mesh, path);
       ASSERT_TRUE(written) << written.error().describe();
       const auto back = readMesh(path);
       ASSERT_TRUE(back) << back.error().describe();

@@ -15,15 +15,11 @@ TEST(Attribute, HoldsTheExtremesOfEveryTypeExactly) {
     std::size_t bytes;
     double low, high;
   };
-  for (const Case &c :
-       {Case{ScalarType::int8, 1, -128, 127},
-        Case{ScalarType::uint8, 1, 0, 255},
-        Case{ScalarType::int16, 2, -32768, 32767},
-        Case{ScalarType::uint16, 2, 0, 65535},
-        Case{ScalarType::int32, 4, -2147483648.0, 2147483647.0},
-        Case{ScalarType::uint32, 4, 0, 4294967295.0},
-        Case{ScalarType::float32, 4, -3.4028234663852886e38,
-             3.4028234663852886e38},
+  for (const Case& c :
+       {Case{ScalarType::int8, 1, -128, 127}, Case{ScalarType::uint8, 1, 0, 255},
+        Case{ScalarType::int16, 2, -32768, 32767}, Case{ScalarType::uint16, 2, 0, 65535},
+        Case{ScalarType::int32, 4, -2147483648.0, 2147483647.0}, Case{ScalarType::uint32, 4, 0, 4294967295.0},
+        Case{ScalarType::float32, 4, -3.4028234663852886e38, 3.4028234663852886e38},
         Case{ScalarType::float64, 8, -1.7976931348623157e308, 5e-324}}) {
     SCOPED_TRACE(int(c.type));
     Attribute a{.name = "x", .type = c.type, .components = 2};
@@ -41,8 +37,7 @@ TEST(Attribute, RoundsAndHoldsIntegersWithinTheirRange) {
   for (const double number : {-1.0, 0.4, 0.6, 254.5, 1e300, std::nan("")})
     a.append(std::vector<double>{number});
   const std::vector<double> expected = {0, 0, 1, 255, 255, 0};
-  for (std::size_t i = 0; i < expected.size(); ++i)
-    EXPECT_EQ(a.numbers(i)[0], expected[i]) << i;
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(a.numbers(i)[0], expected[i]) << i;
 }
 
 TEST(Attribute, KeepsTheBitsOfNaN) {
@@ -55,13 +50,9 @@ TEST(Attribute, KeepsTheBitsOfNaN) {
 }
 
 TEST(Attribute, IntegersOfNoKnownMeaningAreLabels) {
-  EXPECT_FALSE(
-      (Attribute{.name = "class", .type = ScalarType::int32}).isContinuous());
-  EXPECT_TRUE((Attribute{.name = "quality", .type = ScalarType::float32})
-                  .isContinuous());
-  EXPECT_TRUE((Attribute{.name = "color",
-                         .meaning = AttributeMeaning::color,
-                         .type = ScalarType::uint8})
+  EXPECT_FALSE((Attribute{.name = "class", .type = ScalarType::int32}).isContinuous());
+  EXPECT_TRUE((Attribute{.name = "quality", .type = ScalarType::float32}).isContinuous());
+  EXPECT_TRUE((Attribute{.name = "color", .meaning = AttributeMeaning::color, .type = ScalarType::uint8})
                   .isContinuous());
 }
 
@@ -74,5 +65,5 @@ TEST(Attribute, ItsSizeIsChecked) {
   EXPECT_FALSE(checkAttribute(a, 1));
 }
 
-} // namespace
-} // namespace arete
+}  // namespace
+}  // namespace arete

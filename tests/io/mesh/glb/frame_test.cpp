@@ -30,7 +30,7 @@ TEST(GlbFrames, ThatMakeNoSenseAreRefusedInAFile) {
           << key << bad;
     }
   }
-  EXPECT_EQ(writeMesh({{{0, 91, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, folder.file("c.glb"),
+  EXPECT_EQ(writeMesh(TriangleMesh{{{0, 91, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, folder.file("c.glb"),
                       {.crsWkt = "EPSG:4326"})
                 .error()
                 .code,

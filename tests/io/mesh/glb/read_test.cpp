@@ -33,7 +33,7 @@ TEST(GlbRead, RoundTripsEveryFamilyWithinItsOwnRounding) {
           p.x = -117 + std::remainder(p.x, 1000) / 30000;
           p.y = 34 + std::remainder(p.y, 1000) / 30000;
         }
-      const Status written = writeMesh(placed, path, {.crsWkt = crs, .verticalUnit = "ft"});
+      const auto written = writeMesh(placed, path, {.crsWkt = crs, .verticalUnit = "ft"});
       ASSERT_TRUE(written) << written.error().describe();
       const Result<MeshFile> file = readMesh(path);
       ASSERT_TRUE(file) << file.error().describe();

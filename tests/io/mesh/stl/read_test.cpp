@@ -229,11 +229,11 @@ TEST(StlRead, RefusesToWriteWhatFloatsCannotHoldAndLeavesNothing) {
   const TemporaryFolder folder;
   const TriangleMesh mesh = {{{0, 0, 0}, {1e39, 0, 0}, {0, 1e39, 0}}, {{0, 1, 2}}};
   EXPECT_EQ(writeMesh(mesh, folder.file("a.stl")).error().code, ErrorCode::invalidData);
-  EXPECT_EQ(writeMesh({{{0, 0, 0}}, {{0, 0, 1}}}, folder.file("a.stl")).error().code, ErrorCode::invalidData);
+  EXPECT_EQ(writeMesh(TriangleMesh{{{0, 0, 0}}, {{0, 0, 1}}}, folder.file("a.stl")).error().code, ErrorCode::invalidData);
   const std::atomic<bool> stop = true;
   RunContext context;
   context.cancel = &stop;
-  EXPECT_EQ(writeMesh({{{0, 0, 0}}, {{0, 0, 0}}}, folder.file("a.stl"), {}, context).error().code,
+  EXPECT_EQ(writeMesh(TriangleMesh{{{0, 0, 0}}, {{0, 0, 0}}}, folder.file("a.stl"), {}, context).error().code,
             ErrorCode::interrupted);
   EXPECT_EQ(folder.count(), 0u);
   ASSERT_TRUE(writeMesh(TriangleMesh{}, folder.file("a.stl")));
