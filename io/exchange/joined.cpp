@@ -31,7 +31,7 @@ Status joinSoup(MeshFile& file, const RunContext& context) {
   if (!welded) return tl::unexpected(welded.error());
   const bool hasAttributes = mesh.hasWedges() || !mesh.vertexAttributes.empty();
   if (hasAttributes) moveToWedges(mesh);
-  static_cast<TriangleMesh&>(mesh) = std::move(welded->mesh);
+  mesh.shape() = std::move(welded->mesh);
   if (hasAttributes) moveToVertices(mesh);
   file.joinedVertices = welded->joinedVertices;
   return {};

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/base/triangle_mesh.h"
@@ -77,6 +78,13 @@ struct MeshAttributes {
 
 /// A triangle mesh with everything that its file says of it.
 struct SurfaceMesh : TriangleMesh, MeshAttributes {
+  SurfaceMesh() = default;
+  explicit SurfaceMesh(TriangleMesh mesh) : TriangleMesh(std::move(mesh)) {}
+
+  /// Positions and triangles alone.
+  TriangleMesh& shape() { return *this; }
+  const TriangleMesh& shape() const { return *this; }
+
   /// Checks the triangles, the sizes of all arrays, and every index. Errors: invalidData. O(size).
   Status validate() const;
 

@@ -65,7 +65,7 @@ class Transfer {
   Transfer(const SurfaceMesh& source, TriangleMesh shape, std::span<const std::uint32_t> vertexOf,
            std::span<const std::uint32_t> triangleOf)
       : source_(source), vertexOf_(vertexOf), triangleOf_(triangleOf) {
-    static_cast<TriangleMesh&>(result_) = std::move(shape);
+    result_.shape() = std::move(shape);
     result_.objects = source.objects;
     result_.groups = source.groups;
     result_.materials = source.materials;

@@ -144,7 +144,7 @@ void moveToVertices(SurfaceMesh& mesh) {
 
 SplitMesh splitByWedges(MeshRef mesh) {
   SplitMesh split;
-  static_cast<TriangleMesh&>(split.mesh) = mesh.shape;
+  split.mesh.shape() = mesh.shape;
   static_cast<MeshAttributes&>(split.mesh) = mesh.attributes;
   const std::size_t vertices = mesh.shape.positions.size();
   split.vertexOf.resize(vertices);

@@ -17,8 +17,8 @@ using test::TemporaryFolder;
 /// A triangle with everything that a file can say of it.
 MeshFile whole() {
   MeshFile file;
-  file.mesh = {{{500000.1, 4000000.1, 100.123456789}, {500010, 4000000, 1}, {500000, 4000010, 2}},
-               {{0, 1, 2}}};
+  file.mesh.shape() = {{{500000.1, 4000000.1, 100.123456789}, {500010, 4000000, 1}, {500000, 4000010, 2}},
+                       {{0, 1, 2}}};
   file.crsWkt = "EPSG:32611";
   file.verticalUnit = "ft";
   file.triangleErrors = {0.5F};

@@ -12,7 +12,7 @@ namespace {
 
 TEST(SurfaceMesh, ValidatesEveryIndexAndSize) {
   SurfaceMesh good;
-  static_cast<TriangleMesh&>(good) = shapes::tetrahedron();
+  good.shape() = shapes::tetrahedron();
   good.wedgeCount = 4;
   good.wedges.assign(good.triangles.begin(), good.triangles.end());
   Attribute u{.name = "u", .type = ScalarType::float32};

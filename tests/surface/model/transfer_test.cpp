@@ -23,7 +23,7 @@ Attribute numbered(const char* name, ScalarType type, std::size_t elements,
 /// an attribute of each kind.
 SurfaceMesh everything() {
   SurfaceMesh mesh;
-  static_cast<TriangleMesh&>(mesh) = shapes::sheet(4, 3);
+  mesh.shape() = shapes::sheet(4, 3);
   const auto triangles = static_cast<std::uint32_t>(mesh.triangles.size());
   mesh.vertexAttributes = {numbered("quality", ScalarType::float64, mesh.positions.size())};
   mesh.triangleAttributes = {numbered("label", ScalarType::int16, triangles)};
@@ -113,7 +113,7 @@ TEST(TransferAttributes, AtASplitEdgeAreAveragesAndLabelsOfTheNearestCorner) {
 TEST(TransferAttributes, OfWeldedVerticesStayWithTheirCorners) {
   const SurfaceMesh mesh = everything();
   SurfaceMesh soup = mesh;
-  static_cast<TriangleMesh&>(soup) = {};
+  soup.shape() = {};
   soup.vertexAttributes.clear();
   for (const auto& t : mesh.triangles) {
     const auto first = static_cast<std::uint32_t>(soup.positions.size());
@@ -133,8 +133,8 @@ TEST(TransferAttributes, OfWeldedVerticesStayWithTheirCorners) {
 
 TEST(TransferAttributes, OfAFilledHoleAreThoseAroundIt) {
   SurfaceMesh mesh = everything();
-  static_cast<TriangleMesh&>(mesh) = shapes::sheet(4, 3, true);
-  ASSERT_EQ(mesh.triangles.size(), everything().shape.triangles.size());
+  mesh.shape() = shapes::sheet(4, 3, true);
+  ASSERT_EQ(mesh.triangles.size(), everything().triangles.size());
   mesh.vertexAttributes.clear();
   const auto repaired = repair(mesh, {.mostHoleEdges = 4});
   ASSERT_TRUE(repaired);

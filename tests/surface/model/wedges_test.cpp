@@ -23,7 +23,7 @@ Attribute random(std::string name, std::size_t elements, int values, std::mt1993
 SurfaceMesh randomMesh(unsigned seed) {
   std::mt19937 generator(seed);
   SurfaceMesh mesh;
-  static_cast<TriangleMesh&>(mesh) = shapes::sheet(3 + int(seed % 4), 3);
+  mesh.shape() = shapes::sheet(3 + int(seed % 4), 3);
   mesh.wedgeCount = 5 + seed % 40;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     auto& wedges = mesh.wedges.emplace_back();
@@ -78,7 +78,7 @@ TEST(Wedges, EveryCornerKeepsItsValuesThroughEveryMove) {
 
 TEST(Wedges, WhatAllCornersOfAVertexAgreeAboutBecomesTheVertexs) {
   SurfaceMesh mesh;
-  static_cast<TriangleMesh&>(mesh) = shapes::sheet(3, 3);
+  mesh.shape() = shapes::sheet(3, 3);
   std::mt19937 generator(1);
   mesh.vertexAttributes.push_back(random("quality", mesh.positions.size(), 9, generator));
   SurfaceMesh moved = mesh;
@@ -107,7 +107,7 @@ TEST(Wedges, EqualWedgesOfAVertexBecomeOneAndAFanOfManyIsFast) {
 
 TEST(Wedges, AMeshWithoutCornersIsCopied) {
   SurfaceMesh mesh;
-  static_cast<TriangleMesh&>(mesh) = shapes::sheet(3, 3);
+  mesh.shape() = shapes::sheet(3, 3);
   EXPECT_EQ(splitByWedges(mesh).mesh, mesh);
 }
 
