@@ -55,9 +55,27 @@ TEST_F(ObjRead, ReadsUtf16AndReturns) {
 TEST_F(ObjRead, RefusesWhatMakesNoSense) {
   const std::string start = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   EXPECT_TRUE(readMesh(put("a.obj", start + "f 1 2 3\n")));
-  for (const char* line : {"f 1 2", "f", "f 1 2 0", "f 1 2 4", "f 1 2 -4", "f 1 2 x", "f 1 2 3x", "f 1 2 3.5",
-                           "f 1 2 99999999999999999999", "f 1 2 -9223372036854775808", "v 1 2", "v 1 2 x",
-                           "v 1 2 nan", "v 1 2 inf", "v 1 2 3 x", "{\"json\": 1}", "<xml/>"}) {
+  for (const char* line : {"f 1 2 0",
+                           "f 1 2 4",
+                           "f 1 2 -4",
+                           "f 1 2 x",
+                           "f 1 2 3x",
+                           "f 1 2 3.5",
+                           "f 1 2 99999999999999999999",
+                           "f 1 2 -9223372036854775808",
+                           "v 1 2",
+                           "v 1 2 x",
+                           "f 1/x 2 3",
+                           "f 1/2/3/4 2 3",
+                           "v 1 2 nan",
+                           "v 1 2 inf",
+                           "v 1 2 3 x",
+                           "vt",
+                           "vt 0 x",
+                           "vn 0 1",
+                           "vn 0 0 x",
+                           "{\"json\": 1}",
+                           "<xml/>"}) {
     const Error error = refusal("a.obj", start + line + "\nf 1 2 3\n");
     EXPECT_EQ(error.code, ErrorCode::corrupt);
     EXPECT_NE(error.message.find("line 4"), std::string::npos) << error.message;

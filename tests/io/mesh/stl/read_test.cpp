@@ -43,9 +43,12 @@ TEST(StlRead, RoundTripsEveryFamilyWithinItsOwnRounding) {
     const Result<MeshFile> file = readMesh(path);
     ASSERT_TRUE(file) << file.error().describe();
     EXPECT_TRUE(file->mesh.validate());
-    EXPECT_EQ(file->mesh.positions.size(), mesh.positions.size());
+    // Parts that touch at a vertex alone are not joined there.
+    EXPECT_GE(file->mesh.positions.size(), mesh.positions.size());
+    EXPECT_LE(file->mesh.positions.size(), mesh.positions.size() + 1);
     expectSameTriangles(mesh, file->mesh, file->frame.rounding);
     ASSERT_TRUE(file->frame.origin);
+    EXPECT_EQ(file->up, MeshUp::z);
     EXPECT_EQ(file->crsWkt, "");
     EXPECT_EQ(file->verticalUnit, "");
     const Vec2 step{std::hypot(field.georeference.geoTransform[1], field.georeference.geoTransform[4]),
@@ -109,9 +112,8 @@ TEST(StlRead, ReadsAsciiFiles) {
   std::string crlf;
   for (const char c : "solid\n" + one + two + "endsolid\n")
     crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
-  for (const std::string& text :
-       {"solid a name of words\n" + one + two + "endsolid a name\n",
-        "solid\n" + one + "endsolid\nsolid b\n" + two + "endsolid b", shouted, crlf}) {
+  for (const std::string& text : {"solid a name of words\n" + one + two + "endsolid a name\n",
+                                  "solid\n" + one + two + "end solid", shouted, crlf}) {
     const Result<MeshFile> file = readMesh(folder.write("a.stl", text));
     ASSERT_TRUE(file) << file.error().describe();
     EXPECT_EQ(file->mesh.triangles, kTwoTriangles);
@@ -229,7 +231,8 @@ TEST(StlRead, RefusesToWriteWhatFloatsCannotHoldAndLeavesNothing) {
   const TemporaryFolder folder;
   const TriangleMesh mesh = {{{0, 0, 0}, {1e39, 0, 0}, {0, 1e39, 0}}, {{0, 1, 2}}};
   EXPECT_EQ(writeMesh(mesh, folder.file("a.stl")).error().code, ErrorCode::invalidData);
-  EXPECT_EQ(writeMesh(TriangleMesh{{{0, 0, 0}}, {{0, 0, 1}}}, folder.file("a.stl")).error().code, ErrorCode::invalidData);
+  EXPECT_EQ(writeMesh(TriangleMesh{{{0, 0, 0}}, {{0, 0, 1}}}, folder.file("a.stl")).error().code,
+            ErrorCode::invalidData);
   const std::atomic<bool> stop = true;
   RunContext context;
   context.cancel = &stop;
