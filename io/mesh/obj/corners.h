@@ -36,8 +36,8 @@ class ObjCorners {
   std::uint32_t wedgeOf(const Corner& corner);
   std::size_t wedgeCount() const { return corners_.size(); }
 
-  /// Makes the wedges and their attributes of the mesh. An index beyond the lists is none, with a warning;
-  /// so are corners with nothing beside others that have something: their values are zeros, since the model
+  /// Makes the wedges and their attributes of the mesh. An index beyond the lists counts as a missing one,
+  /// with a warning. Where some corners have a value and others lack it, these get zeros, since the model
   /// knows no gaps and a NaN would spread. O(wedges).
   void finish(MeshFile& file);
 

@@ -37,7 +37,7 @@ bool isNumber(std::string_view word) {
   return text::parseNumber(word).has_value();
 }
 
-/// How many values an option of a texture has; -1: it is none, -3: one to three numbers.
+/// How many values an option of a texture has; -1: it is no option, -3: one to three numbers.
 int valuesOf(std::string_view option) {
   if (option == "-o" || option == "-s" || option == "-t") return -3;
   if (option == "-mm") return 2;

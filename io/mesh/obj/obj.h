@@ -26,7 +26,7 @@ namespace arete {
 Result<MeshFile> readObj(const std::filesystem::path& path, const RunContext& context = {});
 
 /// Writes coordinates with the shortest digits that give the same double, and the attributes, objects,
-/// groups and materials that readObj() reads. A normal of zeros is none where other corners have one.
+/// groups and materials that readObj() reads. A normal of zeros is left out where other corners have one.
 ///
 /// Materials are in an MTL beside the file: of the same name, or with a number behind it. One that is there
 /// is overwritten only if its first line says that it belongs to this OBJ. Pictures are placed by
