@@ -75,11 +75,6 @@ std::string readProperty(const std::vector<std::string_view>& words, std::vector
 
 }  // namespace
 
-std::size_t sizeOf(PlyType type) {
-  constexpr std::array<std::size_t, 8> kSizes = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes[static_cast<std::size_t>(type)];
-}
-
 Result<PlyHeader> parsePlyHeader(std::string_view file, const std::string& path) {
   if (!file.starts_with("ply") || file.size() < 4 || !text::isSpace(file[3]))
     return failure(ErrorCode::corrupt, "is not a PLY file: it does not begin with a line \"ply\"", path);

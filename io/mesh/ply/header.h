@@ -8,15 +8,14 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "surface/model/attribute.h"
 
 namespace arete {
 
 enum class PlyFormat { ascii, littleEndian, bigEndian };
 
-enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
-/// @return Bytes of a value in a binary file.
-std::size_t sizeOf(PlyType type);
+/// The types of PLY are those of attributes.
+using PlyType = ScalarType;
 
 struct PlyProperty {
   std::string name;

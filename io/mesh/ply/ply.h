@@ -7,13 +7,20 @@
 
 namespace arete {
 
-/// Reads a PLY (Turk's format 1.0): ascii, binary little or big endian, with any property types and order.
-/// Reads x, y, z, vertex_indices (or vertex_index) and a face property "error"; skips other elements and
-/// properties. Understands "comment crs <WKT>", continued in lines "comment crs+ <more>", and "comment
-/// vertical_unit <unit>". Memory is bounded by a multiple of the file's size, whatever counts the header
-/// states.
+/// Reads a PLY (Turk's format 1.0): ascii, binary little or big endian, with any property types and order of
+/// elements. Faces are those of the element face (vertex_indices or vertex_index) and the triangles of the
+/// element tristrips; other elements are left out with a warning.
 ///
-/// Errors: those of readMesh().
+/// Every other property of vertices and faces is an attribute of its own type (io/mesh/ply/scheme.h says
+/// which belong together). Lists of as many values in every record are attributes as well; others are left
+/// out with a warning. Lists with values for each corner, "texcoord", "color" of floats and "corner_NAME",
+/// are attributes of wedges. A face property "error" is MeshFile::triangleErrors if it can be. Each comment
+/// "TextureFile NAME" is a material with that picture; faces say by "texnumber" which they have. Understands
+/// "comment crs <WKT>", continued in lines "comment crs+ <more>", "comment vertical_unit <unit>", and the
+/// notes of io/mesh/ply/notes.h. Memory is bounded by a multiple of the file's size, whatever counts the
+/// header states.
+///
+/// Errors: those of readMesh(). corrupt: also if no face has three corners.
 Result<MeshFile> readPly(const std::filesystem::path& path, const RunContext& context = {});
 
 /// Writes binary little-endian PLY: vertices as doubles, faces as "list uchar int vertex_indices". With
