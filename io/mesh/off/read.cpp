@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Word by word: keyword, counts, vertices, faces. Geomview reads words and cares for lines only where the
-// colour of a face ends. Many files, however, have more values on the line of a vertex than their keyword
-// states. So the lines are counted: if there is one for each vertex and face, a line is a record, and the
-// rest of it is skipped; otherwise a vertex has as many values as the keyword says.
+// colour of a face ends. Many files, however, have more or fewer values on the line of a vertex than their
+// keyword states. So the lines are counted: if there is one for each vertex and face, a line is a record, and
+// what it has counts (io/mesh/off/values.h); otherwise a vertex has as many values as the keyword says.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,12 +12,17 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "io/file/file_bytes.h"
 #include "io/file/text_scan.h"
+#include "io/mesh/off/keyword.h"
 #include "io/mesh/off/off.h"
+#include "io/mesh/off/values.h"
 #include "io/mesh/text_reader.h"
 
 namespace arete {
@@ -29,18 +34,24 @@ class OffReader final : public MeshTextReader {
   using MeshTextReader::MeshTextReader;
 
  private:
-  enum class Stage { keyword, counts, vertices, faces, done };
+  enum class Stage : std::uint8_t { keyword, counts, vertices, faces, done };
+  /// Behind coordinates or corners that are kept: more than any kind of OFF has.
+  static constexpr std::size_t kMostValues = 16;
 
   Status readLine() override {
     line_ = at();
     const char* const newline = lineEnd();
     wordsEnd_ = std::find(line_, newline, '#');
     if (const char* first = std::find_if_not(line_, newline, text::isBlank);
-        first == wordsEnd_ && first < newline)
-      takeComment(std::string_view(first + 1, static_cast<std::size_t>(newline - first - 1)));
+        first == wordsEnd_ && first < newline) {
+      const std::string_view comment(first + 1, static_cast<std::size_t>(newline - first - 1));
+      takeComment(comment);
+      withoutAlpha_ = withoutAlpha_ || comment.find(kOffWithoutAlpha) == 1;
+    }
     Status status;
     for (std::string_view word = nextWord(); status && !word.empty(); word = nextWord()) status = take(word);
     at() = newline;
+    if (stage_ == Stage::vertices && lineIsRecord_ && valueCount_ >= 3) endVertex();
     // The number of edges may be missing, or stand on the next line.
     if (status && stage_ == Stage::counts && numbers_.size() == 2 && !nextLineIsOneWord())
       status = beginVertices();
@@ -82,37 +93,17 @@ class OffReader final : public MeshTextReader {
       stage_ = Stage::counts;
       return takeCount(word);
     }
-    const std::string upper = [&] {
-      std::string letters(word);
-      for (char& c : letters)
-        if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-      return letters;
-    }();
-    const std::size_t off = upper.find("OFF");
-    if (off == std::string::npos) {
-      if (word.front() != '4') return corrupt(line_, "is not the first line of an OFF");
-      stage_ = Stage::counts;
-      return takeCount(word);
+    const Result<OffKeyword> keyword = offKeywordOf(word);
+    if (!keyword && keyword.error().code == ErrorCode::unsupported)
+      return unsupported(keyword.error().message);
+    if (!keyword && word.front() != '4') return corrupt(line_, keyword.error().message);
+    if (keyword) {
+      hasKeyword_ = true;
+      keyword_ = *keyword;
+      if (keyword->behind.empty()) return {};
     }
-    hasKeyword_ = true;
-    const std::string_view before = word.substr(0, off), behind = word.substr(off + 3);
-    if (before.find('4') != std::string_view::npos ||
-        (before.find('n') != std::string_view::npos && word[off] == 'O'))
-      return unsupported(fmt::format("is of the kind {}, whose vertices do not have three coordinates",
-                                     text::quotedToken(word)));
-    valuesOfVertex_ = 3;
-    std::string_view rest = std::string_view(upper).substr(0, off);
-    if (rest.starts_with("ST")) {
-      valuesOfVertex_ += 2;
-      rest.remove_prefix(2);
-    }
-    for (const char c : rest) {
-      if (c != 'C' && c != 'N') return corrupt(line_, "is not the first line of an OFF");
-      valuesOfVertex_ += c == 'C' ? 4 : 3;
-    }
-    if (behind.empty()) return {};
     stage_ = Stage::counts;
-    return takeCount(behind);
+    return takeCount(keyword ? keyword->behind : word);
   }
 
   bool wholeNumber(std::string_view word, std::uint64_t& number) const {
@@ -161,28 +152,47 @@ class OffReader final : public MeshTextReader {
       from = to;
     }
     lineIsRecord_ = lines >= vertices_ + faceCount_;
+    behind_.emplace(keyword_);
     stage_ = vertices_ > 0 ? Stage::vertices : faceCount_ > 0 ? Stage::faces : Stage::done;
     return {};
   }
 
   Status takeVertexValue(std::string_view word) {
-    double value = 0;
-    const char* from = word.data();
-    if (!text::scanNumber(from, word.data() + word.size(), value) || from != word.data() + word.size())
+    OffNumber number;
+    if (!numberOf(word, number)) {
+      if (lineIsRecord_ && valueCount_ >= 3) {
+        skipLine();
+        return {};
+      }
       return corrupt(line_, fmt::format("has {} where a number of vertex {} should be",
                                         text::quotedToken(word), mesh().mesh.positions.size()));
-    if (valueCount_ < 3) xyz_[valueCount_] = value;
+    }
+    if (valueCount_ < 3)
+      xyz_[valueCount_] = number.value;
+    else if (more_.size() < kMostValues)
+      more_.push_back(number);
     ++valueCount_;
     if (valueCount_ == 3) {
       for (const double coordinate : xyz_)
         if (!std::isfinite(coordinate)) return corrupt(line_, "has a coordinate that is not finite");
       mesh().mesh.positions.push_back({xyz_[0], xyz_[1], xyz_[2]});
     }
-    if (valueCount_ < (lineIsRecord_ ? 3 : valuesOfVertex_)) return {};
-    valueCount_ = 0;
-    if (lineIsRecord_) skipLine();
-    if (mesh().mesh.positions.size() == vertices_) stage_ = faceCount_ > 0 ? Stage::faces : Stage::done;
+    if (!lineIsRecord_ && valueCount_ == 3 + keyword_.values()) endVertex();
     return {};
+  }
+
+  void endVertex() {
+    behind_->add(more_);
+    more_.clear();
+    valueCount_ = 0;
+    if (mesh().mesh.positions.size() == vertices_) stage_ = faceCount_ > 0 ? Stage::faces : Stage::done;
+  }
+
+  static bool numberOf(std::string_view word, OffNumber& number) {
+    const char* from = word.data();
+    const char* const behind = from + word.size();
+    number.isFloat = word.find_first_of(".eEnN") != std::string_view::npos;
+    return text::scanNumber(from, behind, number.value) && from == behind;
   }
 
   Status takeFaceValue(std::string_view word) {
@@ -202,13 +212,29 @@ class OffReader final : public MeshTextReader {
     }
     if (corners_.size() < cornersOfFace_) return {};
     inFace_ = false;
-    skipLine();  // a colour
-    if (corners_.size() < 3)
-      ++smallFaces_;
-    else
-      faces().add(mesh().mesh, corners_);
+    takeColor();
+    // A face of fewer corners has no triangles, but counts.
+    if (corners_.size() < 3) ++smallFaces_;
+    faces().add(mesh().mesh, corners_);
     if (++facesRead_ == faceCount_) stage_ = Stage::done;
     return {};
+  }
+
+  /// What a line has behind the corners: three or four numbers are a colour, one is an index into a map of
+  /// colours that the file does not have.
+  void takeColor() {
+    more_.clear();
+    OffNumber number;
+    for (std::string_view word = nextWord(); !word.empty() && numberOf(word, number); word = nextWord())
+      if (more_.size() < kMostValues) more_.push_back(number);
+    skipLine();
+    if (more_.size() == 3 || more_.size() == 4)
+      colors_.add(facesRead_, more_);
+    else if (more_.size() == 1)
+      ++indexedFaces_;
+    else if (!more_.empty())
+      ++oddFaces_;
+    more_.clear();
   }
 
   Status finish() override {
@@ -228,17 +254,38 @@ class OffReader final : public MeshTextReader {
           fmt::format("{} faces of fewer than three corners are left out", smallFaces_));
     if (!isOurs() && mesh().mesh.triangles.empty())
       return unsupported("holds no face of three or more corners");
+    if (behind_) behind_->finish(mesh().mesh, isOurs(), withoutAlpha_, mesh().warnings);
+    takeColors();
     return {};
+  }
+
+  /// Listed by face (io/mesh/faces.h).
+  void takeColors() {
+    if (indexedFaces_ > 0)
+      mesh().warnings.push_back(
+          fmt::format("{} faces have the index of a colour in a map, which is left out", indexedFaces_));
+    if (oddFaces_ > 0)
+      mesh().warnings.push_back(fmt::format(
+          "{} faces have values behind their corners that are no colour; these are left out", oddFaces_));
+    if (colors_.isEmpty()) return;
+    if (const std::size_t missing = colors_.missing(facesRead_); missing > 0)
+      mesh().warnings.push_back(fmt::format("{} faces have no colour, others have; they are white", missing));
+    mesh().mesh.triangleAttributes.push_back(colors_.attribute(facesRead_, isOurs()));
   }
 
   const char* line_ = nullptr;
   const char* wordsEnd_ = nullptr;  // of the line: its end, or a comment
   Stage stage_ = Stage::keyword;
-  bool hasKeyword_ = false, lineIsRecord_ = false, inFace_ = false;
-  std::size_t valuesOfVertex_ = 3, valueCount_ = 0;
+  bool hasKeyword_ = false, lineIsRecord_ = false, inFace_ = false, withoutAlpha_ = false;
+  OffKeyword keyword_;
+  std::size_t valueCount_ = 0;  // of the vertex that is read
   std::vector<std::uint64_t> numbers_;
   std::uint64_t vertices_ = 0, faceCount_ = 0, facesRead_ = 0, smallFaces_ = 0, cornersOfFace_ = 0;
+  std::uint64_t indexedFaces_ = 0, oddFaces_ = 0;
   std::array<double, 3> xyz_{};
+  std::vector<OffNumber> more_;  // behind the coordinates of a vertex or the corners of a face
+  std::optional<OffVertices> behind_;
+  OffColors colors_;  // of faces
   std::vector<std::uint32_t> corners_;
 };
 
