@@ -18,26 +18,10 @@ namespace arete {
 
 namespace {
 
-constexpr std::string_view kData = "data:", kBase64 = ";base64";
+constexpr std::string_view kBase64 = ";base64";
 
 tl::unexpected<Error> corrupt(std::string message) {
   return failure(ErrorCode::corrupt, std::move(message));
-}
-
-std::string percentDecoded(std::string_view uri) {
-  std::string text;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    unsigned value = 0;
-    const char* const digits = uri.data() + i + 1;
-    if (uri[i] == '%' && i + 2 < uri.size() &&
-        std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2) {
-      text += static_cast<char>(value);
-      i += 2;
-    } else {
-      text += uri[i];
-    }
-  }
-  return text;
 }
 
 /// True for a relative path that stays in its folder.
@@ -55,6 +39,31 @@ bool staysBelow(const std::string& name) {
 
 }  // namespace
 
+std::string percentDecoded(std::string_view uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    unsigned value = 0;
+    const char* const digits = uri.data() + i + 1;
+    if (uri[i] == '%' && i + 2 < uri.size() &&
+        std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2) {
+      text += static_cast<char>(value);
+      i += 2;
+    } else {
+      text += uri[i];
+    }
+  }
+  return text;
+}
+
+Result<std::string> GltfBuffers::dataOf(std::string_view uri) {
+  const std::size_t comma = uri.find(',');
+  if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(kBase64))
+    return failure(ErrorCode::unsupported, "is a data URI that is not of base 64");
+  std::optional<std::string> decoded = fromBase64(uri.substr(comma + 1));
+  if (!decoded) return corrupt("is not valid base 64");
+  return std::move(*decoded);
+}
+
 Result<std::string_view> GltfBuffers::bytesOf(std::uint64_t number, const nlohmann::json& buffer) {
   const auto found = buffer.find("uri");
   if (found == buffer.end()) {
@@ -65,16 +74,12 @@ Result<std::string_view> GltfBuffers::bytesOf(std::uint64_t number, const nlohma
   const std::string& uri = found->get_ref<const std::string&>();
   std::string_view bytes;
   std::string what = "its data URI";
-  if (uri.starts_with(kData)) {
+  if (isDataUri(uri)) {
     auto known = decoded_.find(number);
     if (known == decoded_.end()) {
-      const std::size_t comma = uri.find(',');
-      const std::string_view head = std::string_view(uri).substr(0, comma);
-      if (comma == std::string::npos || !head.ends_with(kBase64))
-        return failure(ErrorCode::unsupported,
-                       fmt::format("buffer {} is a data URI that is not of base 64", number));
-      std::optional<std::string> decoded = fromBase64(std::string_view(uri).substr(comma + 1));
-      if (!decoded) return corrupt(fmt::format("buffer {} is not valid base 64", number));
+      Result<std::string> decoded = dataOf(uri);
+      if (!decoded)
+        return failure(decoded.error().code, fmt::format("buffer {} {}", number, decoded.error().message));
       known = decoded_.emplace(number, std::move(*decoded)).first;
     }
     bytes = known->second;
@@ -108,6 +113,7 @@ Result<std::string_view> GltfBuffers::fileNamed(const std::string& uri) {
     if (known == files_.end()) {
       Result<FileBytes> file = FileBytes::read(path);
       if (!file) return failure(file.error().code, file.error().message);
+      bytesBeside_ += file->size();
       known = files_.emplace(path, std::move(*file)).first;
     }
     return known->second.view();

@@ -34,6 +34,14 @@ class GltfBuffers {
   /// unsupported: a name that is not of a file below the folder. notFound, unreadable: the file, by its name.
   Result<std::string_view> bytesOf(std::uint64_t number, const nlohmann::json& buffer);
 
+  static bool isDataUri(std::string_view uri) { return uri.starts_with("data:"); }
+  /// The bytes of a data URI. Errors, without a culprit, a message that follows its owner: unsupported: it is
+  /// not of base 64; corrupt.
+  static Result<std::string> dataOf(std::string_view uri);
+
+  /// How many bytes of files beside the glTF were read.
+  std::uint64_t bytesBeside() const { return bytesBeside_; }
+
  private:
   Result<std::string_view> fileNamed(const std::string& uri);
 
@@ -41,6 +49,10 @@ class GltfBuffers {
   std::string_view chunk_;
   std::map<std::uint64_t, std::string> decoded_;  // data URIs, by buffer
   std::map<std::string, FileBytes> files_;        // by URI
+  std::uint64_t bytesBeside_ = 0;
 };
+
+/// A URI with its escaped characters, "%20", as they are. What is no escape stays.
+std::string percentDecoded(std::string_view uri);
 
 }  // namespace arete

@@ -2,7 +2,7 @@
 //
 // Offsets, lengths and counts in the JSON must be whole numbers below 2^32, so that sums and products of two
 // of them do not overflow 64 bits. Each range is checked against the one that contains it: the accessor
-// against the view, the view against the bytes of the chunk.
+// against the view (accessors.h), the view against the bytes of its buffer (views.h).
 #include "io/mesh/glb/document.h"
 
 #include <fmt/format.h>
@@ -13,6 +13,8 @@
 #include <utility>
 
 #include "io/file/text_scan.h"
+#include "io/mesh/glb/accessors.h"
+#include "io/mesh/glb/extensions.h"
 
 namespace arete {
 
@@ -29,27 +31,6 @@ std::uint32_t numberAt(std::string_view file, std::size_t at) {
 
 tl::unexpected<Error> corrupt(std::string message) {
   return failure(ErrorCode::corrupt, std::move(message));
-}
-
-/// Bytes of one component; 0 for an unknown component type.
-std::uint64_t componentSize(std::uint64_t type) {
-  switch (type) {
-    case 5120:
-    case 5121:
-      return 1;
-    case 5122:
-    case 5123:
-      return 2;
-    case 5125:
-    case 5126:
-      return 4;
-    default:
-      return 0;
-  }
-}
-
-std::uint64_t componentsOf(std::string_view type) {
-  return type == "SCALAR" ? 1 : type == "VEC2" ? 2 : type == "VEC3" ? 3 : 4;
 }
 
 }  // namespace
@@ -100,18 +81,10 @@ Result<GltfDocument> GltfDocument::open(std::string_view file, const std::filesy
     if (!document.json_.is_object())
       return corrupt("is not glTF: it neither begins with \"glTF\" nor is a JSON object, or it is truncated");
   }
-  document.buffers_ = std::make_shared<GltfBuffers>(folder, chunk);
+  document.views_ = std::make_shared<GltfViews>(folder, chunk);
+  document.views_->setFileBytes(file.size());
   if (const Status ok = document.checkVersion(); !ok) return tl::unexpected(ok.error());
-  const auto required = document.json_.find("extensionsRequired");
-  if (required != document.json_.end() && !(required->is_array() && required->empty())) {
-    std::string names;
-    if (required->is_array())
-      for (const auto& name : *required)
-        if (name.is_string())
-          names += (names.empty() ? "" : ", ") + text::quotedToken(name.get_ref<const std::string&>());
-    return failure(ErrorCode::unsupported,
-                   fmt::format("requires the extension {}, which Arete does not read", names));
-  }
+  if (const Status ok = checkRequiredExtensions(document.json_); !ok) return tl::unexpected(ok.error());
   return document;
 }
 
@@ -137,47 +110,7 @@ Result<const nlohmann::json*> GltfDocument::element(const char* list, std::uint6
 }
 
 Result<GltfDocument::Elements> GltfDocument::accessor(std::uint64_t number, std::string_view type) const {
-  const auto found = element("accessors", number);
-  if (!found) return tl::unexpected(found.error());
-  const nlohmann::json& accessor = **found;
-  const auto wrong = [&](ErrorCode code, std::string_view what) {
-    return failure(code, fmt::format("accessor {} {}", number, what));
-  };
-  if (accessor.contains("sparse"))
-    return wrong(ErrorCode::unsupported, "is sparse, which Arete does not read");
-  if (!accessor.contains("bufferView")) return wrong(ErrorCode::unsupported, "has no bufferView");
-  const auto typeName = accessor.find("type");
-  if (typeName == accessor.end() || *typeName != type)
-    return wrong(ErrorCode::corrupt, fmt::format("is not of the type {} that is needed", type));
-  const auto count = wholeNumber(accessor, "count"), component = wholeNumber(accessor, "componentType"),
-             offset = wholeNumber(accessor, "byteOffset", 0),
-             viewNumber = wholeNumber(accessor, "bufferView");
-  for (const auto* value : {&count, &component, &offset, &viewNumber})
-    if (!*value) return wrong(ErrorCode::corrupt, value->error().message);
-  const std::uint64_t size = componentSize(*component) * componentsOf(type);
-  if (size == 0)
-    return wrong(ErrorCode::corrupt, fmt::format("has the unknown component type {}", *component));
-
-  const auto foundView = element("bufferViews", *viewNumber);
-  if (!foundView) return tl::unexpected(foundView.error());
-  const nlohmann::json& view = **foundView;
-  const auto bufferNumber = wholeNumber(view, "buffer"), viewOffset = wholeNumber(view, "byteOffset", 0),
-             viewLength = wholeNumber(view, "byteLength"), stride = wholeNumber(view, "byteStride", size);
-  for (const auto* value : {&bufferNumber, &viewOffset, &viewLength, &stride})
-    if (!*value) return corrupt(fmt::format("bufferView {}: {}", *viewNumber, value->error().message));
-  const auto buffer = element("buffers", *bufferNumber);
-  if (!buffer) return tl::unexpected(buffer.error());
-  const Result<std::string_view> bytes = buffers_->bytesOf(*bufferNumber, **buffer);
-  if (!bytes) return tl::unexpected(bytes.error());
-  if (*viewOffset + *viewLength > bytes->size())
-    return corrupt(fmt::format("bufferView {} ends at byte {} of {}", *viewNumber, *viewOffset + *viewLength,
-                               bytes->size()));
-  if (*stride < size)
-    return corrupt(fmt::format("bufferView {} has a stride of {} bytes", *viewNumber, *stride));
-  if (*count == 0) return wrong(ErrorCode::corrupt, "has no elements");
-  if (*offset + (*count - 1) * *stride + size > *viewLength)
-    return wrong(ErrorCode::corrupt, fmt::format("of {} elements is longer than its bufferView", *count));
-  return Elements{bytes->data() + *viewOffset + *offset, *count, *stride, static_cast<int>(*component)};
+  return readAccessor(*this, *views_, number, type);
 }
 
 }  // namespace arete

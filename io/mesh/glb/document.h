@@ -9,12 +9,13 @@
 #include <string_view>
 
 #include "engine/base/result.h"
-#include "io/mesh/glb/buffers.h"
+#include "io/mesh/glb/elements.h"
+#include "io/mesh/glb/views.h"
 
 namespace arete {
 
-/// A glTF file, binary (GLB) or as text: its JSON, and its accessors as ranges of bytes that are checked to
-/// lie in its buffers. Errors have no culprit; the caller adds the path.
+/// A glTF file, binary (GLB) or as text: its JSON, and its accessors as elements that are checked to lie in
+/// its buffers. Errors have no culprit; the caller adds the path.
 class GltfDocument {
  public:
   /// @param file Must outlive the document. A GLB if it begins with "glTF", else JSON.
@@ -26,20 +27,16 @@ class GltfDocument {
 
   const nlohmann::json& json() const { return json_; }
 
-  /// The elements of an accessor: `count` of them, `stride` bytes from one to the next.
-  struct Elements {
-    const char* first = nullptr;
-    std::uint64_t count = 0;
-    std::uint64_t stride = 0;
-    int componentType = 0;
-  };
+  using Elements = GltfElements;
 
   /// @param number Index of the accessor.
-  /// @param type The required type: "VEC3", "SCALAR".
+  /// @param type The required type: "VEC3", "SCALAR"; empty: any.
   ///
-  /// Errors: those of GltfBuffers. corrupt: a missing accessor, another type, bytes outside the buffer.
-  /// unsupported: a sparse accessor.
+  /// Errors: those of readAccessor() (io/mesh/glb/accessors.h).
   Result<Elements> accessor(std::uint64_t number, std::string_view type) const;
+
+  /// The views of this glTF. Reading a document reads and decodes its buffers.
+  GltfViews& views() const { return *views_; }
 
   /// An element of a top-level list: element("nodes", 3). Errors: corrupt: it is missing or not an object.
   Result<const nlohmann::json*> element(const char* list, std::uint64_t number) const;
@@ -57,7 +54,7 @@ class GltfDocument {
   Status checkVersion() const;
 
   nlohmann::json json_;
-  std::shared_ptr<GltfBuffers> buffers_;
+  std::shared_ptr<GltfViews> views_;
 };
 
 }  // namespace arete

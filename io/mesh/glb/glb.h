@@ -8,16 +8,24 @@
 namespace arete {
 
 /// Reads glTF 2.0, binary (GLB) or as text, whatever the name ends in: the triangles of the default scene
-/// with the transforms of their nodes, moved by the morph targets that have a weight. Primitives of one mesh
-/// that share their positions share vertices; vertices without a triangle are left out. Positions of a file
-/// that Arete wrote are in source coordinates, within the rounding of 32-bit floats, and all its vertices are
-/// kept. In other files they are as in the file, y up. Materials, normals, cameras and animations are
-/// ignored. Every offset, length and index is checked. Buffers may be in the file, as a chunk or in base 64,
-/// or files beside it (io/mesh/glb/buffers.h).
+/// where their nodes put them, moved by the morph targets that have a weight, with all attributes of their
+/// vertices, the names of their nodes as objects, and their materials and pictures.
 ///
-/// Errors: those of readMesh(). unsupported: also required extensions (Draco, ...), sparse accessors, buffers
-/// elsewhere, primitives other than triangle lists, positions that are not float32, skins; the message names
-/// it.
+/// Primitives that share all accessors and stand at the same place share vertices. Vertices without a
+/// triangle are left out, but not of a file that Arete wrote. Positions of a file with Arete's frame are in
+/// source coordinates, within the rounding of 32-bit floats; its computed normals and errors are left out. In
+/// other files positions are as in the file, y up. Strips and fans become triangles one by one; degenerate
+/// ones stay.
+///
+/// Read are accessors of every kind, KHR_mesh_quantization, EXT_mesh_gpu_instancing, compression by Draco and
+/// meshopt. Transforms of textures (KHR_texture_transform) and extensions of materials are kept as the file
+/// has them (io/mesh/glb/materials.h). A mesh with a skin stands where its node puts it. Warnings name what
+/// is left out: skins, animations, cameras, lights, points, lines, attributes that do not fit their vertices.
+/// Every offset, length and index is checked. Buffers and pictures may be in the file, as a chunk or in base
+/// 64, or files beside it (io/mesh/glb/buffers.h); pictures beside it are not read.
+///
+/// Errors: those of readMesh(). unsupported: also other required extensions, which the message names, buffers
+/// elsewhere, and data far larger than the file.
 Result<MeshFile> readGlb(const std::filesystem::path& path, const RunContext& context = {});
 /// The same.
 Result<MeshFile> readGltf(const std::filesystem::path& path, const RunContext& context = {});

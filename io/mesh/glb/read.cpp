@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The nodes of the scene are visited with their transforms, from the roots, without recursion. The format
-// allows a node one parent, so a second visit is an error. The positions of a primitive are moved by its
-// morph targets, transformed by the node and, in a file that Arete wrote, from the local frame to source
-// coordinates. Many primitives may share one accessor and use few of its positions, so the primitives of a
-// mesh are grouped by what they share (vertex_group.h), and each group becomes the vertices that it uses.
-// Several nodes may use one mesh; the size of the file bounds the total.
+// First all primitives that the scene shows are read (scene.h, primitive.h). Those that share their accessors
+// and stand at the same place share vertices (vertex_group.h), also those of several meshes: a mesh that is
+// written with several materials or objects comes back as it was. When all are known, the vertices that are
+// used are numbered, group by group, and the triangles follow in the order of the scene. A mesh that several
+// nodes use is repeated; the size of the file bounds the total.
+//
+// Positions are moved by morph targets, put into place by the node and, in a file with Arete's frame, brought
+// from the local frame to source coordinates.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,16 +15,23 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <optional>
+#include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "engine/base/caught_failure.h"
 #include "io/crs/local_origin.h"
 #include "io/file/file_bytes.h"
 #include "io/mesh/glb/document.h"
 #include "io/mesh/glb/frame.h"
 #include "io/mesh/glb/glb.h"
-#include "io/mesh/glb/transform.h"
+#include "io/mesh/glb/materials.h"
+#include "io/mesh/glb/primitive.h"
+#include "io/mesh/glb/scene.h"
+#include "io/mesh/glb/vertex_attributes.h"
 #include "io/mesh/glb/vertex_group.h"
 
 namespace arete {
@@ -32,36 +41,71 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kRecordsPerCancelCheck = 1 << 16;
-constexpr int kUbyte = 5121, kUshort = 5123, kUint = 5125, kFloat = 5126;
-constexpr std::uint64_t kTriangleList = 4;
-/// Upper bound on vertices plus triangles: so many per byte of the file, but at least so many.
+/// Upper bound on vertices plus triangles, and on steps without either: so many per byte of the file and of
+/// what it holds compressed, but at least so many.
 constexpr std::uint64_t kMostPerByte = 1, kMostAtLeast = 1'000'000;
+/// The same for the bytes of attributes.
+constexpr std::uint64_t kMostAttributesPerByte = 32, kMostAttributesAtLeast = 64 << 20;
+constexpr std::uint32_t kNone = MeshAttributes::kNone;
+/// What Arete calls the one node and the one material of a terrain.
+constexpr const char *kTerrainNode = "terrain", *kTerrainMaterial = "ground";
 
 class GlbReader {
  public:
-  GlbReader(const GltfDocument& document, std::size_t fileSize, const RunContext& context)
-      : document_(document), context_(context), most_(std::max(kMostAtLeast, kMostPerByte * fileSize)) {}
+  GlbReader(const GltfDocument& document, const RunContext& context)
+      : document_(document), context_(context), primitives_(document, leftOut_) {}
 
   Result<MeshFile> read() {
     if (const Status ok = readFrame(); !ok) return tl::unexpected(ok.error());
-    if (const Status ok = walk(); !ok) return tl::unexpected(ok.error());
-    if (result_.mesh.triangles.empty() && !frame_)
-      return failure(ErrorCode::unsupported, "holds no triangle");
+    const auto placements = placedMeshes(document_, most(), leftOut_);
+    if (!placements) return tl::unexpected(placements.error());
+    for (const GltfPlacement& placement : *placements)
+      if (const Status ok = plan(placement); !ok) return tl::unexpected(ok.error());
+    if (const Status ok = useVertices(); !ok) return tl::unexpected(ok.error());
+    GltfVertexAttributes attributes(frame_.has_value());
+    for (VertexGroup& group : groups_)
+      if (const Status ok = addVertices(group, attributes); !ok) return tl::unexpected(ok.error());
+    for (const Part& part : parts_)
+      if (const Status ok = addTriangles(part); !ok) return tl::unexpected(ok.error());
+    for (const auto& shown : meshesShown_) leftOut_.shownMeshes += shown.second > 0 ? 1 : 0;
+    result_.warnings = leftOut_.sentences(document_.json());
+    if (result_.mesh.triangles.empty() && !frame_) return noTriangle();
+    SurfaceMesh& mesh = result_.mesh;
+    mesh.vertexAttributes = attributes.finish(mesh.positions.size(), result_.warnings);
+    addMaterials();
+    forgetDefaults();
     setRounding();
     return std::move(result_);
   }
 
  private:
+  /// The triangles of a primitive at a place.
+  struct Part {
+    const GltfPrimitive* primitive;
+    std::size_t group;
+    std::uint32_t object;
+    std::uint64_t mesh, number;  ///< the primitive, in the file
+  };
+
+  Result<MeshFile> noTriangle() const {
+    std::string why;
+    for (const std::string& sentence : result_.warnings)
+      if (why.size() < 200) why += "; " + sentence;
+    return failure(ErrorCode::unsupported, "holds no triangle" + why);
+  }
+
   Status readFrame() {
-    const Json::json_pointer place("/asset/extras/arete");
     result_.frame.coordinates = "float32";
     result_.up = MeshUp::y;
+    const Json::json_pointer generator("/asset/generator"), place("/asset/extras/arete");
+    if (document_.json().contains(generator) && document_.json().at(generator) == "Arete") isOurs_ = true;
     if (!document_.json().contains(place)) return {};
     Result<GlbFrame> stated = glbFrameFromJson(document_.json().at(place));
     if (!stated) return tl::unexpected(stated.error());
     const Result<LocalFrame> frame = LocalFrame::create(stated->local);
     if (!frame) return failure(ErrorCode::corrupt, frame.error().message);
     frame_ = *frame;
+    isOurs_ = true;
     result_.up = MeshUp::z;
     result_.crsWkt = std::move(stated->crsWkt);
     result_.verticalUnit = std::move(stated->verticalUnit);
@@ -72,106 +116,59 @@ class GlbReader {
     return {};
   }
 
-  struct Visit {
-    std::uint64_t node;
-    Affine parent;
-  };
-
-  Status walk() {
-    const auto nodes = document_.json().find("nodes");
-    if (nodes == document_.json().end() || !nodes->is_array()) return {};
-    std::vector<Visit> open;
-    if (Status ok = addRoots(open, nodes->size()); !ok) return ok;
-    std::vector<char> visited(nodes->size(), 0);
-    while (!open.empty()) {
-      const Visit visit = open.back();
-      open.pop_back();
-      const auto node = document_.element("nodes", visit.node);
-      if (!node) return tl::unexpected(node.error());
-      if (std::exchange(visited[visit.node], char{1}) != 0)
-        return failure(ErrorCode::corrupt, fmt::format("node {} has two parents", visit.node));
-      const Result<Affine> own = nodeTransform(**node);
-      if (!own) return tl::unexpected(own.error());
-      const Affine placed = visit.parent.after(*own);
-      if ((*node)->contains("skin"))
-        return failure(ErrorCode::unsupported,
-                       fmt::format("node {} has a skin, which Arete does not read", visit.node));
-      if ((*node)->contains("mesh"))
-        if (Status ok = addMesh(**node, placed); !ok) return ok;
-      if (Status ok = addNumbers(**node, "children", placed, open); !ok) return ok;
-    }
-    return {};
+  std::uint64_t most() const {
+    return std::max(kMostAtLeast, kMostPerByte * document_.views().sourceBytes());
   }
 
-  /// The nodes of the default scene; without a scene, the nodes without a parent.
-  Status addRoots(std::vector<Visit>& open, std::size_t nodes) const {
-    const Json& json = document_.json();
-    if (json.contains("scenes")) {
-      const auto number = GltfDocument::wholeNumber(json, "scene", 0);
-      if (!number) return tl::unexpected(number.error());
-      const auto scene = document_.element("scenes", *number);
-      if (!scene) return tl::unexpected(scene.error());
-      return addNumbers(**scene, "nodes", {}, open);
-    }
-    std::vector<Visit> children;
-    for (const Json& node : json["nodes"])
-      if (node.is_object())
-        if (Status ok = addNumbers(node, "children", {}, children); !ok) return ok;
-    std::vector<char> isChild(nodes, 0);
-    for (const Visit& child : children)
-      if (child.node < nodes) isChild[child.node] = 1;
-    for (std::size_t n = 0; n < nodes; ++n)
-      if (!isChild[n]) open.push_back({n, {}});
-    return {};
-  }
-
-  static Status addNumbers(const Json& object, const char* key, const Affine& parent,
-                           std::vector<Visit>& to) {
-    const auto list = object.find(key);
-    if (list == object.end()) return {};
-    if (!list->is_array()) return failure(ErrorCode::corrupt, fmt::format("\"{}\" is not a list", key));
-    // Pushed in reverse: the last one pushed is visited first.
-    for (std::size_t i = list->size(); i-- > 0;) {
-      if (!(*list)[i].is_number_unsigned())
-        return failure(ErrorCode::corrupt,
-                       fmt::format("\"{}\" holds a value that is not the index of a node", key));
-      to.push_back({(*list)[i].get<std::uint64_t>(), parent});
-    }
-    return {};
-  }
-
-  Status addMesh(const Json& node, const Affine& placed) {
-    const auto number = GltfDocument::wholeNumber(node, "mesh");
-    if (!number) return tl::unexpected(number.error());
-    const auto mesh = document_.element("meshes", *number);
+  /// Reads the primitives of a mesh and finds the groups of their vertices.
+  Status plan(const GltfPlacement& placement) {
+    const auto node = document_.element("nodes", placement.node);
+    if (!node) return tl::unexpected(node.error());
+    const auto mesh = document_.element("meshes", placement.mesh);
     if (!mesh) return tl::unexpected(mesh.error());
-    const auto primitives = (*mesh)->find("primitives");
-    if (primitives == (*mesh)->end() || !primitives->is_array())
-      return failure(ErrorCode::corrupt, fmt::format("mesh {} has no primitives", *number));
-    const auto weights = weightsOf(node.contains("weights") ? node : **mesh);
-    if (!weights)
-      return failure(ErrorCode::corrupt, fmt::format("mesh {} has {}", *number, weights.error().message));
-    const auto named = [&](std::size_t p, Status status) {
-      if (!status)
-        status.error().message = fmt::format("mesh {} primitive {}: {}", *number, p, status.error().message);
-      return status;
-    };
-
-    std::vector<VertexGroup> groups;
-    std::vector<Corners> corners;
-    for (std::size_t p = 0; p < primitives->size(); ++p) {
-      Result<Corners> read = readPrimitive((*primitives)[p], *weights, groups);
-      if (!read) return named(p, tl::unexpected(read.error()));
-      corners.push_back(*read);
+    const auto primitives = primitivesOf(placement, **node, **mesh);
+    if (!primitives) return tl::unexpected(primitives.error());
+    steps_ += (*primitives)->size() + 1;
+    if (steps_ > most()) return tooLarge();
+    const std::uint32_t visit = meshesShown_[placement.mesh]++;
+    const std::uint32_t object = addObject(placement, **node, **mesh);
+    for (std::size_t p = 0; p < (*primitives)->size(); ++p) {
+      const auto& primitive = (**primitives)[p];
+      if (!primitive) continue;
+      steps_ += primitive->attributes.size();
+      const auto [group, isNew] =
+          groupOf_.try_emplace(keyOf(*primitive, placement.placed, visit), groups_.size());
+      if (isNew) groups_.emplace_back(*primitive, placement.placed);
+      groups_[group->second].corners += primitive->corners;
+      triangles_ += primitive->triangles();
+      if (triangles_ > most()) return tooLarge();
+      parts_.push_back({&*primitive, group->second, object, placement.mesh, p});
     }
-    for (std::size_t p = 0; p < corners.size(); ++p)
-      if (Status ok = named(p, useVertices(corners[p], groups[corners[p].group])); !ok) return ok;
-    for (VertexGroup& group : groups)
-      if (Status ok = addVertices(group, placed); !ok) return ok;
-    for (std::size_t p = 0; p < corners.size(); ++p)
-      if (Status ok = named(p, addTriangles(corners[p], groups[corners[p].group], placed.mirrors())); !ok)
-        return ok;
     return {};
+  }
+
+  using Primitives = std::vector<std::optional<GltfPrimitive>>;
+
+  /// Those of a mesh, read once for each set of weights.
+  Result<const Primitives*> primitivesOf(const GltfPlacement& placement, const Json& node, const Json& mesh) {
+    const bool hasWeights = node.contains("weights");
+    const std::pair key{placement.mesh, hasWeights ? placement.node : ~std::uint64_t{0}};
+    if (const auto known = read_.find(key); known != read_.end()) return &known->second;
+    const auto list = mesh.find("primitives");
+    if (list == mesh.end() || !list->is_array())
+      return failure(ErrorCode::corrupt, fmt::format("mesh {} has no primitives", placement.mesh));
+    const auto weights = weightsOf(hasWeights ? node : mesh);
+    if (!weights)
+      return failure(ErrorCode::corrupt,
+                     fmt::format("mesh {} has {}", placement.mesh, weights.error().message));
+    Primitives primitives;
+    for (std::size_t p = 0; p < list->size(); ++p) {
+      if (Status ok = reportAndCheck(p, list->size()); !ok) return tl::unexpected(ok.error());
+      auto primitive = primitives_.read((*list)[p], *weights);
+      if (!primitive) return named(placement.mesh, p, primitive.error());
+      primitives.push_back(std::move(*primitive));
+    }
+    return &read_.emplace(key, std::move(primitives)).first->second;
   }
 
   /// The weights of the morph targets of a node or a mesh; empty: all 0.
@@ -187,147 +184,145 @@ class GlbReader {
     return weights;
   }
 
-  /// The corners of a primitive: indices of the vertices of a group.
-  struct Corners {
-    std::size_t group = 0;
-    std::uint64_t count = 0;
-    std::optional<GltfDocument::Elements> indices;  // missing: 0, 1, 2, ...
-
-    std::uint32_t at(std::uint64_t i) const {
-      return indices ? indexAt(*indices, i) : static_cast<std::uint32_t>(i);
+  /// Equal for primitives that share vertices. A mesh that stands twice at one place is two.
+  static std::string keyOf(const GltfPrimitive& primitive, const Affine& placed, std::uint32_t visit) {
+    std::string key;
+    const auto add = [&](const auto& value) {
+      key.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    add(visit);
+    add(placed.a);
+    add(placed.t);
+    for (const GltfAttribute& attribute : primitive.attributes) {
+      add(attribute.source);
+      key += attribute.name + '\0';
     }
-  };
-
-  Result<Corners> readPrimitive(const Json& primitive, const std::vector<double>& weights,
-                                std::vector<VertexGroup>& groups) const {
-    if (!primitive.is_object() || !primitive.contains("attributes") || !primitive["attributes"].is_object())
-      return failure(ErrorCode::corrupt, "has no attributes");
-    const auto mode = GltfDocument::wholeNumber(primitive, "mode", kTriangleList);
-    if (!mode) return tl::unexpected(mode.error());
-    if (*mode != kTriangleList)
-      return failure(ErrorCode::unsupported, fmt::format("is of mode {}, not a list of triangles", *mode));
-    const auto position = GltfDocument::wholeNumber(primitive["attributes"], "POSITION");
-    if (!position) return tl::unexpected(position.error());
-    const auto positions = positionsOf(*position, "positions");
-    if (!positions) return tl::unexpected(positions.error());
-    auto targets = targetsOf(primitive, weights, positions->count);
-    if (!targets) return tl::unexpected(targets.error());
-
-    Corners corners;
-    corners.count = positions->count;
-    if (primitive.contains("indices")) {
-      const auto number = GltfDocument::wholeNumber(primitive, "indices");
-      if (!number) return tl::unexpected(number.error());
-      const auto found = document_.accessor(*number, "SCALAR");
-      if (!found) return tl::unexpected(found.error());
-      if (found->componentType != kUbyte && found->componentType != kUshort && found->componentType != kUint)
-        return failure(ErrorCode::corrupt, "has indices that are not unsigned whole numbers");
-      corners.indices = *found;
-      corners.count = found->count;
+    for (const GltfMorph& morph : primitive.morphs) {
+      add(morph.accessor);
+      add(morph.weight);
+      key += morph.name + '\0';
     }
-    if (corners.count % 3 != 0)
-      return failure(ErrorCode::corrupt,
-                     fmt::format("has {} corners, not a multiple of three", corners.count));
-    const auto same = std::ranges::find_if(groups, [&](const VertexGroup& group) {
-      return group.position == *position && group.targets == *targets;
-    });
-    corners.group = std::size_t(same - groups.begin());
-    if (same == groups.end()) groups.emplace_back(*position, *positions, std::move(*targets));
-    groups[corners.group].corners += corners.count;
-    return corners;
+    return key;
   }
 
-  Result<GltfDocument::Elements> positionsOf(std::uint64_t accessor, const char* what) const {
-    const auto positions = document_.accessor(accessor, "VEC3");
-    if (positions && positions->componentType != kFloat)
-      return failure(ErrorCode::unsupported, fmt::format("has {} that are not 32-bit floats", what));
-    return positions;
+  std::uint32_t addObject(const GltfPlacement& placement, const Json& node, const Json& mesh) {
+    if (lastNode_ == placement.node) return static_cast<std::uint32_t>(result_.mesh.objects.size() - 1);
+    lastNode_ = placement.node;
+    std::string name;
+    for (const Json* const named : {&mesh, &node})
+      if (const auto found = named->find("name"); found != named->end() && found->is_string()) name = *found;
+    result_.mesh.objects.push_back(std::move(name));
+    return static_cast<std::uint32_t>(result_.mesh.objects.size() - 1);
   }
 
-  /// The morph targets that move positions.
-  Result<std::vector<MorphTarget>> targetsOf(const Json& primitive, const std::vector<double>& weights,
-                                             std::uint64_t positions) const {
-    std::vector<MorphTarget> moving;
-    const auto targets = primitive.find("targets");
-    if (targets == primitive.end()) return moving;
-    if (!targets->is_array()) return failure(ErrorCode::corrupt, "has targets that are not a list");
-    if (!weights.empty() && weights.size() != targets->size())
-      return failure(ErrorCode::corrupt,
-                     fmt::format("has {} morph targets and {} weights", targets->size(), weights.size()));
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-      const Json& target = (*targets)[i];
-      if (weights[i] == 0 || !target.is_object() || !target.contains("POSITION")) continue;
-      const auto number = GltfDocument::wholeNumber(target, "POSITION");
-      if (!number) return tl::unexpected(number.error());
-      const auto elements = positionsOf(*number, "a morph target of positions");
-      if (!elements) return tl::unexpected(elements.error());
-      if (elements->count != positions)
-        return failure(ErrorCode::corrupt,
-                       fmt::format("has {} positions and a morph target of {}", positions, elements->count));
-      moving.push_back({*number, weights[i], *elements});
-    }
-    return moving;
+  static tl::unexpected<Error> named(std::uint64_t mesh, std::uint64_t primitive, Error error) {
+    error.message = fmt::format("mesh {} primitive {}: {}", mesh, primitive, error.message);
+    return tl::unexpected(std::move(error));
   }
 
-  Status useVertices(const Corners& corners, VertexGroup& group) const {
-    const TriangleMesh& mesh = result_.mesh;
-    if (mesh.positions.size() + mesh.triangles.size() + group.corners / 3 > most_)
-      return failure(ErrorCode::unsupported,
-                     "is repeated so often that the mesh is far larger than the file");
-    for (std::uint64_t c = 0; c < corners.count; ++c) {
-      if (Status ok = reportAndCheck(c, corners.count); !ok) return ok;
-      if (!group.use(corners.at(c)))
-        return failure(ErrorCode::corrupt, fmt::format("triangle {} names vertex {} of {}", c / 3,
-                                                       corners.at(c), group.positions.count));
+  static tl::unexpected<Error> tooLarge() {
+    return failure(ErrorCode::unsupported, "a mesh is repeated so often that it is far larger than the file");
+  }
+
+  Status useVertices() {
+    for (const Part& part : parts_) {
+      const GltfPrimitive& primitive = *part.primitive;
+      VertexGroup& group = groups_[part.group];
+      const double largest =
+          primitive.indices ? GltfElements::largestOf(primitive.indices->type) : double{kNone};
+      for (std::uint64_t c = 0; c < primitive.corners; ++c) {
+        if (Status ok = reportAndCheck(c, primitive.corners); !ok) return ok;
+        const std::uint32_t vertex = primitive.vertexAt(c);
+        // The largest index would begin a new strip where programs draw; glTF has no such index.
+        if (primitive.indices && vertex == largest)
+          return named(part.mesh, part.number,
+                       {ErrorCode::corrupt,
+                        fmt::format("corner {} names vertex {}, which no index may", c, vertex),
+                        {}});
+        if (group.use(vertex)) continue;
+        return named(part.mesh, part.number,
+                     {ErrorCode::corrupt,
+                      fmt::format("{} {} names vertex {} of {}",
+                                  primitive.mode == GltfPrimitive::Mode::list ? "triangle" : "corner",
+                                  primitive.mode == GltfPrimitive::Mode::list ? c / 3 : c, vertex,
+                                  primitive.vertices()),
+                      {}});
+      }
     }
     return {};
   }
 
-  Status addVertices(VertexGroup& group, const Affine& placed) {
+  Status addVertices(VertexGroup& group, GltfVertexAttributes& attributes) {
     TriangleMesh& mesh = result_.mesh;
+    const std::uint64_t first = mesh.positions.size();
     // A mesh of ours keeps the vertices that no triangle has.
-    const std::uint64_t used = group.number(mesh.positions.size(), frame_.has_value());
-    if (mesh.positions.size() + mesh.triangles.size() + used + group.corners / 3 > most_)
-      return failure(ErrorCode::unsupported,
-                     "a mesh is repeated so often that it is far larger than the file");
-    if (mesh.positions.size() + used >= std::numeric_limits<std::uint32_t>::max())
+    const std::uint64_t used = group.number(first, isOurs_);
+    if (first + used + triangles_ > most()) return tooLarge();
+    if (first + used >= std::numeric_limits<std::uint32_t>::max())
       return failure(ErrorCode::unsupported, "holds more vertices than an index can name");
+    if (attributes.bytesAfter(group, first, used) >
+        std::max(kMostAttributesAtLeast, kMostAttributesPerByte * document_.views().sourceBytes()))
+      return failure(ErrorCode::unsupported, "has attributes that are far larger than the file");
     for (std::uint64_t i = 0; i < used; ++i) {
       if (Status ok = reportAndCheck(i, used); !ok) return ok;
       const std::uint32_t v = group.vertex(i);
-      const Vec3 inFile = placed(group.positionOf(v)), local = frame_ ? gltfToLocal(inFile) : inFile;
+      const Vec3 inFile = group.positionOf(v), local = frame_ ? gltfToLocal(inFile) : inFile;
       const Vec3 p = frame_ ? frame_->toSource(local) : local;
       if (!isFinite(p))
         return failure(ErrorCode::corrupt, fmt::format("vertex {} of {} has a coordinate that is not finite",
-                                                       v, group.positions.count));
+                                                       v, group.primitive.vertices()));
       largest_ = {std::max(largest_.x, std::abs(local.x)), std::max(largest_.y, std::abs(local.y)),
                   std::max(largest_.z, std::abs(local.z))};
       mesh.positions.push_back(p);
     }
+    attributes.add(group, first, used);
     return {};
   }
 
-  Status addTriangles(const Corners& corners, const VertexGroup& group, bool flips) {
-    for (std::uint64_t c = 0; c < corners.count; c += 3) {
-      if (Status ok = reportAndCheck(c, corners.count); !ok) return ok;
+  Status addTriangles(const Part& part) {
+    const GltfPrimitive& primitive = *part.primitive;
+    const VertexGroup& group = groups_[part.group];
+    const bool flips = group.placed.mirrors();
+    SurfaceMesh& mesh = result_.mesh;
+    for (std::uint64_t t = 0; t < primitive.triangles(); ++t) {
+      if (Status ok = reportAndCheck(t, primitive.triangles()); !ok) return ok;
+      const std::array<std::uint64_t, 3> corners = primitive.cornersOf(t);
       std::array<std::uint32_t, 3> triangle;
-      for (std::uint64_t k = 0; k < 3; ++k) triangle[k] = group.indexOf(corners.at(c + k));
+      for (std::size_t k = 0; k < 3; ++k) triangle[k] = group.indexOf(primitive.vertexAt(corners[k]));
       if (flips) std::swap(triangle[1], triangle[2]);
-      result_.mesh.triangles.push_back(triangle);
+      mesh.triangles.push_back(triangle);
     }
+    mesh.objectOf.resize(mesh.triangles.size(), part.object);
+    mesh.materialOf.resize(mesh.triangles.size(), primitive.material);
     return {};
   }
 
-  static std::uint32_t indexAt(const GltfDocument::Elements& indices, std::uint64_t i) {
-    const char* at = indices.first + i * indices.stride;
-    if (indices.componentType == kUbyte) return static_cast<std::uint8_t>(*at);
-    std::uint32_t index = 0;
-    std::memcpy(&index, at, indices.componentType == kUshort ? 2 : 4);
-    return index;
+  void addMaterials() {
+    GltfMaterials read = readMaterials(document_, result_.warnings);
+    result_.mesh.materials = std::move(read.materials);
+    result_.mesh.pictures = std::move(read.pictures);
+  }
+
+  /// Takes away the names that say nothing: of one object without a name, and those that Arete gives to the
+  /// one object and the one material of a terrain.
+  void forgetDefaults() {
+    SurfaceMesh& mesh = result_.mesh;
+    const bool isTerrain = frame_ && mesh.objects.size() <= 1 && mesh.materials.size() <= 1;
+    if (mesh.objects.empty() ||
+        (mesh.objects.size() == 1 &&
+         (mesh.objects[0].empty() || (isTerrain && mesh.objects[0] == kTerrainNode)))) {
+      mesh.objects.clear();
+      mesh.objectOf = {};
+    }
+    if (isTerrain && mesh.materials.size() == 1 && mesh.materials[0].name == kTerrainMaterial &&
+        mesh.materials[0].textures.empty())
+      mesh.materials.clear();
+    if (mesh.materials.empty() || std::ranges::all_of(mesh.materialOf, [](auto m) { return m == kNone; }))
+      mesh.materialOf = {};
   }
 
   Status reportAndCheck(std::uint64_t done, std::uint64_t all) const {
-    if (done % kRecordsPerCancelCheck > 2) return {};
+    if (done % kRecordsPerCancelCheck > 0) return {};
     context_.report("reading the mesh", static_cast<double>(done) / static_cast<double>(all));
     if (context_.cancelled()) return failure(ErrorCode::interrupted, "reading was interrupted");
     return {};
@@ -355,8 +350,17 @@ class GlbReader {
 
   const GltfDocument& document_;
   const RunContext& context_;
-  std::uint64_t most_;
+  GltfLeftOut leftOut_;
+  GltfPrimitives primitives_;
   std::optional<LocalFrame> frame_;
+  bool isOurs_ = false;
+  std::uint64_t steps_ = 0, triangles_ = 0;
+  std::map<std::pair<std::uint64_t, std::uint64_t>, Primitives> read_;  // by mesh, and node with weights
+  std::map<std::uint64_t, std::uint32_t> meshesShown_;                  // how often, by mesh
+  std::optional<std::uint64_t> lastNode_;
+  std::vector<VertexGroup> groups_;
+  std::unordered_map<std::string, std::size_t> groupOf_;
+  std::vector<Part> parts_;
   Vec3 largest_;  // |local coordinates|
   MeshFile result_;
 };
@@ -369,14 +373,16 @@ std::filesystem::path folderOf(const std::filesystem::path& path) {
 
 }  // namespace
 
-Result<MeshFile> readGlb(const std::filesystem::path& path, const RunContext& context) {
+Result<MeshFile> readGlb(const std::filesystem::path& path, const RunContext& context) try {
   const Result<FileBytes> bytes = FileBytes::read(path);
   if (!bytes) return tl::unexpected(bytes.error());
   const Result<GltfDocument> document = GltfDocument::open(bytes->view(), folderOf(path));
   if (!document) return failure(document.error().code, document.error().message, path.string());
-  Result<MeshFile> file = GlbReader(*document, bytes->size(), context).read();
+  Result<MeshFile> file = GlbReader(*document, context).read();
   if (!file && file.error().culprit.empty()) file.error().culprit = path.string();
   return file;
+} catch (...) {
+  return caughtFailure(path.string());
 }
 
 Result<MeshFile> readGltf(const std::filesystem::path& path, const RunContext& context) {

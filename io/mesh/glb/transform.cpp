@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace arete {
@@ -27,6 +28,45 @@ Result<std::array<double, N>> numbersOf(const Json& node, const char* key, std::
 
 }  // namespace
 
+bool Affine::permutesAxes() const {
+  for (std::size_t r = 0; r < 3; ++r) {
+    const std::array<double, 3> row{std::abs(a[3 * r]), std::abs(a[3 * r + 1]), std::abs(a[3 * r + 2])};
+    if (row[0] + row[1] + row[2] != 1 || std::abs(a[r]) + std::abs(a[r + 3]) + std::abs(a[r + 6]) != 1 ||
+        row[0] * (1 - row[0]) + row[1] * (1 - row[1]) != 0)
+      return false;
+  }
+  return true;
+}
+
+Vec3 Affine::directionOf(const Vec3& v) const {
+  const Vec3 turned{a[0] * v.x + a[1] * v.y + a[2] * v.z, a[3] * v.x + a[4] * v.y + a[5] * v.z,
+                    a[6] * v.x + a[7] * v.y + a[8] * v.z};
+  if (permutesAxes()) return turned;
+  const double length = std::hypot(turned.x, turned.y, turned.z);
+  if (!(length > 0) || !std::isfinite(length)) return turned;
+  return {turned.x / length, turned.y / length, turned.z / length};
+}
+
+Vec3 Affine::normalOf(const Vec3& n) const {
+  // The cofactors are the transposed inverse times the determinant, and exist without it.
+  const double sign = mirrors() ? -1 : 1;
+  const Affine cofactors{{a[4] * a[8] - a[5] * a[7], a[5] * a[6] - a[3] * a[8], a[3] * a[7] - a[4] * a[6],
+                          a[2] * a[7] - a[1] * a[8], a[0] * a[8] - a[2] * a[6], a[1] * a[6] - a[0] * a[7],
+                          a[1] * a[5] - a[2] * a[4], a[2] * a[3] - a[0] * a[5], a[0] * a[4] - a[1] * a[3]},
+                         {}};
+  return cofactors.directionOf({sign * n.x, sign * n.y, sign * n.z});
+}
+
+Affine affineOf(const std::array<double, 3>& translation, const std::array<double, 4>& rotation,
+                const std::array<double, 3>& scale) {
+  const auto [x, y, z, w] = rotation;
+  const auto& k = scale;
+  return Affine{{(1 - 2 * (y * y + z * z)) * k[0], 2 * (x * y - z * w) * k[1], 2 * (x * z + y * w) * k[2],
+                 2 * (x * y + z * w) * k[0], (1 - 2 * (x * x + z * z)) * k[1], 2 * (y * z - x * w) * k[2],
+                 2 * (x * z - y * w) * k[0], 2 * (y * z + x * w) * k[1], (1 - 2 * (x * x + y * y)) * k[2]},
+                {translation[0], translation[1], translation[2]}};
+}
+
 Result<Affine> nodeTransform(const Json& node) {
   if (node.contains("matrix")) {
     const auto m = numbersOf<16>(node, "matrix", {});
@@ -42,12 +82,7 @@ Result<Affine> nodeTransform(const Json& node) {
   if (!t) return tl::unexpected(t.error());
   if (!r) return tl::unexpected(r.error());
   if (!s) return tl::unexpected(s.error());
-  const auto [x, y, z, w] = *r;
-  const auto& k = *s;
-  return Affine{{(1 - 2 * (y * y + z * z)) * k[0], 2 * (x * y - z * w) * k[1], 2 * (x * z + y * w) * k[2],
-                 2 * (x * y + z * w) * k[0], (1 - 2 * (x * x + z * z)) * k[1], 2 * (y * z - x * w) * k[2],
-                 2 * (x * z - y * w) * k[0], 2 * (y * z + x * w) * k[1], (1 - 2 * (x * x + y * y)) * k[2]},
-                {(*t)[0], (*t)[1], (*t)[2]}};
+  return affineOf(*t, *r, *s);
 }
 
 }  // namespace arete

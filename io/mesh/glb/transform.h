@@ -34,7 +34,26 @@ struct Affine {
                a[2] * (a[3] * a[7] - a[4] * a[6]) <
            0;
   }
+  bool isIdentity() const { return *this == Affine{}; }
+  /// True if directions are the same before and after: the map moves and enlarges.
+  bool keepsDirections() const {
+    return a[0] > 0 && a[0] == a[4] && a[0] == a[8] && a[1] == 0 && a[2] == 0 && a[3] == 0 && a[5] == 0 &&
+           a[6] == 0 && a[7] == 0;
+  }
+  /// The direction of a vector after the map, of length 1; 0 and what is not finite stay.
+  Vec3 directionOf(const Vec3& v) const;
+  /// That of a normal, by the transposed inverse. Where that does not exist, the limit of those that do.
+  Vec3 normalOf(const Vec3& n) const;
+
+  /// True if every axis becomes an axis: numbers are exchanged and turned in sign, without rounding.
+  bool permutesAxes() const;
+
+  bool operator==(const Affine&) const = default;
 };
+
+/// The map that turns by a quaternion (x, y, z, w) after scaling, and moves. Not checked.
+Affine affineOf(const std::array<double, 3>& translation, const std::array<double, 4>& rotation,
+                const std::array<double, 3>& scale);
 
 /// The transform of a glTF node: its matrix, or its translation, rotation and scale.
 /// Errors: corrupt: a wrong count of numbers, a matrix that is not affine.

@@ -5,25 +5,13 @@
 #include "io/mesh/glb/vertex_group.h"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
 
 namespace arete {
 
-namespace {
-
-Vec3 floatsAt(const GltfDocument::Elements& elements, std::uint32_t i) {
-  std::array<float, 3> xyz;
-  std::memcpy(&xyz, elements.first + i * elements.stride, sizeof xyz);
-  return {xyz[0], xyz[1], xyz[2]};
-}
-
-}  // namespace
-
 bool VertexGroup::use(std::uint32_t vertex) {
-  if (vertex >= positions.count) return false;
+  if (vertex >= primitive.vertices()) return false;
   if (isDense()) {
-    if (table_.empty()) table_.resize(positions.count, 0);
+    if (table_.empty()) table_.resize(primitive.vertices(), 0);
     table_[vertex] = 1;
   } else {
     used_.push_back(vertex);
@@ -41,10 +29,10 @@ std::uint64_t VertexGroup::number(std::uint64_t base, bool all) {
     used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
     count = used_.size();
   }
-  if (all || count == positions.count) {
+  if (all || count == primitive.vertices()) {
     used_.clear();
     table_.clear();
-    return positions.count;
+    return primitive.vertices();
   }
   if (!isDense()) return count;
   used_.reserve(count);
@@ -62,10 +50,19 @@ std::uint32_t VertexGroup::indexOf(std::uint32_t vertex) const {
   return base_ + static_cast<std::uint32_t>(std::ranges::lower_bound(used_, vertex) - used_.begin());
 }
 
+double VertexGroup::valueOf(const GltfAttribute& attribute, std::uint32_t vertex,
+                            std::size_t component) const {
+  double value = attribute.elements.value(vertex, component);
+  for (const GltfMorph& morph : primitive.morphs)
+    if (morph.name == attribute.name && component < morph.moves.components)
+      value += morph.weight * morph.moves.value(vertex, component);
+  return value;
+}
+
 Vec3 VertexGroup::positionOf(std::uint32_t vertex) const {
-  Vec3 p = floatsAt(positions, vertex);
-  for (const MorphTarget& target : targets) p = p + target.weight * floatsAt(target.moves, vertex);
-  return p;
+  const GltfAttribute& positions = primitive.attributes.front();
+  const Vec3 p{valueOf(positions, vertex, 0), valueOf(positions, vertex, 1), valueOf(positions, vertex, 2)};
+  return placed.isIdentity() ? p : placed(p);  // -0 stays
 }
 
 }  // namespace arete

@@ -2,35 +2,23 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "engine/base/vec.h"
-#include "io/mesh/glb/document.h"
+#include "io/mesh/glb/primitive.h"
+#include "io/mesh/glb/transform.h"
 
 namespace arete {
 
-/// A morph target that moves positions, with its weight.
-struct MorphTarget {
-  std::uint64_t accessor = 0;
-  double weight = 0;
-  GltfDocument::Elements moves;  ///< one for each position
-
-  bool operator==(const MorphTarget& other) const {
-    return accessor == other.accessor && weight == other.weight;
-  }
-};
-
-/// The vertices of the primitives of a mesh that share an accessor of positions and its morph targets, and
-/// which of them are used. First use() all, then number() once, then the rest.
+/// The vertices of the primitives that share all accessors of their attributes, their morph targets and their
+/// place, and which of them are used. First use() all, then number() once, then the rest.
 class VertexGroup {
  public:
-  VertexGroup(std::uint64_t accessor, const GltfDocument::Elements& elements, std::vector<MorphTarget> moved)
-      : position(accessor), positions(elements), targets(std::move(moved)) {}
+  /// @param like One of the primitives; must outlive this.
+  VertexGroup(const GltfPrimitive& like, const Affine& place) : primitive(like), placed(place) {}
 
-  std::uint64_t position;  ///< the accessor
-  GltfDocument::Elements positions;
-  std::vector<MorphTarget> targets;
+  const GltfPrimitive& primitive;
+  Affine placed;              ///< from the accessor to the scene
   std::uint64_t corners = 0;  ///< of all primitives: an upper bound on the vertices that are used
 
   /// Marks a vertex as used. False if there is none of that index. Memory and time are of the order of
@@ -50,11 +38,13 @@ class VertexGroup {
   /// @return The number of a vertex that was marked.
   std::uint32_t indexOf(std::uint32_t vertex) const;
 
-  /// @return The position of a vertex, moved by the targets.
+  /// @return The position of a vertex in the scene.
   Vec3 positionOf(std::uint32_t vertex) const;
+  /// @return A number of an attribute, with the fraction taken, moved by the morph targets.
+  double valueOf(const GltfAttribute& attribute, std::uint32_t vertex, std::size_t component) const;
 
  private:
-  bool isDense() const { return positions.count / 4 <= corners; }
+  bool isDense() const { return primitive.vertices() / 4 <= corners; }
 
   std::vector<std::uint32_t> used_;   ///< sorted once numbered; empty: all are used
   std::vector<std::uint32_t> table_;  ///< dense: by vertex; while it is marked, 1 for those that are used
