@@ -17,6 +17,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -44,6 +45,7 @@ constexpr std::size_t kRecordsPerCancelCheck = 1 << 16;
 /// Upper bound on vertices plus triangles, and on steps without either: so many per byte of the file and of
 /// what it holds compressed, but at least so many.
 constexpr std::uint64_t kMostPerByte = 1, kMostAtLeast = 1'000'000;
+constexpr std::uint64_t kMostPlacesAtLeast = 100'000;
 /// The same for the bytes of attributes.
 constexpr std::uint64_t kMostAttributesPerByte = 32, kMostAttributesAtLeast = 64 << 20;
 constexpr std::uint32_t kNone = MeshAttributes::kNone;
@@ -57,7 +59,7 @@ class GlbReader {
 
   Result<MeshFile> read() {
     if (const Status ok = readFrame(); !ok) return tl::unexpected(ok.error());
-    const auto placements = placedMeshes(document_, most(), leftOut_);
+    const auto placements = placedMeshes(document_, mostPlaces(), leftOut_);
     if (!placements) return tl::unexpected(placements.error());
     for (const GltfPlacement& placement : *placements)
       if (const Status ok = plan(placement); !ok) return tl::unexpected(ok.error());
@@ -67,7 +69,7 @@ class GlbReader {
       if (const Status ok = addVertices(group, attributes); !ok) return tl::unexpected(ok.error());
     for (const Part& part : parts_)
       if (const Status ok = addTriangles(part); !ok) return tl::unexpected(ok.error());
-    for (const auto& shown : meshesShown_) leftOut_.shownMeshes += shown.second > 0 ? 1 : 0;
+    leftOut_.shownMeshes = meshesShown_.size();
     result_.warnings = leftOut_.sentences(document_.json());
     if (result_.mesh.triangles.empty() && !frame_) return noTriangle();
     SurfaceMesh& mesh = result_.mesh;
@@ -120,6 +122,8 @@ class GlbReader {
     return std::max(kMostAtLeast, kMostPerByte * document_.views().sourceBytes());
   }
 
+  std::uint64_t mostPlaces() const { return std::max(kMostPlacesAtLeast, document_.views().sourceBytes()); }
+
   /// Reads the primitives of a mesh and finds the groups of their vertices.
   Status plan(const GltfPlacement& placement) {
     const auto node = document_.element("nodes", placement.node);
@@ -130,7 +134,8 @@ class GlbReader {
     if (!primitives) return tl::unexpected(primitives.error());
     steps_ += (*primitives)->size() + 1;
     if (steps_ > most()) return tooLarge();
-    const std::uint32_t visit = meshesShown_[placement.mesh]++;
+    meshesShown_.insert(placement.mesh);
+    const std::uint32_t visit = visits_[{placement.mesh, bytesOf(placement.placed)}]++;
     const std::uint32_t object = addObject(placement, **node, **mesh);
     for (std::size_t p = 0; p < (*primitives)->size(); ++p) {
       const auto& primitive = (**primitives)[p];
@@ -184,15 +189,18 @@ class GlbReader {
     return weights;
   }
 
+  static std::string bytesOf(const Affine& placed) {
+    return std::string(reinterpret_cast<const char*>(&placed.a), sizeof placed.a) +
+           std::string(reinterpret_cast<const char*>(&placed.t), sizeof placed.t);
+  }
+
   /// Equal for primitives that share vertices. A mesh that stands twice at one place is two.
   static std::string keyOf(const GltfPrimitive& primitive, const Affine& placed, std::uint32_t visit) {
-    std::string key;
+    std::string key = bytesOf(placed);
     const auto add = [&](const auto& value) {
       key.append(reinterpret_cast<const char*>(&value), sizeof value);
     };
     add(visit);
-    add(placed.a);
-    add(placed.t);
     for (const GltfAttribute& attribute : primitive.attributes) {
       add(attribute.source);
       key += attribute.name + '\0';
@@ -356,7 +364,8 @@ class GlbReader {
   bool isOurs_ = false;
   std::uint64_t steps_ = 0, triangles_ = 0;
   std::map<std::pair<std::uint64_t, std::uint64_t>, Primitives> read_;  // by mesh, and node with weights
-  std::map<std::uint64_t, std::uint32_t> meshesShown_;                  // how often, by mesh
+  std::set<std::uint64_t> meshesShown_;
+  std::map<std::pair<std::uint64_t, std::string>, std::uint32_t> visits_;  // by mesh and place
   std::optional<std::uint64_t> lastNode_;
   std::vector<VertexGroup> groups_;
   std::unordered_map<std::string, std::size_t> groupOf_;

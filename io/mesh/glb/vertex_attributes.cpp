@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <utility>
@@ -126,7 +126,9 @@ void computeElement(const VertexGroup& group, const GltfAttribute& attribute, st
     element.push_back(group.valueOf(attribute, vertex, c));
   const bool isNormal = attribute.name == kNormal, isTangent = attribute.name == kTangent;
   if (isNormal || isTangent) {
-    const Vec3 v{element[0], element[1], element[2]};
+    Vec3 v{element[0], element[1], element[2]};
+    if (const double length = std::hypot(v.x, v.y, v.z); isMoved(group, attribute) && length > 0)
+      v = {v.x / length, v.y / length, v.z / length};
     const Vec3 turned = isNormal ? group.placed.normalOf(v) : group.placed.directionOf(v);
     element[0] = turned.x;
     element[1] = turned.y;

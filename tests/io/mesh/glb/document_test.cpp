@@ -32,7 +32,8 @@ TEST(GltfDocument, HandsOutTheElementsOfItsAccessors) {
   ASSERT_TRUE(positions) << positions.error().describe();
   EXPECT_EQ(positions->count, 4u);
   EXPECT_EQ(positions->stride, 12u);
-  EXPECT_EQ(positions->componentType, 5126);
+  EXPECT_EQ(positions->type, ScalarType::float32);
+  EXPECT_EQ(positions->components, 3);
   EXPECT_EQ(std::string_view(positions->first, 48), std::string_view(foreign.bytes).substr(0, 48));
   const auto indices = document->accessor(1, "SCALAR");
   ASSERT_TRUE(indices);
@@ -56,6 +57,8 @@ TEST(GltfDocument, TakesEachAccessorToTheLastByteAndNoFurther) {
   // With a stride the last element needs its own bytes only.
   accessor = {{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}};
   view["byteStride"] = 18;
+  EXPECT_TRUE(GltfDocument::open(foreign.glb())->accessor(0, "VEC3"));
+  view["byteStride"] = 0;  // as if it were not there
   EXPECT_TRUE(GltfDocument::open(foreign.glb())->accessor(0, "VEC3"));
   view["byteStride"] = 19;
   EXPECT_EQ(errorOf(foreign.glb()).code, ErrorCode::corrupt);
@@ -92,11 +95,10 @@ TEST(GltfDocument, NamesWhatAreteDoesNotRead) {
     return error.message;
   };
   Foreign foreign;
-  foreign.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
-  EXPECT_NE(unsupported(foreign).find("KHR_draco_mesh_compression"), std::string::npos);
-  foreign = {};
-  foreign.json["accessors"][0]["sparse"] = Json::object();
-  unsupported(foreign);
+  foreign.json["extensionsRequired"] = {"KHR_mesh_quantization", "EXT_texture_video", "KHR_\x1b[31m"};
+  const std::string message = unsupported(foreign);
+  EXPECT_NE(message.find("\"EXT_texture_video\", \"KHR_?[31m\""), std::string::npos) << message;
+  EXPECT_EQ(message.find("KHR_mesh_quantization"), std::string::npos) << message;
   foreign = {};
   foreign.json["buffers"][0]["uri"] = "other.bin";
   unsupported(foreign);

@@ -54,7 +54,9 @@ TEST(GlbRead, ReadsWhatOthersWrite) {
   const auto read = [&] { return readMesh(folder.write("a.glb", foreign.glb())); };
   const Result<MeshFile> plain = read();
   ASSERT_TRUE(plain) << plain.error().describe();
-  EXPECT_EQ(plain->mesh.positions, kTwo.positions);
+  EXPECT_EQ(plain->mesh.positions, kTwoYUp.positions);
+  EXPECT_EQ(plain->up, MeshUp::y);
+  EXPECT_TRUE(plain->mesh.objects.empty() && plain->mesh.objectOf.empty()) << "one object without a name";
   EXPECT_EQ(plain->mesh.triangles, kTwo.triangles);
   EXPECT_FALSE(plain->frame.origin);
 
@@ -67,7 +69,7 @@ TEST(GlbRead, ReadsWhatOthersWrite) {
   strided.bytes = packed<float>({0, 1, 0, 9, 1, 2, 0, 9, 0, 3, -1, 9, 0, 0, 0});
   const Result<MeshFile> soup = readMesh(folder.write("a.glb", strided.glb()));
   ASSERT_TRUE(soup) << soup.error().describe();
-  EXPECT_EQ(soup->mesh.positions, (std::vector<Vec3>{{0, 0, 1}, {1, 0, 2}, {0, 1, 3}}));
+  EXPECT_EQ(soup->mesh.positions, (std::vector<Vec3>{{0, 1, 0}, {1, 2, 0}, {0, 3, -1}}));
 
   for (const int type : {5121, 5125}) {
     Foreign other;
@@ -95,12 +97,105 @@ TEST(GlbRead, FollowsTheTransformsOfNodes) {
   const Result<MeshFile> file = readMesh(folder.write("a.glb", foreign.glb()));
   ASSERT_TRUE(file) << file.error().describe();
   ASSERT_EQ(file->mesh.positions.size(), 8u);
-  EXPECT_EQ(file->mesh.positions[3], (Vec3{12, -26, 32}));  // glTF 12, 32, 26
-  const Vec3 turned = file->mesh.positions[7];              // -1, 4, -1 turned: x = z, z = -x
+  EXPECT_EQ(file->mesh.positions[3], (Vec3{12, 32, 26}));
+  const Vec3 turned = file->mesh.positions[7];  // -1, 4, -1 turned: x = z, z = -x
   EXPECT_NEAR(turned.x, -1, 1e-12);
-  EXPECT_NEAR(turned.y, -1, 1e-12);
-  EXPECT_NEAR(turned.z, 4, 1e-12);
+  EXPECT_NEAR(turned.y, 4, 1e-12);
+  EXPECT_NEAR(turned.z, 1, 1e-12);
   EXPECT_EQ(file->mesh.triangles[2], (std::array<std::uint32_t, 3>{4, 6, 5}));
+}
+
+TEST(GlbRead, NamesObjectsByTheirNodesElseByTheirMeshes) {
+  const TemporaryFolder folder;
+  Foreign foreign;
+  foreign.json["scenes"][0]["nodes"] = {0, 1, 2};
+  foreign.json["meshes"] = {{{"name", "chair"}, {"primitives", foreign.json["meshes"][0]["primitives"]}},
+                            {{"primitives", foreign.json["meshes"][0]["primitives"]}}};
+  foreign.json["nodes"] = {
+      {{"mesh", 0}, {"name", "left"}, {"translation", {9, 0, 0}}}, {{"mesh", 0}}, {{"mesh", 1}}};
+  const Result<MeshFile> file = readMesh(folder.write("a.glb", foreign.glb()));
+  ASSERT_TRUE(file) << file.error().describe();
+  EXPECT_EQ(file->mesh.objects, (std::vector<std::string>{"left", "chair", ""}));
+  EXPECT_EQ(file->mesh.objectOf, (std::vector<std::uint32_t>{0, 0, 1, 1, 2, 2}));
+  // The last two stand at one place with one accessor: they share vertices. The first is a copy.
+  EXPECT_EQ(file->mesh.positions.size(), 8u);
+  EXPECT_EQ(file->mesh.triangles[4], file->mesh.triangles[2]);
+}
+
+TEST(GlbRead, KeepsTheVerticesWithoutATriangleOfAFileOfItsOwn) {
+  const TemporaryFolder folder;
+  Foreign foreign;
+  foreign.json["accessors"][1]["count"] = 3;
+  EXPECT_EQ(readMesh(folder.write("a.glb", foreign.glb()))->mesh.positions.size(), 3u);
+  foreign.json["asset"]["generator"] = "Arete";
+  EXPECT_EQ(readMesh(folder.write("a.glb", foreign.glb()))->mesh.positions.size(), 4u);
+}
+
+TEST(GlbRead, PlacesInstances) {
+  const TemporaryFolder folder;
+  Foreign foreign;
+  // EXT_mesh_gpu_instancing: translation, rotation by a quarter round y as normalized bytes, scale.
+  foreign.bytes += packed<float>({10, 0, 0, 20, 0, 0}) + packed<std::int8_t>({0, 0, 0, 127, 0, 127, 0, 0}) +
+                   packed<float>({1, 1, 1, 2, 2, 2});
+  for (const auto& [offset, length] : {std::pair{60, 24}, {84, 8}, {92, 24}})
+    foreign.json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", length}});
+  foreign.json["accessors"].push_back(
+      {{"bufferView", 2}, {"componentType", 5126}, {"count", 2}, {"type", "VEC3"}});
+  foreign.json["accessors"].push_back(
+      {{"bufferView", 3}, {"componentType", 5120}, {"normalized", true}, {"count", 2}, {"type", "VEC4"}});
+  foreign.json["accessors"].push_back(
+      {{"bufferView", 4}, {"componentType", 5126}, {"count", 2}, {"type", "VEC3"}});
+  foreign.json["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
+  foreign.json["nodes"][0]["translation"] = {0, 100, 0};
+  foreign.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+      {"TRANSLATION", 2}, {"ROTATION", 3}, {"SCALE", 4}, {"_ID", 2}};
+  const Result<MeshFile> file = readMesh(folder.write("a.glb", foreign.glb()));
+  ASSERT_TRUE(file) << file.error().describe();
+  ASSERT_EQ(file->mesh.positions.size(), 8u);
+  EXPECT_EQ(file->mesh.positions[3], (Vec3{11, 104, -1}));
+  EXPECT_EQ(file->mesh.positions[7], (Vec3{18, 108, 2}));  // half a turn round y: x and z turn, then twice
+  EXPECT_TRUE(contains(joined(file->warnings), "1 attribute of instances is left out"));
+  foreign.json["accessors"][2]["count"] = 1;
+  EXPECT_TRUE(contains(refusal(folder.write("a.glb", foreign.glb())).message, "several counts"));
+}
+
+TEST(GlbRead, NamesWhatItLeavesOut) {
+  const TemporaryFolder folder;
+  Foreign foreign;
+  foreign.json["nodes"][0]["skin"] = 0;
+  foreign.json["nodes"][0]["translation"] = {5, 0, 0};
+  foreign.json["skins"] = {{{"joints", {0}}}};
+  foreign.json["animations"] = {{{"name", "run"}}, {{"name", "jump\x1b"}}};
+  foreign.json["cameras"] = {Json::object()};
+  foreign.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"name", "sun"}}};
+  foreign.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "red"}}, {{"name", "blue"}}};
+  foreign.json["extensionsUsed"] = {"KHR_lights_punctual", "VENDOR_thing", "KHR_materials_unlit"};
+  foreign.json["scenes"].push_back({{"nodes", Json::array()}});
+  foreign.json["meshes"].push_back({{"primitives", Json::array()}});
+  Json& mesh = foreign.json["meshes"][0];
+  mesh["primitives"][0]["targets"] = {{{"POSITION", 0}}};
+  mesh["weights"] = {1};
+  mesh["extras"]["targetNames"] = {"smile"};
+  mesh["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
+  mesh["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 3}});
+  mesh["primitives"][0]["attributes"]["JOINTS_0"] = 0;
+  mesh["primitives"][0]["attributes"]["WEIGHTS_0"] = 0;
+  mesh["primitives"][0]["attributes"]["NORMAL"] = 1;
+  const Result<MeshFile> file = readMesh(folder.write("a.glb", foreign.glb()));
+  ASSERT_TRUE(file) << file.error().describe();
+  EXPECT_EQ(file->mesh.positions[1], (Vec3{7, 4, 0})) << "moved by the target and put by the node";
+  EXPECT_TRUE(file->mesh.vertexAttributes.empty());
+  EXPECT_EQ(file->warnings,
+            (std::vector<std::string>{
+                "2 primitives of points or lines are left out",
+                "the skin of 1 node is left out: its mesh stands where the node places it",
+                "2 animations (\"run\", \"jump?\") are left out",
+                "1 morph target (\"smile\") is left out; those with a weight have moved the vertices",
+                "1 camera is left out", "1 light (\"sun\") is left out",
+                "2 variants of materials (\"red\", \"blue\") are left out", "1 further scene is left out",
+                "1 mesh that the scene does not show is left out",
+                "the attribute \"NORMAL\" is left out: it has 1 components",
+                "1 extension (\"VENDOR_thing\") is left out"}));
 }
 
 TEST(GlbRead, GivesPrimitivesThatShareAnAccessorTheVerticesThatTheyUse) {
@@ -168,13 +263,12 @@ TEST(GlbRead, AppliesMorphTargetsByTheirWeights) {
   foreign.json["meshes"][0]["primitives"][0]["targets"] = {
       {{"POSITION", 2}}, {{"POSITION", 3}}, {{"NORMAL", 3}}};
   const auto positions = [&] { return readMesh(folder.write("a.glb", foreign.glb()))->mesh.positions; };
-  EXPECT_EQ(positions(), kTwo.positions);  // without weights they do not move
+  EXPECT_EQ(positions(), kTwoYUp.positions);  // without weights they do not move
   foreign.json["meshes"][0]["weights"] = {0.5, 0, 1};
-  // In glTF 1.5, 2, 0; 0, 7, -1; 1, 4, -3.
-  EXPECT_EQ(positions(), (std::vector<Vec3>{{0, 0, 1}, {1.5, 0, 2}, {0, 1, 7}, {1, 3, 4}}));
+  EXPECT_EQ(positions(), (std::vector<Vec3>{{0, 1, 0}, {1.5, 2, 0}, {0, 7, -1}, {1, 4, -3}}));
   // The weights of the node come before those of the mesh.
   foreign.json["nodes"][0]["weights"] = {0, 1, 0};
-  EXPECT_EQ(positions()[0], (Vec3{9, -9, 10}));
+  EXPECT_EQ(positions()[0], (Vec3{9, 10, 9}));
   // Two primitives with one accessor and other targets are two sets of vertices.
   foreign.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"indices", 1}});
   EXPECT_EQ(positions().size(), 8u);
@@ -190,9 +284,10 @@ TEST(GlbRead, NamesWhatItDoesNotKnow) {
     EXPECT_NE(error.message.find(said), std::string::npos) << error.message;
   };
   using enum ErrorCode;
-  expect(unsupported, "KHR_draco_mesh_compression",
-         [](Foreign& f) { f.json["extensionsRequired"] = {"KHR_draco_mesh_compression"}; });
-  expect(unsupported, "sparse", [](Foreign& f) { f.json["accessors"][0]["sparse"] = Json::object(); });
+  expect(unsupported, "EXT_texture_video",
+         [](Foreign& f) { f.json["extensionsRequired"] = {"EXT_texture_video"}; });
+  expect(corrupt, "\"extensionsRequired\"", [](Foreign& f) { f.json["extensionsRequired"] = 1; });
+  expect(corrupt, "\"count\"", [](Foreign& f) { f.json["accessors"][0]["sparse"] = Json::object(); });
   expect(notFound, "\"data.bin\"", [](Foreign& f) { f.json["buffers"][0]["uri"] = "data.bin"; });
   expect(corrupt, "3 weights", [](Foreign& f) {
     f.json["meshes"][0]["weights"] = {1, 0, 0};
@@ -206,9 +301,12 @@ TEST(GlbRead, NamesWhatItDoesNotKnow) {
   });
   expect(corrupt, "weights", [](Foreign& f) { f.json["nodes"][0]["weights"] = {"a"}; });
   expect(corrupt, "targets", [](Foreign& f) { f.json["meshes"][0]["primitives"][0]["targets"] = 1; });
-  expect(unsupported, "mode 5", [](Foreign& f) { f.json["meshes"][0]["primitives"][0]["mode"] = 5; });
-  expect(unsupported, "32-bit floats", [](Foreign& f) { f.json["accessors"][0]["componentType"] = 5122; });
-  expect(unsupported, "skin", [](Foreign& f) { f.json["nodes"][0]["skin"] = 0; });
+  expect(corrupt, "mode 7", [](Foreign& f) { f.json["meshes"][0]["primitives"][0]["mode"] = 7; });
+  expect(unsupported, "1 primitive of points or lines is left out",
+         [](Foreign& f) { f.json["meshes"][0]["primitives"][0]["mode"] = 0; });
+  expect(unsupported, "1 primitive without positions is left out",
+         [](Foreign& f) { f.json["meshes"][0]["primitives"][0]["attributes"] = Json::object(); });
+  expect(corrupt, "component type 5127", [](Foreign& f) { f.json["accessors"][0]["componentType"] = 5127; });
   expect(unsupported, "no triangle", [](Foreign& f) { f.json["nodes"][0].erase("mesh"); });
   expect(corrupt, "names vertex 9 of 4", [](Foreign& f) { f.bytes[48] = 9; });
   expect(corrupt, "two parents", [](Foreign& f) { f.json["nodes"][0]["children"] = {0}; });
@@ -263,6 +361,28 @@ TEST(GlbRead, RefusesAFileCutAtAnyByteAndSurvivesDamage) {
 
 TEST(GlbRead, DoesNotMultiplyWithoutEnd) {
   const TemporaryFolder folder;
+  {
+    // Zeros without bytes, one strip of them without triangles, and as many instances as a number can say.
+    Assembled many = oneTriangle();
+    many.json["accessors"].push_back({{"componentType", 5126}, {"count", 4294967295U}, {"type", "VEC3"}});
+    many.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["SCALE"] = 1;
+    EXPECT_EQ(refusal(folder.write("a.glb", many.glb())).code, ErrorCode::unsupported);
+    Assembled zeros = oneTriangle();
+    zeros.json["accessors"][0] = {{"componentType", 5126}, {"count", 4294967292U}, {"type", "VEC3"}};
+    EXPECT_EQ(refusal(folder.write("a.glb", zeros.glb())).code, ErrorCode::unsupported);
+    zeros.primitive()["mode"] = 5;
+    EXPECT_EQ(refusal(folder.write("a.glb", zeros.glb())).code, ErrorCode::unsupported);
+    // Sparse zeros.
+    zeros.json["accessors"][0]["sparse"] = {{"count", 1},
+                                            {"indices", {{"bufferView", 0}, {"componentType", 5125}}},
+                                            {"values", {{"bufferView", 0}}}};
+    EXPECT_EQ(refusal(folder.write("a.glb", zeros.glb())).code, ErrorCode::unsupported);
+    // One accessor as ten thousand attributes.
+    Assembled attributes;
+    attributes.attributes()["POSITION"] = attributes.add(std::vector<float>(3 * 99'999, 1), "VEC3");
+    for (int a = 0; a < 10'000; ++a) attributes.attributes()["_" + std::to_string(a)] = 0;
+    EXPECT_EQ(refusal(folder.write("a.glb", attributes.glb())).code, ErrorCode::unsupported);
+  }
   Foreign foreign;
   Json nodes = Json::array(), numbers = Json::array();
   for (int n = 0; n < 100'000; ++n) {
