@@ -241,7 +241,9 @@ TEST(RoundTrips, EveryFormatGoesToEveryOther) {
       const auto after = readMesh(b);
       ASSERT_TRUE(after) << after.error().describe();
       expectArrived(before->mesh, after->mesh, joined(converted->lost));
-      if (std::string_view(first) == second) EXPECT_TRUE(converted->lost.empty()) << joined(converted->lost);
+      if (std::string_view(first) == second) {
+        EXPECT_TRUE(converted->lost.empty()) << joined(converted->lost);
+      }
     }
 }
 
