@@ -14,11 +14,12 @@ namespace arete {
 
 /// The materials of a Wavefront MTL.
 ///
-/// Kd is the base colour, as linear numbers; d, or without it 1 - Tr, is alpha, which blends where it is
-/// below 1. map_Kd, norm (or map_Kn), map_Ke are textures of the roles that glTF has too, and so is the pair
-/// "map_Pr -imfchan g" and "map_Pm -imfchan b" of one picture (metallicRoughness). Every other statement that
-/// names a picture is a texture of the role of its keyword ("map_Bump"). Options of a texture are kept as
-/// Material::verbatim["mtl:<role>"], all other statements, line by line, as verbatim["mtl"].
+/// Kd is the base colour, as linear numbers; d, or without it 1 - Tr (but for "Tr 1", which some programs
+/// write of what is opaque), is alpha, which blends where it is below 1. map_Kd, norm (or map_Kn), map_Ke are
+/// textures of the roles that glTF has too, and so is the pair "map_Pr -imfchan g" and "map_Pm -imfchan b" of
+/// one picture (metallicRoughness). Every other statement that names a picture is a texture of the role of
+/// its keyword ("map_Bump"). Options of a texture are kept as Material::verbatim["mtl:<role>"], all other
+/// statements, line by line, as verbatim["mtl"].
 struct MtlMaterials {
   std::vector<Material> materials;    ///< in their order; of several of one name the first
   std::vector<std::string> warnings;  ///< each a sentence about the file

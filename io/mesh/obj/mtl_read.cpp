@@ -231,17 +231,25 @@ class MtlReader {
     textures.erase(metallic);
   }
 
+  /// Some programs write Tr for d, and "Tr 1" of what is opaque, as MeshLab did: no exporter has a material
+  /// that cannot be seen. So Tr counts where there is no d and it leaves something to see.
+  void takeAlpha() {
+    if (dissolve_)
+      material_->baseColor[3] = *dissolve_;
+    else if (transparency_ && *transparency_ < 1)
+      material_->baseColor[3] = 1 - *transparency_;
+    if (transparency_ && material_->baseColor[3] != 1 - *transparency_)
+      keep(fmt::format("Tr {}", *transparency_));
+  }
+
   void endMaterial() {
     if (material_ && names_.insert(material_->name).second) {
-      if (dissolve_ || transparency_) material_->baseColor[3] = dissolve_ ? *dissolve_ : 1 - *transparency_;
-      // Some programs write Tr for d, some for 1 - d; beside d it says nothing that is certain.
-      if (dissolve_ && transparency_ && *transparency_ != 1 - *dissolve_)
-        keep(fmt::format("Tr {}", *transparency_));
+      takeAlpha();
       joinTextures();
       const bool hasAlphaMap = std::ranges::any_of(
           material_->textures, [](const TextureUse& use) { return text::lowered(use.role) == "map_d"; });
       if (material_->baseColor[3] < 1 || hasAlphaMap) material_->alphaMode = "BLEND";
-      material_->verbatim["mtl"] = std::move(kept_);
+      if (!kept_.empty()) material_->verbatim["mtl"] = std::move(kept_);
       result_.materials.push_back(std::move(*material_));
     } else if (material_ && doubles_++ == 0) {
       firstDouble_ = material_->name;

@@ -125,7 +125,7 @@ class MtlWriter {
     if (c[3] != 1) result_.text += fmt::format("d {}\n", c[3]);
     if (const std::string* const kept = verbatimOf(material, "mtl")) {
       result_.text += *kept + "\n";
-    } else if (!material.verbatim.contains("mtl")) {
+    } else {
       result_.text += GltfStatements(material, losses_).text();
     }
     std::map<std::string, int> uses;

@@ -65,9 +65,9 @@ class StlTriangles {
     const Vec3 a{c[1].x - c[0].x, c[1].y - c[0].y, c[1].z - c[0].z};
     const Vec3 b{c[2].x - c[0].x, c[2].y - c[0].y, c[2].z - c[0].z};
     const Vec3 m{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-    const double along = m.x * n.x + m.y * n.y + m.z * n.z, across = std::hypot(m.x, m.y, m.z);
+    const double along = m.x * n.x + m.y * n.y + m.z * n.z;
     // Within some degrees of the plane a normal is noise.
-    if (along < -0.1 * across) ++against_;
+    if (along < 0 && along * along > 0.01 * (m.x * m.x + m.y * m.y + m.z * m.z)) ++against_;
   }
 
   TriangleMesh mesh_;

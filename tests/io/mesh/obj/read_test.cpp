@@ -115,14 +115,25 @@ TEST_F(ObjRead, ReadsTheMeshesOfOthers) {
   struct Known {
     const char* name;
     std::size_t vertices, triangles;
+    std::size_t wedges;  // distinct corners by value, counted by a script
   };
-  for (const Known& known : {Known{"fuze.obj", 502, 1000}, Known{"pirate.obj", 2889, 5010},
-                             Known{"self_intersectA.obj", 8582, 17160}, Known{"spot.obj", 2930, 5856}}) {
+  for (const Known& known :
+       {Known{"fuze.obj", 502, 1000, 664}, Known{"pirate.obj", 2889, 5010, 3156},
+        Known{"self_intersectA.obj", 8582, 17160, 0}, Known{"spot.obj", 2930, 5856, 3225}}) {
     const Result<MeshFile> file = readMesh(meshes / known.name);
     ASSERT_TRUE(file) << file.error().describe();
     EXPECT_EQ(file->mesh.positions.size(), known.vertices) << known.name;
     EXPECT_EQ(file->mesh.triangles.size(), known.triangles) << known.name;
     EXPECT_TRUE(file->mesh.validate());
+    EXPECT_EQ(file->mesh.wedgeCount, known.wedges) << known.name;
+    ASSERT_TRUE(writeMesh(file->mesh, folder_ / "copy.obj"));
+    const Result<MeshFile> copy = readMesh(folder_ / "copy.obj");
+    ASSERT_TRUE(copy) << copy.error().describe();
+    SurfaceMesh expected = file->mesh;
+    expected.faceOf.clear();  // triangles are the faces now
+    EXPECT_EQ(copy->mesh.wedgeAttributes, expected.wedgeAttributes) << known.name;
+    EXPECT_EQ(copy->mesh.materials, expected.materials) << known.name;
+    EXPECT_EQ(copy->mesh, expected) << known.name;
     ASSERT_TRUE(writeMesh(file->mesh, folder_ / "copy.ply"));
     expectSameBits(readMesh(folder_ / "copy.ply")->mesh, file->mesh);
   }

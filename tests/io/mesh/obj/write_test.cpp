@@ -89,7 +89,6 @@ TEST_F(ObjWrite, EverythingThatAnObjCanHoldComesBack) {
   mesh.materials[1].alphaMode = "BLEND";
   mesh.materials[0].textures = {{"baseColor", "maps/red wood.png"}};
   mesh.materials[0].verbatim = {{"mtl", "Ka 1 1 1\nNs 10"}, {"mtl:baseColor", "-s 2 2 2"}};
-  mesh.materials[1].verbatim = {{"mtl", ""}};
   mesh.materialOf = {0, 1, kNone};
   fs::create_directories(folder_ / "maps");
   put("maps/red wood.png", "pixels");
