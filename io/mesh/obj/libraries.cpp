@@ -21,6 +21,8 @@ constexpr std::size_t kMostLibraries = 256;
 /// Of a line of more words, each is a file.
 constexpr std::size_t kMostWords = 16;
 constexpr std::size_t kMostWarnings = 8;
+/// A material takes many times the bytes of its line.
+constexpr std::size_t kMostMaterials = 1 << 20;
 
 /// Adds a warning unless there are many of its kind.
 class Warnings {
@@ -118,6 +120,10 @@ std::uint32_t ObjMaterials::use(std::string_view name) {
   if (name.empty()) return MeshAttributes::kNone;
   const auto known = numbers_.find(name);
   if (known != numbers_.end()) return known->second;
+  if (names_.size() == kMostMaterials) {
+    ++tooMany_;
+    return MeshAttributes::kNone;
+  }
   const auto number = static_cast<std::uint32_t>(names_.size());
   numbers_.emplace(name, number);
   names_.emplace_back(name);
@@ -128,6 +134,9 @@ Status ObjMaterials::finish(MeshFile& file, const std::filesystem::path& folder,
   std::vector<Material>& materials = file.mesh.materials;
   Warnings warnings(file.warnings);
   if (libraries_.size() > kMostLibraries) warnings.add("it names too many libraries of materials");
+  if (tooMany_ > 0)
+    warnings.add(fmt::format("it names more than {} materials; {} times a further one is left out",
+                             kMostMaterials, tooMany_));
   const FilesBeside files(folder);
   std::set<std::string> isRead;
   std::map<std::string, std::uint32_t> known;

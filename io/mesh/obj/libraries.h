@@ -19,7 +19,7 @@ class ObjMaterials {
  public:
   /// What "mtllib" states: one file or several, with blanks between them or in them.
   void addLibrary(std::string_view files);
-  /// The number of the material that "usemtl" states; kNone: the name is empty.
+  /// The number of the material that "usemtl" states; kNone: the name is empty, or one too many.
   std::uint32_t use(std::string_view name);
 
   /// Reads the libraries and fills mesh.materials: those of the libraries in their order, then those that no
@@ -36,6 +36,7 @@ class ObjMaterials {
   std::vector<std::string> libraries_;  // what the lines state, each once
   std::map<std::string, std::uint32_t, std::less<>> numbers_;
   std::vector<std::string> names_;  // by number
+  std::uint64_t tooMany_ = 0;
 };
 
 }  // namespace arete

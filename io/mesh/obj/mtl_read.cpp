@@ -70,6 +70,10 @@ std::string_view takeOptions(std::string_view& text, bool isBeforeName) {
 
 /// There are a dozen of them.
 constexpr int kMostOptions = 16;
+/// MTL knows some twenty; further ones are kept as lines.
+constexpr std::size_t kMostTextures = 64;
+/// A material takes many times the bytes of its line.
+constexpr std::size_t kMostMaterials = 1 << 20;
 
 struct TextureStatement {
   std::string picture, options;
@@ -124,6 +128,9 @@ class MtlReader {
       result_.warnings.push_back(fmt::format(
           "{} of its materials have a name that an earlier one has, and are left out (the first is {})",
           doubles_, text::quotedToken(firstDouble_)));
+    if (tooMany_ > 0)
+      result_.warnings.push_back(
+          fmt::format("{} of its materials, those beyond {}, are left out", tooMany_, kMostMaterials));
     if (replaced_ > 0)
       result_.warnings.push_back(
           fmt::format("{} textures are stated twice for one material; the later one stays", replaced_));
@@ -148,7 +155,8 @@ class MtlReader {
     if ((keyword == "Kd" && takeBaseColor(rest)) || (keyword == "d" && takeNumber(rest, dissolve_)) ||
         (keyword == "Tr" && takeNumber(rest, transparency_)))
       return;
-    if (const std::string role = mtlTextureRole(keyword); !role.empty())
+    const std::string role = mtlTextureRole(keyword);
+    if (!role.empty() && material_->textures.size() < kMostTextures)
       takeTexture(role, rest);
     else
       keep(line);
@@ -243,7 +251,11 @@ class MtlReader {
   }
 
   void endMaterial() {
-    if (material_ && names_.insert(material_->name).second) {
+    const bool isTooMany = result_.materials.size() == kMostMaterials;
+    tooMany_ += material_ && isTooMany;
+    if (isTooMany) {
+      // Left out.
+    } else if (material_ && names_.insert(material_->name).second) {
       takeAlpha();
       joinTextures();
       const bool hasAlphaMap = std::ranges::any_of(
@@ -265,7 +277,7 @@ class MtlReader {
   std::optional<double> dissolve_, transparency_;
   std::string kept_;
   std::set<std::string> names_;
-  std::uint64_t strays_ = 0, doubles_ = 0, replaced_ = 0;
+  std::uint64_t strays_ = 0, doubles_ = 0, replaced_ = 0, tooMany_ = 0;
   std::string firstDouble_;
 };
 

@@ -86,6 +86,20 @@ TEST(Mtl, FindsThePictureAmongTheOptions) {
   }
 }
 
+TEST(Mtl, ManyStatementsTakeLinearTime) {
+  std::string lines, names = "newmtl a\n", options = "bump a";
+  for (int i = 0; i < 200'000; ++i) {
+    lines += "refl a\n";
+    names += "map_" + std::to_string(i) + " b\n";
+    options += " -o 1";
+  }
+  const Material material = only(lines);
+  EXPECT_EQ(material.textures.size(), 64u);
+  EXPECT_EQ(verbatim(material, "mtl").size(), (200'000 - 64) * 7 - 1);
+  EXPECT_EQ(readMtl(names).materials[0].textures.size(), 64u);
+  EXPECT_EQ(only(options + " x").textures.size(), 1u);
+}
+
 TEST(Mtl, NamesAreTheRestOfTheLineWithoutBlanksAtTheEnds) {
   // tinyobjloader #356, javagl/Obj #5, fast_obj #43
   const MtlMaterials read = readMtl(
