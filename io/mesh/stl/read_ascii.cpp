@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <utility>
 
 #include "io/file/text_scan.h"
@@ -14,6 +15,17 @@
 
 namespace arete {
 namespace {
+
+/// Whether a number has more digits than any float32 needs.
+bool isFinerThanFloat32(std::string_view number) {
+  constexpr int kMostDigits = std::numeric_limits<float>::max_digits10;
+  int digits = 0;
+  for (const char c : number) {
+    if (c == 'e' || c == 'E') break;
+    if ((c > '0' && c <= '9') || (c == '0' && digits > 0)) ++digits;
+  }
+  return digits > kMostDigits;
+}
 
 class AsciiStlReader {
  public:
@@ -41,6 +53,7 @@ class AsciiStlReader {
     }
     triangles_.finish(result_, {});
     result_.frame.coordinates = "text";
+    if (isFine_) result_.frame.rounding = {};
     return std::move(result_);
   }
 
@@ -136,6 +149,7 @@ class AsciiStlReader {
         if (word.empty() || !text::scanNumber(from, word.data() + word.size(), *value))
           return corrupt(word, "where a number should be");
         if (!std::isfinite(*value)) return corrupt(word, "where a finite number should be");
+        isFine_ = isFine_ || isFinerThanFloat32(word);
       }
     }
     for (const std::string_view what : {"loop", "facet"})
@@ -151,6 +165,7 @@ class AsciiStlReader {
   std::string path_;
   const RunContext& context_;
   StlTriangles triangles_;
+  bool isFine_ = false;  // some program has written doubles
   MeshFile result_;
 };
 

@@ -11,6 +11,7 @@ namespace arete {
 /// triangles, the bytes at its start: some binary files begin with "solid". Such bytes are left out with a
 /// warning. Every triangle has three vertices of its own; readMesh() joins them.
 ///
+/// Text counts as rounded to float32, unless a coordinate has more digits than that needs.
 /// Each solid of an ASCII file is an object, unless there is one only and it has no name. A binary file has
 /// one, which has a name where Arete wrote it: other headers say who wrote the file, not what.
 ///

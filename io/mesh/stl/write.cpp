@@ -160,14 +160,6 @@ class StlWriter {
                 .objects = isNameHeld_});
     if (isColorRounded_) report_.lost.push_back("colours of faces finer than 5 bits");
     if (isAlphaLost_) report_.lost.push_back("alpha of the colours of faces");
-    if (options_.up == MeshUp::z || options_.origin) return;  // reading it back says how far these moved
-    double largest = 0;
-    for (const Vec3& p : shape_.positions)
-      for (const double value : {p.x, p.y, p.z})
-        largest = std::max(largest, std::abs(static_cast<double>(static_cast<float>(value)) - value));
-    if (largest > 0)
-      report_.lost.push_back(
-          fmt::format("coordinates finer than 32-bit floats (they move by up to {:.2g})", largest));
   }
 
   Status writeAscii() {
