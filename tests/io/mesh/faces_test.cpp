@@ -70,7 +70,7 @@ std::string obj(const Faces& faces) {
     for (const int v : face) list += fmt::format(" {}//1", v + 1);
     list += "\n";
   }
-  return list + vertices;  // faces may come first
+  return list + vertices + "vn 0 0 1\n";  // faces may come first
 }
 
 double areaOf(const TriangleMesh& mesh, std::size_t from, std::size_t count) {
