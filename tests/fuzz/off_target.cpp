@@ -5,6 +5,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const arete::fuzz::MemoryFile file;
   file.set({data, size});
-  arete::fuzz::useMesh(arete::readOff(file.path(), arete::fuzz::oneThread()));
+  const auto mesh = arete::readOff(file.path(), arete::fuzz::oneThread());
+  arete::fuzz::require(!mesh || mesh->mesh.validate(), "the attributes of a mesh fit it");
+  arete::fuzz::useMesh(mesh);
   return 0;
 }

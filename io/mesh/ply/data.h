@@ -303,12 +303,16 @@ class PlyReader {
   Status readCorners(const PlyElement& element, const PlyProperty& property, std::uint64_t record,
                      std::uint64_t count) {
     indices_.clear();
-    for (std::uint64_t i = 0; i < count; ++i) {
-      double value = 0;
-      if (!scalars_.next(property.type, value)) return corruptRecord(element, record, noValue(property));
-      if (!isVertex(value)) return corruptRecord(element, record, noVertex(value));
-      indices_.push_back(static_cast<std::uint32_t>(value));
-    }
+    double wrong = 0;
+    bool isWrong = false;
+    const bool isWhole = scalars_.each(property.type, count, [&](double value) {
+      isWrong = !isVertex(value);
+      if (isWrong) wrong = value;
+      if (!isWrong) indices_.push_back(static_cast<std::uint32_t>(value));
+      return !isWrong;
+    });
+    if (isWrong) return corruptRecord(element, record, noVertex(wrong));
+    if (!isWhole) return corruptRecord(element, record, noValue(property));
     return {};
   }
 
@@ -354,9 +358,8 @@ class PlyReader {
 
   Status skipValues(const PlyElement& element, const PlyProperty& property, std::uint64_t record,
                     std::uint64_t count) {
-    double value = 0;
-    for (std::uint64_t i = 0; i < count; ++i)
-      if (!scalars_.next(property.type, value)) return corruptRecord(element, record, noValue(property));
+    if (!scalars_.each(property.type, count, [](double) { return true; }))
+      return corruptRecord(element, record, noValue(property));
     return {};
   }
 

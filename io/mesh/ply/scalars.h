@@ -11,11 +11,35 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <type_traits>
 
 #include "io/file/text_scan.h"
 #include "io/mesh/ply/header.h"
 
 namespace arete {
+
+/// Calls visit(T()) with the type of a scalar.
+template <class Visit>
+decltype(auto) withPlyType(PlyType type, const Visit& visit) {
+  switch (type) {
+    case PlyType::int8:
+      return visit(std::int8_t());
+    case PlyType::uint8:
+      return visit(std::uint8_t());
+    case PlyType::int16:
+      return visit(std::int16_t());
+    case PlyType::uint16:
+      return visit(std::uint16_t());
+    case PlyType::int32:
+      return visit(std::int32_t());
+    case PlyType::uint32:
+      return visit(std::uint32_t());
+    case PlyType::float32:
+      return visit(float());
+    default:
+      return visit(double());
+  }
+}
 
 /// The scalars of the data of a PLY, one after the other, in its three encodings. `next` gives a number as a
 /// double, which holds all types exactly; `copy` puts it to `to` as a number of its type, to the bit. Both
@@ -31,36 +55,23 @@ struct BinaryPlyScalars {
   static std::size_t leastSize(PlyType type) { return sizeOf(type); }
 
   bool next(PlyType type, double& value) {
-    const std::size_t size = sizeOf(type);
-    if (static_cast<std::size_t>(end - at) < size) return false;
-    switch (type) {
-      case PlyType::int8:
-        value = scalar<std::int8_t>();
-        break;
-      case PlyType::uint8:
-        value = scalar<std::uint8_t>();
-        break;
-      case PlyType::int16:
-        value = scalar<std::int16_t>();
-        break;
-      case PlyType::uint16:
-        value = scalar<std::uint16_t>();
-        break;
-      case PlyType::int32:
-        value = scalar<std::int32_t>();
-        break;
-      case PlyType::uint32:
-        value = scalar<std::uint32_t>();
-        break;
-      case PlyType::float32:
-        value = scalar<float>();
-        break;
-      case PlyType::float64:
-        value = scalar<double>();
-        break;
-    }
-    at += size;
-    return true;
+    return withPlyType(type, [&](auto zero) {
+      if (static_cast<std::size_t>(end - at) < sizeof zero) return false;
+      value = scalarAt<decltype(zero)>(at);
+      at += sizeof zero;
+      return true;
+    });
+  }
+
+  /// Calls take(number) for each of `count` numbers, as long as it is true.
+  template <class Take>
+  bool each(PlyType type, std::uint64_t count, const Take& take) {
+    if (count > static_cast<std::size_t>(end - at) / sizeOf(type)) return false;
+    return withPlyType(type, [&](auto zero) {
+      for (; count > 0; --count, at += sizeof zero)
+        if (!take(scalarAt<decltype(zero)>(at))) return false;
+      return true;
+    });
   }
 
   bool copy(PlyType type, std::byte* to) {
@@ -74,9 +85,9 @@ struct BinaryPlyScalars {
 
  private:
   template <class T>
-  double scalar() const {
+  static double scalarAt(const char* from) {
     std::array<char, sizeof(T)> bytes;
-    std::memcpy(bytes.data(), at, sizeof(T));
+    std::memcpy(bytes.data(), from, sizeof(T));
     if constexpr (kSwap) std::ranges::reverse(bytes);
     return static_cast<double>(std::bit_cast<T>(bytes));
   }
@@ -97,6 +108,13 @@ struct TextPlyScalars {
     return at < end && text::scanNumber(at, end, value);
   }
 
+  template <class Take>
+  bool each(PlyType type, std::uint64_t count, const Take& take) {
+    for (double value = 0; count > 0; --count)
+      if (!next(type, value) || !take(value)) return false;
+    return true;
+  }
+
   bool copy(PlyType type, std::byte* to) {
     if (type == PlyType::float32) {
       float value = 0;
@@ -106,29 +124,7 @@ struct TextPlyScalars {
     }
     double value = 0;
     if (!next(type, value)) return false;
-    switch (type) {
-      case PlyType::int8:
-        put<std::int8_t>(value, to);
-        break;
-      case PlyType::uint8:
-        put<std::uint8_t>(value, to);
-        break;
-      case PlyType::int16:
-        put<std::int16_t>(value, to);
-        break;
-      case PlyType::uint16:
-        put<std::uint16_t>(value, to);
-        break;
-      case PlyType::int32:
-        put<std::int32_t>(value, to);
-        break;
-      case PlyType::uint32:
-        put<std::uint32_t>(value, to);
-        break;
-      default:
-        std::memcpy(to, &value, sizeof value);
-        break;
-    }
+    withPlyType(type, [&](auto zero) { put<decltype(zero)>(value, to); });
     return true;
   }
 
@@ -148,6 +144,11 @@ struct TextPlyScalars {
   /// A number that the type does not hold becomes the nearest that it holds.
   template <class T>
   void put(double value, std::byte* to) {
+    if constexpr (std::is_floating_point_v<T>) {
+      const auto number = static_cast<T>(value);
+      std::memcpy(to, &number, sizeof number);
+      return;
+    }
     const double held = std::isnan(value)
                             ? 0
                             : std::clamp(std::round(value), double(std::numeric_limits<T>::min()),
