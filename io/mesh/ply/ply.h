@@ -27,6 +27,10 @@ Result<MeshFile> readPly(const std::filesystem::path& path, const RunContext& co
 /// options.triangleErrors each face has a float "error"; with vertexQualities and vertexColors each vertex
 /// has a float "quality" and uchar red, green, blue. Exact to the bit.
 ///
+/// Attributes keep their types (io/mesh/ply/columns.h). Materials keep the picture of their base color,
+/// placed beside the file, by "comment TextureFile" and "texnumber". Objects, groups and the rest of
+/// materials are lost.
+///
 /// Errors: those of writeMesh().
 Result<MeshWriteReport> writePly(MeshRef mesh, const std::filesystem::path& path,
                                  const MeshWriteOptions& options = {}, const RunContext& context = {});

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The header as text, then one record per vertex and per face, each filled in place in the writer's buffer.
+// The header as text, then one record per vertex and per face, each filled in place in the writer's buffer,
+// or in one of its own if it is larger than that.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "io/file/file_writer.h"
 #include "io/file/text_scan.h"
 #include "io/file/write_progress.h"
 #include "io/mesh/losses.h"
+#include "io/mesh/ply/columns.h"
 #include "io/mesh/ply/ply.h"
+#include "io/mesh/ply/textures.h"
 
 namespace arete {
 
@@ -36,20 +42,98 @@ std::string commentLines(std::string_view key, std::string_view more, std::strin
   return lines;
 }
 
-std::string headerOf(const TriangleMesh& mesh, const MeshWriteOptions& options) {
+/// Lists of corners are three times as long as a vector; a length of one byte is what every program reads.
+bool hasShortLength(const PlyColumn& corners) {
+  return corners.attribute->components * 3 <= std::numeric_limits<std::uint8_t>::max();
+}
+
+std::string propertiesOf(const std::vector<PlyColumn>& columns, bool areCorners = false) {
+  std::string lines;
+  for (const PlyColumn& column : columns)
+    for (const std::string& name : column.properties)
+      lines += fmt::format("property {}{} {}\n",
+                           !column.isList                          ? ""
+                           : !areCorners || hasShortLength(column) ? "list uchar "
+                                                                   : "list uint ",
+                           plyTypeName(column.attribute->type), name);
+  return lines;
+}
+
+std::string headerOf(const TriangleMesh& mesh, const MeshWriteOptions& options, const PlyColumns& columns,
+                     const PlyTextures& textures) {
   std::string header = "ply\nformat binary_little_endian 1.0\ncomment generator arete\n";
   if (!options.crsWkt.empty()) header += commentLines("crs ", "crs+ ", text::onOneLine(options.crsWkt));
   if (!options.verticalUnit.empty())
     header += fmt::format("comment vertical_unit {}\n", text::onOneLine(options.verticalUnit));
   for (const std::string& note : options.notes) header += commentLines("", "", text::onOneLine(note));
+  for (const PlyNote& note : columns.notes) header += plyComment(note);
+  for (const std::string& picture : textures.pictures)
+    header += fmt::format("comment TextureFile {}\n", picture);
   header += fmt::format("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
                         mesh.positions.size());
   if (!options.vertexQualities.empty()) header += "property float quality\n";
   if (!options.vertexColors.empty())
     header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  header += propertiesOf(columns.vertices);
   header += fmt::format("element face {}\nproperty list uchar int vertex_indices\n", mesh.triangles.size());
   if (!options.triangleErrors.empty()) header += "property float error\n";
+  header += propertiesOf(columns.corners, true);
+  if (!textures.numbers.empty()) header += "property int texnumber\n";
+  header += propertiesOf(columns.faces);
   return header + "end_header\n";
+}
+
+char* putElement(char* to, const PlyColumn& column, std::size_t element) {
+  const auto bytes = column.attribute->element(element);
+  if (column.isList) to = putBytes(to, column.attribute->components);
+  std::memcpy(to, bytes.data(), bytes.size());
+  return to + bytes.size();
+}
+
+char* putCorners(char* to, const PlyColumn& column, const std::array<std::uint32_t, 3>& wedges) {
+  const std::uint32_t length = column.attribute->components * 3u;
+  to = hasShortLength(column) ? putBytes(to, static_cast<std::uint8_t>(length)) : putBytes(to, length);
+  for (const std::uint32_t wedge : wedges) {
+    const auto bytes = column.attribute->element(wedge);
+    std::memcpy(to, bytes.data(), bytes.size());
+    to += bytes.size();
+  }
+  return to;
+}
+
+std::size_t sizeOfRecord(const std::vector<PlyColumn>& columns) {
+  std::size_t size = 0;
+  for (const PlyColumn& column : columns) size += (column.isList ? 1 : 0) + column.attribute->elementBytes();
+  return size;
+}
+
+/// Hands out room for records of one size.
+class Records {
+ public:
+  Records(FileWriter& file, std::size_t size) : file_(file), size_(size) {
+    if (size > FileWriter::kCapacity) large_.resize(size);
+  }
+  char* begin() { return large_.empty() ? file_.reserve(size_) : large_.data(); }
+  void end() {
+    if (!large_.empty()) file_.write({large_.data(), large_.size()});
+  }
+
+ private:
+  FileWriter& file_;
+  std::size_t size_;
+  std::vector<char> large_;
+};
+
+/// What does not fit the mesh; empty: nothing.
+std::string misfitOf(const TriangleMesh& mesh, const MeshWriteOptions& options) {
+  if (mesh.positions.size() > std::size_t(std::numeric_limits<std::int32_t>::max()))
+    return fmt::format("{} vertices are more than a PLY of int indices can name", mesh.positions.size());
+  if (!options.triangleErrors.empty() && options.triangleErrors.size() != mesh.triangles.size())
+    return fmt::format("{} errors for {} triangles", options.triangleErrors.size(), mesh.triangles.size());
+  for (const std::size_t values : {options.vertexQualities.size(), options.vertexColors.size()})
+    if (values != 0 && values != mesh.positions.size())
+      return fmt::format("{} values for {} vertices", values, mesh.positions.size());
+  return {};
 }
 
 }  // namespace
@@ -57,45 +141,60 @@ std::string headerOf(const TriangleMesh& mesh, const MeshWriteOptions& options) 
 Result<MeshWriteReport> writePly(MeshRef written, const std::filesystem::path& path,
                                  const MeshWriteOptions& options, const RunContext& context) {
   const TriangleMesh& mesh = written.shape;
-  const auto refuse = [&](std::string message) {
-    return failure(ErrorCode::invalidData, std::move(message), path.string());
-  };
-  if (const Status ok = written.validate(); !ok) return refuse(ok.error().message);
-  if (mesh.positions.size() > std::size_t(std::numeric_limits<std::int32_t>::max()))
-    return refuse(
-        fmt::format("{} vertices are more than a PLY of int indices can name", mesh.positions.size()));
-  if (!options.triangleErrors.empty() && options.triangleErrors.size() != mesh.triangles.size())
-    return refuse(
-        fmt::format("{} errors for {} triangles", options.triangleErrors.size(), mesh.triangles.size()));
-  for (const std::size_t values : {options.vertexQualities.size(), options.vertexColors.size()})
-    if (values != 0 && values != mesh.positions.size())
-      return refuse(fmt::format("{} values for {} vertices", values, mesh.positions.size()));
+  if (const Status ok = written.validate(); !ok)
+    return failure(ErrorCode::invalidData, ok.error().message, path.string());
+  if (std::string misfit = misfitOf(mesh, options); !misfit.empty())
+    return failure(ErrorCode::invalidData, std::move(misfit), path.string());
   Result<FileWriter> file = FileWriter::create(path);
   if (!file) return tl::unexpected(file.error());
+  const Result<PlyTextures> textures = plyTextures(written, path, options);
+  if (!textures) return tl::unexpected(textures.error());
+  const PlyColumns columns = plyColumns(written.attributes, options, !textures->numbers.empty());
 
-  file->write(headerOf(mesh, options));
+  file->write(headerOf(mesh, options, columns, *textures));
   WriteProgress progress(mesh.positions.size() + mesh.triangles.size(), path.string(), context);
 
   const bool withQualities = !options.vertexQualities.empty(), withColors = !options.vertexColors.empty();
-  const std::size_t vertexSize =
-      3 * sizeof(double) + (withQualities ? sizeof(float) : 0) + (withColors ? 3 : 0);
+  Records vertices(*file, 3 * sizeof(double) + (withQualities ? sizeof(float) : 0) + (withColors ? 3 : 0) +
+                              sizeOfRecord(columns.vertices));
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     if (progress.shouldStop()) return progress.interrupted();
     const Vec3& p = mesh.positions[v];
-    char* to = putBytes(putBytes(putBytes(file->reserve(vertexSize), p.x), p.y), p.z);
+    char* to = putBytes(putBytes(putBytes(vertices.begin(), p.x), p.y), p.z);
     if (withQualities) to = putBytes(to, options.vertexQualities[v]);
-    if (withColors) putBytes(to, options.vertexColors[v]);
+    if (withColors) to = putBytes(to, options.vertexColors[v]);
+    for (const PlyColumn& column : columns.vertices) to = putElement(to, column, v);
+    vertices.end();
   }
-  const bool withErrors = !options.triangleErrors.empty();
-  const std::size_t faceSize = 1 + 3 * sizeof(std::int32_t) + (withErrors ? sizeof(float) : 0);
+
+  const bool withErrors = !options.triangleErrors.empty(), withNumbers = !textures->numbers.empty();
+  std::size_t faceSize = 1 + 3 * sizeof(std::int32_t) + (withErrors ? sizeof(float) : 0) +
+                         (withNumbers ? sizeof(std::int32_t) : 0) + sizeOfRecord(columns.faces);
+  for (const PlyColumn& column : columns.corners)
+    faceSize += (hasShortLength(column) ? 1 : sizeof(std::uint32_t)) + 3 * column.attribute->elementBytes();
+  Records faces(*file, faceSize);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (progress.shouldStop()) return progress.interrupted();
-    char* to = putBytes(file->reserve(faceSize), std::uint8_t{3});
+    char* to = putBytes(faces.begin(), std::uint8_t{3});
     for (const std::uint32_t v : mesh.triangles[t]) to = putBytes(to, static_cast<std::int32_t>(v));
-    if (withErrors) putBytes(to, options.triangleErrors[t]);
+    if (withErrors) to = putBytes(to, options.triangleErrors[t]);
+    for (const PlyColumn& column : columns.corners) to = putCorners(to, column, written.attributes.wedges[t]);
+    if (withNumbers) to = putBytes(to, textures->numbers[t]);
+    for (const PlyColumn& column : columns.faces) to = putElement(to, column, t);
+    faces.end();
   }
   if (const Status ok = file->finish(); !ok) return tl::unexpected(ok.error());
-  return MeshWriteReport{.lost = lossesOf(written.attributes, {})};
+
+  const MeshHolds::Test any = [](const Attribute&) { return true; };
+  MeshWriteReport report{.lost = lossesOf(written.attributes, {.vertexAttribute = any,
+                                                               .wedgeAttribute = any,
+                                                               .triangleAttribute = any,
+                                                               .materials = true,
+                                                               .pictures = true}),
+                         .filesBeside = textures->files};
+  report.lost.insert(report.lost.end(), columns.lost.begin(), columns.lost.end());
+  report.lost.insert(report.lost.end(), textures->lost.begin(), textures->lost.end());
+  return report;
 }
 
 }  // namespace arete
