@@ -103,7 +103,6 @@ class TriangleRewriter {
 
 /// What is listed by face becomes what is listed by triangle.
 void listByTriangle(SurfaceMesh& mesh) {
-  if (mesh.faceOf.empty()) return;
   for (std::vector<std::uint32_t>* list : {&mesh.objectOf, &mesh.groupOf, &mesh.materialOf}) {
     if (list->empty()) continue;
     std::vector<std::uint32_t> byTriangle(mesh.faceOf.size());
@@ -157,7 +156,8 @@ void MeshFaces::add(SurfaceMesh& mesh, std::span<const std::uint32_t> corners,
 
 Status MeshFaces::finish(MeshFile& file, const RunContext& context) {
   if (Status ok = triangulate(file, context); !ok) return ok;
-  listByTriangle(file.mesh);
+  // Not by faceOf, which is empty if no triangle is left.
+  if (listsFaces_) listByTriangle(file.mesh);
   return {};
 }
 
