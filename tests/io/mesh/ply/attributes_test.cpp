@@ -267,6 +267,15 @@ TEST_F(PlyReadText, ReadsTriangleStrips) {
   EXPECT_EQ(both.warnings.size(), 1u);
 }
 
+TEST_F(PlyReadText, HasNoAttributesOfTrianglesThatAreNone) {
+  // An outline there and back encloses nothing.
+  const MeshFile file =
+      read(kStart + "comment TextureFile a.png\nelement vertex 2\n" + kXyz + "element face 1\n" + kIndices +
+           "property int label\nproperty list uchar float texcoord\nend_header\n0 0 0\n1 0 0\n" +
+           "4 0 1 0 1 7 8 0 0 1 0 0 0 1 0\n");
+  EXPECT_TRUE(file.mesh.triangles.empty() && file.mesh.materialOf.empty());
+}
+
 TEST_F(PlyReadText, NamesTheElementsThatItLeavesOut) {
   const MeshFile file = read(kStart + "obj_info num_cols 512\nelement vertex 3\n" + kXyz +
                              "element face 1\n" + kIndices + "element edge 1\nproperty int vertex1\n" +
