@@ -61,6 +61,10 @@ Result<nlohmann::json> GltfDocument::parseGlb(std::string_view file, std::string
 }
 
 Status GltfDocument::checkVersion() const {
+  // Version 1 has objects where version 2 has lists, and need not state itself.
+  for (const char* const list : {"accessors", "meshes", "nodes"})
+    if (const auto found = json_.find(list); found != json_.end() && found->is_object() && !found->empty())
+      return failure(ErrorCode::unsupported, "is glTF of version 1, not 2");
   const nlohmann::json::json_pointer place("/asset/version");
   if (!json_.contains(place) || !json_.at(place).is_string()) return {};
   const std::string& version = json_.at(place).get_ref<const std::string&>();

@@ -82,8 +82,9 @@ Result<std::optional<GltfPrimitives::Draco>> GltfPrimitives::dracoOf(const Json&
       draco_[*number] = nullptr;  // so that damaged bytes are decoded once
       const auto view = document_.views().view(document_, *number);
       if (!view) return tl::unexpected(view.error());
-      Result<DracoMesh> mesh = decodeDraco(view->bytes, document_.views().reservable());
-      if (!mesh) return failure(mesh.error().code, "has Draco data that " + mesh.error().message);
+      Result<DracoMesh> mesh = decodeDraco(view->bytes, document_.views().reservable(), context_);
+      if (!mesh)
+        return failure(mesh.error().code, fmt::format("bufferView {} {}", *number, mesh.error().message));
       std::uint64_t bytes = mesh->indices.size() * sizeof(std::uint32_t);
       for (const DracoAttribute& attribute : mesh->attributes) bytes += attribute.bytes.size();
       if (Status ok = document_.views().reserve(bytes); !ok) return tl::unexpected(ok.error());
@@ -94,7 +95,8 @@ Result<std::optional<GltfPrimitives::Draco>> GltfPrimitives::dracoOf(const Json&
     return Draco{*number, known->second, &*ids};
   };
   Result<std::optional<Draco>> draco = decode();
-  if (draco) return draco;
+  if (draco || draco.error().code == ErrorCode::interrupted || draco.error().code == ErrorCode::outOfMemory)
+    return draco;
   const auto position = GltfDocument::wholeNumber(primitive["attributes"], kPosition);
   if (!position) return draco;
   const auto accessor = document_.element("accessors", *position);

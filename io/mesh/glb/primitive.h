@@ -61,8 +61,8 @@ struct GltfPrimitive {
 /// Reads primitives, and decodes those that Draco compressed, each once.
 class GltfPrimitives {
  public:
-  GltfPrimitives(const GltfDocument& document, GltfLeftOut& leftOut)
-      : document_(document), leftOut_(leftOut) {}
+  GltfPrimitives(const GltfDocument& document, GltfLeftOut& leftOut, const RunContext& context)
+      : document_(document), leftOut_(leftOut), context_(context) {}
 
   /// @param weights Of the morph targets; empty: all 0.
   /// @return Nothing for points, lines and what has no positions, which `leftOut` counts.
@@ -91,6 +91,7 @@ class GltfPrimitives {
 
   const GltfDocument& document_;
   GltfLeftOut& leftOut_;
+  const RunContext& context_;
   std::map<std::uint64_t, std::shared_ptr<const DracoMesh>> draco_;  // by bufferView
 };
 

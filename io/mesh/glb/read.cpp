@@ -55,7 +55,7 @@ constexpr const char *kTerrainNode = "terrain", *kTerrainMaterial = "ground";
 class GlbReader {
  public:
   GlbReader(const GltfDocument& document, const RunContext& context)
-      : document_(document), context_(context), primitives_(document, leftOut_) {}
+      : document_(document), context_(context), primitives_(document, leftOut_, context) {}
 
   Result<MeshFile> read() {
     if (const Status ok = readFrame(); !ok) return tl::unexpected(ok.error());

@@ -18,7 +18,7 @@ namespace arete {
 
 namespace {
 
-constexpr std::uint64_t kReservableAtLeast = 64 << 20, kReservablePerByte = 16;
+constexpr std::uint64_t kReservableAtLeast = 64 << 20, kReservablePerByte = 64;
 
 tl::unexpected<Error> corrupt(std::string message) {
   return failure(ErrorCode::corrupt, std::move(message));
@@ -93,7 +93,7 @@ Result<GltfViews::View> GltfViews::view(const GltfDocument& document, std::uint6
       return decoded;
     }
     decoding = decoded.error();
-    decoding.message = fmt::format("bufferView {} {}", number, decoding.message);
+    decoding.message = fmt::format("bufferView {}: {}", number, decoding.message);
   }
   const auto buffer = document.element("buffers", *bufferNumber);
   if (!buffer) return tl::unexpected(buffer.error());

@@ -98,6 +98,9 @@ TEST(Gltf, NamesABufferThatIsNotWhole) {
   Foreign old;
   old.json["asset"]["version"] = "1.0";
   EXPECT_EQ(refusal(folder.write("a.gltf", old.json.dump())).code, unsupported);
+  old = {};  // states nothing, as version 1 may
+  old.json["meshes"] = {{"box", Json::object()}};
+  EXPECT_EQ(refusal(folder.write("a.gltf", old.json.dump())).code, unsupported);
   const std::string whole = Foreign{}.json.dump();
   for (std::size_t length = 0; length < whole.size(); length += 7)
     EXPECT_EQ(refusal(folder.write("a.gltf", whole.substr(0, length))).code, corrupt) << length;
