@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "surface/model/average.h"
 
 namespace arete {
 namespace {
@@ -37,27 +38,6 @@ Weights weightsAt(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   for (double& x : w) sum += x = std::clamp(x, 0.0, 1.0);
   for (double& x : w) x /= sum;
   return w;
-}
-
-/// Adds the average of three elements; of labels the one with the largest
-/// weight.
-void appendAverage(Attribute& to, const Attribute& from, const std::array<std::uint32_t, 3>& elements,
-                   const Weights& weights) {
-  const std::size_t heaviest = std::size_t(std::ranges::max_element(weights) - weights.begin());
-  if (!from.isContinuous()) return to.append(from.element(elements[heaviest]));
-  std::vector<double> sum(from.components, 0);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::vector<double> numbers = from.numbers(elements[i]);
-    for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += weights[i] * numbers[c];
-  }
-  if (from.meaning == AttributeMeaning::normal && from.components == 3) {
-    const double length = std::hypot(sum[0], sum[1], sum[2]);
-    const std::vector<double> first = from.numbers(elements[heaviest]);
-    const double wanted = std::hypot(first[0], first[1], first[2]);
-    if (length > 0)
-      for (double& x : sum) x *= wanted / length;
-  }
-  to.append(sum);
 }
 
 class Transfer {

@@ -23,13 +23,16 @@
 namespace arete {
 namespace {
 
-/// By vertex: the lowest vertex at its position.
-std::vector<std::uint32_t> firstAtPosition(std::span<const Vec3> positions) {
+/// By vertex: of some, the lowest of them at its position; of any other, itself.
+std::vector<std::uint32_t> firstAtPosition(std::span<const Vec3> positions,
+                                           std::vector<std::uint32_t> order) {
   const auto key = [&](std::uint32_t v) {
     return std::tuple(positions[v].x + 0, positions[v].y + 0, positions[v].z + 0);  // -0 and 0 are one
   };
-  std::vector<std::uint32_t> order(positions.size()), first(positions.size());
-  std::iota(order.begin(), order.end(), 0u);
+  std::vector<std::uint32_t> first(positions.size());
+  std::iota(first.begin(), first.end(), 0u);
+  std::ranges::sort(order);
+  order.erase(std::unique(order.begin(), order.end()), order.end());
   std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
     const auto ka = key(a), kb = key(b);
     return ka != kb ? ka < kb : a < b;
@@ -41,12 +44,23 @@ std::vector<std::uint32_t> firstAtPosition(std::span<const Vec3> positions) {
   return first;
 }
 
+/// The corners of the triangles that have a border edge, some more than once.
+std::vector<std::uint32_t> verticesOfBorderTriangles(const MeshEdges& edges) {
+  std::vector<std::uint32_t> vertices;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (const MeshEdges::Edge edge = edges[e]; edge.isBorder()) {
+      const auto& triangle = edges.triangles()[triangleOf(edge.sides[0]).index()];
+      vertices.insert(vertices.end(), triangle.begin(), triangle.end());
+    }
+  return vertices;
+}
+
 class Welder {
  public:
   Welder(const TriangleMesh& mesh, std::span<const Vec3> positions, std::span<const std::uint32_t> partOf)
       : edges_(mesh.triangles, mesh.positions.size()),
         positions_(positions),
-        place_(firstAtPosition(positions)),
+        place_(firstAtPosition(positions, verticesOfBorderTriangles(edges_))),
         vertices_(mesh.positions.size()),
         parts_(mesh.triangles.size()) {
     for (std::size_t e = 0; e < edges_.size(); ++e) {
