@@ -43,6 +43,8 @@ struct MeshFile {
   /// Where the pictures are that materials name by a path; empty: nowhere, as of standard input.
   std::filesystem::path folder;
   std::uint64_t joinedVertices = 0;  ///< of a soup, at reading
+  /// By vertex: its number in the file, from 0, where vertices were joined; empty: its own.
+  std::vector<std::uint32_t> vertexOf;
   /// What was left out or guessed, each a sentence about the file.
   std::vector<std::string> warnings;
 };
