@@ -15,11 +15,11 @@
 #include <variant>
 
 #include "cli/arguments/arguments.h"
+#include "cli/commands/build_source.h"
 #include "engine/base/stopwatch.h"
 #include "io/amt/file.h"
 #include "io/crs/names.h"
 #include "io/dem/dem_reader.h"
-#include "io/dem/raster_reader.h"
 #include "io/file/text_scan.h"
 #include "io/table/plan_point_reader.h"
 #include "terrain/build/build.h"
@@ -40,6 +40,7 @@ struct BuildArguments {
   std::string fixedPath;
   double creaseAngleDegrees = -1;  // < 0: not stated
   double minimumAspect = -1;       // < 0: not stated
+  std::string kind;                // --as; empty: the file says
 };
 
 /// What a build needs at the least; rough terrain takes up to twice as much (terrain/build/build.h).
@@ -188,7 +189,7 @@ Status runBuild(BuildArguments& arguments, Session& session) {
   if (Status output = checkOutput("--output", arguments.output, inputs); !output) return output;
   Seconds seconds;
   Stopwatch reading;
-  Result<DemRead> dem = arguments.dem.read(session);
+  Result<DemRead> dem = readSource(arguments.dem, arguments.kind, session);
   if (!dem) return tl::unexpected(dem.error());
   seconds.read = reading.seconds();
   return std::visit(
@@ -228,6 +229,14 @@ void addBuildCommand(CLI::App& app, Session& session) {
   command->add_option("-o,--output", arguments->output, "Multitriangulation to write (.amt)")
       ->required()
       ->type_name("FILE.amt");
+  command
+      ->add_option(
+          "--as", arguments->kind,
+          "What the files are (default: a raster is terrain, a mesh with faces is a surface, any other\n"
+          "file holds points): terrain or points take the vertices of a mesh as samples of a terrain;\n"
+          "surfaces cannot be built yet")
+      ->check(oneOf({"terrain", "surface", "points"}))
+      ->type_name("KIND");
   command->add_flag(
       "--packed", arguments->isPacked,
       "Write the compressed form: a ninth to a fifteenth of the size; it is unpacked when read");

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/mesh_options.h"
 #include "io/amt/file.h"
-#include "io/crs/names.h"
 #include "io/exchange/convert.h"
 #include "io/exchange/mesh_formats.h"
 #include "io/file/text_scan.h"
@@ -26,11 +26,8 @@ struct ConvertArguments {
   MeshOutput output;
   bool isPacked = false;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
+  MeshPlacing placing;
 };
-
-Json roundingJson(const Vec3& rounding) {
-  return {rounding.x, rounding.y, rounding.z};
-}
 
 bool isAmt(const std::string& path) {
   return text::lowerExtension(path) == "amt";
@@ -49,6 +46,9 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
   if (!arguments.crs.empty())
     return failure(ErrorCode::usage, "an .amt has the CRS of its DEM",
                    fmt::format("--crs {}", arguments.crs));
+  if (!arguments.placing.isNothing())
+    return failure(ErrorCode::usage, "is for meshes; an .amt states its axes and units",
+                   arguments.placing.unit.empty() ? "--up" : "--unit");
   if (Status checked = checkOutput("--output", output, {arguments.input}); !checked) return checked;
   const Result<TerrainModel> model = loadAmt(arguments.input, {}, session.context());
   if (!model) return tl::unexpected(model.error());
@@ -80,29 +80,21 @@ Status runConvert(const ConvertArguments& arguments, Session& session) {
   if (Status checked = checkOutput("--output", output, {arguments.input}); !checked) return checked;
   Result<MeshFile> mesh = readMesh(arguments.input, session.context());
   if (!mesh) return tl::unexpected(mesh.error());
-  const std::uint64_t triangles = mesh->mesh.triangles.size(), vertices = mesh->mesh.positions.size();
-  const Result<ConvertedMesh> converted = convertMesh(
-      std::move(*mesh), output,
-      {.crs = arguments.crs, .format = arguments.output.format, .existing = arguments.existing},
-      session.context());
+  const Result<ConvertedMesh> converted = convertMesh(std::move(*mesh), output,
+                                                      {.crs = arguments.crs,
+                                                       .format = arguments.output.format,
+                                                       .existing = arguments.existing,
+                                                       .placing = arguments.placing},
+                                                      session.context());
   if (!converted) {
     Error error = converted.error();
-    if (error.code == ErrorCode::usage) error.culprit = fmt::format("--crs {}", arguments.crs);
+    if (error.code == ErrorCode::usage && error.culprit == arguments.crs)
+      error.culprit = fmt::format("--crs {}", arguments.crs);
     return tl::unexpected(std::move(error));
   }
-  session.warn(converted->warnings, arguments.input);
-  if (!converted->lost.empty())
-    session.warn(fmt::format("{} cannot hold {}", format->name, fmt::join(converted->lost, ", or ")));
-  session.say(fmt::format("{}: {} triangles, {} vertices\n", output, grouped(triangles), grouped(vertices)));
-  session.answer({{"input", arguments.input},
-                  {"output", output},
-                  {"format", format->name},
-                  {"triangles", triangles},
-                  {"vertices", vertices},
-                  {"crs", crsName(converted->crsWkt)},
-                  {"verticalUnit", converted->verticalUnit},
-                  {"rounding", roundingJson(converted->frame.rounding)},
-                  {"lost", converted->lost}});
+  warnOf(*converted, arguments.input, format->name, session);
+  session.say(writtenText(output, *converted));
+  session.answer(writtenJson(arguments.input, output, format->name, *converted));
   return {};
 }
 
@@ -110,15 +102,15 @@ Status runConvert(const ConvertArguments& arguments, Session& session) {
 
 void addConvertCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<ConvertArguments>();
-  CLI::App* command = session.addCommand(
-      app, "convert",
-      "Write a mesh in another format, with its CRS, unit and errors where the format can hold them",
-      "  arete convert tin.ply -o tin.glb\n"
-      "  arete convert tin.stl -o tin.gpkg --crs EPSG:32611\n"
-      "  arete convert tin.gpkg -o tin.2dm --json\n"
-      "  arete convert scan.gltf -o - --format ply | gzip > scan.ply.gz\n"
-      "  arete convert dem.amt -o small.amt --packed",
-      [arguments](Session& s) { return runConvert(*arguments, s); });
+  CLI::App* command =
+      session.addCommand(app, "convert", "Write a mesh in another format, with all that the format can hold",
+                         "  arete convert tin.ply -o tin.glb\n"
+                         "  arete convert tin.stl -o tin.gpkg --crs EPSG:32611\n"
+                         "  arete convert tin.gpkg -o tin.2dm --json\n"
+                         "  arete convert scan.obj -o scan.glb --up z --unit mm\n"
+                         "  arete convert scan.gltf -o - --format ply | gzip > scan.ply.gz\n"
+                         "  arete convert dem.amt -o small.amt --packed",
+                         [arguments](Session& s) { return runConvert(*arguments, s); });
   command->add_option("MESH", arguments->input, "Triangle mesh: " + readableMeshExtensions() + "; or .amt")
       ->required()
       ->type_name("");
@@ -130,6 +122,7 @@ void addConvertCommand(CLI::App& app, Session& session) {
       ->add_option("--crs", arguments->crs,
                    "CRS of the coordinates, where the file has none; nothing is reprojected")
       ->type_name("CRS");
+  addPlacingTo(*command, arguments->placing);
 }
 
 }  // namespace arete

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/commands/build.h"
 #include "cli/commands/convert.h"
@@ -19,6 +20,7 @@
 #include "cli/commands/info.h"
 #include "cli/commands/measure.h"
 #include "cli/commands/validate.h"
+#include "cli/mesh/mesh.h"
 #include "cli/session/exit_code.h"
 #include "cli/session/interrupt.h"
 #include "cli/session/session.h"
@@ -30,15 +32,27 @@
 namespace arete {
 namespace {
 
-/// A sentence for an unknown command; CLI11 only says that a command is missing.
-std::string unknownCommand(const CLI::App& app, int argc, char** argv) {
+/// A sentence for an unknown command, also one of a command; CLI11 only says that a command is missing.
+std::string unknownCommand(const CLI::App& app, int argc, char** argv, const std::string& of = {}) {
   if (argc < 2 || argv[1][0] == '-') return {};
+  const std::vector<const CLI::App*> commands = app.get_subcommands({});
+  if (commands.empty()) return {};
   std::string known;
-  for (const CLI::App* command : app.get_subcommands({})) {
-    if (command->get_name() == argv[1]) return {};
+  for (const CLI::App* command : commands) {
+    if (command->get_name() == argv[1])
+      return unknownCommand(*command, argc - 1, argv + 1, " " + command->get_name());
     known += (known.empty() ? "" : ", ") + command->get_name();
   }
-  return fmt::format("there is no command '{}'; the commands are {}", argv[1], known);
+  return fmt::format("there is no command '{}'; the commands {}are {}", argv[1],
+                     of.empty() ? "" : fmt::format("of{} ", of), known);
+}
+
+/// "arete mesh info": the command that was parsed.
+std::string parsedCommand(const CLI::App& app) {
+  std::string name = "arete";
+  for (auto parsed = app.get_subcommands(); !parsed.empty(); parsed = parsed.front()->get_subcommands())
+    name += " " + parsed.front()->get_name();
+  return name;
 }
 
 }  // namespace
@@ -58,6 +72,7 @@ ExitCode runProgram(int argc, char** argv) {
       "  arete height dem.amt --at X,Y                      height of the terrain there\n"
       "  arete los dem.amt --from X,Y,H --to X,Y,H          whether they see each other\n"
       "  arete measure tin.ply dem.tif --expect 5           the promise, checked independently\n"
+      "  arete mesh info scan.ply                           what is the matter with a mesh\n"
       "\n" +
       std::string(exitCodeTable()) + "\n\nCOMMAND --help lists the options of a command.");
   addBuildCommand(app, session);
@@ -71,6 +86,7 @@ ExitCode runProgram(int argc, char** argv) {
   addMeasureCommand(app, session);
   addValidateCommand(app, session);
   addConvertCommand(app, session);
+  addMeshCommand(app, session);
   addDemoCommand(app, session);
 
   if (argc < 2) {
@@ -88,9 +104,7 @@ ExitCode runProgram(int argc, char** argv) {
       app.exit(error);
       return std::fflush(stdout) == 0 ? ExitCode::ok : ExitCode::file;
     }
-    const auto parsed = app.get_subcommands();
-    return session.refuse(error.what(), parsed.empty() ? "arete" : "arete " + parsed.front()->get_name(),
-                          wantsJson);
+    return session.refuse(error.what(), parsedCommand(app), wantsJson);
   }
   return session.runParsed();
 }

@@ -313,4 +313,25 @@ Result<PointRead> readPoints(const std::string& path, const PointReadOptions& op
   return caughtFailure(path);
 }
 
+Result<PointRead> pointsFrom(std::span<const Vec3> points, const std::string& crsWkt,
+                             const std::string& source, const PointReadOptions& options) try {
+  registerGdal();
+  PointRows rows;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!isFinite(points[i]))
+      return failure(ErrorCode::invalidData, fmt::format("point {} has a coordinate that is not finite", i),
+                     source);
+    rows.add(points[i].x, points[i].y, points[i].z, i);
+  }
+  Result<OGRSpatialReference> crs = OGRSpatialReference();
+  if (!crsWkt.empty()) crs = crsFromText(crsWkt);
+  if (!crs) return failure(crs.error().code, crs.error().message, source);
+  Result<PointRead> read =
+      finish(std::move(rows), "point", crsWkt.empty() ? nullptr : &*crs, options, source, {});
+  if (!read && read.error().culprit.empty()) read.error().culprit = source;
+  return read;
+} catch (...) {
+  return caughtFailure(source);
+}
+
 }  // namespace arete

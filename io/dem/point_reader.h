@@ -2,11 +2,13 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/vec.h"
 #include "engine/parallel/run_context.h"
 #include "terrain/model/heightfield.h"
 
@@ -56,5 +58,14 @@ struct PointRead {
 /// for it; names both points. interrupted. O(n log n); memory about 60 bytes per point.
 Result<PointRead> readPoints(const std::string& path, const PointReadOptions& options = {},
                              const RunContext& context = {});
+
+/// Takes points that another reader has read, as readPoints() takes those of a file: equal ones once, and one
+/// height for each place. PointReadOptions::layer and zField have no meaning.
+///
+/// @param crsWkt theirs; empty: none.
+/// @param source names them in messages, as the culprit, and in the heightfield.
+/// Errors: those of readPoints() but for files. O(n log n).
+Result<PointRead> pointsFrom(std::span<const Vec3> points, const std::string& crsWkt,
+                             const std::string& source, const PointReadOptions& options = {});
 
 }  // namespace arete

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A format that rounds is read back, so that the report states the rounding of the file as written.
+// A format that rounds is read back, so that the report states the rounding of the file as written. Whether
+// anything was rounded is seen by the positions that triangles use, each once and in order: a format may
+// repeat vertices and order triangles anew.
 #include "io/exchange/convert.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "io/crs/names.h"
 #include "io/crs/reader.h"
@@ -32,8 +36,31 @@ Status stateCrs(MeshFile& mesh, const std::string& text, std::vector<std::string
     warnings.push_back(fmt::format("the CRS of the file, {}, is replaced by the one stated, {}",
                                    crsName(mesh.crsWkt), crsName(described.crsWkt)));
   mesh.crsWkt = described.crsWkt;
+  mesh.up = MeshUp::z;
   if (mesh.verticalUnit.empty()) mesh.verticalUnit = described.verticalUnit;
   return {};
+}
+
+/// Turns and scales the mesh as stated, for the format.
+Status place(MeshFile& mesh, const ConvertOptions& options, const MeshFormat& format) {
+  MeshPlacing placing = options.placing;
+  if (options.crs.empty()) return placeMesh(mesh, placing, isYUp(format) ? MeshUp::y : MeshUp::z);
+  if (!placing.unit.empty())
+    return failure(ErrorCode::usage, "`crs` states the unit", fmt::format("unit {}", placing.unit));
+  if (mesh.up == MeshUp::y && placing.up == MeshUp::unknown) placing.up = MeshUp::y;
+  return placeMesh(mesh, placing, MeshUp::z);
+}
+
+std::vector<Vec3> usedPositions(const TriangleMesh& mesh) {
+  std::vector<bool> isUsed(mesh.positions.size(), false);
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t v : triangle) isUsed[v] = true;
+  std::vector<Vec3> used;
+  for (std::size_t v = 0; v < isUsed.size(); ++v)
+    if (isUsed[v]) used.push_back(mesh.positions[v]);
+  std::ranges::sort(used, {}, [](const Vec3& p) { return std::tuple(p.x, p.y, p.z); });
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  return used;
 }
 
 }  // namespace
@@ -44,8 +71,12 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   if (!format) return tl::unexpected(format.error());
   ConvertedMesh converted;
   converted.warnings = std::move(mesh.warnings);
+  if (Status placed = place(mesh, options, *format); !placed) return tl::unexpected(placed.error());
   if (const Status ok = stateCrs(mesh, options.crs, converted.warnings); !ok)
     return tl::unexpected(ok.error());
+  converted.triangles = mesh.mesh.triangles.size();
+  converted.vertices = mesh.mesh.positions.size();
+  converted.joinedVertices = mesh.joinedVertices;
   const MeshWriteOptions writing{.crsWkt = mesh.crsWkt,
                                  .verticalUnit = mesh.verticalUnit,
                                  .triangleErrors = mesh.triangleErrors,
@@ -62,6 +93,7 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   if (!written) return tl::unexpected(written.error());
   converted.frame = written->frame;
   converted.lost = written->report.lost;
+  converted.filesBeside = written->report.filesBeside;
   const auto lose = [&](bool isHeld, bool isThere, std::string what) {
     if (!isHeld && isThere) converted.lost.push_back(std::move(what));
   };
@@ -70,9 +102,13 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   lose(format->holds.holdsErrors, !mesh.triangleErrors.empty(), "the error of each triangle");
   const Vec3& r = converted.frame.rounding;
   const bool wasExact = mesh.frame.rounding == Vec3{};
-  lose(format->holds.isExact, wasExact,
+  // Of terrain, whose numbers were rounded before; any other mesh is what its file says.
+  const bool isTerrain = mesh.frame.origin || mesh.up == MeshUp::z;
+  const bool isRounded =
+      (wasExact || !isTerrain) && written->mesh && usedPositions(mesh.mesh) != usedPositions(*written->mesh);
+  lose(false, isRounded,
        fmt::format("coordinates finer than {:.2g}, {:.2g}, {:.2g} (x, y, height)", r.x, r.y, r.z));
-  if (const Vec3& off = mesh.frame.rounding; format->holds.isExact && !wasExact)
+  if (const Vec3& off = mesh.frame.rounding; format->holds.isExact && !wasExact && isTerrain)
     converted.warnings.push_back(fmt::format(
         "its coordinates are rounded, by up to {:.2g}, {:.2g}, {:.2g} (x, y, height), which {} cannot "
         "record: arete measure takes them as exact and may find samples in no triangle",

@@ -7,6 +7,7 @@
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
+#include "io/exchange/axes.h"
 #include "io/exchange/mesh_formats.h"
 
 namespace arete {
@@ -16,6 +17,7 @@ struct ConvertOptions {
   std::string format = {};  ///< MeshWriteOptions::format
   /// What happens to the other layers of a GeoPackage that exists.
   ExistingFile existing = ExistingFile::keepsOtherLayers;
+  MeshPlacing placing = {};  ///< what the file does not say of its axes and its unit
 };
 
 /// The result of a conversion.
@@ -24,13 +26,18 @@ struct ConvertedMesh {
   std::string crsWkt;             ///< of the coordinates, even if the format cannot hold it
   std::string verticalUnit;       ///< likewise
   std::vector<std::string> lost;  ///< what the mesh has and the format cannot hold: "the CRS", ...
+  std::vector<std::filesystem::path> filesBeside;  ///< MTL, pictures
+  std::uint64_t triangles = 0, vertices = 0;       ///< of the mesh
+  std::uint64_t joinedVertices = 0;                ///< MeshFile::joinedVertices
   std::vector<std::string> warnings;
 };
 
 /// Writes a mesh in the format that options.format or the extension of `path` names, with its CRS, unit and
-/// errors as far as the format can hold them.
+/// errors as far as the format can hold them. A mesh is turned and scaled only where options.placing says so
+/// (placeMesh()), and a mesh of which y is up where options.crs states a CRS, in which z is up.
 ///
-/// Errors: those of writeMesh(). usage, with the text as culprit: options.crs is not a CRS. O(size).
+/// Errors: those of writeMesh() and placeMesh(). usage, with the text as culprit: options.crs is not a CRS;
+/// culprit `unit`: options.crs states the unit. O(size), O(n log n) to a format that rounds.
 Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& path,
                                   const ConvertOptions& options = {}, const RunContext& context = {});
 

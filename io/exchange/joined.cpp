@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// While vertices are joined, what is said of them is said of wedges, one for each of the soup.
 #include "io/exchange/joined.h"
 
 #include <cstdint>
 #include <utility>
 #include <vector>
 
-#include "surface/model/wedges.h"
-#include "surface/repair/weld.h"
+#include "surface/edit/joined_surface.h"
 
 namespace arete {
 namespace {
@@ -25,15 +22,11 @@ bool isSoup(const TriangleMesh& mesh) {
 }  // namespace
 
 Status joinSoup(MeshFile& file, const RunContext& context) {
-  SurfaceMesh& mesh = file.mesh;
-  if (!isSoup(mesh)) return {};
-  Result<WeldedMesh> welded = weld(mesh, {.partOf = mesh.objectOf}, context);
-  if (!welded) return tl::unexpected(welded.error());
-  const bool hasAttributes = mesh.hasWedges() || !mesh.vertexAttributes.empty();
-  if (hasAttributes) moveToWedges(mesh);
-  mesh.shape() = std::move(welded->mesh);
-  if (hasAttributes) moveToVertices(mesh);
-  file.joinedVertices = welded->joinedVertices;
+  if (!isSoup(file.mesh)) return {};
+  Result<JoinedSurface> joined = joinSurface(file.mesh, {.partOf = file.mesh.objectOf}, context);
+  if (!joined) return tl::unexpected(joined.error());
+  file.joinedVertices = joined->joinedVertices;
+  if (joined->joinedVertices > 0) file.vertexOf = std::move(joined->vertexOf);
   return {};
 }
 

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/arguments/mesh_options.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "cli/arguments/arguments.h"
+#include "io/crs/names.h"
+
+namespace arete {
+
+void addPlacingTo(CLI::App& command, MeshPlacing& placing) {
+  command
+      .add_option_function<std::string>(
+          "--up", [&placing](const std::string& axis) { placing.up = axis == "y" ? MeshUp::y : MeshUp::z; },
+          "Axis of the input that points up, y or z: the output has the axis up that its format has,\n"
+          "y in glTF, z in all others (default: nothing is turned)")
+      ->check(oneOf({"y", "z"}))
+      ->type_name("AXIS");
+  command
+      .add_option(
+          "--unit", placing.unit,
+          fmt::format("Length of 1 in the input, {}: the output is in metres (default: nothing is scaled)",
+                      fmt::join(meshUnitNames(), ", ")))
+      ->check(oneOf(meshUnitNames()))
+      ->type_name("UNIT");
+}
+
+void warnOf(const ConvertedMesh& converted, const std::string& input, std::string_view format,
+            const Session& session) {
+  session.warn(converted.warnings, input);
+  if (!converted.lost.empty())
+    session.warn(fmt::format("{} cannot hold {}", format, fmt::join(converted.lost, ", or ")));
+}
+
+std::string writtenText(const std::string& output, const ConvertedMesh& converted) {
+  std::string text = fmt::format("{}: {} triangles, {} vertices\n", output, grouped(converted.triangles),
+                                 grouped(converted.vertices));
+  if (converted.joinedVertices > 0)
+    text += fmt::format("  {} vertices at the positions of others were joined at reading\n",
+                        grouped(converted.joinedVertices));
+  for (const std::filesystem::path& file : converted.filesBeside)
+    text += fmt::format("  beside it: {}\n", file.string());
+  return text;
+}
+
+Json writtenJson(const std::string& input, const std::string& output, std::string_view format,
+                 const ConvertedMesh& converted) {
+  Json beside = Json::array();
+  for (const std::filesystem::path& file : converted.filesBeside) beside.push_back(file.string());
+  const Vec3& r = converted.frame.rounding;
+  return {{"input", input},
+          {"output", output},
+          {"format", format},
+          {"triangles", converted.triangles},
+          {"vertices", converted.vertices},
+          {"joinedVertices", converted.joinedVertices},
+          {"crs", crsName(converted.crsWkt)},
+          {"verticalUnit", converted.verticalUnit},
+          {"rounding", {r.x, r.y, r.z}},
+          {"lost", converted.lost},
+          {"filesBeside", std::move(beside)}};
+}
+
+}  // namespace arete

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/commands/build_source.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+#include <variant>
+
+#include "io/dem/point_reader.h"
+#include "io/exchange/axes.h"
+#include "io/exchange/mesh_formats.h"
+#include "io/table/point_text.h"
+
+namespace arete {
+namespace {
+
+/// A single file that a reader of meshes reads. A GeoPackage is none: it holds layers of many kinds.
+bool isMesh(const DemArguments& dem) {
+  std::error_code ignored;
+  if (!dem.reading.otherFiles.empty() || !std::filesystem::is_regular_file(dem.path, ignored)) return false;
+  const Result<MeshFormat> format = meshFormatOf(dem.path);
+  return format && format->read && format->extension != ".gpkg";
+}
+
+Result<PointReadOptions> pointOptions(const SourceReading& reading) {
+  if (reading.band) return failure(ErrorCode::usage, "is for rasters, and a mesh has no bands", "band");
+  if (!reading.layer.empty()) return failure(ErrorCode::usage, "a mesh has no layers", "layer");
+  if (!reading.zField.empty())
+    return failure(ErrorCode::usage, "the height of a vertex of a mesh is its z", "zField");
+  PointReadOptions options{.crs = reading.crs,
+                           .nodata = reading.nodata,
+                           .verticalUnit = reading.verticalUnit,
+                           .isDepth = reading.isDepth};
+  if (const auto rule = samePlaceNamed(reading.samePlace)) options.samePlace = *rule;
+  return options;
+}
+
+Result<DemRead> readVertices(const DemArguments& dem, MeshFile mesh, Session& session) {
+  Result<PointReadOptions> options = pointOptions(dem.reading);
+  if (!options) return tl::unexpected(options.error());
+  if (options->verticalUnit.empty()) options->verticalUnit = mesh.verticalUnit;
+  session.warn(mesh.warnings, dem.path);
+  if (mesh.up == MeshUp::y)
+    if (Status placed = placeMesh(mesh, {.up = MeshUp::y}, MeshUp::z); !placed)
+      return tl::unexpected(placed.error());
+  Result<PointRead> points = pointsFrom(mesh.mesh.positions, mesh.crsWkt, dem.path, *options);
+  if (!points) {
+    if (!dem.reading.crs.empty() && points.error().culprit == dem.reading.crs)
+      points.error().culprit = fmt::format("--crs {}", dem.reading.crs);
+    return tl::unexpected(points.error());
+  }
+  session.warn(points->warnings, dem.path);
+  return DemRead{std::move(points->heightfield), {}};
+}
+
+}  // namespace
+
+Result<DemRead> readSource(const DemArguments& dem, const std::string& kind, Session& session) {
+  if (isMesh(dem)) {
+    Result<MeshFile> mesh = readMesh(dem.path, session.context());
+    if (!mesh) return tl::unexpected(mesh.error());
+    const bool hasFaces = !mesh->mesh.triangles.empty();
+    if (kind == "surface" && !hasFaces)
+      return failure(ErrorCode::usage, fmt::format("{} has no faces: it is no surface", dem.path),
+                     "--as surface");
+    if (hasFaces && (kind.empty() || kind == "surface"))
+      return failure(
+          ErrorCode::unsupported,
+          "has faces, so it is a surface, which cannot be built yet; --as terrain takes its vertices "
+          "as the samples of a terrain",
+          dem.path);
+    return readVertices(dem, std::move(*mesh), session);
+  }
+  if (kind == "surface")
+    return failure(ErrorCode::usage, fmt::format("{} is no mesh", dem.path), "--as surface");
+  Result<DemRead> read = dem.read(session);
+  // A text that fills a grid is read as a raster, and holds points all the same.
+  if (read && kind == "points" && std::holds_alternative<RasterHeightfield>(read->heightfield) &&
+      !looksLikePointText(dem.path))
+    return failure(ErrorCode::usage, fmt::format("{} is a raster", dem.path), "--as points");
+  return read;
+}
+
+}  // namespace arete

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "cli/arguments/arguments.h"
+#include "cli/session/session.h"
+#include "io/dem/dem_reader.h"
+
+namespace arete {
+
+/// Reads what `arete build` builds, and writes its warnings. A mesh (PLY, OBJ, STL, OFF, glTF, 2DM) with
+/// faces is a surface; its vertices are read as points where `kind` says so, those of a mesh without faces
+/// always.
+///
+/// @param kind terrain, surface or points; empty: the file says.
+/// Errors: those of DemArguments::read() and readMesh(). unsupported: a surface, which cannot be built yet.
+/// usage: `kind` contradicts the file.
+Result<DemRead> readSource(const DemArguments& dem, const std::string& kind, Session& session);
+
+}  // namespace arete

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The mesh is examined as it is joined (mesh_input.h), and what is found is said in the numbers of the file.
+#include "cli/mesh/info.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "cli/arguments/arguments.h"
+#include "cli/mesh/diagnosis_json.h"
+#include "cli/mesh/diagnosis_text.h"
+#include "cli/mesh/findings.h"
+#include "cli/mesh/mesh_input.h"
+#include "io/crs/names.h"
+#include "io/exchange/mesh_formats.h"
+#include "surface/diagnosis/diagnosis.h"
+#include "surface/diagnosis/sizes.h"
+#include "surface/edit/joined_surface.h"
+
+namespace arete {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct InfoArguments {
+  std::string input;
+  bool leavesOutSelfIntersections = false;
+};
+
+struct Facts {
+  MeshDiagnosis diagnosis;
+  double area = 0;
+  std::optional<double> volume;
+  std::uint64_t seamEdges = 0;
+};
+
+constexpr std::array kTypeNames = {"int8",  "uint8",  "int16",   "uint16",
+                                   "int32", "uint32", "float32", "float64"};
+
+/// Whether a picture is in the mesh or a file in its folder or below.
+bool isThere(const MeshFile& file, const std::string& picture) {
+  if (picture.starts_with('#')) {
+    const std::string number = picture.substr(1);
+    for (std::size_t i = 0; i < file.mesh.pictures.size(); ++i)
+      if (std::to_string(i) == number) return true;
+    return false;
+  }
+  std::string name = picture;
+  std::ranges::replace(name, '\\', '/');
+  const fs::path path(name);
+  if (file.folder.empty() || name.empty() || path.is_absolute() ||
+      std::ranges::find(path, fs::path("..")) != path.end())
+    return false;
+  std::error_code ignored;
+  return fs::is_regular_file(file.folder / path, ignored);
+}
+
+/// "3: a, b, c", of long lists the first.
+std::string listText(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 8;
+  std::string text = fmt::format("{}:", grouped(names.size()));
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+    text += fmt::format("{} \"{}\"", i == 0 ? "" : ",", names[i]);
+  if (names.size() > kMost) text += fmt::format(" and {} more", grouped(names.size() - kMost));
+  return text;
+}
+
+std::vector<std::string> materialTexts(const MeshFile& file) {
+  std::vector<std::string> texts;
+  for (const Material& material : file.mesh.materials) {
+    std::string text = fmt::format("\"{}\"", material.name);
+    for (const TextureUse& texture : material.textures)
+      text += fmt::format(", {} {}{}", texture.role, texture.picture,
+                          isThere(file, texture.picture) ? "" : " (missing)");
+    texts.push_back(std::move(text));
+  }
+  return texts;
+}
+
+std::string attributeText(const Attribute& attribute) {
+  return fmt::format("{} ({} {})", attribute.name, attribute.components,
+                     kTypeNames[static_cast<std::size_t>(attribute.type)]);
+}
+
+std::string attributesText(const std::vector<Attribute>& attributes) {
+  std::vector<std::string> texts;
+  for (const Attribute& attribute : attributes) texts.push_back(attributeText(attribute));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+std::string positionText(const Vec3& p) {
+  return fmt::format("{:.9g}, {:.9g}, {:.9g}", p.x, p.y, p.z);
+}
+
+std::string factsText(const MeshInput& input, const Facts& facts) {
+  std::string text;
+  const auto line = [&](const char* what, const std::string& value) {
+    text += fmt::format("  {:<11} {}\n", what, value);
+  };
+  const SurfaceMesh& mesh = input.file.mesh;
+  const MeshDiagnosis& d = facts.diagnosis;
+  line("format", fmt::format("{}; vertices and faces count from {}", input.format, input.numbers.first));
+  line("vertices", grouped(input.fileVertices));
+  if (input.file.joinedVertices > 0)
+    line("",
+         fmt::format("{} joined: every triangle had corners of its own", grouped(input.file.joinedVertices)));
+  if (input.joinedAtSeams > 0)
+    line("", fmt::format("{} joined at seams to examine the surface", grouped(input.joinedAtSeams)));
+  line("faces",
+       input.fileFaces == mesh.triangles.size()
+           ? grouped(input.fileFaces)
+           : fmt::format("{} ({} triangles)", grouped(input.fileFaces), grouped(mesh.triangles.size())));
+  if (!mesh.objects.empty()) line("objects", listText(mesh.objects));
+  if (!mesh.groups.empty()) line("groups", listText(mesh.groups));
+  if (!mesh.materials.empty()) {
+    line("materials", grouped(mesh.materials.size()));
+    const std::vector<std::string> materials = materialTexts(input.file);
+    for (std::size_t i = 0; i < std::min<std::size_t>(materials.size(), 10); ++i) line("", materials[i]);
+    if (materials.size() > 10) line("", fmt::format("and {} more", grouped(materials.size() - 10)));
+  }
+  for (const auto& [what, attributes] :
+       {std::pair{"of vertices", &mesh.vertexAttributes}, std::pair{"of corners", &mesh.wedgeAttributes},
+        std::pair{"of faces", &mesh.triangleAttributes}})
+    if (!attributes->empty()) line(what, attributesText(*attributes));
+  if (facts.seamEdges > 0) line("seams", fmt::format("{} edges", grouped(facts.seamEdges)));
+  if (!input.file.crsWkt.empty()) line("CRS", crsName(input.file.crsWkt));
+  line("box", fmt::format("{} to {}", positionText(d.boxLow), positionText(d.boxHigh)));
+  line("diagonal", fmt::format("{:.9g}", d.diagonal));
+  line("area", fmt::format("{:.9g}", facts.area));
+  if (facts.volume)
+    line("volume", fmt::format("{:.9g}{}", *facts.volume, *facts.volume < 0 ? " (faces turn inwards)" : ""));
+  if (!d.selfIntersections) line("crossings", "not searched for");
+  return text;
+}
+
+Json attributesJson(const std::vector<Attribute>& attributes) {
+  Json json = Json::array();
+  for (const Attribute& a : attributes)
+    json.push_back({{"name", a.name},
+                    {"type", kTypeNames[static_cast<std::size_t>(a.type)]},
+                    {"components", a.components},
+                    {"isNormalized", a.isNormalized}});
+  return json;
+}
+
+Json factsJson(const std::string& path, const MeshInput& input, const Facts& facts) {
+  const SurfaceMesh& mesh = input.file.mesh;
+  Json materials = Json::array();
+  for (const Material& material : mesh.materials) {
+    Json textures = Json::array();
+    for (const TextureUse& texture : material.textures)
+      textures.push_back({{"role", texture.role},
+                          {"picture", texture.picture},
+                          {"isThere", isThere(input.file, texture.picture)}});
+    materials.push_back({{"name", material.name}, {"textures", std::move(textures)}});
+  }
+  const MeshDiagnosis& d = facts.diagnosis;
+  const MeshUp up = input.file.up;
+  Json json = {{"file", path},
+               {"format", input.format},
+               {"countsFrom", input.numbers.first},
+               {"vertices", input.fileVertices},
+               {"faces", input.fileFaces},
+               {"triangles", mesh.triangles.size()},
+               {"joinedVertices", input.file.joinedVertices},
+               {"joinedAtSeams", input.joinedAtSeams},
+               {"seamEdges", facts.seamEdges},
+               {"objects", mesh.objects},
+               {"groups", mesh.groups},
+               {"materials", std::move(materials)},
+               {"embeddedPictures", mesh.pictures.size()},
+               {"attributes",
+                {{"vertices", attributesJson(mesh.vertexAttributes)},
+                 {"corners", attributesJson(mesh.wedgeAttributes)},
+                 {"faces", attributesJson(mesh.triangleAttributes)}}},
+               {"crs", crsName(input.file.crsWkt)},
+               {"verticalUnit", input.file.verticalUnit},
+               {"up", up == MeshUp::y   ? "y"
+                      : up == MeshUp::z ? "z"
+                                        : "unknown"},
+               {"box", {{"low", toJson(d.boxLow)}, {"high", toJson(d.boxHigh)}}},
+               {"diagonal", d.diagonal},
+               {"area", facts.area},
+               {"volume", facts.volume ? Json(*facts.volume) : Json()}};
+  json.update(diagnosisJson(d, input.numbers));
+  json["warnings"] = input.file.warnings;
+  return json;
+}
+
+Status runInfo(const InfoArguments& arguments, Session& session) {
+  const Result<MeshInput> input = readMeshInput(arguments.input, session);
+  if (!input) return tl::unexpected(input.error());
+  const SurfaceMesh& mesh = input->file.mesh;
+  DiagnosisOptions options{.selfIntersections = !arguments.leavesOutSelfIntersections};
+  if (session.wantsJson()) options.mostPlaces = std::numeric_limits<std::size_t>::max();
+  Result<MeshDiagnosis> diagnosis = diagnose(mesh, options, session.context());
+  if (!diagnosis) return tl::unexpected(diagnosis.error());
+  Facts facts;
+  facts.diagnosis = std::move(*diagnosis);
+  facts.area = areaOf(mesh);
+  if (isSolid(facts.diagnosis)) facts.volume = volumeOf(mesh);
+  facts.seamEdges = countSeamEdges(mesh);
+  session.say(fmt::format("{}: {}\n{}{}", arguments.input, verdictOf(facts.diagnosis),
+                          factsText(*input, facts), diagnosisText(facts.diagnosis, input->numbers)));
+  if (session.wantsJson()) session.answer(factsJson(arguments.input, *input, facts));
+  return {};
+}
+
+}  // namespace
+
+void addMeshInfoCommand(CLI::App& mesh, Session& session) {
+  auto arguments = std::make_shared<InfoArguments>();
+  CLI::App* command =
+      session.addCommand(mesh, "info", "Say what is in a mesh file, and what is the matter with it",
+                         "  arete mesh info scan.ply\n"
+                         "  arete mesh info scan.glb --no-self-intersections\n"
+                         "  arete mesh info scan.obj --json | jq .findings.tJunctions.places",
+                         [arguments](Session& s) { return runInfo(*arguments, s); });
+  command->add_option("MESH", arguments->input, "Triangle mesh: " + readableMeshExtensions())
+      ->required()
+      ->type_name("");
+  command->add_flag("--no-self-intersections", arguments->leavesOutSelfIntersections,
+                    "Do not search for faces that cross, which takes most of the time");
+}
+
+}  // namespace arete

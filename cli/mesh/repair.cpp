@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Joined at its seams, welded if stated, mended, and written as a conversion is.
+#include "cli/mesh/repair.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments/arguments.h"
+#include "cli/arguments/mesh_options.h"
+#include "cli/mesh/diagnosis_json.h"
+#include "cli/mesh/diagnosis_text.h"
+#include "cli/mesh/findings.h"
+#include "cli/mesh/mesh_input.h"
+#include "io/exchange/convert.h"
+#include "io/exchange/mesh_formats.h"
+#include "surface/edit/joined_surface.h"
+#include "surface/model/transfer.h"
+#include "surface/repair/repair.h"
+
+namespace arete {
+namespace {
+
+struct RepairArguments {
+  std::string input, weld;
+  MeshOutput output;
+  MeshPlacing placing;
+  RepairOptions options;
+  ExistingFile existing = ExistingFile::keepsOtherLayers;
+};
+
+/// The distance of --weld.
+struct WeldDistance {
+  double size = 0;              ///< in the unit of the file
+  std::optional<double> share;  ///< percent of the diagonal, if it was stated so
+};
+
+/// The diagonal of the box of the vertices that triangles use.
+double diagonalOf(const TriangleMesh& mesh) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t v : triangle) {
+      const Vec3& p = mesh.positions[v];
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+  return mesh.triangles.empty() ? 0 : std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
+}
+
+Result<WeldDistance> weldDistance(const std::string& text, const TriangleMesh& mesh) {
+  const bool isPercent = text.ends_with('%');
+  const auto number =
+      parseNumbers(fmt::format("--weld {}", text), isPercent ? text.substr(0, text.size() - 1) : text);
+  if (!number) return tl::unexpected(number.error());
+  if (number->size() != 1 || !((*number)[0] >= 0) || !std::isfinite((*number)[0]))
+    return failure(ErrorCode::usage,
+                   "must be a distance of 0 or more, or such a number and % of the diagonal",
+                   fmt::format("--weld {}", text));
+  WeldDistance distance{.size = (*number)[0], .share = {}};
+  if (isPercent) {
+    distance.share = distance.size;
+    distance.size = distance.size / 100 * diagonalOf(mesh);
+  }
+  return distance;
+}
+
+struct Welded {
+  WeldDistance distance;
+  double diagonal = 0;
+  std::uint64_t vertices = 0, edges = 0;
+  double farthestMove = 0;
+};
+
+/// Errors that the file states of its triangles, for the triangles that were made of them.
+void carryErrors(MeshFile& file, const std::vector<std::uint32_t>& triangleOf, bool hasMoved) {
+  if (file.triangleErrors.empty()) return;
+  if (hasMoved || std::ranges::find(triangleOf, RepairedMesh::kNone) != triangleOf.end()) {
+    file.triangleErrors.clear();
+    file.warnings.emplace_back("the errors of its triangles do not hold for the mended surface: left out");
+    return;
+  }
+  std::vector<float> errors;
+  for (const std::uint32_t t : triangleOf) errors.push_back(file.triangleErrors[t]);
+  file.triangleErrors = std::move(errors);
+}
+
+/// Mends the mesh in the file.
+Result<RepairedMesh> mend(MeshInput& input, const RepairArguments& arguments, bool hasMoved,
+                          Session& session) {
+  MeshFile& file = input.file;
+  Result<RepairedMesh> repaired = repair(file.mesh, arguments.options, session.context());
+  if (!repaired) return repaired;
+  file.warnings.clear();  // written already
+  if (!repaired->counts.isNothing()) {
+    carryErrors(file, repaired->triangleOf, hasMoved);
+    Result<SurfaceMesh> mended =
+        transferAttributes(file.mesh, repaired->mesh, repaired->vertexOf, repaired->triangleOf);
+    if (!mended) return tl::unexpected(mended.error());
+    file.mesh = std::move(*mended);
+  } else if (hasMoved) {
+    std::vector<std::uint32_t> same(file.mesh.triangles.size());
+    std::iota(same.begin(), same.end(), 0u);
+    carryErrors(file, same, hasMoved);
+  }
+  file.mesh.faceOf.clear();  // the triangles are the faces of what is written
+  return repaired;
+}
+
+using Line = std::pair<std::uint64_t, const char*>;
+
+std::vector<Line> mendedLines(const RepairCounts& c) {
+  return {{c.duplicateTriangles, "duplicate faces left out"},
+          {c.degenerateTriangles, "faces without area left out"},
+          {c.joinedVertices, "vertices joined to close a face without area"},
+          {c.tJunctions, "edges split at T-junctions"},
+          {c.splitSheetEdges, "edges of more than two faces split into sheets"},
+          {c.turnedTriangles, "faces turned"},
+          {c.addedVertices, "vertices added, one for each further fan"},
+          {c.filledHoles, "holes filled"},
+          {c.fillingTriangles, "triangles added in holes"},
+          {c.unusedVertices, "vertices without a face left out"}};
+}
+
+std::string mendedText(const MeshInput& input, const std::optional<Welded>& welded,
+                       const RepairCounts& counts) {
+  std::string text;
+  const auto line = [&](std::uint64_t count, const std::string& what) {
+    if (count > 0) text += fmt::format("  {} {}\n", grouped(count), what);
+  };
+  line(input.joinedAtSeams, "vertices joined at seams");
+  if (welded)
+    text += fmt::format(
+        "  {} vertices joined within {:.6g} ({:.6g} % of the diagonal, {:.6g}); none moved farther than "
+        "{:.6g}\n",
+        grouped(welded->vertices), welded->distance.size,
+        welded->distance.share ? *welded->distance.share
+        : welded->diagonal > 0 ? 100 * welded->distance.size / welded->diagonal
+                               : 0,
+        welded->diagonal, welded->farthestMove);
+  for (const auto& [count, what] : mendedLines(counts)) line(count, what);
+  if (counts.isNothing()) text += "  nothing to mend\n";
+  return text;
+}
+
+Json mendedJson(const RepairCounts& c) {
+  return {{"duplicateFaces", c.duplicateTriangles}, {"degenerateFaces", c.degenerateTriangles},
+          {"joinedVertices", c.joinedVertices},     {"tJunctions", c.tJunctions},
+          {"splitSheetEdges", c.splitSheetEdges},   {"turnedFaces", c.turnedTriangles},
+          {"addedVertices", c.addedVertices},       {"filledHoles", c.filledHoles},
+          {"fillingTriangles", c.fillingTriangles}, {"unusedVertices", c.unusedVertices}};
+}
+
+Json weldedJson(const Welded& welded) {
+  return {{"distance", welded.distance.size},
+          {"diagonal", welded.diagonal},
+          {"vertices", welded.vertices},
+          {"edges", welded.edges},
+          {"farthestMove", welded.farthestMove}};
+}
+
+Status runRepair(const RepairArguments& arguments, Session& session) {
+  const Result<MeshFormat> format = meshFormatOf(arguments.output.path, arguments.output.format);
+  if (!format)
+    return failure(ErrorCode::usage, format.error().message,
+                   fmt::format("--output {}", arguments.output.path));
+  const std::string output = arguments.output.open(session);
+  if (Status checked = checkOutput("--output", output, {arguments.input}); !checked) return checked;
+  Result<MeshInput> input = readMeshInput(arguments.input, session);
+  if (!input) return tl::unexpected(input.error());
+  std::optional<Welded> welded;
+  if (!arguments.weld.empty()) {
+    SurfaceMesh& mesh = input->file.mesh;
+    const Result<WeldDistance> distance = weldDistance(arguments.weld, mesh);
+    if (!distance) return tl::unexpected(distance.error());
+    welded = Welded{.distance = *distance, .diagonal = diagonalOf(mesh)};
+    const Result<JoinedSurface> joined =
+        joinSurface(mesh, {.distance = distance->size, .partOf = mesh.objectOf}, session.context());
+    if (!joined) return tl::unexpected(joined.error());
+    welded->vertices = joined->joinedVertices;
+    welded->edges = joined->joinedEdges;
+    welded->farthestMove = joined->farthestMove;
+  }
+  const Result<RepairedMesh> repaired = mend(*input, arguments, welded && welded->farthestMove > 0, session);
+  if (!repaired) return tl::unexpected(repaired.error());
+  if (input->file.mesh.triangles.empty())
+    return failure(ErrorCode::invalidData, "no face is left: all were without area", arguments.input);
+  Result<MeshDiagnosis> diagnosis = repaired->diagnosis;
+  if (session.wantsJson())
+    diagnosis = diagnose(repaired->mesh,
+                         {.mostPlaces = std::numeric_limits<std::size_t>::max(), .selfIntersections = false},
+                         session.context());
+  if (!diagnosis) return tl::unexpected(diagnosis.error());
+  const Result<ConvertedMesh> converted = convertMesh(
+      std::move(input->file), output,
+      {.format = arguments.output.format, .existing = arguments.existing, .placing = arguments.placing},
+      session.context());
+  if (!converted) return tl::unexpected(converted.error());
+  warnOf(*converted, arguments.input, format->name, session);
+  const MeshNumbers numbers{.first = format->extension == ".obj" || format->extension == ".2dm" ? 1u : 0u,
+                            .vertexOf = {},
+                            .faceOf = {}};
+  session.say(writtenText(output, *converted) + mendedText(*input, welded, repaired->counts) +
+              fmt::format("now: {}\n", verdictOf(*diagnosis)) + diagnosisText(*diagnosis, numbers));
+  if (session.wantsJson()) {
+    Json json = writtenJson(arguments.input, output, format->name, *converted);
+    json["joinedAtSeams"] = input->joinedAtSeams;
+    json["welded"] = welded ? weldedJson(*welded) : Json();
+    json["mended"] = mendedJson(repaired->counts);
+    json["result"] = diagnosisJson(*diagnosis, numbers);
+    session.answer(json);
+  }
+  return {};
+}
+
+}  // namespace
+
+void addMeshRepairCommand(CLI::App& mesh, Session& session) {
+  auto arguments = std::make_shared<RepairArguments>();
+  CLI::App* command = session.addCommand(
+      mesh, "repair",
+      "Mend a mesh without guessing: duplicate faces, faces without area, T-junctions, fans, orientation",
+      "  arete mesh repair scan.obj -o clean.obj\n"
+      "  arete mesh repair scan.stl -o clean.ply --weld 0.001% --fill-holes 12\n"
+      "  arete mesh repair parts.glb -o parts.obj --split-sheets --json",
+      [arguments](Session& s) { return runRepair(*arguments, s); });
+  command->add_option("MESH", arguments->input, "Triangle mesh: " + readableMeshExtensions())
+      ->required()
+      ->type_name("");
+  arguments->output.addTo(*command, "File to write", "");
+  addOverwriteTo(*command, arguments->existing);
+  command
+      ->add_option(
+          "--weld", arguments->weld,
+          "Join border vertices within this distance, in the unit of the file, or with % in hundredths\n"
+          "of the diagonal of its box (default: none are joined)")
+      ->type_name("E|E%");
+  command
+      ->add_option("--fill-holes", arguments->options.mostHoleEdges,
+                   "Fill borders of at most so many edges (default 0: none)")
+      ->check(wholeNumber(0, 1'000'000'000))
+      ->type_name("N");
+  command->add_flag("--split-sheets", arguments->options.splitsSheets,
+                    "Split edges of more than two faces into sheets");
+  addPlacingTo(*command, arguments->placing);
+}
+
+}  // namespace arete
