@@ -134,7 +134,7 @@ std::string mendedText(const MeshInput& input, const std::optional<Welded>& weld
                        const RepairCounts& counts) {
   std::string text;
   const auto line = [&](std::uint64_t count, const std::string& what) {
-    if (count > 0) text += fmt::format("  {} {}\n", grouped(count), what);
+    if (count > 0) text += fmt::format("  {}: {}\n", what, grouped(count));
   };
   line(input.joinedAtSeams, "vertices joined at seams");
   if (welded)

@@ -85,13 +85,28 @@ const std::vector<Row>& rows() {
         "convert FILE -o OUT.amt"},
        {"view FILE --headless --screenshot OUT.png --size 64x48 --camera P1,40,10,-20"}},
       {"ply",
-       {"convert FILE -o OUT.gpkg", "measure FILE dem.tif --expect 1",
-        "measure FILE plain.ply --samples 50"}},
+       {"convert FILE -o OUT.gpkg", "measure FILE dem.tif --expect 1", "measure FILE plain.ply --samples 50",
+        "mesh info FILE --json", "mesh repair FILE -o OUT.obj --weld 0.1% --fill-holes 9 --split-sheets",
+        "mesh crop FILE -o OUT.glb --box ,,,500090,,",
+        "build FILE -o OUT.amt --as points --same-place first"}},
       {"obj",
-       {"convert FILE -o OUT.glb", "measure FILE dem.tif --json", "measure plain.ply FILE --samples 50"}},
-      {"stl", {"convert FILE -o OUT.2dm", "measure FILE dem.tif"}},
-      {"glb", {"convert FILE -o OUT.ply", "measure FILE dem.tif"}},
-      {"2dm", {"convert FILE -o OUT.stl", "measure FILE dem.tif"}},
+       {"convert FILE -o OUT.glb", "measure FILE dem.tif --json", "measure plain.ply FILE --samples 50",
+        "mesh info FILE", "mesh repair FILE -o OUT.ply --fill-holes 3",
+        "mesh crop FILE -o OUT.off --box ,,,500090,, --whole"}},
+      {"off",
+       {"mesh info FILE --no-self-intersections", "mesh repair FILE -o OUT.stl --weld 0.5",
+        "mesh crop FILE -o OUT.obj --box ,,,500090,,"}},
+      {"stl",
+       {"convert FILE -o OUT.2dm", "measure FILE dem.tif", "mesh info FILE --json",
+        "mesh repair FILE -o OUT.gltf", "mesh crop FILE -o OUT.stl --box ,,,500090,,"}},
+      {"glb",
+       {"convert FILE -o OUT.ply", "measure FILE dem.tif", "mesh info FILE",
+        "mesh repair FILE -o OUT.glb --split-sheets", "mesh crop FILE -o OUT.obj --box ,,,500090,,"}},
+      {"gltf",
+       {"mesh info FILE", "mesh repair FILE -o OUT.obj", "mesh crop FILE -o OUT.gltf --box ,,,500090,,"}},
+      {"2dm",
+       {"convert FILE -o OUT.stl", "measure FILE dem.tif", "mesh info FILE", "mesh repair FILE -o OUT.2dm",
+        "mesh crop FILE -o OUT.2dm --box ,,,500090,,"}},
       {"points",
        {"build FILE -o OUT.amt", "height dem.amt --points FILE -o OUT.gpkg",
         "los dem.amt --from 500050,5199950,5 --points FILE -o OUT.csv --target-height 1",
@@ -316,7 +331,8 @@ TEST_F(Commands, AnswerAboutSoundFiles) {
   std::ofstream(folder_ / "sound.csv") << "x,y,z\n500050,5199950,1\n500100,5199950,2\n500050,5199900,3\n";
   Runner runner(folder_);
   for (const std::string_view text : {"convert plain.ply -o plain.obj", "convert plain.ply -o plain.stl",
-                                      "convert plain.ply -o plain.glb", "convert plain.ply -o plain.2dm"})
+                                      "convert plain.ply -o plain.glb", "convert plain.ply -o plain.2dm",
+                                      "convert plain.ply -o plain.off", "convert plain.ply -o plain.gltf"})
     ASSERT_EQ(runner.run(wordsOf(text, {}, {})), "") << text;
   for (const Row& row : rows()) {
     const std::string name = row.folder == "amt"      ? "dem.amt"

@@ -145,5 +145,58 @@ TEST_F(Convert, WarnsThatAnExactFormatDoesNotSayHowItsCoordinatesWereRounded) {
   EXPECT_NE(outcome.err.find("which OBJ cannot record"), std::string::npos) << outcome.err;
 }
 
+TEST_F(Convert, TurnsAndScalesOnlyWhereStated) {
+  write("x.obj", "v 0 1000 0\nv 1000 0 0\nv 0 0 1000\nf 1 2 3\n");
+  const auto positions = [&](const std::vector<std::string>& options, const std::string& output) {
+    std::vector<std::string> words = {"convert", "x.obj", "-o", output};
+    words.insert(words.end(), options.begin(), options.end());
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const Result<MeshFile> mesh = readMesh(path(output));
+    EXPECT_TRUE(mesh);
+    return mesh ? mesh->mesh.positions : std::vector<Vec3>();
+  };
+  using Positions = std::vector<Vec3>;
+  EXPECT_EQ(positions({}, "a.ply"), (Positions{{0, 1000, 0}, {1000, 0, 0}, {0, 0, 1000}}));
+  EXPECT_EQ(positions({}, "a.glb"), (Positions{{0, 1000, 0}, {1000, 0, 0}, {0, 0, 1000}}));
+  EXPECT_EQ(positions({"--up", "y"}, "a.glb"), (Positions{{0, 1000, 0}, {1000, 0, 0}, {0, 0, 1000}}));
+  EXPECT_EQ(positions({"--up", "z"}, "a.glb"), (Positions{{0, 0, -1000}, {1000, 0, 0}, {0, 1000, 0}}));
+  EXPECT_EQ(positions({"--up", "y"}, "a.ply"), (Positions{{0, 0, 1000}, {1000, 0, 0}, {0, -1000, 0}}));
+  EXPECT_EQ(positions({"--unit", "mm"}, "a.off"), (Positions{{0, 1, 0}, {1, 0, 0}, {0, 0, 1}}));
+}
+
+TEST_F(Convert, RefusesAxesAndUnitsThatContradictTheFile) {
+  write("crs.ply",
+        "ply\nformat ascii 1.0\ncomment crs EPSG:32611\nelement vertex 3\nproperty double x\nproperty double "
+        "y\n"
+        "property double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 "
+        "0\n0 1 "
+        "1\n3 0 1 2\n");
+  write("x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"crs.ply", "--up", "y"},
+                                                {"crs.ply", "--unit", "ft"},
+                                                {"x.obj", "--unit", "ft", "--crs", "EPSG:32611"},
+                                                {"x.obj", "--unit", "league"},
+                                                {"x.obj", "--up", "x"}}) {
+    std::vector<std::string> all = {"convert", words[0], "-o", "y.obj"};
+    all.insert(all.end(), words.begin() + 1, words.end());
+    const Outcome refused = run(all);
+    EXPECT_EQ(refused.code, 2) << refused.err;
+    EXPECT_NE(refused.err.find(words[1]), std::string::npos) << refused.err;
+    EXPECT_FALSE(exists("y.obj"));
+  }
+  EXPECT_EQ(run({"convert", "crs.ply", "-o", "y.obj", "--up", "z"}).code, 0) << "as it is";
+}
+
+TEST_F(Convert, NamesNoLossOfCoordinatesThatFloatsHold) {
+  write("exact.obj", "v 0 0 0\nv 0.5 0 0\nv 0 1 0.25\nf 1 2 3\n");
+  write("fine.obj", "v 0 0 0\nv 0.1 0 0\nv 0 1 0.25\nf 1 2 3\n");
+  for (const char* output : {"a.stl", "a.glb"}) {
+    EXPECT_EQ(run({"convert", "exact.obj", "-o", output}).err, "") << output;
+    EXPECT_NE(run({"convert", "fine.obj", "-o", output}).err.find("cannot hold"), std::string::npos)
+        << output;
+  }
+}
+
 }  // namespace
 }  // namespace arete::cli_test

@@ -18,7 +18,7 @@ TEST_F(MeshRepair, MendsAndSaysWhatAndEndsWithADiagnosis) {
   write("broken.obj", std::string(kBroken));
   const Outcome outcome = run({"mesh", "repair", "broken.obj", "-o", "clean.obj"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  for (const char* text : {"duplicate faces left out", "without area left out", "T-junctions", "fan",
+  for (const char* text : {"duplicate faces left out: 1", "without area left out", "T-junctions: 1", "fan",
                            "vertices without a face left out", "now: manifold, 3 components, 2 borders\n"})
     EXPECT_TRUE(says(outcome, text)) << text << "\n" << outcome.out;
   const Json json = run({"mesh", "repair", "broken.obj", "-o", "clean.obj", "--json"}).json();

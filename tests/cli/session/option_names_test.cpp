@@ -60,9 +60,11 @@ TEST_F(OptionNamesOfTheProgram, AreThoseOfOptionsThatExist) {
   for (const char* command : {"build", "convert", "demo", "extract", "height", "info", "los", "measure",
                               "profile", "validate", "view", "viewshed"})
     help += run({command, "--help"}).out;
+  help += run({"mesh", "crop", "--help"}).out;
   for (const char* field : {"allowCoveredNodata",
                             "band",
                             "bands",
+                            "box",
                             "camera",
                             "clutter",
                             "creaseAngleDegrees",
@@ -105,6 +107,8 @@ TEST_F(OptionNamesOfTheProgram, AreThoseOfOptionsThatExist) {
                             "shape",
                             "targetHeight",
                             "thresholdRatio",
+                            "unit",
+                            "up",
                             "viewport",
                             "zField"}) {
     const auto option = optionOfField(field);

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a file means to `arete build`: terrain, a surface or points.
+#include "cli/cli_fixture.h"
+
+namespace arete::cli_test {
+namespace {
+
+class BuildSource : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    write("hill.obj",
+          "v 0 0 1\nv 10 0 2\nv 10 10 3\nv 0 10 4\nv 5 5 9\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
+    write("points.csv", "x,y,z\n0,0,1\n10,0,2\n10,10,3\n0,10,4\n5,5,9\n");
+  }
+  Outcome build(const std::string& input, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words = {"build", input, "-o", "x.amt", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  }
+};
+
+TEST_F(BuildSource, OfAMeshWithFacesIsASurfaceWhichCannotBeBuiltYet) {
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--as", "surface"}}) {
+    const Outcome refused = build("hill.obj", more);
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_NE(refused.err.find("--as terrain"), std::string::npos) << refused.err;
+  }
+}
+
+TEST_F(BuildSource, TakesTheVerticesOfAMeshWhereStated) {
+  const Json points = build("points.csv").json();
+  for (const char* kind : {"terrain", "points"}) {
+    const Outcome built = build("hill.obj", {"--as", kind});
+    ASSERT_EQ(built.code, 0) << built.err;
+    EXPECT_EQ(built.json()["sourceChecksum"], points["sourceChecksum"]);
+  }
+  // y is up in a glTF.
+  ASSERT_EQ(run({"convert", "hill.obj", "-o", "hill.glb", "--up", "z"}).code, 0);
+  const Outcome turned = build("hill.glb", {"--as", "terrain"});
+  ASSERT_EQ(turned.code, 0) << turned.err;
+  EXPECT_EQ(turned.json()["sourceChecksum"], points["sourceChecksum"]);
+}
+
+TEST_F(BuildSource, RefusesAKindThatContradictsTheFile) {
+  makeRaster("dem.tif", "fractal", 9, 9);
+  EXPECT_EQ(build("dem.tif", {"--as", "terrain"}).code, 0);
+  EXPECT_EQ(build("points.csv", {"--as", "points"}).code, 0);
+  EXPECT_EQ(build("points.csv", {"--as", "terrain"}).code, 0);
+  for (const auto& [file, kind] : {std::pair{"dem.tif", "surface"}, std::pair{"dem.tif", "points"},
+                                   std::pair{"points.csv", "surface"}}) {
+    const Outcome refused = build(file, {"--as", kind});
+    EXPECT_EQ(refused.code, 2) << file << refused.err;
+    EXPECT_NE(refused.err.find(std::string("--as ") + kind), std::string::npos) << refused.err;
+  }
+  const Outcome band = build("hill.obj", {"--as", "points", "--band", "2"});
+  EXPECT_EQ(band.code, 2);
+  EXPECT_NE(band.err.find("--band"), std::string::npos) << band.err;
+  EXPECT_EQ(build("hill.obj", {"--as", "scan"}).code, 2);
+}
+
+}  // namespace
+}  // namespace arete::cli_test
