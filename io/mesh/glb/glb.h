@@ -19,10 +19,10 @@ namespace arete {
 ///
 /// Read are accessors of every kind, KHR_mesh_quantization, EXT_mesh_gpu_instancing, compression by Draco and
 /// meshopt. Transforms of textures (KHR_texture_transform) and extensions of materials are kept as the file
-/// has them (io/mesh/glb/materials.h). A mesh with a skin stands where its node puts it. Warnings name what
-/// is left out: skins, animations, cameras, lights, points, lines, attributes that do not fit their vertices.
-/// Every offset, length and index is checked. Buffers and pictures may be in the file, as a chunk or in base
-/// 64, or files beside it (io/mesh/glb/buffers.h); pictures beside it are not read.
+/// has them (io/mesh/glb/reader/materials.h). A mesh with a skin stands where its node puts it. Warnings name
+/// what is left out: skins, animations, cameras, lights, points, lines, attributes that do not fit their
+/// vertices. Every offset, length and index is checked. Buffers and pictures may be in the file, as a chunk
+/// or in base 64, or files beside it (io/mesh/glb/buffers.h); pictures beside it are not read.
 ///
 /// Errors: those of readMesh(). unsupported: also other required extensions, which the message names, buffers
 /// elsewhere, and data far larger than the file.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Materials, their textures and pictures; transforms of textures.
-#include "io/mesh/glb/materials.h"
+#include "io/mesh/glb/reader/materials.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 //
 // Positions decide what a primitive is. An attribute that does not fit them is left out by name, so that
 // damaged tangents do not cost the mesh.
-#include "io/mesh/glb/primitive.h"
+#include "io/mesh/glb/reader/primitive.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/mesh/glb/vertex_group.h"
+#include "io/mesh/glb/reader/vertex_group.h"
 #include "surface/model/attribute.h"
 
 namespace arete {

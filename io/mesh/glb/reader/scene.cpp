@@ -6,7 +6,7 @@
 // The standard has a mesh with a skin stand where its joints put it. Without the skin it stands where its
 // node puts it, as in other programs that do not read skins; most exporters make the two agree in the pose of
 // rest.
-#include "io/mesh/glb/scene.h"
+#include "io/mesh/glb/reader/scene.h"
 
 #include <fmt/format.h>
 

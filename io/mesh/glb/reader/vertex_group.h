@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/base/vec.h"
-#include "io/mesh/glb/primitive.h"
-#include "io/mesh/glb/transform.h"
+#include "io/mesh/glb/reader/primitive.h"
+#include "io/mesh/glb/reader/transform.h"
 
 namespace arete {
 

@@ -14,7 +14,7 @@
 #include "io/mesh/glb/document.h"
 #include "io/mesh/glb/draco.h"
 #include "io/mesh/glb/elements.h"
-#include "io/mesh/glb/left_out.h"
+#include "io/mesh/glb/reader/left_out.h"
 
 namespace arete {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/mesh/glb/transform.h"
+#include "io/mesh/glb/reader/transform.h"
 
 #include <fmt/format.h>
 

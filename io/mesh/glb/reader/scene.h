@@ -7,8 +7,8 @@
 
 #include "engine/base/result.h"
 #include "io/mesh/glb/document.h"
-#include "io/mesh/glb/left_out.h"
-#include "io/mesh/glb/transform.h"
+#include "io/mesh/glb/reader/left_out.h"
+#include "io/mesh/glb/reader/transform.h"
 
 namespace arete {
 

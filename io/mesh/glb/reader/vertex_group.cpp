@@ -2,7 +2,7 @@
 //
 // Where most positions are used, a table has the number of each. Where few are, as of an accessor that many
 // small meshes share, the used ones are a sorted list.
-#include "io/mesh/glb/vertex_group.h"
+#include "io/mesh/glb/reader/vertex_group.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/mesh/glb/left_out.h"
+#include "io/mesh/glb/reader/left_out.h"
 
 #include <fmt/format.h>
 

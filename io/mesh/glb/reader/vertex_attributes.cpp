@@ -5,7 +5,7 @@
 //
 // One type holds two others: 16 bits hold fractions of 255 exactly, since 65535 is 257 times 255; of whole
 // numbers, the shortest that has both ranges; else floats, of 64 bits where there are whole numbers of 32.
-#include "io/mesh/glb/vertex_attributes.h"
+#include "io/mesh/glb/reader/vertex_attributes.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 //
 // A texture names an image by "source"; extensions that bring further kinds of pictures name one of their
 // own, and then "source" is for programs without the extension. It is taken if it is there.
-#include "io/mesh/glb/materials.h"
+#include "io/mesh/glb/reader/materials.h"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@
 #include "io/file/text_scan.h"
 #include "io/mesh/glb/buffers.h"
 #include "io/mesh/glb/extensions.h"
-#include "io/mesh/glb/left_out.h"
+#include "io/mesh/glb/reader/left_out.h"
 
 namespace arete {
 

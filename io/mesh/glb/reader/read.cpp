@@ -29,11 +29,11 @@
 #include "io/mesh/glb/document.h"
 #include "io/mesh/glb/frame.h"
 #include "io/mesh/glb/glb.h"
-#include "io/mesh/glb/materials.h"
-#include "io/mesh/glb/primitive.h"
-#include "io/mesh/glb/scene.h"
-#include "io/mesh/glb/vertex_attributes.h"
-#include "io/mesh/glb/vertex_group.h"
+#include "io/mesh/glb/reader/materials.h"
+#include "io/mesh/glb/reader/primitive.h"
+#include "io/mesh/glb/reader/scene.h"
+#include "io/mesh/glb/reader/vertex_attributes.h"
+#include "io/mesh/glb/reader/vertex_group.h"
 
 namespace arete {
 
