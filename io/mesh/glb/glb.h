@@ -30,11 +30,20 @@ Result<MeshFile> readGlb(const std::filesystem::path& path, const RunContext& co
 /// The same.
 Result<MeshFile> readGltf(const std::filesystem::path& path, const RunContext& context = {});
 
-/// Writes a GLB in metres, Y up, relative to a local origin. The axes are east, north and up at the origin
-/// for a geographic CRS, and those of the map otherwise (terrain/model/local_frame.h). Positions and smooth
-/// normals are float32, indices uint32. With options.triangleErrors each vertex has an "_ERROR": the largest
-/// error of its triangles, in the unit of the heights. CRS, units and origin are in asset.extras.arete.
-/// Vertices without a triangle are written too, unless the mesh has no triangle.
+/// Writes a GLB.
+///
+/// With options.up z it is in metres, Y up, relative to a local origin. The axes are east, north and up at
+/// the origin for a geographic CRS, and those of the map otherwise (terrain/model/local_frame.h). Positions
+/// and smooth normals are float32. With options.triangleErrors each vertex has an "_ERROR": the largest error
+/// of its triangles, in the unit of the heights. CRS, units and origin are in asset.extras.arete.
+///
+/// Otherwise positions are written as they are, in their axes and unit: float32 to the bit where it holds
+/// them, else relative to the translation of the nodes, and the report names what is rounded.
+///
+/// Attributes are converted as io/mesh/glb/write/vertex_values.h says, materials as materials.h beside it;
+/// each object becomes a node, each of its materials a primitive. Corners of different values at one vertex
+/// become vertices. Pictures are embedded. Vertices without a triangle are written too, unless the mesh has
+/// no triangle or several objects.
 ///
 /// Errors: those of writeMesh(). usage: a CRS that GDAL does not understand. invalidData: also a latitude
 /// beyond the pole, and more than 4 GiB.
