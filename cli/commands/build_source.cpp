@@ -58,8 +58,13 @@ Result<DemRead> readVertices(const DemArguments& dem, MeshFile mesh, Session& se
 
 Result<DemRead> readSource(const DemArguments& dem, const std::string& kind, Session& session) {
   if (isMesh(dem)) {
-    Result<MeshFile> mesh = readMesh(dem.path, session.context());
-    if (!mesh) return tl::unexpected(mesh.error());
+    Result<MeshFile> mesh = readMeshOrPoints(dem.path, session.context());
+    if (!mesh) {
+      // A text of vertices alone reads as a text of points.
+      if (mesh.error().code == ErrorCode::unsupported && kind != "surface" && looksLikePointText(dem.path))
+        return dem.read(session);
+      return tl::unexpected(mesh.error());
+    }
     const bool hasFaces = !mesh->mesh.triangles.empty();
     if (kind == "surface" && !hasFaces)
       return failure(ErrorCode::usage, fmt::format("{} has no faces: it is no surface", dem.path),

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -19,6 +20,7 @@
 #include "cli/mesh/mesh_input.h"
 #include "io/crs/names.h"
 #include "io/exchange/mesh_formats.h"
+#include "io/mesh/files_beside.h"
 #include "surface/diagnosis/diagnosis.h"
 #include "surface/diagnosis/sizes.h"
 #include "surface/edit/joined_surface.h"
@@ -51,14 +53,9 @@ bool isThere(const MeshFile& file, const std::string& picture) {
       if (std::to_string(i) == number) return true;
     return false;
   }
-  std::string name = picture;
-  std::ranges::replace(name, '\\', '/');
-  const fs::path path(name);
-  if (file.folder.empty() || name.empty() || path.is_absolute() ||
-      std::ranges::find(path, fs::path("..")) != path.end())
-    return false;
+  const Result<std::string> found = FilesBeside(file.folder).find(picture);
   std::error_code ignored;
-  return fs::is_regular_file(file.folder / path, ignored);
+  return found && fs::is_regular_file(file.folder / *found, ignored);
 }
 
 /// "3: a, b, c", of long lists the first.

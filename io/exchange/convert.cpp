@@ -16,6 +16,7 @@
 #include "io/crs/reader.h"
 #include "io/exchange/written_mesh.h"
 #include "io/gdal/support.h"
+#include "io/mesh/glb/texture_transform.h"
 
 namespace arete {
 
@@ -74,6 +75,9 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   if (Status placed = place(mesh, options, *format); !placed) return tl::unexpected(placed.error());
   if (const Status ok = stateCrs(mesh, options.crs, converted.warnings); !ok)
     return tl::unexpected(ok.error());
+  if (!isYUp(*format))
+    for (std::string& sentence : applyTextureTransforms(mesh.mesh))
+      converted.warnings.push_back(std::move(sentence));
   converted.triangles = mesh.mesh.triangles.size();
   converted.vertices = mesh.mesh.positions.size();
   converted.joinedVertices = mesh.joinedVertices;

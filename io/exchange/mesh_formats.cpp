@@ -55,6 +55,26 @@ std::string extensionsOf(Predicate isListed) {
   return list;
 }
 
+Result<MeshFile> readAs(const std::filesystem::path& path, const RunContext& context, std::string_view name,
+                        bool needsFaces) {
+  const Result<MeshFormat> format = meshFormatOf(path, name);
+  if (!format) return tl::unexpected(format.error());
+  if (!format->read)
+    return failure(ErrorCode::unsupported, fmt::format("{} files can be written, not read", format->name),
+                   path.string());
+  const bool isPointsToo = !needsFaces && format->read == &readPly;
+  Result<MeshFile> file = isPointsToo ? readPlyOfPoints(path, context) : format->read(path, context);
+  if (!file) return file;
+  // A NaN, infinite or negative error is invalid; then the file counts as one without errors.
+  if (!std::ranges::all_of(file->triangleErrors, [](float e) { return e >= 0 && std::isfinite(e); }))
+    file->triangleErrors.clear();
+  if (!file->crsWkt.empty()) file->up = MeshUp::z;
+  if (!isNoFile(path)) file->folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (const Status joined = joinSoup(*file, context); !joined)
+    return failure(joined.error().code, joined.error().message, path.string());
+  return file;
+}
+
 }  // namespace
 
 std::span<const MeshFormat> meshFormats() {
@@ -104,21 +124,13 @@ bool isMeshFile(const std::filesystem::path& path) {
 
 Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& context,
                           std::string_view name) try {
-  const Result<MeshFormat> format = meshFormatOf(path, name);
-  if (!format) return tl::unexpected(format.error());
-  if (!format->read)
-    return failure(ErrorCode::unsupported, fmt::format("{} files can be written, not read", format->name),
-                   path.string());
-  Result<MeshFile> file = format->read(path, context);
-  if (!file) return file;
-  // A NaN, infinite or negative error is invalid; then the file counts as one without errors.
-  if (!std::ranges::all_of(file->triangleErrors, [](float e) { return e >= 0 && std::isfinite(e); }))
-    file->triangleErrors.clear();
-  if (!file->crsWkt.empty()) file->up = MeshUp::z;
-  if (!isNoFile(path)) file->folder = path.has_parent_path() ? path.parent_path() : ".";
-  if (const Status joined = joinSoup(*file, context); !joined)
-    return failure(joined.error().code, joined.error().message, path.string());
-  return file;
+  return readAs(path, context, name, true);
+} catch (...) {
+  return caughtFailure(path.native());
+}
+
+Result<MeshFile> readMeshOrPoints(const std::filesystem::path& path, const RunContext& context) try {
+  return readAs(path, context, {}, false);
 } catch (...) {
   return caughtFailure(path.native());
 }

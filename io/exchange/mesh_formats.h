@@ -53,6 +53,9 @@ bool isMeshFile(const std::filesystem::path& path);
 Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& context = {},
                           std::string_view name = {});
 
+/// As readMesh(), and a PLY of points, which has no faces, is a mesh without triangles.
+Result<MeshFile> readMeshOrPoints(const std::filesystem::path& path, const RunContext& context = {});
+
 /// Writes a mesh in the format that options.format or the extension of `path` names. The file appears
 /// complete or not at all; a pipe or a device is written in place.
 ///

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Pass by pass: vertices, triangles, topology, self-intersections. Triangles with a vertex twice have no
-// place in the topology: one of their edges has no length, and the other two are one edge.
+// Pass by pass: vertices and triangles beside topology, then self-intersections. Triangles with a vertex
+// twice have no place in the topology: one of their edges has no length, and the other two are one edge.
 #include "surface/diagnosis/diagnosis.h"
+
+#include <tbb/parallel_invoke.h>
 
 #include <limits>
 
@@ -23,8 +25,10 @@ Result<MeshDiagnosis> diagnoseHere(const TriangleMesh& mesh, const DiagnosisOpti
   result.vertices = mesh.positions.size();
   result.triangles = mesh.triangles.size();
   context.report("diagnose", 0);
-  diagnosis::examineVertices(mesh, options, result);
-  diagnosis::examineFaces(mesh, options, result);
+  const std::array<Vec3, 2> box = diagnosis::boxOf(mesh);
+  result.boxLow = box[0];
+  result.boxHigh = box[1];
+  result.diagonal = diagnosis::diagonalOf(box);
   if (context.cancelled()) return failure(ErrorCode::interrupted, "the diagnosis was interrupted");
   std::vector<diagnosis::Triangle> kept;
   std::vector<std::uint32_t> keptTriangle;
@@ -33,7 +37,13 @@ Result<MeshDiagnosis> diagnoseHere(const TriangleMesh& mesh, const DiagnosisOpti
     kept.push_back(mesh.triangles[t]);
     keptTriangle.push_back(t);
   }
-  diagnosis::examineTopology(mesh, kept, keptTriangle, options, result);
+  // Each fills members of its own.
+  tbb::parallel_invoke([&] { diagnosis::examineTopology(mesh, kept, keptTriangle, options, result); },
+                       [&] {
+                         diagnosis::examineVertices(mesh, options, result);
+                         diagnosis::examineFaces(mesh, options, result);
+                       });
+  if (context.cancelled()) return failure(ErrorCode::interrupted, "the diagnosis was interrupted");
   if (options.selfIntersections) {
     const auto pairs = diagnosis::findSelfIntersections(mesh, context);
     if (!pairs) return failure(ErrorCode::interrupted, "the diagnosis was interrupted");

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Triangles with the same vertices are side by side when sorted by their sorted corners.
+// Triangles with the same vertices are side by side when sorted by their sorted corners: first, by counting,
+// by the lowest, and then the few of each lowest corner by the others.
 #include <algorithm>
+#include <numeric>
 
 #include "surface/diagnosis/parts.h"
 
@@ -28,18 +30,26 @@ Vec3 centroid(const TriangleMesh& mesh, std::uint32_t triangle) {
 }
 
 void examineFaces(const TriangleMesh& mesh, const DiagnosisOptions& options, MeshDiagnosis& result) {
-  std::vector<Sorted> sorted;
-  sorted.reserve(mesh.triangles.size());
+  const auto lowest = [](const Triangle& t) { return std::min({t[0], t[1], t[2]}); };
+  std::vector<std::uint32_t> begin(mesh.positions.size() + 1, 0);
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const Triangle& t = mesh.triangles[i];
     if (hasRepeat(t) || areCollinear(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]))
       add(result.degenerateTriangles, options.mostPlaces, {i}, centroid(mesh, i));
-    if (hasRepeat(t)) continue;
-    Sorted s{t, i, isEven(t)};
-    std::ranges::sort(s.corners);
-    sorted.push_back(s);
+    if (!hasRepeat(t)) ++begin[lowest(t) + std::size_t{1}];
   }
-  std::ranges::sort(sorted);
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Sorted> sorted(begin.back());
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Triangle& t = mesh.triangles[i];
+    if (hasRepeat(t)) continue;
+    Sorted& s = sorted[begin[lowest(t)]++];
+    s = {t, i, isEven(t)};
+    std::ranges::sort(s.corners);
+  }
+  // begin[v] is now the end of those of v.
+  for (std::size_t v = 0; v + 1 < begin.size(); ++v)
+    std::sort(sorted.begin() + (v == 0 ? 0 : begin[v - 1]), sorted.begin() + begin[v]);
   struct Pair {
     std::uint32_t other, first;
     bool isDuplicate;

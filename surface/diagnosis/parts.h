@@ -32,7 +32,7 @@ std::array<Vec3, 2> boxOf(const TriangleMesh& mesh);
 /// The length of its diagonal, also where the squares of its sides overflow.
 double diagonalOf(const std::array<Vec3, 2>& box);
 
-/// Vertices: unused, double; the box.
+/// Vertices: unused, double.
 void examineVertices(const TriangleMesh& mesh, const DiagnosisOptions& options, MeshDiagnosis& result);
 /// Triangles: degenerate, duplicate, double-sided.
 void examineFaces(const TriangleMesh& mesh, const DiagnosisOptions& options, MeshDiagnosis& result);

@@ -45,11 +45,6 @@ void examineVertices(const TriangleMesh& mesh, const DiagnosisOptions& options, 
     used.push_back(v);
   }
   if (used.empty()) return;
-  const std::array<Vec3, 2> box = boxOf(mesh);
-  result.boxLow = box[0];
-  result.boxHigh = box[1];
-  result.diagonal = diagonalOf(box);
-
   // Adding 0 makes -0 and 0 one key, as they are one position.
   const auto key = [&](std::uint32_t v) {
     const Vec3& p = mesh.positions[v];

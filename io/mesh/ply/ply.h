@@ -22,6 +22,8 @@ namespace arete {
 ///
 /// Errors: those of readMesh(). corrupt: also if no face has three corners.
 Result<MeshFile> readPly(const std::filesystem::path& path, const RunContext& context = {});
+/// The same, also of a file that has no element of faces: a point cloud.
+Result<MeshFile> readPlyOfPoints(const std::filesystem::path& path, const RunContext& context = {});
 
 /// Writes binary little-endian PLY: vertices as doubles, faces as "list uchar int vertex_indices". With
 /// options.triangleErrors each face has a float "error"; with vertexQualities and vertexColors each vertex

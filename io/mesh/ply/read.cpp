@@ -26,7 +26,7 @@ namespace {
 /// Notes are looked up one by one.
 constexpr std::size_t kMostNotes = 1000;
 
-Status checkElements(const PlyHeader& header, const std::string& path) {
+Status checkElements(const PlyHeader& header, bool needsFaces, const std::string& path) {
   const auto countOf = [&](std::string_view name) {
     return std::ranges::count_if(header.elements, [&](const PlyElement& e) { return e.name == name; });
   };
@@ -34,7 +34,7 @@ Status checkElements(const PlyHeader& header, const std::string& path) {
     if (countOf(name) > 1)
       return failure(ErrorCode::corrupt, fmt::format("has two elements {}", text::quotedToken(name)), path);
   if (countOf("vertex") == 0) return failure(ErrorCode::corrupt, "has no element \"vertex\"", path);
-  if (countOf("face") == 0 && countOf("tristrips") == 0)
+  if (needsFaces && countOf("face") == 0 && countOf("tristrips") == 0)
     return failure(ErrorCode::unsupported, "has no element \"face\": it is a point cloud, not a mesh", path);
 
   for (const PlyElement& element : header.elements)
@@ -84,9 +84,7 @@ PlyComments takeComments(const PlyHeader& header, MeshFile& file) {
   return comments;
 }
 
-}  // namespace
-
-Result<MeshFile> readPly(const std::filesystem::path& path, const RunContext& context) {
+Result<MeshFile> readFile(const std::filesystem::path& path, bool needsFaces, const RunContext& context) {
   const std::string name = path.string();
   Result<FileBytes> file = FileBytes::read(path);
   if (!file) return tl::unexpected(file.error());
@@ -99,7 +97,7 @@ Result<MeshFile> readPly(const std::filesystem::path& path, const RunContext& co
   if (header->format == PlyFormat::ascii)
     if (const Status ok = file->decodeText(path); !ok) return tl::unexpected(ok.error());
   useKnownNames(*header);
-  if (const Status ok = checkElements(*header, name); !ok) return tl::unexpected(ok.error());
+  if (const Status ok = checkElements(*header, needsFaces, name); !ok) return tl::unexpected(ok.error());
 
   MeshFile result;
   std::error_code ignored;
@@ -123,6 +121,16 @@ Result<MeshFile> readPly(const std::filesystem::path& path, const RunContext& co
   }
   if (!read) return tl::unexpected(read.error());
   return result;
+}
+
+}  // namespace
+
+Result<MeshFile> readPly(const std::filesystem::path& path, const RunContext& context) {
+  return readFile(path, true, context);
+}
+
+Result<MeshFile> readPlyOfPoints(const std::filesystem::path& path, const RunContext& context) {
+  return readFile(path, false, context);
 }
 
 }  // namespace arete

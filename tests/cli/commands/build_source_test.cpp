@@ -42,6 +42,25 @@ TEST_F(BuildSource, TakesTheVerticesOfAMeshWhereStated) {
   EXPECT_EQ(turned.json()["sourceChecksum"], points["sourceChecksum"]);
 }
 
+TEST_F(BuildSource, TakesAMeshWithoutFacesForPoints) {
+  const Json points = build("points.csv").json();
+  const std::string vertices = "0 0 1\n10 0 2\n10 10 3\n0 10 4\n5 5 9\n";
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n";
+  write("cloud.ply", header + "end_header\n" + vertices);
+  write("none.ply",
+        header + "element face 0\nproperty list uchar int vertex_indices\nend_header\n" + vertices);
+  write("cloud.obj", "v 0 0 1\nv 10 0 2\nv 10 10 3\nv 0 10 4\nv 5 5 9\n");
+  for (const char* name : {"cloud.ply", "none.ply", "cloud.obj"})
+    for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--as", "points"}}) {
+      const Outcome built = build(name, more);
+      ASSERT_EQ(built.code, 0) << name << built.err;
+      EXPECT_EQ(built.json()["sourceChecksum"], points["sourceChecksum"]) << name;
+    }
+  EXPECT_EQ(build("cloud.ply", {"--as", "surface"}).code, 2);
+  EXPECT_EQ(run({"mesh", "info", "cloud.ply"}).code, 3) << "no mesh";
+}
+
 TEST_F(BuildSource, RefusesAKindThatContradictsTheFile) {
   makeRaster("dem.tif", "fractal", 9, 9);
   EXPECT_EQ(build("dem.tif", {"--as", "terrain"}).code, 0);
