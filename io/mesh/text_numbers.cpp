@@ -71,4 +71,15 @@ double fractionOf(const Attribute& attribute, double number) {
   return number;
 }
 
+bool hasFloat32Digits(const Attribute& attribute) {
+  if (attribute.type != ScalarType::float32 && !(attribute.isNormalized && sizeOf(attribute.type) < 4))
+    return false;
+  if (!attribute.isFromTop || attribute.components < 2) return true;
+  for (std::size_t i = 0; i < attribute.elementCount(); ++i) {
+    const double fromBelow = 1 - fractionOf(attribute, attribute.numbers(i)[1]);
+    if (double{static_cast<float>(fromBelow)} != fromBelow) return false;
+  }
+  return true;
+}
+
 }  // namespace arete

@@ -19,4 +19,8 @@ Attribute attributeOfTextNumbers(std::string name, AttributeMeaning meaning, std
 /// The number that an element's component stands for: of normalized integers a fraction.
 double fractionOf(const Attribute& attribute, double number);
 
+/// Whether the digits of float32 hold what the attribute stands for, as text counts it: texture coordinates
+/// from below. One number that needs the digits of doubles makes a reader take all for doubles. O(size).
+bool hasFloat32Digits(const Attribute& attribute);
+
 }  // namespace arete

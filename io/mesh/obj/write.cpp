@@ -53,10 +53,6 @@ void appendNumber(Line& line, double number, bool isFloat32) {
     fmt::format_to(std::back_inserter(line), FMT_COMPILE(" {}"), number);
 }
 
-bool hasFloat32Digits(const Attribute& attribute) {
-  return attribute.type == ScalarType::float32 || (attribute.isNormalized && sizeOf(attribute.type) < 4);
-}
-
 /// The "vt" or "vn" lines of an attribute, and which of them the corners name.
 class Values {
  public:
@@ -64,6 +60,7 @@ class Values {
   Values(const Attribute* attribute, bool isOfWedges, std::string_view keyword)
       : attribute_(attribute), isOfWedges_(isOfWedges) {
     if (!attribute) return;
+    isFloat32_ = hasFloat32Digits(*attribute);
     const bool isNormal = keyword == "vn";
     std::unordered_map<std::string, std::uint32_t> known;
     indices_.resize(attribute->elementCount(), kNone);
@@ -97,10 +94,8 @@ class Values {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       const double number = fractionOf(*attribute_, numbers[i]);
       hasInfinite_ = hasInfinite_ || !std::isfinite(number);
-      if (i == 1 && !isNormal && attribute_->isFromTop)
-        appendNumber(line, 1 - number, false);
-      else
-        appendNumber(line, number, hasFloat32Digits(*attribute_));
+      const bool isTurned = i == 1 && !isNormal && attribute_->isFromTop;
+      appendNumber(line, isTurned ? 1 - number : number, isFloat32_);
     }
     if (numbers.size() == 1) appendNumber(line, 0, true);
     std::string text = fmt::to_string(line);
@@ -121,6 +116,7 @@ class Values {
   const Attribute* attribute_;
   bool isOfWedges_;
   bool hasInfinite_ = false;
+  bool isFloat32_ = false;              // the digits
   std::vector<std::uint32_t> indices_;  // by element
   std::string text_;
 };

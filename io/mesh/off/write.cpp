@@ -60,17 +60,16 @@ class Line {
   void put(float number) { fmt::format_to(std::back_inserter(text_), FMT_COMPILE("{} "), number); }
   void put(std::uint32_t number) { fmt::format_to(std::back_inserter(text_), FMT_COMPILE("{} "), number); }
 
-  /// The element as fractions; floats keep their type, of which the digits are the shortest.
-  void putVector(const Attribute& attribute, std::size_t element) {
+  /// The element as fractions, with the shortest digits of float32 or of doubles.
+  void putVector(const Attribute& attribute, std::size_t element, bool isFloat32) {
     const std::vector<double> numbers = attribute.numbers(element);
     for (std::size_t c = 0; c < numbers.size(); ++c) {
-      const double number = fractionOf(attribute, numbers[c]);
-      if (c == 1 && attribute.isFromTop)
-        put(1 - number);
-      else if (attribute.type == ScalarType::float64)
-        put(number);
-      else
+      const double fraction = fractionOf(attribute, numbers[c]);
+      const double number = c == 1 && attribute.isFromTop ? 1 - fraction : fraction;
+      if (isFloat32)
         put(static_cast<float>(number));
+      else
+        put(number);
     }
   }
 
@@ -138,14 +137,16 @@ Result<MeshWriteReport> writeOff(MeshRef written, const std::filesystem::path& p
 
   WriteProgress progress(mesh.positions.size() + mesh.triangles.size(), path.string(), context);
   Line line;
+  const bool hasFloat32Normals = vertices.normal && hasFloat32Digits(*vertices.normal);
+  const bool hasFloat32Texcoords = vertices.texcoord && hasFloat32Digits(*vertices.texcoord);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     if (progress.shouldStop()) return progress.interrupted();
     line.clear();
     const Vec3& p = mesh.positions[v];
     for (const double coordinate : {p.x, p.y, p.z}) line.put(coordinate);
-    if (vertices.normal) line.putVector(*vertices.normal, v);
+    if (vertices.normal) line.putVector(*vertices.normal, v, hasFloat32Normals);
     if (vertices.color) line.putColor(*vertices.color, v, true);
-    if (vertices.texcoord) line.putVector(*vertices.texcoord, v);
+    if (vertices.texcoord) line.putVector(*vertices.texcoord, v, hasFloat32Texcoords);
     file->write(line.whole());
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -20,6 +20,7 @@ MeshFile whole() {
   file.mesh.shape() = {{{500000.1, 4000000.1, 100.123456789}, {500010, 4000000, 1}, {500000, 4000010, 2}},
                        {{0, 1, 2}}};
   file.crsWkt = "EPSG:32611";
+  file.up = MeshUp::z;
   file.verticalUnit = "ft";
   file.triangleErrors = {0.5F};
   return file;
