@@ -15,7 +15,7 @@
 namespace arete {
 namespace {
 
-/// A single file that a reader of meshes reads. A GeoPackage does not count: it holds layers of many kinds.
+/// A single file that a reader of meshes reads. Not a GeoPackage: it holds layers of many kinds.
 bool isMesh(const DemArguments& dem) {
   std::error_code ignored;
   if (!dem.reading.otherFiles.empty() || !std::filesystem::is_regular_file(dem.path, ignored)) return false;

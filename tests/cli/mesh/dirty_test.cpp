@@ -101,8 +101,8 @@ TEST_P(DirtyMeshes, GiveASentenceOrAResult) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Every, DirtyMeshes, ::testing::Range(std::size_t(0), dirty().size()),
-                         [](const auto& info) {
-                           std::string name = dirty()[info.param].name;
+                         [](const auto& mesh) {
+                           std::string name = dirty()[mesh.param].name;
                            std::ranges::replace(name, '.', '_');
                            return name;
                          });
