@@ -191,7 +191,7 @@ Result<DracoMesh> decodeDraco(std::string_view bytes, std::uint64_t mostBytes,
     return tl::unexpected(answer.error());
   }
   std::optional<DracoMesh> mesh = meshOf(*answer);
-  if (!mesh) return failure(ErrorCode::corrupt, "decodes to a Draco mesh that makes no sense");
+  if (!mesh) return failure(ErrorCode::corrupt, "decodes to triangles of points that it does not have");
   return std::move(*mesh);
 } catch (...) {
   return caughtFailure();
