@@ -45,7 +45,7 @@ TEST(GpkgRead, RoundTripsEveryFamilyToTheBitWithItsErrors) {
     std::vector<float> errors(mesh.triangles.size());
     for (std::size_t t = 0; t < errors.size(); ++t) errors[t] = static_cast<float>(t) / 7;
     const std::string path = folder.file("a.gpkg");
-    const Status written =
+    const auto written =
         writeMesh(mesh, path, {.crsWkt = "EPSG:32611", .verticalUnit = "ft", .triangleErrors = errors});
     ASSERT_TRUE(written) << written.error().describe();
     const Result<MeshFile> file = readMesh(path);
