@@ -108,9 +108,11 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   const bool wasExact = mesh.frame.rounding == Vec3{};
   // Of terrain, whose numbers were rounded before; any other mesh is what its file says.
   const bool isTerrain = mesh.frame.origin || mesh.up == MeshUp::z;
+  const bool isNamed = std::ranges::any_of(
+      converted.lost, [](const std::string& lost) { return lost.starts_with("coordinates finer"); });
   const bool isRounded =
       (wasExact || !isTerrain) && written->mesh && usedPositions(mesh.mesh) != usedPositions(*written->mesh);
-  lose(false, isRounded,
+  lose(isNamed, isRounded,
        fmt::format("coordinates finer than {:.2g}, {:.2g}, {:.2g} (x, y, height)", r.x, r.y, r.z));
   if (const Vec3& off = mesh.frame.rounding; format->holds.isExact && !wasExact && isTerrain)
     converted.warnings.push_back(fmt::format(
