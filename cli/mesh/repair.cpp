@@ -68,7 +68,10 @@ Result<WeldDistance> weldDistance(const std::string& text, const TriangleMesh& m
   WeldDistance distance{.size = (*number)[0], .share = {}};
   if (isPercent) {
     distance.share = distance.size;
-    distance.size = distance.size / 100 * diagonalOf(mesh);
+    const double diagonal = diagonalOf(mesh);
+    if (!std::isfinite(diagonal))
+      return failure(ErrorCode::invalidData, "the diagonal of its box is too large for a number");
+    distance.size = distance.size / 100 * diagonal;
   }
   return distance;
 }

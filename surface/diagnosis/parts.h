@@ -52,7 +52,7 @@ struct TJunction {
   auto operator<=>(const TJunction&) const = default;
 };
 /// The vertices that lie within a distance of an edge and farther than it from its ends.
-/// @return in increasing order. O(n log n) but where many boxes overlap.
+/// @return in increasing order. O(n log n) but where many vertices are near many edges.
 std::vector<TJunction> findTJunctions(std::span<const Vec3> positions,
                                       std::span<const std::array<std::uint32_t, 2>> edges,
                                       std::span<const std::uint32_t> vertices, double distance);

@@ -1,26 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Boxes of edges against boxes of vertices [ZomorodianEdelsbrunner2000]; a pair whose boxes meet is measured.
-// The distance is that of a point from a segment in doubles, so that it is certain to a few ulps of the
-// coordinates.
-#include <CGAL/Box_intersection_d/Box_with_info_d.h>
-#include <CGAL/box_intersection_d.h>
+// The positions of the vertices are a tree of boxes, halved along their widest axis. An edge descends into
+// the boxes that it passes within the distance, not into those that only its own box meets: edges that run
+// far across the mesh meet few. The distance is that of a point from a segment in doubles, so that it is
+// certain to a few ulps of the coordinates.
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 #include "surface/diagnosis/parts.h"
 
 namespace arete::diagnosis {
 namespace {
-
-using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
-
-Box boxOf(Vec3 low, Vec3 high, double reach, std::uint32_t info) {
-  const double from[] = {low.x - reach, low.y - reach, low.z - reach},
-               to[] = {high.x + reach, high.y + reach, high.z + reach};
-  return {CGAL::Bbox_3(from[0], from[1], from[2], to[0], to[1], to[2]), info};
-}
 
 bool isInside(const Vec3& p, const Vec3& a, const Vec3& b, double distance) {
   const Vec3 along = b - a;
@@ -30,29 +27,139 @@ bool isInside(const Vec3& p, const Vec3& a, const Vec3& b, double distance) {
   return norm(p - (a + along * t)) <= distance && norm(p - a) > distance && norm(p - b) > distance;
 }
 
+class PlaceTree {
+ public:
+  /// @param vertices at different positions; their order numbers the places. Outlive this.
+  /// @param reach how far from a segment its candidates may be.
+  PlaceTree(std::span<const Vec3> positions, std::span<const std::uint32_t> vertices, double reach)
+      : positions_(positions), vertices_(vertices), order_(vertices.size()), reach_(reach) {
+    std::iota(order_.begin(), order_.end(), 0u);
+    if (!order_.empty()) build(0, order_.size());
+  }
+
+  template <class Visit>
+  void visitNear(const Vec3& a, const Vec3& b, const Visit& visit) const {
+    if (!nodes_.empty()) descend(0, 0, order_.size(), a, b, visit);
+  }
+
+ private:
+  static constexpr std::size_t kLeaf = 8;
+  struct Node {
+    std::array<double, 3> low, high;
+    std::size_t second;  ///< the node of the upper half; that of the lower one is the next
+  };
+
+  static std::array<double, 3> coordinates(const Vec3& p) { return {p.x, p.y, p.z}; }
+  std::array<double, 3> coordinates(std::uint32_t place) const {
+    return coordinates(positions_[vertices_[place]]);
+  }
+  std::array<double, 3> placeAt(std::size_t i) const { return coordinates(order_[i]); }
+
+  void build(std::size_t begin, std::size_t end) {
+    const std::size_t number = nodes_.size();
+    Node node{placeAt(begin), placeAt(begin), 0};
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::array<double, 3> p = placeAt(i);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        node.low[axis] = std::min(node.low[axis], p[axis]);
+        node.high[axis] = std::max(node.high[axis], p[axis]);
+      }
+    }
+    nodes_.push_back(node);
+    if (end - begin <= kLeaf) return;
+    std::size_t widest = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis)
+      if (node.high[axis] - node.low[axis] > node.high[widest] - node.low[widest]) widest = axis;
+    const std::size_t middle = begin + (end - begin) / 2;
+    const auto at = [&](std::size_t i) { return order_.begin() + std::ptrdiff_t(i); };
+    std::nth_element(at(begin), at(middle), at(end), [&](std::uint32_t v, std::uint32_t w) {
+      const double x = coordinates(v)[widest], y = coordinates(w)[widest];
+      return x != y ? x < y : v < w;
+    });
+    build(begin, middle);
+    nodes_[number].second = nodes_.size();
+    build(middle, end);
+  }
+
+  /// Whether a segment passes a box within the reach. Where differences overflow, it does.
+  bool passes(const Node& node, const std::array<double, 3>& a, const std::array<double, 3>& b) const {
+    double from = 0, to = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double low = node.low[axis] - reach_, high = node.high[axis] + reach_, way = b[axis] - a[axis];
+      if (way == 0) {
+        if (a[axis] < low || a[axis] > high) return false;
+        continue;
+      }
+      const double s = (low - a[axis]) / way, t = (high - a[axis]) / way;
+      const double enters = way > 0 ? s : t, leaves = way > 0 ? t : s;
+      if (enters > from) from = enters;
+      if (leaves < to) to = leaves;
+      if (from > to) return false;
+    }
+    return true;
+  }
+
+  template <class Visit>
+  void descend(std::size_t number, std::size_t begin, std::size_t end, const Vec3& a, const Vec3& b,
+               const Visit& visit) const {
+    if (!passes(nodes_[number], coordinates(a), coordinates(b))) return;
+    if (end - begin <= kLeaf) {
+      for (std::size_t i = begin; i < end; ++i) visit(order_[i]);
+      return;
+    }
+    const std::size_t middle = begin + (end - begin) / 2;
+    descend(number + 1, begin, middle, a, b, visit);
+    descend(nodes_[number].second, middle, end, a, b, visit);
+  }
+
+  std::span<const Vec3> positions_;
+  std::span<const std::uint32_t> vertices_;
+  std::vector<std::uint32_t> order_;  // of places, as the nodes have them
+  double reach_;
+  std::vector<Node> nodes_;
+};
+
 }  // namespace
 
 std::vector<TJunction> findTJunctions(std::span<const Vec3> positions,
                                       std::span<const std::array<std::uint32_t, 2>> edges,
                                       std::span<const std::uint32_t> vertices, double distance) {
-  std::vector<Box> edgeBoxes, vertexBoxes;
-  for (std::uint32_t e = 0; e < edges.size(); ++e) {
-    const Vec3 &a = positions[edges[e][0]], &b = positions[edges[e][1]];
-    edgeBoxes.push_back(boxOf({std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)},
-                              {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}, distance, e));
+  // Vertices at one position stand side by side, and the first of them in the tree.
+  std::vector<std::uint32_t> sorted(vertices.begin(), vertices.end());
+  const auto key = [&](std::uint32_t v) {
+    return std::tuple(positions[v].x, positions[v].y, positions[v].z);
+  };
+  std::ranges::sort(sorted, {}, [&](std::uint32_t v) { return std::tuple_cat(key(v), std::tuple(v)); });
+  std::vector<std::uint32_t> places, firstOf;
+  double largest = 0;
+  for (std::uint32_t i = 0; i < sorted.size(); ++i) {
+    const Vec3& p = positions[sorted[i]];
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    if (i > 0 && positions[sorted[i - 1]] == p) continue;
+    firstOf.push_back(i);
+    places.push_back(sorted[i]);
   }
-  for (const std::uint32_t v : vertices) vertexBoxes.push_back(boxOf(positions[v], positions[v], 0, v));
-  std::vector<TJunction> found;
-  CGAL::box_intersection_d(edgeBoxes.begin(), edgeBoxes.end(), vertexBoxes.begin(), vertexBoxes.end(),
-                           [&](const Box& edge, const Box& vertex) {
-                             const auto [low, high] = edges[edge.info()];
-                             const std::uint32_t v = vertex.info();
-                             if (v == low || v == high) return;
-                             if (isInside(positions[v], positions[low], positions[high], distance))
-                               found.push_back({v, low, high});
-                           });
-  std::ranges::sort(found);
-  return found;
+  firstOf.push_back(static_cast<std::uint32_t>(sorted.size()));
+
+  constexpr double kRounding = 16 * 0x1p-52;
+  const PlaceTree tree(positions, places, distance + kRounding * largest);
+  tbb::enumerable_thread_specific<std::vector<TJunction>> found;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), 256), [&](const auto& range) {
+    std::vector<TJunction>& here = found.local();
+    for (std::size_t e = range.begin(); e < range.end(); ++e) {
+      const auto [low, high] = edges[e];
+      const Vec3 &a = positions[low], &b = positions[high];
+      tree.visitNear(a, b, [&, low = low, high = high](std::uint32_t place) {
+        if (isInside(positions[places[place]], a, b, distance))
+          for (std::uint32_t i = firstOf[place]; i < firstOf[place + 1]; ++i)
+            here.push_back({sorted[i], low, high});
+      });
+    }
+  });
+  std::vector<TJunction> all;
+  for (const std::vector<TJunction>& some : found) all.insert(all.end(), some.begin(), some.end());
+  std::ranges::sort(all);
+  return all;
 }
 
 }  // namespace arete::diagnosis

@@ -17,7 +17,10 @@ class Neighbourhood {
   using Triangle = std::array<std::uint32_t, 3>;
 
   explicit Neighbourhood(const TriangleMesh& mesh) : mesh_(mesh), at_(mesh.positions.size()) {
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) add(t);
+    // In order: a triangle that is there already is the last one.
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+      for (const std::uint32_t v : mesh.triangles[t])
+        if (at_[v].empty() || at_[v].back() != t) at_[v].push_back(t);
   }
 
   void add(std::uint32_t triangle) {

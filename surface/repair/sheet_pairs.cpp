@@ -2,14 +2,15 @@
 //
 // Triangles in the order of their angles around the edge are a circle. A triangle whose side runs forward,
 // its apex at angle 0, has its normal at a quarter turn: its solid lies at the falling angles. So a backward
-// side and the forward one that follows it enclose a solid. They are taken out like a pair of brackets, and
-// those around them meet. At equal angles a forward side comes first: a solid of no width between the two
-// sides of one sheet is not meant.
+// side and the forward one that follows it enclose a solid, and so do the two around them that they leave as
+// neighbours: pairs of brackets. At equal angles a forward side comes first: a solid of no width between the
+// two sides of one sheet is not meant.
 #include "surface/repair/sheet_pairs.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 
 namespace arete::repair_passes {
@@ -49,18 +50,20 @@ std::vector<Leaf> leavesOf(const Vec3& from, const Vec3& to, std::span<const She
 
 std::vector<std::pair<CornerId, CornerId>> pairSheets(const Vec3& from, const Vec3& to,
                                                       std::span<const SheetSide> sides) {
-  std::vector<Leaf> leaves = leavesOf(from, to, sides);
+  const std::vector<Leaf> leaves = leavesOf(from, to, sides);
   std::vector<std::pair<CornerId, CornerId>> pairs;
-  const auto opens = [&] {
-    for (std::size_t i = 0; i < leaves.size(); ++i)
-      if (!leaves[i].isForward && leaves[(i + 1) % leaves.size()].isForward) return i;
-    return leaves.size();
-  };
-  for (std::size_t i = opens(); i < leaves.size(); i = opens()) {
-    const std::size_t next = (i + 1) % leaves.size();
-    pairs.push_back({leaves[i].side, leaves[next].side});
-    leaves.erase(leaves.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
-    leaves.erase(leaves.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
+  // Brackets along a circle: those that are open at its end are closed on the second way round.
+  std::vector<std::size_t> open;
+  std::vector<std::uint8_t> isClosed(leaves.size(), 0);
+  for (std::size_t i = 0; i < 2 * leaves.size(); ++i) {
+    const std::size_t leaf = i % leaves.size();
+    if (!leaves[leaf].isForward) {
+      if (i < leaves.size()) open.push_back(leaf);
+    } else if (isClosed[leaf] == 0 && !open.empty()) {
+      pairs.push_back({leaves[open.back()].side, leaves[leaf].side});
+      open.pop_back();
+      isClosed[leaf] = 1;
+    }
   }
   return pairs;
 }

@@ -2,7 +2,9 @@
 //
 // Dirty meshes: each command ends with a sentence or a result. tests/fuzz/commands_test.cpp runs the same
 // commands over the kept inputs of the fuzzers.
+#include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "cli/mesh_fixture.h"
 
@@ -42,7 +44,11 @@ const std::vector<Dirty>& dirty() {
       {"fans.obj",
        [] {  // as many fans at one vertex
          std::string text = "v 0 0 0\n";
-         for (int i = 0; i < 50'000; ++i) text += fmt::format("v {0} 1 0\nv {0} 2 0\n", i);
+         for (int i = 0; i < 50'000; ++i) {
+           const double angle = 2 * std::numbers::pi * i / 50'000;
+           text += fmt::format("v {} {} 0\nv {} {} 1\n", std::cos(angle), std::sin(angle), std::cos(angle),
+                               std::sin(angle));
+         }
          for (int i = 0; i < 50'000; ++i) text += fmt::format("f 1 {} {}\n", 2 * i + 2, 2 * i + 3);
          return text;
        },

@@ -9,7 +9,7 @@ using MeshInfo = Meshes;
 TEST_F(MeshInfo, BeginsWithAVerdict) {
   write("closed.obj", std::string(kTetrahedron));
   write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  write("wide.obj", plus(kTetrahedron, "v 1 1 1\nf 1 2 5\n"));
+  write("wide.obj", plus(kTetrahedron, "v 0.5 -1 -1\nf 1 2 5\n"));
   write("turned.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n");
   write("twice.obj", plus(kTetrahedron, "f 3 2 1\nf 1 3 2\n"));
   for (const auto& [name, verdict] :
@@ -18,7 +18,7 @@ TEST_F(MeshInfo, BeginsWithAVerdict) {
         std::pair{"wide.obj",
                   "wide.obj: not manifold: 1 edge of more than two faces; 1 component, 1 border\n"},
         std::pair{"turned.obj", "1 edge whose two faces are oriented against each other\n"},
-        std::pair{"twice.obj", "1 duplicate face"}}) {
+        std::pair{"twice.obj", "2 duplicate faces"}}) {
     const Outcome outcome = run({"mesh", "info", name});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
