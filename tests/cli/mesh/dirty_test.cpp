@@ -34,10 +34,10 @@ const std::vector<Dirty>& dirty() {
        },
        {0}},
       {"fan.obj",
-       [] {  // 50 000 faces at one edge
+       [] {  // 20 000 faces at one edge
          std::string text = "v 0 0 0\nv 0 0 1\n";
-         for (int i = 0; i < 50'000; ++i) text += fmt::format("v {} {} 0\n", i + 1, i * i % 977);
-         for (int i = 0; i < 50'000; ++i) text += fmt::format("f 1 2 {}\n", i + 3);
+         for (int i = 0; i < 20'000; ++i) text += fmt::format("v {} {} 0\n", i + 1, i * i % 977);
+         for (int i = 0; i < 20'000; ++i) text += fmt::format("f 1 2 {}\n", i + 3);
          return text;
        },
        {0}},
@@ -96,7 +96,7 @@ TEST_P(DirtyMeshes, GiveASentenceOrAResult) {
          "--split-sheets"},
         {"mesh", "crop", mesh.name, "-o", "out.ply", "--box", ",,,,,0.5"},
         {"convert", mesh.name, "-o", "out.stl", "--up", "y", "--unit", "mm"}}) {
-    const Outcome outcome = run(command, killIfItHangs);
+    const Outcome outcome = run(command);
     const bool isCrop = command[1] == "crop";
     EXPECT_TRUE(std::ranges::find(mesh.codes, outcome.code) != mesh.codes.end() ||
                 (isCrop && outcome.code == 2))
