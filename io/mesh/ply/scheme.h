@@ -45,9 +45,10 @@ struct PlyScheme {
 /// others by `notes`. Every other property keeps its name; a name that repeats gets a number.
 ///
 /// @param notes of any element.
-/// @param withTextures faces: "texnumber" says which picture.
-/// @param withAttributes faces: false: vertices and nothing else is read.
 PlyScheme vertexScheme(const PlyElement& element, const std::vector<PlyNote>& notes);
+/// The same for faces.
+/// @param withTextures "texnumber" says which picture.
+/// @param withAttributes false: the corners and nothing else is read.
 PlyScheme faceScheme(const PlyElement& element, const std::vector<PlyNote>& notes, bool withTextures,
                      bool withAttributes);
 PlyScheme stripScheme(const PlyElement& element);
