@@ -40,7 +40,7 @@ Result<MeshFile> readGltf(const std::filesystem::path& path, const RunContext& c
 /// Otherwise positions are written as they are, in their axes and unit: float32 to the bit where it holds
 /// them, else relative to the translation of the nodes, and the report names what is rounded.
 ///
-/// Attributes are converted as io/mesh/glb/write/vertex_values.h says, materials as materials.h beside it;
+/// Attributes are converted as io/mesh/glb/writer/vertex_values.h says, materials as materials.h beside it;
 /// each object becomes a node, each of its materials a primitive. Corners of different values at one vertex
 /// become vertices. Pictures are embedded. Vertices without a triangle are written too, unless the mesh has
 /// no triangle or several objects.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A GLB is a header, a chunk of JSON and a chunk of bytes; as text, the JSON has the bytes in base 64.
-#include "io/mesh/glb/write/container.h"
+#include "io/mesh/glb/writer/container.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/mesh/glb/write/mtl_material.h"
+#include "io/mesh/glb/writer/mtl_material.h"
 
 #include <algorithm>
 #include <charconv>

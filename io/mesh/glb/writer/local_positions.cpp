@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/mesh/glb/write/local_positions.h"
+#include "io/mesh/glb/writer/local_positions.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 // The primitives of an object share their vertices, so that a vertex of two materials stays one. Objects do
 // not, since readers load each with all the vertices that its accessors have: a vertex of two objects becomes
 // two.
-#include "io/mesh/glb/write/mesh_plan.h"
+#include "io/mesh/glb/writer/mesh_plan.h"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,7 @@
 #include "engine/base/triangle_mesh.h"
 #include "io/mesh/file.h"
 #include "io/mesh/glb/frame.h"
-#include "io/mesh/glb/write/container.h"
+#include "io/mesh/glb/writer/container.h"
 
 namespace arete {
 

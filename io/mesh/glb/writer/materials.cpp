@@ -4,7 +4,7 @@
 // texture in an extension, "extensions/KHR_materials_clearcoat/clearcoatTexture". Of an MTL, four keys have a
 // place. References to textures that the statements of another glTF still have would name other textures
 // here; they are removed.
-#include "io/mesh/glb/write/materials.h"
+#include "io/mesh/glb/writer/materials.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "io/file/text_scan.h"
-#include "io/mesh/glb/write/mtl_material.h"
+#include "io/mesh/glb/writer/mtl_material.h"
 
 namespace arete {
 namespace {

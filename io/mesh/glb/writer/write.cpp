@@ -7,9 +7,9 @@
 
 #include "engine/base/caught_failure.h"
 #include "io/mesh/glb/glb.h"
-#include "io/mesh/glb/write/container.h"
-#include "io/mesh/glb/write/framed.h"
-#include "io/mesh/glb/write/surface.h"
+#include "io/mesh/glb/writer/container.h"
+#include "io/mesh/glb/writer/framed.h"
+#include "io/mesh/glb/writer/surface.h"
 
 namespace arete {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/mesh/glb/write/numbers.h"
+#include "io/mesh/glb/writer/numbers.h"
 
 #include <algorithm>
 #include <cmath>

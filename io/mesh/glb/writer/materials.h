@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "io/mesh/glb/write/textures.h"
+#include "io/mesh/glb/writer/textures.h"
 #include "surface/model/surface_mesh.h"
 
 namespace arete {
@@ -25,7 +25,7 @@ struct WrittenMaterials {
 };
 
 /// What came from a glTF (Material::verbatim["gltf"], and for a texture "gltf:" and its role) is written
-/// again; of an MTL, what has a place (io/mesh/glb/write/mtl_material.h).
+/// again; of an MTL, what has a place (io/mesh/glb/writer/mtl_material.h).
 ///
 /// @param folder Where pictures are, as in MeshFile.
 /// @param textureSets By set of the mesh, that of the glTF. A texture of another set is left out and named.

@@ -4,7 +4,7 @@
 // one of the application, whose name begins with '_'. Sets are numbered anew, since the standard allows no
 // gaps. What the standard forbids, validators refuse and viewers draw black, is replaced and said: numbers
 // that are none, normals and tangents of other than unit length, colors beyond 0 and 1.
-#include "io/mesh/glb/write/vertex_values.h"
+#include "io/mesh/glb/writer/vertex_values.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@
 
 #include "io/file/text_scan.h"
 #include "io/mesh/colors.h"
-#include "io/mesh/glb/write/numbers.h"
+#include "io/mesh/glb/writer/numbers.h"
 
 namespace arete {
 namespace {

@@ -4,7 +4,7 @@
 // then the pictures. Elements begin at multiples of four bytes, and so do their components' padding: a
 // validator refuses three bytes of a color in a row. Indices are 16 bits where these hold all but the
 // largest, which the standard keeps from use.
-#include "io/mesh/glb/write/surface.h"
+#include "io/mesh/glb/writer/surface.h"
 
 #include <fmt/format.h>
 
@@ -15,12 +15,12 @@
 #include <set>
 #include <utility>
 
-#include "io/mesh/glb/write/buffer_plan.h"
-#include "io/mesh/glb/write/framed.h"
-#include "io/mesh/glb/write/local_positions.h"
-#include "io/mesh/glb/write/materials.h"
-#include "io/mesh/glb/write/mesh_plan.h"
-#include "io/mesh/glb/write/vertex_values.h"
+#include "io/mesh/glb/writer/buffer_plan.h"
+#include "io/mesh/glb/writer/framed.h"
+#include "io/mesh/glb/writer/local_positions.h"
+#include "io/mesh/glb/writer/materials.h"
+#include "io/mesh/glb/writer/mesh_plan.h"
+#include "io/mesh/glb/writer/vertex_values.h"
 #include "io/mesh/losses.h"
 #include "surface/model/wedges.h"
 

@@ -2,7 +2,7 @@
 //
 // The standard has PNG and JPEG, its extensions WebP and KTX 2. What a picture is, its first bytes say: names
 // and media types of files lie.
-#include "io/mesh/glb/write/textures.h"
+#include "io/mesh/glb/writer/textures.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 //
 // Every element is a multiple of four bytes, the alignment that the format requires. Normals are computed
 // from the rounded positions.
-#include "io/mesh/glb/write/framed.h"
+#include "io/mesh/glb/writer/framed.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include "io/crs/map_scale.h"
 #include "io/crs/reader.h"
 #include "io/gdal/support.h"
-#include "io/mesh/glb/write/buffer_plan.h"
+#include "io/mesh/glb/writer/buffer_plan.h"
 
 namespace arete {
 

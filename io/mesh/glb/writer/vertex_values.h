@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/base/triangle_mesh.h"
-#include "io/mesh/glb/write/framed.h"
+#include "io/mesh/glb/writer/framed.h"
 #include "surface/model/attribute.h"
 
 namespace arete {

@@ -7,7 +7,7 @@
 
 #include "engine/base/result.h"
 #include "engine/base/vec.h"
-#include "io/mesh/glb/write/framed.h"
+#include "io/mesh/glb/writer/framed.h"
 
 namespace arete {
 

@@ -7,7 +7,7 @@
 
 #include "engine/base/result.h"
 #include "io/mesh/file.h"
-#include "io/mesh/glb/write/container.h"
+#include "io/mesh/glb/writer/container.h"
 
 namespace arete {
 
