@@ -20,7 +20,7 @@ Result<JoinedSurface> joinSurface(SurfaceMesh& mesh, const WeldOptions& options,
   if (joined.joinedVertices == 0) return joined;
   const bool hasAttributes = mesh.hasWedges() || !mesh.vertexAttributes.empty();
   if (hasAttributes) moveToWedges(mesh);
-  static_cast<TriangleMesh&>(mesh) = std::move(welded->mesh);
+  mesh.shape() = std::move(welded->mesh);
   if (hasAttributes) moveToVertices(mesh);
   return joined;
 } catch (...) {

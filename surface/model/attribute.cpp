@@ -8,31 +8,10 @@
 #include <cmath>
 #include <limits>
 
+#include "surface/model/with_scalar_type.h"
+
 namespace arete {
 namespace {
-
-/// Calls visit(T()) with the type of the numbers.
-template <class Visit>
-decltype(auto) withType(ScalarType type, const Visit& visit) {
-  switch (type) {
-    case ScalarType::int8:
-      return visit(std::int8_t());
-    case ScalarType::uint8:
-      return visit(std::uint8_t());
-    case ScalarType::int16:
-      return visit(std::int16_t());
-    case ScalarType::uint16:
-      return visit(std::uint16_t());
-    case ScalarType::int32:
-      return visit(std::int32_t());
-    case ScalarType::uint32:
-      return visit(std::uint32_t());
-    case ScalarType::float32:
-      return visit(float());
-    default:
-      return visit(double());
-  }
-}
 
 template <class T>
 T rounded(double number) {
@@ -48,12 +27,12 @@ T rounded(double number) {
 }  // namespace
 
 std::size_t sizeOf(ScalarType type) {
-  return withType(type, [](auto zero) { return sizeof zero; });
+  return withScalarType(type, [](auto zero) { return sizeof zero; });
 }
 
 std::vector<double> Attribute::numbers(std::size_t i) const {
   std::vector<double> result;
-  withType(type, [&](auto zero) {
+  withScalarType(type, [&](auto zero) {
     const std::span<const std::byte> bytes = element(i);
     for (std::size_t c = 0; c < components; ++c) {
       auto number = zero;
@@ -66,7 +45,7 @@ std::vector<double> Attribute::numbers(std::size_t i) const {
 
 void Attribute::append(std::span<const double> numbers) {
   assert(numbers.size() == components);
-  withType(type, [&](auto zero) {
+  withScalarType(type, [&](auto zero) {
     for (const double number : numbers) {
       const auto value = rounded<decltype(zero)>(number);
       const auto* const bytes = reinterpret_cast<const std::byte*>(&value);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 
+#include "io/mesh/colors.h"
 #include "io/mesh/text_numbers.h"
 
 namespace arete {
@@ -26,14 +27,6 @@ const std::array<double, 256>& colorTable() {
     return numbers;
   }();
   return table;
-}
-
-/// IEC 61966-2-1.
-double srgbOf(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
-double linearOf(double srgb) {
-  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
 }
 
 /// The byte that a number stands for, exactly.
@@ -56,11 +49,11 @@ ObjColorNumber objColorNumber(const Attribute& color, double number) {
     if (color.type == ScalarType::uint8) return {colorTable()[static_cast<std::uint8_t>(number)], false};
     return {fraction, color.type != ScalarType::float64};
   }
-  const double srgb = srgbOf(fraction);
+  const double srgb = srgbOfLinear(fraction);
   if (!isFloat(color.type) && srgb >= 0 && srgb <= 1) {
     const auto code = static_cast<std::uint8_t>(std::lround(srgb * kMostByte));
     const double step = color.type == ScalarType::uint8 ? 0.5 / kMostByte : 0.5 / 65535;
-    if (std::abs(linearOf(code / kMostByte) - fraction) <= step) return {colorTable()[code], false};
+    if (std::abs(linearOfSrgb(code / kMostByte) - fraction) <= step) return {colorTable()[code], false};
   }
   return {srgb, color.type != ScalarType::float64};
 }

@@ -8,30 +8,10 @@
 #include <limits>
 #include <utility>
 
+#include "surface/model/with_scalar_type.h"
+
 namespace arete {
 namespace {
-
-template <class Visit>
-decltype(auto) withType(ScalarType type, const Visit& visit) {
-  switch (type) {
-    case ScalarType::int8:
-      return visit(std::int8_t());
-    case ScalarType::uint8:
-      return visit(std::uint8_t());
-    case ScalarType::int16:
-      return visit(std::int16_t());
-    case ScalarType::uint16:
-      return visit(std::uint16_t());
-    case ScalarType::int32:
-      return visit(std::int32_t());
-    case ScalarType::uint32:
-      return visit(std::uint32_t());
-    case ScalarType::float32:
-      return visit(float());
-    default:
-      return visit(double());
-  }
-}
 
 template <class T>
 double largest() {
@@ -49,14 +29,14 @@ Attribute ofType(const Attribute& attribute, ScalarType type) {
 }  // namespace
 
 double numberAt(const Attribute& attribute, std::size_t n) {
-  return withType(attribute.type, [&](auto number) {
+  return withScalarType(attribute.type, [&](auto number) {
     std::memcpy(&number, attribute.values.data() + n * sizeof number, sizeof number);
     return static_cast<double>(number);
   });
 }
 
 void setNumber(Attribute& attribute, std::size_t n, double number) {
-  withType(attribute.type, [&](auto zero) {
+  withScalarType(attribute.type, [&](auto zero) {
     using T = decltype(zero);
     T value{};
     if constexpr (std::is_floating_point_v<T>) {
@@ -76,9 +56,10 @@ std::size_t numberCount(const Attribute& attribute) {
 
 bool makeFloat32(Attribute& attribute) {
   if (attribute.type == ScalarType::float32) return true;
-  const double scale = !attribute.isNormalized || isFloat(attribute.type)
-                           ? 1
-                           : withType(attribute.type, [](auto zero) { return largest<decltype(zero)>(); });
+  const double scale =
+      !attribute.isNormalized || isFloat(attribute.type)
+          ? 1
+          : withScalarType(attribute.type, [](auto zero) { return largest<decltype(zero)>(); });
   Attribute to = ofType(attribute, ScalarType::float32);
   to.isNormalized = false;
   bool isExact = true;
