@@ -11,7 +11,7 @@
 
 #include "engine/base/caught_failure.h"
 #include "io/exchange/joined.h"
-#include "io/file/file_writer.h"
+#include "io/file/no_file.h"
 #include "io/file/text_scan.h"
 #include "io/mesh/2dm/2dm.h"
 #include "io/mesh/glb/glb.h"
@@ -107,14 +107,6 @@ Result<MeshFormat> meshFormatOf(const std::filesystem::path& path, std::string_v
                  path.string());
 } catch (...) {
   return caughtFailure();
-}
-
-bool isNoFile(const std::filesystem::path& path) {
-  if (path == kStandardOutput) return true;
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
-         !std::filesystem::is_directory(status);
 }
 
 bool isMeshFile(const std::filesystem::path& path) {

@@ -36,9 +36,6 @@ std::string writableMeshExtensions();
 /// Errors: unsupported: lists the known formats.
 Result<MeshFormat> meshFormatOf(const std::filesystem::path& path, std::string_view name = {});
 
-/// @return True for stdout, a pipe, a terminal or another device: what is written there cannot be read back.
-bool isNoFile(const std::filesystem::path& path);
-
 /// @return True if readMesh() can read the path: by its extension and, for a GeoPackage, if it holds surfaces
 /// rather than points or a raster.
 bool isMeshFile(const std::filesystem::path& path);

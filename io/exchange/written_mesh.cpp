@@ -16,6 +16,7 @@
 
 #include "io/file/file_bytes.h"
 #include "io/file/file_writer.h"
+#include "io/file/no_file.h"
 
 namespace arete {
 

@@ -16,6 +16,7 @@
 
 #include "io/file/file_bytes.h"
 #include "io/file/file_writer.h"
+#include "io/file/no_file.h"
 #include "io/file/text_scan.h"
 
 namespace arete {
@@ -96,13 +97,6 @@ std::string unhidden(const std::string& path) {
   for (const char c : path)
     if (c != '.' || (!result.empty() && result.back() != '/')) result += c;
   return result.empty() || result.back() == '/' ? result + "picture" : result;
-}
-
-bool isNoFile(const fs::path& path) {
-  if (path == kStandardOutput) return true;
-  std::error_code ignored;
-  const fs::file_status status = fs::status(path, ignored);
-  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
 bool hasBytes(const fs::path& path, std::string_view bytes) {

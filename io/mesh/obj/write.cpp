@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "io/file/file_writer.h"
+#include "io/file/no_file.h"
 #include "io/file/write_progress.h"
 #include "io/mesh/comments.h"
 #include "io/mesh/losses.h"
@@ -194,7 +195,7 @@ class ObjWriter {
         progress_(shape_.positions.size() + shape_.triangles.size(), path.string(), context) {}
 
   Result<MeshWriteReport> write() {
-    const bool isFile = path_ != kStandardOutput && isFileOrNew();
+    const bool isFile = !isNoFile(path_);
     color_ = attributeNamed(mesh_.vertexAttributes, kColorName, 3, 4);
     const Attribute* const wedgeTexcoord = attributeNamed(mesh_.wedgeAttributes, kTexcoordName, 1, 3);
     const Attribute* const wedgeNormal = attributeNamed(mesh_.wedgeAttributes, kNormalName, 3, 3);
@@ -242,12 +243,6 @@ class ObjWriter {
   }
 
  private:
-  bool isFileOrNew() const {
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path_, error);
-    return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
-  }
-
   bool writeVertices(FileWriter& file) {
     char line[128];  // three doubles of at most 24 characters each
     Line color;
