@@ -2,7 +2,10 @@
 //
 // Every edge, fan and border belongs to one component, and is counted there. A vertex counts once in each of
 // its components: its fans are sorted by vertex and component.
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "surface/diagnosis/parts.h"
@@ -16,19 +19,22 @@ namespace {
 
 class TopologyPass {
  public:
-  TopologyPass(const TriangleMesh& mesh, std::span<const Triangle> kept,
-               std::span<const std::uint32_t> keptTriangle, const DiagnosisOptions& options,
+  TopologyPass(const TriangleMesh& mesh, const KeptTriangles& kept, const DiagnosisOptions& options,
                MeshDiagnosis& result)
       : mesh_(mesh),
-        keptTriangle_(keptTriangle),
+        kept_(kept),
         options_(options),
         result_(result),
-        edges_(kept, mesh.positions.size()),
-        fans_(edges_),
-        components_(edges_) {}
+        edges_(kept.triangles(), mesh.positions.size()) {
+    tbb::parallel_invoke([&] { fans_.emplace(edges_); },
+                         [&] {
+                           components_.emplace(edges_);
+                           orientation_.emplace(edges_);
+                         });
+  }
 
   void run() {
-    result_.components.resize(components_.count);
+    result_.components.resize(components_->count);
     countTriangles();
     countEdges();
     countVertices();
@@ -40,7 +46,7 @@ class TopologyPass {
 
  private:
   std::uint32_t componentOf(CornerId corner) const {
-    return components_.componentOf[triangleOf(corner).index()];
+    return components_->componentOf[triangleOf(corner).index()];
   }
   ComponentDiagnosis& at(CornerId corner) { return result_.components[componentOf(corner)]; }
   Vec3 middle(const MeshEdges::Edge& edge) const {
@@ -51,11 +57,11 @@ class TopologyPass {
   }
 
   void countTriangles() {
-    result_.componentOf.assign(mesh_.triangles.size(), components_.count);
-    for (std::uint32_t t = 0; t < keptTriangle_.size(); ++t) {
-      const std::uint32_t c = components_.componentOf[t];
-      if (result_.components[c].triangles++ == 0) result_.components[c].firstTriangle = keptTriangle_[t];
-      result_.componentOf[keptTriangle_[t]] = c;
+    result_.componentOf.assign(mesh_.triangles.size(), components_->count);
+    for (std::uint32_t t = 0; t < kept_.triangles().size(); ++t) {
+      const std::uint32_t c = components_->componentOf[t];
+      if (result_.components[c].triangles++ == 0) result_.components[c].firstTriangle = kept_.numberOf(t);
+      result_.componentOf[kept_.numberOf(t)] = c;
     }
   }
 
@@ -78,12 +84,16 @@ class TopologyPass {
 
   void countVertices() {
     // The component of a fan is that of its first corner.
-    std::vector<std::uint8_t> isSeen(fans_.vertexOf.size(), 0);
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> places;  // vertex, component
-    for (std::uint32_t c = 0; c < fans_.fanOf.size(); ++c) {
-      const FanId fan = fans_.fanOf[c];
-      if (std::exchange(isSeen[fan.index()], 1) == 0)
-        places.push_back({fans_.vertexOf[fan.index()].index(), componentOf(CornerId(c))});
+    std::vector<std::uint8_t> isSeen(fans_->vertexOf.size(), 0);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> places;  // vertex, component; of several fans
+    for (std::uint32_t c = 0; c < fans_->fanOf.size(); ++c) {
+      const FanId fan = fans_->fanOf[c];
+      if (std::exchange(isSeen[fan.index()], 1) != 0) continue;
+      const std::uint32_t vertex = fans_->vertexOf[fan.index()].index(), component = componentOf(CornerId(c));
+      if (fans_->fanCount[vertex] == 1)
+        ++result_.components[component].vertices;
+      else
+        places.push_back({vertex, component});
     }
     std::ranges::sort(places);
     for (std::size_t i = 0; i < places.size();) {
@@ -94,24 +104,23 @@ class TopologyPass {
       if (end - i > 1) ++component.nonManifoldVertices;
       i = end;
     }
-    for (std::uint32_t v = 0; v < fans_.fanCount.size(); ++v)
-      if (fans_.fanCount[v] > 1 && hasWideEdge_[v] == 0)
+    for (std::uint32_t v = 0; v < fans_->fanCount.size(); ++v)
+      if (fans_->fanCount[v] > 1 && hasWideEdge_[v] == 0)
         add(result_.nonManifoldVertices, options_.mostPlaces, {v}, mesh_.positions[v]);
   }
 
   void findOrientation() {
-    const MeshOrientation orientation(edges_);
-    std::vector<std::uint8_t> isSeen(orientation.contradiction.size(), 0);
-    for (std::uint32_t t = 0; t < keptTriangle_.size(); ++t) {
-      const std::uint32_t patch = orientation.patchOf[t];
-      if (std::exchange(isSeen[patch], 1) != 0 || orientation.isOrientable(patch, edges_)) continue;
-      result_.components[components_.componentOf[t]].isOrientable = false;
-      addEdge(result_.nonOrientable, edges_[orientation.contradiction[patch]]);
+    std::vector<std::uint8_t> isSeen(orientation_->contradiction.size(), 0);
+    for (std::uint32_t t = 0; t < kept_.triangles().size(); ++t) {
+      const std::uint32_t patch = orientation_->patchOf[t];
+      if (std::exchange(isSeen[patch], 1) != 0 || orientation_->isOrientable(patch, edges_)) continue;
+      result_.components[components_->componentOf[t]].isOrientable = false;
+      addEdge(result_.nonOrientable, edges_[orientation_->contradiction[patch]]);
     }
   }
 
   void listBorders() {
-    for (const BorderLoop& loop : findBorderLoops(edges_, fans_)) {
+    for (const BorderLoop& loop : findBorderLoops(edges_, *fans_)) {
       MeshBorder border;
       border.component = componentOf(loop.sides[0]);
       border.edgeCount = static_cast<std::uint32_t>(loop.sides.size());
@@ -148,21 +157,21 @@ class TopologyPass {
   }
 
   const TriangleMesh& mesh_;
-  std::span<const std::uint32_t> keptTriangle_;
+  const KeptTriangles& kept_;
   const DiagnosisOptions& options_;
   MeshDiagnosis& result_;
   const MeshEdges edges_;
-  const MeshFans fans_;
-  const MeshComponents components_;
+  std::optional<MeshFans> fans_;
+  std::optional<MeshComponents> components_;
+  std::optional<MeshOrientation> orientation_;
   std::vector<std::uint8_t> hasWideEdge_;  // by vertex: an edge of more than two triangles
 };
 
 }  // namespace
 
-void examineTopology(const TriangleMesh& mesh, std::span<const Triangle> kept,
-                     std::span<const std::uint32_t> keptTriangle, const DiagnosisOptions& options,
+void examineTopology(const TriangleMesh& mesh, const KeptTriangles& kept, const DiagnosisOptions& options,
                      MeshDiagnosis& result) {
-  TopologyPass(mesh, kept, keptTriangle, options, result).run();
+  TopologyPass(mesh, kept, options, result).run();
 }
 
 }  // namespace arete::diagnosis

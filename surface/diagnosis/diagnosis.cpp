@@ -30,15 +30,9 @@ Result<MeshDiagnosis> diagnoseHere(const TriangleMesh& mesh, const DiagnosisOpti
   result.boxHigh = box[1];
   result.diagonal = diagnosis::diagonalOf(box);
   if (context.cancelled()) return failure(ErrorCode::interrupted, "the diagnosis was interrupted");
-  std::vector<diagnosis::Triangle> kept;
-  std::vector<std::uint32_t> keptTriangle;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (diagnosis::hasRepeat(mesh.triangles[t])) continue;
-    kept.push_back(mesh.triangles[t]);
-    keptTriangle.push_back(t);
-  }
+  const diagnosis::KeptTriangles kept(mesh);
   // Each fills members of its own.
-  tbb::parallel_invoke([&] { diagnosis::examineTopology(mesh, kept, keptTriangle, options, result); },
+  tbb::parallel_invoke([&] { diagnosis::examineTopology(mesh, kept, options, result); },
                        [&] {
                          diagnosis::examineVertices(mesh, options, result);
                          diagnosis::examineFaces(mesh, options, result);

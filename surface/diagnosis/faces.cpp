@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/memory/uninitialized_vector.h"
 #include "surface/diagnosis/parts.h"
 
 namespace arete::diagnosis {
@@ -29,6 +30,16 @@ Vec3 centroid(const TriangleMesh& mesh, std::uint32_t triangle) {
   return (mesh.positions[t[0]] / 3 + mesh.positions[t[1]] / 3) + mesh.positions[t[2]] / 3;
 }
 
+KeptTriangles::KeptTriangles(const TriangleMesh& mesh) : triangles_(mesh.triangles) {
+  if (std::ranges::none_of(mesh.triangles, hasRepeat)) return;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (hasRepeat(mesh.triangles[t])) continue;
+    copies_.push_back(mesh.triangles[t]);
+    numbers_.push_back(t);
+  }
+  triangles_ = copies_;
+}
+
 void examineFaces(const TriangleMesh& mesh, const DiagnosisOptions& options, MeshDiagnosis& result) {
   const auto lowest = [](const Triangle& t) { return std::min({t[0], t[1], t[2]}); };
   std::vector<std::uint32_t> begin(mesh.positions.size() + 1, 0);
@@ -39,7 +50,7 @@ void examineFaces(const TriangleMesh& mesh, const DiagnosisOptions& options, Mes
     if (!hasRepeat(t)) ++begin[lowest(t) + std::size_t{1}];
   }
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<Sorted> sorted(begin.back());
+  UninitializedVector<Sorted> sorted(begin.back());
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const Triangle& t = mesh.triangles[i];
     if (hasRepeat(t)) continue;

@@ -27,6 +27,25 @@ inline bool hasRepeat(const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
+/// The triangles of a mesh with three different vertices.
+class KeptTriangles {
+ public:
+  /// Keeps a reference to the mesh. O(triangles).
+  explicit KeptTriangles(const TriangleMesh& mesh);
+  KeptTriangles(const KeptTriangles&) = delete;
+  KeptTriangles& operator=(const KeptTriangles&) = delete;
+
+  std::span<const Triangle> triangles() const { return triangles_; }
+  /// The number in the mesh of the i-th.
+  std::uint32_t numberOf(std::uint32_t i) const { return numbers_.empty() ? i : numbers_[i]; }
+
+ private:
+  std::span<const Triangle> triangles_;
+  // Both empty where all triangles are kept.
+  std::vector<Triangle> copies_;
+  std::vector<std::uint32_t> numbers_;
+};
+
 /// The lowest and the highest coordinates of the vertices that triangles use; zeros if there is none.
 std::array<Vec3, 2> boxOf(const TriangleMesh& mesh);
 /// The length of its diagonal, also where the squares of its sides overflow.
@@ -37,10 +56,7 @@ void examineVertices(const TriangleMesh& mesh, const DiagnosisOptions& options, 
 /// Triangles: degenerate, duplicate, double-sided.
 void examineFaces(const TriangleMesh& mesh, const DiagnosisOptions& options, MeshDiagnosis& result);
 /// Edges, fans, borders and components.
-/// @param kept the triangles with three different vertices, and
-/// @param keptTriangle the number in the mesh of each.
-void examineTopology(const TriangleMesh& mesh, std::span<const Triangle> kept,
-                     std::span<const std::uint32_t> keptTriangle, const DiagnosisOptions& options,
+void examineTopology(const TriangleMesh& mesh, const KeptTriangles& kept, const DiagnosisOptions& options,
                      MeshDiagnosis& result);
 
 /// Whether three points are on one line. Exact.

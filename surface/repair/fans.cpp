@@ -11,7 +11,7 @@ namespace arete::repair_passes {
 
 void splitFans(Draft& draft) {
   auto& triangles = draft.mesh.triangles;
-  std::vector<FanId> fanOf;
+  decltype(MeshFans::fanOf) fanOf;
   std::vector<std::uint32_t> vertexOfFan;
   {
     const MeshEdges edges(triangles, draft.mesh.positions.size());

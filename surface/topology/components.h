@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/memory/uninitialized_vector.h"
 #include "surface/topology/edges.h"
 
 namespace arete {
@@ -11,7 +12,7 @@ namespace arete {
 /// The components of a mesh: triangles that are joined across edges, of any number of sides. Numbered from 0
 /// in the order of their first triangles.
 struct MeshComponents {
-  std::vector<std::uint32_t> componentOf;  ///< by triangle
+  UninitializedVector<std::uint32_t> componentOf;  ///< by triangle
   std::uint32_t count = 0;
 
   /// O(triangles), nearly.

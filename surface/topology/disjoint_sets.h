@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/memory/uninitialized_vector.h"
+
 namespace arete {
 
 /// Disjoint sets of 0 .. size - 1 [TarjanVanLeeuwen1984]: union to the lower number, path halving. The lowest
@@ -28,8 +30,8 @@ class DisjointSets {
   /// Numbers the sets from 0 in the order of their lowest members.
   /// @param count receives how many there are.
   /// @return the number of the set of each member.
-  std::vector<std::uint32_t> numbered(std::uint32_t& count) {
-    std::vector<std::uint32_t> number(parent_.size());
+  UninitializedVector<std::uint32_t> numbered(std::uint32_t& count) {
+    UninitializedVector<std::uint32_t> number(parent_.size());
     count = 0;
     for (std::uint32_t i = 0; i < parent_.size(); ++i) {
       const std::uint32_t lowest = find(i);
@@ -39,7 +41,7 @@ class DisjointSets {
   }
 
  private:
-  std::vector<std::uint32_t> parent_;
+  UninitializedVector<std::uint32_t> parent_;
 };
 
 }  // namespace arete

@@ -20,11 +20,11 @@ MeshFans::MeshFans(const MeshEdges& edges) : fanCount(edges.vertexCount(), 0) {
     sets.unite(nextCorner(a).index(), (areOpposed ? b : nextCorner(b)).index());
   }
   std::uint32_t count = 0;
-  const std::vector<std::uint32_t> numbers = sets.numbered(count);
-  fanOf.reserve(corners);
+  const UninitializedVector<std::uint32_t> numbers = sets.numbered(count);
+  fanOf.resize(corners);
   vertexOf.resize(count);
   for (std::uint32_t c = 0; c < corners; ++c) {
-    fanOf.emplace_back(numbers[c]);
+    fanOf[c] = FanId(numbers[c]);
     vertexOf[numbers[c]] = edges.origin(CornerId(c));
   }
   for (const VertexId v : vertexOf) ++fanCount[v.index()];

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/memory/uninitialized_vector.h"
 #include "surface/topology/edges.h"
 
 namespace arete {
@@ -14,7 +15,7 @@ using FanId = Id<struct FanTag>;
 /// The fans of a mesh: the corners at a vertex whose triangles follow each other across edges with two sides.
 /// A vertex with one fan is manifold.
 struct MeshFans {
-  std::vector<FanId> fanOf;             ///< by corner
+  UninitializedVector<FanId> fanOf;     ///< by corner
   std::vector<VertexId> vertexOf;       ///< by fan
   std::vector<std::uint32_t> fanCount;  ///< by vertex; 0 where no triangle uses it
 
