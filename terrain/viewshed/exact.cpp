@@ -89,8 +89,10 @@ float ViewshedExact::value(const SightTrack& track, double ground) const {
       height = kInfinite;
       break;
     }
-    // Lines to all heights pass over the same NODATA, so no height is known.
-    if (!isHorizon && options_.nodata == NodataSight::unknown && answer.gapMetres > 0)
+    // Lines to all heights pass over the same NODATA, so no height is known. It may be a single point, where
+    // two voids touch.
+    if (!isHorizon && options_.nodata == NodataSight::unknown &&
+        (answer.gapMetres > 0 || answer.verdict == SightVerdict::unknown))
       return std::numeric_limits<float>::quiet_NaN();
     if (!answer.clearance || *answer.clearance >= (step == 0 ? -line.tolerance() : 0)) break;
     const SightPlace& least = answer.least;
