@@ -56,6 +56,19 @@ class WorstFirst final : public RefineOrder {
   }
 };
 
+/// Of a surface: the largest integral of the squared distance first, by the triangle's stored root mean
+/// square and its area. A budget that is spent so leaves about the least mean square error; the largest error
+/// is not the least one.
+class LargestSquaresFirst final : public RefineOrder {
+ public:
+  RefineKey key(const MultiTriangulation& mt, const Criterion&, TriangleId t,
+                const Criterion::Corners& corners, std::uint64_t) const override {
+    const auto at = [&](std::size_t i) { return mt.position(VertexId(corners[i])); };
+    const double rms = mt.rms(t);
+    return {0, -rms * rms * norm(cross(at(1) - at(0), at(2) - at(0)))};
+  }
+};
+
 /// Two queues [Fornous2003]. First triangles that the view may see, the nearest to the eye first. Then the
 /// others, by a weighted sum of the distances of the vertex that the refinement inserts from the eye and from
 /// the axis of the view, with a penalty behind the eye. So a camera near the ground in a coarse triangle

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/mt/enclosing_ball.h"
+
 namespace arete {
 
 std::array<Vec3, 6> prismOf(const MultiTriangulation& mt, TriangleId t, const Criterion::Corners& corners) {
@@ -33,7 +35,18 @@ ViewError::ViewError(const Options& options, const MetricFrame& metric)
       errorPerReach_(options.pixels / frustum_.pixelsPerUnit() / std::abs(metric.scale.z)),
       filter_(options.view, errorPerReach_, options.outsideError) {}
 
+double ViewError::allowedOnSurface(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
+  const auto at = [&](std::size_t i) { return metric_.toMetric(mt.position(VertexId(corners[i]))); };
+  const std::array<Vec3, 3> places{at(0), at(1), at(2)};
+  const EnclosingBall ball = EnclosingBall::around(places);
+  const double radius = (ball.radius + mt.error(t)) * (1 + 1e-9);
+  const Vec3 centre = frustum_.toView({ball.x, ball.y, ball.z});
+  if (!frustum_.mayMeet(centre, radius)) return o_.outsideError;
+  return std::min(errorPerReach_ * frustum_.reach(centre, radius, centre.z - radius), o_.outsideError);
+}
+
 double ViewError::allowedFor(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
+  if (mt.vertices().isSurface()) return allowedOnSurface(mt, t, corners);
   std::array<Vec3, 6> prism = prismOf(mt, t, corners);
   for (Vec3& p : prism) p = frustum_.toView(p);
   if (!frustum_.mayMeet(prism)) return o_.outsideError;

@@ -14,7 +14,8 @@ namespace arete {
 /// of [Hoppe1998] and [LindstromPascucci2002]. A triangle is out of sight if neither it nor the terrain that
 /// it represents (its signed bound) meets the frustum.
 ///
-/// The bound holds for the error in any direction, so it is conservative when seen from above. Precondition:
+/// The bound holds for the error in any direction, so it is conservative when seen from above. On a surface a
+/// triangle is out of sight if the ball around it, widened by its error, is. Precondition:
 /// the view is valid.
 class ViewError final : public KineticCriterion {
  public:
@@ -49,6 +50,7 @@ class ViewError final : public KineticCriterion {
   std::uint64_t decide(const FrustumFilter::Verdicts& filtered, std::span<const Sphere> balls,
                        std::span<const float> errors) const;
   double allowedFor(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const;
+  double allowedOnSurface(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const;
 
   Options o_;
   MetricFrame metric_;

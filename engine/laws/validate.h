@@ -18,7 +18,7 @@ struct ValidateOptions {
 /// arrays. Errors: brokenPromise: the violation with the smallest node; the message names the law, the node
 /// and the triangles.
 ///   1  acyclic: a floor's triangles were created by older nodes
-///   2  floor and ceiling have the same boundary cycle and the same signed area
+///   2  floor and ceiling have the same boundary cycle and, of a heightfield, the same signed area
 ///   3  one creator, at most one remover, no triangle twice
 ///   4  minimal: the floor is one polygon, connected across its inner edges, and no part of it is a
 ///      modification by itself
@@ -29,14 +29,14 @@ struct ValidateOptions {
 Status validate(const MultiTriangulation& mt, const ValidateOptions& options = {},
                 const RunContext& context = {});
 
-/// The domain of a multitriangulation: the area that its finest front covers.
+/// The domain of the multitriangulation of a heightfield: the area that its finest front covers.
 struct DomainExtent {
   double area = 0;          ///< of the plan
   double borderLength = 0;  ///< outer border and rims
 };
 DomainExtent domainExtent(const MultiTriangulation& mt);
 
-/// Law 5 on one front: every triangle positively oriented; every edge with one or two triangles, in opposite
+/// Law 5 on one front of a heightfield (of a surface: surface/laws/validate_surface.h): every triangle positively oriented; every edge with one or two triangles, in opposite
 /// directions; areas that sum to the domain's, borders as long as the domain's (so no T-junction and no
 /// overlap). O(triangles), parallel.
 Status validateFront(const MultiTriangulation& mt, const Cut& cut, const DomainExtent& domain,

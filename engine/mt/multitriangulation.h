@@ -62,6 +62,9 @@ struct MtArrays {
   std::span<const std::uint16_t> error;  ///< R + S: max |z - plane| over the samples covered, coded outwards
   std::span<const std::uint16_t> below;  ///< R + S: z_TIN - z_reference >= -below over the whole triangle
   std::span<const std::uint16_t> above;  ///< R + S: z_TIN - z_reference <= above
+  /// R + S, of a surface, which has no `below` and `above`: the root mean square of the distances whose
+  /// largest one `error` is; empty of a heightfield.
+  std::span<const std::uint16_t> rms;
   std::span<const std::uint32_t> floor;  ///< S - 2N triangle ids; node n's begin at slotBegin[n] - 2n
   std::span<const std::uint16_t> saturatedError;  ///< N, in falling bands
   std::span<const Sphere> sphere;  ///< N, saturated: encloses the node's region and its children's spheres
@@ -157,6 +160,8 @@ class MultiTriangulation {
   }
 
   double error(TriangleId t) const { return a_.scale.decode(a_.error[t.index()]); }
+  /// Precondition: of a surface.
+  double rms(TriangleId t) const { return a_.scale.decode(a_.rms[t.index()]); }
   double saturatedError(NodeId n) const { return a_.scale.decode(a_.saturatedError[n.index()]); }
   Vec3 position(VertexId v) const { return a_.vertices.position(v); }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,7 +22,8 @@ struct HeightEncoding {
 };
 
 /// Vertex positions in plan coordinates and height, in the smallest form that is exact: sample indices (4
-/// bytes) and raw heights (2 to 8 bytes) for vertices of a raster, plan coordinates as doubles for others.
+/// bytes) and raw heights (2 to 8 bytes) for vertices of a raster, plan coordinates as doubles for other
+/// heightfields; three floats or doubles for surfaces.
 struct VertexArrays {
   /// Raster: the sample index, row * columns + column. Plan coordinates are (column, row).
   std::span<const std::uint32_t> samples;
@@ -29,13 +31,20 @@ struct VertexArrays {
   /// Otherwise: plan coordinates. Exactly one of `samples` and `plan` is in use.
   std::span<const Vec2> plan;
 
+  /// A surface: places, in one of these; the arrays of heightfields are empty.
+  std::span<const std::array<float, 3>> places32;
+  std::span<const Vec3> places64;
+
   HeightEncoding encoding;
   std::span<const std::byte> rawHeights;  ///< size() * encoding.bytesPerHeight(), aligned to its type
 
   std::uint32_t size() const {
-    return static_cast<std::uint32_t>(columns != 0 ? samples.size() : plan.size());
+    return static_cast<std::uint32_t>(columns != 0       ? samples.size()
+                                      : places32.empty() ? plan.size() + places64.size()
+                                                         : places32.size());
   }
   bool isLattice() const { return columns != 0; }
+  bool isSurface() const { return !places32.empty() || !places64.empty(); }
 
   Vec2 planPosition(VertexId v) const {
     if (!isLattice()) return plan[v.index()];
@@ -55,7 +64,15 @@ struct VertexArrays {
     }
   }
 
+  /// Of a vertex of a surface.
+  Vec3 place(VertexId v) const {
+    if (places32.empty()) return places64[v.index()];
+    const auto& [x, y, z] = places32[v.index()];
+    return {x, y, z};
+  }
+
   Vec3 position(VertexId v) const {
+    if (isSurface()) return place(v);
     const Vec2 p = planPosition(v);
     return {p.x, p.y, height(v)};
   }

@@ -25,7 +25,7 @@ Result<RepairedMesh> repair(const TriangleMesh& mesh, const RepairOptions& optio
     do {
       repair_passes::removeDuplicates(draft);
       repair_passes::removeDegenerate(draft);
-    } while (repair_passes::splitAtTJunctions(draft, distance));
+    } while (options.splitsAtTJunctions && repair_passes::splitAtTJunctions(draft, distance));
     repair_passes::orient(draft);
     if (options.splitsSheets) repair_passes::splitSheets(draft);
     repair_passes::splitFans(draft);

@@ -16,6 +16,7 @@ struct RepairOptions {
   bool splitsSheets = false;
   /// Borders of at most so many edges are filled; 0: none. Filling adds triangles, no vertices.
   std::uint32_t mostHoleEdges = 0;
+  bool splitsAtTJunctions = true;
   /// How far from a border edge a vertex may lie to be inside it, as a part of the diagonal.
   double tJunctionTolerance = 1e-9;
 };

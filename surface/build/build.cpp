@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The mesh is prepared, its faces are sorted along a space-filling curve, so that neighbours are near each
+// other in memory, and simplified level by level (surface/simplify/simplify.h). The recorder makes the
+// multitriangulation; what else triangles have is put in its order.
+#include "surface/build/build.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "engine/base/caught_failure.h"
+#include "engine/base/morton.h"
+#include "engine/memory/uninitialized_vector.h"
+#include "engine/mt/hole_limit.h"
+#include "engine/parallel/with_threads.h"
+#include "surface/build/prepare.h"
+#include "surface/diagnosis/sizes.h"
+#include "surface/error/original.h"
+#include "surface/error/samples.h"
+#include "surface/model/face_heirs.h"
+#include "surface/simplify/simplify.h"
+
+namespace arete {
+namespace {
+
+Status checkOptions(const SurfaceBuildOptions& options) {
+  if (options.maxDegree < 3 || options.maxDegree > kMaxHoleCorners - 1)
+    return failure(ErrorCode::usage,
+                   fmt::format("a degree of {} is not from 3 to {}", options.maxDegree, kMaxHoleCorners - 1));
+  if (!(options.thresholdRatio > 1) || !(options.thresholdRatio <= 16))
+    return failure(ErrorCode::usage,
+                   fmt::format("a growth of {} is not above 1 and at most 16", options.thresholdRatio));
+  return {};
+}
+
+struct Box {
+  Vec3 low, high;
+  double diagonal() const { return std::hypot(high.x - low.x, high.y - low.y, high.z - low.z); }
+};
+
+Box boxOf(const TriangleMesh& mesh) {
+  Box box{mesh.positions[mesh.triangles[0][0]], mesh.positions[mesh.triangles[0][0]]};
+  for (const auto& t : mesh.triangles)
+    for (const std::uint32_t v : t) {
+      const Vec3& p = mesh.positions[v];
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    }
+  return box;
+}
+
+/// The triangles along a space-filling curve.
+std::vector<std::uint32_t> orderAlongCurve(const TriangleMesh& mesh, const Box& box) {
+  const Vec3 span = box.high - box.low;
+  const double side = std::max({span.x, span.y, span.z});
+  const auto cell = [&](double sum, double low) {
+    return static_cast<std::uint32_t>(std::clamp((sum / 3 - low) / side, 0.0, 1.0) * 0x1FFFFF);
+  };
+  std::vector<std::uint64_t> codes;
+  codes.reserve(mesh.triangles.size());
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vec3 sum = mesh.positions[i] + mesh.positions[j] + mesh.positions[k];
+    codes.push_back(mortonCode(cell(sum.x, box.low.x), cell(sum.y, box.low.y), cell(sum.z, box.low.z)));
+  }
+  std::vector<std::uint32_t> order(codes.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    return codes[a] != codes[b] ? codes[a] < codes[b] : a < b;
+  });
+  return order;
+}
+
+/// By face: a number for each object and material. Empty if there is one only. A group is no part: a face of
+/// an OBJ may be in any, and groups say nothing about looks.
+std::vector<std::uint32_t> partsOf(const SurfaceMesh& mesh) {
+  const auto at = [](const std::vector<std::uint32_t>& of, std::size_t f) {
+    return of.empty() ? MeshAttributes::kNone : of[f];
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;
+  std::vector<std::uint32_t> parts;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+    parts.push_back(numbers
+                        .try_emplace({at(mesh.objectOf, f), at(mesh.materialOf, f)},
+                                     static_cast<std::uint32_t>(numbers.size()))
+                        .first->second);
+  if (numbers.size() < 2) parts.clear();
+  return parts;
+}
+
+std::vector<std::uint8_t> fixedVertices(const LiveMesh& live, std::size_t vertexCount, bool keepsBorders,
+                                        std::span<const VertexId> pinched) {
+  std::vector<std::uint8_t> isFixed(vertexCount, 0);
+  for (const VertexId v : pinched) isFixed[v.index()] = 1;
+  if (!keepsBorders) return isFixed;
+  for (const LiveMesh::Triangle& t : live.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!t.twin[i].isValid()) isFixed[t.corners[i].index()] = isFixed[t.corners[(i + 1) % 3].index()] = 1;
+  return isFixed;
+}
+
+/// Places in the type of the source: floats where every coordinate is one.
+VertexArrays placesOf(std::span<const Vec3> positions, std::span<const std::uint32_t> order,
+                      std::shared_ptr<const void>& owner) {
+  const auto isFloat = [](double x) { return double(static_cast<float>(x)) == x; };
+  VertexArrays vertices;
+  if (std::ranges::all_of(positions,
+                          [&](const Vec3& p) { return isFloat(p.x) && isFloat(p.y) && isFloat(p.z); })) {
+    auto places = std::make_shared<std::vector<std::array<float, 3>>>();
+    for (const std::uint32_t v : order) {
+      const Vec3& p = positions[v];
+      places->push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+    }
+    vertices.places32 = *places;
+    owner = places;
+  } else {
+    auto places = std::make_shared<std::vector<Vec3>>();
+    for (const std::uint32_t v : order) places->push_back(positions[v]);
+    vertices.places64 = *places;
+    owner = places;
+  }
+  return vertices;
+}
+
+/// The order of the faces and of everything that is by face.
+void sortFaces(PreparedSurface& prepared, std::span<const std::uint32_t> order) {
+  const auto sorted = [&](auto& array) {
+    if (array.empty()) return;
+    auto copy = array;
+    for (std::size_t i = 0; i < order.size(); ++i) copy[i] = array[order[i]];
+    array.swap(copy);
+  };
+  sorted(prepared.mesh.triangles);
+  sorted(prepared.mesh.wedges);
+  sorted(prepared.faceOf);
+}
+
+class SurfaceBuild {
+ public:
+  SurfaceBuild(const SurfaceMesh& source, const SurfaceBuildOptions& options, const RunContext& context)
+      : source_(source), options_(options), context_(context) {}
+
+  Result<SurfaceModel> run() {
+    if (const Status valid = checkOptions(options_); !valid) return tl::unexpected(valid.error());
+    Result<PreparedSurface> prepared = prepareSurface(source_, context_);
+    if (!prepared) return tl::unexpected(prepared.error());
+    prepared_ = std::move(*prepared);
+    const TriangleMesh& mesh = prepared_.mesh;
+    if (mesh.triangles.size() > LiveMesh::kMostTriangles / 2)
+      return failure(ErrorCode::unsupported,
+                     fmt::format("{} faces are more than 32-bit half-edges can name", mesh.triangles.size()));
+    box_ = boxOf(mesh);
+    if (!(box_.diagonal() < 1e30) || !(box_.diagonal() > 1e-30))
+      return failure(ErrorCode::invalidData,
+                     fmt::format("a diagonal of {} is not between 1e-30 and 1e30", box_.diagonal()));
+    // Parts are by face of the prepared mesh, before and after it is sorted.
+    std::vector<std::uint32_t> parts = partsOf(prepared_.mesh);
+    const std::vector<std::uint32_t> order = orderAlongCurve(mesh, box_);
+    sortFaces(prepared_, order);
+    if (!parts.empty()) {
+      std::vector<std::uint32_t> sorted;
+      for (const std::uint32_t f : order) sorted.push_back(parts[f]);
+      parts.swap(sorted);
+    }
+    if (const Status done = simplify(parts); !done) return tl::unexpected(done.error());
+    return std::move(model_);
+  }
+
+ private:
+  Status simplify(std::span<const std::uint32_t> parts) {
+    const TriangleMesh& mesh = prepared_.mesh;
+    const auto vertexCount = static_cast<std::uint32_t>(mesh.positions.size());
+    const auto faceCount = static_cast<std::uint32_t>(mesh.triangles.size());
+    const double largest = std::max({std::abs(box_.low.x), std::abs(box_.low.y), std::abs(box_.low.z),
+                                     std::abs(box_.high.x), std::abs(box_.high.y), std::abs(box_.high.z)});
+    const OriginalSurface original{mesh.positions, mesh.triangles, largest};
+    const SurfaceSamples samples(original);
+    std::vector<VertexId> pinched;
+    LiveMesh live = LiveMesh::fromTriangles(mesh.triangles, vertexCount, pinched);
+    const std::vector<std::uint8_t> isFixed =
+        fixedVertices(live, vertexCount, options_.keepsBorders, pinched);
+    MetricFrame metric;
+    metric.origin = box_.low / 2 + box_.high / 2;
+    MtRecorder recorder(faceCount, vertexCount, OutwardScale(box_.diagonal()), metric);
+    SurfaceState state{.mesh = live,
+                       .original = original,
+                       .samples = samples,
+                       .recorder = recorder,
+                       .metric = metric,
+                       .maxDegree = options_.maxDegree,
+                       .thresholdRatio = options_.thresholdRatio,
+                       .unit = std::ldexp(1.0, -std::ilogb(box_.diagonal())),
+                       .parts = {prepared_.mesh.hasWedges(), parts}};
+    state.labels.resize(faceCount);
+    for (std::uint32_t f = 0; f < faceCount; ++f)
+      state.labels.set(
+          f, {f, prepared_.mesh.hasWedges() ? prepared_.mesh.wedges[f] : std::array<std::uint32_t, 3>{}});
+    const Result<SurfaceRoot> root = simplifySurface(state, isFixed, context_);
+    if (!root) return tl::unexpected(root.error());
+    state.pieces = {};
+    live = {};
+    state.records = {};
+    context_.report("finish", 0);
+    finish(*root, recorder, state);
+    context_.report("finish", 1);
+    return {};
+  }
+
+  void finish(const SurfaceRoot& root, MtRecorder& recorder, const SurfaceState& state) {
+    const SurfaceMesh& mesh = prepared_.mesh;
+    UninitializedVector<std::uint32_t> order;
+    const MultiTriangulation bare =
+        recorder.finish(root.vertices, root.triangles, static_cast<std::uint32_t>(mesh.positions.size()),
+                        order, context_.clock);
+    std::shared_ptr<const void> owner;
+    const VertexArrays vertices = placesOf(mesh.positions, order, owner);
+    MtArrays arrays = bare.arrays();
+    // What the recorder calls `below` is the root mean square here (SurfaceRemover).
+    arrays.rms = std::exchange(arrays.below, {});
+    arrays.above = {};
+    model_.mt = withVertices(MultiTriangulation(arrays, std::make_shared<MultiTriangulation>(bare)), vertices,
+                             std::move(owner));
+    const MultiTriangulation& mt = model_.mt;
+
+    model_.faceOf.resize(mt.triangleIdCount());
+    if (mesh.hasWedges()) model_.wedgesOf.resize(mt.triangleIdCount());
+    const auto put = [&](std::uint32_t t, const TriangleLabels& labels) {
+      model_.faceOf[t] = prepared_.faceOf[labels.face];
+      if (mesh.hasWedges()) model_.wedgesOf[t] = labels.wedges;
+    };
+    for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) put(t, root.labels[t]);
+    for (std::uint32_t n = 0; n < mt.nodeCount(); ++n) {
+      const VertexId removed(order[mt.apex(NodeId(n)).index()]);
+      const std::uint32_t from = state.firstStarLabel[removed];
+      for (std::uint32_t i = 0; i < mt.ceilingSize(NodeId(n)); ++i)
+        put(mt.slotTriangle(NodeId(n), i).index(), state.starLabels[from + i]);
+    }
+    model_.levels = root.levels;
+    describe(order);
+    if (!model_.hasFaceAttributes()) inheritFaces(mt, model_.faceOf);
+  }
+
+  void describe(std::span<const std::uint32_t> order) {
+    SurfaceMesh& mesh = prepared_.mesh;
+
+    model_.options = options_;
+    model_.mending = prepared_.mending;
+    model_.diagonal = box_.diagonal();
+    model_.sourceVertices = source_.positions.size();
+    model_.sourceFaces = source_.triangles.size();
+    for (const std::uint32_t v : order) model_.vertexOf.push_back(prepared_.vertexOf[v]);
+    MeshAttributes& a = model_.attributes;
+    for (const Attribute& attribute : mesh.vertexAttributes) {
+      Attribute& sorted = a.vertexAttributes.emplace_back(emptyLike(attribute));
+      for (const std::uint32_t v : order) sorted.append(attribute.element(v));
+    }
+    a.wedgeAttributes = std::move(mesh.wedgeAttributes);
+    a.wedgeCount = mesh.wedgeCount;
+    // By face of the source.
+    a.triangleAttributes = source_.triangleAttributes;
+    a.faceOf = source_.faceOf;
+    a.objects = source_.objects;
+    a.groups = source_.groups;
+    a.objectOf = source_.objectOf;
+    a.groupOf = source_.groupOf;
+    a.materials = source_.materials;
+    a.materialOf = source_.materialOf;
+    a.pictures = source_.pictures;
+  }
+
+  const SurfaceMesh& source_;
+  const SurfaceBuildOptions& options_;
+  const RunContext& context_;
+  PreparedSurface prepared_;
+  Box box_;
+  SurfaceModel model_;
+};
+
+}  // namespace
+
+Result<SurfaceModel> buildSurface(const SurfaceMesh& source, const SurfaceBuildOptions& options,
+                                  const RunContext& context) try {
+  return withThreads(context, [&] { return SurfaceBuild(source, options, context).run(); });
+} catch (...) {
+  return caughtFailure();
+}
+
+}  // namespace arete

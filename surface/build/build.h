@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
+#include "surface/model/surface_mesh.h"
+#include "surface/model/surface_model.h"
+
+namespace arete {
+
+/// Builds the multitriangulation of a triangle mesh, with all its attributes. What leaves the surface as it
+/// is is mended and counted (SurfaceModel::mending).
+///
+/// Every cut is an oriented manifold of the topology of the source: as many components, each with its Euler
+/// number. Seams, edges between objects and materials, and their ends stay lines of every cut. A new vertex
+/// is never made.
+///
+/// The result does not depend on the number of threads, nor, but for scale, on a power of two that all
+/// coordinates are multiplied with. O(n log n) time. Errors: those of prepareSurface(); usage: an option out
+/// of range; unsupported: too many triangles; interrupted; outOfMemory.
+Result<SurfaceModel> buildSurface(const SurfaceMesh& source, const SurfaceBuildOptions& options = {},
+                                  const RunContext& context = {});
+
+}  // namespace arete

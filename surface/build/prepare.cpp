@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Normals of corners are seams where they differ, as at the creases of a machine part. A mesh of flat faces,
+// as many programs write it, differs in them at most of its edges: there they say no more than the faces do,
+// and would fix every vertex.
+#include "surface/build/prepare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "surface/edit/joined_surface.h"
+#include "surface/model/transfer.h"
+#include "surface/model/wedges.h"
+#include "surface/repair/repair.h"
+
+namespace arete {
+namespace {
+
+Status refuse(const MeshFindings& found, const RepairedMesh& repaired, const char* what, const char* remedy) {
+  const auto vertexAt = [&](std::size_t i) { return repaired.vertexOf[found.places[0].elements[i]]; };
+  return failure(ErrorCode::invalidData,
+                 fmt::format("{} {}, the first one between the vertices {} and {}; {}", found.count,
+                             fmt::format(fmt::runtime(what), found.count == 1 ? "edge has" : "edges have"),
+                             vertexAt(0), vertexAt(1), remedy));
+}
+
+/// Leaves out the normals of corners where they differ at more than half of the edges.
+bool dropFlatNormals(SurfaceMesh& mesh) {
+  const auto isNormal = [](const Attribute& a) {
+    return a.meaning == AttributeMeaning::normal || a.meaning == AttributeMeaning::tangent;
+  };
+  if (std::ranges::none_of(mesh.wedgeAttributes, isNormal)) return false;
+  const std::uint64_t edges = 3 * std::uint64_t{mesh.triangles.size()} / 2;
+  if (2 * countSeamEdges(mesh) <= edges) return false;
+  SurfaceMesh without = mesh;
+  std::erase_if(without.wedgeAttributes, isNormal);
+  moveToVertices(without);
+  if (2 * countSeamEdges(without) > edges) return false;
+  mesh = std::move(without);
+  return true;
+}
+
+}  // namespace
+
+Result<PreparedSurface> prepareSurface(const SurfaceMesh& source, const RunContext& context) {
+  if (const Status valid = source.validate(); !valid) return tl::unexpected(valid.error());
+  Result<RepairedMesh> repaired = repair(source, {.splitsAtTJunctions = false}, context);
+  if (!repaired) return tl::unexpected(repaired.error());
+  if (repaired->mesh.triangles.empty())
+    return failure(ErrorCode::degenerate,
+                   source.triangles.empty() ? "the mesh has no face" : "no face of the mesh has an area");
+  const MeshDiagnosis& d = repaired->diagnosis;
+  if (d.nonManifoldEdges.count > 0)
+    return tl::unexpected(refuse(d.nonManifoldEdges, *repaired, "{} more than two faces",
+                                 "repairing with `splitsSheets` makes several edges of each")
+                              .error());
+  if (d.nonOrientable.count > 0)
+    return tl::unexpected(refuse(d.nonOrientable, *repaired, "{} two faces that no turns make agree",
+                                 "cut the surface there, as a Moebius strip has to be")
+                              .error());
+  PreparedSurface prepared;
+  const RepairCounts& c = repaired->counts;
+  prepared.mending = {.duplicateFaces = c.duplicateTriangles,
+                      .degenerateFaces = c.degenerateTriangles,
+                      .joinedVertices = c.joinedVertices,
+                      .turnedFaces = c.turnedTriangles,
+                      .addedVertices = c.addedVertices,
+                      .unusedVertices = c.unusedVertices};
+  Result<SurfaceMesh> mesh =
+      transferAttributes(source, std::move(repaired->mesh), repaired->vertexOf, repaired->triangleOf);
+  if (!mesh) return tl::unexpected(mesh.error());
+  prepared.mesh = std::move(*mesh);
+  if (prepared.mesh.hasWedges()) {
+    moveToVertices(prepared.mesh);
+    prepared.mending.dropsFlatNormals = dropFlatNormals(prepared.mesh);
+  }
+  prepared.vertexOf = std::move(repaired->vertexOf);
+  prepared.faceOf = std::move(repaired->triangleOf);
+  return prepared;
+}
+
+}  // namespace arete

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
+#include "surface/model/surface_mesh.h"
+#include "surface/model/surface_model.h"
+
+namespace arete {
+
+/// A mesh that a build can take: an oriented manifold, perhaps with borders.
+struct PreparedSurface {
+  SurfaceMesh mesh;
+  std::vector<std::uint32_t> vertexOf;  ///< by vertex: that of the source
+  std::vector<std::uint32_t> faceOf;    ///< by triangle: that of the source
+  SurfaceMending mending;
+};
+
+/// Mends what leaves the surface as it is (SurfaceMending), as repair() does, and refuses what does not:
+/// edges of more than two faces and parts that no turns orient. Errors: those of repair(); invalidData: names
+/// the first such edge by the vertices of the source, how many there are, and what mends them; degenerate: no
+/// face has an area. O(n log n).
+Result<PreparedSurface> prepareSurface(const SurfaceMesh& source, const RunContext& context = {});
+
+}  // namespace arete

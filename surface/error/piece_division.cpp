@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// First every piece is measured as a whole against each triangle of the floor. Its corners' distances to the
+// nearest triangle bound from below what any division can reach; the largest of these over all pieces is the
+// error that the floor has anyway. Pieces that stay well below it as a whole need no cut. The others are cut
+// by the planes through the floor's diagonals that halve the angle there: the diagonals are a binary tree, of
+// which a polygon passes the part that it lies across. Each part then belongs to the triangle that is nearest
+// to it as a whole, whichever that is, so what a cut does not reach makes a bound larger and never wrong.
+#include "surface/error/piece_division.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace arete {
+namespace {
+
+/// Pieces below this part of the floor's error are not cut.
+constexpr double kWholeEnough = 0.7;
+
+Vec3 unitOrZero(const Vec3& a) {
+  const double length = norm(a);
+  return length > 0 ? a / length : a;
+}
+
+}  // namespace
+
+void PieceDivision::clear() {
+  parts_.clear();
+  points_.clear();
+}
+
+void PieceDivision::add(const PieceList& pieces) {
+  pieces.forEach([&](const Piece& piece) { add(piece.face, piece.cuts, piece.polygon); });
+}
+
+void PieceDivision::add(std::uint32_t face) {
+  add(face, 0, wholeFace());
+}
+
+void PieceDivision::add(std::uint32_t face, std::uint32_t cuts, std::span<const FacePoint> polygon) {
+  const auto begin = static_cast<std::uint32_t>(points_.size());
+  points_.insert(points_.end(), polygon.begin(), polygon.end());
+  parts_.push_back({face, cuts, begin, static_cast<std::uint32_t>(points_.size()), {}});
+}
+
+void PieceDivision::joinParts() {
+  std::ranges::sort(parts_, [](const Part& a, const Part& b) {
+    return a.face != b.face ? a.face < b.face : a.begin < b.begin;
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0, end; i < parts_.size(); i = end) {
+    end = i + 1;
+    while (end < parts_.size() && parts_[end].face == parts_[i].face) ++end;
+    Part part = parts_[i];
+    if (end - i > 1) {
+      hull_.clear();
+      for (std::size_t k = i; k < end; ++k) {
+        hull_.insert(hull_.end(), points_.begin() + parts_[k].begin, points_.begin() + parts_[k].end);
+        part.cuts = std::max(part.cuts, parts_[k].cuts);
+      }
+      takeConvexHull(hull_);
+      if (isWholeFace(hull_)) part.cuts = 0;
+      part.begin = static_cast<std::uint32_t>(points_.size());
+      points_.insert(points_.end(), hull_.begin(), hull_.end());
+      part.end = static_cast<std::uint32_t>(points_.size());
+    }
+    parts_[kept++] = part;
+  }
+  parts_.resize(kept);
+}
+
+PieceDivision::Whole PieceDivision::bestWhole(const SpaceTriangle& face, std::span<const FacePoint> polygon,
+                                              double* least) const {
+  std::array<double, kMaxHoleCorners> most{};
+  double leastOfAll = 0;
+  FloorDistance::Squares squares;
+  for (const FacePoint& p : polygon) {
+    const Vec3 place = placeOf(p, face);
+    double nearest = std::numeric_limits<double>::infinity();
+    floor_.squares(place, squares);
+    for (int t = 0; t < floor_.size(); ++t) {
+      most[t] = std::max(most[t], squares[t]);
+      nearest = std::min(nearest, squares[t]);
+    }
+    leastOfAll = std::max(leastOfAll, nearest);
+  }
+  if (least != nullptr) *least = leastOfAll;
+  const auto best =
+      static_cast<int>(std::min_element(most.begin(), most.begin() + floor_.size()) - most.begin());
+  return {best, most[best]};
+}
+
+int PieceDivision::planCuts(const HoleTriangulation& floor, const FloorJoins& joins,
+                            std::span<const Vec3> corners, std::uint32_t members) {
+  const int size = std::popcount(members);
+  if (size == 1) return ~std::countr_zero(members);
+  // The diagonal that divides the triangles most evenly. Those between its corners are below it.
+  std::uint32_t bestBelow = 0;
+  int best = -1;
+  for (int d = 0; d < joins.diagonalCount; ++d) {
+    const FloorJoins::Diagonal& diagonal = joins.diagonals[d];
+    if ((members >> diagonal.forth.triangle & members >> diagonal.back.triangle & 1) == 0) continue;
+    std::uint32_t below = 0;
+    for (int t = 0; t < floor.size; ++t)
+      if (floor.triangles[t][0] >= diagonal.from && floor.triangles[t][2] <= diagonal.to)
+        below |= std::uint32_t{1} << t;
+    below &= members;
+    const auto balance = [&](std::uint32_t part) { return std::abs(2 * std::popcount(part) - size); };
+    if (best >= 0 && balance(below) >= balance(bestBelow)) continue;
+    best = d;
+    bestBelow = below;
+  }
+  const FloorJoins::Diagonal& diagonal = joins.diagonals[best];
+  const Vec3 along = corners[diagonal.to] - corners[diagonal.from];
+  const Vec3 normal =
+      unitOrZero(floor_.normal(diagonal.forth.triangle)) + unitOrZero(floor_.normal(diagonal.back.triangle));
+  Cut cut{corners[diagonal.from], cross(normal, along), 0, 0};
+  cut.below = planCuts(floor, joins, corners, bestBelow);
+  cut.above = planCuts(floor, joins, corners, members & ~bestBelow);
+  tree_.push_back(cut);
+  return static_cast<int>(tree_.size() - 1);
+}
+
+void PieceDivision::cutAlong(int node, std::size_t depth, const SpaceTriangle& face,
+                             const FacePolygon& polygon, std::uint32_t cuts) {
+  if (node < 0) {
+    if (leafCount_ == leaves_.size()) leaves_.emplace_back();
+    Leaf& leaf = leaves_[leafCount_++];
+    leaf.polygon = polygon;
+    leaf.cuts = cuts;
+    leaf.whole = bestWhole(face, polygon, nullptr);
+    return;
+  }
+  const Cut plane = tree_[static_cast<std::size_t>(node)];
+  Halves& halves = halves_[depth];
+  halves.heights.clear();
+  double low = 0, high = 0;
+  for (const FacePoint& p : polygon) {
+    const double height = dot(plane.normal, placeOf(p, face) - plane.point);
+    halves.heights.push_back(height);
+    low = std::min(low, height);
+    high = std::max(high, height);
+  }
+  if (low < 0 && high > 0) {
+    cut(polygon, halves.heights, halves.below, halves.above);
+    if (!halves.below.empty()) cutAlong(plane.below, depth + 1, face, halves.below, cuts + 1);
+    if (!halves.above.empty()) cutAlong(plane.above, depth + 1, face, halves.above, cuts + 1);
+  } else {
+    cutAlong(low < 0 ? plane.below : plane.above, depth + 1, face, polygon, cuts);
+  }
+}
+
+void PieceDivision::assign(std::uint32_t face, std::uint32_t cuts, std::span<const FacePoint> polygon,
+                           const SpaceTriangle& place, const Whole& whole) {
+  const auto f = static_cast<std::size_t>(whole.triangle);
+  lists_[f].add(face, cuts, polygon);
+  double rounding = rounding_;
+  if (cuts > 0 && !isWholeFace(polygon))
+    rounding += cuts / double(FacePoint::kOne) * (norm(place[1] - place[0]) + norm(place[2] - place[0]));
+  // A sum over the polygon's middle and corners that is exact for a triangle and a quadratic function.
+  Vec3 middle;
+  double atCorners = 0;
+  FloorDistance::Squares squares;
+  for (const FacePoint& p : polygon) {
+    const Vec3 at = placeOf(p, place);
+    middle = middle + at;
+    floor_.squares(at, squares);
+    atCorners += squares[f];
+  }
+  const double count = double(polygon.size()), unit = 1.0 / FacePoint::kOne;
+  const double area =
+      norm(cross(place[1] - place[0], place[2] - place[0])) / 2 * (double(twiceArea(polygon)) * unit * unit);
+  integrals_[f].area += area;
+  floor_.squares(middle / count, squares);
+  integrals_[f].squared += area * (0.75 * squares[f] + 0.25 * atCorners / count);
+  bounds_[f] = std::max(bounds_[f], std::sqrt(whole.squared) * (1 + 1e-12) + rounding);
+}
+
+void PieceDivision::divide(std::span<const Vec3> corners, const HoleTriangulation& floor) {
+  joinParts();
+  floor_.clear();
+  for (int t = 0; t < floor.size; ++t) {
+    const auto& [i, j, m] = floor.triangles[t];
+    floor_.add({corners[i], corners[j], corners[m]});
+    lists_[t].clear();
+    bounds_[t] = 0;
+    integrals_[t] = {};
+  }
+  double anyway = 0;
+  for (Part& part : parts_) {
+    double least = 0;
+    part.whole = bestWhole(original_.face(part.face), polygonOf(part), &least);
+    anyway = std::max(anyway, least);
+  }
+  tree_.clear();
+  int root = 0;
+  bool isPlanned = false;
+  for (const Part& part : parts_) {
+    const SpaceTriangle face = original_.face(part.face);
+    if (part.whole.squared <= kWholeEnough * kWholeEnough * anyway || floor.size == 1) {
+      assign(part.face, part.cuts, polygonOf(part), face, part.whole);
+      continue;
+    }
+    if (!isPlanned) {
+      root = planCuts(floor, FloorJoins(floor), corners, (std::uint32_t{1} << floor.size) - 1);
+      isPlanned = true;
+    }
+    leafCount_ = 0;
+    hull_.assign(polygonOf(part).begin(), polygonOf(part).end());
+    cutAlong(root, 0, face, hull_, part.cuts);
+    double worst = 0;
+    const std::span<const Leaf> leaves(leaves_.data(), leafCount_);
+    for (const Leaf& leaf : leaves) worst = std::max(worst, leaf.whole.squared);
+    if (worst < part.whole.squared)
+      for (const Leaf& leaf : leaves) assign(part.face, leaf.cuts, leaf.polygon, face, leaf.whole);
+    else
+      assign(part.face, part.cuts, polygonOf(part), face, part.whole);
+  }
+}
+
+}  // namespace arete

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/mt/hole_limit.h"
+#include "engine/simplify/floor_joins.h"
+#include "engine/simplify/hole_triangles.h"
+#include "surface/error/floor_distance.h"
+#include "surface/error/original.h"
+#include "surface/error/pieces.h"
+
+namespace arete {
+
+/// Divides the pieces of a star among the triangles of the floor that replaces it, and bounds how far each
+/// triangle is from its pieces.
+///
+/// The distance to a triangle is a convex function, so its maximum over a piece, a convex polygon, is at a
+/// corner. A piece that belongs to one triangle as a whole is bounded exactly by its corners. A piece that
+/// lies across an edge of the floor is cut there, if keeping it whole would make the bound larger.
+class PieceDivision {
+ public:
+  explicit PieceDivision(const OriginalSurface& original)
+      : original_(original), rounding_(original.largestCoordinate * 0x1p-49) {}
+
+  /// Starts with no pieces.
+  void clear();
+  /// Adds the pieces of a triangle of the star. Those of one face are joined: their convex hull takes their
+  /// place, which has no other corners than theirs.
+  void add(const PieceList& pieces);
+  /// Adds a whole face.
+  void add(std::uint32_t face);
+
+  /// @param corners of the hole, and
+  /// @param floor the triangles that fill it.
+  void divide(std::span<const Vec3> corners, const HoleTriangulation& floor);
+
+  // After divide(), by triangle of the floor:
+  PieceList takePieces(int f) { return lists_[static_cast<std::size_t>(f)].finish(); }
+  /// No point of its pieces is farther from the triangle: rounded outwards.
+  double bound(int f) const { return bounds_[static_cast<std::size_t>(f)]; }
+  /// The root of the mean over its pieces of the squared distance, about.
+  double rms(int f) const {
+    const Integral& i = integrals_[static_cast<std::size_t>(f)];
+    return i.area > 0 ? std::sqrt(i.squared / i.area) : 0;
+  }
+
+ private:
+  /// The triangle that a piece belongs to as a whole, and its largest squared distance.
+  struct Whole {
+    int triangle = 0;
+    double squared = 0;
+  };
+  struct Part {
+    std::uint32_t face, cuts;
+    std::uint32_t begin, end;  // in points_
+    Whole whole;
+  };
+  /// A plane through a diagonal; on either side a further one, or ~triangle.
+  struct Cut {
+    Vec3 point, normal;
+    int below, above;
+  };
+  struct Integral {
+    double squared = 0, area = 0;
+  };
+  struct Leaf {
+    FacePolygon polygon;
+    std::uint32_t cuts;
+    Whole whole;
+  };
+
+  void add(std::uint32_t face, std::uint32_t cuts, std::span<const FacePoint> polygon);
+  std::span<const FacePoint> polygonOf(const Part& part) const {
+    return std::span(points_).subspan(part.begin, part.end - part.begin);
+  }
+  void joinParts();
+  /// @param least receives a bound from below of what any division reaches; may be null.
+  Whole bestWhole(const SpaceTriangle& face, std::span<const FacePoint> polygon, double* least) const;
+  /// Adds the cuts between some triangles to the tree. @return its root.
+  int planCuts(const HoleTriangulation& floor, const FloorJoins& joins, std::span<const Vec3> corners,
+               std::uint32_t members);
+  void cutAlong(int node, std::size_t depth, const SpaceTriangle& face, const FacePolygon& polygon,
+                std::uint32_t cuts);
+  void assign(std::uint32_t face, std::uint32_t cuts, std::span<const FacePoint> polygon,
+              const SpaceTriangle& place, const Whole& whole);
+
+  const OriginalSurface& original_;
+  double rounding_;  // of a distance
+  std::vector<Part> parts_;
+  FacePolygon points_, hull_;
+  FloorDistance floor_;
+  std::vector<Cut> tree_;
+  std::vector<Leaf> leaves_;
+  std::size_t leafCount_ = 0;
+  /// By depth in the tree of cuts, so that no cut allocates.
+  struct Halves {
+    FacePolygon below, above;
+    std::vector<double> heights;
+  };
+  std::array<Halves, kMaxHoleCorners> halves_;
+  std::array<PieceList::Builder, kMaxHoleCorners> lists_;
+  std::array<double, kMaxHoleCorners> bounds_{};
+  std::array<Integral, kMaxHoleCorners> integrals_{};
+};
+
+}  // namespace arete

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A front is examined by diagnose(), which knows nothing of multitriangulations. A component of a front has
+// vertices of one component of the finest front, because every modification replaces triangles by others
+// between the same vertices and one more.
+#include "surface/laws/validate_surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "engine/laws/validate.h"
+#include "surface/diagnosis/diagnosis.h"
+
+namespace arete {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+tl::unexpected<Error> broken(const std::string& what) {
+  return failure(ErrorCode::brokenPromise, "law 5: " + what);
+}
+
+struct ExaminedFront {
+  TriangleMesh mesh;
+  MeshDiagnosis diagnosis;
+};
+
+/// The front as a mesh, an oriented manifold without double triangles.
+Result<ExaminedFront> examine(const MultiTriangulation& mt, const Cut& cut, const RunContext& context) {
+  ExaminedFront front;
+  for (const std::uint32_t v : cut.vertices) front.mesh.positions.push_back(mt.position(VertexId(v)));
+  front.mesh.triangles = cut.triangles;
+  Result<MeshDiagnosis> diagnosis = diagnose(front.mesh, {.selfIntersections = false}, context);
+  if (!diagnosis) return tl::unexpected(diagnosis.error());
+  front.diagnosis = std::move(*diagnosis);
+  const MeshDiagnosis& d = front.diagnosis;
+  const auto refuse = [&](const MeshFindings& found, const char* what) {
+    std::string vertices;
+    for (const std::uint32_t v : found.places[0].elements)
+      vertices += fmt::format(
+          " {}", &found == &d.duplicateTriangles || &found == &d.doubleSided ? cut.ids[v] : cut.vertices[v]);
+    return broken(fmt::format("a front of {} triangles has {} {}, the first at{}", cut.triangles.size(),
+                              found.count, what, vertices));
+  };
+  if (d.nonManifoldEdges.count > 0) return refuse(d.nonManifoldEdges, "edges of more than two triangles");
+  if (d.nonManifoldVertices.count > 0) return refuse(d.nonManifoldVertices, "vertices with several fans");
+  if (d.turnedEdges.count > 0) return refuse(d.turnedEdges, "edges whose triangles turn against each other");
+  if (d.duplicateTriangles.count > 0) return refuse(d.duplicateTriangles, "duplicate triangles");
+  return front;
+}
+
+}  // namespace
+
+Result<SurfaceTopology> SurfaceTopology::of(const MultiTriangulation& mt, const RunContext& context) {
+  const Cut finest = frontOfPrefix(mt, mt.nodeCount());
+  const Result<ExaminedFront> front = examine(mt, finest, context);
+  if (!front) return tl::unexpected(front.error());
+  SurfaceTopology topology;
+  topology.mt_ = mt;
+  topology.componentOf_.assign(mt.vertexCount(), kNone);
+  const MeshDiagnosis& d = front->diagnosis;
+  topology.doubleSided_ = d.doubleSided.count;
+  for (const ComponentDiagnosis& c : d.components) topology.components_.push_back({c.eulerNumber, c.borders});
+  for (std::size_t t = 0; t < finest.triangles.size(); ++t)
+    for (const std::uint32_t v : finest.triangles[t])
+      topology.componentOf_[finest.vertices[v]] = d.componentOf[t];
+  return topology;
+}
+
+Status SurfaceTopology::check(const Cut& cut, const RunContext& context) const {
+  const Result<ExaminedFront> front = examine(mt_, cut, context);
+  if (!front) return tl::unexpected(front.error());
+  const MeshDiagnosis& d = front->diagnosis;
+  if (d.doubleSided.count > doubleSided_)
+    return broken(fmt::format("{} triangles of a front lie on others, {} of the finest one",
+                              d.doubleSided.count, doubleSided_));
+  std::vector<std::uint32_t> finestOf(d.components.size(), kNone), countOf(components_.size(), 0);
+  for (std::size_t t = 0; t < cut.triangles.size(); ++t)
+    for (const std::uint32_t v : cut.triangles[t]) {
+      const std::uint32_t finest = componentOf_[cut.vertices[v]];
+      std::uint32_t& known = finestOf[d.componentOf[t]];
+      if (known == kNone) {
+        known = finest;
+        ++countOf[finest];
+      }
+      if (known != finest)
+        return broken(fmt::format("triangle {} joins two components of the surface", cut.ids[t]));
+    }
+  for (std::size_t c = 0; c < countOf.size(); ++c)
+    if (countOf[c] != 1)
+      return broken(fmt::format("component {} of the surface has become {}", c, countOf[c]));
+  for (std::size_t c = 0; c < finestOf.size(); ++c) {
+    const Component own{d.components[c].eulerNumber, d.components[c].borders};
+    const Component& finest = components_[finestOf[c]];
+    if (own != finest)
+      return broken(
+          fmt::format("component {} of a front has the Euler number {} and {} borders, that of the "
+                      "finest one {} and {}",
+                      c, own.eulerNumber, own.borders, finest.eulerNumber, finest.borders));
+  }
+  return {};
+}
+
+Status validateSurface(const SurfaceModel& model, const RunContext& context) {
+  if (Status valid = model.validate(); !valid) return valid;
+  const MultiTriangulation& mt = model.mt;
+  if (Status valid = validate(mt, {}, context); !valid) return valid;
+  const std::uint64_t kept = model.sourceFaces - model.mending.duplicateFaces - model.mending.degenerateFaces;
+  if (mt.finestTriangleCount() != kept)
+    return failure(
+        ErrorCode::brokenPromise,
+        fmt::format("law 8: the finest front has {} triangles of {} faces", mt.finestTriangleCount(), kept));
+  const Result<SurfaceTopology> topology = SurfaceTopology::of(mt, context);
+  if (!topology) return tl::unexpected(topology.error());
+  constexpr std::uint64_t kFronts = 16;
+  for (std::uint64_t i = 0; i < kFronts; ++i) {
+    const auto nodes = static_cast<std::uint32_t>(mt.nodeCount() * i / kFronts);
+    if (Status valid = topology->check(frontOfPrefix(mt, nodes), context); !valid) return valid;
+  }
+  return {};
+}
+
+}  // namespace arete

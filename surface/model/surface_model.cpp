@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/model/surface_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace arete {
+namespace {
+
+Status refuse(const std::string& what) {
+  return failure(ErrorCode::invalidData, what);
+}
+
+}  // namespace
+
+Status SurfaceModel::validate() const {
+  const MeshAttributes& a = attributes;
+  if (!mt.vertices().isSurface() && mt.vertexCount() > 0) return refuse("its vertices are not of a surface");
+  if (vertexOf.size() != mt.vertexCount())
+    return refuse(
+        fmt::format("{} vertices have {} numbers in the source", mt.vertexCount(), vertexOf.size()));
+  if (faceOf.size() != mt.triangleIdCount() || (hasWedges() && wedgesOf.size() != mt.triangleIdCount()))
+    return refuse("not every triangle has a face and wedges");
+  if (hasWedges() == (a.wedgeCount == 0))
+    return refuse("wedges are counted and not listed, or the other way");
+  for (const Attribute& attribute : a.vertexAttributes)
+    if (const Status valid = checkAttribute(attribute, mt.vertexCount()); !valid) return valid;
+  for (const Attribute& attribute : a.wedgeAttributes)
+    if (const Status valid = checkAttribute(attribute, a.wedgeCount); !valid) return valid;
+  for (const Attribute& attribute : a.triangleAttributes)
+    if (const Status valid = checkAttribute(attribute, sourceFaces); !valid) return valid;
+  const auto isListOf = [&](const std::vector<std::uint32_t>& numbers, std::size_t count) {
+    if (numbers.empty()) return true;
+    return numbers.size() == sourceFaces && std::ranges::all_of(numbers, [&](std::uint32_t i) {
+             return i < count || i == MeshAttributes::kNone;
+           });
+  };
+  if (!isListOf(a.objectOf, a.objects.size()) || !isListOf(a.groupOf, a.groups.size()) ||
+      !isListOf(a.materialOf, a.materials.size()))
+    return refuse("a face has an object, group or material that there is not");
+  if (std::ranges::any_of(vertexOf, [&](std::uint32_t v) { return v >= sourceVertices; }))
+    return refuse("a vertex has a number that the source does not have");
+  if (std::ranges::any_of(faceOf, [&](std::uint32_t f) { return f >= sourceFaces; }))
+    return refuse("a triangle has a face that the source does not have");
+  for (const auto& wedges : wedgesOf)
+    for (const std::uint32_t w : wedges)
+      if (w >= a.wedgeCount) return refuse(fmt::format("a corner has wedge {} of {}", w, a.wedgeCount));
+  return {};
+}
+
+}  // namespace arete

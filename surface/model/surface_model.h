@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/mt/multitriangulation.h"
+#include "surface/model/surface_mesh.h"
+
+namespace arete {
+
+/// How a surface is built.
+struct SurfaceBuildOptions {
+  /// Border vertices stay in every cut, so that neighbouring parts meet to the bit.
+  bool keepsBorders = false;
+  /// Of a vertex that is removed: at most kMaxHoleCorners - 1.
+  std::uint32_t maxDegree = 24;
+  /// Growth of the threshold from level to level: > 1. Smaller steps make smaller cuts and take longer.
+  double thresholdRatio = 1.1;
+
+  bool operator==(const SurfaceBuildOptions&) const = default;
+};
+
+/// What a build leaves as it is or changes before it begins; nothing of it moves the surface.
+struct SurfaceMending {
+  std::uint64_t duplicateFaces = 0, degenerateFaces = 0;  ///< left out
+  std::uint64_t joinedVertices = 0;  ///< at one position, where a face without area was between them
+  std::uint64_t turnedFaces = 0;
+  std::uint64_t addedVertices = 0;   ///< one for each further fan of a vertex
+  std::uint64_t unusedVertices = 0;  ///< left out
+  /// Normals of corners that differ at most edges are those of flat faces: they are left out.
+  bool dropsFlatNormals = false;
+
+  bool operator==(const SurfaceMending&) const = default;
+};
+
+/// The result of the build of a surface and the content of its .amt file.
+///
+/// The error of a triangle is the largest distance of the part of the source that it stands for; so the
+/// largest one of a cut bounds the distance from any point of the source to the cut. The root mean square of
+/// these distances is in MtArrays::rms.
+struct SurfaceModel {
+  MultiTriangulation mt;
+
+  /// What the source says of its parts. Vertex attributes are by vertex of the MT, those of wedges by wedge,
+  /// those of triangles by face of the source, as objectOf, groupOf, materialOf and faceOf are. `wedges` is
+  /// empty: see wedgesOf.
+  MeshAttributes attributes;
+  std::vector<std::uint32_t> vertexOf;  ///< by vertex of the MT: the vertex of the source
+  std::vector<std::uint32_t> faceOf;    ///< by triangle of the MT: a face of the source that it stands for
+  /// Whether coarse triangles have faces of their own, as where parts or attributes differ from face to face;
+  /// otherwise inheritFaces() finds them.
+  bool hasFaceAttributes() const {
+    return !attributes.triangleAttributes.empty() || !attributes.objectOf.empty() ||
+           !attributes.groupOf.empty() || !attributes.materialOf.empty();
+  }
+  /// By triangle of the MT: the wedges of its corners. Empty without wedges.
+  std::vector<std::array<std::uint32_t, 3>> wedgesOf;
+
+  std::uint64_t sourceVertices = 0, sourceFaces = 0;
+  double diagonal = 0;  ///< of the box of the vertices that faces use
+  SurfaceMending mending;
+  SurfaceBuildOptions options;
+  std::uint32_t levels = 0;
+
+  std::string source, sourceChecksum;
+  std::string crsWkt, verticalUnit;
+  std::string up;  ///< "y", "z", or empty: not known
+
+  bool hasWedges() const { return !wedgesOf.empty(); }
+  /// Checks the sizes of all arrays and every index beside the MT's. Errors: invalidData. O(size).
+  Status validate() const;
+};
+
+}  // namespace arete

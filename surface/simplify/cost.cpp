@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// All fans that may fill the hole are measured, those around near corners first; each stops where its
+// integral exceeds the least so far. Late in a build a star stands for many faces, of which a sample is taken
+// with larger weights: the cost decides the order of removals, not what is certain of them.
+#include "surface/simplify/cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace arete {
+std::atomic<long> gEvaluations, gIntegrals;
+namespace {
+const double kUp = getenv("UP") ? atof(getenv("UP")) : 1.2;
+}
+
+void SurfaceCost::collectSamples() {
+  samples_.clear();
+  std::size_t pieces = 0;
+  const Star& star = hole_.star();
+  for (int i = 0; i < star.triangleCount; ++i) {
+    const PieceList& list = s_.pieces[star.slot(i)];
+    pieces += list.isEmpty() ? 1 : list.size();
+  }
+  const std::size_t step = pieces / (kMostSamples * 2 / 3) + 1;
+  std::size_t number = 0;
+  for (int i = 0; i < star.triangleCount; ++i) {
+    const SlotId slot = star.slot(i);
+    const PieceList& list = s_.pieces[slot];
+    const auto add = [&](const Piece& piece) {
+      if (number++ % step == 0) s_.samples.append(piece, samples_);
+    };
+    if (list.isEmpty()) add({s_.labelsOf(slot).face, 0, wholeFace()});
+    list.forEach(add);
+  }
+  if (step > 1)
+    for (SurfaceSample& sample : samples_) sample.area *= double(step);
+}
+
+double SurfaceCost::integralOver(int corner, double limit) {
+  const HoleTriangulation fan = fanAround(corner, hole_.corners());
+  fan_.clear();
+  double sum = 0;
+  for (const auto& [i, j, m] : fan.view()) {
+    const SpaceTriangle triangle{hole_.corner(i), hole_.corner(j), hole_.corner(m)};
+    fan_.add(triangle);
+    sum += star_.nearest((triangle[0] + triangle[1] + triangle[2]) / 3.0) *
+           norm(fan_.normal(fan_.size() - 1)) / 2;
+  }
+  if (sum > limit) return sum;
+  for (const SurfaceSample& sample : samples_) {
+    sum += fan_.nearest(sample.place) * sample.area;
+    if (sum > limit) return sum;
+  }
+  return sum;
+}
+
+bool SurfaceCost::isStillValid(VertexId v, const RemovalRecord& record) {
+  if (!hole_.gather(s_, v) || !hole_.mayBeFilled(s_)) return false;
+  const auto link = hole_.star().linkView();
+  const auto corner = std::ranges::find(link, VertexId(record.witness)) - link.begin();
+  return hole_.keepsTopology(s_, static_cast<int>(corner));
+}
+
+void SurfaceCost::evaluate(VertexId v, double threshold, RemovalRecord& record) {
+  using State = RemovalRecord::State;
+  if (!hole_.gather(s_, v) || !hole_.mayBeFilled(s_)) {
+    record.state = State::stuck;
+    return;
+  }
+  record.linkSize = static_cast<std::uint8_t>(hole_.corners());
+  struct Candidate {
+    int corner;
+    double squared;
+  };
+  std::array<Candidate, kMaxHoleCorners> candidates;
+  int count = 0;
+  for (int i = 0; i < hole_.corners(); ++i)
+    if (hole_.keepsShape(i)) candidates[count++] = {i, squaredDistance(hole_.corner(i), hole_.apex())};
+  std::sort(candidates.begin(), candidates.begin() + count,
+            [](const Candidate& a, const Candidate& b) { return a.squared < b.squared; });
+  // A cost c is an integral of c^2.
+  const double unit = s_.unit * s_.unit, limit = threshold * kExactUpTo / unit, most = limit * limit;
+  double least = std::numeric_limits<double>::infinity();
+  int best = -1;
+  double above = std::numeric_limits<double>::infinity();
+  bool hasSamples = false;
+  for (int k = 0; k < count; ++k) {
+    const int corner = candidates[k].corner;
+    if (!hole_.keepsTopology(s_, corner)) continue;
+    if (!hasSamples) {
+      collectSamples();
+      star_.clear();
+      for (int t = 0; t < hole_.star().triangleCount; ++t)
+        star_.add({hole_.apex(), hole_.corner(t), hole_.corner(t + 1 < hole_.corners() ? t + 1 : 0)});
+      hasSamples = true;
+    }
+    const double sum = integralOver(corner, std::min(least, most));
+    if (sum > most) above = std::min(above, sum);
+    if (sum > most || sum >= least) continue;
+    least = sum;
+    best = corner;
+  }
+  if (best >= 0) {
+    record.cost = static_cast<float>(std::sqrt(least) * unit);
+    record.witness = hole_.star().link[best].index();
+    record.state = State::exact;
+  } else if (above < std::numeric_limits<double>::infinity()) {
+    // Above a limit of 0 the cost must be above 0, or the vertex would be due in every level.
+    record.cost = std::max(static_cast<float>(std::sqrt(above) * unit), std::numeric_limits<float>::min());
+    record.state = State::atLeast;
+  } else {
+    record.state = State::stuck;
+  }
+}
+
+}  // namespace arete

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "engine/mt/hole_limit.h"
+#include "engine/simplify/removal_record.h"
+#include "surface/error/floor_distance.h"
+#include "surface/error/samples.h"
+#include "surface/simplify/fans.h"
+#include "surface/simplify/state.h"
+
+namespace arete {
+
+/// The cost of a removal: the integral, over the part of the original that the star stands for, of the
+/// squared distance to the fan that fills the hole; and, so that no triangle bridges a gap, that over the fan
+/// of the squared distance to the star, from the triangles' middles. Its root, so that thresholds grow with
+/// areas. The fan with the least is taken.
+class SurfaceCost {
+ public:
+  explicit SurfaceCost(const SurfaceState& state) : s_(state) {}
+
+  /// Costs are found exactly up to the threshold times this: the next levels use them.
+  static constexpr double kExactUpTo = 3;
+
+  /// Stores the cost of removing v, exactly if it is at most threshold * kExactUpTo, with the vertex around
+  /// which the fan is as the witness.
+  void evaluate(VertexId v, double threshold, RemovalRecord& record);
+  /// Whether the fan of an exact record still keeps the topology: an edge that it needs may have been made
+  /// elsewhere since.
+  bool isStillValid(VertexId v, const RemovalRecord& record);
+
+ private:
+  /// The integral over the samples; some value above `limit` if it exceeds that.
+  double integralOver(int corner, double limit);
+  void collectSamples();
+
+  static constexpr std::size_t kMostSamples = 64;
+
+  const SurfaceState& s_;
+  SurfaceHole hole_;
+  std::vector<SurfaceSample> samples_;
+  FloorDistance fan_, star_;
+};
+
+}  // namespace arete

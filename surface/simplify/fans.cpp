@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/simplify/fans.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace arete {
+namespace {
+
+/// Walks around a vertex, one neighbour a step.
+class LinkWalk {
+ public:
+  LinkWalk(const LiveMesh& mesh, VertexId v) : mesh_(mesh), first_(mesh.vertexHalfedge[v]), at_(first_) {}
+
+  bool isDone() const { return isDone_; }
+  VertexId take() {
+    if (isLast_) {
+      isDone_ = true;
+      return mesh_.origin(LiveMesh::previousInTriangle(at_));
+    }
+    const VertexId v = mesh_.origin(LiveMesh::nextInTriangle(at_));
+    const HalfedgeId after = mesh_.twinOf(LiveMesh::previousInTriangle(at_));
+    if (after == first_)
+      isDone_ = true;
+    else if (after.isValid())
+      at_ = after;
+    else
+      isLast_ = true;
+    return v;
+  }
+
+ private:
+  const LiveMesh& mesh_;
+  HalfedgeId first_, at_;
+  bool isLast_ = false, isDone_ = false;
+};
+
+}  // namespace
+
+bool haveEdge(const LiveMesh& mesh, VertexId a, VertexId b) {
+  LinkWalk aroundA(mesh, a), aroundB(mesh, b);
+  while (!aroundA.isDone() && !aroundB.isDone())
+    if (aroundA.take() == b || aroundB.take() == a) return true;
+  return false;
+}
+
+HoleTriangulation fanAround(int corner, int corners) {
+  HoleTriangulation fan;
+  fan.size = 0;
+  for (int k = 1; k + 1 < corners; ++k) {
+    const int a = (corner + k) % corners, b = (corner + k + 1) % corners;
+    // From the lowest corner on; that keeps the turn.
+    if (corner < a && corner < b)
+      fan.add(corner, a, b);
+    else if (a < b)
+      fan.add(a, b, corner);
+    else
+      fan.add(b, corner, a);
+  }
+  return fan;
+}
+
+bool SurfaceHole::gather(const SurfaceState& state, VertexId v) {
+  const auto most = static_cast<int>(state.maxDegree);
+  vertex_ = v;
+  if (!star_.gather(state.mesh, v, most + 1) || star_.triangleCount > most || star_.linkSize < 3)
+    return false;
+  if (star_.isOpen && star_.link[0] == star_.link[star_.linkSize - 1]) return false;
+  apex_ = state.position(v);
+  for (int i = 0; i < star_.linkSize; ++i) places_[i] = state.position(star_.link[i]);
+  normal_ = {};
+  for (int i = 0; i < star_.triangleCount; ++i) {
+    normals_[i] = cross(places_[i] - apex_, places_[next(i)] - apex_);
+    normal_ = normal_ + normals_[i];
+  }
+  line_ = {-1, -1};
+  if (!state.parts.hasLines()) return true;
+  findLine(state);
+  return line_[1] != -2;
+}
+
+void SurfaceHole::findLine(const SurfaceState& state) {
+  int count = 0;
+  const int spokes = star_.isOpen ? star_.triangleCount - 1 : star_.triangleCount;
+  for (int s = 0; s < spokes; ++s) {
+    // The spoke to link[s + 1] lies between the triangles s and s + 1.
+    const int after = s + 1 < star_.triangleCount ? s + 1 : 0;
+    const TriangleLabels a = state.labelsOf(star_.slot(s)), b = state.labelsOf(star_.slot(after));
+    const std::uint32_t sideA = LiveMesh::sideOf(star_.outgoing[s]),
+                        sideB = LiveMesh::sideOf(star_.outgoing[after]);
+    if (state.parts.areAlike(a, b) && a.wedges[sideA] == b.wedges[sideB] &&
+        a.wedges[(sideA + 2) % 3] == b.wedges[(sideB + 1) % 3])
+      continue;
+    if (count < 2) line_[count] = after;
+    ++count;
+  }
+  if (count == 2 && line_[1] < line_[0]) std::swap(line_[0], line_[1]);
+  // A line must pass: it neither ends nor branches here, nor meets a border.
+  if (count != 0 && (count != 2 || star_.isOpen)) line_[1] = -2;
+}
+
+bool SurfaceHole::keepsShape(int corner) const {
+  if (line_[0] >= 0 && corner != line_[0] && corner != line_[1]) return false;
+  const Vec3& u = places_[corner];
+  for (int a = next(corner); next(a) != corner; a = next(a)) {
+    const Vec3 normal = cross(places_[a] - u, places_[next(a)] - u);
+    const Vec3& before = a < star_.triangleCount ? normals_[a] : normal_;
+    if (!(dot(normal, before) > 0)) return false;
+  }
+  return true;
+}
+
+bool SurfaceHole::mayBeFilled(const SurfaceState& state) const {
+  if (star_.isOpen) return !haveEdge(state.mesh, star_.link[0], star_.link[star_.linkSize - 1]);
+  if (star_.linkSize > 3) return true;
+  // The triangle that would fill the hole may be there already, beyond the star.
+  const HalfedgeId beyond = state.mesh.twinOf(star_.rim(0));
+  return !beyond.isValid() || state.mesh.origin(LiveMesh::previousInTriangle(beyond)) != star_.link[2];
+}
+
+bool SurfaceHole::keepsTopology(const SurfaceState& state, int corner) const {
+  constexpr int kFew = 64;
+  int steps = 0;
+  bool keeps = true;
+  const VertexId u = star_.link[corner];
+  forLink(state.mesh, u, [&](VertexId w) {
+    if (++steps > kFew) return false;
+    for (int i = 0; i < star_.linkSize; ++i)
+      if (star_.link[i] == w && !areNeighbours(i, corner)) keeps = false;
+    return keeps;
+  });
+  if (steps <= kFew) return keeps;
+  for (int i = 0; i < star_.linkSize; ++i)
+    if (i != corner && !areNeighbours(i, corner) && haveEdge(state.mesh, u, star_.link[i])) return false;
+  return true;
+}
+
+TriangleLabels SurfaceHole::labelsOf(const SurfaceState& state,
+                                     const std::array<std::uint8_t, 3>& triangle) const {
+  // A triangle of the star on the same side of the line: one between two of the corners that follow each
+  // other, within the stretch of corners that the triangle spans.
+  const auto side = [&](int i) {
+    if (line_[0] < 0) return 0;
+    return i > line_[0] && i < line_[1] ? 1 : i == line_[0] || i == line_[1] ? 2 : 0;
+  };
+  int ownSide = 0;
+  for (const int i : triangle)
+    if (side(i) != 2) ownSide = side(i);
+  const auto isOnSide = [&](int t) {  // of a triangle of the star
+    if (line_[0] < 0) return true;
+    return (t >= line_[0] && t < line_[1]) == (ownSide == 1);
+  };
+  // The face of the triangle of the star that has the edge opposite the fan's corner; a new border edge has
+  // none, so that of any triangle of its side.
+  int heir = -1;
+  for (int t = 0; t < star_.triangleCount && heir < 0; ++t)
+    if (isOnSide(t)) heir = t;
+  for (int c = 0; c < 3; ++c) {
+    const int t = triangle[static_cast<std::size_t>(c)];
+    const int after = triangle[static_cast<std::size_t>((c + 1) % 3)];
+    if (t < star_.triangleCount && next(t) == after && isOnSide(t)) heir = t;
+  }
+  TriangleLabels labels;
+  labels.face = state.labelsOf(star_.slot(heir)).face;
+  if (!state.parts.hasWedges) return labels;
+  for (int c = 0; c < 3; ++c) {
+    const int i = triangle[static_cast<std::size_t>(c)];
+    // The triangle after the corner, or before it.
+    int t = i < star_.triangleCount ? i : i - 1;
+    std::uint32_t at = (LiveMesh::sideOf(star_.outgoing[t]) + (t == i ? 1 : 2)) % 3;
+    if (!isOnSide(t)) {
+      t = i > 0 ? i - 1 : star_.triangleCount - 1;
+      at = (LiveMesh::sideOf(star_.outgoing[t]) + 2) % 3;
+    }
+    labels.wedges[static_cast<std::size_t>(c)] = state.labelsOf(star_.slot(t)).wedges[at];
+  }
+  return labels;
+}
+
+}  // namespace arete

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "engine/base/vec.h"
+#include "engine/simplify/hole_triangles.h"
+#include "engine/simplify/live_mesh.h"
+#include "surface/simplify/state.h"
+
+namespace arete {
+
+/// The triangles of a fan around a corner of a hole: what the collapse of the removed vertex into that corner
+/// leaves.
+HoleTriangulation fanAround(int corner, int corners);
+
+/// The hole that the removal of a vertex leaves, and the fans that may fill it.
+///
+/// A fan keeps the surface a manifold of the same topology if none of its new edges is an edge of the mesh
+/// already (the link condition [DeyEdelsbrunnerGuhaNekhayev1999]). It turns no triangle over: each turns
+/// like the one that it replaces. On a line, where labels change, only the fans around the line's own
+/// neighbours keep the line.
+class SurfaceHole {
+ public:
+  /// Gathers the star of v and reads nothing beyond it. False if no fan may fill it while the star is as it
+  /// is.
+  bool gather(const SurfaceState& state, VertexId v);
+
+  const Star& star() const { return star_; }
+  VertexId vertex() const { return vertex_; }
+  const Vec3& apex() const { return apex_; }
+  int corners() const { return star_.linkSize; }
+  const Vec3& corner(int i) const { return places_[i]; }
+  std::span<const Vec3> places() const { return {places_.data(), static_cast<std::size_t>(star_.linkSize)}; }
+
+  /// Whether the fan around a corner keeps lines and turns no triangle over.
+  bool keepsShape(int corner) const;
+  /// Whether any fan keeps the topology. Reads the mesh around the star.
+  bool mayBeFilled(const SurfaceState& state) const;
+  /// Whether the fan around a corner keeps the topology, if any does. Reads the mesh around the corner.
+  bool keepsTopology(const SurfaceState& state, int corner) const;
+
+  /// The labels of a triangle of a fan.
+  TriangleLabels labelsOf(const SurfaceState& state, const std::array<std::uint8_t, 3>& triangle) const;
+
+ private:
+  void findLine(const SurfaceState& state);
+  int next(int i) const { return i + 1 < star_.linkSize ? i + 1 : 0; }
+  int previous(int i) const { return i > 0 ? i - 1 : star_.linkSize - 1; }
+  bool areNeighbours(int i, int j) const { return next(i) == j || next(j) == i; }
+
+  VertexId vertex_;
+  Star star_;
+  Vec3 apex_;
+  std::array<Vec3, kMaxHoleCorners> places_;
+  std::array<Vec3, kMaxHoleCorners> normals_;  // of the star's triangles
+  Vec3 normal_;                                // their sum
+  /// The corners to which a line leads from the vertex; -1: none.
+  std::array<int, 2> line_{-1, -1};
+};
+
+/// Whether two vertices have an edge. O(the smaller of their degrees).
+bool haveEdge(const LiveMesh& mesh, VertexId a, VertexId b);
+
+}  // namespace arete

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/simplify/level.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+
+#include "engine/parallel/loop_threads.h"
+#include "surface/simplify/cost.h"
+#include "surface/simplify/fans.h"
+#include "surface/simplify/removal.h"
+
+namespace arete {
+namespace {
+
+using RecordState = RemovalRecord::State;
+
+/// The grain of a parallel loop: late levels have few vertices with wide holes, which all threads share.
+std::size_t shareOf(std::size_t size, std::size_t most) {
+  return std::clamp<std::size_t>(size / 32, 1, most);
+}
+
+}  // namespace
+
+std::size_t SurfaceLevels::level(double threshold, std::uint32_t number, MtRecorder::BatchOrder order) {
+  s_.thresholds.collect(threshold, due_, filter_);
+  if (due_.empty()) return 0;
+  evaluate(threshold, number);
+  set_.choose(due_, number, chosen_);
+  claim();
+  if (chosen_.empty()) return 0;
+  remove(order);
+  return chosen_.size();
+}
+
+void SurfaceLevels::evaluate(double threshold, std::uint32_t number) {
+  tbb::enumerable_thread_specific<SurfaceCost> costs([&] { return SurfaceCost(s_); });
+  filter_(due_.size(), shareOf(due_.size(), 128), due_,
+          [&](std::size_t begin, std::size_t end, VertexId* to) {
+            SurfaceCost& cost = costs.local();
+            for (std::size_t i = begin; i != end; ++i) {
+              const VertexId v = due_[i];
+              RemovalRecord& record = s_.records[v];
+              record.settle();
+              if (record.state == RecordState::exact && !cost.isStillValid(v, record))
+                record.state = RecordState::stale;
+              if (record.state != RecordState::exact) {
+                cost.evaluate(v, threshold, record);
+                s_.thresholds.set(v, record.nextThreshold());
+              }
+              if (record.state != RecordState::exact || record.cost > threshold) continue;
+              set_.enter(v, number);
+              *to++ = v;
+            }
+            return to;
+          });
+}
+
+void SurfaceLevels::claim() {
+  claimed_.clear();
+  std::size_t kept = 0;
+  Star star;
+  std::vector<std::uint64_t> wanted;
+  for (const VertexId v : chosen_) {
+    star.gather(s_.mesh, v, kMaxHoleCorners);
+    const VertexId around(s_.records[v].witness);
+    const auto edge = [](VertexId a, VertexId b) {
+      return std::uint64_t{std::min(a, b).index()} << 32 | std::max(a, b).index();
+    };
+    wanted.clear();
+    // The edges of the fan, among them those of the hole that it is between: no two holes claim the same.
+    int corner = 0;
+    while (star.link[corner] != around) ++corner;
+    for (int k = 2; k + 1 < star.linkSize; ++k)
+      wanted.push_back(edge(around, star.link[(corner + k) % star.linkSize]));
+    if (star.isOpen) wanted.push_back(edge(star.link[0], star.link[star.linkSize - 1]));
+    // A triangle between three edges that stay can be claimed from its other side too.
+    if (!star.isOpen && star.linkSize == 3) {
+      std::array<std::uint32_t, 3> corners{star.link[0].index(), star.link[1].index(), star.link[2].index()};
+      std::ranges::sort(corners);
+      wanted.push_back(~(std::uint64_t{corners[0]} * 0x9E3779B97F4A7C15ull ^
+                         (std::uint64_t{corners[1]} << 32 | corners[2])));
+    }
+    if (std::ranges::any_of(wanted, [&](std::uint64_t e) { return claimed_.contains(e); })) {
+      s_.records[v].state = RecordState::stale;
+      s_.thresholds.set(v, ThresholdList::kNow);
+      continue;
+    }
+    claimed_.insert(wanted.begin(), wanted.end());
+    chosen_[kept++] = v;
+  }
+  chosen_.resize(kept);
+}
+
+void SurfaceLevels::remove(MtRecorder::BatchOrder order) {
+  linkSizes_.resize(chosen_.size());
+  isOpen_.resize(chosen_.size());
+  for (std::size_t i = 0; i < chosen_.size(); ++i) linkSizes_[i] = s_.records[chosen_[i]].linkSize;
+  const RemovalId first = s_.recorder.beginBatch(order, linkSizes_);
+  const auto removal = [&](std::size_t i) {
+    return RemovalId(first.index() + static_cast<std::uint32_t>(i));
+  };
+  const auto slotOf = [&](std::size_t i) {
+    return s_.recorder.firstSlot(removal(i)) - s_.recorder.firstSlot(first);
+  };
+  const auto seamsOf = [&](std::size_t i) {
+    return std::span(seams_).subspan(slotOf(i), slotOf(i + 1) - slotOf(i));
+  };
+  seams_.resize(slotOf(chosen_.size()));
+  s_.starLabels.resize(s_.recorder.firstSlot(removal(chosen_.size())));
+  tbb::enumerable_thread_specific<SurfaceRemover> removers([&] { return SurfaceRemover(s_); });
+  forRanges(LoopThreads::all, chosen_.size(), shareOf(chosen_.size(), 64),
+            [&](std::size_t begin, std::size_t end) {
+              SurfaceRemover& remover = removers.local();
+              for (std::size_t i = begin; i != end; ++i)
+                isOpen_[i] = remover.remove(chosen_[i], removal(i), seamsOf(i));
+            });
+  forRanges(LoopThreads::all, seams_.size(), 2048, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i)
+      sew(s_.mesh, seams_[i], first, [&](RemovalId r) { return seamsOf(r.index() - first.index()); });
+  });
+  s_.thresholds.remove(chosen_, LoopThreads::all);
+  std::size_t dead = 0;
+  for (const std::uint8_t isOpen : isOpen_) dead += Star::slotsLeftDead(isOpen != 0);
+  s_.liveTriangles -= dead;
+}
+
+}  // namespace arete

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/simplify/removal.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+
+#include "engine/simplify/floor_joins.h"
+
+namespace arete {
+namespace {
+
+/// A removal seldom makes its neighbours much cheaper: they are evaluated again at this part of their cost.
+constexpr float kLeastChange = 0.8F;
+
+}  // namespace
+
+bool SurfaceRemover::remove(VertexId v, RemovalId removal, std::span<Seam> seams) {
+  [[maybe_unused]] const bool isGathered = hole_.gather(s_, v);
+  assert(isGathered);
+  const Star& star = hole_.star();
+  const VertexId around(s_.records[v].witness);
+  int corner = 0;
+  while (star.link[corner] != around) ++corner;
+  const HoleTriangulation floor = fanAround(corner, star.linkSize);
+
+  division_.clear();
+  for (int i = 0; i < star.triangleCount; ++i) {
+    const SlotId slot = star.slot(i);
+    if (s_.pieces[slot].isEmpty())
+      division_.add(s_.labelsOf(slot).face);
+    else
+      division_.add(s_.pieces[slot]);
+  }
+  division_.divide(hole_.places(), floor);
+  const std::uint32_t firstLabel = s_.recorder.firstSlot(removal);
+  s_.firstStarLabel[v] = firstLabel;
+  for (int i = 0; i < star.triangleCount; ++i) {
+    TriangleLabels labels = s_.labelsOf(star.slot(i));
+    // The apex first, as the MT has the corners of a star.
+    std::ranges::rotate(labels.wedges, labels.wedges.begin() + LiveMesh::sideOf(star.outgoing[i]));
+    s_.starLabels.set(firstLabel + static_cast<std::uint32_t>(i), labels);
+  }
+  for (int f = 0; f < floor.size; ++f) labels_[f] = hole_.labelsOf(s_, floor.triangles[f]);
+
+  record(removal, floor.size);
+  refill(s_.mesh, star, floor, FloorJoins(floor), s_.recorder.firstFloorTriangle(removal), removal, seams);
+  for (int f = 0; f < star.triangleCount; ++f) {
+    s_.pieces[star.slot(f)] = f < floor.size ? division_.takePieces(f) : PieceList();
+    if (f < floor.size) s_.labels.set(star.slot(f).index(), labels_[f]);
+  }
+  updateLink();
+  s_.mesh.vertexHalfedge[v] = HalfedgeId();
+  return star.isOpen;
+}
+
+void SurfaceRemover::record(RemovalId removal, int floorSize) {
+  const Star& star = hole_.star();
+  for (int i = 0; i < star.triangleCount; ++i) {
+    ceiling_[i] = s_.mesh.triangles[star.slot(i)].recorderId;
+    creator_[i] = s_.mesh.triangles[star.slot(i)].creator;
+  }
+  for (int i = 0; i < star.linkSize; ++i) metric_[i] = s_.metric.toMetric(hole_.corner(i));
+  metric_[star.linkSize] = s_.metric.toMetric(hole_.apex());
+  for (int f = 0; f < floorSize; ++f)
+    codes_[f] = {s_.recorder.scale().encode(division_.bound(f)), s_.recorder.scale().encode(division_.rms(f)),
+                 0};
+  const auto size = [](int n) { return static_cast<std::size_t>(n); };
+  VertexRemoval what;
+  what.vertex = hole_.vertex();
+  what.link = star.linkView();
+  what.isOpen = star.isOpen;
+  what.metricPositions = {metric_.data(), size(star.linkSize + 1)};
+  what.ceiling = {ceiling_.data(), size(star.triangleCount)};
+  what.ceilingCreator = {creator_.data(), size(star.triangleCount)};
+  what.floor = {codes_.data(), size(floorSize)};
+  s_.recorder.record(removal, what);
+  s_.recorder.saturate(removal, what);
+}
+
+/// Two stars can share a link vertex: both threads store the same values.
+void SurfaceRemover::updateLink() {
+  for (const VertexId u : hole_.star().linkView()) {
+    RemovalRecord& of = s_.records[u];
+    std::atomic_ref(of.isTouched).store(1, std::memory_order_relaxed);
+    std::atomic_ref(of.isWitnessGone).store(1, std::memory_order_relaxed);
+    using State = RemovalRecord::State;
+    if (of.state == State::fixed) continue;
+    const bool isKnown = of.state == State::exact || of.state == State::atLeast;
+    s_.thresholds.set(u, isKnown ? kLeastChange * of.cost : ThresholdList::kNow);
+  }
+}
+
+}  // namespace arete

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The levels of [deBergDobrindt1995] with growing thresholds, as on terrain (terrain/simplify/simplify.h).
+#include "surface/simplify/simplify.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/parallel/loop_threads.h"
+#include "engine/parallel/shared_progress.h"
+#include "surface/simplify/level.h"
+
+namespace arete {
+namespace {
+
+constexpr double kLeastGrowth = 0.015, kFirstThreshold = 1e-14;
+constexpr double kLargest = std::numeric_limits<float>::max();
+
+SurfaceRoot rootOf(const SurfaceState& s, std::uint32_t levels) {
+  SurfaceRoot root;
+  root.levels = levels;
+  IdArray<VertexId, std::vector<std::uint8_t>> seen(s.mesh.vertexCount(), std::uint8_t(0));
+  for (std::uint32_t i = 0; i < s.mesh.triangles.size(); ++i) {
+    const LiveMesh::Triangle& triangle = s.mesh.triangles[SlotId(i)];
+    if (triangle.isDead()) continue;
+    root.triangles.push_back({triangle.recorderId, triangle.corners});
+    root.labels.push_back(s.labelsOf(SlotId(i)));
+    for (const VertexId v : triangle.corners) seen[v] = 1;
+  }
+  for (std::uint32_t v = 0; v < seen.size(); ++v)
+    if (seen[VertexId(v)] != 0) root.vertices.push_back(VertexId(v));
+  return root;
+}
+
+void compact(SurfaceState& s) {
+  const SlotMap map = s.mesh.compact(s.thresholds.vertices());
+  map.forLiveInPlace([&](SlotId from, SlotId to) {
+    if (from == to) return;
+    s.pieces[to] = std::move(s.pieces[from]);
+    s.labels.set(to.index(), s.labelsOf(from));
+  });
+  s.pieces.resize(map.liveCount());
+  s.pieces.shrink_to_fit();
+  s.labels.resize(map.liveCount());
+}
+
+}  // namespace
+
+Result<SurfaceRoot> simplifySurface(SurfaceState& s, const std::vector<std::uint8_t>& isFixed,
+                                    const RunContext& context) {
+  s.liveTriangles = s.mesh.triangles.size();
+  s.pieces.resize(s.mesh.triangles.size());
+  s.firstStarLabel.assign(s.mesh.vertexCount(), 0);
+  s.starLabels.reserve(kMaxHoleCorners * s.mesh.vertexCount());
+  s.records.resize(s.mesh.vertexCount());
+  forRanges(LoopThreads::all, s.records.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v != end; ++v) {
+      RemovalRecord& record = s.records[VertexId(static_cast<std::uint32_t>(v))];
+      record = {};
+      if (isFixed[v] != 0) record.state = RemovalRecord::State::fixed;
+    }
+  });
+  s.thresholds.assign(s.mesh.verticesInOrder(), isFixed);
+  const std::size_t atStart = std::max<std::size_t>(s.thresholds.size(), 1);
+  SharedProgress progress(context, "simplify", atStart);
+  SurfaceLevels levels(s);
+  std::uint32_t number = 0;
+  double threshold = kFirstThreshold;
+  while (!s.thresholds.empty()) {
+    s.thresholds.compact();
+    const std::size_t before = s.thresholds.size();
+    ++number;
+    progress.add(levels.level(threshold, number, {number, 0}));
+    if (context.cancelled()) return failure(ErrorCode::interrupted, "the build was interrupted");
+    const double growth = s.thresholdRatio - 1, left = double(s.thresholds.size()) / double(atStart);
+    threshold *= 1 + std::max(std::min(growth, kLeastGrowth), growth * left);
+    // The threshold at which a fiftieth of the vertices are due: hundreds of smaller steps would remove
+    // almost no vertex.
+    threshold = std::max(threshold, double(s.thresholds.quantile(0.02)));
+    if (s.thresholds.size() == before) {
+      const double pending = s.thresholds.least();
+      if (!(pending < std::numeric_limits<double>::infinity())) break;
+      threshold = std::max(threshold, pending);
+    }
+    threshold = std::min(threshold, kLargest);
+    if (s.liveTriangles < s.mesh.triangles.size() / 2) compact(s);
+  }
+  context.report("simplify", 1);
+  return rootOf(s, number);
+}
+
+}  // namespace arete

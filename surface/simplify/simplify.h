@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
+#include "surface/simplify/state.h"
+
+namespace arete {
+
+/// What the levels leave over: the root of the MT.
+struct SurfaceRoot {
+  std::vector<VertexId> vertices;
+  std::vector<SurvivingTriangle> triangles;
+  std::vector<TriangleLabels> labels;  ///< of the triangles
+  std::uint32_t levels = 0;
+};
+
+/// Removes every vertex that can be removed. Errors: interrupted. Preconditions: the mesh is a manifold; the
+/// state has the labels of its triangles.
+/// @param isFixed per vertex, not 0 = it is never removed.
+Result<SurfaceRoot> simplifySurface(SurfaceState& state, const std::vector<std::uint8_t>& isFixed,
+                                    const RunContext& context);
+
+}  // namespace arete

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/id_array.h"
+#include "engine/mt/recorder.h"
+#include "engine/simplify/independent_set.h"
+#include "engine/simplify/live_mesh.h"
+#include "engine/simplify/threshold_list.h"
+#include "surface/error/original.h"
+#include "surface/error/pieces.h"
+#include "surface/error/samples.h"
+#include "surface/simplify/labels.h"
+
+namespace arete {
+
+/// The data that all steps of a simplification share. Different threads may work on different stars at once.
+struct SurfaceState {
+  LiveMesh& mesh;
+  const OriginalSurface& original;
+  const SurfaceSamples& samples;
+  MtRecorder& recorder;
+  MetricFrame metric;
+  std::uint32_t maxDegree = 24;  ///< of a vertex that is removed
+  double thresholdRatio = 1.1;   ///< growth of the threshold from level to level
+  /// A power of two by which lengths are multiplied, so that costs do not depend on the unit.
+  double unit = 1;
+
+  SurfaceParts parts = {};
+
+  IdArray<SlotId, std::vector<PieceList>> pieces = {};
+  LabelArray labels{parts.hasWedges};  ///< by slot of the mesh
+  /// Of the triangles of removed stars: by slot of the recorder (MtRecorder::firstSlot()).
+  LabelArray starLabels{parts.hasWedges};
+  /// The first of those of a removed vertex.
+  IdArray<VertexId, std::vector<std::uint32_t>> firstStarLabel = {};
+  ThresholdList thresholds = {};
+  IndependentSet::Records records = {};
+  std::atomic<std::size_t> liveTriangles = 0;
+
+  TriangleLabels labelsOf(SlotId slot) const { return labels[slot.index()]; }
+  const Vec3& position(VertexId v) const { return original.positions[v.index()]; }
+};
+
+}  // namespace arete

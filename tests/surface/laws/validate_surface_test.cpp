@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/laws/validate_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "engine/cut/cut.h"
+#include "surface/build/build.h"
+#include "surface/families.h"
+
+namespace arete {
+namespace {
+
+TEST(ValidateSurface, NamesTheLawThatABrokenModelBreaks) {
+  const Result<SurfaceModel> built = buildSurface(SurfaceMesh(shapes::globe(16, 9)));
+  ASSERT_TRUE(built);
+  ASSERT_TRUE(validateSurface(*built));
+  const auto broken = [&](const auto& breakIt) {
+    SurfaceModel model = *built;
+    auto owner = std::make_shared<std::vector<std::uint32_t>>();
+    MtArrays arrays = model.mt.arrays();
+    breakIt(model, arrays, *owner);
+    model.mt = MultiTriangulation(
+        arrays, std::make_shared<std::pair<MultiTriangulation, decltype(owner)>>(built->mt, owner));
+    const Status valid = validateSurface(model);
+    return valid ? std::string("holds") : valid.error().message;
+  };
+  using Owner = std::vector<std::uint32_t>;
+  EXPECT_NE(broken([](SurfaceModel&, MtArrays& a, Owner& link) {
+              link.assign(a.link.begin(), a.link.end());
+              std::swap(link[0], link[1]);
+              a.link = link;
+            }).find("law 2"),
+            std::string::npos);
+  EXPECT_NE(broken([](SurfaceModel& m, MtArrays&, Owner&) { m.sourceFaces += 1; }).find("law 8"),
+            std::string::npos);
+  EXPECT_NE(broken([](SurfaceModel& m, MtArrays&, Owner&) { m.vertexOf.pop_back(); }).find("numbers"),
+            std::string::npos);
+}
+
+TEST(SurfaceTopology, RefusesAFrontOfAnotherTopology) {
+  const Result<SurfaceModel> built = buildSurface(SurfaceMesh(shapes::globe(16, 9)));
+  ASSERT_TRUE(built);
+  const Result<SurfaceTopology> topology = SurfaceTopology::of(built->mt);
+  ASSERT_TRUE(topology);
+  Cut cut = frontOfPrefix(built->mt, 20);
+  EXPECT_TRUE(topology->check(cut));
+  Cut holed = cut;
+  holed.triangles.pop_back();
+  holed.ids.pop_back();
+  EXPECT_FALSE(topology->check(holed));
+  Cut doubled = cut;
+  doubled.triangles.push_back(doubled.triangles[0]);
+  doubled.ids.push_back(doubled.ids[0]);
+  EXPECT_FALSE(topology->check(doubled));
+  Cut turned = cut;
+  std::swap(turned.triangles[0][0], turned.triangles[0][1]);
+  EXPECT_FALSE(topology->check(turned));
+}
+
+}  // namespace
+}  // namespace arete
