@@ -9,7 +9,7 @@
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
-#include "io/file/mapped_file.h"
+#include "io/amt/container.h"
 #include "io/format/layout.h"
 #include "io/format/required_error.h"
 #include "terrain/model/terrain_model.h"
@@ -47,24 +47,17 @@ struct AmtReadOptions {
   RequiredError wanted = {};
 };
 
-struct AmtOpenOptions {
-  /// Queries will read few parts of a large file: disables the system's read-ahead.
-  bool randomAccess = false;
-};
-
 /// An open file. Header, directory and metadata have been checked, the arrays have not been read. Cheap to
 /// copy. Thread-safe: it is only read.
 class AmtFile {
  public:
-  const std::string& path() const { return path_; }
-  std::span<const std::byte> bytes() const { return file_->bytes(); }
+  const std::string& path() const { return container_.path(); }
+  std::span<const std::byte> bytes() const { return container_.bytes(); }
   /// The program that wrote the file.
   const std::string& writer() const { return writer_; }
   /// The directory, in the order of the file.
-  std::span<const AmtChunk> chunks() const { return chunks_; }
-  std::span<const std::byte> bytes(const AmtChunk& chunk) const {
-    return file_->bytes().subspan(chunk.offset, chunk.bytes);
-  }
+  std::span<const AmtChunk> chunks() const { return container_.chunks(); }
+  std::span<const std::byte> bytes(const AmtChunk& chunk) const { return container_.bytes(chunk); }
 
   /// Whether the MT is packed. Then model() has no MT, and read() unpacks it.
   bool isPacked() const { return packedNodes_.data() != nullptr; }
@@ -101,10 +94,9 @@ class AmtFile {
   AmtFile() = default;
   Result<MultiTriangulation> readMt(const AmtReadOptions& options, const RunContext& context) const;
 
-  std::string path_, writer_;
-  std::shared_ptr<const MappedFile> file_;
+  AmtContainer container_;
+  std::string writer_;
   std::shared_ptr<const AmtMetadata> metadata_;
-  std::vector<AmtChunk> chunks_;
   TerrainModel model_;
   std::span<const std::uint32_t> isolatedSamples_, fixedVertices_;
   std::span<const double> isolatedHeights_;

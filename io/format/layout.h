@@ -13,7 +13,9 @@ namespace arete {
 /// first one at or after the end of what precedes it, the directory or a chunk. The file ends at such a
 /// multiple, too. The bytes between are zero.
 
-inline constexpr std::uint32_t kAmtVersion = 2;
+/// Terrain is written as version 2, surfaces as version 3 (docs/decisions/0031): a version 3 file has chunks
+/// that a reader of version 2 must not skip.
+inline constexpr std::uint32_t kAmtVersion = 2, kAmtNewestVersion = 3;
 inline constexpr std::uint64_t kAmtAlignment = 64;
 /// Larger directories and metadata are refused, because opening a file reads both.
 inline constexpr std::uint32_t kAmtMaxChunks = 64;
@@ -49,15 +51,18 @@ enum class AmtScalar : std::uint32_t { u8 = 1, u16 = 2, u32 = 3, i16 = 4, f32 = 
 
 using AmtTag = std::array<char, 4>;
 
+/// A flag of a chunk: a reader that does not know its tag refuses the file.
+inline constexpr std::uint32_t kAmtRequired = 1;
+
 /// One entry of the directory.
 struct AmtChunk {
   AmtTag tag{};
   AmtScalar scalar = AmtScalar::u8;
   std::uint32_t elementBytes = 1;  ///< size of one element: that of the scalar times the number of components
-  std::uint32_t reserved = 0;
-  std::uint64_t offset = 0;    ///< from the beginning of the file
-  std::uint64_t bytes = 0;     ///< without the padding behind it
-  std::uint64_t checksum = 0;  ///< XXH3-64 of the bytes
+  std::uint32_t flags = 0;         ///< kAmtRequired, in version 3
+  std::uint64_t offset = 0;        ///< from the beginning of the file
+  std::uint64_t bytes = 0;         ///< without the padding behind it
+  std::uint64_t checksum = 0;      ///< XXH3-64 of the bytes
 
   /// The tag as text; bytes that cannot be printed are question marks.
   std::string name() const {
@@ -97,7 +102,39 @@ inline constexpr AmtTag kIsolatedHeights = {'I', 'H', 'G', 'T'};
 inline constexpr AmtTag kFixedVertices = {'F', 'I', 'X', 'V'};
 // The last chunk of a plain file; files written by earlier builds of Arete lack it:
 inline constexpr AmtTag kSegmentChecksums = {'P', 'S', 'U', 'M'};
+// Of surfaces, in place of samples, plan, heights, bounds and what is in every file of terrain:
+inline constexpr AmtTag kPlaces = {'S', 'U', 'R', 'F'};
+inline constexpr AmtTag kRms = {'R', 'M', 'S', 'E'};
+inline constexpr AmtTag kVertexNumbers = {'V', 'N', 'U', 'M'};
+inline constexpr AmtTag kFaceNumbers = {'F', 'N', 'U', 'M'};
+inline constexpr AmtTag kWedges = {'W', 'E', 'D', 'G'};
+inline constexpr AmtTag kAttributes = {'A', 'T', 'T', 'R'};
+inline constexpr AmtTag kLooks = {'L', 'O', 'O', 'K'};
+inline constexpr AmtTag kPictures = {'P', 'I', 'C', 'T'};
 }  // namespace amt_tag
+
+/// Whether this program knows what a chunk of this tag holds.
+constexpr bool isKnownAmtTag(const AmtTag& tag) {
+  using namespace amt_tag;
+  for (const AmtTag& known : {kMetadata,        kRootTriangles,
+                              kSlotBegin,       kLink,
+                              kRemover,         kError,
+                              kBelow,           kAbove,
+                              kFloor,           kSaturatedError,
+                              kSphere,          kBlockError,
+                              kBlockSphere,     kCreatorHint,
+                              kSamples,         kPlan,
+                              kHeights,         kPackedDirectory,
+                              kPackedTables,    kPackedNodes,
+                              kIsolatedSamples, kIsolatedHeights,
+                              kFixedVertices,   kSegmentChecksums,
+                              kPlaces,          kRms,
+                              kVertexNumbers,   kFaceNumbers,
+                              kWedges,          kAttributes,
+                              kLooks,           kPictures})
+    if (tag == known) return true;
+  return false;
+}
 
 /// The number of segments of a chunk; 0 for the metadata and the checksums of segments.
 constexpr std::uint64_t amtSegmentCount(const AmtTag& tag, std::uint64_t bytes) {

@@ -124,26 +124,6 @@ void visitMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
   });
 }
 
-std::optional<std::string> findCountProblem(const AmtCounts& c) {
-  const auto limit = [](const char* what, std::uint64_t count) -> std::optional<std::string> {
-    if (count <= kMaxCount) return std::nullopt;
-    return fmt::format("{} {} are more than 32-bit ids can name", count, what);
-  };
-  for (const auto& [what, count] :
-       {std::pair{"root vertices", c.rootVertices}, std::pair{"root triangles", c.rootTriangles},
-        std::pair{"nodes", c.nodes}, std::pair{"slots", c.slots}, std::pair{"isolated samples", c.isolated},
-        std::pair{"fixed vertices", c.fixedVertices}})
-    if (auto problem = limit(what, count)) return problem;
-  // Sums and products of 32-bit counts do not overflow 64 bits.
-  if (auto problem = limit("vertices", c.rootVertices + c.nodes)) return problem;
-  if (auto problem = limit("triangles", c.rootTriangles + c.slots)) return problem;
-  if (c.rootTriangles == 0 || c.rootVertices < 3) return "there is no root triangle";
-  if (c.slots < 3 * c.nodes || c.slots > std::uint64_t{kMaxHoleCorners} * c.nodes)
-    return fmt::format("{} slots do not make the stars of {} nodes, 3 to {} slots each", c.slots, c.nodes,
-                       kMaxHoleCorners);
-  return std::nullopt;
-}
-
 std::optional<std::string> findNumberProblem(const AmtMetadata& m) {
   const Georeference& g = m.model.georeference;
   const auto ofFinite = [](const char* what,
@@ -167,10 +147,7 @@ std::optional<std::string> findNumberProblem(const AmtMetadata& m) {
       return fmt::format("the {} is {}, not a positive number", what, value);
   if (!(g.inverseFlattening == 0 || (g.inverseFlattening > 1 && std::isfinite(g.inverseFlattening))))
     return fmt::format("the inverse flattening is {}, which no ellipsoid has", g.inverseFlattening);
-  // A greater base would decode its largest code to more than the largest float.
-  constexpr std::uint32_t kMaxBase = (0x7F800000u >> 12) - 1 - OutwardScale::kMaxCode;
-  if (m.scale.base() > kMaxBase)
-    return fmt::format("the error scale's base is {}, more than {}", m.scale.base(), kMaxBase);
+  if (auto problem = findScaleProblem(m.scale)) return problem;
   for (const std::uint32_t term : {m.model.metricP, m.model.metricQ})
     if (term < 1 || term > kMaxMetricTerm)
       return fmt::format("the Delaunay metric has the term {}, not 1 to {}", term, kMaxMetricTerm);
@@ -178,6 +155,33 @@ std::optional<std::string> findNumberProblem(const AmtMetadata& m) {
 }
 
 }  // namespace
+
+std::optional<std::string> findCountProblem(const AmtCounts& c) {
+  const auto limit = [](const char* what, std::uint64_t count) -> std::optional<std::string> {
+    if (count <= kMaxCount) return std::nullopt;
+    return fmt::format("{} {} are more than 32-bit ids can name", count, what);
+  };
+  for (const auto& [what, count] :
+       {std::pair{"root vertices", c.rootVertices}, std::pair{"root triangles", c.rootTriangles},
+        std::pair{"nodes", c.nodes}, std::pair{"slots", c.slots}, std::pair{"isolated samples", c.isolated},
+        std::pair{"fixed vertices", c.fixedVertices}})
+    if (auto problem = limit(what, count)) return problem;
+  // Sums and products of 32-bit counts do not overflow 64 bits.
+  if (auto problem = limit("vertices", c.rootVertices + c.nodes)) return problem;
+  if (auto problem = limit("triangles", c.rootTriangles + c.slots)) return problem;
+  if (c.rootTriangles == 0 || c.rootVertices < 3) return "there is no root triangle";
+  if (c.slots < 3 * c.nodes || c.slots > std::uint64_t{kMaxHoleCorners} * c.nodes)
+    return fmt::format("{} slots do not make the stars of {} nodes, 3 to {} slots each", c.slots, c.nodes,
+                       kMaxHoleCorners);
+  return std::nullopt;
+}
+
+std::optional<std::string> findScaleProblem(const OutwardScale& scale) {
+  // A greater base would decode its largest code to more than the largest float.
+  constexpr std::uint32_t kMaxBase = (0x7F800000u >> 12) - 1 - OutwardScale::kMaxCode;
+  if (scale.base() <= kMaxBase) return std::nullopt;
+  return fmt::format("the error scale's base is {}, more than {}", scale.base(), kMaxBase);
+}
 
 AmtMetadata amtMetadataOf(const TerrainModel& model, std::string writer) {
   const MtArrays& a = model.mt.arrays();

@@ -9,6 +9,7 @@
 
 #include "engine/base/result.h"
 #include "io/format/layout.h"
+#include "io/format/shapes.h"
 #include "terrain/model/terrain_model.h"
 
 namespace arete {
@@ -33,6 +34,10 @@ struct AmtMetadata {
 /// @param writer  the program that writes the file
 AmtMetadata amtMetadataOf(const TerrainModel& model, std::string writer);
 
+/// The first problem of counts that determine arrays; of a scale of codes.
+std::optional<std::string> findCountProblem(const AmtCounts& counts);
+std::optional<std::string> findScaleProblem(const OutwardScale& scale);
+
 /// @return the first problem of the metadata, as a sentence: counts beyond 32 bits or in contradiction,
 /// numbers that are not finite or out of range; nothing if it has no problem
 std::optional<std::string> findAmtProblem(const AmtMetadata& metadata);
@@ -43,14 +48,6 @@ std::string toAmtJson(const AmtMetadata& metadata);
 /// Reads the metadata. Errors, without a culprit: corrupt: not JSON, a field that is missing or of the wrong
 /// type, a problem that findAmtProblem() finds.
 Result<AmtMetadata> fromAmtJson(std::string_view text);
-
-/// Type and size of a chunk.
-struct AmtShape {
-  AmtTag tag{};
-  AmtScalar scalar = AmtScalar::u8;
-  std::uint32_t elementBytes = 1;
-  std::uint64_t count = 0;
-};
 
 /// The chunks whose sizes follow from the metadata, in the order in which they are written: all but the
 /// metadata, the checksums of segments and the three of packed files. Precondition: findAmtProblem() finds

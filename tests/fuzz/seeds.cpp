@@ -14,8 +14,10 @@
 #include "datasets/families.h"
 #include "engine/cut/cut.h"
 #include "io/amt/file.h"
+#include "io/amt/surface_file.h"
 #include "io/exchange/export_tin.h"
 #include "io/exchange/mesh_formats.h"
+#include "surface/build/build.h"
 #include "terrain/build/build.h"
 
 namespace {
@@ -65,6 +67,39 @@ void writePoints(const fs::path& folder, const std::string& name, const PointHei
     csv << fmt::format("{},{},{}\n", points.positions[i].x, points.positions[i].y, points.heights[i]);
 }
 
+/// A small hill with texture coordinates that are cut apart between two materials.
+void writeSurfaces(const fs::path& folder) {
+  constexpr std::uint32_t kColumns = 5;
+  SurfaceMesh mesh;
+  Attribute texcoord{.name = "texcoord", .meaning = AttributeMeaning::textureCoords, .components = 2};
+  for (std::uint32_t v = 0; v < kColumns * kColumns; ++v) {
+    const double x = v % kColumns, y = v / kColumns;
+    mesh.positions.push_back({x, y, x * y * (4 - x)});
+  }
+  for (std::uint32_t v = 0; v + kColumns < mesh.positions.size(); ++v) {
+    if (v % kColumns + 1 == kColumns) continue;
+    mesh.triangles.push_back({v, v + 1, v + kColumns + 1});
+    mesh.triangles.push_back({v, v + kColumns + 1, v + kColumns});
+  }
+  const auto plain = buildSurface(mesh);
+  if (!plain) check(tl::unexpected(plain.error()));
+  check(writeSurfaceAmt(folder / "plain.amt", *plain, {}, {.writer = "Arete"}));
+  mesh.materials = {{.name = "one"}, {.name = "other", .textures = {{"baseColor", "#0", 0}}}};
+  mesh.pictures = {{"a.png", "image/png", {std::byte{7}, std::byte{8}}}};
+  const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const auto& t : mesh.triangles) {
+    const std::uint32_t part = t[0] % kColumns < 2 ? 0 : 1;
+    mesh.materialOf.push_back(part);
+    mesh.wedges.push_back({t[0] + part * vertices, t[1] + part * vertices, t[2] + part * vertices});
+  }
+  mesh.wedgeCount = 2 * vertices;
+  for (std::uint32_t w = 0; w < mesh.wedgeCount; ++w) texcoord.append(std::vector<double>{double(w), 0.5});
+  mesh.wedgeAttributes = {texcoord};
+  const auto parts = buildSurface(mesh);
+  if (!parts) check(tl::unexpected(parts.error()));
+  check(writeSurfaceAmt(folder / "parts.amt", *parts, {}, {.writer = "Arete"}));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -93,5 +128,7 @@ int main(int argc, char** argv) {
     writeModel(folder, "points-" + fileName(family.name), build(points));
     writePoints(folder, fileName(family.name), points);
   }
+  fs::create_directories(folder / "surface_amt");
+  writeSurfaces(folder / "surface_amt");
   return 0;
 }

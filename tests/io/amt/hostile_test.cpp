@@ -102,10 +102,10 @@ TEST(HostileAmt, IsToldFromOtherFilesAndOtherVersions) {
   EXPECT_EQ(refusalOf(folder, "\x89PNG\r\n\x1a\n and so on"), "is not an .amt file");
 
   AmtBytes bytes(tinyBytes());
-  bytes.header().version = 3;
-  expectRefused(bytes, "was made by a newer Arete: format version 3, and this one reads 2");
+  bytes.header().version = 4;
+  expectRefused(bytes, "was made by a newer Arete: format version 4, and this one reads 3");
   bytes.header().version = 1;
-  expectRefused(bytes, "was made by an older Arete: format version 1, and this one reads 2; build it again");
+  expectRefused(bytes, "was made by an older Arete: format version 1, and this one reads 3; build it again");
   bytes.header().version = 0;
   expectRefused(bytes, "format version 0, which does not exist");
   bytes = AmtBytes(tinyBytes());
@@ -144,7 +144,7 @@ TEST(HostileAmt, CannotPlaceItsChunksWhereTheyAreNot) {
   with([](Bytes b) { b.chunk(amt_tag::kLink).elementBytes = 0; }, "another type");
   with([](Bytes b) { b.chunk(amt_tag::kLink).scalar = AmtScalar::f32; }, "another type");
   with([](Bytes b) { b.chunk(amt_tag::kMetadata).scalar = AmtScalar::u16; }, "not a text");
-  with([](Bytes b) { b.chunk(amt_tag::kLink).reserved = 1; }, "reserved field");
+  with([](Bytes b) { b.chunk(amt_tag::kLink).flags = 1; }, "reserved field");
   with([](Bytes b) { b.header().reserved = 1; }, "reserved field");
   with([](Bytes b) { b.header().fileBytes += 64; }, "64 of its");
   with([](Bytes b) { b.header().fileBytes -= 64; }, "64 bytes more");

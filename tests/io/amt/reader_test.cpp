@@ -69,7 +69,7 @@ TEST(Reader, TellsWhatIsWrongWithAFileThatCannotBeOpened) {
   };
   holds([](AmtBytes& b) { b.header().magic[1] = 'B'; }, "is not an .amt file");
   holds([](AmtBytes& b) { b.header().byteOrder = kAmtByteOrderSwapped; }, "big-endian");
-  holds([](AmtBytes& b) { b.header().version = 3; }, "3");
+  holds([](AmtBytes& b) { b.header().version = 4; }, "4");
   holds([](AmtBytes& b) { b.header().reserved = 1; }, "reserved");
   holds([](AmtBytes& b) { b.header().fileBytes += 64; }, "is cut short");
   holds([](AmtBytes& b) { b.chunks()[2].offset += 64; }, "gap");

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/amt/surface_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "engine/base/caught_failure.h"
+#include "io/amt/chunk_writer.h"
+#include "io/amt/index_check.h"
+#include "io/format/checksum.h"
+#include "io/format/surface_metadata.h"
+#include "surface/model/face_heirs.h"
+
+namespace arete {
+namespace {
+
+std::span<const std::byte> bytesOf(const auto& elements) {
+  return std::as_bytes(std::span(elements));
+}
+
+/// The triangles that no node removes, in the order of their ids.
+template <class Visit>
+void forFinest(const MultiTriangulation& mt, const Visit& visit) {
+  for (std::uint32_t t = 0; t < mt.triangleIdCount(); ++t)
+    if (!mt.remover(TriangleId(t)).isValid()) visit(t);
+}
+
+class Writing {
+ public:
+  Writing(const std::string& path, const SurfaceModel& model, const RunContext& context)
+      : model_(model), chunks_(path, kAmtNewestVersion, context) {}
+
+  Status run(const std::string& writer) {
+    if (const Status valid = model_.validate(); !valid) return chunks_.refuse(valid.error().message);
+    const SurfaceMetadata metadata = surfaceMetadataOf(model_, writer);
+    if (const auto problem = findSurfaceProblem(metadata)) return chunks_.refuse(*problem);
+    json_ = toSurfaceJson(metadata);
+    if (json_.size() > kAmtMaxMetadataBytes)
+      return chunks_.refuse(
+          fmt::format("{} bytes of metadata are more than {}", json_.size(), kAmtMaxMetadataBytes));
+    chunks_.add(amt_tag::kMetadata, bytesOf(json_));
+    addArrays(surfaceShapes(metadata));
+    addLooks();
+    chunks_.addSegmentChecksums();
+    return chunks_.write();
+  }
+
+ private:
+  void addArrays(const std::vector<AmtShape>& shapes) {
+    const MtArrays& a = model_.mt.arrays();
+    if (!model_.hasFaceAttributes())
+      forFinest(model_.mt, [&](std::uint32_t t) { finestFaces_.push_back(model_.faceOf[t]); });
+    const std::pair<AmtTag, std::span<const std::byte>> arrays[] = {
+        {amt_tag::kRootTriangles, bytesOf(a.rootTriangles)},
+        {amt_tag::kSlotBegin, bytesOf(a.slotBegin)},
+        {amt_tag::kLink, bytesOf(a.link)},
+        {amt_tag::kRemover, bytesOf(a.remover)},
+        {amt_tag::kError, bytesOf(a.error)},
+        {amt_tag::kRms, bytesOf(a.rms)},
+        {amt_tag::kFloor, bytesOf(a.floor)},
+        {amt_tag::kSaturatedError, bytesOf(a.saturatedError)},
+        {amt_tag::kSphere, bytesOf(a.sphere)},
+        {amt_tag::kBlockError, bytesOf(a.blockError)},
+        {amt_tag::kBlockSphere, bytesOf(a.blockSphere)},
+        {amt_tag::kCreatorHint, bytesOf(a.creatorHint)},
+        {amt_tag::kPlaces,
+         a.vertices.places64.empty() ? bytesOf(a.vertices.places32) : bytesOf(a.vertices.places64)},
+        {amt_tag::kVertexNumbers, bytesOf(model_.vertexOf)},
+        {amt_tag::kFaceNumbers, model_.hasFaceAttributes() ? bytesOf(model_.faceOf) : bytesOf(finestFaces_)},
+        {amt_tag::kWedges, bytesOf(model_.wedgesOf)},
+    };
+    for (const AmtShape& shape : shapes)
+      for (const auto& [tag, bytes] : arrays)
+        if (tag == shape.tag) chunks_.add(shape, bytes, tag == amt_tag::kPlaces ? kAmtRequired : 0);
+  }
+
+  void addLooks() {
+    looks_ = toLooksJson(model_);
+    values_ = attributeBytesOf(model_);
+    for (const EmbeddedPicture& picture : model_.attributes.pictures)
+      pictures_.insert(pictures_.end(), picture.bytes.begin(), picture.bytes.end());
+    chunks_.add(amt_tag::kLooks, bytesOf(looks_));
+    chunks_.add(amt_tag::kAttributes, bytesOf(values_));
+    chunks_.add(amt_tag::kPictures, bytesOf(pictures_));
+  }
+
+  const SurfaceModel& model_;
+  AmtChunkWriter chunks_;
+  std::string json_, looks_;  // these and the next: what the chunks point to, beside the model
+  std::vector<std::uint32_t> finestFaces_;
+  std::vector<std::byte> values_, pictures_;
+};
+
+class Reading {
+ public:
+  Reading(const AmtContainer& container, const SurfaceMetadata& metadata, AmtVerify verify,
+          const RunContext& context)
+      : all_(container), metadata_(metadata), verify_(verify), context_(context), model_(metadata.model) {}
+
+  Result<SurfaceModel> run() {
+    std::vector<AmtShape> shapes = surfaceShapes(metadata_);
+    for (const AmtTag tag : {amt_tag::kLooks, amt_tag::kAttributes, amt_tag::kPictures})
+      shapes.push_back({tag, AmtScalar::u8, 1, all_.find(tag) == nullptr ? 0 : all_.find(tag)->bytes});
+    if (const Status shaped = all_.checkShapes(shapes); !shaped) return tl::unexpected(shaped.error());
+    if (verify_ == AmtVerify::all)
+      if (const Status sound = checkSums(); !sound) return tl::unexpected(sound.error());
+    placeArrays();
+    if (verify_ != AmtVerify::none) {
+      if (const Status checked = checkMtIndices(model_.mt, 0, context_); !checked)
+        return failure(checked.error().code, checked.error().message, all_.path());
+      std::uint64_t finest = 0;
+      forFinest(model_.mt, [&](std::uint32_t) { ++finest; });
+      if (finest != metadata_.finestTriangles)
+        return all_.corrupt(fmt::format("has {} triangles in its finest front instead of {}", finest,
+                                        metadata_.finestTriangles));
+    }
+    if (const Status taken = takeFaces(); !taken) return tl::unexpected(taken.error());
+    if (const Status taken = takeLooks(); !taken) return tl::unexpected(taken.error());
+    if (const Status valid = model_.validate(); !valid) return all_.corrupt(valid.error().message);
+    return std::move(model_);
+  }
+
+ private:
+  Status checkSums() const {
+    std::vector<std::span<const std::byte>> blocks;
+    for (const AmtChunk& chunk : all_.chunks()) blocks.push_back(all_.bytes(chunk));
+    const auto sums = amtChecksums(blocks, "check checksums", context_);
+    if (!sums) return failure(ErrorCode::interrupted, "the check was interrupted", all_.path());
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+      if (sums->blocks[i] != all_.chunks()[i].checksum)
+        return all_.corrupt(fmt::format("has been altered: the checksum of chunk {} does not match",
+                                        all_.chunks()[i].name()));
+    return {};
+  }
+
+  template <class T>
+  void place(AmtTag tag, std::span<const T>& to) const {
+    to = all_.elements<T>(tag);
+  }
+
+  void placeArrays() {
+    MtArrays a;
+    a.rootVertices = static_cast<std::uint32_t>(metadata_.counts.rootVertices);
+    place(amt_tag::kRootTriangles, a.rootTriangles);
+    place(amt_tag::kSlotBegin, a.slotBegin);
+    place(amt_tag::kLink, a.link);
+    place(amt_tag::kRemover, a.remover);
+    place(amt_tag::kError, a.error);
+    place(amt_tag::kRms, a.rms);
+    place(amt_tag::kFloor, a.floor);
+    place(amt_tag::kSaturatedError, a.saturatedError);
+    place(amt_tag::kSphere, a.sphere);
+    place(amt_tag::kBlockError, a.blockError);
+    place(amt_tag::kBlockSphere, a.blockSphere);
+    place(amt_tag::kCreatorHint, a.creatorHint);
+    if (metadata_.hasDoubles)
+      place(amt_tag::kPlaces, a.vertices.places64);
+    else
+      place(amt_tag::kPlaces, a.vertices.places32);
+    a.scale = metadata_.scale;
+    a.metric = metadata_.metric;
+    model_.mt = MultiTriangulation(a, all_.owner());
+    const auto numbers = all_.elements<std::uint32_t>(amt_tag::kVertexNumbers);
+    model_.vertexOf.assign(numbers.begin(), numbers.end());
+    model_.attributes.wedgeCount = static_cast<std::uint32_t>(metadata_.wedges);
+    if (metadata_.wedges == 0) return;
+    const auto wedges = all_.elements<std::array<std::uint32_t, 3>>(amt_tag::kWedges);
+    model_.wedgesOf.assign(wedges.begin(), wedges.end());
+  }
+
+  Status takeFaces() {
+    const auto faces = all_.elements<std::uint32_t>(amt_tag::kFaceNumbers);
+    if (metadata_.hasAllFaces) {
+      model_.faceOf.assign(faces.begin(), faces.end());
+      return {};
+    }
+    model_.faceOf.assign(model_.mt.triangleIdCount(), 0);
+    std::size_t i = 0;
+    forFinest(model_.mt, [&](std::uint32_t t) {
+      if (i < faces.size()) model_.faceOf[t] = faces[i++];
+    });
+    inheritFaces(model_.mt, model_.faceOf);
+    return {};
+  }
+
+  Status takeLooks() {
+    const auto text = all_.elements<char>(amt_tag::kLooks);
+    std::vector<std::uint64_t> pictureBytes;
+    if (const Status read = fromLooksJson({text.data(), text.size()}, model_, pictureBytes); !read)
+      return all_.corrupt(read.error().message);
+    if (model_.hasFaceAttributes() != metadata_.hasAllFaces)
+      return all_.corrupt("has faces with attributes and no numbers of them, or the other way");
+    if (const Status taken = takeAttributeBytes(all_.elements<std::byte>(amt_tag::kAttributes),
+                                                model_.mt.vertexCount(), model_);
+        !taken)
+      return all_.corrupt(taken.error().message);
+    const auto bytes = all_.elements<std::byte>(amt_tag::kPictures);
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < pictureBytes.size(); ++i) {
+      if (pictureBytes[i] > bytes.size() - at)
+        return all_.corrupt(fmt::format("has a picture of {} bytes, which are not there", pictureBytes[i]));
+      const auto part = bytes.subspan(at, pictureBytes[i]);
+      model_.attributes.pictures[i].bytes.assign(part.begin(), part.end());
+      at += part.size();
+    }
+    return {};
+  }
+
+  const AmtContainer& all_;
+  const SurfaceMetadata& metadata_;
+  AmtVerify verify_;
+  const RunContext& context_;
+  SurfaceModel model_;
+};
+
+}  // namespace
+
+Status writeSurfaceAmt(const std::string& path, const SurfaceModel& model, const RunContext& context,
+                       const AmtWriteOptions& options) try {
+  return Writing(path, model, context).run(options.writer.empty() ? "Arete " ARETE_VERSION : options.writer);
+} catch (...) {
+  return caughtFailure(path);
+}
+
+Result<bool> isSurfaceAmt(const std::string& path) try {
+  const Result<AmtContainer> container = AmtContainer::open(path);
+  if (!container) return tl::unexpected(container.error());
+  return container->find(amt_tag::kPlaces) != nullptr;
+} catch (...) {
+  return caughtFailure(path);
+}
+
+Result<SurfaceModel> loadSurfaceAmt(const std::string& path, AmtVerify verify,
+                                    const RunContext& context) try {
+  const Result<AmtContainer> container = AmtContainer::open(path);
+  if (!container) return tl::unexpected(container.error());
+  if (container->find(amt_tag::kPlaces) == nullptr)
+    return failure(ErrorCode::unsupported, "is of terrain, and a surface is wanted here", path);
+  const Result<SurfaceMetadata> metadata = fromSurfaceJson(container->metadata());
+  if (!metadata) return container->corrupt(fmt::format("chunk META: {}", metadata.error().message));
+  return Reading(*container, *metadata, verify, context).run();
+} catch (...) {
+  return caughtFailure(path);
+}
+
+}  // namespace arete

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/format/surface_metadata.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "engine/mt/hole_limit.h"
+#include "engine/mt/node_blocks.h"
+#include "io/format/json_fields.h"
+
+namespace arete {
+namespace {
+
+struct Stored {
+  std::uint32_t scaleBase = 0;
+};
+
+/// Visits the fields of the metadata, in the order of the file.
+template <class Visitor, class Metadata, class OtherValues>
+void visitMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
+  auto& model = m.model;
+  top.field("writer", m.writer);
+  top.field("source", model.source);
+  top.field("sourceChecksum", model.sourceChecksum);
+  top.object("counts", [&](auto& counts) {
+    counts.field("rootVertices", m.counts.rootVertices);
+    counts.field("rootTriangles", m.counts.rootTriangles);
+    counts.field("nodes", m.counts.nodes);
+    counts.field("slots", m.counts.slots);
+    counts.field("finestTriangles", m.finestTriangles);
+    counts.field("wedges", m.wedges);
+    counts.field("sourceVertices", model.sourceVertices);
+    counts.field("sourceFaces", model.sourceFaces);
+  });
+  top.flag("hasDoubles", m.hasDoubles);
+  top.flag("hasAllFaces", m.hasAllFaces);
+  top.field("errorScaleBase", stored.scaleBase);
+  top.object("metricFrame", [&](auto& metric) {
+    metric.field("origin", m.metric.origin);
+    metric.field("scale", m.metric.scale);
+  });
+  top.field("diagonal", model.diagonal);
+  top.optional("crsWkt", model.crsWkt);
+  top.optional("verticalUnit", model.verticalUnit);
+  top.optional("up", model.up);
+  top.object("build", [&](auto& build) {
+    build.flag("keepsBorders", model.options.keepsBorders);
+    build.field("maxDegree", model.options.maxDegree);
+    build.field("thresholdRatio", model.options.thresholdRatio);
+    build.field("levels", model.levels);
+  });
+  top.object("mending", [&](auto& mending) {
+    mending.field("duplicateFaces", model.mending.duplicateFaces);
+    mending.field("degenerateFaces", model.mending.degenerateFaces);
+    mending.field("joinedVertices", model.mending.joinedVertices);
+    mending.field("turnedFaces", model.mending.turnedFaces);
+    mending.field("addedVertices", model.mending.addedVertices);
+    mending.field("unusedVertices", model.mending.unusedVertices);
+    mending.flag("dropsFlatNormals", model.mending.dropsFlatNormals);
+  });
+}
+
+}  // namespace
+
+SurfaceMetadata surfaceMetadataOf(const SurfaceModel& model, std::string writer) {
+  const MtArrays& a = model.mt.arrays();
+  SurfaceMetadata m;
+  m.writer = std::move(writer);
+  m.counts = {a.rootVertices, a.rootTriangles.size(), a.saturatedError.size(), a.link.size(), 0, 0};
+  m.finestTriangles = model.mt.finestTriangleCount();
+  m.wedges = model.attributes.wedgeCount;
+  m.hasDoubles = !a.vertices.places64.empty();
+  m.hasAllFaces = model.hasFaceAttributes();
+  m.scale = a.scale;
+  m.metric = a.metric;
+  SurfaceModel& to = m.model;
+  to.sourceVertices = model.sourceVertices;
+  to.sourceFaces = model.sourceFaces;
+  to.diagonal = model.diagonal;
+  to.mending = model.mending;
+  to.options = model.options;
+  to.levels = model.levels;
+  to.source = model.source;
+  to.sourceChecksum = model.sourceChecksum;
+  to.crsWkt = model.crsWkt;
+  to.verticalUnit = model.verticalUnit;
+  to.up = model.up;
+  return m;
+}
+
+std::optional<std::string> findSurfaceProblem(const SurfaceMetadata& m) {
+  if (auto problem = findCountProblem(m.counts)) return problem;
+  constexpr std::uint64_t kMost = 0xFFFFFFFE;
+  if (m.wedges > kMost || m.model.sourceVertices > kMost || m.model.sourceFaces > kMost)
+    return "wedges, vertices or faces are more than 32-bit numbers can name";
+  if (m.finestTriangles > m.counts.rootTriangles + m.counts.slots)
+    return "the finest front has more triangles than there are";
+  const Vec3 &o = m.metric.origin, &s = m.metric.scale;
+  if (!isFinite(o) || !isFinite(s) || s.x < 0 || s.y < 0 || s.z < 0)
+    return "the metric frame is not one of finite numbers";
+  if (!(m.model.diagonal > 0 && std::isfinite(m.model.diagonal)))
+    return fmt::format("the diagonal is {}, not a positive number", m.model.diagonal);
+  if (auto problem = findScaleProblem(m.scale)) return problem;
+  if (m.model.options.maxDegree < 3 || m.model.options.maxDegree > kMaxHoleCorners - 1 ||
+      !(m.model.options.thresholdRatio > 1))
+    return "the build options are wrong";
+  return std::nullopt;
+}
+
+std::string toSurfaceJson(const SurfaceMetadata& metadata) {
+  nlohmann::ordered_json object = nlohmann::ordered_json::object();
+  json_fields::Writer writer(object);
+  const Stored stored{metadata.scale.base()};
+  visitMetadata(writer, metadata, stored);
+  return object.dump(1) + "\n";
+}
+
+Result<SurfaceMetadata> fromSurfaceJson(std::string_view text) {
+  const nlohmann::json object = nlohmann::json::parse(text, nullptr, false);
+  if (!object.is_object()) return failure(ErrorCode::corrupt, "the metadata is not a JSON object");
+  SurfaceMetadata m;
+  std::string problem;
+  json_fields::Reader reader(object, problem);
+  Stored stored;
+  visitMetadata(reader, m, stored);
+  m.scale = OutwardScale::fromBase(stored.scaleBase);
+  if (problem.empty()) problem = findSurfaceProblem(m).value_or("");
+  if (!problem.empty()) return failure(ErrorCode::corrupt, fmt::format("the metadata is wrong: {}", problem));
+  return m;
+}
+
+std::vector<AmtShape> surfaceShapes(const SurfaceMetadata& m) {
+  const AmtCounts& c = m.counts;
+  const std::uint64_t triangles = c.rootTriangles + c.slots, vertices = c.rootVertices + c.nodes;
+  constexpr std::uint64_t kSlotsPerHint = MultiTriangulation::kSlotsPerHint;
+  std::vector<AmtShape> shapes = {
+      {amt_tag::kRootTriangles, AmtScalar::u32, 12, c.rootTriangles},
+      {amt_tag::kSlotBegin, AmtScalar::u32, 4, c.nodes + 1},
+      {amt_tag::kLink, AmtScalar::u32, 4, c.slots},
+      {amt_tag::kRemover, AmtScalar::u32, 4, triangles},
+      {amt_tag::kError, AmtScalar::u16, 2, triangles},
+      {amt_tag::kRms, AmtScalar::u16, 2, triangles},
+      {amt_tag::kFloor, AmtScalar::u32, 4, c.slots - 2 * c.nodes},
+      {amt_tag::kSaturatedError, AmtScalar::u16, 2, c.nodes},
+      {amt_tag::kSphere, AmtScalar::f32, 16, c.nodes},
+      {amt_tag::kBlockError, AmtScalar::u16, 2, nodeBlockAndPageCount(c.nodes)},
+      {amt_tag::kBlockSphere, AmtScalar::f32, 16, nodeBlockAndPageCount(c.nodes)},
+      {amt_tag::kCreatorHint, AmtScalar::u32, 4, (c.slots + kSlotsPerHint - 1) / kSlotsPerHint},
+      m.hasDoubles ? AmtShape{amt_tag::kPlaces, AmtScalar::f64, 24, vertices}
+                   : AmtShape{amt_tag::kPlaces, AmtScalar::f32, 12, vertices},
+      {amt_tag::kVertexNumbers, AmtScalar::u32, 4, vertices},
+      {amt_tag::kFaceNumbers, AmtScalar::u32, 4, m.hasAllFaces ? triangles : m.finestTriangles},
+  };
+  if (m.wedges > 0) shapes.push_back({amt_tag::kWedges, AmtScalar::u32, 12, triangles});
+  return shapes;
+}
+
+}  // namespace arete

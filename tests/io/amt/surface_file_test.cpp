@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/amt/surface_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "surface/build/build.h"
+#include "surface/families.h"
+#include "surface/front/front.h"
+
+namespace arete {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SurfaceAmt : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "arete-surface-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  static std::string contentOf(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+ private:
+  fs::path folder_;
+};
+
+/// A surface with everything that a mesh can have.
+SurfaceMesh everything(bool hasDoubles) {
+  SurfaceMesh mesh(shapes::hills(16, 3));
+  if (!hasDoubles)
+    for (Vec3& p : mesh.positions) p = {float(p.x), float(p.y), float(p.z)};
+  Attribute quality{.name = "quality", .type = ScalarType::float64};
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    quality.append(std::vector<double>{1.0 / double(v + 1)});
+  mesh.vertexAttributes = {quality};
+  Attribute label{.name = "label", .type = ScalarType::int16, .components = 2};
+  Attribute texcoord{.name = "texcoord", .meaning = AttributeMeaning::textureCoords, .components = 2};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    label.append(std::vector<double>{double(t) - 100, 7});
+    mesh.wedges.push_back(mesh.triangles[t]);
+    mesh.objectOf.push_back(t % 2 == 0 ? 0 : MeshAttributes::kNone);
+    mesh.materialOf.push_back(mesh.positions[mesh.triangles[t][0]].x < 8 ? 0 : 1);
+    mesh.groupOf.push_back(static_cast<std::uint32_t>(t % 3));
+    mesh.faceOf.push_back(static_cast<std::uint32_t>(t / 2));
+  }
+  std::ranges::fill(mesh.objectOf, 0u);
+  mesh.wedgeCount = static_cast<std::uint32_t>(mesh.positions.size());
+  for (std::size_t w = 0; w < mesh.wedgeCount; ++w) texcoord.append(std::vector<double>{double(w) / 7, 0.25});
+  mesh.wedgeAttributes = {texcoord};
+  mesh.triangleAttributes = {label};
+  mesh.objects = {"a \"quoted\" one"};
+  mesh.groups = {"g0", "g1", std::string("\xff\xfe not UTF-8")};
+  mesh.materials = {{.name = "stone", .textures = {{"baseColor", "#0", 0}}, .verbatim = {{"mtl", "Ns 10\n"}}},
+                    {.name = "grass", .baseColor = {0.1, 0.2, 1.0 / 3, 0.5}, .alphaMode = "BLEND"}};
+  mesh.pictures = {{"stone.png", "image/png", {std::byte{1}, std::byte{2}, std::byte{0}}}};
+  return mesh;
+}
+
+void expectEqual(const SurfaceModel& a, const SurfaceModel& b) {
+  const MtArrays &x = a.mt.arrays(), &y = b.mt.arrays();
+  EXPECT_TRUE(std::ranges::equal(x.rootTriangles, y.rootTriangles));
+  EXPECT_TRUE(std::ranges::equal(x.slotBegin, y.slotBegin));
+  EXPECT_TRUE(std::ranges::equal(x.link, y.link));
+  EXPECT_TRUE(std::ranges::equal(x.remover, y.remover));
+  EXPECT_TRUE(std::ranges::equal(x.error, y.error));
+  EXPECT_TRUE(std::ranges::equal(x.rms, y.rms));
+  EXPECT_TRUE(std::ranges::equal(x.floor, y.floor));
+  EXPECT_TRUE(std::ranges::equal(x.saturatedError, y.saturatedError));
+  EXPECT_EQ(x.scale.base(), y.scale.base());
+  EXPECT_EQ(x.metric.origin, y.metric.origin);
+  for (std::uint32_t v = 0; v < a.mt.vertexCount(); ++v)
+    ASSERT_EQ(a.mt.position(VertexId(v)), b.mt.position(VertexId(v)));
+  EXPECT_EQ(a.attributes, b.attributes);
+  EXPECT_EQ(a.vertexOf, b.vertexOf);
+  EXPECT_EQ(a.faceOf, b.faceOf);
+  EXPECT_EQ(a.wedgesOf, b.wedgesOf);
+  EXPECT_EQ(a.diagonal, b.diagonal);
+  EXPECT_EQ(a.mending, b.mending);
+  EXPECT_EQ(a.options, b.options);
+  EXPECT_EQ(a.sourceVertices, b.sourceVertices);
+  EXPECT_EQ(a.sourceFaces, b.sourceFaces);
+  EXPECT_EQ(a.source, b.source);
+  EXPECT_EQ(a.crsWkt, b.crsWkt);
+  EXPECT_EQ(a.up, b.up);
+}
+
+TEST_F(SurfaceAmt, GivesBackEveryBitOfAModel) {
+  for (const bool hasDoubles : {false, true})
+    for (const bool isPlain : {false, true}) {
+      const SurfaceMesh mesh = isPlain ? SurfaceMesh(everything(hasDoubles).shape()) : everything(hasDoubles);
+      Result<SurfaceModel> model = buildSurface(mesh);
+      ASSERT_TRUE(model) << model.error().message;
+      model->source = "a scan.ply";
+      model->up = "y";
+      ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model));
+      EXPECT_TRUE(*isSurfaceAmt(path("a.amt")));
+      const Result<SurfaceModel> read = loadSurfaceAmt(path("a.amt"));
+      ASSERT_TRUE(read) << read.error().message;
+      EXPECT_EQ(read->mt.vertices().places64.empty(), !hasDoubles);
+      expectEqual(*model, *read);
+      ASSERT_TRUE(writeSurfaceAmt(path("b.amt"), *read));
+      EXPECT_EQ(contentOf(path("a.amt")), contentOf(path("b.amt")));
+    }
+}
+
+TEST_F(SurfaceAmt, IsRefusedWhereTerrainIsWantedAndTheOtherWay) {
+  const Result<SurfaceModel> model = buildSurface(SurfaceMesh(shapes::globe(12, 6)));
+  ASSERT_TRUE(model);
+  ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model));
+  const Result<AmtFile> terrain = openAmt(path("a.amt"));
+  ASSERT_FALSE(terrain);
+  EXPECT_EQ(terrain.error().message, "is of a surface, and terrain is wanted here");
+}
+
+TEST_F(SurfaceAmt, SaysSoWhateverByteIsChangedOrCutOff) {
+  const Result<SurfaceModel> model = buildSurface(everything(false));
+  ASSERT_TRUE(model);
+  ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model));
+  const std::string whole = contentOf(path("a.amt"));
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 200; ++i) {
+    std::string bytes = whole;
+    bytes[random() % bytes.size()] ^= char(1 << random() % 8);
+    std::ofstream(path("b.amt"), std::ios::binary) << bytes;
+    // The zeros between chunks are not read.
+    if (const Result<SurfaceModel> read = loadSurfaceAmt(path("b.amt"))) expectEqual(*model, *read);
+  }
+  for (int i = 0; i < 40; ++i) {
+    std::ofstream(path("b.amt"), std::ios::binary) << whole.substr(0, random() % whole.size());
+    EXPECT_FALSE(loadSurfaceAmt(path("b.amt")));
+  }
+}
+
+TEST_F(SurfaceAmt, ReadsNoIndexOutOfRangeWhateverTheArraysHold) {
+  // Without checksums the checks of indices alone have to hold.
+  const Result<SurfaceModel> model = buildSurface(everything(false));
+  ASSERT_TRUE(model);
+  ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model));
+  const std::string whole = contentOf(path("a.amt"));
+  std::mt19937_64 random(2);
+  const std::size_t begin = 4096;
+  for (int i = 0; i < 300; ++i) {
+    std::string bytes = whole;
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t value = static_cast<std::uint32_t>(random());
+      std::memcpy(&bytes[begin + random() % ((bytes.size() - begin - 4) / 4) * 4], &value, 4);
+    }
+    std::ofstream(path("b.amt"), std::ios::binary) << bytes;
+    const Result<SurfaceModel> read = loadSurfaceAmt(path("b.amt"), AmtVerify::indices);
+    if (!read) continue;
+    const SurfaceFront root = surfaceOf(*read, frontOfPrefix(read->mt, read->mt.nodeCount() / 2));
+    EXPECT_TRUE(root.mesh.validate());
+  }
+}
+
+}  // namespace
+}  // namespace arete
