@@ -136,8 +136,11 @@ CLI::Validator tolerance() {
 
 CLI::Validator tolerances() {
   return validator([](std::string& text) -> std::string {
-    for (const std::string& part : splitAtCommas(text))
-      if (std::string problem = toleranceProblem(part); !problem.empty()) return problem;
+    for (const std::string& part : splitAtCommas(text)) {
+      // "0.5%", of a surface; terrain refuses it where it knows the file.
+      const std::string number = part.ends_with('%') ? part.substr(0, part.size() - 1) : part;
+      if (std::string problem = toleranceProblem(number); !problem.empty()) return problem;
+    }
     return {};
   });
 }

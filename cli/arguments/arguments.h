@@ -38,7 +38,7 @@ CLI::Validator oneOf(const std::vector<std::pair<std::string, Enum>>& words) {
 }
 /// An error in the unit of the heights: 0 or more, "inf" allowed.
 CLI::Validator tolerance();
-/// One or more tolerances with commas between.
+/// One or more tolerances with commas between, each perhaps with a percent sign.
 CLI::Validator tolerances();
 
 /// Parses numbers with commas between. Errors: usage, naming the option and the part that is not a number.

@@ -23,7 +23,8 @@ void CriterionArguments::addTo(CLI::App& command) {
       command
           .add_option(
               "--max-error", maxErrors_,
-              "Largest vertical error, in the DEM's unit of height; several with commas make one TIN each")
+              "Largest vertical error, in the DEM's unit of height; of a surface the largest distance, in\n"
+              "its unit or as E% of its diagonal; several with commas make one TIN each")
           ->check(tolerances())
           ->type_name("E[,E...]");
   command
@@ -50,7 +51,8 @@ void CriterionArguments::addTo(CLI::App& command) {
       command
           .add_option("--region", region_,
                       "Where --max-error holds: polygons (any vector file), with --distance lines and points "
-                      "too, or xmin,ymin,xmax,ymax in the DEM's CRS")
+                      "too, or xmin,ymin,xmax,ymax in the DEM's CRS; of a surface a box x0,y0,z0,x1,y1,z1 or "
+                      "a ball x,y,z,r")
           ->type_name("FILE|BOX")
           ->group(where);
   command
@@ -88,7 +90,8 @@ void CriterionArguments::addTo(CLI::App& command) {
                             .add_option("--camera", camera_,
                                         "Position of a camera, H above the ground (agl) or in the DEM's "
                                         "heights (msl, ell); the error is measured in pixels of its picture. "
-                                        "AZIMUTH,PITCH and FOV replace --look and --fov")
+                                        "AZIMUTH,PITCH and FOV replace --look and --fov. Of a surface "
+                                        "x,y,z of the eye, x,y,z of what it looks at[,FOV]")
                             ->type_name("X,Y,H[agl|msl|ell][,AZIMUTH,PITCH[,FOV]]")
                             ->group(where)
                             ->excludes(region)
@@ -118,9 +121,9 @@ void CriterionArguments::addTo(CLI::App& command) {
       ->type_name("P")
       ->group(where);
   command
-      .add_option("--outside-error", outsideError_,
+      .add_option("--outside-error", outsideErrorText_,
                   "Largest error outside the region, out of view, or far from the focus (default: no limit)")
-      ->check(tolerance())
+      ->check(tolerances())
       ->type_name("E")
       ->group(where);
   command.add_flag("--lonlat", isLonLat_, "X,Y of --focus and --camera are longitude and latitude")
@@ -145,7 +148,7 @@ Status CriterionArguments::check() const {
   const bool hasBudget = maxTriangles_ >= 0;
   if (maxErrors_.empty() && !hasBudget && camera_.empty() && deadline_ == 0)
     return failure(ErrorCode::usage, "--max-error, --max-triangles, --camera or --deadline is required");
-  if (!std::isnan(outsideError_) && region_.empty() && focus_.empty() && camera_.empty())
+  if (!outsideErrorText_.empty() && region_.empty() && focus_.empty() && camera_.empty())
     return failure(ErrorCode::usage, "requires --region, --focus or --camera", "--outside-error");
   if (isLonLat_ && focus_.empty() && camera_.empty())
     return failure(ErrorCode::usage, "requires --focus or --camera", "--lonlat");
@@ -157,6 +160,31 @@ Status CriterionArguments::check() const {
   if (order_ == "two-queues" && camera_.empty())
     return failure(ErrorCode::usage, "two-queues requires --camera", "--order");
   return checkFit();
+}
+
+Result<CriterionArguments::OfSurface> CriterionArguments::ofSurface() const {
+  const auto refuse = [](const char* option) {
+    return failure(ErrorCode::usage, "is for terrain, and the file is of a surface", option);
+  };
+  if (!regionCrs_.empty()) return refuse("--region-crs");
+  if (distance_ > 0) return refuse("--distance");
+  if (!focus_.empty()) return refuse("--focus");
+  if (!look_.empty()) return refuse("--look");
+  if (isLonLat_) return refuse("--lonlat");
+  if (deadline_ > 0) return refuse("--deadline");
+  if (fit_ != "none") return refuse("--fit");
+  if (order_ != "worst") return refuse("--order");
+  OfSurface asked;
+  asked.maxErrors = maxErrors_;
+  asked.isSaturated = method_ == "saturated";
+  if (maxTriangles_ >= 0) asked.maxTriangles = static_cast<std::uint32_t>(maxTriangles_);
+  asked.region = region_;
+  asked.outsideError = outsideErrorText_;
+  asked.camera = camera_;
+  asked.viewport = viewport_;
+  if (!std::isnan(pixelError_)) asked.pixelError = pixelError_;
+  if (!std::isnan(fieldOfView_)) asked.fieldOfView = fieldOfView_;
+  return asked;
 }
 
 Status CriterionArguments::checkFit() const {
@@ -239,7 +267,12 @@ Result<std::vector<ExtractCriterion>> CriterionArguments::criteria(const Terrain
   common.region = region_;
   common.regionCrs = regionCrs_;
   common.distance = distance_;
-  if (!std::isnan(outsideError_)) common.outsideError = outsideError_;
+  if (!outsideErrorText_.empty()) {
+    const auto outside = parseNumbers("--outside-error", outsideErrorText_);
+    if (!outside) return tl::unexpected(outside.error());
+    if (outside->size() != 1) return failure(ErrorCode::usage, "takes one error", "--outside-error");
+    common.outsideError = outside->front();
+  }
   common.method = method_ == "saturated" ? CutMethod::saturated : CutMethod::minimal;
   if (deadline_ > 0) common.deadlineMilliseconds = deadline_;
   common.order = order_ == "breadth"      ? ExtractOrder::breadth
@@ -255,6 +288,9 @@ Result<std::vector<ExtractCriterion>> CriterionArguments::criteria(const Terrain
     if (Status placed = placeFocus(model, common); !placed) return tl::unexpected(placed.error());
   if (maxErrors_.empty()) return std::vector{common};
 
+  if (maxErrors_.find('%') != std::string::npos)
+    return failure(ErrorCode::usage, "a share of the diagonal is for surfaces, and the file is of terrain",
+                   fmt::format("--max-error {}", maxErrors_));
   const auto errors = parseNumbers("--max-error", maxErrors_);
   if (!errors) return tl::unexpected(errors.error());
   std::vector<ExtractCriterion> criteria;

@@ -34,6 +34,19 @@ struct CriterionArguments {
   /// Precondition: check(). Errors: usage, naming the option; invalidData: no terrain below the camera.
   Result<std::vector<ExtractCriterion>> criteria(const TerrainModel& model) const;
 
+  /// What a surface can be cut by. Errors: usage, naming an option that is stated and is for terrain.
+  struct OfSurface {
+    std::string maxErrors;  ///< empty: not stated
+    std::optional<std::uint32_t> maxTriangles;
+    bool isSaturated = false;
+    std::string region;        ///< --region; empty: none
+    std::string outsideError;  ///< --outside-error; empty: not stated
+    std::string camera;        ///< --camera; empty: none
+    std::string viewport;      ///< --viewport; empty: not stated
+    std::optional<double> pixelError, fieldOfView;
+  };
+  Result<OfSurface> ofSurface() const;
+
   const std::string& region() const { return region_; }
   RegionText regionText() const { return {region_, distance_, regionCrs_}; }
   bool hasDeadline() const { return deadline_ > 0; }
@@ -49,7 +62,8 @@ struct CriterionArguments {
   std::int64_t maxTriangles_ = -1;  // < 0: not stated
   std::string method_ = "minimal", order_ = "worst";
   std::string region_, regionCrs_;
-  double distance_ = 0, outsideError_ = kUnstated;
+  double distance_ = 0;
+  std::string outsideErrorText_;
   std::string focus_;
   double growth_ = kUnstated;
   std::string camera_, look_, viewport_;

@@ -8,14 +8,18 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <memory>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
 #include "cli/arguments/arguments.h"
 #include "cli/commands/build_source.h"
+#include "cli/mesh/mesh_input.h"
+#include "cli/surface/build.h"
 #include "engine/base/stopwatch.h"
 #include "io/amt/file.h"
 #include "io/crs/names.h"
@@ -41,6 +45,8 @@ struct BuildArguments {
   double creaseAngleDegrees = -1;  // < 0: not stated
   double minimumAspect = -1;       // < 0: not stated
   std::string kind;                // --as; empty: the file says
+  bool keepsBorders = false;
+  const CLI::App* command = nullptr;
 };
 
 /// What a build needs at the least; rough terrain takes up to twice as much (terrain/build/build.h).
@@ -177,6 +183,32 @@ Status buildFrom(BuildArguments& arguments, const FixedVertexOptions& fixedChoic
   return {};
 }
 
+/// The first option stated that is not among those named; empty if none is.
+std::string otherOption(const CLI::App& command, std::initializer_list<std::string_view> names) {
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() > 0 && !option->get_lnames().empty() &&
+        std::ranges::find(names, option->get_lnames().front()) == names.end())
+      return "--" + option->get_lnames().front();
+  return {};
+}
+
+Status runSurfaceBuild(const BuildArguments& arguments, MeshInput input, double secondsToRead,
+                       Session& session) {
+  if (const std::string other = otherOption(*arguments.command, {"output", "as", "ratio", "max-degree",
+                                                                 "keep-borders", "json", "quiet", "threads"});
+      !other.empty())
+    return failure(ErrorCode::usage,
+                   fmt::format("is for terrain, and {} is a surface (--as terrain takes its vertices as "
+                               "samples of a terrain)",
+                               arguments.dem.path),
+                   other);
+  SurfaceBuildArguments surface{arguments.dem.path, arguments.output, {}};
+  surface.options.keepsBorders = arguments.keepsBorders;
+  surface.options.thresholdRatio = arguments.options.thresholdRatio.value_or(surface.options.thresholdRatio);
+  if (arguments.command->count("--max-degree") > 0) surface.options.maxDegree = arguments.options.maxDegree;
+  return buildSurfaceFile(surface, std::move(input), secondsToRead, session);
+}
+
 Status runBuild(BuildArguments& arguments, Session& session) {
   if (Status taken = takeShape(arguments); !taken) return taken;
   const std::string extension = text::lowerExtension(arguments.output);
@@ -187,6 +219,16 @@ Status runBuild(BuildArguments& arguments, Session& session) {
   std::vector<std::string> inputs = arguments.dem.files();
   inputs.push_back(arguments.fixedPath);
   if (Status output = checkOutput("--output", arguments.output, inputs); !output) return output;
+  if (isMesh(arguments.dem) && (arguments.kind.empty() || arguments.kind == "surface")) {
+    // A mesh without faces is read anew, as points.
+    Stopwatch reading;
+    Result<MeshInput> input = readMeshInput(arguments.dem.path, session);
+    if (input && !input->file.mesh.triangles.empty())
+      return runSurfaceBuild(arguments, std::move(*input), reading.seconds(), session);
+  }
+  if (arguments.keepsBorders)
+    return failure(ErrorCode::usage, fmt::format("is for surfaces, and {} is terrain", arguments.dem.path),
+                   "--keep-borders");
   Seconds seconds;
   Stopwatch reading;
   Result<DemRead> dem = readSource(arguments.dem, arguments.kind, session);
@@ -215,16 +257,18 @@ Status runBuild(BuildArguments& arguments, Session& session) {
 void addBuildCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<BuildArguments>();
   CLI::App* command =
-      session.addCommand(app, "build", "Build a multitriangulation of a DEM, once",
+      session.addCommand(app, "build", "Build a multitriangulation of a DEM or a mesh, once",
                          "  arete build dem.tif -o dem.amt\n"
                          "  arete build N46E008.hgt.zip -o alps.amt --shape fidelity\n"
                          "  arete build tiles/*.tif -o all.amt\n"
+                         "  arete build scan.ply -o scan.amt                          a surface\n"
                          "  arete build points.csv -o points.amt --crs EPSG:32611 --fixed peaks.gpkg\n"
                          "  arete build dem.tif -o dem.amt --feature-persistence 100 --rim-tolerance 2",
                          [arguments](Session& s) { return runBuild(*arguments, s); });
   arguments->dem.addFilesTo(
       *command,
-      "Raster or scattered points: any format that GDAL reads, also zipped, or text (CSV, XYZ); several\n"
+      "Raster, mesh or scattered points: any format that GDAL reads, also zipped, or text (CSV, XYZ); "
+      "several\n"
       "rasters, a folder of them or a pattern become one DEM: later ones lie over earlier ones");
   command->add_option("-o,--output", arguments->output, "Multitriangulation to write (.amt)")
       ->required()
@@ -233,8 +277,7 @@ void addBuildCommand(CLI::App& app, Session& session) {
       ->add_option(
           "--as", arguments->kind,
           "What the files are (default: a raster is terrain, a mesh with faces is a surface, any other\n"
-          "file holds points): terrain or points take the vertices of a mesh as samples of a terrain;\n"
-          "surfaces cannot be built yet")
+          "file holds points): terrain or points take the vertices of a mesh as samples of a terrain")
       ->check(oneOf({"terrain", "surface", "points"}))
       ->type_name("KIND");
   command->add_flag(
@@ -295,7 +338,12 @@ void addBuildCommand(CLI::App& app, Session& session) {
       ->check(finiteBetween(0, 180))
       ->type_name("DEGREES")
       ->group(keeping);
+  command
+      ->add_flag("--keep-borders", arguments->keepsBorders,
+                 "Of a surface: all border vertices, so that parts meet at every tolerance")
+      ->group(keeping);
   arguments->dem.addTo(*command);
+  arguments->command = command;
 }
 
 }  // namespace arete

@@ -15,14 +15,6 @@
 namespace arete {
 namespace {
 
-/// A single file that a reader of meshes reads. Not a GeoPackage: it holds layers of many kinds.
-bool isMesh(const DemArguments& dem) {
-  std::error_code ignored;
-  if (!dem.reading.otherFiles.empty() || !std::filesystem::is_regular_file(dem.path, ignored)) return false;
-  const Result<MeshFormat> format = meshFormatOf(dem.path);
-  return format && format->read && format->extension != ".gpkg";
-}
-
 Result<PointReadOptions> pointOptions(const SourceReading& reading) {
   if (reading.band) return failure(ErrorCode::usage, "is for rasters, and a mesh has no bands", "band");
   if (!reading.layer.empty()) return failure(ErrorCode::usage, "a mesh has no layers", "layer");
@@ -56,6 +48,13 @@ Result<DemRead> readVertices(const DemArguments& dem, MeshFile mesh, Session& se
 
 }  // namespace
 
+bool isMesh(const DemArguments& dem) {
+  std::error_code ignored;
+  if (!dem.reading.otherFiles.empty() || !std::filesystem::is_regular_file(dem.path, ignored)) return false;
+  const Result<MeshFormat> format = meshFormatOf(dem.path);
+  return format && format->read && format->extension != ".gpkg";
+}
+
 Result<DemRead> readSource(const DemArguments& dem, const std::string& kind, Session& session) {
   if (isMesh(dem)) {
     Result<MeshFile> mesh = readMeshOrPoints(dem.path, session.context());
@@ -69,12 +68,6 @@ Result<DemRead> readSource(const DemArguments& dem, const std::string& kind, Ses
     if (kind == "surface" && !hasFaces)
       return failure(ErrorCode::usage, fmt::format("{} has no faces: it is no surface", dem.path),
                      "--as surface");
-    if (hasFaces && (kind.empty() || kind == "surface"))
-      return failure(
-          ErrorCode::unsupported,
-          "has faces, so it is a surface, which cannot be built yet; --as terrain takes its vertices "
-          "as the samples of a terrain",
-          dem.path);
     return readVertices(dem, std::move(*mesh), session);
   }
   if (kind == "surface")

@@ -9,13 +9,17 @@
 
 namespace arete {
 
-/// Reads what `arete build` builds, and writes its warnings. A mesh (PLY, OBJ, STL, OFF, glTF, 2DM) with
-/// faces is a surface; its vertices are read as points where `kind` says so, those of a mesh without faces
-/// always.
+/// Whether a reader of meshes reads the input: a single file. Not a GeoPackage: it holds layers of many
+/// kinds.
+bool isMesh(const DemArguments& dem);
+
+/// Reads what `arete build` builds of terrain, and writes its warnings. A mesh (PLY, OBJ, STL, OFF, glTF,
+/// 2DM) with faces is a surface; its vertices are read as points where `kind` says so, those of a mesh
+/// without faces always.
 ///
 /// @param kind terrain, surface or points; empty: the file says.
-/// Errors: those of DemArguments::read() and readMesh(). unsupported: a surface, which cannot be built yet.
-/// usage: `kind` contradicts the file.
+/// Errors: those of DemArguments::read() and readMesh(). usage: `kind` contradicts the file.
+/// Precondition: it is no mesh with faces, unless `kind` says what its vertices are.
 Result<DemRead> readSource(const DemArguments& dem, const std::string& kind, Session& session);
 
 }  // namespace arete

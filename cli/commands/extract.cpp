@@ -19,6 +19,8 @@
 #include "cli/arguments/criterion.h"
 #include "cli/commands/check_command.h"
 #include "cli/session/model_file.h"
+#include "cli/surface/extract.h"
+#include "io/amt/surface_file.h"
 #include "io/crs/longitude_turns.h"
 #include "io/crs/map_scale.h"
 #include "io/dem/raster_writer.h"
@@ -51,7 +53,7 @@ struct ExtractArguments {
   std::string model;
   MeshOutput output;
   CriterionArguments criterion;
-  std::string certificate, errorRaster;
+  std::string certificate, errorRaster, map;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   CLI::Option* certificateOption = nullptr;
 };
@@ -254,8 +256,27 @@ void warnOfMapMetres(const std::vector<ExtractRequest>& requests, const TerrainM
         (*known.mapScale)[0], (*known.mapScale)[1]));
 }
 
+Status runSurfaceExtract(const ExtractArguments& arguments, Session& session) {
+  const auto asked = arguments.criterion.ofSurface();
+  if (!asked) return tl::unexpected(asked.error());
+  for (const auto& [option, isStated] : {std::pair{"--certificate", arguments.certificateOption->count() > 0},
+                                         std::pair{"--error-raster", !arguments.errorRaster.empty()}})
+    if (isStated) return failure(ErrorCode::usage, "is for terrain, and the file is of a surface", option);
+  return extractSurface({.model = arguments.model,
+                         .output = arguments.output.open(session),
+                         .format = arguments.output.format,
+                         .asked = *asked,
+                         .map = arguments.map,
+                         .existing = arguments.existing},
+                        session);
+}
+
 Status runExtract(const ExtractArguments& arguments, Session& session) {
   if (Status ok = arguments.criterion.check(); !ok) return ok;
+  const Result<bool> isSurface = isSurfaceAmt(arguments.model);
+  if (isSurface && *isSurface) return runSurfaceExtract(arguments, session);
+  if (!arguments.map.empty())
+    return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", "--map");
   const Result<AmtFile> file = openAmt(arguments.model);
   if (!file) return tl::unexpected(file.error());
   const Result<TerrainModel> outline = outlineForPlaces(*file, arguments.criterion, session);
@@ -309,6 +330,7 @@ void addExtractCommand(CLI::App& app, Session& session) {
       "  arete extract dem.amt -o tin.ply --max-error 1 --region road.gpkg --distance 500\n"
       "  arete extract dem.amt -o tin.ply --camera 384000,3800000,50 --look 120,-10 --pixel-error 2\n"
       "  arete extract dem.amt -o - --format ply --max-error 5 | gzip > tin.ply.gz\n"
+      "  arete extract scan.amt -o small.glb --max-error 0.5%\n"
       "  arete extract dem.amt -o smooth.tif --max-error 5 --error-raster error.tif",
       [arguments](Session& s) { return runExtract(*arguments, s); });
   command->add_option("FILE.amt", arguments->model, "Multitriangulation")->required()->type_name("");
@@ -329,6 +351,11 @@ void addExtractCommand(CLI::App& app, Session& session) {
   command
       ->add_option("--error-raster", arguments->errorRaster,
                    "GeoTIFF to write on the source grid: TIN height minus DEM height")
+      ->type_name("FILE");
+  command
+      ->add_option("--map", arguments->map,
+                   "Of a surface: CSV to write, with the input vertex of each output vertex and the output\n"
+                   "face of each input face, all from 0")
       ->type_name("FILE");
 }
 

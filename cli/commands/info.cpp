@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "cli/arguments/arguments.h"
+#include "cli/surface/info.h"
 #include "io/amt/file.h"
+#include "io/amt/surface_file.h"
 #include "io/crs/names.h"
 #include "terrain/model/error_curve.h"
 
@@ -79,11 +81,12 @@ void sayFacts(const InfoArguments& arguments, const TerrainModel& model, const F
   line("root", fmt::format("{} triangles, {} vertices ({} fixed)", grouped(mt.rootTriangleCount()),
                            grouped(mt.rootVertexCount()), grouped(o.fixedVertices.size())));
   line("levels", std::to_string(model.levels));
-  line("built with",
-       fmt::format(
-           "--shape {} --ratio {} --max-degree {}{}{}", toString(o.shape), o.thresholdRatioOrDefault(), o.maxDegree,
-           o.shape == HoleShape::dataDependent ? fmt::format(" --min-aspect {}", o.minimumAspect) : "",
-           o.rimTolerance > 0 ? fmt::format(" --rim-tolerance {}", o.rimTolerance) : ""));
+  line(
+      "built with",
+      fmt::format("--shape {} --ratio {} --max-degree {}{}{}", toString(o.shape), o.thresholdRatioOrDefault(),
+                  o.maxDegree,
+                  o.shape == HoleShape::dataDependent ? fmt::format(" --min-aspect {}", o.minimumAspect) : "",
+                  o.rimTolerance > 0 ? fmt::format(" --rim-tolerance {}", o.rimTolerance) : ""));
   const std::string& unit = model.georeference.verticalUnit;
   text += fmt::format("\n  {:>12}  {:>13}  {:>13}\n",
                       unit.empty() ? std::string("error") : fmt::format("error ({})", unit), "minimal",
@@ -143,6 +146,8 @@ Json factsJson(const InfoArguments& arguments, const TerrainModel& model, const 
 }
 
 Status runInfo(const InfoArguments& arguments, Session& session) {
+  if (const Result<bool> isSurface = isSurfaceAmt(arguments.model); isSurface && *isSurface)
+    return sayAboutSurface(arguments.model, session);
   const Result<AmtFile> file = openAmt(arguments.model);
   if (!file) return tl::unexpected(file.error());
   const Result<TerrainModel> model = loadAmt(arguments.model, {}, session.context());

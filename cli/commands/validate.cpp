@@ -11,7 +11,9 @@
 #include <variant>
 
 #include "cli/arguments/arguments.h"
+#include "cli/surface/validate.h"
 #include "io/amt/file.h"
+#include "io/amt/surface_file.h"
 #include "terrain/laws/compare_source.h"
 #include "terrain/laws/validate_model.h"
 
@@ -78,6 +80,11 @@ std::string scopeOf(const Law& law, const ErrorsChecked& checked) {
 }
 
 Status runValidate(const ValidateArguments& arguments, Session& session) {
+  if (const Result<bool> isSurface = isSurfaceAmt(arguments.model); isSurface && *isSurface) {
+    if (!arguments.source.path.empty())
+      return failure(ErrorCode::usage, "is for terrain, and the file is of a surface", "--against");
+    return validateSurfaceFile(arguments.model, session);
+  }
   const Result<TerrainModel> model = loadAmt(arguments.model, {}, session.context());
   if (!model) return tl::unexpected(model.error());
   ErrorsChecked checked;

@@ -104,8 +104,9 @@ void addMeshCropCommand(CLI::App& mesh, Session& session) {
   arguments->output.addTo(*command, "File to write", "");
   addOverwriteTo(*command, arguments->existing);
   command
-      ->add_option("--box", arguments->box,
-                   "Box in the coordinates of the input; a bound that is left out, or -inf or inf, does not bound")
+      ->add_option(
+          "--box", arguments->box,
+          "Box in the coordinates of the input; a bound that is left out, or -inf or inf, does not bound")
       ->required()
       ->type_name("X0,Y0,Z0,X1,Y1,Z1");
   command->add_flag("--whole", arguments->options.keepsWhole,

@@ -61,6 +61,7 @@ constexpr std::array kNames = {
     Name{"samples", "--samples"},
     Name{"seed", "--seed"},
     Name{"shape", "--shape"},
+    Name{"splitsSheets", "'arete mesh repair --split-sheets'"},
     Name{"targetHeight", "--target-height"},
     Name{"thresholdRatio", "--ratio"},
     Name{"unit", "--unit"},

@@ -20,12 +20,19 @@ class BuildSource : public Cli {
   }
 };
 
-TEST_F(BuildSource, OfAMeshWithFacesIsASurfaceWhichCannotBeBuiltYet) {
+TEST_F(BuildSource, OfAMeshWithFacesIsASurface) {
   for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--as", "surface"}}) {
-    const Outcome refused = build("hill.obj", more);
-    EXPECT_EQ(refused.code, 3);
-    EXPECT_NE(refused.err.find("--as terrain"), std::string::npos) << refused.err;
+    const Outcome built = build("hill.obj", more);
+    ASSERT_EQ(built.code, 0) << built.err;
+    EXPECT_EQ(built.json()["kind"], "surface");
+    EXPECT_EQ(built.json()["finestTriangles"], 4);
   }
+  // Options of terrain are refused by name.
+  const Outcome refused = build("hill.obj", {"--features", "3"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("--features"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("--as terrain"), std::string::npos) << refused.err;
+  EXPECT_EQ(build("points.csv", {"--keep-borders"}).code, 2);
 }
 
 TEST_F(BuildSource, TakesTheVerticesOfAMeshWhereStated) {

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A tolerance takes the least cut whose triangles all keep it. A budget is spent where the integral of the
+// squared distance is largest, which leaves about the least mean square error.
+#include "cli/surface/extract.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments/arguments.h"
+#include "cli/surface/criterion.h"
+#include "cli/surface/face_map.h"
+#include "cli/surface/tolerance.h"
+#include "engine/criteria/refine_order.h"
+#include "engine/cut/cut.h"
+#include "io/amt/surface_file.h"
+#include "io/exchange/mesh_formats.h"
+#include "io/file/file_writer.h"
+#include "surface/diagnosis/diagnosis.h"
+#include "surface/front/front.h"
+
+namespace arete {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Request {
+  std::string output, map;
+  std::optional<SurfaceTolerance> tolerance;
+};
+
+std::string named(const std::string& pattern, const std::string& tag, bool several) {
+  if (const std::size_t at = pattern.find("{}"); at != std::string::npos) {
+    std::string name = pattern;
+    name.replace(at, 2, tag);
+    return name;
+  }
+  if (!several || pattern.empty()) return pattern;
+  const fs::path path = pattern;
+  return (path.parent_path() / fmt::format("{}_{}{}", path.stem().string(), tag, path.extension().string()))
+      .string();
+}
+
+/// The part of a file's name that stands for a budget or a view.
+std::string tagOf(const CriterionArguments::OfSurface& asked) {
+  if (asked.maxTriangles) return std::to_string(*asked.maxTriangles);
+  return fmt::format("{}px", asked.pixelError.value_or(1));
+}
+
+Result<std::vector<Request>> requestsOf(const SurfaceExtractArguments& arguments, const SurfaceModel& model) {
+  if (arguments.asked.maxErrors.empty())
+    return std::vector<Request>{{named(arguments.output, tagOf(arguments.asked), false), arguments.map, {}}};
+  const auto tolerances = parseSurfaceTolerances("--max-error", arguments.asked.maxErrors, model.diagonal);
+  if (!tolerances) return tl::unexpected(tolerances.error());
+  const bool several = tolerances->size() > 1;
+  std::vector<Request> requests;
+  for (const SurfaceTolerance& tolerance : *tolerances)
+    requests.push_back({named(arguments.output, tolerance.text, several),
+                        named(arguments.map, tolerance.text, several), tolerance});
+  return requests;
+}
+
+Status checkOutputs(const SurfaceExtractArguments& arguments, const std::vector<Request>& requests) {
+  std::vector<std::string> outputs;
+  for (const Request& request : requests) {
+    const Result<MeshFormat> format = meshFormatOf(request.output, arguments.format);
+    if (!format || !format->write)
+      return failure(ErrorCode::usage,
+                     format ? fmt::format("{} cannot be written", format->name) : format.error().message,
+                     fmt::format("--output {}", request.output));
+    for (const auto& [option, path] :
+         {std::pair{"--output", &request.output}, std::pair{"--map", &request.map}}) {
+      if (path->empty()) continue;
+      if (Status checked = checkOutput(option, *path, {arguments.model}, outputs); !checked) return checked;
+      outputs.push_back(*path);
+    }
+  }
+  return {};
+}
+
+/// What keeps the root from having fewer triangles.
+std::string whyNotFewer(const SurfaceModel& model, const RunContext& context) {
+  const Cut root = frontOfPrefix(model.mt, 0);
+  TriangleMesh mesh;
+  for (const std::uint32_t v : root.vertices) mesh.positions.push_back(model.mt.position(VertexId(v)));
+  mesh.triangles = root.triangles;
+  const Result<MeshDiagnosis> d = diagnose(mesh, {.selfIntersections = false}, context);
+  if (!d) return {};
+  std::uint64_t handles = 0, borders = 0;
+  for (const ComponentDiagnosis& c : d->components) {
+    handles += static_cast<std::uint64_t>(std::max<std::int64_t>(0, c.genus.value_or(0)));
+    borders += c.borders;
+  }
+  std::string why =
+      fmt::format("{} component{}", grouped(d->components.size()), d->components.size() == 1 ? "" : "s");
+  if (handles > 0) why += fmt::format(", {} handles", grouped(handles));
+  if (borders > 0)
+    why +=
+        fmt::format(", {} borders{}", grouped(borders), model.options.keepsBorders ? ", which are kept" : "");
+  if (model.hasWedges()) why += ", seams";
+  if (!model.attributes.materialOf.empty() || !model.attributes.objectOf.empty())
+    why += ", edges between materials or objects";
+  return why;
+}
+
+Result<Cut> cutOf(const CriterionArguments::OfSurface& asked, const SurfaceModel& model,
+                  const Request& request, const RunContext& context) {
+  const auto criterion = surfaceCriterion(
+      asked, request.tolerance ? std::optional(request.tolerance->distance) : std::nullopt, model);
+  if (!criterion) return tl::unexpected(criterion.error());
+  CutOptions options;
+  options.method = asked.isSaturated ? CutMethod::saturated : CutMethod::minimal;
+  options.maxTriangles = asked.maxTriangles;
+  const bool isEverywhere = asked.region.empty() && asked.camera.empty();
+  if (asked.maxTriangles && isEverywhere && !asked.isSaturated)
+    options.order = std::make_shared<LargestSquaresFirst>();
+  Result<Cut> cut = takeCut(model.mt, **criterion, options, context);
+  if (!cut && asked.maxTriangles && *asked.maxTriangles < model.mt.rootTriangleCount())
+    return failure(ErrorCode::usage,
+                   fmt::format("the coarsest surface has {} triangles: it has {}",
+                               grouped(model.mt.rootTriangleCount()), whyNotFewer(model, context)),
+                   fmt::format("--max-triangles {}", *asked.maxTriangles));
+  return cut;
+}
+
+Status writeMap(const std::string& path, const SurfaceModel& model, const Cut& cut,
+                const SurfaceFront& front) {
+  Result<FileWriter> out = FileWriter::create(path);
+  if (!out) return tl::unexpected(out.error());
+  out->write("what,output,input\n");
+  for (std::size_t v = 0; v < front.vertexOf.size(); ++v)
+    out->write(fmt::format("vertex,{},{}\n", v, front.vertexOf[v]));
+  const std::vector<std::uint32_t> faces = facesOf(model, cut);
+  const std::vector<std::uint32_t>& fileFace = model.attributes.faceOf;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (faces[f] != MeshAttributes::kNone)
+      out->write(fmt::format("face,{},{}\n", faces[f], fileFace.empty() ? f : fileFace[f]));
+  return out->finish();
+}
+
+Result<std::uint64_t> crossingsOf(const TriangleMesh& mesh, const RunContext& context) {
+  const Result<MeshDiagnosis> d = diagnose(mesh, {.mostPlaces = 1}, context);
+  if (!d) return tl::unexpected(d.error());
+  return d->selfIntersections->count;
+}
+
+class Extraction {
+ public:
+  Extraction(const SurfaceExtractArguments& arguments, const SurfaceModel& model, Session& session)
+      : arguments_(arguments), model_(model), session_(session) {}
+
+  Status run(const Request& request) {
+    const Result<Cut> cut = cutOf(arguments_.asked, model_, request, session_.context());
+    if (!cut) return tl::unexpected(cut.error());
+    SurfaceFront front = surfaceOf(model_, *cut);
+    const Result<std::uint64_t> crossings = crossingsOf(front.mesh, session_.context());
+    if (!crossings) return tl::unexpected(crossings.error());
+    if (*crossings > 0)
+      if (Status counted = countSourceCrossings(); !counted) return counted;
+    MeshWriteOptions options;
+    options.crsWkt = model_.crsWkt;
+    options.verticalUnit = model_.verticalUnit;
+    // A glTF has them in a frame of its own, whose z is up.
+    const Result<MeshFormat> format = meshFormatOf(request.output, arguments_.format);
+    const bool isGltf = format && (format->extension == ".glb" || format->extension == ".gltf");
+    if (!isGltf || model_.up == "z") options.triangleErrors = front.errors;
+    options.format = arguments_.format;
+    options.existing = arguments_.existing;
+    options.up = model_.up == "y" ? MeshUp::y : model_.up == "z" ? MeshUp::z : MeshUp::unknown;
+    const Result<MeshWriteReport> written =
+        writeMesh(front.mesh, request.output, options, session_.context());
+    if (!written) return tl::unexpected(written.error());
+    std::vector<std::string> warnings;
+    for (const std::string& lost : written->lost) warnings.push_back(fmt::format("cannot hold {}", lost));
+    session_.warn(warnings, request.output);
+    if (!request.map.empty())
+      if (Status mapped = writeMap(request.map, model_, *cut, front); !mapped) return mapped;
+    say(request, *cut, front, *crossings, *written);
+    return {};
+  }
+
+  Json& exports() { return exports_; }
+
+ private:
+  Status countSourceCrossings() {
+    if (sourceCrossings_) return {};
+    const SurfaceFront finest = surfaceOf(model_, frontOfPrefix(model_.mt, model_.mt.nodeCount()));
+    const Result<std::uint64_t> count = crossingsOf(finest.mesh, session_.context());
+    if (!count) return tl::unexpected(count.error());
+    sourceCrossings_ = *count;
+    return {};
+  }
+
+  void say(const Request& request, const Cut& cut, const SurfaceFront& front, std::uint64_t crossings,
+           const MeshWriteReport& written) {
+    std::string text =
+        fmt::format("{}: {} triangles, {} vertices, no point of the source farther than {}\n", request.output,
+                    grouped(front.mesh.triangles.size()), grouped(front.mesh.positions.size()),
+                    withShare(cut.achievedError, model_.diagonal));
+    if (crossings > 0)
+      text += fmt::format("  crossings  {} pairs of triangles; the source has {}\n", grouped(crossings),
+                          grouped(*sourceCrossings_));
+    for (const fs::path& beside : written.filesBeside)
+      text += fmt::format("  beside     {}\n", beside.string());
+    if (!request.map.empty()) text += fmt::format("  map        {}\n", request.map);
+    session_.say(text);
+    Json json = {{"file", request.output},
+                 {"triangles", front.mesh.triangles.size()},
+                 {"vertices", front.mesh.positions.size()},
+                 {"error", cut.achievedError},
+                 {"errorPercent", 100 * cut.achievedError / model_.diagonal},
+                 {"complete", cut.isComplete},
+                 {"selfIntersections", crossings},
+                 {"lost", written.lost}};
+    if (sourceCrossings_) json["sourceSelfIntersections"] = *sourceCrossings_;
+    if (request.tolerance && std::isfinite(request.tolerance->distance))
+      json["maxError"] = request.tolerance->distance;
+    if (arguments_.asked.maxTriangles) json["maxTriangles"] = *arguments_.asked.maxTriangles;
+    if (!request.map.empty()) json["map"] = request.map;
+    exports_.push_back(std::move(json));
+  }
+
+  const SurfaceExtractArguments& arguments_;
+  const SurfaceModel& model_;
+  Session& session_;
+  std::optional<std::uint64_t> sourceCrossings_;
+  Json exports_ = Json::array();
+};
+
+}  // namespace
+
+Status extractSurface(const SurfaceExtractArguments& arguments, Session& session) {
+  const Result<SurfaceModel> model = loadSurfaceAmt(arguments.model, AmtVerify::all, session.context());
+  if (!model) return tl::unexpected(model.error());
+  const auto requests = requestsOf(arguments, *model);
+  if (!requests) return tl::unexpected(requests.error());
+  if (Status checked = checkOutputs(arguments, *requests); !checked) return checked;
+  Extraction extraction(arguments, *model, session);
+  for (const Request& request : *requests)
+    if (Status extracted = extraction.run(request); !extracted) return extracted;
+  session.answer({{"model", arguments.model},
+                  {"kind", "surface"},
+                  {"diagonal", model->diagonal},
+                  {"exports", std::move(extraction.exports())}});
+  return {};
+}
+
+}  // namespace arete

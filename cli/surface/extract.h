@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "cli/arguments/criterion.h"
+#include "cli/session/session.h"
+#include "engine/base/result.h"
+#include "io/file/existing_file.h"
+
+namespace arete {
+
+struct SurfaceExtractArguments {
+  std::string model;
+  std::string output, format;  ///< as MeshOutput; {} in the name becomes the tolerance
+  CriterionArguments::OfSurface asked;
+  std::string map;  ///< --map; empty: none
+  ExistingFile existing = ExistingFile::keepsOtherLayers;
+};
+
+/// `arete extract` of a surface: one mesh for each tolerance, or the one of a budget. Errors: those of
+/// loadSurfaceAmt(), takeCut(), writeMesh(); usage, naming the option; a budget below the root's triangles,
+/// with the least count and what forbids fewer.
+Status extractSurface(const SurfaceExtractArguments& arguments, Session& session);
+
+}  // namespace arete

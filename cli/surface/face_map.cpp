@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/surface/face_map.h"
+
+#include <limits>
+
+#include "engine/base/nearest_on_triangle.h"
+
+namespace arete {
+namespace {
+
+constexpr std::uint32_t kNone = MeshAttributes::kNone;
+
+SpaceTriangle placeOf(const MultiTriangulation& mt, TriangleId t) {
+  const auto [a, b, c] = mt.corners(t);
+  return {mt.position(VertexId(a)), mt.position(VertexId(b)), mt.position(VertexId(c))};
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> facesOf(const SurfaceModel& model, const Cut& cut) {
+  const MultiTriangulation& mt = model.mt;
+  std::vector<std::uint32_t> numberOf(mt.triangleIdCount(), kNone);
+  for (std::uint32_t i = 0; i < cut.ids.size(); ++i) numberOf[cut.ids[i]] = i;
+  std::vector<std::uint32_t> found(model.sourceFaces, kNone);
+  for (std::uint32_t finest = 0; finest < mt.triangleIdCount(); ++finest) {
+    if (mt.remover(TriangleId(finest)).isValid()) continue;
+    const SpaceTriangle face = placeOf(mt, TriangleId(finest));
+    const Vec3 middle = (face[0] + face[1] + face[2]) / 3.0;
+    std::uint32_t t = finest;
+    while (numberOf[t] == kNone) {
+      std::uint32_t nearest = kNone;
+      double least = std::numeric_limits<double>::infinity();
+      for (const std::uint32_t candidate : mt.floor(mt.creator(TriangleId(t)))) {
+        const double distance = distanceToTriangle(middle, placeOf(mt, TriangleId(candidate)));
+        if (distance < least || nearest == kNone) nearest = candidate;
+        least = std::min(least, distance);
+      }
+      t = nearest;
+    }
+    found[model.faceOf[finest]] = numberOf[t];
+  }
+  return found;
+}
+
+}  // namespace arete

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/cut/cut.h"
+#include "surface/model/surface_model.h"
+
+namespace arete {
+
+/// For every face of the source the triangle of a cut that stands for its middle, by their numbers; kNone for
+/// faces that the build left out. From the finest triangle a face climbs, where a node of the cut's
+/// complement put it, to the nearest triangle of what the node replaced. O(faces * depth).
+std::vector<std::uint32_t> facesOf(const SurfaceModel& model, const Cut& cut);
+
+}  // namespace arete

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/surface/info.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "cli/arguments/arguments.h"
+#include "cli/surface/tolerance.h"
+#include "engine/criteria/criterion.h"
+#include "engine/cut/cut.h"
+#include "io/amt/surface_file.h"
+#include "io/crs/names.h"
+
+namespace arete {
+namespace {
+
+struct CurvePoint {
+  double error;
+  std::uint64_t minimal, saturated;
+};
+
+/// Triangles of cuts at round shares of the diagonal.
+Result<std::vector<CurvePoint>> curveOf(const SurfaceModel& model, const RunContext& context) {
+  std::vector<CurvePoint> curve;
+  for (const double percent : {0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0}) {
+    const double error = percent / 100 * model.diagonal;
+    if (error >= model.mt.largestError()) break;
+    const Result<Cut> cut = takeCut(model.mt, UniformError(error), {}, context);
+    if (!cut) return tl::unexpected(cut.error());
+    curve.push_back({error, cut->triangles.size(), uniformTriangleCount(model.mt, error)});
+  }
+  return curve;
+}
+
+}  // namespace
+
+Status sayAboutSurface(const std::string& path, Session& session) {
+  const Result<SurfaceModel> model = loadSurfaceAmt(path, AmtVerify::all, session.context());
+  if (!model) return tl::unexpected(model.error());
+  const Result<std::vector<CurvePoint>> curve = curveOf(*model, session.context());
+  if (!curve) return tl::unexpected(curve.error());
+  const MultiTriangulation& mt = model->mt;
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  const std::uint64_t bytes = error ? 0 : size;
+  const MeshAttributes& a = model->attributes;
+  std::string text = fmt::format("{}: {}, a surface\n", path, byteCount(bytes));
+  const auto line = [&](const char* what, const std::string& value) {
+    text += fmt::format("  {:<14} {}\n", what, value);
+  };
+  line("source", fmt::format("{}, {} faces, {} vertices", model->source, grouped(model->sourceFaces),
+                             grouped(model->sourceVertices)));
+  if (!model->crsWkt.empty()) line("CRS", crsName(model->crsWkt));
+  line("diagonal", fmt::format("{:.9g}", model->diagonal));
+  line("places", mt.vertices().places64.empty() ? "float32" : "float64");
+  line("triangles", fmt::format("{} at the finest, {} in all", grouped(mt.finestTriangleCount()),
+                                grouped(mt.triangleCount())));
+  line("root", fmt::format("{} triangles, {} vertices, error at most {}", grouped(mt.rootTriangleCount()),
+                           grouped(mt.rootVertexCount()), withShare(mt.largestError(), model->diagonal)));
+  line("levels", std::to_string(model->levels));
+  line("attributes", fmt::format("{} of vertices, {} of corners, {} of faces", a.vertexAttributes.size(),
+                                 a.wedgeAttributes.size(), a.triangleAttributes.size()));
+  if (!a.objects.empty()) line("objects", grouped(a.objects.size()));
+  if (!a.materials.empty())
+    line("materials", fmt::format("{}, {} pictures inside", a.materials.size(), a.pictures.size()));
+  text += fmt::format("\n  {:>12}  {:>9}  {:>13}  {:>13}\n", "error", "diagonal", "minimal", "saturated");
+  Json points = Json::array();
+  for (const CurvePoint& p : *curve) {
+    text += fmt::format("  {:>12.4g}  {:>7.3g} %  {:>13}  {:>13}\n", p.error, 100 * p.error / model->diagonal,
+                        grouped(p.minimal), grouped(p.saturated));
+    points.push_back({{"maxError", p.error}, {"minimal", p.minimal}, {"saturated", p.saturated}});
+  }
+  session.say(text);
+  session.answer({{"file", path},
+                  {"kind", "surface"},
+                  {"bytes", bytes},
+                  {"source", model->source},
+                  {"crs", crsName(model->crsWkt)},
+                  {"sourceFaces", model->sourceFaces},
+                  {"sourceVertices", model->sourceVertices},
+                  {"diagonal", model->diagonal},
+                  {"vertices", mt.vertexCount()},
+                  {"triangles", mt.triangleCount()},
+                  {"finestTriangles", mt.finestTriangleCount()},
+                  {"rootTriangles", mt.rootTriangleCount()},
+                  {"rootVertices", mt.rootVertexCount()},
+                  {"rootError", mt.largestError()},
+                  {"levels", model->levels},
+                  {"curve", std::move(points)}});
+  return {};
+}
+
+}  // namespace arete

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "cli/session/session.h"
+#include "engine/base/result.h"
+
+namespace arete {
+
+/// `arete info` of the .amt file of a surface. Errors: those of loadSurfaceAmt().
+Status sayAboutSurface(const std::string& path, Session& session);
+
+}  // namespace arete

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/surface/validate.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "io/amt/surface_file.h"
+#include "surface/laws/validate_surface.h"
+
+namespace arete {
+namespace {
+
+struct Law {
+  int number;
+  const char* says;
+};
+
+constexpr std::array kLaws = {
+    Law{1, "every parent is older than its child"},
+    Law{2, "a node's floor and ceiling have the same boundary"},
+    Law{3, "a triangle has one creator, at most one remover, and occurs once"},
+    Law{4, "no part of a node is a modification by itself"},
+    Law{5, "fronts are oriented manifolds of the topology of the source"},
+    Law{6, "saturated errors and spheres contain those of the children"},
+    Law{8, "the finest front has all faces that the build kept"},
+};
+
+}  // namespace
+
+Status validateSurfaceFile(const std::string& path, Session& session) {
+  const Result<SurfaceModel> model = loadSurfaceAmt(path, AmtVerify::all, session.context());
+  if (!model) return tl::unexpected(model.error());
+  const Status valid = validateSurface(*model, session.context());
+  if (!valid && valid.error().code == ErrorCode::interrupted) return valid;
+  Json laws = Json::array();
+  std::string text = fmt::format("{}: checksums, indices and every law hold\n", path);
+  for (const Law& law : kLaws) {
+    text += fmt::format("  law {}  holds  {}\n", law.number, law.says);
+    laws.push_back({{"law", law.number}, {"says", law.says}, {"claimed", true}});
+  }
+  Json json = {{"file", path}, {"kind", "surface"}, {"holds", valid.has_value()}};
+  if (valid) {
+    session.say(text);
+    json["laws"] = std::move(laws);
+  } else {
+    json["violation"] = valid.error().message;
+  }
+  session.answer(json);
+  if (!valid) return failure(valid.error().code, valid.error().message, path);
+  return {};
+}
+
+}  // namespace arete

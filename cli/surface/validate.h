@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "cli/session/session.h"
+#include "engine/base/result.h"
+
+namespace arete {
+
+/// `arete validate` of the .amt file of a surface. Errors: those of loadSurfaceAmt(); brokenPromise: names
+/// the law that is broken.
+Status validateSurfaceFile(const std::string& path, Session& session);
+
+}  // namespace arete

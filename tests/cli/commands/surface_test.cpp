@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A surface from a mesh to its levels of detail, as a user meets it.
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "cli/cli_fixture.h"
+
+namespace arete::cli_test {
+namespace {
+
+class SurfaceCommands : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    write("ball.obj", ball(24, 14));
+  }
+  /// A sphere of radius 1 with a texture whose seam runs from pole to pole.
+  static std::string ball(int around, int rings) {
+    std::ostringstream text;
+    text << "mtllib ball.mtl\nv 0 0 1\nv 0 0 -1\nusemtl skin\n";
+    for (int r = 0; r < rings; ++r)
+      for (int c = 0; c < around; ++c) {
+        const double u = 2 * M_PI * c / around, v = M_PI * (r + 1) / (rings + 1);
+        text << "v " << std::sin(v) * std::cos(u) << ' ' << std::sin(v) * std::sin(u) << ' ' << std::cos(v)
+             << '\n';
+      }
+    for (int r = 0; r < rings; ++r)
+      for (int c = 0; c <= around; ++c)
+        text << "vt " << double(c) / around << ' ' << double(r) / rings << '\n';
+    text << "vt 0.5 0\nvt 0.5 1\n";
+    const auto corner = [&](int r, int c) {
+      return std::to_string(3 + r * around + c % around) + "/" + std::to_string(1 + r * (around + 1) + c);
+    };
+    const std::string north = "1/" + std::to_string(rings * (around + 1) + 1),
+                      south = "2/" + std::to_string(rings * (around + 1) + 2);
+    for (int c = 0; c < around; ++c) {
+      text << "f " << north << ' ' << corner(0, c) << ' ' << corner(0, c + 1) << '\n';
+      text << "f " << south << ' ' << corner(rings - 1, c + 1) << ' ' << corner(rings - 1, c) << '\n';
+      for (int r = 0; r + 1 < rings; ++r)
+        text << "f " << corner(r, c) << ' ' << corner(r + 1, c) << ' ' << corner(r + 1, c + 1) << ' '
+             << corner(r, c + 1) << '\n';
+    }
+    return text.str();
+  }
+};
+
+TEST_F(SurfaceCommands, BuildInfoValidateAndExtract) {
+  write("ball.mtl", "newmtl skin\nKd 1 0.5 0.25\nmap_Kd skin.png\n");
+  write("skin.png", "\x89PNG\r\n\x1a\n not a real picture");
+  const Outcome built = run({"build", "ball.obj", "-o", "ball.amt", "--json"});
+  ASSERT_EQ(built.code, 0) << built.err;
+  EXPECT_EQ(built.json()["kind"], "surface");
+  EXPECT_EQ(run({"validate", "ball.amt"}).code, 0);
+  const Json info = run({"info", "ball.amt", "--json"}).json();
+  EXPECT_EQ(info["kind"], "surface");
+  EXPECT_EQ(info["finestTriangles"], built.json()["finestTriangles"]);
+
+  const Outcome two = run({"extract", "ball.amt", "-o", "out.obj", "--max-error", "1%,5%", "--json"});
+  ASSERT_EQ(two.code, 0) << two.err;
+  const double diagonal = two.json()["diagonal"];
+  for (const auto& [file, share] : {std::pair{"out_1%.obj", 0.01}, std::pair{"out_5%.obj", 0.05}}) {
+    ASSERT_TRUE(exists(file)) << file;
+    const Outcome measured = run({"measure", file, "ball.obj", "--json"});
+    ASSERT_EQ(measured.code, 0) << measured.err;
+    EXPECT_LE(measured.json()["fromSecond"]["maximum"].get<double>(), share * diagonal);
+    const Json mesh = run({"mesh", "info", file, "--json"}).json();
+    EXPECT_EQ(mesh["components"].size(), 1u);
+    EXPECT_GT(mesh["seamEdges"], 0);
+  }
+  EXPECT_LT(two.json()["exports"][1]["triangles"], two.json()["exports"][0]["triangles"]);
+  EXPECT_TRUE(exists("skin.png"));
+}
+
+TEST_F(SurfaceCommands, ABudgetIsKeptOrRefusedWithTheLeastCountAndWhy) {
+  ASSERT_EQ(run({"build", "ball.obj", "-o", "ball.amt"}).code, 0);
+  const Outcome kept = run({"extract", "ball.amt", "-o", "out.ply", "--max-triangles", "100", "--json"});
+  ASSERT_EQ(kept.code, 0) << kept.err;
+  EXPECT_LE(kept.json()["exports"][0]["triangles"], 100);
+  EXPECT_GE(kept.json()["exports"][0]["triangles"], 90);
+  const Outcome refused = run({"extract", "ball.amt", "-o", "none.ply", "--max-triangles", "3"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("1 component, seams"), std::string::npos) << refused.err;
+  EXPECT_FALSE(exists("none.ply"));
+}
+
+TEST_F(SurfaceCommands, TheMapNamesAnInputOfEveryVertexAndAnOutputOfEveryFace) {
+  ASSERT_EQ(run({"build", "ball.obj", "-o", "ball.amt"}).code, 0);
+  const Outcome made =
+      run({"extract", "ball.amt", "-o", "out.obj", "--max-triangles", "80", "--map", "map.csv", "--json"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  std::istringstream map(read("map.csv")), in(read("ball.obj")), out(read("out.obj"));
+  const auto places = [](std::istringstream& text) {
+    std::vector<std::array<double, 3>> found;
+    for (std::string line; std::getline(text, line);) {
+      std::array<double, 3> p{};
+      if (std::sscanf(line.c_str(), "v %lf %lf %lf", &p[0], &p[1], &p[2]) == 3) found.push_back(p);
+    }
+    return found;
+  };
+  const auto from = places(in), to = places(out);
+  std::map<std::string, int> rows;
+  std::string line;
+  std::getline(map, line);
+  EXPECT_EQ(line, "what,output,input");
+  std::set<std::size_t> faces;
+  while (std::getline(map, line)) {
+    char what[8];
+    std::size_t output = 0, input = 0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%7[a-z],%zu,%zu", what, &output, &input), 3) << line;
+    ++rows[what];
+    if (std::string(what) == "vertex")
+      EXPECT_EQ(to.at(output), from.at(input));
+    else
+      faces.insert(input);
+  }
+  EXPECT_EQ(rows["vertex"], made.json()["exports"][0]["vertices"]);
+  EXPECT_EQ(faces.size(), 24u * 15) << "polygons of the file";
+}
+
+TEST_F(SurfaceCommands, RegionsAndCamerasTakeDetailWhereItIsWanted) {
+  ASSERT_EQ(run({"build", "ball.obj", "-o", "ball.amt"}).code, 0);
+  const auto trianglesOf = [&](std::vector<std::string> more, const char* name) {
+    std::vector<std::string> words = {"extract", "ball.amt", "-o", name, "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome made = run(words);
+    EXPECT_EQ(made.code, 0) << made.err;
+    return made.code == 0 ? made.json()["exports"][0]["triangles"].get<int>() : 0;
+  };
+  const int everywhere = trianglesOf({"--max-error", "0.2%"}, "all.ply");
+  const int box =
+      trianglesOf({"--max-error", "0.2%", "--region", "0,0,0,2,2,2", "--outside-error", "4%"}, "box.ply");
+  const int ball = trianglesOf({"--max-error", "0.2%", "--region", "1,0,0,0.4"}, "part.ply");
+  EXPECT_LT(box, everywhere * 2 / 3);
+  EXPECT_LT(ball, box);
+  // A camera sees one side.
+  const int seen = trianglesOf({"--camera", "3,0,0,0,0,0,40", "--pixel-error", "2"}, "seen.ply");
+  const int away = trianglesOf({"--camera", "3,0,0,9,0,0,40", "--pixel-error", "2"}, "away.ply");
+  EXPECT_LT(away, seen / 2);
+  EXPECT_LE(trianglesOf({"--camera", "3,0,0,0,0,0", "--max-triangles", "60"}, "few.ply"), 60);
+}
+
+TEST_F(SurfaceCommands, WhatIsForTerrainIsRefusedByName) {
+  ASSERT_EQ(run({"build", "ball.obj", "-o", "ball.amt"}).code, 0);
+  makeRaster("dem.tif", "fractal", 9, 9);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& because) {
+    const Outcome outcome = run(words);
+    EXPECT_NE(outcome.code, 0) << words[0];
+    EXPECT_NE(outcome.err.find(because), std::string::npos) << outcome.err;
+  };
+  refused({"height", "ball.amt", "--at", "0,0"}, "is of a surface");
+  refused({"los", "ball.amt", "--from", "0,0,1", "--to", "1,1,1"}, "is of a surface");
+  refused({"extract", "ball.amt", "-o", "x.ply", "--max-error", "1", "--region", "0,0,1"}, "a ball x,y,z,r");
+  refused({"extract", "ball.amt", "-o", "x.ply", "--max-error", "1", "--fit", "triangles"}, "--fit");
+  refused({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1%"}, "for surfaces");
+  refused({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--map", "m.csv"}, "--map");
+  refused({"build", "ball.obj", "-o", "y.amt", "--packed"}, "--packed");
+  refused({"build", "dem.tif", "-o", "y.amt", "--keep-borders"}, "--keep-borders");
+}
+
+}  // namespace
+}  // namespace arete::cli_test
