@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "datasets/noise.h"
@@ -39,17 +38,16 @@ constexpr std::array kSurfaces = {
 
 constexpr double kNoData = std::numeric_limits<double>::quiet_NaN();
 
-/// The largest gap between neighbours of sorted heights, and the range on its side with more of them.
-std::pair<double, double> largestGap(std::vector<double> heights) {
+/// Whether some heights stand apart from the others: across a gap that is wider than the range of those on
+/// its side with more of them.
+bool standApart(std::vector<double> heights) {
   std::ranges::sort(heights);
-  std::pair<double, double> largest{0, 0};
   for (std::size_t i = 1; i < heights.size(); ++i) {
-    const double gap = heights[i] - heights[i - 1];
-    if (!(gap > largest.first)) continue;
-    const bool isAboveMore = 2 * i < heights.size();
-    largest = {gap, isAboveMore ? heights.back() - heights[i] : heights[i - 1] - heights.front()};
+    const double rest =
+        2 * i < heights.size() ? heights.back() - heights[i] : heights[i - 1] - heights.front();
+    if (heights[i] - heights[i - 1] > rest) return true;
   }
-  return largest;
+  return false;
 }
 
 }  // namespace
@@ -92,7 +90,7 @@ HostileHeights hostileHeights(std::uint64_t seed, std::uint32_t columns, std::ui
   made.isOrdinary = largest < 1e30 && high - low > 0x1p20 * ulp;
 
   // On a level with a few hills the hills themselves may stand alone.
-  if (const auto [gap, rest] = largestGap(field.heights); gap > rest) made.isOrdinary = false;
+  if (standApart(field.heights)) made.isOrdinary = false;
 
   const double relief = high - low;
   const auto anywhere = [&] { return std::size_t(random.below(columns * rows)); };

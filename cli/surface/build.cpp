@@ -119,7 +119,7 @@ Status buildSurfaceFile(const SurfaceBuildArguments& arguments, MeshInput input,
   embedPictures(file, session, arguments.input);
 
   Stopwatch building;
-  Result<SurfaceModel> model = buildSurface(file.mesh, arguments.options, session.context());
+  Result<SurfaceModel> model = buildSurface(std::move(file.mesh), arguments.options, session.context());
   if (!model) {
     Error error = model.error();
     if (error.culprit.empty()) error.culprit = arguments.input;

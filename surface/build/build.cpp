@@ -9,14 +9,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include "engine/base/caught_failure.h"
 #include "engine/base/morton.h"
+#include "engine/memory/pages.h"
 #include "engine/memory/uninitialized_vector.h"
 #include "engine/mt/hole_limit.h"
 #include "engine/parallel/with_threads.h"
@@ -77,23 +76,6 @@ std::vector<std::uint32_t> orderAlongCurve(const TriangleMesh& mesh, const Box& 
   return order;
 }
 
-/// By face: a number for each object and material. Empty if there is one only. A group is no part: a face of
-/// an OBJ may be in any, and groups say nothing about looks.
-std::vector<std::uint32_t> partsOf(const SurfaceMesh& mesh) {
-  const auto at = [](const std::vector<std::uint32_t>& of, std::size_t f) {
-    return of.empty() ? MeshAttributes::kNone : of[f];
-  };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;
-  std::vector<std::uint32_t> parts;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-    parts.push_back(numbers
-                        .try_emplace({at(mesh.objectOf, f), at(mesh.materialOf, f)},
-                                     static_cast<std::uint32_t>(numbers.size()))
-                        .first->second);
-  if (numbers.size() < 2) parts.clear();
-  return parts;
-}
-
 std::vector<std::uint8_t> fixedVertices(const LiveMesh& live, std::size_t vertexCount, bool keepsBorders,
                                         std::span<const VertexId> pinched) {
   std::vector<std::uint8_t> isFixed(vertexCount, 0);
@@ -139,16 +121,17 @@ void sortFaces(PreparedSurface& prepared, std::span<const std::uint32_t> order) 
   sorted(prepared.mesh.triangles);
   sorted(prepared.mesh.wedges);
   sorted(prepared.faceOf);
+  sorted(prepared.partOf);
 }
 
 class SurfaceBuild {
  public:
-  SurfaceBuild(const SurfaceMesh& source, const SurfaceBuildOptions& options, const RunContext& context)
-      : source_(source), options_(options), context_(context) {}
+  SurfaceBuild(const SurfaceBuildOptions& options, const RunContext& context)
+      : options_(options), context_(context) {}
 
-  Result<SurfaceModel> run() {
+  Result<SurfaceModel> run(SurfaceMesh source) {
     if (const Status valid = checkOptions(options_); !valid) return tl::unexpected(valid.error());
-    Result<PreparedSurface> prepared = prepareSurface(source_, context_);
+    Result<PreparedSurface> prepared = prepareSurface(std::move(source), context_);
     if (!prepared) return tl::unexpected(prepared.error());
     prepared_ = std::move(*prepared);
     const TriangleMesh& mesh = prepared_.mesh;
@@ -159,21 +142,14 @@ class SurfaceBuild {
     if (!(box_.diagonal() < 1e30) || !(box_.diagonal() > 1e-30))
       return failure(ErrorCode::invalidData,
                      fmt::format("a diagonal of {} is not between 1e-30 and 1e30", box_.diagonal()));
-    // Parts are by face of the prepared mesh, before and after it is sorted.
-    std::vector<std::uint32_t> parts = partsOf(prepared_.mesh);
-    const std::vector<std::uint32_t> order = orderAlongCurve(mesh, box_);
-    sortFaces(prepared_, order);
-    if (!parts.empty()) {
-      std::vector<std::uint32_t> sorted;
-      for (const std::uint32_t f : order) sorted.push_back(parts[f]);
-      parts.swap(sorted);
-    }
-    if (const Status done = simplify(parts); !done) return tl::unexpected(done.error());
+    sortFaces(prepared_, orderAlongCurve(mesh, box_));
+    giveFreeHeapBack();
+    if (const Status done = simplify(); !done) return tl::unexpected(done.error());
     return std::move(model_);
   }
 
  private:
-  Status simplify(std::span<const std::uint32_t> parts) {
+  Status simplify() {
     const TriangleMesh& mesh = prepared_.mesh;
     const auto vertexCount = static_cast<std::uint32_t>(mesh.positions.size());
     const auto faceCount = static_cast<std::uint32_t>(mesh.triangles.size());
@@ -196,7 +172,7 @@ class SurfaceBuild {
                        .maxDegree = options_.maxDegree,
                        .thresholdRatio = options_.thresholdRatio,
                        .unit = std::ldexp(1.0, -std::ilogb(box_.diagonal())),
-                       .parts = {prepared_.mesh.hasWedges(), parts}};
+                       .parts = {prepared_.mesh.hasWedges(), prepared_.partOf}};
     state.labels.resize(faceCount);
     for (std::uint32_t f = 0; f < faceCount; ++f)
       state.labels.set(
@@ -206,6 +182,7 @@ class SurfaceBuild {
     state.pieces = {};
     live = {};
     state.records = {};
+    giveFreeHeapBack();
     context_.report("finish", 0);
     finish(*root, recorder, state);
     context_.report("finish", 1);
@@ -252,8 +229,8 @@ class SurfaceBuild {
     model_.options = options_;
     model_.mending = prepared_.mending;
     model_.diagonal = box_.diagonal();
-    model_.sourceVertices = source_.positions.size();
-    model_.sourceFaces = source_.triangles.size();
+    model_.sourceVertices = prepared_.sourceVertices;
+    model_.sourceFaces = prepared_.sourceFaces;
     for (const std::uint32_t v : order) model_.vertexOf.push_back(prepared_.vertexOf[v]);
     MeshAttributes& a = model_.attributes;
     for (const Attribute& attribute : mesh.vertexAttributes) {
@@ -262,19 +239,18 @@ class SurfaceBuild {
     }
     a.wedgeAttributes = std::move(mesh.wedgeAttributes);
     a.wedgeCount = mesh.wedgeCount;
-    // By face of the source.
-    a.triangleAttributes = source_.triangleAttributes;
-    a.faceOf = source_.faceOf;
-    a.objects = source_.objects;
-    a.groups = source_.groups;
-    a.objectOf = source_.objectOf;
-    a.groupOf = source_.groupOf;
-    a.materials = source_.materials;
-    a.materialOf = source_.materialOf;
-    a.pictures = source_.pictures;
+    MeshAttributes& ofSource = prepared_.ofSource;
+    a.triangleAttributes = std::move(ofSource.triangleAttributes);
+    a.faceOf = std::move(ofSource.faceOf);
+    a.objects = std::move(ofSource.objects);
+    a.groups = std::move(ofSource.groups);
+    a.objectOf = std::move(ofSource.objectOf);
+    a.groupOf = std::move(ofSource.groupOf);
+    a.materials = std::move(ofSource.materials);
+    a.materialOf = std::move(ofSource.materialOf);
+    a.pictures = std::move(ofSource.pictures);
   }
 
-  const SurfaceMesh& source_;
   const SurfaceBuildOptions& options_;
   const RunContext& context_;
   PreparedSurface prepared_;
@@ -284,9 +260,9 @@ class SurfaceBuild {
 
 }  // namespace
 
-Result<SurfaceModel> buildSurface(const SurfaceMesh& source, const SurfaceBuildOptions& options,
+Result<SurfaceModel> buildSurface(SurfaceMesh source, const SurfaceBuildOptions& options,
                                   const RunContext& context) try {
-  return withThreads(context, [&] { return SurfaceBuild(source, options, context).run(); });
+  return withThreads(context, [&] { return SurfaceBuild(options, context).run(std::move(source)); });
 } catch (...) {
   return caughtFailure();
 }

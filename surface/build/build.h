@@ -18,7 +18,9 @@ namespace arete {
 /// The result does not depend on the number of threads, nor, but for scale, on a power of two that all
 /// coordinates are multiplied with. O(n log n) time. Errors: those of prepareSurface(); usage: an option out
 /// of range; unsupported: too many triangles; interrupted; outOfMemory.
-Result<SurfaceModel> buildSurface(const SurfaceMesh& source, const SurfaceBuildOptions& options = {},
+///
+/// @param source is taken apart: moved in, it takes no memory beside what it becomes.
+Result<SurfaceModel> buildSurface(SurfaceMesh source, const SurfaceBuildOptions& options = {},
                                   const RunContext& context = {});
 
 }  // namespace arete

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -43,9 +45,42 @@ bool dropFlatNormals(SurfaceMesh& mesh) {
   return true;
 }
 
+/// Takes what belongs to faces out of a mesh.
+MeshAttributes takeFaceAttributes(SurfaceMesh& mesh) {
+  MeshAttributes taken;
+  taken.triangleAttributes = std::exchange(mesh.triangleAttributes, {});
+  taken.faceOf = std::exchange(mesh.faceOf, {});
+  taken.objects = std::exchange(mesh.objects, {});
+  taken.groups = std::exchange(mesh.groups, {});
+  taken.objectOf = std::exchange(mesh.objectOf, {});
+  taken.groupOf = std::exchange(mesh.groupOf, {});
+  taken.materials = std::exchange(mesh.materials, {});
+  taken.materialOf = std::exchange(mesh.materialOf, {});
+  taken.pictures = std::exchange(mesh.pictures, {});
+  return taken;
+}
+
+/// By triangle: a number for each object and material. Empty if there is one only. A group is no part: it
+/// says nothing about looks.
+std::vector<std::uint32_t> partsOf(const MeshAttributes& ofSource, std::span<const std::uint32_t> faceOf) {
+  const auto at = [](const std::vector<std::uint32_t>& of, std::uint32_t f) {
+    return of.empty() ? MeshAttributes::kNone : of[f];
+  };
+  if (ofSource.objectOf.empty() && ofSource.materialOf.empty()) return {};
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;
+  std::vector<std::uint32_t> parts;
+  for (const std::uint32_t f : faceOf)
+    parts.push_back(numbers
+                        .try_emplace({at(ofSource.objectOf, f), at(ofSource.materialOf, f)},
+                                     static_cast<std::uint32_t>(numbers.size()))
+                        .first->second);
+  if (numbers.size() < 2) parts.clear();
+  return parts;
+}
+
 }  // namespace
 
-Result<PreparedSurface> prepareSurface(const SurfaceMesh& source, const RunContext& context) {
+Result<PreparedSurface> prepareSurface(SurfaceMesh source, const RunContext& context) {
   if (const Status valid = source.validate(); !valid) return tl::unexpected(valid.error());
   Result<RepairedMesh> repaired = repair(source, {.splitsAtTJunctions = false}, context);
   if (!repaired) return tl::unexpected(repaired.error());
@@ -62,6 +97,8 @@ Result<PreparedSurface> prepareSurface(const SurfaceMesh& source, const RunConte
                                  "cut the surface there, as a Moebius strip has to be")
                               .error());
   PreparedSurface prepared;
+  prepared.sourceVertices = source.positions.size();
+  prepared.sourceFaces = source.triangles.size();
   const RepairCounts& c = repaired->counts;
   prepared.mending = {.duplicateFaces = c.duplicateTriangles,
                       .degenerateFaces = c.degenerateTriangles,
@@ -69,16 +106,22 @@ Result<PreparedSurface> prepareSurface(const SurfaceMesh& source, const RunConte
                       .turnedFaces = c.turnedTriangles,
                       .addedVertices = c.addedVertices,
                       .unusedVertices = c.unusedVertices};
-  Result<SurfaceMesh> mesh =
-      transferAttributes(source, std::move(repaired->mesh), repaired->vertexOf, repaired->triangleOf);
-  if (!mesh) return tl::unexpected(mesh.error());
-  prepared.mesh = std::move(*mesh);
+  prepared.vertexOf = std::move(repaired->vertexOf);
+  prepared.faceOf = std::move(repaired->triangleOf);
+  prepared.ofSource = takeFaceAttributes(source);
+  prepared.partOf = partsOf(prepared.ofSource, prepared.faceOf);
+  if (c.isNothing()) {
+    prepared.mesh = std::move(source);
+  } else {
+    Result<SurfaceMesh> mesh =
+        transferAttributes(source, std::move(repaired->mesh), prepared.vertexOf, prepared.faceOf);
+    if (!mesh) return tl::unexpected(mesh.error());
+    prepared.mesh = std::move(*mesh);
+  }
   if (prepared.mesh.hasWedges()) {
     moveToVertices(prepared.mesh);
     prepared.mending.dropsFlatNormals = dropFlatNormals(prepared.mesh);
   }
-  prepared.vertexOf = std::move(repaired->vertexOf);
-  prepared.faceOf = std::move(repaired->triangleOf);
   return prepared;
 }
 

@@ -13,7 +13,12 @@ namespace arete {
 
 /// A mesh that a build can take: an oriented manifold, perhaps with borders.
 struct PreparedSurface {
+  /// Without what belongs to faces, objects and materials: see ofSource.
   SurfaceMesh mesh;
+  /// Attributes of triangles, objects, groups and materials, by triangle of the source; names and pictures.
+  MeshAttributes ofSource;
+  std::vector<std::uint32_t> partOf;  ///< by triangle: SurfaceParts::partOf
+  std::uint64_t sourceVertices = 0, sourceFaces = 0;
   std::vector<std::uint32_t> vertexOf;  ///< by vertex: that of the source
   std::vector<std::uint32_t> faceOf;    ///< by triangle: that of the source
   SurfaceMending mending;
@@ -23,6 +28,6 @@ struct PreparedSurface {
 /// edges of more than two faces and parts that no turns orient. Errors: those of repair(); invalidData: names
 /// the first such edge by the vertices of the source, how many there are, and what mends them; degenerate: no
 /// face has an area. O(n log n).
-Result<PreparedSurface> prepareSurface(const SurfaceMesh& source, const RunContext& context = {});
+Result<PreparedSurface> prepareSurface(SurfaceMesh source, const RunContext& context = {});
 
 }  // namespace arete
