@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Pass by pass: vertices and triangles beside topology, then self-intersections. Triangles with a vertex
+// Topology, vertices and triangles, and self-intersections side by side. Triangles with a vertex
 // twice have no place in the topology: one of their edges has no length, and the other two are one edge.
 #include "surface/diagnosis/diagnosis.h"
 
 #include <tbb/parallel_invoke.h>
 
 #include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "engine/base/caught_failure.h"
 #include "engine/parallel/with_threads.h"
@@ -32,17 +35,21 @@ Result<MeshDiagnosis> diagnoseHere(const TriangleMesh& mesh, const DiagnosisOpti
   if (context.cancelled()) return failure(ErrorCode::interrupted, "the diagnosis was interrupted");
   const diagnosis::KeptTriangles kept(mesh);
   // Each fills members of its own.
+  std::optional<std::vector<std::pair<std::uint32_t, std::uint32_t>>> crossing;
   tbb::parallel_invoke([&] { diagnosis::examineTopology(mesh, kept, options, result); },
                        [&] {
                          diagnosis::examineVertices(mesh, options, result);
                          diagnosis::examineFaces(mesh, options, result);
+                       },
+                       [&] {
+                         if (options.selfIntersections)
+                           crossing = diagnosis::findSelfIntersections(mesh, context);
                        });
-  if (context.cancelled()) return failure(ErrorCode::interrupted, "the diagnosis was interrupted");
+  if (context.cancelled() || (options.selfIntersections && !crossing))
+    return failure(ErrorCode::interrupted, "the diagnosis was interrupted");
   if (options.selfIntersections) {
-    const auto pairs = diagnosis::findSelfIntersections(mesh, context);
-    if (!pairs) return failure(ErrorCode::interrupted, "the diagnosis was interrupted");
     MeshFindings& found = result.selfIntersections.emplace();
-    for (const auto& [first, second] : *pairs)
+    for (const auto& [first, second] : *crossing)
       diagnosis::add(found, options.mostPlaces, {first, second}, diagnosis::centroid(mesh, first));
   }
   context.report("diagnose", 1);

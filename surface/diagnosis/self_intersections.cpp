@@ -29,6 +29,10 @@ using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t,
 
 struct Interrupted {};
 
+/// Sets of at most so many boxes are scanned instead of divided further: triangles of a surface meet few
+/// others.
+constexpr std::ptrdiff_t kScanned = 2000;
+
 class Meeting {
  public:
   explicit Meeting(const TriangleMesh& mesh) : mesh_(mesh) {}
@@ -101,7 +105,7 @@ std::optional<std::vector<Pair>> findSelfIntersections(const TriangleMesh& mesh,
     if (meet(first, second)) pairs.push_back({first, second});
   };
   try {
-    CGAL::box_self_intersection_d(pointers.begin(), pointers.end(), visit);
+    CGAL::box_self_intersection_d(pointers.begin(), pointers.end(), visit, kScanned);
   } catch (const Interrupted&) {
     return std::nullopt;
   }
