@@ -23,10 +23,11 @@ namespace {
 
 Status refuse(const MeshFindings& found, const RepairedMesh& repaired, const char* what, const char* remedy) {
   const auto vertexAt = [&](std::size_t i) { return repaired.vertexOf[found.places[0].elements[i]]; };
-  return failure(ErrorCode::invalidData,
-                 fmt::format("{} {}, the first one between the vertices {} and {}; {}", found.count,
-                             fmt::format(fmt::runtime(what), found.count == 1 ? "edge has" : "edges have"),
-                             vertexAt(0), vertexAt(1), remedy));
+  return failure(
+      ErrorCode::invalidData,
+      fmt::format("{} {}, the first one between the vertices {} and {}, counted from 0; {}", found.count,
+                  fmt::format(fmt::runtime(what), found.count == 1 ? "edge has" : "edges have"), vertexAt(0),
+                  vertexAt(1), remedy));
 }
 
 /// Leaves out the normals of corners where they differ at more than half of the edges.

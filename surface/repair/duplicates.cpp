@@ -15,7 +15,7 @@ void removeDuplicates(Draft& draft) {
   sorted.reserve(triangles.size());
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     Triangle t = triangles[i];
-    std::ranges::rotate(t, std::ranges::min_element(t));  // keeps the turn
+    std::rotate(t.begin(), std::ranges::min_element(t), t.end());  // keeps the turn
     sorted.push_back({t, i});
   }
   std::ranges::sort(sorted);

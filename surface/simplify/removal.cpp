@@ -38,7 +38,8 @@ bool SurfaceRemover::remove(VertexId v, RemovalId removal, std::span<Seam> seams
   for (int i = 0; i < star.triangleCount; ++i) {
     TriangleLabels labels = s_.labelsOf(star.slot(i));
     // The apex first, as the MT has the corners of a star.
-    std::ranges::rotate(labels.wedges, labels.wedges.begin() + LiveMesh::sideOf(star.outgoing[i]));
+    std::rotate(labels.wedges.begin(), labels.wedges.begin() + LiveMesh::sideOf(star.outgoing[i]),
+                labels.wedges.end());
     s_.starLabels.set(firstLabel + static_cast<std::uint32_t>(i), labels);
   }
   for (int f = 0; f < floor.size; ++f) labels_[f] = hole_.labelsOf(s_, floor.triangles[f]);

@@ -41,7 +41,7 @@ ErrorRange fixRemoteHeights(const LiveMesh& mesh, const LoneHeights& lone, const
       corners.insert(corners.end(), c.begin(), c.end());
   }
   std::ranges::sort(corners);
-  corners.erase(std::ranges::unique(corners).begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   if (corners.size() > std::max(kFew, isFixed.size() / kMostPart)) return whole;
   for (const VertexId v : corners) isFixed[v.index()] = 1;
   return {lone.low, lone.high};

@@ -27,7 +27,7 @@ std::vector<std::array<double, 3>> sortedPoints(const PointHeightfield& field) {
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i] = {field.positions[i].x, field.positions[i].y, field.heights[i]};
   std::ranges::sort(points);
-  points.erase(std::ranges::unique(points).begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
   return points;
 }
 

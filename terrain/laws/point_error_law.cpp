@@ -51,7 +51,7 @@ PointErrorLaw::PointErrorLaw(const MultiTriangulation& mt, const Cut& finest) : 
       edges_.push_back({std::min(from, to), std::max(from, to)});
     }
   std::ranges::sort(edges_);
-  edges_.erase(std::ranges::unique(edges_).begin(), edges_.end());
+  edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
   edgesOf_ = listEdges();
 }
 

@@ -45,7 +45,7 @@ std::vector<std::uint32_t> choose(const MultiTriangulation& mt, bool everyTriang
     if (isTriangle(mt, t)) chosen.push_back(t);
   }
   std::ranges::sort(chosen);
-  chosen.erase(std::ranges::unique(chosen).begin(), chosen.end());
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   return chosen;
 }
 

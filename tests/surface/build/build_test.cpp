@@ -262,7 +262,8 @@ TEST(BuildSurface, RefusesWhatItCannotMendByName) {
     return model ? std::string("built") : model.error().message;
   };
   EXPECT_EQ(refused(book),
-            "1 edge has more than two faces, the first one between the vertices 0 and 1; repairing with "
+            "1 edge has more than two faces, the first one between the vertices 0 and 1, counted from 0; "
+            "repairing with "
             "`splitsSheets` makes several edges of each");
   const std::string moebius = refused(shapes::sheet(12, 3, true, false, true));
   EXPECT_NE(moebius.find("no turns make agree"), std::string::npos) << moebius;
