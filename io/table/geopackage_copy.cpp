@@ -177,7 +177,7 @@ GeoPackageCopy::~GeoPackageCopy() = default;
 
 Result<GeoPackageCopy> GeoPackageCopy::make(const fs::path& original, const fs::path& copy,
                                             const OwnLayer& layer, const RunContext& context) {
-  auto lock = std::make_unique<Lock>(openDatabase(original, SQLITE_OPEN_READWRITE));
+  auto lock = std::unique_ptr<Lock>(new Lock{openDatabase(original, SQLITE_OPEN_READWRITE)});
   sqlite3* const database = lock->database.get();
   const auto run = [&](const char* statement) {
     return database && sqlite3_exec(database, statement, nullptr, nullptr, nullptr) == SQLITE_OK;

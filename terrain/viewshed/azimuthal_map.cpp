@@ -299,11 +299,11 @@ class AzimuthalMap::Construction {
 };
 
 bool AzimuthalMap::Construction::setErrors(const MapErrors& worst, double geodesicError) const {
-  const SightEarth::PlaneSteps& steps = map_.steps;
-  const double stepX = std::hypot(steps.x.x, steps.x.y), stepY = std::hypot(steps.y.x, steps.y.y);
+  const SightEarth::PlaneSteps& cell = map_.steps;
+  const double stepX = std::hypot(cell.x.x, cell.x.y), stepY = std::hypot(cell.y.x, cell.y.y);
   // Metres: the longer diagonal of a cell.
   const double diagonal =
-      std::sqrt(stepX * stepX + stepY * stepY + 2 * std::fabs(steps.x.x * steps.y.x + steps.x.y * steps.y.y));
+      std::sqrt(stepX * stepX + stepY * stepY + 2 * std::fabs(cell.x.x * cell.y.x + cell.x.y * cell.y.y));
   map_.turn = kCheckTurn * worst.turn + kTurnNearby;
   map_.leastCurvature = worst.leastCurvature;
   map_.mostCurvature = worst.mostCurvature;
