@@ -143,9 +143,9 @@ Status fromLooksJson(std::string_view text, SurfaceModel& model, std::vector<std
   std::string problem;
   MeshAttributes& a = model.attributes;
   json_fields::Reader top(looks, problem);
-  for (const auto& [key, attributes] : attributeLists(a))
-    readRow(looks, key, problem, [&](json_fields::Reader& r, const Json&) {
-      Attribute& attribute = attributes->emplace_back();
+  for (const auto& list : attributeLists(a))
+    readRow(looks, list.first, problem, [&](json_fields::Reader& r, const Json&) {
+      Attribute& attribute = list.second->emplace_back();
       visitAttribute(r, attribute);
       std::uint32_t components = 0;
       r.field("components", components);
