@@ -10,10 +10,6 @@
 #include <limits>
 
 namespace arete {
-std::atomic<long> gEvaluations, gIntegrals;
-namespace {
-const double kUp = getenv("UP") ? atof(getenv("UP")) : 1.2;
-}
 
 void SurfaceCost::collectSamples() {
   samples_.clear();
