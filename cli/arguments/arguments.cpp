@@ -299,6 +299,20 @@ void addOverwriteTo(CLI::App& command, ExistingFile& existing) {
       "Replace a GeoPackage that exists as a whole (default: its other layers are kept)");
 }
 
+std::string outputName(const std::string& pattern, const std::string& tag, bool several) {
+  constexpr std::string_view kPlaceholder = "{}";
+  if (pattern.find(kPlaceholder) != std::string::npos) {
+    std::string name = pattern;
+    for (std::size_t at = 0; (at = name.find(kPlaceholder, at)) != std::string::npos; at += tag.size())
+      name.replace(at, kPlaceholder.size(), tag);
+    return name;
+  }
+  if (!several || pattern.empty()) return pattern;
+  const std::filesystem::path path = pattern;
+  return (path.parent_path() / fmt::format("{}_{}{}", path.stem().string(), tag, path.extension().string()))
+      .string();
+}
+
 std::string grouped(std::uint64_t count) {
   std::string text = std::to_string(count);
   for (std::size_t i = text.size(); i > 3;) text.insert(i -= 3, 1, ' ');

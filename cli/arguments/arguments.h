@@ -86,6 +86,10 @@ struct MeshOutput {
 Status checkOutput(const std::string& option, const std::string& path, const std::vector<std::string>& inputs,
                    const std::vector<std::string>& outputs = {});
 
+/// The name of one of several outputs: `tag` in place of every {} of the pattern; without any, where there
+/// are several, "_tag" before the extension.
+std::string outputName(const std::string& pattern, const std::string& tag, bool several);
+
 /// The option --overwrite of a command that may write a GeoPackage.
 void addOverwriteTo(CLI::App& command, ExistingFile& existing);
 

@@ -37,8 +37,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPlaceholder = "{}";
-
 /// --certificate has an optional value, and CLI11 takes the next word for it: FILE.amt, if that comes last.
 CLI::Validator notTheModel() {
   return CLI::Validator(
@@ -57,21 +55,6 @@ struct ExtractArguments {
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   CLI::Option* certificateOption = nullptr;
 };
-
-/// The name for one tolerance: wherever the placeholder is, or, where there are several, "_5" before the
-/// extension.
-std::string named(const std::string& pattern, const std::string& tag, bool several) {
-  if (pattern.find(kPlaceholder) != std::string::npos) {
-    std::string name = pattern;
-    for (std::size_t at = 0; (at = name.find(kPlaceholder, at)) != std::string::npos; at += tag.size())
-      name.replace(at, kPlaceholder.size(), tag);
-    return name;
-  }
-  if (!several) return pattern;
-  const fs::path path = pattern;
-  return (path.parent_path() / fmt::format("{}_{}{}", path.stem().string(), tag, path.extension().string()))
-      .string();
-}
 
 std::string certificateBeside(const std::string& output) {
   return fs::path(output).replace_extension(".certificate.json").string();
@@ -102,12 +85,12 @@ Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments
     request.existing = arguments.existing;
     request.criterion = std::move(criterion);
     const std::string tag = tagOf(request.criterion);
-    request.output = named(output, tag, several);
+    request.output = outputName(output, tag, several);
     request.format = arguments.output.format;
     if (wantsCertificate)
       request.certificate = arguments.certificate.empty() ? certificateBeside(request.output)
-                                                          : named(arguments.certificate, tag, several);
-    if (!arguments.errorRaster.empty()) request.errorRaster = named(arguments.errorRaster, tag, several);
+                                                          : outputName(arguments.certificate, tag, several);
+    if (!arguments.errorRaster.empty()) request.errorRaster = outputName(arguments.errorRaster, tag, several);
     requests.push_back(std::move(request));
   }
   for (const ExtractRequest& request : requests) {

@@ -15,7 +15,6 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/surface/criterion.h"
-#include "cli/surface/face_map.h"
 #include "cli/surface/tolerance.h"
 #include "engine/criteria/refine_order.h"
 #include "engine/cut/cut.h"
@@ -23,6 +22,7 @@
 #include "io/exchange/mesh_formats.h"
 #include "io/file/file_writer.h"
 #include "surface/diagnosis/diagnosis.h"
+#include "surface/front/face_map.h"
 #include "surface/front/front.h"
 
 namespace arete {
@@ -35,18 +35,6 @@ struct Request {
   std::optional<SurfaceTolerance> tolerance;
 };
 
-std::string named(const std::string& pattern, const std::string& tag, bool several) {
-  if (const std::size_t at = pattern.find("{}"); at != std::string::npos) {
-    std::string name = pattern;
-    name.replace(at, 2, tag);
-    return name;
-  }
-  if (!several || pattern.empty()) return pattern;
-  const fs::path path = pattern;
-  return (path.parent_path() / fmt::format("{}_{}{}", path.stem().string(), tag, path.extension().string()))
-      .string();
-}
-
 /// The part of a file's name that stands for a budget or a view.
 std::string tagOf(const CriterionArguments::OfSurface& asked) {
   if (asked.maxTriangles) return std::to_string(*asked.maxTriangles);
@@ -55,14 +43,15 @@ std::string tagOf(const CriterionArguments::OfSurface& asked) {
 
 Result<std::vector<Request>> requestsOf(const SurfaceExtractArguments& arguments, const SurfaceModel& model) {
   if (arguments.asked.maxErrors.empty())
-    return std::vector<Request>{{named(arguments.output, tagOf(arguments.asked), false), arguments.map, {}}};
+    return std::vector<Request>{
+        {outputName(arguments.output, tagOf(arguments.asked), false), arguments.map, {}}};
   const auto tolerances = parseSurfaceTolerances("--max-error", arguments.asked.maxErrors, model.diagonal);
   if (!tolerances) return tl::unexpected(tolerances.error());
   const bool several = tolerances->size() > 1;
   std::vector<Request> requests;
   for (const SurfaceTolerance& tolerance : *tolerances)
-    requests.push_back({named(arguments.output, tolerance.text, several),
-                        named(arguments.map, tolerance.text, several), tolerance});
+    requests.push_back({outputName(arguments.output, tolerance.text, several),
+                        outputName(arguments.map, tolerance.text, several), tolerance});
   return requests;
 }
 

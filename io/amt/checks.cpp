@@ -64,28 +64,6 @@ Status checkAmtIndices(const AmtFile& file, const RunContext& context) try {
 
 namespace {
 
-tl::unexpected<Error> altered(const AmtFile& file, const AmtChunk& chunk) {
-  return failure(ErrorCode::corrupt,
-                 fmt::format("has been altered: the checksum of chunk {} does not match", chunk.name()),
-                 file.path());
-}
-
-/// For files without checksums of segments.
-Status checkChunks(const AmtFile& file, const RunContext& context) {
-  std::vector<const AmtChunk*> chunks;
-  std::vector<std::span<const std::byte>> blocks;
-  for (const AmtChunk& chunk : file.chunks()) {
-    if (chunk.tag == amt_tag::kPackedNodes) continue;
-    chunks.push_back(&chunk);
-    blocks.push_back(file.bytes(chunk));
-  }
-  const auto sums = amtChecksums(blocks, "check checksums", context);
-  if (!sums) return failure(ErrorCode::interrupted, "the check was interrupted", file.path());
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-    if (sums->blocks[i] != chunks[i]->checksum) return altered(file, *chunks[i]);
-  return {};
-}
-
 /// All chunks have segments, but for the two that are checked as a whole.
 Status checkSegments(const AmtFile& file, const RunContext& context) {
   for (const AmtTag& tag : {amt_tag::kMetadata, amt_tag::kSegmentChecksums})
@@ -99,26 +77,15 @@ Status checkSegments(const AmtFile& file, const RunContext& context) {
 
 Status checkAmtChunk(const AmtFile& file, const AmtTag& tag) {
   const auto chunk = std::ranges::find(file.chunks(), tag, &AmtChunk::tag);
-  return amtChecksum(file.bytes(*chunk)) == chunk->checksum ? Status() : altered(file, *chunk);
+  return amtChecksum(file.bytes(*chunk)) == chunk->checksum ? Status() : file.container().altered(*chunk);
 }
 
 Status checkAmtChecksums(const AmtFile& file, const RunContext& context) try {
-  if (Status sums = file.hasSegments() ? checkSegments(file, context) : checkChunks(file, context); !sums)
+  if (Status sums = file.hasSegments() ? checkSegments(file, context)
+                                       : file.container().checkSums(amt_tag::kPackedNodes, context);
+      !sums)
     return sums;
-  std::uint64_t end = sizeof(AmtHeader) + file.chunks().size() * sizeof(AmtChunk);
-  const auto isZeroUpTo = [&](std::uint64_t begin) {
-    const auto padding = file.bytes().subspan(end, begin - end);
-    return std::ranges::all_of(padding, [](std::byte b) { return b == std::byte{0}; });
-  };
-  for (std::size_t i = 0; i <= file.chunks().size(); ++i) {
-    const bool isLast = i == file.chunks().size();
-    if (!isZeroUpTo(isLast ? file.bytes().size() : file.chunks()[i].offset))
-      return failure(ErrorCode::corrupt,
-                     fmt::format("has been altered: the bytes at {}, between its chunks, are not zero", end),
-                     file.path());
-    if (!isLast) end = file.chunks()[i].offset + file.chunks()[i].bytes;
-  }
-  return {};
+  return file.container().checkZeros();
 } catch (...) {
   return caughtFailure(file.path());
 }

@@ -144,6 +144,40 @@ Status AmtContainer::checkShapes(std::span<const AmtShape> shapes) const {
   return {};
 }
 
+tl::unexpected<Error> AmtContainer::altered(const AmtChunk& chunk) const {
+  return corrupt(fmt::format("has been altered: the checksum of chunk {} does not match", chunk.name()));
+}
+
+Status AmtContainer::checkSums(const AmtTag& leftOut, const RunContext& context) const {
+  std::vector<const AmtChunk*> chunks;
+  std::vector<std::span<const std::byte>> blocks;
+  for (const AmtChunk& chunk : chunks_) {
+    if (chunk.tag == leftOut) continue;
+    chunks.push_back(&chunk);
+    blocks.push_back(bytes(chunk));
+  }
+  const auto sums = amtChecksums(blocks, "check checksums", context);
+  if (!sums) return failure(ErrorCode::interrupted, "the check was interrupted", path_);
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    if (sums->blocks[i] != chunks[i]->checksum) return altered(*chunks[i]);
+  return {};
+}
+
+Status AmtContainer::checkZeros() const {
+  std::uint64_t end = sizeof(AmtHeader) + chunks_.size() * sizeof(AmtChunk);
+  const auto isZeroUpTo = [&](std::uint64_t begin) {
+    const auto padding = bytes().subspan(end, begin - end);
+    return std::ranges::all_of(padding, [](std::byte b) { return b == std::byte{0}; });
+  };
+  for (std::size_t i = 0; i <= chunks_.size(); ++i) {
+    const bool isLast = i == chunks_.size();
+    if (!isZeroUpTo(isLast ? bytes().size() : chunks_[i].offset))
+      return corrupt(fmt::format("has been altered: the bytes at {}, between its chunks, are not zero", end));
+    if (!isLast) end = chunks_[i].offset + chunks_[i].bytes;
+  }
+  return {};
+}
+
 Result<AmtContainer> AmtContainer::open(const std::string& path, const AmtOpenOptions& options) {
   auto mapped = MappedFile::open(path);
   if (!mapped) return tl::unexpected(mapped.error());

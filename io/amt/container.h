@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
 #include "io/file/mapped_file.h"
 #include "io/format/layout.h"
 #include "io/format/shapes.h"
@@ -52,6 +53,12 @@ class AmtContainer {
     const AmtChunk& chunk = *find(tag);
     return {reinterpret_cast<const T*>(file_->bytes().data() + chunk.offset), chunk.bytes / sizeof(T)};
   }
+  /// Compares the checksums of chunks, but for those of one tag, and checks that the bytes between chunks are
+  /// zero. Errors: corrupt: names the chunk; interrupted. Reads the whole file, in parallel.
+  Status checkSums(const AmtTag& leftOut, const RunContext& context) const;
+  Status checkZeros() const;
+  /// That a chunk does not have its checksum.
+  tl::unexpected<Error> altered(const AmtChunk& chunk) const;
   /// An error that names the file.
   tl::unexpected<Error> corrupt(const std::string& message) const;
 

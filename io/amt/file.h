@@ -53,6 +53,7 @@ class AmtFile {
  public:
   const std::string& path() const { return container_.path(); }
   std::span<const std::byte> bytes() const { return container_.bytes(); }
+  const AmtContainer& container() const { return container_; }
   /// The program that wrote the file.
   const std::string& writer() const { return writer_; }
   /// The directory, in the order of the file.

@@ -8,6 +8,7 @@
 #include "engine/base/caught_failure.h"
 #include "engine/mt/node_blocks.h"
 #include "io/amt/file.h"
+#include "io/amt/mt_chunks.h"
 #include "io/amt/part.h"
 #include "io/format/metadata.h"
 #include "io/packed/packed.h"
@@ -61,7 +62,8 @@ Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
   file_.model_ = metadata.model;
   file_.nodeCount_ = metadata.counts.nodes;
   MtArrays a;
-  a.rootVertices = static_cast<std::uint32_t>(metadata.counts.rootVertices);
+  const auto rootVertices = static_cast<std::uint32_t>(metadata.counts.rootVertices);
+  a.rootVertices = rootVertices;
   place(amt_tag::kIsolatedSamples, file_.isolatedSamples_);
   place(amt_tag::kIsolatedHeights, file_.isolatedHeights_);
   place(amt_tag::kFixedVertices, file_.fixedVertices_);
@@ -74,19 +76,10 @@ Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
     file_.model_.mt = MultiTriangulation(a, all_.owner());
     return {};
   }
-  place(amt_tag::kRootTriangles, a.rootTriangles);
-  place(amt_tag::kSlotBegin, a.slotBegin);
-  place(amt_tag::kLink, a.link);
-  place(amt_tag::kRemover, a.remover);
-  place(amt_tag::kError, a.error);
+  a = placeMtChunks(all_);
+  a.rootVertices = rootVertices;
   place(amt_tag::kBelow, a.below);
   place(amt_tag::kAbove, a.above);
-  place(amt_tag::kFloor, a.floor);
-  place(amt_tag::kSaturatedError, a.saturatedError);
-  place(amt_tag::kSphere, a.sphere);
-  place(amt_tag::kBlockError, a.blockError);
-  place(amt_tag::kBlockSphere, a.blockSphere);
-  place(amt_tag::kCreatorHint, a.creatorHint);
   if (metadata.model.isRaster)
     place(amt_tag::kSamples, a.vertices.samples);
   else

@@ -11,16 +11,13 @@
 #include "engine/base/caught_failure.h"
 #include "io/amt/chunk_writer.h"
 #include "io/amt/index_check.h"
+#include "io/amt/mt_chunks.h"
 #include "io/format/checksum.h"
 #include "io/format/surface_metadata.h"
 #include "surface/model/face_heirs.h"
 
 namespace arete {
 namespace {
-
-std::span<const std::byte> bytesOf(const auto& elements) {
-  return std::as_bytes(std::span(elements));
-}
 
 /// The triangles that no node removes, in the order of their ids.
 template <class Visit>
@@ -54,25 +51,16 @@ class Writing {
     const MtArrays& a = model_.mt.arrays();
     if (!model_.hasFaceAttributes())
       forFinest(model_.mt, [&](std::uint32_t t) { finestFaces_.push_back(model_.faceOf[t]); });
-    const std::pair<AmtTag, std::span<const std::byte>> arrays[] = {
-        {amt_tag::kRootTriangles, bytesOf(a.rootTriangles)},
-        {amt_tag::kSlotBegin, bytesOf(a.slotBegin)},
-        {amt_tag::kLink, bytesOf(a.link)},
-        {amt_tag::kRemover, bytesOf(a.remover)},
-        {amt_tag::kError, bytesOf(a.error)},
+    std::vector<AmtChunkBytes> arrays = mtChunks(a);
+    const AmtChunkBytes own[] = {
         {amt_tag::kRms, bytesOf(a.rms)},
-        {amt_tag::kFloor, bytesOf(a.floor)},
-        {amt_tag::kSaturatedError, bytesOf(a.saturatedError)},
-        {amt_tag::kSphere, bytesOf(a.sphere)},
-        {amt_tag::kBlockError, bytesOf(a.blockError)},
-        {amt_tag::kBlockSphere, bytesOf(a.blockSphere)},
-        {amt_tag::kCreatorHint, bytesOf(a.creatorHint)},
         {amt_tag::kPlaces,
          a.vertices.places64.empty() ? bytesOf(a.vertices.places32) : bytesOf(a.vertices.places64)},
         {amt_tag::kVertexNumbers, bytesOf(model_.vertexOf)},
         {amt_tag::kFaceNumbers, model_.hasFaceAttributes() ? bytesOf(model_.faceOf) : bytesOf(finestFaces_)},
         {amt_tag::kWedges, bytesOf(model_.wedgesOf)},
     };
+    arrays.insert(arrays.end(), std::begin(own), std::end(own));
     for (const AmtShape& shape : shapes)
       for (const auto& [tag, bytes] : arrays)
         if (tag == shape.tag) chunks_.add(shape, bytes, tag == amt_tag::kPlaces ? kAmtRequired : 0);
@@ -106,8 +94,11 @@ class Reading {
     for (const AmtTag tag : {amt_tag::kLooks, amt_tag::kAttributes, amt_tag::kPictures})
       shapes.push_back({tag, AmtScalar::u8, 1, all_.find(tag) == nullptr ? 0 : all_.find(tag)->bytes});
     if (const Status shaped = all_.checkShapes(shapes); !shaped) return tl::unexpected(shaped.error());
-    if (verify_ == AmtVerify::all)
-      if (const Status sound = checkSums(); !sound) return tl::unexpected(sound.error());
+    if (verify_ == AmtVerify::all) {
+      Status sound = all_.checkSums({}, context_);
+      if (sound) sound = all_.checkZeros();
+      if (!sound) return tl::unexpected(sound.error());
+    }
     placeArrays();
     if (verify_ != AmtVerify::none) {
       if (const Status checked = checkMtIndices(model_.mt, 0, context_); !checked)
@@ -125,38 +116,15 @@ class Reading {
   }
 
  private:
-  Status checkSums() const {
-    std::vector<std::span<const std::byte>> blocks;
-    for (const AmtChunk& chunk : all_.chunks()) blocks.push_back(all_.bytes(chunk));
-    const auto sums = amtChecksums(blocks, "check checksums", context_);
-    if (!sums) return failure(ErrorCode::interrupted, "the check was interrupted", all_.path());
-    for (std::size_t i = 0; i < blocks.size(); ++i)
-      if (sums->blocks[i] != all_.chunks()[i].checksum)
-        return all_.corrupt(fmt::format("has been altered: the checksum of chunk {} does not match",
-                                        all_.chunks()[i].name()));
-    return {};
-  }
-
   template <class T>
   void place(AmtTag tag, std::span<const T>& to) const {
     to = all_.elements<T>(tag);
   }
 
   void placeArrays() {
-    MtArrays a;
+    MtArrays a = placeMtChunks(all_);
     a.rootVertices = static_cast<std::uint32_t>(metadata_.counts.rootVertices);
-    place(amt_tag::kRootTriangles, a.rootTriangles);
-    place(amt_tag::kSlotBegin, a.slotBegin);
-    place(amt_tag::kLink, a.link);
-    place(amt_tag::kRemover, a.remover);
-    place(amt_tag::kError, a.error);
     place(amt_tag::kRms, a.rms);
-    place(amt_tag::kFloor, a.floor);
-    place(amt_tag::kSaturatedError, a.saturatedError);
-    place(amt_tag::kSphere, a.sphere);
-    place(amt_tag::kBlockError, a.blockError);
-    place(amt_tag::kBlockSphere, a.blockSphere);
-    place(amt_tag::kCreatorHint, a.creatorHint);
     if (metadata_.hasDoubles)
       place(amt_tag::kPlaces, a.vertices.places64);
     else

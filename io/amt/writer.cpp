@@ -11,15 +11,12 @@
 #include "engine/base/caught_failure.h"
 #include "io/amt/chunk_writer.h"
 #include "io/amt/file.h"
+#include "io/amt/mt_chunks.h"
 #include "io/format/metadata.h"
 #include "io/packed/packed.h"
 
 namespace arete {
 namespace {
-
-std::span<const std::byte> bytesOf(const auto& elements) {
-  return std::as_bytes(std::span(elements));
-}
 
 /// Writes one file.
 class AmtWriting {
@@ -56,20 +53,10 @@ class AmtWriting {
       isolatedHeights_.push_back(sample.height);
     }
     const MtArrays& a = model_.mt.arrays();
-    const std::pair<AmtTag, std::span<const std::byte>> arrays[] = {
-        {amt_tag::kRootTriangles, bytesOf(a.rootTriangles)},
-        {amt_tag::kSlotBegin, bytesOf(a.slotBegin)},
-        {amt_tag::kLink, bytesOf(a.link)},
-        {amt_tag::kRemover, bytesOf(a.remover)},
-        {amt_tag::kError, bytesOf(a.error)},
+    std::vector<AmtChunkBytes> arrays = mtChunks(a);
+    const AmtChunkBytes own[] = {
         {amt_tag::kBelow, bytesOf(a.below)},
         {amt_tag::kAbove, bytesOf(a.above)},
-        {amt_tag::kFloor, bytesOf(a.floor)},
-        {amt_tag::kSaturatedError, bytesOf(a.saturatedError)},
-        {amt_tag::kSphere, bytesOf(a.sphere)},
-        {amt_tag::kBlockError, bytesOf(a.blockError)},
-        {amt_tag::kBlockSphere, bytesOf(a.blockSphere)},
-        {amt_tag::kCreatorHint, bytesOf(a.creatorHint)},
         {amt_tag::kSamples, bytesOf(a.vertices.samples)},
         {amt_tag::kPlan, bytesOf(a.vertices.plan)},
         {amt_tag::kHeights, a.vertices.rawHeights},
@@ -77,6 +64,7 @@ class AmtWriting {
         {amt_tag::kIsolatedHeights, bytesOf(isolatedHeights_)},
         {amt_tag::kFixedVertices, bytesOf(model_.options.fixedVertices)},
     };
+    arrays.insert(arrays.end(), std::begin(own), std::end(own));
     for (const AmtShape& shape : shapes)
       for (const auto& [tag, bytes] : arrays)
         if (tag == shape.tag) chunks_.add(shape, bytes);

@@ -258,36 +258,43 @@ Result<AmtMetadata> fromAmtJson(std::string_view text) {
   return m;
 }
 
-std::vector<AmtShape> amtShapes(const AmtMetadata& m, bool isPacked) {
-  const AmtCounts& c = m.counts;
-  const std::uint64_t triangles = c.rootTriangles + c.slots, vertices = c.rootVertices + c.nodes;
+std::vector<AmtShape> mtShapes(const AmtCounts& c, std::span<const AmtTag> ofTriangles) {
+  const std::uint64_t triangles = c.rootTriangles + c.slots;
   constexpr std::uint64_t kSlotsPerHint = MultiTriangulation::kSlotsPerHint;
-  std::vector<AmtShape> extras = {
-      {amt_tag::kIsolatedSamples, AmtScalar::u32, 4, c.isolated},
-      {amt_tag::kIsolatedHeights, AmtScalar::f64, 8, c.isolated},
-      {amt_tag::kFixedVertices, AmtScalar::u32, 4, c.fixedVertices},
-  };
-  if (isPacked) return extras;
   std::vector<AmtShape> shapes = {
       {amt_tag::kRootTriangles, AmtScalar::u32, 12, c.rootTriangles},
       {amt_tag::kSlotBegin, AmtScalar::u32, 4, c.nodes + 1},
       {amt_tag::kLink, AmtScalar::u32, 4, c.slots},
       {amt_tag::kRemover, AmtScalar::u32, 4, triangles},
       {amt_tag::kError, AmtScalar::u16, 2, triangles},
-      {amt_tag::kBelow, AmtScalar::u16, 2, triangles},
-      {amt_tag::kAbove, AmtScalar::u16, 2, triangles},
+  };
+  for (const AmtTag& tag : ofTriangles) shapes.push_back({tag, AmtScalar::u16, 2, triangles});
+  const AmtShape rest[] = {
       {amt_tag::kFloor, AmtScalar::u32, 4, c.slots - 2 * c.nodes},
       {amt_tag::kSaturatedError, AmtScalar::u16, 2, c.nodes},
       {amt_tag::kSphere, AmtScalar::f32, 16, c.nodes},
       {amt_tag::kBlockError, AmtScalar::u16, 2, nodeBlockAndPageCount(c.nodes)},
       {amt_tag::kBlockSphere, AmtScalar::f32, 16, nodeBlockAndPageCount(c.nodes)},
       {amt_tag::kCreatorHint, AmtScalar::u32, 4, (c.slots + kSlotsPerHint - 1) / kSlotsPerHint},
-      m.model.isRaster ? AmtShape{amt_tag::kSamples, AmtScalar::u32, 4, vertices}
-                       : AmtShape{amt_tag::kPlan, AmtScalar::f64, 16, vertices},
-      {amt_tag::kHeights, scalarOf(m.encoding.type), static_cast<std::uint32_t>(m.encoding.bytesPerHeight()),
-       vertices},
   };
-  shapes.insert(shapes.end(), extras.begin(), extras.end());
+  shapes.insert(shapes.end(), std::begin(rest), std::end(rest));
+  return shapes;
+}
+
+std::vector<AmtShape> amtShapes(const AmtMetadata& m, bool isPacked) {
+  const AmtCounts& c = m.counts;
+  const std::uint64_t vertices = c.rootVertices + c.nodes;
+  std::vector<AmtShape> shapes;
+  if (!isPacked) {
+    shapes = mtShapes(c, std::array{amt_tag::kBelow, amt_tag::kAbove});
+    shapes.push_back(m.model.isRaster ? AmtShape{amt_tag::kSamples, AmtScalar::u32, 4, vertices}
+                                      : AmtShape{amt_tag::kPlan, AmtScalar::f64, 16, vertices});
+    shapes.push_back({amt_tag::kHeights, scalarOf(m.encoding.type),
+                      static_cast<std::uint32_t>(m.encoding.bytesPerHeight()), vertices});
+  }
+  shapes.push_back({amt_tag::kIsolatedSamples, AmtScalar::u32, 4, c.isolated});
+  shapes.push_back({amt_tag::kIsolatedHeights, AmtScalar::f64, 8, c.isolated});
+  shapes.push_back({amt_tag::kFixedVertices, AmtScalar::u32, 4, c.fixedVertices});
   return shapes;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,6 +49,10 @@ std::string toAmtJson(const AmtMetadata& metadata);
 /// Reads the metadata. Errors, without a culprit: corrupt: not JSON, a field that is missing or of the wrong
 /// type, a problem that findAmtProblem() finds.
 Result<AmtMetadata> fromAmtJson(std::string_view text);
+
+/// The arrays that every multitriangulation has, in the order in which they are written, with those of u16 a
+/// triangle that belong to its kind.
+std::vector<AmtShape> mtShapes(const AmtCounts& counts, std::span<const AmtTag> ofTriangles);
 
 /// The chunks whose sizes follow from the metadata, in the order in which they are written: all but the
 /// metadata, the checksums of segments and the three of packed files. Precondition: findAmtProblem() finds

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "engine/mt/hole_limit.h"
-#include "engine/mt/node_blocks.h"
 #include "io/format/json_fields.h"
 
 namespace arete {
@@ -135,25 +135,11 @@ Result<SurfaceMetadata> fromSurfaceJson(std::string_view text) {
 std::vector<AmtShape> surfaceShapes(const SurfaceMetadata& m) {
   const AmtCounts& c = m.counts;
   const std::uint64_t triangles = c.rootTriangles + c.slots, vertices = c.rootVertices + c.nodes;
-  constexpr std::uint64_t kSlotsPerHint = MultiTriangulation::kSlotsPerHint;
-  std::vector<AmtShape> shapes = {
-      {amt_tag::kRootTriangles, AmtScalar::u32, 12, c.rootTriangles},
-      {amt_tag::kSlotBegin, AmtScalar::u32, 4, c.nodes + 1},
-      {amt_tag::kLink, AmtScalar::u32, 4, c.slots},
-      {amt_tag::kRemover, AmtScalar::u32, 4, triangles},
-      {amt_tag::kError, AmtScalar::u16, 2, triangles},
-      {amt_tag::kRms, AmtScalar::u16, 2, triangles},
-      {amt_tag::kFloor, AmtScalar::u32, 4, c.slots - 2 * c.nodes},
-      {amt_tag::kSaturatedError, AmtScalar::u16, 2, c.nodes},
-      {amt_tag::kSphere, AmtScalar::f32, 16, c.nodes},
-      {amt_tag::kBlockError, AmtScalar::u16, 2, nodeBlockAndPageCount(c.nodes)},
-      {amt_tag::kBlockSphere, AmtScalar::f32, 16, nodeBlockAndPageCount(c.nodes)},
-      {amt_tag::kCreatorHint, AmtScalar::u32, 4, (c.slots + kSlotsPerHint - 1) / kSlotsPerHint},
-      m.hasDoubles ? AmtShape{amt_tag::kPlaces, AmtScalar::f64, 24, vertices}
-                   : AmtShape{amt_tag::kPlaces, AmtScalar::f32, 12, vertices},
-      {amt_tag::kVertexNumbers, AmtScalar::u32, 4, vertices},
-      {amt_tag::kFaceNumbers, AmtScalar::u32, 4, m.hasAllFaces ? triangles : m.finestTriangles},
-  };
+  std::vector<AmtShape> shapes = mtShapes(c, std::array<AmtTag, 1>{amt_tag::kRms});
+  shapes.push_back(m.hasDoubles ? AmtShape{amt_tag::kPlaces, AmtScalar::f64, 24, vertices}
+                                : AmtShape{amt_tag::kPlaces, AmtScalar::f32, 12, vertices});
+  shapes.push_back({amt_tag::kVertexNumbers, AmtScalar::u32, 4, vertices});
+  shapes.push_back({amt_tag::kFaceNumbers, AmtScalar::u32, 4, m.hasAllFaces ? triangles : m.finestTriangles});
   if (m.wedges > 0) shapes.push_back({amt_tag::kWedges, AmtScalar::u32, 12, triangles});
   return shapes;
 }

@@ -20,7 +20,6 @@
 #include "engine/mt/hole_limit.h"
 #include "engine/parallel/with_threads.h"
 #include "surface/build/prepare.h"
-#include "surface/diagnosis/sizes.h"
 #include "surface/error/original.h"
 #include "surface/error/samples.h"
 #include "surface/model/face_heirs.h"
@@ -39,34 +38,18 @@ Status checkOptions(const SurfaceBuildOptions& options) {
   return {};
 }
 
-struct Box {
-  Vec3 low, high;
-  double diagonal() const { return std::hypot(high.x - low.x, high.y - low.y, high.z - low.z); }
-};
-
-Box boxOf(const TriangleMesh& mesh) {
-  Box box{mesh.positions[mesh.triangles[0][0]], mesh.positions[mesh.triangles[0][0]]};
-  for (const auto& t : mesh.triangles)
-    for (const std::uint32_t v : t) {
-      const Vec3& p = mesh.positions[v];
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-    }
-  return box;
-}
-
 /// The triangles along a space-filling curve.
-std::vector<std::uint32_t> orderAlongCurve(const TriangleMesh& mesh, const Box& box) {
-  const Vec3 span = box.high - box.low;
+std::vector<std::uint32_t> orderAlongCurve(const TriangleMesh& mesh, const Vec3& low, const Vec3& high) {
+  const Vec3 span = high - low;
   const double side = std::max({span.x, span.y, span.z});
-  const auto cell = [&](double sum, double low) {
-    return static_cast<std::uint32_t>(std::clamp((sum / 3 - low) / side, 0.0, 1.0) * 0x1FFFFF);
+  const auto cell = [&](double sum, double least) {
+    return static_cast<std::uint32_t>(std::clamp((sum / 3 - least) / side, 0.0, 1.0) * 0x1FFFFF);
   };
   std::vector<std::uint64_t> codes;
   codes.reserve(mesh.triangles.size());
   for (const auto& [i, j, k] : mesh.triangles) {
     const Vec3 sum = mesh.positions[i] + mesh.positions[j] + mesh.positions[k];
-    codes.push_back(mortonCode(cell(sum.x, box.low.x), cell(sum.y, box.low.y), cell(sum.z, box.low.z)));
+    codes.push_back(mortonCode(cell(sum.x, low.x), cell(sum.y, low.y), cell(sum.z, low.z)));
   }
   std::vector<std::uint32_t> order(codes.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -138,11 +121,10 @@ class SurfaceBuild {
     if (mesh.triangles.size() > LiveMesh::kMostTriangles / 2)
       return failure(ErrorCode::unsupported,
                      fmt::format("{} faces are more than 32-bit half-edges can name", mesh.triangles.size()));
-    box_ = boxOf(mesh);
-    if (!(box_.diagonal() < 1e30) || !(box_.diagonal() > 1e-30))
+    if (const double diagonal = prepared_.diagonal; !(diagonal < 1e30) || !(diagonal > 1e-30))
       return failure(ErrorCode::invalidData,
-                     fmt::format("a diagonal of {} is not between 1e-30 and 1e30", box_.diagonal()));
-    sortFaces(prepared_, orderAlongCurve(mesh, box_));
+                     fmt::format("a diagonal of {} is not between 1e-30 and 1e30", diagonal));
+    sortFaces(prepared_, orderAlongCurve(mesh, prepared_.boxLow, prepared_.boxHigh));
     giveFreeHeapBack();
     if (const Status done = simplify(); !done) return tl::unexpected(done.error());
     return std::move(model_);
@@ -153,8 +135,9 @@ class SurfaceBuild {
     const TriangleMesh& mesh = prepared_.mesh;
     const auto vertexCount = static_cast<std::uint32_t>(mesh.positions.size());
     const auto faceCount = static_cast<std::uint32_t>(mesh.triangles.size());
-    const double largest = std::max({std::abs(box_.low.x), std::abs(box_.low.y), std::abs(box_.low.z),
-                                     std::abs(box_.high.x), std::abs(box_.high.y), std::abs(box_.high.z)});
+    const Vec3 &low = prepared_.boxLow, &high = prepared_.boxHigh;
+    const double largest = std::max({std::abs(low.x), std::abs(low.y), std::abs(low.z), std::abs(high.x),
+                                     std::abs(high.y), std::abs(high.z)});
     const OriginalSurface original{mesh.positions, mesh.triangles, largest};
     const SurfaceSamples samples(original);
     std::vector<VertexId> pinched;
@@ -162,8 +145,8 @@ class SurfaceBuild {
     const std::vector<std::uint8_t> isFixed =
         fixedVertices(live, vertexCount, options_.keepsBorders, pinched);
     MetricFrame metric;
-    metric.origin = box_.low / 2 + box_.high / 2;
-    MtRecorder recorder(faceCount, vertexCount, OutwardScale(box_.diagonal()), metric);
+    metric.origin = low / 2 + high / 2;
+    MtRecorder recorder(faceCount, vertexCount, OutwardScale(prepared_.diagonal), metric);
     SurfaceState state{.mesh = live,
                        .original = original,
                        .samples = samples,
@@ -171,7 +154,7 @@ class SurfaceBuild {
                        .metric = metric,
                        .maxDegree = options_.maxDegree,
                        .thresholdRatio = options_.thresholdRatio,
-                       .unit = std::ldexp(1.0, -std::ilogb(box_.diagonal())),
+                       .unit = std::ldexp(1.0, -std::ilogb(prepared_.diagonal)),
                        .parts = {prepared_.mesh.hasWedges(), prepared_.partOf}};
     state.labels.resize(faceCount);
     for (std::uint32_t f = 0; f < faceCount; ++f)
@@ -228,7 +211,7 @@ class SurfaceBuild {
 
     model_.options = options_;
     model_.mending = prepared_.mending;
-    model_.diagonal = box_.diagonal();
+    model_.diagonal = prepared_.diagonal;
     model_.sourceVertices = prepared_.sourceVertices;
     model_.sourceFaces = prepared_.sourceFaces;
     for (const std::uint32_t v : order) model_.vertexOf.push_back(prepared_.vertexOf[v]);
@@ -254,7 +237,6 @@ class SurfaceBuild {
   const SurfaceBuildOptions& options_;
   const RunContext& context_;
   PreparedSurface prepared_;
-  Box box_;
   SurfaceModel model_;
 };
 

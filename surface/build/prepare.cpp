@@ -100,6 +100,9 @@ Result<PreparedSurface> prepareSurface(SurfaceMesh source, const RunContext& con
   PreparedSurface prepared;
   prepared.sourceVertices = source.positions.size();
   prepared.sourceFaces = source.triangles.size();
+  prepared.boxLow = d.boxLow;
+  prepared.boxHigh = d.boxHigh;
+  prepared.diagonal = d.diagonal;
   const RepairCounts& c = repaired->counts;
   prepared.mending = {.duplicateFaces = c.duplicateTriangles,
                       .degenerateFaces = c.degenerateTriangles,

@@ -19,6 +19,8 @@ struct PreparedSurface {
   MeshAttributes ofSource;
   std::vector<std::uint32_t> partOf;  ///< by triangle: SurfaceParts::partOf
   std::uint64_t sourceVertices = 0, sourceFaces = 0;
+  Vec3 boxLow, boxHigh;                 ///< of the mesh
+  double diagonal = 0;                  ///< of that box
   std::vector<std::uint32_t> vertexOf;  ///< by vertex: that of the source
   std::vector<std::uint32_t> faceOf;    ///< by triangle: that of the source
   SurfaceMending mending;

@@ -4,6 +4,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <array>
 
 #include "engine/parallel/loop_threads.h"
 #include "surface/simplify/cost.h"
@@ -68,18 +69,18 @@ void SurfaceLevels::claim() {
       return std::uint64_t{std::min(a, b).index()} << 32 | std::max(a, b).index();
     };
     wanted.clear();
-    // The edges of the fan, among them those of the hole that it is between: no two holes claim the same.
+    // The new edges of the fan.
     int corner = 0;
     while (star.link[corner] != around) ++corner;
     for (int k = 2; k + 1 < star.linkSize; ++k)
       wanted.push_back(edge(around, star.link[(corner + k) % star.linkSize]));
     if (star.isOpen) wanted.push_back(edge(star.link[0], star.link[star.linkSize - 1]));
-    // A triangle between three edges that stay can be claimed from its other side too.
+    // A single triangle has no new edge, and the hole on its other side may want the same one: an old edge
+    // stands for it, the same for both.
     if (!star.isOpen && star.linkSize == 3) {
-      std::array<std::uint32_t, 3> corners{star.link[0].index(), star.link[1].index(), star.link[2].index()};
+      std::array<VertexId, 3> corners{star.link[0], star.link[1], star.link[2]};
       std::ranges::sort(corners);
-      wanted.push_back(~(std::uint64_t{corners[0]} * 0x9E3779B97F4A7C15ull ^
-                         (std::uint64_t{corners[1]} << 32 | corners[2])));
+      wanted.push_back(edge(corners[0], corners[1]));
     }
     if (std::ranges::any_of(wanted, [&](std::uint64_t e) { return claimed_.contains(e); })) {
       s_.records[v].state = RecordState::stale;

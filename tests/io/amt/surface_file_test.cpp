@@ -133,8 +133,7 @@ TEST_F(SurfaceAmt, SaysSoWhateverByteIsChangedOrCutOff) {
     std::string bytes = whole;
     bytes[random() % bytes.size()] ^= char(1 << random() % 8);
     std::ofstream(path("b.amt"), std::ios::binary) << bytes;
-    // The zeros between chunks are not read.
-    if (const Result<SurfaceModel> read = loadSurfaceAmt(path("b.amt"))) expectEqual(*model, *read);
+    EXPECT_FALSE(loadSurfaceAmt(path("b.amt"))) << i;
   }
   for (int i = 0; i < 40; ++i) {
     std::ofstream(path("b.amt"), std::ios::binary) << whole.substr(0, random() % whole.size());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/surface/face_map.h"
+#include "surface/front/face_map.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "engine/base/nearest_on_triangle.h"
