@@ -67,6 +67,24 @@ int measureDems(const Arguments& arguments, const Plan& plan, Report& report) {
   return exitCode;
 }
 
+/// Stage "surface" on every wanted mesh, into the report. Returns the exit code.
+int measureMeshes(const Arguments& arguments, const Plan& plan, Report& report) {
+  int exitCode = 0;
+  const auto take = [&](const Result<Figures>& figures) {
+    if (figures)
+      report.figures.insert(report.figures.end(), figures->begin(), figures->end());
+    else
+      exitCode = fail(figures.error());
+  };
+  for (const MeshSource& source : realMeshes(arguments.data)) {
+    if (!isWanted(source.name, arguments.dems)) continue;
+    if (!arguments.quiet) fmt::print(stderr, "arete-bench: {} ...\n", source.name);
+    take(measureMesh(source, plan));
+  }
+  if (isWanted("generated globe", arguments.dems)) take(measureSurfaceMemory(plan));
+  return exitCode;
+}
+
 int measureAll(const Arguments& arguments) {
   Plan plan;
   plan.only = arguments.only;
@@ -92,7 +110,12 @@ int measureAll(const Arguments& arguments) {
     else
       exitCode = fail(figures.error());
   }
-  if (plan.only != std::vector<std::string>{"machine"})
+  if (plan.wants("surface"))
+    if (const int failed = measureMeshes(arguments, plan, report); failed != 0) exitCode = failed;
+  const bool wantsDems = plan.only.empty() || std::ranges::any_of(plan.only, [](const std::string& stage) {
+                           return stage != "machine" && stage != "surface";
+                         });
+  if (wantsDems)
     if (const int failed = measureDems(arguments, plan, report); failed != 0) exitCode = failed;
   const Figures means = geometricMeans(report.figures);
   report.figures.insert(report.figures.end(), means.begin(), means.end());
@@ -139,7 +162,7 @@ int run(int argc, char** argv) {
                  "Stages, with commas between: " + fmt::format("{}", fmt::join(stageNames(), ", ")))
       ->delimiter(',')
       ->check(CLI::IsMember(stageNames()));
-  app.add_option("--dem", arguments.dems, "DEMs whose name contains one of these")->delimiter(',');
+  app.add_option("--dem", arguments.dems, "DEMs and meshes whose name contains one of these")->delimiter(',');
   app.add_option("--sizes", arguments.sizes, "Generated DEMs, millions of samples (default 1,4,16)")
       ->delimiter(',')
       ->check(CLI::Range(0.001, 256.0));

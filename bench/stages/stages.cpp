@@ -170,14 +170,22 @@ bool Plan::wants(const std::string& stage) const {
 }
 
 const std::vector<std::string>& stageNames() {
-  static const std::vector<std::string> names = {"read",    "build",     "file",     "cut",    "follow",
-                                                 "height",  "sight",     "viewshed", "view",   "export",
-                                                 "measure", "triangles", "rival",    "machine"};
+  static const std::vector<std::string> names = {"read",    "build",     "file",     "cut",     "follow",
+                                                 "height",  "sight",     "viewshed", "view",    "export",
+                                                 "measure", "triangles", "rival",    "surface", "machine"};
   return names;
 }
 
 Result<Figures> measureDem(const DemSource& source, const Plan& plan) {
   return DemRun(source, plan).run();
+}
+
+Result<Figures> measureMesh(const MeshSource& source, const Plan& plan) {
+  return inProcess(source.name, [&] { return surfaceStage(source, plan); });
+}
+
+Result<Figures> measureSurfaceMemory(const Plan& plan) {
+  return surfaceMemoryStage(plan);
 }
 
 Result<Figures> measureMachine(const Plan& plan) {
@@ -188,7 +196,9 @@ Figures geometricMeans(const Figures& figures) {
   Figures means;
   std::vector<int> counts;
   for (const Figure& f : figures) {
-    if (f.stage != "triangles" || f.better != Better::lower || f.name.rfind("ratio", 0) != 0) continue;
+    if ((f.stage != "triangles" && f.stage != "surface") || f.better != Better::lower ||
+        f.name.rfind("ratio", 0) != 0)
+      continue;
     auto mean = std::find_if(means.begin(), means.end(), [&](const Figure& m) { return m.name == f.name; });
     if (mean == means.end()) {
       mean = means.insert(means.end(),

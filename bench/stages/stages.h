@@ -24,18 +24,29 @@ struct Plan {
 };
 
 /// The stages there are, in the order in which they are run: read, build, file, cut, follow, height, sight,
-/// viewshed, view, export, measure, triangles, rival, machine.
+/// viewshed, view, export, measure, triangles, rival, surface, machine.
 const std::vector<std::string>& stageNames();
 
 /// Every stage that the plan wants, on one DEM. Each runs in processes of its own; models are built as needed
 /// and left in the scratch folder until the last stage. Errors: those of the stages, naming the DEM.
 Result<Figures> measureDem(const DemSource& source, const Plan& plan);
 
+/// A real triangle mesh.
+struct MeshSource {
+  std::string name, path;
+};
+/// Those of a folder's "meshes" that can be read; empty where there is none.
+std::vector<MeshSource> realMeshes(const std::string& folder);
+/// Stage "surface" on one mesh, and the memory of generated ones: each in processes of its own. Errors: those
+/// of reading and of the build.
+Result<Figures> measureMesh(const MeshSource& source, const Plan& plan);
+Result<Figures> measureSurfaceMemory(const Plan& plan);
+
 /// What the machine can do at best, in a process of its own. Errors: unreadable (it ended, for want of
 /// memory).
 Result<Figures> measureMachine(const Plan& plan);
 
-/// Ratios to the greedy insertion of the baselines, from the figures of stage "triangles": geometric means.
+/// Ratios to the rivals, from the figures of stages "triangles" and "surface": geometric means.
 Figures geometricMeans(const Figures& figures);
 
 /// The stages, each in the process that calls it; paths and variants as measureDem() hands them in.
@@ -57,6 +68,9 @@ Result<Figures> exportStage(const DemSource& source, const std::string& model, c
 Result<Figures> measureStage(const DemSource& source, const std::string& model, const Plan& plan);
 Result<Figures> trianglesStage(const DemSource& source, const std::string& delaunay,
                                const std::string& fidelity, const std::vector<GreedyBaseline>& baselines);
+Result<Figures> surfaceStage(const MeshSource& source, const Plan& plan);
+/// Starts processes of its own.
+Result<Figures> surfaceMemoryStage(const Plan& plan);
 /// Memory: 1.5 GiB.
 Figures machineStage(const Plan& plan);
 /// Starts processes of its own: the calling one has no threads. Nothing for a DEM with voids.

@@ -52,6 +52,7 @@ struct ExtractArguments {
   MeshOutput output;
   CriterionArguments criterion;
   std::string certificate, errorRaster, map;
+  std::string dropParts;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   CLI::Option* certificateOption = nullptr;
 };
@@ -250,6 +251,7 @@ Status runSurfaceExtract(const ExtractArguments& arguments, Session& session) {
                          .format = arguments.output.format,
                          .asked = *asked,
                          .map = arguments.map,
+                         .dropParts = arguments.dropParts,
                          .existing = arguments.existing},
                         session);
 }
@@ -258,8 +260,9 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   if (Status ok = arguments.criterion.check(); !ok) return ok;
   const Result<bool> isSurface = isSurfaceAmt(arguments.model);
   if (isSurface && *isSurface) return runSurfaceExtract(arguments, session);
-  if (!arguments.map.empty())
-    return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", "--map");
+  for (const auto& [option, isStated] :
+       {std::pair{"--map", !arguments.map.empty()}, std::pair{"--drop-parts", !arguments.dropParts.empty()}})
+    if (isStated) return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", option);
   const Result<AmtFile> file = openAmt(arguments.model);
   if (!file) return tl::unexpected(file.error());
   const Result<TerrainModel> outline = outlineForPlaces(*file, arguments.criterion, session);
@@ -340,6 +343,12 @@ void addExtractCommand(CLI::App& app, Session& session) {
                    "Of a surface: CSV to write, with the input vertex of each output vertex and the output\n"
                    "face of each input face, all from 0")
       ->type_name("FILE");
+  command
+      ->add_option(
+          "--drop-parts", arguments->dropParts,
+          "Of a surface: leave out the components whose box has a diagonal below D, in the file's unit "
+          "or in % of the whole diagonal")
+      ->type_name("D");
 }
 
 }  // namespace arete

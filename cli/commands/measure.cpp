@@ -15,6 +15,7 @@
 #include "cli/arguments/arguments.h"
 #include "cli/commands/measure_meshes.h"
 #include "cli/commands/measure_report_text.h"
+#include "io/amt/surface_file.h"
 #include "io/crs/longitude_turns.h"
 #include "io/crs/names.h"
 #include "io/dem/dem_reader.h"
@@ -159,7 +160,8 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
 }
 
 Status runMeasure(const MeasureArguments& arguments, Session& session) {
-  const bool isAgainstMesh = isMeshFile(arguments.dem.path);
+  const Result<bool> isModel = isSurfaceAmt(arguments.dem.path);
+  const bool isAgainstMesh = isMeshFile(arguments.dem.path) || (isModel && *isModel);
   if (Status kind = checkKind(arguments, isAgainstMesh); !kind) return kind;
   if (isAgainstMesh) {
     MeasureMeshesArguments meshes;

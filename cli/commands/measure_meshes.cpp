@@ -15,15 +15,30 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/commands/mesh_distance_text.h"
+#include "io/amt/surface_file.h"
 #include "io/crs/names.h"
 #include "io/exchange/mesh_formats.h"
 #include "io/exchange/metric_mesh.h"
 #include "io/extract/report_json.h"
+#include "surface/front/front.h"
 #include "terrain/measure/mesh_distance.h"
 #include "viewer/picture/color_ramp.h"
 
 namespace arete {
 namespace {
+
+/// A mesh, or the finest front of a surface's model: its source as the build mended it.
+Result<MeshFile> readMeasured(const std::string& path, const Session& session) {
+  const Result<bool> isSurface = isSurfaceAmt(path);
+  if (!isSurface || !*isSurface) return readMesh(path, session.context());
+  const Result<SurfaceModel> model = loadSurfaceAmt(path, AmtVerify::all, session.context());
+  if (!model) return tl::unexpected(model.error());
+  MeshFile file;
+  file.mesh = finestSurfaceOf(*model).mesh;
+  file.crsWkt = model->crsWkt;
+  file.verticalUnit = model->verticalUnit;
+  return file;
+}
 
 void compareFrames(const MeshFile& first, const MeshFile& second, const Session& session) {
   if (compareCrs(first.crsWkt, second.crsWkt) == CrsAgreement::different)
@@ -119,9 +134,9 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
         !output)
       return output;
   }
-  const Result<MeshFile> first = readMesh(arguments.first, session.context());
+  const Result<MeshFile> first = readMeasured(arguments.first, session);
   if (!first) return tl::unexpected(first.error());
-  const Result<MeshFile> second = readMesh(arguments.second, session.context());
+  const Result<MeshFile> second = readMeasured(arguments.second, session);
   if (!second) return tl::unexpected(second.error());
   session.warn(first->warnings, arguments.first);
   session.warn(second->warnings, arguments.second);

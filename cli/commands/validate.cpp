@@ -83,7 +83,7 @@ Status runValidate(const ValidateArguments& arguments, Session& session) {
   if (const Result<bool> isSurface = isSurfaceAmt(arguments.model); isSurface && *isSurface) {
     if (!arguments.source.path.empty())
       return failure(ErrorCode::usage, "is for terrain, and the file is of a surface", "--against");
-    return validateSurfaceFile(arguments.model, session);
+    return validateSurfaceFile(arguments.model, {.everySample = arguments.options.everyTriangle}, session);
   }
   const Result<TerrainModel> model = loadAmt(arguments.model, {}, session.context());
   if (!model) return tl::unexpected(model.error());

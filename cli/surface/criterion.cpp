@@ -4,65 +4,73 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numbers>
+#include <system_error>
 #include <utility>
 
 #include "cli/arguments/arguments.h"
+#include "cli/surface/camera.h"
 #include "cli/surface/tolerance.h"
 #include "engine/criteria/space_region.h"
 #include "engine/criteria/view_error.h"
+#include "io/exchange/mesh_formats.h"
+#include "surface/region/closed_mesh_region.h"
 
 namespace arete {
 namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-Result<SpaceRegion> readRegion(const std::string& text) {
+using RegionPtr = std::shared_ptr<const SpaceRegion>;
+
+/// Of a closed mesh in a file.
+Result<RegionPtr> readRegionMesh(const std::string& path, const RunContext& context) {
+  const Result<MeshFile> file = readMesh(path, context);
+  if (!file) return tl::unexpected(file.error());
+  const auto region = ClosedMeshRegion::create(file->mesh);
+  if (!region) return failure(region.error().code, region.error().message, path);
+  return RegionPtr(*region);
+}
+
+Result<RegionPtr> readRegion(const std::string& text, const RunContext& context) {
   const std::string option = fmt::format("--region {}", text);
   const Result<std::vector<double>> numbers = parseNumbers(option, text);
+  std::error_code ignored;
+  if (!numbers && std::filesystem::exists(text, ignored)) return readRegionMesh(text, context);
   if (!numbers || (numbers->size() != 4 && numbers->size() != 6))
-    return failure(ErrorCode::usage,
-                   "the region of a surface is a box x0,y0,z0,x1,y1,z1 or a ball x,y,z,r in the file's unit",
-                   option);
+    return failure(
+        ErrorCode::usage,
+        "the region of a surface is a box x0,y0,z0,x1,y1,z1 or a ball x,y,z,r in the file's unit, or "
+        "a file of a closed mesh",
+        option);
   const std::vector<double>& n = *numbers;
-  SpaceRegion region;
   if (n.size() == 4) {
-    region.shape = SpaceRegion::Shape::ball;
-    region.centre = {n[0], n[1], n[2]};
-    region.radius = n[3];
-    if (!(region.radius >= 0)) return failure(ErrorCode::usage, "the radius is negative", option);
-    return region;
+    if (!(n[3] >= 0)) return failure(ErrorCode::usage, "the radius is negative", option);
+    return RegionPtr(std::make_shared<BallRegion>(Vec3{n[0], n[1], n[2]}, n[3]));
   }
-  region.low = {n[0], n[1], n[2]};
-  region.high = {n[3], n[4], n[5]};
   if (n[0] > n[3] || n[1] > n[4] || n[2] > n[5])
     return failure(ErrorCode::usage, "the lowest coordinates come first, then the highest", option);
-  return region;
+  return RegionPtr(std::make_shared<BoxRegion>(Vec3{n[0], n[1], n[2]}, Vec3{n[3], n[4], n[5]}));
 }
 
 Result<View> readView(const CriterionArguments::OfSurface& asked, const SurfaceModel& model) {
   const std::string option = fmt::format("--camera {}", asked.camera);
-  const Result<std::vector<double>> numbers = parseNumbers(option, asked.camera);
-  if (!numbers || (numbers->size() != 6 && numbers->size() != 7))
-    return failure(
-        ErrorCode::usage,
-        "the camera of a surface is x,y,z of the eye, x,y,z of what it looks at and perhaps a field "
-        "of view in degrees",
-        option);
-  const std::vector<double>& n = *numbers;
-  if (n.size() == 7 && asked.fieldOfView)
+  const Result<SurfaceCamera> camera = readSurfaceCamera(asked.camera);
+  if (!camera) return tl::unexpected(camera.error());
+  if (camera->fieldOfView && asked.fieldOfView)
     return failure(ErrorCode::usage, "cannot be combined with a field of view in --camera", "--fov");
   const MetricFrame& metric = model.mt.arrays().metric;
   View view;
-  view.eye = metric.toMetric({n[0], n[1], n[2]});
-  view.forward = metric.toMetric({n[3], n[4], n[5]}) - view.eye;
+  view.eye = metric.toMetric(camera->eye);
+  view.forward = metric.toMetric(camera->target) - view.eye;
   const double length = norm(view.forward);
   if (!(length > 0)) return failure(ErrorCode::usage, "the eye is at what it looks at", option);
   const Vec3 up = model.up == "y" ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
   const bool isAlong = norm(cross(view.forward / length, up)) < 1e-6;
   view.up = isAlong ? Vec3{1, 0, 0} : up;
-  const double degrees = n.size() == 7 ? n[6] : asked.fieldOfView.value_or(60);
+  const double degrees = camera->fieldOfView.value_or(asked.fieldOfView.value_or(60));
   view.verticalFieldOfView = degrees / 180 * std::numbers::pi;
   if (!asked.viewport.empty()) {
     const auto viewport = twoNumbers("--viewport", asked.viewport, 'x');
@@ -79,7 +87,8 @@ Result<View> readView(const CriterionArguments::OfSurface& asked, const SurfaceM
 
 Result<std::unique_ptr<const Criterion>> surfaceCriterion(const CriterionArguments::OfSurface& asked,
                                                           std::optional<double> maxError,
-                                                          const SurfaceModel& model) {
+                                                          const SurfaceModel& model,
+                                                          const RunContext& context) {
   double outside = kNoLimit;
   if (!asked.outsideError.empty()) {
     const auto stated = parseSurfaceTolerances("--outside-error", asked.outsideError, model.diagonal);
@@ -94,7 +103,7 @@ Result<std::unique_ptr<const Criterion>> surfaceCriterion(const CriterionArgumen
   }
   const MetricFrame& metric = model.mt.arrays().metric;
   if (!asked.region.empty()) {
-    const Result<SpaceRegion> region = readRegion(asked.region);
+    const Result<RegionPtr> region = readRegion(asked.region, context);
     if (!region) return tl::unexpected(region.error());
     return std::make_unique<SpaceRegionError>(*region, metric, maxError.value_or(0), outside);
   }

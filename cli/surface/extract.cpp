@@ -24,6 +24,8 @@
 #include "surface/diagnosis/diagnosis.h"
 #include "surface/front/face_map.h"
 #include "surface/front/front.h"
+#include "surface/front/model_components.h"
+#include "terrain/measure/mesh_distance.h"
 
 namespace arete {
 namespace {
@@ -74,8 +76,10 @@ Status checkOutputs(const SurfaceExtractArguments& arguments, const std::vector<
 }
 
 /// What keeps the root from having fewer triangles.
-std::string whyNotFewer(const SurfaceModel& model, const RunContext& context) {
-  const Cut root = frontOfPrefix(model.mt, 0);
+std::string whyNotFewer(const SurfaceModel& model, const DroppedComponents* dropped,
+                        const RunContext& context) {
+  Cut root = frontOfPrefix(model.mt, 0);
+  if (dropped) root = withoutDropped(model.mt, root, *dropped).cut;
   TriangleMesh mesh;
   for (const std::uint32_t v : root.vertices) mesh.positions.push_back(model.mt.position(VertexId(v)));
   mesh.triangles = root.triangles;
@@ -98,34 +102,39 @@ std::string whyNotFewer(const SurfaceModel& model, const RunContext& context) {
   return why;
 }
 
+/// @param dropped components that need no triangles; null: none.
 Result<Cut> cutOf(const CriterionArguments::OfSurface& asked, const SurfaceModel& model,
-                  const Request& request, const RunContext& context) {
-  const auto criterion = surfaceCriterion(
-      asked, request.tolerance ? std::optional(request.tolerance->distance) : std::nullopt, model);
+                  const Request& request, const DroppedComponents* dropped, const RunContext& context) {
+  auto criterion = surfaceCriterion(
+      asked, request.tolerance ? std::optional(request.tolerance->distance) : std::nullopt, model, context);
   if (!criterion) return tl::unexpected(criterion.error());
   CutOptions options;
   options.method = asked.isSaturated ? CutMethod::saturated : CutMethod::minimal;
   options.maxTriangles = asked.maxTriangles;
+  const std::uint32_t droppedTriangles = dropped ? dropped->rootTriangles : 0;
+  if (options.maxTriangles) *options.maxTriangles += droppedTriangles;
+  if (dropped && !asked.isSaturated) criterion = std::make_unique<OfTheRest>(std::move(*criterion), *dropped);
   const bool isEverywhere = asked.region.empty() && asked.camera.empty();
   if (asked.maxTriangles && isEverywhere && !asked.isSaturated)
     options.order = std::make_shared<LargestSquaresFirst>();
   Result<Cut> cut = takeCut(model.mt, **criterion, options, context);
-  if (!cut && asked.maxTriangles && *asked.maxTriangles < model.mt.rootTriangleCount())
+  const std::uint32_t least = model.mt.rootTriangleCount() - droppedTriangles;
+  if (!cut && asked.maxTriangles && *asked.maxTriangles < least)
     return failure(ErrorCode::usage,
-                   fmt::format("the coarsest surface has {} triangles: it has {}",
-                               grouped(model.mt.rootTriangleCount()), whyNotFewer(model, context)),
+                   fmt::format("the coarsest surface has {} triangles: it has {}", grouped(least),
+                               whyNotFewer(model, dropped, context)),
                    fmt::format("--max-triangles {}", *asked.maxTriangles));
   return cut;
 }
 
-Status writeMap(const std::string& path, const SurfaceModel& model, const Cut& cut,
-                const SurfaceFront& front) {
+/// @param faces by face of the source: the triangle that stands for it.
+Status writeMap(const std::string& path, const SurfaceModel& model, const SurfaceFront& front,
+                const std::vector<std::uint32_t>& faces) {
   Result<FileWriter> out = FileWriter::create(path);
   if (!out) return tl::unexpected(out.error());
   out->write("what,output,input\n");
   for (std::size_t v = 0; v < front.vertexOf.size(); ++v)
     out->write(fmt::format("vertex,{},{}\n", v, front.vertexOf[v]));
-  const std::vector<std::uint32_t> faces = facesOf(model, cut);
   const std::vector<std::uint32_t>& fileFace = model.attributes.faceOf;
   for (std::size_t f = 0; f < faces.size(); ++f)
     if (faces[f] != MeshAttributes::kNone)
@@ -145,9 +154,13 @@ class Extraction {
       : arguments_(arguments), model_(model), session_(session) {}
 
   Status run(const Request& request) {
-    const Result<Cut> cut = cutOf(arguments_.asked, model_, request, session_.context());
-    if (!cut) return tl::unexpected(cut.error());
-    SurfaceFront front = surfaceOf(model_, *cut);
+    const DroppedComponents* dropped = dropped_ ? &*dropped_ : nullptr;
+    const Result<Cut> whole = cutOf(arguments_.asked, model_, request, dropped, session_.context());
+    if (!whole) return tl::unexpected(whole.error());
+    const CutOfTheRest rest =
+        dropped ? withoutDropped(model_.mt, *whole, *dropped) : CutOfTheRest{*whole, {}};
+    const Cut& cut = rest.cut;
+    const SurfaceFront front = surfaceOf(model_, cut);
     const Result<std::uint64_t> crossings = crossingsOf(front.mesh, session_.context());
     if (!crossings) return tl::unexpected(crossings.error());
     if (*crossings > 0)
@@ -168,18 +181,43 @@ class Extraction {
     std::vector<std::string> warnings;
     for (const std::string& lost : written->lost) warnings.push_back(fmt::format("cannot hold {}", lost));
     session_.warn(warnings, request.output);
-    if (!request.map.empty())
-      if (Status mapped = writeMap(request.map, model_, *cut, front); !mapped) return mapped;
-    say(request, *cut, front, *crossings, *written);
+    if (!request.map.empty()) {
+      std::vector<std::uint32_t> faces = facesOf(model_, *whole);
+      for (std::uint32_t& face : faces)
+        if (dropped && face != MeshAttributes::kNone) face = rest.numberOf[face];
+      if (Status mapped = writeMap(request.map, model_, front, faces); !mapped) return mapped;
+    }
+    std::optional<double> droppedDistance;
+    if (dropped && dropped->count > 0) {
+      const auto distance = distanceOfDropped(front.mesh);
+      if (!distance) return tl::unexpected(distance.error());
+      droppedDistance = *distance;
+    }
+    say(request, cut, front, *crossings, droppedDistance, *written);
     return {};
+  }
+
+  /// Errors: usage: nothing would be left.
+  Status drop(double leastDiagonal) {
+    dropped_ = componentsBelow(model_, leastDiagonal);
+    if (dropped_->rootTriangles < model_.mt.rootTriangleCount()) return {};
+    return failure(ErrorCode::usage, "leaves nothing: every component is smaller",
+                   fmt::format("--drop-parts {}", arguments_.dropParts));
   }
 
   Json& exports() { return exports_; }
 
  private:
+  /// No point of what is left out is farther than this from the rest.
+  Result<double> distanceOfDropped(const TriangleMesh& rest) {
+    const auto report = measureDistance(droppedSurface(model_, *dropped_), rest, {}, session_.context());
+    if (!report) return tl::unexpected(report.error());
+    return report->forward.atMost;
+  }
+
   Status countSourceCrossings() {
     if (sourceCrossings_) return {};
-    const SurfaceFront finest = surfaceOf(model_, frontOfPrefix(model_.mt, model_.mt.nodeCount()));
+    const SurfaceFront finest = finestSurfaceOf(model_);
     const Result<std::uint64_t> count = crossingsOf(finest.mesh, session_.context());
     if (!count) return tl::unexpected(count.error());
     sourceCrossings_ = *count;
@@ -187,11 +225,15 @@ class Extraction {
   }
 
   void say(const Request& request, const Cut& cut, const SurfaceFront& front, std::uint64_t crossings,
-           const MeshWriteReport& written) {
-    std::string text =
-        fmt::format("{}: {} triangles, {} vertices, no point of the source farther than {}\n", request.output,
-                    grouped(front.mesh.triangles.size()), grouped(front.mesh.positions.size()),
-                    withShare(cut.achievedError, model_.diagonal));
+           const std::optional<double>& droppedDistance, const MeshWriteReport& written) {
+    std::string text = fmt::format(
+        "{}: {} triangles, {} vertices, no point of the source{} farther than {}\n", request.output,
+        grouped(front.mesh.triangles.size()), grouped(front.mesh.positions.size()),
+        droppedDistance ? " but what is left out" : "", withShare(cut.achievedError, model_.diagonal));
+    if (droppedDistance)
+      text += fmt::format("  left out   {} component{} of {} faces, no point of them farther than {}\n",
+                          grouped(dropped_->count), dropped_->count == 1 ? "" : "s",
+                          grouped(dropped_->sourceFaces), withShare(*droppedDistance, model_.diagonal));
     if (crossings > 0)
       text += fmt::format("  crossings  {} pairs of triangles; the source has {}\n", grouped(crossings),
                           grouped(*sourceCrossings_));
@@ -207,6 +249,10 @@ class Extraction {
                  {"complete", cut.isComplete},
                  {"selfIntersections", crossings},
                  {"lost", written.lost}};
+    if (dropped_)
+      json["dropped"] = {{"components", dropped_->count},
+                         {"faces", dropped_->sourceFaces},
+                         {"distance", droppedDistance ? Json(*droppedDistance) : Json()}};
     if (sourceCrossings_) json["sourceSelfIntersections"] = *sourceCrossings_;
     if (request.tolerance && std::isfinite(request.tolerance->distance))
       json["maxError"] = request.tolerance->distance;
@@ -219,6 +265,7 @@ class Extraction {
   const SurfaceModel& model_;
   Session& session_;
   std::optional<std::uint64_t> sourceCrossings_;
+  std::optional<DroppedComponents> dropped_;
   Json exports_ = Json::array();
 };
 
@@ -231,6 +278,12 @@ Status extractSurface(const SurfaceExtractArguments& arguments, Session& session
   if (!requests) return tl::unexpected(requests.error());
   if (Status checked = checkOutputs(arguments, *requests); !checked) return checked;
   Extraction extraction(arguments, *model, session);
+  if (!arguments.dropParts.empty()) {
+    const auto least = parseSurfaceTolerances("--drop-parts", arguments.dropParts, model->diagonal);
+    if (!least) return tl::unexpected(least.error());
+    if (least->size() != 1) return failure(ErrorCode::usage, "takes one length", "--drop-parts");
+    if (Status dropped = extraction.drop(least->front().distance); !dropped) return dropped;
+  }
   for (const Request& request : *requests)
     if (Status extracted = extraction.run(request); !extracted) return extracted;
   session.answer({{"model", arguments.model},

@@ -14,7 +14,8 @@ struct SurfaceExtractArguments {
   std::string model;
   std::string output, format;  ///< as MeshOutput; {} in the name becomes the tolerance
   CriterionArguments::OfSurface asked;
-  std::string map;  ///< --map; empty: none
+  std::string map;        ///< --map; empty: none
+  std::string dropParts;  ///< --drop-parts; empty: none
   ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
 

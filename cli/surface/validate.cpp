@@ -6,7 +6,6 @@
 #include <array>
 
 #include "io/amt/surface_file.h"
-#include "surface/laws/validate_surface.h"
 
 namespace arete {
 namespace {
@@ -24,23 +23,27 @@ constexpr std::array kLaws = {
     Law{5, "fronts are oriented manifolds of the topology of the source"},
     Law{6, "saturated errors and spheres contain those of the children"},
     Law{8, "the finest front has all faces that the build kept"},
+    Law{10, "every sample of the source lies within the error of a triangle, in every front"},
 };
 
 }  // namespace
 
-Status validateSurfaceFile(const std::string& path, Session& session) {
+Status validateSurfaceFile(const std::string& path, const SurfaceLawOptions& options, Session& session) {
   const Result<SurfaceModel> model = loadSurfaceAmt(path, AmtVerify::all, session.context());
   if (!model) return tl::unexpected(model.error());
-  const Status valid = validateSurface(*model, session.context());
+  const Status valid = validateSurface(*model, options, session.context());
   if (!valid && valid.error().code == ErrorCode::interrupted) return valid;
   Json laws = Json::array();
   std::string text = fmt::format("{}: checksums, indices and every law hold\n", path);
   for (const Law& law : kLaws) {
-    text += fmt::format("  law {}  holds  {}\n", law.number, law.says);
+    text += fmt::format("  law {:<2}  holds  {}\n", law.number, law.says);
     laws.push_back({{"law", law.number}, {"says", law.says}, {"claimed", true}});
   }
   Json json = {{"file", path}, {"kind", "surface"}, {"holds", valid.has_value()}};
+  json["samples"] = options.everySample ? "full" : "vertices";
   if (valid) {
+    text += options.everySample ? "  law 10 by vertices, middles of faces and of their sides\n"
+                                : "  law 10 by vertices (--full: more samples)\n";
     session.say(text);
     json["laws"] = std::move(laws);
   } else {

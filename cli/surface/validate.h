@@ -5,11 +5,12 @@
 
 #include "cli/session/session.h"
 #include "engine/base/result.h"
+#include "surface/laws/validate_surface.h"
 
 namespace arete {
 
 /// `arete validate` of the .amt file of a surface. Errors: those of loadSurfaceAmt(); brokenPromise: names
 /// the law that is broken.
-Status validateSurfaceFile(const std::string& path, Session& session);
+Status validateSurfaceFile(const std::string& path, const SurfaceLawOptions& options, Session& session);
 
 }  // namespace arete

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "cli/arguments/arguments.h"
 #include "io/file/text_scan.h"
@@ -24,6 +25,14 @@ Coloring coloringOf(const std::string& name) {
   return Coloring::hypsometric;
 }
 
+Result<std::pair<double, double>> anglesOfSun(const std::string& sun) {
+  const auto angles = twoNumbers("--sun", sun, ',');
+  if (!angles || !(angles->second >= 0 && angles->second <= 90) || !std::isfinite(angles->first))
+    return failure(ErrorCode::usage, "must be AZIMUTH,ELEVATION, with an elevation from 0 to 90 degrees",
+                   "--sun " + sun);
+  return *angles;
+}
+
 }  // namespace
 
 void ViewpointArguments::addTo(CLI::App& command) {
@@ -33,13 +42,13 @@ void ViewpointArguments::addTo(CLI::App& command) {
           .add_option("--camera", camera,
                       "Position of the camera, H above the ground (agl) or in the DEM's heights (msl, ell); "
                       "its direction in degrees, clockwise from north and above the horizon; its vertical "
-                      "field of view (default 60)")
-          ->type_name("X,Y,H[,AZIMUTH,PITCH[,FOV]]")
+                      "field of view (default 60). Of a surface: the eye, what it looks at, field of view")
+          ->type_name("X,Y,H[,AZIMUTH,PITCH[,FOV]] | X,Y,Z,TX,TY,TZ[,FOV]")
           ->group(group);
   command.add_flag("--lonlat", isLonLat, "X,Y of --camera are longitude and latitude")
       ->needs(place)
       ->group(group);
-  command.add_option("--home", home, "View of the whole terrain (default overview)")
+  command.add_option("--home", home, "View of the whole terrain or surface (default overview)")
       ->check(oneOf({"overview", "above", "south", "west", "north", "east"}))
       ->excludes(place)
       ->type_name("NAME")
@@ -48,9 +57,19 @@ void ViewpointArguments::addTo(CLI::App& command) {
       command.add_option("--path", path, "Flight through the key frames of a file (docs/topics/flights.md)")
           ->type_name("FLIGHT.json")
           ->group(group);
-  command.add_flag("--round", isRound, "Flight around the inside of the terrain")
+  command.add_flag("--round", isRound, "Flight around the inside of the terrain; one turn around a surface")
       ->excludes(flight)
       ->group(group);
+  command.add_option("--up", up, "Axis of a surface that points up (default: as its file says, else z)")
+      ->check(oneOf({"y", "z"}))
+      ->type_name("AXIS")
+      ->group(group);
+}
+
+HomeView ViewpointArguments::homeView() const {
+  for (const HomeView view : kHomeViews)
+    if (toString(view) == home) return view;
+  return HomeView::overview;
 }
 
 void DetailArguments::addTo(CLI::App& command) {
@@ -93,8 +112,12 @@ std::string DetailArguments::whatEndsTheCut() const {
 
 void AppearanceArguments::addTo(CLI::App& command) {
   const std::string group = "Appearance";
-  command.add_option("--color", color, "Colour by height (default), slope, aspect, plain or error")
-      ->check(oneOf({"height", "slope", "aspect", "plain", "error"}))
+  command
+      .add_option(
+          "--color", color,
+          "Colour by height (default), slope, aspect, plain or error; a surface by material (default), "
+          "plain or error")
+      ->check(oneOf({"height", "slope", "aspect", "plain", "error", "material"}))
       ->type_name("NAME")
       ->group(group);
   CLI::Option* picture =
@@ -156,11 +179,10 @@ Result<ViewLook> AppearanceArguments::look() const {
   look.contourInterval = contours;
   look.hazeKilometres = hazeKilometres;
   look.hasWireframe = hasWireframe;
+  if (color == "material") return failure(ErrorCode::usage, "is for surfaces", "--color material");
   if (sun.empty()) return look;
-  const auto angles = twoNumbers("--sun", sun, ',');
-  if (!angles || !(angles->second >= 0 && angles->second <= 90) || !std::isfinite(angles->first))
-    return failure(ErrorCode::usage, "must be AZIMUTH,ELEVATION, with an elevation from 0 to 90 degrees",
-                   "--sun " + sun);
+  const auto angles = anglesOfSun(sun);
+  if (!angles) return tl::unexpected(angles.error());
   std::tie(look.sunAzimuthDegrees, look.sunElevationDegrees) = *angles;
   return look;
 }
@@ -225,7 +247,8 @@ Status ViewArguments::check() const {
     return failure(ErrorCode::usage, sentence, option);
   };
   const PictureArguments& p = pictures;
-  if (detail.deadline > 0 && detail.cut == "device") return refuse("requires --cut processor", "--deadline");
+  if (detail.deadline > 0 && !detail.isCutByProcessor())
+    return refuse("requires --cut processor", "--deadline");
   if (p.isHeadless && p.screenshot.empty() && p.frames.empty())
     return refuse("requires --screenshot FILE.png or --frames FOLDER", "--headless");
   if (!p.screenshot.empty() && text::lowerExtension(p.screenshot) != "png")
@@ -248,12 +271,46 @@ Result<ViewSettings> ViewArguments::settings() const {
   ViewSettings s;
   s.pixels = detail.pixelError;
   s.maxTriangles = static_cast<std::uint32_t>(detail.maxTriangles);
-  s.path = detail.cut == "device" ? CutPath::device : CutPath::processor;
+  s.path = detail.isCutByProcessor() ? CutPath::processor : CutPath::device;
   s.cutMilliseconds = detail.deadline;
   s.isGeomorphed = !detail.isFixed;
   s.stretch = appearance.exaggeration;
   s.isCurved = appearance.isCurved;
   s.look = *look;
+  return s;
+}
+
+Result<SurfaceViewSettings> ViewArguments::ofSurface() const {
+  const std::pair<const char*, bool> ofTerrain[] = {
+      {"--lonlat", viewpoint.isLonLat},
+      {"--path", !viewpoint.path.empty()},
+      {"--cut", !detail.cut.empty()},
+      {"--frame-time", detail.frameTime > 0},
+      {"--deadline", detail.deadline > 0},
+      {"--no-geomorph", detail.isFixed},
+      {"--drape", !appearance.drape.empty()},
+      {"--contours", appearance.contours > 0},
+      {"--haze", appearance.hazeKilometres > 0},
+      {"--exaggeration", appearance.exaggeration != 1},
+      {"--curvature", appearance.isCurved},
+  };
+  for (const auto& [option, isGiven] : ofTerrain)
+    if (isGiven) return failure(ErrorCode::usage, "is for terrain, and the file is of a surface", option);
+  const std::string& color = appearance.color;
+  if (color == "height" || color == "slope" || color == "aspect")
+    return failure(ErrorCode::usage, "is for terrain, and the file is of a surface", "--color " + color);
+  SurfaceViewSettings s;
+  s.pixels = detail.pixelError;
+  s.maxTriangles = static_cast<std::uint32_t>(detail.maxTriangles);
+  s.look.coloring = color == "plain"   ? SurfaceColoring::plain
+                    : color == "error" ? SurfaceColoring::error
+                                       : SurfaceColoring::materials;
+  s.look.isShaded = !appearance.isUnshaded;
+  s.look.hasWireframe = appearance.hasWireframe;
+  if (appearance.sun.empty()) return s;
+  const auto angles = anglesOfSun(appearance.sun);
+  if (!angles) return tl::unexpected(angles.error());
+  s.look.sun = SurfaceLook::Sun{angles->first, angles->second};
   return s;
 }
 

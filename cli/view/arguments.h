@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "engine/base/result.h"
+#include "viewer/camera/home_view.h"
 #include "viewer/gl/drape_on_gpu.h"
 #include "viewer/gl/terrain_view.h"
+#include "viewer/surface/surface_view.h"
 
 namespace arete {
 
@@ -19,10 +21,12 @@ struct ViewpointArguments {
   std::string camera;  ///< "X,Y,H[,AZIMUTH,PITCH[,FOV]]"; empty = `home`
   std::string home;    ///< name of a view of the whole terrain; empty = overview
   std::string path;    ///< file of a flight; empty = none
+  std::string up;      ///< of a surface: the axis that points up; empty: as the file says
   bool isLonLat = false, isRound = false;
 
   void addTo(CLI::App& command);
   bool statesCamera() const { return !camera.empty() || !home.empty(); }
+  HomeView homeView() const;
   bool hasFlight() const { return !path.empty() || isRound; }
 };
 
@@ -30,17 +34,18 @@ struct ViewpointArguments {
 struct DetailArguments {
   double pixelError = 1, frameTime = 0, deadline = 0;
   std::int64_t maxTriangles = 0;  ///< 0 = any number
-  std::string cut = "device";
-  bool isFixed = false;  ///< no geomorphing
+  std::string cut;                ///< empty: device
+  bool isFixed = false;           ///< no geomorphing
 
   void addTo(CLI::App& command);
   /// What can end a cut before it reaches the tolerance, as words of a message: "budget or the deadline".
   std::string whatEndsTheCut() const;
+  bool isCutByProcessor() const { return cut == "processor"; }
 };
 
 /// Colours, light, and the image draped over the terrain.
 struct AppearanceArguments {
-  std::string color = "height", sun, drape, drapeBands;
+  std::string color, sun, drape, drapeBands;  ///< empty color: by height, of a surface by material
   double contours = 0, hazeKilometres = 0, exaggeration = 1;
   bool hasWireframe = false, isUnshaded = false, isCurved = false;
 
@@ -78,6 +83,8 @@ struct ViewArguments {
   Status check() const;
   /// Errors: usage.
   Result<ViewSettings> settings() const;
+  /// Of a surface. Errors: usage: an option that is for terrain, by its name; `sun` is not two angles.
+  Result<SurfaceViewSettings> ofSurface() const;
 };
 
 }  // namespace arete

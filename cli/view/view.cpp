@@ -17,7 +17,9 @@
 #include "cli/arguments/arguments.h"
 #include "cli/view/arguments.h"
 #include "cli/view/pictures.h"
+#include "cli/view/surface.h"
 #include "io/amt/file.h"
+#include "io/amt/surface_file.h"
 #include "io/crs/longitude_turns.h"
 #include "io/extract/camera_argument.h"
 #include "terrain/locate/surface_height.h"
@@ -31,12 +33,6 @@
 namespace arete {
 namespace {
 
-HomeView homeOf(const std::string& name) {
-  for (const HomeView view : kHomeViews)
-    if (toString(view) == name) return view;
-  return HomeView::overview;
-}
-
 Result<Camera> cameraOf(const ViewArguments& a, const TerrainModel& model, const SurfaceHeights& heights,
                         int width, int height) {
   Camera picture;
@@ -45,11 +41,10 @@ Result<Camera> cameraOf(const ViewArguments& a, const TerrainModel& model, const
   if (a.viewpoint.camera.empty()) {
     const CameraSpace space(model);
     if (!a.appearance.isCurved)
-      return homeCamera(homeOf(a.viewpoint.home), space, metricBox(model), picture,
-                        a.appearance.exaggeration);
+      return homeCamera(a.viewpoint.homeView(), space, metricBox(model), picture, a.appearance.exaggeration);
     const auto ground = CurvedGround::create(model);
     if (!ground) return tl::unexpected(ground.error());
-    return curvedHomeCamera(homeOf(a.viewpoint.home), *ground, space, metricBox(model), picture,
+    return curvedHomeCamera(a.viewpoint.homeView(), *ground, space, metricBox(model), picture,
                             a.appearance.exaggeration);
   }
   const auto toDem = transformOfPlaces(a.viewpoint.isLonLat, model);
@@ -87,7 +82,11 @@ Result<std::optional<Flight>> flightOf(const ViewArguments& a, const TerrainMode
 }
 
 Status runView(const ViewArguments& a, Session& session) {
+  if (const Result<bool> isSurface = isSurfaceAmt(a.model); isSurface && *isSurface)
+    return viewSurface(a, session);
   if (Status ok = a.check(); !ok) return ok;
+  if (!a.viewpoint.up.empty())
+    return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", "--up");
   const Result<ViewSettings> settings = a.settings();
   if (!settings) return tl::unexpected(settings.error());
   const Result<DrapeOptions> drapeOptions = a.appearance.drapeOptions();
@@ -168,7 +167,7 @@ Status runView(const ViewArguments& a, Session& session) {
 void addViewCommand(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<ViewArguments>();
   CLI::App* command = session.addCommand(
-      app, "view", "Fly over the terrain in a window, or draw pictures without one",
+      app, "view", "Show a terrain or a surface in a window, or draw pictures without one",
       "  arete view dem.amt\n"
       "  arete view dem.amt --headless --screenshot view.png --camera 409050,3801450,300,20,-10\n"
       "  arete view dem.amt --headless --round --frames frames --film flight.mp4 --figures figures.json",

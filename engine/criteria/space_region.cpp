@@ -35,23 +35,33 @@ bool meetsBox(const Vec3& centre, const Vec3& half, const SpaceTriangle& t) {
 
 }  // namespace
 
-bool SpaceRegion::meetsTriangle(const Vec3& a, const Vec3& b, const Vec3& c) const {
-  if (shape == Shape::ball) return distanceToTriangle(centre, {a, b, c}) <= radius;
-  return meetsBox(low / 2 + high / 2, high / 2 - low / 2, {a, b, c});
+bool BoxRegion::meetsTriangle(const Vec3& a, const Vec3& b, const Vec3& c) const {
+  return meetsBox(low_ / 2 + high_ / 2, high_ / 2 - low_ / 2, {a, b, c});
 }
 
-bool SpaceRegion::meetsBall(const Vec3& c, double r) const {
-  if (shape == Shape::ball) return norm(c - centre) <= (r + radius) * kWiden;
+bool BoxRegion::meetsBall(const Vec3& c, double r) const {
   const auto outside = [](double x, double from, double to) { return std::max({from - x, 0.0, x - to}); };
-  const Vec3 away{outside(c.x, low.x, high.x), outside(c.y, low.y, high.y), outside(c.z, low.z, high.z)};
+  const Vec3 away{outside(c.x, low_.x, high_.x), outside(c.y, low_.y, high_.y),
+                  outside(c.z, low_.z, high_.z)};
   return norm(away) <= r * kWiden;
 }
 
-bool SpaceRegion::holdsBall(const Vec3& c, double r) const {
+bool BoxRegion::holdsBall(const Vec3& c, double r) const {
   const double wide = r * kWiden;
-  if (shape == Shape::ball) return norm(c - centre) + wide <= radius;
-  return c.x - wide >= low.x && c.x + wide <= high.x && c.y - wide >= low.y && c.y + wide <= high.y &&
-         c.z - wide >= low.z && c.z + wide <= high.z;
+  return c.x - wide >= low_.x && c.x + wide <= high_.x && c.y - wide >= low_.y && c.y + wide <= high_.y &&
+         c.z - wide >= low_.z && c.z + wide <= high_.z;
+}
+
+bool BallRegion::meetsTriangle(const Vec3& a, const Vec3& b, const Vec3& c) const {
+  return distanceToTriangle(centre_, {a, b, c}) <= radius_;
+}
+
+bool BallRegion::meetsBall(const Vec3& c, double r) const {
+  return norm(c - centre_) <= (r + radius_) * kWiden;
+}
+
+bool BallRegion::holdsBall(const Vec3& c, double r) const {
+  return norm(c - centre_) + r * kWiden <= radius_;
 }
 
 bool SpaceRegionError::isFineEnough(const MultiTriangulation& mt, TriangleId t,
@@ -59,8 +69,8 @@ bool SpaceRegionError::isFineEnough(const MultiTriangulation& mt, TriangleId t,
   const double error = mt.error(t);
   if (error <= insideError_) return true;
   if (error > outsideError_) return false;
-  return !region_.meetsTriangle(mt.position(VertexId(corners[0])), mt.position(VertexId(corners[1])),
-                                mt.position(VertexId(corners[2])));
+  return !region_->meetsTriangle(mt.position(VertexId(corners[0])), mt.position(VertexId(corners[1])),
+                                 mt.position(VertexId(corners[2])));
 }
 
 }  // namespace arete

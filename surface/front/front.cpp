@@ -73,4 +73,8 @@ SurfaceFront surfaceOf(const SurfaceModel& model, const Cut& cut) {
   return front;
 }
 
+SurfaceFront finestSurfaceOf(const SurfaceModel& model) {
+  return surfaceOf(model, frontOfPrefix(model.mt, model.mt.nodeCount()));
+}
+
 }  // namespace arete

@@ -24,4 +24,7 @@ struct SurfaceFront {
 /// MT.
 SurfaceFront surfaceOf(const SurfaceModel& model, const Cut& cut);
 
+/// The finest front: the source as the build mended it.
+SurfaceFront finestSurfaceOf(const SurfaceModel& model);
+
 }  // namespace arete

@@ -10,9 +10,11 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "engine/laws/validate.h"
 #include "surface/diagnosis/diagnosis.h"
+#include "surface/laws/errors_law.h"
 
 namespace arete {
 namespace {
@@ -104,7 +106,8 @@ Status SurfaceTopology::check(const Cut& cut, const RunContext& context) const {
   return {};
 }
 
-Status validateSurface(const SurfaceModel& model, const RunContext& context) {
+Status validateSurface(const SurfaceModel& model, const SurfaceLawOptions& options,
+                       const RunContext& context) {
   if (Status valid = model.validate(); !valid) return valid;
   const MultiTriangulation& mt = model.mt;
   if (Status valid = validate(mt, {}, context); !valid) return valid;
@@ -115,10 +118,13 @@ Status validateSurface(const SurfaceModel& model, const RunContext& context) {
         fmt::format("law 8: the finest front has {} triangles of {} faces", mt.finestTriangleCount(), kept));
   const Result<SurfaceTopology> topology = SurfaceTopology::of(mt, context);
   if (!topology) return tl::unexpected(topology.error());
+  const std::vector<Vec3> samples = samplesOfSource(model, options.everySample);
   constexpr std::uint64_t kFronts = 16;
   for (std::uint64_t i = 0; i < kFronts; ++i) {
     const auto nodes = static_cast<std::uint32_t>(mt.nodeCount() * i / kFronts);
-    if (Status valid = topology->check(frontOfPrefix(mt, nodes), context); !valid) return valid;
+    const Cut front = frontOfPrefix(mt, nodes);
+    if (Status valid = topology->check(front, context); !valid) return valid;
+    if (Status valid = checkErrors(mt, front, samples, context); !valid) return valid;
   }
   return {};
 }

@@ -33,10 +33,16 @@ class SurfaceTopology {
   std::uint64_t doubleSided_ = 0;
 };
 
-/// Checks laws 1 to 6 and 8 of docs/topics/multitriangulation.md: those of the engine
-/// (engine/laws/validate.h) on every node, law 5 on the fronts of 16 prefixes of the nodes, and that the
-/// finest front has as many triangles as the build kept faces. Errors: those of SurfaceModel::validate();
+struct SurfaceLawOptions {
+  /// Law 10 by vertices, middles of faces and of their sides; else by vertices.
+  bool everySample = false;
+};
+
+/// Checks laws 1 to 6, 8 and 10 of docs/topics/multitriangulation.md: those of the engine
+/// (engine/laws/validate.h) on every node, laws 5 and 10 on the fronts of 16 prefixes of the nodes, and that
+/// the finest front has as many triangles as the build kept faces. Errors: those of SurfaceModel::validate();
 /// brokenPromise: names the law.
-Status validateSurface(const SurfaceModel& model, const RunContext& context = {});
+Status validateSurface(const SurfaceModel& model, const SurfaceLawOptions& options = {},
+                       const RunContext& context = {});
 
 }  // namespace arete

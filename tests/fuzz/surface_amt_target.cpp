@@ -49,7 +49,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   takeCuts(*model, context);
-  const Status valid = validateSurface(*model, context);
+  const Status valid = validateSurface(*model, {}, context);
   fuzz::require(valid || !valid.error().message.empty(), "a broken law is named");
   return 0;
 }

@@ -19,6 +19,8 @@ struct Look {
 class CameraSpace {
  public:
   explicit CameraSpace(const TerrainModel& model);
+  /// Of a space that is metric as it is: x to the east, y to the north, heights along z. As of surfaces.
+  CameraSpace() = default;
 
   /// metricPosition() of the camera.
   Vec3 position(const Camera& camera) const { return position(camera.xy, camera.height); }
@@ -45,8 +47,8 @@ class CameraSpace {
 
   Vec2 originXy_;  // in the source
   double originHeight_ = 0, metresPerHeight_ = 1;
-  Vec2 perX_, perY_;   // metric steps of one unit of x, of y
-  Vec2 east_, north_;  // unit vectors
+  Vec2 perX_{1, 0}, perY_{0, 1};   // metric steps of one unit of x, of y
+  Vec2 east_{1, 0}, north_{0, 1};  // unit vectors
   bool isMirrored_ = false;
 };
 

@@ -9,123 +9,29 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "viewer/camera/round_flight.h"
+#include "viewer/panel/widgets.h"
 
 namespace arete {
-namespace {
 
-constexpr ImGuiWindowFlags kColumn = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
-                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoTitleBar |
-                                     ImGuiWindowFlags_AlwaysAutoResize;
-
-float em() {
-  return ImGui::GetFontSize();
-}
-
-void line(const std::string& text) {
-  ImGui::TextUnformatted(text.c_str());
-}
-
-void dim(const std::string& text) {
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::PushTextWrapPos(0);
-  line(text);
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
-}
-
-/// A name, and what it is, in line with the others.
-void row(const char* name, const std::string& value) {
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::TextUnformatted(name);
-  ImGui::PopStyleColor();
-  ImGui::SameLine(5.2f * em());
-  line(value);
-}
-
-std::string grouped(std::uint64_t value) {
-  const std::string digits = std::to_string(value);
-  std::string text;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) text += ' ';
-    text += digits[i];
-  }
-  return text;
-}
-
-std::string megabytes(std::uint64_t bytes) {
-  return fmt::format("{} MB", grouped(bytes / 1'000'000));
-}
-
-bool section(const char* name, bool isOpen = true) {
-  return ImGui::CollapsingHeader(name, isOpen ? ImGuiTreeNodeFlags_DefaultOpen : 0);
-}
-
-/// A slider over a double.
-bool slider(const char* name, double& value, double low, double high, const char* format,
-            bool isLogarithmic = false) {
-  auto shown = float(value);
-  const bool isChanged = ImGui::SliderFloat(name, &shown, float(low), float(high), format,
-                                            isLogarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-  if (isChanged) value = double(shown);
-  return isChanged;
-}
-
-void tip(const char* text) {
-  if (!ImGui::IsItemHovered()) return;
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(22 * em());
-  ImGui::TextUnformatted(text);
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
-}
-
-void beginColumn(const char* name, bool isRight) {
-  const ImGuiIO& io = ImGui::GetIO();
-  const float gap = 0.5f * em(), width = 20 * em();
-  ImGui::SetNextWindowPos({isRight ? io.DisplaySize.x - gap : gap, gap}, ImGuiCond_Always,
-                          {isRight ? 1.0f : 0.0f, 0});
-  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, std::max(io.DisplaySize.y - 2 * gap, 4 * em())});
-  ImGui::Begin(name, nullptr, kColumn);
-  ImGui::PushItemWidth(9.2f * em());
-}
-
-void endColumn() {
-  ImGui::PopItemWidth();
-  ImGui::End();
-}
-
-}  // namespace
-
-void setPanelStyle(float scale) {
-  ImGui::StyleColorsDark();
-  ImGuiStyle& style = ImGui::GetStyle();
-  style.WindowRounding = 5;
-  style.FrameRounding = 3;
-  style.GrabRounding = 3;
-  style.WindowPadding = {9, 8};
-  style.ItemSpacing = {7, 4};
-  style.WindowBorderSize = 0;
-  style.Colors[ImGuiCol_WindowBg] = {0.09f, 0.10f, 0.12f, 0.86f};
-  style.Colors[ImGuiCol_Header] = {0.20f, 0.30f, 0.38f, 0.80f};
-  style.Colors[ImGuiCol_HeaderHovered] = {0.26f, 0.40f, 0.50f, 0.90f};
-  style.Colors[ImGuiCol_FrameBg] = {0.27f, 0.30f, 0.35f, 0.90f};
-  style.GrabMinSize = 7;
-  style.Colors[ImGuiCol_CheckMark] = {0.95f, 0.70f, 0.25f, 1};
-  style.Colors[ImGuiCol_SliderGrab] = {0.95f, 0.70f, 0.25f, 0.55f};
-  style.Colors[ImGuiCol_SliderGrabActive] = {0.95f, 0.70f, 0.25f, 0.9f};
-  style.Colors[ImGuiCol_PlotHistogram] = {0.95f, 0.70f, 0.25f, 1};
-  style.Colors[ImGuiCol_Button] = {0.24f, 0.33f, 0.40f, 1};
-  style.ScaleAllSizes(scale);
-}
+using widget::beginColumn;
+using widget::dim;
+using widget::em;
+using widget::endColumn;
+using widget::grouped;
+using widget::line;
+using widget::megabytes;
+using widget::row;
+using widget::section;
+using widget::showMessage;
+using widget::slider;
+using widget::tip;
 
 void Panel::draw(ViewerSession& s, double scale) {
   drawMarks(s, scale);
   if (s.showsHelp) drawHelp(s);
-  const ImGuiIO& io = ImGui::GetIO();
   if (s.showsPanel) {
     beginColumn("figures", false);
     frameSection(s);
@@ -138,14 +44,7 @@ void Panel::draw(ViewerSession& s, double scale) {
     flightSection(s);
     endColumn();
   }
-  if (!s.message().empty()) {
-    ImGui::SetNextWindowPos({io.DisplaySize.x / 2, io.DisplaySize.y - em()}, ImGuiCond_Always, {0.5f, 1});
-    ImGui::Begin("message", nullptr, kColumn | ImGuiWindowFlags_NoInputs);
-    ImGui::PushTextWrapPos(std::max(io.DisplaySize.x - 42 * em(), 24 * em()));
-    line(s.message());
-    ImGui::PopTextWrapPos();
-    ImGui::End();
-  }
+  if (!s.message().empty()) showMessage(s.message());
 }
 
 void Panel::frameSection(ViewerSession& s) {

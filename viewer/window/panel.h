@@ -27,9 +27,6 @@ class Panel {
   std::string flightPath_, framesFolder_;
 };
 
-/// Sets font and colours. `scale` of the screen: 1, or 2 on a dense one.
-void setPanelStyle(float scale);
-
 /// Draws marks at picks, at the ends of a line of sight and at key frames, over the picture.
 void drawMarks(const ViewerSession& session, double scale);
 

@@ -5,8 +5,6 @@
 // for the screen.
 #include "viewer/window/window.h"
 
-#include <backends/imgui_impl_glfw.h>
-#include <backends/imgui_impl_opengl3.h>
 #include <epoxy/gl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -25,6 +23,7 @@
 
 #include "viewer/gl/frame_target.h"
 #include "viewer/headless/headless.h"
+#include "viewer/panel/panel_context.h"
 #include "viewer/picture/picture.h"
 #include "viewer/window/glfw_window.h"
 #include "viewer/window/memory_use.h"
@@ -38,56 +37,6 @@ using Clock = std::chrono::steady_clock;
 double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
-
-/// What the window shows.
-Image windowImage(int width, int height) {
-  std::vector<std::uint8_t> bytes(std::size_t(4) * std::size_t(width) * std::size_t(height));
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-  glReadBuffer(GL_BACK);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
-  return imageFromBottomUp(width, height, bytes);
-}
-
-/// Dear ImGui, as long as the window.
-class PanelContext {
- public:
-  PanelContext(GLFWwindow* window, float scale) {
-    IMGUI_CHECKVERSION();
-    ImGui::CreateContext();
-    ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;  // nothing is written anywhere
-    setPanelStyle(scale);
-    addFont(io, 14.0f * scale);
-    ImGui_ImplGlfw_InitForOpenGL(window, true);
-    ImGui_ImplOpenGL3_Init("#version 330 core");
-  }
-  PanelContext(const PanelContext&) = delete;
-  PanelContext& operator=(const PanelContext&) = delete;
-  ~PanelContext() {
-    ImGui_ImplOpenGL3_Shutdown();
-    ImGui_ImplGlfw_Shutdown();
-    ImGui::DestroyContext();
-  }
-
- private:
-  /// DejaVu Sans where distributions put it; ImGui's own letters elsewhere.
-  static void addFont(ImGuiIO& io, float pixels) {
-    static constexpr std::array<ImWchar, 5> kRanges = {0x20, 0x17F, 0x2010, 0x2044, 0};
-    for (const char* path :
-         {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-          "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
-          "/usr/share/fonts/dejavu/DejaVuSans.ttf"}) {
-      std::error_code ignored;
-      if (std::filesystem::exists(path, ignored) &&
-          io.Fonts->AddFontFromFileTTF(path, pixels, nullptr, kRanges.data()))
-        return;
-    }
-    ImFontConfig config;
-    config.SizePixels = pixels;
-    io.Fonts->AddFontDefault(&config);
-  }
-};
 
 using LineEnd = TerrainPainter::LineEnd;
 
@@ -200,9 +149,7 @@ class WindowLoop {
     session_.step(events.input);
     if (Status placed = placeFrameFile(); !placed) return placed;
 
-    ImGui_ImplOpenGL3_NewFrame();
-    ImGui_ImplGlfw_NewFrame();
-    ImGui::NewFrame();
+    panelContext_.beginFrame();
     panel_.draw(session_, window_.pixelsPerUnit());
     ImGui::Render();
 
@@ -211,7 +158,7 @@ class WindowLoop {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, width, height);
     target_->copyTo(0);
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    panelContext_.drawFrame();
     if (!options_.lastPicture.empty()) shown_ = windowImage(width, height);
     glFinish();
     const double work = millisecondsSince(start);

@@ -140,6 +140,121 @@ TEST_F(SurfaceCommands, RegionsAndCamerasTakeDetailWhereItIsWanted) {
   EXPECT_LE(trianglesOf({"--camera", "3,0,0,0,0,0", "--max-triangles", "60"}, "few.ply"), 60);
 }
 
+TEST_F(SurfaceCommands, AModelIsMeasuredAsItsFinestSurface) {
+  ASSERT_EQ(run({"build", "ball.obj", "-o", "ball.amt"}).code, 0);
+  ASSERT_EQ(run({"extract", "ball.amt", "-o", "small.ply", "--max-error", "3%"}).code, 0);
+  const Outcome mesh = run({"measure", "small.ply", "ball.obj", "--json"}),
+                model = run({"measure", "small.ply", "ball.amt", "--json"});
+  ASSERT_EQ(model.code, 0) << model.err;
+  EXPECT_NEAR(model.json()["fromSecond"]["maximum"].get<double>(),
+              mesh.json()["fromSecond"]["maximum"].get<double>(), 1e-6);
+  EXPECT_EQ(run({"measure", "ball.amt", "ball.obj", "--expect", "1e-6"}).code, 0);
+}
+
+TEST_F(SurfaceCommands, ARegionMayBeAClosedMeshInAFile) {
+  ASSERT_EQ(run({"build", "ball.obj", "-o", "ball.amt"}).code, 0);
+  // The box 0,0,0,2,2,2 as a mesh.
+  write(
+      "part.off",
+      "OFF\n8 6 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n0 0 2\n2 0 2\n2 2 2\n0 2 2\n4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n"
+      "4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
+  const auto made = [&](const std::string& region, const std::string& name) {
+    const Outcome cut = run({"extract", "ball.amt", "-o", name, "--max-error", "0.2%", "--region", region,
+                             "--outside-error", "4%"});
+    EXPECT_EQ(cut.code, 0) << cut.err;
+    return read(name);
+  };
+  EXPECT_EQ(made("part.off", "mesh.ply"), made("0,0,0,2,2,2", "box.ply"));
+  write("open.off", "OFF\n3 1 0\n0 0 0\n2 0 0\n2 2 0\n3 0 1 2\n");
+  const Outcome open =
+      run({"extract", "ball.amt", "-o", "none.ply", "--max-error", "1%", "--region", "open.off"});
+  EXPECT_NE(open.code, 0);
+  EXPECT_NE(open.err.find("open.off: is not closed"), std::string::npos) << open.err;
+  EXPECT_FALSE(exists("none.ply"));
+}
+
+TEST_F(SurfaceCommands, SmallPartsAreLeftOutCountedAndTheirDistanceIsSaid) {
+  // The ball and two crumbs: 0.3 across, at 2 from the ball's middle and inside of it.
+  std::string text = ball(24, 14);
+  const int vertices = 2 + 14 * 24;
+  for (const double x : {3.0, 0.0})
+    for (const char* p : {"0 0 0", "0.1 0 0", "0 0.1 0", "0 0 0.1"}) {
+      double a = 0, b = 0, c = 0;
+      std::sscanf(p, "%lf %lf %lf", &a, &b, &c);
+      text += "v " + std::to_string(x + a) + " " + std::to_string(b) + " " + std::to_string(c) + "\n";
+    }
+  for (const int first : {vertices + 1, vertices + 5})
+    for (const auto& f : {std::array{0, 2, 1}, std::array{0, 1, 3}, std::array{0, 3, 2}, std::array{1, 2, 3}})
+      text += "f " + std::to_string(first + f[0]) + " " + std::to_string(first + f[1]) + " " +
+              std::to_string(first + f[2]) + "\n";
+  write("crumbs.obj", text);
+  ASSERT_EQ(run({"build", "crumbs.obj", "-o", "crumbs.amt"}).code, 0);
+  const Outcome made = run({"extract", "crumbs.amt", "-o", "out.ply", "--max-error", "1%", "--drop-parts",
+                            "0.2", "--map", "map.csv", "--json"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  const Json said = made.json()["exports"][0];
+  EXPECT_EQ(said["dropped"]["components"], 2);
+  EXPECT_EQ(said["dropped"]["faces"], 8);
+  EXPECT_NEAR(said["dropped"]["distance"].get<double>(), 2.1, 0.02);
+  EXPECT_LE(said["error"].get<double>(), 0.01 * made.json()["diagonal"].get<double>());
+  EXPECT_EQ(run({"mesh", "info", "out.ply", "--json"}).json()["components"].size(), 1u);
+  std::istringstream map(read("map.csv"));
+  int mapped = 0;
+  for (std::string line; std::getline(map, line);) {
+    int output = 0, input = 0;
+    if (std::sscanf(line.c_str(), "vertex,%d,%d", &output, &input) == 2) {
+      EXPECT_LT(input, vertices);
+    }
+    mapped += line.starts_with("face,") ? 1 : 0;
+  }
+  EXPECT_EQ(mapped, 24 * 2 + 2 * 24 * 13) << "two triangles a quad";
+  // Their triangles are not counted against a budget.
+  const Outcome budget = run(
+      {"extract", "crumbs.amt", "-o", "few.ply", "--max-triangles", "100", "--drop-parts", "5%", "--json"});
+  ASSERT_EQ(budget.code, 0) << budget.err;
+  EXPECT_LE(budget.json()["exports"][0]["triangles"], 100);
+  EXPECT_GE(budget.json()["exports"][0]["triangles"], 96);
+  const Outcome all =
+      run({"extract", "crumbs.amt", "-o", "none.ply", "--max-error", "1%", "--drop-parts", "1000"});
+  EXPECT_EQ(all.code, 2);
+  EXPECT_NE(all.err.find("leaves nothing"), std::string::npos) << all.err;
+}
+
+TEST_F(SurfaceCommands, AreDrawnWithoutAScreen) {
+  ASSERT_EQ(run({"build", "ball.obj", "-o", "ball.amt"}).code, 0);
+  const Outcome shot = run({"view", "ball.amt", "--headless", "--screenshot", "view.png", "--size", "200x120",
+                            "--camera", "3,0,0,0,0,0,40", "--json"});
+  if (shot.err.find("no OpenGL 4.5 context") != std::string::npos) GTEST_SKIP() << shot.err;
+  ASSERT_EQ(shot.code, 0) << shot.err;
+  EXPECT_TRUE(exists("view.png"));
+  const Json said = shot.json()["screenshot"];
+  EXPECT_GT(said["figures"]["triangles"], 10);
+  EXPECT_EQ(said["figures"]["showsSurface"], true);
+  EXPECT_NEAR(said["camera"]["eye"][0].get<double>(), 3, 1e-9);
+  EXPECT_EQ(said["camera"]["fov"], 40);
+  const Outcome turn = run({"view", "ball.amt", "--headless", "--round", "--frames", "frames", "--fps", "0.5",
+                            "--size", "80x60", "--figures", "figures.json"});
+  ASSERT_EQ(turn.code, 0) << turn.err;
+  EXPECT_EQ(readJson("figures.json")["frames"].size(), 4u);
+  EXPECT_TRUE(exists("frames/frame_00003.png"));
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--contours", "1"},
+                                               {"--color", "slope"},
+                                               {"--curvature"},
+                                               {"--deadline", "5"}}) {
+    std::vector<std::string> words = {"view", "ball.amt", "--headless", "--screenshot", "no.png"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome refused = run(words);
+    EXPECT_EQ(refused.code, 2) << more[0];
+    EXPECT_NE(refused.err.find(more[0]), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("is for terrain"), std::string::npos) << refused.err;
+  }
+  const Outcome few =
+      run({"view", "ball.amt", "--headless", "--screenshot", "no.png", "--max-triangles", "2"});
+  EXPECT_EQ(few.code, 2);
+  EXPECT_NE(few.err.find("--max-triangles 2"), std::string::npos) << few.err;
+  EXPECT_FALSE(exists("no.png"));
+}
+
 TEST_F(SurfaceCommands, WhatIsForTerrainIsRefusedByName) {
   ASSERT_EQ(run({"build", "ball.obj", "-o", "ball.amt"}).code, 0);
   makeRaster("dem.tif", "fractal", 9, 9);
@@ -155,6 +270,10 @@ TEST_F(SurfaceCommands, WhatIsForTerrainIsRefusedByName) {
   refused({"extract", "ball.amt", "-o", "x.ply", "--max-error", "1", "--fit", "triangles"}, "--fit");
   refused({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1%"}, "for surfaces");
   refused({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--map", "m.csv"}, "--map");
+  refused({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--drop-parts", "1"}, "--drop-parts");
+  refused({"view", "dem.amt", "--headless", "--screenshot", "x.png", "--up", "y"}, "--up");
+  refused({"view", "dem.amt", "--headless", "--screenshot", "x.png", "--color", "material"},
+          "--color material");
   refused({"build", "ball.obj", "-o", "y.amt", "--packed"}, "--packed");
   refused({"build", "dem.tif", "-o", "y.amt", "--keep-borders"}, "--keep-borders");
 }

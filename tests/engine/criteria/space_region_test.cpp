@@ -15,15 +15,12 @@ TEST(SpaceRegion, MeetsATriangleWhereASampleOfItIsInside) {
   const auto point = [&] { return Vec3{number(), number(), number()}; };
   int met = 0, apart = 0;
   for (int i = 0; i < 2000; ++i) {
-    SpaceRegion region;
-    if (i % 2 == 0) {
-      region.low = point();
-      region.high = region.low + Vec3{0.3, 0.2, 0.4};
-    } else {
-      region.shape = SpaceRegion::Shape::ball;
-      region.centre = point();
-      region.radius = 0.25;
-    }
+    const bool isBox = i % 2 == 0;
+    const Vec3 low = point(), high = low + Vec3{0.3, 0.2, 0.4};
+    const double radius = 0.25;
+    const BoxRegion box(low, high);
+    const BallRegion ball(low, radius);
+    const SpaceRegion& region = isBox ? static_cast<const SpaceRegion&>(box) : ball;
     const Vec3 a = point(), b = point(), c = point();
     const bool meets = region.meetsTriangle(a, b, c);
     double nearest = 1e9;
@@ -32,10 +29,8 @@ TEST(SpaceRegion, MeetsATriangleWhereASampleOfItIsInside) {
         const Vec3 p = a + (u / 40.0) * (b - a) + (v / 40.0) * (c - a);
         const auto off = [](double x, double from, double to) { return std::max({from - x, 0.0, x - to}); };
         nearest = std::min(
-            nearest, region.shape == SpaceRegion::Shape::ball
-                         ? norm(p - region.centre) - region.radius
-                         : norm({off(p.x, region.low.x, region.high.x), off(p.y, region.low.y, region.high.y),
-                                 off(p.z, region.low.z, region.high.z)}));
+            nearest, isBox ? norm({off(p.x, low.x, high.x), off(p.y, low.y, high.y), off(p.z, low.z, high.z)})
+                           : norm(p - low) - radius);
       }
     EXPECT_TRUE(nearest > 0 || meets) << i;
     EXPECT_TRUE(nearest <= 0.12 || !meets) << i;
@@ -46,16 +41,12 @@ TEST(SpaceRegion, MeetsATriangleWhereASampleOfItIsInside) {
 }
 
 TEST(SpaceRegion, HoldsOnlyBallsThatItMeetsWholly) {
-  SpaceRegion box;
-  box.low = {0, 0, 0};
-  box.high = {4, 4, 4};
+  const BoxRegion box({0, 0, 0}, {4, 4, 4});
   EXPECT_TRUE(box.holdsBall({2, 2, 2}, 1.9));
   EXPECT_FALSE(box.holdsBall({2, 2, 2}, 2));
   EXPECT_TRUE(box.meetsBall({5, 2, 2}, 1));
   EXPECT_FALSE(box.meetsBall({5, 5, 2}, 1));
-  SpaceRegion ball;
-  ball.shape = SpaceRegion::Shape::ball;
-  ball.radius = 2;
+  const BallRegion ball({0, 0, 0}, 2);
   EXPECT_TRUE(ball.holdsBall({1, 0, 0}, 0.9));
   EXPECT_FALSE(ball.holdsBall({1, 0, 0}, 1));
   EXPECT_TRUE(ball.meetsBall({3, 0, 0}, 1));

@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "engine/cut/cut.h"
 #include "surface/build/build.h"
 #include "surface/families.h"
+#include "surface/laws/errors_law.h"
 
 namespace arete {
 namespace {
@@ -37,6 +39,30 @@ TEST(ValidateSurface, NamesTheLawThatABrokenModelBreaks) {
             std::string::npos);
   EXPECT_NE(broken([](SurfaceModel& m, MtArrays&, Owner&) { m.vertexOf.pop_back(); }).find("numbers"),
             std::string::npos);
+}
+
+TEST(ValidateSurface, FindsErrorsThatAreTooSmall) {
+  const std::uint64_t seed = 11;
+  for (const shapes::NamedMesh& m : shapes::families(seed)) {
+    SCOPED_TRACE(m.name);
+    const Result<SurfaceModel> built = buildSurface(SurfaceMesh(m.mesh));
+    ASSERT_TRUE(built) << built.error().describe();
+    for (const bool everySample : {false, true})
+      ASSERT_TRUE(validateSurface(*built, {.everySample = everySample}))
+          << validateSurface(*built, {.everySample = everySample}).error().describe();
+    const MultiTriangulation& mt = built->mt;
+    const Cut root = frontOfPrefix(mt, 0);
+    const std::vector<Vec3> samples = samplesOfSource(*built, true);
+    std::vector<OutwardScale::Code> codes(mt.arrays().error.begin(), mt.arrays().error.end());
+    std::fill(codes.begin(), codes.end(), OutwardScale::Code{0});
+    MtArrays arrays = mt.arrays();
+    arrays.error = codes;
+    const MultiTriangulation flat(arrays, nullptr);
+    if (root.achievedError > 1e-6 * built->diagonal)
+      EXPECT_FALSE(checkErrors(flat, root, samples));
+    else
+      EXPECT_TRUE(checkErrors(flat, root, samples));
+  }
 }
 
 TEST(SurfaceTopology, RefusesAFrontOfAnotherTopology) {

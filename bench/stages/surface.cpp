@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Surfaces beside CGAL's edge collapse: how good cuts of as many triangles are, both ways and in % of the
+// diagonal, and how long the build of all levels takes beside one collapse to a tenth. What the rival
+// misses by 5 % of the count, or flings away by more than 10 % of the diagonal, is no figure but is named.
+// Memory is what a generated globe of two million vertices takes more than one of half a million.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "bench/edge_collapse.h"
+#include "bench/forked.h"
+#include "bench/stages/stages.h"
+#include "bench/threads.h"
+#include "engine/criteria/refine_order.h"
+#include "engine/cut/cut.h"
+#include "io/amt/surface_file.h"
+#include "io/exchange/mesh_formats.h"
+#include "surface/build/build.h"
+#include "surface/front/front.h"
+#include "terrain/measure/mesh_distance.h"
+
+namespace arete::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array kShares = {10.0, 2.0, 0.5};  // % of the faces
+
+SurfaceMesh shapeOf(const SurfaceMesh& mesh) {
+  return SurfaceMesh(static_cast<const TriangleMesh&>(mesh));
+}
+
+/// Mean, root mean square and largest distance, in % of the diagonal.
+struct Quality {
+  double mean = 0, rms = 0, largest = 0;
+};
+
+Result<Quality> qualityOf(const TriangleMesh& mesh, const TriangleMesh& source) {
+  MeshDistanceOptions options;
+  options.accuracy = 0.01;
+  const auto report = measureDistance(mesh, source, options);
+  if (!report) return tl::unexpected(report.error());
+  const double percent = 100 / report->second.diagonal;
+  return Quality{percent * report->mean(), percent * report->rms(), percent * report->hausdorff()};
+}
+
+class SurfaceRun {
+ public:
+  SurfaceRun(std::string name, Figures& figures) : name_(std::move(name)), figures_(figures) {}
+
+  void add(const std::string& variant, const std::string& figure, double value, const char* unit,
+           Better better) {
+    figures_.push_back({name_, "surface", variant, figure, value, unit, better});
+  }
+
+  /// Errors: those of the build.
+  Status build(const SurfaceMesh& mesh, const Repetition& repetition) {
+    Result<SurfaceModel> model = buildSurface(shapeOf(mesh));
+    if (!model) return tl::unexpected(model.error());
+    const double seconds = medianSeconds(repetition, [&] { return buildSurface(shapeOf(mesh)); });
+    source_ = finestSurfaceOf(*model).mesh.shape();
+    model_ = std::move(*model);
+    add("build", "faces", double(source_.triangles.size()), "", Better::neither);
+    add("build", "time, all threads", seconds, "s", Better::lower);
+    const auto rival = collapseEdges(source_, source_.triangles.size() / 10, EdgeCollapse::lindstromTurk);
+    if (!rival) return {};
+    add("build", "Lindstrom-Turk to 10 %, 1 thread", rival->seconds, "s", Better::neither);
+    add("build", "ratio of time to Lindstrom-Turk", seconds / rival->seconds, "", Better::lower);
+    return {};
+  }
+
+  Status compare() {
+    for (const double share : kShares) {
+      const std::string variant = fmt::format("{} %", share);
+      const auto wanted =
+          static_cast<std::uint32_t>(std::lround(share / 100 * double(source_.triangles.size())));
+      CutOptions options;
+      options.maxTriangles = wanted;
+      options.order = std::make_shared<LargestSquaresFirst>();
+      const Result<Cut> cut = takeCut(model_.mt, UniformError(0), options);
+      if (!cut) continue;  // the coarsest surface has more
+      const auto own = qualityOf(surfaceOf(model_, *cut).mesh, source_);
+      if (!own) return tl::unexpected(own.error());
+      add(variant, "mean", own->mean, "%", Better::lower);
+      add(variant, "RMS", own->rms, "%", Better::lower);
+      add(variant, "largest", own->largest, "%", Better::lower);
+      add(variant, "bound", 100 * cut->achievedError / model_.diagonal, "%", Better::lower);
+      const auto ends = rivalOf(EdgeCollapse::lindstromTurkEnds, wanted);
+      if (ends) {
+        add(variant, "ratio of mean to Lindstrom-Turk at ends", own->mean / ends->mean, "", Better::lower);
+        add(variant, "ratio of RMS to Lindstrom-Turk at ends", own->rms / ends->rms, "", Better::lower);
+      } else {
+        add(variant, "Lindstrom-Turk at ends left out", 1, "", Better::neither);
+      }
+      const auto quadrics = rivalOf(EdgeCollapse::planeQuadrics, wanted);
+      if (quadrics)
+        add(variant, "ratio of largest to plane quadrics", own->largest / quadrics->largest, "",
+            Better::lower);
+      else
+        add(variant, "plane quadrics left out", 1, "", Better::neither);
+    }
+    return {};
+  }
+
+ private:
+  /// Nothing where the rival misses the count or flings a vertex away.
+  std::optional<Quality> rivalOf(EdgeCollapse method, std::uint32_t wanted) const {
+    const auto collapsed = collapseEdges(source_, wanted, method);
+    if (!collapsed || double(collapsed->mesh.triangles.size()) > 1.05 * wanted) return std::nullopt;
+    const auto quality = qualityOf(collapsed->mesh, source_);
+    if (!quality || quality->largest > 10) return std::nullopt;
+    return *quality;
+  }
+
+  std::string name_;
+  Figures& figures_;
+  SurfaceModel model_;
+  TriangleMesh source_;  // as the build mended it
+};
+
+/// A globe with hills, of about so many vertices.
+SurfaceMesh generatedGlobe(std::uint32_t vertices) {
+  const auto rings = static_cast<std::uint32_t>(std::sqrt(vertices / 2.0)), around = 2 * rings;
+  SurfaceMesh mesh;
+  const auto place = [](double u, double v) {
+    const double r = 1 + 0.02 * std::sin(9 * u) * std::sin(7 * v) + 0.002 * std::sin(90 * u + 60 * v);
+    return Vec3{r * std::sin(v) * std::cos(u), r * std::sin(v) * std::sin(u), r * std::cos(v)};
+  };
+  mesh.positions = {{0, 0, 1}, {0, 0, -1}};
+  for (std::uint32_t r = 0; r < rings; ++r)
+    for (std::uint32_t c = 0; c < around; ++c) {
+      const Vec3 p = place(2 * std::numbers::pi * c / around, std::numbers::pi * (r + 1) / (rings + 1));
+      mesh.positions.push_back({float(p.x), float(p.y), float(p.z)});
+    }
+  const auto at = [&](std::uint32_t r, std::uint32_t c) { return 2 + r * around + c % around; };
+  for (std::uint32_t c = 0; c < around; ++c) {
+    mesh.triangles.push_back({0, at(0, c), at(0, c + 1)});
+    mesh.triangles.push_back({1, at(rings - 1, c + 1), at(rings - 1, c)});
+    for (std::uint32_t r = 0; r + 1 < rings; ++r) {
+      mesh.triangles.push_back({at(r, c), at(r + 1, c), at(r + 1, c + 1)});
+      mesh.triangles.push_back({at(r, c), at(r + 1, c + 1), at(r, c + 1)});
+    }
+  }
+  return mesh;
+}
+
+struct Growth {
+  double vertices = 0, peak = 0, file = 0, seconds = 0;
+};
+
+Result<Growth> growthOf(std::uint32_t vertices, const std::string& scratch) {
+  const Result<Json> json = runForked([&]() -> Result<Json> {
+    SurfaceMesh mesh = generatedGlobe(vertices);
+    const double count = double(mesh.positions.size());
+    const Stopwatch watch;
+    const Result<SurfaceModel> model = buildSurface(std::move(mesh));
+    if (!model) return tl::unexpected(model.error());
+    const double seconds = watch.seconds();
+    const double peak = peakBytes();
+    const fs::path path = fs::path(scratch) / "globe.amt";
+    if (const Status written = writeSurfaceAmt(path.string(), *model); !written)
+      return tl::unexpected(written.error());
+    const double bytes = double(fs::file_size(path));
+    fs::remove(path);
+    return Json{{"vertices", count}, {"peak", peak}, {"file", bytes}, {"seconds", seconds}};
+  });
+  if (!json) return tl::unexpected(json.error());
+  return Growth{(*json)["vertices"], (*json)["peak"], (*json)["file"], (*json)["seconds"]};
+}
+
+}  // namespace
+
+std::vector<MeshSource> realMeshes(const std::string& folder) {
+  std::vector<MeshSource> sources;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(fs::path(folder) / "meshes", ignored))
+    if (entry.is_regular_file() && isMeshFile(entry.path()))
+      sources.push_back({entry.path().stem().string(), entry.path().string()});
+  std::ranges::sort(sources, {}, &MeshSource::name);
+  return sources;
+}
+
+Result<Figures> surfaceStage(const MeshSource& source, const Plan& plan) {
+  const Result<MeshFile> file = readMesh(source.path);
+  if (!file) return tl::unexpected(file.error());
+  Figures figures;
+  SurfaceRun run(source.name, figures);
+  if (const Status built = run.build(file->mesh, plan.repetition); !built)
+    return tl::unexpected(built.error());
+  if (const Status compared = run.compare(); !compared) return tl::unexpected(compared.error());
+  return figures;
+}
+
+Result<Figures> surfaceMemoryStage(const Plan& plan) {
+  const auto small = growthOf(500'000, plan.scratch);
+  if (!small) return tl::unexpected(small.error());
+  const auto large = growthOf(2'000'000, plan.scratch);
+  if (!large) return tl::unexpected(large.error());
+  Figures figures;
+  const double more = large->vertices - small->vertices;
+  const auto add = [&](const char* name, double value, const char* unit) {
+    figures.push_back(
+        {"generated globe", "surface", "0.5 to 2 million vertices", name, value, unit, Better::lower});
+  };
+  add("memory, growth a vertex", (large->peak - small->peak) / more, "byte");
+  add("file, growth a vertex", (large->file - small->file) / more, "byte");
+  add("time of the larger one", large->seconds, "s");
+  return figures;
+}
+
+}  // namespace arete::bench

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/view/surface.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <system_error>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments/arguments.h"
+#include "cli/surface/camera.h"
+#include "io/amt/surface_file.h"
+#include "io/file/file_writer.h"
+#include "viewer/headless/headless.h"
+#include "viewer/surface/headless.h"
+#include "viewer/surface/surface_window.h"
+
+namespace arete {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSecondsOfATurn = 8, kFramesPerSecond = 30;
+
+/// The camera of upright space.
+Result<Camera> cameraOf(const ViewArguments& a, const Upright& upright, const MetricBox& box, int width,
+                        int height) {
+  Camera camera;
+  camera.widthPixels = width;
+  camera.heightPixels = height;
+  const CameraSpace space;
+  if (a.viewpoint.camera.empty()) return surfaceHome(a.viewpoint.homeView(), box, camera);
+  const Result<SurfaceCamera> stated = readSurfaceCamera(a.viewpoint.camera);
+  if (!stated) return tl::unexpected(stated.error());
+  const Vec3 eye = upright.fromFile(stated->eye);
+  const Look look = space.lookAlong(upright.fromFile(stated->target) - eye);
+  camera = space.at(camera, eye);
+  camera.azimuthDegrees = look.azimuthDegrees;
+  camera.pitchDegrees = look.pitchDegrees;
+  camera.verticalFieldOfViewDegrees = stated->fieldOfView.value_or(camera.verticalFieldOfViewDegrees);
+  if (const Result<View> view = uprightView(camera); !view)
+    return failure(view.error().code, view.error().message, "--camera " + a.viewpoint.camera);
+  return camera;
+}
+
+/// As --camera takes it.
+Json jsonOf(const Camera& camera, const Upright& upright, double distance) {
+  const CameraSpace space;
+  const Vec3 eye = space.position(camera);
+  const Vec3 target = eye + distance * space.forward(lookOf(camera));
+  const auto list = [&](const Vec3& p) {
+    const Vec3 q = upright.toFile(p);
+    return Json::array({q.x, q.y, q.z});
+  };
+  return {{"eye", list(eye)}, {"target", list(target)}, {"fov", camera.verticalFieldOfViewDegrees}};
+}
+
+Json jsonOf(const SurfaceFigures& f) {
+  return {{"triangles", f.triangles},
+          {"pixelError", std::isfinite(f.pixels) ? Json(f.pixels) : Json()},
+          {"isComplete", f.isComplete},
+          {"showsSurface", f.showsSurface},
+          {"cutMilliseconds", f.cutMilliseconds},
+          {"drawMilliseconds", f.drawMilliseconds}};
+}
+
+std::string accuracyOf(const SurfaceFigures& figures) {
+  if (!std::isfinite(figures.pixels)) return "its error around the eye not known";
+  return fmt::format("within {:.3g} pixel{}", figures.pixels, figures.pixels == 1 ? "" : "s");
+}
+
+class SurfacePictures {
+ public:
+  SurfacePictures(const ViewArguments& arguments, const SurfaceViewSettings& settings, HeadlessSurface& view,
+                  Session& session)
+      : a_(arguments), settings_(settings), view_(view), session_(session) {}
+
+  Status takeScreenshot(const Camera& camera, Json& json) {
+    const Result<SurfaceFigures> figures = draw(camera);
+    if (!figures) return tl::unexpected(figures.error());
+    if (Status saved = savePng(view_.image(), a_.pictures.screenshot); !saved) return saved;
+    if (!figures->showsSurface) session_.warn("the picture shows nothing of the surface");
+    if (!figures->isComplete)
+      session_.warn(fmt::format("the budget ended the cut: the surface is {}", accuracyOf(*figures)));
+    session_.say(fmt::format("{}: {} triangles, {}\n", a_.pictures.screenshot, grouped(figures->triangles),
+                             accuracyOf(*figures)));
+    json["screenshot"] = {{"file", a_.pictures.screenshot},
+                          {"camera", jsonOf(camera, view_.view().upright(), view_.view().box().diagonal())},
+                          {"figures", jsonOf(*figures)}};
+    return {};
+  }
+
+  /// One turn around the middle of the surface, from the home view on.
+  Status makeTurn(const Camera& first, Json& json) {
+    const double rate = a_.pictures.framesPerSecond > 0 ? a_.pictures.framesPerSecond : kFramesPerSecond;
+    const auto count = static_cast<std::size_t>(std::max(1.0, std::round(rate * kSecondsOfATurn)));
+    std::error_code failed;
+    fs::create_directories(a_.pictures.frames, failed);
+    if (failed)
+      return failure(ErrorCode::unreadable, "the folder cannot be made: " + failed.message(),
+                     a_.pictures.frames);
+    const CameraSpace space;
+    const Vec3 middle = view_.view().box().centre(), from = space.position(first) - middle;
+    Json list = Json::array();
+    std::uint64_t triangles = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double turn = 2 * std::numbers::pi * double(i) / double(count);
+      const Vec3 at = middle + Vec3{from.x * std::cos(turn) - from.y * std::sin(turn),
+                                    from.x * std::sin(turn) + from.y * std::cos(turn), from.z};
+      Camera camera = space.at(first, at);
+      camera.azimuthDegrees = wrappedAzimuth(first.azimuthDegrees - turn * 180 / std::numbers::pi);
+      const Result<SurfaceFigures> figures = draw(camera);
+      if (!figures) return tl::unexpected(figures.error());
+      const auto path = fs::path(a_.pictures.frames) / fmt::format("frame_{:05}.png", i);
+      if (Status saved = savePng(view_.image(), path); !saved) return saved;
+      Json entry = {{"file", path.string()},
+                    {"seconds", double(i) / rate},
+                    {"camera", jsonOf(camera, view_.view().upright(), norm(from))}};
+      entry.update(jsonOf(*figures));
+      list.push_back(std::move(entry));
+      triangles += figures->triangles;
+      session_.context().report("draw frames", double(i + 1) / double(count));
+    }
+    json["frames"] = std::move(list);
+    if (!a_.pictures.figures.empty()) {
+      auto file = FileWriter::create(a_.pictures.figures);
+      if (!file) return tl::unexpected(file.error());
+      file->write(json.dump(1) + "\n");
+      if (Status finished = file->finish(); !finished) return finished;
+    }
+    session_.say(fmt::format("{}: {} frames, {} triangles in the mean\n", a_.pictures.frames, count,
+                             grouped(triangles / count)));
+    if (a_.pictures.film.empty()) return {};
+    if (Status encoded = encodeFilm(a_.pictures.frames, count, rate, a_.pictures.film, session_.context());
+        !encoded)
+      return encoded;
+    session_.say(a_.pictures.film + "\n");
+    json["film"] = a_.pictures.film;
+    return {};
+  }
+
+ private:
+  Result<SurfaceFigures> draw(const Camera& camera) {
+    Result<SurfaceFigures> figures = view_.draw(camera, settings_, session_.context());
+    if (!figures && figures.error().culprit == "maxTriangles")
+      return failure(figures.error().code, figures.error().message,
+                     fmt::format("--max-triangles {}", a_.detail.maxTriangles));
+    return figures;
+  }
+
+  const ViewArguments& a_;
+  const SurfaceViewSettings& settings_;
+  HeadlessSurface& view_;
+  Session& session_;
+};
+
+Status checkOutputs(const ViewArguments& a) {
+  std::vector<std::string> outputs;
+  for (const auto& [option, path] : {std::pair{"--screenshot", &a.pictures.screenshot},
+                                     {"--film", &a.pictures.film},
+                                     {"--figures", &a.pictures.figures}}) {
+    if (path->empty()) continue;
+    if (Status ok = checkOutput(option, *path, {a.model}, outputs); !ok) return ok;
+    outputs.push_back(*path);
+  }
+  return {};
+}
+
+}  // namespace
+
+Status viewSurface(const ViewArguments& a, Session& session) {
+  const Result<SurfaceViewSettings> settings = a.ofSurface();
+  if (!settings) return tl::unexpected(settings.error());
+  if (Status ok = a.check(); !ok) return ok;
+  const auto size = a.pictures.size();
+  if (!size) return tl::unexpected(size.error());
+  if (Status ok = checkOutputs(a); !ok) return ok;
+  const Result<SurfaceModel> model = loadSurfaceAmt(a.model, AmtVerify::all, session.context());
+  if (!model) return tl::unexpected(model.error());
+  const Upright upright(*model, a.viewpoint.up);
+  const Result<Camera> camera = cameraOf(a, upright, uprightBox(*model, upright), size->first, size->second);
+  if (!camera) return tl::unexpected(camera.error());
+
+  if (!a.pictures.isHeadless) {
+    SurfaceWindowOptions window{.title = fmt::format("arete - {}", a.model)};
+    window.settings = *settings;
+    window.home = a.viewpoint.homeView();
+    if (!a.viewpoint.camera.empty()) window.camera = *camera;
+    if (!a.pictures.sizeText.empty()) std::tie(window.width, window.height) = *size;
+    window.samples = a.pictures.samples;
+    window.lastPicture = a.pictures.windowScreenshot;
+    window.frames = a.pictures.windowFrames;
+    return runSurfaceWindow(*model, upright, window, session.context());
+  }
+
+  Result<HeadlessSurface> view =
+      HeadlessSurface::create(*model, upright, {size->first, size->second, a.pictures.samples});
+  if (!view) return tl::unexpected(view.error());
+  session.warn(view->view().warnings(), a.model);
+  Json json = {{"model", a.model}, {"kind", "surface"}, {"renderer", view->description()}};
+  SurfacePictures pictures(a, *settings, *view, session);
+  if (!a.pictures.screenshot.empty())
+    if (Status ok = pictures.takeScreenshot(*camera, json); !ok) return ok;
+  if (!a.pictures.frames.empty())
+    if (Status ok = pictures.makeTurn(*camera, json); !ok) return ok;
+  session.answer(json);
+  return {};
+}
+
+}  // namespace arete

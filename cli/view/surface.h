@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cli/session/session.h"
+#include "cli/view/arguments.h"
+#include "engine/base/result.h"
+
+namespace arete {
+
+/// `arete view` of a surface: the window; with --headless one picture, or those of one turn around it and
+/// their film.
+///
+/// Errors: usage, naming the option: one that is for terrain; those of reading, drawing and writing.
+Status viewSurface(const ViewArguments& arguments, Session& session);
+
+}  // namespace arete

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Boxes of triangles, widened by their errors, against the samples as boxes without extent
+// [ZomorodianEdelsbrunner2000]; a sample is done with the first triangle that is near enough.
+#include "surface/laws/errors_law.h"
+
+#include <CGAL/Box_intersection_d/Box_with_info_d.h>
+#include <CGAL/box_intersection_d.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "engine/base/nearest_on_triangle.h"
+
+namespace arete {
+namespace {
+
+using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
+
+struct Interrupted {};
+
+SpaceTriangle placeOf(const MultiTriangulation& mt, const Cut& cut, std::size_t t) {
+  const auto& [a, b, c] = cut.triangles[t];
+  const auto at = [&](std::uint32_t v) { return mt.position(VertexId(cut.vertices[v])); };
+  return {at(a), at(b), at(c)};
+}
+
+/// What rounding may add to the distance from a triangle.
+double slackOf(const SpaceTriangle& t, double ulps) {
+  return ulps + kThinnestTriangle * std::max({norm(t[1] - t[0]), norm(t[2] - t[1]), norm(t[0] - t[2])});
+}
+
+Box boxOf(const SpaceTriangle& t, double wider, std::uint32_t number) {
+  std::array<double, 3> low{}, high{};
+  const auto take = [&](std::size_t axis, double a, double b, double c) {
+    low[axis] = std::min({a, b, c}) - wider;
+    high[axis] = std::max({a, b, c}) + wider;
+  };
+  take(0, t[0].x, t[1].x, t[2].x);
+  take(1, t[0].y, t[1].y, t[2].y);
+  take(2, t[0].z, t[1].z, t[2].z);
+  return {low.data(), high.data(), number};
+}
+
+}  // namespace
+
+std::vector<Vec3> samplesOfSource(const SurfaceModel& model, bool isFull) {
+  const MultiTriangulation& mt = model.mt;
+  std::vector<Vec3> samples;
+  for (std::uint32_t v = 0; v < mt.vertexCount(); ++v) samples.push_back(mt.position(VertexId(v)));
+  if (!isFull) return samples;
+  const Cut finest = frontOfPrefix(mt, mt.nodeCount());
+  for (std::size_t t = 0; t < finest.triangles.size(); ++t) {
+    const auto [a, b, c] = placeOf(mt, finest, t);
+    samples.push_back(a / 3 + b / 3 + c / 3);
+    for (const Vec3& middle : {a / 2 + b / 2, b / 2 + c / 2, c / 2 + a / 2}) samples.push_back(middle);
+  }
+  return samples;
+}
+
+Status checkErrors(const MultiTriangulation& mt, const Cut& front, std::span<const Vec3> samples,
+                   const RunContext& context) {
+  double largest = 0;
+  for (const Vec3& p : samples) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  const double ulps = 64 * std::numeric_limits<double>::epsilon() * largest;
+  std::vector<Box> triangles, points;
+  std::vector<double> allowed;
+  for (std::uint32_t t = 0; t < front.triangles.size(); ++t) {
+    const SpaceTriangle place = placeOf(mt, front, t);
+    allowed.push_back(mt.error(TriangleId(front.ids[t])) + slackOf(place, ulps));
+    triangles.push_back(boxOf(place, allowed.back(), t));
+  }
+  for (std::uint32_t i = 0; i < samples.size(); ++i)
+    points.push_back(boxOf({samples[i], samples[i], samples[i]}, 0, i));
+  std::vector<std::uint8_t> isNear(samples.size(), 0);
+  std::uint64_t tests = 0;
+  const auto test = [&](const Box& triangle, const Box& point) {
+    if (++tests % 65536 == 0 && context.cancelled()) throw Interrupted{};
+    if (isNear[point.info()]) return;
+    const std::uint32_t t = triangle.info();
+    isNear[point.info()] = distanceToTriangle(samples[point.info()], placeOf(mt, front, t)) <= allowed[t];
+  };
+  try {
+    CGAL::box_intersection_d(triangles.begin(), triangles.end(), points.begin(), points.end(), test);
+  } catch (const Interrupted&) {
+    return failure(ErrorCode::interrupted, "interrupted");
+  }
+  const auto far = std::ranges::find(isNear, 0);
+  if (far == isNear.end()) return {};
+  const Vec3& p = samples[std::size_t(far - isNear.begin())];
+  return failure(ErrorCode::brokenPromise,
+                 fmt::format("law 10: in a front of {} triangles none is as near to the source at {:.9g}, "
+                             "{:.9g}, {:.9g} as its error says",
+                             front.triangles.size(), p.x, p.y, p.z));
+}
+
+}  // namespace arete

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "viewer/panel/widgets.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace arete::widget {
+namespace {
+
+constexpr ImGuiWindowFlags kColumn = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoTitleBar |
+                                     ImGuiWindowFlags_AlwaysAutoResize;
+
+}  // namespace
+
+float em() {
+  return ImGui::GetFontSize();
+}
+
+void line(const std::string& text) {
+  ImGui::TextUnformatted(text.c_str());
+}
+
+void dim(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::PushTextWrapPos(0);
+  line(text);
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
+void row(const char* name, const std::string& value) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextUnformatted(name);
+  ImGui::PopStyleColor();
+  ImGui::SameLine(5.2f * em());
+  line(value);
+}
+
+std::string grouped(std::uint64_t value) {
+  const std::string digits = std::to_string(value);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ' ';
+    text += digits[i];
+  }
+  return text;
+}
+
+std::string megabytes(std::uint64_t bytes) {
+  return fmt::format("{} MB", grouped(bytes / 1'000'000));
+}
+
+bool section(const char* name, bool isOpen) {
+  return ImGui::CollapsingHeader(name, isOpen ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+}
+
+bool slider(const char* name, double& value, double low, double high, const char* format,
+            bool isLogarithmic) {
+  auto shown = float(value);
+  const bool isChanged = ImGui::SliderFloat(name, &shown, float(low), float(high), format,
+                                            isLogarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  if (isChanged) value = double(shown);
+  return isChanged;
+}
+
+void tip(const char* text) {
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(22 * em());
+  ImGui::TextUnformatted(text);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+void beginColumn(const char* name, bool isRight) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const float gap = 0.5f * em(), width = 20 * em();
+  ImGui::SetNextWindowPos({isRight ? io.DisplaySize.x - gap : gap, gap}, ImGuiCond_Always,
+                          {isRight ? 1.0f : 0.0f, 0});
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, std::max(io.DisplaySize.y - 2 * gap, 4 * em())});
+  ImGui::Begin(name, nullptr, kColumn);
+  ImGui::PushItemWidth(9.2f * em());
+}
+
+void endColumn() {
+  ImGui::PopItemWidth();
+  ImGui::End();
+}
+
+void showMessage(const std::string& text) {
+  const ImGuiIO& io = ImGui::GetIO();
+  ImGui::SetNextWindowPos({io.DisplaySize.x / 2, io.DisplaySize.y - em()}, ImGuiCond_Always, {0.5f, 1});
+  ImGui::Begin("message", nullptr, kColumn | ImGuiWindowFlags_NoInputs);
+  ImGui::PushTextWrapPos(std::max(io.DisplaySize.x - 42 * em(), 24 * em()));
+  line(text);
+  ImGui::PopTextWrapPos();
+  ImGui::End();
+}
+
+}  // namespace arete::widget

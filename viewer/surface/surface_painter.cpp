@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A draw call for each material of the front, and one for its wireframe. Light is added up in proportion to
+// light and written as sRGB.
+#include "viewer/surface/surface_painter.h"
+
+#include <glm/vec4.hpp>
+
+#include <cmath>
+#include <numbers>
+
+#include "viewer/gl/gl_program.h"
+
+namespace arete {
+
+/// shaders/surface.frag.glsl, std140.
+struct SurfacePainter::Look {
+  glm::vec4 baseColor{1, 1, 1, 1}, sun{}, modes{}, more{};
+};
+
+namespace {
+
+Vec3 towardsSun(const FrameView& frame, const SurfaceLook& look) {
+  if (look.sun) {
+    const double azimuth = look.sun->azimuthDegrees * std::numbers::pi / 180,
+                 elevation = look.sun->elevationDegrees * std::numbers::pi / 180;
+    return {std::cos(elevation) * std::sin(azimuth), std::cos(elevation) * std::cos(azimuth),
+            std::sin(elevation)};
+  }
+  const Frustum::Planes axes = Frustum(frame.view).planes();
+  return unit(-0.45 * axes.right + 0.6 * axes.up - 0.66 * axes.forward);
+}
+
+float coloringNumber(SurfaceColoring coloring) {
+  return coloring == SurfaceColoring::materials ? 0.0f : coloring == SurfaceColoring::plain ? 1.0f : 2.0f;
+}
+
+}  // namespace
+
+Result<SurfacePainter> SurfacePainter::create() {
+  SurfacePainter p;
+  Result<GlProgram> surface = makeProgram({{GL_VERTEX_SHADER, {"frame.glsl", "surface.vert.glsl"}},
+                                           {GL_FRAGMENT_SHADER, {"frame.glsl", "surface.frag.glsl"}}});
+  if (!surface) return tl::unexpected(surface.error());
+  Result<GlProgram> background = makeProgram(
+      {{GL_VERTEX_SHADER, {"sky.vert.glsl"}}, {GL_FRAGMENT_SHADER, {"surface_background.frag.glsl"}}});
+  if (!background) return tl::unexpected(background.error());
+  p.surface_ = std::move(*surface);
+  p.background_ = std::move(*background);
+  p.frame_ = makeBuffer(sizeof(FrameBlock));
+  p.look_ = makeBuffer(sizeof(Look));
+  p.nothing_ = makeBuffer(16);
+  p.surfaceArray_ = makeVertexArray();
+  p.emptyArray_ = makeVertexArray();
+  return p;
+}
+
+void SurfacePainter::drawRange(const DrawnSurface::Range& range, const Look& look) {
+  glNamedBufferSubData(look_, 0, sizeof look, &look);
+  glDrawElements(GL_TRIANGLES, GLsizei(3 * range.count), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(std::size_t(12) * range.first));
+}
+
+void SurfacePainter::draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials,
+                          const DrawnSurface& front, const FrameView& frame, const SurfaceLook& look) {
+  const FrameBlock block = frameBlock(frame, MetricFrame{});
+  glNamedBufferSubData(frame_, 0, sizeof block, &block);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 1, look_);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, front.errors != 0 ? front.errors : nothing_);
+  glUseProgram(surface_);
+  const GLuint array = surfaceArray_;
+  const auto attribute = [&](GLuint index, GLuint buffer, GLint size, GLenum type) {
+    if (buffer == 0) {
+      glDisableVertexArrayAttrib(array, index);
+      return;
+    }
+    glVertexArrayVertexBuffer(array, index, buffer, 0, (type == GL_FLOAT ? 4 : 1) * size);
+    glVertexArrayAttribFormat(array, index, size, type, type == GL_FLOAT ? GL_FALSE : GL_TRUE, 0);
+    glVertexArrayAttribBinding(array, index, index);
+    glEnableVertexArrayAttrib(array, index);
+  };
+  attribute(0, surface.positions, 3, GL_FLOAT);
+  attribute(1, surface.normals, 3, GL_FLOAT);
+  attribute(2, surface.textureCoords, 4, GL_FLOAT);
+  attribute(3, surface.colors, 4, GL_UNSIGNED_BYTE);
+  glVertexArrayElementBuffer(array, front.indices);
+  glBindVertexArray(array);
+  glVertexAttrib4f(2, 0, 0, 0, 0);
+  glVertexAttrib4f(3, 1, 1, 1, 1);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GEQUAL);
+
+  const Vec3 sun = towardsSun(frame, look);
+  const bool hasMaterials = look.coloring == SurfaceColoring::materials;
+  for (const bool isBlended : {false, true}) {
+    for (const DrawnSurface::Range& range : front.ranges) {
+      const DrawnMaterial& m = materials.materials()[range.material];
+      if ((hasMaterials && m.alpha == DrawnMaterial::Alpha::blended) != isBlended) continue;
+      Look now;
+      now.baseColor = m.baseColor;
+      now.sun = {float(sun.x), float(sun.y), float(sun.z), look.isShaded ? 1.0f : 0.0f};
+      const bool hasPicture = m.texture != 0 && surface.textureCoords != 0;
+      now.modes = {coloringNumber(look.coloring), hasPicture ? float(1 + m.textureCoords) : 0.0f,
+                   float(m.alpha), m.alphaCutoff};
+      now.more = {m.isDoubleSided ? 1.0f : 0.0f, 0, float(range.first), 0};
+      glBindTextureUnit(0, m.texture);
+      if (isBlended) {
+        glEnable(GL_BLEND);
+        glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+        glDepthMask(GL_FALSE);
+      }
+      drawRange(range, now);
+      glDisable(GL_BLEND);
+      glDepthMask(GL_TRUE);
+    }
+  }
+  if (!look.hasWireframe) return;
+  Look lines;
+  lines.baseColor = {0.05f, 0.07f, 0.10f, 1};
+  lines.more.y = 1;
+  glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  glEnable(GL_POLYGON_OFFSET_LINE);
+  glPolygonOffset(1, 1);  // nearer: depth is reversed
+  for (const DrawnSurface::Range& range : front.ranges) drawRange(range, lines);
+  glDisable(GL_POLYGON_OFFSET_LINE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+void SurfacePainter::drawBackground() {
+  glUseProgram(background_);
+  glBindVertexArray(emptyArray_);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_EQUAL);  // where nothing has been drawn
+  glDepthMask(GL_FALSE);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthMask(GL_TRUE);
+}
+
+}  // namespace arete

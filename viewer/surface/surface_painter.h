@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "engine/base/result.h"
+#include "viewer/gl/frame_block.h"
+#include "viewer/gl/gl_objects.h"
+#include "viewer/surface/materials_on_gpu.h"
+#include "viewer/surface/surface_on_gpu.h"
+
+namespace arete {
+
+enum class SurfaceColoring { materials, plain, error };
+
+/// Colours and light of a surface.
+struct SurfaceLook {
+  SurfaceColoring coloring = SurfaceColoring::materials;
+  bool isShaded = true;
+  bool hasWireframe = false;
+  /// Clockwise from north and above the horizon, in degrees. Nothing: from above the left shoulder of who
+  /// looks.
+  struct Sun {
+    double azimuthDegrees = 315, elevationDegrees = 40;
+  };
+  std::optional<Sun> sun = {};
+};
+
+/// A front as it lies in graphics memory: its triangles by material.
+struct DrawnSurface {
+  struct Range {
+    std::uint32_t material = 0, first = 0, count = 0;  ///< triangles
+  };
+  GLuint indices = 0;  ///< three drawn vertices a triangle
+  GLuint errors = 0;   ///< a float a triangle; 0: none
+  std::span<const Range> ranges = {};
+};
+
+/// Draws fronts of a surface and what is behind them into the framebuffer that is bound.
+class SurfacePainter {
+ public:
+  /// Errors: unsupported, by the driver.
+  static Result<SurfacePainter> create();
+
+  /// `frame`: of upright space. What is blended is drawn last, in the order of its triangles.
+  void draw(const SurfaceOnGpu& surface, const MaterialsOnGpu& materials, const DrawnSurface& front,
+            const FrameView& frame, const SurfaceLook& look);
+  void drawBackground();
+
+ private:
+  SurfacePainter() = default;
+  struct Look;
+  void drawRange(const DrawnSurface::Range& range, const Look& look);
+
+  GlProgram surface_, background_;
+  GlBuffer frame_, look_, nothing_;
+  GlVertexArray surfaceArray_, emptyArray_;
+};
+
+}  // namespace arete

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A cut that changed is written to the device as a whole: its triangles sorted by material, each as three
+// drawn vertices.
+#include "viewer/surface/surface_view.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/base/stopwatch.h"
+#include "engine/criteria/view_error.h"
+#include "engine/cut/cut.h"
+#include "engine/follow/incremental_cut.h"
+
+namespace arete {
+namespace {
+
+/// Part of the diagonal: what is nearer to the eye is not drawn.
+constexpr double kNearest = 1e-4;
+
+}  // namespace
+
+struct SurfaceView::State {
+  const SurfaceModel* model = nullptr;
+  Upright upright;
+  MetricBox box;
+  IncrementalCut cut;
+  SurfaceOnGpu surface;
+  MaterialsOnGpu materials;
+  SurfacePainter painter;
+  GlQuery anySample = makeQuery(GL_ANY_SAMPLES_PASSED);
+  double pixels = 1;  // of the last cut
+  bool isUploaded = false;
+  GlBuffer indices = {}, errors = {};
+  std::vector<DrawnSurface::Range> ranges = {};
+
+  std::uint32_t materialOf(std::uint32_t triangle) const {
+    const auto none = static_cast<std::uint32_t>(materials.materials().size()) - 1;
+    const std::vector<std::uint32_t>& of = model->attributes.materialOf;
+    if (of.empty()) return none;
+    const std::uint32_t m = of[model->faceOf[triangle]];
+    return m == MeshAttributes::kNone ? none : m;
+  }
+
+  void upload() {
+    const auto front = cut.triangles();
+    const MultiTriangulation& mt = model->mt;
+    std::vector<std::uint32_t> begin(materials.materials().size() + 1, 0);
+    for (const std::uint32_t t : front) ++begin[materialOf(t) + 1];
+    for (std::size_t m = 1; m < begin.size(); ++m) begin[m] += begin[m - 1];
+    ranges.clear();
+    for (std::uint32_t m = 0; m + 1 < begin.size(); ++m)
+      if (begin[m + 1] > begin[m]) ranges.push_back({m, begin[m], begin[m + 1] - begin[m]});
+    std::vector<std::array<std::uint32_t, 3>> corners(front.size());
+    std::vector<float> worst(front.size());
+    for (const std::uint32_t t : front) {
+      const std::uint32_t at = begin[materialOf(t)]++;
+      corners[at] = model->hasWedges() ? model->wedgesOf[t] : mt.corners(TriangleId(t));
+      worst[at] = static_cast<float>(mt.error(TriangleId(t)));
+    }
+    indices = makeBuffer(std::span<const std::array<std::uint32_t, 3>>(corners));
+    errors = makeBuffer(std::span<const float>(worst));
+    isUploaded = true;
+  }
+};
+
+Result<SurfaceView> SurfaceView::create(const SurfaceModel& model, const Upright& upright) {
+  Result<SurfacePainter> painter = SurfacePainter::create();
+  if (!painter) return tl::unexpected(painter.error());
+  return SurfaceView(std::make_unique<State>(State{.model = &model,
+                                                   .upright = upright,
+                                                   .box = uprightBox(model, upright),
+                                                   .cut = IncrementalCut(model.mt),
+                                                   .surface = uploadSurface(model, upright),
+                                                   .materials = MaterialsOnGpu::load(model),
+                                                   .painter = std::move(*painter)}));
+}
+
+SurfaceView::SurfaceView(std::unique_ptr<State> state) : state_(std::move(state)) {}
+SurfaceView::SurfaceView(SurfaceView&&) noexcept = default;
+SurfaceView& SurfaceView::operator=(SurfaceView&&) noexcept = default;
+SurfaceView::~SurfaceView() = default;
+
+Result<SurfaceFigures> SurfaceView::cut(const Camera& camera, const SurfaceViewSettings& settings,
+                                        const RunContext& context) {
+  State& s = *state_;
+  const Result<View> view = uprightView(camera);
+  if (!view) return tl::unexpected(view.error());
+  const Stopwatch watch;
+  const MultiTriangulation& mt = s.model->mt;
+  const ViewError criterion({.view = s.upright.turnedBack(*view), .pixels = settings.pixels},
+                            mt.arrays().metric);
+  IncrementalOptions options;
+  if (settings.maxTriangles > 0) options.maxTriangles = settings.maxTriangles;
+  const Result<IncrementalCut::Update> update = s.cut.update(criterion, options, context);
+  if (!update) return tl::unexpected(update.error());
+  SurfaceFigures figures;
+  figures.triangles = static_cast<std::uint32_t>(s.cut.triangles().size());
+  figures.isComplete = update->isComplete;
+  figures.pixels = settings.pixels;
+  if (!update->isComplete)
+    figures.pixels = std::max(settings.pixels, worstSeverity(mt, criterion, s.cut.front()));
+  s.pixels = figures.pixels;
+  if (!s.isUploaded || !s.cut.lastSteps().empty()) s.upload();
+  figures.cutMilliseconds = watch.milliseconds();
+  return figures;
+}
+
+Status SurfaceView::draw(const Camera& camera, const SurfaceViewSettings& settings) {
+  State& s = *state_;
+  const Result<View> view = uprightView(camera);
+  if (!view) return tl::unexpected(view.error());
+  FrameView frame;
+  frame.view = *view;
+  frame.pixels = s.pixels;
+  frame.drawnNear = kNearest * s.box.diagonal();
+  glBeginQuery(GL_ANY_SAMPLES_PASSED, s.anySample);
+  s.painter.draw(s.surface, s.materials, {s.indices, s.errors, s.ranges}, frame, settings.look);
+  glEndQuery(GL_ANY_SAMPLES_PASSED);
+  s.painter.drawBackground();
+  return {};
+}
+
+bool SurfaceView::showsSurface() const {
+  GLuint any = 0;
+  glGetQueryObjectuiv(state_->anySample, GL_QUERY_RESULT, &any);
+  return any != 0;
+}
+
+const std::vector<std::string>& SurfaceView::warnings() const {
+  return state_->materials.warnings();
+}
+const Upright& SurfaceView::upright() const {
+  return state_->upright;
+}
+const MetricBox& SurfaceView::box() const {
+  return state_->box;
+}
+std::uint64_t SurfaceView::bytes() const {
+  return state_->surface.bytes;
+}
+
+}  // namespace arete

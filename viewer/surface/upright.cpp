@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "viewer/surface/upright.h"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+namespace arete {
+
+Upright::Upright(const SurfaceModel& model, std::string_view up)
+    : metric_(model.mt.arrays().metric), isYUp_((up.empty() ? std::string_view(model.up) : up) == "y") {}
+
+Vec3 Upright::toFile(const Vec3& upright) const {
+  const Vec3 p = turnedBack(upright);
+  return {p.x / metric_.scale.x + metric_.origin.x, p.y / metric_.scale.y + metric_.origin.y,
+          p.z / metric_.scale.z + metric_.origin.z};
+}
+
+View Upright::turnedBack(View view) const {
+  view.eye = turnedBack(view.eye);
+  view.forward = turnedBack(view.forward);
+  view.up = turnedBack(view.up);
+  return view;
+}
+
+MetricBox uprightBox(const SurfaceModel& model, const Upright& upright) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  MetricBox box{{kNone, kNone, kNone}, {-kNone, -kNone, -kNone}};
+  for (std::uint32_t v = 0; v < model.mt.vertexCount(); ++v) {
+    const Vec3 p = upright.fromFile(model.mt.position(VertexId(v)));
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+  }
+  return box;
+}
+
+Camera surfaceHome(HomeView view, const MetricBox& box, const Camera& picture) {
+  if (view == HomeView::overview) return cameraOnAll(CameraSpace(), box, {325, -20}, picture);
+  return homeCamera(view, CameraSpace(), box, picture);
+}
+
+Result<View> uprightView(const Camera& camera) {
+  const CameraSpace space;
+  View view;
+  view.eye = space.position(camera);
+  view.forward = space.forward(lookOf(camera));
+  view.up = space.up(lookOf(camera));
+  view.verticalFieldOfView = camera.verticalFieldOfViewDegrees * std::numbers::pi / 180;
+  view.widthPixels = camera.widthPixels;
+  view.heightPixels = camera.heightPixels;
+  if (const Status valid = view.validate(); !valid)
+    return failure(valid.error().code, valid.error().message, "camera");
+  return view;
+}
+
+}  // namespace arete

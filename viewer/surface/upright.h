@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string_view>
+
+#include "engine/criteria/view.h"
+#include "surface/model/surface_model.h"
+#include "terrain/model/camera.h"
+#include "viewer/camera/home_view.h"
+
+namespace arete {
+
+/// The space that a surface is drawn in: the metric space of its multitriangulation, turned so that what is
+/// up in its file is along z. Cameras of CameraSpace() move in it: x is east, y is north, both in the file's
+/// unit from the middle of the surface. A small value that does not refer to the model.
+class Upright {
+ public:
+  /// @param up the axis of the file that points up, "y" or "z"; empty: as the model says, else z.
+  explicit Upright(const SurfaceModel& model, std::string_view up = {});
+
+  /// Of a position of the file, and back.
+  Vec3 fromFile(const Vec3& position) const { return turned(metric_.toMetric(position)); }
+  Vec3 toFile(const Vec3& upright) const;
+  /// Of positions and directions in the metric space of the multitriangulation.
+  Vec3 turned(const Vec3& metric) const { return isYUp_ ? Vec3{metric.x, -metric.z, metric.y} : metric; }
+  Vec3 turnedBack(const Vec3& upright) const {
+    return isYUp_ ? Vec3{upright.x, upright.z, -upright.y} : upright;
+  }
+  View turnedBack(View upright) const;
+
+ private:
+  MetricFrame metric_;
+  bool isYUp_ = false;
+};
+
+/// The least box along the axes of upright space that holds all vertices. O(vertices).
+MetricBox uprightBox(const SurfaceModel& model, const Upright& upright);
+
+/// As homeCamera(), but for the overview, which shows three sides of an object: from the front, from its left
+/// and from above. What is in front looks south.
+Camera surfaceHome(HomeView view, const MetricBox& box, const Camera& picture);
+
+/// What a camera of upright space sees, as a view of it. Errors: usage, culprit "camera".
+Result<View> uprightView(const Camera& camera);
+
+}  // namespace arete
