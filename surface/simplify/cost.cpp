@@ -10,7 +10,6 @@
 #include <limits>
 
 namespace arete {
-
 void SurfaceCost::collectSamples() {
   samples_.clear();
   std::size_t pieces = 0;
@@ -52,6 +51,28 @@ double SurfaceCost::integralOver(int corner, double limit) {
   return sum;
 }
 
+double SurfaceCost::integralBeyondBorder() const {
+  const Star& star = hole_.star();
+  if (!star.isOpen || s_.borderNext.size() == 0) return 0;
+  const int last = hole_.corners() - 1;
+  const Vec3 a = hole_.corner(last), along = hole_.corner(0) - a;
+  const double squaredLength = dot(along, along);
+  Vec3 inwards{};
+  for (int i = 1; i < last; ++i) inwards = inwards + (hole_.corner(i) - a);
+  if (!(squaredLength > 0)) return 0;
+  inwards = inwards - (dot(inwards, along) / squaredLength) * along;
+  double squared = 0;
+  const VertexId end = star.link[0];
+  for (VertexId v = s_.borderNext[star.link[last]]; v.isValid() && v != end; v = s_.borderNext[v]) {
+    const Vec3 away = s_.position(v) - a;
+    if (!(dot(away, inwards) > 0)) continue;
+    const double at = std::clamp(dot(away, along) / squaredLength, 0.0, 1.0);
+    squared = std::max(squared, squaredDistance(away, at * along));
+  }
+  // As of a rectangle that is as far everywhere as the gap is deep: less lets triangles lie over deep gaps.
+  return std::sqrt(squaredLength * squared) * squared;
+}
+
 bool SurfaceCost::isStillValid(VertexId v, const RemovalRecord& record) {
   if (!hole_.gather(s_, v) || !hole_.mayBeFilled(s_)) return false;
   const auto link = hole_.star().linkView();
@@ -82,6 +103,7 @@ void SurfaceCost::evaluate(VertexId v, double threshold, RemovalRecord& record) 
   int best = -1;
   double above = std::numeric_limits<double>::infinity();
   bool hasSamples = false;
+  const double gap = integralBeyondBorder();
   for (int k = 0; k < count; ++k) {
     const int corner = candidates[k].corner;
     if (!hole_.keepsTopology(s_, corner)) continue;
@@ -92,7 +114,7 @@ void SurfaceCost::evaluate(VertexId v, double threshold, RemovalRecord& record) 
         star_.add({hole_.apex(), hole_.corner(t), hole_.corner(t + 1 < hole_.corners() ? t + 1 : 0)});
       hasSamples = true;
     }
-    const double sum = integralOver(corner, std::min(least, most));
+    const double sum = gap + integralOver(corner, std::min(least, most) - gap);
     if (sum > most) above = std::min(above, sum);
     if (sum > most || sum >= least) continue;
     least = sum;

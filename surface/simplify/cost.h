@@ -15,7 +15,8 @@ namespace arete {
 
 /// The cost of a removal: the integral, over the part of the original that the star stands for, of the
 /// squared distance to the fan that fills the hole; and, so that no triangle bridges a gap, that over the fan
-/// of the squared distance to the star, from the triangles' middles. Its root, so that thresholds grow with
+/// of the squared distance to the star, from the triangles' middles; on a border also that over what the fan
+/// covers beyond the original border. Its root, so that thresholds grow with
 /// areas. The fan with the least is taken.
 class SurfaceCost {
  public:
@@ -35,6 +36,8 @@ class SurfaceCost {
   /// The integral over the samples; some value above `limit` if it exceeds that.
   double integralOver(int corner, double limit);
   void collectSamples();
+  /// The integral over the gap between the new border edge and the original border, where that runs inside.
+  double integralBeyondBorder() const;
 
   static constexpr std::size_t kMostSamples = 64;
 

@@ -44,6 +44,18 @@ void compact(SurfaceState& s) {
   s.labels.resize(map.liveCount());
 }
 
+IdArray<VertexId, std::vector<VertexId>> borderNextOf(const LiveMesh& mesh) {
+  IdArray<VertexId, std::vector<VertexId>> next;
+  for (std::uint32_t i = 0; i < mesh.vertexCount(); ++i) {
+    const VertexId v(i);
+    const HalfedgeId h = mesh.vertexHalfedge[v];
+    if (!h.isValid() || mesh.twinOf(h).isValid()) continue;
+    if (next.size() == 0) next.assign(mesh.vertexCount(), VertexId());
+    next[v] = mesh.origin(LiveMesh::nextInTriangle(h));
+  }
+  return next;
+}
+
 }  // namespace
 
 Result<SurfaceRoot> simplifySurface(SurfaceState& s, const std::vector<std::uint8_t>& isFixed,
@@ -51,6 +63,7 @@ Result<SurfaceRoot> simplifySurface(SurfaceState& s, const std::vector<std::uint
   s.liveTriangles = s.mesh.triangles.size();
   s.pieces.resize(s.mesh.triangles.size());
   s.firstStarLabel.assign(s.mesh.vertexCount(), 0);
+  s.borderNext = borderNextOf(s.mesh);
   s.starLabels.reserve(kMaxHoleCorners * s.mesh.vertexCount());
   s.records.resize(s.mesh.vertexCount());
   forRanges(LoopThreads::all, s.records.size(), 4096, [&](std::size_t begin, std::size_t end) {

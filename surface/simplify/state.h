@@ -39,6 +39,9 @@ struct SurfaceState {
   LabelArray starLabels{parts.hasWedges};
   /// The first of those of a removed vertex.
   IdArray<VertexId, std::vector<std::uint32_t>> firstStarLabel = {};
+  /// Of a vertex on a border of the original: the next one along it, the surface on the left. Empty without
+  /// borders.
+  IdArray<VertexId, std::vector<VertexId>> borderNext = {};
   ThresholdList thresholds = {};
   IndependentSet::Records records = {};
   std::atomic<std::size_t> liveTriangles = 0;
