@@ -11,10 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "datasets/asteroid.h"
 #include "datasets/catalogue.h"
 #include "datasets/fetch.h"
 #include "datasets/terrain_generator.h"
 #include "io/dem/raster_writer.h"
+#include "io/exchange/mesh_formats.h"
 
 namespace arete {
 namespace {
@@ -76,6 +78,17 @@ int generate(const TerrainOptions& options, const std::string& output, bool quie
   return 0;
 }
 
+int generateSurface(const AsteroidOptions& options, const std::string& output, bool quiet) {
+  const TriangleMesh mesh = generateAsteroid(options);
+  MeshWriteOptions write;
+  write.up = MeshUp::z;
+  const Result<MeshWriteReport> written = writeMesh(mesh, output, write, contextOf(quiet));
+  if (!written) return exitCodeOf(written.error());
+  fmt::print("{}: {} vertices, {} faces, seed {}\n", output, mesh.positions.size(), mesh.triangles.size(),
+             options.seed);
+  return 0;
+}
+
 int list(bool asJson) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const PublicDem& dem : publicDems()) {
@@ -114,7 +127,8 @@ int fetch(const std::string& name, const std::vector<double>& box, const std::st
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"Terrain to try Arete on: generated here, or fetched from those who publish it."};
+  CLI::App app{
+      "Terrain and a surface to try Arete on: generated here, or fetched from those who publish it."};
   app.name("arete-datasets");
   app.require_subcommand(1);
   app.footer(
@@ -124,6 +138,7 @@ int run(int argc, char** argv) {
       "Examples:\n"
       "  arete-datasets generate -o dem.tif\n"
       "  arete-datasets generate -o big.tif --size 4097 --seed 7\n"
+      "  arete-datasets asteroid -o rock.ply\n"
       "  arete-datasets list\n"
       "  arete-datasets fetch matterhorn -o matterhorn.tif\n"
       "  arete-datasets fetch copernicus-glo30 --bbox 6.8,45.8,7.0,45.9 -o mont-blanc.tif");
@@ -144,6 +159,14 @@ int run(int argc, char** argv) {
   generateCommand->add_flag("--no-lake", noLake, "Without the lake of NODATA");
   generateCommand->add_flag("--no-sea", noSea, "Without a coast");
   generateCommand->add_flag("-q,--quiet", quiet, "No progress");
+
+  AsteroidOptions asteroid;
+  CLI::App* asteroidCommand = app.add_subcommand("asteroid", "Make a rock with craters, a closed surface");
+  asteroidCommand->add_option("-o,--output", output, "Mesh to write (.ply, .obj, .stl, .glb)")->required();
+  asteroidCommand->add_option("--vertices", asteroid.vertices, "About so many (default 150000)")
+      ->check(CLI::Range(8, 50'000'000));
+  asteroidCommand->add_option("--seed", asteroid.seed, "Which rock (default 1)");
+  asteroidCommand->add_flag("-q,--quiet", quiet, "No progress");
 
   bool asJson = false;
   CLI::App* listCommand = app.add_subcommand("list", "Public DEMs that fetch knows");
@@ -171,6 +194,7 @@ int run(int argc, char** argv) {
   terrain.lake = !noLake;
   terrain.sea = !noSea;
   if (generateCommand->parsed()) return generate(terrain, output, quiet);
+  if (asteroidCommand->parsed()) return generateSurface(asteroid, output, quiet);
   if (listCommand->parsed()) return list(asJson);
   return fetch(name, box, mirror, output, quiet);
 }

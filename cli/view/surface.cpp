@@ -27,13 +27,13 @@ namespace fs = std::filesystem;
 constexpr double kSecondsOfATurn = 8, kFramesPerSecond = 30;
 
 /// The camera of upright space.
-Result<Camera> cameraOf(const ViewArguments& a, const Upright& upright, const MetricBox& box, int width,
+Result<Camera> cameraOf(const ViewArguments& a, const Upright& upright, const UprightShape& shape, int width,
                         int height) {
   Camera camera;
   camera.widthPixels = width;
   camera.heightPixels = height;
   const CameraSpace space;
-  if (a.viewpoint.camera.empty()) return surfaceHome(a.viewpoint.homeView(), box, camera);
+  if (a.viewpoint.camera.empty()) return surfaceHome(a.viewpoint.homeView(), shape, camera);
   const Result<SurfaceCamera> stated = readSurfaceCamera(a.viewpoint.camera);
   if (!stated) return tl::unexpected(stated.error());
   const Vec3 eye = upright.fromFile(stated->eye);
@@ -88,9 +88,10 @@ class SurfacePictures {
       session_.warn(fmt::format("the budget ended the cut: the surface is {}", accuracyOf(*figures)));
     session_.say(fmt::format("{}: {} triangles, {}\n", a_.pictures.screenshot, grouped(figures->triangles),
                              accuracyOf(*figures)));
-    json["screenshot"] = {{"file", a_.pictures.screenshot},
-                          {"camera", jsonOf(camera, view_.view().upright(), view_.view().box().diagonal())},
-                          {"figures", jsonOf(*figures)}};
+    json["screenshot"] = {
+        {"file", a_.pictures.screenshot},
+        {"camera", jsonOf(camera, view_.view().upright(), view_.view().shape().box.diagonal())},
+        {"figures", jsonOf(*figures)}};
     return {};
   }
 
@@ -104,7 +105,7 @@ class SurfacePictures {
       return failure(ErrorCode::unreadable, "the folder cannot be made: " + failed.message(),
                      a_.pictures.frames);
     const CameraSpace space;
-    const Vec3 middle = view_.view().box().centre(), from = space.position(first) - middle;
+    const Vec3 middle = view_.view().shape().box.centre(), from = space.position(first) - middle;
     Json list = Json::array();
     std::uint64_t triangles = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -182,7 +183,8 @@ Status viewSurface(const ViewArguments& a, Session& session) {
   const Result<SurfaceModel> model = loadSurfaceAmt(a.model, AmtVerify::all, session.context());
   if (!model) return tl::unexpected(model.error());
   const Upright upright(*model, a.viewpoint.up);
-  const Result<Camera> camera = cameraOf(a, upright, uprightBox(*model, upright), size->first, size->second);
+  const Result<Camera> camera =
+      cameraOf(a, upright, uprightShape(*model, upright), size->first, size->second);
   if (!camera) return tl::unexpected(camera.error());
 
   if (!a.pictures.isHeadless) {

@@ -10,6 +10,14 @@
 #include <limits>
 
 namespace arete {
+namespace {
+
+/// Of the integral of a fan that folds the surface: it waits until the error is eight times as large, and
+/// then what is around has mostly changed.
+constexpr double kFoldWeight = 64;
+
+}  // namespace
+
 void SurfaceCost::collectSamples() {
   samples_.clear();
   std::size_t pieces = 0;
@@ -77,7 +85,7 @@ bool SurfaceCost::isStillValid(VertexId v, const RemovalRecord& record) {
   if (!hole_.gather(s_, v) || !hole_.mayBeFilled(s_)) return false;
   const auto link = hole_.star().linkView();
   const auto corner = std::ranges::find(link, VertexId(record.witness)) - link.begin();
-  return hole_.keepsTopology(s_, static_cast<int>(corner));
+  return hole_.keepsTopology(s_, static_cast<int>(corner)) && !hole_.folds(s_, static_cast<int>(corner));
 }
 
 void SurfaceCost::evaluate(VertexId v, double threshold, RemovalRecord& record) {
@@ -114,7 +122,8 @@ void SurfaceCost::evaluate(VertexId v, double threshold, RemovalRecord& record) 
         star_.add({hole_.apex(), hole_.corner(t), hole_.corner(t + 1 < hole_.corners() ? t + 1 : 0)});
       hasSamples = true;
     }
-    const double sum = gap + integralOver(corner, std::min(least, most) - gap);
+    const double weight = hole_.folds(s_, corner) ? kFoldWeight : 1;
+    const double sum = weight * (gap + integralOver(corner, std::min(least, most) / weight - gap));
     if (sum > most) above = std::min(above, sum);
     if (sum > most || sum >= least) continue;
     least = sum;

@@ -16,8 +16,8 @@ namespace arete {
 /// The cost of a removal: the integral, over the part of the original that the star stands for, of the
 /// squared distance to the fan that fills the hole; and, so that no triangle bridges a gap, that over the fan
 /// of the squared distance to the star, from the triangles' middles; on a border also that over what the fan
-/// covers beyond the original border. Its root, so that thresholds grow with
-/// areas. The fan with the least is taken.
+/// covers beyond the original border; more of it where the fan folds the surface. Its root, so that
+/// thresholds grow with areas. The fan with the least is taken.
 class SurfaceCost {
  public:
   explicit SurfaceCost(const SurfaceState& state) : s_(state) {}
@@ -28,8 +28,8 @@ class SurfaceCost {
   /// Stores the cost of removing v, exactly if it is at most threshold * kExactUpTo, with the vertex around
   /// which the fan is as the witness.
   void evaluate(VertexId v, double threshold, RemovalRecord& record);
-  /// Whether the fan of an exact record still keeps the topology: an edge that it needs may have been made
-  /// elsewhere since.
+  /// Whether the fan of an exact record still keeps the topology and folds nothing: an edge that it needs may
+  /// have been made elsewhere since, and triangles around the star may have turned.
   bool isStillValid(VertexId v, const RemovalRecord& record);
 
  private:

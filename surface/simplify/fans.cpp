@@ -44,6 +44,20 @@ bool haveEdge(const LiveMesh& mesh, VertexId a, VertexId b) {
   return false;
 }
 
+namespace {
+
+Vec3 unitOrZero(const Vec3& normal) {
+  const double length = norm(normal);
+  return length > 0 ? normal / length : Vec3{};
+}
+
+/// 1 where there is no angle.
+double cosineOf(const Vec3& a, const Vec3& b) {
+  return a == Vec3{} || b == Vec3{} ? 1 : dot(a, b);
+}
+
+}  // namespace
+
 HoleTriangulation fanAround(int corner, int corners) {
   HoleTriangulation fan;
   fan.size = 0;
@@ -63,6 +77,7 @@ HoleTriangulation fanAround(int corner, int corners) {
 bool SurfaceHole::gather(const SurfaceState& state, VertexId v) {
   const auto most = static_cast<int>(state.maxDegree);
   vertex_ = v;
+  hasBeyond_ = false;
   if (!star_.gather(state.mesh, v, most + 1) || star_.triangleCount > most || star_.linkSize < 3)
     return false;
   if (star_.isOpen && star_.link[0] == star_.link[star_.linkSize - 1]) return false;
@@ -108,6 +123,45 @@ bool SurfaceHole::keepsShape(int corner) const {
     if (!(dot(normal, before) > 0)) return false;
   }
   return true;
+}
+
+void SurfaceHole::gatherBeyond(const SurfaceState& state) {
+  hasBeyond_ = true;
+  sharpest_ = 1;
+  const auto normalOf = [&](HalfedgeId h) -> Vec3 {
+    if (!h.isValid()) return {};
+    const LiveMesh::Corners& corners = state.mesh.triangles[LiveMesh::slotOf(h)].corners;
+    const Vec3 &a = state.position(corners[0]), &b = state.position(corners[1]),
+               &c = state.position(corners[2]);
+    return unitOrZero(cross(b - a, c - a));
+  };
+  std::array<Vec3, kMaxHoleCorners> own;
+  for (int i = 0; i < star_.triangleCount; ++i) {
+    own[i] = unitOrZero(normals_[i]);
+    beyond_[i] = normalOf(state.mesh.twinOf(star_.rim(i)));
+    sharpest_ = std::min(sharpest_, cosineOf(own[i], beyond_[i]));
+  }
+  for (int i = star_.triangleCount; i < star_.linkSize; ++i) beyond_[i] = {};
+  const int spokes = star_.isOpen ? star_.triangleCount - 1 : star_.triangleCount;
+  for (int i = 0; i < spokes; ++i)
+    sharpest_ = std::min(sharpest_, cosineOf(own[i], own[i + 1 < star_.triangleCount ? i + 1 : 0]));
+}
+
+bool SurfaceHole::folds(const SurfaceState& state, int corner) {
+  if (!hasBeyond_) gatherBeyond(state);
+  constexpr double kFolded = -0.5;  // the cosine of 120 degrees
+  const double least = std::min(kFolded, sharpest_);
+  const Vec3& u = places_[corner];
+  Vec3 before{};
+  for (int a = next(corner); next(a) != corner; a = next(a)) {
+    const Vec3 normal = unitOrZero(cross(places_[a] - u, places_[next(a)] - u));
+    if (cosineOf(normal, beyond_[a]) < least || cosineOf(normal, before) < least) return true;
+    // The first and the last have two edges of the link.
+    if (a == next(corner) && cosineOf(normal, beyond_[corner]) < least) return true;
+    if (next(next(a)) == corner && cosineOf(normal, beyond_[next(a)]) < least) return true;
+    before = normal;
+  }
+  return false;
 }
 
 bool SurfaceHole::mayBeFilled(const SurfaceState& state) const {

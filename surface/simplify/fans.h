@@ -36,6 +36,9 @@ class SurfaceHole {
 
   /// Whether the fan around a corner keeps lines and turns no triangle over.
   bool keepsShape(int corner) const;
+  /// Whether the fan around a corner folds the surface: turns two triangles at an edge further towards each
+  /// other than any at the star were, and by more than 120 degrees. Reads the triangles around the star.
+  bool folds(const SurfaceState& state, int corner);
   /// Whether any fan keeps the topology. Reads the mesh around the star.
   bool mayBeFilled(const SurfaceState& state) const;
   /// Whether the fan around a corner keeps the topology, if any does. Reads the mesh around the corner.
@@ -46,6 +49,7 @@ class SurfaceHole {
 
  private:
   void findLine(const SurfaceState& state);
+  void gatherBeyond(const SurfaceState& state);
   int next(int i) const { return i + 1 < star_.linkSize ? i + 1 : 0; }
   int previous(int i) const { return i > 0 ? i - 1 : star_.linkSize - 1; }
   bool areNeighbours(int i, int j) const { return next(i) == j || next(j) == i; }
@@ -56,6 +60,11 @@ class SurfaceHole {
   std::array<Vec3, kMaxHoleCorners> places_;
   std::array<Vec3, kMaxHoleCorners> normals_;  // of the star's triangles
   Vec3 normal_;                                // their sum
+  /// Of the triangles beyond the link's edges, of length 1 or 0; and the least cosine between the normals of
+  /// two triangles at an edge of the star. Known from gatherBeyond() on.
+  std::array<Vec3, kMaxHoleCorners> beyond_;
+  double sharpest_ = 1;
+  bool hasBeyond_ = false;
   /// The corners to which a line leads from the vertex; -1: none.
   std::array<int, 2> line_{-1, -1};
 };

@@ -28,7 +28,7 @@ Vec3 towardsSun(const FrameView& frame, const SurfaceLook& look) {
             std::sin(elevation)};
   }
   const Frustum::Planes axes = Frustum(frame.view).planes();
-  return unit(-0.45 * axes.right + 0.6 * axes.up - 0.66 * axes.forward);
+  return unit(-0.62 * axes.right + 0.62 * axes.up - 0.48 * axes.forward);
 }
 
 float coloringNumber(SurfaceColoring coloring) {

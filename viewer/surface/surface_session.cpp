@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "viewer/window/camera_motion.h"
 
@@ -15,17 +16,17 @@ constexpr double kNearest = 1e-4, kFarthest = 100;
 
 }  // namespace
 
-SurfaceSession::SurfaceSession(const MetricBox& box, const Camera& camera,
+SurfaceSession::SurfaceSession(UprightShape shape, const Camera& camera,
                                const SurfaceViewSettings& startSettings)
-    : settings(startSettings), box_(box), orbit_(CameraSpace(), {}, camera), camera_(camera) {
+    : settings(startSettings), shape_(std::move(shape)), orbit_(CameraSpace(), {}, camera), camera_(camera) {
   enter(camera);
 }
 
 /// The orbit's middle is the place ahead that is nearest to the middle of the surface.
 void SurfaceSession::enter(const Camera& camera) {
   const CameraSpace space;
-  const double diagonal = box_.diagonal();
-  const double ahead = dot(box_.centre() - space.position(camera), space.forward(lookOf(camera)));
+  const double diagonal = shape_.box.diagonal();
+  const double ahead = dot(shape_.box.centre() - space.position(camera), space.forward(lookOf(camera)));
   orbit_ = OrbitCamera::of(space, camera, std::clamp(ahead, kNearest * diagonal, kFarthest * diagonal));
   orbit_.limitRadius(kNearest * diagonal, kFarthest * diagonal);
   camera_ = camera;
@@ -52,7 +53,7 @@ void SurfaceSession::step(const InputState& input) {
 
 void SurfaceSession::home(HomeView view) {
   homeView = view;
-  enter(surfaceHome(view, box_, camera_));
+  enter(surfaceHome(view, shape_, camera_));
 }
 
 void SurfaceSession::apply(Action action) {

@@ -23,7 +23,7 @@ constexpr double kNearest = 1e-4;
 struct SurfaceView::State {
   const SurfaceModel* model = nullptr;
   Upright upright;
-  MetricBox box;
+  UprightShape shape;
   IncrementalCut cut;
   SurfaceOnGpu surface;
   MaterialsOnGpu materials;
@@ -69,7 +69,7 @@ Result<SurfaceView> SurfaceView::create(const SurfaceModel& model, const Upright
   if (!painter) return tl::unexpected(painter.error());
   return SurfaceView(std::make_unique<State>(State{.model = &model,
                                                    .upright = upright,
-                                                   .box = uprightBox(model, upright),
+                                                   .shape = uprightShape(model, upright),
                                                    .cut = IncrementalCut(model.mt),
                                                    .surface = uploadSurface(model, upright),
                                                    .materials = MaterialsOnGpu::load(model),
@@ -113,7 +113,7 @@ Status SurfaceView::draw(const Camera& camera, const SurfaceViewSettings& settin
   FrameView frame;
   frame.view = *view;
   frame.pixels = s.pixels;
-  frame.drawnNear = kNearest * s.box.diagonal();
+  frame.drawnNear = kNearest * s.shape.box.diagonal();
   glBeginQuery(GL_ANY_SAMPLES_PASSED, s.anySample);
   s.painter.draw(s.surface, s.materials, {s.indices, s.errors, s.ranges}, frame, settings.look);
   glEndQuery(GL_ANY_SAMPLES_PASSED);
@@ -133,8 +133,8 @@ const std::vector<std::string>& SurfaceView::warnings() const {
 const Upright& SurfaceView::upright() const {
   return state_->upright;
 }
-const MetricBox& SurfaceView::box() const {
-  return state_->box;
+const UprightShape& SurfaceView::shape() const {
+  return state_->shape;
 }
 std::uint64_t SurfaceView::bytes() const {
   return state_->surface.bytes;

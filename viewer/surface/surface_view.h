@@ -51,7 +51,7 @@ class SurfaceView {
   /// Pictures that are not shown, as sentences.
   const std::vector<std::string>& warnings() const;
   const Upright& upright() const;
-  const MetricBox& box() const;
+  const UprightShape& shape() const;
   /// In graphics memory, without pictures.
   std::uint64_t bytes() const;
 

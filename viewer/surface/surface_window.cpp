@@ -52,7 +52,7 @@ class SurfaceWindow {
         window_(std::move(window)),
         panel_(window_.handle(), window_.contentScale()),
         view_(std::move(view)),
-        session_(view_.box(), camera, options.settings) {
+        session_(view_.shape(), camera, options.settings) {
     session_.homeView = options.home;
     if (!view_.warnings().empty()) session_.message = view_.warnings().front();
   }
@@ -204,7 +204,7 @@ Status runSurfaceWindow(const SurfaceModel& model, const Upright& upright,
   Camera picture;
   picture.widthPixels = std::max(window->widthPixels(), 1);
   picture.heightPixels = std::max(window->heightPixels(), 1);
-  const Camera camera = options.camera.value_or(surfaceHome(options.home, view->box(), picture));
+  const Camera camera = options.camera.value_or(surfaceHome(options.home, view->shape(), picture));
   SurfaceWindow shown(options, std::move(*window), std::move(*view), camera);
   return shown.run(context);
 }

@@ -23,20 +23,27 @@ View Upright::turnedBack(View view) const {
   return view;
 }
 
-MetricBox uprightBox(const SurfaceModel& model, const Upright& upright) {
+UprightShape uprightShape(const SurfaceModel& model, const Upright& upright) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  MetricBox box{{kNone, kNone, kNone}, {-kNone, -kNone, -kNone}};
+  constexpr std::uint32_t kMostPoints = 20'000;
+  UprightShape shape{.box = {{kNone, kNone, kNone}, {-kNone, -kNone, -kNone}}, .points = {}};
+  MetricBox& box = shape.box;
   for (std::uint32_t v = 0; v < model.mt.vertexCount(); ++v) {
     const Vec3 p = upright.fromFile(model.mt.position(VertexId(v)));
     box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
     box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    if (v < kMostPoints) shape.points.push_back(p);
   }
-  return box;
+  return shape;
 }
 
-Camera surfaceHome(HomeView view, const MetricBox& box, const Camera& picture) {
-  if (view == HomeView::overview) return cameraOnAll(CameraSpace(), box, {325, -20}, picture);
-  return homeCamera(view, CameraSpace(), box, picture);
+Camera surfaceHome(HomeView view, const UprightShape& shape, const Camera& picture) {
+  const CameraSpace space;
+  const Look look = view == HomeView::overview ? Look{325, -20} : homeLook(view);
+  Camera camera = space.at(picture, eyeOnAll(shape.points, axesOf(space, look), picture));
+  camera.azimuthDegrees = wrappedAzimuth(look.azimuthDegrees);
+  camera.pitchDegrees = look.pitchDegrees;
+  return camera;
 }
 
 Result<View> uprightView(const Camera& camera) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "engine/criteria/view.h"
 #include "surface/model/surface_model.h"
@@ -33,12 +34,17 @@ class Upright {
   bool isYUp_ = false;
 };
 
-/// The least box along the axes of upright space that holds all vertices. O(vertices).
-MetricBox uprightBox(const SurfaceModel& model, const Upright& upright);
+/// Where a surface is in upright space.
+struct UprightShape {
+  MetricBox box;             ///< the least along the axes that holds all vertices
+  std::vector<Vec3> points;  ///< vertices, those of coarse levels first, 20 000 at most
+};
+/// O(vertices).
+UprightShape uprightShape(const SurfaceModel& model, const Upright& upright);
 
-/// As homeCamera(), but for the overview, which shows three sides of an object: from the front, from its left
-/// and from above. What is in front looks south.
-Camera surfaceHome(HomeView view, const MetricBox& box, const Camera& picture);
+/// The nearest camera that has all points of the shape in its picture: along the axes, as homeLook(), but for
+/// the overview, which shows three sides: the front, its left and the top. What is in front looks south.
+Camera surfaceHome(HomeView view, const UprightShape& shape, const Camera& picture);
 
 /// What a camera of upright space sees, as a view of it. Errors: usage, culprit "camera".
 Result<View> uprightView(const Camera& camera);

@@ -9,6 +9,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "engine/cut/cut.h"
 #include "surface/families.h"
@@ -60,6 +61,61 @@ double distanceFrom(const MultiTriangulation& mt, const Cut& cut, const Vec3& p)
     least = std::min(least, distanceOf(p, at(0), at(1), at(2)));
   }
   return least;
+}
+
+/// Edges at which two triangles of a cut turn towards each other by more than 120 degrees.
+std::size_t foldedEdges(const MultiTriangulation& mt, const Cut& cut) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3> normals;
+  std::size_t folded = 0;
+  for (const auto& t : cut.triangles) {
+    const auto at = [&](std::size_t i) { return mt.position(VertexId(cut.vertices[t[i]])); };
+    const Vec3 normal = cross(at(1) - at(0), at(2) - at(0));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+      const auto [other, isFirst] = normals.try_emplace({std::min(a, b), std::max(a, b)}, normal);
+      if (!isFirst && dot(normal, other->second) < -0.5 * norm(normal) * norm(other->second)) ++folded;
+    }
+  }
+  return folded;
+}
+
+TEST(BuildSurface, FoldsNoRoughSurface) {
+  for (const std::uint64_t seed : kSeeds)
+    for (const TriangleMesh& mesh : {shapes::shaken(shapes::sheet(80, 50, true, true), seed, 0.02),
+                                     shapes::shaken(shapes::sheet(60, 60), seed, 0.2)}) {
+      const SurfaceModel model = built(mesh);
+      ASSERT_EQ(foldedEdges(model.mt, frontOfPrefix(model.mt, model.mt.nodeCount())), 0u) << seed;
+      for (const double share : {0.1, 0.3, 1.0, 3.0}) {
+        const Result<Cut> cut = takeCut(model.mt, UniformError(share / 100 * model.diagonal));
+        ASSERT_TRUE(cut);
+        if (cut->triangles.size() < 100) continue;
+        EXPECT_EQ(foldedEdges(model.mt, *cut), 0u) << seed << ": " << cut->triangles.size();
+      }
+    }
+}
+
+TEST(BuildSurface, LaysNoTriangleOverAGapOfTheBorder) {
+  // A sheet with a comb of deep slits.
+  TriangleMesh comb = shapes::sheet(81, 41);
+  std::erase_if(comb.triangles, [&](const auto& t) {
+    double x = 0, y = 0;
+    for (const std::uint32_t v : t) x += comb.positions[v].x / 3, y += comb.positions[v].y / 3;
+    return y > 10 && std::fmod(x, 10) > 6;
+  });
+  const SurfaceModel model = built(comb);
+  const Cut finest = frontOfPrefix(model.mt, model.mt.nodeCount());
+  for (const std::uint32_t most : {600u, 200u}) {
+    const Result<Cut> cut = takeCut(model.mt, UniformError(0), {.maxTriangles = most});
+    ASSERT_TRUE(cut);
+    double farthest = 0;
+    for (const auto& t : cut->triangles) {
+      const auto at = [&](std::size_t i) { return model.mt.position(VertexId(cut->vertices[t[i]])); };
+      for (const Vec3& p : {(at(0) + at(1) + at(2)) / 3.0, (at(0) + at(1)) / 2.0, (at(1) + at(2)) / 2.0,
+                            (at(2) + at(0)) / 2.0})
+        farthest = std::max(farthest, distanceFrom(model.mt, finest, p));
+    }
+    EXPECT_LT(farthest, 1.01) << most;
+  }
 }
 
 TEST(BuildSurface, KeepsTheLawsOnEveryFamily) {

@@ -7,11 +7,12 @@ namespace arete {
 namespace {
 
 SurfaceSession session() {
-  const MetricBox box{{-1, -2, -3}, {1, 2, 3}};
+  UprightShape shape{.box = {{-1, -2, -3}, {1, 2, 3}}, .points = {}};
+  for (const Vec3& corner : shape.box.corners()) shape.points.push_back(corner);
   Camera picture;
   picture.widthPixels = 400;
   picture.heightPixels = 300;
-  return {box, surfaceHome(HomeView::overview, box, picture), {}};
+  return {shape, surfaceHome(HomeView::overview, shape, picture), {}};
 }
 
 double distanceToMiddle(const Camera& camera) {

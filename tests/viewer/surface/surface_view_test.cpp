@@ -51,7 +51,7 @@ Camera fromAbove(const SurfaceModel& model) {
   Camera picture;
   picture.widthPixels = 200;
   picture.heightPixels = 160;
-  return homeCamera(HomeView::fromAbove, CameraSpace(), uprightBox(model, Upright(model)), picture);
+  return homeCamera(HomeView::fromAbove, CameraSpace(), uprightShape(model, Upright(model)).box, picture);
 }
 
 // Between two texels there is some of the other color.

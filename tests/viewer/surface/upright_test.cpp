@@ -20,12 +20,12 @@ SurfaceModel tall(const std::string& up) {
 
 TEST(Upright, TurnsWhatPointsUpInTheFileToTheZAxis) {
   const SurfaceModel y = tall("y"), z = tall("z");
-  const MetricBox ofY = uprightBox(y, Upright(y)), ofZ = uprightBox(z, Upright(z));
+  const MetricBox ofY = uprightShape(y, Upright(y)).box, ofZ = uprightShape(z, Upright(z)).box;
   EXPECT_NEAR(ofY.high.z - ofY.low.z, 8, 0.3);
   EXPECT_NEAR(ofZ.high.z - ofZ.low.z, 2, 0.01);
   const SurfaceModel unsaid = tall("");
-  EXPECT_NEAR(uprightBox(unsaid, Upright(unsaid, "y")).high.z, ofY.high.z, 1e-9);
-  EXPECT_NEAR(uprightBox(unsaid, Upright(unsaid)).high.z, ofZ.high.z, 1e-9);
+  EXPECT_NEAR(uprightShape(unsaid, Upright(unsaid, "y")).box.high.z, ofY.high.z, 1e-9);
+  EXPECT_NEAR(uprightShape(unsaid, Upright(unsaid)).box.high.z, ofZ.high.z, 1e-9);
 }
 
 TEST(Upright, GoesToTheFileAndBackAndKeepsRightHandsRight) {
@@ -44,12 +44,12 @@ TEST(Upright, GoesToTheFileAndBackAndKeepsRightHandsRight) {
 TEST(Upright, HomeViewsHaveTheWholeSurfaceInThePicture) {
   const SurfaceModel model = tall("y");
   const Upright upright(model);
-  const MetricBox box = uprightBox(model, upright);
+  const UprightShape shape = uprightShape(model, upright);
   for (const HomeView view : kHomeViews) {
     Camera picture;
     picture.widthPixels = 400;
     picture.heightPixels = 300;
-    const Result<View> seen = uprightView(surfaceHome(view, box, picture));
+    const Result<View> seen = uprightView(surfaceHome(view, shape, picture));
     ASSERT_TRUE(seen) << seen.error().describe();
     const Frustum frustum(*seen);
     for (std::uint32_t v = 0; v < model.mt.vertexCount(); ++v) {

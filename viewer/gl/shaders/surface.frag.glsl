@@ -46,7 +46,7 @@ void main() {
   if (!gl_FrontFacing && more.x == 0.0 && mode != 2) base.rgb = mix(base.rgb, vec3(0.10, 0.14, 0.22), 0.7);
   if (sun.w > 0.0) {
     float lit = max(dot(normal, sun.xyz), 0.0), sky = 0.5 + 0.5 * normal.z, ahead = max(dot(normal, toEye), 0.0);
-    base.rgb *= 0.62 * lit + 0.20 * sky * vec3(0.92, 0.97, 1.0) + 0.14 * ahead + 0.04;
+    base.rgb *= 0.74 * lit + 0.14 * sky * vec3(0.92, 0.97, 1.0) + 0.09 * ahead + 0.03;
   }
   color = vec4(srgbOf(clamp(base.rgb, 0.0, 1.0)), base.a);
 }
