@@ -53,6 +53,7 @@ struct ExtractArguments {
   CriterionArguments criterion;
   std::string certificate, errorRaster, map;
   std::string dropParts;
+  bool isBothWays = false;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   CLI::Option* certificateOption = nullptr;
 };
@@ -252,6 +253,7 @@ Status runSurfaceExtract(const ExtractArguments& arguments, Session& session) {
                          .asked = *asked,
                          .map = arguments.map,
                          .dropParts = arguments.dropParts,
+                         .isBothWays = arguments.isBothWays,
                          .existing = arguments.existing},
                         session);
 }
@@ -261,7 +263,8 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   const Result<bool> isSurface = isSurfaceAmt(arguments.model);
   if (isSurface && *isSurface) return runSurfaceExtract(arguments, session);
   for (const auto& [option, isStated] :
-       {std::pair{"--map", !arguments.map.empty()}, std::pair{"--drop-parts", !arguments.dropParts.empty()}})
+       {std::pair{"--map", !arguments.map.empty()}, std::pair{"--drop-parts", !arguments.dropParts.empty()},
+        std::pair{"--both-ways", arguments.isBothWays}})
     if (isStated) return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", option);
   const Result<AmtFile> file = openAmt(arguments.model);
   if (!file) return tl::unexpected(file.error());
@@ -349,6 +352,8 @@ void addExtractCommand(CLI::App& app, Session& session) {
           "Of a surface: leave out the components whose box has a diagonal below D, in the file's unit "
           "or in % of the whole diagonal")
       ->type_name("D");
+  command->add_flag("--both-ways", arguments->isBothWays,
+                    "Of a surface: also measure how far the result is from the source");
 }
 
 }  // namespace arete

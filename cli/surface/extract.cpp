@@ -189,11 +189,17 @@ class Extraction {
     }
     std::optional<double> droppedDistance;
     if (dropped && dropped->count > 0) {
-      const auto distance = distanceOfDropped(front.mesh);
+      const auto distance = distanceFrom(droppedSurface(model_, *dropped_), front.mesh);
       if (!distance) return tl::unexpected(distance.error());
       droppedDistance = *distance;
     }
-    say(request, cut, front, *crossings, droppedDistance, *written);
+    std::optional<double> otherWay;
+    if (arguments_.isBothWays) {
+      const auto distance = distanceFrom(front.mesh, finest());
+      if (!distance) return tl::unexpected(distance.error());
+      otherWay = *distance;
+    }
+    say(request, cut, front, {*crossings, droppedDistance, otherWay}, *written);
     return {};
   }
 
@@ -208,34 +214,47 @@ class Extraction {
   Json& exports() { return exports_; }
 
  private:
-  /// No point of what is left out is farther than this from the rest.
-  Result<double> distanceOfDropped(const TriangleMesh& rest) {
-    const auto report = measureDistance(droppedSurface(model_, *dropped_), rest, {}, session_.context());
+  /// What is found of a result beside its bound.
+  struct Findings {
+    std::uint64_t crossings = 0;
+    std::optional<double> droppedDistance, otherWay;
+  };
+
+  /// No point of a mesh is farther than this from another.
+  Result<double> distanceFrom(const TriangleMesh& mesh, const TriangleMesh& other) const {
+    const auto report = measureDistance(mesh, other, {}, session_.context());
     if (!report) return tl::unexpected(report.error());
     return report->forward.atMost;
   }
 
+  const TriangleMesh& finest() {
+    if (!finest_) finest_ = finestSurfaceOf(model_).mesh.shape();
+    return *finest_;
+  }
+
   Status countSourceCrossings() {
     if (sourceCrossings_) return {};
-    const SurfaceFront finest = finestSurfaceOf(model_);
-    const Result<std::uint64_t> count = crossingsOf(finest.mesh, session_.context());
+    const Result<std::uint64_t> count = crossingsOf(finest(), session_.context());
     if (!count) return tl::unexpected(count.error());
     sourceCrossings_ = *count;
     return {};
   }
 
-  void say(const Request& request, const Cut& cut, const SurfaceFront& front, std::uint64_t crossings,
-           const std::optional<double>& droppedDistance, const MeshWriteReport& written) {
+  void say(const Request& request, const Cut& cut, const SurfaceFront& front, const Findings& found,
+           const MeshWriteReport& written) {
     std::string text = fmt::format(
         "{}: {} triangles, {} vertices, no point of the source{} farther than {}\n", request.output,
         grouped(front.mesh.triangles.size()), grouped(front.mesh.positions.size()),
-        droppedDistance ? " but what is left out" : "", withShare(cut.achievedError, model_.diagonal));
-    if (droppedDistance)
+        found.droppedDistance ? " but what is left out" : "", withShare(cut.achievedError, model_.diagonal));
+    if (found.otherWay)
+      text += fmt::format("  other way  no point of the result farther than {}\n",
+                          withShare(*found.otherWay, model_.diagonal));
+    if (found.droppedDistance)
       text += fmt::format("  left out   {} component{} of {} faces, no point of them farther than {}\n",
                           grouped(dropped_->count), dropped_->count == 1 ? "" : "s",
-                          grouped(dropped_->sourceFaces), withShare(*droppedDistance, model_.diagonal));
-    if (crossings > 0)
-      text += fmt::format("  crossings  {} pairs of triangles; the source has {}\n", grouped(crossings),
+                          grouped(dropped_->sourceFaces), withShare(*found.droppedDistance, model_.diagonal));
+    if (found.crossings > 0)
+      text += fmt::format("  crossings  {} pairs of triangles; the source has {}\n", grouped(found.crossings),
                           grouped(*sourceCrossings_));
     for (const fs::path& beside : written.filesBeside)
       text += fmt::format("  beside     {}\n", beside.string());
@@ -247,12 +266,13 @@ class Extraction {
                  {"error", cut.achievedError},
                  {"errorPercent", 100 * cut.achievedError / model_.diagonal},
                  {"complete", cut.isComplete},
-                 {"selfIntersections", crossings},
+                 {"selfIntersections", found.crossings},
                  {"lost", written.lost}};
     if (dropped_)
       json["dropped"] = {{"components", dropped_->count},
                          {"faces", dropped_->sourceFaces},
-                         {"distance", droppedDistance ? Json(*droppedDistance) : Json()}};
+                         {"distance", found.droppedDistance ? Json(*found.droppedDistance) : Json()}};
+    if (found.otherWay) json["otherWay"] = *found.otherWay;
     if (sourceCrossings_) json["sourceSelfIntersections"] = *sourceCrossings_;
     if (request.tolerance && std::isfinite(request.tolerance->distance))
       json["maxError"] = request.tolerance->distance;
@@ -266,6 +286,7 @@ class Extraction {
   Session& session_;
   std::optional<std::uint64_t> sourceCrossings_;
   std::optional<DroppedComponents> dropped_;
+  std::optional<TriangleMesh> finest_;
   Json exports_ = Json::array();
 };
 

@@ -14,8 +14,9 @@ struct SurfaceExtractArguments {
   std::string model;
   std::string output, format;  ///< as MeshOutput; {} in the name becomes the tolerance
   CriterionArguments::OfSurface asked;
-  std::string map;        ///< --map; empty: none
-  std::string dropParts;  ///< --drop-parts; empty: none
+  std::string map;          ///< --map; empty: none
+  std::string dropParts;    ///< --drop-parts; empty: none
+  bool isBothWays = false;  ///< the distance from the result to the source, too
   ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
 

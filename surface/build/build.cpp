@@ -11,6 +11,7 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "engine/base/caught_failure.h"
@@ -139,7 +140,7 @@ class SurfaceBuild {
     const double largest = std::max({std::abs(low.x), std::abs(low.y), std::abs(low.z), std::abs(high.x),
                                      std::abs(high.y), std::abs(high.z)});
     const OriginalSurface original{mesh.positions, mesh.triangles, largest};
-    const SurfaceSamples samples(original);
+    std::optional<SurfaceSamples> samples(original);
     std::vector<VertexId> pinched;
     LiveMesh live = LiveMesh::fromTriangles(mesh.triangles, vertexCount, pinched);
     const std::vector<std::uint8_t> isFixed =
@@ -149,7 +150,7 @@ class SurfaceBuild {
     MtRecorder recorder(faceCount, vertexCount, OutwardScale(prepared_.diagonal), metric);
     SurfaceState state{.mesh = live,
                        .original = original,
-                       .samples = samples,
+                       .samples = *samples,
                        .recorder = recorder,
                        .metric = metric,
                        .maxDegree = options_.maxDegree,
@@ -165,6 +166,9 @@ class SurfaceBuild {
     state.pieces = {};
     live = {};
     state.records = {};
+    state.labels = LabelArray(false);
+    samples.reset();
+    prepared_.mesh.triangles = {};
     giveFreeHeapBack();
     context_.report("finish", 0);
     finish(*root, recorder, state);

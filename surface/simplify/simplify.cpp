@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/memory/pages.h"
 #include "engine/parallel/loop_threads.h"
 #include "engine/parallel/shared_progress.h"
 #include "surface/simplify/level.h"
@@ -42,6 +43,7 @@ void compact(SurfaceState& s) {
   s.pieces.resize(map.liveCount());
   s.pieces.shrink_to_fit();
   s.labels.resize(map.liveCount());
+  giveFreeHeapBack();
 }
 
 IdArray<VertexId, std::vector<VertexId>> borderNextOf(const LiveMesh& mesh) {

@@ -149,6 +149,11 @@ TEST_F(SurfaceCommands, AModelIsMeasuredAsItsFinestSurface) {
   EXPECT_NEAR(model.json()["fromSecond"]["maximum"].get<double>(),
               mesh.json()["fromSecond"]["maximum"].get<double>(), 1e-6);
   EXPECT_EQ(run({"measure", "ball.amt", "ball.obj", "--expect", "1e-6"}).code, 0);
+  const Json both =
+      run({"extract", "ball.amt", "-o", "small.ply", "--max-error", "3%", "--both-ways", "--json"}).json();
+  const Json measured = mesh.json()["fromFirst"];
+  EXPECT_GE(both["exports"][0]["otherWay"].get<double>(), measured["maximum"].get<double>());
+  EXPECT_LE(both["exports"][0]["otherWay"].get<double>(), 1.01 * measured["atMost"].get<double>());
 }
 
 TEST_F(SurfaceCommands, ARegionMayBeAClosedMeshInAFile) {
