@@ -86,8 +86,8 @@ class SurfacePictures {
     if (!figures->showsSurface) session_.warn("the picture shows nothing of the surface");
     if (!figures->isComplete)
       session_.warn(fmt::format("the budget ended the cut: the surface is {}", accuracyOf(*figures)));
-    session_.say(fmt::format("{}: {} triangles, {}\n", a_.pictures.screenshot, grouped(figures->triangles),
-                             accuracyOf(*figures)));
+    session_.say(fmt::format("{}: {} triangle{}, {}\n", a_.pictures.screenshot, grouped(figures->triangles),
+                             figures->triangles == 1 ? "" : "s", accuracyOf(*figures)));
     json["screenshot"] = {
         {"file", a_.pictures.screenshot},
         {"camera", jsonOf(camera, view_.view().upright(), view_.view().shape().box.diagonal())},
