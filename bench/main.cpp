@@ -81,7 +81,7 @@ int measureMeshes(const Arguments& arguments, const Plan& plan, Report& report) 
     if (!arguments.quiet) fmt::print(stderr, "arete-bench: {} ...\n", source.name);
     take(measureMesh(source, plan));
   }
-  if (isWanted("generated globe", arguments.dems)) take(measureSurfaceMemory(plan));
+  if (isWanted("generated rock", arguments.dems)) take(measureSurfaceMemory(plan));
   return exitCode;
 }
 

@@ -3,7 +3,7 @@
 // Surfaces beside CGAL's edge collapse: how good cuts of as many triangles are, both ways and in % of the
 // diagonal, and how long the build of all levels takes beside one collapse to a tenth. What the rival
 // misses by 5 % of the count, or flings away by more than 10 % of the diagonal, is no figure but is named.
-// Memory is what a generated globe of two million vertices takes more than one of half a million.
+// Memory is what a generated rock of two million vertices takes more than one of half a million.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,6 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -19,7 +18,7 @@
 #include "bench/edge_collapse.h"
 #include "bench/forked.h"
 #include "bench/stages/stages.h"
-#include "bench/threads.h"
+#include "datasets/asteroid.h"
 #include "engine/criteria/refine_order.h"
 #include "engine/cut/cut.h"
 #include "io/amt/surface_file.h"
@@ -127,46 +126,20 @@ class SurfaceRun {
   TriangleMesh source_;  // as the build mended it
 };
 
-/// A globe with hills, of about so many vertices.
-SurfaceMesh generatedGlobe(std::uint32_t vertices) {
-  const auto rings = static_cast<std::uint32_t>(std::sqrt(vertices / 2.0)), around = 2 * rings;
-  SurfaceMesh mesh;
-  const auto place = [](double u, double v) {
-    const double r = 1 + 0.02 * std::sin(9 * u) * std::sin(7 * v) + 0.002 * std::sin(90 * u + 60 * v);
-    return Vec3{r * std::sin(v) * std::cos(u), r * std::sin(v) * std::sin(u), r * std::cos(v)};
-  };
-  mesh.positions = {{0, 0, 1}, {0, 0, -1}};
-  for (std::uint32_t r = 0; r < rings; ++r)
-    for (std::uint32_t c = 0; c < around; ++c) {
-      const Vec3 p = place(2 * std::numbers::pi * c / around, std::numbers::pi * (r + 1) / (rings + 1));
-      mesh.positions.push_back({float(p.x), float(p.y), float(p.z)});
-    }
-  const auto at = [&](std::uint32_t r, std::uint32_t c) { return 2 + r * around + c % around; };
-  for (std::uint32_t c = 0; c < around; ++c) {
-    mesh.triangles.push_back({0, at(0, c), at(0, c + 1)});
-    mesh.triangles.push_back({1, at(rings - 1, c + 1), at(rings - 1, c)});
-    for (std::uint32_t r = 0; r + 1 < rings; ++r) {
-      mesh.triangles.push_back({at(r, c), at(r + 1, c), at(r + 1, c + 1)});
-      mesh.triangles.push_back({at(r, c), at(r + 1, c + 1), at(r, c + 1)});
-    }
-  }
-  return mesh;
-}
-
 struct Growth {
   double vertices = 0, peak = 0, file = 0, seconds = 0;
 };
 
 Result<Growth> growthOf(std::uint32_t vertices, const std::string& scratch) {
   const Result<Json> json = runForked([&]() -> Result<Json> {
-    SurfaceMesh mesh = generatedGlobe(vertices);
+    SurfaceMesh mesh(generateAsteroid({.vertices = vertices}));
     const double count = double(mesh.positions.size());
     const Stopwatch watch;
     const Result<SurfaceModel> model = buildSurface(std::move(mesh));
     if (!model) return tl::unexpected(model.error());
     const double seconds = watch.seconds();
     const double peak = peakBytes();
-    const fs::path path = fs::path(scratch) / "globe.amt";
+    const fs::path path = fs::path(scratch) / "rock.amt";
     if (const Status written = writeSurfaceAmt(path.string(), *model); !written)
       return tl::unexpected(written.error());
     const double bytes = double(fs::file_size(path));
@@ -209,7 +182,7 @@ Result<Figures> surfaceMemoryStage(const Plan& plan) {
   const double more = large->vertices - small->vertices;
   const auto add = [&](const char* name, double value, const char* unit) {
     figures.push_back(
-        {"generated globe", "surface", "0.5 to 2 million vertices", name, value, unit, Better::lower});
+        {"generated rock", "surface", "0.5 to 2 million vertices", name, value, unit, Better::lower});
   };
   add("memory, growth a vertex", (large->peak - small->peak) / more, "byte");
   add("file, growth a vertex", (large->file - small->file) / more, "byte");

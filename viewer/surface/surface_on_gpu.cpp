@@ -123,15 +123,13 @@ std::vector<std::uint8_t> colorsOf(const SurfaceModel& model, const std::vector<
 SurfaceOnGpu uploadSurface(const SurfaceModel& model, const Upright& upright) {
   const std::vector<std::uint32_t> vertexOf = drawnVertices(model);
   SurfaceOnGpu gpu;
-  gpu.count = static_cast<std::uint32_t>(vertexOf.size());
   std::vector<float> positions;
   positions.reserve(3 * vertexOf.size());
   for (const std::uint32_t v : vertexOf) {
     const Vec3 p = upright.fromFile(model.mt.position(VertexId(v)));
     positions.insert(positions.end(), {float(p.x), float(p.y), float(p.z)});
   }
-  const auto upload = [&]<class T>(const std::vector<T>& data) {
-    gpu.bytes += data.size() * sizeof(T);
+  const auto upload = []<class T>(const std::vector<T>& data) {
     return makeBuffer(std::span<const T>(data));
   };
   gpu.positions = upload(positions);

@@ -16,8 +16,6 @@ struct SurfaceOnGpu {
   GlBuffer normals;        ///< 3 floats, upright; zero: the triangle's own is to be used
   GlBuffer textureCoords;  ///< 4 floats: two sets, v from the upper side; empty without
   GlBuffer colors;         ///< 4 bytes, sRGB and alpha; empty without
-  std::uint32_t count = 0;
-  std::uint64_t bytes = 0;
 };
 
 /// O(vertices + triangles of the MT).

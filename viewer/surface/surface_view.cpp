@@ -136,8 +136,5 @@ const Upright& SurfaceView::upright() const {
 const UprightShape& SurfaceView::shape() const {
   return state_->shape;
 }
-std::uint64_t SurfaceView::bytes() const {
-  return state_->surface.bytes;
-}
 
 }  // namespace arete

@@ -52,8 +52,6 @@ class SurfaceView {
   const std::vector<std::string>& warnings() const;
   const Upright& upright() const;
   const UprightShape& shape() const;
-  /// In graphics memory, without pictures.
-  std::uint64_t bytes() const;
 
  private:
   struct State;
