@@ -20,6 +20,7 @@
 #include "cli/commands/build_source.h"
 #include "cli/mesh/mesh_input.h"
 #include "cli/surface/build.h"
+#include "cli/surface/convert.h"
 #include "engine/base/stopwatch.h"
 #include "io/amt/file.h"
 #include "io/crs/names.h"
@@ -41,6 +42,7 @@ struct BuildArguments {
   double featurePersistence = -1;  // < 0: not stated
   bool noFeatures = false;
   bool isPacked = false;
+  int positionBits = 0;
   std::string fixedPath;
   double creaseAngleDegrees = -1;  // < 0: not stated
   double minimumAspect = -1;       // < 0: not stated
@@ -194,8 +196,9 @@ std::string otherOption(const CLI::App& command, std::initializer_list<std::stri
 
 Status runSurfaceBuild(const BuildArguments& arguments, MeshInput input, double secondsToRead,
                        Session& session) {
-  if (const std::string other = otherOption(*arguments.command, {"output", "as", "ratio", "max-degree",
-                                                                 "keep-borders", "json", "quiet", "threads"});
+  if (const std::string other =
+          otherOption(*arguments.command, {"output", "as", "ratio", "max-degree", "keep-borders", "packed",
+                                           "position-bits", "json", "quiet", "threads"});
       !other.empty())
     return failure(ErrorCode::usage,
                    fmt::format("is for terrain, and {} is a surface (--as terrain takes its vertices as "
@@ -204,6 +207,10 @@ Status runSurfaceBuild(const BuildArguments& arguments, MeshInput input, double 
                    other);
   SurfaceBuildArguments surface{arguments.dem.path, arguments.output, {}};
   surface.options.keepsBorders = arguments.keepsBorders;
+  surface.isPacked = arguments.isPacked;
+  surface.positionBits = arguments.positionBits;
+  if (surface.positionBits != 0 && !surface.isPacked)
+    return failure(ErrorCode::usage, "requires --packed", "--position-bits");
   surface.options.thresholdRatio = arguments.options.thresholdRatio.value_or(surface.options.thresholdRatio);
   if (arguments.command->count("--max-degree") > 0) surface.options.maxDegree = arguments.options.maxDegree;
   return buildSurfaceFile(surface, std::move(input), secondsToRead, session);
@@ -229,6 +236,9 @@ Status runBuild(BuildArguments& arguments, Session& session) {
   if (arguments.keepsBorders)
     return failure(ErrorCode::usage, fmt::format("is for surfaces, and {} is terrain", arguments.dem.path),
                    "--keep-borders");
+  if (arguments.positionBits != 0)
+    return failure(ErrorCode::usage, fmt::format("is for surfaces, and {} is terrain", arguments.dem.path),
+                   "--position-bits");
   Seconds seconds;
   Stopwatch reading;
   Result<DemRead> dem = readSource(arguments.dem, arguments.kind, session);
@@ -280,9 +290,10 @@ void addBuildCommand(CLI::App& app, Session& session) {
           "file holds points): terrain or points take the vertices of a mesh as samples of a terrain")
       ->check(oneOf({"terrain", "surface", "points"}))
       ->type_name("KIND");
-  command->add_flag(
-      "--packed", arguments->isPacked,
-      "Write the compressed form: a ninth to a fifteenth of the size; it is unpacked when read");
+  command->add_flag("--packed", arguments->isPacked,
+                    "Write the compressed form: a ninth to a fifteenth of the size (of a surface a sixth);\n"
+                    "it is unpacked when read");
+  addPositionBitsTo(*command, arguments->positionBits);
   command
       ->add_option(
           "--shape", arguments->shape,

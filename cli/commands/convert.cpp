@@ -13,7 +13,9 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/mesh_options.h"
+#include "cli/surface/convert.h"
 #include "io/amt/file.h"
+#include "io/amt/surface_file.h"
 #include "io/exchange/convert.h"
 #include "io/exchange/mesh_formats.h"
 #include "io/file/text_scan.h"
@@ -25,6 +27,7 @@ struct ConvertArguments {
   std::string input, crs;
   MeshOutput output;
   bool isPacked = false;
+  int positionBits = 0;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   MeshPlacing placing;
 };
@@ -50,6 +53,11 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
     return failure(ErrorCode::usage, "is for meshes; an .amt states its axes and units",
                    arguments.placing.unit.empty() ? "--up" : "--unit");
   if (Status checked = checkOutput("--output", output, {arguments.input}); !checked) return checked;
+  if (const Result<bool> isSurface = isSurfaceAmt(arguments.input); isSurface && *isSurface)
+    return convertSurfaceFile({arguments.input, output, arguments.isPacked, arguments.positionBits}, session);
+  if (arguments.positionBits != 0)
+    return failure(ErrorCode::usage, fmt::format("is for surfaces, and {} is terrain", arguments.input),
+                   "--position-bits");
   const Result<TerrainModel> model = loadAmt(arguments.input, {}, session.context());
   if (!model) return tl::unexpected(model.error());
   const AmtWriteOptions options{.isPacked = arguments.isPacked};
@@ -72,6 +80,8 @@ Status runConvert(const ConvertArguments& arguments, Session& session) {
   if (isAmt(arguments.input)) return convertAmt(arguments, session);
   if (arguments.isPacked)
     return failure(ErrorCode::usage, "requires a multitriangulation (.amt)", "--packed");
+  if (arguments.positionBits != 0)
+    return failure(ErrorCode::usage, "requires a multitriangulation (.amt)", "--position-bits");
   const Result<MeshFormat> format = meshFormatOf(arguments.output.path, arguments.output.format);
   if (!format)
     return failure(ErrorCode::usage, format.error().message,
@@ -118,6 +128,7 @@ void addConvertCommand(CLI::App& app, Session& session) {
   addOverwriteTo(*command, arguments->existing);
   command->add_flag("--packed", arguments->isPacked,
                     "Write an .amt in the compressed form (default: the plain one)");
+  addPositionBitsTo(*command, arguments->positionBits);
   command
       ->add_option("--crs", arguments->crs,
                    "CRS of the coordinates, where the file has none; nothing is reprojected")

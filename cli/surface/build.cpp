@@ -136,7 +136,9 @@ Status buildSurfaceFile(const SurfaceBuildArguments& arguments, MeshInput input,
   model->sourceVertices = input.fileVertices;
 
   Stopwatch writing;
-  if (Status written = writeSurfaceAmt(arguments.output, *model, session.context()); !written) return written;
+  const SurfaceWriteOptions options{.isPacked = arguments.isPacked, .positionBits = arguments.positionBits};
+  if (Status written = writeSurfaceAmt(arguments.output, *model, session.context(), options); !written)
+    return written;
   seconds.write = writing.seconds();
   report(arguments, input, *model, seconds, session);
   return {};

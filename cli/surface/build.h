@@ -13,6 +13,8 @@ namespace arete {
 struct SurfaceBuildArguments {
   std::string input, output;
   SurfaceBuildOptions options;
+  bool isPacked = false;
+  int positionBits = 0;
 };
 
 /// `arete build` of a mesh with faces: builds, writes, reports. Errors: those of buildSurface() and

@@ -46,7 +46,10 @@ Status sayAboutSurface(const std::string& path, Session& session) {
   const auto size = std::filesystem::file_size(path, error);
   const std::uint64_t bytes = error ? 0 : size;
   const MeshAttributes& a = model->attributes;
-  std::string text = fmt::format("{}: {}, a surface\n", path, byteCount(bytes));
+  const Result<bool> isPacked = isPackedAmt(path);
+  if (!isPacked) return tl::unexpected(isPacked.error());
+  std::string text =
+      fmt::format("{}: {}, a surface{}\n", path, byteCount(bytes), *isPacked ? ", packed" : "");
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<14} {}\n", what, value);
   };
@@ -55,6 +58,9 @@ Status sayAboutSurface(const std::string& path, Session& session) {
   if (!model->crsWkt.empty()) line("CRS", crsName(model->crsWkt));
   line("diagonal", fmt::format("{:.9g}", model->diagonal));
   line("places", mt.vertices().places64.empty() ? "float32" : "float64");
+  if (model->positionError > 0)
+    line("rounded", fmt::format("vertices moved by at most {}, which every error includes twice",
+                                withShare(model->positionError, model->diagonal)));
   line("triangles", fmt::format("{} at the finest, {} in all", grouped(mt.finestTriangleCount()),
                                 grouped(mt.triangleCount())));
   line("root", fmt::format("{} triangles, {} vertices, error at most {}", grouped(mt.rootTriangleCount()),
@@ -76,6 +82,8 @@ Status sayAboutSurface(const std::string& path, Session& session) {
   session.answer({{"file", path},
                   {"kind", "surface"},
                   {"bytes", bytes},
+                  {"isPacked", *isPacked},
+                  {"positionError", model->positionError},
                   {"source", model->source},
                   {"crs", crsName(model->crsWkt)},
                   {"sourceFaces", model->sourceFaces},

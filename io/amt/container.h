@@ -38,6 +38,10 @@ class AmtContainer {
   const std::shared_ptr<const MappedFile>& owner() const { return file_; }
   /// The directory, in the order of the file.
   std::span<const AmtChunk> chunks() const { return chunks_; }
+  bool isOfSurface() const {
+    return find(amt_tag::kPlaces) != nullptr || find(amt_tag::kPackedNumbers) != nullptr;
+  }
+  bool isPacked() const { return find(amt_tag::kPackedDirectory) != nullptr; }
   /// Null if there is no such chunk.
   const AmtChunk* find(AmtTag tag) const;
   std::span<const std::byte> bytes(const AmtChunk& chunk) const {

@@ -37,7 +37,7 @@ class AmtOpener {
 static_assert(sizeof(Vec2) == 16 && sizeof(Sphere) == 16 && sizeof(std::array<std::uint32_t, 3>) == 12);
 
 Result<AmtMetadata> AmtOpener::readMetadata() const {
-  if (all_.find(amt_tag::kPlaces) != nullptr)
+  if (all_.isOfSurface())
     return failure(ErrorCode::unsupported, "is of a surface, and terrain is wanted here", all_.path());
   Result<AmtMetadata> read = fromAmtJson(all_.metadata());
   if (!read) return all_.corrupt(fmt::format("chunk META: {}", read.error().message));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,7 +15,10 @@
 #include "io/amt/mt_chunks.h"
 #include "io/format/checksum.h"
 #include "io/format/surface_metadata.h"
+#include "io/packed/packed.h"
+#include "io/packed/surface/source_numbers.h"
 #include "surface/model/face_heirs.h"
+#include "surface/model/renumbered.h"
 
 namespace arete {
 namespace {
@@ -29,36 +33,78 @@ void forFinest(const MultiTriangulation& mt, const Visit& visit) {
 class Writing {
  public:
   Writing(const std::string& path, const SurfaceModel& model, const RunContext& context)
-      : model_(model), chunks_(path, kAmtNewestVersion, context) {}
+      : path_(path), source_(model), context_(context), chunks_(path, kAmtNewestVersion, context) {}
 
-  Status run(const std::string& writer) {
-    if (const Status valid = model_.validate(); !valid) return chunks_.refuse(valid.error().message);
-    const SurfaceMetadata metadata = surfaceMetadataOf(model_, writer);
+  Status run(const SurfaceWriteOptions& options) {
+    if (const Status valid = model().validate(); !valid) return chunks_.refuse(valid.error().message);
+    if (options.isPacked)
+      if (const Status packed = pack(options.positionBits); !packed) return packed;
+    SurfaceMetadata metadata =
+        surfaceMetadataOf(model(), options.writer.empty() ? "Arete " ARETE_VERSION : options.writer);
+    metadata.positionStep = packed_.step;
     if (const auto problem = findSurfaceProblem(metadata)) return chunks_.refuse(*problem);
     json_ = toSurfaceJson(metadata);
     if (json_.size() > kAmtMaxMetadataBytes)
       return chunks_.refuse(
           fmt::format("{} bytes of metadata are more than {}", json_.size(), kAmtMaxMetadataBytes));
     chunks_.add(amt_tag::kMetadata, bytesOf(json_));
-    addArrays(surfaceShapes(metadata));
+    if (options.isPacked)
+      addPacked();
+    else
+      addArrays(surfaceShapes(metadata));
     addLooks();
-    chunks_.addSegmentChecksums();
+    if (!options.isPacked) chunks_.addSegmentChecksums();
     return chunks_.write();
   }
 
  private:
+  const SurfaceModel& model() const { return packedModel_ ? *packedModel_ : source_; }
+
+  /// Packs the MT, and takes the model in the order of the packed MT: that is what a reader has.
+  Status pack(int positionBits) {
+    Result<PackedSurfaceMt> packed = packSurfaceMt(model().mt, {positionBits}, context_);
+    if (!packed) return refusePacking(packed.error());
+    packed_ = std::move(*packed);
+    SurfaceMetadata metadata = surfaceMetadataOf(model(), {});
+    metadata.hasDoubles = packed_.hasDoubles;
+    metadata.positionStep = packed_.step;
+    metadata.scale = packed_.scale;
+    const PackedMt& bytes = packed_.bytes;
+    const Result<MultiTriangulation> mt =
+        unpackSurfaceMt(metadata, bytes.directory, bytes.tables, bytes.nodes, context_);
+    if (!mt) return refusePacking(mt.error());
+    packedModel_ = renumbered(source_, *mt, packed_.order.vertexOf, packed_.order.triangleOf);
+    packedModel_->positionError += packed_.moved;
+    packed_.order = {};
+    return {};
+  }
+  Status refusePacking(const Error& error) {
+    if (error.code == ErrorCode::interrupted) return chunks_.interrupted();
+    return failure(error.code, "the model cannot be packed: " + error.message, path_);
+  }
+
+  void addPacked() {
+    numbers_ = packed::packSourceNumbers(model());
+    chunks_.add(amt_tag::kPackedDirectory, bytesOf(packed_.bytes.directory));
+    chunks_.add(amt_tag::kPackedTables, bytesOf(packed_.bytes.tables));
+    chunks_.add(amt_tag::kPackedNodes, bytesOf(packed_.bytes.nodes));
+    chunks_.add({amt_tag::kPackedNumbers, AmtScalar::u8, 1, numbers_.size()}, bytesOf(numbers_),
+                kAmtRequired);
+  }
+
   void addArrays(const std::vector<AmtShape>& shapes) {
-    const MtArrays& a = model_.mt.arrays();
-    if (!model_.hasFaceAttributes())
-      forFinest(model_.mt, [&](std::uint32_t t) { finestFaces_.push_back(model_.faceOf[t]); });
+    const MtArrays& a = model().mt.arrays();
+    if (!model().hasFaceAttributes())
+      forFinest(model().mt, [&](std::uint32_t t) { finestFaces_.push_back(model().faceOf[t]); });
     std::vector<AmtChunkBytes> arrays = mtChunks(a);
     const AmtChunkBytes own[] = {
         {amt_tag::kRms, bytesOf(a.rms)},
         {amt_tag::kPlaces,
          a.vertices.places64.empty() ? bytesOf(a.vertices.places32) : bytesOf(a.vertices.places64)},
-        {amt_tag::kVertexNumbers, bytesOf(model_.vertexOf)},
-        {amt_tag::kFaceNumbers, model_.hasFaceAttributes() ? bytesOf(model_.faceOf) : bytesOf(finestFaces_)},
-        {amt_tag::kWedges, bytesOf(model_.wedgesOf)},
+        {amt_tag::kVertexNumbers, bytesOf(model().vertexOf)},
+        {amt_tag::kFaceNumbers,
+         model().hasFaceAttributes() ? bytesOf(model().faceOf) : bytesOf(finestFaces_)},
+        {amt_tag::kWedges, bytesOf(model().wedgesOf)},
     };
     arrays.insert(arrays.end(), std::begin(own), std::end(own));
     for (const AmtShape& shape : shapes)
@@ -67,18 +113,23 @@ class Writing {
   }
 
   void addLooks() {
-    looks_ = toLooksJson(model_);
-    values_ = attributeBytesOf(model_);
-    for (const EmbeddedPicture& picture : model_.attributes.pictures)
+    looks_ = toLooksJson(model());
+    values_ = attributeBytesOf(model());
+    for (const EmbeddedPicture& picture : model().attributes.pictures)
       pictures_.insert(pictures_.end(), picture.bytes.begin(), picture.bytes.end());
     chunks_.add(amt_tag::kLooks, bytesOf(looks_));
     chunks_.add(amt_tag::kAttributes, bytesOf(values_));
     chunks_.add(amt_tag::kPictures, bytesOf(pictures_));
   }
 
-  const SurfaceModel& model_;
+  const std::string& path_;
+  const SurfaceModel& source_;
+  std::optional<SurfaceModel> packedModel_;  // in the order of the packed nodes
+  const RunContext& context_;
   AmtChunkWriter chunks_;
   std::string json_, looks_;  // these and the next: what the chunks point to, beside the model
+  PackedSurfaceMt packed_;
+  std::vector<std::byte> numbers_;
   std::vector<std::uint32_t> finestFaces_;
   std::vector<std::byte> values_, pictures_;
 };
@@ -90,27 +141,36 @@ class Reading {
       : all_(container), metadata_(metadata), verify_(verify), context_(context), model_(metadata.model) {}
 
   Result<SurfaceModel> run() {
-    std::vector<AmtShape> shapes = surfaceShapes(metadata_);
-    for (const AmtTag tag : {amt_tag::kLooks, amt_tag::kAttributes, amt_tag::kPictures})
+    const bool isPacked = all_.isPacked();
+    std::vector<AmtShape> shapes = isPacked ? std::vector<AmtShape>() : surfaceShapes(metadata_);
+    const auto addBytes = [&](AmtTag tag) {
       shapes.push_back({tag, AmtScalar::u8, 1, all_.find(tag) == nullptr ? 0 : all_.find(tag)->bytes});
+    };
+    for (const AmtTag tag : {amt_tag::kLooks, amt_tag::kAttributes, amt_tag::kPictures}) addBytes(tag);
+    if (isPacked)
+      for (const AmtTag tag : {amt_tag::kPackedDirectory, amt_tag::kPackedTables, amt_tag::kPackedNodes,
+                               amt_tag::kPackedNumbers})
+        addBytes(tag);
     if (const Status shaped = all_.checkShapes(shapes); !shaped) return tl::unexpected(shaped.error());
     if (verify_ == AmtVerify::all) {
       Status sound = all_.checkSums({}, context_);
       if (sound) sound = all_.checkZeros();
       if (!sound) return tl::unexpected(sound.error());
     }
-    placeArrays();
+    if (const Status taken = isPacked ? unpackNodes() : placeNodes(); !taken)
+      return tl::unexpected(taken.error());
     if (verify_ != AmtVerify::none) {
-      if (const Status checked = checkMtIndices(model_.mt, 0, context_); !checked)
-        return failure(checked.error().code, checked.error().message, all_.path());
       std::uint64_t finest = 0;
       forFinest(model_.mt, [&](std::uint32_t) { ++finest; });
       if (finest != metadata_.finestTriangles)
         return all_.corrupt(fmt::format("has {} triangles in its finest front instead of {}", finest,
                                         metadata_.finestTriangles));
     }
-    if (const Status taken = takeFaces(); !taken) return tl::unexpected(taken.error());
+    if (!isPacked)
+      if (const Status taken = takeFaces(); !taken) return tl::unexpected(taken.error());
     if (const Status taken = takeLooks(); !taken) return tl::unexpected(taken.error());
+    if (isPacked)
+      if (const Status taken = unpackNumbers(); !taken) return tl::unexpected(taken.error());
     if (const Status valid = model_.validate(); !valid) return all_.corrupt(valid.error().message);
     return std::move(model_);
   }
@@ -119,6 +179,31 @@ class Reading {
   template <class T>
   void place(AmtTag tag, std::span<const T>& to) const {
     to = all_.elements<T>(tag);
+  }
+
+  Status unpackNodes() {
+    Result<MultiTriangulation> mt =
+        unpackSurfaceMt(metadata_, all_.elements<std::byte>(amt_tag::kPackedDirectory),
+                        all_.elements<std::byte>(amt_tag::kPackedTables),
+                        all_.elements<std::byte>(amt_tag::kPackedNodes), context_);
+    if (!mt) return failure(mt.error().code, mt.error().message, all_.path());
+    model_.mt = std::move(*mt);
+    model_.attributes.wedgeCount = static_cast<std::uint32_t>(metadata_.wedges);
+    return {};
+  }
+  /// After the looks, which say whether coarse triangles have faces of their own.
+  Status unpackNumbers() {
+    const Status taken =
+        packed::unpackSourceNumbers(all_.elements<std::byte>(amt_tag::kPackedNumbers), model_);
+    return taken ? taken : all_.corrupt(taken.error().message);
+  }
+
+  Status placeNodes() {
+    placeArrays();
+    if (verify_ == AmtVerify::none) return {};
+    if (const Status checked = checkMtIndices(model_.mt, 0, context_); !checked)
+      return failure(checked.error().code, checked.error().message, all_.path());
+    return {};
   }
 
   void placeArrays() {
@@ -188,8 +273,8 @@ class Reading {
 }  // namespace
 
 Status writeSurfaceAmt(const std::string& path, const SurfaceModel& model, const RunContext& context,
-                       const AmtWriteOptions& options) try {
-  return Writing(path, model, context).run(options.writer.empty() ? "Arete " ARETE_VERSION : options.writer);
+                       const SurfaceWriteOptions& options) try {
+  return Writing(path, model, context).run(options);
 } catch (...) {
   return caughtFailure(path);
 }
@@ -197,7 +282,15 @@ Status writeSurfaceAmt(const std::string& path, const SurfaceModel& model, const
 Result<bool> isSurfaceAmt(const std::string& path) try {
   const Result<AmtContainer> container = AmtContainer::open(path);
   if (!container) return tl::unexpected(container.error());
-  return container->find(amt_tag::kPlaces) != nullptr;
+  return container->isOfSurface();
+} catch (...) {
+  return caughtFailure(path);
+}
+
+Result<bool> isPackedAmt(const std::string& path) try {
+  const Result<AmtContainer> container = AmtContainer::open(path);
+  if (!container) return tl::unexpected(container.error());
+  return container->isPacked();
 } catch (...) {
   return caughtFailure(path);
 }
@@ -206,7 +299,7 @@ Result<SurfaceModel> loadSurfaceAmt(const std::string& path, AmtVerify verify,
                                     const RunContext& context) try {
   const Result<AmtContainer> container = AmtContainer::open(path);
   if (!container) return tl::unexpected(container.error());
-  if (container->find(amt_tag::kPlaces) == nullptr)
+  if (!container->isOfSurface())
     return failure(ErrorCode::unsupported, "is of terrain, and a surface is wanted here", path);
   const Result<SurfaceMetadata> metadata = fromSurfaceJson(container->metadata());
   if (!metadata) return container->corrupt(fmt::format("chunk META: {}", metadata.error().message));

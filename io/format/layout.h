@@ -111,6 +111,8 @@ inline constexpr AmtTag kWedges = {'W', 'E', 'D', 'G'};
 inline constexpr AmtTag kAttributes = {'A', 'T', 'T', 'R'};
 inline constexpr AmtTag kLooks = {'L', 'O', 'O', 'K'};
 inline constexpr AmtTag kPictures = {'P', 'I', 'C', 'T'};
+// In a packed file of a surface, in place of vertex and face numbers and wedges:
+inline constexpr AmtTag kPackedNumbers = {'P', 'N', 'U', 'M'};
 }  // namespace amt_tag
 
 /// Whether this program knows what a chunk of this tag holds.
@@ -131,7 +133,8 @@ constexpr bool isKnownAmtTag(const AmtTag& tag) {
                               kPlaces,          kRms,
                               kVertexNumbers,   kFaceNumbers,
                               kWedges,          kAttributes,
-                              kLooks,           kPictures})
+                              kLooks,           kPictures,
+                              kPackedNumbers})
     if (tag == known) return true;
   return false;
 }

@@ -16,7 +16,12 @@ namespace {
 
 struct Stored {
   std::uint32_t scaleBase = 0;
+  std::optional<double> positionStep, positionError;
 };
+
+std::optional<double> unlessZero(double x) {
+  return x == 0 ? std::nullopt : std::optional(x);
+}
 
 /// Visits the fields of the metadata, in the order of the file.
 template <class Visitor, class Metadata, class OtherValues>
@@ -42,6 +47,8 @@ void visitMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
     metric.field("origin", m.metric.origin);
     metric.field("scale", m.metric.scale);
   });
+  top.optional("positionStep", stored.positionStep);
+  top.optional("positionError", stored.positionError);
   top.field("diagonal", model.diagonal);
   top.optional("crsWkt", model.crsWkt);
   top.optional("verticalUnit", model.verticalUnit);
@@ -83,6 +90,7 @@ SurfaceMetadata surfaceMetadataOf(const SurfaceModel& model, std::string writer)
   to.mending = model.mending;
   to.options = model.options;
   to.levels = model.levels;
+  to.positionError = model.positionError;
   to.source = model.source;
   to.sourceChecksum = model.sourceChecksum;
   to.crsWkt = model.crsWkt;
@@ -103,6 +111,11 @@ std::optional<std::string> findSurfaceProblem(const SurfaceMetadata& m) {
     return "the metric frame is not one of finite numbers";
   if (!(m.model.diagonal > 0 && std::isfinite(m.model.diagonal)))
     return fmt::format("the diagonal is {}, not a positive number", m.model.diagonal);
+  int exponent = 0;
+  if (m.positionStep != 0 && (!std::isnormal(m.positionStep) || std::frexp(m.positionStep, &exponent) != 0.5))
+    return "the step of the positions is no power of two";
+  if (!(m.model.positionError >= 0 && std::isfinite(m.model.positionError)))
+    return "the error of the positions is not a distance";
   if (auto problem = findScaleProblem(m.scale)) return problem;
   if (m.model.options.maxDegree < 3 || m.model.options.maxDegree > kMaxHoleCorners - 1 ||
       !(m.model.options.thresholdRatio > 1))
@@ -113,7 +126,8 @@ std::optional<std::string> findSurfaceProblem(const SurfaceMetadata& m) {
 std::string toSurfaceJson(const SurfaceMetadata& metadata) {
   nlohmann::ordered_json object = nlohmann::ordered_json::object();
   json_fields::Writer writer(object);
-  const Stored stored{metadata.scale.base()};
+  const Stored stored{metadata.scale.base(), unlessZero(metadata.positionStep),
+                      unlessZero(metadata.model.positionError)};
   visitMetadata(writer, metadata, stored);
   return object.dump(1) + "\n";
 }
@@ -127,6 +141,8 @@ Result<SurfaceMetadata> fromSurfaceJson(std::string_view text) {
   Stored stored;
   visitMetadata(reader, m, stored);
   m.scale = OutwardScale::fromBase(stored.scaleBase);
+  m.positionStep = stored.positionStep.value_or(0);
+  m.model.positionError = stored.positionError.value_or(0);
   if (problem.empty()) problem = findSurfaceProblem(m).value_or("");
   if (!problem.empty()) return failure(ErrorCode::corrupt, fmt::format("the metadata is wrong: {}", problem));
   return m;

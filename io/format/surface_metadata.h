@@ -22,6 +22,7 @@ struct SurfaceMetadata {
   bool hasDoubles = false;   ///< places are doubles, not floats
   bool hasAllFaces = false;  ///< every triangle has a face number, not only those of the finest front
   std::uint64_t finestTriangles = 0;
+  double positionStep = 0;  ///< of a packed file: see io/packed/packed.h
   OutwardScale scale;
   MetricFrame metric;
   SurfaceModel model;  ///< without mt, arrays and attributes

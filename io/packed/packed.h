@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/memory/uninitialized_vector.h"
+#include "engine/mt/multitriangulation.h"
 #include "engine/parallel/run_context.h"
 #include "io/format/required_error.h"
 #include "terrain/model/terrain_model.h"
@@ -13,6 +15,7 @@
 namespace arete {
 
 struct AmtMetadata;
+struct SurfaceMetadata;
 
 /// The packed form of a multitriangulation (docs/topics/amt-format.md, "Packed"): the contents of three
 /// chunks, together a ninth to a fifteenth of the arrays.
@@ -45,6 +48,41 @@ Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context = {
 Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directory,
                                     std::span<const std::byte> tables, std::span<const std::byte> nodes,
                                     const RequiredError& wanted = {}, const RunContext& context = {});
+
+/// How a surface is packed.
+struct SurfacePackOptions {
+  /// 0: vertices keep their places to the bit. Otherwise (8 to 24) they move to the nearest multiples of a
+  /// power of two, of which the longest side of their box has at most 2^positionBits - 1; and errors grow by
+  /// twice the largest move, so that they hold for the source as for the rounded surface; they are
+  /// rounded upwards to 1/128 of an octave (0.8 %).
+  int positionBits = 0;
+};
+
+/// The order of a packed MT: by its vertices and triangles, those of the MT that was packed.
+struct PackedOrder {
+  UninitializedVector<std::uint32_t> vertexOf, triangleOf;
+};
+
+struct PackedSurfaceMt {
+  PackedMt bytes;
+  PackedOrder order;
+  bool hasDoubles = false;  ///< places are doubles, not floats
+  double step = 0;          ///< a power of two that all coordinates are multiples of; 0: not known
+  double moved = 0;         ///< the largest distance by which rounding moved a vertex
+  OutwardScale scale;       ///< of the errors
+};
+
+/// Packs the MT of a surface, as packMt() does: vertices (unless positionBits says otherwise), triangles,
+/// errors and root mean squares are restored to the bit. Errors: as packMt(), and invalidData: triangles that
+/// stay with different errors.
+Result<PackedSurfaceMt> packSurfaceMt(const MultiTriangulation& mt, const SurfacePackOptions& options = {},
+                                      const RunContext& context = {});
+
+/// Unpacks all of it, as unpackMt() does.
+Result<MultiTriangulation> unpackSurfaceMt(const SurfaceMetadata& metadata,
+                                           std::span<const std::byte> directory,
+                                           std::span<const std::byte> tables,
+                                           std::span<const std::byte> nodes, const RunContext& context = {});
 
 /// The least error of the highest band that holds, together with the bands above it, at least `nodes` nodes.
 /// @return 0 if that is the last band, or the directory is invalid. O(directory)

@@ -17,137 +17,17 @@
 #include "engine/parallel/with_threads.h"
 #include "io/format/checksum.h"
 #include "io/format/metadata.h"
-#include "io/packed/bounds.h"
-#include "io/packed/node_coder.h"
-#include "io/packed/order.h"
+#include "io/format/surface_metadata.h"
+#include "io/packed/heightfield/form.h"
+#include "io/packed/nodes/node_coder.h"
+#include "io/packed/nodes/order.h"
 #include "io/packed/packed.h"
+#include "io/packed/reader_io.h"
+#include "io/packed/surface/form.h"
 
 namespace arete {
 namespace packed {
 namespace {
-
-/// Reads the bytes of bounds. Reading beyond the end gives some bytes; isAtEnd() detects it.
-class BoundReader {
- public:
-  /// The bytes behind the end that must be readable.
-  static constexpr std::size_t kReadable = 3;
-
-  BoundReader() = default;
-  BoundReader(const std::byte* bytes, std::size_t size) : at_(bytes), end_(bytes + size) {}
-
-  BoundBytes next() {
-    const BoundBytes bytes{static_cast<std::uint8_t>(at_[0]), static_cast<std::uint8_t>(at_[1])};
-    at_ += bytes.isFar() ? 2 : 1;
-    if (at_ > end_) [[unlikely]]
-      at_ = end_ + 1;
-    return bytes;
-  }
-  bool isAtEnd() const { return at_ == end_; }
-
- private:
-  const std::byte *at_ = nullptr, *end_ = nullptr;  // at_ is one beyond end_ if too much was read
-};
-
-class ReaderIo {
- public:
-  ReaderIo(const Arrays& arrays, const Directory& directory, std::size_t packet, const std::uint32_t* tables,
-           std::span<const std::byte> bytes)
-      : a_(arrays),
-        directory_(directory),
-        packet_(packet),
-        tables_(tables),
-        bytes_(bytes.begin(), bytes.end()) {
-    bytes_.resize(bytes.size() + std::max(RansDecoder::kReadable, BoundReader::kReadable));
-    std::size_t at = 0;
-    for (unsigned s = 0; s < kParts; ++s) {
-      const std::size_t size = directory.packets[packet].streamBytes[s];
-      if (s < kStreams)
-        streams_[s] = RansDecoder(bytes_.data() + at, size);
-      else if (s == kBoundBytes)
-        bounds_ = BoundReader(bytes_.data() + at, size);
-      else
-        raw_ = BitReader({bytes_.data() + at, size});
-      at += size;
-    }
-  }
-
-  static constexpr bool kKeepsValues = true;
-
-  template <class Actual>
-  unsigned code(Stream stream, unsigned table, const Actual&) {
-    return streams_[stream].decode(tables_ + table * RansTable::kEntries);
-  }
-  std::uint64_t raw(int bits, std::uint64_t) { return raw_.read(bits); }
-
-  /// Reads long runs of errors and bounds: a copy of the streams that stays in registers.
-  struct Values {
-    RansDecoder error;
-    BoundReader boundBytes;
-    BitReader rawBits;
-    const std::uint32_t* tables;
-
-    template <class Actual>
-    unsigned code(Stream, unsigned table, const Actual&) {
-      return error.decode(tables + table * RansTable::kEntries);
-    }
-    std::uint64_t raw(int bits, std::uint64_t) { return rawBits.read(bits); }
-    std::uint16_t actualError(std::uint32_t) const { return 0; }
-    std::optional<std::uint64_t> wholeError(double, std::uint16_t) const { return 0; }
-    BoundBytes bounds(std::uint32_t, std::uint32_t) { return boundBytes.next(); }
-  };
-  Values values() const { return {streams_[kErrorStream], bounds_, raw_, tables_}; }
-  void putBack(const Values& values) {
-    streams_[kErrorStream] = values.error;
-    bounds_ = values.boundBytes;
-    raw_ = values.rawBits;
-  }
-
-  bool listed(const Run& run, std::vector<std::uint32_t>& seeds) {
-    const auto& dependsOn = directory_.packets[packet_].dependsOn;
-    seeds.clear();
-    std::uint64_t from = 0, place = 0;
-    for (std::uint32_t i = 0; i < run.listed; ++i) {
-      const std::uint64_t later = codeNumber(*this, kFloorStream, kListPacketTable, [] { return 0; });
-      if (later > 0) place = 0;
-      from += later;
-      place += codeNumber(*this, kFloorStream, kListBorderTable, [] { return 0; });
-      if (from > dependsOn.size()) return false;
-      const Packet* const other = from > 0 ? &directory_.packets[dependsOn[from - 1]] : nullptr;
-      if (place >= (other != nullptr ? other->borders : a_.roots)) return false;
-      const std::uint64_t first = other != nullptr ? a_.roots + other->firstBorder : 0;
-      seeds.push_back(static_cast<std::uint32_t>(first + place));
-    }
-    return true;
-  }
-
-  bool isAtEnd() const {
-    return !raw_.isOver() && bounds_.isAtEnd() &&
-           std::ranges::all_of(streams_, [](const RansDecoder& s) { return s.isAtEnd(); });
-  }
-
-  // Values that only the writer has.
-  void begin(std::uint32_t, std::uint32_t) {}
-  void at(std::uint32_t) {}
-  unsigned shapeSymbol(const std::uint32_t*) { return 0; }
-  unsigned shapeBits(int) { return 0; }
-  unsigned openEdge(const Floor&, std::span<const int>) { return 0; }
-  bool star(const Floor&, std::uint32_t) { return true; }
-  std::uint64_t staying(std::uint32_t, int) const { return 0; }
-  Vec2 actualPlace() const { return {0, 0}; }
-  std::int64_t actualHeightResidual(double) const { return 0; }
-  std::optional<unsigned> seedAt(std::uint32_t, std::uint32_t) { return std::nullopt; }
-  bool isLeft(std::uint32_t) const { return false; }
-
- private:
-  const Arrays& a_;
-  const Directory& directory_;
-  std::size_t packet_;
-  const std::uint32_t* tables_;
-  std::vector<std::byte> bytes_;
-  std::array<RansDecoder, kStreams> streams_;
-  BoundReader bounds_;
-  BitReader raw_;
-};
 
 /// Drops from each packet the bands that are not required, by it or by a packet that depends on it. (Parents
 /// are of no lower band than their children.)
@@ -185,16 +65,9 @@ class Unpacker {
     for (std::size_t t = 0; t < kTables; ++t) tables[t].writeEntries(&tables_[t * RansTable::kEntries]);
   }
 
-  Result<MultiTriangulation> run(const AmtMetadata& metadata) {
+  Result<MultiTriangulation> run(const MtKind& kind, AmtCounts counts) {
     const auto arrays = std::make_shared<Arrays>();
-    arrays->isLattice = metadata.model.isRaster;
-    arrays->hasFills = metadata.model.options.rimTolerance > 0;
-    arrays->columns = metadata.model.columns;
-    arrays->rows = metadata.model.rows;
-    arrays->encoding = metadata.encoding;
-    arrays->scale = metadata.scale;
-    arrays->metric = metadata.metric;
-    AmtCounts counts = metadata.counts;
+    static_cast<MtKind&>(*arrays) = kind;
     counts.nodes = directory_.nodes();
     counts.slots = directory_.slots();
     if (!arrays->allocate(counts, directory_.borders()))
@@ -237,12 +110,14 @@ class Unpacker {
     const auto bytes = bytes_.subspan(packet.offset, packet.bytes());
     if (amtChecksum(bytes) != packet.checksum) return "has been altered: its checksum does not match";
     ReaderIo io(*arrays_, directory_, index, tables_.data(), bytes);
-    return arrays_->holdsFloats() ? decode<float>(index, io) : decode<double>(index, io);
+    return arrays_->isSurface       ? decode<SurfaceForm>(index, io)
+           : arrays_->holdsFloats() ? decode<HeightfieldForm<float>>(index, io)
+                                    : decode<HeightfieldForm<double>>(index, io);
   }
-  template <class Real>
+  template <class Form>
   std::optional<std::string> decode(std::size_t index, ReaderIo& io) {
-    if (index == 0 && !codeRoot<Real>(*arrays_, io)) return "has an invalid root";
-    NodeCoder<Real, ReaderIo> coder(*arrays_, directory_, directory_.packets[index], io, spaces_.local());
+    if (index == 0 && !codeRoot<Form>(*arrays_, io)) return "has an invalid root";
+    NodeCoder<Form, ReaderIo> coder(*arrays_, directory_, directory_.packets[index], io, spaces_.local());
     if (!coder.run()) return coder.problem();
     if (!directory_.packets[index].isCut && !io.isAtEnd())
       return "has symbols that do not end where they should";
@@ -264,15 +139,16 @@ class Unpacker {
 
 namespace {
 
-Result<MultiTriangulation> unpack(const AmtMetadata& metadata, std::span<const std::byte> directoryBytes,
+Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& counts,
+                                  std::span<const std::byte> directoryBytes,
                                   std::span<const std::byte> tableBytes, std::span<const std::byte> nodes,
                                   const RequiredError& wanted, const RunContext& context) {
   std::string problem;
-  auto directory = packed::directoryOf(directoryBytes, problem);
+  auto directory = packed::directoryOf(directoryBytes, problem, kind.isSurface);
   if (!directory) return failure(ErrorCode::corrupt, "the directory of the packed nodes " + problem);
-  if (directory->nodes() != metadata.counts.nodes || directory->slots() != metadata.counts.slots)
+  if (directory->nodes() != counts.nodes || directory->slots() != counts.slots)
     return failure(ErrorCode::corrupt, "the packed nodes are not as many as the metadata says");
-  std::uint64_t bytes = 0, things = metadata.counts.rootVertices + metadata.counts.rootTriangles;
+  std::uint64_t bytes = 0, things = counts.rootVertices + counts.rootTriangles;
   for (const packed::Packet& packet : directory->packets) {
     bytes += packet.bytes();
     things += packet.nodes;
@@ -284,14 +160,14 @@ Result<MultiTriangulation> unpack(const AmtMetadata& metadata, std::span<const s
     return failure(
         ErrorCode::corrupt,
         fmt::format("the packed nodes have {} bytes where their directory states {}", nodes.size(), bytes));
-  if (metadata.counts.rootTriangles + directory->borders() > packed::kMostBorders)
+  if (counts.rootTriangles + directory->borders() > packed::kMostBorders)
     return failure(ErrorCode::corrupt,
                    "the packed nodes leave more triangles to others than can be numbered");
-  const auto tables = packed::tablesOf(tableBytes);
+  const auto tables = tablesOf(tableBytes, packed::kTables);
   if (!tables) return failure(ErrorCode::corrupt, "the tables of the packed nodes are damaged");
-  const bool isPart = wanted && !packed::keepRequired(*directory, wanted, metadata.scale);
+  const bool isPart = wanted && !packed::keepRequired(*directory, wanted, kind.scale);
   return withThreads(context, [&] {
-    return packed::Unpacker(std::move(*directory), *tables, nodes, context, isPart).run(metadata);
+    return packed::Unpacker(std::move(*directory), *tables, nodes, context, isPart).run(kind, counts);
   });
 }
 
@@ -300,7 +176,30 @@ Result<MultiTriangulation> unpack(const AmtMetadata& metadata, std::span<const s
 Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directory,
                                     std::span<const std::byte> tables, std::span<const std::byte> nodes,
                                     const RequiredError& wanted, const RunContext& context) try {
-  return unpack(metadata, directory, tables, nodes, wanted, context);
+  packed::MtKind kind;
+  kind.isLattice = metadata.model.isRaster;
+  kind.hasFills = metadata.model.options.rimTolerance > 0;
+  kind.columns = metadata.model.columns;
+  kind.rows = metadata.model.rows;
+  kind.encoding = metadata.encoding;
+  kind.scale = metadata.scale;
+  kind.metric = metadata.metric;
+  return unpack(kind, metadata.counts, directory, tables, nodes, wanted, context);
+} catch (...) {
+  return caughtFailure();
+}
+
+Result<MultiTriangulation> unpackSurfaceMt(const SurfaceMetadata& metadata,
+                                           std::span<const std::byte> directory,
+                                           std::span<const std::byte> tables,
+                                           std::span<const std::byte> nodes, const RunContext& context) try {
+  packed::MtKind kind;
+  kind.isSurface = true;
+  kind.hasDoubles = metadata.hasDoubles;
+  kind.step = metadata.positionStep;
+  kind.scale = metadata.scale;
+  kind.metric = metadata.metric;
+  return unpack(kind, metadata.counts, directory, tables, nodes, {}, context);
 } catch (...) {
   return caughtFailure();
 }

@@ -8,24 +8,28 @@
 
 namespace arete {
 
+std::uint32_t heirSlotOf(const MultiTriangulation& mt, TriangleId t, NodeId creator, NodeId node) {
+  const auto corners = mt.corners(t, creator);
+  const auto link = mt.link(node);
+  const auto isCorner = [&](std::uint32_t v) { return std::ranges::find(corners, v) != corners.end(); };
+  std::uint32_t heir = 0;
+  int best = 0;
+  for (std::uint32_t i = 0; i < mt.ceilingSize(node) && best < 2; ++i) {
+    const int common = int(isCorner(link[i])) + int(isCorner(link[(i + 1) % link.size()]));
+    if (common <= best) continue;
+    best = common;
+    heir = i;
+  }
+  return heir;
+}
+
 void inheritFaces(const MultiTriangulation& mt, std::span<std::uint32_t> faceOf) {
   for (std::uint32_t t = mt.triangleIdCount(); t-- > 0;) {
     const NodeId node = mt.remover(TriangleId(t));
     if (!node.isValid()) continue;
     const NodeId creator = mt.creator(TriangleId(t));
     if (creator == node) continue;  // a slot that is no triangle
-    const auto corners = mt.corners(TriangleId(t), creator);
-    const auto link = mt.link(node);
-    const auto isCorner = [&](std::uint32_t v) { return std::ranges::find(corners, v) != corners.end(); };
-    std::uint32_t heir = 0;
-    int best = 0;
-    for (std::uint32_t i = 0; i < mt.ceilingSize(node) && best < 2; ++i) {
-      const int common = int(isCorner(link[i])) + int(isCorner(link[(i + 1) % link.size()]));
-      if (common <= best) continue;
-      best = common;
-      heir = i;
-    }
-    faceOf[t] = faceOf[mt.slotTriangle(node, heir).index()];
+    faceOf[t] = faceOf[mt.slotTriangle(node, heirSlotOf(mt, TriangleId(t), creator, node)).index()];
   }
 }
 

@@ -60,6 +60,8 @@ struct SurfaceModel {
   std::vector<std::array<std::uint32_t, 3>> wedgesOf;
 
   std::uint64_t sourceVertices = 0, sourceFaces = 0;
+  /// The largest distance by which rounding has moved a vertex of the source; every error includes it twice.
+  double positionError = 0;
   double diagonal = 0;  ///< of the box of the vertices that faces use
   SurfaceMending mending;
   SurfaceBuildOptions options;

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "io/format/checksum.h"
-#include "io/packed/layout.h"
+#include "io/packed/nodes/layout.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -27,7 +27,8 @@ void sealPackedNodes(AmtParts& amt) {
                                                                        find(amt, amt_tag::kPackedNodes);
   if (!directory || !nodes) return;
   std::string problem;
-  auto read = packed::directoryOf(std::as_bytes(std::span(directory->bytes)), problem);
+  auto read = packed::directoryOf(std::as_bytes(std::span(directory->bytes)), problem,
+                                  find(amt, amt_tag::kPackedNumbers) != nullptr);
   if (!read) return;
   for (packed::Packet& packet : read->packets)
     if (packet.offset <= nodes->bytes.size() && packet.bytes() <= nodes->bytes.size() - packet.offset)

@@ -84,6 +84,9 @@ void writeSurfaces(const fs::path& folder) {
   const auto plain = buildSurface(mesh);
   if (!plain) check(tl::unexpected(plain.error()));
   check(writeSurfaceAmt(folder / "plain.amt", *plain, {}, {.writer = "Arete"}));
+  check(writeSurfaceAmt(folder / "packed.amt", *plain, {}, {.writer = "Arete", .isPacked = true}));
+  check(writeSurfaceAmt(folder / "rounded.amt", *plain, {},
+                        {.writer = "Arete", .isPacked = true, .positionBits = 8}));
   mesh.materials = {{.name = "one"}, {.name = "other", .textures = {{"baseColor", "#0", 0}}}};
   mesh.pictures = {{"a.png", "image/png", {std::byte{7}, std::byte{8}}}};
   const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
@@ -98,6 +101,7 @@ void writeSurfaces(const fs::path& folder) {
   const auto parts = buildSurface(mesh);
   if (!parts) check(tl::unexpected(parts.error()));
   check(writeSurfaceAmt(folder / "parts.amt", *parts, {}, {.writer = "Arete"}));
+  check(writeSurfaceAmt(folder / "parts-packed.amt", *parts, {}, {.writer = "Arete", .isPacked = true}));
 }
 
 }  // namespace

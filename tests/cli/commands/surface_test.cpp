@@ -72,6 +72,50 @@ TEST_F(SurfaceCommands, BuildInfoValidateAndExtract) {
   EXPECT_TRUE(exists("skin.png"));
 }
 
+TEST_F(SurfaceCommands, PackedFilesAnswerAsPlainOnesDo) {
+  ASSERT_EQ(run({"build", "ball.obj", "-o", "plain.amt"}).code, 0);
+  ASSERT_EQ(run({"build", "ball.obj", "-o", "packed.amt", "--packed"}).code, 0);
+  const Outcome converted = run({"convert", "plain.amt", "-o", "too.amt", "--packed", "--json"});
+  ASSERT_EQ(converted.code, 0) << converted.err;
+  EXPECT_TRUE(converted.json()["isPacked"].get<bool>());
+  EXPECT_EQ(read("packed.amt"), read("too.amt"));
+  EXPECT_EQ(run({"validate", "packed.amt", "--full"}).code, 0);
+  EXPECT_NE(run({"info", "packed.amt"}).out.find("a surface, packed"), std::string::npos);
+  std::map<std::string, Json> answers;
+  for (const std::string model : {"plain", "packed"}) {
+    const Outcome cut = run({"extract", model + ".amt", "-o", model + ".ply", "--max-error", "2%", "--json"});
+    ASSERT_EQ(cut.code, 0) << cut.err;
+    answers[model] = cut.json()["exports"][0];
+    for (const char* const key : {"file", "output", "seconds"}) answers[model].erase(key);
+    // The finest surfaces are one.
+    const Json apart = run({"measure", model + ".amt", "ball.obj", "--json"}).json();
+    EXPECT_LT(apart["fromFirst"]["maximum"].get<double>(), 1e-6);
+    EXPECT_LT(apart["fromSecond"]["maximum"].get<double>(), 1e-6);
+  }
+  EXPECT_EQ(answers["plain"]["triangles"], answers["packed"]["triangles"]);
+  const Json apart = run({"measure", "plain.ply", "packed.ply", "--json"}).json();
+  EXPECT_LT(apart["fromFirst"]["maximum"].get<double>(), 1e-9);
+  EXPECT_LT(apart["fromSecond"]["maximum"].get<double>(), 1e-9);
+}
+
+TEST_F(SurfaceCommands, RoundedPositionsTakeFewerBytesAndAreSaid) {
+  ASSERT_EQ(run({"build", "ball.obj", "-o", "packed.amt", "--packed"}).code, 0);
+  ASSERT_EQ(run({"build", "ball.obj", "-o", "rounded.amt", "--packed", "--position-bits", "12"}).code, 0);
+  EXPECT_LT(read("rounded.amt").size(), read("packed.amt").size());
+  const Json info = run({"info", "rounded.amt", "--json"}).json();
+  const double moved = info["positionError"];
+  EXPECT_GT(moved, 0);
+  EXPECT_LT(moved, 4.0 / 4096);
+  EXPECT_EQ(run({"validate", "rounded.amt", "--full"}).code, 0);
+  const Json cut =
+      run({"extract", "rounded.amt", "-o", "cut.ply", "--max-error", "0.02", "--json"}).json()["exports"][0];
+  const Json apart = run({"measure", "cut.ply", "ball.obj", "--json"}).json();
+  EXPECT_LE(apart["fromSecond"]["maximum"].get<double>(), cut["error"].get<double>());
+  EXPECT_NE(run({"build", "ball.obj", "-o", "x.amt", "--position-bits", "12"}).err.find("requires --packed"),
+            std::string::npos);
+  EXPECT_EQ(run({"build", "ball.obj", "-o", "x.amt", "--packed", "--position-bits", "7"}).code, 2);
+}
+
 TEST_F(SurfaceCommands, ABudgetIsKeptOrRefusedWithTheLeastCountAndWhy) {
   ASSERT_EQ(run({"build", "ball.obj", "-o", "ball.amt"}).code, 0);
   const Outcome kept = run({"extract", "ball.amt", "-o", "out.ply", "--max-triangles", "100", "--json"});
@@ -279,7 +323,9 @@ TEST_F(SurfaceCommands, WhatIsForTerrainIsRefusedByName) {
   refused({"view", "dem.amt", "--headless", "--screenshot", "x.png", "--up", "y"}, "--up");
   refused({"view", "dem.amt", "--headless", "--screenshot", "x.png", "--color", "material"},
           "--color material");
-  refused({"build", "ball.obj", "-o", "y.amt", "--packed"}, "--packed");
+  refused({"build", "dem.tif", "-o", "y.amt", "--position-bits", "16", "--packed"}, "--position-bits");
+  refused({"convert", "dem.amt", "-o", "y.amt", "--position-bits", "16", "--packed"}, "--position-bits");
+  refused({"convert", "ball.obj", "-o", "y.ply", "--position-bits", "16"}, "--position-bits");
   refused({"build", "dem.tif", "-o", "y.amt", "--keep-borders"}, "--keep-borders");
 }
 

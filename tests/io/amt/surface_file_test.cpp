@@ -4,14 +4,21 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
+#include <tuple>
 
+#include "engine/base/vec.h"
+#include "engine/criteria/criterion.h"
+#include "engine/cut/cut.h"
 #include "surface/build/build.h"
 #include "surface/families.h"
 #include "surface/front/front.h"
+#include "surface/laws/validate_surface.h"
 
 namespace arete {
 namespace {
@@ -114,6 +121,116 @@ TEST_F(SurfaceAmt, GivesBackEveryBitOfAModel) {
     }
 }
 
+/// A triangle by what it is, not by its number: its corners as vertices of the source with their place and
+/// texture coordinates, from the least; its codes; its face.
+using NumberFreeTriangle =
+    std::tuple<std::array<std::tuple<std::uint32_t, double, double, double, double, double>, 3>,
+               std::uint16_t, std::uint16_t, std::uint32_t, bool>;
+
+std::vector<NumberFreeTriangle> trianglesOf(const SurfaceModel& model) {
+  const MultiTriangulation& mt = model.mt;
+  std::vector<NumberFreeTriangle> all;
+  for (std::uint32_t t = 0; t < mt.triangleIdCount(); ++t) {
+    const NodeId creator = mt.creator(TriangleId(t)), remover = mt.remover(TriangleId(t));
+    if (creator.isValid() && creator == remover) continue;
+    NumberFreeTriangle one;
+    const auto corners = mt.corners(TriangleId(t));
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3 p = mt.position(VertexId(corners[c]));
+      double u = 0, v = 0;
+      if (model.hasWedges()) {
+        const auto texcoord = model.attributes.wedgeAttributes[0].numbers(model.wedgesOf[t][c]);
+        u = texcoord[0];
+        v = texcoord[1];
+      }
+      std::get<0>(one)[c] = {model.vertexOf[corners[c]], p.x, p.y, p.z, u, v};
+    }
+    auto& around = std::get<0>(one);
+    std::rotate(around.begin(), std::ranges::min_element(around), around.end());
+    std::get<1>(one) = mt.arrays().error[t];
+    std::get<2>(one) = mt.arrays().rms[t];
+    // Of coarse triangles without faces of their own, any face that they stand for.
+    std::get<3>(one) = !remover.isValid() || model.hasFaceAttributes() ? model.faceOf[t] : 0;
+    std::get<4>(one) = remover.isValid();
+    all.push_back(one);
+  }
+  std::ranges::sort(all);
+  return all;
+}
+
+TEST_F(SurfaceAmt, PackedGivesBackTheSameTrianglesInAnotherOrder) {
+  RunContext oneThread;
+  oneThread.threads = 1;
+  for (const bool hasDoubles : {false, true})
+    for (const bool isPlain : {false, true}) {
+      const SurfaceMesh mesh = isPlain ? SurfaceMesh(everything(hasDoubles).shape()) : everything(hasDoubles);
+      Result<SurfaceModel> model = buildSurface(mesh);
+      ASSERT_TRUE(model) << model.error().message;
+      ASSERT_TRUE(writeSurfaceAmt(path("plain.amt"), *model));
+      ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model, {}, {.isPacked = true}));
+      EXPECT_TRUE(*isSurfaceAmt(path("a.amt")));
+      EXPECT_TRUE(*isPackedAmt(path("a.amt")));
+      EXPECT_LT(2 * fs::file_size(path("a.amt")), fs::file_size(path("plain.amt")));
+      const Result<SurfaceModel> read = loadSurfaceAmt(path("a.amt"));
+      ASSERT_TRUE(read) << read.error().message;
+      EXPECT_EQ(read->mt.vertices().places64.empty(), !hasDoubles);
+      EXPECT_EQ(read->positionError, 0);
+      EXPECT_EQ(trianglesOf(*read), trianglesOf(*model));
+      EXPECT_EQ(read->attributes.triangleAttributes, model->attributes.triangleAttributes);
+      EXPECT_EQ(read->attributes.materials, model->attributes.materials);
+      EXPECT_EQ(read->attributes.pictures, model->attributes.pictures);
+      EXPECT_TRUE(validateSurface(*read)) << validateSurface(*read).error().message;
+      // What was unpacked packs to the same bytes, and plain to the same model.
+      ASSERT_TRUE(writeSurfaceAmt(path("b.amt"), *read, oneThread, {.isPacked = true}));
+      EXPECT_EQ(contentOf(path("a.amt")), contentOf(path("b.amt")));
+      ASSERT_TRUE(writeSurfaceAmt(path("plain.amt"), *read));
+      expectEqual(*read, *loadSurfaceAmt(path("plain.amt")));
+    }
+}
+
+TEST_F(SurfaceAmt, PackedIsTheSameForEveryFamily) {
+  for (const shapes::NamedMesh& family : shapes::families(5)) {
+    SCOPED_TRACE(family.name);
+    const Result<SurfaceModel> model = buildSurface(SurfaceMesh(family.mesh));
+    ASSERT_TRUE(model);
+    ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model, {}, {.isPacked = true}));
+    const Result<SurfaceModel> read = loadSurfaceAmt(path("a.amt"));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(trianglesOf(*read), trianglesOf(*model));
+    EXPECT_TRUE(validateSurface(*read)) << validateSurface(*read).error().message;
+    for (const double error : {model->mt.largestError() / 3, model->mt.largestError() / 40})
+      EXPECT_EQ(takeCut(model->mt, UniformError(error), {})->triangles.size(),
+                takeCut(read->mt, UniformError(error), {})->triangles.size());
+  }
+}
+
+TEST_F(SurfaceAmt, RoundedKeepsEveryLawAndSaysHowFarItsVerticesMoved) {
+  for (const shapes::NamedMesh& family : shapes::families(6)) {
+    SCOPED_TRACE(family.name);
+    const Result<SurfaceModel> model = buildSurface(SurfaceMesh(family.mesh));
+    ASSERT_TRUE(model);
+    for (const int bits : {8, 12, 16}) {
+      ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model, {}, {.isPacked = true, .positionBits = bits}));
+      const Result<SurfaceModel> read = loadSurfaceAmt(path("a.amt"));
+      ASSERT_TRUE(read) << read.error().message;
+      EXPECT_TRUE(validateSurface(*read, {.everySample = true}))
+          << validateSurface(*read, {.everySample = true}).error().message;
+      std::map<std::uint32_t, Vec3> placeOf;
+      for (std::uint32_t v = 0; v < model->mt.vertexCount(); ++v)
+        placeOf[model->vertexOf[v]] = model->mt.position(VertexId(v));
+      double moved = 0;
+      for (std::uint32_t v = 0; v < read->mt.vertexCount(); ++v)
+        moved = std::max(moved, norm(read->mt.position(VertexId(v)) - placeOf[read->vertexOf[v]]));
+      EXPECT_LE(moved, read->positionError);
+      EXPECT_LE(read->positionError, moved * (1 + 1e-12));
+      EXPECT_LE(moved, 2 * model->diagonal / std::ldexp(1, bits));
+      // Rounding again moves nothing.
+      ASSERT_TRUE(writeSurfaceAmt(path("b.amt"), *read, {}, {.isPacked = true, .positionBits = bits}));
+      EXPECT_EQ(contentOf(path("a.amt")), contentOf(path("b.amt")));
+    }
+  }
+}
+
 TEST_F(SurfaceAmt, IsRefusedWhereTerrainIsWantedAndTheOtherWay) {
   const Result<SurfaceModel> model = buildSurface(SurfaceMesh(shapes::globe(12, 6)));
   ASSERT_TRUE(model);
@@ -126,18 +243,20 @@ TEST_F(SurfaceAmt, IsRefusedWhereTerrainIsWantedAndTheOtherWay) {
 TEST_F(SurfaceAmt, SaysSoWhateverByteIsChangedOrCutOff) {
   const Result<SurfaceModel> model = buildSurface(everything(false));
   ASSERT_TRUE(model);
-  ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model));
-  const std::string whole = contentOf(path("a.amt"));
-  std::mt19937_64 random(1);
-  for (int i = 0; i < 200; ++i) {
-    std::string bytes = whole;
-    bytes[random() % bytes.size()] ^= char(1 << random() % 8);
-    std::ofstream(path("b.amt"), std::ios::binary) << bytes;
-    EXPECT_FALSE(loadSurfaceAmt(path("b.amt"))) << i;
-  }
-  for (int i = 0; i < 40; ++i) {
-    std::ofstream(path("b.amt"), std::ios::binary) << whole.substr(0, random() % whole.size());
-    EXPECT_FALSE(loadSurfaceAmt(path("b.amt")));
+  for (const bool isPacked : {false, true}) {
+    ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model, {}, {.isPacked = isPacked}));
+    const std::string whole = contentOf(path("a.amt"));
+    std::mt19937_64 random(1);
+    for (int i = 0; i < 200; ++i) {
+      std::string bytes = whole;
+      bytes[random() % bytes.size()] ^= char(1 << random() % 8);
+      std::ofstream(path("b.amt"), std::ios::binary) << bytes;
+      EXPECT_FALSE(loadSurfaceAmt(path("b.amt"))) << i;
+    }
+    for (int i = 0; i < 40; ++i) {
+      std::ofstream(path("b.amt"), std::ios::binary) << whole.substr(0, random() % whole.size());
+      EXPECT_FALSE(loadSurfaceAmt(path("b.amt")));
+    }
   }
 }
 

@@ -6,7 +6,7 @@
 #include "datasets/families.h"
 #include "io/amt_fixture.h"
 #include "io/format/checksum.h"
-#include "io/packed/layout.h"
+#include "io/packed/nodes/layout.h"
 #include "io/packed/packed.h"
 #include "terrain/build/build.h"
 
@@ -25,7 +25,7 @@ TEST(Pack, StatesEveryPacketsSizeAndChecksum) {
   std::string problem;
   const auto directory = packed::directoryOf(packed->directory, problem);
   ASSERT_TRUE(directory) << problem;
-  EXPECT_TRUE(packed::tablesOf(packed->tables));
+  EXPECT_TRUE(tablesOf(packed->tables, packed::kTables));
   EXPECT_EQ(directory->nodes(), model.mt.nodeCount());
   EXPECT_EQ(directory->slots(), model.mt.arrays().link.size());
   std::uint64_t end = 0;

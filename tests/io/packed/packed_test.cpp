@@ -21,7 +21,7 @@
 #include "io/amt/file.h"
 #include "io/amt_fixture.h"
 #include "io/io_fixture.h"
-#include "io/packed/layout.h"
+#include "io/packed/nodes/layout.h"
 #include "terrain/laws/validate_model.h"
 
 namespace arete {

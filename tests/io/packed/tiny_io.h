@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "io/amt_fixture.h"
-#include "io/packed/bounds.h"
-#include "io/packed/front.h"
-#include "io/packed/shapes.h"
-#include "io/packed/tables.h"
+#include "io/packed/heightfield/bounds.h"
+#include "io/packed/nodes/front.h"
+#include "io/packed/nodes/shapes.h"
+#include "io/packed/nodes/tables.h"
 
 namespace arete::packed::test {
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/surface/convert.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "cli/arguments/arguments.h"
+#include "cli/surface/tolerance.h"
+#include "io/amt/surface_file.h"
+
+namespace arete {
+
+Status convertSurfaceFile(const SurfaceConvertArguments& arguments, Session& session) {
+  if (arguments.positionBits != 0 && !arguments.isPacked)
+    return failure(ErrorCode::usage, "requires --packed", "--position-bits");
+  const Result<SurfaceModel> model = loadSurfaceAmt(arguments.input, AmtVerify::all, session.context());
+  if (!model) return tl::unexpected(model.error());
+  const SurfaceWriteOptions options{.isPacked = arguments.isPacked, .positionBits = arguments.positionBits};
+  if (Status written = writeSurfaceAmt(arguments.output, *model, session.context(), options); !written)
+    return written;
+  std::error_code error;
+  const auto size = std::filesystem::file_size(arguments.output, error);
+  const std::uint64_t bytes = error ? 0 : size;
+  const double perVertex = static_cast<double>(bytes) / static_cast<double>(model->mt.vertexCount());
+  session.say(fmt::format("{}: {}, {:.1f} bytes a vertex\n", arguments.output, byteCount(bytes), perVertex));
+  session.answer({{"input", arguments.input},
+                  {"output", arguments.output},
+                  {"format", "AMT"},
+                  {"isPacked", arguments.isPacked},
+                  {"bytes", bytes},
+                  {"bytesPerVertex", perVertex}});
+  return {};
+}
+
+void addPositionBitsTo(CLI::App& command, int& positionBits) {
+  command
+      .add_option(
+          "--position-bits", positionBits,
+          "Of a packed surface: round coordinates to a grid of at most 2^N steps along its longest side\n"
+          "(8 to 24); every error grows by twice the largest move (default: vertices stay to the bit)")
+      ->check(CLI::Range(8, 24))
+      ->type_name("N");
+}
+
+}  // namespace arete

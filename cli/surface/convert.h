@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "cli/session/session.h"
+#include "engine/base/result.h"
+
+namespace arete {
+
+struct SurfaceConvertArguments {
+  std::string input, output;
+  bool isPacked = false;
+  int positionBits = 0;
+};
+
+/// `arete convert` of the .amt of a surface to its plain or packed form. Errors: those of loadSurfaceAmt()
+/// and writeSurfaceAmt().
+Status convertSurfaceFile(const SurfaceConvertArguments& arguments, Session& session);
+
+/// The option --position-bits of the commands that write packed surfaces; 0: the vertices stay.
+void addPositionBitsTo(CLI::App& command, int& positionBits);
+
+}  // namespace arete

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/model/renumbered.h"
+
+#include <utility>
+#include <vector>
+
+namespace arete {
+namespace {
+
+constexpr std::uint32_t kNone = MeshAttributes::kNone;
+
+void reorder(std::vector<Attribute>& attributes, std::span<const std::uint32_t> oldOf) {
+  for (Attribute& attribute : attributes) {
+    Attribute next = emptyLike(attribute);
+    next.values.reserve(attribute.values.size());
+    for (const std::uint32_t i : oldOf) next.append(attribute.element(i));
+    attribute = std::move(next);
+  }
+}
+
+template <class T>
+std::vector<T> reordered(const std::vector<T>& values, std::span<const std::uint32_t> oldOf) {
+  std::vector<T> next;
+  next.reserve(oldOf.size());
+  for (const std::uint32_t i : oldOf) next.push_back(values[i]);
+  return next;
+}
+
+/// Numbers wedges as the corners name them first, those of no corner last. @return by new wedge, the old one
+std::vector<std::uint32_t> numberWedges(const MultiTriangulation& mt, std::uint32_t wedges,
+                                        std::vector<std::array<std::uint32_t, 3>>& wedgesOf) {
+  std::vector<std::uint32_t> newOf(wedges, kNone), oldOf;
+  oldOf.reserve(wedges);
+  for (std::uint32_t t = 0; t < wedgesOf.size(); ++t) {
+    if (const NodeId creator = mt.creator(TriangleId(t));
+        creator.isValid() && mt.remover(TriangleId(t)) == creator) {
+      wedgesOf[t] = {0, 0, 0};  // a slot that is no triangle
+      continue;
+    }
+    for (std::uint32_t& w : wedgesOf[t]) {
+      if (newOf[w] == kNone) {
+        newOf[w] = static_cast<std::uint32_t>(oldOf.size());
+        oldOf.push_back(w);
+      }
+      w = newOf[w];
+    }
+  }
+  for (std::uint32_t w = 0; w < wedges; ++w)
+    if (newOf[w] == kNone) oldOf.push_back(w);
+  return oldOf;
+}
+
+}  // namespace
+
+SurfaceModel renumbered(const SurfaceModel& model, const MultiTriangulation& mt,
+                        std::span<const std::uint32_t> vertexOf, std::span<const std::uint32_t> triangleOf) {
+  SurfaceModel result = model;
+  result.mt = mt;
+  result.vertexOf = reordered(model.vertexOf, vertexOf);
+  result.faceOf = reordered(model.faceOf, triangleOf);
+  reorder(result.attributes.vertexAttributes, vertexOf);
+  if (!model.hasWedges()) return result;
+  result.wedgesOf = reordered(model.wedgesOf, triangleOf);
+  reorder(result.attributes.wedgeAttributes, numberWedges(mt, model.attributes.wedgeCount, result.wedgesOf));
+  return result;
+}
+
+}  // namespace arete
