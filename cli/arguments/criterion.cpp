@@ -42,8 +42,9 @@ void CriterionArguments::addTo(CLI::App& command) {
   command
       .add_option("--fit", fit_,
                   "Adjust the heights of the vertices. triangles: about a third fewer triangles within "
-                  "--max-error; error: a smaller error with the same triangles")
-      ->check(oneOf({"triangles", "error"}))
+                  "--max-error; error: a smaller error with the same triangles; of a surface rms: move\n"
+                  "vertices to where the mean square distance is small")
+      ->check(oneOf({"triangles", "error", "rms"}))
       ->type_name("WHAT");
 
   const std::string where = "Resolution that varies";
@@ -172,9 +173,10 @@ Result<CriterionArguments::OfSurface> CriterionArguments::ofSurface() const {
   if (!look_.empty()) return refuse("--look");
   if (isLonLat_) return refuse("--lonlat");
   if (deadline_ > 0) return refuse("--deadline");
-  if (fit_ != "none") return refuse("--fit");
+  if (fit_ != "none" && fit_ != "rms") return refuse("--fit");
   if (order_ != "worst") return refuse("--order");
   OfSurface asked;
+  asked.isFitted = fit_ == "rms";
   asked.maxErrors = maxErrors_;
   asked.isSaturated = method_ == "saturated";
   if (maxTriangles_ >= 0) asked.maxTriangles = static_cast<std::uint32_t>(maxTriangles_);
@@ -196,7 +198,7 @@ Status CriterionArguments::checkFit() const {
     return failure(ErrorCode::usage, "requires --max-error", option);
   if (fit_ == "triangles" && method_ == "saturated")
     return failure(ErrorCode::usage, "cannot be combined with --method saturated", option);
-  if (fit_ == "error" && !region_.empty())
+  if ((fit_ == "error" || fit_ == "rms") && !region_.empty())
     return failure(ErrorCode::usage, "cannot be combined with --region", option);
   return {};
 }

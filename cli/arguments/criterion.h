@@ -44,12 +44,15 @@ struct CriterionArguments {
     std::string camera;        ///< --camera; empty: none
     std::string viewport;      ///< --viewport; empty: not stated
     std::optional<double> pixelError, fieldOfView;
+    bool isFitted = false;  ///< --fit rms
   };
   Result<OfSurface> ofSurface() const;
 
   const std::string& region() const { return region_; }
   RegionText regionText() const { return {region_, distance_, regionCrs_}; }
   bool hasDeadline() const { return deadline_ > 0; }
+  /// Whether it states what terrain does not have.
+  bool isForSurfaces() const { return fit_ == "rms"; }
 
  private:
   static constexpr double kUnstated = std::numeric_limits<double>::quiet_NaN();

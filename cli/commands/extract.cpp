@@ -266,6 +266,8 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
        {std::pair{"--map", !arguments.map.empty()}, std::pair{"--drop-parts", !arguments.dropParts.empty()},
         std::pair{"--both-ways", arguments.isBothWays}})
     if (isStated) return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", option);
+  if (arguments.criterion.isForSurfaces())
+    return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", "--fit rms");
   const Result<AmtFile> file = openAmt(arguments.model);
   if (!file) return tl::unexpected(file.error());
   const Result<TerrainModel> outline = outlineForPlaces(*file, arguments.criterion, session);

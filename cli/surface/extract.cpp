@@ -15,6 +15,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/surface/criterion.h"
+#include "cli/surface/fit.h"
 #include "cli/surface/tolerance.h"
 #include "engine/criteria/refine_order.h"
 #include "engine/cut/cut.h"
@@ -160,7 +161,15 @@ class Extraction {
     const CutOfTheRest rest =
         dropped ? withoutDropped(model_.mt, *whole, *dropped) : CutOfTheRest{*whole, {}};
     const Cut& cut = rest.cut;
-    const SurfaceFront front = surfaceOf(model_, cut);
+    SurfaceFront front = surfaceOf(model_, cut);
+    std::optional<FitOutcome> fit;
+    if (arguments_.asked.isFitted) {
+      const auto fitted = fitFront(
+          front, finestOfTheRest(), model_.options.keepsBorders, cut.achievedError,
+          request.tolerance ? std::optional(request.tolerance->distance) : std::nullopt, session_.context());
+      if (!fitted) return tl::unexpected(fitted.error());
+      fit = *fitted;
+    }
     const Result<std::uint64_t> crossings = crossingsOf(front.mesh, session_.context());
     if (!crossings) return tl::unexpected(crossings.error());
     if (*crossings > 0)
@@ -171,7 +180,8 @@ class Extraction {
     // A glTF has them in a frame of its own, whose z is up.
     const Result<MeshFormat> format = meshFormatOf(request.output, arguments_.format);
     const bool isGltf = format && (format->extension == ".glb" || format->extension == ".gltf");
-    if (!isGltf || model_.up == "z") options.triangleErrors = front.errors;
+    // Those of a fit are not known by triangle.
+    if (!fit && (!isGltf || model_.up == "z")) options.triangleErrors = front.errors;
     options.format = arguments_.format;
     options.existing = arguments_.existing;
     options.up = model_.up == "y" ? MeshUp::y : model_.up == "z" ? MeshUp::z : MeshUp::unknown;
@@ -199,7 +209,7 @@ class Extraction {
       if (!distance) return tl::unexpected(distance.error());
       otherWay = *distance;
     }
-    say(request, cut, front, {*crossings, droppedDistance, otherWay}, *written);
+    say(request, cut, front, {*crossings, droppedDistance, otherWay, fit}, *written);
     return {};
   }
 
@@ -218,6 +228,7 @@ class Extraction {
   struct Findings {
     std::uint64_t crossings = 0;
     std::optional<double> droppedDistance, otherWay;
+    std::optional<FitOutcome> fit;
   };
 
   /// No point of a mesh is farther than this from another.
@@ -232,6 +243,13 @@ class Extraction {
     return *finest_;
   }
 
+  /// Without the components that are left out.
+  TriangleMesh finestOfTheRest() {
+    if (!dropped_) return finest();
+    const Cut whole = frontOfPrefix(model_.mt, model_.mt.nodeCount());
+    return surfaceOf(model_, withoutDropped(model_.mt, whole, *dropped_).cut).mesh.shape();
+  }
+
   Status countSourceCrossings() {
     if (sourceCrossings_) return {};
     const Result<std::uint64_t> count = crossingsOf(finest(), session_.context());
@@ -242,10 +260,18 @@ class Extraction {
 
   void say(const Request& request, const Cut& cut, const SurfaceFront& front, const Findings& found,
            const MeshWriteReport& written) {
+    const double error = found.fit ? found.fit->distance : cut.achievedError;
     std::string text = fmt::format(
         "{}: {} triangles, {} vertices, no point of the source{} farther than {}\n", request.output,
         grouped(front.mesh.triangles.size()), grouped(front.mesh.positions.size()),
-        found.droppedDistance ? " but what is left out" : "", withShare(cut.achievedError, model_.diagonal));
+        found.droppedDistance ? " but what is left out" : "", withShare(error, model_.diagonal));
+    if (found.fit)
+      text += fmt::format("  fit        RMS {:.4g} % of the diagonal instead of {:.4g} %{}\n",
+                          100 * found.fit->rmsAfter / model_.diagonal,
+                          100 * found.fit->rmsBefore / model_.diagonal,
+                          found.fit->part == 1
+                              ? ""
+                              : fmt::format("; {:.3g} of each move, to keep the tolerance", found.fit->part));
     if (found.otherWay)
       text += fmt::format("  other way  no point of the result farther than {}\n",
                           withShare(*found.otherWay, model_.diagonal));
@@ -263,8 +289,8 @@ class Extraction {
     Json json = {{"file", request.output},
                  {"triangles", front.mesh.triangles.size()},
                  {"vertices", front.mesh.positions.size()},
-                 {"error", cut.achievedError},
-                 {"errorPercent", 100 * cut.achievedError / model_.diagonal},
+                 {"error", error},
+                 {"errorPercent", 100 * error / model_.diagonal},
                  {"complete", cut.isComplete},
                  {"selfIntersections", found.crossings},
                  {"lost", written.lost}};
@@ -273,6 +299,11 @@ class Extraction {
                          {"faces", dropped_->sourceFaces},
                          {"distance", found.droppedDistance ? Json(*found.droppedDistance) : Json()}};
     if (found.otherWay) json["otherWay"] = *found.otherWay;
+    if (found.fit)
+      json["fit"] = {{"rmsBefore", found.fit->rmsBefore},
+                     {"rmsAfter", found.fit->rmsAfter},
+                     {"errorBefore", cut.achievedError},
+                     {"part", found.fit->part}};
     if (sourceCrossings_) json["sourceSelfIntersections"] = *sourceCrossings_;
     if (request.tolerance && std::isfinite(request.tolerance->distance))
       json["maxError"] = request.tolerance->distance;

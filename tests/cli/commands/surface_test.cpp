@@ -72,6 +72,38 @@ TEST_F(SurfaceCommands, BuildInfoValidateAndExtract) {
   EXPECT_TRUE(exists("skin.png"));
 }
 
+TEST_F(SurfaceCommands, AFitLeavesLessOfTheDistanceAndKeepsTheTolerance) {
+  std::string shape;  // without a texture, whose seam would stay
+  std::istringstream lines(ball(24, 14));
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("v ") && !line.starts_with("f ")) continue;
+    for (std::size_t at = 0; line[0] == 'f' && (at = line.find('/', at)) != std::string::npos;)
+      line.erase(at, line.find_first_of(" \n", at) - at);
+    shape += line + "\n";
+  }
+  write("shape.obj", shape);
+  ASSERT_EQ(run({"build", "shape.obj", "-o", "shape.amt"}).code, 0);
+  std::map<std::string, Json> both;
+  for (const std::string fit : {"", "rms"}) {
+    std::vector<std::string> words = {"extract",         "shape.amt", "-o",    "cut" + fit + ".ply",
+                                      "--max-triangles", "120",       "--json"};
+    if (!fit.empty()) words.insert(words.end(), {"--fit", fit});
+    const Outcome cut = run(words);
+    ASSERT_EQ(cut.code, 0) << cut.err;
+    both[fit] = run({"measure", "cut" + fit + ".ply", "shape.obj", "--json"}).json();
+    EXPECT_LE(both[fit]["fromSecond"]["maximum"].get<double>(),
+              cut.json()["exports"][0]["error"].get<double>());
+  }
+  EXPECT_LT(both["rms"]["fromSecond"]["rms"].get<double>(),
+            0.75 * both[""]["fromSecond"]["rms"].get<double>());
+  const Outcome kept =
+      run({"extract", "shape.amt", "-o", "kept.ply", "--max-error", "0.05", "--fit", "rms", "--json"});
+  ASSERT_EQ(kept.code, 0) << kept.err;
+  EXPECT_LE(kept.json()["exports"][0]["error"].get<double>(), 0.05);
+  EXPECT_LE(run({"measure", "kept.ply", "shape.obj", "--json"}).json()["fromSecond"]["maximum"].get<double>(),
+            0.05);
+}
+
 TEST_F(SurfaceCommands, PackedFilesAnswerAsPlainOnesDo) {
   ASSERT_EQ(run({"build", "ball.obj", "-o", "plain.amt"}).code, 0);
   ASSERT_EQ(run({"build", "ball.obj", "-o", "packed.amt", "--packed"}).code, 0);
@@ -317,6 +349,8 @@ TEST_F(SurfaceCommands, WhatIsForTerrainIsRefusedByName) {
   refused({"los", "ball.amt", "--from", "0,0,1", "--to", "1,1,1"}, "is of a surface");
   refused({"extract", "ball.amt", "-o", "x.ply", "--max-error", "1", "--region", "0,0,1"}, "a ball x,y,z,r");
   refused({"extract", "ball.amt", "-o", "x.ply", "--max-error", "1", "--fit", "triangles"}, "--fit");
+  refused({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--fit", "rms"}, "--fit rms");
+  refused({"extract", "ball.amt", "-o", "x.ply", "--camera", "9,0,0,0,0,0", "--fit", "rms"}, "--camera");
   refused({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1%"}, "for surfaces");
   refused({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--map", "m.csv"}, "--map");
   refused({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--drop-parts", "1"}, "--drop-parts");

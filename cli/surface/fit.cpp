@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/surface/fit.h"
+
+#include <cmath>
+#include <utility>
+
+#include "surface/fit/fit.h"
+#include "surface/fit/held_vertices.h"
+#include "terrain/measure/mesh_distance.h"
+
+namespace arete {
+
+Result<FitOutcome> fitFront(SurfaceFront& front, const TriangleMesh& source, bool keepsBorders,
+                            double cutError, std::optional<double> maxError, const RunContext& context) {
+  const Result<FittedSurface> fitted =
+      fitSurface(front.mesh.shape(), heldVertices(front.mesh, keepsBorders), source, {}, context);
+  if (!fitted) return tl::unexpected(fitted.error());
+  FitOutcome outcome{fitted->rmsBefore, fitted->rmsAfter, cutError, 1};
+  const std::vector<Vec3> before = front.mesh.positions;
+  for (const double part : {1.0, 0.5, 0.25, 0.125}) {
+    outcome.part = part;
+    for (std::size_t v = 0; v < before.size(); ++v)
+      front.mesh.positions[v] =
+          part == 1 ? fitted->positions[v] : before[v] + part * (fitted->positions[v] - before[v]);
+    const auto report = measureDistance(source, front.mesh.shape(), {}, context);
+    if (!report) return tl::unexpected(report.error());
+    outcome.distance = report->forward.atMost;
+    if (!maxError || outcome.distance <= *maxError) return outcome;
+  }
+  front.mesh.positions = before;
+  outcome.part = 0;
+  outcome.rmsAfter = outcome.rmsBefore;
+  outcome.distance = cutError;
+  return outcome;
+}
+
+}  // namespace arete

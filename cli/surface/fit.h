@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
+#include "surface/front/front.h"
+
+namespace arete {
+
+/// What a fit did to the mesh of a cut.
+struct FitOutcome {
+  double rmsBefore = 0, rmsAfter = 0;  ///< of the distances from samples of the source
+  /// No point of the source is farther than this from the fitted mesh: found by a search that shares no code
+  /// with the fit, or the error of the cut where nothing was moved.
+  double distance = 0;
+  double part = 1;  ///< of the moves that was made, so that maxError is kept
+};
+
+/// Moves the vertices of a front by `--fit rms` (surface/fit/fit.h). Where the result is farther from the
+/// source than maxError, a part of every move is made: a half, a quarter, an eighth, or nothing, which is the
+/// cut.
+/// @param cutError  of the cut: at most maxError
+Result<FitOutcome> fitFront(SurfaceFront& front, const TriangleMesh& source, bool keepsBorders,
+                            double cutError, std::optional<double> maxError, const RunContext& context);
+
+}  // namespace arete

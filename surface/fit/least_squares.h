@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/base/vec.h"
+
+namespace arete {
+
+/// A symmetric matrix of 3 x 3: xx, xy, xz, yy, yz, zz.
+using Symmetric3 = std::array<double, 6>;
+
+/// The least squares problem of vertices that move by d: the sum of (r - d(s))' M (r - d(s)) over samples s,
+/// where d(s) is the mean of the moves of a triangle's corners with the sample's shares, and of a small
+/// multiple of |d|^2. Kept by triangle, never as a matrix.
+class MoveProblem {
+ public:
+  MoveProblem(std::size_t vertices, std::span<const std::array<std::uint32_t, 3>> elements);
+
+  /// Adds a sample of an element.
+  /// @param shares   of the element's corners
+  /// @param metric   M
+  /// @param residual r
+  void add(std::uint32_t element, const std::array<double, 3>& shares, const Symmetric3& metric,
+           const Vec3& residual);
+
+  /// The moves, by conjugate gradients with the diagonal blocks as preconditioner.
+  /// @param isHeld  by vertex: its move is 0
+  std::vector<Vec3> solve(std::span<const std::uint8_t> isHeld) const;
+
+ private:
+  void multiply(std::span<const Vec3> x, std::span<Vec3> y) const;
+
+  std::span<const std::array<std::uint32_t, 3>> elements_;
+  std::vector<std::array<Symmetric3, 6>> blocks_;  ///< by element: of corners 00, 01, 02, 11, 12, 22
+  std::vector<Vec3> right_;                        ///< by vertex
+  double stiffness_ = 0;                           ///< of |d|^2
+};
+
+}  // namespace arete
