@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -23,6 +22,7 @@
 #include "io/exchange/convert.h"
 #include "io/exchange/mesh_formats.h"
 #include "surface/edit/joined_surface.h"
+#include "surface/edit/small_components.h"
 #include "surface/model/transfer.h"
 #include "surface/repair/repair.h"
 
@@ -42,19 +42,6 @@ struct WeldDistance {
   double size = 0;              ///< in the unit of the file
   std::optional<double> share;  ///< percent of the diagonal, if it was stated so
 };
-
-/// The diagonal of the box of the vertices that triangles use.
-double diagonalOf(const TriangleMesh& mesh) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Vec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
-  for (const auto& triangle : mesh.triangles)
-    for (const std::uint32_t v : triangle) {
-      const Vec3& p = mesh.positions[v];
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  return mesh.triangles.empty() ? 0 : std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
-}
 
 Result<WeldDistance> weldDistance(const std::string& text, const TriangleMesh& mesh) {
   const bool isPercent = text.ends_with('%');

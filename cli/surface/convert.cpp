@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "cli/arguments/arguments.h"
-#include "cli/surface/tolerance.h"
+#include "cli/mesh/tolerance.h"
 #include "io/amt/surface_file.h"
 
 namespace arete {

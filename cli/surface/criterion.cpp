@@ -12,7 +12,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/surface/camera.h"
-#include "cli/surface/tolerance.h"
+#include "cli/mesh/tolerance.h"
 #include "engine/criteria/space_region.h"
 #include "engine/criteria/view_error.h"
 #include "io/exchange/mesh_formats.h"

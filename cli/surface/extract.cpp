@@ -15,8 +15,8 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/surface/criterion.h"
-#include "cli/surface/fit.h"
-#include "cli/surface/tolerance.h"
+#include "cli/mesh/fit_front.h"
+#include "cli/mesh/tolerance.h"
 #include "engine/criteria/refine_order.h"
 #include "engine/cut/cut.h"
 #include "io/amt/surface_file.h"

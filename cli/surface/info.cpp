@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "cli/arguments/arguments.h"
-#include "cli/surface/tolerance.h"
+#include "cli/mesh/tolerance.h"
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
 #include "io/amt/surface_file.h"

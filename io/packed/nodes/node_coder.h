@@ -48,9 +48,9 @@ struct CoderSpace {
   std::vector<std::uint8_t> areas;  ///< of the run's slots, see shownArea()
 };
 
-/// @tparam Form  what vertices and triangles carry: HeightfieldForm (heightfield_form.h) or SurfaceForm
-///               (surface_form.h), whose Geometry codes the vertices of a run and whose Values code the
-///               errors
+/// @tparam Form  what vertices and triangles carry (io/packed/heightfield/form.h, io/packed/surface/form.h):
+/// its
+///               Geometry codes the vertices of a run, its Values their errors
 /// @tparam Io    the reader's (unpack.cpp) or the writer's (writer_io.h)
 template <class Form, class Io>
 class NodeCoder {

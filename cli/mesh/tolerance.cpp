@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/surface/tolerance.h"
+#include "cli/mesh/tolerance.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// `measured` builds the multitriangulation in memory, takes the cut that is wanted and fits it; the other
+// operators are those of surface/decimate/decimate.h.
+#include "cli/mesh/decimate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments/arguments.h"
+#include "cli/arguments/mesh_options.h"
+#include "cli/mesh/fit_front.h"
+#include "cli/mesh/mesh_input.h"
+#include "cli/mesh/tolerance.h"
+#include "engine/base/stopwatch.h"
+#include "engine/criteria/refine_order.h"
+#include "engine/cut/cut.h"
+#include "io/exchange/convert.h"
+#include "io/exchange/mesh_formats.h"
+#include "io/file/file_writer.h"
+#include "surface/build/build.h"
+#include "surface/decimate/decimate.h"
+#include "surface/edit/small_components.h"
+#include "surface/front/front.h"
+
+namespace arete {
+namespace {
+
+struct DecimateArguments {
+  std::string input, maxTriangles, maxError, map, dropParts;
+  std::string method = "measured", queue = "lazy", weight = "area", clusterVertices = "quadric";
+  MeshOutput output;
+  MeshPlacing placing;
+  bool keepsBorders = false;
+  ExistingFile existing = ExistingFile::keepsOtherLayers;
+};
+
+constexpr std::array<std::pair<const char*, DecimateOperator>, 6> kOperators = {
+    {{"qem", DecimateOperator::edge},
+     {"lindstrom-turk", DecimateOperator::lindstromTurk},
+     {"half-edge", DecimateOperator::halfEdge},
+     {"vertex-pair", DecimateOperator::vertexPair},
+     {"face", DecimateOperator::face},
+     {"cluster", DecimateOperator::cluster}}};
+
+/// "5000", or "10%" or "10%f" of the faces.
+Result<std::uint32_t> triangleBudget(const std::string& text, std::uint64_t faces) {
+  const std::string culprit = fmt::format("--max-triangles {}", text);
+  std::string number = text;
+  if (number.ends_with("%f")) number.pop_back();
+  const bool isShare = number.ends_with('%');
+  if (isShare) number.pop_back();
+  const auto parsed = parseNumbers(culprit, number);
+  if (!parsed) return tl::unexpected(parsed.error());
+  const double count = parsed->size() != 1 ? 0 : isShare ? (*parsed)[0] / 100 * double(faces) : (*parsed)[0];
+  if (!(count >= 1) || !(count < 4e9) || (!isShare && count != std::floor(count)))
+    return failure(ErrorCode::usage, "must be a number of triangles, or a percentage of the faces as 10%",
+                   culprit);
+  return static_cast<std::uint32_t>(count);
+}
+
+/// What is made of the mesh, whatever the method.
+struct Outcome {
+  SurfaceMesh mesh;
+  std::vector<std::uint32_t> vertexOf, faceOf;  ///< of the input
+  std::vector<std::string> lost;
+  std::uint64_t evaluations = 0, steps = 0;
+  std::optional<FitOutcome> fit;
+};
+
+Status checkArguments(const DecimateArguments& a) {
+  const auto refuse = [&](const char* option, const std::string& method) {
+    return failure(ErrorCode::usage, fmt::format("is for --operator {}, not {}", method, a.method), option);
+  };
+  if (a.maxTriangles.empty() == a.maxError.empty())
+    return failure(ErrorCode::usage, "one of --max-triangles and --max-error is required");
+  if (!a.maxError.empty() && a.method != "measured") return refuse("--max-error", "measured, which measures");
+  const bool hasQueue =
+      a.method == "qem" || a.method == "half-edge" || a.method == "vertex-pair" || a.method == "face";
+  if (a.queue != "lazy" && !hasQueue) return refuse("--queue", "qem, half-edge, vertex-pair or face");
+  if (a.weight != "area" && !hasQueue && a.method != "cluster")
+    return refuse("--quadric-weight", "qem, half-edge, vertex-pair, face or cluster");
+  if (a.clusterVertices != "quadric" && a.method != "cluster") return refuse("--cluster-vertices", "cluster");
+  if (a.keepsBorders && a.method == "cluster")
+    return failure(ErrorCode::usage, "cannot be combined with --operator cluster", "--keep-borders");
+  return {};
+}
+
+Error tooFew(const std::string& budget, std::uint64_t least, const std::string& method) {
+  return {
+      ErrorCode::usage,
+      fmt::format(
+          "the least that {} reaches is {} triangles: components, handles, borders, seams and edges between "
+          "materials stay, and no triangle turns over",
+          method, grouped(least)),
+      fmt::format("--max-triangles {}", budget)};
+}
+
+Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
+                         std::optional<std::uint32_t> maxTriangles, Session& session) {
+  SurfaceBuildOptions options;
+  options.keepsBorders = arguments.keepsBorders;
+  const Result<SurfaceModel> model = buildSurface(std::move(mesh), options, session.context());
+  if (!model) return tl::unexpected(model.error());
+  std::optional<double> maxError;
+  CutOptions wanted;
+  if (maxTriangles) {
+    if (*maxTriangles < model->mt.rootTriangleCount())
+      return tl::unexpected(tooFew(arguments.maxTriangles, model->mt.rootTriangleCount(), "measured"));
+    wanted.maxTriangles = *maxTriangles;
+    wanted.order = std::make_shared<LargestSquaresFirst>();
+  } else {
+    const auto tolerances = parseSurfaceTolerances("--max-error", arguments.maxError, model->diagonal);
+    if (!tolerances) return tl::unexpected(tolerances.error());
+    if (tolerances->size() != 1) return failure(ErrorCode::usage, "takes one distance", "--max-error");
+    maxError = tolerances->front().distance;
+  }
+  const Result<Cut> cut = takeCut(model->mt, UniformError(maxError.value_or(0)), wanted, session.context());
+  if (!cut) return tl::unexpected(cut.error());
+  SurfaceFront front = surfaceOf(*model, *cut);
+  const auto fit = fitFront(front, finestSurfaceOf(*model).mesh.shape(), options.keepsBorders,
+                            cut->achievedError, maxError, session.context());
+  if (!fit) return tl::unexpected(fit.error());
+  return Outcome{std::move(front.mesh), std::move(front.vertexOf), std::move(front.faceOf), {}, 0, 0, *fit};
+}
+
+Result<Outcome> contracted(const SurfaceMesh& mesh, const DecimateArguments& arguments,
+                           std::uint32_t maxTriangles, Session& session) {
+  DecimateOptions options;
+  for (const auto& [name, method] : kOperators)
+    if (arguments.method == name) options.method = method;
+  options.queue = arguments.queue == "greedy"     ? DecimateQueue::greedy
+                  : arguments.queue == "estimate" ? DecimateQueue::estimate
+                                                  : DecimateQueue::lazy;
+  options.maxTriangles = maxTriangles;
+  options.weighsByArea = arguments.weight == "area";
+  options.keepsClusterVertices = arguments.clusterVertices == "original";
+  options.keepsBorders = arguments.keepsBorders;
+  Result<DecimatedMesh> decimated = decimate(mesh, options, session.context());
+  if (!decimated) return tl::unexpected(decimated.error());
+  if (decimated->mesh.triangles.size() > maxTriangles)
+    return tl::unexpected(tooFew(arguments.maxTriangles, decimated->mesh.triangles.size(), arguments.method));
+  return Outcome{std::move(decimated->mesh),
+                 std::move(decimated->vertexOf),
+                 std::move(decimated->faceOf),
+                 std::move(decimated->lost),
+                 decimated->evaluations,
+                 decimated->steps,
+                 {}};
+}
+
+Status writeNumbers(const std::string& path, const Outcome& outcome, const MeshInput& input,
+                    const std::vector<std::uint32_t>& vertexBefore,
+                    const std::vector<std::uint32_t>& faceBefore) {
+  Result<FileWriter> out = FileWriter::create(path);
+  if (!out) return tl::unexpected(out.error());
+  out->write("what,output,input\n");
+  const auto through = [](const std::vector<std::uint32_t>& map, std::uint32_t i) {
+    return map.empty() ? i : map[i];
+  };
+  for (std::size_t v = 0; v < outcome.vertexOf.size(); ++v)
+    out->write(fmt::format("vertex,{},{}\n", v,
+                           through(input.numbers.vertexOf, through(vertexBefore, outcome.vertexOf[v]))));
+  for (std::size_t f = 0; f < outcome.faceOf.size(); ++f)
+    out->write(fmt::format("face,{},{}\n", f,
+                           through(input.numbers.faceOf, through(faceBefore, outcome.faceOf[f]))));
+  return out->finish();
+}
+
+Status runDecimate(const DecimateArguments& arguments, Session& session) {
+  if (Status ok = checkArguments(arguments); !ok) return ok;
+  const Result<MeshFormat> format = meshFormatOf(arguments.output.path, arguments.output.format);
+  if (!format)
+    return failure(ErrorCode::usage, format.error().message,
+                   fmt::format("--output {}", arguments.output.path));
+  const std::string output = arguments.output.open(session);
+  if (Status checked = checkOutput("--output", output, {arguments.input}); !checked) return checked;
+  if (!arguments.map.empty())
+    if (Status checked = checkOutput("--map", arguments.map, {arguments.input}, {output}); !checked)
+      return checked;
+  Result<MeshInput> input = readMeshInput(arguments.input, session);
+  if (!input) return tl::unexpected(input.error());
+  MeshFile& file = input->file;
+  if (file.mesh.triangles.empty())
+    return failure(ErrorCode::invalidData, "has no faces to be decimated", arguments.input);
+  const std::size_t facesBefore = file.mesh.triangles.size();
+
+  SmallComponents dropped;
+  if (!arguments.dropParts.empty()) {
+    const auto least = parseSurfaceTolerances("--drop-parts", arguments.dropParts, diagonalOf(file.mesh));
+    if (!least) return tl::unexpected(least.error());
+    if (least->size() != 1) return failure(ErrorCode::usage, "takes one length", "--drop-parts");
+    Result<SmallComponents> without = withoutSmallComponents(file.mesh, least->front().distance);
+    if (!without) return tl::unexpected(without.error());
+    dropped = std::move(*without);
+    if (dropped.mesh.triangles.empty())
+      return failure(ErrorCode::usage, "leaves nothing: every component is smaller",
+                     fmt::format("--drop-parts {}", arguments.dropParts));
+    file.mesh = std::exchange(dropped.mesh, {});
+  }
+  std::optional<std::uint32_t> maxTriangles;
+  if (!arguments.maxTriangles.empty()) {
+    const Result<std::uint32_t> budget = triangleBudget(arguments.maxTriangles, facesBefore);
+    if (!budget) return tl::unexpected(budget.error());
+    maxTriangles = *budget;
+  }
+  Stopwatch working;
+  const double diagonal = diagonalOf(file.mesh);
+  Result<Outcome> outcome = arguments.method == "measured"
+                                ? measured(file.mesh, arguments, maxTriangles, session)
+                                : contracted(file.mesh, arguments, *maxTriangles, session);
+  if (!outcome) {
+    Error error = outcome.error();
+    if (error.culprit.empty()) error.culprit = arguments.input;
+    return tl::unexpected(std::move(error));
+  }
+  const double seconds = working.seconds();
+  if (!arguments.map.empty())
+    if (Status written = writeNumbers(arguments.map, *outcome, *input, dropped.vertexOf, dropped.triangleOf);
+        !written)
+      return written;
+  MeshFile result = std::move(file);
+  result.mesh = std::move(outcome->mesh);
+  result.triangleErrors.clear();
+  result.warnings.clear();
+  for (const std::string& lost : outcome->lost)
+    result.warnings.push_back(fmt::format("{} cannot carry {}: left out", arguments.method, lost));
+  const Result<ConvertedMesh> converted = convertMesh(
+      std::move(result), output,
+      {.format = arguments.output.format, .existing = arguments.existing, .placing = arguments.placing},
+      session.context());
+  if (!converted) return tl::unexpected(converted.error());
+  warnOf(*converted, arguments.input, format->name, session);
+  std::string text = writtenText(output, *converted);
+  text += fmt::format("  of         {} triangles, by {} in {:.2f} s\n", grouped(facesBefore),
+                      arguments.method, seconds);
+  if (dropped.components > 0)
+    text += fmt::format("  left out   {} component{} of {} faces\n", grouped(dropped.components),
+                        dropped.components == 1 ? "" : "s", grouped(dropped.triangles));
+  if (outcome->fit)
+    text += fmt::format("  distance   no point of the source{} farther than {}\n",
+                        dropped.components > 0 ? " but what is left out" : "",
+                        withShare(outcome->fit->distance, diagonal));
+  if (outcome->evaluations > 0)
+    text += fmt::format("  steps      {}; costs computed {} times ({} queue)\n", grouped(outcome->steps),
+                        grouped(outcome->evaluations), arguments.queue);
+  session.say(text);
+  Json json = writtenJson(arguments.input, output, format->name, *converted);
+  json["operator"] = arguments.method;
+  json["trianglesBefore"] = facesBefore;
+  json["seconds"] = seconds;
+  if (outcome->fit) {
+    json["error"] = outcome->fit->distance;
+    json["rms"] = outcome->fit->rmsAfter;
+  }
+  if (outcome->evaluations > 0) {
+    json["steps"] = outcome->steps;
+    json["evaluations"] = outcome->evaluations;
+  }
+  if (!arguments.dropParts.empty())
+    json["dropped"] = {{"components", dropped.components}, {"faces", dropped.triangles}};
+  session.answer(json);
+  return {};
+}
+
+}  // namespace
+
+void addMeshDecimateCommand(CLI::App& mesh, Session& session) {
+  auto arguments = std::make_shared<DecimateArguments>();
+  CLI::App* command =
+      session.addCommand(mesh, "decimate", "Make a mesh smaller, once",
+                         "  arete mesh decimate scan.obj -o small.obj --max-triangles 5000\n"
+                         "  arete mesh decimate scan.ply -o small.glb --max-triangles 10%\n"
+                         "  arete mesh decimate scan.ply -o small.ply --max-error 0.5%\n"
+                         "  arete mesh decimate scan.ply -o small.ply --max-triangles 5000 --operator qem",
+                         [arguments](Session& s) { return runDecimate(*arguments, s); });
+  command->add_option("MESH", arguments->input, "Triangle mesh: " + readableMeshExtensions())
+      ->required()
+      ->type_name("");
+  arguments->output.addTo(*command, "File to write", "");
+  addOverwriteTo(*command, arguments->existing);
+  command
+      ->add_option("--max-triangles", arguments->maxTriangles,
+                   "Largest number of triangles, or a percentage of the faces: 10% (or 10%f)")
+      ->type_name("N|P%");
+  command
+      ->add_option("--max-error", arguments->maxError,
+                   "Largest distance of a point of the mesh from the result, in its unit or as 0.5% of the\n"
+                   "diagonal; measured after the fit (--operator measured)")
+      ->type_name("E|P%");
+  command
+      ->add_option(
+          "--operator", arguments->method,
+          "measured: the multitriangulation's cut, fitted (default, the closest); qem: edges, at the least\n"
+          "of their quadric; lindstrom-turk: edges, memoryless (CGAL); half-edge: vertices go to a\n"
+          "neighbour; vertex-pair: edges and near vertices; face: triangles become a vertex; cluster:\n"
+          "cells of an octree")
+      ->check(oneOf({"measured", "qem", "lindstrom-turk", "half-edge", "vertex-pair", "face", "cluster"}))
+      ->type_name("NAME");
+  command
+      ->add_option(
+          "--queue", arguments->queue,
+          "When costs are computed anew: lazy, where they would be the least (default); greedy, at once;\n"
+          "estimate: their estimates, lazily")
+      ->check(oneOf({"lazy", "greedy", "estimate"}))
+      ->type_name("NAME");
+  command->add_option("--quadric-weight", arguments->weight, "Of a quadric's planes: area (default) or none")
+      ->check(oneOf({"area", "none"}))
+      ->type_name("NAME");
+  command
+      ->add_option("--cluster-vertices", arguments->clusterVertices,
+                   "Of a cluster: quadric, the least of it (default), or original, the best of its vertices")
+      ->check(oneOf({"quadric", "original"}))
+      ->type_name("NAME");
+  command->add_flag("--keep-borders", arguments->keepsBorders, "Vertices on borders stay, to the bit");
+  command
+      ->add_option(
+          "--drop-parts", arguments->dropParts,
+          "Leave out components whose box has a diagonal below this, in the unit of the mesh or as 1%")
+      ->type_name("D|P%");
+  command
+      ->add_option("--map", arguments->map,
+                   "CSV to write: of each output vertex and face, the input's that it stands for")
+      ->type_name("FILE");
+  addPlacingTo(*command, arguments->placing);
+}
+
+}  // namespace arete

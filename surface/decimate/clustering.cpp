@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Vertex clustering with an octree [RossignacBorrel1993] [SchaeferWarren2003]: cells are halved until each
+// has one vertex. Then cells whose children are all leaves wait in a heap, by the least of the quadric of
+// their vertices; the first one becomes a leaf, until few enough triangles have their corners in three
+// leaves.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+#include <tuple>
+
+#include "surface/decimate/carried.h"
+#include "surface/decimate/contractions.h"
+#include "surface/decimate/quadric.h"
+
+namespace arete {
+namespace {
+
+constexpr std::uint32_t kNone = 0xFFFFFFFF;
+/// Halvings of the box at most; vertices nearer than that share a leaf from the beginning.
+constexpr int kMostDepth = 24;
+
+struct Cell {
+  std::uint32_t parent = kNone, childrenLeft = 0;
+  std::vector<std::uint32_t> children;
+  std::vector<std::uint32_t> triangles;  ///< of a leaf: those with a corner in it and the others elsewhere
+  Quadric quadric;
+  Vec3 place{0, 0, 0};
+  std::uint32_t vertex = kNone;  ///< of the source
+  bool isLeaf = false;
+};
+
+class Clustering {
+ public:
+  Clustering(const SurfaceMesh& source, const DecimateOptions& options, const RunContext& context)
+      : source_(source), options_(options), context_(context), leafOf_(source.positions.size(), kNone) {}
+
+  Result<DecimatedMesh> run() {
+    divide();
+    for (std::uint32_t c = 0; c < cells_.size(); ++c)
+      if (!cells_[c].isLeaf && cells_[c].childrenLeft == 0) offer(c);
+    std::uint64_t turns = 0;
+    while (triangleCount_ > options_.maxTriangles && !heap_.empty()) {
+      if ((turns++ & 1023) == 0) {
+        if (context_.cancelled()) return failure(ErrorCode::interrupted, "decimation was interrupted");
+        context_.report("decimate", 1 - double(triangleCount_) / double(source_.triangles.size()));
+      }
+      const std::uint32_t cell = std::get<1>(heap_.top());
+      heap_.pop();
+      join(cell);
+      if (const std::uint32_t parent = cells_[cell].parent;
+          parent != kNone && --cells_[parent].childrenLeft == 0)
+        offer(parent);
+    }
+    context_.report("decimate", 1);
+    return taken();
+  }
+
+ private:
+  /// Halves the box until each leaf has one vertex; then gives the leaves their triangles and quadrics.
+  void divide() {
+    const auto& at = source_.positions;
+    std::vector<std::uint8_t> isUsed(at.size(), 0);
+    for (const auto& t : source_.triangles)
+      for (const std::uint32_t v : t) isUsed[v] = 1;
+    std::vector<std::uint32_t> all;
+    Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = -low;
+    for (std::uint32_t v = 0; v < at.size(); ++v) {
+      if (isUsed[v] == 0) continue;
+      all.push_back(v);
+      low = {std::min(low.x, at[v].x), std::min(low.y, at[v].y), std::min(low.z, at[v].z)};
+      high = {std::max(high.x, at[v].x), std::max(high.y, at[v].y), std::max(high.z, at[v].z)};
+    }
+    const double side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    struct Part {
+      std::vector<std::uint32_t> vertices;
+      Vec3 low;
+      double side;
+      std::uint32_t cell;
+      int depth;
+    };
+    std::vector<Part> parts;
+    cells_.emplace_back();
+    parts.push_back({std::move(all), low, side, 0, 0});
+    while (!parts.empty()) {
+      Part part = std::move(parts.back());
+      parts.pop_back();
+      if (part.vertices.size() <= 1 || part.depth == kMostDepth) {
+        Cell& leaf = cells_[part.cell];
+        leaf.isLeaf = true;
+        if (part.vertices.empty()) continue;
+        leaf.vertex = part.vertices[0];
+        leaf.place = at[leaf.vertex];
+        for (const std::uint32_t v : part.vertices) leafOf_[v] = part.cell;
+        continue;
+      }
+      const double half = part.side / 2;
+      const Vec3 middle = part.low + Vec3{half, half, half};
+      std::array<std::vector<std::uint32_t>, 8> eighths;
+      for (const std::uint32_t v : part.vertices)
+        eighths[(at[v].x >= middle.x ? 1u : 0u) + (at[v].y >= middle.y ? 2u : 0u) +
+                (at[v].z >= middle.z ? 4u : 0u)]
+            .push_back(v);
+      for (std::size_t e = 0; e < 8; ++e) {
+        if (eighths[e].empty()) continue;
+        const auto child = static_cast<std::uint32_t>(cells_.size());
+        cells_.emplace_back();
+        cells_[child].parent = part.cell;
+        cells_[part.cell].children.push_back(child);
+        const Vec3 corner{(e & 1) != 0 ? middle.x : part.low.x, (e & 2) != 0 ? middle.y : part.low.y,
+                          (e & 4) != 0 ? middle.z : part.low.z};
+        parts.push_back({std::move(eighths[e]), corner, half, child, part.depth + 1});
+      }
+    }
+    for (Cell& cell : cells_)
+      for (const std::uint32_t child : cell.children) cell.childrenLeft += cells_[child].isLeaf ? 0 : 1;
+    isThere_.assign(source_.triangles.size(), 1);
+    for (std::uint32_t t = 0; t < source_.triangles.size(); ++t) {
+      const auto& [i, j, k] = source_.triangles[t];
+      const Vec3 n = cross(at[j] - at[i], at[k] - at[i]);
+      const double size = norm(n);
+      if (size > 0)
+        for (const std::uint32_t v : source_.triangles[t])
+          cells_[leafOf_[v]].quadric +=
+              Quadric::ofPlane(at[i], n / size, options_.weighsByArea ? size / 2 : 1);
+      if (isBetween(t)) {
+        ++triangleCount_;
+        for (const std::uint32_t v : source_.triangles[t]) cells_[leafOf_[v]].triangles.push_back(t);
+      } else {
+        isThere_[t] = 0;
+      }
+    }
+  }
+  bool isBetween(std::uint32_t t) const {
+    const auto& [i, j, k] = source_.triangles[t];
+    return leafOf_[i] != leafOf_[j] && leafOf_[j] != leafOf_[k] && leafOf_[k] != leafOf_[i];
+  }
+
+  /// Puts a cell whose children are leaves on the heap.
+  void offer(std::uint32_t c) {
+    Cell& cell = cells_[c];
+    ++evaluations_;
+    std::vector<Vec3> places;
+    for (const std::uint32_t child : cell.children) {
+      cell.quadric += cells_[child].quadric;
+      places.push_back(cells_[child].place);
+    }
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < places.size(); ++i)
+      if (cell.quadric.at(places[i]) < cell.quadric.at(places[best])) best = i;
+    cell.vertex = cells_[cell.children[best]].vertex;
+    cell.place = options_.keepsClusterVertices ? places[best] : placeFor(cell.quadric, places);
+    heap_.emplace(std::max(0.0, cell.quadric.at(cell.place)), c);
+  }
+
+  void join(std::uint32_t c) {
+    ++steps_;
+    Cell& cell = cells_[c];
+    cell.isLeaf = true;
+    std::vector<std::uint32_t> triangles;
+    for (const std::uint32_t child : cell.children) {
+      triangles.insert(triangles.end(), cells_[child].triangles.begin(), cells_[child].triangles.end());
+      cells_[child].triangles = {};
+    }
+    std::ranges::sort(triangles);
+    triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+    const auto isMine = [&](std::uint32_t leaf) { return leaf != kNone && cells_[leaf].parent == c; };
+    for (const std::uint32_t t : triangles)
+      for (const std::uint32_t v : source_.triangles[t])
+        if (isMine(leafOf_[v])) leafOf_[v] = c;
+    for (const std::uint32_t t : triangles) {
+      if (isThere_[t] == 0) continue;
+      if (isBetween(t)) {
+        cell.triangles.push_back(t);
+      } else {
+        isThere_[t] = 0;
+        --triangleCount_;
+      }
+    }
+  }
+
+  DecimatedMesh taken() const {
+    // Corners of triangles that are left know their leaf.
+    TriangleMesh shape;
+    std::vector<std::uint32_t> vertexOf, faceOf, numberOf(cells_.size(), kNone);
+    std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> sorted;
+    for (std::uint32_t t = 0; t < source_.triangles.size(); ++t) {
+      if (isThere_[t] == 0) continue;
+      std::array<std::uint32_t, 3> leaves{};
+      for (std::size_t k = 0; k < 3; ++k) leaves[k] = leafOf_[source_.triangles[t][k]];
+      std::ranges::sort(leaves);
+      sorted.emplace_back(leaves, t);
+    }
+    std::ranges::sort(sorted);
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+      if (i == 0 || sorted[i].first != sorted[i - 1].first) faceOf.push_back(sorted[i].second);
+    std::ranges::sort(faceOf);
+    for (const std::uint32_t t : faceOf) {
+      std::array<std::uint32_t, 3> corners{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t leaf = leafOf_[source_.triangles[t][k]];
+        if (numberOf[leaf] == kNone) {
+          numberOf[leaf] = static_cast<std::uint32_t>(vertexOf.size());
+          vertexOf.push_back(cells_[leaf].vertex);
+          shape.positions.push_back(cells_[leaf].place);
+        }
+        corners[k] = numberOf[leaf];
+      }
+      shape.triangles.push_back(corners);
+    }
+    DecimatedMesh result = carried(source_, std::move(shape), std::move(vertexOf), std::move(faceOf));
+    result.evaluations = evaluations_;
+    result.steps = steps_;
+    return result;
+  }
+
+  const SurfaceMesh& source_;
+  const DecimateOptions& options_;
+  const RunContext& context_;
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> leafOf_;  // by vertex; right for those of triangles that are there
+  std::vector<std::uint8_t> isThere_;  // by triangle
+  std::uint64_t triangleCount_ = 0, evaluations_ = 0, steps_ = 0;
+  using Entry = std::tuple<double, std::uint32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap_;
+};
+
+}  // namespace
+
+Result<DecimatedMesh> decimateByClusters(const SurfaceMesh& mesh, const DecimateOptions& options,
+                                         const RunContext& context) {
+  return Clustering(mesh, options, context).run();
+}
+
+}  // namespace arete

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/decimate/contraction_mesh.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace arete {
+namespace {
+
+using Corners = std::array<std::uint32_t, 3>;
+
+bool holds(std::span<const std::uint32_t> vertices, std::uint32_t v) {
+  return std::ranges::find(vertices, v) != vertices.end();
+}
+
+}  // namespace
+
+ContractionMesh::ContractionMesh(const TriangleMesh& mesh)
+    : positions_(mesh.positions),
+      triangles_(mesh.triangles),
+      isThere_(mesh.triangles.size(), 1),
+      trianglesOf_(mesh.positions.size()),
+      triangleCount_(static_cast<std::uint32_t>(mesh.triangles.size())) {
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+    const auto& [a, b, c] = triangles_[t];
+    if (a == b || b == c || c == a) {
+      isThere_[t] = 0;
+      --triangleCount_;
+      continue;
+    }
+    for (const std::uint32_t v : triangles_[t]) trianglesOf_[v].push_back(t);
+  }
+}
+
+void ContractionMesh::neighboursOf(std::uint32_t v, std::vector<std::uint32_t>& neighbours) const {
+  neighbours.clear();
+  for (const std::uint32_t t : trianglesOf_[v])
+    for (const std::uint32_t w : triangles_[t])
+      if (w != v) neighbours.push_back(w);
+  std::ranges::sort(neighbours);
+  neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+}
+
+bool ContractionMesh::isOnBorder(std::uint32_t v) const {
+  // Each neighbour of an inner vertex is in two triangles.
+  std::vector<std::uint32_t> seen;
+  for (const std::uint32_t t : trianglesOf_[v])
+    for (const std::uint32_t w : triangles_[t])
+      if (w != v) seen.push_back(w);
+  std::ranges::sort(seen);
+  for (std::size_t i = 0; i < seen.size();) {
+    std::size_t end = i;
+    while (end < seen.size() && seen[end] == seen[i]) ++end;
+    if (end - i == 1) return true;
+    i = end;
+  }
+  return false;
+}
+
+bool ContractionMesh::keepsTopology(std::span<const std::uint32_t> vertices) const {
+  // Common neighbours of two of the vertices are opposite to them in a triangle.
+  std::vector<std::uint32_t> mine, other, common;
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    for (std::size_t j = i + 1; j < vertices.size(); ++j) {
+      neighboursOf(vertices[i], mine);
+      neighboursOf(vertices[j], other);
+      common.clear();
+      std::ranges::set_intersection(mine, other, std::back_inserter(common));
+      for (const std::uint32_t w : common) {
+        const bool isOpposite = std::ranges::any_of(trianglesOf_[w], [&](std::uint32_t t) {
+          return holds(triangles_[t], vertices[i]) && holds(triangles_[t], vertices[j]);
+        });
+        if (!isOpposite) return false;
+      }
+    }
+  // The rim of the new vertex: by triangle that is left, from one neighbour to the next.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> rim;
+  for (const std::uint32_t v : vertices)
+    for (const std::uint32_t t : trianglesOf_[v]) {
+      const Corners& c = triangles_[t];
+      int members = 0;
+      for (const std::uint32_t w : c) members += holds(vertices, w) ? 1 : 0;
+      if (members > 1) continue;
+      const std::size_t at = static_cast<std::size_t>(std::ranges::find(c, v) - c.begin());
+      rim.emplace_back(c[(at + 1) % 3], c[(at + 2) % 3]);
+    }
+  if (rim.empty()) return false;
+  // Each neighbour begins at most one side of the rim and ends at most one; and the sides are one path or
+  // cycle.
+  std::ranges::sort(rim);
+  for (std::size_t i = 0; i + 1 < rim.size(); ++i)
+    if (rim[i].first == rim[i + 1].first) return false;
+  const auto next = [&](std::uint32_t v) {
+    const auto found = std::ranges::lower_bound(rim, std::pair{v, 0u});
+    return found != rim.end() && found->first == v ? found : rim.end();
+  };
+  std::vector<std::uint32_t> ends;
+  for (const auto& side : rim) ends.push_back(side.second);
+  std::ranges::sort(ends);
+  if (std::ranges::adjacent_find(ends) != ends.end()) return false;
+  auto begin = rim.begin();
+  for (auto side = rim.begin(); side != rim.end(); ++side)
+    if (!std::ranges::binary_search(ends, side->first)) begin = side;
+  std::size_t length = 0;
+  for (auto side = begin; side != rim.end() && length < rim.size();) {
+    ++length;
+    side = next(side->second);
+    if (side == begin) break;
+  }
+  if (length != rim.size()) return false;
+  // A triangle that is there already, of three rim vertices in a closed rim, would close a pillow.
+  if (rim.size() == 2 && rim[0].first == rim[1].second && rim[1].first == rim[0].second) return false;
+  return true;
+}
+
+bool ContractionMesh::keepsTurns(std::span<const std::uint32_t> vertices, const Vec3& place) const {
+  for (const std::uint32_t v : vertices)
+    for (const std::uint32_t t : trianglesOf_[v]) {
+      int members = 0;
+      for (const std::uint32_t w : triangles_[t]) members += holds(vertices, w) ? 1 : 0;
+      if (members > 1) continue;
+      std::array<Vec3, 3> before, after;
+      for (std::size_t c = 0; c < 3; ++c) {
+        before[c] = positions_[triangles_[t][c]];
+        after[c] = triangles_[t][c] == v ? place : before[c];
+      }
+      const Vec3 was = cross(before[1] - before[0], before[2] - before[0]),
+                 is = cross(after[1] - after[0], after[2] - after[0]);
+      if (norm(was) > 0 && !(dot(was, is) > 0)) return false;
+    }
+  return true;
+}
+
+void ContractionMesh::remove(std::uint32_t t) {
+  isThere_[t] = 0;
+  --triangleCount_;
+  for (const std::uint32_t w : triangles_[t]) std::erase(trianglesOf_[w], t);
+}
+
+void ContractionMesh::contract(std::span<const std::uint32_t> vertices, const Vec3& place) {
+  const std::uint32_t kept = vertices[0];
+  positions_[kept] = place;
+  for (const std::uint32_t v : vertices.subspan(1)) {
+    const std::vector<std::uint32_t> mine = trianglesOf_[v];
+    for (const std::uint32_t t : mine) {
+      if (holds(triangles_[t], kept)) {
+        remove(t);
+        continue;
+      }
+      std::ranges::replace(triangles_[t], v, kept);
+      trianglesOf_[kept].push_back(t);
+    }
+    trianglesOf_[v].clear();
+  }
+  // Where topology is not kept, triangles may be there twice.
+  const auto sorted = [&](std::uint32_t t) {
+    Corners c = triangles_[t];
+    std::ranges::sort(c);
+    return c;
+  };
+  std::vector<std::pair<Corners, std::uint32_t>> all;
+  for (const std::uint32_t t : trianglesOf_[kept]) all.emplace_back(sorted(t), t);
+  std::ranges::sort(all);
+  for (std::size_t i = 1; i < all.size(); ++i)
+    if (all[i].first == all[i - 1].first) remove(all[i].second);
+}
+
+}  // namespace arete

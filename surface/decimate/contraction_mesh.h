@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/base/triangle_mesh.h"
+
+namespace arete {
+
+/// A mesh whose vertices are contracted: each has a list of its triangles. Triangles keep their numbers.
+class ContractionMesh {
+ public:
+  explicit ContractionMesh(const TriangleMesh& mesh);
+
+  std::uint32_t triangleCount() const { return triangleCount_; }  ///< that are left
+  std::size_t vertexCount() const { return positions_.size(); }   ///< of the source
+  const Vec3& position(std::uint32_t v) const { return positions_[v]; }
+  const std::array<std::uint32_t, 3>& corners(std::uint32_t t) const { return triangles_[t]; }
+  bool isThere(std::uint32_t t) const { return isThere_[t] != 0; }
+  std::span<const std::uint32_t> trianglesOf(std::uint32_t v) const { return trianglesOf_[v]; }
+  /// The vertices that have an edge to v, rising.
+  void neighboursOf(std::uint32_t v, std::vector<std::uint32_t>& neighbours) const;
+  /// Whether an edge at v has one triangle.
+  bool isOnBorder(std::uint32_t v) const;
+
+  /// Whether the contraction of some vertices leaves a surface of the same topology: every two of them have a
+  /// triangle in common with each common neighbour, edges have at most two triangles that turn alike, no two
+  /// triangles have the same corners, and the triangles at the vertex are one fan.
+  bool keepsTopology(std::span<const std::uint32_t> vertices) const;
+  /// Whether no triangle that is left turns by more than 90 degrees or loses its area.
+  bool keepsTurns(std::span<const std::uint32_t> vertices, const Vec3& place) const;
+
+  /// The first of the vertices stands for all of them, at a place. Triangles with two of them are gone, and
+  /// those that would be there twice.
+  void contract(std::span<const std::uint32_t> vertices, const Vec3& place);
+
+ private:
+  void remove(std::uint32_t t);
+
+  std::vector<Vec3> positions_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<std::uint8_t> isThere_;
+  std::vector<std::vector<std::uint32_t>> trianglesOf_;
+  std::uint32_t triangleCount_ = 0;
+};
+
+}  // namespace arete

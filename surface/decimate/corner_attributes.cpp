@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/decimate/corner_attributes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace arete {
+namespace {
+
+constexpr std::uint32_t kNone = MeshAttributes::kNone;
+
+std::uint32_t partOf(const std::vector<std::uint32_t>& parts, std::uint32_t t) {
+  return parts.empty() ? 0 : parts[t];
+}
+
+}  // namespace
+
+CornerAttributes::Records::Records(const std::vector<Attribute>& all, std::size_t elements)
+    : isAveraged(elements, 0) {
+  for (const Attribute& attribute : all)
+    if (attribute.isContinuous()) {
+      attributes.push_back(&attribute);
+      values.emplace_back();
+    }
+}
+
+void CornerAttributes::Records::average(std::span<const std::uint32_t> elements,
+                                        std::span<const double> weights) {
+  isAveraged[elements[0]] = 1;
+  for (std::size_t a = 0; a < attributes.size(); ++a) {
+    const std::size_t n = attributes[a]->components;
+    double size = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      double sum = 0;
+      for (std::size_t i = 0; i < elements.size(); ++i) sum += weights[i] * values[a][elements[i] * n + k];
+      values[a][elements[0] * n + k] = sum;
+      if (k < 3) size += sum * sum;
+    }
+    const AttributeMeaning meaning = attributes[a]->meaning;
+    if ((meaning != AttributeMeaning::normal && meaning != AttributeMeaning::tangent) || !(size > 0))
+      continue;
+    for (std::size_t k = 0; k < std::min<std::size_t>(n, 3); ++k)
+      values[a][elements[0] * n + k] /= std::sqrt(size);
+  }
+}
+
+Attribute CornerAttributes::Records::taken(const Attribute& attribute,
+                                           std::span<const std::uint32_t> elements) const {
+  Attribute result = emptyLike(attribute);
+  const auto found = std::ranges::find(attributes, &attribute);
+  const std::size_t n = attribute.components;
+  for (const std::uint32_t e : elements) {
+    if (found != attributes.end() && isAveraged[e] != 0) {
+      const auto& numbers = values[static_cast<std::size_t>(found - attributes.begin())];
+      result.append(std::span(numbers).subspan(e * n, n));
+    } else {
+      result.append(attribute.element(e));
+    }
+  }
+  return result;
+}
+
+CornerAttributes::CornerAttributes(const SurfaceMesh& mesh)
+    : hasClasses_(mesh.hasWedges() || !mesh.objectOf.empty() || !mesh.materialOf.empty()),
+      ofVertices_(mesh.vertexAttributes, mesh.positions.size()),
+      ofClasses_(mesh.wedgeAttributes, 0) {
+  const auto numbersOf = [](const Attribute& attribute, std::uint32_t element, std::vector<double>& to) {
+    const std::vector<double> numbers = attribute.numbers(element);
+    to.insert(to.end(), numbers.begin(), numbers.end());
+  };
+  for (std::size_t a = 0; a < ofVertices_.attributes.size(); ++a)
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
+      numbersOf(*ofVertices_.attributes[a], v, ofVertices_.values[a]);
+  if (!hasClasses_) return;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> known;
+  classOf_.reserve(3 * mesh.triangles.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t wedge = mesh.hasWedges() ? mesh.wedges[t][c] : kNone;
+      const auto [at, isNew] = known.try_emplace(
+          {mesh.triangles[t][c], wedge, partOf(mesh.objectOf, t), partOf(mesh.materialOf, t)},
+          static_cast<std::uint32_t>(wedgeOf_.size()));
+      if (isNew) wedgeOf_.push_back(wedge);
+      classOf_.push_back(at->second);
+    }
+  ofClasses_.isAveraged.assign(wedgeOf_.size(), 0);
+  for (std::size_t a = 0; a < ofClasses_.attributes.size(); ++a)
+    for (const std::uint32_t wedge : wedgeOf_)
+      numbersOf(*ofClasses_.attributes[a], wedge, ofClasses_.values[a]);
+}
+
+template <class Visit>
+void CornerAttributes::forCorners(const ContractionMesh& mesh, std::uint32_t v, const Visit& visit) const {
+  for (const std::uint32_t t : mesh.trianglesOf(v)) {
+    const auto& corners = mesh.corners(t);
+    visit(t, 3 * t + static_cast<std::uint32_t>(std::ranges::find(corners, v) - corners.begin()));
+  }
+}
+
+bool CornerAttributes::isOnLine(const ContractionMesh& mesh, std::uint32_t v) const {
+  if (!hasClasses_) return false;
+  std::uint32_t first = kNone;
+  bool hasSeveral = false;
+  forCorners(mesh, v, [&](std::uint32_t, std::uint32_t corner) {
+    if (first == kNone) first = classOf_[corner];
+    hasSeveral = hasSeveral || classOf_[corner] != first;
+  });
+  return hasSeveral;
+}
+
+std::uint32_t CornerAttributes::continued(const ContractionMesh& mesh, std::uint32_t v,
+                                          std::uint32_t classOfV, std::uint32_t kept) const {
+  std::uint32_t found = kNone;
+  bool isOne = true;
+  forCorners(mesh, v, [&](std::uint32_t t, std::uint32_t corner) {
+    const auto& corners = mesh.corners(t);
+    const auto at = std::ranges::find(corners, kept);
+    if (at == corners.end() || classOf_[corner] != classOfV) return;
+    const std::uint32_t there = classOf_[3 * t + static_cast<std::uint32_t>(at - corners.begin())];
+    isOne = isOne && (found == kNone || found == there);
+    found = there;
+  });
+  return isOne ? found : kNone;
+}
+
+bool CornerAttributes::mayJoin(const ContractionMesh& mesh, std::span<const std::uint32_t> vertices) const {
+  if (!hasClasses_) return true;
+  bool mayJoin = true;
+  for (const std::uint32_t v : vertices.subspan(1))
+    forCorners(mesh, v, [&](std::uint32_t, std::uint32_t corner) {
+      mayJoin = mayJoin && continued(mesh, v, classOf_[corner], vertices[0]) != kNone;
+    });
+  return mayJoin;
+}
+
+void CornerAttributes::join(const ContractionMesh& mesh, std::span<const std::uint32_t> vertices,
+                            std::span<const double> weights) {
+  const bool moves = weights[0] < 1;
+  if (moves) ofVertices_.average(vertices, weights);
+  if (!hasClasses_) return;
+  // By class of the vertex that stays: the classes that continue as it, with their weights.
+  std::map<std::uint32_t, std::vector<std::pair<std::uint32_t, double>>> joined;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> changes;  // corner, class
+  for (std::size_t i = 1; i < vertices.size(); ++i)
+    forCorners(mesh, vertices[i], [&](std::uint32_t, std::uint32_t corner) {
+      const std::uint32_t to = continued(mesh, vertices[i], classOf_[corner], vertices[0]);
+      auto& from = joined[to];
+      if (std::ranges::find(from, std::pair{classOf_[corner], weights[i]}) == from.end())
+        from.emplace_back(classOf_[corner], weights[i]);
+      changes.emplace_back(corner, to);
+    });
+  for (const auto& [corner, to] : changes) classOf_[corner] = to;
+  if (!moves) return;
+  for (const auto& [to, from] : joined) {
+    std::vector<std::uint32_t> elements = {to};
+    std::vector<double> shares = {weights[0]};
+    for (const auto& [one, weight] : from) {
+      elements.push_back(one);
+      shares.push_back(weight);
+    }
+    double sum = 0;
+    for (const double s : shares) sum += s;
+    if (!(sum > 0)) continue;
+    for (double& s : shares) s /= sum;
+    ofClasses_.average(elements, shares);
+  }
+}
+
+SurfaceMesh CornerAttributes::take(const SurfaceMesh& source, const ContractionMesh& mesh,
+                                   std::vector<std::uint32_t>& vertexOf,
+                                   std::vector<std::uint32_t>& faceOf) const {
+  vertexOf.clear();
+  faceOf.clear();
+  SurfaceMesh result;
+  std::vector<std::uint32_t> numberOf(mesh.vertexCount(), kNone), wedgeNumberOf(wedgeOf_.size(), kNone),
+      classes;
+  for (std::uint32_t t = 0; t < source.triangles.size(); ++t)
+    if (mesh.isThere(t)) faceOf.push_back(t);
+  for (const std::uint32_t t : faceOf)
+    for (const std::uint32_t v : mesh.corners(t)) numberOf[v] = 0;
+  for (std::uint32_t v = 0; v < numberOf.size(); ++v) {
+    if (numberOf[v] == kNone) continue;
+    numberOf[v] = static_cast<std::uint32_t>(vertexOf.size());
+    vertexOf.push_back(v);
+    result.positions.push_back(mesh.position(v));
+  }
+  for (const std::uint32_t t : faceOf) {
+    std::array<std::uint32_t, 3> corners = mesh.corners(t), wedges{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      corners[c] = numberOf[corners[c]];
+      if (!source.hasWedges()) continue;
+      const std::uint32_t one = classOf_[3 * t + c];
+      if (wedgeNumberOf[one] == kNone) {
+        wedgeNumberOf[one] = static_cast<std::uint32_t>(classes.size());
+        classes.push_back(one);
+      }
+      wedges[c] = wedgeNumberOf[one];
+    }
+    result.triangles.push_back(corners);
+    if (source.hasWedges()) result.wedges.push_back(wedges);
+  }
+  for (const Attribute& attribute : source.vertexAttributes)
+    result.vertexAttributes.push_back(ofVertices_.taken(attribute, vertexOf));
+  result.wedgeCount = static_cast<std::uint32_t>(classes.size());
+  for (const Attribute& attribute : source.wedgeAttributes) {
+    // Averaged ones are by class, the others by wedge.
+    Attribute taken = emptyLike(attribute);
+    for (const std::uint32_t one : classes) {
+      const bool isAveraged = attribute.isContinuous() && ofClasses_.isAveraged[one] != 0;
+      const std::array<std::uint32_t, 1> element = {one};
+      taken.append(isAveraged ? std::span<const std::byte>(ofClasses_.taken(attribute, element).values)
+                              : attribute.element(wedgeOf_[one]));
+    }
+    result.wedgeAttributes.push_back(std::move(taken));
+  }
+  for (const Attribute& attribute : source.triangleAttributes) {
+    Attribute taken = emptyLike(attribute);
+    for (const std::uint32_t t : faceOf) taken.append(attribute.element(t));
+    result.triangleAttributes.push_back(std::move(taken));
+  }
+  const auto ofFaces = [&](const std::vector<std::uint32_t>& numbers) {
+    std::vector<std::uint32_t> taken;
+    if (!numbers.empty())
+      for (const std::uint32_t t : faceOf) taken.push_back(numbers[t]);
+    return taken;
+  };
+  result.objectOf = ofFaces(source.objectOf);
+  result.groupOf = ofFaces(source.groupOf);
+  result.materialOf = ofFaces(source.materialOf);
+  result.objects = source.objects;
+  result.groups = source.groups;
+  result.materials = source.materials;
+  result.pictures = source.pictures;
+  return result;
+}
+
+}  // namespace arete
