@@ -40,7 +40,7 @@ struct DecimateArguments {
   std::string method = "measured", queue = "lazy", weight = "area", clusterVertices = "quadric";
   MeshOutput output;
   MeshPlacing placing;
-  bool keepsBorders = false;
+  bool keepsBorders = false, forbidsCrossings = false;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
 
@@ -89,6 +89,8 @@ Status checkArguments(const DecimateArguments& a) {
   if (a.queue != "lazy" && !hasQueue) return refuse("--queue", "qem, half-edge, vertex-pair or face");
   if (a.weight != "area" && !hasQueue && a.method != "cluster")
     return refuse("--quadric-weight", "qem, half-edge, vertex-pair, face or cluster");
+  if (a.forbidsCrossings && (!hasQueue || a.method == "vertex-pair"))
+    return refuse("--no-crossings", "qem, half-edge or face");
   if (a.clusterVertices != "quadric" && a.method != "cluster") return refuse("--cluster-vertices", "cluster");
   if (a.keepsBorders && a.method == "cluster")
     return failure(ErrorCode::usage, "cannot be combined with --operator cluster", "--keep-borders");
@@ -100,7 +102,7 @@ Error tooFew(const std::string& budget, std::uint64_t least, const std::string& 
       ErrorCode::usage,
       fmt::format(
           "the least that {} reaches is {} triangles: components, handles, borders, seams and edges between "
-          "materials stay, and no triangle turns over",
+          "materials stay, edges of more than two faces too, and no triangle turns over",
           method, grouped(least)),
       fmt::format("--max-triangles {}", budget)};
 }
@@ -145,6 +147,7 @@ Result<Outcome> contracted(const SurfaceMesh& mesh, const DecimateArguments& arg
   options.weighsByArea = arguments.weight == "area";
   options.keepsClusterVertices = arguments.clusterVertices == "original";
   options.keepsBorders = arguments.keepsBorders;
+  options.forbidsCrossings = arguments.forbidsCrossings;
   Result<DecimatedMesh> decimated = decimate(mesh, options, session.context());
   if (!decimated) return tl::unexpected(decimated.error());
   if (decimated->mesh.triangles.size() > maxTriangles)
@@ -322,6 +325,8 @@ void addMeshDecimateCommand(CLI::App& mesh, Session& session) {
       ->check(oneOf({"quadric", "original"}))
       ->type_name("NAME");
   command->add_flag("--keep-borders", arguments->keepsBorders, "Vertices on borders stay, to the bit");
+  command->add_flag("--no-crossings", arguments->forbidsCrossings,
+                    "Refuse steps that make the surface cross itself (qem, half-edge, face)");
   command
       ->add_option(
           "--drop-parts", arguments->dropParts,

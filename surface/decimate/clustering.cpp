@@ -4,6 +4,8 @@
 // has one vertex. Then cells whose children are all leaves wait in a heap, by the least of the quadric of
 // their vertices; the first one becomes a leaf, until few enough triangles have their corners in three
 // leaves.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -54,6 +56,10 @@ class Clustering {
         offer(parent);
     }
     context_.report("decimate", 1);
+    if (triangleCount_ == 0 && !source_.triangles.empty())
+      return failure(ErrorCode::invalidData,
+                     fmt::format("no cells leave between one triangle and {}: the mesh is too small for it",
+                                 options_.maxTriangles));
     return taken();
   }
 

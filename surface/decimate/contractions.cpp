@@ -13,12 +13,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <queue>
 #include <tuple>
-#include <unordered_map>
 
 #include "surface/decimate/contraction_mesh.h"
 #include "surface/decimate/corner_attributes.h"
+#include "surface/decimate/crossing_guard.h"
 #include "surface/decimate/quadric.h"
 #include "surface/topology/edges.h"
 
@@ -58,13 +59,14 @@ class Contractions {
   Result<DecimatedMesh> run() {
     addQuadrics();
     addCandidates();
-    if (const Status contracted = contract(); !contracted) return tl::unexpected(contracted.error());
+    if (options_.forbidsCrossings) crossings_.emplace(mesh_);
+    if (const Status contracted = contractAll(); !contracted) return tl::unexpected(contracted.error());
     if (isFace_ && mesh_.triangleCount() > options_.maxTriangles) {
       // A triangle beside a vertex of three triangles cannot be contracted. Then edges are.
       isFace_ = false;
       candidates_.clear();
       addCandidates();
-      if (const Status contracted = contract(); !contracted) return tl::unexpected(contracted.error());
+      if (const Status contracted = contractAll(); !contracted) return tl::unexpected(contracted.error());
     }
     context_.report("decimate", 1);
     result_.mesh = attributes_.take(source_, mesh_, result_.vertexOf, result_.faceOf);
@@ -73,7 +75,7 @@ class Contractions {
 
  private:
   /// Takes the least candidates until few enough triangles are left, or no candidate.
-  Status contract() {
+  Status contractAll() {
     std::uint64_t turns = 0;
     while (mesh_.triangleCount() > options_.maxTriangles && !heap_.empty()) {
       if ((turns++ & 1023) == 0) {
@@ -279,7 +281,8 @@ class Contractions {
   bool isAllowed(const Step& step) const {
     if (!mayGo(step.vertices)) return false;
     if (options_.method != DecimateOperator::vertexPair && !mesh_.keepsTopology(step.vertices)) return false;
-    return mesh_.keepsTurns(step.vertices, step.place);
+    if (!mesh_.keepsTurns(step.vertices, step.place)) return false;
+    return !crossings_ || crossings_->keepsApart(step.vertices, step.place);
   }
 
   void take(const Step& step) {
@@ -294,7 +297,7 @@ class Contractions {
       std::vector<std::uint32_t> around;
       for (const std::uint32_t v : step.vertices)
         around.insert(around.end(), mesh_.trianglesOf(v).begin(), mesh_.trianglesOf(v).end());
-      mesh_.contract(step.vertices, step.place);
+      contract(step);
       for (const std::uint32_t t : around)
         if (!mesh_.isThere(t)) candidates_[t].isGone = true;
       for (const std::uint32_t t : mesh_.trianglesOf(kept)) change(t);
@@ -315,7 +318,7 @@ class Contractions {
       }
       candidatesOf_[v].clear();
     }
-    mesh_.contract(step.vertices, step.place);
+    contract(step);
     for (const auto& [end, cost] : costs) {
       if (mesh_.trianglesOf(end).empty()) continue;
       std::erase_if(candidatesOf_[end], [&](std::uint32_t id) { return candidates_[id].isGone; });
@@ -324,6 +327,10 @@ class Contractions {
       change(static_cast<std::uint32_t>(candidates_.size() - 1));
     }
     wakeNear(kept);
+  }
+  void contract(const Step& step) {
+    mesh_.contract(step.vertices, step.place);
+    if (crossings_) crossings_->moved(step.vertices[0]);
   }
   /// The quadric of a vertex of the candidate has changed.
   void change(std::uint32_t id) {
@@ -378,6 +385,7 @@ class Contractions {
   const RunContext& context_;
   ContractionMesh mesh_;
   CornerAttributes attributes_;
+  std::optional<CrossingGuard> crossings_;
   std::vector<Quadric> quadrics_;
   std::vector<std::uint8_t> isOnBorder_;
   bool isFace_;  // candidates are triangles

@@ -37,6 +37,9 @@ struct DecimateOptions {
   /// Clusters have the best of their vertices instead of the least of their quadric.
   bool keepsClusterVertices = false;
   bool keepsBorders = false;
+  /// Steps that would make the surface cross itself are refused. Of the operators that contract edges or
+  /// triangles.
+  bool forbidsCrossings = false;
 };
 
 struct DecimatedMesh {
@@ -53,8 +56,9 @@ struct DecimatedMesh {
 /// is left then is the result (the caller compares the counts). Steps keep manifoldness, components and
 /// genus, but for vertex pairs and clusters; no triangle turns by more than 90 degrees, but for clusters.
 /// Borders are simplified along with the rest, held by planes across them. Vertices at seams and at edges
-/// between objects or materials only move along them. The same mesh gives the same bytes. Errors:
-/// invalidData: mesh.validate(), maxTriangles of 0; interrupted. O(n log n); clusters O(n log n), too.
+/// between objects or materials only move along them. The same mesh gives the same bytes.
+/// Errors: invalidData: mesh.validate(), maxTriangles of 0, a diagonal of the box that is not between 1e-30
+/// and 1e30, a result without triangles (of clusters); interrupted. O(n log n).
 Result<DecimatedMesh> decimate(const SurfaceMesh& mesh, const DecimateOptions& options,
                                const RunContext& context = {});
 

@@ -377,6 +377,7 @@ TEST_F(SurfaceCommands, DecimateKeepsADistanceAndNamesTheLeastCount) {
   refused({}, "one of --max-triangles and --max-error");
   refused({"--max-error", "1", "--operator", "qem"}, "--max-error");
   refused({"--max-triangles", "9", "--queue", "greedy"}, "--queue");
+  refused({"--max-triangles", "9", "--no-crossings"}, "--no-crossings");
   refused({"--max-triangles", "9.5"}, "--max-triangles");
   refused({"--max-triangles", "0%"}, "--max-triangles");
   refused({"--max-triangles", "9", "--drop-parts", "99"}, "leaves nothing");

@@ -14,6 +14,8 @@
 namespace arete {
 namespace {
 
+using Triangle = std::array<std::uint32_t, 3>;
+
 constexpr DecimateOperator kThatKeepTopology[] = {DecimateOperator::edge, DecimateOperator::halfEdge,
                                                   DecimateOperator::face, DecimateOperator::lindstromTurk};
 constexpr DecimateOperator kAll[] = {DecimateOperator::edge,       DecimateOperator::halfEdge,
@@ -197,6 +199,102 @@ TEST(Decimate, JoinsPartsThatAreNearByVertexPairs) {
   const auto found = diagnose(result.mesh.shape(), {.selfIntersections = false});
   ASSERT_TRUE(found);
   EXPECT_EQ(found->components.size(), 1u);
+}
+
+// What was reported of other programs: zero-area faces are thrown away first, which tears holes.
+TEST(Decimate, TearsNoHoleAtTrianglesWithoutArea) {
+  // A globe; one triangle is split at the middle of a side, and so is its neighbour, but a sliver lies
+  // between.
+  TriangleMesh mesh = shapes::globe(16, 8);
+  const Triangle t = mesh.triangles[20];
+  const auto middle = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.push_back((mesh.positions[t[0]] + mesh.positions[t[1]]) / 2.0);
+  mesh.triangles[20] = {t[0], middle, t[2]};
+  mesh.triangles.push_back({middle, t[1], t[2]});
+  mesh.triangles.push_back({t[0], t[1], middle});  // without area
+  for (const DecimateOperator method : kThatKeepTopology) {
+    const DecimatedMesh result = decimated(SurfaceMesh(mesh), options(method, 60));
+    EXPECT_LE(result.mesh.triangles.size(), 60u);
+    const auto found = diagnose(result.mesh.shape(), {.selfIntersections = false});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->components[0].borders, 0u) << int(method);
+  }
+}
+
+// Any place of a plane is as good by its quadric: others turn triangles over there, or leave slivers without
+// area.
+TEST(Decimate, TurnsNoTriangleOfAPlaneOverAndKeepsItsArea) {
+  const TriangleMesh sheet = shapes::sheet(24, 18);
+  const auto areasOf = [](const TriangleMesh& m) {
+    std::vector<double> areas;
+    for (const auto& [i, j, k] : m.triangles)
+      areas.push_back(cross(m.positions[j] - m.positions[i], m.positions[k] - m.positions[i]).z / 2);
+    return areas;
+  };
+  double whole = 0;
+  for (const double a : areasOf(sheet)) whole += a;
+  for (const DecimateOperator method : kThatKeepTopology)
+    for (const std::uint32_t most : {400u, 100u, 20u}) {
+      const DecimatedMesh result = decimated(SurfaceMesh(sheet), options(method, most));
+      double sum = 0;
+      for (const double a : areasOf(result.mesh)) {
+        EXPECT_GT(a, 0) << int(method);
+        sum += a;
+      }
+      // Triangles at the border are the last ones that are contracted, and then it shrinks.
+      if (method == DecimateOperator::face && most < 100) continue;
+      EXPECT_NEAR(sum, whole, 1e-6 * whole) << int(method);
+    }
+}
+
+TEST(Decimate, KeepsVerticesWithinReachOfTheSource) {
+  // Nearly flat, so that planes are nearly parallel.
+  TriangleMesh mesh = shapes::sheet(30, 30);
+  for (Vec3& p : mesh.positions) p.z = 1e-7 * std::sin(3 * p.x + 5 * p.y);
+  for (const DecimateOperator method : kAll) {
+    const DecimatedMesh result = decimated(SurfaceMesh(mesh), options(method, 50));
+    for (const Vec3& p : result.mesh.positions)
+      EXPECT_TRUE(p.x > -1 && p.x < 31 && p.y > -1 && p.y < 31 && std::fabs(p.z) < 1) << int(method);
+  }
+}
+
+TEST(Decimate, LeavesAMeshThatIsSmallEnoughAsItIs) {
+  const SurfaceMesh mesh = charts();
+  for (const DecimateOperator method : kAll) {
+    const DecimatedMesh result = decimated(mesh, options(method, 1'000'000));
+    EXPECT_EQ(result.mesh.positions.size(), mesh.positions.size());
+    EXPECT_EQ(result.mesh.triangles.size(), mesh.triangles.size());
+    EXPECT_EQ(result.steps, 0u);
+    for (std::size_t v = 0; v < result.vertexOf.size(); ++v)
+      EXPECT_EQ(result.mesh.positions[v], mesh.positions[result.vertexOf[v]]);
+  }
+}
+
+TEST(Decimate, MakesNoCrossingsWhereTheyAreForbidden) {
+  // Two balls, one inside the other and nearly as large: coarse ones would cross.
+  TriangleMesh mesh = shapes::globe(40, 20), inner = shapes::shaken(shapes::globe(36, 18), 3, 0.002);
+  for (Vec3& p : inner.positions) p = p * 0.975;
+  for (auto& t : inner.triangles) std::swap(t[1], t[2]);
+  shapes::append(mesh, inner);
+  ASSERT_EQ(diagnose(mesh, {})->selfIntersections->count, 0u);
+  for (const DecimateOperator method :
+       {DecimateOperator::edge, DecimateOperator::halfEdge, DecimateOperator::face}) {
+    DecimateOptions o = options(method, 300);
+    EXPECT_GT(diagnose(decimated(SurfaceMesh(mesh), o).mesh.shape(), {})->selfIntersections->count, 0u);
+    o.forbidsCrossings = true;
+    const DecimatedMesh result = decimated(SurfaceMesh(mesh), o);
+    EXPECT_EQ(diagnose(result.mesh.shape(), {})->selfIntersections->count, 0u) << int(method);
+    EXPECT_LT(result.mesh.triangles.size(), mesh.triangles.size() / 2);
+  }
+}
+
+TEST(Decimate, RefusesSizesBeyondItsNumbersAndResultsWithoutTriangles) {
+  for (const double scale : {1e-200, 1e200}) {
+    SurfaceMesh mesh(shapes::globe(8, 4));
+    for (Vec3& p : mesh.positions) p = p * scale;
+    for (const DecimateOperator method : kAll) EXPECT_FALSE(decimate(mesh, options(method, 20)));
+  }
+  EXPECT_FALSE(decimate(SurfaceMesh(shapes::tetrahedron({0, 0, 0})), options(DecimateOperator::cluster, 2)));
 }
 
 TEST(Decimate, RefusesWhatIsNoSurfaceOrNoCount) {
