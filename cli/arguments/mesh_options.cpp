@@ -10,6 +10,16 @@
 
 namespace arete {
 
+Result<MeshTarget> meshTarget(const MeshOutput& output, const std::string& input, Session& session) {
+  const Result<MeshFormat> format = meshFormatOf(output.path, output.format);
+  if (!format)
+    return failure(ErrorCode::usage, format.error().message, fmt::format("--output {}", output.path));
+  const std::string path = output.open(session);
+  if (Status checked = checkOutput("--output", path, {input}); !checked)
+    return tl::unexpected(checked.error());
+  return MeshTarget{*format, path};
+}
+
 void addPlacingTo(CLI::App& command, MeshPlacing& placing) {
   command
       .add_option_function<std::string>(

@@ -291,7 +291,7 @@ void addBuildCommand(CLI::App& app, Session& session) {
       ->check(oneOf({"terrain", "surface", "points"}))
       ->type_name("KIND");
   command->add_flag("--packed", arguments->isPacked,
-                    "Write the compressed form: a ninth to a fifteenth of the size (of a surface a sixth);\n"
+                    "Write the compressed form: a ninth to a fifteenth of the size (of a surface a fifth);\n"
                     "it is unpacked when read");
   addPositionBitsTo(*command, arguments->positionBits);
   command

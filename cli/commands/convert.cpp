@@ -82,15 +82,11 @@ Status runConvert(const ConvertArguments& arguments, Session& session) {
     return failure(ErrorCode::usage, "requires a multitriangulation (.amt)", "--packed");
   if (arguments.positionBits != 0)
     return failure(ErrorCode::usage, "requires a multitriangulation (.amt)", "--position-bits");
-  const Result<MeshFormat> format = meshFormatOf(arguments.output.path, arguments.output.format);
-  if (!format)
-    return failure(ErrorCode::usage, format.error().message,
-                   fmt::format("--output {}", arguments.output.path));
-  const std::string output = arguments.output.open(session);
-  if (Status checked = checkOutput("--output", output, {arguments.input}); !checked) return checked;
+  const Result<MeshTarget> target = meshTarget(arguments.output, arguments.input, session);
+  if (!target) return tl::unexpected(target.error());
   Result<MeshFile> mesh = readMesh(arguments.input, session.context());
   if (!mesh) return tl::unexpected(mesh.error());
-  const Result<ConvertedMesh> converted = convertMesh(std::move(*mesh), output,
+  const Result<ConvertedMesh> converted = convertMesh(std::move(*mesh), target->path,
                                                       {.crs = arguments.crs,
                                                        .format = arguments.output.format,
                                                        .existing = arguments.existing,
@@ -102,9 +98,9 @@ Status runConvert(const ConvertArguments& arguments, Session& session) {
       error.culprit = fmt::format("--crs {}", arguments.crs);
     return tl::unexpected(std::move(error));
   }
-  warnOf(*converted, arguments.input, format->name, session);
-  session.say(writtenText(output, *converted));
-  session.answer(writtenJson(arguments.input, output, format->name, *converted));
+  warnOf(*converted, arguments.input, target->format.name, session);
+  session.say(writtenText(target->path, *converted));
+  session.answer(writtenJson(arguments.input, target->path, target->format.name, *converted));
   return {};
 }
 

@@ -54,12 +54,8 @@ Result<Box3> parseBox(const std::string& text) {
 Status runCrop(const CropArguments& arguments, Session& session) {
   const Result<Box3> box = parseBox(arguments.box);
   if (!box) return tl::unexpected(box.error());
-  const Result<MeshFormat> format = meshFormatOf(arguments.output.path, arguments.output.format);
-  if (!format)
-    return failure(ErrorCode::usage, format.error().message,
-                   fmt::format("--output {}", arguments.output.path));
-  const std::string output = arguments.output.open(session);
-  if (Status checked = checkOutput("--output", output, {arguments.input}); !checked) return checked;
+  const Result<MeshTarget> target = meshTarget(arguments.output, arguments.input, session);
+  if (!target) return tl::unexpected(target.error());
   Result<MeshFile> mesh = readMesh(arguments.input, session.context());
   if (!mesh) return tl::unexpected(mesh.error());
   Result<CroppedMesh> cropped = crop(mesh->mesh, *box, arguments.options, session.context());
@@ -71,17 +67,17 @@ Status runCrop(const CropArguments& arguments, Session& session) {
     mesh->triangleErrors = std::move(errors);
   }
   const Result<ConvertedMesh> converted = convertMesh(
-      std::move(*mesh), output,
+      std::move(*mesh), target->path,
       {.format = arguments.output.format, .existing = arguments.existing, .placing = arguments.placing},
       session.context());
   if (!converted) return tl::unexpected(converted.error());
-  warnOf(*converted, arguments.input, format->name, session);
-  session.say(writtenText(output, *converted) +
+  warnOf(*converted, arguments.input, target->format.name, session);
+  session.say(writtenText(target->path, *converted) +
               (cropped->cutTriangles > 0
                    ? fmt::format("  {} triangles cut at the box, {} vertices made there\n",
                                  grouped(cropped->cutTriangles), grouped(cropped->cutVertices))
                    : ""));
-  Json json = writtenJson(arguments.input, output, format->name, *converted);
+  Json json = writtenJson(arguments.input, target->path, target->format.name, *converted);
   json["cutTriangles"] = cropped->cutTriangles;
   json["cutVertices"] = cropped->cutVertices;
   session.answer(json);

@@ -8,10 +8,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -181,14 +179,10 @@ Status writeNumbers(const std::string& path, const Outcome& outcome, const MeshI
 
 Status runDecimate(const DecimateArguments& arguments, Session& session) {
   if (Status ok = checkArguments(arguments); !ok) return ok;
-  const Result<MeshFormat> format = meshFormatOf(arguments.output.path, arguments.output.format);
-  if (!format)
-    return failure(ErrorCode::usage, format.error().message,
-                   fmt::format("--output {}", arguments.output.path));
-  const std::string output = arguments.output.open(session);
-  if (Status checked = checkOutput("--output", output, {arguments.input}); !checked) return checked;
+  const Result<MeshTarget> target = meshTarget(arguments.output, arguments.input, session);
+  if (!target) return tl::unexpected(target.error());
   if (!arguments.map.empty())
-    if (Status checked = checkOutput("--map", arguments.map, {arguments.input}, {output}); !checked)
+    if (Status checked = checkOutput("--map", arguments.map, {arguments.input}, {target->path}); !checked)
       return checked;
   Result<MeshInput> input = readMeshInput(arguments.input, session);
   if (!input) return tl::unexpected(input.error());
@@ -219,7 +213,7 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
   Stopwatch working;
   const double diagonal = diagonalOf(file.mesh);
   Result<Outcome> outcome = arguments.method == "measured"
-                                ? measured(file.mesh, arguments, maxTriangles, session)
+                                ? measured(std::move(file.mesh), arguments, maxTriangles, session)
                                 : contracted(file.mesh, arguments, *maxTriangles, session);
   if (!outcome) {
     Error error = outcome.error();
@@ -238,12 +232,12 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
   for (const std::string& lost : outcome->lost)
     result.warnings.push_back(fmt::format("{} cannot carry {}: left out", arguments.method, lost));
   const Result<ConvertedMesh> converted = convertMesh(
-      std::move(result), output,
+      std::move(result), target->path,
       {.format = arguments.output.format, .existing = arguments.existing, .placing = arguments.placing},
       session.context());
   if (!converted) return tl::unexpected(converted.error());
-  warnOf(*converted, arguments.input, format->name, session);
-  std::string text = writtenText(output, *converted);
+  warnOf(*converted, arguments.input, target->format.name, session);
+  std::string text = writtenText(target->path, *converted);
   text += fmt::format("  of         {} triangles, by {} in {:.2f} s\n", grouped(facesBefore),
                       arguments.method, seconds);
   if (dropped.components > 0)
@@ -257,7 +251,7 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
     text += fmt::format("  steps      {}; costs computed {} times ({} queue)\n", grouped(outcome->steps),
                         grouped(outcome->evaluations), arguments.queue);
   session.say(text);
-  Json json = writtenJson(arguments.input, output, format->name, *converted);
+  Json json = writtenJson(arguments.input, target->path, target->format.name, *converted);
   json["operator"] = arguments.method;
   json["trianglesBefore"] = facesBefore;
   json["seconds"] = seconds;

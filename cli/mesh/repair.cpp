@@ -158,12 +158,8 @@ Json weldedJson(const Welded& welded) {
 }
 
 Status runRepair(const RepairArguments& arguments, Session& session) {
-  const Result<MeshFormat> format = meshFormatOf(arguments.output.path, arguments.output.format);
-  if (!format)
-    return failure(ErrorCode::usage, format.error().message,
-                   fmt::format("--output {}", arguments.output.path));
-  const std::string output = arguments.output.open(session);
-  if (Status checked = checkOutput("--output", output, {arguments.input}); !checked) return checked;
+  const Result<MeshTarget> target = meshTarget(arguments.output, arguments.input, session);
+  if (!target) return tl::unexpected(target.error());
   Result<MeshInput> input = readMeshInput(arguments.input, session);
   if (!input) return tl::unexpected(input.error());
   std::optional<Welded> welded;
@@ -190,18 +186,19 @@ Status runRepair(const RepairArguments& arguments, Session& session) {
                          session.context());
   if (!diagnosis) return tl::unexpected(diagnosis.error());
   const Result<ConvertedMesh> converted = convertMesh(
-      std::move(input->file), output,
+      std::move(input->file), target->path,
       {.format = arguments.output.format, .existing = arguments.existing, .placing = arguments.placing},
       session.context());
   if (!converted) return tl::unexpected(converted.error());
-  warnOf(*converted, arguments.input, format->name, session);
-  const MeshNumbers numbers{.first = format->extension == ".obj" || format->extension == ".2dm" ? 1u : 0u,
-                            .vertexOf = {},
-                            .faceOf = {}};
-  session.say(writtenText(output, *converted) + mendedText(*input, welded, repaired->counts) +
+  warnOf(*converted, arguments.input, target->format.name, session);
+  const MeshNumbers numbers{
+      .first = target->format.extension == ".obj" || target->format.extension == ".2dm" ? 1u : 0u,
+      .vertexOf = {},
+      .faceOf = {}};
+  session.say(writtenText(target->path, *converted) + mendedText(*input, welded, repaired->counts) +
               fmt::format("now: {}\n", verdictOf(*diagnosis)) + diagnosisText(*diagnosis, numbers));
   if (session.wantsJson()) {
-    Json json = writtenJson(arguments.input, output, format->name, *converted);
+    Json json = writtenJson(arguments.input, target->path, target->format.name, *converted);
     json["joinedAtSeams"] = input->joinedAtSeams;
     json["welded"] = welded ? weldedJson(*welded) : Json();
     json["mended"] = mendedJson(repaired->counts);

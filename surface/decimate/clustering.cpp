@@ -8,10 +8,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <queue>
 #include <tuple>
 
+#include "engine/base/box3.h"
 #include "surface/decimate/carried.h"
 #include "surface/decimate/contractions.h"
 #include "surface/decimate/quadric.h"
@@ -71,14 +71,12 @@ class Clustering {
     for (const auto& t : source_.triangles)
       for (const std::uint32_t v : t) isUsed[v] = 1;
     std::vector<std::uint32_t> all;
-    Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = -low;
+    Box3 box = Box3::empty();
     for (std::uint32_t v = 0; v < at.size(); ++v) {
       if (isUsed[v] == 0) continue;
       all.push_back(v);
-      low = {std::min(low.x, at[v].x), std::min(low.y, at[v].y), std::min(low.z, at[v].z)};
-      high = {std::max(high.x, at[v].x), std::max(high.y, at[v].y), std::max(high.z, at[v].z)};
+      box.include(at[v]);
     }
-    const double side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
     struct Part {
       std::vector<std::uint32_t> vertices;
       Vec3 low;
@@ -88,7 +86,7 @@ class Clustering {
     };
     std::vector<Part> parts;
     cells_.emplace_back();
-    parts.push_back({std::move(all), low, side, 0, 0});
+    parts.push_back({std::move(all), box.low, box.longestSide(), 0, 0});
     while (!parts.empty()) {
       Part part = std::move(parts.back());
       parts.pop_back();

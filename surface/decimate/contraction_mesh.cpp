@@ -41,22 +41,6 @@ void ContractionMesh::neighboursOf(std::uint32_t v, std::vector<std::uint32_t>& 
   neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
 }
 
-bool ContractionMesh::isOnBorder(std::uint32_t v) const {
-  // Each neighbour of an inner vertex is in two triangles.
-  std::vector<std::uint32_t> seen;
-  for (const std::uint32_t t : trianglesOf_[v])
-    for (const std::uint32_t w : triangles_[t])
-      if (w != v) seen.push_back(w);
-  std::ranges::sort(seen);
-  for (std::size_t i = 0; i < seen.size();) {
-    std::size_t end = i;
-    while (end < seen.size() && seen[end] == seen[i]) ++end;
-    if (end - i == 1) return true;
-    i = end;
-  }
-  return false;
-}
-
 bool ContractionMesh::keepsTopology(std::span<const std::uint32_t> vertices) const {
   // Common neighbours of two of the vertices are opposite to them in a triangle.
   std::vector<std::uint32_t> mine, other, common;
@@ -75,15 +59,10 @@ bool ContractionMesh::keepsTopology(std::span<const std::uint32_t> vertices) con
     }
   // The rim of the new vertex: by triangle that is left, from one neighbour to the next.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> rim;
-  for (const std::uint32_t v : vertices)
-    for (const std::uint32_t t : trianglesOf_[v]) {
-      const Corners& c = triangles_[t];
-      int members = 0;
-      for (const std::uint32_t w : c) members += holds(vertices, w) ? 1 : 0;
-      if (members > 1) continue;
-      const std::size_t at = static_cast<std::size_t>(std::ranges::find(c, v) - c.begin());
-      rim.emplace_back(c[(at + 1) % 3], c[(at + 2) % 3]);
-    }
+  forLeft(vertices, [&](std::uint32_t t, std::size_t at) {
+    const Corners& c = triangles_[t];
+    rim.emplace_back(c[(at + 1) % 3], c[(at + 2) % 3]);
+  });
   if (rim.empty()) return false;
   // Each neighbour begins at most one side of the rim and ends at most one; and the sides are one path or
   // cycle.
@@ -114,21 +93,14 @@ bool ContractionMesh::keepsTopology(std::span<const std::uint32_t> vertices) con
 }
 
 bool ContractionMesh::keepsTurns(std::span<const std::uint32_t> vertices, const Vec3& place) const {
-  for (const std::uint32_t v : vertices)
-    for (const std::uint32_t t : trianglesOf_[v]) {
-      int members = 0;
-      for (const std::uint32_t w : triangles_[t]) members += holds(vertices, w) ? 1 : 0;
-      if (members > 1) continue;
-      std::array<Vec3, 3> before, after;
-      for (std::size_t c = 0; c < 3; ++c) {
-        before[c] = positions_[triangles_[t][c]];
-        after[c] = triangles_[t][c] == v ? place : before[c];
-      }
-      const Vec3 was = cross(before[1] - before[0], before[2] - before[0]),
-                 is = cross(after[1] - after[0], after[2] - after[0]);
-      if (norm(was) > 0 && !(dot(was, is) > 0)) return false;
-    }
-  return true;
+  bool keepsTurns = true;
+  forLeft(vertices, [&](std::uint32_t t, std::size_t at) {
+    const Vec3 &before = positions_[triangles_[t][at]], &p = positions_[triangles_[t][(at + 1) % 3]],
+               &q = positions_[triangles_[t][(at + 2) % 3]];
+    const Vec3 was = cross(p - before, q - before), is = cross(p - place, q - place);
+    keepsTurns = keepsTurns && (!(norm(was) > 0) || dot(was, is) > 0);
+  });
+  return keepsTurns;
 }
 
 void ContractionMesh::remove(std::uint32_t t) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -23,8 +24,21 @@ class ContractionMesh {
   std::span<const std::uint32_t> trianglesOf(std::uint32_t v) const { return trianglesOf_[v]; }
   /// The vertices that have an edge to v, rising.
   void neighboursOf(std::uint32_t v, std::vector<std::uint32_t>& neighbours) const;
-  /// Whether an edge at v has one triangle.
-  bool isOnBorder(std::uint32_t v) const;
+  /// Calls visit(triangle, corner) for each triangle that a contraction of some vertices leaves: those with
+  /// one of them, at this corner.
+  template <class Visit>
+  void forLeft(std::span<const std::uint32_t> vertices, const Visit& visit) const {
+    for (const std::uint32_t v : vertices)
+      for (const std::uint32_t t : trianglesOf_[v]) {
+        std::size_t members = 0, at = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+          if (std::ranges::find(vertices, triangles_[t][c]) == vertices.end()) continue;
+          ++members;
+          at = c;
+        }
+        if (members == 1) visit(t, at);
+      }
+  }
 
   /// Whether the contraction of some vertices leaves a surface of the same topology: every two of them have a
   /// triangle in common with each common neighbour, edges have at most two triangles that turn alike, no two

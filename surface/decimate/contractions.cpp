@@ -17,6 +17,7 @@
 #include <queue>
 #include <tuple>
 
+#include "engine/base/box3.h"
 #include "surface/decimate/contraction_mesh.h"
 #include "surface/decimate/corner_attributes.h"
 #include "surface/decimate/crossing_guard.h"
@@ -176,18 +177,15 @@ class Contractions {
   void addPairs() {
     const auto& at = source_.positions;
     if (at.empty()) return;
-    Vec3 low = at[0], high = low;
-    for (const Vec3& p : at) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    const double reach = kPairDistance * norm(high - low);
+    Box3 box = Box3::empty();
+    for (const Vec3& p : at) box.include(p);
+    const double reach = kPairDistance * box.diagonal();
     if (!(reach > 0)) return;
     using Cell = std::array<std::int64_t, 3>;
     const auto cellOf = [&](const Vec3& p) {
-      return Cell{static_cast<std::int64_t>((p.x - low.x) / reach),
-                  static_cast<std::int64_t>((p.y - low.y) / reach),
-                  static_cast<std::int64_t>((p.z - low.z) / reach)};
+      return Cell{static_cast<std::int64_t>((p.x - box.low.x) / reach),
+                  static_cast<std::int64_t>((p.y - box.low.y) / reach),
+                  static_cast<std::int64_t>((p.z - box.low.z) / reach)};
     };
     std::map<Cell, std::vector<std::uint32_t>> cells;
     for (std::uint32_t v = 0; v < at.size(); ++v)

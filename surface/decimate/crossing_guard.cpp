@@ -7,14 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "surface/topology/crossing.h"
-
 namespace arete {
 namespace {
-
-bool holds(std::span<const std::uint32_t> vertices, std::uint32_t v) {
-  return std::ranges::find(vertices, v) != vertices.end();
-}
 
 bool isThin(const PlacedTriangle& t) {
   const Vec3 n = arete::cross(t.places[1] - t.places[0], t.places[2] - t.places[0]);
@@ -37,15 +31,19 @@ CrossingGuard::CrossingGuard(const ContractionMesh& mesh) : mesh_(mesh) {
     if (mesh.isThere(t)) add(t);
 }
 
-CrossingGuard::Box CrossingGuard::boxOf(std::uint32_t t) const {
+PlacedTriangle CrossingGuard::placed(std::uint32_t t) const {
   const auto& [i, j, k] = mesh_.corners(t);
-  const Vec3 &a = mesh_.position(i), &b = mesh_.position(j), &c = mesh_.position(k);
-  return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
-          {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
+  return {mesh_.corners(t), {mesh_.position(i), mesh_.position(j), mesh_.position(k)}};
 }
 
-int CrossingGuard::levelOf(const Box& box) {
-  const double side = std::max({box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z});
+Box3 CrossingGuard::boxOf(std::uint32_t t) const {
+  Box3 box = Box3::empty();
+  for (const std::uint32_t v : mesh_.corners(t)) box.include(mesh_.position(v));
+  return box;
+}
+
+int CrossingGuard::levelOf(const Box3& box) {
+  const double side = box.longestSide();
   return side > 0 ? std::max(std::ilogb(side) + 1, -1000) : -1000;
 }
 
@@ -57,7 +55,7 @@ CrossingGuard::Cell CrossingGuard::cellOf(const Vec3& p, int level) {
 }
 
 void CrossingGuard::add(std::uint32_t t) {
-  const Box box = boxOf(t);
+  const Box3 box = boxOf(t);
   const int level = levelOf(box);
   const Cell low = cellOf(box.low, level), high = cellOf(box.high, level);
   Grid& grid = grids_[level];
@@ -74,7 +72,7 @@ void CrossingGuard::moved(std::uint32_t vertex) {
 }
 
 template <class Visit>
-bool CrossingGuard::forNear(const Box& box, const Visit& visit) const {
+bool CrossingGuard::forNear(const Box3& box, const Visit& visit) const {
   for (const auto& [level, grid] : grids_) {
     const Cell low = cellOf(box.low, level), high = cellOf(box.high, level);
     double cells = 1;
@@ -104,28 +102,19 @@ bool CrossingGuard::forNear(const Box& box, const Visit& visit) const {
 bool CrossingGuard::keepsApart(std::span<const std::uint32_t> vertices, const Vec3& place) const {
   // Those that are left at the vertices, as they are and as they would be.
   struct Moved {
-    std::uint32_t triangle;
     PlacedTriangle before, after;
   };
   std::vector<Moved> moved;
   std::vector<std::uint32_t> around;
   for (const std::uint32_t v : vertices)
-    for (const std::uint32_t t : mesh_.trianglesOf(v)) {
-      around.push_back(t);
-      const auto& corners = mesh_.corners(t);
-      int members = 0;
-      for (const std::uint32_t w : corners) members += holds(vertices, w) ? 1 : 0;
-      if (members > 1) continue;
-      Moved one{t, {}, {}};
-      for (std::size_t c = 0; c < 3; ++c) {
-        one.before.vertices[c] = corners[c];
-        one.before.places[c] = mesh_.position(corners[c]);
-        const bool isIt = corners[c] == v;
-        one.after.vertices[c] = isIt ? vertices[0] : corners[c];
-        one.after.places[c] = isIt ? place : one.before.places[c];
-      }
-      moved.push_back(one);
-    }
+    around.insert(around.end(), mesh_.trianglesOf(v).begin(), mesh_.trianglesOf(v).end());
+  mesh_.forLeft(vertices, [&](std::uint32_t t, std::size_t at) {
+    const PlacedTriangle before = placed(t);
+    PlacedTriangle after = before;
+    after.vertices[at] = vertices[0];
+    after.places[at] = place;
+    moved.push_back({before, after});
+  });
   for (std::size_t i = 0; i < moved.size(); ++i) {
     if (isThin(moved[i].after)) return false;
     for (std::size_t j = i + 1; j < moved.size(); ++j)
@@ -134,19 +123,12 @@ bool CrossingGuard::keepsApart(std::span<const std::uint32_t> vertices, const Ve
         return false;
   }
   for (const Moved& one : moved) {
-    Box box{one.after.places[0], one.after.places[0]};
-    for (const Vec3& p : one.after.places) {
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-    }
+    Box3 box = Box3::empty();
+    for (const Vec3& p : one.after.places) box.include(p);
     const bool isApart = forNear(box, [&](std::uint32_t t) {
       if (!mesh_.isThere(t) || std::ranges::find(around, t) != around.end()) return true;
-      const Box other = boxOf(t);
-      if (other.low.x > box.high.x || other.high.x < box.low.x || other.low.y > box.high.y ||
-          other.high.y < box.low.y || other.low.z > box.high.z || other.high.z < box.low.z)
-        return true;
-      PlacedTriangle there{mesh_.corners(t), {}};
-      for (std::size_t c = 0; c < 3; ++c) there.places[c] = mesh_.position(there.vertices[c]);
+      if (!boxOf(t).meets(box)) return true;
+      const PlacedTriangle there = placed(t);
       if (isThin(there) || !cross(one.after, there)) return true;
       return !isThin(one.before) && cross(one.before, there);
     });

@@ -7,7 +7,9 @@
 #include <unordered_map>
 #include <vector>
 
+#include "engine/base/box3.h"
 #include "surface/decimate/contraction_mesh.h"
+#include "surface/topology/crossing.h"
 
 namespace arete {
 
@@ -23,9 +25,6 @@ class CrossingGuard {
   void moved(std::uint32_t vertex);
 
  private:
-  struct Box {
-    Vec3 low, high;
-  };
   using Cell = std::array<std::int64_t, 3>;
   struct CellHash {
     std::size_t operator()(const Cell& c) const;
@@ -35,14 +34,15 @@ class CrossingGuard {
     std::size_t entries = 0;
   };
 
-  Box boxOf(std::uint32_t t) const;
-  static int levelOf(const Box& box);
+  PlacedTriangle placed(std::uint32_t t) const;
+  Box3 boxOf(std::uint32_t t) const;
+  static int levelOf(const Box3& box);
   static Cell cellOf(const Vec3& p, int level);
   void add(std::uint32_t t);
   /// Calls visit(triangle) for those whose cells meet a box, some of them more than once. Visiting ends when
   /// it returns false.
   template <class Visit>
-  bool forNear(const Box& box, const Visit& visit) const;
+  bool forNear(const Box3& box, const Visit& visit) const;
 
   const ContractionMesh& mesh_;
   std::unordered_map<int, Grid> grids_;  ///< by level: cells are 2^level wide

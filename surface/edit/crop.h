@@ -2,21 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <vector>
 
+#include "engine/base/box3.h"
 #include "engine/base/result.h"
-#include "engine/base/vec.h"
 #include "engine/parallel/run_context.h"
 #include "surface/model/surface_mesh.h"
 
 namespace arete {
-
-/// A box of space, faces included. Its bounds may be infinite.
-struct Box3 {
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Vec3 low{-kInfinity, -kInfinity, -kInfinity}, high{kInfinity, kInfinity, kInfinity};
-};
 
 struct CropOptions {
   /// Triangles that touch the box stay whole; else they are cut at its faces.

@@ -1,35 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface/edit/small_components.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <array>
 #include <utility>
 
+#include "engine/base/box3.h"
 #include "surface/model/transfer.h"
 #include "surface/topology/components.h"
 #include "surface/topology/edges.h"
 
 namespace arete {
-namespace {
-
-struct Box {
-  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-
-  void include(const Vec3& p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  double diagonal() const { return std::hypot(high.x - low.x, high.y - low.y, high.z - low.z); }
-};
-
-}  // namespace
-
 Result<SmallComponents> withoutSmallComponents(const SurfaceMesh& source, double diagonal) {
   constexpr std::uint32_t kNone = MeshAttributes::kNone;
   const MeshEdges edges(source.triangles, source.positions.size());
   const MeshComponents components(edges);
-  std::vector<Box> boxes(components.count);
+  std::vector<Box3> boxes(components.count, Box3::empty());
   for (std::uint32_t t = 0; t < source.triangles.size(); ++t)
     for (const std::uint32_t v : source.triangles[t])
       boxes[components.componentOf[t]].include(source.positions[v]);
@@ -63,7 +48,7 @@ Result<SmallComponents> withoutSmallComponents(const SurfaceMesh& source, double
 
 double diagonalOf(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) return 0;
-  Box box;
+  Box3 box = Box3::empty();
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t v : triangle) box.include(mesh.positions[v]);
   return box.diagonal();

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/box3.h"
 #include "engine/parallel/with_threads.h"
 #include "surface/fit/least_squares.h"
 #include "surface/fit/nearest_on_front.h"
@@ -110,13 +111,10 @@ class Fitting {
  private:
   void enterFrame() {
     source_ = positions_;
-    Vec3 low = positions_.front(), high = low;
-    for (const Vec3& p : positions_) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    middle_ = (low + high) / 2.0;
-    const double side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    Box3 box = Box3::empty();
+    for (const Vec3& p : positions_) box.include(p);
+    middle_ = (box.low + box.high) / 2.0;
+    const double side = box.longestSide();
     scale_ = side > 0 ? std::ldexp(1.0, -std::ilogb(side)) : 1;
     for (Vec3& p : positions_) p = (p - middle_) * scale_;
     framed_ = positions_;

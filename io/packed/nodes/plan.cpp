@@ -25,6 +25,7 @@
 #include <map>
 #include <tuple>
 
+#include "engine/base/box3.h"
 #include "engine/base/morton.h"
 #include "engine/memory/uninitialized_vector.h"
 
@@ -40,18 +41,8 @@ constexpr double kReachesPerTile = 8;
 constexpr int kClassStep = 4, kLevelsPerClass = 2;
 constexpr int kMostClasses = 12;
 
-/// A box around places; the third coordinate of those of a heightfield is 0.
-struct Box {
-  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-
-  void include(const Vec3& p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  double width() const { return std::max({high.x - low.x, high.y - low.y, high.z - low.z}); }
-};
-
-/// The place of a vertex, by which nodes are put into packets.
+/// The place of a vertex, by which nodes are put into packets. The third coordinate of one of a heightfield
+/// is 0.
 Vec3 placeOf(const VertexArrays& vertices, VertexId v) {
   if (vertices.isSurface()) return vertices.place(v);
   const Vec2 p = vertices.planPosition(v);
@@ -141,10 +132,10 @@ Tiling tilingOf(const MultiTriangulation& mt, const MtKind& kind) {
   } else {
     const std::uint32_t count = mt.vertices().size();
     if (count == 0) return tiling;
-    Box box;
+    Box3 box = Box3::empty();
     for (std::uint32_t v = 0; v < count; ++v) box.include(placeOf(mt.vertices(), VertexId(v)));
     tiling.origin = box.low;
-    width = box.width();
+    width = box.longestSide();
     const double area = kind.isSurface ? finestArea(mt) : (box.high.x - box.low.x) * (box.high.y - box.low.y);
     const double fit = std::sqrt(area / static_cast<double>(count)) * kTileSamples;
     // Long thin clouds: never more than a million tiles along a side.
@@ -168,10 +159,10 @@ Descent ownOf(const MultiTriangulation& mt, NodeId n, const Tiling& tiling) {
   const MtArrays& a = mt.arrays();
   Descent own;
   for (const std::uint32_t t : mt.floor(n)) own.error = std::max(own.error, a.error[t]);
-  Box box;
+  Box3 box = Box3::empty();
   box.include(placeOf(a.vertices, mt.apex(n)));
   for (const std::uint32_t v : mt.link(n)) box.include(placeOf(a.vertices, VertexId(v)));
-  const double width = box.width();
+  const double width = box.longestSide();
   double most = tiling.size / kReachesPerTile;
   for (; own.reach < tiling.classes && width > most; most *= kClassStep) ++own.reach;
   return own;
@@ -324,7 +315,7 @@ void describe(const MultiTriangulation& mt, std::uint32_t c, std::span<const std
   const std::uint32_t roots = mt.rootTriangleCount();
   Packet& packet = plan.directory.packets[c];
   if (c > 0) packet.dependsOn.push_back(0);
-  Box box;
+  Box3 box = Box3::empty();
   std::array<Run, MultiTriangulation::kBands> runs;
   for (const std::uint32_t n : nodes) {
     plan.ownParents[n] = 0;

@@ -43,7 +43,7 @@ class Coordinates {
   /// @return below `classes`
   unsigned classOf(double distance, double predicted, unsigned classes) const {
     if (!(distance > 0)) return 0;
-    // Of all but the finest doubles; the coarser ones share a class.
+    // Doubles have more octaves than there are classes; the lowest ones share class 0.
     constexpr int kFloatBits = 23, kDoubleBits = 52, kSharedBits = 18;
     int octaves = std::ilogb(distance);
     if (step_ > 0) {

@@ -11,6 +11,8 @@
 #include <memory>
 #include <vector>
 
+#include "engine/base/box3.h"
+
 namespace arete::packed {
 namespace {
 
@@ -103,22 +105,12 @@ Result<RoundedSurface> roundedSurface(const MultiTriangulation& mt, int position
   if (positionBits < kLeastPositionBits || positionBits > kMostPositionBits)
     return failure(ErrorCode::invalidData, fmt::format("positions have {} to {} bits, not {}",
                                                        kLeastPositionBits, kMostPositionBits, positionBits));
-  std::array<double, 3> low, high;
-  low.fill(HUGE_VAL);
-  high.fill(-HUGE_VAL);
-  for (std::uint32_t v = 0; v < vertices.size(); ++v) {
-    const Vec3 p = vertices.place(VertexId(v));
-    const std::array<double, 3> at = {p.x, p.y, p.z};
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], at[k]);
-      high[k] = std::max(high[k], at[k]);
-    }
-  }
-  double side = 0, farthest = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    side = std::max(side, high[k] - low[k]);
-    farthest = std::max({farthest, std::fabs(low[k]), std::fabs(high[k])});
-  }
+  Box3 box = Box3::empty();
+  for (std::uint32_t v = 0; v < vertices.size(); ++v) box.include(vertices.place(VertexId(v)));
+  const double side = box.longestSide();
+  double farthest = 0;
+  for (const Vec3& p : {box.low, box.high})
+    farthest = std::max({farthest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
   int exponent = 0;
   // Rounding each end to a multiple can add one step.
   const double fraction = std::frexp(side / (std::ldexp(1.0, positionBits) - 2), &exponent);

@@ -45,8 +45,12 @@ TEST(ContractionMesh, ContractsEdgesAndTrianglesOfASheet) {
   EXPECT_EQ(mesh.triangleCount(), before - 2);
   EXPECT_TRUE(mesh.trianglesOf(b).empty());
   EXPECT_EQ(mesh.position(a), (Vec3{2.5, 2, 0}));
-  EXPECT_FALSE(mesh.isOnBorder(a));
-  EXPECT_TRUE(mesh.isOnBorder(inner(0, 3)));
+  std::size_t left = 0;
+  mesh.forLeft(list({a, inner(2, 3)}), [&](std::uint32_t t, std::size_t corner) {
+    EXPECT_TRUE(mesh.corners(t)[corner] == a || mesh.corners(t)[corner] == inner(2, 3));
+    ++left;
+  });
+  EXPECT_EQ(left, mesh.trianglesOf(a).size() + mesh.trianglesOf(inner(2, 3)).size() - 4);
 }
 
 TEST(ContractionMesh, LeavesOutTrianglesThatWouldBeThereTwice) {
