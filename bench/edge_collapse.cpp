@@ -4,6 +4,7 @@
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_placement.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
@@ -66,6 +67,11 @@ Result<Collapsed> collapseEdges(const TriangleMesh& given, std::uint64_t triangl
     sms::edge_collapse(mesh, stop,
                        CGAL::parameters::get_cost(sms::LindstromTurk_cost<Mesh>())
                            .get_placement(sms::LindstromTurk_placement<Mesh>()));
+  } else if (method == EdgeCollapse::lindstromTurkNormals) {
+    using Placement = sms::LindstromTurk_placement<Mesh>;
+    sms::edge_collapse(mesh, stop,
+                       CGAL::parameters::get_cost(sms::LindstromTurk_cost<Mesh>())
+                           .get_placement(sms::Bounded_normal_change_placement<Placement>(Placement())));
   } else {
     sms::edge_collapse(
         mesh, stop, CGAL::parameters::get_cost(sms::LindstromTurk_cost<Mesh>()).get_placement(BetterEnd()));

@@ -10,9 +10,10 @@ namespace arete::bench {
 
 /// The rivals of stage "surface": CGAL's edge collapse, one thread.
 enum class EdgeCollapse {
-  lindstromTurk,      ///< memoryless, vertices placed freely
-  lindstromTurkEnds,  ///< the same cost, vertices placed at the better end
-  planeQuadrics,      ///< Garland and Heckbert, vertices placed freely
+  lindstromTurk,         ///< memoryless, vertices placed freely
+  lindstromTurkNormals,  ///< the same, without steps that turn a triangle over
+  lindstromTurkEnds,     ///< the same cost, vertices placed at the better end
+  planeQuadrics,         ///< Garland and Heckbert, vertices placed freely
 };
 
 struct Collapsed {

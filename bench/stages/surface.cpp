@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Surfaces beside CGAL's edge collapse: how good cuts of as many triangles are, both ways and in % of the
-// diagonal, and how long the build of all levels takes beside one collapse to a tenth. What the rival
+// diagonal, as they are and displaced, and how long the build of all levels takes beside one collapse to a
+// tenth. The methods of `mesh decimate` that the rival has are beside it one by one. What the rival
 // misses by 5 % of the count, or flings away by more than 10 % of the diagonal, is no figure but is named.
 // Memory is what a generated rock of two million vertices takes more than one of half a million.
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -24,6 +26,9 @@
 #include "io/amt/surface_file.h"
 #include "io/exchange/mesh_formats.h"
 #include "surface/build/build.h"
+#include "surface/decimate/decimate.h"
+#include "surface/displacement/displaced_places.h"
+#include "surface/displacement/find_displacement.h"
 #include "surface/front/front.h"
 #include "terrain/measure/mesh_distance.h"
 
@@ -38,9 +43,9 @@ SurfaceMesh shapeOf(const SurfaceMesh& mesh) {
   return SurfaceMesh(static_cast<const TriangleMesh&>(mesh));
 }
 
-/// Mean, root mean square and largest distance, in % of the diagonal.
+/// Mean, root mean square and largest distance, in % of the diagonal; of a rival also its time.
 struct Quality {
-  double mean = 0, rms = 0, largest = 0;
+  double mean = 0, rms = 0, largest = 0, seconds = 0;
 };
 
 Result<Quality> qualityOf(const TriangleMesh& mesh, const TriangleMesh& source) {
@@ -49,7 +54,7 @@ Result<Quality> qualityOf(const TriangleMesh& mesh, const TriangleMesh& source) 
   const auto report = measureDistance(mesh, source, options);
   if (!report) return tl::unexpected(report.error());
   const double percent = 100 / report->second.diagonal;
-  return Quality{percent * report->mean(), percent * report->rms(), percent * report->hausdorff()};
+  return Quality{percent * report->mean(), percent * report->rms(), percent * report->hausdorff(), 0};
 }
 
 class SurfaceRun {
@@ -68,6 +73,11 @@ class SurfaceRun {
     const double seconds = medianSeconds(repetition, [&] { return buildSurface(shapeOf(mesh)); });
     source_ = finestSurfaceOf(*model).mesh.shape();
     model_ = std::move(*model);
+    const double displacing = medianSeconds(repetition, [&] { return findDisplacement(model_); });
+    Result<SurfaceDisplacement> displacement = findDisplacement(model_);
+    if (!displacement) return tl::unexpected(displacement.error());
+    model_.displacement = std::move(*displacement);
+    add("build", "ratio of time of the displacement to the build", displacing / seconds, "", Better::lower);
     add("build", "faces", double(source_.triangles.size()), "", Better::neither);
     add("build", "time, all threads", seconds, "s", Better::lower);
     const auto rival = collapseEdges(source_, source_.triangles.size() / 10, EdgeCollapse::lindstromTurk);
@@ -106,17 +116,80 @@ class SurfaceRun {
             Better::lower);
       else
         add(variant, "plane quadrics left out", 1, "", Better::neither);
+      if (const Status compared = compareDisplaced(variant, *cut, wanted, quadrics); !compared)
+        return compared;
+    }
+    return {};
+  }
+
+  /// The methods of `mesh decimate` that CGAL has, each beside it.
+  Status compareMethods() {
+    for (const double share : kShares) {
+      const auto wanted =
+          static_cast<std::uint32_t>(std::lround(share / 100 * double(source_.triangles.size())));
+      for (const auto& [own, rival, name] :
+           {std::tuple{DecimateOperator::edge, EdgeCollapse::planeQuadrics, "qem"},
+            std::tuple{DecimateOperator::lindstromTurk, EdgeCollapse::lindstromTurkNormals,
+                       "lindstrom-turk"}}) {
+        const std::string variant = fmt::format("{}, {} %", name, share);
+        const Stopwatch watch;
+        const auto result = decimate(SurfaceMesh(source_), {.method = own, .maxTriangles = wanted});
+        const double seconds = watch.seconds();
+        if (!result) return tl::unexpected(result.error());
+        const auto theirs = rivalOf(rival, wanted);
+        if (!theirs || double(result->mesh.triangles.size()) > 1.05 * wanted) {
+          add(variant, "left out", 1, "", Better::neither);
+          continue;
+        }
+        const auto quality = qualityOf(result->mesh, source_);
+        if (!quality) return tl::unexpected(quality.error());
+        add(variant, "ratio of mean to CGAL's", quality->mean / theirs->mean, "", Better::lower);
+        add(variant, "ratio of RMS to CGAL's", quality->rms / theirs->rms, "", Better::lower);
+        add(variant, "ratio of largest to CGAL's", quality->largest / theirs->largest, "", Better::lower);
+        add(variant, "ratio of time to CGAL's", seconds / theirs->seconds, "", Better::lower);
+      }
     }
     return {};
   }
 
  private:
+  /// Beside Lindstrom-Turk with vertices placed freely, with or without its check of normals.
+  Status compareDisplaced(const std::string& variant, const Cut& cut, std::uint32_t wanted,
+                          const std::optional<Quality>& quadrics) {
+    TriangleMesh drawn = surfaceOf(model_, cut).mesh.shape();
+    drawn.positions =
+        displacedPlaces(model_.mt, model_.displacement, cut, promisedErrors(model_.mt, cut, nullptr));
+    const auto own = qualityOf(drawn, source_);
+    if (!own) return tl::unexpected(own.error());
+    add(variant, "displaced, mean", own->mean, "%", Better::lower);
+    add(variant, "displaced, RMS", own->rms, "%", Better::lower);
+    add(variant, "displaced, largest", own->largest, "%", Better::lower);
+    const auto free = rivalOf(EdgeCollapse::lindstromTurk, wanted),
+               checked = rivalOf(EdgeCollapse::lindstromTurkNormals, wanted);
+    if (free || checked) {
+      const auto least = [&](double Quality::*of) {
+        return std::min(free ? (*free).*of : (*checked).*of, checked ? (*checked).*of : (*free).*of);
+      };
+      add(variant, "displaced, ratio of mean to Lindstrom-Turk", own->mean / least(&Quality::mean), "",
+          Better::lower);
+      add(variant, "displaced, ratio of RMS to Lindstrom-Turk", own->rms / least(&Quality::rms), "",
+          Better::lower);
+    } else {
+      add(variant, "Lindstrom-Turk left out", 1, "", Better::neither);
+    }
+    if (quadrics)
+      add(variant, "displaced, ratio of largest to plane quadrics", own->largest / quadrics->largest, "",
+          Better::lower);
+    return {};
+  }
+
   /// Nothing where the rival misses the count or flings a vertex away.
   std::optional<Quality> rivalOf(EdgeCollapse method, std::uint32_t wanted) const {
     const auto collapsed = collapseEdges(source_, wanted, method);
     if (!collapsed || double(collapsed->mesh.triangles.size()) > 1.05 * wanted) return std::nullopt;
-    const auto quality = qualityOf(collapsed->mesh, source_);
+    auto quality = qualityOf(collapsed->mesh, source_);
     if (!quality || quality->largest > 10) return std::nullopt;
+    quality->seconds = collapsed->seconds;
     return *quality;
   }
 
@@ -170,6 +243,7 @@ Result<Figures> surfaceStage(const MeshSource& source, const Plan& plan) {
   if (const Status built = run.build(file->mesh, plan.repetition); !built)
     return tl::unexpected(built.error());
   if (const Status compared = run.compare(); !compared) return tl::unexpected(compared.error());
+  if (const Status compared = run.compareMethods(); !compared) return tl::unexpected(compared.error());
   return figures;
 }
 

@@ -47,7 +47,7 @@ struct BuildArguments {
   double creaseAngleDegrees = -1;  // < 0: not stated
   double minimumAspect = -1;       // < 0: not stated
   std::string kind;                // --as; empty: the file says
-  bool keepsBorders = false;
+  bool keepsBorders = false, isDisplaced = false;
   const CLI::App* command = nullptr;
 };
 
@@ -198,7 +198,7 @@ Status runSurfaceBuild(const BuildArguments& arguments, MeshInput input, double 
                        Session& session) {
   if (const std::string other =
           otherOption(*arguments.command, {"output", "as", "ratio", "max-degree", "keep-borders", "packed",
-                                           "position-bits", "json", "quiet", "threads"});
+                                           "position-bits", "displacement", "json", "quiet", "threads"});
       !other.empty())
     return failure(ErrorCode::usage,
                    fmt::format("is for terrain, and {} is a surface (--as terrain takes its vertices as "
@@ -209,6 +209,7 @@ Status runSurfaceBuild(const BuildArguments& arguments, MeshInput input, double 
   surface.options.keepsBorders = arguments.keepsBorders;
   surface.isPacked = arguments.isPacked;
   surface.positionBits = arguments.positionBits;
+  surface.isDisplaced = arguments.isDisplaced;
   if (surface.positionBits != 0 && !surface.isPacked)
     return failure(ErrorCode::usage, "requires --packed", "--position-bits");
   surface.options.thresholdRatio = arguments.options.thresholdRatio.value_or(surface.options.thresholdRatio);
@@ -233,12 +234,12 @@ Status runBuild(BuildArguments& arguments, Session& session) {
     if (input && !input->file.mesh.triangles.empty())
       return runSurfaceBuild(arguments, std::move(*input), reading.seconds(), session);
   }
-  if (arguments.keepsBorders)
-    return failure(ErrorCode::usage, fmt::format("is for surfaces, and {} is terrain", arguments.dem.path),
-                   "--keep-borders");
-  if (arguments.positionBits != 0)
-    return failure(ErrorCode::usage, fmt::format("is for surfaces, and {} is terrain", arguments.dem.path),
-                   "--position-bits");
+  for (const auto& [option, isStated] : {std::pair{"--keep-borders", arguments.keepsBorders},
+                                         std::pair{"--position-bits", arguments.positionBits != 0},
+                                         std::pair{"--displacement", arguments.isDisplaced}})
+    if (isStated)
+      return failure(ErrorCode::usage, fmt::format("is for surfaces, and {} is terrain", arguments.dem.path),
+                     option);
   Seconds seconds;
   Stopwatch reading;
   Result<DemRead> dem = readSource(arguments.dem, arguments.kind, session);
@@ -353,6 +354,10 @@ void addBuildCommand(CLI::App& app, Session& session) {
       ->add_flag("--keep-borders", arguments->keepsBorders,
                  "Of a surface: all border vertices, so that parts meet at every tolerance")
       ->group(keeping);
+  command->add_flag(
+      "--displacement", arguments->isDisplaced,
+      "Of a surface: also find where coarse cuts are drawn nearer to it, at the same errors; they\n"
+      "are where it is there (8 bytes a vertex more, packed 4)");
   arguments->dem.addTo(*command);
   arguments->command = command;
 }

@@ -53,7 +53,7 @@ struct ExtractArguments {
   CriterionArguments criterion;
   std::string certificate, errorRaster, map;
   std::string dropParts;
-  bool isBothWays = false;
+  bool isBothWays = false, isUndisplaced = false;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   CLI::Option* certificateOption = nullptr;
 };
@@ -254,6 +254,7 @@ Status runSurfaceExtract(const ExtractArguments& arguments, Session& session) {
                          .map = arguments.map,
                          .dropParts = arguments.dropParts,
                          .isBothWays = arguments.isBothWays,
+                         .isUndisplaced = arguments.isUndisplaced,
                          .existing = arguments.existing},
                         session);
 }
@@ -264,7 +265,8 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   if (isSurface && *isSurface) return runSurfaceExtract(arguments, session);
   for (const auto& [option, isStated] :
        {std::pair{"--map", !arguments.map.empty()}, std::pair{"--drop-parts", !arguments.dropParts.empty()},
-        std::pair{"--both-ways", arguments.isBothWays}})
+        std::pair{"--both-ways", arguments.isBothWays},
+        std::pair{"--no-displacement", arguments.isUndisplaced}})
     if (isStated) return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", option);
   if (arguments.criterion.isForSurfaces())
     return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", "--fit rms");
@@ -356,6 +358,9 @@ void addExtractCommand(CLI::App& app, Session& session) {
       ->type_name("D");
   command->add_flag("--both-ways", arguments->isBothWays,
                     "Of a surface: also measure how far the result is from the source");
+  command->add_flag(
+      "--no-displacement", arguments->isUndisplaced,
+      "Of a surface that was built with --displacement: vertices stay where they are in the source");
 }
 
 }  // namespace arete

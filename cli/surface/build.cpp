@@ -15,12 +15,13 @@
 #include "io/crs/names.h"
 #include "io/mesh/pictures.h"
 #include "surface/build/build.h"
+#include "surface/displacement/find_displacement.h"
 
 namespace arete {
 namespace {
 
 struct Seconds {
-  double read = 0, build = 0, write = 0;
+  double read = 0, build = 0, displace = 0, write = 0;
 };
 
 void embedPictures(MeshFile& file, const Session& session, const std::string& path) {
@@ -79,9 +80,11 @@ void report(const SurfaceBuildArguments& arguments, const MeshInput& input, cons
   if (model.mending.dropsFlatNormals)
     text += "  left out   normals of corners: they are those of flat faces\n";
   text += fmt::format(
-      "  built in   {:.2f} s (read {:.2f} s, write {:.2f} s)\n"
+      "  built in   {:.2f} s (read {:.2f} s, {}write {:.2f} s)\n"
       "  size       {}, {:.0f} bytes a vertex\n",
-      seconds.build, seconds.read, seconds.write, byteCount(bytes), perVertex);
+      seconds.build, seconds.read,
+      model.displacement.isEmpty() ? "" : fmt::format("displacement {:.2f} s, ", seconds.displace),
+      seconds.write, byteCount(bytes), perVertex);
   session.say(text);
   const SurfaceMending& m = model.mending;
   session.answer({{"file", arguments.output},
@@ -104,7 +107,11 @@ void report(const SurfaceBuildArguments& arguments, const MeshInput& input, cons
                     {"addedVertices", m.addedVertices},
                     {"unusedVertices", m.unusedVertices},
                     {"dropsFlatNormals", m.dropsFlatNormals}}},
-                  {"seconds", {{"read", seconds.read}, {"build", seconds.build}, {"write", seconds.write}}},
+                  {"seconds",
+                   {{"read", seconds.read},
+                    {"build", seconds.build},
+                    {"displace", seconds.displace},
+                    {"write", seconds.write}}},
                   {"bytes", bytes},
                   {"bytesPerVertex", perVertex}});
 }
@@ -126,6 +133,13 @@ Status buildSurfaceFile(const SurfaceBuildArguments& arguments, MeshInput input,
     return tl::unexpected(std::move(error));
   }
   seconds.build = building.seconds();
+  if (arguments.isDisplaced) {
+    Stopwatch displacing;
+    Result<SurfaceDisplacement> displacement = findDisplacement(*model, session.context());
+    if (!displacement) return tl::unexpected(displacement.error());
+    model->displacement = std::move(*displacement);
+    seconds.displace = displacing.seconds();
+  }
   model->source = std::filesystem::path(arguments.input).filename().string();
   model->crsWkt = file.crsWkt;
   model->verticalUnit = file.verticalUnit;

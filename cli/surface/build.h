@@ -15,6 +15,7 @@ struct SurfaceBuildArguments {
   SurfaceBuildOptions options;
   bool isPacked = false;
   int positionBits = 0;
+  bool isDisplaced = false;
 };
 
 /// `arete build` of a mesh with faces: builds, writes, reports. Errors: those of buildSurface() and

@@ -10,19 +10,22 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "cli/arguments/arguments.h"
-#include "cli/surface/criterion.h"
 #include "cli/mesh/fit_front.h"
 #include "cli/mesh/tolerance.h"
+#include "cli/surface/criterion.h"
+#include "engine/base/float_bounds.h"
 #include "engine/criteria/refine_order.h"
 #include "engine/cut/cut.h"
 #include "io/amt/surface_file.h"
 #include "io/exchange/mesh_formats.h"
 #include "io/file/file_writer.h"
 #include "surface/diagnosis/diagnosis.h"
+#include "surface/displacement/displaced_places.h"
 #include "surface/front/face_map.h"
 #include "surface/front/front.h"
 #include "surface/front/model_components.h"
@@ -105,20 +108,19 @@ std::string whyNotFewer(const SurfaceModel& model, const DroppedComponents* drop
 
 /// @param dropped components that need no triangles; null: none.
 Result<Cut> cutOf(const CriterionArguments::OfSurface& asked, const SurfaceModel& model,
-                  const Request& request, const DroppedComponents* dropped, const RunContext& context) {
-  auto criterion = surfaceCriterion(
-      asked, request.tolerance ? std::optional(request.tolerance->distance) : std::nullopt, model, context);
-  if (!criterion) return tl::unexpected(criterion.error());
+                  const Criterion& criterion, const DroppedComponents* dropped, const RunContext& context) {
   CutOptions options;
   options.method = asked.isSaturated ? CutMethod::saturated : CutMethod::minimal;
   options.maxTriangles = asked.maxTriangles;
   const std::uint32_t droppedTriangles = dropped ? dropped->rootTriangles : 0;
   if (options.maxTriangles) *options.maxTriangles += droppedTriangles;
-  if (dropped && !asked.isSaturated) criterion = std::make_unique<OfTheRest>(std::move(*criterion), *dropped);
+  std::optional<OfTheRest> ofTheRest;
+  if (dropped && !asked.isSaturated) ofTheRest.emplace(criterion, *dropped);
   const bool isEverywhere = asked.region.empty() && asked.camera.empty();
   if (asked.maxTriangles && isEverywhere && !asked.isSaturated)
     options.order = std::make_shared<LargestSquaresFirst>();
-  Result<Cut> cut = takeCut(model.mt, **criterion, options, context);
+  Result<Cut> cut =
+      takeCut(model.mt, ofTheRest ? static_cast<const Criterion&>(*ofTheRest) : criterion, options, context);
   const std::uint32_t least = model.mt.rootTriangleCount() - droppedTriangles;
   if (!cut && asked.maxTriangles && *asked.maxTriangles < least)
     return failure(ErrorCode::usage,
@@ -156,7 +158,11 @@ class Extraction {
 
   Status run(const Request& request) {
     const DroppedComponents* dropped = dropped_ ? &*dropped_ : nullptr;
-    const Result<Cut> whole = cutOf(arguments_.asked, model_, request, dropped, session_.context());
+    const auto criterion = surfaceCriterion(
+        arguments_.asked, request.tolerance ? std::optional(request.tolerance->distance) : std::nullopt,
+        model_, session_.context());
+    if (!criterion) return tl::unexpected(criterion.error());
+    const Result<Cut> whole = cutOf(arguments_.asked, model_, **criterion, dropped, session_.context());
     if (!whole) return tl::unexpected(whole.error());
     const CutOfTheRest rest =
         dropped ? withoutDropped(model_.mt, *whole, *dropped) : CutOfTheRest{*whole, {}};
@@ -169,6 +175,8 @@ class Extraction {
           request.tolerance ? std::optional(request.tolerance->distance) : std::nullopt, session_.context());
       if (!fitted) return tl::unexpected(fitted.error());
       fit = *fitted;
+    } else if (isDisplaced()) {
+      displace(cut, (*criterion)->bounded(), front);
     }
     const Result<std::uint64_t> crossings = crossingsOf(front.mesh, session_.context());
     if (!crossings) return tl::unexpected(crossings.error());
@@ -231,6 +239,15 @@ class Extraction {
     std::optional<FitOutcome> fit;
   };
 
+  bool isDisplaced() const { return !model_.displacement.isEmpty() && !arguments_.isUndisplaced; }
+
+  /// Moves the vertices, and states of each triangle what is certain of it then.
+  void displace(const Cut& cut, const BoundedCriterion* criterion, SurfaceFront& front) const {
+    const std::vector<double> promised = promisedErrors(model_.mt, cut, criterion);
+    front.mesh.positions = displacedPlaces(model_.mt, model_.displacement, cut, promised);
+    for (std::size_t t = 0; t < promised.size(); ++t) front.errors[t] = floatAtLeast(promised[t]);
+  }
+
   /// No point of a mesh is farther than this from another.
   Result<double> distanceFrom(const TriangleMesh& mesh, const TriangleMesh& other) const {
     const auto report = measureDistance(mesh, other, {}, session_.context());
@@ -272,6 +289,8 @@ class Extraction {
                           found.fit->part == 1
                               ? ""
                               : fmt::format("; {:.3g} of each move, to keep the tolerance", found.fit->part));
+    else if (isDisplaced())
+      text += "  displaced  to where the distances are smaller (--no-displacement: as in the source)\n";
     if (found.otherWay)
       text += fmt::format("  other way  no point of the result farther than {}\n",
                           withShare(*found.otherWay, model_.diagonal));
@@ -292,6 +311,7 @@ class Extraction {
                  {"error", error},
                  {"errorPercent", 100 * error / model_.diagonal},
                  {"complete", cut.isComplete},
+                 {"displaced", !found.fit && isDisplaced()},
                  {"selfIntersections", found.crossings},
                  {"lost", written.lost}};
     if (dropped_)

@@ -14,9 +14,10 @@ struct SurfaceExtractArguments {
   std::string model;
   std::string output, format;  ///< as MeshOutput; {} in the name becomes the tolerance
   CriterionArguments::OfSurface asked;
-  std::string map;          ///< --map; empty: none
-  std::string dropParts;    ///< --drop-parts; empty: none
-  bool isBothWays = false;  ///< the distance from the result to the source, too
+  std::string map;             ///< --map; empty: none
+  std::string dropParts;       ///< --drop-parts; empty: none
+  bool isBothWays = false;     ///< the distance from the result to the source, too
+  bool isUndisplaced = false;  ///< vertices of a displaced model stay where they are in the source
   ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
 

@@ -65,6 +65,7 @@ Status sayAboutSurface(const std::string& path, Session& session) {
                                 grouped(mt.triangleCount())));
   line("root", fmt::format("{} triangles, {} vertices, error at most {}", grouped(mt.rootTriangleCount()),
                            grouped(mt.rootVertexCount()), withShare(mt.largestError(), model->diagonal)));
+  if (!model->displacement.isEmpty()) line("displacement", "coarse cuts are drawn nearer to the source");
   line("levels", std::to_string(model->levels));
   line("attributes", fmt::format("{} of vertices, {} of corners, {} of faces", a.vertexAttributes.size(),
                                  a.wedgeAttributes.size(), a.triangleAttributes.size()));
@@ -84,6 +85,7 @@ Status sayAboutSurface(const std::string& path, Session& session) {
                   {"bytes", bytes},
                   {"isPacked", *isPacked},
                   {"positionError", model->positionError},
+                  {"displacement", !model->displacement.isEmpty()},
                   {"source", model->source},
                   {"crs", crsName(model->crsWkt)},
                   {"sourceFaces", model->sourceFaces},

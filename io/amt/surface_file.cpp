@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <optional>
 #include <utility>
@@ -16,7 +17,9 @@
 #include "io/format/checksum.h"
 #include "io/format/surface_metadata.h"
 #include "io/packed/packed.h"
+#include "io/packed/surface/displacement_bytes.h"
 #include "io/packed/surface/source_numbers.h"
+#include "surface/displacement/find_displacement.h"
 #include "surface/model/face_heirs.h"
 #include "surface/model/renumbered.h"
 
@@ -28,6 +31,11 @@ template <class Visit>
 void forFinest(const MultiTriangulation& mt, const Visit& visit) {
   for (std::uint32_t t = 0; t < mt.triangleIdCount(); ++t)
     if (!mt.remover(TriangleId(t)).isValid()) visit(t);
+}
+
+std::array<AmtShape, 2> displacementShapes(const MultiTriangulation& mt) {
+  return {AmtShape{amt_tag::kDirections, AmtScalar::u8, 3, mt.vertexCount()},
+          AmtShape{amt_tag::kReaches, AmtScalar::u8, 1, mt.triangleIdCount()}};
 }
 
 class Writing {
@@ -76,6 +84,11 @@ class Writing {
     packedModel_ = renumbered(source_, *mt, packed_.order.vertexOf, packed_.order.triangleOf);
     packedModel_->positionError += packed_.moved;
     packed_.order = {};
+    if (packed_.moved == 0 || source_.displacement.isEmpty()) return {};
+    // What is certain of it, is of the places before they were rounded.
+    Result<SurfaceDisplacement> displacement = findDisplacement(*packedModel_, context_);
+    if (!displacement) return refusePacking(displacement.error());
+    packedModel_->displacement = std::move(*displacement);
     return {};
   }
   Status refusePacking(const Error& error) {
@@ -90,6 +103,9 @@ class Writing {
     chunks_.add(amt_tag::kPackedNodes, bytesOf(packed_.bytes.nodes));
     chunks_.add({amt_tag::kPackedNumbers, AmtScalar::u8, 1, numbers_.size()}, bytesOf(numbers_),
                 kAmtRequired);
+    if (model().displacement.isEmpty()) return;
+    displacement_ = packed::packDisplacement(model().mt, model().displacement);
+    chunks_.add(amt_tag::kPackedDisplacement, bytesOf(displacement_));
   }
 
   void addArrays(const std::vector<AmtShape>& shapes) {
@@ -110,6 +126,10 @@ class Writing {
     for (const AmtShape& shape : shapes)
       for (const auto& [tag, bytes] : arrays)
         if (tag == shape.tag) chunks_.add(shape, bytes, tag == amt_tag::kPlaces ? kAmtRequired : 0);
+    if (model().displacement.isEmpty()) return;
+    for (const AmtShape& shape : displacementShapes(model().mt))
+      chunks_.add(shape, shape.tag == amt_tag::kReaches ? bytesOf(model().displacement.reaches)
+                                                        : bytesOf(model().displacement.directions));
   }
 
   void addLooks() {
@@ -129,7 +149,7 @@ class Writing {
   AmtChunkWriter chunks_;
   std::string json_, looks_;  // these and the next: what the chunks point to, beside the model
   PackedSurfaceMt packed_;
-  std::vector<std::byte> numbers_;
+  std::vector<std::byte> numbers_, displacement_;
   std::vector<std::uint32_t> finestFaces_;
   std::vector<std::byte> values_, pictures_;
 };
@@ -171,6 +191,8 @@ class Reading {
     if (const Status taken = takeLooks(); !taken) return tl::unexpected(taken.error());
     if (isPacked)
       if (const Status taken = unpackNumbers(); !taken) return tl::unexpected(taken.error());
+    if (const Status taken = isPacked ? unpackDisplacement() : takeDisplacement(); !taken)
+      return tl::unexpected(taken.error());
     if (const Status valid = model_.validate(); !valid) return all_.corrupt(valid.error().message);
     return std::move(model_);
   }
@@ -196,6 +218,24 @@ class Reading {
     const Status taken =
         packed::unpackSourceNumbers(all_.elements<std::byte>(amt_tag::kPackedNumbers), model_);
     return taken ? taken : all_.corrupt(taken.error().message);
+  }
+
+  Status unpackDisplacement() {
+    const AmtChunk* const chunk = all_.find(amt_tag::kPackedDisplacement);
+    if (chunk == nullptr) return {};
+    Result<SurfaceDisplacement> read = packed::unpackDisplacement(all_.bytes(*chunk), model_.mt);
+    if (!read) return all_.corrupt(read.error().message);
+    model_.displacement = std::move(*read);
+    return {};
+  }
+  Status takeDisplacement() {
+    if (all_.find(amt_tag::kDirections) == nullptr && all_.find(amt_tag::kReaches) == nullptr) return {};
+    if (const Status shaped = all_.checkShapes(displacementShapes(model_.mt)); !shaped) return shaped;
+    const auto directions = all_.elements<std::array<std::int8_t, 3>>(amt_tag::kDirections);
+    const auto reaches = all_.elements<std::uint8_t>(amt_tag::kReaches);
+    model_.displacement.directions.assign(directions.begin(), directions.end());
+    model_.displacement.reaches.assign(reaches.begin(), reaches.end());
+    return {};
   }
 
   Status placeNodes() {

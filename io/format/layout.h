@@ -109,10 +109,14 @@ inline constexpr AmtTag kVertexNumbers = {'V', 'N', 'U', 'M'};
 inline constexpr AmtTag kFaceNumbers = {'F', 'N', 'U', 'M'};
 inline constexpr AmtTag kWedges = {'W', 'E', 'D', 'G'};
 inline constexpr AmtTag kAttributes = {'A', 'T', 'T', 'R'};
+inline constexpr AmtTag kDirections = {'D', 'I', 'R', 'S'};
+inline constexpr AmtTag kReaches = {'R', 'E', 'A', 'C'};
 inline constexpr AmtTag kLooks = {'L', 'O', 'O', 'K'};
 inline constexpr AmtTag kPictures = {'P', 'I', 'C', 'T'};
-// In a packed file of a surface, in place of vertex and face numbers and wedges:
+// In a packed file of a surface, in place of vertex and face numbers and wedges, and of directions and
+// reaches:
 inline constexpr AmtTag kPackedNumbers = {'P', 'N', 'U', 'M'};
+inline constexpr AmtTag kPackedDisplacement = {'P', 'D', 'S', 'P'};
 }  // namespace amt_tag
 
 /// Whether this program knows what a chunk of this tag holds.
@@ -134,7 +138,8 @@ constexpr bool isKnownAmtTag(const AmtTag& tag) {
                               kVertexNumbers,   kFaceNumbers,
                               kWedges,          kAttributes,
                               kLooks,           kPictures,
-                              kPackedNumbers})
+                              kPackedNumbers,   kDirections,
+                              kReaches,         kPackedDisplacement})
     if (tag == known) return true;
   return false;
 }

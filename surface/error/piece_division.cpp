@@ -156,9 +156,7 @@ void PieceDivision::assign(std::uint32_t face, std::uint32_t cuts, std::span<con
                            const SpaceTriangle& place, const Whole& whole) {
   const auto f = static_cast<std::size_t>(whole.triangle);
   lists_[f].add(face, cuts, polygon);
-  double rounding = rounding_;
-  if (cuts > 0 && !isWholeFace(polygon))
-    rounding += cuts / double(FacePoint::kOne) * (norm(place[1] - place[0]) + norm(place[2] - place[0]));
+  const double rounding = roundingOf(original_, place, isWholeFace(polygon) ? 0 : cuts);
   // A sum over the polygon's middle and corners that is exact for a triangle and a quadratic function.
   Vec3 middle;
   double atCorners = 0;

@@ -16,6 +16,15 @@
 
 namespace arete {
 
+/// What rounding may add to the distance of a corner of a piece from a triangle.
+/// @param cuts of the piece; 0 of a whole face
+inline double roundingOf(const OriginalSurface& original, const SpaceTriangle& face, std::uint32_t cuts) {
+  double rounding = original.largestCoordinate * 0x1p-49;
+  if (cuts > 0)
+    rounding += cuts / double(FacePoint::kOne) * (norm(face[1] - face[0]) + norm(face[2] - face[0]));
+  return rounding;
+}
+
 /// Divides the pieces of a star among the triangles of the floor that replaces it, and bounds how far each
 /// triangle is from its pieces.
 ///
@@ -24,8 +33,7 @@ namespace arete {
 /// lies across an edge of the floor is cut there, if keeping it whole would make the bound larger.
 class PieceDivision {
  public:
-  explicit PieceDivision(const OriginalSurface& original)
-      : original_(original), rounding_(original.largestCoordinate * 0x1p-49) {}
+  explicit PieceDivision(const OriginalSurface& original) : original_(original) {}
 
   /// Starts with no pieces.
   void clear();
@@ -90,7 +98,6 @@ class PieceDivision {
               const SpaceTriangle& place, const Whole& whole);
 
   const OriginalSurface& original_;
-  double rounding_;  // of a distance
   std::vector<Part> parts_;
   FacePolygon points_, hull_;
   FloorDistance floor_;

@@ -13,13 +13,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "engine/base/box3.h"
+#include "engine/base/symmetric3.h"
 #include "engine/parallel/with_threads.h"
 #include "surface/fit/least_squares.h"
 #include "surface/fit/nearest_on_front.h"
 #include "surface/fit/source_samples.h"
 #include "surface/topology/edges.h"
+#include "surface/topology/turn_guard.h"
 
 namespace arete {
 namespace {
@@ -30,23 +33,15 @@ using Triangle = std::array<std::uint32_t, 3>;
 constexpr double kAcross = 0.05;
 /// Shares below this are those of a point on the boundary of its triangle.
 constexpr double kOnBoundary = 1e-9;
-constexpr double kLeastTurn = 0.5;   // cosine: a triangle turns by at most 60 degrees
-constexpr double kMostFold = -0.5;   // cosine: an edge folds by at most 120 degrees
 constexpr double kLeastGain = 0.01;  // of the sum of squares, in a step
 constexpr int kHalvings = 3;
 
-/// I - (1 - across) n n', for n of length 1, or its complement.
-Symmetric3 along(const Vec3& n, double across) {
-  const double a = 1 - across;
-  return {a * n.x * n.x + across, a * n.x * n.y, a * n.x * n.z,
-          a * n.y * n.y + across, a * n.y * n.z, a * n.z * n.z + across};
-}
+/// The complement of metricAlong().
 Symmetric3 beside(const Vec3& t, double across) {
   const double a = 1 - across;
   return {1 - a * t.x * t.x, -a * t.x * t.y, -a * t.x * t.z,
           1 - a * t.y * t.y, -a * t.y * t.z, 1 - a * t.z * t.z};
 }
-constexpr Symmetric3 kEveryWay = {1, 0, 0, 1, 0, 1};
 
 class Fitting {
  public:
@@ -59,8 +54,6 @@ class Fitting {
         borders_.push_back({edge.low.index(), edge.high.index()});
         // An element of three corners, the third without a share.
         elements_.push_back({edge.low.index(), edge.high.index(), edge.high.index()});
-      } else if (edge.sides.size() == 2) {
-        neighbours_.push_back({triangleOf(edge.sides[0]).index(), triangleOf(edge.sides[1]).index()});
       }
     }
     elements_.insert(elements_.begin(), cut.triangles.begin(), cut.triangles.end());
@@ -75,8 +68,7 @@ class Fitting {
     samples_ = sampleSource(framed, count);
     if (samples_.ofArea.empty()) return failure(ErrorCode::invalidData, "has no area to be fitted to");
     if (borders_.empty()) samples_.ofBorder.clear();
-    firstNormals_ = normalsOf(positions_);
-    firstFolds_ = foldsOf(firstNormals_);
+    guard_.emplace(triangles_, positions_);
 
     FittedSurface result;
     double sum = assign();
@@ -124,24 +116,6 @@ class Fitting {
     return std::sqrt(sum / double(samples_.ofArea.size() + samples_.ofBorder.size())) / scale_;
   }
 
-  std::vector<Vec3> normalsOf(const std::vector<Vec3>& positions) const {
-    std::vector<Vec3> normals;
-    normals.reserve(triangles_.size());
-    for (const auto& [i, j, k] : triangles_)
-      normals.push_back(cross(positions[j] - positions[i], positions[k] - positions[i]));
-    return normals;
-  }
-  static double cosineOf(const Vec3& a, const Vec3& b) {
-    const double sizes = norm(a) * norm(b);
-    return sizes > 0 ? dot(a, b) / sizes : 1;
-  }
-  std::vector<std::uint8_t> foldsOf(const std::vector<Vec3>& normals) const {
-    std::vector<std::uint8_t> folds;
-    folds.reserve(neighbours_.size());
-    for (const auto& [s, t] : neighbours_) folds.push_back(cosineOf(normals[s], normals[t]) < kMostFold);
-    return folds;
-  }
-
   /// Finds the nearest points of all samples. @return the sum of the squared distances of those of the area,
   /// and of those of the border
   double assign() {
@@ -180,11 +154,12 @@ class Fitting {
       const Vec3 r = samples_.ofArea[i] - at(triangles_[t], shares);
       const bool isInside = std::min({shares[0], shares[1], shares[2]}) > kOnBoundary;
       const auto& [a, b, c] = triangles_[t];
-      problem.add(
-          t, shares,
-          isInside ? along(unit(cross(positions_[b] - positions_[a], positions_[c] - positions_[a])), kAcross)
-                   : kEveryWay,
-          r);
+      problem.add(t, shares,
+                  isInside
+                      ? metricAlong(unit(cross(positions_[b] - positions_[a], positions_[c] - positions_[a])),
+                                    kAcross)
+                      : kUnit3,
+                  r);
     }
     for (std::size_t i = 0; i < ofBorder_.size(); ++i) {
       const auto& [e, shares] = ofBorder_[i];
@@ -192,7 +167,7 @@ class Fitting {
       const Vec3 r = samples_.ofBorder[i] - at({from, to, to}, shares);
       const bool isInside = std::min(shares[0], shares[1]) > kOnBoundary;
       problem.add(static_cast<std::uint32_t>(triangles_.size()) + e, shares,
-                  isInside ? beside(unit(positions_[to] - positions_[from]), kAcross) : kEveryWay, r);
+                  isInside ? beside(unit(positions_[to] - positions_[from]), kAcross) : kUnit3, r);
     }
     return problem;
   }
@@ -203,25 +178,7 @@ class Fitting {
     for (;;) {
       for (std::size_t v = 0; v < from.size(); ++v)
         positions_[v] = stays[v] != 0 ? from[v] : from[v] + part * moves[v];
-      const std::vector<Vec3> normals = normalsOf(positions_);
-      bool isSound = true;
-      const auto hold = [&](std::uint32_t t) {
-        for (const std::uint32_t v : triangles_[t]) {
-          isSound = isSound && stays[v] != 0;
-          stays[v] = 1;
-        }
-      };
-      for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-        if (norm(firstNormals_[t]) > 0 &&
-            (!(norm(normals[t]) > 0) || cosineOf(normals[t], firstNormals_[t]) < kLeastTurn))
-          hold(t);
-      for (std::size_t e = 0; e < neighbours_.size(); ++e) {
-        const auto& [s, t] = neighbours_[e];
-        if (firstFolds_[e] != 0 || !(cosineOf(normals[s], normals[t]) < kMostFold)) continue;
-        hold(s);
-        hold(t);
-      }
-      if (isSound) return;
+      if (!guard_->mark(positions_, stays)) return;
     }
   }
 
@@ -232,11 +189,10 @@ class Fitting {
   Vec3 middle_{0, 0, 0};
   double scale_ = 1;
   std::vector<Triangle> elements_;  // the triangles, then the border edges
-  std::vector<std::array<std::uint32_t, 2>> borders_, neighbours_;
+  std::vector<std::array<std::uint32_t, 2>> borders_;
   SourceSamples samples_;
   std::vector<FrontPoint> ofArea_, ofBorder_;
-  std::vector<Vec3> firstNormals_;
-  std::vector<std::uint8_t> firstFolds_;
+  std::optional<TurnGuard> guard_;
 };
 
 }  // namespace

@@ -13,23 +13,6 @@ constexpr double kStiffness = 1e-4;
 constexpr int kMostSteps = 400;
 constexpr double kAccuracy = 1e-6;
 
-Vec3 times(const Symmetric3& m, const Vec3& v) {
-  return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[1] * v.x + m[3] * v.y + m[4] * v.z,
-          m[2] * v.x + m[4] * v.y + m[5] * v.z};
-}
-
-/// The inverse of a matrix that is positive definite.
-Symmetric3 inverse(const Symmetric3& m) {
-  const double xx = m[3] * m[5] - m[4] * m[4], xy = m[2] * m[4] - m[1] * m[5], xz = m[1] * m[4] - m[2] * m[3];
-  const double determinant = m[0] * xx + m[1] * xy + m[2] * xz;
-  return {xx / determinant,
-          xy / determinant,
-          xz / determinant,
-          (m[0] * m[5] - m[2] * m[2]) / determinant,
-          (m[1] * m[2] - m[0] * m[4]) / determinant,
-          (m[0] * m[3] - m[1] * m[1]) / determinant};
-}
-
 double dotOf(std::span<const Vec3> a, std::span<const Vec3> b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += dot(a[i], b[i]);

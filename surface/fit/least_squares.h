@@ -6,12 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/symmetric3.h"
 #include "engine/base/vec.h"
 
 namespace arete {
-
-/// A symmetric matrix of 3 x 3: xx, xy, xz, yy, yz, zz.
-using Symmetric3 = std::array<double, 6>;
 
 /// The least squares problem of vertices that move by d: the sum of (r - d(s))' M (r - d(s)) over samples s,
 /// where d(s) is the mean of the moves of a triangle's corners with the sample's shares, and of a small

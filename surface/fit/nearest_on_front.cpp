@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/triangle_shares.h"
+
 namespace arete {
 namespace {
 
@@ -28,18 +30,6 @@ Kernel::Point_3 pointOf(const Vec3& p) {
 }
 Vec3 vecOf(const Kernel::Point_3& p) {
   return {p.x(), p.y(), p.z()};
-}
-
-/// The shares of a triangle's corners at a point of it, each at least 0.
-std::array<double, 3> sharesAt(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 n = cross(b - a, c - a);
-  const double whole = dot(n, n);
-  std::array<double, 3> shares = {dot(cross(c - b, p - b), n) / whole, dot(cross(a - c, p - c), n) / whole,
-                                  dot(cross(b - a, p - a), n) / whole};
-  double sum = 0;
-  for (double& s : shares) sum += s = std::max(0.0, s);
-  for (double& s : shares) s /= sum;
-  return shares;
 }
 
 }  // namespace
@@ -96,7 +86,7 @@ FrontPoint NearestOnFront::nearest(const Vec3& p) const {
     const auto [point, at] = triangles_->tree.closest_point_and_primitive(pointOf(p));
     const auto& t = *at;
     return {triangles_->numberOf[static_cast<std::size_t>(at - triangles_->triangles.cbegin())],
-            sharesAt(vecOf(point), vecOf(t[0]), vecOf(t[1]), vecOf(t[2]))};
+            sharesAt(vecOf(point), {vecOf(t[0]), vecOf(t[1]), vecOf(t[2])})};
   }
   const auto [point, at] = edges_->tree.closest_point_and_primitive(pointOf(p));
   const Vec3 a = vecOf(at->source()), d = vecOf(at->target()) - a;

@@ -33,19 +33,19 @@ DroppedComponents componentsBelow(const SurfaceModel& model, double leastDiagona
 /// A criterion that asks nothing of what is dropped: a budget is spent on the rest.
 class OfTheRest final : public Criterion {
  public:
-  /// Preconditions: `dropped` outlives this.
-  OfTheRest(std::unique_ptr<const Criterion> criterion, const DroppedComponents& dropped)
-      : criterion_(std::move(criterion)), dropped_(dropped) {}
+  /// Preconditions: both outlive this.
+  OfTheRest(const Criterion& criterion, const DroppedComponents& dropped)
+      : criterion_(criterion), dropped_(dropped) {}
 
   bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override {
-    return dropped_.isDropped[corners[0]] || criterion_->isFineEnough(mt, t, corners);
+    return dropped_.isDropped[corners[0]] || criterion_.isFineEnough(mt, t, corners);
   }
   double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override {
-    return criterion_->severity(mt, t, corners);
+    return criterion_.severity(mt, t, corners);
   }
 
  private:
-  std::unique_ptr<const Criterion> criterion_;
+  const Criterion& criterion_;
   const DroppedComponents& dropped_;
 };
 

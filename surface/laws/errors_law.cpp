@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "engine/base/nearest_on_triangle.h"
+#include "surface/displacement/displaced_places.h"
 
 namespace arete {
 namespace {
@@ -22,10 +23,23 @@ using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
 
 struct Interrupted {};
 
-SpaceTriangle placeOf(const MultiTriangulation& mt, const Cut& cut, std::size_t t) {
-  const auto& [a, b, c] = cut.triangles[t];
-  const auto at = [&](std::uint32_t v) { return mt.position(VertexId(cut.vertices[v])); };
-  return {at(a), at(b), at(c)};
+/// A front with its vertices somewhere, and how near each triangle must be to what it stands for.
+struct PlacedFront {
+  const Cut& cut;
+  std::vector<Vec3> places;
+  std::vector<double> errors;
+
+  SpaceTriangle triangle(std::size_t t) const {
+    const auto& [a, b, c] = cut.triangles[t];
+    return {places[a], places[b], places[c]};
+  }
+};
+
+PlacedFront placed(const MultiTriangulation& mt, const Cut& cut) {
+  PlacedFront front{cut, {}, {}};
+  for (const std::uint32_t v : cut.vertices) front.places.push_back(mt.position(VertexId(v)));
+  for (const std::uint32_t t : cut.ids) front.errors.push_back(mt.error(TriangleId(t)));
+  return front;
 }
 
 /// What rounding may add to the distance from a triangle.
@@ -45,32 +59,16 @@ Box boxOf(const SpaceTriangle& t, double wider, std::uint32_t number) {
   return {low.data(), high.data(), number};
 }
 
-}  // namespace
-
-std::vector<Vec3> samplesOfSource(const SurfaceModel& model, bool isFull) {
-  const MultiTriangulation& mt = model.mt;
-  std::vector<Vec3> samples;
-  for (std::uint32_t v = 0; v < mt.vertexCount(); ++v) samples.push_back(mt.position(VertexId(v)));
-  if (!isFull) return samples;
-  const Cut finest = frontOfPrefix(mt, mt.nodeCount());
-  for (std::size_t t = 0; t < finest.triangles.size(); ++t) {
-    const auto [a, b, c] = placeOf(mt, finest, t);
-    samples.push_back(a / 3 + b / 3 + c / 3);
-    for (const Vec3& middle : {a / 2 + b / 2, b / 2 + c / 2, c / 2 + a / 2}) samples.push_back(middle);
-  }
-  return samples;
-}
-
-Status checkErrors(const MultiTriangulation& mt, const Cut& front, std::span<const Vec3> samples,
-                   const RunContext& context) {
+Status check(const PlacedFront& front, const char* what, std::span<const Vec3> samples,
+             const RunContext& context) {
   double largest = 0;
   for (const Vec3& p : samples) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   const double ulps = 64 * std::numeric_limits<double>::epsilon() * largest;
   std::vector<Box> triangles, points;
   std::vector<double> allowed;
-  for (std::uint32_t t = 0; t < front.triangles.size(); ++t) {
-    const SpaceTriangle place = placeOf(mt, front, t);
-    allowed.push_back(mt.error(TriangleId(front.ids[t])) + slackOf(place, ulps));
+  for (std::uint32_t t = 0; t < front.cut.triangles.size(); ++t) {
+    const SpaceTriangle place = front.triangle(t);
+    allowed.push_back(front.errors[t] + slackOf(place, ulps));
     triangles.push_back(boxOf(place, allowed.back(), t));
   }
   for (std::uint32_t i = 0; i < samples.size(); ++i)
@@ -81,7 +79,7 @@ Status checkErrors(const MultiTriangulation& mt, const Cut& front, std::span<con
     if (++tests % 65536 == 0 && context.cancelled()) throw Interrupted{};
     if (isNear[point.info()]) return;
     const std::uint32_t t = triangle.info();
-    isNear[point.info()] = distanceToTriangle(samples[point.info()], placeOf(mt, front, t)) <= allowed[t];
+    isNear[point.info()] = distanceToTriangle(samples[point.info()], front.triangle(t)) <= allowed[t];
   };
   try {
     CGAL::box_intersection_d(triangles.begin(), triangles.end(), points.begin(), points.end(), test);
@@ -92,9 +90,42 @@ Status checkErrors(const MultiTriangulation& mt, const Cut& front, std::span<con
   if (far == isNear.end()) return {};
   const Vec3& p = samples[std::size_t(far - isNear.begin())];
   return failure(ErrorCode::brokenPromise,
-                 fmt::format("law 10: in a front of {} triangles none is as near to the source at {:.9g}, "
+                 fmt::format("law 10: in a {} of {} triangles none is as near to the source at {:.9g}, "
                              "{:.9g}, {:.9g} as its error says",
-                             front.triangles.size(), p.x, p.y, p.z));
+                             what, front.cut.triangles.size(), p.x, p.y, p.z));
+}
+
+}  // namespace
+
+std::vector<Vec3> samplesOfSource(const SurfaceModel& model, bool isFull) {
+  const MultiTriangulation& mt = model.mt;
+  std::vector<Vec3> samples;
+  for (std::uint32_t v = 0; v < mt.vertexCount(); ++v) samples.push_back(mt.position(VertexId(v)));
+  if (!isFull) return samples;
+  const Cut finest = frontOfPrefix(mt, mt.nodeCount());
+  const PlacedFront front = placed(mt, finest);
+  for (std::size_t t = 0; t < finest.triangles.size(); ++t) {
+    const auto [a, b, c] = front.triangle(t);
+    samples.push_back(a / 3 + b / 3 + c / 3);
+    for (const Vec3& middle : {a / 2 + b / 2, b / 2 + c / 2, c / 2 + a / 2}) samples.push_back(middle);
+  }
+  return samples;
+}
+
+Status checkErrors(const MultiTriangulation& mt, const Cut& front, std::span<const Vec3> samples,
+                   const RunContext& context) {
+  return check(placed(mt, front), "front", samples, context);
+}
+
+Status checkDisplacedErrors(const SurfaceModel& model, const Cut& front, std::span<const Vec3> samples,
+                            const RunContext& context) {
+  PlacedFront drawn = placed(model.mt, front);
+  for (const bool isEverywhere : {false, true}) {
+    if (isEverywhere) drawn.errors.assign(front.ids.size(), front.achievedError);
+    drawn.places = displacedPlaces(model.mt, model.displacement, front, drawn.errors);
+    if (Status kept = check(drawn, "displaced front", samples, context); !kept) return kept;
+  }
+  return {};
 }
 
 }  // namespace arete

@@ -23,4 +23,9 @@ std::vector<Vec3> samplesOfSource(const SurfaceModel& model, bool isFull);
 Status checkErrors(const MultiTriangulation& mt, const Cut& front, std::span<const Vec3> samples,
                    const RunContext& context = {});
 
+/// Law 10 on one front as it is drawn: displaced as far as its stored errors allow, and as far as the largest
+/// of them allows everywhere. As checkErrors(). Precondition: the model has a displacement.
+Status checkDisplacedErrors(const SurfaceModel& model, const Cut& front, std::span<const Vec3> samples,
+                            const RunContext& context = {});
+
 }  // namespace arete

@@ -125,6 +125,8 @@ Status validateSurface(const SurfaceModel& model, const SurfaceLawOptions& optio
     const Cut front = frontOfPrefix(mt, nodes);
     if (Status valid = topology->check(front, context); !valid) return valid;
     if (Status valid = checkErrors(mt, front, samples, context); !valid) return valid;
+    if (model.displacement.isEmpty()) continue;
+    if (Status valid = checkDisplacedErrors(model, front, samples, context); !valid) return valid;
   }
   return {};
 }

@@ -39,9 +39,9 @@ struct SurfaceLawOptions {
 };
 
 /// Checks laws 1 to 6, 8 and 10 of docs/topics/multitriangulation.md: those of the engine
-/// (engine/laws/validate.h) on every node, laws 5 and 10 on the fronts of 16 prefixes of the nodes, and that
-/// the finest front has as many triangles as the build kept faces. Errors: those of SurfaceModel::validate();
-/// brokenPromise: names the law.
+/// (engine/laws/validate.h) on every node, laws 5 and 10 on the fronts of 16 prefixes of the nodes, law 10
+/// also displaced, and that the finest front has as many triangles as the build kept faces. Errors: those of
+/// SurfaceModel::validate(); brokenPromise: names the law.
 Status validateSurface(const SurfaceModel& model, const SurfaceLawOptions& options = {},
                        const RunContext& context = {});
 

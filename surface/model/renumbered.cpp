@@ -58,6 +58,9 @@ SurfaceModel renumbered(const SurfaceModel& model, const MultiTriangulation& mt,
   result.mt = mt;
   result.vertexOf = reordered(model.vertexOf, vertexOf);
   result.faceOf = reordered(model.faceOf, triangleOf);
+  if (!model.displacement.isEmpty())
+    result.displacement = {reordered(model.displacement.directions, vertexOf),
+                           reordered(model.displacement.reaches, triangleOf)};
   reorder(result.attributes.vertexAttributes, vertexOf);
   if (!model.hasWedges()) return result;
   result.wedgesOf = reordered(model.wedgesOf, triangleOf);

@@ -22,6 +22,9 @@ Status SurfaceModel::validate() const {
         fmt::format("{} vertices have {} numbers in the source", mt.vertexCount(), vertexOf.size()));
   if (faceOf.size() != mt.triangleIdCount() || (hasWedges() && wedgesOf.size() != mt.triangleIdCount()))
     return refuse("not every triangle has a face and wedges");
+  if (!displacement.isEmpty() && (displacement.directions.size() != mt.vertexCount() ||
+                                  displacement.reaches.size() != mt.triangleIdCount()))
+    return refuse("its displacement is of another number of vertices or triangles");
   if (hasWedges() == (a.wedgeCount == 0))
     return refuse("wedges are counted and not listed, or the other way");
   for (const Attribute& attribute : a.vertexAttributes)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/mt/multitriangulation.h"
+#include "surface/model/displacement.h"
 #include "surface/model/surface_mesh.h"
 
 namespace arete {
@@ -58,6 +59,9 @@ struct SurfaceModel {
   }
   /// By triangle of the MT: the wedges of its corners. Empty without wedges.
   std::vector<std::array<std::uint32_t, 3>> wedgesOf;
+
+  /// Where coarse cuts are drawn; empty: where the source's vertices are.
+  SurfaceDisplacement displacement;
 
   std::uint64_t sourceVertices = 0, sourceFaces = 0;
   /// The largest distance by which rounding has moved a vertex of the source; every error includes it twice.

@@ -120,19 +120,22 @@ std::vector<std::uint8_t> colorsOf(const SurfaceModel& model, const std::vector<
 
 }  // namespace
 
-SurfaceOnGpu uploadSurface(const SurfaceModel& model, const Upright& upright) {
-  const std::vector<std::uint32_t> vertexOf = drawnVertices(model);
-  SurfaceOnGpu gpu;
+std::vector<float> drawnPositions(const SurfaceModel& model, const Upright& upright) {
   std::vector<float> positions;
-  positions.reserve(3 * vertexOf.size());
-  for (const std::uint32_t v : vertexOf) {
+  for (const std::uint32_t v : drawnVertices(model)) {
     const Vec3 p = upright.fromFile(model.mt.position(VertexId(v)));
     positions.insert(positions.end(), {float(p.x), float(p.y), float(p.z)});
   }
+  return positions;
+}
+
+SurfaceOnGpu uploadSurface(const SurfaceModel& model, const Upright& upright) {
+  const std::vector<std::uint32_t> vertexOf = drawnVertices(model);
+  SurfaceOnGpu gpu;
   const auto upload = []<class T>(const std::vector<T>& data) {
     return makeBuffer(std::span<const T>(data));
   };
-  gpu.positions = upload(positions);
+  gpu.positions = upload(drawnPositions(model, upright));
   gpu.normals = upload(normalsOf(model, upright, vertexOf));
   if (const auto coords = textureCoordsOf(model, vertexOf); !coords.empty())
     gpu.textureCoords = upload(coords);

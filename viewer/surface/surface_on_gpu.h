@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "surface/model/surface_model.h"
 #include "viewer/gl/gl_objects.h"
@@ -9,14 +10,17 @@
 
 namespace arete {
 
-/// The vertices of a surface in graphics memory, written once: one for each wedge, or for each vertex of the
-/// MT where there are no wedges. Every cut draws triangles of them.
+/// The vertices of a surface in graphics memory: one for each wedge, or for each vertex of the MT where there
+/// are no wedges. Every cut draws triangles of them; all is written once, but for displaced positions.
 struct SurfaceOnGpu {
   GlBuffer positions;      ///< 3 floats, upright
   GlBuffer normals;        ///< 3 floats, upright; zero: the triangle's own is to be used
   GlBuffer textureCoords;  ///< 4 floats: two sets, v from the upper side; empty without
   GlBuffer colors;         ///< 4 bytes, sRGB and alpha; empty without
 };
+
+/// Three floats for each drawn vertex, upright, as in the source.
+std::vector<float> drawnPositions(const SurfaceModel& model, const Upright& upright);
 
 /// O(vertices + triangles of the MT).
 SurfaceOnGpu uploadSurface(const SurfaceModel& model, const Upright& upright);

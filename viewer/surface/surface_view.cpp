@@ -11,6 +11,7 @@
 #include "engine/criteria/view_error.h"
 #include "engine/cut/cut.h"
 #include "engine/follow/incremental_cut.h"
+#include "surface/displacement/displaced_places.h"
 
 namespace arete {
 namespace {
@@ -33,6 +34,7 @@ struct SurfaceView::State {
   bool isUploaded = false;
   GlBuffer indices = {}, errors = {};
   std::vector<DrawnSurface::Range> ranges = {};
+  std::vector<float> positions = {};  // of a displaced model: those in graphics memory
 
   std::uint32_t materialOf(std::uint32_t triangle) const {
     const auto none = static_cast<std::uint32_t>(materials.materials().size()) - 1;
@@ -61,6 +63,25 @@ struct SurfaceView::State {
     indices = makeBuffer(std::span<const std::array<std::uint32_t, 3>>(corners));
     errors = makeBuffer(std::span<const float>(worst));
     isUploaded = true;
+  }
+
+  /// Draws the front where it is within what the criterion allows now.
+  void displace(const BoundedCriterion& criterion) {
+    const MultiTriangulation& mt = model->mt;
+    const Cut front = cut.front();
+    const std::vector<Vec3> places =
+        displacedPlaces(mt, model->displacement, front, promisedErrors(mt, front, &criterion));
+    if (positions.empty()) positions = drawnPositions(*model, upright);
+    for (std::size_t t = 0; t < front.ids.size(); ++t)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t v = front.triangles[t][i];
+        const std::size_t drawn = model->hasWedges() ? model->wedgesOf[front.ids[t]][i] : front.vertices[v];
+        const Vec3 p = upright.fromFile(places[v]);
+        positions[3 * drawn] = float(p.x);
+        positions[3 * drawn + 1] = float(p.y);
+        positions[3 * drawn + 2] = float(p.z);
+      }
+    surface.positions = makeBuffer(std::span<const float>(positions));
   }
 };
 
@@ -102,6 +123,7 @@ Result<SurfaceFigures> SurfaceView::cut(const Camera& camera, const SurfaceViewS
     figures.pixels = std::max(settings.pixels, worstSeverity(mt, criterion, s.cut.front()));
   s.pixels = figures.pixels;
   if (!s.isUploaded || !s.cut.lastSteps().empty()) s.upload();
+  if (!s.model->displacement.isEmpty()) s.displace(criterion);
   figures.cutMilliseconds = watch.milliseconds();
   return figures;
 }

@@ -24,9 +24,8 @@
 #include <optional>
 #include <utility>
 
-#include "io/entropy/number_bytes.h"
 #include "io/entropy/numbers.h"
-#include "io/entropy/rans.h"
+#include "io/packed/surface/symbol_bytes.h"
 #include "surface/model/face_heirs.h"
 
 namespace arete::packed {
@@ -34,7 +33,6 @@ namespace {
 
 constexpr std::uint32_t kNone = MultiTriangulation::kNone;
 
-enum Stream : unsigned { kSymbols };
 constexpr unsigned kSpreads = 33, kLastSymbols = 24, kWedgeCounts = 3;
 enum Table : unsigned {
   kVertexTable = 0,                        // by the spread of the link's numbers
@@ -48,75 +46,6 @@ enum Table : unsigned {
 
 /// Symbols of a corner's wedge: below kOtherWedge, how many of the vertex's wedges were in use after it.
 constexpr unsigned kOtherWedge = 254, kNewWedge = 255;
-
-class Writer {
- public:
-  template <class Actual>
-  unsigned code(Stream, unsigned table, const Actual& actual) {
-    const auto symbol = static_cast<unsigned>(actual());
-    symbols_.push_back({static_cast<std::uint8_t>(table), static_cast<std::uint8_t>(symbol)});
-    return symbol;
-  }
-  std::uint64_t raw(int bits, std::uint64_t actual) {
-    raw_.write(actual, bits);
-    return actual;
-  }
-
-  std::vector<std::byte> take() {
-    std::vector<std::array<std::uint64_t, RansTable::kAlphabet>> counts(kTables);
-    for (const RansSymbol& s : symbols_) ++counts[s.table][s.symbol];
-    std::vector<RansTable> tables;
-    for (const auto& c : counts) tables.push_back(RansTable::ofCounts(c));
-    const std::vector<std::byte> tableBytes = toBytes(tables), coded = ransEncode(symbols_, tables),
-                                 raw = raw_.take();
-    NumberWriter out;
-    out.number(tableBytes.size());
-    out.number(coded.size());
-    std::vector<std::byte> bytes = out.take();
-    for (const auto& part : {tableBytes, coded, raw}) bytes.insert(bytes.end(), part.begin(), part.end());
-    return bytes;
-  }
-
- private:
-  std::vector<RansSymbol> symbols_;
-  BitWriter raw_;
-};
-
-class Reader {
- public:
-  /// @return nothing where the bytes are damaged
-  static std::optional<Reader> of(std::span<const std::byte> bytes) {
-    NumberReader in(bytes);
-    const std::uint64_t tableBytes = in.number(), coded = in.number();
-    if (in.isBad() || tableBytes > in.left() || coded > in.left() - tableBytes) return std::nullopt;
-    bytes = bytes.last(in.left());
-    const auto tables = tablesOf(bytes.first(tableBytes), kTables);
-    if (!tables) return std::nullopt;
-    Reader reader;
-    reader.tables_.resize(kTables * RansTable::kEntries);
-    for (std::size_t t = 0; t < kTables; ++t)
-      (*tables)[t].writeEntries(&reader.tables_[t * RansTable::kEntries]);
-    reader.bytes_.assign(bytes.begin() + static_cast<std::ptrdiff_t>(tableBytes), bytes.end());
-    const std::size_t rawBytes = reader.bytes_.size() - coded;
-    reader.bytes_.resize(reader.bytes_.size() + RansDecoder::kReadable);
-    reader.symbols_ = RansDecoder(reader.bytes_.data(), coded);
-    reader.raw_ = BitReader({reader.bytes_.data() + coded, rawBytes});
-    return reader;
-  }
-
-  template <class Actual>
-  unsigned code(Stream, unsigned table, const Actual&) {
-    return symbols_.decode(&tables_[table * RansTable::kEntries]);
-  }
-  std::uint64_t raw(int bits, std::uint64_t) { return raw_.read(bits); }
-  bool isAtEnd() const { return symbols_.isAtEnd() && !raw_.isOver(); }
-
- private:
-  std::vector<std::uint32_t> tables_;
-  std::vector<std::byte> bytes_;  // a move keeps its address
-  RansDecoder symbols_;
-  BitReader raw_;
-};
 
 std::uint32_t plus(std::uint32_t x, std::int64_t by) {
   return static_cast<std::uint32_t>(x + static_cast<std::uint64_t>(by));
@@ -293,13 +222,13 @@ std::vector<std::byte> packSourceNumbers(const SurfaceModel& model) {
   numbers.attributes.wedgeCount = model.attributes.wedgeCount;
   const std::uint64_t byLeast = bitsOf(model, finestInOrder(model, false)),
                       byLargest = bitsOf(model, finestInOrder(model, true));
-  Writer io;
+  SymbolWriter io(kTables);
   codeNumbers(numbers, model.hasFaceAttributes(), byLargest < byLeast, io);
   return io.take();
 }
 
 Status unpackSourceNumbers(std::span<const std::byte> bytes, SurfaceModel& model) {
-  std::optional<Reader> io = Reader::of(bytes);
+  std::optional<SymbolReader> io = SymbolReader::of(bytes, kTables);
   if (!io) return failure(ErrorCode::corrupt, "the packed numbers of its source are cut short or damaged");
   model.vertexOf.assign(model.mt.vertexCount(), 0);
   model.faceOf.assign(model.mt.triangleIdCount(), 0);

@@ -148,6 +148,43 @@ TEST_F(SurfaceCommands, RoundedPositionsTakeFewerBytesAndAreSaid) {
   EXPECT_EQ(run({"build", "ball.obj", "-o", "x.amt", "--packed", "--position-bits", "7"}).code, 2);
 }
 
+TEST_F(SurfaceCommands, DisplacedCutsAreNearerAtTheSameErrorUntilSwitchedOff) {
+  ASSERT_EQ(run({"build", "ball.obj", "-o", "plain.amt"}).code, 0);
+  const Outcome built = run({"build", "ball.obj", "-o", "ball.amt", "--displacement"});
+  ASSERT_EQ(built.code, 0) << built.err;
+  EXPECT_NE(built.out.find("displacement"), std::string::npos);
+  ASSERT_EQ(run({"convert", "ball.amt", "-o", "packed.amt", "--packed"}).code, 0);
+  for (const char* const model : {"ball.amt", "packed.amt"}) {
+    EXPECT_EQ(run({"validate", model, "--full"}).code, 0);
+    EXPECT_TRUE(run({"info", model, "--json"}).json()["displacement"].get<bool>());
+  }
+  EXPECT_FALSE(run({"info", "plain.amt", "--json"}).json()["displacement"].get<bool>());
+  struct Extracted {
+    Json said;
+    double rms;
+  };
+  const auto extracted = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"extract", "-o", "x.ply", "--max-triangles", "60", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome cut = run(words);
+    EXPECT_EQ(cut.code, 0) << cut.err;
+    const Json apart = run({"measure", "x.ply", "ball.obj", "--json"}).json();
+    const Json said = cut.json()["exports"][0];
+    EXPECT_LE(apart["fromSecond"]["maximum"].get<double>(), said["error"].get<double>() * (1 + 1e-6));
+    return Extracted{said, apart["fromSecond"]["rms"].get<double>()};
+  };
+  const Extracted displaced = extracted({"ball.amt"}), packed = extracted({"packed.amt"}),
+                  off = extracted({"ball.amt", "--no-displacement"}), plain = extracted({"plain.amt"}),
+                  fitted = extracted({"ball.amt", "--fit", "rms"});
+  EXPECT_TRUE(displaced.said["displaced"].get<bool>());
+  EXPECT_FALSE(off.said["displaced"].get<bool>());
+  EXPECT_FALSE(fitted.said["displaced"].get<bool>()) << "a fit places them itself";
+  EXPECT_EQ(displaced.said["error"], off.said["error"]);
+  EXPECT_LT(displaced.rms, 0.8 * off.rms);
+  EXPECT_NEAR(packed.rms, displaced.rms, 1e-9);
+  EXPECT_EQ(off.rms, plain.rms);
+}
+
 TEST_F(SurfaceCommands, ABudgetIsKeptOrRefusedWithTheLeastCountAndWhy) {
   ASSERT_EQ(run({"build", "ball.obj", "-o", "ball.amt"}).code, 0);
   const Outcome kept = run({"extract", "ball.amt", "-o", "out.ply", "--max-triangles", "100", "--json"});
@@ -302,7 +339,7 @@ TEST_F(SurfaceCommands, SmallPartsAreLeftOutCountedAndTheirDistanceIsSaid) {
 }
 
 TEST_F(SurfaceCommands, AreDrawnWithoutAScreen) {
-  ASSERT_EQ(run({"build", "ball.obj", "-o", "ball.amt"}).code, 0);
+  ASSERT_EQ(run({"build", "ball.obj", "-o", "ball.amt", "--displacement"}).code, 0);
   const Outcome shot = run({"view", "ball.amt", "--headless", "--screenshot", "view.png", "--size", "200x120",
                             "--camera", "3,0,0,0,0,0,40", "--json"});
   if (shot.err.find("no OpenGL 4.5 context") != std::string::npos) GTEST_SKIP() << shot.err;
@@ -408,6 +445,9 @@ TEST_F(SurfaceCommands, WhatIsForTerrainIsRefusedByName) {
   refused({"convert", "dem.amt", "-o", "y.amt", "--position-bits", "16", "--packed"}, "--position-bits");
   refused({"convert", "ball.obj", "-o", "y.ply", "--position-bits", "16"}, "--position-bits");
   refused({"build", "dem.tif", "-o", "y.amt", "--keep-borders"}, "--keep-borders");
+  refused({"build", "dem.tif", "-o", "y.amt", "--displacement"}, "--displacement");
+  refused({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--no-displacement"},
+          "--no-displacement");
 }
 
 }  // namespace

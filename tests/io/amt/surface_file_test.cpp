@@ -16,6 +16,7 @@
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
 #include "surface/build/build.h"
+#include "surface/displacement/find_displacement.h"
 #include "surface/families.h"
 #include "surface/front/front.h"
 #include "surface/laws/validate_surface.h"
@@ -41,6 +42,13 @@ class SurfaceAmt : public ::testing::Test {
  private:
   fs::path folder_;
 };
+
+/// Built, and displaced.
+Result<SurfaceModel> displaced(const SurfaceMesh& mesh) {
+  Result<SurfaceModel> model = buildSurface(mesh);
+  if (model) model->displacement = *findDisplacement(*model);
+  return model;
+}
 
 /// A surface with everything that a mesh can have.
 SurfaceMesh everything(bool hasDoubles) {
@@ -92,6 +100,7 @@ void expectEqual(const SurfaceModel& a, const SurfaceModel& b) {
   EXPECT_EQ(a.vertexOf, b.vertexOf);
   EXPECT_EQ(a.faceOf, b.faceOf);
   EXPECT_EQ(a.wedgesOf, b.wedgesOf);
+  EXPECT_EQ(a.displacement, b.displacement);
   EXPECT_EQ(a.diagonal, b.diagonal);
   EXPECT_EQ(a.mending, b.mending);
   EXPECT_EQ(a.options, b.options);
@@ -106,7 +115,7 @@ TEST_F(SurfaceAmt, GivesBackEveryBitOfAModel) {
   for (const bool hasDoubles : {false, true})
     for (const bool isPlain : {false, true}) {
       const SurfaceMesh mesh = isPlain ? SurfaceMesh(everything(hasDoubles).shape()) : everything(hasDoubles);
-      Result<SurfaceModel> model = buildSurface(mesh);
+      Result<SurfaceModel> model = isPlain ? buildSurface(mesh) : displaced(mesh);
       ASSERT_TRUE(model) << model.error().message;
       model->source = "a scan.ply";
       model->up = "y";
@@ -122,10 +131,19 @@ TEST_F(SurfaceAmt, GivesBackEveryBitOfAModel) {
 }
 
 /// A triangle by what it is, not by its number: its corners as vertices of the source with their place and
-/// texture coordinates, from the least; its codes; its face.
+/// texture coordinates, from the least; its codes; its face; its reach.
 using NumberFreeTriangle =
     std::tuple<std::array<std::tuple<std::uint32_t, double, double, double, double, double>, 3>,
-               std::uint16_t, std::uint16_t, std::uint32_t, bool>;
+               std::uint16_t, std::uint16_t, std::uint32_t, bool, int>;
+
+/// By vertex of the source.
+std::map<std::uint32_t, Vec3> directionsOf(const SurfaceModel& model) {
+  std::map<std::uint32_t, Vec3> directions;
+  if (!model.displacement.isEmpty())
+    for (std::uint32_t v = 0; v < model.mt.vertexCount(); ++v)
+      directions[model.vertexOf[v]] = model.displacement.direction(v);
+  return directions;
+}
 
 std::vector<NumberFreeTriangle> trianglesOf(const SurfaceModel& model) {
   const MultiTriangulation& mt = model.mt;
@@ -152,6 +170,7 @@ std::vector<NumberFreeTriangle> trianglesOf(const SurfaceModel& model) {
     // Of coarse triangles without faces of their own, any face that they stand for.
     std::get<3>(one) = !remover.isValid() || model.hasFaceAttributes() ? model.faceOf[t] : 0;
     std::get<4>(one) = remover.isValid();
+    std::get<5>(one) = model.displacement.isEmpty() ? 0 : model.displacement.reaches[t];
     all.push_back(one);
   }
   std::ranges::sort(all);
@@ -164,7 +183,7 @@ TEST_F(SurfaceAmt, PackedGivesBackTheSameTrianglesInAnotherOrder) {
   for (const bool hasDoubles : {false, true})
     for (const bool isPlain : {false, true}) {
       const SurfaceMesh mesh = isPlain ? SurfaceMesh(everything(hasDoubles).shape()) : everything(hasDoubles);
-      Result<SurfaceModel> model = buildSurface(mesh);
+      Result<SurfaceModel> model = isPlain ? buildSurface(mesh) : displaced(mesh);
       ASSERT_TRUE(model) << model.error().message;
       ASSERT_TRUE(writeSurfaceAmt(path("plain.amt"), *model));
       ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model, {}, {.isPacked = true}));
@@ -176,6 +195,7 @@ TEST_F(SurfaceAmt, PackedGivesBackTheSameTrianglesInAnotherOrder) {
       EXPECT_EQ(read->mt.vertices().places64.empty(), !hasDoubles);
       EXPECT_EQ(read->positionError, 0);
       EXPECT_EQ(trianglesOf(*read), trianglesOf(*model));
+      EXPECT_EQ(directionsOf(*read), directionsOf(*model));
       EXPECT_EQ(read->attributes.triangleAttributes, model->attributes.triangleAttributes);
       EXPECT_EQ(read->attributes.materials, model->attributes.materials);
       EXPECT_EQ(read->attributes.pictures, model->attributes.pictures);
@@ -207,12 +227,13 @@ TEST_F(SurfaceAmt, PackedIsTheSameForEveryFamily) {
 TEST_F(SurfaceAmt, RoundedKeepsEveryLawAndSaysHowFarItsVerticesMoved) {
   for (const shapes::NamedMesh& family : shapes::families(6)) {
     SCOPED_TRACE(family.name);
-    const Result<SurfaceModel> model = buildSurface(SurfaceMesh(family.mesh));
+    const Result<SurfaceModel> model = displaced(SurfaceMesh(family.mesh));
     ASSERT_TRUE(model);
     for (const int bits : {8, 12, 16}) {
       ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model, {}, {.isPacked = true, .positionBits = bits}));
       const Result<SurfaceModel> read = loadSurfaceAmt(path("a.amt"));
       ASSERT_TRUE(read) << read.error().message;
+      EXPECT_FALSE(read->displacement.isEmpty());
       EXPECT_TRUE(validateSurface(*read, {.everySample = true}))
           << validateSurface(*read, {.everySample = true}).error().message;
       std::map<std::uint32_t, Vec3> placeOf;
@@ -241,7 +262,7 @@ TEST_F(SurfaceAmt, IsRefusedWhereTerrainIsWantedAndTheOtherWay) {
 }
 
 TEST_F(SurfaceAmt, SaysSoWhateverByteIsChangedOrCutOff) {
-  const Result<SurfaceModel> model = buildSurface(everything(false));
+  const Result<SurfaceModel> model = displaced(everything(false));
   ASSERT_TRUE(model);
   for (const bool isPacked : {false, true}) {
     ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model, {}, {.isPacked = isPacked}));

@@ -1,22 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The promise of surfaces on real meshes: no point of the source is farther from a cut than its error, for
-// uniform cuts and for random closed sets of nodes, plain and packed; held against measureDistance(), which
-// shares no code with the build. ARETE_FULL=1 takes a thousand sets of meshes of less than 10 000 faces, and
-// twenty of the others.
+// uniform cuts and for random closed sets of nodes, plain and packed, and displaced; held against
+// measureDistance(), which shares no code with the build. ARETE_FULL=1 takes a thousand sets of meshes of
+// less than 10 000 faces, and twenty of the others.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "engine/criteria/refine_order.h"
+#include "engine/criteria/space_region.h"
+#include "engine/criteria/view_error.h"
 #include "engine/cut/cut.h"
 #include "full_run.h"
 #include "io/exchange/mesh_formats.h"
 #include "io/io_fixture.h"
 #include "io/packed/surface/rounded_surface.h"
 #include "surface/build/build.h"
+#include "surface/displacement/displaced_places.h"
+#include "surface/displacement/find_displacement.h"
 #include "surface/front/front.h"
 #include "surface/laws/validate_surface.h"
 #include "terrain/measure/mesh_distance.h"
@@ -107,6 +113,47 @@ TEST_P(SurfacePromise, HoldsForTheSourceWhereVerticesAreRounded) {
   model.mt = rounded->mt;
   for (const std::uint32_t nodes : {0u, model.mt.nodeCount() / 20, model.mt.nodeCount()})
     expectBound(model, frontOfPrefix(model.mt, nodes), 50'000);
+}
+
+TEST_P(SurfacePromise, HoldsDisplacedInEveryKindOfCut) {
+  const Result<SurfaceDisplacement> displacement = findDisplacement(model_);
+  ASSERT_TRUE(displacement);
+  const MultiTriangulation& mt = model_.mt;
+  const MetricFrame& metric = mt.arrays().metric;
+  const int tolerances = test::isFull() ? 10 : 1;
+  const auto expectDisplaced = [&](const Cut& cut, const BoundedCriterion& criterion) {
+    SurfaceFront front = surfaceOf(model_, cut);
+    front.mesh.positions = displacedPlaces(mt, *displacement, cut, promisedErrors(mt, cut, &criterion));
+    const auto apart = measureDistance(front.mesh.shape(), source_, {.samples = 50'000});
+    ASSERT_TRUE(apart);
+    EXPECT_LE(apart->backward.maximum,
+              cut.achievedError + 16 * std::ldexp(apart->largestCoordinate, -52) + 1e-9 * model_.diagonal);
+  };
+  Vec3 middle = mt.position(VertexId(mt.vertexCount() / 2));
+  for (int i = 0; i < tolerances; ++i) {
+    SCOPED_TRACE(i);
+    const double error = model_.diagonal * 0.02 * std::exp2(-i), side = model_.diagonal / 5;
+    const UniformError uniform(error);
+    expectDisplaced(*takeCut(mt, uniform), uniform);
+
+    CutOptions budget;
+    budget.maxTriangles = mt.rootTriangleCount() + (mt.finestTriangleCount() / 20 >> i);
+    budget.order = std::make_shared<LargestSquaresFirst>();
+    const UniformError none(0);
+    expectDisplaced(*takeCut(mt, none, budget), none);
+
+    const auto box =
+        std::make_shared<BoxRegion>(middle - Vec3{side, side, side}, middle + Vec3{side, side, side});
+    const SpaceRegionError region(box, metric, error, 4 * error);
+    expectDisplaced(*takeCut(mt, region), region);
+
+    View view;
+    view.eye = metric.toMetric(middle + Vec3{0, 0, model_.diagonal * (i + 1) / 5});
+    view.forward = {0, 0, -1};
+    view.up = {0, 1, 0};
+    const ViewError camera({.view = view, .pixels = 3, .outsideError = model_.diagonal / 20}, metric);
+    expectDisplaced(*takeCut(mt, camera), camera);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(OfRealMeshes, SurfacePromise, ::testing::ValuesIn(kMeshes),

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The height of a node is one more than that of the highest node that removes a triangle of its star. Nodes
+// of one height are independent: all threads work on them at once.
+#include "surface/displacement/piece_replay.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/cut/cut.h"
+#include "engine/mt/hole_limit.h"
+#include "engine/parallel/loop_threads.h"
+#include "engine/simplify/hole_triangles.h"
+#include "surface/error/piece_division.h"
+
+namespace arete {
+namespace {
+
+/// Nodes of a batch: what a visitor keeps of their floors stays small.
+constexpr std::size_t kBatch = 4096;
+
+HoleTriangulation floorOf(const MultiTriangulation& mt, NodeId n) {
+  const auto link = mt.link(n);
+  HoleTriangulation floor;
+  for (const std::uint32_t t : mt.floor(n)) {
+    std::array<int, 3> at{};
+    const auto corners = mt.corners(TriangleId(t));
+    for (std::size_t i = 0; i < 3; ++i)
+      at[i] = static_cast<int>(std::ranges::find(link, corners[i]) - link.begin());
+    std::ranges::rotate(at, std::ranges::min_element(at));
+    floor.add(at[0], at[1], at[2]);
+  }
+  return floor;
+}
+
+}  // namespace
+
+PieceReplay::PieceReplay(const MultiTriangulation& mt) : mt_(mt) {
+  double largest = 0;
+  for (std::uint32_t v = 0; v < mt.vertexCount(); ++v) {
+    const Vec3 p = mt.position(VertexId(v));
+    positions_.push_back(p);
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  const Cut finest = frontOfPrefix(mt, mt.nodeCount());
+  faceOf_.resize(mt.triangleIdCount());
+  for (std::size_t t = 0; t < finest.triangles.size(); ++t) {
+    const auto& [a, b, c] = finest.triangles[t];
+    faceOf_[finest.ids[t]] = static_cast<std::uint32_t>(t);
+    faces_.push_back({finest.vertices[a], finest.vertices[b], finest.vertices[c]});
+  }
+  original_ = {positions_, faces_, largest};
+  sortByHeight();
+}
+
+void PieceReplay::sortByHeight() {
+  std::vector<std::uint32_t> heightOf(mt_.nodeCount(), 0);
+  std::uint32_t highest = 0;
+  for (std::uint32_t n = mt_.nodeCount(); n-- > 0;) {
+    for (std::uint32_t i = 0; i < mt_.ceilingSize(NodeId(n)); ++i)
+      if (const NodeId above = mt_.remover(mt_.slotTriangle(NodeId(n), i)); above.isValid())
+        heightOf[n] = std::max(heightOf[n], heightOf[above.index()] + 1);
+    highest = std::max(highest, heightOf[n]);
+  }
+  heightBegins_.assign(highest + 2, 0);
+  for (const std::uint32_t height : heightOf) ++heightBegins_[height + 1];
+  for (std::size_t h = 1; h < heightBegins_.size(); ++h) heightBegins_[h] += heightBegins_[h - 1];
+  nodes_.resize(mt_.nodeCount());
+  std::vector<std::size_t> next(heightBegins_.begin(), heightBegins_.end() - 1);
+  for (std::uint32_t n = 0; n < mt_.nodeCount(); ++n) nodes_[next[heightOf[n]]++] = n;
+}
+
+Status PieceReplay::run(CoarseTriangleVisitor& visitor, const char* stage, const RunContext& context) const {
+  std::vector<PieceList> pieces(mt_.triangleIdCount());
+  tbb::enumerable_thread_specific<PieceDivision> divisions([&] { return PieceDivision(original_); });
+  std::vector<std::size_t> firstOf;
+  for (std::size_t h = 0; h + 1 < heightBegins_.size(); ++h)
+    for (std::size_t begin = heightBegins_[h]; begin < heightBegins_[h + 1]; begin += kBatch) {
+      if (context.cancelled()) return failure(ErrorCode::interrupted, "interrupted");
+      context.report(stage, double(begin) / double(nodes_.size()));
+      const std::size_t end = std::min(begin + kBatch, heightBegins_[h + 1]);
+      firstOf.assign(1, 0);
+      for (std::size_t i = begin; i < end; ++i)
+        firstOf.push_back(firstOf.back() + mt_.floor(NodeId(nodes_[i])).size());
+      visitor.begin(firstOf.back());
+      forRanges(LoopThreads::all, end - begin, 16, [&](std::size_t from, std::size_t to) {
+        PieceDivision& division = divisions.local();
+        std::array<Vec3, kMaxHoleCorners> places;
+        for (std::size_t i = from; i < to; ++i) {
+          const NodeId n(nodes_[begin + i]);
+          division.clear();
+          for (std::uint32_t s = 0; s < mt_.ceilingSize(n); ++s) {
+            const std::uint32_t t = mt_.slotTriangle(n, s).index();
+            if (pieces[t].isEmpty())
+              division.add(faceOf_[t]);
+            else
+              division.add(std::exchange(pieces[t], {}));
+          }
+          const auto link = mt_.link(n);
+          for (std::size_t c = 0; c < link.size(); ++c) places[c] = positions_[link[c]];
+          const HoleTriangulation floor = floorOf(mt_, n);
+          division.divide({places.data(), link.size()}, floor);
+          for (int f = 0; f < floor.size; ++f) {
+            const std::uint32_t t = mt_.floor(n)[static_cast<std::size_t>(f)];
+            pieces[t] = division.takePieces(f);
+            visitor.visit(firstOf[i] + static_cast<std::size_t>(f),
+                          {t, mt_.corners(TriangleId(t)), pieces[t]});
+          }
+        }
+      });
+      visitor.end();
+    }
+  context.report(stage, 1);
+  return {};
+}
+
+}  // namespace arete
