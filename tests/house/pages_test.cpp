@@ -52,7 +52,7 @@ std::vector<std::string> entriesOf(const std::string& bibliography) {
 std::vector<fs::path> citingFiles() {
   std::vector<fs::path> files = {kRoot / "README.md", kRoot / "ARCHITECTURE.md"};
   for (const char* folder :
-       {"engine", "surface", "terrain", "io", "viewer", "cli", "datasets", "bench", "tests", "docs"})
+       {"engine", "surface", "terrain", "io", "gis", "viewer", "cli", "datasets", "bench", "tests", "docs"})
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
       const fs::path& file = entry.path();
       const bool isText = file.extension() == ".h" || file.extension() == ".cpp" || file.extension() == ".md";
@@ -92,7 +92,7 @@ TEST(Bibliography, KeysAreFoundInCommentsAndNotInIndices) {
 }
 
 /// The folders of the repository that hold what people write: no builds, no inputs of the fuzzers.
-const std::vector<std::string> kFolders = {"engine", "surface",  "terrain", "io",    "viewer",   "cli",
+const std::vector<std::string> kFolders = {"engine", "surface",  "terrain", "io",    "gis",      "viewer",   "cli",
                                            "tests",  "datasets", "bench",   "cmake", "examples", "docs"};
 
 /// The names of all files, with and without their folders.

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gis/driver/amt_dataset.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+
+#include "engine/criteria/criterion.h"
+#include "engine/cut/cut.h"
+#include "gis/driver/gdal_errors.h"
+#include "io/amt/surface_file.h"
+#include "io/format/layout.h"
+
+namespace arete {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Overviews end where they are smaller than this.
+constexpr int kLeastOverview = 128;
+
+}  // namespace
+
+int AmtDataset::identify(GDALOpenInfo* info) {
+  return info->nHeaderBytes >= static_cast<int>(kAmtMagic.size()) &&
+         std::memcmp(info->pabyHeader, kAmtMagic.data(), kAmtMagic.size()) == 0;
+}
+
+GDALDataset* AmtDataset::open(GDALOpenInfo* info) {
+  if (identify(info) == FALSE) return nullptr;
+  if (info->eAccess == GA_Update) {
+    CPLError(CE_Failure, CPLE_NotSupported, "%s: an .amt file is only read", info->pszFilename);
+    return nullptr;
+  }
+  const auto refuse = [](const Error& error) {
+    reportError(error);
+    return nullptr;
+  };
+  const Result<AmtOpenOptionsOfGdal> options = readOpenOptions(info->papszOpenOptions);
+  if (!options) return refuse(options.error());
+  const Result<bool> isSurface = isSurfaceAmt(info->pszFilename);
+  if (!isSurface) return refuse(isSurface.error());
+  auto dataset = std::make_unique<AmtDataset>();
+  dataset->SetDescription(info->pszFilename);
+  const bool wantsRaster = (info->nOpenFlags & GDAL_OF_RASTER) != 0,
+             wantsLayer = (info->nOpenFlags & GDAL_OF_VECTOR) != 0;
+  const Status opened = *isSurface
+                            ? dataset->openSurface(info->pszFilename, *options, wantsLayer)
+                            : dataset->openTerrain(info->pszFilename, *options, wantsRaster, wantsLayer);
+  if (!opened) return refuse(opened.error());
+  return dataset.release();
+}
+
+Status AmtDataset::openTerrain(const std::string& path, const AmtOpenOptionsOfGdal& options, bool wantsRaster,
+                               bool wantsLayer) {
+  Result<TerrainCuts> cuts = TerrainCuts::open(path, options.tolerance, options.cell);
+  if (!cuts) return tl::unexpected(cuts.error());
+  cuts_ = std::make_shared<TerrainCuts>(std::move(*cuts));
+  const TerrainModel& outline = cuts_->outline();
+  takeCrs(outline.georeference.crsWkt);
+  hasPosition_ = outline.georeference.hasGeoTransform || !outline.isRaster || options.cell;
+  SetMetadataItem("SOURCE", fs::path(outline.source).filename().c_str());
+  SetMetadataItem("TOLERANCE", CPLSPrintf("%.9g", options.tolerance));
+  if (wantsRaster) {
+    nRasterXSize = cuts_->grid().columns;
+    nRasterYSize = cuts_->grid().rows;
+    auto band = std::make_unique<HeightBand>(this, cuts_, 0);
+    for (int k = 1; std::max(nRasterXSize, nRasterYSize) >> k >= kLeastOverview; ++k)
+      band->addOverview(std::make_unique<HeightBand>(this, cuts_, k));
+    SetBand(1, band.release());
+    SetMetadataItem("AREA_OR_POINT", "Area");
+  }
+  if (wantsLayer)
+    layer_ = std::make_unique<TriangleLayer>("triangles", crs_, [cuts = cuts_]() -> Result<PlacedTriangles> {
+      const Result<TerrainCuts::Whole> whole = cuts->take(cuts->tolerance());
+      if (!whole) return tl::unexpected(whole.error());
+      const auto& [model, cut] = *whole;
+      PlacedTriangles placed;
+      for (const std::uint32_t v : cut.vertices) {
+        const Vec3 p = model.mt.position(VertexId(v));
+        const Vec2 xy = model.toSource({p.x, p.y});
+        placed.corners.push_back({xy.x, xy.y, p.z});
+      }
+      placed.take(model.mt, cut, model.isFlipped());
+      return placed;
+    });
+  return {};
+}
+
+Status AmtDataset::openSurface(const std::string& path, const AmtOpenOptionsOfGdal& options,
+                               bool wantsLayer) {
+  if (!wantsLayer)
+    return failure(
+        ErrorCode::unsupported,
+        "is of a surface, which has no single height over a place: it opens as a layer of triangles", path);
+  Result<SurfaceModel> model = loadSurfaceAmt(path);
+  if (!model) return tl::unexpected(model.error());
+  takeCrs(model->crsWkt);
+  SetMetadataItem("SOURCE", fs::path(model->source).filename().c_str());
+  SetMetadataItem("TOLERANCE", CPLSPrintf("%.9g", options.tolerance));
+  layer_ = std::make_unique<TriangleLayer>(
+      "triangles", crs_, [mt = model->mt, tolerance = options.tolerance]() -> Result<PlacedTriangles> {
+        const Result<Cut> cut = takeCut(mt, UniformError(tolerance));
+        if (!cut) return tl::unexpected(cut.error());
+        PlacedTriangles placed;
+        for (const std::uint32_t v : cut->vertices) placed.corners.push_back(mt.position(VertexId(v)));
+        placed.take(mt, *cut, false);
+        return placed;
+      });
+  return {};
+}
+
+void AmtDataset::takeCrs(const std::string& wkt) {
+  crs_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  if (!wkt.empty()) crs_.importFromWkt(wkt.c_str());
+}
+
+CPLErr AmtDataset::IRasterIO(GDALRWFlag mode, int left, int top, int width, int height, void* buffer,
+                             int bufferColumns, int bufferRows, GDALDataType type, int bandCount, int* bands,
+                             GSpacing pixelStep, GSpacing lineStep, GSpacing bandStep,
+                             GDALRasterIOExtraArg* extra) {
+  for (int i = 0; i < bandCount; ++i) {
+    const CPLErr done = GetRasterBand(bands[i])->RasterIO(
+        mode, left, top, width, height, static_cast<GByte*>(buffer) + i * bandStep, bufferColumns, bufferRows,
+        type, pixelStep, lineStep, extra);
+    if (done != CE_None) return done;
+  }
+  return CE_None;
+}
+
+CPLErr AmtDataset::GetGeoTransform(double* transform) {
+  if (!cuts_ || !hasPosition_) return CE_Failure;
+  std::ranges::copy(cuts_->grid().geoTransform, transform);
+  return CE_None;
+}
+
+const OGRSpatialReference* AmtDataset::GetSpatialRef() const {
+  return crs_.IsEmpty() ? nullptr : &crs_;
+}
+
+}  // namespace arete

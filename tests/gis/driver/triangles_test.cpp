@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+#include <ogrsf_frmts.h>
+
+#include <map>
+
+#include "engine/cut/cut.h"
+#include "gis/driver/driver_fixture.h"
+#include "io/amt/surface_file.h"
+#include "surface/build/build.h"
+#include "surface/families.h"
+
+namespace arete {
+namespace {
+
+using test::Dataset;
+
+struct Triangle {
+  std::array<Vec3, 3> corners;
+  double error;
+};
+
+class TriangleDriver : public test::DriverFixture {
+ protected:
+  static std::map<GIntBig, Triangle> trianglesOf(OGRLayer& layer) {
+    std::map<GIntBig, Triangle> all;
+    layer.ResetReading();
+    for (std::unique_ptr<OGRFeature> f(layer.GetNextFeature()); f; f.reset(layer.GetNextFeature())) {
+      const OGRLinearRing* const ring = f->GetGeometryRef()->toPolygon()->getExteriorRing();
+      EXPECT_EQ(ring->getNumPoints(), 4);
+      EXPECT_TRUE(ring->get_IsClosed());
+      EXPECT_FALSE(ring->isClockwise());
+      Triangle t{{}, f->GetFieldAsDouble("error")};
+      for (int i = 0; i < 3; ++i) t.corners[std::size_t(i)] = {ring->getX(i), ring->getY(i), ring->getZ(i)};
+      EXPECT_TRUE(all.emplace(f->GetFID(), t).second) << "a number twice";
+    }
+    return all;
+  }
+};
+
+TEST_F(TriangleDriver, GivesTheTrianglesOfTheCutWithTheirErrors) {
+  const std::string path = terrain("hills.amt", 120, 90, hills);
+  const Dataset dataset = open(path, {"TOLERANCE=4"}, GDAL_OF_VECTOR);
+  ASSERT_TRUE(dataset) << message();
+  ASSERT_EQ(dataset->GetLayerCount(), 1);
+  OGRLayer& layer = *dataset->GetLayer(0);
+  EXPECT_STREQ(layer.GetName(), "triangles");
+  EXPECT_EQ(layer.GetGeomType(), wkbPolygon25D);
+  ASSERT_NE(layer.GetSpatialRef(), nullptr);
+  EXPECT_STREQ(layer.GetSpatialRef()->GetAuthorityCode(nullptr), "32611");
+  const auto model = loadAmt(path);
+  ASSERT_TRUE(model);
+  const auto cut = takeCut(model->mt, UniformError(4));
+  ASSERT_TRUE(cut);
+  EXPECT_EQ(layer.GetFeatureCount(), GIntBig(cut->ids.size()));
+  const auto triangles = trianglesOf(layer);
+  EXPECT_EQ(triangles.size(), cut->ids.size());
+  double area = 0;
+  for (const auto& [id, t] : triangles) {
+    EXPECT_LE(t.error, 4);
+    EXPECT_NEAR(t.error, model->mt.error(TriangleId(std::uint32_t(id))), 1e-5);
+    for (const Vec3& p : t.corners) ASSERT_NEAR(p.z, hills(p.x, p.y), 1e-9);
+    area += ((t.corners[1].x - t.corners[0].x) * (t.corners[2].y - t.corners[0].y) -
+             (t.corners[2].x - t.corners[0].x) * (t.corners[1].y - t.corners[0].y)) /
+            2;
+  }
+  EXPECT_NEAR(area, 119 * 30 * 89 * 30, 1e-3);
+  OGREnvelope box;
+  ASSERT_EQ(layer.GetExtent(&box), OGRERR_NONE);
+  EXPECT_DOUBLE_EQ(box.MinX, 500015);
+  EXPECT_DOUBLE_EQ(box.MaxX, 500000 + 119.5 * 30);
+}
+
+TEST_F(TriangleDriver, NumbersATriangleAlikeAtEveryTolerance) {
+  const std::string path = terrain("hills.amt", 120, 90, hills);
+  const Dataset coarse = open(path, {"TOLERANCE=4"}), fine = open(path, {"TOLERANCE=2"});
+  ASSERT_TRUE(coarse && fine);
+  const auto few = trianglesOf(*coarse->GetLayer(0)), many = trianglesOf(*fine->GetLayer(0));
+  int same = 0;
+  for (const auto& [id, t] : few)
+    if (const auto other = many.find(id); other != many.end()) {
+      ++same;
+      EXPECT_EQ(t.corners, other->second.corners);
+    }
+  EXPECT_GT(same, 5);
+}
+
+TEST_F(TriangleDriver, FiltersByPlaceAndByErrorAndFindsByNumber) {
+  const std::string path = terrain("hills.amt", 120, 90, hills);
+  const Dataset dataset = open(path, {"TOLERANCE=4"});
+  ASSERT_TRUE(dataset) << message();
+  OGRLayer& layer = *dataset->GetLayer(0);
+  const auto all = trianglesOf(layer);
+  layer.SetSpatialFilterRect(501000, 3998000, 501500, 3998500);
+  const auto near = trianglesOf(layer);
+  EXPECT_EQ(layer.GetFeatureCount(), GIntBig(near.size()));
+  EXPECT_GT(near.size(), 0u);
+  EXPECT_LT(near.size(), all.size() / 2);
+  layer.SetSpatialFilter(nullptr);
+  ASSERT_EQ(layer.SetAttributeFilter("error > 3"), OGRERR_NONE);
+  std::size_t wanted = 0;
+  for (const auto& [id, t] : all) wanted += t.error > 3 ? 1 : 0;
+  EXPECT_EQ(trianglesOf(layer).size(), wanted);
+  EXPECT_EQ(layer.GetFeatureCount(), GIntBig(wanted));
+  layer.SetAttributeFilter(nullptr);
+  EXPECT_EQ(layer.GetFeatureCount(), GIntBig(all.size()));
+  const std::unique_ptr<OGRFeature> one(layer.GetFeature(all.begin()->first));
+  ASSERT_TRUE(one);
+  EXPECT_EQ(one->GetFID(), all.begin()->first);
+  EXPECT_FALSE(std::unique_ptr<OGRFeature>(layer.GetFeature(-1)));
+  EXPECT_FALSE(std::unique_ptr<OGRFeature>(layer.GetFeature(GIntBig(1) << 40)));
+}
+
+TEST_F(TriangleDriver, OpensASurfaceAsTrianglesAndSaysWhyNotAsARaster) {
+  const auto model = buildSurface(SurfaceMesh(shapes::globe(20, 12)));
+  ASSERT_TRUE(model);
+  const std::string path = folder().file("globe.amt");
+  ASSERT_TRUE(writeSurfaceAmt(path, *model));
+  const Dataset raster = open(path, {}, GDAL_OF_RASTER);
+  EXPECT_FALSE(raster);
+  EXPECT_NE(message().find("opens as a layer of triangles"), std::string::npos) << message();
+  const Dataset dataset = open(path, {"TOLERANCE=0.05"}, GDAL_OF_VECTOR);
+  ASSERT_TRUE(dataset) << message();
+  EXPECT_EQ(dataset->GetRasterCount(), 0);
+  const auto cut = takeCut(model->mt, UniformError(0.05));
+  ASSERT_TRUE(cut);
+  EXPECT_EQ(dataset->GetLayer(0)->GetFeatureCount(), GIntBig(cut->ids.size()));
+  const std::unique_ptr<OGRFeature> first(dataset->GetLayer(0)->GetNextFeature());
+  ASSERT_TRUE(first);
+  EXPECT_LE(first->GetFieldAsDouble("error"), 0.05);
+}
+
+}  // namespace
+}  // namespace arete
