@@ -183,6 +183,75 @@ def step_qgis(arguments):
               f"{layer['largestError']:g}")
 
 
+def read_with_driver(arguments, t, program, tolerances, **more):
+    environment = dict(os.environ, GDAL_DRIVER_PATH=str(arguments.driver), **more)
+    return json.loads(run([SYSTEM_PYTHON, HERE / "read_with_driver.py", program, t.folder / "dem.amt", t.dem,
+                           *tolerances], env=environment).splitlines()[-1])
+
+
+def step_driver(arguments):
+    need_program("gdal_translate", "gdal-bin")
+    check((arguments.driver / "gdal_AMT.so").exists(), f"there is no gdal_AMT.so in {arguments.driver}")
+    for t in terrains(arguments):
+        model, tolerances = t.folder / "dem.amt", [0, t.error, 3 * t.error]
+        environment = dict(os.environ, GDAL_DRIVER_PATH=str(arguments.driver))
+        for command in (["gdalinfo", "-stats", model], ["ogrinfo", "-al", "-so", "-oo", f"TOLERANCE={t.error}", model]):
+            done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                  text=True, env=environment)
+            check(done.returncode == 0 and not done.stderr, f"{command[0]} {model}: {done.stderr or done.returncode}")
+        check(not Path(f"{model}.aux.xml").exists(), "GDAL wrote statistics beside the file")
+        print(f"ok: {t.name}: .amt in GDAL's tools: no complaint, nothing written beside it")
+        for program, package, read in (("rasterio", "python3-rasterio", driver_in_rasterio),
+                                       ("geopandas", "python3-geopandas", driver_in_geopandas),
+                                       ("xarray", "python3-rioxarray", driver_in_xarray),
+                                       ("qgis", "python3-qgis", driver_in_qgis)):
+            try:
+                need_module({"xarray": "rioxarray", "qgis": "qgis.core"}.get(program, program), package)
+            except Missing as missing:
+                print(f"-- {missing}")
+                continue
+            read(arguments, t, tolerances)
+
+
+def driver_in_rasterio(arguments, t, tolerances):
+    found = read_with_driver(arguments, t, "rasterio", tolerances)
+    for off, tolerance in zip(found["off"], tolerances):
+        check(off <= tolerance * (1 + 1e-6), f"rasterio: {off} off at a tolerance of {tolerance}")
+    check(found["sameInAWindow"] and found["masked"] and found["sameGrid"], f"rasterio: {found}")
+    check(found["epsg"] == [t.epsg, t.epsg], f"rasterio: {found['epsg']}")
+    print(f"ok: {t.name}: .amt in rasterio: the DEM's grid and CRS, {found['off']} off at {tolerances}, windows alike")
+
+
+def driver_in_geopandas(arguments, t, tolerances):
+    found = read_with_driver(arguments, t, "geopandas", tolerances[1:])
+    check(found["features"][0] == t.triangles, f"geopandas: {found['features']} triangles, expected {t.triangles}")
+    check(found["epsg"] == t.epsg and found["hasHeights"], f"geopandas: {found}")
+    for error, tolerance in zip(found["largestError"], tolerances[1:]):
+        check(0 < error <= tolerance * (1 + 1e-6), f"geopandas: an error of {error} at {tolerance}")
+    print(f"ok: {t.name}: .amt in geopandas: {found['features']} triangles as extracted, EPSG:{found['epsg']}")
+
+
+def driver_in_xarray(arguments, t, _):
+    found = read_with_driver(arguments, t, "xarray", [])
+    near(found["heights"], t.heights, 1e-9 * max(map(abs, t.heights)), "xarray: heights")
+    check(found["epsg"] == t.epsg, f"xarray: EPSG:{found['epsg']}")
+    print(f"ok: {t.name}: .amt in xarray: {found['shape']}, EPSG:{found['epsg']}, the DEM's heights")
+
+
+def driver_in_qgis(arguments, t, tolerances):
+    found = read_with_driver(arguments, t, "qgis", tolerances, QT_QPA_PLATFORM="offscreen",
+                             XDG_RUNTIME_DIR=str(arguments.work), HOME=str(arguments.work))
+    check(found["valid"] and found["crs"] == [f"EPSG:{t.epsg}"] * 2, f"QGIS: {found}")
+    check(found["features"][1] == t.triangles, f"QGIS: {found['features']} triangles, expected {t.triangles}")
+    for heights, tolerance in zip(found["heights"], tolerances):
+        for value, bound in zip(heights, t.heights):
+            check(abs(value - bound) <= tolerance + 1e-9 * abs(bound), f"QGIS: heights {heights} at {tolerance}")
+    check(found["slopeSize"] == found["size"] and 0 < found["steepest"] < 90, f"QGIS: slopes {found}")
+    check(found["contours"] > 0, f"QGIS: contours {found}")
+    print(f"ok: {t.name}: .amt in QGIS: {found['size']} pixels, {found['features']} triangles at {tolerances}, slopes up "
+          f"to {found['steepest']:.1f} degrees, {found['contours']} contours")
+
+
 def meshlab(arguments, meshes, filters="", save=None):
     """What MeshLab says about meshes it opens and filters it applies; `save` = (path, attributes)."""
     need_program("meshlabserver", "meshlab")
@@ -414,8 +483,8 @@ def way_from(sampled, said):
     return found.groups()
 
 
-STEPS = {"gdal": step_gdal, "qgis": step_qgis, "meshlab": step_meshlab, "assimp": step_assimp, "gltf": step_gltf,
-         "distances": step_distances}
+STEPS = {"gdal": step_gdal, "qgis": step_qgis, "driver": step_driver, "meshlab": step_meshlab, "assimp": step_assimp,
+         "gltf": step_gltf, "distances": step_distances}
 
 
 def main():
@@ -423,6 +492,7 @@ def main():
     parser.add_argument("steps", nargs="*", metavar="STEP", help=f"of {', '.join(STEPS)} (default: all)")
     parser.add_argument("--arete", type=Path, default=ROOT / "build/release/arete")
     parser.add_argument("--datasets", type=Path, help="the program arete-datasets (default: beside arete)")
+    parser.add_argument("--driver", type=Path, help="folder of gdal_AMT.so (default: gis beside arete)")
     parser.add_argument("--dem", help="use this DEM; it has no NODATA on its border")
     parser.add_argument("--work", type=Path, default=ROOT / "build/external", help="folder for the files")
     arguments = parser.parse_args()
@@ -430,6 +500,7 @@ def main():
         if step not in STEPS:
             parser.error(f"there is no step '{step}': {', '.join(STEPS)}")
     arguments.datasets = arguments.datasets or arguments.arete.with_name("arete-datasets")
+    arguments.driver = (arguments.driver or arguments.arete.with_name("gis")).resolve()
     base, failed, done = arguments.work.resolve(), 0, 0
     for step in arguments.steps or STEPS:
         arguments.work = base / step
