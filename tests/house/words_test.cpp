@@ -194,14 +194,15 @@ std::vector<std::string> optionsNamedIn(const Prose& strings) {
 }
 
 TEST(Words, OfTheLibraryNameNoOptionOfTheCommandLine) {
-  for (const fs::path& file : sourcesOf({"engine", "surface", "terrain", "io", "gis", "viewer"})) {
+  for (const fs::path& file : sourcesOf({"engine", "surface", "terrain", "io", "gis", "python", "viewer"})) {
     for (const std::string& match : optionsNamedIn(Lexer(contentOf(file)).take(Kind::strings)))
       ADD_FAILURE() << nameOf(file) << ":" << match;
   }
 }
 
 TEST(Words, OfSourcesLendDataNoMind) {
-  for (const fs::path& file : sourcesOf({"engine", "surface", "terrain", "io", "gis", "viewer", "cli"})) {
+  for (const fs::path& file :
+       sourcesOf({"engine", "surface", "terrain", "io", "gis", "python", "viewer", "cli"})) {
     for (const Kind kind : {Kind::comments, Kind::strings})
       for (const std::string& match : matchesIn(Lexer(contentOf(file)).take(kind), wordPattern()))
         ADD_FAILURE() << nameOf(file) << ":" << match;

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Arrays of heights as numbers that every build takes: float64, row by row, NaN for NODATA.
+
+A form that is not understood is refused. Nothing is rounded: a number that float64 does not hold is an error.
+"""
+
+from typing import Any, Optional, Tuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def heights_of(array: Any, nodata: Optional[float]) -> NDArray[np.float64]:
+    """The heights of a two-dimensional array of any order, stride, byte order and real type; masked cells and cells
+    equal to `nodata` are NaN."""
+    if not isinstance(array, np.ndarray):
+        raise TypeError(f"the heights are of type {type(array).__name__}; pass a numpy array (np.asarray(...))")
+    if array.ndim != 2:
+        hint = "; of a raster of one band pass array[0]" if array.ndim == 3 and array.shape[0] == 1 else ""
+        raise ValueError(f"the heights have {array.ndim} dimensions, not 2 (rows, columns){hint}")
+    if array.dtype.kind not in "iuf":
+        raise TypeError(f"heights of type {array.dtype} are no real numbers")
+    mask = np.asarray(np.ma.getmaskarray(array), dtype=np.bool_)  # type: ignore[no-untyped-call]
+    raw = np.asarray(np.ma.getdata(array))  # type: ignore[no-untyped-call]
+    with np.errstate(over="ignore"):
+        heights = np.array(raw, dtype=np.float64, order="C", copy=True)
+    exact = _is_exact(raw, heights) | mask
+    if not exact.all():
+        row, column = np.argwhere(~exact)[0]
+        raise ValueError(f"the height {raw[row, column]!r} in row {row}, column {column} is no float64 number: nothing is "
+                         "rounded")
+    if nodata is not None:
+        heights[raw == _in_type_of(raw, nodata)] = np.nan
+    heights[mask] = np.nan
+    return heights
+
+
+def _is_exact(raw: NDArray[Any], heights: NDArray[np.float64]) -> NDArray[np.bool_]:
+    if raw.dtype.kind == "f" and raw.dtype.itemsize <= 8:
+        return np.ones(raw.shape, dtype=np.bool_)
+    if raw.dtype.kind in "iu":
+        if raw.dtype.itemsize < 8:
+            return np.ones(raw.shape, dtype=np.bool_)
+        # 2^63 and 2^64 are floats that no integer of that type is: only what is below comes back.
+        below = heights < float(np.iinfo(raw.dtype).max)
+        back = np.where(below, heights, 0).astype(raw.dtype.newbyteorder("="))
+        return np.asarray(below & (back == raw), dtype=np.bool_)
+    return np.asarray((heights.astype(raw.dtype) == raw) | np.isnan(raw), dtype=np.bool_)
+
+
+def _in_type_of(raw: NDArray[Any], nodata: float) -> Any:
+    """A NODATA value as the array has it: -3.4e38 of a text is that of float32."""
+    if raw.dtype.kind == "f":
+        return raw.dtype.type(nodata)
+    return nodata
+
+
+def geotransform_of(transform: Any) -> Optional[Tuple[float, float, float, float, float, float]]:
+    """GDAL's order of an affine.Affine, as rasterio has it."""
+    if transform is None:
+        return None
+    try:
+        a, b, c, d, e, f = (float(getattr(transform, name)) for name in "abcdef")
+    except (AttributeError, TypeError, ValueError):
+        raise TypeError("transform is no affine.Affine (rasterio's dataset.transform); of GDAL's six numbers make "
+                        "one by Affine.from_gdal(*numbers)") from None
+    return (c, a, b, f, d, e)
+
+
+def crs_text(crs: Any) -> str:
+    """A CRS as text: WKT, "EPSG:32611", 32611, or an object of pyproj or rasterio."""
+    if crs is None:
+        return ""
+    if isinstance(crs, str):
+        return crs
+    if isinstance(crs, (int, np.integer)) and not isinstance(crs, bool):
+        return f"EPSG:{int(crs)}"
+    if hasattr(crs, "to_wkt"):
+        return str(crs.to_wkt())
+    raise TypeError(f"a CRS of type {type(crs).__name__} is not understood; pass text, a number of EPSG, or an object with "
+                    "to_wkt()")
+
+
+def rings_of(region: Any) -> Tuple[Tuple[Tuple[float, float], ...], ...]:
+    """The rings of a box (xmin, ymin, xmax, ymax) or of a polygon with __geo_interface__ (shapely, geopandas)."""
+    if region is None:
+        return ()
+    geometry = getattr(region, "__geo_interface__", region if isinstance(region, dict) else None)
+    if geometry is not None:
+        if geometry.get("type") == "Polygon":
+            polygons = [geometry["coordinates"]]
+        elif geometry.get("type") == "MultiPolygon":
+            polygons = geometry["coordinates"]
+        else:
+            raise ValueError(f"a region is a Polygon or a MultiPolygon, not a {geometry.get('type')}")
+        return tuple(tuple((float(p[0]), float(p[1])) for p in ring) for polygon in polygons for ring in polygon)
+    try:
+        left, bottom, right, top = (float(number) for number in region)
+    except (TypeError, ValueError):
+        raise TypeError("a region is a box (xmin, ymin, xmax, ymax) or a polygon of shapely") from None
+    if not (left <= right and bottom <= top):
+        raise ValueError(f"the box {region} is not xmin, ymin, xmax, ymax")
+    return (((left, bottom), (right, bottom), (right, top), (left, top)),)

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "python/bindings/calls.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace arete::python {
+
+namespace py = pybind11;
+
+void raise(const Error& error) {
+  const std::string text = error.describe();
+  switch (error.code) {
+    case ErrorCode::usage:
+      PyErr_SetString(PyExc_ValueError, text.c_str());
+      break;
+    case ErrorCode::notFound:
+      PyErr_SetString(PyExc_FileNotFoundError, text.c_str());
+      break;
+    case ErrorCode::unreadable:
+      PyErr_SetString(PyExc_OSError, text.c_str());
+      break;
+    case ErrorCode::outOfMemory:
+      PyErr_SetString(PyExc_MemoryError, text.c_str());
+      break;
+    case ErrorCode::interrupted:
+      PyErr_SetString(PyExc_KeyboardInterrupt, text.c_str());
+      break;
+    default:
+      PyErr_SetString(PyExc_RuntimeError, text.c_str());
+  }
+  throw py::error_already_set();
+}
+
+void runBeside(const py::object& progress, const std::function<void(const RunContext&)>& body) {
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool isDone = false, hasReport = false;
+  std::string stage;
+  double fraction = 0;
+  std::exception_ptr thrown;
+  std::atomic<bool> stop = false;
+  RunContext context;
+  context.cancel = &stop;
+  if (!progress.is_none())
+    context.progress = [&](std::string_view reportedStage, double reported) {
+      const std::lock_guard lock(mutex);
+      stage = reportedStage;
+      fraction = reported;
+      hasReport = true;
+      changed.notify_one();
+    };
+  std::thread worker([&] {
+    try {
+      body(context);
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+    const std::lock_guard lock(mutex);
+    isDone = true;
+    changed.notify_one();
+  });
+  std::exception_ptr raised;
+  for (;;) {
+    std::string latestStage;
+    double latest = 0;
+    bool isNew = false, isEnd = false;
+    {
+      const py::gil_scoped_release released;
+      std::unique_lock lock(mutex);
+      changed.wait_for(lock, std::chrono::milliseconds(50), [&] { return isDone || hasReport; });
+      isEnd = isDone;
+      isNew = std::exchange(hasReport, false);
+      latestStage = stage;
+      latest = fraction;
+    }
+    if (!raised) {
+      try {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        if (isNew) progress(latestStage, latest);
+      } catch (...) {
+        raised = std::current_exception();
+        stop = true;
+      }
+    }
+    if (isEnd) break;
+  }
+  worker.join();
+  if (raised) std::rethrow_exception(raised);
+  if (thrown) std::rethrow_exception(thrown);
+}
+
+}  // namespace arete::python

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
+
+namespace arete::python {
+
+/// Raises an error as Python's own: ValueError (usage), FileNotFoundError, OSError, MemoryError,
+/// KeyboardInterrupt, and RuntimeError for data that is damaged, invalid or not supported.
+[[noreturn]] void raise(const Error& error);
+
+/// Runs a body on a thread of its own, without the interpreter's lock, while the calling thread serves
+/// Python: it calls progress(stage, fraction) with the latest report, and notices Ctrl-C. What the callback
+/// or the signal raises ends the body and is raised here.
+/// @param progress a callable, or None
+void runBeside(const pybind11::object& progress, const std::function<void(const RunContext&)>& body);
+
+/// The result of body(context), or its error raised.
+template <class Body>
+auto call(const pybind11::object& progress, const Body& body) {
+  using Answer = decltype(body(std::declval<const RunContext&>()));
+  std::optional<Answer> answer;
+  runBeside(progress, [&](const RunContext& context) { answer.emplace(body(context)); });
+  if (!*answer) raise(answer->error());
+  if constexpr (!std::is_same_v<Answer, Status>) return std::move(**answer);
+}
+
+}  // namespace arete::python

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "python/bindings/tin.h"
+
+#include <pybind11/numpy.h>
+
+namespace arete::python {
+namespace {
+
+namespace py = pybind11;
+
+/// A view of memory that `owner` keeps alive, read-only.
+template <class Number>
+py::array viewOf(const Number* data, std::vector<py::ssize_t> shape, const py::object& owner) {
+  py::array view(py::dtype::of<Number>(), std::move(shape), data, owner);
+  py::detail::array_proxy(view.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return view;
+}
+
+py::ssize_t sizeOf(const auto& array) {
+  return static_cast<py::ssize_t>(array.size());
+}
+
+}  // namespace
+
+void defineTin(py::module_& module) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  py::class_<Tin>(module, "Tin")
+      .def_property_readonly("vertices",
+                             [](const py::object& self) {
+                               const auto& tin = self.cast<const Tin&>();
+                               return viewOf(reinterpret_cast<const double*>(tin.vertices.data()),
+                                             {sizeOf(tin.vertices), 3}, self);
+                             })
+      .def_property_readonly("triangles",
+                             [](const py::object& self) {
+                               const auto& tin = self.cast<const Tin&>();
+                               return viewOf(reinterpret_cast<const std::uint32_t*>(tin.triangles.data()),
+                                             {sizeOf(tin.triangles), 3}, self);
+                             })
+      .def_property_readonly("errors",
+                             [](const py::object& self) {
+                               const auto& tin = self.cast<const Tin&>();
+                               return viewOf(tin.errors.data(), {sizeOf(tin.errors)}, self);
+                             })
+      .def_readonly("error", &Tin::error)
+      .def_readonly("is_complete", &Tin::isComplete)
+      .def_readonly("crs_wkt", &Tin::crsWkt);
+}
+
+}  // namespace arete::python

@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Models answer in Python what the command answers."""
+
+import gc
+import json
+import os
+import pickle
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import arete
+from arrays_test import Affine
+
+PLACE = Affine(30, 0, 500000, 0, -30, 4000000)
+
+
+def hills(rows=120, columns=150):
+    y, x = np.mgrid[0:rows, 0:columns]
+    return 100 * np.sin(x / 9) * np.cos(y / 13) + x + 0.37 * y
+
+
+def command(*words):
+    done = subprocess.run([os.environ["ARETE"], *map(str, words)], capture_output=True, text=True, check=True)
+    return done.stdout
+
+
+class Models(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.model = arete.build(hills(), transform=PLACE, crs=32611)
+        cls.file = os.path.join(cls.folder.name, "hills.amt")
+        cls.model.save(cls.file)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def test_a_cut_is_that_of_the_command(self):
+        for options, words in (({"max_error": 4}, ["--max-error", 4]), ({"max_triangles": 500}, ["--max-triangles", 500]),
+                               ({"max_error": 1, "region": (500500, 3998000, 502000, 3999000)},
+                                ["--max-error", 1, "--region", "500500,3998000,502000,3999000"])):
+            with self.subTest(options):
+                tin = self.model.cut(**options)
+                said = json.loads(command("extract", self.file, "-o", self.path("tin.obj"), *words, "--json"))["exports"][0]
+                self.assertEqual((len(tin.triangles), len(tin.vertices)), (said["triangles"], said["vertices"]))
+                self.assertEqual(tin.error, said["storedError"])
+                with open(self.path("tin.obj"), encoding="utf-8") as file:
+                    lines = [line.split() for line in file if line[:2] in ("v ", "f ")]
+                vertices = np.array([[float(n) for n in line[1:4]] for line in lines if line[0] == "v"])
+                triangles = np.array([[int(n) - 1 for n in line[1:4]] for line in lines if line[0] == "f"])
+                self.assertTrue(np.array_equal(vertices, tin.vertices))
+                self.assertTrue(np.array_equal(triangles, tin.triangles))
+
+    def test_a_file_builds_to_the_bytes_of_the_command(self):
+        np.savetxt(self.path("points.xyz"), np.random.default_rng(1).uniform(0, 100, (500, 3)), fmt="%.6f")
+        for name in ("points.xyz",):
+            arete.build(self.path(name)).save(self.path("python.amt"))
+            command("build", self.path(name), "-o", self.path("command.amt"), "--quiet")
+            with open(self.path("python.amt"), "rb") as ours, open(self.path("command.amt"), "rb") as theirs:
+                self.assertEqual(ours.read(), theirs.read())
+
+    def test_a_tin_keeps_its_error_and_turns_counter_clockwise(self):
+        tin = self.model.cut(max_error=3)
+        self.assertLessEqual(tin.error, 3)
+        self.assertEqual(tin.error, tin.errors.max())
+        corners = tin.vertices[tin.triangles]
+        edges = corners[:, 1:, :2] - corners[:, :1, :2]
+        areas = np.cross(edges[:, 0], edges[:, 1]) / 2
+        self.assertTrue((areas > 0).all())
+        self.assertAlmostEqual(areas.sum(), 149 * 30 * 119 * 30, delta=1e-3)
+
+    def test_arrays_are_read_only_views_that_keep_their_owner(self):
+        tin = self.model.cut(max_error=3)
+        arrays = [tin.vertices, tin.triangles, tin.errors]
+        self.assertEqual([array.dtype for array in arrays], [np.float64, np.uint32, np.float32])
+        self.assertEqual(tin.vertices.ctypes.data, arrays[0].ctypes.data)
+        copies = [array.copy() for array in arrays]
+        for array in arrays:
+            self.assertFalse(array.flags.writeable)
+            with self.assertRaises(ValueError):
+                array[0] = 0
+            with self.assertRaises(ValueError):
+                array.flags.writeable = True
+        del tin
+        gc.collect()
+        self.model.cut(max_error=1)  # takes memory that was given back
+        for array, copy in zip(arrays, copies):
+            self.assertTrue(np.array_equal(array, copy))
+
+    def test_heights_are_those_of_the_samples_and_of_the_command(self):
+        wanted = hills()
+        x, y = 500015 + 30 * np.arange(150), 3999985 - 30 * np.arange(120)
+        found = self.model.height(x[np.newaxis, :], y[:, np.newaxis])
+        self.assertTrue(np.array_equal(found, wanted))
+        self.assertIsInstance(self.model.height(500100, 3999000), float)
+        self.assertTrue(np.isnan(self.model.height(0, 0)))
+        self.assertEqual(self.model.height([], []).shape, (0,))
+        said = json.loads(command("height", self.file, "--at", "500100,3999000", "--json"))
+        text = json.dumps(said)
+        self.assertIn(repr(self.model.height(500100, 3999000))[:12], text)
+        rough = self.model.height(x[np.newaxis, :], y[:, np.newaxis], max_error=5)
+        self.assertLessEqual(np.abs(rough - wanted).max(), 5)
+
+    def test_xarray_has_the_source_to_the_bit(self):
+        try:
+            import xarray  # noqa: F401
+        except ImportError:
+            self.skipTest("xarray is not installed")
+        array = self.model.to_xarray()
+        self.assertTrue(np.array_equal(array.values, hills()))
+        self.assertEqual(float(array.x[0]), 500015)
+        self.assertEqual(float(array.y[1]), 3999955)
+        coarse = self.model.to_xarray(cell=90)
+        self.assertEqual(float(coarse.x[1] - coarse.x[0]), 90)
+
+    def test_meshio_has_points_and_cells(self):
+        try:
+            import meshio  # noqa: F401
+        except ImportError:
+            self.skipTest("meshio is not installed")
+        tin = self.model.cut(max_error=3)
+        mesh = tin.to_meshio()
+        self.assertEqual(len(mesh.points), len(tin.vertices))
+        self.assertEqual(len(mesh.cells_dict["triangle"]), len(tin.triangles))
+
+    def test_a_model_is_pickled_by_its_file(self):
+        again = pickle.loads(pickle.dumps(arete.open(self.file)))
+        self.assertTrue(np.array_equal(again.cut(max_error=3).vertices, self.model.cut(max_error=3).vertices))
+        with self.assertRaisesRegex(TypeError, "save"):
+            pickle.dumps(arete.build(hills(10, 10)))
+
+    def test_two_threads_ask_one_model(self):
+        wanted = self.model.cut(max_error=2).vertices.copy()
+        found = []
+
+        def ask():
+            for _ in range(10):
+                found.append(np.array_equal(self.model.cut(max_error=2).vertices, wanted))
+
+        threads = [threading.Thread(target=ask) for _ in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(found, [True] * 20)
+
+    def test_progress_is_reported_and_what_it_raises_is_raised(self):
+        seen = []
+        arete.build(hills(300, 300), progress=lambda stage, part: seen.append((stage, part)))
+        self.assertTrue(seen)
+        self.assertTrue(all(isinstance(stage, str) and 0 <= part <= 1 for stage, part in seen))
+
+        class Mine(Exception):
+            pass
+
+        def stop(stage, part):
+            raise Mine(stage)
+
+        with self.assertRaises(Mine):
+            arete.build(hills(300, 300), progress=stop)
+        with self.assertRaises(TypeError):
+            arete.build(hills(300, 300), progress=3)
+
+    def test_ctrl_c_ends_a_build(self):
+        threading.Timer(0.15, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        begin = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            for _ in range(200):
+                arete.build(hills(600, 600))
+        self.assertLess(time.monotonic() - begin, 60)
+
+    def test_surfaces_open_and_are_cut(self):
+        with open(self.path("octahedron.obj"), "w", encoding="utf-8") as file:
+            size = 24
+            for j in range(size + 1):
+                for i in range(size + 1):
+                    file.write(f"v {i} {j} {np.sin(i / 4) * np.cos(j / 5):.6f}\n")
+            for j in range(size):
+                for i in range(size):
+                    a = j * (size + 1) + i + 1
+                    file.write(f"f {a} {a + 1} {a + size + 2}\nf {a} {a + size + 2} {a + size + 1}\n")
+        command("build", self.path("octahedron.obj"), "-o", self.path("surface.amt"), "--displacement", "--quiet")
+        surface = arete.open(self.path("surface.amt"))
+        self.assertIsInstance(surface, arete.Surface)
+        self.assertTrue(surface.is_displaced)
+        tin = surface.cut(max_triangles=100)
+        self.assertLessEqual(len(tin.triangles), 100)
+        plain = surface.cut(max_triangles=100, displaced=False)
+        self.assertEqual(tin.error, plain.error)
+        self.assertFalse(np.array_equal(tin.vertices, plain.vertices))
+        said = json.loads(command("extract", self.path("surface.amt"), "-o", self.path("s.obj"), "--max-triangles", 100,
+                                  "--json"))["exports"][0]
+        self.assertEqual(len(tin.triangles), said["triangles"])
+
+    def test_what_makes_no_sense_is_named(self):
+        for options in ({"max_error": -1}, {"max_error": float("nan")}, {"max_triangles": 1},
+                        {"max_error": 1, "region": (3, 0, 1, 1)}, {"max_error": 1, "region": (0, 0, 1, 1)},
+                        {"max_error": 1, "outside_error": 5}):
+            with self.subTest(options), self.assertRaises(ValueError):
+                self.model.cut(**options)
+        for options in ({}, {"max_error": 1, "region": "everywhere"}):
+            with self.subTest(options), self.assertRaises(TypeError):
+                self.model.cut(**options)
+        with self.assertRaises(FileNotFoundError):
+            arete.open(self.path("none.amt"))
+        with self.assertRaises(FileNotFoundError):
+            arete.build(self.path("none.tif"))
+        with open(self.path("damaged.amt"), "wb") as damaged, open(self.file, "rb") as whole:
+            content = bytearray(whole.read())
+            content[len(content) // 2] ^= 255
+            damaged.write(content)
+        with self.assertRaisesRegex(RuntimeError, "damaged.amt"):
+            arete.open(self.path("damaged.amt"))
+        with self.assertRaisesRegex(ValueError, "shape=round"):
+            arete.build(hills(10, 10), shape="round")
+
+
+if __name__ == "__main__":
+    unittest.main()
