@@ -16,9 +16,6 @@
 namespace arete {
 namespace {
 
-/// From this many lines on, reading all samples of a raster pays off.
-constexpr std::size_t kManyLines = 1000;
-
 Result<SightPath> pathOf(const std::array<SightSite, 2>& row, const SurfaceHeights& heights) {
   constexpr const char* kEnds[2] = {"the first end", "the second end"};
   constexpr const char* kOptions[2] = {"--observer-height", "--target-height"};
@@ -66,8 +63,7 @@ SightRows SightRows::of(const SightPairs& pairs, const SurfaceHeights& heights) 
 }
 
 SightMethod bestMethod(SightMethod asked, double maxError, std::size_t lines, const TerrainModel& model) {
-  if (asked != SightMethod::automatic) return asked;
-  return maxError > 0 || !model.isRaster || lines < kManyLines ? SightMethod::descent : SightMethod::pyramid;
+  return asked == SightMethod::automatic ? methodFor(lines, maxError, model) : asked;
 }
 
 std::string SightCounts::text() const {

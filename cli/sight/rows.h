@@ -28,8 +28,7 @@ struct SightRows {
   std::size_t count() const { return rows.size(); }
 };
 
-/// The algorithm for a number of lines: for many, one that reads all samples of a raster first; for few, the
-/// descent, which starts at once.
+/// The algorithm that is asked for, or methodFor() the lines.
 SightMethod bestMethod(SightMethod asked, double maxError, std::size_t lines, const TerrainModel& model);
 
 struct SightCounts {

@@ -8,6 +8,6 @@
     model.save("dem.amt"); model = arete.open("dem.amt")
 """
 
-from ._model import Model, Surface, Tin, build, open
+from ._model import Model, Sight, Surface, Tin, build, open
 
-__all__ = ["Model", "Surface", "Tin", "build", "open"]
+__all__ = ["Model", "Sight", "Surface", "Tin", "build", "open"]

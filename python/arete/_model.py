@@ -3,7 +3,7 @@
 
 import math
 import os
-from typing import Any, Callable, Optional, Tuple, Union
+from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,6 +13,23 @@ from ._arrays import crs_text, geotransform_of, heights_of, rings_of
 
 PathLike = Union[str, "os.PathLike[str]"]
 Progress = Optional[Callable[[str, float], object]]
+
+
+class Sight(NamedTuple):
+    """The answer of a line of sight, or arrays of answers."""
+
+    verdict: Any
+    """ "visible", "blocked", "unknown" (NODATA is in the way) or "undecided" (within max_error)."""
+    clearance: Any
+    """The least height of the line above the terrain, in the unit of heights; NaN where there is none below it."""
+    distance: Any
+    """Metres along the ground."""
+    obstruction: Any
+    """x, y where the line is first blocked; None, in arrays NaN, where it is not."""
+
+    @property
+    def visible(self) -> Any:
+        return self.verdict == "visible"
 
 
 class Tin:
@@ -104,6 +121,59 @@ class Model(_Stored):
         flat = self._terrain.heights(np.ascontiguousarray(xs).ravel(), np.ascontiguousarray(ys).ravel(),
                                      float(max_error), progress)
         return float(flat[0]) if xs.ndim == 0 else flat.reshape(xs.shape)
+
+    def los(self, observer: ArrayLike, target: ArrayLike, max_error: float = 0, earth: Optional[str] = None,
+            refraction: Optional[float] = None, nodata: str = "unknown", progress: Progress = None) -> "Sight":
+        """Whether an observer sees a target, at full resolution: both are x, y and a height above the ground, or rows of
+        them (n, 3), of which either may be one.
+
+        earth: "ellipsoid" (with a CRS) or "plane". refraction: the coefficient k, 1/7 by default. nodata: "unknown",
+        "blocked" or "clear". max_error: terrain may be off by as much; what that leaves open is "undecided".
+        """
+        if not max_error >= 0:
+            raise ValueError(f"max_error={max_error} is not at least 0")
+        ends = [np.asarray(end, dtype=np.float64) for end in (observer, target)]
+        for name, end in zip(("observer", "target"), ends):
+            if end.ndim not in (1, 2) or end.shape[-1] != 3:
+                raise ValueError(f"the {name} is no x, y, height, nor rows of them")
+        is_one = ends[0].ndim == 1 and ends[1].ndim == 1
+        first, second = np.broadcast_arrays(np.atleast_2d(ends[0]), np.atleast_2d(ends[1]))
+        verdicts, clearances, distances, places = self._terrain.los(
+            np.ascontiguousarray(first), np.ascontiguousarray(second), float(max_error), earth or "", refraction, nodata,
+            progress)
+        if is_one:
+            place = None if np.isnan(places[0]).any() else (float(places[0][0]), float(places[0][1]))
+            return Sight(verdicts[0], float(clearances[0]), float(distances[0]), place)
+        return Sight(np.array(verdicts), clearances, distances, places)
+
+    def viewshed(self, observer: ArrayLike, target_height: float = 0, radius: float = math.inf,
+                 earth: Optional[str] = None, refraction: Optional[float] = None, nodata: str = "unknown",
+                 progress: Progress = None) -> NDArray[np.uint8]:
+        """What an observer (x, y, height above the ground) sees, on the source's grid: 255 seen, 0 hidden, 100 unknown
+        because of NODATA, 1 out of range or NODATA. The radius is in metres on the ground."""
+        x, y, height = (float(number) for number in np.asarray(observer, dtype=np.float64).reshape(3))
+        return self._terrain.viewshed([x, y, height], float(target_height), float(radius), earth or "", refraction,
+                                      nodata, progress)
+
+    def measure(self, mesh: Any, triangles: Optional[ArrayLike] = None, progress: Progress = None) -> Dict[str, float]:
+        """How far a TIN is from every sample that the model was built from, by code that the build does not share.
+
+        mesh: a Tin, or vertices (n, 3) with triangles (m, 3).
+        """
+        if isinstance(mesh, Tin):
+            vertices, corners = mesh.vertices, mesh.triangles
+        else:
+            if triangles is None:
+                raise TypeError("measure() takes a Tin, or vertices and triangles")
+            vertices = np.ascontiguousarray(mesh, dtype=np.float64)
+            numbers = np.asarray(triangles)
+            if numbers.dtype.kind not in "iu" or (numbers.size and (numbers.min() < 0 or numbers.max() >= len(vertices))):
+                raise ValueError("the triangles are no numbers of vertices")
+            corners = np.ascontiguousarray(numbers, dtype=np.uint32)
+        for name, shape in (("vertices", vertices.shape), ("triangles", corners.shape)):
+            if len(shape) != 2 or shape[1] != 3:
+                raise ValueError(f"the {name} have the shape {shape}, not (n, 3)")
+        return self._terrain.measure(vertices, corners, progress)
 
     def to_xarray(self, max_error: float = 0, cell: Optional[float] = None, progress: Progress = None) -> Any:
         """An xarray.DataArray of heights at the middles of pixels: of the source's grid, or of square cells.

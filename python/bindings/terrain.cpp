@@ -16,10 +16,10 @@
 #include "io/dem/dem_reader.h"
 #include "python/bindings/array_file.h"
 #include "python/bindings/calls.h"
+#include "python/bindings/sight.h"
 #include "python/bindings/tin.h"
 #include "terrain/build/build.h"
 #include "terrain/features/fixed_vertices.h"
-#include "terrain/locate/surface_height.h"
 #include "terrain/model/plan_box.h"
 #include "terrain/model/plan_region.h"
 
@@ -27,22 +27,8 @@ namespace arete::python {
 namespace {
 
 namespace py = pybind11;
-using Doubles = py::array_t<double, py::array::c_style>;
 using Rings = std::vector<std::vector<std::array<double, 2>>>;
 
-/// A model with its point location.
-class Terrain {
- public:
-  explicit Terrain(TerrainModel model)
-      : model_(std::make_shared<const TerrainModel>(std::move(model))), heights_(*model_) {}
-
-  const TerrainModel& model() const { return *model_; }
-  const SurfaceHeights& heights() const { return heights_; }
-
- private:
-  std::shared_ptr<const TerrainModel> model_;  // heights_ refers to it
-  SurfaceHeights heights_;
-};
 using TerrainPtr = std::shared_ptr<Terrain>;
 
 struct BuildRequest {
@@ -177,8 +163,9 @@ std::array<double, 4> boundsOf(const TerrainModel& model) {
 }  // namespace
 
 void defineTerrain(py::module_& module) {
-  py::class_<Terrain, TerrainPtr>(module, "Terrain")
-      .def("cut", &takeTin)
+  py::class_<Terrain, TerrainPtr> its(module, "Terrain");
+  defineSight(its);
+  its.def("cut", &takeTin)
       .def("heights", &heightsAt)
       .def("save",
            [](const Terrain& terrain, const std::string& path, bool isPacked, const py::object& progress) {

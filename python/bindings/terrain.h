@@ -1,9 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <memory>
+#include <utility>
+
+#include "terrain/locate/surface_height.h"
+#include "terrain/model/terrain_model.h"
+
 namespace arete::python {
+
+/// An array that Python's side has made of float64, row by row.
+using Doubles = pybind11::array_t<double, pybind11::array::c_style>;
+
+/// A model with its point location.
+class Terrain {
+ public:
+  explicit Terrain(TerrainModel model)
+      : model_(std::make_shared<const TerrainModel>(std::move(model))), heights_(*model_) {}
+
+  const TerrainModel& model() const { return *model_; }
+  const SurfaceHeights& heights() const { return heights_; }
+
+ private:
+  std::shared_ptr<const TerrainModel> model_;  // heights_ refers to it
+  SurfaceHeights heights_;
+};
 
 /// Builds, reads, writes and asks models of terrain.
 void defineTerrain(pybind11::module_& module);

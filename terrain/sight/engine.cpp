@@ -7,6 +7,16 @@
 #include "engine/base/caught_failure.h"
 
 namespace arete {
+namespace {
+
+/// From this many lines on, reading all samples of a raster pays off.
+constexpr std::size_t kManyLines = 1000;
+
+}  // namespace
+
+SightMethod methodFor(std::size_t lines, double maxError, const TerrainModel& model) {
+  return maxError > 0 || !model.isRaster || lines < kManyLines ? SightMethod::descent : SightMethod::pyramid;
+}
 
 std::string_view toString(SightMethod method) {
   switch (method) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string_view>
 
@@ -30,6 +31,10 @@ class SightEngine {
   virtual ~SightEngine() = default;
   virtual SightAnswer answer(const SightLine& line, const SightOptions& options) const = 0;
 };
+
+/// The method for a number of lines: for many, one that reads all samples of a raster first; for few, for
+/// points and with a tolerance the descent, which starts at once.
+SightMethod methodFor(std::size_t lines, double maxError, const TerrainModel& model);
 
 /// Makes an engine. Preparation takes, descent: O(root triangles); pyramid: O(samples), in parallel; scan:
 /// O(samples) without a grid, else O(1); embree: O(front log front).

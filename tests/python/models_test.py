@@ -108,6 +108,60 @@ class Models(unittest.TestCase):
         rough = self.model.height(x[np.newaxis, :], y[:, np.newaxis], max_error=5)
         self.assertLessEqual(np.abs(rough - wanted).max(), 5)
 
+    def test_lines_of_sight_are_those_of_the_command(self):
+        verdicts = set()
+        for observer, target in (((500300, 3999000, 10), (503000, 3997500, 10)), ((500300, 3999000, 200), (503000, 3997500, 200)),
+                                 ((501000, 3998000, 2), (501500, 3998100, 2))):
+            one = self.model.los(observer, target)
+            said = json.loads(command("los", self.file, "--from", ",".join(map(str, observer)), "--to",
+                                      ",".join(map(str, target)), "--json"))
+            self.assertEqual((one.verdict, one.clearance, one.distance),
+                             (said["verdict"], said["clearance"], said["distance"]))
+            place = said.get("obstruction")
+            self.assertEqual(one.obstruction, (place["x"], place["y"]) if place else None)
+            self.assertEqual(one.visible, one.verdict == "visible")
+            verdicts.add(one.verdict)
+        self.assertEqual(verdicts, {"visible", "blocked"})
+        x = np.linspace(500300, 503000, 50)
+        targets = np.stack([x, np.full(50, 3997500.0), np.full(50, 10.0)], axis=1)
+        many = self.model.los((500300, 3999000, 10), targets)
+        for i in (0, 17, 49):
+            one = self.model.los((500300, 3999000, 10), targets[i])
+            self.assertEqual(many.verdict[i], one.verdict)
+            self.assertAlmostEqual(many.clearance[i], one.clearance, places=9)
+        self.assertEqual(many.visible.dtype, bool)
+        with self.assertRaisesRegex(ValueError, "observer 0"):
+            self.model.los((0, 0, 10), (501000, 3998000, 2))
+        with self.assertRaisesRegex(ValueError, "earth=round"):
+            self.model.los((500300, 3999000, 10), (501000, 3998000, 2), earth="round")
+        with self.assertRaises(ValueError):
+            self.model.los((500300, 3999000), (501000, 3998000))
+
+    def test_a_viewshed_is_that_of_the_command(self):
+        for options, words in (({}, []), ({"radius": 900, "target_height": 5}, ["--radius", 900, "--target-height", 5])):
+            seen = self.model.viewshed((501000, 3998500, 10), **options)
+            self.assertEqual((seen.shape, seen.dtype), ((120, 150), np.uint8))
+            said = json.loads(command("viewshed", self.file, "--observer", "501000,3998500,10", *words, "-o",
+                                      self.path("seen.tif"), "--json"))
+            counts = {255: "seen", 0: "hidden", 1: "outside"}
+            for value, name in counts.items():
+                self.assertEqual(int((seen == value).sum()), said[name], name)
+
+    def test_a_tin_is_measured_against_every_sample(self):
+        tin = self.model.cut(max_error=3)
+        found = self.model.measure(tin)
+        self.assertLessEqual(found["max_abs_error"], 3)
+        self.assertEqual((found["covered"], found["uncovered"]), (120 * 150, 0))
+        moved = tin.vertices.copy()
+        moved[:, 2] += 10
+        worse = self.model.measure(moved, tin.triangles)
+        self.assertAlmostEqual(worse["mean_error"], found["mean_error"] + 10, places=9)
+        half = self.model.measure(tin.vertices, tin.triangles[: len(tin.triangles) // 2])
+        self.assertGreater(half["uncovered"], 1000)
+        for triangles in ([[0, 1, 10**6]], [[0, 1]], [[0.5, 1, 2]], None):
+            with self.assertRaises((ValueError, TypeError)):
+                self.model.measure(tin.vertices, triangles)
+
     def test_xarray_has_the_source_to_the_bit(self):
         try:
             import xarray  # noqa: F401

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "python/bindings/sight.h"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/triangle_mesh.h"
+#include "io/crs/ellipsoid_earth.h"
+#include "io/crs/longitude_turns.h"
+#include "python/bindings/calls.h"
+#include "terrain/measure/measure.h"
+#include "terrain/sight/earth.h"
+#include "terrain/sight/engine.h"
+#include "terrain/sight/paths.h"
+#include "terrain/viewshed/viewshed.h"
+
+namespace arete::python {
+namespace {
+
+namespace py = pybind11;
+
+/// How lines of sight are taken.
+struct SightRequest {
+  std::string earth, nodata;
+  std::optional<double> refraction;
+};
+
+Result<std::unique_ptr<SightEarth>> makeEarth(const SightRequest& request, const TerrainModel& model) {
+  if (!request.earth.empty() && request.earth != "plane" && request.earth != "ellipsoid")
+    return failure(ErrorCode::usage, "is neither ellipsoid nor plane", "earth=" + request.earth);
+  const bool isPlane =
+      request.earth == "plane" || (request.earth.empty() && model.georeference.crsWkt.empty());
+  if (!isPlane) return makeEllipsoidEarth(model, request.refraction.value_or(kUsualRefraction));
+  if (request.refraction.value_or(0) != 0)
+    return failure(ErrorCode::usage, "requires an ellipsoid; the map is taken as a plane", "refraction");
+  return makePlaneEarth(model);
+}
+
+Result<NodataSight> nodataOf(const SightRequest& request) {
+  if (request.nodata == "unknown") return NodataSight::unknown;
+  if (request.nodata == "blocked") return NodataSight::blocked;
+  if (request.nodata == "clear") return NodataSight::clear;
+  return failure(ErrorCode::usage, "is not one of unknown, blocked, clear", "nodata=" + request.nodata);
+}
+
+/// An end above the ground, in plan coordinates and from the DEM's zero.
+Result<std::pair<Vec2, double>> endOf(const Terrain& terrain, const LongitudeTurns& turns, const double* xyh,
+                                      const std::string& culprit) {
+  const Vec2 xy = turns({xyh[0], xyh[1]});
+  const auto ground = terrain.heights().at(xy);
+  if (!ground) return failure(ErrorCode::usage, "is where there is no terrain", culprit);
+  if (!std::isfinite(xyh[2])) return failure(ErrorCode::usage, "has no height", culprit);
+  return std::pair{sightPlan(terrain.model(), xy), ground->height + xyh[2]};
+}
+
+const char* nameOf(SightVerdict verdict) {
+  switch (verdict) {
+    case SightVerdict::visible:
+      return "visible";
+    case SightVerdict::blocked:
+      return "blocked";
+    case SightVerdict::unknown:
+      return "unknown";
+    default:
+      return "undecided";
+  }
+}
+
+/// @param from,to rows of x, y, height above the ground
+/// @return verdicts, clearances, distances and places of obstructions
+py::tuple los(const Terrain& terrain, const Doubles& from, const Doubles& to, double maxError,
+              const std::string& earthName, std::optional<double> refraction, const std::string& nodata,
+              const py::object& progress) {
+  const auto count = static_cast<std::size_t>(from.shape(0));
+  const auto answers = call(progress, [&](const RunContext& context) -> Result<std::vector<SightPathAnswer>> {
+    const TerrainModel& model = terrain.model();
+    const SightRequest request{earthName, nodata, refraction};
+    const auto earth = makeEarth(request, model);
+    if (!earth) return tl::unexpected(earth.error());
+    const auto gaps = nodataOf(request);
+    if (!gaps) return tl::unexpected(gaps.error());
+    const LongitudeTurns turns(model);
+    std::vector<SightPath> paths;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto first = endOf(terrain, turns, from.data() + 3 * i, fmt::format("observer {}", i));
+      if (!first) return tl::unexpected(first.error());
+      const auto second = endOf(terrain, turns, to.data() + 3 * i, fmt::format("target {}", i));
+      if (!second) return tl::unexpected(second.error());
+      paths.push_back({first->first, second->first, first->second, second->second});
+    }
+    const auto engine = makeSightEngine(methodFor(count, maxError, model), model, {}, context);
+    if (!engine) return tl::unexpected(engine.error());
+    const Profiles profiles(model, nullptr);
+    SightPathOptions options;
+    options.sight.nodata = *gaps;
+    options.sight.maxError = maxError;
+    const auto found = answerPaths(paths, **earth, **engine, profiles, options, context);
+    if (!found) return tl::unexpected(found.error());
+    std::vector<SightPathAnswer> all;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Result<SightPathAnswer>& one = (*found)[i];
+      if (!one)
+        return failure(one.error().code, one.error().message,
+                       fmt::format("line {}: {}", i, one.error().culprit));
+      all.push_back(*one);
+    }
+    return all;
+  });
+  std::vector<std::string> verdicts;
+  Doubles clearances(static_cast<py::ssize_t>(count)), distances(static_cast<py::ssize_t>(count)),
+      obstructions(std::vector<py::ssize_t>{static_cast<py::ssize_t>(count), 2});
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < count; ++i) {
+    const SightAnswer& answer = answers[i].sight;
+    verdicts.emplace_back(nameOf(answer.verdict));
+    clearances.mutable_data()[i] = answer.clearance.value_or(kNone);
+    distances.mutable_data()[i] = answers[i].distanceMetres;
+    const Vec2 at =
+        answer.obstruction ? terrain.model().toSource(answer.obstruction->plan) : Vec2{kNone, kNone};
+    obstructions.mutable_data()[2 * i] = at.x;
+    obstructions.mutable_data()[2 * i + 1] = at.y;
+  }
+  return py::make_tuple(verdicts, clearances, distances, obstructions);
+}
+
+/// The bytes of `arete viewshed`'s raster.
+std::uint8_t byteOf(ViewshedCell cell) {
+  switch (cell) {
+    case ViewshedCell::seen:
+      return 255;
+    case ViewshedCell::hidden:
+      return 0;
+    case ViewshedCell::unknown:
+      return 100;
+    case ViewshedCell::undecided:
+      return 200;
+    default:
+      return 1;
+  }
+}
+
+py::array_t<std::uint8_t> viewshed(const Terrain& terrain, const std::array<double, 3>& observer,
+                                   double targetHeight, double radius, const std::string& earthName,
+                                   std::optional<double> refraction, const std::string& nodata,
+                                   const py::object& progress) {
+  const Viewshed seen = call(progress, [&](const RunContext& context) -> Result<Viewshed> {
+    const TerrainModel& model = terrain.model();
+    const SightRequest request{earthName, nodata, refraction};
+    const auto earth = makeEarth(request, model);
+    if (!earth) return tl::unexpected(earth.error());
+    const auto gaps = nodataOf(request);
+    if (!gaps) return tl::unexpected(gaps.error());
+    const auto end = endOf(terrain, LongitudeTurns(model), observer.data(), "observer");
+    if (!end) return tl::unexpected(end.error());
+    const auto maker = ViewshedMaker::make(model, **earth, {}, context);
+    if (!maker) return tl::unexpected(maker.error());
+    ViewshedOptions options;
+    options.targetHeight = targetHeight;
+    options.field.greatestMetres = radius;
+    options.nodata = *gaps;
+    return maker->from({end->first, end->second}, options, context);
+  });
+  py::array_t<std::uint8_t> cells(
+      std::vector<py::ssize_t>{static_cast<py::ssize_t>(seen.rows), static_cast<py::ssize_t>(seen.columns)});
+  std::uint8_t* to = cells.mutable_data();
+  for (const ViewshedCell cell : seen.cells) *to++ = byteOf(cell);
+  return cells;
+}
+
+py::dict measureMesh(const Terrain& terrain, const Doubles& vertices,
+                     const py::array_t<std::uint32_t, py::array::c_style>& triangles,
+                     const py::object& progress) {
+  const MeasureReport report = call(progress, [&](const RunContext& context) -> Result<MeasureReport> {
+    TriangleMesh mesh;
+    for (py::ssize_t v = 0; v < vertices.shape(0); ++v) {
+      const double* const p = vertices.data() + 3 * v;
+      mesh.positions.push_back({p[0], p[1], p[2]});
+    }
+    for (py::ssize_t t = 0; t < triangles.shape(0); ++t) {
+      const std::uint32_t* const c = triangles.data() + 3 * t;
+      mesh.triangles.push_back({c[0], c[1], c[2]});
+    }
+    const TerrainModel& model = terrain.model();
+    return model.isRaster ? measure(mesh, model.rasterSamples(), {}, context)
+                          : measure(mesh, model.pointSamples(), {}, context);
+  });
+  py::dict found;
+  found["max_abs_error"] = report.maxAbsError;
+  found["rms_error"] = report.rmsError;
+  found["mean_error"] = report.meanError;
+  found["mean_abs_error"] = report.meanAbsError;
+  found["covered"] = report.covered;
+  found["uncovered"] = report.uncovered;
+  found["doubly_covered"] = report.doublyCovered;
+  found["nodata_covered"] = report.nodataCovered;
+  return found;
+}
+
+}  // namespace
+
+void defineSight(py::class_<Terrain, std::shared_ptr<Terrain>>& terrain) {
+  terrain.def("los", &los).def("viewshed", &viewshed).def("measure", &measureMesh);
+}
+
+}  // namespace arete::python
