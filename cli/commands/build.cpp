@@ -354,10 +354,9 @@ void addBuildCommand(CLI::App& app, Session& session) {
       ->add_flag("--keep-borders", arguments->keepsBorders,
                  "Of a surface: all border vertices, so that parts meet at every tolerance")
       ->group(keeping);
-  command->add_flag(
-      "--displacement", arguments->isDisplaced,
-      "Of a surface: also find where coarse cuts are drawn nearer to it, at the same errors; they\n"
-      "are where it is there (8 bytes a vertex more, packed 4)");
+  command->add_flag("--displacement", arguments->isDisplaced,
+                    "Of a surface: also find where coarse cuts are drawn nearer to it, at the same errors\n"
+                    "(8 bytes a vertex more, packed 4)");
   arguments->dem.addTo(*command);
   arguments->command = command;
 }

@@ -20,6 +20,7 @@
 #include "cli/commands/info.h"
 #include "cli/commands/measure.h"
 #include "cli/commands/validate.h"
+#include "cli/manual/manual.h"
 #include "cli/mesh/mesh.h"
 #include "cli/session/exit_code.h"
 #include "cli/session/interrupt.h"
@@ -88,6 +89,7 @@ ExitCode runProgram(int argc, char** argv) {
   addConvertCommand(app, session);
   addMeshCommand(app, session);
   addDemoCommand(app, session);
+  addManualCommand(app, session);
 
   if (argc < 2) {
     std::fputs(app.help().c_str(), stderr);

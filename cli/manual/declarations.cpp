@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/manual/declarations.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace arete {
+namespace {
+
+void collect(const CLI::App& app, std::vector<std::string> words, std::vector<DeclaredCommand>& all) {
+  all.push_back({words, &app});
+  for (const CLI::App* command : app.get_subcommands({})) {
+    std::vector<std::string> longer = words;
+    longer.push_back(command->get_name());
+    collect(*command, std::move(longer), all);
+  }
+}
+
+/// "a|b|c" of lower-case words as words.
+std::vector<std::string> choicesOf(const std::string& value) {
+  const bool isPlain = std::ranges::all_of(value, [](unsigned char c) {
+    return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '-' || c == '|';
+  });
+  if (!isPlain || value.find('|') == std::string::npos) return {};
+  std::vector<std::string> choices(1);
+  for (const char c : value) {
+    if (c == '|')
+      choices.emplace_back();
+    else
+      choices.back() += c;
+  }
+  return choices;
+}
+
+}  // namespace
+
+std::vector<DeclaredCommand> declaredCommands(const CLI::App& program) {
+  std::vector<DeclaredCommand> all;
+  collect(program, {}, all);
+  return all;
+}
+
+std::vector<DeclaredOption> declaredOptions(const CLI::App& app) {
+  std::vector<DeclaredOption> all;
+  for (const CLI::Option* option : app.get_options({})) {
+    if (option->get_group().empty()) continue;  // hidden
+    DeclaredOption one;
+    one.isArgument = option->nonpositional() == false;
+    for (const std::string& name : option->get_snames()) one.names.push_back("-" + name);
+    for (const std::string& name : option->get_lnames()) one.names.push_back("--" + name);
+    if (one.isArgument) one.names = {option->get_name(true)};
+    if (!one.isArgument && option->get_expected_max() > 0 && option->get_type_size_max() > 0) {
+      one.value = option->get_type_name();
+      // What a check adds: "N:INT in [1 - 4096]".
+      one.value = one.value.substr(0, one.value.find(':'));
+      if (one.value.empty()) one.value = "VALUE";
+      one.choices = choicesOf(one.value);
+    }
+    one.text = option->get_description();
+    std::ranges::replace(one.text, '\n', ' ');
+    one.group = option->get_group();
+    one.isRequired = option->get_required();
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+}  // namespace arete

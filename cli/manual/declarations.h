@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace arete {
+
+/// A command with the words that lead to it: {"mesh", "info"}; the program itself has none.
+struct DeclaredCommand {
+  std::vector<std::string> words;
+  const CLI::App* app = nullptr;
+};
+
+/// The program, its commands and theirs, in the order of their declaration.
+std::vector<DeclaredCommand> declaredCommands(const CLI::App& program);
+
+/// An option as a person writes it.
+struct DeclaredOption {
+  std::vector<std::string> names;    ///< "-o", "--output"; of an argument its name alone
+  std::string value;                 ///< "FILE"; empty: a flag
+  std::vector<std::string> choices;  ///< where the value is one of some words
+  std::string text, group;
+  bool isArgument = false, isRequired = false;
+};
+std::vector<DeclaredOption> declaredOptions(const CLI::App& app);
+
+}  // namespace arete
