@@ -252,6 +252,21 @@ def driver_in_qgis(arguments, t, tolerances):
           f"to {found['steepest']:.1f} degrees, {found['contours']} contours")
 
 
+def step_provider(arguments):
+    need_module("qgis.core", "python3-qgis")
+    environment = dict(os.environ, QT_QPA_PLATFORM="offscreen", XDG_RUNTIME_DIR=str(arguments.work),
+                       HOME=str(arguments.work), ARETE=str(arguments.arete.resolve()))
+    for t in terrains(arguments):
+        middle = [(t.extent[0] + t.extent[2]) / 2, (t.extent[1] + t.extent[3]) / 2]
+        found = json.loads(run([SYSTEM_PYTHON, HERE / "run_provider.py", ROOT / "gis/qgis", t.dem, t.folder, t.error,
+                                *middle, t.epsg], env=environment).splitlines()[-1])
+        check(found["triangles"] == [t.triangles, t.triangles] and found["crs"] == f"EPSG:{t.epsg}", f"QGIS: {found}")
+        check(found["measured"] <= t.error * (1 + 1e-6) and all(found["rasters"]), f"QGIS: {found}")
+        check(all(found["refused"]), f"QGIS: a run without sense was not refused: {found['refused']}")
+        print(f"ok: {t.name}: Processing in QGIS: {', '.join(found['algorithms'])}; {t.triangles} triangles, "
+              f"measured {found['measured']:g} ({t.error} promised)")
+
+
 def meshlab(arguments, meshes, filters="", save=None):
     """What MeshLab says about meshes it opens and filters it applies; `save` = (path, attributes)."""
     need_program("meshlabserver", "meshlab")
@@ -483,8 +498,8 @@ def way_from(sampled, said):
     return found.groups()
 
 
-STEPS = {"gdal": step_gdal, "qgis": step_qgis, "driver": step_driver, "meshlab": step_meshlab, "assimp": step_assimp,
-         "gltf": step_gltf, "distances": step_distances}
+STEPS = {"gdal": step_gdal, "qgis": step_qgis, "driver": step_driver, "provider": step_provider, "meshlab": step_meshlab,
+         "assimp": step_assimp, "gltf": step_gltf, "distances": step_distances}
 
 
 def main():
