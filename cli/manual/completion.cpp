@@ -5,20 +5,11 @@
 #include <fmt/ranges.h>
 
 namespace arete {
-namespace {
-
-std::string pathOf(const DeclaredCommand& command) {
-  std::string path;
-  for (const std::string& word : command.words) path += (path.empty() ? "" : " ") + word;
-  return path;
-}
-
-}  // namespace
 
 std::string bashCompletion(const CLI::App& program) {
   std::string commands, options, choices;
   for (const DeclaredCommand& command : declaredCommands(program)) {
-    const std::string path = pathOf(command);
+    const std::string path = command.joined(" ");
     std::string below, flags;
     for (const CLI::App* one : command.app->get_subcommands({})) below += " " + one->get_name();
     if (!below.empty()) commands += fmt::format("    '{}') echo '{}' ;;\n", path, below.substr(1));

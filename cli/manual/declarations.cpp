@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/manual/declarations.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -34,6 +37,10 @@ std::vector<std::string> choicesOf(const std::string& value) {
 
 }  // namespace
 
+std::string DeclaredCommand::joined(std::string_view between) const {
+  return fmt::format("{}", fmt::join(words, between));
+}
+
 std::vector<DeclaredCommand> declaredCommands(const CLI::App& program) {
   std::vector<DeclaredCommand> all;
   collect(program, {}, all);
@@ -45,7 +52,7 @@ std::vector<DeclaredOption> declaredOptions(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options({})) {
     if (option->get_group().empty()) continue;  // hidden
     DeclaredOption one;
-    one.isArgument = option->nonpositional() == false;
+    one.isArgument = !option->nonpositional();
     for (const std::string& name : option->get_snames()) one.names.push_back("-" + name);
     for (const std::string& name : option->get_lnames()) one.names.push_back("--" + name);
     if (one.isArgument) one.names = {option->get_name(true)};

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace arete {
@@ -11,6 +12,9 @@ namespace arete {
 struct DeclaredCommand {
   std::vector<std::string> words;
   const CLI::App* app = nullptr;
+
+  /// Its words with something between them.
+  std::string joined(std::string_view between) const;
 };
 
 /// The program, its commands and theirs, in the order of their declaration.

@@ -28,10 +28,9 @@ std::string escaped(std::string_view text) {
   return safe;
 }
 
-std::string written(const DeclaredCommand& command) {
-  std::string text = "arete";
-  for (const std::string& word : command.words) text += " " + word;
-  return text;
+/// "arete mesh info", or with "-" between.
+std::string named(const DeclaredCommand& command, std::string_view between) {
+  return command.words.empty() ? "arete" : fmt::format("arete{}{}", between, command.joined(between));
 }
 
 void addOptions(const std::vector<DeclaredOption>& options, const std::string& group, bool areArguments,
@@ -55,9 +54,7 @@ void addVerbatim(const std::string& text, std::string& page) {
 }  // namespace
 
 std::string pageName(const DeclaredCommand& command) {
-  std::string name = "arete";
-  for (const std::string& word : command.words) name += "-" + word;
-  return name;
+  return named(command, "-");
 }
 
 std::string manPage(const DeclaredCommand& command, const CLI::App& program) {
@@ -71,7 +68,7 @@ std::string manPage(const DeclaredCommand& command, const CLI::App& program) {
 
   const std::vector<DeclaredOption> options = declaredOptions(*command.app);
   const std::vector<const CLI::App*> below = command.app->get_subcommands({});
-  page += fmt::format(".SH SYNOPSIS\n\\fB{}\\fR", escaped(written(command)));
+  page += fmt::format(".SH SYNOPSIS\n\\fB{}\\fR", escaped(named(command, " ")));
   page += below.empty() ? " [\\fIOPTIONS\\fR]" : " \\fICOMMAND\\fR [\\fIOPTIONS\\fR]";
   for (const DeclaredOption& option : options)
     if (option.isArgument)

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
-#include "io/crs/lonlat.h"
+#include "io/crs/ellipsoid_earth.h"
 
 namespace arete {
 
@@ -51,7 +51,7 @@ void SightArguments::addLonLatTo(CLI::App& command) {
 
 std::string SightArguments::earthName(const TerrainModel& model) const {
   if (!earth.empty()) return earth;
-  return !model.georeference.crsWkt.empty() && CrsLonLat::of(model.georeference) ? "ellipsoid" : "plane";
+  return isOnEllipsoid(model.georeference) ? "ellipsoid" : "plane";
 }
 
 Json SightArguments::refractionJson(const TerrainModel& model) const {
@@ -70,23 +70,6 @@ Result<std::unique_ptr<SightEarth>> SightArguments::makeEarth(const TerrainModel
   auto made = makeEllipsoidEarth(model, refraction);
   if (!made) made.error().culprit = "--earth ellipsoid";
   return made;
-}
-
-std::string_view toString(NodataSight nodata) {
-  return nodata == NodataSight::clear ? "clear" : nodata == NodataSight::blocked ? "blocked" : "unknown";
-}
-
-std::string_view toString(SightVerdict verdict) {
-  switch (verdict) {
-    case SightVerdict::visible:
-      return "visible";
-    case SightVerdict::blocked:
-      return "blocked";
-    case SightVerdict::unknown:
-      return "unknown";
-    default:
-      return "undecided";
-  }
 }
 
 }  // namespace arete

@@ -37,7 +37,4 @@ struct SightArguments {
   Json refractionJson(const TerrainModel& model) const;
 };
 
-std::string_view toString(NodataSight nodata);
-std::string_view toString(SightVerdict verdict);
-
 }  // namespace arete

@@ -36,9 +36,6 @@ namespace {
 
 using Mode = ViewshedMode;
 
-/// Values of a raster of bytes.
-constexpr double kSeen = 255, kHidden = 0, kUnknown = 100, kUndecided = 200, kOutside = 1;
-
 /// Applies the columns of a site (range, azimuth, beamwidth), which come before the options.
 Status aim(ViewshedField& field, const SightBeam& beam) {
   if (std::isfinite(beam.range)) {
@@ -140,21 +137,6 @@ Result<std::vector<ViewshedSite>> sitesOf(std::span<const PlacedObserver> observ
   return sites;
 }
 
-double byteOf(ViewshedCell cell) {
-  switch (cell) {
-    case ViewshedCell::seen:
-      return kSeen;
-    case ViewshedCell::hidden:
-      return kHidden;
-    case ViewshedCell::unknown:
-      return kUnknown;
-    case ViewshedCell::undecided:
-      return kUndecided;
-    default:
-      return std::numeric_limits<double>::quiet_NaN();
-  }
-}
-
 struct Picture {
   std::vector<double> values;
   GeoTiffOptions options;
@@ -165,7 +147,8 @@ Picture pictureOfOne(Mode mode, const Viewshed& viewshed) {
   Picture picture;
   picture.values.reserve(viewshed.cells.size());
   if (mode == Mode::seen) {
-    picture.options = {.sample = GeoTiffOptions::Sample::uint8, .nodata = kOutside};
+    picture.options = {.sample = GeoTiffOptions::Sample::uint8,
+                       .nodata = double(byteOf(ViewshedCell::outside))};
     for (const ViewshedCell cell : viewshed.cells) picture.values.push_back(byteOf(cell));
     return picture;
   }
@@ -182,7 +165,7 @@ Picture pictureOfMany(Mode mode, const ViewshedOfMany& all) {
   Picture picture;
   picture.options = {
       .sample = mode == Mode::seen ? GeoTiffOptions::Sample::uint8 : GeoTiffOptions::Sample::uint16,
-      .nodata = mode == Mode::seen ? kOutside : 65535};
+      .nodata = mode == Mode::seen ? double(byteOf(ViewshedCell::outside)) : 65535};
   picture.values.reserve(all.cells.size());
   for (std::size_t i = 0; i < all.cells.size(); ++i) {
     const bool isOutside = all.cells[i] == ViewshedCell::outside;

@@ -9,6 +9,8 @@
 #include "engine/cut/cut.h"
 #include "gis/driver/gdal_errors.h"
 #include "io/amt/surface_file.h"
+#include "io/crs/reader.h"
+#include "io/exchange/export_tin.h"
 #include "io/format/layout.h"
 
 namespace arete {
@@ -36,7 +38,7 @@ GDALDataset* AmtDataset::open(GDALOpenInfo* info) {
     reportError(error);
     return nullptr;
   };
-  const Result<AmtOpenOptionsOfGdal> options = readOpenOptions(info->papszOpenOptions);
+  const Result<DriverOptions> options = readOpenOptions(info->papszOpenOptions);
   if (!options) return refuse(options.error());
   const Result<bool> isSurface = isSurfaceAmt(info->pszFilename);
   if (!isSurface) return refuse(isSurface.error());
@@ -51,13 +53,13 @@ GDALDataset* AmtDataset::open(GDALOpenInfo* info) {
   return dataset.release();
 }
 
-Status AmtDataset::openTerrain(const std::string& path, const AmtOpenOptionsOfGdal& options, bool wantsRaster,
+Status AmtDataset::openTerrain(const std::string& path, const DriverOptions& options, bool wantsRaster,
                                bool wantsLayer) {
   Result<TerrainCuts> cuts = TerrainCuts::open(path, options.tolerance, options.cell);
   if (!cuts) return tl::unexpected(cuts.error());
   cuts_ = std::make_shared<TerrainCuts>(std::move(*cuts));
   const TerrainModel& outline = cuts_->outline();
-  takeCrs(outline.georeference.crsWkt);
+  if (Status taken = takeCrs(outline.georeference.crsWkt); !taken) return taken;
   hasPosition_ = outline.georeference.hasGeoTransform || !outline.isRaster || options.cell;
   SetMetadataItem("SOURCE", fs::path(outline.source).filename().c_str());
   SetMetadataItem("TOLERANCE", CPLSPrintf("%.9g", options.tolerance));
@@ -74,45 +76,45 @@ Status AmtDataset::openTerrain(const std::string& path, const AmtOpenOptionsOfGd
     layer_ = std::make_unique<TriangleLayer>("triangles", crs_, [cuts = cuts_]() -> Result<PlacedTriangles> {
       const Result<TerrainCuts::Whole> whole = cuts->take(cuts->tolerance());
       if (!whole) return tl::unexpected(whole.error());
-      const auto& [model, cut] = *whole;
-      PlacedTriangles placed;
-      for (const std::uint32_t v : cut.vertices) {
-        const Vec3 p = model.mt.position(VertexId(v));
-        const Vec2 xy = model.toSource({p.x, p.y});
-        placed.corners.push_back({xy.x, xy.y, p.z});
-      }
-      placed.take(model.mt, cut, model.isFlipped());
-      return placed;
+      Result<TinExport> tin = exportTin(whole->model, whole->cut);
+      if (!tin) return tl::unexpected(tin.error());
+      return PlacedTriangles::sorted(std::move(tin->mesh), whole->cut.ids, tin->errors);
     });
   return {};
 }
 
-Status AmtDataset::openSurface(const std::string& path, const AmtOpenOptionsOfGdal& options,
-                               bool wantsLayer) {
+Status AmtDataset::openSurface(const std::string& path, const DriverOptions& options, bool wantsLayer) {
   if (!wantsLayer)
     return failure(
         ErrorCode::unsupported,
         "is of a surface, which has no single height over a place: it opens as a layer of triangles", path);
   Result<SurfaceModel> model = loadSurfaceAmt(path);
   if (!model) return tl::unexpected(model.error());
-  takeCrs(model->crsWkt);
+  if (Status taken = takeCrs(model->crsWkt); !taken) return taken;
   SetMetadataItem("SOURCE", fs::path(model->source).filename().c_str());
   SetMetadataItem("TOLERANCE", CPLSPrintf("%.9g", options.tolerance));
   layer_ = std::make_unique<TriangleLayer>(
       "triangles", crs_, [mt = model->mt, tolerance = options.tolerance]() -> Result<PlacedTriangles> {
         const Result<Cut> cut = takeCut(mt, UniformError(tolerance));
         if (!cut) return tl::unexpected(cut.error());
-        PlacedTriangles placed;
-        for (const std::uint32_t v : cut->vertices) placed.corners.push_back(mt.position(VertexId(v)));
-        placed.take(mt, *cut, false);
-        return placed;
+        TriangleMesh mesh{{}, cut->triangles};
+        for (const std::uint32_t v : cut->vertices) mesh.positions.push_back(mt.position(VertexId(v)));
+        std::vector<float> errors;
+        for (const std::uint32_t t : cut->ids) errors.push_back(static_cast<float>(mt.error(TriangleId(t))));
+        return PlacedTriangles::sorted(std::move(mesh), cut->ids, errors);
       });
   return {};
 }
 
-void AmtDataset::takeCrs(const std::string& wkt) {
+Status AmtDataset::takeCrs(const std::string& wkt) {
+  if (wkt.empty()) return {};
+  // Text of a file: parsed without opening what it names.
+  Result<OGRSpatialReference> crs = crsFromText(wkt);
+  if (!crs)
+    return failure(ErrorCode::corrupt, "its CRS is damaged: " + crs.error().message, GetDescription());
+  crs_ = std::move(*crs);
   crs_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  if (!wkt.empty()) crs_.importFromWkt(wkt.c_str());
+  return {};
 }
 
 CPLErr AmtDataset::IRasterIO(GDALRWFlag mode, int left, int top, int width, int height, void* buffer,

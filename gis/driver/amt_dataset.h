@@ -34,10 +34,10 @@ class AmtDataset final : public GDALDataset {
                    GSpacing lineStep, GSpacing bandStep, GDALRasterIOExtraArg* extra) override;
 
  private:
-  Status openTerrain(const std::string& path, const AmtOpenOptionsOfGdal& options, bool wantsRaster,
+  Status openTerrain(const std::string& path, const DriverOptions& options, bool wantsRaster,
                      bool wantsLayer);
-  Status openSurface(const std::string& path, const AmtOpenOptionsOfGdal& options, bool wantsLayer);
-  void takeCrs(const std::string& wkt);
+  Status openSurface(const std::string& path, const DriverOptions& options, bool wantsLayer);
+  Status takeCrs(const std::string& wkt);
 
   std::shared_ptr<TerrainCuts> cuts_;
   OGRSpatialReference crs_;

@@ -32,12 +32,12 @@ const char* const kAmtOpenOptions =
     "the source, of points about their spacing'/>"
     "</OpenOptionList>";
 
-Result<AmtOpenOptionsOfGdal> readOpenOptions(CSLConstList options) {
+Result<DriverOptions> readOpenOptions(CSLConstList options) {
   const auto tolerance = numberOf(options, "TOLERANCE", true);
   if (!tolerance) return tl::unexpected(tolerance.error());
   const auto cell = numberOf(options, "CELL", false);
   if (!cell) return tl::unexpected(cell.error());
-  return AmtOpenOptionsOfGdal{tolerance->value_or(0), *cell};
+  return DriverOptions{tolerance->value_or(0), *cell};
 }
 
 }  // namespace arete

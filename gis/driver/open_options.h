@@ -10,7 +10,7 @@
 namespace arete {
 
 /// What a user states when a file is opened: gdalinfo -oo TOLERANCE=2 -oo CELL=10 a.amt.
-struct AmtOpenOptionsOfGdal {
+struct DriverOptions {
   double tolerance = 0;        ///< in the unit of heights, or of the surface; 0: the source itself
   std::optional<double> cell;  ///< side of a pixel in the unit of the CRS; none: the grid of the source
 };
@@ -19,6 +19,6 @@ struct AmtOpenOptionsOfGdal {
 extern const char* const kAmtOpenOptions;
 
 /// Errors: usage: a number that makes no sense, named.
-Result<AmtOpenOptionsOfGdal> readOpenOptions(CSLConstList options);
+Result<DriverOptions> readOpenOptions(CSLConstList options);
 
 }  // namespace arete

@@ -44,14 +44,10 @@ Result<PixelGrid> PixelGrid::of(const TerrainModel& outline, std::optional<doubl
   const Box2 plan = planBox(outline);
   // Pixels of the source's raster, not only their middles.
   const double rim = outline.isRaster ? 0.5 : 0;
-  Box2 box{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-           -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  std::vector<Vec2> corners;
   for (const double x : {plan.xMin - rim, plan.xMax + rim})
-    for (const double y : {plan.yMin - rim, plan.yMax + rim}) {
-      const Vec2 p = outline.toSource({x, y});
-      box = {std::min(box.xMin, p.x), std::min(box.yMin, p.y), std::max(box.xMax, p.x),
-             std::max(box.yMax, p.y)};
-    }
+    for (const double y : {plan.yMin - rim, plan.yMax + rim}) corners.push_back(outline.toSource({x, y}));
+  const Box2 box = planBox(corners);
   const double width = box.xMax - box.xMin, height = box.yMax - box.yMin;
   const double side = *cell;
   const Result<int> columns = sizeOf(width, side), rows = sizeOf(height, side);
@@ -71,16 +67,12 @@ Vec2 PixelGrid::pixelOf(Vec2 plan) const {
 
 Box2 PixelGrid::planBoxOf(double left, double top, double right, double bottom) const {
   if (isOfSource_) return {left - 0.5, top - 0.5, right - 0.5, bottom - 0.5};
-  Box2 box{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-           -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  std::vector<Vec2> corners;
   for (const double x : {left, right})
-    for (const double y : {top, bottom}) {
-      const Vec2 p =
-          model_->toPlan({geoTransform[0] + x * geoTransform[1], geoTransform[3] + y * geoTransform[5]});
-      box = {std::min(box.xMin, p.x), std::min(box.yMin, p.y), std::max(box.xMax, p.x),
-             std::max(box.yMax, p.y)};
-    }
-  return box;
+    for (const double y : {top, bottom})
+      corners.push_back(
+          model_->toPlan({geoTransform[0] + x * geoTransform[1], geoTransform[3] + y * geoTransform[5]}));
+  return planBox(corners);
 }
 
 TriangleBins::TriangleBins(GridTriangles triangles) : triangles_(std::move(triangles)) {

@@ -7,6 +7,7 @@
 
 #include "engine/base/caught_failure.h"
 #include "engine/criteria/criterion.h"
+#include "io/extract/query_footprint.h"
 #include "terrain/model/plan_box.h"
 
 namespace arete {
@@ -25,8 +26,7 @@ Result<TerrainCuts> TerrainCuts::open(const std::string& path, double tolerance,
                                       std::optional<double> cell) try {
   Result<AmtFile> file = openAmt(path);
   if (!file) return tl::unexpected(file.error());
-  Result<TerrainModel> outline =
-      file->read({.wanted = [](const Box2&) { return std::numeric_limits<double>::infinity(); }});
+  Result<TerrainModel> outline = file->read({.wanted = requiredNowhere()});
   if (!outline) return tl::unexpected(outline.error());
   TerrainCuts cuts(std::move(*file));
   cuts.outline_ = std::make_shared<const TerrainModel>(std::move(*outline));

@@ -2,6 +2,7 @@
 #include "gis/driver/triangle_layer.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <numeric>
 
@@ -10,17 +11,19 @@
 
 namespace arete {
 
-void PlacedTriangles::take(const MultiTriangulation& mt, const Cut& cut, bool isFlipped) {
-  std::vector<std::uint32_t> order(cut.ids.size());
+PlacedTriangles PlacedTriangles::sorted(TriangleMesh mesh, std::span<const std::uint32_t> ids,
+                                        std::span<const float> errors) {
+  std::vector<std::uint32_t> order(ids.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::ranges::sort(order, {}, [&](std::uint32_t t) { return cut.ids[t]; });
+  std::ranges::sort(order, {}, [&](std::uint32_t t) { return ids[t]; });
+  PlacedTriangles placed;
+  placed.mesh.positions = std::move(mesh.positions);
   for (const std::uint32_t t : order) {
-    std::array<std::uint32_t, 3> turned = cut.triangles[t];
-    if (isFlipped) std::swap(turned[1], turned[2]);
-    triangles.push_back(turned);
-    ids.push_back(cut.ids[t]);
-    errors.push_back(static_cast<float>(mt.error(TriangleId(cut.ids[t]))));
+    placed.mesh.triangles.push_back(mesh.triangles[t]);
+    placed.ids.push_back(ids[t]);
+    placed.errors.push_back(errors[t]);
   }
+  return placed;
 }
 
 TriangleLayer::TriangleLayer(const std::string& name, const OGRSpatialReference& crs, Take take)
@@ -63,7 +66,7 @@ const PlacedTriangles* TriangleLayer::triangles() {
 OGRFeature* TriangleLayer::feature(const PlacedTriangles& from, std::size_t number) const {
   auto ring = std::make_unique<OGRLinearRing>();
   for (const std::size_t i : {0, 1, 2, 0}) {
-    const Vec3& p = from.corners[from.triangles[number][i]];
+    const Vec3& p = from.mesh.positions[from.mesh.triangles[number][i]];
     ring->addPoint(p.x, p.y, p.z);
   }
   auto polygon = std::make_unique<OGRPolygon>();
@@ -79,7 +82,8 @@ OGRFeature* TriangleLayer::feature(const PlacedTriangles& from, std::size_t numb
 bool TriangleLayer::mayBeWanted(const PlacedTriangles& from, std::size_t number) const {
   if (m_poFilterGeom == nullptr) return true;
   OGREnvelope box;
-  for (const std::uint32_t v : from.triangles[number]) box.Merge(from.corners[v].x, from.corners[v].y);
+  for (const std::uint32_t v : from.mesh.triangles[number])
+    box.Merge(from.mesh.positions[v].x, from.mesh.positions[v].y);
   return m_sFilterEnvelope.Intersects(box) != FALSE;
 }
 
@@ -99,7 +103,7 @@ OGRFeature* TriangleLayer::GetNextFeature() {
 
 OGRFeature* TriangleLayer::GetFeature(GIntBig id) {
   const PlacedTriangles* const all = triangles();
-  if (all == nullptr || id < 0 || id > MultiTriangulation::kNone) return nullptr;
+  if (all == nullptr || id < 0 || id > std::numeric_limits<std::uint32_t>::max()) return nullptr;
   const auto found = std::ranges::lower_bound(all->ids, static_cast<std::uint32_t>(id));
   if (found == all->ids.end() || *found != static_cast<std::uint32_t>(id)) return nullptr;
   return feature(*all, static_cast<std::size_t>(found - all->ids.begin()));
@@ -114,8 +118,8 @@ GIntBig TriangleLayer::GetFeatureCount(int force) {
 OGRErr TriangleLayer::GetExtent(OGREnvelope* extent, int) {
   const PlacedTriangles* const all = triangles();
   if (all == nullptr || all->ids.empty()) return OGRERR_FAILURE;
-  for (const auto& triangle : all->triangles)
-    for (const std::uint32_t v : triangle) extent->Merge(all->corners[v].x, all->corners[v].y);
+  for (const auto& triangle : all->mesh.triangles)
+    for (const std::uint32_t v : triangle) extent->Merge(all->mesh.positions[v].x, all->mesh.positions[v].y);
   return OGRERR_NONE;
 }
 

@@ -3,28 +3,28 @@
 
 #include <ogrsf_frmts.h>
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "engine/base/result.h"
-#include "engine/cut/cut.h"
+#include "engine/base/triangle_mesh.h"
 
 namespace arete {
 
-/// The triangles of a cut in the coordinates of the source, by rising id.
+/// The triangles of a cut in the coordinates of the source, counter-clockwise, by rising id.
 struct PlacedTriangles {
-  std::vector<Vec3> corners;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint32_t> ids;  ///< triangles of the multitriangulation
-  std::vector<float> errors;
+  TriangleMesh mesh;
+  std::vector<std::uint32_t> ids;  ///< by triangle: that of the multitriangulation
+  std::vector<float> errors;       ///< by triangle
 
-  /// Takes all but the corners. @param isFlipped the coordinates turn the other way round than the cut's
-  void take(const MultiTriangulation& mt, const Cut& cut, bool isFlipped);
+  /// @param ids,errors by triangle of the mesh
+  static PlacedTriangles sorted(TriangleMesh mesh, std::span<const std::uint32_t> ids,
+                                std::span<const float> errors);
 };
 
 /// A layer of Polygon Z with the error of each triangle. A feature's number is its triangle's in the

@@ -269,6 +269,10 @@ class EllipsoidEarth final : public SightEarth {
 
 }  // namespace
 
+bool isOnEllipsoid(const Georeference& georeference) {
+  return !georeference.crsWkt.empty() && CrsLonLat::of(georeference).has_value();
+}
+
 Result<std::unique_ptr<SightEarth>> makeEllipsoidEarth(const TerrainModel& model, double refraction) try {
   auto lonLat = CrsLonLat::of(model.georeference);
   if (!lonLat) return tl::unexpected(lonLat.error());

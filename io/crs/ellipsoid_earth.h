@@ -11,6 +11,9 @@ namespace arete {
 /// The usual refraction coefficient k: the effective radius of the Earth is R / (1 - k).
 inline constexpr double kUsualRefraction = 1.0 / 7;
 
+/// Whether makeEllipsoidEarth() has an ellipsoid: a CRS with longitude and latitude.
+bool isOnEllipsoid(const Georeference& georeference);
+
 /// The Earth as the ellipsoid of the DEM's CRS (docs/topics/visibility.md). Sight lines follow geodesics
 /// [Karney2013], divided into 2^k segments that are straight in plan. The Earth curves below them by (1 -
 /// refraction) / R, where R is the radius of curvature at the middle of the line, in its direction there, by

@@ -102,8 +102,30 @@ Result<RegionArgument> readFile(const RegionText& region, const std::string& dem
   return RegionArgument{std::move(shape), std::move(read->warnings)};
 }
 
-/// Adds a copy for each whole turn by which the shape meets the DEM. Where there are several, or the shape is
-/// longer than a turn, GEOS unites them.
+Result<RegionArgument> readAndPlace(const RegionText& text, const Georeference& dem,
+                                    const LongitudeTurns& turns, const RunContext& context) {
+  auto box = readBox(text, dem);
+  if (!box) return tl::unexpected(box.error());
+  RegionArgument region;
+  if (*box) {
+    region.shape.rings = {std::move(**box)};
+  } else {
+    auto read = readFile(text, dem.crsWkt, context);
+    if (!read) return read;
+    region = std::move(*read);
+  }
+  region.shape.distance = text.distance;
+  if (text.distance > 0 && !dem.crsWkt.empty()) {
+    auto extended = extendedOnGround(region.shape, dem, region.warnings, context);
+    if (!extended) return tl::unexpected(extended.error());
+    region.shape = std::move(*extended);
+  }
+  turnOnto(turns, region);
+  return region;
+}
+
+}  // namespace
+
 void turnOnto(const LongitudeTurns& turns, RegionArgument& region) {
   RegionShape& shape = region.shape;
   double west = std::numeric_limits<double>::infinity(), east = -west;
@@ -137,30 +159,6 @@ void turnOnto(const LongitudeTurns& turns, RegionArgument& region) {
   shape.lines = std::move(lines);
   shape.rings = ringsOf(united(repaired(all, region.warnings), region.warnings));
 }
-
-Result<RegionArgument> readAndPlace(const RegionText& text, const Georeference& dem,
-                                    const LongitudeTurns& turns, const RunContext& context) {
-  auto box = readBox(text, dem);
-  if (!box) return tl::unexpected(box.error());
-  RegionArgument region;
-  if (*box) {
-    region.shape.rings = {std::move(**box)};
-  } else {
-    auto read = readFile(text, dem.crsWkt, context);
-    if (!read) return read;
-    region = std::move(*read);
-  }
-  region.shape.distance = text.distance;
-  if (text.distance > 0 && !dem.crsWkt.empty()) {
-    auto extended = extendedOnGround(region.shape, dem, region.warnings, context);
-    if (!extended) return tl::unexpected(extended.error());
-    region.shape = std::move(*extended);
-  }
-  turnOnto(turns, region);
-  return region;
-}
-
-}  // namespace
 
 Result<RegionArgument> readRegionArgument(const RegionText& region, const Georeference& dem,
                                           const LongitudeTurns& turns, const RunContext& context) try {

@@ -25,6 +25,10 @@ struct RegionArgument {
   std::vector<std::string> warnings;
 };
 
+/// Brings a region onto the DEM: adds a copy for each whole turn by which it meets it. Where there are
+/// several, or the shape is longer than a turn, they are united.
+void turnOnto(const LongitudeTurns& turns, RegionArgument& region);
+
 /// Reads a region: a box, or a file of polygons, which are reprojected into the DEM's CRS. With a distance,
 /// everything within it belongs to the region, and the file may hold lines and points. A box whose xmin is
 /// above its xmax crosses the antimeridian, as in [RFC7946], where x are longitudes.

@@ -295,7 +295,7 @@ class Surface(_Stored):
 
 def build(source: Any, *, transform: Any = None, crs: Any = None, nodata: Optional[float] = None,
           shape: str = "delaunay", features: int = 64, progress: Progress = None) -> Model:
-    """Builds the multitriangulation of a DEM: a file that `arete build` takes, or an array of heights.
+    """Builds the multitriangulation of a DEM: a file that `arete build` takes, no mesh, or an array of heights.
 
     source: a path, or a two-dimensional numpy array (row 0 is the northernmost with the usual transform); masked cells
         are NODATA.

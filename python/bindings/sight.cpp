@@ -13,6 +13,7 @@
 #include "engine/base/triangle_mesh.h"
 #include "io/crs/ellipsoid_earth.h"
 #include "io/crs/longitude_turns.h"
+#include "io/crs/position_argument.h"
 #include "python/bindings/calls.h"
 #include "terrain/measure/measure.h"
 #include "terrain/sight/earth.h"
@@ -35,7 +36,10 @@ Result<std::unique_ptr<SightEarth>> makeEarth(const SightRequest& request, const
   if (!request.earth.empty() && request.earth != "plane" && request.earth != "ellipsoid")
     return failure(ErrorCode::usage, "is neither ellipsoid nor plane", "earth=" + request.earth);
   const bool isPlane =
-      request.earth == "plane" || (request.earth.empty() && model.georeference.crsWkt.empty());
+      request.earth == "plane" || (request.earth.empty() && !isOnEllipsoid(model.georeference));
+  // As --refraction has it.
+  if (const double k = request.refraction.value_or(0); !(k >= -10 && k <= 10))
+    return failure(ErrorCode::usage, "is not between -10 and 10", fmt::format("refraction={}", k));
   if (!isPlane) return makeEllipsoidEarth(model, request.refraction.value_or(kUsualRefraction));
   if (request.refraction.value_or(0) != 0)
     return failure(ErrorCode::usage, "requires an ellipsoid; the map is taken as a plane", "refraction");
@@ -53,23 +57,12 @@ Result<NodataSight> nodataOf(const SightRequest& request) {
 Result<std::pair<Vec2, double>> endOf(const Terrain& terrain, const LongitudeTurns& turns, const double* xyh,
                                       const std::string& culprit) {
   const Vec2 xy = turns({xyh[0], xyh[1]});
-  const auto ground = terrain.heights().at(xy);
-  if (!ground) return failure(ErrorCode::usage, "is where there is no terrain", culprit);
   if (!std::isfinite(xyh[2])) return failure(ErrorCode::usage, "has no height", culprit);
-  return std::pair{sightPlan(terrain.model(), xy), ground->height + xyh[2]};
-}
-
-const char* nameOf(SightVerdict verdict) {
-  switch (verdict) {
-    case SightVerdict::visible:
-      return "visible";
-    case SightVerdict::blocked:
-      return "blocked";
-    case SightVerdict::unknown:
-      return "unknown";
-    default:
-      return "undecided";
-  }
+  const auto height = demHeight({xy, xyh[2], HeightKind::aboveGround}, terrain.heights());
+  if (!height)
+    return failure(ErrorCode::usage, height.error().message,
+                   fmt::format("{} at {}", culprit, height.error().culprit));
+  return std::pair{sightPlan(terrain.model(), xy), *height};
 }
 
 /// @param from,to rows of x, y, height above the ground
@@ -118,7 +111,7 @@ py::tuple los(const Terrain& terrain, const Doubles& from, const Doubles& to, do
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < count; ++i) {
     const SightAnswer& answer = answers[i].sight;
-    verdicts.emplace_back(nameOf(answer.verdict));
+    verdicts.emplace_back(toString(answer.verdict));
     clearances.mutable_data()[i] = answer.clearance.value_or(kNone);
     distances.mutable_data()[i] = answers[i].distanceMetres;
     const Vec2 at =
@@ -127,22 +120,6 @@ py::tuple los(const Terrain& terrain, const Doubles& from, const Doubles& to, do
     obstructions.mutable_data()[2 * i + 1] = at.y;
   }
   return py::make_tuple(verdicts, clearances, distances, obstructions);
-}
-
-/// The bytes of `arete viewshed`'s raster.
-std::uint8_t byteOf(ViewshedCell cell) {
-  switch (cell) {
-    case ViewshedCell::seen:
-      return 255;
-    case ViewshedCell::hidden:
-      return 0;
-    case ViewshedCell::unknown:
-      return 100;
-    case ViewshedCell::undecided:
-      return 200;
-    default:
-      return 1;
-  }
 }
 
 py::array_t<std::uint8_t> viewshed(const Terrain& terrain, const std::array<double, 3>& observer,

@@ -13,7 +13,11 @@
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
 #include "io/amt/file.h"
+#include "io/crs/longitude_turns.h"
 #include "io/dem/dem_reader.h"
+#include "io/exchange/export_tin.h"
+#include "io/exchange/mesh_formats.h"
+#include "io/extract/region_argument.h"
 #include "python/bindings/array_file.h"
 #include "python/bindings/calls.h"
 #include "python/bindings/sight.h"
@@ -68,6 +72,11 @@ TerrainPtr buildFile(const std::string& path, const BuildRequest& request, const
                      bool hasPlace, const py::object& progress) {
   std::vector<std::string> warnings;
   TerrainModel model = call(progress, [&](const RunContext& context) -> Result<TerrainModel> {
+    // `arete build` makes a surface of such a file, and its vertices alone are another thing.
+    if (const Result<MeshFormat> format = meshFormatOf(path);
+        format && format->read && format->extension != ".gpkg")
+      return failure(ErrorCode::unsupported,
+                     "is a mesh: `arete build` makes a surface of it, which arete.open() opens", path);
     Result<DemRead> dem = readDem(path, {}, context);
     if (!dem) return tl::unexpected(dem.error());
     warnings = std::move(dem->warnings);
@@ -88,24 +97,15 @@ TerrainPtr buildArray(const Doubles& heights, const std::optional<std::array<dou
   return buildFile(file->path(), request, "array", transform.has_value(), progress);
 }
 
-Tin tinOf(const TerrainModel& model, const Cut& cut) {
-  Tin tin;
-  tin.vertices.reserve(cut.vertices.size());
-  for (const std::uint32_t v : cut.vertices) {
-    const Vec3 p = model.mt.position(VertexId(v));
-    const Vec2 xy = model.toSource({p.x, p.y});
-    tin.vertices.push_back({xy.x, xy.y, p.z});
-  }
-  tin.triangles = cut.triangles;
-  if (model.isFlipped())
-    for (auto& t : tin.triangles) std::swap(t[1], t[2]);
-  tin.errors.reserve(cut.ids.size());
-  for (const std::uint32_t t : cut.ids)
-    tin.errors.push_back(static_cast<float>(model.mt.error(TriangleId(t))));
-  tin.error = cut.achievedError;
-  tin.isComplete = cut.isComplete;
-  tin.crsWkt = model.georeference.crsWkt;
-  return tin;
+Result<Tin> tinOf(const TerrainModel& model, const Cut& cut) {
+  Result<TinExport> tin = exportTin(model, cut);
+  if (!tin) return tl::unexpected(tin.error());
+  return Tin{std::move(tin->mesh.positions),
+             std::move(tin->mesh.triangles),
+             std::move(tin->errors),
+             cut.achievedError,
+             cut.isComplete,
+             model.georeference.crsWkt};
 }
 
 Tin takeTin(const Terrain& terrain, std::optional<double> maxError, std::optional<std::uint32_t> maxTriangles,
@@ -116,12 +116,13 @@ Tin takeTin(const Terrain& terrain, std::optional<double> maxError, std::optiona
     if (rings.empty()) {
       criterion = std::make_unique<UniformError>(maxError.value_or(0));
     } else {
-      RegionShape shape;
+      RegionArgument stated;
       for (const auto& ring : rings) {
-        auto& points = shape.rings.emplace_back();
+        auto& points = stated.shape.rings.emplace_back();
         for (const auto& [x, y] : ring) points.push_back({x, y});
       }
-      Region region = planRegion(std::move(shape), model);
+      turnOnto(LongitudeTurns(model), stated);
+      Region region = planRegion(std::move(stated.shape), model);
       if (region.isEmpty() || !meetsDomain(region, model.mt))
         return failure(ErrorCode::usage, "does not meet the terrain", "region");
       criterion = std::make_unique<RegionError>(std::move(region), model.mt.arrays().metric,
@@ -140,6 +141,7 @@ py::array_t<double> heightsAt(const Terrain& terrain, const Doubles& x, const Do
                               const py::object& progress) {
   std::vector<Vec2> places(static_cast<std::size_t>(x.size()));
   for (std::size_t i = 0; i < places.size(); ++i) places[i] = {x.data()[i], y.data()[i]};
+  LongitudeTurns(terrain.model()).apply(places);
   const auto answers = call(
       progress, [&](const RunContext& context) { return terrain.heights().at(places, maxError, context); });
   py::array_t<double> heights(static_cast<py::ssize_t>(places.size()));
@@ -150,14 +152,11 @@ py::array_t<double> heightsAt(const Terrain& terrain, const Doubles& x, const Do
 
 std::array<double, 4> boundsOf(const TerrainModel& model) {
   const Box2 plan = planBox(model);
-  std::array<double, 4> bounds = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  for (const double px : {plan.xMin, plan.xMax})
-    for (const double py : {plan.yMin, plan.yMax}) {
-      const Vec2 p = model.toSource({px, py});
-      bounds = {std::min(bounds[0], p.x), std::min(bounds[1], p.y), std::max(bounds[2], p.x),
-                std::max(bounds[3], p.y)};
-    }
-  return bounds;
+  std::vector<Vec2> corners;
+  for (const double x : {plan.xMin, plan.xMax})
+    for (const double y : {plan.yMin, plan.yMax}) corners.push_back(model.toSource({x, y}));
+  const Box2 box = planBox(corners);
+  return {box.xMin, box.yMin, box.xMax, box.yMax};
 }
 
 }  // namespace

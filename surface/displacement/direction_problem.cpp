@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "engine/base/conjugate_gradients.h"
+
 namespace arete {
 namespace {
 
@@ -15,12 +17,6 @@ constexpr double kAccuracy = 1e-3;
 
 Vec3 times(const std::array<float, 6>& m, const Vec3& v) {
   return arete::times(Symmetric3{m[0], m[1], m[2], m[3], m[4], m[5]}, v);
-}
-
-double dotOf(std::span<const Vec3> a, std::span<const Vec3> b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += dot(a[i], b[i]);
-  return sum;
 }
 
 }  // namespace
@@ -94,26 +90,8 @@ std::vector<Vec3> DirectionProblem::solve() const {
     for (const std::size_t k : {0, 3, 5}) d[k] += more;
     preconditioner[v] = inverse(d);
   }
-  std::vector<Vec3> x(size, Vec3{0, 0, 0}), rest = right_, step(size), image(size), corrected(size);
-  const auto correct = [&] {
-    for (std::size_t v = 0; v < size; ++v) corrected[v] = arete::times(preconditioner[v], rest[v]);
-    return dotOf(rest, corrected);
-  };
-  double square = correct();
-  const double enough = kAccuracy * kAccuracy * square;
-  step = corrected;
-  for (int i = 0; i < kMostSteps && square > enough; ++i) {
-    multiply(diagonal, step, image);
-    const double length = square / dotOf(step, image);
-    for (std::size_t v = 0; v < size; ++v) {
-      x[v] = x[v] + length * step[v];
-      rest[v] = rest[v] - length * image[v];
-    }
-    const double before = square;
-    square = correct();
-    for (std::size_t v = 0; v < size; ++v) step[v] = corrected[v] + (square / before) * step[v];
-  }
-  return x;
+  return conjugateGradients([&](std::span<const Vec3> x, std::span<Vec3> y) { multiply(diagonal, x, y); },
+                            preconditioner, right_, kAccuracy, kMostSteps);
 }
 
 }  // namespace arete

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface/fit/least_squares.h"
 
-#include <cmath>
+#include <utility>
+
+#include "engine/base/conjugate_gradients.h"
 
 namespace arete {
 namespace {
@@ -12,12 +14,6 @@ constexpr std::array<std::array<std::size_t, 2>, 6> kPairs = {
 constexpr double kStiffness = 1e-4;
 constexpr int kMostSteps = 400;
 constexpr double kAccuracy = 1e-6;
-
-double dotOf(std::span<const Vec3> a, std::span<const Vec3> b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += dot(a[i], b[i]);
-  return sum;
-}
 
 }  // namespace
 
@@ -60,35 +56,18 @@ std::vector<Vec3> MoveProblem::solve(std::span<const std::uint8_t> isHeld) const
       if (kPairs[b][0] == kPairs[b][1])
         for (std::size_t k = 0; k < 6; ++k) diagonal[elements_[e][kPairs[b][0]]][k] += blocks_[e][b][k];
   for (Symmetric3& d : diagonal) d = inverse(d);
-  const auto hold = [&](std::vector<Vec3>& x) {
+  const auto hold = [&](std::span<Vec3> x) {
     for (std::size_t v = 0; v < count; ++v)
       if (isHeld[v] != 0) x[v] = {0, 0, 0};
   };
-  std::vector<Vec3> moves(count, Vec3{0, 0, 0}), left = right_, smooth(count), way, product(count);
-  hold(left);
-  const auto precondition = [&] {
-    for (std::size_t v = 0; v < count; ++v) smooth[v] = times(diagonal[v], left[v]);
-  };
-  precondition();
-  way = smooth;
-  double size = dotOf(left, smooth);
-  const double enough = size * kAccuracy * kAccuracy;
-  for (int step = 0; step < kMostSteps && size > enough; ++step) {
-    multiply(way, product);
-    hold(product);
-    const double curvature = dotOf(way, product);
-    if (!(curvature > 0)) break;
-    const double length = size / curvature;
-    for (std::size_t v = 0; v < count; ++v) {
-      moves[v] = moves[v] + length * way[v];
-      left[v] = left[v] - length * product[v];
-    }
-    precondition();
-    const double next = dotOf(left, smooth);
-    for (std::size_t v = 0; v < count; ++v) way[v] = smooth[v] + next / size * way[v];
-    size = next;
-  }
-  return moves;
+  std::vector<Vec3> right = right_;
+  hold(right);
+  return conjugateGradients(
+      [&](std::span<const Vec3> x, std::span<Vec3> y) {
+        multiply(x, y);
+        hold(y);
+      },
+      diagonal, std::move(right), kAccuracy, kMostSteps);
 }
 
 }  // namespace arete

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "engine/base/vec.h"
 
@@ -15,8 +16,12 @@ enum class SightVerdict : std::uint8_t {
   undecided,  ///< the terrain within the requested tolerance does not decide it
 };
 
+/// Its name: "visible", "blocked", "unknown", "undecided".
+std::string_view toString(SightVerdict verdict);
+
 /// What a part of a line that has no terrain below it counts as.
 enum class NodataSight : std::uint8_t { unknown, clear, blocked };
+std::string_view toString(NodataSight nodata);
 
 struct SightOptions {
   NodataSight nodata = NodataSight::unknown;

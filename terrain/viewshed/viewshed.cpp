@@ -48,6 +48,21 @@ void countCells(Viewshed& result) {
 
 }  // namespace
 
+std::uint8_t byteOf(ViewshedCell cell) {
+  switch (cell) {
+    case ViewshedCell::seen:
+      return 255;
+    case ViewshedCell::hidden:
+      return 0;
+    case ViewshedCell::unknown:
+      return 100;
+    case ViewshedCell::undecided:
+      return 200;
+    default:
+      return 1;
+  }
+}
+
 std::string_view toString(ViewshedMethod method) {
   switch (method) {
     case ViewshedMethod::sweep:

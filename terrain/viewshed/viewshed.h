@@ -28,6 +28,9 @@ enum class ViewshedCell : std::uint8_t {
   outside,    ///< out of range or of the field of view, or the sample is NODATA
 };
 
+/// The value of a cell in a raster of bytes: 255 seen, 0 hidden, 100 unknown, 200 undecided, 1 outside.
+std::uint8_t byteOf(ViewshedCell cell);
+
 struct ViewshedObserver {
   Vec2 plan;          ///< plan coordinates of the model
   double height = 0;  ///< from the DEM's zero (not above the terrain), in the DEM's vertical unit

@@ -162,6 +162,29 @@ class Models(unittest.TestCase):
             with self.assertRaises((ValueError, TypeError)):
                 self.model.measure(tin.vertices, triangles)
 
+    def test_places_a_turn_away_are_on_the_terrain(self):
+        model = arete.build(hills(80, 80), transform=Affine(0.025, 0, 179, 0, -0.025, 1), crs=4326)  # 179 to 181
+        x = np.array([180.25, 180.7])
+        self.assertTrue(np.isfinite(model.height(x, 0.3)).all())
+        self.assertTrue(np.array_equal(model.height(x, 0.3), model.height(x - 360, 0.3)))
+        there, here = (model.cut(max_error=1, region=(left, -0.5, left + 0.5, 0.5)) for left in (180.2, -179.8))
+        self.assertTrue(np.array_equal(there.vertices, here.vertices))
+        self.assertEqual(model.los((-179.75, 0.3, 5), (-179.3, 0.3, 5)), model.los((180.25, 0.3, 5), (180.7, 0.3, 5)))
+
+    def test_a_map_without_longitudes_is_a_plane(self):
+        local = 'LOCAL_CS["a site",UNIT["metre",1]]'
+        model = arete.build(hills(40, 40), transform=Affine(10, 0, 0, 0, -10, 400), crs=local)
+        self.assertIn(model.los((50, 200, 5), (300, 200, 5)).verdict, ("visible", "blocked"))
+        for refraction in (0.2, 99, float("nan")):
+            with self.assertRaisesRegex(ValueError, "refraction"):
+                model.los((50, 200, 5), (300, 200, 5), refraction=refraction)
+
+    def test_a_mesh_is_refused_by_name(self):
+        with open(self.path("mesh.obj"), "w", encoding="utf-8") as file:
+            file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        with self.assertRaisesRegex(RuntimeError, "is a mesh"):
+            arete.build(self.path("mesh.obj"))
+
     def test_xarray_has_the_source_to_the_bit(self):
         try:
             import xarray  # noqa: F401
