@@ -18,7 +18,6 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/commands/build_source.h"
-#include "cli/mesh/mesh_input.h"
 #include "cli/surface/build.h"
 #include "cli/surface/convert.h"
 #include "engine/base/stopwatch.h"
@@ -26,6 +25,7 @@
 #include "io/crs/names.h"
 #include "io/dem/dem_reader.h"
 #include "io/file/text_scan.h"
+#include "io/surface/mesh_input.h"
 #include "io/table/plan_point_reader.h"
 #include "terrain/build/build.h"
 #include "terrain/features/fixed_vertices.h"
@@ -206,14 +206,15 @@ Status runSurfaceBuild(const BuildArguments& arguments, MeshInput input, double 
                                arguments.dem.path),
                    other);
   SurfaceBuildArguments surface{arguments.dem.path, arguments.output, {}};
-  surface.options.keepsBorders = arguments.keepsBorders;
+  surface.options.build.keepsBorders = arguments.keepsBorders;
   surface.isPacked = arguments.isPacked;
   surface.positionBits = arguments.positionBits;
-  surface.isDisplaced = arguments.isDisplaced;
+  surface.options.isDisplaced = arguments.isDisplaced;
   if (surface.positionBits != 0 && !surface.isPacked)
     return failure(ErrorCode::usage, "requires --packed", "--position-bits");
-  surface.options.thresholdRatio = arguments.options.thresholdRatio.value_or(surface.options.thresholdRatio);
-  if (arguments.command->count("--max-degree") > 0) surface.options.maxDegree = arguments.options.maxDegree;
+  SurfaceBuildOptions& build = surface.options.build;
+  build.thresholdRatio = arguments.options.thresholdRatio.value_or(build.thresholdRatio);
+  if (arguments.command->count("--max-degree") > 0) build.maxDegree = arguments.options.maxDegree;
   return buildSurfaceFile(surface, std::move(input), secondsToRead, session);
 }
 
@@ -230,7 +231,8 @@ Status runBuild(BuildArguments& arguments, Session& session) {
   if (isMesh(arguments.dem) && (arguments.kind.empty() || arguments.kind == "surface")) {
     // A mesh without faces is read anew, as points.
     Stopwatch reading;
-    Result<MeshInput> input = readMeshInput(arguments.dem.path, session);
+    Result<MeshInput> input = readMeshInput(arguments.dem.path, session.context());
+    if (input) session.warn(input->file.warnings, arguments.dem.path);
     if (input && !input->file.mesh.triangles.empty())
       return runSurfaceBuild(arguments, std::move(*input), reading.seconds(), session);
   }

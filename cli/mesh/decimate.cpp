@@ -16,8 +16,6 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/mesh_options.h"
-#include "cli/mesh/fit_front.h"
-#include "cli/mesh/mesh_input.h"
 #include "cli/mesh/tolerance.h"
 #include "engine/base/stopwatch.h"
 #include "engine/criteria/refine_order.h"
@@ -25,6 +23,8 @@
 #include "io/exchange/convert.h"
 #include "io/exchange/mesh_formats.h"
 #include "io/file/file_writer.h"
+#include "io/surface/fit_front.h"
+#include "io/surface/mesh_input.h"
 #include "surface/build/build.h"
 #include "surface/decimate/decimate.h"
 #include "surface/edit/small_components.h"
@@ -184,8 +184,9 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
   if (!arguments.map.empty())
     if (Status checked = checkOutput("--map", arguments.map, {arguments.input}, {target->path}); !checked)
       return checked;
-  Result<MeshInput> input = readMeshInput(arguments.input, session);
+  Result<MeshInput> input = readMeshInput(arguments.input, session.context());
   if (!input) return tl::unexpected(input.error());
+  session.warn(input->file.warnings, arguments.input);
   MeshFile& file = input->file;
   if (file.mesh.triangles.empty())
     return failure(ErrorCode::invalidData, "has no faces to be decimated", arguments.input);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cli/mesh/mesh_input.h"
+#include "io/surface/mesh_input.h"
 #include "surface/diagnosis/diagnosis.h"
 
 namespace arete {

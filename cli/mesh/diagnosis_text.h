@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/mesh/mesh_input.h"
+#include "io/surface/mesh_input.h"
 #include "surface/diagnosis/diagnosis.h"
 
 namespace arete {

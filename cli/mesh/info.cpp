@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The mesh is examined as it is joined (mesh_input.h), and what is found is said in the numbers of the file.
+// The mesh is examined as it is joined (io/surface/mesh_input.h), and what is found is said in the numbers of
+// the file.
 #include "cli/mesh/info.h"
 
 #include <fmt/format.h>
@@ -17,10 +18,10 @@
 #include "cli/mesh/diagnosis_json.h"
 #include "cli/mesh/diagnosis_text.h"
 #include "cli/mesh/findings.h"
-#include "cli/mesh/mesh_input.h"
 #include "io/crs/names.h"
 #include "io/exchange/mesh_formats.h"
 #include "io/mesh/files_beside.h"
+#include "io/surface/mesh_input.h"
 #include "surface/diagnosis/diagnosis.h"
 #include "surface/diagnosis/sizes.h"
 #include "surface/edit/joined_surface.h"
@@ -191,8 +192,9 @@ Json factsJson(const std::string& path, const MeshInput& input, const Facts& fac
 }
 
 Status runInfo(const InfoArguments& arguments, Session& session) {
-  const Result<MeshInput> input = readMeshInput(arguments.input, session);
+  const Result<MeshInput> input = readMeshInput(arguments.input, session.context());
   if (!input) return tl::unexpected(input.error());
+  session.warn(input->file.warnings, arguments.input);
   const SurfaceMesh& mesh = input->file.mesh;
   DiagnosisOptions options{.selfIntersections = !arguments.leavesOutSelfIntersections};
   if (session.wantsJson()) options.mostPlaces = std::numeric_limits<std::size_t>::max();

@@ -18,9 +18,9 @@
 #include "cli/mesh/diagnosis_json.h"
 #include "cli/mesh/diagnosis_text.h"
 #include "cli/mesh/findings.h"
-#include "cli/mesh/mesh_input.h"
 #include "io/exchange/convert.h"
 #include "io/exchange/mesh_formats.h"
+#include "io/surface/mesh_input.h"
 #include "surface/edit/joined_surface.h"
 #include "surface/edit/small_components.h"
 #include "surface/model/transfer.h"
@@ -160,8 +160,9 @@ Json weldedJson(const Welded& welded) {
 Status runRepair(const RepairArguments& arguments, Session& session) {
   const Result<MeshTarget> target = meshTarget(arguments.output, arguments.input, session);
   if (!target) return tl::unexpected(target.error());
-  Result<MeshInput> input = readMeshInput(arguments.input, session);
+  Result<MeshInput> input = readMeshInput(arguments.input, session.context());
   if (!input) return tl::unexpected(input.error());
+  session.warn(input->file.warnings, arguments.input);
   std::optional<Welded> welded;
   if (!arguments.weld.empty()) {
     SurfaceMesh& mesh = input->file.mesh;

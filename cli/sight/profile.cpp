@@ -114,21 +114,10 @@ Result<std::vector<Way>> readWays(const ProfileArguments& a, const Georeference&
   return ways;
 }
 
-/// Joins the tracks between the vertices of a way.
-Result<SightTrack> trackAlong(const Way& way, const SightEarth& earth, const TerrainModel& model) {
-  SightTrack whole;
-  for (std::size_t i = 1; i < way.vertices.size(); ++i) {
-    auto part = earth.track(sightPlan(model, way.vertices[i - 1]), sightPlan(model, way.vertices[i]));
-    if (!part) return part;
-    if (whole.points.empty()) {
-      whole = std::move(*part);
-      continue;
-    }
-    const double before = whole.points.back().distance;
-    for (std::size_t k = 1; k < part->points.size(); ++k)
-      whole.points.push_back({part->points[k].plan, before + part->points[k].distance});
-  }
-  return whole;
+Result<SightTrack> trackOf(const Way& way, const SightEarth& earth, const TerrainModel& model) {
+  std::vector<Vec2> places;
+  for (const Vec2 vertex : way.vertices) places.push_back(sightPlan(model, vertex));
+  return trackAlong(places, earth);
 }
 
 /// The profile of one way, and the line of sight over it.
@@ -217,7 +206,7 @@ Result<Answer> answerWay(const Way& way, const ProfileArguments& a, const SightE
   const TerrainModel& model = profiles.heights().model();
   Answer answer;
   if (!way.ends) {
-    const auto track = trackAlong(way, earth, model);
+    const auto track = trackOf(way, earth, model);
     if (!track) return tl::unexpected(track.error());
     answer.profile = profiles.along(*track, a.maxError);
     return answer;
@@ -247,7 +236,7 @@ RequiredError wantedFor(const std::vector<Way>& ways, const SightEarth& earth, c
   QueryFootprint wanted(outline);
   for (const Way& way : ways) {
     for (const Vec2 vertex : way.vertices) wanted.add(outline.toPlan(vertex));
-    if (const auto track = trackAlong(way, earth, outline))
+    if (const auto track = trackOf(way, earth, outline))
       wanted.addTrack(*track);  // without a track, the answer is an error
   }
   return wanted.within(0);

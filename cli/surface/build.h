@@ -3,23 +3,21 @@
 
 #include <string>
 
-#include "cli/mesh/mesh_input.h"
 #include "cli/session/session.h"
 #include "engine/base/result.h"
-#include "surface/model/surface_model.h"
+#include "io/surface/build_model.h"
 
 namespace arete {
 
 struct SurfaceBuildArguments {
   std::string input, output;
-  SurfaceBuildOptions options;
+  SurfaceFileOptions options;
   bool isPacked = false;
   int positionBits = 0;
-  bool isDisplaced = false;
 };
 
-/// `arete build` of a mesh with faces: builds, writes, reports. Errors: those of buildSurface() and
-/// writeSurfaceAmt().
+/// `arete build` of a mesh with faces: builds, writes, reports. Errors: those of
+/// buildSurfaceModel() and writeSurfaceAmt().
 Status buildSurfaceFile(const SurfaceBuildArguments& arguments, MeshInput input, double secondsToRead,
                         Session& session);
 

@@ -9,7 +9,7 @@
 
 namespace arete {
 
-Result<SurfaceCamera> readSurfaceCamera(const std::string& text) {
+Result<SurfaceCameraArgument> readSurfaceCamera(const std::string& text) {
   const std::string option = fmt::format("--camera {}", text);
   const Result<std::vector<double>> numbers = parseNumbers(option, text);
   if (!numbers || (numbers->size() != 6 && numbers->size() != 7))
@@ -19,10 +19,10 @@ Result<SurfaceCamera> readSurfaceCamera(const std::string& text) {
         "of view in degrees",
         option);
   const std::vector<double>& n = *numbers;
-  SurfaceCamera camera{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {}};
+  SurfaceCamera camera{.eye = {n[0], n[1], n[2]}, .target = {n[3], n[4], n[5]}};
   if (camera.eye == camera.target) return failure(ErrorCode::usage, "the eye is at what it looks at", option);
-  if (n.size() == 7) camera.fieldOfView = n[6];
-  return camera;
+  if (n.size() == 7) camera.verticalFieldOfViewDegrees = n[6];
+  return SurfaceCameraArgument{camera, n.size() == 7};
 }
 
 }  // namespace arete

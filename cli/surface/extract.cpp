@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// A tolerance takes the least cut whose triangles all keep it. A budget is spent where the integral of the
-// squared distance is largest, which leaves about the least mean square error.
 #include "cli/surface/extract.h"
 
 #include <fmt/format.h>
@@ -15,15 +12,14 @@
 #include <vector>
 
 #include "cli/arguments/arguments.h"
-#include "cli/mesh/fit_front.h"
 #include "cli/mesh/tolerance.h"
 #include "cli/surface/criterion.h"
 #include "engine/base/float_bounds.h"
-#include "engine/criteria/refine_order.h"
 #include "engine/cut/cut.h"
 #include "io/amt/surface_file.h"
 #include "io/exchange/mesh_formats.h"
 #include "io/file/file_writer.h"
+#include "io/surface/fit_front.h"
 #include "surface/diagnosis/diagnosis.h"
 #include "surface/displacement/displaced_places.h"
 #include "surface/front/face_map.h"
@@ -106,19 +102,15 @@ std::string whyNotFewer(const SurfaceModel& model, const DroppedComponents* drop
   return why;
 }
 
+/// @param criterion the engine's for what is asked
 /// @param dropped components that need no triangles; null: none.
-Result<Cut> cutOf(const CriterionArguments::OfSurface& asked, const SurfaceModel& model,
-                  const Criterion& criterion, const DroppedComponents* dropped, const RunContext& context) {
-  CutOptions options;
-  options.method = asked.isSaturated ? CutMethod::saturated : CutMethod::minimal;
-  options.maxTriangles = asked.maxTriangles;
+Result<Cut> cutOf(const SurfaceCriterion& asked, const SurfaceModel& model, const Criterion& criterion,
+                  const DroppedComponents* dropped, const RunContext& context) {
+  CutOptions options = engineOptions(asked);
   const std::uint32_t droppedTriangles = dropped ? dropped->rootTriangles : 0;
   if (options.maxTriangles) *options.maxTriangles += droppedTriangles;
   std::optional<OfTheRest> ofTheRest;
-  if (dropped && !asked.isSaturated) ofTheRest.emplace(criterion, *dropped);
-  const bool isEverywhere = asked.region.empty() && asked.camera.empty();
-  if (asked.maxTriangles && isEverywhere && !asked.isSaturated)
-    options.order = std::make_shared<LargestSquaresFirst>();
+  if (dropped && asked.method == CutMethod::minimal) ofTheRest.emplace(criterion, *dropped);
   Result<Cut> cut =
       takeCut(model.mt, ofTheRest ? static_cast<const Criterion&>(*ofTheRest) : criterion, options, context);
   const std::uint32_t least = model.mt.rootTriangleCount() - droppedTriangles;
@@ -158,11 +150,13 @@ class Extraction {
 
   Status run(const Request& request) {
     const DroppedComponents* dropped = dropped_ ? &*dropped_ : nullptr;
-    const auto criterion = surfaceCriterion(
+    const auto asked = readSurfaceCriterion(
         arguments_.asked, request.tolerance ? std::optional(request.tolerance->distance) : std::nullopt,
         model_, session_.context());
+    if (!asked) return tl::unexpected(asked.error());
+    const auto criterion = engineCriterion(*asked, model_);
     if (!criterion) return tl::unexpected(criterion.error());
-    const Result<Cut> whole = cutOf(arguments_.asked, model_, **criterion, dropped, session_.context());
+    const Result<Cut> whole = cutOf(*asked, model_, **criterion, dropped, session_.context());
     if (!whole) return tl::unexpected(whole.error());
     const CutOfTheRest rest =
         dropped ? withoutDropped(model_.mt, *whole, *dropped) : CutOfTheRest{*whole, {}};
@@ -176,7 +170,7 @@ class Extraction {
       if (!fitted) return tl::unexpected(fitted.error());
       fit = *fitted;
     } else if (isDisplaced()) {
-      displace(cut, (*criterion)->bounded(), front);
+      displace(cut, criterion->get(), front);
     }
     const Result<std::uint64_t> crossings = crossingsOf(front.mesh, session_.context());
     if (!crossings) return tl::unexpected(crossings.error());

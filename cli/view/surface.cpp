@@ -34,14 +34,15 @@ Result<Camera> cameraOf(const ViewArguments& a, const Upright& upright, const Up
   camera.heightPixels = height;
   const CameraSpace space;
   if (a.viewpoint.camera.empty()) return surfaceHome(a.viewpoint.homeView(), shape, camera);
-  const Result<SurfaceCamera> stated = readSurfaceCamera(a.viewpoint.camera);
+  const Result<SurfaceCameraArgument> stated = readSurfaceCamera(a.viewpoint.camera);
   if (!stated) return tl::unexpected(stated.error());
-  const Vec3 eye = upright.fromFile(stated->eye);
-  const Look look = space.lookAlong(upright.fromFile(stated->target) - eye);
+  const Vec3 eye = upright.fromFile(stated->camera.eye);
+  const Look look = space.lookAlong(upright.fromFile(stated->camera.target) - eye);
   camera = space.at(camera, eye);
   camera.azimuthDegrees = look.azimuthDegrees;
   camera.pitchDegrees = look.pitchDegrees;
-  camera.verticalFieldOfViewDegrees = stated->fieldOfView.value_or(camera.verticalFieldOfViewDegrees);
+  if (stated->statesFieldOfView)
+    camera.verticalFieldOfViewDegrees = stated->camera.verticalFieldOfViewDegrees;
   if (const Result<View> view = uprightView(camera); !view)
     return failure(view.error().code, view.error().message, "--camera " + a.viewpoint.camera);
   return camera;

@@ -100,6 +100,52 @@ Status checkExtractOutput(const std::string& path, const TerrainModel& model, co
   return caughtFailure();
 }
 
+Result<TinExport> takeTin(const TerrainModel& model, const ExtractCriterion& c,
+                          const std::optional<Region>& region, double reserve, std::optional<Cut> taken,
+                          ExtractedTin& tin, const RunContext& context) try {
+  const auto describe = [&](const Cut& cut) {
+    tin.isComplete = cut.isComplete;
+    tin.triangles = cut.triangles.size();
+    tin.vertices = cut.vertices.size();
+    tin.storedError = cut.achievedError;
+    if (c.promisesMaxError())
+      tin.promisedError = *c.maxError;
+    else
+      tin.promisedError = region ? storedErrorInside(model, cut, *region) : cut.achievedError;
+  };
+  const auto finish = [&](const Result<FittedCut>& fitted) -> Result<TinExport> {
+    if (!fitted) return tl::unexpected(fitted.error());
+    describe(fitted->cut);
+    tin.fit = FitFigures{fitted->trianglesBefore, fitted->errorBefore};
+    return exportTin(model, *fitted);
+  };
+  if (c.fit == ExtractFit::triangles) {
+    const double maxError = std::max(0.0, c.maxError.value_or(0) - reserve);
+    return finish(fitFewestTriangles(model,
+                                     {.maxError = maxError,
+                                      .region = region ? &*region : nullptr,
+                                      .outsideError = std::max(maxError, c.outsideError)},
+                                     {}, context));
+  }
+  const auto criterion = engineCriterion(c, region, reserve, model);
+  if (!criterion) return tl::unexpected(criterion.error());
+  if (!taken) {
+    const auto options = engineOptions(c, model);
+    if (!options) return tl::unexpected(options.error());
+    Result<Cut> cut = takeCut(model.mt, **criterion, *options, context);
+    if (!cut) return tl::unexpected(cut.error());
+    taken = std::move(*cut);
+  }
+  if (c.fit == ExtractFit::error) return finish(fitLeastError(model, *taken, {}, context));
+  if (c.camera) tin.pixels = worstSeverity(model.mt, **criterion, *taken);
+  // Where a triangle passed by the bound over a node's ball, its own bound may be the looser of the two.
+  if (c.camera && c.pixelError && taken->isComplete) tin.pixels = std::min(*tin.pixels, *c.pixelError);
+  describe(*taken);
+  return exportTin(model, *taken);
+} catch (...) {
+  return caughtFailure();
+}
+
 const TinExtractor::Samples& TinExtractor::samples() {
   if (!samples_) {
     if (model_.isRaster)
@@ -110,56 +156,11 @@ const TinExtractor::Samples& TinExtractor::samples() {
   return *samples_;
 }
 
-Result<TinExport> TinExtractor::takeTin(const ExtractRequest& request, double reserve,
-                                        std::optional<Cut> taken, ExtractedTin& tin,
-                                        const RunContext& context) const {
-  const ExtractCriterion& c = request.criterion;
-  const auto describe = [&](const Cut& cut) {
-    tin.isComplete = cut.isComplete;
-    tin.triangles = cut.triangles.size();
-    tin.vertices = cut.vertices.size();
-    tin.storedError = cut.achievedError;
-    if (c.promisesMaxError())
-      tin.promisedError = *c.maxError;
-    else
-      tin.promisedError =
-          request.region ? storedErrorInside(model_, cut, *request.region) : cut.achievedError;
-  };
-  const auto finish = [&](const Result<FittedCut>& fitted) -> Result<TinExport> {
-    if (!fitted) return tl::unexpected(fitted.error());
-    describe(fitted->cut);
-    tin.fit = FitFigures{fitted->trianglesBefore, fitted->errorBefore};
-    return exportTin(model_, *fitted);
-  };
-  if (c.fit == ExtractFit::triangles) {
-    const double maxError = std::max(0.0, c.maxError.value_or(0) - reserve);
-    return finish(fitFewestTriangles(model_,
-                                     {.maxError = maxError,
-                                      .region = request.region ? &*request.region : nullptr,
-                                      .outsideError = std::max(maxError, c.outsideError)},
-                                     {}, context));
-  }
-  const auto criterion = engineCriterion(request.criterion, request.region, reserve, model_);
-  if (!criterion) return tl::unexpected(criterion.error());
-  if (!taken) {
-    const auto options = engineOptions(request.criterion, model_);
-    if (!options) return tl::unexpected(options.error());
-    Result<Cut> cut = takeCut(model_.mt, **criterion, *options, context);
-    if (!cut) return tl::unexpected(cut.error());
-    taken = std::move(*cut);
-  }
-  if (c.fit == ExtractFit::error) return finish(fitLeastError(model_, *taken, {}, context));
-  if (c.camera) tin.pixels = worstSeverity(model_.mt, **criterion, *taken);
-  // Where a triangle passed by the bound over a node's ball, its own bound may be the looser of the two.
-  if (c.camera && c.pixelError && taken->isComplete) tin.pixels = std::min(*tin.pixels, *c.pixelError);
-  describe(*taken);
-  return exportTin(model_, *taken);
-}
-
 Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, double reserve,
                                                std::optional<Cut> taken, ExtractedTin& tin,
                                                const RunContext& context) const {
-  Result<TinExport> made = takeTin(request, reserve, std::move(taken), tin, context);
+  Result<TinExport> made =
+      takeTin(model_, request.criterion, request.region, reserve, std::move(taken), tin, context);
   if (!made) return tl::unexpected(made.error());
   TinExport& exported = *made;
   if (isRaster(request)) {

@@ -51,6 +51,16 @@ struct ExtractedTin {
 /// scattered points.
 Status checkExtractOutput(const std::string& path, const TerrainModel& model, const std::string& format = {});
 
+/// The cut of a request, or its fit, as a mesh; nothing is written. Heights that were fitted promise nothing
+/// before they are measured.
+/// @param reserve  what the tolerance is reduced by
+/// @param taken    the cut, where it is known
+/// @param tin      what is said of it is filled in
+/// Errors: those of takeCut() and of the fit (terrain/fit/fit.h).
+Result<TinExport> takeTin(const TerrainModel& model, const ExtractCriterion& criterion,
+                          const std::optional<Region>& region, double reserve, std::optional<Cut> taken,
+                          ExtractedTin& tin, const RunContext& context = {});
+
 /// Takes TINs from one model and writes them. Keeps the model's samples once a measurement needed them.
 class TinExtractor {
  public:
@@ -91,9 +101,6 @@ class TinExtractor {
   const Samples& samples();
   /// Reads the whole model if the part is not enough for a tolerance smaller by `reserve`.
   Status deepen(double maxError, double reserve, const RunContext& context);
-  /// The cut (`taken`, or a new one) or the fit, as a mesh. `reserve`: what the tolerance is reduced by.
-  Result<TinExport> takeTin(const ExtractRequest& request, double reserve, std::optional<Cut> taken,
-                            ExtractedTin& tin, const RunContext& context) const;
   /// takeTin(), written where the output is a mesh. Returns the mesh as the file holds it.
   Result<TriangleMesh> cutAndWrite(const ExtractRequest& request, double reserve, std::optional<Cut> taken,
                                    ExtractedTin& tin, const RunContext& context) const;

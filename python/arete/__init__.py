@@ -6,8 +6,12 @@
     tin = model.cut(max_error=2)            # no sample is farther than 2 from it
     tin.vertices, tin.triangles, tin.error
     model.save("dem.amt"); model = arete.open("dem.amt")
+    surface = arete.build_surface("scan.ply")
 """
 
-from ._model import Model, Sight, Surface, Tin, build, open
+from ._cuts import Camera, SurfaceCamera, Tin
+from ._files import open
+from ._model import Model, Profile, Sight, build
+from ._surface import Surface, build_surface
 
-__all__ = ["Model", "Sight", "Surface", "Tin", "build", "open"]
+__all__ = ["Camera", "Model", "Profile", "Sight", "Surface", "SurfaceCamera", "Tin", "build", "build_surface", "open"]

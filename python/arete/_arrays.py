@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays of heights as numbers that every build takes: float64, row by row, NaN for NODATA.
+"""Arrays, regions and meshes of others as the module takes them; heights are float64, row by row, NaN for NODATA.
 
 A form that is not understood is refused. Nothing is rounded: a number that float64 does not hold is an error.
 """
@@ -81,6 +81,41 @@ def crs_text(crs: Any) -> str:
                     "to_wkt()")
 
 
+def mesh_of(mesh: Any, triangles: Any) -> Tuple[NDArray[np.float64], NDArray[np.uint32]]:
+    """Vertices (n, 3) and triangles (m, 3): of arrays, or of what has vertices and triangles (a Tin), points and cells
+    (meshio) or vertices and faces (trimesh). Numbers that float64 does not hold are an error."""
+    if triangles is None:
+        mesh, triangles = _parts_of(mesh)
+    raw = np.asarray(mesh)
+    if raw.dtype.kind not in "iuf":
+        raise TypeError(f"vertices of type {raw.dtype} are no real numbers")
+    vertices = np.ascontiguousarray(raw, dtype=np.float64)
+    numbers = np.asarray(triangles)
+    for name, shape in (("vertices", vertices.shape), ("triangles", numbers.shape)):
+        if len(shape) != 2 or shape[1] != 3:
+            raise ValueError(f"the {name} have the shape {shape}, not (n, 3)")
+    if not _is_exact(raw, vertices).all():
+        raise ValueError("a coordinate is no float64 number: nothing is rounded")
+    if not np.isfinite(vertices).all():
+        raise ValueError(f"vertex {int(np.argwhere(~np.isfinite(vertices))[0][0])} is not finite")
+    if numbers.dtype.kind not in "iu" or (numbers.size and (numbers.min() < 0 or numbers.max() >= len(vertices))):
+        raise ValueError("the triangles are no numbers of vertices")
+    return vertices, np.ascontiguousarray(numbers, dtype=np.uint32)
+
+
+def _parts_of(mesh: Any) -> Tuple[Any, Any]:
+    if hasattr(mesh, "vertices"):
+        for name in ("triangles", "faces"):
+            if getattr(mesh, name, None) is not None and np.ndim(getattr(mesh, name)) == 2:
+                return mesh.vertices, getattr(mesh, name)
+    if hasattr(mesh, "points") and hasattr(mesh, "cells_dict"):
+        others = sorted(set(mesh.cells_dict) - {"triangle", "vertex", "line"})
+        if others:
+            raise ValueError(f"the mesh has cells that are no triangles: {', '.join(others)}")
+        return mesh.points, mesh.cells_dict.get("triangle", np.empty((0, 3), dtype=np.uint32))
+    raise TypeError("a mesh is vertices with triangles, or an object of meshio or trimesh")
+
+
 def rings_of(region: Any) -> Tuple[Tuple[Tuple[float, float], ...], ...]:
     """The rings of a box (xmin, ymin, xmax, ymax) or of a polygon with __geo_interface__ (shapely, geopandas)."""
     if region is None:
@@ -101,3 +136,18 @@ def rings_of(region: Any) -> Tuple[Tuple[Tuple[float, float], ...], ...]:
     if not (left <= right and bottom <= top):
         raise ValueError(f"the box {region} is not xmin, ymin, xmax, ymax")
     return (((left, bottom), (right, bottom), (right, top), (left, top)),)
+
+
+def line_of(line: Any) -> NDArray[np.float64]:
+    """The places (n, 2) of rows of x, y or of a line with __geo_interface__ (shapely)."""
+    geometry = getattr(line, "__geo_interface__", line if isinstance(line, dict) else None)
+    if geometry is not None:
+        if geometry.get("type") != "LineString":
+            raise ValueError(f"a line is a LineString, not a {geometry.get('type')}")
+        line = [place[:2] for place in geometry["coordinates"]]
+    places = np.ascontiguousarray(line, dtype=np.float64)
+    if places.ndim != 2 or places.shape[1] != 2 or len(places) < 2:
+        raise ValueError("a line is two or more rows of x, y")
+    if not np.isfinite(places).all():
+        raise ValueError("a place of the line is not finite")
+    return places

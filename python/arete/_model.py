@@ -1,18 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Models: what a file or an array becomes, and what it answers."""
+"""Terrain: what a DEM becomes, and what it answers."""
 
 import math
 import os
-from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple, Union
+from typing import Any, Dict, NamedTuple, Optional, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arete
-from ._arrays import crs_text, geotransform_of, heights_of, rings_of
-
-PathLike = Union[str, "os.PathLike[str]"]
-Progress = Optional[Callable[[str, float], object]]
+from ._arrays import crs_text, geotransform_of, heights_of, line_of, mesh_of, rings_of
+from ._cuts import Asked, Camera, PathLike, Progress, Stored, Tin
 
 
 class Sight(NamedTuple):
@@ -32,64 +30,24 @@ class Sight(NamedTuple):
         return self.verdict == "visible"
 
 
-class Tin:
-    """The triangles of a cut. Arrays are read-only views of its memory, and keep it alive."""
+class Profile(NamedTuple):
+    """The terrain along a line: arrays by vertex. It is straight between vertices of one part; between parts there is
+    none."""
 
-    def __init__(self, tin: _arete.Tin):
-        self._tin = tin
-
-    @property
-    def vertices(self) -> NDArray[np.float64]:
-        """(n, 3): x, y, z in the CRS and the unit of the source."""
-        return self._tin.vertices
-
-    @property
-    def triangles(self) -> NDArray[np.uint32]:
-        """(m, 3): vertices, counter-clockwise seen from above; of a surface from outside."""
-        return self._tin.triangles
-
-    @property
-    def errors(self) -> NDArray[np.float32]:
-        """(m,): no sample that the triangle stands for is farther from it."""
-        return self._tin.errors
-
-    @property
-    def error(self) -> float:
-        """The largest of `errors`."""
-        return self._tin.error
-
-    @property
-    def is_complete(self) -> bool:
-        """False where a number of triangles ended the refinement before the error was reached."""
-        return self._tin.is_complete
-
-    @property
-    def crs(self) -> Optional[str]:
-        """WKT, as pyproj, rasterio and geopandas take it; None where the source has no CRS."""
-        return self._tin.crs_wkt or None
-
-    def to_meshio(self) -> Any:
-        """A meshio.Mesh with the data "error" of each cell."""
-        import meshio  # type: ignore[import]
-
-        return meshio.Mesh(self.vertices, [("triangle", self.triangles)], cell_data={"error": [self.errors]})
-
-    def __repr__(self) -> str:
-        return f"<arete.Tin of {len(self.triangles)} triangles, error {self.error:g}>"
+    distance: NDArray[np.float64]
+    """Metres along the ground."""
+    places: NDArray[np.float64]
+    """(n, 2): x, y in the CRS of the source."""
+    height: NDArray[np.float64]
+    part: NDArray[np.int64]
+    """Counted from 1."""
+    length: float
+    """Of the line, in metres."""
+    gap: float
+    """How much of the length has no terrain."""
 
 
-class _Stored:
-    """A model that may have a file, by which it is pickled."""
-
-    _path: Optional[str] = None
-
-    def __reduce__(self) -> Tuple[Callable[[str], Any], Tuple[str]]:
-        if self._path is None:
-            raise TypeError("a model is pickled by its file: save() it first")
-        return open, (self._path,)
-
-
-class Model(_Stored):
+class Model(Stored):
     """The multitriangulation of a terrain."""
 
     def __init__(self, terrain: _arete.Terrain, path: Optional[str] = None):
@@ -97,18 +55,29 @@ class Model(_Stored):
         self._path = path
 
     def cut(self, max_error: Optional[float] = None, max_triangles: Optional[int] = None, region: Any = None,
-            outside_error: float = math.inf, progress: Progress = None) -> Tin:
+            outside_error: float = math.inf, camera: Optional[Camera] = None, pixel_error: Optional[float] = None,
+            fit: Optional[str] = None, progress: Progress = None) -> Tin:
         """The fewest triangles within `max_error`, or the best of at most `max_triangles`; both: whichever ends first.
 
         region: a box (xmin, ymin, xmax, ymax) or a polygon in the CRS of the source, in which max_error holds;
-        elsewhere outside_error does.
+            elsewhere outside_error does.
+        camera: the error is at most pixel_error (1 by default) in its picture, and outside_error out of sight.
+        fit: moves the heights of the vertices: "triangles" for fewer triangles within max_error, "error" for a smaller
+            error of as many. What that comes to is certain once measure() has found it.
         """
-        error = _checked_error(max_error, max_triangles)
-        if region is None and outside_error != math.inf:
-            raise ValueError("outside_error needs a region")
-        if math.isnan(outside_error) or (error is not None and outside_error < error):
-            raise ValueError(f"outside_error={outside_error} is below the error inside")
-        return Tin(self._terrain.cut(error, max_triangles, rings_of(region), float(outside_error), progress))
+        asked = Asked(max_error, max_triangles, region is not None, outside_error, camera is not None, pixel_error)
+        asked.check()
+        if fit not in (None, "triangles", "error"):
+            raise ValueError(f"fit={fit!r} is neither \"triangles\" nor \"error\"")
+        if fit is not None and camera is not None:
+            raise ValueError("a fit is not for a camera")
+        if fit == "triangles" and (max_error is None or max_triangles is not None):
+            raise ValueError("fit=\"triangles\" needs max_error alone")
+        if fit == "error" and region is not None:
+            raise ValueError("fit=\"error\" is not for a region")
+        numbers = None if camera is None else camera.numbers()
+        return Tin(self._terrain.cut(asked.error, max_triangles, rings_of(region), float(outside_error), numbers, asked.pixels,
+                                     fit or "", progress))
 
     def height(self, x: ArrayLike, y: ArrayLike, max_error: float = 0, progress: Progress = None) -> Any:
         """The height at places in the CRS of the source, NaN where there is no terrain; arrays or numbers.
@@ -146,6 +115,16 @@ class Model(_Stored):
             return Sight(verdicts[0], float(clearances[0]), float(distances[0]), place)
         return Sight(np.array(verdicts), clearances, distances, places)
 
+    def profile(self, line: Any, max_error: float = 0, earth: Optional[str] = None, refraction: Optional[float] = None,
+                progress: Progress = None) -> "Profile":
+        """The terrain along a line: rows of x, y, or a line of shapely. Between two places it is a geodesic, as for los().
+
+        At full resolution it has a vertex at every edge that it crosses; with max_error it is within that of it.
+        """
+        if not max_error >= 0:
+            raise ValueError(f"max_error={max_error} is not at least 0")
+        return Profile(*self._terrain.profile(line_of(line), float(max_error), earth or "", refraction, progress))
+
     def viewshed(self, observer: ArrayLike, target_height: float = 0, radius: float = math.inf,
                  earth: Optional[str] = None, refraction: Optional[float] = None, nodata: str = "unknown",
                  progress: Progress = None) -> NDArray[np.uint8]:
@@ -160,20 +139,7 @@ class Model(_Stored):
 
         mesh: a Tin, or vertices (n, 3) with triangles (m, 3).
         """
-        if isinstance(mesh, Tin):
-            vertices, corners = mesh.vertices, mesh.triangles
-        else:
-            if triangles is None:
-                raise TypeError("measure() takes a Tin, or vertices and triangles")
-            vertices = np.ascontiguousarray(mesh, dtype=np.float64)
-            numbers = np.asarray(triangles)
-            if numbers.dtype.kind not in "iu" or (numbers.size and (numbers.min() < 0 or numbers.max() >= len(vertices))):
-                raise ValueError("the triangles are no numbers of vertices")
-            corners = np.ascontiguousarray(numbers, dtype=np.uint32)
-        for name, shape in (("vertices", vertices.shape), ("triangles", corners.shape)):
-            if len(shape) != 2 or shape[1] != 3:
-                raise ValueError(f"the {name} have the shape {shape}, not (n, 3)")
-        return self._terrain.measure(vertices, corners, progress)
+        return self._terrain.measure(*mesh_of(mesh, triangles), progress)
 
     def to_xarray(self, max_error: float = 0, cell: Optional[float] = None, progress: Progress = None) -> Any:
         """An xarray.DataArray of heights at the middles of pixels: of the source's grid, or of square cells.
@@ -249,53 +215,9 @@ class Model(_Stored):
         return f"<arete.Model of {self._terrain.source!r}, {self._terrain.vertex_count} samples>"
 
 
-class Surface(_Stored):
-    """The multitriangulation of a triangle mesh."""
-
-    def __init__(self, surface: _arete.Surface, path: str):
-        self._surface = surface
-        self._path = path
-
-    def cut(self, max_error: Optional[float] = None, max_triangles: Optional[int] = None, displaced: bool = True,
-            progress: Progress = None) -> Tin:
-        """The fewest triangles of which no point of the source is farther than `max_error`, or the best of at most
-        `max_triangles`.
-
-        displaced: where the model was built with displacement, draw it nearer to the source at the same error.
-        """
-        error = _checked_error(max_error, max_triangles)
-        return Tin(self._surface.cut(error, max_triangles, displaced, progress))
-
-    @property
-    def diagonal(self) -> float:
-        """Of the box of the source."""
-        return self._surface.diagonal
-
-    @property
-    def crs(self) -> Optional[str]:
-        return self._surface.crs_wkt or None
-
-    @property
-    def is_displaced(self) -> bool:
-        return self._surface.is_displaced
-
-    @property
-    def largest_error(self) -> float:
-        """Of the coarsest cut."""
-        return self._surface.largest_error
-
-    @property
-    def finest_triangles(self) -> int:
-        """Triangles of the cut without error."""
-        return self._surface.finest_triangle_count
-
-    def __repr__(self) -> str:
-        return f"<arete.Surface of {self._surface.source!r}, {self._surface.vertex_count} vertices>"
-
-
 def build(source: Any, *, transform: Any = None, crs: Any = None, nodata: Optional[float] = None,
           shape: str = "delaunay", features: int = 64, progress: Progress = None) -> Model:
-    """Builds the multitriangulation of a DEM: a file that `arete build` takes, no mesh, or an array of heights.
+    """Builds the multitriangulation of a DEM: a file that `arete build` takes for terrain, or an array of heights.
 
     source: a path, or a two-dimensional numpy array (row 0 is the northernmost with the usual transform); masked cells
         are NODATA.
@@ -314,21 +236,3 @@ def build(source: Any, *, transform: Any = None, crs: Any = None, nodata: Option
         raise ValueError("a crs needs a transform, which says where the heights are")
     heights = heights_of(source, nodata)
     return Model(_arete.build_array(heights, geotransform_of(transform), crs_text(crs), shape, features, progress))
-
-
-def open(path: PathLike, progress: Progress = None) -> Union[Model, Surface]:  # noqa: A001
-    """Opens an .amt file: a Model of terrain or a Surface."""
-    name = os.path.abspath(os.fspath(path))
-    if _arete.is_surface(name):
-        return Surface(_arete.open_surface(name, progress), name)
-    return Model(_arete.open_terrain(name, progress), name)
-
-
-def _checked_error(max_error: Optional[float], max_triangles: Optional[int]) -> Optional[float]:
-    if max_error is None and max_triangles is None:
-        raise TypeError("cut() needs max_error, max_triangles, or both")
-    if max_error is None:
-        return None
-    if not max_error >= 0:
-        raise ValueError(f"max_error={max_error} is not at least 0")
-    return float(max_error)

@@ -10,15 +10,16 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/triangle_mesh.h"
 #include "io/crs/ellipsoid_earth.h"
 #include "io/crs/longitude_turns.h"
 #include "io/crs/position_argument.h"
+#include "python/bindings/arrays.h"
 #include "python/bindings/calls.h"
 #include "terrain/measure/measure.h"
 #include "terrain/sight/earth.h"
 #include "terrain/sight/engine.h"
 #include "terrain/sight/paths.h"
+#include "terrain/sight/profile.h"
 #include "terrain/viewshed/viewshed.h"
 
 namespace arete::python {
@@ -122,6 +123,43 @@ py::tuple los(const Terrain& terrain, const Doubles& from, const Doubles& to, do
   return py::make_tuple(verdicts, clearances, distances, obstructions);
 }
 
+/// @param line rows of x, y
+/// @return distances, places, heights, and the part of each vertex; the length and how much of it has none
+py::tuple profile(const Terrain& terrain, const Doubles& line, double maxError, const std::string& earthName,
+                  std::optional<double> refraction, const py::object& progress) {
+  const Profile found = call(progress, [&](const RunContext&) -> Result<Profile> {
+    const TerrainModel& model = terrain.model();
+    const auto earth = makeEarth({earthName, "unknown", refraction}, model);
+    if (!earth) return tl::unexpected(earth.error());
+    const LongitudeTurns turns(model);
+    std::vector<Vec2> places;
+    for (py::ssize_t i = 0; i < line.shape(0); ++i)
+      places.push_back({line.data()[2 * i], line.data()[2 * i + 1]});
+    turns.apply(places);
+    for (Vec2& place : places) place = sightPlan(model, place);
+    const auto track = trackAlong(places, **earth);
+    if (!track) return tl::unexpected(track.error());
+    const Profiles profiles(
+        model, maxError == 0 && model.isRaster ? std::make_shared<const SightGrid>(model) : nullptr);
+    return profiles.along(*track, maxError);
+  });
+  const auto count = static_cast<py::ssize_t>(found.vertices.size());
+  Doubles distances(count), heights(count), places(std::vector<py::ssize_t>{count, 2});
+  py::array_t<std::int64_t> parts(count);
+  std::int64_t part = 0;
+  for (py::ssize_t i = 0; i < count; ++i) {
+    const ProfileVertex& v = found.vertices[static_cast<std::size_t>(i)];
+    const Vec2 xy = terrain.model().toSource(v.plan);
+    part += !v.isJoined;
+    distances.mutable_data()[i] = v.distance;
+    heights.mutable_data()[i] = v.height;
+    parts.mutable_data()[i] = part;
+    places.mutable_data()[2 * i] = xy.x;
+    places.mutable_data()[2 * i + 1] = xy.y;
+  }
+  return py::make_tuple(distances, places, heights, parts, found.length, found.gapMetres);
+}
+
 py::array_t<std::uint8_t> viewshed(const Terrain& terrain, const std::array<double, 3>& observer,
                                    double targetHeight, double radius, const std::string& earthName,
                                    std::optional<double> refraction, const std::string& nodata,
@@ -150,19 +188,10 @@ py::array_t<std::uint8_t> viewshed(const Terrain& terrain, const std::array<doub
   return cells;
 }
 
-py::dict measureMesh(const Terrain& terrain, const Doubles& vertices,
-                     const py::array_t<std::uint32_t, py::array::c_style>& triangles,
+py::dict measureMesh(const Terrain& terrain, const Doubles& vertices, const Indices& triangles,
                      const py::object& progress) {
   const MeasureReport report = call(progress, [&](const RunContext& context) -> Result<MeasureReport> {
-    TriangleMesh mesh;
-    for (py::ssize_t v = 0; v < vertices.shape(0); ++v) {
-      const double* const p = vertices.data() + 3 * v;
-      mesh.positions.push_back({p[0], p[1], p[2]});
-    }
-    for (py::ssize_t t = 0; t < triangles.shape(0); ++t) {
-      const std::uint32_t* const c = triangles.data() + 3 * t;
-      mesh.triangles.push_back({c[0], c[1], c[2]});
-    }
+    const TriangleMesh mesh = meshOf(vertices, triangles);
     const TerrainModel& model = terrain.model();
     return model.isRaster ? measure(mesh, model.rasterSamples(), {}, context)
                           : measure(mesh, model.pointSamples(), {}, context);
@@ -182,7 +211,7 @@ py::dict measureMesh(const Terrain& terrain, const Doubles& vertices,
 }  // namespace
 
 void defineSight(py::class_<Terrain, std::shared_ptr<Terrain>>& terrain) {
-  terrain.def("los", &los).def("viewshed", &viewshed).def("measure", &measureMesh);
+  terrain.def("los", &los).def("profile", &profile).def("viewshed", &viewshed).def("measure", &measureMesh);
 }
 
 }  // namespace arete::python

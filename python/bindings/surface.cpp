@@ -3,17 +3,26 @@
 
 #include <pybind11/stl.h>
 
+#include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "engine/base/float_bounds.h"
 #include "engine/criteria/criterion.h"
-#include "engine/criteria/refine_order.h"
 #include "engine/cut/cut.h"
 #include "io/amt/surface_file.h"
+#include "io/surface/build_model.h"
+#include "io/surface/criterion.h"
+#include "io/surface/fit_front.h"
+#include "io/surface/region.h"
+#include "python/bindings/arrays.h"
 #include "python/bindings/calls.h"
 #include "python/bindings/tin.h"
 #include "surface/displacement/displaced_places.h"
+#include "surface/front/front.h"
+#include "surface/region/closed_mesh_region.h"
+#include "terrain/measure/mesh_distance.h"
 
 namespace arete::python {
 namespace {
@@ -21,37 +30,166 @@ namespace {
 namespace py = pybind11;
 using SurfacePtr = std::shared_ptr<SurfaceModel>;
 
-Tin takeTin(const SurfaceModel& model, std::optional<double> maxError,
-            std::optional<std::uint32_t> maxTriangles, bool isDisplaced, const py::object& progress) {
-  return call(progress, [&](const RunContext& context) -> Result<Tin> {
-    CutOptions options;
-    options.maxTriangles = maxTriangles;
-    if (maxTriangles) options.order = std::make_shared<LargestSquaresFirst>();
-    const Result<Cut> cut = takeCut(model.mt, UniformError(maxError.value_or(0)), options, context);
-    if (!cut) return tl::unexpected(cut.error());
-    Tin tin;
-    if (isDisplaced && !model.displacement.isEmpty()) {
-      const std::vector<double> promised = promisedErrors(model.mt, *cut, nullptr);
-      tin.vertices = displacedPlaces(model.mt, model.displacement, *cut, promised);
-      for (const double error : promised) tin.errors.push_back(floatAtLeast(error));
-    } else {
-      for (const std::uint32_t v : cut->vertices) tin.vertices.push_back(model.mt.position(VertexId(v)));
-      for (const std::uint32_t t : cut->ids)
-        tin.errors.push_back(static_cast<float>(model.mt.error(TriangleId(t))));
-    }
-    tin.triangles = cut->triangles;
-    tin.error = cut->achievedError;
-    tin.isComplete = cut->isComplete;
-    tin.crsWkt = model.crsWkt;
+/// A region of space that Python keeps.
+struct RegionOfSpace {
+  std::shared_ptr<const SpaceRegion> region;
+};
+
+void warn(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings)
+    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 2) != 0) throw py::error_already_set();
+}
+
+SurfacePtr buildOf(MeshInput input, const std::string& source, const SurfaceFileOptions& options,
+                   const py::object& progress) {
+  BuiltSurface built = call(progress, [&](const RunContext& context) {
+    return buildSurfaceModel(std::move(input), source, options, context);
+  });
+  warn(built.warnings);
+  return std::make_shared<SurfaceModel>(std::move(built.model));
+}
+
+SurfacePtr buildFile(const std::string& path, const SurfaceFileOptions& options, const py::object& progress) {
+  MeshInput input = call(progress, [&](const RunContext& context) -> Result<MeshInput> {
+    Result<MeshInput> read = readMeshInput(path, context);
+    if (read && read->file.mesh.triangles.empty())
+      return failure(ErrorCode::invalidData, "has no faces: it is no surface", path);
+    return read;
+  });
+  warn(input.file.warnings);
+  return buildOf(std::move(input), path, options, progress);
+}
+
+SurfacePtr buildArrays(const Doubles& vertices, const Indices& triangles, const SurfaceFileOptions& options,
+                       const py::object& progress) {
+  MeshInput input;
+  input.file.mesh = SurfaceMesh(meshOf(vertices, triangles));
+  input.fileVertices = input.file.mesh.positions.size();
+  input.fileFaces = input.file.mesh.triangles.size();
+  return buildOf(std::move(input), "arrays", options, progress);
+}
+
+/// What is asked of a cut.
+struct CutRequest {
+  SurfaceCriterion criterion;
+  bool isDisplaced = true, isFitted = false;
+};
+
+Result<Tin> takeSurfaceTin(const SurfaceModel& model, const CutRequest& request, const RunContext& context) {
+  const auto criterion = engineCriterion(request.criterion, model);
+  if (!criterion) return tl::unexpected(criterion.error());
+  const Result<Cut> cut = takeCut(model.mt, **criterion, engineOptions(request.criterion), context);
+  if (!cut) return tl::unexpected(cut.error());
+  Tin tin;
+  tin.error = cut->achievedError;
+  tin.isComplete = cut->isComplete;
+  tin.crsWkt = model.crsWkt;
+  tin.triangles = cut->triangles;
+  if (request.criterion.camera) tin.pixels = worstSeverity(model.mt, **criterion, *cut);
+  if (request.isFitted) {
+    SurfaceFront front = surfaceOf(model, *cut);
+    const auto fit = fitFront(front, finestSurfaceOf(model).mesh.shape(), model.options.keepsBorders,
+                              cut->achievedError, request.criterion.maxError, context);
+    if (!fit) return tl::unexpected(fit.error());
+    tin.vertices = std::move(front.mesh.positions);
+    tin.error = fit->distance;
+    tin.errors.assign(tin.triangles.size(), floatAtLeast(fit->distance));
     return tin;
+  }
+  if (request.isDisplaced && !model.displacement.isEmpty()) {
+    const std::vector<double> promised = promisedErrors(model.mt, *cut, criterion->get());
+    tin.vertices = displacedPlaces(model.mt, model.displacement, *cut, promised);
+    for (const double error : promised) tin.errors.push_back(floatAtLeast(error));
+    return tin;
+  }
+  for (const std::uint32_t v : cut->vertices) tin.vertices.push_back(model.mt.position(VertexId(v)));
+  for (const std::uint32_t t : cut->ids)
+    tin.errors.push_back(static_cast<float>(model.mt.error(TriangleId(t))));
+  return tin;
+}
+
+py::dict oneWay(const DistanceOneWay& way) {
+  py::dict found;
+  found["max_distance"] = way.maximum;
+  found["at_most"] = way.atMost;
+  found["mean"] = way.mean;
+  found["rms"] = way.rms;
+  return found;
+}
+
+/// From the source to the mesh, from the mesh to the source, and both together.
+py::dict measureMesh(const SurfaceModel& model, const Doubles& vertices, const Indices& triangles,
+                     std::uint64_t samples, const py::object& progress) {
+  const MeshDistanceReport report =
+      call(progress, [&](const RunContext& context) -> Result<MeshDistanceReport> {
+        const SurfaceFront source = finestSurfaceOf(model);
+        auto measured =
+            measureDistance(source.mesh.shape(), meshOf(vertices, triangles), {.samples = samples}, context);
+        // "second" is its name there.
+        if (!measured && measured.error().culprit == "second")
+          return failure(measured.error().code, measured.error().message, "mesh");
+        return measured;
+      });
+  py::dict found;
+  found["max_distance"] = report.hausdorff();
+  found["at_most"] = report.hausdorffAtMost();
+  found["mean"] = report.mean();
+  found["rms"] = report.rms();
+  found["from_source"] = oneWay(report.forward);
+  found["from_mesh"] = oneWay(report.backward);
+  return found;
+}
+
+void defineRegion(py::module_& module) {
+  py::class_<RegionOfSpace>(module, "RegionOfSpace");
+  const auto regionOrRaise = [](const auto& region) {
+    if (!region) raise(region.error());
+    return RegionOfSpace{*region};
+  };
+  module.def("region_of_numbers",
+             [=](const std::vector<double>& numbers) { return regionOrRaise(regionOfNumbers(numbers)); });
+  module.def("region_of_file", [](const std::string& path, const py::object& progress) {
+    return RegionOfSpace{
+        call(progress, [&](const RunContext& context) { return readRegionMesh(path, context); })};
+  });
+  module.def("region_of_mesh", [=](const Doubles& vertices, const Indices& triangles) {
+    return regionOrRaise(ClosedMeshRegion::create(meshOf(vertices, triangles)));
   });
 }
 
-}  // namespace
-
-void defineSurface(py::module_& module) {
+void defineModel(py::module_& module) {
+  py::class_<SurfaceCamera>(module, "SurfaceCameraNumbers")
+      .def(py::init([](const std::array<double, 3>& eye, const std::array<double, 3>& target,
+                       double fieldOfView, const std::array<double, 2>& size) {
+        return SurfaceCamera{
+            {eye[0], eye[1], eye[2]}, {target[0], target[1], target[2]}, fieldOfView, size[0], size[1]};
+      }));
   py::class_<SurfaceModel, SurfacePtr>(module, "Surface")
-      .def("cut", &takeTin)
+      .def("cut",
+           [](const SurfaceModel& model, std::optional<double> maxError,
+              std::optional<std::uint32_t> maxTriangles, const std::optional<RegionOfSpace>& region,
+              double outsideError, const std::optional<SurfaceCamera>& camera,
+              std::optional<double> pixelError, bool isDisplaced, bool isFitted, const py::object& progress) {
+             CutRequest request{.criterion = {.maxError = maxError,
+                                              .maxTriangles = maxTriangles,
+                                              .region = region ? region->region : nullptr,
+                                              .outsideError = outsideError,
+                                              .camera = camera,
+                                              .pixelError = pixelError},
+                                .isDisplaced = isDisplaced,
+                                .isFitted = isFitted};
+             return call(progress,
+                         [&](const RunContext& context) { return takeSurfaceTin(model, request, context); });
+           })
+      .def("measure", &measureMesh)
+      .def("save",
+           [](const SurfaceModel& model, const std::string& path, bool isPacked, int positionBits,
+              const py::object& progress) {
+             call(progress, [&](const RunContext& context) {
+               return writeSurfaceAmt(path, model, context,
+                                      {.isPacked = isPacked, .positionBits = positionBits});
+             });
+           })
       .def_property_readonly("diagonal", [](const SurfaceModel& m) { return m.diagonal; })
       .def_property_readonly("crs_wkt", [](const SurfaceModel& m) { return m.crsWkt; })
       .def_property_readonly("source", [](const SurfaceModel& m) { return m.source; })
@@ -60,6 +198,25 @@ void defineSurface(py::module_& module) {
       .def_property_readonly("vertex_count", [](const SurfaceModel& m) { return m.mt.vertexCount(); })
       .def_property_readonly("finest_triangle_count",
                              [](const SurfaceModel& m) { return m.mt.finestTriangleCount(); });
+}
+
+SurfaceFileOptions optionsOf(bool isDisplaced, bool keepsBorders) {
+  return {.build = {.keepsBorders = keepsBorders}, .isDisplaced = isDisplaced};
+}
+
+}  // namespace
+
+void defineSurface(py::module_& module) {
+  defineRegion(module);
+  defineModel(module);
+  module.def("build_surface_file",
+             [](const std::string& path, bool isDisplaced, bool keepsBorders, const py::object& progress) {
+               return buildFile(path, optionsOf(isDisplaced, keepsBorders), progress);
+             });
+  module.def("build_surface_arrays", [](const Doubles& vertices, const Indices& triangles, bool isDisplaced,
+                                        bool keepsBorders, const py::object& progress) {
+    return buildArrays(vertices, triangles, optionsOf(isDisplaced, keepsBorders), progress);
+  });
   module.def("is_surface", [](const std::string& path) {
     const Result<bool> is = isSurfaceAmt(path);
     if (!is) raise(is.error());

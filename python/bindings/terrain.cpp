@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "python/bindings/terrain.h"
 
+#include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -10,15 +11,15 @@
 #include <optional>
 #include <variant>
 
-#include "engine/criteria/criterion.h"
-#include "engine/cut/cut.h"
 #include "io/amt/file.h"
 #include "io/crs/longitude_turns.h"
+#include "io/crs/position_argument.h"
 #include "io/dem/dem_reader.h"
-#include "io/exchange/export_tin.h"
 #include "io/exchange/mesh_formats.h"
 #include "io/extract/region_argument.h"
+#include "io/extract/tin.h"
 #include "python/bindings/array_file.h"
+#include "python/bindings/arrays.h"
 #include "python/bindings/calls.h"
 #include "python/bindings/sight.h"
 #include "python/bindings/tin.h"
@@ -72,11 +73,10 @@ TerrainPtr buildFile(const std::string& path, const BuildRequest& request, const
                      bool hasPlace, const py::object& progress) {
   std::vector<std::string> warnings;
   TerrainModel model = call(progress, [&](const RunContext& context) -> Result<TerrainModel> {
-    // `arete build` makes a surface of such a file, and its vertices alone are another thing.
+    // Its vertices alone are another thing.
     if (const Result<MeshFormat> format = meshFormatOf(path);
         format && format->read && format->extension != ".gpkg")
-      return failure(ErrorCode::unsupported,
-                     "is a mesh: `arete build` makes a surface of it, which arete.open() opens", path);
+      return failure(ErrorCode::unsupported, "is a mesh: arete.build_surface() builds from it", path);
     Result<DemRead> dem = readDem(path, {}, context);
     if (!dem) return tl::unexpected(dem.error());
     warnings = std::move(dem->warnings);
@@ -97,42 +97,96 @@ TerrainPtr buildArray(const Doubles& heights, const std::optional<std::array<dou
   return buildFile(file->path(), request, "array", transform.has_value(), progress);
 }
 
-Result<Tin> tinOf(const TerrainModel& model, const Cut& cut) {
-  Result<TinExport> tin = exportTin(model, cut);
-  if (!tin) return tl::unexpected(tin.error());
-  return Tin{std::move(tin->mesh.positions),
-             std::move(tin->mesh.triangles),
-             std::move(tin->errors),
-             cut.achievedError,
-             cut.isComplete,
-             model.georeference.crsWkt};
+/// How a camera comes from Python: its place, and how high it is of what ("agl", "msl", "ell").
+struct CameraNumbers {
+  double x = 0, y = 0, height = 0;
+  std::string kind;
+  double azimuth = 0, pitch = 0, fieldOfView = 0, width = 0, heightOfPicture = 0;
+};
+
+Result<Camera> cameraOf(const CameraNumbers& n, const Terrain& terrain) {
+  HeightKind kind = HeightKind::aboveGround;
+  if (n.kind == "msl")
+    kind = HeightKind::seaLevel;
+  else if (n.kind == "ell")
+    kind = HeightKind::ellipsoidal;
+  else if (n.kind != "agl")
+    return failure(ErrorCode::usage, "is not one of agl, msl, ell", "reference=" + n.kind);
+  const Vec2 xy = LongitudeTurns(terrain.model())({n.x, n.y});
+  const auto height = demHeight({xy, n.height, kind}, terrain.heights());
+  if (!height)
+    return failure(ErrorCode::usage, height.error().message,
+                   fmt::format("camera at {}", height.error().culprit));
+  return Camera{.xy = xy,
+                .height = *height,
+                .azimuthDegrees = n.azimuth,
+                .pitchDegrees = n.pitch,
+                .verticalFieldOfViewDegrees = n.fieldOfView,
+                .widthPixels = n.width,
+                .heightPixels = n.heightOfPicture};
 }
 
-Tin takeTin(const Terrain& terrain, std::optional<double> maxError, std::optional<std::uint32_t> maxTriangles,
-            const Rings& rings, double outsideError, const py::object& progress) {
+Result<Region> regionOf(const Rings& rings, const TerrainModel& model) {
+  RegionArgument stated;
+  for (const auto& ring : rings) {
+    auto& points = stated.shape.rings.emplace_back();
+    for (const auto& [x, y] : ring) points.push_back({x, y});
+  }
+  turnOnto(LongitudeTurns(model), stated);
+  Region region = planRegion(std::move(stated.shape), model);
+  if (region.isEmpty() || !meetsDomain(region, model.mt))
+    return failure(ErrorCode::usage, "does not meet the terrain", "region");
+  return region;
+}
+
+/// What is asked of a cut.
+struct CutRequest {
+  std::optional<double> maxError;
+  std::optional<std::uint32_t> maxTriangles;
+  Rings rings;  ///< of a region; empty: everywhere
+  double outsideError = 0;
+  std::optional<CameraNumbers> camera;
+  std::optional<double> pixelError;
+  std::string fit;  ///< "triangles", "error" or empty
+};
+
+Tin takeTinOf(const Terrain& terrain, const CutRequest& request, const py::object& progress) {
   return call(progress, [&](const RunContext& context) -> Result<Tin> {
     const TerrainModel& model = terrain.model();
-    std::unique_ptr<const BoundedCriterion> criterion;
-    if (rings.empty()) {
-      criterion = std::make_unique<UniformError>(maxError.value_or(0));
-    } else {
-      RegionArgument stated;
-      for (const auto& ring : rings) {
-        auto& points = stated.shape.rings.emplace_back();
-        for (const auto& [x, y] : ring) points.push_back({x, y});
-      }
-      turnOnto(LongitudeTurns(model), stated);
-      Region region = planRegion(std::move(stated.shape), model);
-      if (region.isEmpty() || !meetsDomain(region, model.mt))
-        return failure(ErrorCode::usage, "does not meet the terrain", "region");
-      criterion = std::make_unique<RegionError>(std::move(region), model.mt.arrays().metric,
-                                                maxError.value_or(0), outsideError);
+    ExtractCriterion criterion{.maxError = request.maxError,
+                               .maxTriangles = request.maxTriangles,
+                               .region = {},
+                               .outsideError = request.outsideError,
+                               .focus = {},
+                               .camera = {},
+                               .cameraText = {},
+                               .pixelError = {},
+                               .deadlineMilliseconds = {}};
+    std::optional<Region> region;
+    if (!request.rings.empty()) {
+      auto inPlan = regionOf(request.rings, model);
+      if (!inPlan) return tl::unexpected(inPlan.error());
+      region = std::move(*inPlan);
     }
-    CutOptions options;
-    options.maxTriangles = maxTriangles;
-    const Result<Cut> cut = takeCut(model.mt, *criterion, options, context);
-    if (!cut) return tl::unexpected(cut.error());
-    return tinOf(model, *cut);
+    if (request.camera) {
+      const auto camera = cameraOf(*request.camera, terrain);
+      if (!camera) return tl::unexpected(camera.error());
+      criterion.camera = *camera;
+      criterion.pixelError = request.pixelError;
+      if (!request.pixelError && !request.maxTriangles) criterion.pixelError = 1;
+    }
+    if (request.fit == "triangles") criterion.fit = ExtractFit::triangles;
+    if (request.fit == "error") criterion.fit = ExtractFit::error;
+    ExtractedTin said;
+    Result<TinExport> tin = takeTin(model, criterion, region, 0, std::nullopt, said, context);
+    if (!tin) return tl::unexpected(tin.error());
+    return Tin{std::move(tin->mesh.positions),
+               std::move(tin->mesh.triangles),
+               std::move(tin->errors),
+               said.storedError,
+               said.isComplete,
+               said.pixels,
+               model.georeference.crsWkt};
   });
 }
 
@@ -164,7 +218,20 @@ std::array<double, 4> boundsOf(const TerrainModel& model) {
 void defineTerrain(py::module_& module) {
   py::class_<Terrain, TerrainPtr> its(module, "Terrain");
   defineSight(its);
-  its.def("cut", &takeTin)
+  py::class_<CameraNumbers>(module, "CameraNumbers")
+      .def(py::init([](const std::array<double, 3>& place, std::string kind, double azimuth, double pitch,
+                       double fieldOfView, const std::array<double, 2>& size) {
+        return CameraNumbers{place[0], place[1],    place[2], std::move(kind), azimuth,
+                             pitch,    fieldOfView, size[0],  size[1]};
+      }));
+  its.def(
+         "cut",
+         [](const Terrain& terrain, std::optional<double> maxError, std::optional<std::uint32_t> maxTriangles,
+            const Rings& rings, double outsideError, const std::optional<CameraNumbers>& camera,
+            std::optional<double> pixelError, const std::string& fit, const py::object& progress) {
+           return takeTinOf(terrain, {maxError, maxTriangles, rings, outsideError, camera, pixelError, fit},
+                            progress);
+         })
       .def("heights", &heightsAt)
       .def("save",
            [](const Terrain& terrain, const std::string& path, bool isPacked, const py::object& progress) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
 #include <memory>
@@ -11,9 +10,6 @@
 #include "terrain/model/terrain_model.h"
 
 namespace arete::python {
-
-/// An array that Python's side has made of float64, row by row.
-using Doubles = pybind11::array_t<double, pybind11::array::c_style>;
 
 /// A model with its point location.
 class Terrain {

@@ -2,6 +2,7 @@
 #include "python/bindings/tin.h"
 
 #include <pybind11/numpy.h>
+#include <pybind11/stl.h>
 
 namespace arete::python {
 namespace {
@@ -44,6 +45,7 @@ void defineTin(py::module_& module) {
                              })
       .def_readonly("error", &Tin::error)
       .def_readonly("is_complete", &Tin::isComplete)
+      .def_readonly("pixels", &Tin::pixels)
       .def_readonly("crs_wkt", &Tin::crsWkt);
 }
 

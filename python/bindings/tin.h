@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Tin {
   std::vector<float> errors;  ///< by triangle
   double error = 0;           ///< the largest of them
   bool isComplete = true;
+  std::optional<double> pixels;  ///< of a camera: the worst error in its picture
   std::string crsWkt;
 };
 

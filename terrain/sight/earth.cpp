@@ -56,6 +56,18 @@ std::optional<double> SightEarth::distance(Vec2 from, Vec2 to) const {
   return found->points.back().distance;
 }
 
+Result<SightTrack> trackAlong(std::span<const Vec2> places, const SightEarth& earth) {
+  Result<SightTrack> whole = earth.track(places[0], places[places.size() > 1 ? 1 : 0]);
+  for (std::size_t i = 2; whole && i < places.size(); ++i) {
+    const auto part = earth.track(places[i - 1], places[i]);
+    if (!part) return part;
+    const double before = whole->points.back().distance;
+    for (std::size_t k = 1; k < part->points.size(); ++k)
+      whole->points.push_back({part->points[k].plan, before + part->points[k].distance});
+  }
+  return whole;
+}
+
 Vec2 sightEnd(const TerrainModel& model, Vec2 plan, double margin) {
   const auto onLine = [margin](double v) {
     const double line = std::round(v);

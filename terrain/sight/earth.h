@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "engine/base/result.h"
 #include "terrain/model/terrain_model.h"
@@ -32,6 +33,10 @@ class SightEarth {
   ///     leg is within e. Tracks from one place in one direction then lie on one geodesic.
   virtual std::optional<double> geodesicError() const { return std::nullopt; }
 };
+
+/// The tracks between consecutive places, as one; the azimuth is that of the first. Of one place a
+/// track without length. Precondition: a place or more. Errors: as SightEarth::track().
+Result<SightTrack> trackAlong(std::span<const Vec2> places, const SightEarth& earth);
 
 /// Puts a place on the lattice lines of a raster that it is within `margin` of, since coordinates are
 /// rounded. Places of a model of points stay as they are.

@@ -58,6 +58,69 @@ class Models(unittest.TestCase):
                 self.assertTrue(np.array_equal(vertices, tin.vertices))
                 self.assertTrue(np.array_equal(triangles, tin.triangles))
 
+    def test_a_cut_for_a_camera_is_that_of_the_command(self):
+        place = (500300, 3997000, 40)
+        for options, camera, words in (
+                ({"pixel_error": 2}, arete.Camera(place, azimuth=40, pitch=-10, viewport=(800, 600)),
+                 ["--look", "40,-10", "--viewport", "800x600", "--pixel-error", 2]),
+                ({}, arete.Camera(place, azimuth=-30, fov=35), ["--look", "-30,0", "--fov", 35]),
+                ({"max_triangles": 800}, arete.Camera(place, azimuth=40), ["--look", "40,0", "--max-triangles", 800]),
+                ({"outside_error": 9}, arete.Camera((500300, 3997000, 400), reference="msl"), ["--outside-error", 9])):
+            with self.subTest(options):
+                tin = self.model.cut(camera=camera, **options)
+                where = f"{place[0]},{place[1]},400msl" if camera.reference == "msl" else ",".join(map(str, place))
+                said = json.loads(command("extract", self.file, "-o", self.path("view.obj"), "--camera", where, *words,
+                                          "--json"))["exports"][0]
+                self.assertEqual((len(tin.triangles), len(tin.vertices), tin.error),
+                                 (said["triangles"], said["vertices"], said["storedError"]))
+                self.assertEqual(tin.pixels, said["pixels"])
+        self.assertIsNone(self.model.cut(max_error=3).pixels)
+        for camera in (arete.Camera((0, 0, 10)), arete.Camera((500300, 3997000)), arete.Camera(place, fov=190),
+                       arete.Camera(place, pitch=100), arete.Camera(place, viewport=(0, 100)),
+                       arete.Camera(place, reference="sea"), arete.Camera((500300, 3997000, float("nan")))):
+            with self.subTest(camera), self.assertRaises(ValueError):
+                self.model.cut(camera=camera)
+        for options in ({"max_error": 1}, {"region": (500500, 3998000, 502000, 3999000)}, {"pixel_error": 0},
+                        {"fit": "error"}):
+            with self.subTest(options), self.assertRaises(ValueError):
+                self.model.cut(camera=arete.Camera(place), **options)
+
+    def test_a_fit_is_that_of_the_command(self):
+        for fit, options, words in (("triangles", {"max_error": 4}, ["--max-error", 4]),
+                                    ("error", {"max_triangles": 500}, ["--max-triangles", 500])):
+            tin = self.model.cut(fit=fit, **options)
+            said = json.loads(command("extract", self.file, "-o", self.path("fit.obj"), *words, "--fit", fit,
+                                      "--json"))["exports"][0]
+            self.assertEqual((len(tin.triangles), tin.error), (said["triangles"], said["storedError"]))
+            self.assertLessEqual(self.model.measure(tin)["max_abs_error"], tin.error * (1 + 1e-12))
+        for options in ({"fit": "best", "max_error": 1}, {"fit": "triangles", "max_triangles": 500}):
+            with self.assertRaises(ValueError):
+                self.model.cut(**options)
+
+    def test_a_profile_is_that_of_the_command(self):
+        line = [(500300, 3999000), (503000, 3997500), (503500, 3999500)]
+        for options, words in (({}, []), ({"max_error": 2}, ["--max-error", 2]), ({"earth": "plane"}, ["--earth", "plane"])):
+            found = self.model.profile(line, **options)
+            said = json.loads(command("profile", self.file, "--along", ":".join(f"{x},{y}" for x, y in line), *words,
+                                      "--json"))["lines"][0]
+            self.assertEqual(found.length, said["length"])
+            self.assertEqual(found.gap, said["gap"])
+            self.assertEqual(found.distance.tolist(), [v["distance"] for v in said["vertices"]])
+            self.assertEqual(found.height.tolist(), [v["height"] for v in said["vertices"]])
+            self.assertEqual(found.places.tolist(), [[v["x"], v["y"]] for v in said["vertices"]])
+        self.assertEqual(set(found.part), {1})
+        holed = hills()
+        holed[50:60, 60:70] = np.nan
+        over = arete.build(holed, transform=PLACE, crs=32611).profile([(501000, 3998300), (503000, 3998300)])
+        self.assertEqual(over.part.tolist(), sorted(over.part.tolist()))
+        self.assertEqual(set(over.part), {1, 2})
+        self.assertGreater(over.gap, 200)
+        away = self.model.profile([(0, 0), (10, 0)])
+        self.assertEqual(len(away.distance), 0)
+        for bad in ([(500300, 3999000)], [(1, 2, 3), (4, 5, 6)], [(1, float("nan")), (2, 3)], [[1, 2], [3]]):
+            with self.subTest(bad), self.assertRaises(ValueError):
+                self.model.profile(bad)
+
     def test_a_file_builds_to_the_bytes_of_the_command(self):
         np.savetxt(self.path("points.xyz"), np.random.default_rng(1).uniform(0, 100, (500, 3)), fmt="%.6f")
         for name in ("points.xyz",):
@@ -182,7 +245,7 @@ class Models(unittest.TestCase):
     def test_a_mesh_is_refused_by_name(self):
         with open(self.path("mesh.obj"), "w", encoding="utf-8") as file:
             file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-        with self.assertRaisesRegex(RuntimeError, "is a mesh"):
+        with self.assertRaisesRegex(RuntimeError, "is a mesh: arete.build_surface"):
             arete.build(self.path("mesh.obj"))
 
     def test_xarray_has_the_source_to_the_bit(self):
@@ -255,29 +318,6 @@ class Models(unittest.TestCase):
             for _ in range(200):
                 arete.build(hills(600, 600))
         self.assertLess(time.monotonic() - begin, 60)
-
-    def test_surfaces_open_and_are_cut(self):
-        with open(self.path("octahedron.obj"), "w", encoding="utf-8") as file:
-            size = 24
-            for j in range(size + 1):
-                for i in range(size + 1):
-                    file.write(f"v {i} {j} {np.sin(i / 4) * np.cos(j / 5):.6f}\n")
-            for j in range(size):
-                for i in range(size):
-                    a = j * (size + 1) + i + 1
-                    file.write(f"f {a} {a + 1} {a + size + 2}\nf {a} {a + size + 2} {a + size + 1}\n")
-        command("build", self.path("octahedron.obj"), "-o", self.path("surface.amt"), "--displacement", "--quiet")
-        surface = arete.open(self.path("surface.amt"))
-        self.assertIsInstance(surface, arete.Surface)
-        self.assertTrue(surface.is_displaced)
-        tin = surface.cut(max_triangles=100)
-        self.assertLessEqual(len(tin.triangles), 100)
-        plain = surface.cut(max_triangles=100, displaced=False)
-        self.assertEqual(tin.error, plain.error)
-        self.assertFalse(np.array_equal(tin.vertices, plain.vertices))
-        said = json.loads(command("extract", self.path("surface.amt"), "-o", self.path("s.obj"), "--max-triangles", 100,
-                                  "--json"))["exports"][0]
-        self.assertEqual(len(tin.triangles), said["triangles"])
 
     def test_what_makes_no_sense_is_named(self):
         for options in ({"max_error": -1}, {"max_error": float("nan")}, {"max_triangles": 1},

@@ -14,7 +14,8 @@ import arete
 class Types(unittest.TestCase):
     @unittest.skipIf(importlib.util.find_spec("mypy") is None, "mypy is not installed")
     def test_the_package_keeps_them(self):
-        done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir=/dev/null", "-p", "arete"],
+        done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", "--cache-dir=/dev/null",
+                               "-p", "arete"],
                               capture_output=True, text=True, check=False,
                               cwd=pathlib.Path(arete.__file__).parent.parent)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
@@ -26,7 +27,8 @@ class Types(unittest.TestCase):
             if isinstance(node, ast.FunctionDef):
                 stated.add(node.name)
             elif isinstance(node, ast.ClassDef):
-                stated.update(f"{node.name}.{member.name}" for member in node.body)
+                stated.update(f"{node.name}.{member.name}" for member in node.body
+                              if isinstance(member, ast.FunctionDef) and not member.name.startswith("_"))
         for name, value in vars(arete._arete).items():
             if name.startswith("_"):
                 continue

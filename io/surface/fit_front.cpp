@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/mesh/fit_front.h"
+#include "io/surface/fit_front.h"
 
 #include <cmath>
 #include <utility>

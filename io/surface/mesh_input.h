@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/session/session.h"
 #include "engine/base/result.h"
+#include "engine/parallel/run_context.h"
 #include "io/mesh/file.h"
 
 namespace arete {
@@ -26,7 +26,7 @@ struct MeshNumbers {
   }
 };
 
-/// A mesh as the commands examine it: joined where the file had to repeat vertices.
+/// A mesh to be examined or built from: joined where the file had to repeat vertices.
 struct MeshInput {
   MeshFile file;
   std::string_view format;  ///< "PLY"
@@ -35,10 +35,10 @@ struct MeshInput {
   MeshNumbers numbers;
 };
 
-/// Reads a mesh and writes its warnings. Formats without corners, and programs that write none, repeat a
+/// Reads a mesh. Formats without corners, and programs that write none, repeat a
 /// vertex where its attributes differ from face to face: coincident borders are joined, within an object, if
 /// the file is a glTF or its vertices have attributes. What was said of the vertices is then said of corners.
 /// Errors: those of readMesh() and joinSurface().
-Result<MeshInput> readMeshInput(const std::string& path, const Session& session);
+Result<MeshInput> readMeshInput(const std::string& path, const RunContext& context);
 
 }  // namespace arete

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/mesh/mesh_input.h"
+#include "io/surface/mesh_input.h"
 
 #include <algorithm>
 #include <utility>
@@ -9,12 +9,11 @@
 
 namespace arete {
 
-Result<MeshInput> readMeshInput(const std::string& path, const Session& session) {
+Result<MeshInput> readMeshInput(const std::string& path, const RunContext& context) {
   const Result<MeshFormat> format = meshFormatOf(path);
   if (!format) return tl::unexpected(format.error());
-  Result<MeshFile> file = readMesh(path, session.context());
+  Result<MeshFile> file = readMesh(path, context);
   if (!file) return tl::unexpected(file.error());
-  session.warn(file->warnings, path);
   MeshInput input{.file = std::move(*file), .format = format->name, .numbers = {}};
   SurfaceMesh& mesh = input.file.mesh;
   input.fileVertices = mesh.positions.size() + input.file.joinedVertices;
@@ -25,7 +24,7 @@ Result<MeshInput> readMeshInput(const std::string& path, const Session& session)
   input.numbers.vertexOf = input.file.vertexOf;
   const bool isGltf = format->extension == ".glb" || format->extension == ".gltf";
   if (!isGltf && mesh.vertexAttributes.empty()) return input;
-  const Result<JoinedSurface> joined = joinSurface(mesh, {.partOf = mesh.objectOf}, session.context());
+  const Result<JoinedSurface> joined = joinSurface(mesh, {.partOf = mesh.objectOf}, context);
   if (!joined) return tl::unexpected(joined.error());
   input.joinedAtSeams = joined->joinedVertices;
   if (joined->joinedVertices == 0) return input;

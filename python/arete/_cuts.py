@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a cut is asked for, and what it is."""
+
+import dataclasses
+import math
+import os
+from typing import Any, Callable, Optional, Tuple, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _arete
+
+PathLike = Union[str, "os.PathLike[str]"]
+Progress = Optional[Callable[[str, float], object]]
+
+
+@dataclasses.dataclass(frozen=True)
+class Camera:
+    """Where terrain is seen from, and how."""
+
+    position: Tuple[float, float, float]
+    """x, y in the CRS of the source, and a height."""
+    azimuth: float = 0
+    """Degrees clockwise from the map's north."""
+    pitch: float = 0
+    """Degrees above the horizon; -90 looks straight down."""
+    fov: float = 60
+    """Vertical field of view in degrees."""
+    viewport: Tuple[float, float] = (1920, 1080)
+    """Width and height of the picture in pixels."""
+    reference: str = "agl"
+    """Of the height: "agl", above the ground; "msl" or "ell", as the source's heights are."""
+
+    def numbers(self) -> _arete.CameraNumbers:
+        return _arete.CameraNumbers(_numbers("position", self.position, 3), self.reference, float(self.azimuth),
+                                    float(self.pitch), float(self.fov), _numbers("viewport", self.viewport, 2))
+
+
+@dataclasses.dataclass(frozen=True)
+class SurfaceCamera:
+    """Where a surface is seen from, in its coordinates."""
+
+    eye: Tuple[float, float, float]
+    target: Tuple[float, float, float]
+    """What it looks at."""
+    fov: float = 60
+    """Vertical field of view in degrees."""
+    viewport: Tuple[float, float] = (1920, 1080)
+    """Width and height of the picture in pixels."""
+
+    def numbers(self) -> _arete.SurfaceCameraNumbers:
+        return _arete.SurfaceCameraNumbers(_numbers("eye", self.eye, 3), _numbers("target", self.target, 3), float(self.fov),
+                                           _numbers("viewport", self.viewport, 2))
+
+
+class Tin:
+    """The triangles of a cut. Arrays are read-only views of its memory, and keep it alive."""
+
+    def __init__(self, tin: _arete.Tin):
+        self._tin = tin
+
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        """(n, 3): x, y, z in the CRS and the unit of the source."""
+        return self._tin.vertices
+
+    @property
+    def triangles(self) -> NDArray[np.uint32]:
+        """(m, 3): vertices, counter-clockwise seen from above; of a surface from outside."""
+        return self._tin.triangles
+
+    @property
+    def errors(self) -> NDArray[np.float32]:
+        """(m,): no sample that the triangle stands for is farther from it."""
+        return self._tin.errors
+
+    @property
+    def error(self) -> float:
+        """The largest of them, anywhere."""
+        return self._tin.error
+
+    @property
+    def pixels(self) -> Optional[float]:
+        """Of a cut for a camera: the largest error in its picture."""
+        return self._tin.pixels
+
+    @property
+    def is_complete(self) -> bool:
+        """False where a number of triangles ended the refinement before the error was reached."""
+        return self._tin.is_complete
+
+    @property
+    def crs(self) -> Optional[str]:
+        """WKT, as pyproj, rasterio and geopandas take it; None where the source has no CRS."""
+        return self._tin.crs_wkt or None
+
+    def to_meshio(self) -> Any:
+        """A meshio.Mesh with the data "error" of each cell."""
+        import meshio
+
+        return meshio.Mesh(self.vertices, [("triangle", self.triangles)], cell_data={"error": [self.errors]})
+
+    def __repr__(self) -> str:
+        return f"<arete.Tin of {len(self.triangles)} triangles, error {self.error:g}>"
+
+
+@dataclasses.dataclass(frozen=True)
+class Asked:
+    """What a cut is asked for, of terrain or a surface, checked as far as it does not depend on either."""
+
+    max_error: Optional[float]
+    max_triangles: Optional[int]
+    has_region: bool
+    outside_error: float
+    has_camera: bool
+    pixel_error: Optional[float]
+
+    def check(self) -> None:
+        if self.max_error is None and self.max_triangles is None and not self.has_camera:
+            raise TypeError("cut() needs max_error, max_triangles or a camera")
+        if self.max_error is not None and not self.max_error >= 0:
+            raise ValueError(f"max_error={self.max_error} is not at least 0")
+        if self.has_camera and (self.max_error is not None or self.has_region):
+            raise ValueError("a camera states its own error (pixel_error) and place: no max_error, no region")
+        if self.pixel_error is not None and not self.has_camera:
+            raise ValueError("pixel_error needs a camera")
+        if self.pixel_error is not None and not 0 < self.pixel_error < math.inf:
+            raise ValueError(f"pixel_error={self.pixel_error} is not above 0")
+        if not self.has_region and not self.has_camera and self.outside_error != math.inf:
+            raise ValueError("outside_error needs a region or a camera")
+        if math.isnan(self.outside_error) or self.outside_error < (self.max_error or 0):
+            raise ValueError(f"outside_error={self.outside_error} is below the error inside")
+
+    @property
+    def error(self) -> Optional[float]:
+        return None if self.max_error is None else float(self.max_error)
+
+    @property
+    def pixels(self) -> Optional[float]:
+        return None if self.pixel_error is None else float(self.pixel_error)
+
+
+class Stored:
+    """A model that may have a file, by which it is pickled."""
+
+    _path: Optional[str] = None
+
+    def __reduce__(self) -> Tuple[Callable[[str], Any], Tuple[str]]:
+        if self._path is None:
+            raise TypeError("a model is pickled by its file: save() it first")
+        from ._files import open as open_model
+
+        return open_model, (self._path,)
+
+
+def _numbers(name: str, values: Any, count: int) -> Tuple[float, ...]:
+    try:
+        numbers = tuple(float(value) for value in values)
+    except (TypeError, ValueError):
+        raise TypeError(f"the {name} of a camera is {count} numbers, not {values!r}") from None
+    if len(numbers) != count or not all(math.isfinite(number) for number in numbers):
+        raise ValueError(f"the {name} of a camera is {count} numbers, not {values!r}")
+    return numbers

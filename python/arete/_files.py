@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Opening .amt files."""
+
+import os
+from typing import Union
+
+from . import _arete
+from ._cuts import PathLike, Progress
+from ._model import Model
+from ._surface import Surface
+
+
+def open(path: PathLike, progress: Progress = None) -> Union[Model, Surface]:  # noqa: A001
+    """Opens an .amt file: a Model of terrain or a Surface."""
+    name = os.path.abspath(os.fspath(path))
+    if _arete.is_surface(name):
+        return Surface(_arete.open_surface(name, progress), name)
+    return Model(_arete.open_terrain(name, progress), name)

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Surfaces: what a triangle mesh becomes, and what it answers."""
+
+import math
+import os
+from typing import Any, Dict, Optional
+
+from numpy.typing import ArrayLike
+
+from . import _arete
+from ._arrays import mesh_of
+from ._cuts import Asked, PathLike, Progress, Stored, SurfaceCamera, Tin
+
+
+class Surface(Stored):
+    """The multitriangulation of a triangle mesh."""
+
+    def __init__(self, surface: _arete.Surface, path: Optional[str] = None):
+        self._surface = surface
+        self._path = path
+
+    def cut(self, max_error: Optional[float] = None, max_triangles: Optional[int] = None, region: Any = None,
+            outside_error: float = math.inf, camera: Optional[SurfaceCamera] = None, pixel_error: Optional[float] = None,
+            displaced: bool = True, fit: Optional[str] = None, progress: Progress = None) -> Tin:
+        """The fewest triangles of which no point of the source is farther than `max_error`, or the best of at most
+        `max_triangles`.
+
+        region: where max_error holds: a box (x0, y0, z0, x1, y1, z1), a ball (x, y, z, r), or a closed mesh, as a file
+            or as build_surface() takes it; elsewhere outside_error does.
+        camera: the error is at most pixel_error (1 by default) in its picture.
+        displaced: where the model was built with displacement, draw it nearer to the source at the same error.
+        fit: "rms" moves vertices to where the mean square distance is small; within max_error, if it is stated.
+        """
+        asked = Asked(max_error, max_triangles, region is not None, outside_error, camera is not None, pixel_error)
+        asked.check()
+        if fit not in (None, "rms"):
+            raise ValueError(f"fit={fit!r} is not \"rms\"")
+        if fit is not None and (region is not None or camera is not None):
+            raise ValueError("a fit is for a cut by max_error or max_triangles everywhere")
+        numbers = None if camera is None else camera.numbers()
+        return Tin(self._surface.cut(asked.error, max_triangles, _region_of(region, progress), float(outside_error), numbers,
+                                     asked.pixels, displaced, fit is not None, progress))
+
+    def measure(self, mesh: Any, triangles: Optional[ArrayLike] = None, samples: int = 0,
+                progress: Progress = None) -> Dict[str, Any]:
+        """The distances between the source and a mesh, both ways, by code that the build does not share.
+
+        mesh: as build_surface() takes it, or a Tin. samples: on each, as many as `arete measure` takes by default.
+        Each way has the largest distance found, what no point exceeds, the mean and the root mean square.
+        """
+        return self._surface.measure(*mesh_of(mesh, triangles), int(samples), progress)
+
+    def save(self, path: PathLike, packed: bool = False, position_bits: int = 0, progress: Progress = None) -> None:
+        """Writes the .amt file, whole or not at all. position_bits: of a packed file, the bits of each coordinate; 0: all."""
+        if position_bits and not packed:
+            raise ValueError("position_bits is for packed files")
+        name = os.fspath(path)
+        self._surface.save(name, packed, int(position_bits), progress)
+        self._path = os.path.abspath(name)
+
+    @property
+    def diagonal(self) -> float:
+        """Of the box of the source."""
+        return self._surface.diagonal
+
+    @property
+    def crs(self) -> Optional[str]:
+        return self._surface.crs_wkt or None
+
+    @property
+    def is_displaced(self) -> bool:
+        return self._surface.is_displaced
+
+    @property
+    def largest_error(self) -> float:
+        """Of the coarsest cut."""
+        return self._surface.largest_error
+
+    @property
+    def finest_triangles(self) -> int:
+        """Triangles of the cut without error."""
+        return self._surface.finest_triangle_count
+
+    def __repr__(self) -> str:
+        return f"<arete.Surface of {self._surface.source!r}, {self._surface.vertex_count} vertices>"
+
+
+def build_surface(source: Any, triangles: Optional[ArrayLike] = None, *, displacement: bool = False,
+                  keep_borders: bool = False, progress: Progress = None) -> Surface:
+    """Builds the multitriangulation of a triangle mesh.
+
+    source: a file that `arete build` takes for a surface; vertices (n, 3) with triangles (m, 3); or a mesh of meshio
+        (points, cells) or trimesh (vertices, faces), of which the shape is taken.
+    displacement: find where the vertices of coarse cuts are nearest to the source. It takes as long again.
+    keep_borders: vertices of borders stay in every cut.
+    """
+    if isinstance(source, (str, os.PathLike)):
+        if triangles is not None:
+            raise TypeError("triangles are for arrays: a file says its own")
+        return Surface(_arete.build_surface_file(os.fspath(source), displacement, keep_borders, progress))
+    return Surface(_arete.build_surface_arrays(*mesh_of(source, triangles), displacement, keep_borders, progress))
+
+
+def _region_of(region: Any, progress: Progress) -> Optional[_arete.RegionOfSpace]:
+    if region is None:
+        return None
+    if isinstance(region, (str, os.PathLike)):
+        return _arete.region_of_file(os.fspath(region), progress)
+    if isinstance(region, (tuple, list)) and len(region) == 2:
+        return _arete.region_of_mesh(*mesh_of(*region))
+    if hasattr(region, "vertices") or hasattr(region, "points"):
+        return _arete.region_of_mesh(*mesh_of(region, None))
+    try:
+        numbers = [float(number) for number in region]
+    except (TypeError, ValueError):
+        raise TypeError("a region is a box (x0, y0, z0, x1, y1, z1), a ball (x, y, z, r) or a closed mesh") from None
+    return _arete.region_of_numbers(numbers)
