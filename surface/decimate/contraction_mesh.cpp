@@ -32,7 +32,7 @@ ContractionMesh::ContractionMesh(const TriangleMesh& mesh)
   }
 }
 
-void ContractionMesh::neighboursOf(std::uint32_t v, std::vector<std::uint32_t>& neighbours) const {
+void ContractionMesh::neighboursOf(std::uint32_t v, Neighbours& neighbours) const {
   neighbours.clear();
   for (const std::uint32_t t : trianglesOf_[v])
     for (const std::uint32_t w : triangles_[t])
@@ -43,7 +43,7 @@ void ContractionMesh::neighboursOf(std::uint32_t v, std::vector<std::uint32_t>& 
 
 bool ContractionMesh::keepsTopology(std::span<const std::uint32_t> vertices) const {
   // Common neighbours of two of the vertices are opposite to them in a triangle.
-  std::vector<std::uint32_t> mine, other, common;
+  Neighbours mine, other, common;
   for (std::size_t i = 0; i < vertices.size(); ++i)
     for (std::size_t j = i + 1; j < vertices.size(); ++j) {
       neighboursOf(vertices[i], mine);
@@ -58,7 +58,7 @@ bool ContractionMesh::keepsTopology(std::span<const std::uint32_t> vertices) con
       }
     }
   // The rim of the new vertex: by triangle that is left, from one neighbour to the next.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> rim;
+  boost::container::small_vector<std::pair<std::uint32_t, std::uint32_t>, 24> rim;
   forLeft(vertices, [&](std::uint32_t t, std::size_t at) {
     const Corners& c = triangles_[t];
     rim.emplace_back(c[(at + 1) % 3], c[(at + 2) % 3]);
@@ -73,7 +73,7 @@ bool ContractionMesh::keepsTopology(std::span<const std::uint32_t> vertices) con
     const auto found = std::ranges::lower_bound(rim, std::pair{v, 0u});
     return found != rim.end() && found->first == v ? found : rim.end();
   };
-  std::vector<std::uint32_t> ends;
+  Neighbours ends;
   for (const auto& side : rim) ends.push_back(side.second);
   std::ranges::sort(ends);
   if (std::ranges::adjacent_find(ends) != ends.end()) return false;
@@ -130,7 +130,7 @@ void ContractionMesh::contract(std::span<const std::uint32_t> vertices, const Ve
     std::ranges::sort(c);
     return c;
   };
-  std::vector<std::pair<Corners, std::uint32_t>> all;
+  boost::container::small_vector<std::pair<Corners, std::uint32_t>, 24> all;
   for (const std::uint32_t t : trianglesOf_[kept]) all.emplace_back(sorted(t), t);
   std::ranges::sort(all);
   for (std::size_t i = 1; i < all.size(); ++i)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,8 +23,10 @@ class ContractionMesh {
   const std::array<std::uint32_t, 3>& corners(std::uint32_t t) const { return triangles_[t]; }
   bool isThere(std::uint32_t t) const { return isThere_[t] != 0; }
   std::span<const std::uint32_t> trianglesOf(std::uint32_t v) const { return trianglesOf_[v]; }
+  /// Of a usual vertex without memory of its own.
+  using Neighbours = boost::container::small_vector<std::uint32_t, 24>;
   /// The vertices that have an edge to v, rising.
-  void neighboursOf(std::uint32_t v, std::vector<std::uint32_t>& neighbours) const;
+  void neighboursOf(std::uint32_t v, Neighbours& neighbours) const;
   /// Calls visit(triangle, corner) for each triangle that a contraction of some vertices leaves: those with
   /// one of them, at this corner.
   template <class Visit>

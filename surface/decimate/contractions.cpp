@@ -38,8 +38,31 @@ struct Candidate {
   bool isGone = false, isDirty = false, waits = false;
 };
 
+/// The vertices of a candidate, at most three, or something of each: without memory of its own.
+template <class Element>
+class Few {
+ public:
+  Few() = default;
+  explicit Few(std::span<const Element> elements) {
+    for (const Element& e : elements) push_back(e);
+  }
+  void push_back(const Element& e) { elements_[size_++] = e; }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  Element& operator[](std::size_t i) { return elements_[i]; }
+  const Element& operator[](std::size_t i) const { return elements_[i]; }
+  Element* begin() { return elements_.data(); }
+  Element* end() { return elements_.data() + size_; }
+  const Element* begin() const { return elements_.data(); }
+  const Element* end() const { return elements_.data() + size_; }
+
+ private:
+  std::array<Element, 3> elements_{};
+  std::size_t size_ = 0;
+};
+
 struct Step {
-  std::vector<std::uint32_t> vertices;  // the first one stays
+  Few<std::uint32_t> vertices;  // the first one stays
   Vec3 place{0, 0, 0};
   double cost = kNever;
 };
@@ -190,7 +213,7 @@ class Contractions {
     std::map<Cell, std::vector<std::uint32_t>> cells;
     for (std::uint32_t v = 0; v < at.size(); ++v)
       if (!mesh_.trianglesOf(v).empty()) cells[cellOf(at[v])].push_back(v);
-    std::vector<std::uint32_t> neighbours;
+    ContractionMesh::Neighbours neighbours;
     for (const auto& [cell, vertices] : cells)
       for (const std::uint32_t v : vertices) {
         mesh_.neighboursOf(v, neighbours);
@@ -225,10 +248,10 @@ class Contractions {
     const Candidate& candidate = candidates_[id];
     Step step;
     if (isFace_)
-      step.vertices.assign(mesh_.corners(candidate.ends[0]).begin(), mesh_.corners(candidate.ends[0]).end());
+      step.vertices = Few<std::uint32_t>(mesh_.corners(candidate.ends[0]));
     else
-      step.vertices.assign(candidate.ends.begin(), candidate.ends.end());
-    std::vector<Vec3> places;
+      step.vertices = Few<std::uint32_t>(candidate.ends);
+    Few<Vec3> places;
     for (const std::uint32_t v : step.vertices) places.push_back(mesh_.position(v));
     if (options_.queue == DecimateQueue::estimate && !isTaken) {
       Vec3 middle{0, 0, 0};
@@ -243,7 +266,7 @@ class Contractions {
     const auto isHeld = [&](std::uint32_t v) {
       return attributes_.isOnLine(mesh_, v) || (options_.keepsBorders && isOnBorder_[v] != 0);
     };
-    std::vector<std::size_t> held;
+    Few<std::size_t> held;
     for (std::size_t i = 0; i < step.vertices.size(); ++i)
       if (isHeld(step.vertices[i])) held.push_back(i);
     const bool isAtEnds = options_.method == DecimateOperator::halfEdge || !held.empty();
@@ -257,7 +280,7 @@ class Contractions {
       if (!held.empty() && std::ranges::find(held, i) == held.end()) continue;
       const double cost = std::max(0.0, quadric.at(places[i]));
       if (!(cost < step.cost)) continue;
-      std::vector<std::uint32_t> order = step.vertices;
+      Few<std::uint32_t> order = step.vertices;
       std::swap(order[0], order[i]);
       if (!mayGo(order)) continue;
       step.cost = cost;
@@ -302,8 +325,8 @@ class Contractions {
       wakeNear(kept);
       return;
     }
-    // Of the candidates at these vertices, one for each other end is left.
-    std::map<std::uint32_t, double> costs;
+    // Of the candidates at these vertices, one for each other end is left: the least.
+    costs_.clear();
     for (const std::uint32_t v : step.vertices) {
       for (const std::uint32_t id : candidatesOf_[v]) {
         Candidate& candidate = candidates_[id];
@@ -311,13 +334,15 @@ class Contractions {
         candidate.isGone = true;
         const std::uint32_t end = candidate.ends[0] == v ? candidate.ends[1] : candidate.ends[0];
         if (std::ranges::find(step.vertices, end) != step.vertices.end()) continue;
-        const auto [at, isNew] = costs.try_emplace(end, candidate.cost);
-        if (!isNew) at->second = std::min(at->second, candidate.cost);
+        costs_.emplace_back(end, candidate.cost);
       }
       candidatesOf_[v].clear();
     }
     contract(step);
-    for (const auto& [end, cost] : costs) {
+    std::ranges::sort(costs_);
+    const auto isSameEnd = [](const auto& a, const auto& b) { return a.first == b.first; };
+    costs_.erase(std::unique(costs_.begin(), costs_.end(), isSameEnd), costs_.end());
+    for (const auto& [end, cost] : costs_) {
       if (mesh_.trianglesOf(end).empty()) continue;
       std::erase_if(candidatesOf_[end], [&](std::uint32_t id) { return candidates_[id].isGone; });
       add({kept, end});
@@ -346,10 +371,9 @@ class Contractions {
       if (candidate.cost == kNever) return price(id);
       push(id);
     };
-    std::vector<std::uint32_t> near;
-    mesh_.neighboursOf(kept, near);
-    near.push_back(kept);
-    for (const std::uint32_t v : near) {
+    mesh_.neighboursOf(kept, near_);
+    near_.push_back(kept);
+    for (const std::uint32_t v : near_) {
       const std::span<const std::uint32_t> ids =
           isFace_ ? mesh_.trianglesOf(v) : std::span<const std::uint32_t>(candidatesOf_[v]);
       for (const std::uint32_t id : ids) wake(id);
@@ -357,10 +381,12 @@ class Contractions {
   }
 
   /// By vertex, its share in the attributes of the new one.
-  std::vector<double> weightsOf(const Step& step) const {
-    std::vector<double> weights(step.vertices.size(), 0);
-    std::vector<double> distances;
-    for (const std::uint32_t v : step.vertices) distances.push_back(norm(step.place - mesh_.position(v)));
+  Few<double> weightsOf(const Step& step) const {
+    Few<double> weights, distances;
+    for (const std::uint32_t v : step.vertices) {
+      weights.push_back(0);
+      distances.push_back(norm(step.place - mesh_.position(v)));
+    }
     const auto nearest = std::ranges::min_element(distances);
     if (*nearest == 0) {
       weights[static_cast<std::size_t>(nearest - distances.begin())] = 1;
@@ -370,7 +396,9 @@ class Contractions {
       const Vec3 way = mesh_.position(step.vertices[1]) - mesh_.position(step.vertices[0]);
       const double share =
           std::clamp(dot(step.place - mesh_.position(step.vertices[0]), way) / dot(way, way), 0.0, 1.0);
-      return {1 - share, share};
+      weights[0] = 1 - share;
+      weights[1] = share;
+      return weights;
     }
     double sum = 0;
     for (std::size_t i = 0; i < weights.size(); ++i) sum += weights[i] = 1 / distances[i];
@@ -392,6 +420,9 @@ class Contractions {
   using Entry = std::tuple<double, std::uint32_t, std::uint32_t>;  // cost, candidate, stamp
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap_;
   DecimatedMesh result_;
+  // Scratch of take() and wakeNear().
+  std::vector<std::pair<std::uint32_t, double>> costs_;
+  ContractionMesh::Neighbours near_;
 };
 
 }  // namespace
