@@ -68,7 +68,7 @@ if(ARETE_SANITIZE)
 endif()
 if(ARETE_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-    message(FATAL_ERROR "ARETE_FUZZ needs clang, whose libFuzzer it uses: cmake --preset fuzz")
+    message(FATAL_ERROR "ARETE_FUZZ needs clang, whose libFuzzer it uses: cmake --preset asan")
   endif()
   # fuzzer-no-link: every layer tells the fuzzer which of its branches an input took.
   target_compile_options(arete_options INTERFACE -fsanitize=fuzzer-no-link -fno-sanitize-recover=all)

@@ -31,6 +31,6 @@ function(run)
 endfunction()
 
 run("${CMAKE_COMMAND}" -S "${SOURCE}" -B "${PREFIX}/build" -G Ninja -Wno-dev
-    -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS=-fsanitize=thread "-DCMAKE_INSTALL_PREFIX=${PREFIX}"
+    -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS=-fsanitize=thread "-DCMAKE_INSTALL_PREFIX=${PREFIX}"
     -DCMAKE_INSTALL_LIBDIR=lib -DTBB_TEST=OFF -DTBB_STRICT=OFF -DTBBMALLOC_BUILD=OFF)
 run("${CMAKE_COMMAND}" --build "${PREFIX}/build" --target install)

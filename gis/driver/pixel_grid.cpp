@@ -175,8 +175,8 @@ void TriangleBins::fill(const PixelWindow& window, std::span<double> heights) co
       some.insert(some.end(), members_.begin() + begin_[b], members_.begin() + begin_[b + 1]);
     }
   std::ranges::sort(some);
-  const auto same = std::ranges::unique(some);
-  some.erase(same.begin(), same.end());
+  const auto last = std::unique(some.begin(), some.end());
+  some.erase(last, some.end());
   for (const std::uint32_t t : some) fillTriangle(triangles_.triangles[t]);
 }
 

@@ -18,7 +18,7 @@ constexpr int kStripSamples = 1 << 22;
 }  // namespace
 
 HeightBand::HeightBand(GDALDataset* dataset, std::shared_ptr<TerrainCuts> cuts, int overview)
-    : cuts_(std::move(cuts)), overview_(overview) {
+    : cuts_(std::move(cuts)) {
   const auto part = [&](int size) {
     return static_cast<int>(std::max(1.0, std::ceil(std::ldexp(double(size), -overview))));
   };

@@ -36,7 +36,6 @@ class HeightBand final : public GDALRasterBand {
   double errorFor(const PixelWindow& window) const;
 
   std::shared_ptr<TerrainCuts> cuts_;
-  int overview_;
   std::vector<std::unique_ptr<HeightBand>> overviews_;
 };
 

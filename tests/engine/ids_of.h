@@ -4,16 +4,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
-#include <ranges>
 #include <vector>
 
 namespace arete::test {
 
 /// All ids of a kind below a number, in order: idsBelow<VertexId>(mesh.vertexCount()).
 template <class IdType>
-auto idsBelow(std::size_t count) {
-  return std::views::iota(std::uint32_t{0}, static_cast<std::uint32_t>(count)) |
-         std::views::transform([](std::uint32_t index) { return IdType(index); });
+std::vector<IdType> idsBelow(std::size_t count) {
+  std::vector<IdType> ids;
+  for (std::uint32_t index = 0; index < count; ++index) ids.push_back(IdType(index));
+  return ids;
 }
 
 /// The ids of some numbers: idsOf<VertexId>({20, 41}).

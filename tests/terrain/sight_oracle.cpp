@@ -296,9 +296,9 @@ OracleAnswer SightOracle::ask(const SightTrack& track, double height0, double he
   const auto atLeast = [&](const Stretch& p) {
     if (tangents.empty()) return -std::numeric_limits<long double>::infinity();
     const auto i = static_cast<int>(p.s0 / length * kTangents + 0.5L);
-    const auto& [height, slope] = tangents[static_cast<std::size_t>(std::clamp(i, 0, kTangents))];
+    const auto& tangent = tangents[static_cast<std::size_t>(std::clamp(i, 0, kTangents))];
     const auto above = [&](long double s, long double z) {
-      return (height + slope * (s - length * i / kTangents)) / unit - z;
+      return (tangent.height + tangent.slope * (s - length * i / kTangents)) / unit - z;
     };
     return std::min(above(p.s0, p.z0), above(p.s1, p.z1)) - 1e-7L / unit;
   };

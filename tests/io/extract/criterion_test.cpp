@@ -38,10 +38,10 @@ TEST(ExtractCriterion, PromisesItsToleranceOnlyWhereNothingElseDecides) {
   c.deadlineMilliseconds = 10;
   EXPECT_FALSE(c.promisesMaxError());
   c = within(5);
-  c.focus.emplace();
+  c.focus = ExtractCriterion::Focus();
   EXPECT_FALSE(c.promisesMaxError());
   c = within(5);
-  c.camera.emplace();
+  c.camera = Camera();
   EXPECT_FALSE(c.promisesMaxError());
 }
 
@@ -58,7 +58,7 @@ TEST(ExtractCriterion, IsTheEnginesWithWhatAFormatRoundsTakenOff) {
 TEST(ExtractCriterion, OfACameraIsAViewWhateverElseIsStated) {
   const TerrainModel model = someModel();
   ExtractCriterion c;
-  c.camera.emplace();
+  c.camera = Camera();
   c.camera->xy = {10, 10};
   c.camera->height = 500;
   c.pixelError = 2;
@@ -130,7 +130,7 @@ TEST(ExtractCriterion, NeedsACameraForTwoQueuesAndNamesTheField) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::usage);
   EXPECT_EQ(refused.error().culprit, "order");
-  c.camera.emplace();
+  c.camera = Camera();
   c.camera->height = 500;
   EXPECT_TRUE(engineOptions(c, model));
 }

@@ -4,6 +4,7 @@
 // themselves: the sample is brought into the CRS of the region and tested against the polygon as it was
 // drawn; distances are those to points close together on its edges. The files state the polygons whole,
 // turned by 360 degrees, or cut at the antimeridian.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <proj.h>
 

@@ -78,9 +78,9 @@ TEST(FitSurface, NeverLeavesMoreAndNeverFolds) {
       const Fitted f = cutOf(family.mesh, 0.4);
       const FittedSurface result = fitted(f);
       EXPECT_LE(result.rmsAfter, result.rmsBefore);
-      for (const auto& [i, j, k] : f.cut.triangles) {
+      for (const auto& t : f.cut.triangles) {
         const auto normalOf = [&](const std::vector<Vec3>& at) {
-          return cross(at[j] - at[i], at[k] - at[i]);
+          return cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]]);
         };
         const Vec3 before = normalOf(f.cut.positions), after = normalOf(result.positions);
         EXPECT_GE(dot(before, after), (0.5 - 1e-9) * norm(before) * norm(after));

@@ -55,7 +55,8 @@ TEST(ViewshedSweep, SaysWhereItIsNotPossible) {
 }
 
 TEST(ViewshedSweep, FillsEveryCellAsRaysDoFromEverywhere) {
-  for (const auto& [columns, rows] : {std::pair{2u, 2u}, {2u, 30u}, {41u, 3u}, {37u, 29u}}) {
+  for (const auto& size : {std::pair{2u, 2u}, {2u, 30u}, {41u, 3u}, {37u, 29u}}) {
+    const auto columns = size.first, rows = size.second;
     const Place place(columns, rows, columns * 100 + rows);
     const double x = columns - 1, y = rows - 1;
     for (const Vec2 plan : {Vec2{0, 0},

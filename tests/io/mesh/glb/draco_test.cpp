@@ -89,7 +89,7 @@ T valueAt(const DracoAttribute& attribute, std::size_t i) {
 
 /// Triangles of one turn, however they begin.
 Triangle turned(Triangle triangle) {
-  std::ranges::rotate(triangle, std::ranges::min_element(triangle, {}, &Corner::label));
+  std::rotate(triangle.begin(), std::ranges::min_element(triangle, {}, &Corner::label), triangle.end());
   return triangle;
 }
 
