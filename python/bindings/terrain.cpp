@@ -153,15 +153,10 @@ struct CutRequest {
 Tin takeTinOf(const Terrain& terrain, const CutRequest& request, const py::object& progress) {
   return call(progress, [&](const RunContext& context) -> Result<Tin> {
     const TerrainModel& model = terrain.model();
-    ExtractCriterion criterion{.maxError = request.maxError,
-                               .maxTriangles = request.maxTriangles,
-                               .region = {},
-                               .outsideError = request.outsideError,
-                               .focus = {},
-                               .camera = {},
-                               .cameraText = {},
-                               .pixelError = {},
-                               .deadlineMilliseconds = {}};
+    ExtractCriterion criterion;
+    criterion.maxError = request.maxError;
+    criterion.maxTriangles = request.maxTriangles;
+    criterion.outsideError = request.outsideError;
     std::optional<Region> region;
     if (!request.rings.empty()) {
       auto inPlan = regionOf(request.rings, model);

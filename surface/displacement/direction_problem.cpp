@@ -30,8 +30,8 @@ DirectionProblem::DirectionProblem(const MultiTriangulation& mt)
     for (std::size_t i = 0; i < 3; ++i)
       rootEdges_.push_back({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
   std::ranges::sort(rootEdges_);
-  const auto same = std::ranges::unique(rootEdges_);
-  rootEdges_.erase(same.begin(), same.end());
+  const auto last = std::unique(rootEdges_.begin(), rootEdges_.end());
+  rootEdges_.erase(last, rootEdges_.end());
   ofRootEdge_.assign(rootEdges_.size(), Block{});
 }
 

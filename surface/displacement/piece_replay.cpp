@@ -30,7 +30,7 @@ HoleTriangulation floorOf(const MultiTriangulation& mt, NodeId n) {
     const auto corners = mt.corners(TriangleId(t));
     for (std::size_t i = 0; i < 3; ++i)
       at[i] = static_cast<int>(std::ranges::find(link, corners[i]) - link.begin());
-    std::ranges::rotate(at, std::ranges::min_element(at));
+    std::rotate(at.begin(), std::ranges::min_element(at), at.end());
     floor.add(at[0], at[1], at[2]);
   }
   return floor;
