@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cli/session/session.h"
 #include "io/surface/mesh_input.h"
 #include "surface/diagnosis/diagnosis.h"
 
