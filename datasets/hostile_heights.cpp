@@ -117,9 +117,10 @@ HostileHeights hostileHeights(std::uint64_t seed, std::uint32_t columns, std::ui
       break;
     }
     case 3: {  // heights of every magnitude: which of them stand alone is anybody's guess
-      for (std::uint32_t i = 0; i < 1 + random.below(6); ++i)
-        field.heights[anywhere()] =
-            std::copysign(std::pow(10.0, random.between(-300, 29)), random.unit() - 0.5);
+      for (std::uint32_t i = 0; i < 1 + random.below(6); ++i) {
+        const double sign = random.unit() - 0.5;
+        field.heights[anywhere()] = std::copysign(std::pow(10.0, random.between(-300, 29)), sign);
+      }
       made.isOrdinary = false;
       made.what += ", a few of any magnitude";
       break;

@@ -213,8 +213,13 @@ RasterHeightfield makeIslands(std::uint32_t columns, std::uint32_t rows, std::ui
   Random random(seed);
   const auto land = [&](std::int64_t x, std::int64_t y) { return hills(seed, double(x), double(y)); };
   const std::uint32_t largest = std::min(columns, rows) / 8 + 1;
-  for (std::size_t i = 0; i < field.size() / 700 + 2; ++i)
-    putDisc(field, random.below(columns), random.below(rows), 1 + random.below(largest), land);
+  for (std::size_t i = 0; i < field.size() / 700 + 2; ++i) {
+    // One statement each: compilers take arguments in different orders.
+    const auto radius = 1 + random.below(largest);
+    const auto y = random.below(rows);
+    const auto x = random.below(columns);
+    putDisc(field, x, y, radius, land);
+  }
   keepOneCell(field, seed);
   return field;
 }
@@ -238,7 +243,9 @@ RasterHeightfield makeAllNoData(std::uint32_t columns, std::uint32_t rows, std::
 RasterHeightfield makeOneValid(std::uint32_t columns, std::uint32_t rows, std::uint64_t seed) {
   RasterHeightfield field = fill("one valid sample", columns, rows, [](auto, auto) { return kNoData; });
   Random random(seed);
-  put(field, random.below(columns), random.below(rows), 100);
+  const auto y = random.below(rows);
+  const auto x = random.below(columns);
+  put(field, x, y, 100);
   return field;
 }
 
