@@ -61,7 +61,7 @@ TEST_F(SurfaceCommands, BuildInfoValidateAndExtract) {
   const double diagonal = two.json()["diagonal"];
   for (const auto& [file, share] : {std::pair{"out_1%.obj", 0.01}, std::pair{"out_5%.obj", 0.05}}) {
     ASSERT_TRUE(exists(file)) << file;
-    const Outcome measured = run({"measure", file, "ball.obj", "--json"});
+    const Outcome measured = run({"measure", file, "ball.obj", "--samples", "20000", "--json"});
     ASSERT_EQ(measured.code, 0) << measured.err;
     EXPECT_LE(measured.json()["fromSecond"]["maximum"].get<double>(), share * diagonal);
     const Json mesh = run({"mesh", "info", file, "--json"}).json();
@@ -90,7 +90,7 @@ TEST_F(SurfaceCommands, AFitLeavesLessOfTheDistanceAndKeepsTheTolerance) {
     if (!fit.empty()) words.insert(words.end(), {"--fit", fit});
     const Outcome cut = run(words);
     ASSERT_EQ(cut.code, 0) << cut.err;
-    both[fit] = run({"measure", "cut" + fit + ".ply", "shape.obj", "--json"}).json();
+    both[fit] = run({"measure", "cut" + fit + ".ply", "shape.obj", "--samples", "20000", "--json"}).json();
     EXPECT_LE(both[fit]["fromSecond"]["maximum"].get<double>(),
               cut.json()["exports"][0]["error"].get<double>());
   }
@@ -100,7 +100,7 @@ TEST_F(SurfaceCommands, AFitLeavesLessOfTheDistanceAndKeepsTheTolerance) {
       run({"extract", "shape.amt", "-o", "kept.ply", "--max-error", "0.05", "--fit", "rms", "--json"});
   ASSERT_EQ(kept.code, 0) << kept.err;
   EXPECT_LE(kept.json()["exports"][0]["error"].get<double>(), 0.05);
-  EXPECT_LE(run({"measure", "kept.ply", "shape.obj", "--json"}).json()["fromSecond"]["maximum"].get<double>(),
+  EXPECT_LE(run({"measure", "kept.ply", "shape.obj", "--samples", "20000", "--json"}).json()["fromSecond"]["maximum"].get<double>(),
             0.05);
 }
 
@@ -120,12 +120,12 @@ TEST_F(SurfaceCommands, PackedFilesAnswerAsPlainOnesDo) {
     answers[model] = cut.json()["exports"][0];
     for (const char* const key : {"file", "output", "seconds"}) answers[model].erase(key);
     // The finest surfaces are one.
-    const Json apart = run({"measure", model + ".amt", "ball.obj", "--json"}).json();
+    const Json apart = run({"measure", model + ".amt", "ball.obj", "--samples", "20000", "--json"}).json();
     EXPECT_LT(apart["fromFirst"]["maximum"].get<double>(), 1e-6);
     EXPECT_LT(apart["fromSecond"]["maximum"].get<double>(), 1e-6);
   }
   EXPECT_EQ(answers["plain"]["triangles"], answers["packed"]["triangles"]);
-  const Json apart = run({"measure", "plain.ply", "packed.ply", "--json"}).json();
+  const Json apart = run({"measure", "plain.ply", "packed.ply", "--samples", "20000", "--json"}).json();
   EXPECT_LT(apart["fromFirst"]["maximum"].get<double>(), 1e-9);
   EXPECT_LT(apart["fromSecond"]["maximum"].get<double>(), 1e-9);
 }
@@ -141,7 +141,7 @@ TEST_F(SurfaceCommands, RoundedPositionsTakeFewerBytesAndAreSaid) {
   EXPECT_EQ(run({"validate", "rounded.amt", "--full"}).code, 0);
   const Json cut =
       run({"extract", "rounded.amt", "-o", "cut.ply", "--max-error", "0.02", "--json"}).json()["exports"][0];
-  const Json apart = run({"measure", "cut.ply", "ball.obj", "--json"}).json();
+  const Json apart = run({"measure", "cut.ply", "ball.obj", "--samples", "20000", "--json"}).json();
   EXPECT_LE(apart["fromSecond"]["maximum"].get<double>(), cut["error"].get<double>());
   EXPECT_NE(run({"build", "ball.obj", "-o", "x.amt", "--position-bits", "12"}).err.find("requires --packed"),
             std::string::npos);
@@ -168,7 +168,7 @@ TEST_F(SurfaceCommands, DisplacedCutsAreNearerAtTheSameErrorUntilSwitchedOff) {
     words.insert(words.end(), more.begin(), more.end());
     const Outcome cut = run(words);
     EXPECT_EQ(cut.code, 0) << cut.err;
-    const Json apart = run({"measure", "x.ply", "ball.obj", "--json"}).json();
+    const Json apart = run({"measure", "x.ply", "ball.obj", "--samples", "20000", "--json"}).json();
     const Json said = cut.json()["exports"][0];
     EXPECT_LE(apart["fromSecond"]["maximum"].get<double>(), said["error"].get<double>() * (1 + 1e-6));
     return Extracted{said, apart["fromSecond"]["rms"].get<double>()};
@@ -256,8 +256,8 @@ TEST_F(SurfaceCommands, RegionsAndCamerasTakeDetailWhereItIsWanted) {
 TEST_F(SurfaceCommands, AModelIsMeasuredAsItsFinestSurface) {
   ASSERT_EQ(run({"build", "ball.obj", "-o", "ball.amt"}).code, 0);
   ASSERT_EQ(run({"extract", "ball.amt", "-o", "small.ply", "--max-error", "3%"}).code, 0);
-  const Outcome mesh = run({"measure", "small.ply", "ball.obj", "--json"}),
-                model = run({"measure", "small.ply", "ball.amt", "--json"});
+  const Outcome mesh = run({"measure", "small.ply", "ball.obj", "--samples", "20000", "--json"}),
+                model = run({"measure", "small.ply", "ball.amt", "--samples", "20000", "--json"});
   ASSERT_EQ(model.code, 0) << model.err;
   EXPECT_NEAR(model.json()["fromSecond"]["maximum"].get<double>(),
               mesh.json()["fromSecond"]["maximum"].get<double>(), 1e-6);
@@ -384,7 +384,7 @@ TEST_F(SurfaceCommands, DecimateTakesEveryOperatorAndSaysWhatItDid) {
     EXPECT_LE(small.json()["triangles"].get<std::size_t>(), 24u * 14 * 2 * 3 / 10);
     EXPECT_EQ(small.json()["operator"], method);
     EXPECT_EQ(read("map.csv").substr(0, 18), "what,output,input\n");
-    rms[method] = run({"measure", "small.ply", "ball.obj", "--json"}).json()["fromSecond"]["rms"];
+    rms[method] = run({"measure", "small.ply", "ball.obj", "--samples", "20000", "--json"}).json()["fromSecond"]["rms"];
   }
   EXPECT_LT(rms["measured"], rms["half-edge"]);
   EXPECT_LT(rms["qem"], rms["half-edge"]);
@@ -396,7 +396,7 @@ TEST_F(SurfaceCommands, DecimateKeepsADistanceAndNamesTheLeastCount) {
   ASSERT_EQ(kept.code, 0) << kept.err;
   const double error = kept.json()["error"];
   EXPECT_LE(error, 0.01 * 2 * std::sqrt(3.0));
-  EXPECT_LE(run({"measure", "kept.ply", "ball.obj", "--json"}).json()["fromSecond"]["maximum"].get<double>(),
+  EXPECT_LE(run({"measure", "kept.ply", "ball.obj", "--samples", "20000", "--json"}).json()["fromSecond"]["maximum"].get<double>(),
             error);
   for (const std::string method : {"measured", "qem", "half-edge", "face"}) {
     const Outcome refused =

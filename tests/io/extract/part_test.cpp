@@ -17,6 +17,7 @@
 #include "datasets/families.h"
 #include "datasets/random.h"
 #include "engine/cut/cut.h"
+#include "full_run.h"
 #include "io/amt_fixture.h"
 #include "io/io_fixture.h"
 #include "io/mesh_fixture.h"
@@ -32,14 +33,16 @@ const RasterFamily& familyNamed(std::string_view name) {
   return *std::ranges::find(rasterFamilies(), name, &RasterFamily::name);
 }
 
-/// Small ones, and a larger one at the end.
+/// Small ones, and a larger one at the end; ARETE_BRIEF=1: smaller ones.
 std::vector<TerrainModel> modelsOfAllKinds(std::uint64_t seed) {
   std::vector<TerrainModel> models;
   for (const RasterFamily& family : rasterFamilies())
-    models.push_back(built(build(family.make(90, 80, seed))));
-  for (const PointFamily& family : pointFamilies()) models.push_back(built(build(family.make(3000, seed))));
-  models.push_back(
-      built(build(familyNamed("fractal").make(300, 280, 3), {.shape = HoleShape::dataDependent})));
+    models.push_back(built(build(test::isBrief() ? family.make(50, 40, seed) : family.make(90, 80, seed))));
+  for (const PointFamily& family : pointFamilies())
+    models.push_back(built(build(family.make(test::isBrief() ? 1000 : 3000, seed))));
+  if (!test::isBrief())
+    models.push_back(
+        built(build(familyNamed("fractal").make(300, 280, 3), {.shape = HoleShape::dataDependent})));
   return models;
 }
 

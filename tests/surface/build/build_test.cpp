@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "engine/cut/cut.h"
+#include "full_run.h"
 #include "surface/families.h"
 #include "surface/front/front.h"
 #include "surface/laws/validate_surface.h"
@@ -331,7 +332,7 @@ TEST(BuildSurface, RefusesWhatItCannotMendByName) {
 }
 
 TEST(BuildSurface, TakesFansOfManyFaces) {
-  const SurfaceModel model = built(shapes::globe(20000, 2));
+  const SurfaceModel model = built(shapes::globe(test::isBrief() ? 4000 : 20000, 2));
   EXPECT_LT(model.mt.rootTriangleCount(), 30u);
   const Status valid = validateSurface(model);
   EXPECT_TRUE(valid) << valid.error().message;
