@@ -183,8 +183,9 @@ void removeDrivers() {
   GDALDriverManager* drivers = GetGDALDriverManager();
   for (int i = drivers->GetDriverCount(); i-- > 0;) {
     GDALDriver* driver = drivers->GetDriver(i);
-    if (std::ranges::find(kDrivers, driver->GetDescription()) == kDrivers.end())
-      drivers->DeregisterDriver(driver);
+    if (std::ranges::find(kDrivers, driver->GetDescription()) != kDrivers.end()) continue;
+    drivers->DeregisterDriver(driver);
+    GDALDestroyDriver(driver);  // which is no longer the manager's
   }
 }
 
