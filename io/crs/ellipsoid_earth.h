@@ -33,5 +33,6 @@ bool isOnEllipsoid(const Georeference& georeference);
 /// transformation.
 Result<std::unique_ptr<SightEarth>> makeEllipsoidEarth(const TerrainModel& model,
                                                        double refraction = kUsualRefraction);
+Result<std::unique_ptr<SightEarth>> makeEllipsoidEarth(TerrainModel&& model, double refraction = 0) = delete;
 
 }  // namespace arete

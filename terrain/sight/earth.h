@@ -46,5 +46,6 @@ Vec2 sightEnd(const TerrainModel& model, Vec2 plan, double margin = kShortestInP
 /// metres, by its scale, or the size of a degree, in the middle of the DEM.
 /// Precondition: the model outlives the result.
 std::unique_ptr<SightEarth> makePlaneEarth(const TerrainModel& model);
+std::unique_ptr<SightEarth> makePlaneEarth(TerrainModel&& model) = delete;
 
 }  // namespace arete

@@ -361,7 +361,8 @@ TEST(EllipsoidEarth, SaysWhatIsNoLine) {
   EXPECT_NE(errorOf(polar, polar.toPlan({-90, 88}), polar.toPlan({90, 88})).find("pole"), std::string::npos);
   const TerrainModel beyond = geographic(0, 91, 0.5, 11, 11);
   EXPECT_NE(errorOf(beyond, {0, 0}, {0, 5}).find("no longitude and latitude"), std::string::npos);
-  const auto earth = makeEllipsoidEarth(geographic(-179.5, 89.5, 1, 360, 180), -20);
+  const TerrainModel globe = geographic(-179.5, 89.5, 1, 360, 180);
+  const auto earth = makeEllipsoidEarth(globe, -20);
   ASSERT_TRUE(earth);
   const auto track = (*earth)->track({10, 89}, {70, 92});
   ASSERT_FALSE(track);
@@ -372,7 +373,8 @@ TEST(EllipsoidEarth, SaysWhatIsNoLine) {
   const auto none = makeEllipsoidEarth(nowhere);
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().code, ErrorCode::usage);
-  const auto site = makeEllipsoidEarth(modelOf("LOCAL_CS[\"site\",UNIT[\"metre\",1]]", {0, 1, 0, 0, 0, -1}));
+  const TerrainModel local = modelOf("LOCAL_CS[\"site\",UNIT[\"metre\",1]]", {0, 1, 0, 0, 0, -1});
+  const auto site = makeEllipsoidEarth(local);
   ASSERT_FALSE(site);
   EXPECT_EQ(site.error().code, ErrorCode::unsupported) << site.error().describe();
 }
