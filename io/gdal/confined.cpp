@@ -192,12 +192,20 @@ void removeDrivers() {
 void removeNetwork() {
   constexpr std::array<std::string_view, 6> kLocal = {"/vsimem/", "/vsizip/",     "/vsigzip/",
                                                       "/vsitar/", "/vsisubfile/", "/vsistdin/"};
+  // What is replaced is no longer the manager's; several prefixes may share one.
+  std::set<VSIFilesystemHandler*> replaced;
   char** prefixes = VSIFileManager::GetPrefixes();
   for (char** prefix = prefixes; prefix && *prefix; ++prefix)
     if (std::string_view(*prefix).size() > 0 && std::ranges::find(kLocal, *prefix) == kLocal.end() &&
-        !std::string_view(*prefix).starts_with("/vsicrypt"))
+        !std::string_view(*prefix).starts_with("/vsicrypt")) {
+      replaced.insert(VSIFileManager::GetHandler(*prefix));
       VSIFileManager::InstallHandler(*prefix, new NoFiles);
+    }
+  replaced.erase(VSIFileManager::GetHandler(""));  // of files
+  for (char** prefix = prefixes; prefix && *prefix; ++prefix)
+    replaced.erase(VSIFileManager::GetHandler(*prefix));
   CSLDestroy(prefixes);
+  for (VSIFilesystemHandler* handler : replaced) delete handler;
   CPLHTTPSetFetchCallback(&refuseRequest, nullptr);
   OSRSetPROJEnableNetwork(false);
   ::setenv("PROJ_NETWORK", "OFF", 1);
