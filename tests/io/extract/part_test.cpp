@@ -33,16 +33,15 @@ const RasterFamily& familyNamed(std::string_view name) {
   return *std::ranges::find(rasterFamilies(), name, &RasterFamily::name);
 }
 
-/// Small ones, and a larger one at the end; ARETE_BRIEF=1: smaller ones.
+/// Small ones, and a larger one at the end.
 std::vector<TerrainModel> modelsOfAllKinds(std::uint64_t seed) {
   std::vector<TerrainModel> models;
   for (const RasterFamily& family : rasterFamilies())
     models.push_back(built(build(test::isBrief() ? family.make(50, 40, seed) : family.make(90, 80, seed))));
   for (const PointFamily& family : pointFamilies())
     models.push_back(built(build(family.make(test::isBrief() ? 1000 : 3000, seed))));
-  if (!test::isBrief())
-    models.push_back(
-        built(build(familyNamed("fractal").make(300, 280, 3), {.shape = HoleShape::dataDependent})));
+  models.push_back(
+      built(build(familyNamed("fractal").make(300, 280, 3), {.shape = HoleShape::dataDependent})));
   return models;
 }
 
