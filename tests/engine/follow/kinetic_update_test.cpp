@@ -238,7 +238,7 @@ class Counting final : public KineticCriterion {
     evaluated += balls.size();
     return view_.exceedingFor(balls, errors, rate, units);
   }
-  static inline std::size_t evaluated = 0;
+  static inline std::atomic<std::size_t> evaluated = 0;  // from several threads
 
  private:
   ViewError view_;

@@ -83,7 +83,7 @@ std::vector<TerrainModel> modelsOfAllKinds() {
   std::vector<TerrainModel> models;
   for (const char* name : {"fractal", "nodata holes", "integer", "rotated"})
     models.push_back(built(
-        build(test::isBrief() ? familyNamed(name).make(90, 80, 3) : familyNamed(name).make(300, 280, 3))));
+        build(test::isBrief() ? familyNamed(name).make(150, 140, 3) : familyNamed(name).make(300, 280, 3))));
   if (test::isBrief()) return models;
   BuildOptions rims;
   rims.rimTolerance = 2;
