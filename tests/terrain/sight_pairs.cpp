@@ -209,11 +209,16 @@ std::array<Vec2, 2> SightPairs::anyEnds(std::string& kind, bool& isExact) {
       return named("next to a column", {v.x + e, p.y}, {v.x + f, q.y});
     }
     case 6: {  // across the whole
-      if (random_.below(2)) return named("across", {b.xMin, anywhere().y}, {b.xMax, anywhere().y});
-      return named("across", {anywhere().x, b.yMin}, {anywhere().x, b.yMax});
+      // One statement each: compilers take arguments in different orders.
+      const bool isAlong = random_.below(2) != 0;
+      const Vec2 to = anywhere(), from = anywhere();
+      if (isAlong) return named("across", {b.xMin, from.y}, {b.xMax, to.y});
+      return named("across", {from.x, b.yMin}, {to.x, b.yMax});
     }
-    default:
-      return named("between places", place(), place());
+    default: {
+      const Vec2 to = place(), from = place();
+      return named("between places", from, to);
+    }
   }
 }
 
