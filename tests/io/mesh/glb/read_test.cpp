@@ -166,7 +166,7 @@ TEST(GlbRead, NamesWhatItLeavesOut) {
   foreign.json["nodes"][0]["translation"] = {5, 0, 0};
   foreign.json["skins"] = {{{"joints", {0}}}};
   foreign.json["animations"] = {{{"name", "run"}}, {{"name", "jump\x1b"}}};
-  foreign.json["cameras"] = {Json::object()};
+  foreign.json["cameras"] = Json::array({Json::object()});  // of braces alone compilers make either
   foreign.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"name", "sun"}}};
   foreign.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "red"}}, {{"name", "blue"}}};
   foreign.json["extensionsUsed"] = {"KHR_lights_punctual", "VENDOR_thing", "KHR_materials_unlit"};
