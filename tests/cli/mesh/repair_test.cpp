@@ -42,7 +42,8 @@ TEST_F(MeshRepair, ChangesNothingTheSecondTime) {
       const Outcome again = run({"mesh", "repair", first, "-o", second, "--json"});
       ASSERT_EQ(again.code, 0) << again.err;
       EXPECT_EQ(read(first), read(second));
-      for (const auto& [what, count] : again.json()["mended"].items()) EXPECT_EQ(count, 0) << what;
+      const auto mended = again.json()["mended"];
+      for (const auto& [what, count] : mended.items()) EXPECT_EQ(count, 0) << what;
     }
 }
 
