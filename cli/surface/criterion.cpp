@@ -33,8 +33,7 @@ Result<std::shared_ptr<const SpaceRegion>> readSurfaceRegion(const std::string& 
   return *region;
 }
 
-Result<SurfaceCamera> readStatedCamera(const CriterionArguments::OfSurface& asked,
-                                       const SurfaceModel& model) {
+Result<SurfaceCamera> readStatedCamera(const CriterionArguments::OfSurface& asked) {
   const Result<SurfaceCameraArgument> stated = readSurfaceCamera(asked.camera);
   if (!stated) return tl::unexpected(stated.error());
   if (stated->statesFieldOfView && asked.fieldOfView)
@@ -47,8 +46,6 @@ Result<SurfaceCamera> readStatedCamera(const CriterionArguments::OfSurface& aske
     camera.widthPixels = viewport->first;
     camera.heightPixels = viewport->second;
   }
-  if (const Result<View> view = viewOf(camera, model); !view)
-    return failure(view.error().code, view.error().message, fmt::format("--camera {}", asked.camera));
   return camera;
 }
 
@@ -74,13 +71,16 @@ Result<SurfaceCriterion> readSurfaceCriterion(const CriterionArguments::OfSurfac
     criterion.region = std::move(*region);
   }
   if (!asked.camera.empty()) {
-    const auto camera = readStatedCamera(asked, model);
+    const auto camera = readStatedCamera(asked);
     if (!camera) return tl::unexpected(camera.error());
     criterion.camera = *camera;
   }
-  if (const auto valid = engineCriterion(criterion, model); !valid)
+  // Its errors name fields; here they are options.
+  if (const auto valid = engineCriterion(criterion, model); !valid) {
+    const bool isOfCamera = valid.error().culprit == "camera";
     return failure(valid.error().code, valid.error().message,
-                   valid.error().culprit == "outsideError" ? "--outside-error" : valid.error().culprit);
+                   isOfCamera ? fmt::format("--camera {}", asked.camera) : "--outside-error");
+  }
   return criterion;
 }
 

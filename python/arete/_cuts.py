@@ -142,9 +142,26 @@ class Asked:
 
 
 class Stored:
-    """A model that may have a file, by which it is pickled."""
+    """A model of terrain or of a surface. It may have a file, by which it is pickled."""
 
-    _path: Optional[str] = None
+    def __init__(self, model: Union[_arete.Terrain, _arete.Surface], path: Optional[str] = None):
+        self._stored = model
+        self._path = path
+
+    @property
+    def crs(self) -> Optional[str]:
+        """WKT; None where the source has no CRS."""
+        return self._stored.crs_wkt or None
+
+    @property
+    def largest_error(self) -> float:
+        """Of the coarsest cut."""
+        return self._stored.largest_error
+
+    @property
+    def finest_triangles(self) -> int:
+        """Triangles of the cut without error."""
+        return self._stored.finest_triangle_count
 
     def __reduce__(self) -> Tuple[Callable[[str], Any], Tuple[str]]:
         if self._path is None:

@@ -51,8 +51,8 @@ class Model(Stored):
     """The multitriangulation of a terrain."""
 
     def __init__(self, terrain: _arete.Terrain, path: Optional[str] = None):
+        super().__init__(terrain, path)
         self._terrain = terrain
-        self._path = path
 
     def cut(self, max_error: Optional[float] = None, max_triangles: Optional[int] = None, region: Any = None,
             outside_error: float = math.inf, camera: Optional[Camera] = None, pixel_error: Optional[float] = None,
@@ -175,11 +175,6 @@ class Model(Stored):
         self._path = os.path.abspath(name)
 
     @property
-    def crs(self) -> Optional[str]:
-        """WKT; None where the source has no CRS."""
-        return self._terrain.crs_wkt or None
-
-    @property
     def vertical_unit(self) -> str:
         """As the source states it; may be empty."""
         return self._terrain.vertical_unit
@@ -200,16 +195,6 @@ class Model(Stored):
     def bounds(self) -> Tuple[float, ...]:
         """xmin, ymin, xmax, ymax of the samples."""
         return tuple(self._terrain.bounds)
-
-    @property
-    def largest_error(self) -> float:
-        """Of the coarsest cut."""
-        return self._terrain.largest_error
-
-    @property
-    def finest_triangles(self) -> int:
-        """Triangles of the cut without error."""
-        return self._terrain.finest_triangle_count
 
     def __repr__(self) -> str:
         return f"<arete.Model of {self._terrain.source!r}, {self._terrain.vertex_count} samples>"

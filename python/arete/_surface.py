@@ -16,8 +16,8 @@ class Surface(Stored):
     """The multitriangulation of a triangle mesh."""
 
     def __init__(self, surface: _arete.Surface, path: Optional[str] = None):
+        super().__init__(surface, path)
         self._surface = surface
-        self._path = path
 
     def cut(self, max_error: Optional[float] = None, max_triangles: Optional[int] = None, region: Any = None,
             outside_error: float = math.inf, camera: Optional[SurfaceCamera] = None, pixel_error: Optional[float] = None,
@@ -64,22 +64,8 @@ class Surface(Stored):
         return self._surface.diagonal
 
     @property
-    def crs(self) -> Optional[str]:
-        return self._surface.crs_wkt or None
-
-    @property
     def is_displaced(self) -> bool:
         return self._surface.is_displaced
-
-    @property
-    def largest_error(self) -> float:
-        """Of the coarsest cut."""
-        return self._surface.largest_error
-
-    @property
-    def finest_triangles(self) -> int:
-        """Triangles of the cut without error."""
-        return self._surface.finest_triangle_count
 
     def __repr__(self) -> str:
         return f"<arete.Surface of {self._surface.source!r}, {self._surface.vertex_count} vertices>"

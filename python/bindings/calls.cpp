@@ -37,6 +37,11 @@ void raise(const Error& error) {
   throw py::error_already_set();
 }
 
+void warn(std::span<const std::string> warnings) {
+  for (const std::string& warning : warnings)
+    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 2) != 0) throw py::error_already_set();
+}
+
 void runBeside(const py::object& progress, const std::function<void(const RunContext&)>& body) {
   std::mutex mutex;
   std::condition_variable changed;

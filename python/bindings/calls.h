@@ -5,6 +5,8 @@
 
 #include <functional>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
 
 #include "engine/base/result.h"
@@ -15,6 +17,9 @@ namespace arete::python {
 /// Raises an error as Python's own: ValueError (usage), FileNotFoundError, OSError, MemoryError,
 /// KeyboardInterrupt, and RuntimeError for data that is damaged, invalid or not supported.
 [[noreturn]] void raise(const Error& error);
+
+/// Raises each as a UserWarning of the caller. Errors: what Python makes of it where warnings are errors.
+void warn(std::span<const std::string> warnings);
 
 /// Runs a body on a thread of its own, without the interpreter's lock, while the calling thread serves
 /// Python: it calls progress(stage, fraction) with the latest report, and notices Ctrl-C. What the callback

@@ -35,11 +35,6 @@ struct RegionOfSpace {
   std::shared_ptr<const SpaceRegion> region;
 };
 
-void warn(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings)
-    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 2) != 0) throw py::error_already_set();
-}
-
 SurfacePtr buildOf(MeshInput input, const std::string& source, const SurfaceFileOptions& options,
                    const py::object& progress) {
   BuiltSurface built = call(progress, [&](const RunContext& context) {

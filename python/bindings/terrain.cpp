@@ -82,9 +82,8 @@ TerrainPtr buildFile(const std::string& path, const BuildRequest& request, const
     warnings = std::move(dem->warnings);
     return buildFrom(std::move(*dem), source, request, context);
   });
-  for (const std::string& warning : warnings)
-    if ((hasPlace || !isOfPlace(warning)) && PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 2) != 0)
-      throw py::error_already_set();
+  if (!hasPlace) std::erase_if(warnings, isOfPlace);
+  warn(warnings);
   return std::make_shared<Terrain>(std::move(model));
 }
 
