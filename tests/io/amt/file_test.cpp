@@ -302,8 +302,14 @@ TEST(AmtFile, RefusesToWriteWhatCouldNotBeOpened) {
   expectRefused(model, "bytes of metadata");
 }
 
-// The address sanitizer keeps pages of its own about those of the program.
-#ifdef __SANITIZE_ADDRESS__
+// The address sanitizer keeps pages of its own about those of the program. Clang says that it is there by
+// another name than GCC.
+#ifdef __has_feature
+#if __has_feature(address_sanitizer)
+#define ARETE_HAS_ADDRESS_SANITIZER
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(ARETE_HAS_ADDRESS_SANITIZER)
 constexpr long kFaultsOfSanitizer = 40;
 #else
 constexpr long kFaultsOfSanitizer = 0;
