@@ -65,9 +65,11 @@ class ThresholdList {
   void collect(std::span<const VertexId> some, double threshold, std::vector<VertexId>& due,
                Scratch& scratch) const;
 
-  /// Sets the threshold of v. Thread-safe for different vertices that are in the list. No effect if v is
-  /// removed or not in the list, as for makeDueIf().
-  void set(VertexId v, float threshold) { thresholds_[index_[v]] = threshold; }
+  /// Sets the threshold of v. Thread-safe for vertices that are in the list; for the same vertex one of the
+  /// thresholds stays. No effect if v is removed or not in the list, as for makeDueIf().
+  void set(VertexId v, float threshold) {
+    std::atomic_ref(thresholds_[index_[v]]).store(threshold, std::memory_order_relaxed);
+  }
   /// Makes v due now if the condition holds, without a branch. Thread-safe, for the same vertex too, but not
   /// beside set() of the same vertex.
   void makeDueIf(bool condition, VertexId v) { storeIf(condition, thresholds_[index_[v]], kNow); }
