@@ -31,8 +31,8 @@ TEST(Budget, IsNeverExceededAndNearlySpent) {
         ASSERT_TRUE(cut) << s.name;
         EXPECT_LE(cut->triangles.size(), budget) << s.name;
         EXPECT_TRUE(validateFront(mt, *cut, domainExtent(mt))) << s.name;
-        // Of the uniform cuts of at most that size in the same MT, none is more than 10 % better. Below a
-        // billionth the cuts are the finest.
+        // Of the uniform cuts of at most that size in the same MT, none is more than 10 % better. A smaller
+        // error never takes fewer triangles, so what lies below a billionth is not asked for.
         const double best = cut->achievedError * 0.89;
         for (double e = best; e > best * 1e-9; e *= 0.5) {
           const auto better = takeCut(mt, UniformError(e), {.method = method});
