@@ -15,6 +15,7 @@ namespace arete {
 namespace {
 
 constexpr std::size_t kLinesPerCancelCheck = 1 << 16;
+constexpr std::size_t kMostKeywords = 8;
 
 }  // namespace
 
@@ -54,6 +55,24 @@ bool MeshTextReader::isKeyword(std::string_view word) {
   return std::ranges::all_of(word, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
   });
+}
+
+void MeshTextReader::leaveOut(std::string_view keyword) {
+  if (const auto known = leftOut_.find(keyword); known != leftOut_.end())
+    ++known->second;
+  else if (leftOut_.size() < kMostKeywords)
+    leftOut_.emplace(keyword, 1);
+  else
+    ++leftOutOthers_;
+}
+
+void MeshTextReader::warnOfLeftOut(std::string_view lines) {
+  if (leftOut_.empty()) return;
+  std::string list;
+  for (const auto& [keyword, count] : leftOut_)
+    list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", text::quotedToken(keyword), count);
+  if (leftOutOthers_ > 0) list += fmt::format(" and {} more", leftOutOthers_);
+  mesh_.warnings.push_back(fmt::format("its {} {} are left out", lines, list));
 }
 
 tl::unexpected<Error> MeshTextReader::corrupt(const char* place, std::string_view what) const {

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -59,6 +62,10 @@ class MeshTextReader {
   void takeComment(std::string_view comment);
   /// Letters, digits and underscores only, as the first word of a line in either format.
   static bool isKeyword(std::string_view word);
+  /// Counts a line that is not read by its first word.
+  void leaveOut(std::string_view keyword);
+  /// Adds the sentence "its <lines> "l" (2), "p" (1) are left out" to the warnings, if any are.
+  void warnOfLeftOut(std::string_view lines);
   /// @param place Where in the file. The sentence is "line <number> <what>".
   tl::unexpected<Error> corrupt(const char* place, std::string_view what) const;
   tl::unexpected<Error> unsupported(std::string message) const;
@@ -72,6 +79,8 @@ class MeshTextReader {
   MeshFile mesh_;
   MeshFaces faces_;
   bool isOurs_ = false, hasEnd_ = false;
+  std::map<std::string, std::uint64_t, std::less<>> leftOut_;
+  std::uint64_t leftOutOthers_ = 0;
 };
 
 }  // namespace arete

@@ -3,7 +3,8 @@
 // One pass over the lines; the first word of each is its card. Elements name nodes by number, and a node may
 // come after the elements that name it, so numbers become indices at the end: directly where the nodes are
 // numbered 1, 2, 3, ..., as most programs do, by a sorted list otherwise. Lines with an unknown card are
-// skipped, and so are lines without a card behind them: the points of a curve (XYS) are such.
+// left out and counted, a block (BEGPARAMDEF to ENDPARAMDEF) as one; lines without a card behind them belong
+// to them: the points of a curve (XYS) are such.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -25,6 +27,8 @@
 namespace arete {
 
 namespace {
+
+constexpr std::int32_t kUsualMaterial = 1, kNoMaterial = 0;
 
 class TwoDmReader final : public MeshTextReader {
  public:
@@ -71,10 +75,18 @@ class TwoDmReader final : public MeshTextReader {
     if (isData ? !isBehindUnknown : !isKeyword(card))
       return corrupt(line_, fmt::format("begins with {}: unknown 2DM card", text::quotedToken(card)));
     isBehindUnknown_ = card != "MESH2D";
+    if (isBehindUnknown_ && !isData) leaveOutCard(card);
     return {};
   }
 
-  bool nextNumber(std::uint32_t& number) {
+  void leaveOutCard(std::string_view card) {
+    const bool begins = card.starts_with("BEG"), ends = card.starts_with("END");
+    if (!ends && !isInBlock_ && card != "NUM_MATERIALS_PER_ELEM") leaveOut(card);
+    if (begins || ends) isInBlock_ = begins;
+  }
+
+  template <class Number>
+  bool nextNumber(Number& number) {
     const std::string_view word = nextWord();
     const auto [behind, error] = std::from_chars(word.data(), word.data() + word.size(), number);
     return error == std::errc{} && behind == word.data() + word.size() && !word.empty();
@@ -106,8 +118,41 @@ class TwoDmReader final : public MeshTextReader {
     for (int k = 0; k < corners; ++k)
       if (!nextNumber(nodes[std::size_t(k)]))
         return corrupt(line_, fmt::format("is an element without {} nodes", corners));
+    readMaterial();
     faces().add(mesh().mesh, std::span(nodes).first(std::size_t(corners)));
     return {};
+  }
+
+  /// Reads what an element has behind its nodes: the number of its material, and perhaps more.
+  void readMaterial() {
+    const char* const from = at();
+    std::int32_t material = 0;
+    if (nextWord().empty()) {
+      addMaterial(kNoMaterial);
+      return;
+    }
+    at() = from;
+    const bool isNumber = nextNumber(material);
+    addMaterial(isNumber ? material : kNoMaterial);
+    if (!isNumber || !nextWord().empty()) ++elementsWithMore_;
+  }
+
+  /// Listed by face (io/mesh/faces.h) from the first one on whose material is not the usual one.
+  void addMaterial(std::int32_t material) {
+    if (materials_.empty() && material == kUsualMaterial) return;
+    materials_.resize(faces().size(), kUsualMaterial);
+    materials_.push_back(material);
+  }
+
+  void takeMaterials() {
+    const bool areNone = std::ranges::all_of(materials_, [](std::int32_t m) { return m == kNoMaterial; }) &&
+                         materials_.size() == faces().size();
+    if (materials_.empty() || areNone) return;
+    materials_.resize(faces().size(), kUsualMaterial);
+    Attribute attribute{.name = std::string(k2dmMaterialName), .type = ScalarType::int32};
+    const std::span bytes = std::as_bytes(std::span(materials_));
+    attribute.values.assign(bytes.begin(), bytes.end());
+    mesh().mesh.triangleAttributes.push_back(std::move(attribute));
   }
 
   Status finish() override {
@@ -116,6 +161,12 @@ class TwoDmReader final : public MeshTextReader {
       return unsupported("holds no element of three or four corners");
     if (numbers_.size() >= std::numeric_limits<std::uint32_t>::max())
       return unsupported("holds more nodes than an index can name");
+    takeMaterials();
+    if (elementsWithMore_ > 0)
+      mesh().warnings.push_back(fmt::format(
+          "{} of its {} elements have values that are no number of a material; these are left out",
+          elementsWithMore_, faces().size()));
+    warnOfLeftOut("cards");
     return areInOrder_ ? indexDirectly() : indexBySortedNumbers();
   }
 
@@ -157,6 +208,9 @@ class TwoDmReader final : public MeshTextReader {
   const char* lineEnd_ = nullptr;
   std::vector<std::uint32_t> numbers_;
   bool areInOrder_ = true, isMesh_ = false;
+  std::vector<std::int32_t> materials_;
+  std::uint64_t elementsWithMore_ = 0;
+  bool isInBlock_ = false;        // from a BEG... to its END...
   bool isBehindUnknown_ = false;  // the last card is not read, and may have lines of its own
 };
 

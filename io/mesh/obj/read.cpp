@@ -29,7 +29,6 @@ namespace arete {
 namespace {
 
 constexpr std::uint32_t kNone = MeshAttributes::kNone;
-constexpr std::size_t kMostKeywords = 8;
 
 /// What the faces of a file have in common until another line changes it: the object, group, material,
 /// smoothing group. Listed by face from the first face on that has one.
@@ -100,12 +99,8 @@ class ObjReader final : public MeshTextReader {
       material_.set(materials_.use(rest));
     } else if (keyword == "mtllib") {
       materials_.addLibrary(rest);
-    } else if (const auto known = leftOut_.find(keyword); known != leftOut_.end()) {
-      ++known->second;
-    } else if (leftOut_.size() < kMostKeywords) {
-      leftOut_.emplace(keyword, 1);
     } else {
-      ++leftOutOthers_;
+      leaveOut(keyword);
     }
   }
 
@@ -316,12 +311,7 @@ class ObjReader final : public MeshTextReader {
           fmt::format("{} numbers of texture coordinates and normals are not finite and count "
                       "as 0",
                       notFinite_));
-    if (leftOut_.empty()) return;
-    std::string list;
-    for (const auto& [keyword, count] : leftOut_)
-      list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", text::quotedToken(keyword), count);
-    if (leftOutOthers_ > 0) list += fmt::format(" and {} more", leftOutOthers_);
-    warnings.push_back(fmt::format("its statements {} are left out", list));
+    warnOfLeftOut("statements");
   }
 
   const RunContext& context_;
@@ -337,8 +327,7 @@ class ObjReader final : public MeshTextReader {
   State<std::uint32_t> object_{mesh().mesh.objectOf, kNone}, group_{mesh().mesh.groupOf, kNone},
       material_{mesh().mesh.materialOf, kNone};
   State<std::int32_t> smoothing_{smoothingOf_, 0};
-  std::map<std::string, std::uint64_t, std::less<>> leftOut_;
-  std::uint64_t leftOutOthers_ = 0, notFinite_ = 0, shortFaces_ = 0, firstShortFace_ = 0;
+  std::uint64_t notFinite_ = 0, shortFaces_ = 0, firstShortFace_ = 0;
   std::int64_t largestIndex_ = 0;
   const char* largestIndexLine_ = nullptr;
 };

@@ -12,7 +12,7 @@
 namespace arete {
 namespace {
 
-/// Keeps the lines; a line of one '#' is a comment, "bad" an error.
+/// Keeps the lines; one with '#' is a comment, one with '!' is left out, "bad" is an error.
 class LineKeeper final : public MeshTextReader {
  public:
   using MeshTextReader::MeshTextReader;
@@ -25,12 +25,14 @@ class LineKeeper final : public MeshTextReader {
     at() = lineEnd();
     const std::string line(begin, at());
     if (line == "bad") return corrupt(begin, "is bad");
+    if (line.starts_with('!')) leaveOut(std::string_view(line).substr(1));
     if (line.starts_with('#')) takeComment(std::string_view(line).substr(1));
     lines.push_back(line);
     return {};
   }
   Status finish() override {
     isFinished = true;
+    warnOfLeftOut("lines");
     return {};
   }
 };
@@ -84,6 +86,17 @@ TEST_F(MeshTextReaderTest, NamesTheLineOfAnErrorAndStopsThere) {
   EXPECT_EQ(file.error().message, "line 3 is bad");
   EXPECT_EQ(file.error().culprit, "a.txt");
   EXPECT_EQ(lines_.size(), 2u);
+}
+
+TEST_F(MeshTextReaderTest, CountsWhatIsLeftOutUpToEightWords) {
+  EXPECT_TRUE(read("a\n")->warnings.empty());
+  EXPECT_EQ(read("!b\n!a\n!b\n")->warnings,
+            std::vector<std::string>{"its lines \"a\" (1), \"b\" (2) are left out"});
+  std::string many;
+  for (char c = 'a'; c <= 'l'; ++c) many += std::string("!") + c + "\n";
+  const auto file = read(many + many);
+  ASSERT_EQ(file->warnings.size(), 1u);
+  EXPECT_TRUE(file->warnings[0].ends_with("\"h\" (2) and 8 more are left out")) << file->warnings[0];
 }
 
 TEST_F(MeshTextReaderTest, StopsWhenCancelled) {

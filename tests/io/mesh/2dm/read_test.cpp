@@ -15,6 +15,16 @@ using namespace test;
 const std::string kWkt = R"(GEOGCRS["WGS 84",ID["EPSG",4326]])";
 const std::string kNodes = "ND 1 0 0 1\nND 2 1 0 2\nND 3 0 1 3\nND 4 1 1 4\n";
 
+/// By triangle; empty: the mesh has none.
+std::vector<double> materialsOf(const MeshFile& file) {
+  std::vector<double> materials;
+  for (const Attribute& attribute : file.mesh.triangleAttributes)
+    if (attribute.name == k2dmMaterialName)
+      for (std::size_t t = 0; t < attribute.elementCount(); ++t)
+        materials.push_back(attribute.numbers(t).front());
+  return materials;
+}
+
 TEST(TwoDmRead, RoundTripsEveryFamilyToTheBit) {
   const TemporaryFolder folder;
   for (const RasterFamily& family : rasterFamilies()) {
@@ -47,7 +57,55 @@ TEST(TwoDmRead, ReadsForeignFilesUnderAnyNumbers) {
     EXPECT_EQ(file->mesh.positions, (std::vector<Vec3>{{1, 1, 4}, {0, 0, 1}, {0, 1, 3}, {1, 0, 2}}));
     EXPECT_EQ(file->mesh.triangles,
               (std::vector<std::array<std::uint32_t, 3>>{{1, 3, 0}, {1, 0, 2}, {1, 3, 0}}));
+    EXPECT_EQ(materialsOf(*file), (std::vector<double>{1, 1, 0}));
+    EXPECT_EQ(file->warnings,
+              (std::vector<std::string>{
+                  "1 of its 2 elements have values that are no number of a material; these are left out",
+                  "its cards \"BEGPARAMDEF\" (1), \"E2L\" (1), \"MESHNAME\" (1), \"NS\" (1) are left out"}));
   }
+}
+
+TEST(TwoDmRead, KeepsTheNumbersOfMaterialsFromFileToFile) {
+  const TemporaryFolder folder;
+  const std::string mixed = "E3T 1 1 2 3 1\nE4Q 2 1 2 4 3 -7\nE3T 3 2 4 3\nE3T 4 2 4 3 2147483647\n";
+  const Result<MeshFile> file = readMesh(folder.write("a.2dm", "MESH2D\n" + mixed + kNodes));
+  ASSERT_TRUE(file) << file.error().describe();
+  EXPECT_TRUE(file->warnings.empty());
+  const std::vector<double> expected{1, -7, -7, 0, 2147483647};
+  EXPECT_EQ(materialsOf(*file), expected);
+  for (const char* name : {"b.2dm", "b.ply"}) {
+    const Result<MeshWriteReport> report = writeMesh(file->mesh, folder.file(name));
+    ASSERT_TRUE(report);
+    EXPECT_TRUE(report->lost.empty()) << name;
+    const Result<MeshFile> again = readMesh(folder.file(name));
+    ASSERT_TRUE(again) << again.error().describe();
+    EXPECT_EQ(materialsOf(*again), expected) << name;
+  }
+  const Result<MeshWriteReport> report = writeMesh(file->mesh, folder.file("b.off"));
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->lost, std::vector<std::string>{"\"material\" of faces"});
+}
+
+TEST(TwoDmRead, HasNoAttributeWhereAllMaterialsAreTheUsualOneOrMissing) {
+  const TemporaryFolder folder;
+  for (const std::string material : {" 1", "", " "}) {
+    const Result<MeshFile> file = readMesh(
+        folder.write("a.2dm", "MESH2D\nE3T 1 1 2 3" + material + "\nE3T 2 2 4 3" + material + "\n" + kNodes));
+    ASSERT_TRUE(file) << file.error().describe();
+    EXPECT_TRUE(file->mesh.triangleAttributes.empty());
+    EXPECT_TRUE(file->warnings.empty());
+  }
+}
+
+TEST(TwoDmWrite, NamesWhatIsNoNumberOfAMaterial) {
+  const TemporaryFolder folder;
+  SurfaceMesh mesh({{{0, 0, 1}, {1, 0, 2}, {0, 1, 3}}, {{0, 1, 2}}});
+  Attribute material{.name = "material", .type = ScalarType::float32};
+  material.append(std::vector<double>{1.5});
+  mesh.triangleAttributes.push_back(material);
+  const Result<MeshWriteReport> report = writeMesh(mesh, folder.file("a.2dm"));
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->lost, std::vector<std::string>{"\"material\" of faces"});
 }
 
 TEST(TwoDmRead, NamesWhatIsWrong) {
@@ -80,7 +138,7 @@ TEST(TwoDmRead, NamesWhatIsWrong) {
     EXPECT_EQ(refusal(folder.write("a.2dm", text)).code, ErrorCode::corrupt);
 }
 
-TEST(TwoDmRead, SkipsTheLinesOfCardsThatItDoesNotRead) {
+TEST(TwoDmRead, NamesTheCardsThatItLeavesOutAndSkipsTheirLines) {
   const TemporaryFolder folder;
   const std::string element = "E3T 1 1 2 3 1\n";
   for (const std::string& rest :
@@ -95,6 +153,9 @@ TEST(TwoDmRead, SkipsTheLinesOfCardsThatItDoesNotRead) {
       const Result<MeshFile> file = readMesh(folder.write("a.2dm", text));
       ASSERT_TRUE(file) << text << file.error().describe();
       EXPECT_EQ(file->mesh.triangles.size(), 1u) << text;
+      const std::string card = rest.substr(0, rest.find(' '));
+      ASSERT_EQ(file->warnings.size(), 1u) << text;
+      EXPECT_TRUE(file->warnings[0].starts_with("its cards \"" + card)) << file->warnings[0];
     }
   }
   // Numbers behind a node or an element are no lines of another card: the file is damaged.
