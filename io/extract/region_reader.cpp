@@ -40,7 +40,8 @@ struct Shapes {
   OGRMultiPolygon polygons = {};
   OGRMultiLineString lines = {};
   Chain points = {};
-  std::size_t others = 0;  // geometries that are none of these
+  std::size_t others = 0;     // geometries that are none of these
+  std::size_t openRings = 0;  // that do not end where they begin
   bool isEmpty() const { return polygons.IsEmpty() && lines.IsEmpty() && points.empty(); }
 };
 
@@ -49,6 +50,9 @@ void collect(const OGRGeometry& geometry, Shapes& all) {
   if (type == wkbPolygon || type == wkbTriangle) {
     OGRPolygon polygon(*geometry.toPolygon());
     polygon.flattenTo2D();
+    for (const OGRLinearRing* ring : polygon)
+      if (!ring->IsEmpty() && !ring->get_IsClosed()) ++all.openRings;
+    polygon.closeRings();  // GEOS takes no other
     if (!polygon.IsEmpty()) all.polygons.addGeometry(&polygon);
   } else if (type == wkbLineString && all.takesLines) {
     OGRLineString line(*geometry.toLineString());
@@ -82,6 +86,13 @@ Status collectLayer(OGRLayer& layer, Shapes& all, std::vector<std::string>& warn
     return failure(ErrorCode::unreadable,
                    fmt::format("the layer '{}' cannot be read: {}", layer.GetName(), errors.firstFailure()));
   errors.moveTo(warnings);
+  // Some of GDAL's drivers say so, once in a process; here it is counted.
+  std::erase_if(warnings, [](const std::string& warning) {
+    return warning.find("Non closed ring detected") != std::string::npos;
+  });
+  if (all.openRings > 0)
+    warnings.push_back(
+        fmt::format("{} of its rings do not end where they begin; an edge closes each", all.openRings));
   if (all.isEmpty())
     return failure(ErrorCode::invalidData,
                    fmt::format("the layer '{}' has no polygon{}{}", layer.GetName(),

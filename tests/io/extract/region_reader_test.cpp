@@ -100,6 +100,27 @@ TEST(RegionReader, UnitesPolygonsThatOverlap) {
   EXPECT_FALSE(isInside(region, 8, 1));
 }
 
+TEST(RegionReader, ClosesRingsThatAFileLeavesOpen) {
+  const TemporaryFolder folder;
+  const std::string a =
+      R"({"type":"Polygon","coordinates":[[[0,0],[6,0],[6,6],[0,6]],[[1,1],[1,2],[2,2],[2,1]]]})";
+  const std::string b = R"({"type":"Polygon","coordinates":[[[4,4],[9,4],[9,9],[4,9]]]})";
+  const std::string twice =
+      R"({"type":"Polygon","coordinates":[[[20,0],[29,0],[29,9],[20,9],[20,0],[29,0],[29,9],[20,9]]]})";
+  const RegionRead region =
+      readOrFail(folder.write("open.geojson", geoJson({a, b, twice}, "32611")), "EPSG:32611");
+  EXPECT_EQ(region.warnings,
+            std::vector<std::string>{"4 of its rings do not end where they begin; an edge closes each"});
+  EXPECT_TRUE(isInside(region, 0.5, 3));
+  EXPECT_FALSE(isInside(region, 1.5, 1.5)) << "in the hole";
+  EXPECT_TRUE(isInside(region, 5, 5)) << "inside both";
+  EXPECT_TRUE(isInside(region, 8, 8));
+  EXPECT_TRUE(isInside(region, 24, 5)) << "gone around twice";
+  const std::string dateline = R"({"type":"Polygon","coordinates":[[[-179,0],[-179,1],[179,1],[179,0]]]})";
+  EXPECT_TRUE(contains(test::joined(readOrFail(folder.write("d.geojson", geoJson({dateline}))).warnings),
+                       "more than half a turn"));
+}
+
 TEST(RegionReader, ReprojectsAndBendsLongEdges) {
   TemporaryFolder folder;
   const std::string degree =
