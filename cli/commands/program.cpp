@@ -3,15 +3,13 @@
 // Declares the commands, parses, dispatches. What a command does lives in io/ and below.
 #include "cli/commands/program.h"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "cli/arguments/unknown_words.h"
 #include "cli/commands/build.h"
 #include "cli/commands/convert.h"
 #include "cli/commands/demo.h"
@@ -33,27 +31,17 @@
 namespace arete {
 namespace {
 
-/// A sentence for an unknown command, also one of a command; CLI11 only says that a command is missing.
-std::string unknownCommand(const CLI::App& app, int argc, char** argv, const std::string& of = {}) {
-  if (argc < 2 || argv[1][0] == '-') return {};
-  const std::vector<const CLI::App*> commands = app.get_subcommands({});
-  if (commands.empty()) return {};
-  std::string known;
-  for (const CLI::App* command : commands) {
-    if (command->get_name() == argv[1])
-      return unknownCommand(*command, argc - 1, argv + 1, " " + command->get_name());
-    known += (known.empty() ? "" : ", ") + command->get_name();
-  }
-  return fmt::format("there is no command '{}'; the commands {}are {}", argv[1],
-                     of.empty() ? "" : fmt::format("of{} ", of), known);
+/// The command that was parsed, "mesh info" as info.
+const CLI::App& parsedCommand(const CLI::App& app) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  return *command;
 }
 
-/// "arete mesh info": the command that was parsed.
-std::string parsedCommand(const CLI::App& app) {
-  std::string name = "arete";
-  for (auto parsed = app.get_subcommands(); !parsed.empty(); parsed = parsed.front()->get_subcommands())
-    name += " " + parsed.front()->get_name();
-  return name;
+/// "arete mesh info".
+std::string wholeName(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return (parent ? wholeName(*parent) + " " : "") + command.get_name();
 }
 
 }  // namespace
@@ -95,9 +83,10 @@ ExitCode runProgram(int argc, char** argv) {
     std::fputs(app.help().c_str(), stderr);
     return ExitCode::usage;
   }
-  session.setWords({argv + 1, argv + argc});
-  const bool wantsJson = std::find(argv + 1, argv + argc, std::string_view("--json")) != argv + argc;
-  if (const std::string sentence = unknownCommand(app, argc, argv); !sentence.empty())
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  session.setWords(words);
+  const bool wantsJson = std::ranges::count(words, "--json") > 0;
+  if (const std::string sentence = unknownCommand(app, words); !sentence.empty())
     return session.refuse(sentence, "arete", wantsJson);
   try {
     app.parse(argc, argv);
@@ -106,7 +95,10 @@ ExitCode runProgram(int argc, char** argv) {
       app.exit(error);
       return std::fflush(stdout) == 0 ? ExitCode::ok : ExitCode::file;
     }
-    return session.refuse(error.what(), parsedCommand(app), wantsJson);
+    const CLI::App& command = parsedCommand(app);
+    const bool hasExtras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+    const std::string unknown = hasExtras ? unknownOption(command, words) : std::string();
+    return session.refuse(unknown.empty() ? error.what() : unknown, wholeName(command), wantsJson);
   }
   return session.runParsed();
 }

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Two names are similar if one contains the other, or a word of it ("--triangles", "--max-triangles"), or if
+// few letters have to be changed, left out or put in (the edit distance by dynamic programming, a row at a
+// time).
+#include "cli/arguments/unknown_words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+#include <string_view>
+#include <utility>
+
+namespace arete {
+namespace {
+
+constexpr std::size_t kShortestPart = 3, kMostSuggestions = 3;
+
+std::string unknownCommand(const CLI::App& app, std::vector<std::string>::const_iterator word,
+                           std::vector<std::string>::const_iterator end, const std::string& of) {
+  if (word == end || word->starts_with('-')) return {};
+  const std::vector<const CLI::App*> commands = app.get_subcommands({});
+  if (commands.empty()) return {};
+  std::string known;
+  for (const CLI::App* command : commands) {
+    if (command->get_name() == *word)
+      return unknownCommand(*command, word + 1, end, of + " " + command->get_name());
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  return fmt::format("there is no command '{}'; the commands {}are {}", *word,
+                     of.empty() ? "" : fmt::format("of{} ", of), known);
+}
+
+std::size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, changed}));
+    }
+  }
+  return row.back();
+}
+
+/// How far a name is from another: 0 where one contains the other; more than the whole where they are not
+/// similar.
+std::size_t unlikeness(std::string_view unknown, std::string_view name) {
+  if (unknown.size() >= kShortestPart && name.find(unknown) != std::string_view::npos) return 0;
+  if (name.size() >= kShortestPart && unknown.find(name) != std::string_view::npos) return 0;
+  const std::size_t distance = editDistance(unknown, name);
+  return distance <= std::max<std::size_t>(1, unknown.size() / 3) ? distance : std::string_view::npos;
+}
+
+std::vector<std::string> similarOptions(const CLI::App& command, std::string_view unknown) {
+  std::vector<std::pair<std::size_t, std::string>> found;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames())
+      if (const std::size_t unlike = unlikeness(unknown, name); unlike != std::string_view::npos)
+        found.emplace_back(unlike, "--" + name);
+  std::ranges::stable_sort(found, {}, &std::pair<std::size_t, std::string>::first);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(found.size(), kMostSuggestions); ++i) names.push_back(found[i].second);
+  return names;
+}
+
+bool looksLikeOption(std::string_view word) {
+  const std::size_t dashes = word.starts_with("--") ? 2 : 1;
+  return word.starts_with('-') && word.size() > dashes &&
+         std::isalpha(static_cast<unsigned char>(word[dashes])) != 0;
+}
+
+}  // namespace
+
+std::string unknownCommand(const CLI::App& app, const std::vector<std::string>& words) {
+  return unknownCommand(app, words.begin(), words.end(), {});
+}
+
+std::string unknownOption(const CLI::App& command, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    if (word == "--") break;
+    if (!looksLikeOption(word)) continue;
+    const bool isLong = word.starts_with("--");
+    const std::string name = isLong ? word.substr(0, word.find('=')) : word.substr(0, 2);
+    if (command.get_option_no_throw(name) != nullptr) continue;
+    const std::vector<std::string> similar =
+        isLong ? similarOptions(command, std::string_view(name).substr(2)) : std::vector<std::string>();
+    return fmt::format("there is no option {}{}{}", name,
+                       similar.empty() ? "" : "; similar: ", fmt::join(similar, ", "));
+  }
+  return {};
+}
+
+}  // namespace arete
