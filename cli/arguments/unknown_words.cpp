@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Two names are similar if one contains the other, or a word of it ("--triangles", "--max-triangles"), or if
-// few letters have to be changed, left out or put in (the edit distance by dynamic programming, a row at a
-// time).
+// Two names are similar if one contains the other ("--triangles", "--max-triangles"), or if few letters have
+// to be changed, left out or put in (the edit distance by dynamic programming, a row at a time).
 #include "cli/arguments/unknown_words.h"
 
 #include <fmt/format.h>
@@ -47,8 +46,7 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// How far a name is from another: 0 where one contains the other; more than the whole where they are not
-/// similar.
+/// How far a name is from another: 0 where one contains the other; npos where they are not similar.
 std::size_t unlikeness(std::string_view unknown, std::string_view name) {
   if (unknown.size() >= kShortestPart && name.find(unknown) != std::string_view::npos) return 0;
   if (name.size() >= kShortestPart && unknown.find(name) != std::string_view::npos) return 0;

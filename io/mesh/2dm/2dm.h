@@ -13,8 +13,8 @@ inline constexpr std::string_view k2dmMaterialName = "material";
 
 /// Reads a 2DM, the mesh format of SMS, which QGIS opens through MDAL: nodes (ND) and elements of three or
 /// four corners (E3T, E4Q), with any numbers and in any order. The numbers of their materials become the
-/// attribute k2dmMaterialName of the triangles unless all are 1; an element without one has 0. Other cards
-/// (node strings, names, one-dimensional elements) and further values are left out and counted in
+/// attribute k2dmMaterialName of the triangles unless all are 1 or missing; an element without one has 0.
+/// Other cards (node strings, names, one-dimensional elements) and further values are left out and counted in
 /// MeshFile::warnings. Understands the comments "# crs <WKT>" and "# vertical_unit <unit>".
 ///
 /// Errors: those of readMesh(). corrupt: also a file written by Arete that lacks its last line. unsupported:
