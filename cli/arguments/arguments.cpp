@@ -15,6 +15,7 @@
 #include <utility>
 #include <variant>
 
+#include "engine/base/counted.h"
 #include "io/exchange/mesh_formats.h"
 #include "io/file/file_writer.h"
 #include "io/file/output_file.h"
@@ -317,6 +318,10 @@ std::string grouped(std::uint64_t count) {
   std::string text = std::to_string(count);
   for (std::size_t i = text.size(); i > 3;) text.insert(i -= 3, 1, ' ');
   return text;
+}
+
+std::string grouped(std::uint64_t count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", grouped(count), agreeing(count, one, many));
 }
 
 std::string withUnit(double value, const std::string& unit) {

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -95,6 +96,8 @@ void addOverwriteTo(CLI::App& command, ExistingFile& existing);
 
 /// 769671 as "769 671".
 std::string grouped(std::uint64_t count);
+/// "769 671 triangles", "1 triangle": with the words of engine/base/counted.h.
+std::string grouped(std::uint64_t count, std::string_view one, std::string_view many);
 /// "5 m", or "5" where the unit is not known.
 std::string withUnit(double value, const std::string& unit);
 /// "140.3 MB".
