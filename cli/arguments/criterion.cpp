@@ -12,27 +12,48 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
+#include "engine/base/counted.h"
 #include "io/crs/position_argument.h"
 #include "io/extract/camera_argument.h"
+#include "io/file/stated_size.h"
 #include "terrain/locate/surface_height.h"
+#include "terrain/model/relief.h"
 
 namespace arete {
+namespace {
+
+constexpr std::uint32_t kMostTriangles = 0xFFFFFFFE;
+
+/// Whole numbers from 1, or shares, with commas between.
+CLI::Validator triangleBudgets() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        // As a part of as many triangles as there can be, every share that can be right is.
+        const auto budgets = parseTriangleBudgets(text, kMostTriangles);
+        return budgets ? "" : budgets.error().message;
+      },
+      "");
+}
+
+}  // namespace
 
 void CriterionArguments::addTo(CLI::App& command) {
   CLI::Option* errors =
       command
           .add_option(
               "--max-error", maxErrors_,
-              "Largest vertical error, in the DEM's unit of height; of a surface the largest distance, in\n"
-              "its unit or as E% of its diagonal; several with commas make one TIN each")
+              "Largest vertical error, in the DEM's unit of height or as E% of its relief, the highest minus\n"
+              "the lowest sample; of a surface the largest distance, in its unit or as E% of its diagonal;\n"
+              "several with commas make one TIN each")
           ->check(tolerances())
           ->type_name("E[,E...]");
   command
       .add_option("--max-triangles", maxTriangles_,
-                  "Largest number of triangles, used where the error is largest")
-      ->check(wholeNumber(1, 0xFFFFFFFE))
-      ->type_name("N")
-      ->excludes(errors);
+                  "Largest number of triangles, used where the error is largest, or N% of those of the finest\n"
+                  "triangulation; several with commas make one TIN each. With --max-error, what is reached\n"
+                  "first ends the refinement")
+      ->check(triangleBudgets())
+      ->type_name("N[,N...]");
   command
       .add_option("--method", method_,
                   "minimal: fewest triangles (default); saturated: a few more, computed faster")
@@ -146,8 +167,7 @@ void CriterionArguments::addTo(CLI::App& command) {
 }
 
 Status CriterionArguments::check() const {
-  const bool hasBudget = maxTriangles_ >= 0;
-  if (maxErrors_.empty() && !hasBudget && camera_.empty() && deadline_ == 0)
+  if (maxErrors_.empty() && !hasBudget() && camera_.empty() && deadline_ == 0)
     return failure(ErrorCode::usage, "--max-error, --max-triangles, --camera or --deadline is required");
   if (!outsideErrorText_.empty() && region_.empty() && focus_.empty() && camera_.empty())
     return failure(ErrorCode::usage, "requires --region, --focus or --camera", "--outside-error");
@@ -156,7 +176,7 @@ Status CriterionArguments::check() const {
   if (method_ == "saturated" && (deadline_ > 0 || order_ != "worst"))
     return failure(ErrorCode::usage, "cannot be combined with --method saturated",
                    deadline_ > 0 ? "--deadline" : "--order");
-  if (order_ != "worst" && !hasBudget && deadline_ == 0)
+  if (order_ != "worst" && !hasBudget() && deadline_ == 0)
     return failure(ErrorCode::usage, "requires --max-triangles or --deadline", "--order");
   if (order_ == "two-queues" && camera_.empty())
     return failure(ErrorCode::usage, "two-queues requires --camera", "--order");
@@ -179,7 +199,7 @@ Result<CriterionArguments::OfSurface> CriterionArguments::ofSurface() const {
   asked.isFitted = fit_ == "rms";
   asked.maxErrors = maxErrors_;
   asked.isSaturated = method_ == "saturated";
-  if (maxTriangles_ >= 0) asked.maxTriangles = static_cast<std::uint32_t>(maxTriangles_);
+  asked.maxTriangles = maxTriangles_;
   asked.region = region_;
   asked.outsideError = outsideErrorText_;
   asked.camera = camera_;
@@ -248,7 +268,7 @@ Status CriterionArguments::placeCamera(const TerrainModel& model, ExtractCriteri
   c.isLonLat = isLonLat_;
   if (!std::isnan(pixelError_))
     c.pixelError = pixelError_;
-  else if (maxTriangles_ < 0)
+  else if (!hasBudget())
     c.pixelError = 1;
   return {};
 }
@@ -263,17 +283,31 @@ Status CriterionArguments::placeFocus(const TerrainModel& model, ExtractCriterio
   return {};
 }
 
-Result<std::vector<ExtractCriterion>> CriterionArguments::criteria(const TerrainModel& model) const {
+bool CriterionArguments::statesShares() const {
+  const auto isShare = [](const std::string& text) { return text.find('%') != text.npos; };
+  return isShare(maxErrors_) || isShare(maxTriangles_) || isShare(outsideErrorText_);
+}
+
+std::string CriterionArguments::tagOf(const ExtractCriterion& criterion, const std::string& errorText,
+                                      const std::string& budgetText) const {
+  if (!errorText.empty() && !budgetText.empty()) return fmt::format("{}_{}", errorText, budgetText);
+  if (!errorText.empty() || !budgetText.empty()) return errorText + budgetText;
+  if (criterion.pixelError) return fmt::format("{}px", *criterion.pixelError);
+  return fmt::format("{}ms", criterion.deadlineMilliseconds.value_or(0));
+}
+
+Result<std::vector<CriterionArguments::OfTerrain>> CriterionArguments::criteria(
+    const TerrainModel& model) const {
+  const double relief = statesShares() ? reliefOf(model) : 0;
   ExtractCriterion common;
-  if (maxTriangles_ >= 0) common.maxTriangles = static_cast<std::uint32_t>(maxTriangles_);
   common.region = region_;
   common.regionCrs = regionCrs_;
   common.distance = distance_;
   if (!outsideErrorText_.empty()) {
-    const auto outside = parseNumbers("--outside-error", outsideErrorText_);
+    const auto outside = parseStatedSizes(outsideErrorText_, "--outside-error");
     if (!outside) return tl::unexpected(outside.error());
     if (outside->size() != 1) return failure(ErrorCode::usage, "takes one error", "--outside-error");
-    common.outsideError = outside->front();
+    common.outsideError = outside->front().of(relief);
   }
   common.method = method_ == "saturated" ? CutMethod::saturated : CutMethod::minimal;
   if (deadline_ > 0) common.deadlineMilliseconds = deadline_;
@@ -288,26 +322,64 @@ Result<std::vector<ExtractCriterion>> CriterionArguments::criteria(const Terrain
     if (Status placed = placeCamera(model, common); !placed) return tl::unexpected(placed.error());
   if (!focus_.empty())
     if (Status placed = placeFocus(model, common); !placed) return tl::unexpected(placed.error());
-  if (maxErrors_.empty()) return std::vector{common};
 
-  if (maxErrors_.find('%') != std::string::npos)
-    return failure(ErrorCode::usage, "a share of the diagonal is for surfaces, and the file is of terrain",
-                   fmt::format("--max-error {}", maxErrors_));
-  const auto errors = parseNumbers("--max-error", maxErrors_);
-  if (!errors) return tl::unexpected(errors.error());
-  std::vector<ExtractCriterion> criteria;
-  for (const double error : *errors) {
-    if (std::ranges::count(*errors, error) > 1)
-      return failure(ErrorCode::usage, fmt::format("has {} twice", error), "--max-error");
-    if (common.outsideError < error)
-      return failure(
-          ErrorCode::usage,
-          fmt::format("{} is below the error {} inside; it must not be smaller", common.outsideError, error),
-          "--outside-error");
-    criteria.push_back(common);
-    criteria.back().maxError = error;
+  std::vector<OfTerrain> withErrors = {{common, ""}};
+  if (!maxErrors_.empty()) {
+    const auto errors = parseStatedSizes(maxErrors_, "--max-error");
+    if (!errors) return tl::unexpected(errors.error());
+    withErrors.clear();
+    for (const StatedSize& stated : *errors) {
+      const double error = stated.of(relief);
+      if (std::ranges::count(withErrors, error, [](const OfTerrain& c) { return c.criterion.maxError; }) > 0)
+        return failure(ErrorCode::usage, fmt::format("has {} twice", stated.text), "--max-error");
+      if (common.outsideError < error)
+        return failure(
+            ErrorCode::usage,
+            fmt::format("{} is below the error {} inside; it must not be smaller", common.outsideError, error),
+            "--outside-error");
+      withErrors.push_back({common, stated.isShare ? stated.text : fmt::format("{}", error)});
+      withErrors.back().criterion.maxError = error;
+    }
   }
-  return criteria;
+  std::vector<StatedTriangles> budgets(1);
+  if (hasBudget()) {
+    auto stated = parseTriangleBudgets(maxTriangles_, statesShares() ? model.mt.finestTriangleCount() : 0);
+    if (!stated) return tl::unexpected(stated.error());
+    budgets = std::move(*stated);
+  }
+  std::vector<OfTerrain> all;
+  for (const OfTerrain& each : withErrors)
+    for (const StatedTriangles& budget : budgets) {
+      all.push_back(each);
+      if (hasBudget()) all.back().criterion.maxTriangles = budget.count;
+      all.back().tag = tagOf(all.back().criterion, each.tag, budget.text);
+    }
+  return all;
+}
+
+Result<std::vector<StatedTriangles>> parseTriangleBudgets(const std::string& text, std::uint64_t finest) {
+  constexpr const char* kOption = "--max-triangles";
+  const Result<std::vector<StatedSize>> sizes = parseStatedSizes(text, kOption);
+  if (!sizes) return tl::unexpected(sizes.error());
+  std::vector<StatedTriangles> budgets;
+  for (const StatedSize& size : *sizes) {
+    const double count = std::floor(size.of(static_cast<double>(finest)));
+    if (!size.isShare && count != size.number)
+      return failure(ErrorCode::usage, fmt::format("'{}' is not a whole number", size.text), kOption);
+    if (size.isShare && count < 1)
+      return failure(ErrorCode::usage,
+                     fmt::format("{} of {} is less than one triangle", size.text,
+                                 counted(finest, "triangle", "triangles")),
+                     kOption);
+    if (!(count >= 1 && count <= kMostTriangles))
+      return failure(ErrorCode::usage, fmt::format("must be from 1 to {}, not {}", kMostTriangles, size.text),
+                     kOption);
+    const auto whole = static_cast<std::uint32_t>(count);
+    if (std::ranges::count(budgets, whole, &StatedTriangles::count) > 0)
+      return failure(ErrorCode::usage, fmt::format("has {} twice", size.text), kOption);
+    budgets.push_back({size.text, whole});
+  }
+  return budgets;
 }
 
 }  // namespace arete

@@ -15,6 +15,16 @@
 
 namespace arete {
 
+/// A number of triangles, and what was stated of it: "5000", "10%".
+struct StatedTriangles {
+  std::string text;
+  std::uint32_t count = 0;
+};
+/// Parses the numbers of --max-triangles. Errors: usage, naming the option: a number that is not whole, too
+/// large, below one, or stated twice.
+/// @param finest what a share is of: the triangles of the finest triangulation.
+Result<std::vector<StatedTriangles>> parseTriangleBudgets(const std::string& text, std::uint64_t finest);
+
 /// The options that set the resolution of a TIN: everywhere, in a region, around a place or in a camera's
 /// view, under a budget or a deadline.
 struct CriterionArguments {
@@ -29,15 +39,20 @@ struct CriterionArguments {
   /// @param outline the model, or its root.
   /// Errors: usage.
   Result<std::optional<Vec2>> placeAboveGround(const TerrainModel& outline) const;
-  /// @param model the root, and the terrain at placeAboveGround(), are enough.
-  /// @return one criterion for each tolerance, or the only one.
+  /// A criterion of terrain, and what stands for it in the name of a file: "5", "1%", "5_20000", "2px".
+  struct OfTerrain {
+    ExtractCriterion criterion;
+    std::string tag;
+  };
+  /// @param model the root, and the terrain at placeAboveGround(), are enough; the whole where statesShares().
+  /// @return one criterion for each tolerance and each number of triangles.
   /// Precondition: check(). Errors: usage, naming the option; invalidData: no terrain below the camera.
-  Result<std::vector<ExtractCriterion>> criteria(const TerrainModel& model) const;
+  Result<std::vector<OfTerrain>> criteria(const TerrainModel& model) const;
 
   /// What a surface can be cut by. Errors: usage, naming an option that is stated and is for terrain.
   struct OfSurface {
-    std::string maxErrors;  ///< empty: not stated
-    std::optional<std::uint32_t> maxTriangles;
+    std::string maxErrors;     ///< empty: not stated
+    std::string maxTriangles;  ///< empty: not stated
     bool isSaturated = false;
     std::string region;        ///< --region; empty: none
     std::string outsideError;  ///< --outside-error; empty: not stated
@@ -51,18 +66,24 @@ struct CriterionArguments {
   const std::string& region() const { return region_; }
   RegionText regionText() const { return {region_, distance_, regionCrs_}; }
   bool hasDeadline() const { return deadline_ > 0; }
+  /// Whether an error or a number of triangles is stated in percent of the whole.
+  bool statesShares() const;
   /// Whether it states what terrain does not have.
   bool isForSurfaces() const { return fit_ == "rms"; }
 
  private:
+  bool hasBudget() const { return !maxTriangles_.empty(); }
+
   static constexpr double kUnstated = std::numeric_limits<double>::quiet_NaN();
 
   Status checkFit() const;
+  std::string tagOf(const ExtractCriterion& criterion, const std::string& errorText,
+                    const std::string& budgetText) const;
   Status placeCamera(const TerrainModel& model, ExtractCriterion& criterion) const;
   Status placeFocus(const TerrainModel& model, ExtractCriterion& criterion) const;
 
   std::string maxErrors_;
-  std::int64_t maxTriangles_ = -1;  // < 0: not stated
+  std::string maxTriangles_;
   std::string method_ = "minimal", order_ = "worst";
   std::string region_, regionCrs_;
   double distance_ = 0;

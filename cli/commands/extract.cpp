@@ -12,6 +12,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,7 @@
 #include "io/extract/tin.h"
 #include "terrain/model/plan_box.h"
 #include "terrain/model/plan_region.h"
+#include "terrain/model/relief.h"
 
 namespace arete {
 namespace {
@@ -62,14 +64,6 @@ std::string certificateBeside(const std::string& output) {
   return fs::path(output).replace_extension(".certificate.json").string();
 }
 
-/// The part of a file's name that stands for its criterion.
-std::string tagOf(const ExtractCriterion& criterion) {
-  if (criterion.maxError) return fmt::format("{}", *criterion.maxError);
-  if (criterion.maxTriangles) return std::to_string(*criterion.maxTriangles);
-  if (criterion.pixelError) return fmt::format("{}px", *criterion.pixelError);
-  return fmt::format("{}ms", criterion.deadlineMilliseconds.value_or(0));
-}
-
 Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments, const TerrainModel& model,
                                                Session& session) {
   auto criteria = arguments.criterion.criteria(model);
@@ -82,11 +76,10 @@ Result<std::vector<ExtractRequest>> requestsOf(const ExtractArguments& arguments
     return failure(ErrorCode::usage, "takes one tolerance", "--output -");
   if (wantsCertificate && arguments.certificate.empty() && output != arguments.output.path)
     return failure(ErrorCode::usage, "needs a name if the mesh goes to stdout", "--certificate");
-  for (ExtractCriterion& criterion : *criteria) {
+  for (auto& [criterion, tag] : *criteria) {
     ExtractRequest request;
     request.existing = arguments.existing;
     request.criterion = std::move(criterion);
-    const std::string tag = tagOf(request.criterion);
     request.output = outputName(output, tag, several);
     request.format = arguments.output.format;
     if (wantsCertificate)
@@ -145,7 +138,16 @@ Result<std::optional<Region>> regionOf(const ExtractArguments& arguments, const 
   return std::optional<Region>(std::move(region));
 }
 
-Json jsonOf(const ExtractRequest& request, const ExtractedTin& tin, bool isRaster) {
+/// What ended the refinement where an error and a budget were stated, or a deadline; empty: nothing to say.
+std::string_view endedBy(const ExtractCriterion& criterion, const ExtractedTin& tin) {
+  if (!tin.isComplete && criterion.deadlineMilliseconds) return "deadline";
+  if (!criterion.maxError || !criterion.maxTriangles) return {};
+  return tin.isComplete ? "maxError" : "maxTriangles";
+}
+
+/// @param relief of the DEM, where something was stated as a share of it.
+Json jsonOf(const ExtractRequest& request, const ExtractedTin& tin, bool isRaster,
+            std::optional<double> relief) {
   Json json = {{"file", request.output}};
   if (request.criterion.maxError)
     json["maxError"] =
@@ -154,11 +156,13 @@ Json jsonOf(const ExtractRequest& request, const ExtractedTin& tin, bool isRaste
   if (request.criterion.pixelError) json["pixelError"] = *request.criterion.pixelError;
   if (request.criterion.deadlineMilliseconds) json["deadline"] = *request.criterion.deadlineMilliseconds;
   json["complete"] = tin.isComplete;
+  if (const std::string_view ended = endedBy(request.criterion, tin); !ended.empty()) json["endedBy"] = ended;
   json["triangles"] = tin.triangles;
   json["vertices"] = tin.vertices;
   json["storedError"] = tin.storedError;
   if (tin.pixels) json["pixels"] = std::isfinite(*tin.pixels) ? Json(*tin.pixels) : Json();
   json["promisedError"] = std::isfinite(tin.promisedError) ? Json(tin.promisedError) : Json();
+  if (relief && *relief > 0) json["storedErrorPercent"] = 100 * tin.storedError / *relief;
   if (!request.certificate.empty()) json["certificate"] = request.certificate;
   if (!request.errorRaster.empty()) json["errorRaster"] = request.errorRaster;
   if (tin.fit)
@@ -171,19 +175,31 @@ Json jsonOf(const ExtractRequest& request, const ExtractedTin& tin, bool isRaste
   return json;
 }
 
-std::string textOf(const ExtractRequest& request, const ExtractedTin& tin, const std::string& unit) {
-  std::string text =
-      fmt::format("{}: {} triangles, {} vertices, error at most {}", request.output, grouped(tin.triangles),
-                  grouped(tin.vertices), withUnit(tin.storedError, unit));
+/// "12.3 m", and "12.3 m (1.5 % of the relief)" where something was stated as a share of the relief.
+std::string errorText(double error, const std::string& unit, std::optional<double> relief) {
+  const std::string text = withUnit(error, unit);
+  return relief && *relief > 0 ? fmt::format("{} ({:.4g} % of the relief)", text, 100 * error / *relief)
+                               : text;
+}
+
+std::string textOf(const ExtractRequest& request, const ExtractedTin& tin, const std::string& unit,
+                   std::optional<double> relief) {
+  std::string text = fmt::format("{}: {}, {}, error at most {}", request.output,
+                                 grouped(tin.triangles, "triangle", "triangles"),
+                                 grouped(tin.vertices, "vertex", "vertices"),
+                                 errorText(tin.storedError, unit, relief));
   if (!request.criterion.region.empty())
     text += fmt::format(" (in the region {})", withUnit(tin.promisedError, unit));
   if (tin.pixels && std::isfinite(*tin.pixels))
     text += fmt::format(", {:.3g} pixels in the camera's picture", *tin.pixels);
   else if (tin.pixels)
     text += ", pixel error unknown around the camera";
-  if (!tin.isComplete && request.criterion.deadlineMilliseconds) text += "; ended by the deadline";
+  const std::string_view ended = endedBy(request.criterion, tin);
+  if (ended == "deadline") text += "; ended by the deadline";
+  if (ended == "maxError") text += "; ended by --max-error";
+  if (ended == "maxTriangles") text += "; ended by --max-triangles";
   if (tin.fit && request.criterion.fit == ExtractFit::triangles)
-    text += fmt::format("; {} triangles before the fit", grouped(tin.fit->trianglesBefore));
+    text += fmt::format("; {} before the fit", grouped(tin.fit->trianglesBefore, "triangle", "triangles"));
   else if (tin.fit)
     text += fmt::format("; {} before the fit", withUnit(tin.fit->errorBefore, unit));
   if (tin.measured) text += fmt::format("; measured {}", withUnit(tin.measured->maxAbsError, unit));
@@ -272,7 +288,10 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
     return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", "--fit rms");
   const Result<AmtFile> file = openAmt(arguments.model);
   if (!file) return tl::unexpected(file.error());
-  const Result<TerrainModel> outline = outlineForPlaces(*file, arguments.criterion, session);
+  // The relief is that of all samples.
+  const bool statesShares = arguments.criterion.statesShares();
+  const Result<TerrainModel> outline = statesShares ? file->read({}, session.context())
+                                                    : outlineForPlaces(*file, arguments.criterion, session);
   if (!outline) return tl::unexpected(outline.error());
   auto requests = requestsOf(arguments, *outline, session);
   if (!requests) return tl::unexpected(requests.error());
@@ -285,6 +304,7 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   if (!part) return tl::unexpected(part.error());
 
   const std::string& verticalUnit = outline->georeference.verticalUnit;
+  const std::optional<double> relief = statesShares ? std::optional(reliefOf(*outline)) : std::nullopt;
   TinExtractor extractor(
       std::move(part->model), arguments.model,
       [&file](const RunContext& context) { return file->read({}, context); },
@@ -298,13 +318,15 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
         extractor.extract(request, session.context(), std::exchange(part->cut, std::nullopt));
     if (!tin) return tl::unexpected(tin.error());
     warnOfRounding(*tin, request.output, verticalUnit, session);
-    session.say(textOf(request, *tin, verticalUnit));
-    exports.push_back(jsonOf(request, *tin, outline->isRaster));
+    session.say(textOf(request, *tin, verticalUnit, relief));
+    exports.push_back(jsonOf(request, *tin, outline->isRaster, relief));
     if (!tin->isKept && promise)
       promise = failure(ErrorCode::brokenPromise, brokenPromise(*tin), request.output);
   }
-  session.answer(
-      {{"model", arguments.model}, {"verticalUnit", verticalUnit}, {"exports", std::move(exports)}});
+  Json answer = {{"model", arguments.model}, {"verticalUnit", verticalUnit}};
+  if (relief) answer["relief"] = *relief;
+  answer["exports"] = std::move(exports);
+  session.answer(answer);
   return promise;
 }
 
@@ -319,6 +341,7 @@ void addExtractCommand(CLI::App& app, Session& session) {
       "  arete extract dem.amt -o 'out/{}m.obj' --max-error 5     out/5m.obj\n"
       "  arete extract dem.amt -o tin.ply --max-error 5 --fit triangles\n"
       "  arete extract dem.amt -o tin.ply --max-triangles 50000 --certificate\n"
+      "  arete extract dem.amt -o tin.ply --max-error 0.5% --max-triangles 50000   whichever ends first\n"
       "  arete extract dem.amt -o tin.ply --max-error 1 --region park.gpkg --outside-error 20\n"
       "  arete extract dem.amt -o tin.ply --max-error 1 --region road.gpkg --distance 500\n"
       "  arete extract dem.amt -o tin.ply --camera 384000,3800000,50 --look 120,-10 --pixel-error 2\n"

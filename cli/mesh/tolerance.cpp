@@ -4,30 +4,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
-#include "cli/arguments/arguments.h"
+#include "io/file/stated_size.h"
 
 namespace arete {
 
 Result<std::vector<SurfaceTolerance>> parseSurfaceTolerances(const std::string& option,
                                                              const std::string& text, double diagonal) {
+  const Result<std::vector<StatedSize>> sizes = parseStatedSizes(text, option);
+  if (!sizes) return tl::unexpected(sizes.error());
   std::vector<SurfaceTolerance> tolerances;
-  std::size_t begin = 0;
-  while (begin <= text.size()) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    SurfaceTolerance tolerance{.text = text.substr(begin, end - begin)};
-    const bool isShare = tolerance.text.ends_with('%');
-    const Result<std::vector<double>> number =
-        parseNumbers(option, isShare ? tolerance.text.substr(0, tolerance.text.size() - 1) : tolerance.text);
-    if (!number) return tl::unexpected(number.error());
-    if (number->size() != 1 || !(number->front() >= 0))
-      return failure(ErrorCode::usage, fmt::format("'{}' is no distance", tolerance.text), option);
-    tolerance.distance = isShare ? number->front() / 100 * diagonal : number->front();
-    if (std::ranges::count(tolerances, tolerance.distance, &SurfaceTolerance::distance) > 0)
-      return failure(ErrorCode::usage, fmt::format("has {} twice", tolerance.text), option);
-    tolerances.push_back(std::move(tolerance));
-    begin = end + 1;
+  for (const StatedSize& size : *sizes) {
+    const double distance = size.of(diagonal);
+    if (std::ranges::count(tolerances, distance, &SurfaceTolerance::distance) > 0)
+      return failure(ErrorCode::usage, fmt::format("has {} twice", size.text), option);
+    tolerances.push_back({size.text, distance});
   }
   return tolerances;
 }

@@ -52,11 +52,12 @@ Result<SurfaceCamera> readStatedCamera(const CriterionArguments::OfSurface& aske
 }  // namespace
 
 Result<SurfaceCriterion> readSurfaceCriterion(const CriterionArguments::OfSurface& asked,
-                                              std::optional<double> maxError, const SurfaceModel& model,
-                                              const RunContext& context) {
+                                              std::optional<double> maxError,
+                                              std::optional<std::uint32_t> maxTriangles,
+                                              const SurfaceModel& model, const RunContext& context) {
   SurfaceCriterion criterion;
   criterion.maxError = maxError;
-  criterion.maxTriangles = asked.maxTriangles;
+  criterion.maxTriangles = maxTriangles;
   criterion.pixelError = asked.pixelError;
   if (asked.isSaturated) criterion.method = CutMethod::saturated;
   if (!asked.outsideError.empty()) {

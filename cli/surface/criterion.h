@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "cli/arguments/criterion.h"
@@ -17,10 +18,12 @@ namespace arete {
 /// x,y,z,tx,ty,tz[,FOV] an eye, what it looks at and its vertical field of view in degrees: all in the file's
 /// unit.
 ///
-/// @param maxError the distance allowed, in the region if there is one; missing with a camera or a budget.
+/// @param maxError the distance allowed, in the region if there is one; missing with a camera or a budget alone.
+/// @param maxTriangles the budget; missing: none.
 /// Errors: usage, naming the option; those of reading the mesh of a region; invalidData: it is not closed.
 Result<SurfaceCriterion> readSurfaceCriterion(const CriterionArguments::OfSurface& asked,
-                                              std::optional<double> maxError, const SurfaceModel& model,
-                                              const RunContext& context = {});
+                                              std::optional<double> maxError,
+                                              std::optional<std::uint32_t> maxTriangles,
+                                              const SurfaceModel& model, const RunContext& context = {});
 
 }  // namespace arete

@@ -14,6 +14,7 @@
 #include "cli/arguments/arguments.h"
 #include "cli/mesh/tolerance.h"
 #include "cli/surface/criterion.h"
+#include "engine/base/counted.h"
 #include "engine/base/float_bounds.h"
 #include "engine/cut/cut.h"
 #include "io/amt/surface_file.h"
@@ -35,25 +36,41 @@ namespace fs = std::filesystem;
 struct Request {
   std::string output, map;
   std::optional<SurfaceTolerance> tolerance;
+  std::optional<std::uint32_t> maxTriangles;
 };
 
-/// The part of a file's name that stands for a budget or a view.
-std::string tagOf(const CriterionArguments::OfSurface& asked) {
-  if (asked.maxTriangles) return std::to_string(*asked.maxTriangles);
+/// The part of a file's name that stands for what is asked.
+/// @param error, budget as they were stated; empty: they were not.
+std::string tagOf(const CriterionArguments::OfSurface& asked, const std::string& error,
+                  const std::string& budget) {
+  if (!error.empty() && !budget.empty()) return fmt::format("{}_{}", error, budget);
+  if (!error.empty() || !budget.empty()) return error + budget;
   return fmt::format("{}px", asked.pixelError.value_or(1));
 }
 
 Result<std::vector<Request>> requestsOf(const SurfaceExtractArguments& arguments, const SurfaceModel& model) {
-  if (arguments.asked.maxErrors.empty())
-    return std::vector<Request>{
-        {outputName(arguments.output, tagOf(arguments.asked), false), arguments.map, {}}};
-  const auto tolerances = parseSurfaceTolerances("--max-error", arguments.asked.maxErrors, model.diagonal);
-  if (!tolerances) return tl::unexpected(tolerances.error());
-  const bool several = tolerances->size() > 1;
+  const CriterionArguments::OfSurface& asked = arguments.asked;
+  std::vector<std::optional<SurfaceTolerance>> tolerances(1);
+  if (!asked.maxErrors.empty()) {
+    const auto stated = parseSurfaceTolerances("--max-error", asked.maxErrors, model.diagonal);
+    if (!stated) return tl::unexpected(stated.error());
+    tolerances.assign(stated->begin(), stated->end());
+  }
+  std::vector<std::optional<StatedTriangles>> budgets(1);
+  if (!asked.maxTriangles.empty()) {
+    const auto stated = parseTriangleBudgets(asked.maxTriangles, model.mt.finestTriangleCount());
+    if (!stated) return tl::unexpected(stated.error());
+    budgets.assign(stated->begin(), stated->end());
+  }
+  const bool several = tolerances.size() * budgets.size() > 1;
   std::vector<Request> requests;
-  for (const SurfaceTolerance& tolerance : *tolerances)
-    requests.push_back({outputName(arguments.output, tolerance.text, several),
-                        outputName(arguments.map, tolerance.text, several), tolerance});
+  for (const auto& tolerance : tolerances)
+    for (const auto& budget : budgets) {
+      const std::string tag = tagOf(asked, tolerance ? tolerance->text : "", budget ? budget->text : "");
+      requests.push_back({outputName(arguments.output, tag, several),
+                          outputName(arguments.map, tag, several), tolerance,
+                          budget ? std::optional(budget->count) : std::nullopt});
+    }
   return requests;
 }
 
@@ -90,12 +107,12 @@ std::string whyNotFewer(const SurfaceModel& model, const DroppedComponents* drop
     handles += static_cast<std::uint64_t>(std::max<std::int64_t>(0, c.genus.value_or(0)));
     borders += c.borders;
   }
-  std::string why =
-      fmt::format("{} component{}", grouped(d->components.size()), d->components.size() == 1 ? "" : "s");
-  if (handles > 0) why += fmt::format(", {} handles", grouped(handles));
-  if (borders > 0)
-    why +=
-        fmt::format(", {} borders{}", grouped(borders), model.options.keepsBorders ? ", which are kept" : "");
+  std::string why = grouped(d->components.size(), "component", "components");
+  if (handles > 0) why += ", " + grouped(handles, "handle", "handles");
+  if (borders > 0) {
+    why += ", " + grouped(borders, "border", "borders");
+    if (model.options.keepsBorders) why += agreeing(borders, ", which is kept", ", which are kept");
+  }
   if (model.hasWedges()) why += ", seams";
   if (!model.attributes.materialOf.empty() || !model.attributes.objectOf.empty())
     why += ", edges between materials or objects";
@@ -116,8 +133,8 @@ Result<Cut> cutOf(const SurfaceCriterion& asked, const SurfaceModel& model, cons
   const std::uint32_t least = model.mt.rootTriangleCount() - droppedTriangles;
   if (!cut && asked.maxTriangles && *asked.maxTriangles < least)
     return failure(ErrorCode::usage,
-                   fmt::format("the coarsest surface has {} triangles: it has {}", grouped(least),
-                               whyNotFewer(model, dropped, context)),
+                   fmt::format("the coarsest surface has {}: it has {}",
+                               grouped(least, "triangle", "triangles"), whyNotFewer(model, dropped, context)),
                    fmt::format("--max-triangles {}", *asked.maxTriangles));
   return cut;
 }
@@ -150,9 +167,10 @@ class Extraction {
 
   Status run(const Request& request) {
     const DroppedComponents* dropped = dropped_ ? &*dropped_ : nullptr;
-    const auto asked = readSurfaceCriterion(
-        arguments_.asked, request.tolerance ? std::optional(request.tolerance->distance) : std::nullopt,
-        model_, session_.context());
+    const std::optional<double> maxError =
+        request.tolerance ? std::optional(request.tolerance->distance) : std::nullopt;
+    const auto asked = readSurfaceCriterion(arguments_.asked, maxError, request.maxTriangles, model_,
+                                            session_.context());
     if (!asked) return tl::unexpected(asked.error());
     const auto criterion = engineCriterion(*asked, model_);
     if (!criterion) return tl::unexpected(criterion.error());
@@ -164,9 +182,10 @@ class Extraction {
     SurfaceFront front = surfaceOf(model_, cut);
     std::optional<FitOutcome> fit;
     if (arguments_.asked.isFitted) {
-      const auto fitted = fitFront(
-          front, finestOfTheRest(), model_.options.keepsBorders, cut.achievedError,
-          request.tolerance ? std::optional(request.tolerance->distance) : std::nullopt, session_.context());
+      // A cut that the budget ended does not keep the tolerance before the fit.
+      const auto fitted =
+          fitFront(front, finestOfTheRest(), model_.options.keepsBorders, cut.achievedError,
+                   whole->isComplete ? maxError : std::nullopt, session_.context());
       if (!fitted) return tl::unexpected(fitted.error());
       fit = *fitted;
     } else if (isDisplaced()) {
@@ -272,10 +291,14 @@ class Extraction {
   void say(const Request& request, const Cut& cut, const SurfaceFront& front, const Findings& found,
            const MeshWriteReport& written) {
     const double error = found.fit ? found.fit->distance : cut.achievedError;
-    std::string text = fmt::format(
-        "{}: {} triangles, {} vertices, no point of the source{} farther than {}\n", request.output,
-        grouped(front.mesh.triangles.size()), grouped(front.mesh.positions.size()),
-        found.droppedDistance ? " but what is left out" : "", withShare(error, model_.diagonal));
+    const bool hasBoth = request.tolerance && request.maxTriangles;
+    const char* const ended = cut.isComplete ? "--max-error" : "--max-triangles";
+    std::string text =
+        fmt::format("{}: {}, {}, no point of the source{} farther than {}{}\n", request.output,
+                    grouped(front.mesh.triangles.size(), "triangle", "triangles"),
+                    grouped(front.mesh.positions.size(), "vertex", "vertices"),
+                    found.droppedDistance ? " but what is left out" : "", withShare(error, model_.diagonal),
+                    hasBoth ? fmt::format("; ended by {}", ended) : "");
     if (found.fit)
       text += fmt::format("  fit        RMS {:.4g} % of the diagonal instead of {:.4g} %{}\n",
                           100 * found.fit->rmsAfter / model_.diagonal,
@@ -289,12 +312,14 @@ class Extraction {
       text += fmt::format("  other way  no point of the result farther than {}\n",
                           withShare(*found.otherWay, model_.diagonal));
     if (found.droppedDistance)
-      text += fmt::format("  left out   {} component{} of {} faces, no point of them farther than {}\n",
-                          grouped(dropped_->count), dropped_->count == 1 ? "" : "s",
-                          grouped(dropped_->sourceFaces), withShare(*found.droppedDistance, model_.diagonal));
+      text += fmt::format("  left out   {} of {}, no point of {} farther than {}\n",
+                          grouped(dropped_->count, "component", "components"),
+                          grouped(dropped_->sourceFaces, "face", "faces"),
+                          agreeing(dropped_->count, "it", "them"),
+                          withShare(*found.droppedDistance, model_.diagonal));
     if (found.crossings > 0)
-      text += fmt::format("  crossings  {} pairs of triangles; the source has {}\n", grouped(found.crossings),
-                          grouped(*sourceCrossings_));
+      text += fmt::format("  crossings  {} of triangles; the source has {}\n",
+                          grouped(found.crossings, "pair", "pairs"), grouped(*sourceCrossings_));
     for (const fs::path& beside : written.filesBeside)
       text += fmt::format("  beside     {}\n", beside.string());
     if (!request.map.empty()) text += fmt::format("  map        {}\n", request.map);
@@ -321,7 +346,8 @@ class Extraction {
     if (sourceCrossings_) json["sourceSelfIntersections"] = *sourceCrossings_;
     if (request.tolerance && std::isfinite(request.tolerance->distance))
       json["maxError"] = request.tolerance->distance;
-    if (arguments_.asked.maxTriangles) json["maxTriangles"] = *arguments_.asked.maxTriangles;
+    if (request.maxTriangles) json["maxTriangles"] = *request.maxTriangles;
+    if (hasBoth) json["endedBy"] = cut.isComplete ? "maxError" : "maxTriangles";
     if (!request.map.empty()) json["map"] = request.map;
     exports_.push_back(std::move(json));
   }

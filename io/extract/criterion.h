@@ -32,7 +32,8 @@ enum class ExtractFit {
 struct ExtractCriterion {
   std::optional<double> maxError;  ///< everywhere, inside the region, or at the focus
   std::optional<std::uint32_t>
-      maxTriangles;            ///< a budget; without a maxError the error is as small as it gets
+      maxTriangles;            ///< a budget; without a maxError the error is as small as it gets, with one
+                               ///< what comes first ends the cut
   std::string region;          ///< as it was given; empty = none
   std::string regionCrs = {};  ///< as it was given; empty = the file's, or the DEM's for a box
   double distance = 0;         ///< around the region, metres on the ground (source units without a CRS)
@@ -57,8 +58,9 @@ struct ExtractCriterion {
   ExtractFit fit = ExtractFit::none;
 
   /// Whether the promised error is the tolerance. Otherwise it is the error that the cut reached.
-  bool promisesMaxError() const {
-    return maxError && !maxTriangles && !deadlineMilliseconds && !focus && !camera;
+  /// With a budget as well it is the tolerance where the cut is complete: what comes first ends the cut.
+  bool promisesMaxError(bool isComplete = false) const {
+    return maxError && (!maxTriangles || isComplete) && !deadlineMilliseconds && !focus && !camera;
   }
 };
 

@@ -53,7 +53,7 @@ bool dependsOnSpheres(const ExtractRequest& request) {
 ExtractCriterion readFor(const ExtractRequest& request) {
   ExtractCriterion criterion = request.criterion;
   const Result<MeshFormat> format = meshFormatOf(request.output, request.format);
-  if (format && !format->holds.isExact && criterion.promisesMaxError())
+  if (format && !format->holds.isExact && criterion.promisesMaxError(true))
     criterion.maxError = (1 - TinExtractor::kReadReserve) * *criterion.maxError;
   return criterion;
 }

@@ -108,7 +108,7 @@ Result<TinExport> takeTin(const TerrainModel& model, const ExtractCriterion& c,
     tin.triangles = cut.triangles.size();
     tin.vertices = cut.vertices.size();
     tin.storedError = cut.achievedError;
-    if (c.promisesMaxError())
+    if (c.promisesMaxError(cut.isComplete))
       tin.promisedError = *c.maxError;
     else
       tin.promisedError = region ? storedErrorInside(model, cut, *region) : cut.achievedError;
@@ -121,11 +121,13 @@ Result<TinExport> takeTin(const TerrainModel& model, const ExtractCriterion& c,
   };
   if (c.fit == ExtractFit::triangles) {
     const double maxError = std::max(0.0, c.maxError.value_or(0) - reserve);
-    return finish(fitFewestTriangles(model,
-                                     {.maxError = maxError,
-                                      .region = region ? &*region : nullptr,
-                                      .outsideError = std::max(maxError, c.outsideError)},
-                                     {}, context));
+    const Result<FittedCut> fewest = fitFewestTriangles(model,
+                                                        {.maxError = maxError,
+                                                         .region = region ? &*region : nullptr,
+                                                         .outsideError = std::max(maxError, c.outsideError)},
+                                                        {}, context);
+    if (!fewest || !c.maxTriangles || fewest->cut.triangles.size() <= *c.maxTriangles) return finish(fewest);
+    // Where the budget ends the cut, the fit makes its error as small as so many triangles allow.
   }
   const auto criterion = engineCriterion(c, region, reserve, model);
   if (!criterion) return tl::unexpected(criterion.error());
@@ -136,7 +138,8 @@ Result<TinExport> takeTin(const TerrainModel& model, const ExtractCriterion& c,
     if (!cut) return tl::unexpected(cut.error());
     taken = std::move(*cut);
   }
-  if (c.fit == ExtractFit::error) return finish(fitLeastError(model, *taken, {}, context));
+  if (c.fit == ExtractFit::error || (c.fit == ExtractFit::triangles && !region))
+    return finish(fitLeastError(model, *taken, {}, context));
   if (c.camera) tin.pixels = worstSeverity(model.mt, **criterion, *taken);
   // Where a triangle passed by the bound over a node's ball, its own bound may be the looser of the two.
   if (c.camera && c.pixelError && taken->isComplete) tin.pixels = std::min(*tin.pixels, *c.pixelError);
@@ -181,7 +184,7 @@ Result<TriangleMesh> TinExtractor::cutAndWrite(const ExtractRequest& request, do
       writeAndReadBack(exported.mesh, request.output, write, model_.isRaster, context);
   if (!written) return tl::unexpected(within(tl::unexpected(written.error()), request.output).error());
   tin.format = formatOf(request.output, *written, write);
-  if (!request.criterion.promisesMaxError()) tin.promisedError += tin.format.heightRounding;
+  if (!request.criterion.promisesMaxError(tin.isComplete)) tin.promisedError += tin.format.heightRounding;
   return written->mesh ? std::move(*written->mesh) : std::move(exported.mesh);
 }
 
@@ -202,7 +205,7 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
   // Twice, because another cut may be rounded differently.
   const double reserve = 2 * tin.format.heightRounding;
   const double promised = tin.promisedError;
-  if (reserve > 0 && request.criterion.promisesMaxError() && reserve < promised &&
+  if (reserve > 0 && request.criterion.promisesMaxError(tin.isComplete) && reserve < promised &&
       tin.storedError + reserve > promised) {
     if (Status deep = deepen(promised, reserve, context); !deep) return tl::unexpected(deep.error());
     mesh = cutAndWrite(request, reserve, std::nullopt, tin, context);
