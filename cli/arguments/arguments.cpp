@@ -19,6 +19,7 @@
 #include "io/exchange/mesh_formats.h"
 #include "io/file/file_writer.h"
 #include "io/file/output_file.h"
+#include "io/file/stated_size.h"
 
 namespace arete {
 namespace {
@@ -135,10 +136,16 @@ CLI::Validator tolerance() {
   return validator([](std::string& text) { return toleranceProblem(text); });
 }
 
+CLI::Validator shareOrTolerance() {
+  return validator([](std::string& text) -> std::string {
+    const auto stated = parseStatedSize(text, "");
+    return stated ? "" : stated.error().message;
+  });
+}
+
 CLI::Validator tolerances() {
   return validator([](std::string& text) -> std::string {
     for (const std::string& part : splitAtCommas(text)) {
-      // "0.5%", of a surface; terrain refuses it where it knows the file.
       const std::string number = part.ends_with('%') ? part.substr(0, part.size() - 1) : part;
       if (std::string problem = toleranceProblem(number); !problem.empty()) return problem;
     }

@@ -39,6 +39,8 @@ CLI::Validator oneOf(const std::vector<std::pair<std::string, Enum>>& words) {
 }
 /// An error in the unit of the heights: 0 or more, "inf" allowed.
 CLI::Validator tolerance();
+/// A tolerance, or a share of the whole: "0.5%".
+CLI::Validator shareOrTolerance();
 /// One or more tolerances with commas between, each perhaps with a percent sign.
 CLI::Validator tolerances();
 

@@ -11,10 +11,13 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/surface/info.h"
+#include "engine/base/counted.h"
 #include "io/amt/file.h"
 #include "io/amt/surface_file.h"
 #include "io/crs/names.h"
+#include "io/file/stated_size.h"
 #include "terrain/model/error_curve.h"
+#include "terrain/model/relief.h"
 
 namespace arete {
 namespace {
@@ -29,7 +32,7 @@ struct Facts {
   std::uint64_t bytes = 0;
   bool isPacked = false;
   std::string writer;
-  double rootError = 0;
+  double rootError = 0, relief = 0;
   std::vector<CurvePoint> curve;
 };
 
@@ -41,9 +44,10 @@ double largestRootError(const MultiTriangulation& mt) {
 }
 
 std::string gridText(const TerrainModel& model) {
-  if (!model.isRaster) return fmt::format("{} scattered points", grouped(model.mt.vertexCount()));
+  if (!model.isRaster) return grouped(model.mt.vertexCount(), "scattered point", "scattered points");
   const auto& g = model.georeference.geoTransform;
-  std::string text = fmt::format("{} columns x {} rows", model.columns, model.rows);
+  std::string text = fmt::format("{} x {}", counted(model.columns, "column", "columns"),
+                                 counted(model.rows, "row", "rows"));
   if (!model.georeference.hasGeoTransform) return text + ", not placed";
   const bool rotated = g[2] != 0 || g[4] != 0;
   return text + fmt::format(", pixel {:.9g} x {:.9g}{}, corner {:.9g}, {:.9g}", std::hypot(g[1], g[4]),
@@ -71,6 +75,7 @@ void sayFacts(const InfoArguments& arguments, const TerrainModel& model, const F
   line("checksum", model.sourceChecksum);
   line("CRS", crsName(model.georeference.crsWkt));
   line("heights", heightText(model.georeference));
+  line("relief", withUnit(facts.relief, model.georeference.verticalUnit));
   line("grid", gridText(model));
   line("samples", fmt::format("{}{}", grouped(mt.vertexCount() + model.isolated.size()),
                               model.isolated.empty()
@@ -78,8 +83,9 @@ void sayFacts(const InfoArguments& arguments, const TerrainModel& model, const F
                                   : fmt::format(", {} of them isolated", grouped(model.isolated.size()))));
   line("triangles", fmt::format("{} at the finest, {} in all", grouped(mt.finestTriangleCount()),
                                 grouped(mt.triangleCount())));
-  line("root", fmt::format("{} triangles, {} vertices ({} fixed)", grouped(mt.rootTriangleCount()),
-                           grouped(mt.rootVertexCount()), grouped(o.fixedVertices.size())));
+  line("root", fmt::format("{}, {} ({} fixed)", grouped(mt.rootTriangleCount(), "triangle", "triangles"),
+                           grouped(mt.rootVertexCount(), "vertex", "vertices"),
+                           grouped(o.fixedVertices.size())));
   line("levels", std::to_string(model.levels));
   line(
       "built with",
@@ -124,6 +130,7 @@ Json factsJson(const InfoArguments& arguments, const TerrainModel& model, const 
           {"crsWkt", g.crsWkt},
           {"verticalUnit", g.verticalUnit},
           {"verticalDatum", g.verticalDatum},
+          {"relief", facts.relief},
           {"kind", model.isRaster ? "raster" : "points"},
           {"grid", std::move(grid)},
           {"samples", mt.vertexCount() + model.isolated.size()},
@@ -147,7 +154,7 @@ Json factsJson(const InfoArguments& arguments, const TerrainModel& model, const 
 
 Status runInfo(const InfoArguments& arguments, Session& session) {
   if (const Result<bool> isSurface = isSurfaceAmt(arguments.model); isSurface && *isSurface)
-    return sayAboutSurface(arguments.model, session);
+    return sayAboutSurface(arguments.model, arguments.at, session);
   const Result<AmtFile> file = openAmt(arguments.model);
   if (!file) return tl::unexpected(file.error());
   const Result<TerrainModel> model = loadAmt(arguments.model, {}, session.context());
@@ -157,11 +164,13 @@ Status runInfo(const InfoArguments& arguments, Session& session) {
   facts.writer = file->writer();
   facts.isPacked = file->isPacked();
   facts.rootError = largestRootError(model->mt);
+  facts.relief = reliefOf(*model);
   std::vector<double> tolerances = toleranceLadder(model->mt, arguments.curvePoints);
   if (!arguments.at.empty()) {
-    auto stated = parseNumbers("--at", arguments.at);
+    const auto stated = parseStatedSizes(arguments.at, "--at");
     if (!stated) return tl::unexpected(stated.error());
-    tolerances = std::move(*stated);
+    tolerances.clear();
+    for (const StatedSize& size : *stated) tolerances.push_back(size.of(facts.relief));
   }
   auto curve = errorCurve(model->mt, tolerances, session.context());
   if (!curve) return tl::unexpected(curve.error());
@@ -188,7 +197,10 @@ void addInfoCommand(CLI::App& app, Session& session) {
                        "Number of steps 1, 2, 5, 10 ... of the curve, from the coarsest (default 12)")
           ->check(wholeNumber(0, 1000))
           ->type_name("N");
-  command->add_option("--at", arguments->at, "Errors at which the curve is computed")
+  command
+      ->add_option("--at", arguments->at,
+                   "Errors at which the curve is computed; E% is a share of the relief, or of a surface's "
+                   "diagonal")
       ->check(tolerances())
       ->type_name("E[,E...]")
       ->excludes(points);

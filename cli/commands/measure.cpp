@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -23,8 +24,10 @@
 #include "io/exchange/mesh_formats.h"
 #include "io/extract/region_argument.h"
 #include "io/extract/report_json.h"
+#include "io/file/stated_size.h"
 #include "terrain/measure/measure.h"
 #include "terrain/model/plan_region.h"
+#include "terrain/model/relief.h"
 
 namespace arete {
 namespace {
@@ -32,10 +35,11 @@ namespace {
 struct MeasureArguments {
   std::string tin;
   DemArguments dem;
-  double expect = std::numeric_limits<double>::quiet_NaN();  // NaN: not stated
+  std::string expectText;
+  std::optional<StatedSize> expect;
   std::string region, regionCrs, errorRaster;
   double distance = 0;
-  bool allowCoveredNodata = false;
+  bool allowCoveredNodata = false, isBothWays = false;
   std::int64_t samples = 0, seed = -1;  // of another mesh; not stated
   std::string errorMesh;
 };
@@ -61,7 +65,7 @@ Status checkKind(const MeasureArguments& arguments, bool isMesh) {
         check("--vertical-unit", !reading.verticalUnit.empty(), false),
         check("--positive", reading.isDepth.has_value(), false),
         check("more than one file", !reading.otherFiles.empty(), false),
-        check("--samples", arguments.samples != 0, true), check("--seed", arguments.seed >= 0, true),
+        check("--both-ways", arguments.isBothWays, true), check("--samples", arguments.samples != 0, true), check("--seed", arguments.seed >= 0, true),
         check("--error-mesh", !arguments.errorMesh.empty(), true)})
     if (!ok) return ok;
   return {};
@@ -127,16 +131,19 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
   if (!arguments.errorRaster.empty())
     if (Status written = writeErrors(arguments, field, rasters, session); !written) return written;
 
-  const bool expects = !std::isnan(arguments.expect);
+  const bool expects = arguments.expect.has_value();
+  const double relief = expects && arguments.expect->isShare ? reliefOf(field.heights) : 0;
+  const double expected = expects ? arguments.expect->of(relief) : 0;
   const Status promise =
-      expects ? checkPromise(*report, arguments.expect, {.allowCoveredNodata = arguments.allowCoveredNodata})
+      expects ? checkPromise(*report, expected, {.allowCoveredNodata = arguments.allowCoveredNodata})
               : Status();
   session.say(fmt::format("{} against {}{}\n{}", arguments.tin, arguments.dem.path,
                           arguments.region.empty() ? "" : fmt::format(" in {}", arguments.region),
                           measureReportText(*report, georeference.verticalUnit, isRaster)));
   if (expects && promise)
-    session.say(
-        fmt::format("kept: nowhere more than {}\n", withUnit(arguments.expect, georeference.verticalUnit)));
+    session.say(fmt::format(
+        "kept: nowhere more than {}{}\n", withUnit(expected, georeference.verticalUnit),
+        arguments.expect->isShare ? fmt::format(" ({} of the relief)", arguments.expect->text) : ""));
   Json json = {{"tin", {{"path", arguments.tin}, {"crs", crsName(tin.crsWkt)}}},
                {"dem",
                 {{"path", arguments.dem.path},
@@ -146,7 +153,8 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
   if (!arguments.region.empty()) json["region"] = arguments.region;
   json.update(toJson(*report, isRaster));
   if (expects) {
-    json["expect"] = std::isfinite(arguments.expect) ? Json(arguments.expect) : Json();
+    json["expect"] = std::isfinite(expected) ? Json(expected) : Json();
+    if (arguments.expect->isShare) json["relief"] = relief;
     json["kept"] = promise.has_value();
     if (!promise) json["broken"] = promise.error().message;
   }
@@ -159,7 +167,12 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
   return {};
 }
 
-Status runMeasure(const MeasureArguments& arguments, Session& session) {
+Status runMeasure(MeasureArguments arguments, Session& session) {
+  if (!arguments.expectText.empty()) {
+    auto stated = parseStatedSize(arguments.expectText, "--expect");
+    if (!stated) return tl::unexpected(stated.error());
+    arguments.expect = std::move(*stated);
+  }
   const Result<bool> isModel = isSurfaceAmt(arguments.dem.path);
   const bool isAgainstMesh = isMeshFile(arguments.dem.path) || (isModel && *isModel);
   if (Status kind = checkKind(arguments, isAgainstMesh); !kind) return kind;
@@ -168,6 +181,7 @@ Status runMeasure(const MeasureArguments& arguments, Session& session) {
     meshes.first = arguments.tin;
     meshes.second = arguments.dem.path;
     meshes.expect = arguments.expect;
+    meshes.isBothWays = arguments.isBothWays;
     meshes.samples = arguments.samples;
     if (arguments.seed >= 0) meshes.seed = arguments.seed;
     meshes.errorMesh = arguments.errorMesh;
@@ -211,10 +225,11 @@ void addMeasureCommand(CLI::App& app, Session& session) {
                             "Reference: a DEM, or the files of one as build takes them, or another mesh");
   command
       ->add_option(
-          "--expect", arguments->expect,
+          "--expect", arguments->expectText,
           "Promise to check: every sample covered once, no NODATA covered, no error above this by more than "
-          "4 ulp of the heights there; between meshes: no distance above this, both ways")
-      ->check(tolerance())
+          "4 ulp of the heights there; between meshes: no point of the second, the source, is farther from\n"
+          "the first. E% is a share of the DEM's relief, or of the second mesh's diagonal")
+      ->check(shareOrTolerance())
       ->type_name("E");
   command->add_flag("--allow-covered-nodata", arguments->allowCoveredNodata,
                     "Accept covered NODATA (of a build with --rim-tolerance)");
@@ -242,6 +257,10 @@ void addMeasureCommand(CLI::App& app, Session& session) {
                    "GeoTIFF to write on the DEM's grid: TIN height minus DEM height")
       ->type_name("FILE");
   const std::string group = "Against another mesh";
+  command
+      ->add_flag("--both-ways", arguments->isBothWays,
+                 "--expect of the points of the first mesh too, not of the second's alone")
+      ->group(group);
   command
       ->add_option(
           "--samples", arguments->samples,

@@ -159,15 +159,22 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
       return written;
 
   const std::string unit = unitOf(*first, *second);
-  const bool expects = !std::isnan(arguments.expect);
-  const Status promise = expects ? checkDistance(*report, arguments.expect) : Status();
+  const bool expects = arguments.expect.has_value();
+  const double diagonal = report->second.diagonal;
+  const double expected = expects ? arguments.expect->of(diagonal) : 0;
+  const PromisedWay way = arguments.isBothWays ? PromisedWay::both : PromisedWay::fromSecond;
+  const Status promise = expects ? checkDistance(*report, expected, way) : Status();
   session.say(
       fmt::format("{} against {}\n{}", arguments.first, arguments.second, meshDistanceText(*report, unit)));
-  if (expects && promise)
-    session.say(isProven(*report, arguments.expect)
-                    ? fmt::format("kept: nowhere farther than {}\n", withUnit(arguments.expect, unit))
-                    : fmt::format("kept as far as found: nothing is known to be farther than {}\n",
-                                  withUnit(arguments.expect, unit)));
+  if (expects && promise) {
+    const std::string limit = fmt::format(
+        "{} ({:.4g} % of the diagonal), {}", withUnit(expected, unit), 100 * expected / diagonal,
+        arguments.isBothWays ? "both ways" : "from the second; --both-ways asks the other way too");
+    session.say(
+        isProven(*report, expected, way)
+            ? fmt::format("kept: nowhere farther than {}\n", limit)
+            : fmt::format("kept as far as found: nothing is known to be farther than {}\n", limit));
+  }
   Json json = {{"first", {{"path", arguments.first}, {"crs", crsName(first->crsWkt)}}},
                {"second", {{"path", arguments.second}, {"crs", crsName(second->crsWkt)}}},
                {"unit", unit}};
@@ -176,9 +183,11 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
   for (const auto& [key, value] : found.items())
     if (!json.contains(key)) json[key] = value;
   if (expects) {
-    json["expect"] = std::isfinite(arguments.expect) ? Json(arguments.expect) : Json();
+    json["expect"] = std::isfinite(expected) ? Json(expected) : Json();
+    json["expectPercent"] = std::isfinite(expected) ? Json(100 * expected / diagonal) : Json();
+    json["expectOf"] = arguments.isBothWays ? "bothWays" : "fromSecond";
     json["kept"] = promise.has_value();
-    json["proven"] = !promise || isProven(*report, arguments.expect);
+    json["proven"] = !promise || isProven(*report, expected, way);
     if (!promise) json["broken"] = promise.error().message;
   }
   session.answer(json);

@@ -2,18 +2,20 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
+#include <optional>
 #include <string>
 
 #include "cli/session/session.h"
+#include "io/file/stated_size.h"
 
 namespace arete {
 
 /// The arguments of `arete measure MESH MESH`.
 struct MeasureMeshesArguments {
   std::string first, second;
-  double expect = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not stated
-  std::int64_t samples = 0;                                  ///< 0: the library's default
+  std::optional<StatedSize> expect;  ///< a share is of the second's diagonal; missing: not stated
+  bool isBothWays = false;           ///< expects it of the points of both meshes, not of the second's alone
+  std::int64_t samples = 0;          ///< 0: the library's default
   std::int64_t seed = 1;
   std::string errorMesh;  ///< empty: none
 };

@@ -73,14 +73,15 @@ struct Outcome {
   std::vector<std::string> lost;
   std::uint64_t evaluations = 0, steps = 0;
   std::optional<FitOutcome> fit;
+  bool isComplete = true;  ///< false: the budget ended it before the tolerance was reached
 };
 
 Status checkArguments(const DecimateArguments& a) {
   const auto refuse = [&](const char* option, const std::string& method) {
     return failure(ErrorCode::usage, fmt::format("is for --operator {}, not {}", method, a.method), option);
   };
-  if (a.maxTriangles.empty() == a.maxError.empty())
-    return failure(ErrorCode::usage, "one of --max-triangles and --max-error is required");
+  if (a.maxTriangles.empty() && a.maxError.empty())
+    return failure(ErrorCode::usage, "--max-triangles or --max-error is required");
   if (!a.maxError.empty() && a.method != "measured") return refuse("--max-error", "measured, which measures");
   const bool hasQueue =
       a.method == "qem" || a.method == "half-edge" || a.method == "vertex-pair" || a.method == "face";
@@ -118,7 +119,8 @@ Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
       return tl::unexpected(tooFew(arguments.maxTriangles, model->mt.rootTriangleCount(), "measured"));
     wanted.maxTriangles = *maxTriangles;
     wanted.order = std::make_shared<LargestSquaresFirst>();
-  } else {
+  }
+  if (!arguments.maxError.empty()) {
     const auto tolerances = parseSurfaceTolerances("--max-error", arguments.maxError, model->diagonal);
     if (!tolerances) return tl::unexpected(tolerances.error());
     if (tolerances->size() != 1) return failure(ErrorCode::usage, "takes one distance", "--max-error");
@@ -128,9 +130,11 @@ Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
   if (!cut) return tl::unexpected(cut.error());
   SurfaceFront front = surfaceOf(*model, *cut);
   const auto fit = fitFront(front, finestSurfaceOf(*model).mesh.shape(), options.keepsBorders,
-                            cut->achievedError, maxError, session.context());
+                            cut->achievedError, cut->isComplete ? maxError : std::nullopt, session.context());
   if (!fit) return tl::unexpected(fit.error());
-  return Outcome{std::move(front.mesh), std::move(front.vertexOf), std::move(front.faceOf), {}, 0, 0, *fit};
+  Outcome outcome{std::move(front.mesh), std::move(front.vertexOf), std::move(front.faceOf), {}, 0, 0, *fit};
+  outcome.isComplete = cut->isComplete;
+  return outcome;
 }
 
 Result<Outcome> contracted(const SurfaceMesh& mesh, const DecimateArguments& arguments,
@@ -244,10 +248,13 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
   if (dropped.components > 0)
     text += fmt::format("  left out   {} component{} of {} faces\n", grouped(dropped.components),
                         dropped.components == 1 ? "" : "s", grouped(dropped.triangles));
+  const bool hasBoth = !arguments.maxError.empty() && !arguments.maxTriangles.empty();
   if (outcome->fit)
     text += fmt::format("  distance   no point of the source{} farther than {}\n",
                         dropped.components > 0 ? " but what is left out" : "",
                         withShare(outcome->fit->distance, diagonal));
+  if (hasBoth)
+    text += fmt::format("  ended by   {}\n", outcome->isComplete ? "--max-error" : "--max-triangles");
   if (outcome->evaluations > 0)
     text += fmt::format("  steps      {}; costs computed {} times ({} queue)\n", grouped(outcome->steps),
                         grouped(outcome->evaluations), arguments.queue);
@@ -256,6 +263,7 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
   json["operator"] = arguments.method;
   json["trianglesBefore"] = facesBefore;
   json["seconds"] = seconds;
+  if (hasBoth) json["endedBy"] = outcome->isComplete ? "maxError" : "maxTriangles";
   if (outcome->fit) {
     json["error"] = outcome->fit->distance;
     json["rms"] = outcome->fit->rmsAfter;

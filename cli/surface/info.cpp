@@ -8,6 +8,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/mesh/tolerance.h"
+#include "engine/base/counted.h"
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
 #include "io/amt/surface_file.h"
@@ -21,12 +22,28 @@ struct CurvePoint {
   std::uint64_t minimal, saturated;
 };
 
-/// Triangles of cuts at round shares of the diagonal.
-Result<std::vector<CurvePoint>> curveOf(const SurfaceModel& model, const RunContext& context) {
+/// The errors that are stated, or round shares of the diagonal below that of the root.
+Result<std::vector<double>> errorsOf(const std::string& at, const SurfaceModel& model) {
+  std::vector<double> errors;
+  if (!at.empty()) {
+    const auto stated = parseSurfaceTolerances("--at", at, model.diagonal);
+    if (!stated) return tl::unexpected(stated.error());
+    for (const SurfaceTolerance& tolerance : *stated) errors.push_back(tolerance.distance);
+    return errors;
+  }
+  for (const double percent : {0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0})
+    if (const double error = percent / 100 * model.diagonal; error < model.mt.largestError())
+      errors.push_back(error);
+  return errors;
+}
+
+/// Triangles of cuts.
+Result<std::vector<CurvePoint>> curveOf(const std::string& at, const SurfaceModel& model,
+                                        const RunContext& context) {
+  const Result<std::vector<double>> errors = errorsOf(at, model);
+  if (!errors) return tl::unexpected(errors.error());
   std::vector<CurvePoint> curve;
-  for (const double percent : {0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0}) {
-    const double error = percent / 100 * model.diagonal;
-    if (error >= model.mt.largestError()) break;
+  for (const double error : *errors) {
     const Result<Cut> cut = takeCut(model.mt, UniformError(error), {}, context);
     if (!cut) return tl::unexpected(cut.error());
     curve.push_back({error, cut->triangles.size(), uniformTriangleCount(model.mt, error)});
@@ -36,10 +53,10 @@ Result<std::vector<CurvePoint>> curveOf(const SurfaceModel& model, const RunCont
 
 }  // namespace
 
-Status sayAboutSurface(const std::string& path, Session& session) {
+Status sayAboutSurface(const std::string& path, const std::string& at, Session& session) {
   const Result<SurfaceModel> model = loadSurfaceAmt(path, AmtVerify::all, session.context());
   if (!model) return tl::unexpected(model.error());
-  const Result<std::vector<CurvePoint>> curve = curveOf(*model, session.context());
+  const Result<std::vector<CurvePoint>> curve = curveOf(at, *model, session.context());
   if (!curve) return tl::unexpected(curve.error());
   const MultiTriangulation& mt = model->mt;
   std::error_code error;
@@ -53,8 +70,8 @@ Status sayAboutSurface(const std::string& path, Session& session) {
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<14} {}\n", what, value);
   };
-  line("source", fmt::format("{}, {} faces, {} vertices", model->source, grouped(model->sourceFaces),
-                             grouped(model->sourceVertices)));
+  line("source", fmt::format("{}, {}, {}", model->source, grouped(model->sourceFaces, "face", "faces"),
+                             grouped(model->sourceVertices, "vertex", "vertices")));
   if (!model->crsWkt.empty()) line("CRS", crsName(model->crsWkt));
   line("diagonal", fmt::format("{:.9g}", model->diagonal));
   line("places", mt.vertices().places64.empty() ? "float32" : "float64");
@@ -63,21 +80,23 @@ Status sayAboutSurface(const std::string& path, Session& session) {
                                 withShare(model->positionError, model->diagonal)));
   line("triangles", fmt::format("{} at the finest, {} in all", grouped(mt.finestTriangleCount()),
                                 grouped(mt.triangleCount())));
-  line("root", fmt::format("{} triangles, {} vertices, error at most {}", grouped(mt.rootTriangleCount()),
-                           grouped(mt.rootVertexCount()), withShare(mt.largestError(), model->diagonal)));
+  line("root", fmt::format("{}, {}, error at most {}", grouped(mt.rootTriangleCount(), "triangle", "triangles"),
+                           grouped(mt.rootVertexCount(), "vertex", "vertices"),
+                           withShare(mt.largestError(), model->diagonal)));
   if (!model->displacement.isEmpty()) line("displacement", "coarse cuts are drawn nearer to the source");
   line("levels", std::to_string(model->levels));
   line("attributes", fmt::format("{} of vertices, {} of corners, {} of faces", a.vertexAttributes.size(),
                                  a.wedgeAttributes.size(), a.triangleAttributes.size()));
   if (!a.objects.empty()) line("objects", grouped(a.objects.size()));
   if (!a.materials.empty())
-    line("materials", fmt::format("{}, {} pictures inside", a.materials.size(), a.pictures.size()));
+    line("materials", fmt::format("{}, {} inside", a.materials.size(),
+                                  counted(a.pictures.size(), "picture", "pictures")));
   text += fmt::format("\n  {:>12}  {:>9}  {:>13}  {:>13}\n", "error", "diagonal", "minimal", "saturated");
   Json points = Json::array();
   for (const CurvePoint& p : *curve) {
     text += fmt::format("  {:>12.4g}  {:>7.3g} %  {:>13}  {:>13}\n", p.error, 100 * p.error / model->diagonal,
                         grouped(p.minimal), grouped(p.saturated));
-    points.push_back({{"maxError", p.error}, {"minimal", p.minimal}, {"saturated", p.saturated}});
+    points.push_back({{"maxError", std::isfinite(p.error) ? Json(p.error) : Json()}, {"minimal", p.minimal}, {"saturated", p.saturated}});
   }
   session.say(text);
   session.answer({{"file", path},

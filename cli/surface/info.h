@@ -8,7 +8,9 @@
 
 namespace arete {
 
-/// `arete info` of the .amt file of a surface. Errors: those of loadSurfaceAmt().
-Status sayAboutSurface(const std::string& path, Session& session);
+/// `arete info` of the .amt file of a surface.
+/// @param at the errors of its curve, as --at states them; empty: round shares of the diagonal.
+/// Errors: those of loadSurfaceAmt(); usage, naming the option.
+Status sayAboutSurface(const std::string& path, const std::string& at, Session& session);
 
 }  // namespace arete

@@ -322,14 +322,17 @@ double accepted(const MeshDistanceReport& report, double expectedDistance) {
 
 }  // namespace
 
-bool isProven(const MeshDistanceReport& report, double expectedDistance) {
-  return report.hausdorffAtMost() <= accepted(report, expectedDistance);
+bool isProven(const MeshDistanceReport& report, double expectedDistance, PromisedWay promised) {
+  const double atMost = promised == PromisedWay::both ? report.hausdorffAtMost() : report.backward.atMost;
+  return atMost <= accepted(report, expectedDistance);
 }
 
-Status checkDistance(const MeshDistanceReport& report, double expectedDistance) try {
+Status checkDistance(const MeshDistanceReport& report, double expectedDistance, PromisedWay promised) try {
+  const bool isOfBoth = promised == PromisedWay::both;
+  const double largest = isOfBoth ? report.hausdorff() : report.backward.maximum;
   // Written so that a NaN fails.
-  if (report.hausdorff() <= accepted(report, expectedDistance)) return {};
-  const bool isForward = report.forward.maximum >= report.backward.maximum;
+  if (largest <= accepted(report, expectedDistance)) return {};
+  const bool isForward = isOfBoth && report.forward.maximum >= report.backward.maximum;
   const DistanceOneWay& way = isForward ? report.forward : report.backward;
   return failure(
       ErrorCode::brokenPromise,

@@ -81,11 +81,19 @@ Result<MeshDistanceReport> measureDistance(const TriangleMesh& first, const Tria
                                            const RunContext& context = {},
                                            std::vector<double>* vertexDistances = nullptr);
 
-/// Checks that hausdorff() <= E + 16 ulp of the largest coordinate. Errors: brokenPromise: it is not, with
-/// the farthest point.
-Status checkDistance(const MeshDistanceReport& report, double expectedDistance);
+/// Which distances a promise is about.
+enum class PromisedWay {
+  both,
+  fromSecond,  ///< of the points of the second mesh alone: what a cut promises of its source
+};
 
-/// Whether hausdorffAtMost() is within the same bound: then no point of either mesh is farther than E.
-bool isProven(const MeshDistanceReport& report, double expectedDistance);
+/// Checks that the largest distance, hausdorff() or that of one way, is at most E + 16 ulp of the largest
+/// coordinate. Errors: brokenPromise: it is not, with the farthest point.
+Status checkDistance(const MeshDistanceReport& report, double expectedDistance,
+                     PromisedWay way = PromisedWay::both);
+
+/// Whether its upper bound is within the same: then no point (of the second mesh, or of either) is farther
+/// than E.
+bool isProven(const MeshDistanceReport& report, double expectedDistance, PromisedWay way = PromisedWay::both);
 
 }  // namespace arete
