@@ -45,17 +45,22 @@ double DistanceError::allowedAt(double distance) const {
   return std::min(o_.nearError + o_.growth * distance, o_.farError);
 }
 
-double DistanceError::allowedFor(const MultiTriangulation& mt, const Corners& corners) const {
+double DistanceError::allowedFor(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
   std::array<Vec3, 3> p;
   for (int i = 0; i < 3; ++i) {
     p[i] = mt.arrays().metric.toMetric(mt.position(VertexId(corners[i])));
     if (o_.inPlan) p[i].z = o_.place.z;
   }
-  return allowedAt(distanceToTriangle(o_.place, {p[0], p[1], p[2]}));
+  // How far the source that the triangle stands for may be from it.
+  const bool isBeside = mt.vertices().isSurface();
+  const double away = isBeside    ? mt.error(t)
+                      : o_.inPlan ? 0
+                                  : mt.error(t) * std::abs(mt.arrays().metric.scale.z);
+  return allowedAt(std::max(0.0, distanceToTriangle(o_.place, {p[0], p[1], p[2]}) - away));
 }
 
 double DistanceError::severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const {
-  const double allowed = allowedFor(mt, corners);
+  const double allowed = allowedFor(mt, t, corners);
   return allowed > 0 ? mt.error(t) / allowed : std::numeric_limits<double>::infinity();
 }
 

@@ -20,7 +20,11 @@ class BoundedCriterion;
 class KineticCriterion;
 
 /// Decides when a triangle is fine enough: the extraction condition of [DeFlorianiMagilloPuppo1998]. Errors
-/// are vertical, in the unit of heights.
+/// are vertical, in the unit of heights; of a surface they are distances.
+///
+/// What is promised by place holds for the places of the source. A triangle of a heightfield stands for what
+/// is above and below it. One of a surface stands for a part of the source that lies beside it, within its
+/// error: criteria of surfaces test the triangle widened by that.
 ///
 /// A Criterion tests triangles and can take minimal cuts. A BoundedCriterion also bounds the allowed error
 /// over balls: it can take saturated cuts, and takes minimal ones faster. A KineticCriterion also bounds its
@@ -48,8 +52,9 @@ class Criterion {
 /// A criterion that bounds the allowed error over balls of metric space.
 class BoundedCriterion : public Criterion {
  public:
-  /// A lower bound of the error that the criterion allows to any triangle that meets the ball. Not larger for
-  /// a ball that contains this one.
+  /// A lower bound of the error that the criterion allows to any triangle that meets the ball; of a surface,
+  /// to any that stands for a part of the source in the ball, as a node's ball contains it. Not larger for a
+  /// ball that contains this one.
   virtual double allowedError(const Sphere& ball) const = 0;
 
   /// An upper bound of the error that the criterion allows to any triangle within the ball; infinity when
@@ -140,7 +145,8 @@ class RegionError final : public BoundedCriterion {
 };
 
 /// An error that grows with the distance from a point: nearError + growth * distance, at most farError.
-/// Distances are in metric space, between the point and the nearest point of a triangle.
+/// Distances are in metric space, between the point and the nearest point of a triangle, or of what of the
+/// source the triangle may stand for.
 class DistanceError final : public BoundedCriterion {
  public:
   struct Options {
@@ -153,7 +159,7 @@ class DistanceError final : public BoundedCriterion {
   explicit DistanceError(const Options& options) : o_(options) {}
 
   bool isFineEnough(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override {
-    return mt.error(t) <= allowedFor(mt, corners);
+    return mt.error(t) <= allowedFor(mt, t, corners);
   }
   /// The ratio of the error to the allowed one.
   double severity(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const override;
@@ -161,7 +167,7 @@ class DistanceError final : public BoundedCriterion {
   double mostAllowed(const Sphere& s) const override;
 
  private:
-  double allowedFor(const MultiTriangulation& mt, const Corners& corners) const;
+  double allowedFor(const MultiTriangulation& mt, TriangleId t, const Corners& corners) const;
   double allowedAt(double distance) const;
   double distanceToMiddle(const Sphere& s) const;
 

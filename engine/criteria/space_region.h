@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "engine/base/nearest_on_triangle.h"
 #include "engine/base/vec.h"
 #include "engine/criteria/criterion.h"
 #include "engine/mt/multitriangulation.h"
@@ -15,8 +16,10 @@ class SpaceRegion {
  public:
   virtual ~SpaceRegion() = default;
 
-  /// Whether a triangle meets it. Conservative for a triangle that only touches.
-  virtual bool meetsTriangle(const Vec3& a, const Vec3& b, const Vec3& c) const = 0;
+  /// Whether it is within a distance of a triangle: whether it meets the triangle, widened by that.
+  /// Conservative for a triangle that only touches.
+  /// @param widening >= 0
+  virtual bool meetsTriangle(const SpaceTriangle& triangle, double widening) const = 0;
   /// Whether a ball meets it, and whether it holds the ball. Conservative: the ball is widened by one part in
   /// 1e9 for the first, and for the second too.
   virtual bool meetsBall(const Vec3& c, double r) const = 0;
@@ -27,7 +30,7 @@ class SpaceRegion {
 class BoxRegion final : public SpaceRegion {
  public:
   BoxRegion(const Vec3& low, const Vec3& high) : low_(low), high_(high) {}
-  bool meetsTriangle(const Vec3& a, const Vec3& b, const Vec3& c) const override;
+  bool meetsTriangle(const SpaceTriangle& triangle, double widening) const override;
   bool meetsBall(const Vec3& c, double r) const override;
   bool holdsBall(const Vec3& c, double r) const override;
 
@@ -39,7 +42,7 @@ class BoxRegion final : public SpaceRegion {
 class BallRegion final : public SpaceRegion {
  public:
   BallRegion(const Vec3& centre, double radius) : centre_(centre), radius_(radius) {}
-  bool meetsTriangle(const Vec3& a, const Vec3& b, const Vec3& c) const override;
+  bool meetsTriangle(const SpaceTriangle& triangle, double widening) const override;
   bool meetsBall(const Vec3& c, double r) const override;
   bool holdsBall(const Vec3& c, double r) const override;
 
@@ -48,7 +51,10 @@ class BallRegion final : public SpaceRegion {
   double radius_;
 };
 
-/// Of a surface: one error for the triangles that meet a region of space, another for the rest.
+/// Of a surface: one error for the points of the source that are in a region of space, another for the rest.
+/// What of the source a coarse triangle stands for lies beside the triangle, within its stored error: the
+/// triangle, widened by that, is held against the region. The ball of a node contains what of the source its
+/// triangles stand for.
 class SpaceRegionError final : public BoundedCriterion {
  public:
   /// @param region In the coordinates of the MT's vertices.

@@ -197,6 +197,7 @@ Result<MultiTriangulation> unpackSurfaceMt(const SurfaceMetadata& metadata,
   kind.isSurface = true;
   kind.hasDoubles = metadata.hasDoubles;
   kind.step = metadata.positionStep;
+  kind.moved = metadata.model.positionError;
   kind.scale = metadata.scale;
   kind.metric = metadata.metric;
   return unpack(kind, metadata.counts, directory, tables, nodes, {}, context);

@@ -26,8 +26,16 @@ std::vector<double> promisedErrors(const MultiTriangulation& mt, const Cut& cut,
     std::array<Vec3, 3> corners;
     for (std::size_t i = 0; i < 3; ++i)
       corners[i] = metric.toMetric(mt.position(VertexId(cut.vertices[cut.triangles[t][i]])));
-    const double allowed = criterion->allowedError(EnclosingBall::around(corners).rounded());
-    promised[t] = std::max(mt.error(TriangleId(cut.ids[t])), std::min(cut.achievedError, allowed));
+    // A ball around the source that the triangle stands for, then around what is drawn of it too.
+    const double error = mt.error(TriangleId(cut.ids[t]));
+    const EnclosingBall ball = EnclosingBall::around(corners);
+    double allowed = cut.achievedError;
+    for (int i = 0; i < 2; ++i) {
+      EnclosingBall wider = ball;
+      wider.radius += error + (i == 0 ? 0 : allowed);
+      allowed = std::min(allowed, criterion->allowedError(wider.rounded()));
+    }
+    promised[t] = std::max(error, allowed);
   }
   return promised;
 }

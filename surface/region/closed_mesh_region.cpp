@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A tree of boxes over the triangles [CGAL] answers all three questions: whether a triangle meets one of
-// them, whether a point is inside, and how far it is from them.
+// A tree of boxes over the triangles [CGAL] answers all questions: whether a triangle meets one of them or is
+// within a distance of one, whether a point is inside, and how far it is from them.
 #include "surface/region/closed_mesh_region.h"
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
@@ -13,10 +13,14 @@
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
 #include <vector>
+
+#include "engine/base/box3.h"
+#include "engine/base/triangle_gap.h"
 
 namespace arete {
 namespace {
@@ -32,6 +36,51 @@ Point pointOf(const Vec3& p) {
   return {p.x, p.y, p.z};
 }
 
+Vec3 placeOf(const Point& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+/// Goes through the triangles of a tree until one is within a distance of a given one.
+class NearTraversal {
+ public:
+  NearTraversal(const Mesh& mesh, const SpaceTriangle& triangle, double distance)
+      : mesh_(mesh), triangle_(triangle) {
+    Box3 box = Box3::empty();
+    for (const Vec3& p : triangle) box.include(p);
+    double largest = 0;
+    for (const Vec3& p : {box.low, box.high})
+      largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    reach_ = distance * kWiden + 1e-14 * largest;
+    box_ = {box.low.x - reach_,  box.low.y - reach_,  box.low.z - reach_,
+            box.high.x + reach_, box.high.y + reach_, box.high.z + reach_};
+  }
+
+  const CGAL::Bbox_3& box() const { return box_; }
+  bool isFound() const { return isFound_; }
+
+  // What CGAL's traversal asks for.
+  bool go_further() const { return !isFound_; }
+  template <class Primitive>
+  void intersection(const CGAL::Bbox_3&, const Primitive& primitive) {
+    SpaceTriangle face;
+    std::size_t i = 0;
+    for (const auto v : mesh_.vertices_around_face(mesh_.halfedge(primitive.id())))
+      face[i++] = placeOf(mesh_.point(v));
+    isFound_ = gapBetween(face, triangle_) <= reach_;
+  }
+  template <class Node>
+  bool do_intersect(const CGAL::Bbox_3& query, const Node& node) const {
+    return CGAL::do_overlap(query, node.bbox());
+  }
+
+ private:
+  const Mesh& mesh_;
+  const SpaceTriangle& triangle_;
+  double reach_ = 0;
+  CGAL::Bbox_3 box_;
+  bool isFound_ = false;
+};
+
 }  // namespace
 
 struct ClosedMeshRegion::State {
@@ -41,6 +90,13 @@ struct ClosedMeshRegion::State {
 
   bool holds(const Vec3& p) const { return (*sides)(pointOf(p)) != CGAL::ON_UNBOUNDED_SIDE; }
   double squaredDistance(const Vec3& p) const { return tree.squared_distance(pointOf(p)); }
+  /// Whether a triangle of the mesh is within a distance of another one; a mesh that the triangle crosses may
+  /// not count.
+  bool isNear(const SpaceTriangle& triangle, double distance) const {
+    NearTraversal traversal(mesh, triangle, distance);
+    tree.traversal(traversal.box(), traversal);
+    return traversal.isFound();
+  }
 };
 
 Result<std::shared_ptr<const ClosedMeshRegion>> ClosedMeshRegion::create(const TriangleMesh& given) {
@@ -80,8 +136,9 @@ Result<std::shared_ptr<const ClosedMeshRegion>> ClosedMeshRegion::create(const T
 ClosedMeshRegion::ClosedMeshRegion(std::unique_ptr<State> state) : state_(std::move(state)) {}
 ClosedMeshRegion::~ClosedMeshRegion() = default;
 
-bool ClosedMeshRegion::meetsTriangle(const Vec3& a, const Vec3& b, const Vec3& c) const {
-  if (state_->holds(a)) return true;
+bool ClosedMeshRegion::meetsTriangle(const SpaceTriangle& t, double widening) const {
+  const auto& [a, b, c] = t;
+  if (state_->holds(a) || (widening > 0 && state_->isNear(t, widening))) return true;
   const Kernel::Triangle_3 triangle(pointOf(a), pointOf(b), pointOf(c));
   // A triangle without area is its sides.
   if (triangle.is_degenerate())

@@ -19,7 +19,7 @@ class ClosedMeshRegion final : public SpaceRegion {
   static Result<std::shared_ptr<const ClosedMeshRegion>> create(const TriangleMesh& mesh);
   ~ClosedMeshRegion() override;
 
-  bool meetsTriangle(const Vec3& a, const Vec3& b, const Vec3& c) const override;
+  bool meetsTriangle(const SpaceTriangle& triangle, double widening) const override;
   bool meetsBall(const Vec3& c, double r) const override;
   bool holdsBall(const Vec3& c, double r) const override;
 

@@ -47,6 +47,7 @@ struct MtKind {
   // Of a surface.
   bool hasDoubles = false;  ///< places are doubles, not floats
   double step = 0;          ///< a power of two that all coordinates are multiples of; 0: none is known
+  double moved = 0;         ///< how far rounding has moved a vertex: the spheres hold the source before it
 
   OutwardScale scale;
   MetricFrame metric;
@@ -79,7 +80,7 @@ struct Arrays : MtKind {
   std::vector<std::uint16_t> wholeErrors;
   /// Of a surface: codes of the error and RMS of all triangles that stay.
   std::uint16_t finestError = 0, finestRms = 0;
-  unsigned errorShift = 0;  ///< all of these codes are multiples of 2^errorShift
+  unsigned errorShift = 0;         ///< all of these codes are multiples of 2^errorShift
   ZeroedArray<std::uint8_t> star;  ///< slots of a node, + kOpen; 0 = not there yet
   ZeroedArray<Border> border;      ///< of the root's triangles, then of the packets' (Packet::firstBorder)
   static constexpr std::uint8_t kOpen = 128;

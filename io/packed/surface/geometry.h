@@ -110,7 +110,9 @@ class SpaceGeometry {
       const auto& [x, y, z] = star_[i];
       metric_[i] = a_.metric.toMetric({x, y, z});
     }
-    Sphere ball = EnclosingBall::around({metric_.data(), points}).rounded();
+    EnclosingBall around = EnclosingBall::around({metric_.data(), points});
+    around.radius += a_.moved;
+    Sphere ball = around.rounded();
     ball.radius = -std::bit_cast<float>(std::bit_cast<std::uint32_t>(ball.radius) + 1);
     a_.sphere[node] = ball;
     return std::isfinite(ball.x + ball.y + ball.z + ball.radius);

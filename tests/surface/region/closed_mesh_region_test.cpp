@@ -40,7 +40,9 @@ TEST(ClosedMeshRegion, OfACubeAnswersAsTheBoxDoes) {
   const auto point = [&] { return Vec3{number(), number(), number()}; };
   for (int i = 0; i < 3000; ++i) {
     const Vec3 a = point(), b = a + 0.5 * point(), c = a + 0.5 * point();
-    EXPECT_EQ((*region)->meetsTriangle(a, b, c), box.meetsTriangle(a, b, c)) << i;
+    EXPECT_EQ((*region)->meetsTriangle({a, b, c}, 0), box.meetsTriangle({a, b, c}, 0)) << i;
+    const double widening = std::abs(number()) / 4;
+    EXPECT_EQ((*region)->meetsTriangle({a, b, c}, widening), box.meetsTriangle({a, b, c}, widening)) << i;
     const double r = std::abs(number()) / 2 + 1e-6;
     EXPECT_EQ((*region)->meetsBall(a, r), box.meetsBall(a, r)) << i;
     EXPECT_EQ((*region)->holdsBall(a, r), box.holdsBall(a, r)) << i;
@@ -58,9 +60,9 @@ TEST(ClosedMeshRegion, AShellWithinAShellIsAHoleWhateverTheirTurns) {
     EXPECT_FALSE((*region)->meetsBall({0, 0, 0}, 0.5));
     EXPECT_TRUE((*region)->meetsBall({0, 0, 0}, 1.1));
     EXPECT_TRUE((*region)->holdsBall({2, 0, 0}, 0.9));
-    EXPECT_FALSE((*region)->meetsTriangle({0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}));
-    EXPECT_TRUE((*region)->meetsTriangle({2, 0, 0}, {2.1, 0, 0}, {2, 0.1, 0}));
-    EXPECT_TRUE((*region)->meetsTriangle({2, 0, 0}, {2, 0, 0}, {2, 0, 0}));
+    EXPECT_FALSE((*region)->meetsTriangle({Vec3{0, 0, 0}, Vec3{0.5, 0, 0}, Vec3{0, 0.5, 0}}, 0));
+    EXPECT_TRUE((*region)->meetsTriangle({Vec3{2, 0, 0}, Vec3{2.1, 0, 0}, Vec3{2, 0.1, 0}}, 0));
+    EXPECT_TRUE((*region)->meetsTriangle({Vec3{2, 0, 0}, Vec3{2, 0, 0}, Vec3{2, 0, 0}}, 0));
   }
 }
 
