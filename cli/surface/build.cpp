@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
+#include "cli/surface/mending.h"
 #include "engine/base/stopwatch.h"
 #include "io/amt/surface_file.h"
 #include "io/crs/names.h"
@@ -17,17 +18,6 @@ namespace {
 struct Seconds {
   double read = 0, build = 0, displace = 0, write = 0;
 };
-
-using Line = std::pair<std::uint64_t, const char*>;
-
-std::vector<Line> mendedLines(const SurfaceMending& m) {
-  return {{m.duplicateFaces, "duplicate faces left out"},
-          {m.degenerateFaces, "faces without area left out"},
-          {m.joinedVertices, "vertices joined where a face without area was between them"},
-          {m.turnedFaces, "faces turned to agree with their neighbours"},
-          {m.addedVertices, "vertices added, one for each further fan"},
-          {m.unusedVertices, "vertices without a face left out"}};
-}
 
 void report(const SurfaceBuildArguments& arguments, std::uint64_t faces, std::uint64_t vertices,
             const SurfaceModel& model, const Seconds& seconds, Session& session) {
@@ -44,8 +34,7 @@ void report(const SurfaceBuildArguments& arguments, std::uint64_t faces, std::ui
       arguments.output, grouped(faces), grouped(vertices), model.diagonal, grouped(mt.finestTriangleCount()),
       grouped(mt.triangleCount()), grouped(mt.rootTriangleCount()), grouped(mt.rootVertexCount()),
       fmt::format("{:.6g}", mt.largestError()), model.levels);
-  for (const auto& [count, what] : mendedLines(model.mending))
-    if (count > 0) text += fmt::format("  mended     {}: {}\n", what, grouped(count));
+  text += mendedText(model.mending, "  mended     ");
   if (model.mending.dropsFlatNormals)
     text += "  left out   normals of corners: they are those of flat faces\n";
   text += fmt::format(
@@ -55,11 +44,12 @@ void report(const SurfaceBuildArguments& arguments, std::uint64_t faces, std::ui
       model.displacement.isEmpty() ? "" : fmt::format("displacement {:.2f} s, ", seconds.displace),
       seconds.write, byteCount(bytes), perVertex);
   session.say(text);
-  const SurfaceMending& m = model.mending;
   session.answer({{"file", arguments.output},
                   {"kind", "surface"},
                   {"source", model.source},
                   {"crs", crsName(model.crsWkt)},
+                  {"sourceFaces", faces},
+                  {"sourceVertices", vertices},
                   {"vertices", mt.vertexCount()},
                   {"diagonal", model.diagonal},
                   {"triangles", mt.triangleCount()},
@@ -68,14 +58,7 @@ void report(const SurfaceBuildArguments& arguments, std::uint64_t faces, std::ui
                   {"rootVertices", mt.rootVertexCount()},
                   {"rootError", mt.largestError()},
                   {"levels", model.levels},
-                  {"mended",
-                   {{"duplicateFaces", m.duplicateFaces},
-                    {"degenerateFaces", m.degenerateFaces},
-                    {"joinedVertices", m.joinedVertices},
-                    {"turnedFaces", m.turnedFaces},
-                    {"addedVertices", m.addedVertices},
-                    {"unusedVertices", m.unusedVertices},
-                    {"dropsFlatNormals", m.dropsFlatNormals}}},
+                  {"mended", mendedJson(model.mending)},
                   {"seconds",
                    {{"read", seconds.read},
                     {"build", seconds.build},

@@ -8,6 +8,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/mesh/tolerance.h"
+#include "cli/surface/mending.h"
 #include "engine/base/counted.h"
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
@@ -70,7 +71,7 @@ Status sayAboutSurface(const std::string& path, const std::string& at, Session& 
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<14} {}\n", what, value);
   };
-  line("source", fmt::format("{}, {}, {}", model->source, grouped(model->sourceFaces, "face", "faces"),
+  line("source", fmt::format("{}, {}, {}", model->source, grouped(model->fileFaces, "face", "faces"),
                              grouped(model->sourceVertices, "vertex", "vertices")));
   if (!model->crsWkt.empty()) line("CRS", crsName(model->crsWkt));
   line("diagonal", fmt::format("{:.9g}", model->diagonal));
@@ -85,6 +86,7 @@ Status sayAboutSurface(const std::string& path, const std::string& at, Session& 
                            withShare(mt.largestError(), model->diagonal)));
   if (!model->displacement.isEmpty()) line("displacement", "coarse cuts are drawn nearer to the source");
   line("levels", std::to_string(model->levels));
+  text += mendedText(model->mending, fmt::format("  {:<14} ", "mended"));
   line("attributes", fmt::format("{} of vertices, {} of corners, {} of faces", a.vertexAttributes.size(),
                                  a.wedgeAttributes.size(), a.triangleAttributes.size()));
   if (!a.objects.empty()) line("objects", grouped(a.objects.size()));
@@ -107,7 +109,7 @@ Status sayAboutSurface(const std::string& path, const std::string& at, Session& 
                   {"displacement", !model->displacement.isEmpty()},
                   {"source", model->source},
                   {"crs", crsName(model->crsWkt)},
-                  {"sourceFaces", model->sourceFaces},
+                  {"sourceFaces", model->fileFaces},
                   {"sourceVertices", model->sourceVertices},
                   {"diagonal", model->diagonal},
                   {"vertices", mt.vertexCount()},
@@ -117,6 +119,7 @@ Status sayAboutSurface(const std::string& path, const std::string& at, Session& 
                   {"rootVertices", mt.rootVertexCount()},
                   {"rootError", mt.largestError()},
                   {"levels", model->levels},
+                  {"mended", mendedJson(model->mending)},
                   {"curve", std::move(points)}});
   return {};
 }

@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "cli/arguments/arguments.h"
+#include "cli/surface/mending.h"
 #include "io/amt/surface_file.h"
 
 namespace arete {
@@ -34,12 +36,19 @@ Status validateSurfaceFile(const std::string& path, const SurfaceLawOptions& opt
   const Status valid = validateSurface(*model, options, session.context());
   if (!valid && valid.error().code == ErrorCode::interrupted) return valid;
   Json laws = Json::array();
-  std::string text = fmt::format("{}: checksums, indices and every law hold\n", path);
+  std::string text = fmt::format(
+      "{}: checksums, indices and every law hold\n"
+      "  surface {} faces, {} triangles at the finest\n",
+      path, grouped(model->fileFaces), grouped(model->mt.finestTriangleCount()));
+  text += mendedText(model->mending, "  mended  ");
   for (const Law& law : kLaws) {
     text += fmt::format("  law {:<2}  holds  {}\n", law.number, law.says);
     laws.push_back({{"law", law.number}, {"says", law.says}, {"claimed", true}});
   }
   Json json = {{"file", path}, {"kind", "surface"}, {"holds", valid.has_value()}};
+  json["sourceFaces"] = model->fileFaces;
+  json["finestTriangles"] = model->mt.finestTriangleCount();
+  json["mended"] = mendedJson(model->mending);
   json["samples"] = options.everySample ? "full" : "vertices";
   if (valid) {
     text += options.everySample ? "  law 10 by vertices, middles of faces and of their sides\n"

@@ -33,6 +33,10 @@ void forFinest(const MultiTriangulation& mt, const Visit& visit) {
     if (!mt.remover(TriangleId(t)).isValid()) visit(t);
 }
 
+AmtShape leftOutShape(std::uint64_t count) {
+  return {amt_tag::kLeftOutFaces, AmtScalar::u32, 8, count};
+}
+
 std::array<AmtShape, 2> displacementShapes(const MultiTriangulation& mt) {
   return {AmtShape{amt_tag::kDirections, AmtScalar::u8, 3, mt.vertexCount()},
           AmtShape{amt_tag::kReaches, AmtScalar::u8, 1, mt.triangleIdCount()}};
@@ -61,6 +65,8 @@ class Writing {
     else
       addArrays(surfaceShapes(metadata));
     addLooks();
+    if (!model().leftOutFaces.empty())
+      chunks_.add(leftOutShape(model().leftOutFaces.size()), bytesOf(model().leftOutFaces));
     if (!options.isPacked) chunks_.addSegmentChecksums();
     return chunks_.write();
   }
@@ -77,6 +83,7 @@ class Writing {
     metadata.hasDoubles = packed_.hasDoubles;
     metadata.positionStep = packed_.step;
     metadata.scale = packed_.scale;
+    metadata.model.positionError += packed_.moved;
     const PackedMt& bytes = packed_.bytes;
     const Result<MultiTriangulation> mt =
         unpackSurfaceMt(metadata, bytes.directory, bytes.tables, bytes.nodes, context_);
@@ -193,6 +200,7 @@ class Reading {
       if (const Status taken = unpackNumbers(); !taken) return tl::unexpected(taken.error());
     if (const Status taken = isPacked ? unpackDisplacement() : takeDisplacement(); !taken)
       return tl::unexpected(taken.error());
+    if (const Status taken = takeLeftOutFaces(); !taken) return tl::unexpected(taken.error());
     if (const Status valid = model_.validate(); !valid) return all_.corrupt(valid.error().message);
     return std::move(model_);
   }
@@ -235,6 +243,16 @@ class Reading {
     const auto reaches = all_.elements<std::uint8_t>(amt_tag::kReaches);
     model_.displacement.directions.assign(directions.begin(), directions.end());
     model_.displacement.reaches.assign(reaches.begin(), reaches.end());
+    return {};
+  }
+
+  Status takeLeftOutFaces() {
+    const AmtChunk* const chunk = all_.find(amt_tag::kLeftOutFaces);
+    if (chunk == nullptr) return {};
+    const std::array shape{leftOutShape(chunk->bytes / sizeof(SurfaceModel::LeftOutFace))};
+    if (const Status shaped = all_.checkShapes(shape); !shaped) return shaped;
+    const auto faces = all_.elements<SurfaceModel::LeftOutFace>(amt_tag::kLeftOutFaces);
+    model_.leftOutFaces.assign(faces.begin(), faces.end());
     return {};
   }
 

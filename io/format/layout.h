@@ -108,6 +108,7 @@ inline constexpr AmtTag kRms = {'R', 'M', 'S', 'E'};
 inline constexpr AmtTag kVertexNumbers = {'V', 'N', 'U', 'M'};
 inline constexpr AmtTag kFaceNumbers = {'F', 'N', 'U', 'M'};
 inline constexpr AmtTag kWedges = {'W', 'E', 'D', 'G'};
+inline constexpr AmtTag kLeftOutFaces = {'L', 'E', 'F', 'T'};
 inline constexpr AmtTag kAttributes = {'A', 'T', 'T', 'R'};
 inline constexpr AmtTag kDirections = {'D', 'I', 'R', 'S'};
 inline constexpr AmtTag kReaches = {'R', 'E', 'A', 'C'};
@@ -139,7 +140,8 @@ constexpr bool isKnownAmtTag(const AmtTag& tag) {
                               kWedges,          kAttributes,
                               kLooks,           kPictures,
                               kPackedNumbers,   kDirections,
-                              kReaches,         kPackedDisplacement})
+                              kReaches,         kPackedDisplacement,
+                              kLeftOutFaces})
     if (tag == known) return true;
   return false;
 }

@@ -17,10 +17,20 @@ namespace {
 struct Stored {
   std::uint32_t scaleBase = 0;
   std::optional<double> positionStep, positionError;
+  std::optional<std::uint64_t> fileFaces, splitFaces;
 };
 
-std::optional<double> unlessZero(double x) {
+template <class T>
+std::optional<T> unlessZero(T x) {
   return x == 0 ? std::nullopt : std::optional(x);
+}
+
+/// What a file without the number of splits must have: what its finest front has more than the faces left.
+std::uint64_t splitFacesOf(const SurfaceMetadata& m) {
+  const SurfaceMending& mending = m.model.mending;
+  const std::uint64_t leftOut = mending.duplicateFaces + mending.degenerateFaces,
+                      kept = m.model.sourceFaces > leftOut ? m.model.sourceFaces - leftOut : 0;
+  return m.finestTriangles > kept ? m.finestTriangles - kept : 0;
 }
 
 /// Visits the fields of the metadata, in the order of the file.
@@ -49,6 +59,7 @@ void visitMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
   });
   top.optional("positionStep", stored.positionStep);
   top.optional("positionError", stored.positionError);
+  top.optional("fileFaces", stored.fileFaces);
   top.field("diagonal", model.diagonal);
   top.optional("crsWkt", model.crsWkt);
   top.optional("verticalUnit", model.verticalUnit);
@@ -62,6 +73,7 @@ void visitMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
   top.object("mending", [&](auto& mending) {
     mending.field("duplicateFaces", model.mending.duplicateFaces);
     mending.field("degenerateFaces", model.mending.degenerateFaces);
+    mending.optional("splitFaces", stored.splitFaces);
     mending.field("joinedVertices", model.mending.joinedVertices);
     mending.field("turnedFaces", model.mending.turnedFaces);
     mending.field("addedVertices", model.mending.addedVertices);
@@ -86,6 +98,7 @@ SurfaceMetadata surfaceMetadataOf(const SurfaceModel& model, std::string writer)
   SurfaceModel& to = m.model;
   to.sourceVertices = model.sourceVertices;
   to.sourceFaces = model.sourceFaces;
+  to.fileFaces = model.fileFaces;
   to.diagonal = model.diagonal;
   to.mending = model.mending;
   to.options = model.options;
@@ -126,8 +139,9 @@ std::optional<std::string> findSurfaceProblem(const SurfaceMetadata& m) {
 std::string toSurfaceJson(const SurfaceMetadata& metadata) {
   nlohmann::ordered_json object = nlohmann::ordered_json::object();
   json_fields::Writer writer(object);
+  const SurfaceModel& model = metadata.model;
   const Stored stored{metadata.scale.base(), unlessZero(metadata.positionStep),
-                      unlessZero(metadata.model.positionError)};
+                      unlessZero(model.positionError), model.fileFaces, model.mending.splitFaces};
   visitMetadata(writer, metadata, stored);
   return object.dump(1) + "\n";
 }
@@ -143,6 +157,8 @@ Result<SurfaceMetadata> fromSurfaceJson(std::string_view text) {
   m.scale = OutwardScale::fromBase(stored.scaleBase);
   m.positionStep = stored.positionStep.value_or(0);
   m.model.positionError = stored.positionError.value_or(0);
+  m.model.fileFaces = stored.fileFaces.value_or(m.model.sourceFaces);
+  m.model.mending.splitFaces = stored.splitFaces.value_or(splitFacesOf(m));
   if (problem.empty()) problem = findSurfaceProblem(m).value_or("");
   if (!problem.empty()) return failure(ErrorCode::corrupt, fmt::format("the metadata is wrong: {}", problem));
   return m;

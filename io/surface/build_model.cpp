@@ -72,6 +72,7 @@ Result<BuiltSurface> buildSurfaceModel(MeshInput input, const std::string& sourc
   if (!input.numbers.vertexOf.empty())
     for (std::uint32_t& v : model->vertexOf) v = input.numbers.vertexOf[v];
   model->sourceVertices = input.fileVertices;
+  model->fileFaces = input.fileFaces;
   built.model = std::move(*model);
   return built;
 }

@@ -215,9 +215,10 @@ class SurfaceBuild {
 
     model_.options = options_;
     model_.mending = prepared_.mending;
+    model_.leftOutFaces = std::move(prepared_.leftOutFaces);
     model_.diagonal = prepared_.diagonal;
     model_.sourceVertices = prepared_.sourceVertices;
-    model_.sourceFaces = prepared_.sourceFaces;
+    model_.sourceFaces = model_.fileFaces = prepared_.sourceFaces;
     for (const std::uint32_t v : order) model_.vertexOf.push_back(prepared_.vertexOf[v]);
     MeshAttributes& a = model_.attributes;
     for (const Attribute& attribute : mesh.vertexAttributes) {

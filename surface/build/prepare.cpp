@@ -13,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "surface/build/left_out_faces.h"
 #include "surface/edit/joined_surface.h"
 #include "surface/model/transfer.h"
 #include "surface/model/wedges.h"
@@ -106,12 +107,14 @@ Result<PreparedSurface> prepareSurface(SurfaceMesh source, const RunContext& con
   const RepairCounts& c = repaired->counts;
   prepared.mending = {.duplicateFaces = c.duplicateTriangles,
                       .degenerateFaces = c.degenerateTriangles,
+                      .splitFaces = c.splitTriangles,
                       .joinedVertices = c.joinedVertices,
                       .turnedFaces = c.turnedTriangles,
                       .addedVertices = c.addedVertices,
                       .unusedVertices = c.unusedVertices};
   prepared.vertexOf = std::move(repaired->vertexOf);
   prepared.faceOf = std::move(repaired->triangleOf);
+  prepared.leftOutFaces = leftOutFacesOf(source, repaired->mesh, prepared.faceOf);
   prepared.ofSource = takeFaceAttributes(source);
   prepared.partOf = partsOf(prepared.ofSource, prepared.faceOf);
   if (c.isNothing()) {

@@ -23,6 +23,7 @@ struct PreparedSurface {
   double diagonal = 0;                  ///< of that box
   std::vector<std::uint32_t> vertexOf;  ///< by vertex: that of the source
   std::vector<std::uint32_t> faceOf;    ///< by triangle: that of the source
+  std::vector<SurfaceModel::LeftOutFace> leftOutFaces;
   SurfaceMending mending;
 };
 

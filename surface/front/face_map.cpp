@@ -40,6 +40,7 @@ std::vector<std::uint32_t> facesOf(const SurfaceModel& model, const Cut& cut) {
     }
     found[model.faceOf[finest]] = numberOf[t];
   }
+  for (const auto& [face, in] : model.leftOutFaces) found[face] = found[in];
   return found;
 }
 

@@ -9,9 +9,10 @@
 
 namespace arete {
 
-/// For every face of the source the triangle of a cut that stands for its middle, by their numbers; kNone for
-/// faces that the build left out. From the finest triangle a face climbs, where a node of the cut's
-/// complement put it, to the nearest triangle of what the node replaced. O(faces * depth).
+/// For every face of the source the triangle of a cut that stands for its middle, by their numbers. A face
+/// that the build left out has that of the face in which it lies; kNone if it touches none (leftOutFaces).
+/// From the finest triangle a face climbs, where a node of the cut's complement put it, to the nearest
+/// triangle of what the node replaced. O(faces * depth).
 std::vector<std::uint32_t> facesOf(const SurfaceModel& model, const Cut& cut);
 
 }  // namespace arete

@@ -54,6 +54,30 @@ Result<ExaminedFront> examine(const MultiTriangulation& mt, const Cut& cut, cons
   return front;
 }
 
+/// Law 8: every face that is not left out is there, as many times as it was split.
+Status checkFaces(const SurfaceModel& model) {
+  const MultiTriangulation& mt = model.mt;
+  const SurfaceMending& m = model.mending;
+  const std::uint64_t leftOut = m.duplicateFaces + m.degenerateFaces,
+                      expected = model.sourceFaces + m.splitFaces - leftOut;
+  if (mt.finestTriangleCount() != expected)
+    return failure(
+        ErrorCode::brokenPromise,
+        fmt::format("law 8: the finest front has {} triangles; the source has {} faces, of which {} "
+                    "are left out and {} are added by splits",
+                    mt.finestTriangleCount(), model.sourceFaces, leftOut, m.splitFaces));
+  std::vector<std::uint32_t> faces;
+  for (std::uint32_t t = 0; t < mt.triangleIdCount(); ++t)
+    if (!mt.remover(TriangleId(t)).isValid()) faces.push_back(model.faceOf[t]);
+  std::ranges::sort(faces);
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  if (faces.size() + leftOut >= model.sourceFaces) return {};
+  return failure(
+      ErrorCode::brokenPromise,
+      fmt::format("law 8: the finest front has triangles of {} faces of {}, of which {} are left out",
+                  faces.size(), model.sourceFaces, leftOut));
+}
+
 }  // namespace
 
 Result<SurfaceTopology> SurfaceTopology::of(const MultiTriangulation& mt, const RunContext& context) {
@@ -111,11 +135,7 @@ Status validateSurface(const SurfaceModel& model, const SurfaceLawOptions& optio
   if (Status valid = model.validate(); !valid) return valid;
   const MultiTriangulation& mt = model.mt;
   if (Status valid = validate(mt, {}, context); !valid) return valid;
-  const std::uint64_t kept = model.sourceFaces - model.mending.duplicateFaces - model.mending.degenerateFaces;
-  if (mt.finestTriangleCount() != kept)
-    return failure(
-        ErrorCode::brokenPromise,
-        fmt::format("law 8: the finest front has {} triangles of {} faces", mt.finestTriangleCount(), kept));
+  if (Status valid = checkFaces(model); !valid) return valid;
   const Result<SurfaceTopology> topology = SurfaceTopology::of(mt, context);
   if (!topology) return tl::unexpected(topology.error());
   const std::vector<Vec3> samples = samplesOfSource(model, options.everySample);

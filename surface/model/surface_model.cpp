@@ -46,6 +46,9 @@ Status SurfaceModel::validate() const {
     return refuse("a vertex has a number that the source does not have");
   if (std::ranges::any_of(faceOf, [&](std::uint32_t f) { return f >= sourceFaces; }))
     return refuse("a triangle has a face that the source does not have");
+  for (const auto& [face, in] : leftOutFaces)
+    if (face >= sourceFaces || in >= sourceFaces)
+      return refuse("a face that was left out lies in one that the source does not have");
   for (const auto& wedges : wedgesOf)
     for (const std::uint32_t w : wedges)
       if (w >= a.wedgeCount) return refuse(fmt::format("a corner has wedge {} of {}", w, a.wedgeCount));

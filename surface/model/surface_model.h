@@ -27,6 +27,9 @@ struct SurfaceBuildOptions {
 /// What a build leaves as it is or changes before it begins; nothing of it moves the surface.
 struct SurfaceMending {
   std::uint64_t duplicateFaces = 0, degenerateFaces = 0;  ///< left out
+  /// How often a face was split at a vertex inside its side, where one without area was beyond it: each time
+  /// there is one more. Those that were left out again count as degenerate.
+  std::uint64_t splitFaces = 0;
   std::uint64_t joinedVertices = 0;  ///< at one position, where a face without area was between them
   std::uint64_t turnedFaces = 0;
   std::uint64_t addedVertices = 0;   ///< one for each further fan of a vertex
@@ -51,6 +54,13 @@ struct SurfaceModel {
   MeshAttributes attributes;
   std::vector<std::uint32_t> vertexOf;  ///< by vertex of the MT: the vertex of the source
   std::vector<std::uint32_t> faceOf;    ///< by triangle of the MT: a face of the source that it stands for
+  /// A face of the source that the build left out, and a face of the finest front in which it lies.
+  struct LeftOutFace {
+    std::uint32_t face = 0, in = 0;
+    bool operator==(const LeftOutFace&) const = default;
+  };
+  std::vector<LeftOutFace>
+      leftOutFaces;  ///< by rising face; those that touch no other face are not among them
   /// Whether coarse triangles have faces of their own, as where parts or attributes differ from face to face;
   /// otherwise inheritFaces() finds them.
   bool hasFaceAttributes() const {
@@ -64,6 +74,7 @@ struct SurfaceModel {
   SurfaceDisplacement displacement;
 
   std::uint64_t sourceVertices = 0, sourceFaces = 0;
+  std::uint64_t fileFaces = 0;  ///< as the file counts them, which may have more corners than three
   /// The largest distance by which rounding has moved a vertex of the source; every error includes it twice.
   double positionError = 0;
   double diagonal = 0;  ///< of the box of the vertices that faces use

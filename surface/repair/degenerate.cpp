@@ -128,6 +128,7 @@ class DegeneratePass {
     std::ranges::replace(mesh_.triangles.back(), a, inside);
     draft_.triangleOf.push_back(draft_.triangleOf[t]);
     isGone_.push_back(0);
+    ++draft_.counts.splitTriangles;
     const auto added = static_cast<std::uint32_t>(mesh_.triangles.size() - 1);
     neighbours_.add(added);
     for (const std::uint32_t part : {t, added})

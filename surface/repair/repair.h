@@ -25,6 +25,8 @@ struct RepairOptions {
 struct RepairCounts {
   std::uint64_t duplicateTriangles = 0;   ///< left out; the first of each stays
   std::uint64_t degenerateTriangles = 0;  ///< left out
+  /// Triangles split at a vertex inside their side, where one without area was beyond it; each is one more.
+  std::uint64_t splitTriangles = 0;
   std::uint64_t joinedVertices =
       0;                         ///< with another one at the same position, to close a degenerate triangle
   std::uint64_t tJunctions = 0;  ///< edges split at a vertex inside them
