@@ -27,13 +27,22 @@
 namespace arete {
 namespace {
 
+struct Measured : MeshFile {
+  double positionError = 0;  ///< how far rounding has moved its vertices
+};
+
 /// A mesh, or the finest front of a surface's model: its source as the build mended it.
-Result<MeshFile> readMeasured(const std::string& path, const Session& session) {
+Result<Measured> readMeasured(const std::string& path, const Session& session) {
   const Result<bool> isSurface = isSurfaceAmt(path);
-  if (!isSurface || !*isSurface) return readMesh(path, session.context());
+  if (!isSurface || !*isSurface) {
+    Result<MeshFile> read = readMesh(path, session.context());
+    if (!read) return tl::unexpected(read.error());
+    return Measured{std::move(*read)};
+  }
   const Result<SurfaceModel> model = loadSurfaceAmt(path, AmtVerify::all, session.context());
   if (!model) return tl::unexpected(model.error());
-  MeshFile file;
+  Measured file;
+  file.positionError = model->positionError;
   file.mesh = finestSurfaceOf(*model).mesh;
   file.crsWkt = model->crsWkt;
   file.verticalUnit = model->verticalUnit;
@@ -81,6 +90,10 @@ void restorePlaces(MeshDistanceReport& report, const MetricMeshes& meshes) {
   divide(report.forward.worstNearest, meshes.secondUnits);
   divide(report.backward.worst, meshes.secondUnits);
   divide(report.backward.worstNearest, meshes.firstUnits);
+}
+
+double longest(const Vec3& v) {
+  return std::max({v.x, v.y, v.z});
 }
 
 /// The unit of the distances, if both files have the same.
@@ -134,9 +147,9 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
         !output)
       return output;
   }
-  const Result<MeshFile> first = readMeasured(arguments.first, session);
+  const Result<Measured> first = readMeasured(arguments.first, session);
   if (!first) return tl::unexpected(first.error());
-  const Result<MeshFile> second = readMeasured(arguments.second, session);
+  const Result<Measured> second = readMeasured(arguments.second, session);
   if (!second) return tl::unexpected(second.error());
   session.warn(first->warnings, arguments.first);
   session.warn(second->warnings, arguments.second);
@@ -153,6 +166,10 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
                       options, session.context(), arguments.errorMesh.empty() ? nullptr : &distances);
   if (!report) return tl::unexpected(named(report.error(), arguments));
   if (*metric) restorePlaces(*report, **metric);
+  const double moved = *metric ? longest((*metric)->firstUnits) * first->positionError +
+                                     longest((*metric)->secondUnits) * second->positionError
+                               : first->positionError + second->positionError;
+  report->raise(moved);
   if (!arguments.errorMesh.empty())
     if (Status written = writeDistances(arguments.errorMesh, *first, arguments.second, distances, session);
         !written)
@@ -166,6 +183,9 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
   const Status promise = expects ? checkDistance(*report, expected, way) : Status();
   session.say(
       fmt::format("{} against {}\n{}", arguments.first, arguments.second, meshDistanceText(*report, unit)));
+  if (moved > 0)
+    session.say(fmt::format("each with the {} by which rounding may have moved vertices of the source\n",
+                            withUnit(moved, unit)));
   if (expects && promise) {
     const std::string limit = fmt::format(
         "{} ({:.4g} % of the diagonal), {}", withUnit(expected, unit), 100 * expected / diagonal,
@@ -177,7 +197,8 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
   }
   Json json = {{"first", {{"path", arguments.first}, {"crs", crsName(first->crsWkt)}}},
                {"second", {{"path", arguments.second}, {"crs", crsName(second->crsWkt)}}},
-               {"unit", unit}};
+               {"unit", unit},
+               {"positionError", moved}};
   const Json found = toJson(*report);
   for (const char* which : {"first", "second"}) json[which].update(found[which]);
   for (const auto& [key, value] : found.items())

@@ -185,7 +185,7 @@ class Extraction {
       // A cut that the budget ended does not keep the tolerance before the fit.
       const auto fitted =
           fitFront(front, finestOfTheRest(), model_.options.keepsBorders, cut.achievedError,
-                   whole->isComplete ? maxError : std::nullopt, session_.context());
+                   whole->isComplete ? maxError : std::nullopt, session_.context(), model_.positionError);
       if (!fitted) return tl::unexpected(fitted.error());
       fit = *fitted;
     } else if (isDisplaced()) {
@@ -218,6 +218,16 @@ class Extraction {
         if (dropped && face != MeshAttributes::kNone) face = rest.numberOf[face];
       if (Status mapped = writeMap(request.map, model_, front, faces); !mapped) return mapped;
     }
+    // A fit is measured by itself, and may keep what the stored errors cannot promise.
+    const bool isKeptByFit = fit && request.tolerance && fit->distance <= request.tolerance->distance;
+    const double left =
+        isToleranceStated(request) && !isKeptByFit ? errorLeftByRounding(model_, **criterion, cut) : 0;
+    if (left > 0)
+      session_.warn(
+          fmt::format("{}: the tolerance is not kept everywhere: rounding (--position-bits) has moved "
+                      "vertices of the source by up to {}, and with it no error is below {}",
+                      request.output, withShare(model_.positionError, model_.diagonal),
+                      withShare(left, model_.diagonal)));
     std::optional<double> droppedDistance;
     if (dropped && dropped->count > 0) {
       const auto distance = distanceFrom(droppedSurface(model_, *dropped_), front.mesh);
@@ -230,7 +240,7 @@ class Extraction {
       if (!distance) return tl::unexpected(distance.error());
       otherWay = *distance;
     }
-    say(request, cut, front, {*crossings, droppedDistance, otherWay, fit}, *written);
+    say(request, cut, front, {*crossings, droppedDistance, otherWay, fit, left}, *written);
     return {};
   }
 
@@ -250,7 +260,14 @@ class Extraction {
     std::uint64_t crossings = 0;
     std::optional<double> droppedDistance, otherWay;
     std::optional<FitOutcome> fit;
+    double leftByRounding = 0;  ///< errorLeftByRounding() where a tolerance is not kept
   };
+
+  /// Whether something is asked for that rounding may break; a budget alone asks for nothing.
+  bool isToleranceStated(const Request& request) const {
+    const CriterionArguments::OfSurface& asked = arguments_.asked;
+    return request.tolerance || asked.pixelError || (!asked.camera.empty() && !asked.maxTriangles);
+  }
 
   bool isDisplaced() const { return !model_.displacement.isEmpty() && !arguments_.isUndisplaced; }
 
@@ -261,11 +278,12 @@ class Extraction {
     for (std::size_t t = 0; t < promised.size(); ++t) front.errors[t] = floatAtLeast(promised[t]);
   }
 
-  /// No point of a mesh is farther than this from another.
+  /// No point of a mesh is farther than this from another, one of which is the source as it was before
+  /// rounding.
   Result<double> distanceFrom(const TriangleMesh& mesh, const TriangleMesh& other) const {
     const auto report = measureDistance(mesh, other, {}, session_.context());
     if (!report) return tl::unexpected(report.error());
-    return report->forward.atMost;
+    return report->forward.atMost + model_.positionError;
   }
 
   const TriangleMesh& finest() {
@@ -329,7 +347,7 @@ class Extraction {
                  {"vertices", front.mesh.positions.size()},
                  {"error", error},
                  {"errorPercent", 100 * error / model_.diagonal},
-                 {"complete", cut.isComplete},
+                 {"complete", cut.isComplete && found.leftByRounding == 0},
                  {"displaced", !found.fit && isDisplaced()},
                  {"selfIntersections", found.crossings},
                  {"lost", written.lost}};
@@ -337,6 +355,7 @@ class Extraction {
       json["dropped"] = {{"components", dropped_->count},
                          {"faces", dropped_->sourceFaces},
                          {"distance", found.droppedDistance ? Json(*found.droppedDistance) : Json()}};
+    if (found.leftByRounding > 0) json["leftByRounding"] = found.leftByRounding;
     if (found.otherWay) json["otherWay"] = *found.otherWay;
     if (found.fit)
       json["fit"] = {{"rmsBefore", found.fit->rmsBefore},

@@ -34,6 +34,17 @@ Result<std::unique_ptr<const BoundedCriterion>> engineCriterion(const SurfaceCri
   return std::make_unique<UniformError>(c.maxError.value_or(0));
 }
 
+double errorLeftByRounding(const SurfaceModel& model, const Criterion& criterion, const Cut& cut) {
+  double left = 0;
+  if (model.positionError == 0) return left;
+  for (const std::uint32_t id : cut.ids) {
+    const TriangleId t(id);
+    if (model.mt.remover(t).isValid() || model.mt.error(t) <= left) continue;
+    if (!criterion.isFineEnough(model.mt, t, model.mt.corners(t))) left = model.mt.error(t);
+  }
+  return left;
+}
+
 CutOptions engineOptions(const SurfaceCriterion& c) {
   CutOptions options;
   options.method = c.method;

@@ -31,6 +31,10 @@ struct SurfaceCriterion {
 Result<std::unique_ptr<const BoundedCriterion>> engineCriterion(const SurfaceCriterion& criterion,
                                                                 const SurfaceModel& model);
 
+/// The largest error of a cut's triangles that are coarser than asked for although nothing is finer, which is
+/// what rounding has left (SurfaceModel::positionError); 0: none is. O(front)
+double errorLeftByRounding(const SurfaceModel& model, const Criterion& criterion, const Cut& cut);
+
 /// Method, budget and order for the engine: a budget everywhere is spent where the integral of the squared
 /// distance is largest, which leaves about the least mean square error.
 CutOptions engineOptions(const SurfaceCriterion& criterion);

@@ -11,11 +11,12 @@
 namespace arete {
 
 Result<FitOutcome> fitFront(SurfaceFront& front, const TriangleMesh& source, bool keepsBorders,
-                            double cutError, std::optional<double> maxError, const RunContext& context) {
+                            double cutError, std::optional<double> maxError, const RunContext& context,
+                            double positionError) {
   const Result<FittedSurface> fitted =
       fitSurface(front.mesh.shape(), heldVertices(front.mesh, keepsBorders), source, {}, context);
   if (!fitted) return tl::unexpected(fitted.error());
-  FitOutcome outcome{fitted->rmsBefore, fitted->rmsAfter, cutError, 1};
+  FitOutcome outcome{fitted->rmsBefore + positionError, fitted->rmsAfter + positionError, cutError, 1};
   const std::vector<Vec3> before = front.mesh.positions;
   for (const double part : {1.0, 0.5, 0.25, 0.125}) {
     outcome.part = part;
@@ -24,7 +25,7 @@ Result<FitOutcome> fitFront(SurfaceFront& front, const TriangleMesh& source, boo
           part == 1 ? fitted->positions[v] : before[v] + part * (fitted->positions[v] - before[v]);
     const auto report = measureDistance(source, front.mesh.shape(), {}, context);
     if (!report) return tl::unexpected(report.error());
-    outcome.distance = report->forward.atMost;
+    outcome.distance = report->forward.atMost + positionError;
     if (!maxError || outcome.distance <= *maxError) return outcome;
   }
   front.mesh.positions = before;

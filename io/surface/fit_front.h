@@ -22,7 +22,10 @@ struct FitOutcome {
 /// source than maxError, a part of every move is made: a half, a quarter, an eighth, or nothing, which is the
 /// cut.
 /// @param cutError  of the cut: at most maxError
+/// @param positionError  how far vertices of `source` may be from those that they stand for
+///                       (SurfaceModel::positionError): all that is measured is stated with it
 Result<FitOutcome> fitFront(SurfaceFront& front, const TriangleMesh& source, bool keepsBorders,
-                            double cutError, std::optional<double> maxError, const RunContext& context);
+                            double cutError, std::optional<double> maxError, const RunContext& context,
+                            double positionError = 0);
 
 }  // namespace arete

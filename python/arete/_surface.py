@@ -46,7 +46,8 @@ class Surface(Stored):
         """The distances between the source and a mesh, both ways, by code that the build does not share.
 
         mesh: as build_surface() takes it, or a Tin. samples: on each, as many as `arete measure` takes by default.
-        Each way has the largest distance found, what no point exceeds, the mean and the root mean square.
+        Each way has the largest distance found, what no point exceeds, the mean and the root mean square. Where position
+        bits rounded the model, every distance is raised by "position_error": the source itself is no farther.
         """
         return self._surface.measure(*mesh_of(mesh, triangles), int(samples), progress)
 
@@ -62,6 +63,11 @@ class Surface(Stored):
     def diagonal(self) -> float:
         """Of the box of the source."""
         return self._surface.diagonal
+
+    @property
+    def position_error(self) -> float:
+        """How far rounding (position_bits) has moved a vertex of the source at most."""
+        return self._surface.position_error
 
     @property
     def is_displaced(self) -> bool:

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "python/bindings/surface.h"
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <limits>
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "engine/base/float_bounds.h"
 #include "engine/criteria/criterion.h"
@@ -70,6 +72,20 @@ struct CutRequest {
   bool isDisplaced = true, isFitted = false;
 };
 
+/// Adds a warning where rounding leaves more than the tolerance.
+void sayWhatRoundingLeft(const SurfaceModel& model, const CutRequest& request, const Criterion& criterion,
+                         const Cut& cut, Tin& tin) {
+  const SurfaceCriterion& c = request.criterion;
+  if (!c.maxError && !c.pixelError && (!c.camera || c.maxTriangles)) return;  // a budget asks for nothing
+  const double left = errorLeftByRounding(model, criterion, cut);
+  if (left == 0) return;
+  tin.isComplete = false;
+  tin.warnings.push_back(
+      fmt::format("the tolerance is not kept everywhere: rounding (position_bits) has moved vertices of the "
+                  "source by up to {:.6g}, and with it no error is below {:.6g}",
+                  model.positionError, left));
+}
+
 Result<Tin> takeSurfaceTin(const SurfaceModel& model, const CutRequest& request, const RunContext& context) {
   const auto criterion = engineCriterion(request.criterion, model);
   if (!criterion) return tl::unexpected(criterion.error());
@@ -84,13 +100,16 @@ Result<Tin> takeSurfaceTin(const SurfaceModel& model, const CutRequest& request,
   if (request.isFitted) {
     SurfaceFront front = surfaceOf(model, *cut);
     const auto fit = fitFront(front, finestSurfaceOf(model).mesh.shape(), model.options.keepsBorders,
-                              cut->achievedError, request.criterion.maxError, context);
+                              cut->achievedError, request.criterion.maxError, context, model.positionError);
     if (!fit) return tl::unexpected(fit.error());
     tin.vertices = std::move(front.mesh.positions);
     tin.error = fit->distance;
+    if (request.criterion.maxError && fit->distance > *request.criterion.maxError)
+      sayWhatRoundingLeft(model, request, **criterion, *cut, tin);
     tin.errors.assign(tin.triangles.size(), floatAtLeast(fit->distance));
     return tin;
   }
+  sayWhatRoundingLeft(model, request, **criterion, *cut, tin);
   if (request.isDisplaced && !model.displacement.isEmpty()) {
     const std::vector<double> promised = promisedErrors(model.mt, *cut, criterion->get());
     tin.vertices = displacedPlaces(model.mt, model.displacement, *cut, promised);
@@ -112,7 +131,8 @@ py::dict oneWay(const DistanceOneWay& way) {
   return found;
 }
 
-/// From the source to the mesh, from the mesh to the source, and both together.
+/// From the source to the mesh, from the mesh to the source, and both together; each with how far rounding
+/// may have moved the source.
 py::dict measureMesh(const SurfaceModel& model, const Doubles& vertices, const Indices& triangles,
                      std::uint64_t samples, const py::object& progress) {
   const MeshDistanceReport report =
@@ -123,9 +143,11 @@ py::dict measureMesh(const SurfaceModel& model, const Doubles& vertices, const I
         // "second" is its name there.
         if (!measured && measured.error().culprit == "second")
           return failure(measured.error().code, measured.error().message, "mesh");
+        if (measured) measured->raise(model.positionError);
         return measured;
       });
   py::dict found;
+  found["position_error"] = model.positionError;
   found["max_distance"] = report.hausdorff();
   found["at_most"] = report.hausdorffAtMost();
   found["mean"] = report.mean();
@@ -173,8 +195,11 @@ void defineModel(py::module_& module) {
                                               .pixelError = pixelError},
                                 .isDisplaced = isDisplaced,
                                 .isFitted = isFitted};
-             return call(progress,
-                         [&](const RunContext& context) { return takeSurfaceTin(model, request, context); });
+             Tin tin = call(progress, [&](const RunContext& context) {
+               return takeSurfaceTin(model, request, context);
+             });
+             warn(tin.warnings);
+             return tin;
            })
       .def("measure", &measureMesh)
       .def("save",
@@ -188,6 +213,7 @@ void defineModel(py::module_& module) {
       .def_property_readonly("diagonal", [](const SurfaceModel& m) { return m.diagonal; })
       .def_property_readonly("crs_wkt", [](const SurfaceModel& m) { return m.crsWkt; })
       .def_property_readonly("source", [](const SurfaceModel& m) { return m.source; })
+      .def_property_readonly("position_error", [](const SurfaceModel& m) { return m.positionError; })
       .def_property_readonly("is_displaced", [](const SurfaceModel& m) { return !m.displacement.isEmpty(); })
       .def_property_readonly("largest_error", [](const SurfaceModel& m) { return m.mt.largestError(); })
       .def_property_readonly("vertex_count", [](const SurfaceModel& m) { return m.mt.vertexCount(); })

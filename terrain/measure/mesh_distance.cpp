@@ -243,6 +243,14 @@ class OneWay {
 
 }  // namespace
 
+void MeshDistanceReport::raise(double by) {
+  for (DistanceOneWay* way : {&forward, &backward})
+    for (double DistanceOneWay::*figure :
+         {&DistanceOneWay::maximum, &DistanceOneWay::atMost, &DistanceOneWay::mean, &DistanceOneWay::rms,
+          &DistanceOneWay::maximumAtVertices})
+      way->*figure += by;
+}
+
 double MeshDistanceReport::hausdorff() const {
   return std::max(forward.maximum, backward.maximum);
 }

@@ -56,6 +56,9 @@ struct MeshDistanceReport {
   double rms() const;
   /// Largest |coordinate|; rounding is relative to it.
   double largestCoordinate = 0;
+
+  /// Adds a length to every distance: how far the vertices of a mesh may be from those that it stands for.
+  void raise(double by);
 };
 
 struct MeshDistanceOptions {
