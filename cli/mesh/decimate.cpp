@@ -101,7 +101,8 @@ Error tooFew(const std::string& budget, std::uint64_t least, const std::string& 
       ErrorCode::usage,
       fmt::format(
           "the least that {} reaches is {} triangles: components, handles, borders, seams and edges between "
-          "materials stay, edges of more than two faces too, and no triangle turns over",
+          "objects, materials or labels of faces stay, edges of more than two faces too, and no triangle "
+          "turns over",
           method, grouped(least)),
       fmt::format("--max-triangles {}", budget)};
 }
@@ -129,8 +130,10 @@ Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
   const Result<Cut> cut = takeCut(model->mt, UniformError(maxError.value_or(0)), wanted, session.context());
   if (!cut) return tl::unexpected(cut.error());
   SurfaceFront front = surfaceOf(*model, *cut);
-  const auto fit = fitFront(front, finestSurfaceOf(*model).mesh.shape(), options.keepsBorders,
-                            cut->achievedError, cut->isComplete ? maxError : std::nullopt, session.context());
+  const auto fit = fitFront(front, finestSurfaceOf(*model).mesh.shape(),
+                            chartsOfCut(*model, frontOfPrefix(model->mt, model->mt.nodeCount()), *cut),
+                            options.keepsBorders, cut->achievedError,
+                            cut->isComplete ? maxError : std::nullopt, session.context());
   if (!fit) return tl::unexpected(fit.error());
   Outcome outcome{std::move(front.mesh), std::move(front.vertexOf), std::move(front.faceOf), {}, 0, 0, *fit};
   outcome.isComplete = cut->isComplete;

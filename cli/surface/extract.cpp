@@ -116,6 +116,8 @@ std::string whyNotFewer(const SurfaceModel& model, const DroppedComponents* drop
   if (model.hasWedges()) why += ", seams";
   if (!model.attributes.materialOf.empty() || !model.attributes.objectOf.empty())
     why += ", edges between materials or objects";
+  for (const Attribute& attribute : model.attributes.triangleAttributes)
+    if (!attribute.isContinuous()) why += fmt::format(", edges between values of {}", attribute.name);
   return why;
 }
 
@@ -184,8 +186,9 @@ class Extraction {
     if (arguments_.asked.isFitted) {
       // A cut that the budget ended does not keep the tolerance before the fit.
       const auto fitted =
-          fitFront(front, finestOfTheRest(), model_.options.keepsBorders, cut.achievedError,
-                   whole->isComplete ? maxError : std::nullopt, session_.context(), model_.positionError);
+          fitFront(front, finestOfTheRest(), chartsOfCut(model_, finestCutOfTheRest(), cut),
+                   model_.options.keepsBorders, cut.achievedError, whole->isComplete ? maxError : std::nullopt,
+                   session_.context(), model_.positionError);
       if (!fitted) return tl::unexpected(fitted.error());
       fit = *fitted;
     } else if (isDisplaced()) {
@@ -294,8 +297,11 @@ class Extraction {
   /// Without the components that are left out.
   TriangleMesh finestOfTheRest() {
     if (!dropped_) return finest();
+    return surfaceOf(model_, finestCutOfTheRest()).mesh.shape();
+  }
+  Cut finestCutOfTheRest() const {
     const Cut whole = frontOfPrefix(model_.mt, model_.mt.nodeCount());
-    return surfaceOf(model_, withoutDropped(model_.mt, whole, *dropped_).cut).mesh.shape();
+    return dropped_ ? withoutDropped(model_.mt, whole, *dropped_).cut : whole;
   }
 
   Status countSourceCrossings() {

@@ -61,6 +61,7 @@ void visitMetadata(Visitor& top, Metadata& m, OtherValues& stored) {
   top.optional("positionError", stored.positionError);
   top.optional("fileFaces", stored.fileFaces);
   top.field("diagonal", model.diagonal);
+  top.flag("boundsLines", model.boundsLines);
   top.optional("crsWkt", model.crsWkt);
   top.optional("verticalUnit", model.verticalUnit);
   top.optional("up", model.up);
@@ -104,6 +105,7 @@ SurfaceMetadata surfaceMetadataOf(const SurfaceModel& model, std::string writer)
   to.options = model.options;
   to.levels = model.levels;
   to.positionError = model.positionError;
+  to.boundsLines = model.boundsLines;
   to.source = model.source;
   to.sourceChecksum = model.sourceChecksum;
   to.crsWkt = model.crsWkt;

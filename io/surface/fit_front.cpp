@@ -6,13 +6,12 @@
 
 #include "surface/fit/fit.h"
 #include "surface/fit/held_vertices.h"
-#include "terrain/measure/mesh_distance.h"
 
 namespace arete {
 
-Result<FitOutcome> fitFront(SurfaceFront& front, const TriangleMesh& source, bool keepsBorders,
-                            double cutError, std::optional<double> maxError, const RunContext& context,
-                            double positionError) {
+Result<FitOutcome> fitFront(SurfaceFront& front, const TriangleMesh& source, const ChartsOfCut& charts,
+                            bool keepsBorders, double cutError, std::optional<double> maxError,
+                            const RunContext& context, double positionError) {
   const Result<FittedSurface> fitted =
       fitSurface(front.mesh.shape(), heldVertices(front.mesh, keepsBorders), source, {}, context);
   if (!fitted) return tl::unexpected(fitted.error());
@@ -23,9 +22,9 @@ Result<FitOutcome> fitFront(SurfaceFront& front, const TriangleMesh& source, boo
     for (std::size_t v = 0; v < before.size(); ++v)
       front.mesh.positions[v] =
           part == 1 ? fitted->positions[v] : before[v] + part * (fitted->positions[v] - before[v]);
-    const auto report = measureDistance(source, front.mesh.shape(), {}, context);
-    if (!report) return tl::unexpected(report.error());
-    outcome.distance = report->forward.atMost + positionError;
+    const Result<double> distance = distanceByChart(source, front.mesh.shape(), charts, context);
+    if (!distance) return tl::unexpected(distance.error());
+    outcome.distance = *distance + positionError;
     if (!maxError || outcome.distance <= *maxError) return outcome;
   }
   front.mesh.positions = before;

@@ -157,6 +157,7 @@ class SurfaceBuild {
                        .thresholdRatio = options_.thresholdRatio,
                        .unit = std::ldexp(1.0, -std::ilogb(prepared_.diagonal)),
                        .parts = {prepared_.mesh.hasWedges(), prepared_.partOf}};
+    model_.boundsLines = state.parts.hasLines();
     state.labels.resize(faceCount);
     for (std::uint32_t f = 0; f < faceCount; ++f)
       state.labels.set(

@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <span>
 #include <string>
 #include <utility>
 
 #include "surface/build/left_out_faces.h"
 #include "surface/edit/joined_surface.h"
+#include "surface/model/parts.h"
 #include "surface/model/transfer.h"
 #include "surface/model/wedges.h"
 #include "surface/repair/repair.h"
@@ -60,24 +60,6 @@ MeshAttributes takeFaceAttributes(SurfaceMesh& mesh) {
   taken.materialOf = std::exchange(mesh.materialOf, {});
   taken.pictures = std::exchange(mesh.pictures, {});
   return taken;
-}
-
-/// By triangle: a number for each object and material. Empty if there is one only. A group is no part: it
-/// says nothing about looks.
-std::vector<std::uint32_t> partsOf(const MeshAttributes& ofSource, std::span<const std::uint32_t> faceOf) {
-  const auto at = [](const std::vector<std::uint32_t>& of, std::uint32_t f) {
-    return of.empty() ? MeshAttributes::kNone : of[f];
-  };
-  if (ofSource.objectOf.empty() && ofSource.materialOf.empty()) return {};
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;
-  std::vector<std::uint32_t> parts;
-  for (const std::uint32_t f : faceOf)
-    parts.push_back(numbers
-                        .try_emplace({at(ofSource.objectOf, f), at(ofSource.materialOf, f)},
-                                     static_cast<std::uint32_t>(numbers.size()))
-                        .first->second);
-  if (numbers.size() < 2) parts.clear();
-  return parts;
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ void holdBorders(const MultiTriangulation& mt, std::vector<Vec3>& directions) {
 }
 
 Result<SurfaceDisplacement> find(const SurfaceModel& model, const RunContext& context) {
-  const PieceReplay replay(model.mt);
+  const PieceReplay replay(model);
   SurfaceDisplacement displacement;
   {
     Pulls pulls(model, replay.original());

@@ -15,6 +15,7 @@
 #include "engine/parallel/loop_threads.h"
 #include "engine/simplify/hole_triangles.h"
 #include "surface/error/piece_division.h"
+#include "surface/model/charts.h"
 
 namespace arete {
 namespace {
@@ -38,7 +39,9 @@ HoleTriangulation floorOf(const MultiTriangulation& mt, NodeId n) {
 
 }  // namespace
 
-PieceReplay::PieceReplay(const MultiTriangulation& mt) : mt_(mt) {
+PieceReplay::PieceReplay(const SurfaceModel& model) : model_(model), mt_(model.mt) {
+  const MultiTriangulation& mt = mt_;
+  if (model.boundsLines) parts_ = partsOf(model, partOf_);
   double largest = 0;
   for (std::uint32_t v = 0; v < mt.vertexCount(); ++v) {
     const Vec3 p = mt.position(VertexId(v));
@@ -73,6 +76,16 @@ void PieceReplay::sortByHeight() {
   for (std::uint32_t n = 0; n < mt_.nodeCount(); ++n) nodes_[next[heightOf[n]]++] = n;
 }
 
+/// Where the build divided the star of a node.
+StarLine PieceReplay::lineOf(NodeId n) const {
+  if (!parts_.hasLines()) return {};
+  return lineThrough(parts_, static_cast<int>(mt_.ceilingSize(n)), mt_.isOpen(n), [&](int i) {
+    const std::uint32_t t = mt_.slotTriangle(n, static_cast<std::uint32_t>(i)).index();
+    return TriangleLabels{model_.faceOf[t],
+                          model_.hasWedges() ? model_.wedgesOf[t] : std::array<std::uint32_t, 3>{}};
+  });
+}
+
 Status PieceReplay::run(CoarseTriangleVisitor& visitor, const char* stage, const RunContext& context) const {
   std::vector<PieceList> pieces(mt_.triangleIdCount());
   tbb::enumerable_thread_specific<PieceDivision> divisions([&] { return PieceDivision(original_); });
@@ -91,18 +104,25 @@ Status PieceReplay::run(CoarseTriangleVisitor& visitor, const char* stage, const
         std::array<Vec3, kMaxHoleCorners> places;
         for (std::size_t i = from; i < to; ++i) {
           const NodeId n(nodes_[begin + i]);
-          division.clear();
-          for (std::uint32_t s = 0; s < mt_.ceilingSize(n); ++s) {
-            const std::uint32_t t = mt_.slotTriangle(n, s).index();
-            if (pieces[t].isEmpty())
-              division.add(faceOf_[t]);
-            else
-              division.add(std::exchange(pieces[t], {}));
-          }
           const auto link = mt_.link(n);
           for (std::size_t c = 0; c < link.size(); ++c) places[c] = positions_[link[c]];
           const HoleTriangulation floor = floorOf(mt_, n);
-          division.divide({places.data(), link.size()}, floor);
+          const StarLine line = lineOf(n);
+          for (int side = 0; side < (line.isThere() ? 2 : 1); ++side) {
+            division.clear();
+            for (std::uint32_t s = 0; s < mt_.ceilingSize(n); ++s) {
+              if (line.sideOfStar(static_cast<int>(s)) != side) continue;
+              const std::uint32_t t = mt_.slotTriangle(n, s).index();
+              if (pieces[t].isEmpty())
+                division.add(faceOf_[t]);
+              else
+                division.add(std::exchange(pieces[t], {}));
+            }
+            std::uint32_t members = 0;
+            for (int f = 0; f < floor.size; ++f)
+              if (line.sideOf(floor.triangles[f]) == side) members |= std::uint32_t{1} << f;
+            division.divide({places.data(), link.size()}, floor, members);
+          }
           for (int f = 0; f < floor.size; ++f) {
             const std::uint32_t t = mt_.floor(n)[static_cast<std::size_t>(f)];
             pieces[t] = division.takePieces(f);

@@ -11,6 +11,8 @@
 #include "engine/parallel/run_context.h"
 #include "surface/error/original.h"
 #include "surface/error/pieces.h"
+#include "surface/model/parts.h"
+#include "surface/model/surface_model.h"
 
 namespace arete {
 
@@ -37,7 +39,7 @@ class CoarseTriangleVisitor {
 /// front among the coarse triangles: PieceDivision, node by node.
 class PieceReplay {
  public:
-  explicit PieceReplay(const MultiTriangulation& mt);
+  explicit PieceReplay(const SurfaceModel& model);
   PieceReplay(const PieceReplay&) = delete;
   PieceReplay& operator=(const PieceReplay&) = delete;
 
@@ -50,8 +52,12 @@ class PieceReplay {
 
  private:
   void sortByHeight();
+  StarLine lineOf(NodeId n) const;
 
+  const SurfaceModel& model_;
   const MultiTriangulation& mt_;
+  std::vector<std::uint32_t> partOf_;
+  SurfaceParts parts_;
   std::vector<Vec3> positions_;
   std::vector<std::array<std::uint32_t, 3>> faces_;  // the finest front
   std::vector<std::uint32_t> faceOf_;                // by triangle of the finest front

@@ -95,7 +95,7 @@ PieceDivision::Whole PieceDivision::bestWhole(const SpaceTriangle& face, std::sp
 int PieceDivision::planCuts(const HoleTriangulation& floor, const FloorJoins& joins,
                             std::span<const Vec3> corners, std::uint32_t members) {
   const int size = std::popcount(members);
-  if (size == 1) return ~std::countr_zero(members);
+  if (size == 1) return -1;
   // The diagonal that divides the triangles most evenly. Those between its corners are below it.
   std::uint32_t bestBelow = 0;
   int best = -1;
@@ -114,8 +114,8 @@ int PieceDivision::planCuts(const HoleTriangulation& floor, const FloorJoins& jo
   }
   const FloorJoins::Diagonal& diagonal = joins.diagonals[best];
   const Vec3 along = corners[diagonal.to] - corners[diagonal.from];
-  const Vec3 normal =
-      unitOrZero(floor_.normal(diagonal.forth.triangle)) + unitOrZero(floor_.normal(diagonal.back.triangle));
+  const Vec3 normal = unitOrZero(floor_.normal(laneOf_[diagonal.forth.triangle])) +
+                      unitOrZero(floor_.normal(laneOf_[diagonal.back.triangle]));
   Cut cut{corners[diagonal.from], cross(normal, along), 0, 0};
   cut.below = planCuts(floor, joins, corners, bestBelow);
   cut.above = planCuts(floor, joins, corners, members & ~bestBelow);
@@ -154,7 +154,8 @@ void PieceDivision::cutAlong(int node, std::size_t depth, const SpaceTriangle& f
 
 void PieceDivision::assign(std::uint32_t face, std::uint32_t cuts, std::span<const FacePoint> polygon,
                            const SpaceTriangle& place, const Whole& whole) {
-  const auto f = static_cast<std::size_t>(whole.triangle);
+  const auto lane = static_cast<std::size_t>(whole.lane);
+  const std::size_t f = triangleOf_[lane];
   lists_[f].add(face, cuts, polygon);
   const double rounding = roundingOf(original_, place, isWholeFace(polygon) ? 0 : cuts);
   // A sum over the polygon's middle and corners that is exact for a triangle and a quadratic function.
@@ -165,22 +166,26 @@ void PieceDivision::assign(std::uint32_t face, std::uint32_t cuts, std::span<con
     const Vec3 at = placeOf(p, place);
     middle = middle + at;
     floor_.squares(at, squares);
-    atCorners += squares[f];
+    atCorners += squares[lane];
   }
   const double count = double(polygon.size()), unit = 1.0 / FacePoint::kOne;
   const double area =
       norm(cross(place[1] - place[0], place[2] - place[0])) / 2 * (double(twiceArea(polygon)) * unit * unit);
   integrals_[f].area += area;
   floor_.squares(middle / count, squares);
-  integrals_[f].squared += area * (0.75 * squares[f] + 0.25 * atCorners / count);
+  integrals_[f].squared += area * (0.75 * squares[lane] + 0.25 * atCorners / count);
   bounds_[f] = std::max(bounds_[f], std::sqrt(whole.squared) * (1 + 1e-12) + rounding);
 }
 
-void PieceDivision::divide(std::span<const Vec3> corners, const HoleTriangulation& floor) {
+void PieceDivision::divide(std::span<const Vec3> corners, const HoleTriangulation& floor,
+                           std::uint32_t members) {
   joinParts();
   floor_.clear();
   for (int t = 0; t < floor.size; ++t) {
+    if ((members >> t & 1) == 0) continue;
     const auto& [i, j, m] = floor.triangles[t];
+    laneOf_[t] = static_cast<std::uint8_t>(floor_.size());
+    triangleOf_[floor_.size()] = static_cast<std::uint8_t>(t);
     floor_.add({corners[i], corners[j], corners[m]});
     lists_[t].clear();
     bounds_[t] = 0;
@@ -197,12 +202,12 @@ void PieceDivision::divide(std::span<const Vec3> corners, const HoleTriangulatio
   bool isPlanned = false;
   for (const Part& part : parts_) {
     const SpaceTriangle face = original_.face(part.face);
-    if (part.whole.squared <= kWholeEnough * kWholeEnough * anyway || floor.size == 1) {
+    if (part.whole.squared <= kWholeEnough * kWholeEnough * anyway || floor_.size() == 1) {
       assign(part.face, part.cuts, polygonOf(part), face, part.whole);
       continue;
     }
     if (!isPlanned) {
-      root = planCuts(floor, FloorJoins(floor), corners, (std::uint32_t{1} << floor.size) - 1);
+      root = planCuts(floor, FloorJoins(floor), corners, members);
       isPlanned = true;
     }
     leafCount_ = 0;

@@ -26,7 +26,7 @@ inline double roundingOf(const OriginalSurface& original, const SpaceTriangle& f
 }
 
 /// Divides the pieces of a star among the triangles of the floor that replaces it, and bounds how far each
-/// triangle is from its pieces.
+/// triangle is from its pieces. Where a line divides both, each side is divided by itself.
 ///
 /// The distance to a triangle is a convex function, so its maximum over a piece, a convex polygon, is at a
 /// corner. A piece that belongs to one triangle as a whole is bounded exactly by its corners. A piece that
@@ -45,9 +45,14 @@ class PieceDivision {
 
   /// @param corners of the hole, and
   /// @param floor the triangles that fill it.
-  void divide(std::span<const Vec3> corners, const HoleTriangulation& floor);
+  void divide(std::span<const Vec3> corners, const HoleTriangulation& floor) {
+    divide(corners, floor, (std::uint32_t{1} << floor.size) - 1);
+  }
+  /// @param members of the floor, a bit for each triangle: those that the pieces may belong to. They fill a
+  ///        polygon. Precondition: not empty.
+  void divide(std::span<const Vec3> corners, const HoleTriangulation& floor, std::uint32_t members);
 
-  // After divide(), by triangle of the floor:
+  // After divide(), by triangle of the floor, until a later one has the triangle as a member:
   PieceList takePieces(int f) { return lists_[static_cast<std::size_t>(f)].finish(); }
   /// No point of its pieces is farther from the triangle: rounded outwards.
   double bound(int f) const { return bounds_[static_cast<std::size_t>(f)]; }
@@ -60,7 +65,7 @@ class PieceDivision {
  private:
   /// The triangle that a piece belongs to as a whole, and its largest squared distance.
   struct Whole {
-    int triangle = 0;
+    int lane = 0;  // in floor_
     double squared = 0;
   };
   struct Part {
@@ -68,7 +73,7 @@ class PieceDivision {
     std::uint32_t begin, end;  // in points_
     Whole whole;
   };
-  /// A plane through a diagonal; on either side a further one, or ~triangle.
+  /// A plane through a diagonal; on either side a further one, or -1.
   struct Cut {
     Vec3 point, normal;
     int below, above;
@@ -100,7 +105,9 @@ class PieceDivision {
   const OriginalSurface& original_;
   std::vector<Part> parts_;
   FacePolygon points_, hull_;
-  FloorDistance floor_;
+  FloorDistance floor_;  // of the members
+  /// By lane of floor_, the triangle; and by triangle, the lane.
+  std::array<std::uint8_t, kMaxHoleCorners> triangleOf_{}, laneOf_{};
   std::vector<Cut> tree_;
   std::vector<Leaf> leaves_;
   std::size_t leafCount_ = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface/fit/held_vertices.h"
 
+#include "surface/model/parts.h"
 #include "surface/topology/edges.h"
 
 namespace arete {
@@ -9,6 +10,7 @@ std::vector<std::uint8_t> heldVertices(const SurfaceMesh& mesh, bool keepsBorder
   constexpr std::uint32_t kNone = MeshAttributes::kNone;
   const std::size_t vertices = mesh.positions.size();
   std::vector<std::uint8_t> isHeld(vertices, 0);
+  const std::vector<std::uint32_t> parts = partsOf(mesh, mesh.triangles.size());
   // By vertex, what its first triangle has there.
   std::vector<std::uint32_t> first(vertices, kNone), wedge(vertices, kNone);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
@@ -19,11 +21,8 @@ std::vector<std::uint8_t> heldVertices(const SurfaceMesh& mesh, bool keepsBorder
         if (mesh.hasWedges()) wedge[v] = mesh.wedges[t][c];
         continue;
       }
-      const auto differs = [&](const std::vector<std::uint32_t>& parts) {
-        return !parts.empty() && parts[t] != parts[first[v]];
-      };
-      if ((mesh.hasWedges() && mesh.wedges[t][c] != wedge[v]) || differs(mesh.objectOf) ||
-          differs(mesh.materialOf))
+      if ((mesh.hasWedges() && mesh.wedges[t][c] != wedge[v]) ||
+          (!parts.empty() && parts[t] != parts[first[v]]))
         isHeld[v] = 1;
     }
   if (!keepsBorders) return isHeld;

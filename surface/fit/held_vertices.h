@@ -9,7 +9,7 @@
 namespace arete {
 
 /// By vertex: whether it stays in a fit, because something ends there that would be torn off: it has several
-/// wedges, or triangles of several objects or materials. O(triangles).
+/// wedges, or triangles of several objects, materials or labels. O(n log n).
 /// @param keepsBorders  vertices on borders stay, too
 std::vector<std::uint8_t> heldVertices(const SurfaceMesh& mesh, bool keepsBorders);
 

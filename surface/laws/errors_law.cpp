@@ -12,9 +12,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "engine/base/nearest_on_triangle.h"
 #include "surface/displacement/displaced_places.h"
+#include "surface/model/charts.h"
 
 namespace arete {
 namespace {
@@ -59,10 +61,11 @@ Box boxOf(const SpaceTriangle& t, double wider, std::uint32_t number) {
   return {low.data(), high.data(), number};
 }
 
-Status check(const PlacedFront& front, const char* what, std::span<const Vec3> samples,
+Status check(const PlacedFront& front, const char* what, const SourceSamples& samples,
              const RunContext& context) {
   double largest = 0;
-  for (const Vec3& p : samples) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  for (const Vec3& p : samples.places)
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   const double ulps = 64 * std::numeric_limits<double>::epsilon() * largest;
   std::vector<Box> triangles, points;
   std::vector<double> allowed;
@@ -71,15 +74,18 @@ Status check(const PlacedFront& front, const char* what, std::span<const Vec3> s
     allowed.push_back(front.errors[t] + slackOf(place, ulps));
     triangles.push_back(boxOf(place, allowed.back(), t));
   }
-  for (std::uint32_t i = 0; i < samples.size(); ++i)
-    points.push_back(boxOf({samples[i], samples[i], samples[i]}, 0, i));
-  std::vector<std::uint8_t> isNear(samples.size(), 0);
+  for (std::uint32_t i = 0; i < samples.places.size(); ++i) {
+    const Vec3& p = samples.places[i];
+    points.push_back(boxOf({p, p, p}, 0, i));
+  }
+  std::vector<std::uint8_t> isNear(samples.places.size(), 0);
   std::uint64_t tests = 0;
   const auto test = [&](const Box& triangle, const Box& point) {
     if (++tests % 65536 == 0 && context.cancelled()) throw Interrupted{};
     if (isNear[point.info()]) return;
     const std::uint32_t t = triangle.info();
-    isNear[point.info()] = distanceToTriangle(samples[point.info()], front.triangle(t)) <= allowed[t];
+    if (!samples.charts.empty() && samples.chartOf[front.cut.ids[t]] != samples.charts[point.info()]) return;
+    isNear[point.info()] = distanceToTriangle(samples.places[point.info()], front.triangle(t)) <= allowed[t];
   };
   try {
     CGAL::box_intersection_d(triangles.begin(), triangles.end(), points.begin(), points.end(), test);
@@ -88,36 +94,53 @@ Status check(const PlacedFront& front, const char* what, std::span<const Vec3> s
   }
   const auto far = std::ranges::find(isNear, 0);
   if (far == isNear.end()) return {};
-  const Vec3& p = samples[std::size_t(far - isNear.begin())];
+  const Vec3& p = samples.places[std::size_t(far - isNear.begin())];
   return failure(ErrorCode::brokenPromise,
-                 fmt::format("law 10: in a {} of {} triangles none is as near to the source at {:.9g}, "
+                 fmt::format("law 10: in a {} of {} triangles none{} is as near to the source at {:.9g}, "
                              "{:.9g}, {:.9g} as its error says",
-                             what, front.cut.triangles.size(), p.x, p.y, p.z));
+                             what, front.cut.triangles.size(),
+                             samples.charts.empty() ? "" : " of the same part and chart", p.x, p.y, p.z));
 }
 
 }  // namespace
 
-std::vector<Vec3> samplesOfSource(const SurfaceModel& model, bool isFull) {
+SourceSamples samplesOfSource(const SurfaceModel& model, bool isFull) {
   const MultiTriangulation& mt = model.mt;
-  std::vector<Vec3> samples;
-  for (std::uint32_t v = 0; v < mt.vertexCount(); ++v) samples.push_back(mt.position(VertexId(v)));
-  if (!isFull) return samples;
+  SourceSamples samples;
+  samples.chartOf = chartsOf(model);
   const Cut finest = frontOfPrefix(mt, mt.nodeCount());
+  if (samples.chartOf.empty()) {
+    for (std::uint32_t v = 0; v < mt.vertexCount(); ++v) samples.places.push_back(mt.position(VertexId(v)));
+  } else {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> vertices;  // with a chart each
+    for (std::size_t t = 0; t < finest.triangles.size(); ++t)
+      for (const std::uint32_t v : finest.triangles[t])
+        vertices.emplace_back(finest.vertices[v], samples.chartOf[finest.ids[t]]);
+    std::ranges::sort(vertices);
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    for (const auto& [v, chart] : vertices) {
+      samples.places.push_back(mt.position(VertexId(v)));
+      samples.charts.push_back(chart);
+    }
+  }
+  if (!isFull) return samples;
   const PlacedFront front = placed(mt, finest);
   for (std::size_t t = 0; t < finest.triangles.size(); ++t) {
     const auto [a, b, c] = front.triangle(t);
-    samples.push_back(a / 3 + b / 3 + c / 3);
-    for (const Vec3& middle : {a / 2 + b / 2, b / 2 + c / 2, c / 2 + a / 2}) samples.push_back(middle);
+    for (const Vec3& p : {a / 3 + b / 3 + c / 3, a / 2 + b / 2, b / 2 + c / 2, c / 2 + a / 2}) {
+      samples.places.push_back(p);
+      if (!samples.chartOf.empty()) samples.charts.push_back(samples.chartOf[finest.ids[t]]);
+    }
   }
   return samples;
 }
 
-Status checkErrors(const MultiTriangulation& mt, const Cut& front, std::span<const Vec3> samples,
+Status checkErrors(const MultiTriangulation& mt, const Cut& front, const SourceSamples& samples,
                    const RunContext& context) {
   return check(placed(mt, front), "front", samples, context);
 }
 
-Status checkDisplacedErrors(const SurfaceModel& model, const Cut& front, std::span<const Vec3> samples,
+Status checkDisplacedErrors(const SurfaceModel& model, const Cut& front, const SourceSamples& samples,
                             const RunContext& context) {
   PlacedFront drawn = placed(model.mt, front);
   for (const bool isEverywhere : {false, true}) {

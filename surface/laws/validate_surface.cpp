@@ -138,7 +138,7 @@ Status validateSurface(const SurfaceModel& model, const SurfaceLawOptions& optio
   if (Status valid = checkFaces(model); !valid) return valid;
   const Result<SurfaceTopology> topology = SurfaceTopology::of(mt, context);
   if (!topology) return tl::unexpected(topology.error());
-  const std::vector<Vec3> samples = samplesOfSource(model, options.everySample);
+  const SourceSamples samples = samplesOfSource(model, options.everySample);
   constexpr std::uint64_t kFronts = 16;
   for (std::uint64_t i = 0; i < kFronts; ++i) {
     const auto nodes = static_cast<std::uint32_t>(mt.nodeCount() * i / kFronts);

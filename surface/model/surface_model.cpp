@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "surface/model/parts.h"
+
 namespace arete {
 namespace {
 
@@ -13,6 +15,10 @@ Status refuse(const std::string& what) {
 }
 
 }  // namespace
+
+bool SurfaceModel::mayHaveLines() const {
+  return hasWedges() || !partsOf(attributes, std::size_t{sourceFaces}).empty();
+}
 
 Status SurfaceModel::validate() const {
   const MeshAttributes& a = attributes;

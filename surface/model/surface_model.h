@@ -43,8 +43,8 @@ struct SurfaceMending {
 /// The result of the build of a surface and the content of its .amt file.
 ///
 /// The error of a triangle is the largest distance of the part of the source that it stands for; so the
-/// largest one of a cut bounds the distance from any point of the source to the cut. The root mean square of
-/// these distances is in MtArrays::rms.
+/// largest one of a cut bounds the distance from any point of the source to the cut, and that to the same
+/// part and chart of it (boundsLines). The root mean square of these distances is in MtArrays::rms.
 struct SurfaceModel {
   MultiTriangulation mt;
 
@@ -73,6 +73,10 @@ struct SurfaceModel {
   /// Where coarse cuts are drawn; empty: where the source's vertices are.
   SurfaceDisplacement displacement;
 
+  /// Whether errors are distances to the same part and chart (surface/model/parts.h). Not so where there are
+  /// no lines, nor in models that earlier versions built, whose errors are distances to anything.
+  bool boundsLines = false;
+
   std::uint64_t sourceVertices = 0, sourceFaces = 0;
   std::uint64_t fileFaces = 0;  ///< as the file counts them, which may have more corners than three
   /// The largest distance by which rounding has moved a vertex of the source; every error includes it twice.
@@ -87,6 +91,8 @@ struct SurfaceModel {
   std::string up;  ///< "y", "z", or empty: not known
 
   bool hasWedges() const { return !wedgesOf.empty(); }
+  /// Whether it may have lines: seams, or edges between objects, materials or labels.
+  bool mayHaveLines() const;
   /// Checks the sizes of all arrays and every index beside the MT's. Errors: invalidData. O(size).
   Status validate() const;
 };

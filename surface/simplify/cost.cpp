@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace arete {
 namespace {
@@ -15,6 +16,9 @@ namespace {
 /// Of the integral of a fan that folds the surface: it waits until the error is eight times as large, and
 /// then what is around has mostly changed.
 constexpr double kFoldWeight = 64;
+/// Of the square of a line's largest deviation and of its new edge's length: about what a surface has that is
+/// a pyramid as high over a hexagon with such edges.
+constexpr double kLineWeight = 0.4;
 
 }  // namespace
 
@@ -28,7 +32,10 @@ void SurfaceCost::collectSamples() {
   }
   const std::size_t step = pieces / (kMostSamples * 2 / 3) + 1;
   std::size_t number = 0;
+  otherSide_ = {0, 0};
   for (int i = 0; i < star.triangleCount; ++i) {
+    for (std::size_t end = 0; end < 2; ++end)
+      if (i == hole_.line().ends[end]) otherSide_[end] = samples_.size();
     const SlotId slot = star.slot(i);
     const PieceList& list = s_.pieces[slot];
     const auto add = [&](const Piece& piece) {
@@ -43,20 +50,49 @@ void SurfaceCost::collectSamples() {
 
 double SurfaceCost::integralOver(int corner, double limit) {
   const HoleTriangulation fan = fanAround(corner, hole_.corners());
-  fan_.clear();
+  const StarLine& line = hole_.line();
   double sum = 0;
-  for (const auto& [i, j, m] : fan.view()) {
-    const SpaceTriangle triangle{hole_.corner(i), hole_.corner(j), hole_.corner(m)};
-    fan_.add(triangle);
-    sum += star_.nearest((triangle[0] + triangle[1] + triangle[2]) / 3.0) *
-           norm(fan_.normal(fan_.size() - 1)) / 2;
-  }
-  if (sum > limit) return sum;
-  for (const SurfaceSample& sample : samples_) {
-    sum += fan_.nearest(sample.place) * sample.area;
+  for (int side = 0; side < (line.isThere() ? 2 : 1); ++side) {
+    fan_.clear();
+    for (const auto& corners : fan.view()) {
+      if (line.sideOf(corners) != side) continue;
+      const auto& [i, j, m] = corners;
+      const SpaceTriangle triangle{hole_.corner(i), hole_.corner(j), hole_.corner(m)};
+      fan_.add(triangle);
+      sum += star_[static_cast<std::size_t>(side)].nearest((triangle[0] + triangle[1] + triangle[2]) / 3.0) *
+             norm(fan_.normal(fan_.size() - 1)) / 2;
+    }
     if (sum > limit) return sum;
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      if ((i >= otherSide_[0] && i < otherSide_[1]) != (side == 1)) continue;
+      sum += fan_.nearest(samples_[i].place) * samples_[i].area;
+      if (sum > limit) return sum;
+    }
   }
   return sum;
+}
+
+double SurfaceCost::integralAlongLine() const {
+  const StarLine& line = hole_.line();
+  if (!line.isThere()) return 0;
+  const VertexId first = hole_.star().link[line.ends[0]], second = hole_.star().link[line.ends[1]];
+  const Vec3 a = s_.position(first), along = s_.position(second) - a;
+  const double squaredLength = dot(along, along);
+  const auto squaredFrom = [&](const Vec3& p) {
+    const Vec3 away = p - a;
+    const double at = squaredLength > 0 ? std::clamp(dot(away, along) / squaredLength, 0.0, 1.0) : 0;
+    return squaredDistance(away, at * along);
+  };
+  double squared = squaredFrom(hole_.apex());
+  for (const VertexId way : s_.lineNext[hole_.vertex()]) {
+    VertexId before = hole_.vertex();
+    for (VertexId at = way; at.isValid() && at != first && at != second && at != hole_.vertex();) {
+      squared = std::max(squared, squaredFrom(s_.position(at)));
+      const auto& [one, other] = s_.lineNext[at];
+      at = std::exchange(before, at) == one ? other : one;
+    }
+  }
+  return kLineWeight * squared * squaredLength;
 }
 
 double SurfaceCost::integralBeyondBorder() const {
@@ -111,15 +147,16 @@ void SurfaceCost::evaluate(VertexId v, double threshold, RemovalRecord& record) 
   int best = -1;
   double above = std::numeric_limits<double>::infinity();
   bool hasSamples = false;
-  const double gap = integralBeyondBorder();
+  const double gap = integralBeyondBorder() + integralAlongLine();
   for (int k = 0; k < count; ++k) {
     const int corner = candidates[k].corner;
     if (!hole_.keepsTopology(s_, corner)) continue;
     if (!hasSamples) {
       collectSamples();
-      star_.clear();
+      for (FloorDistance& side : star_) side.clear();
       for (int t = 0; t < hole_.star().triangleCount; ++t)
-        star_.add({hole_.apex(), hole_.corner(t), hole_.corner(t + 1 < hole_.corners() ? t + 1 : 0)});
+        star_[static_cast<std::size_t>(hole_.line().sideOfStar(t))].add(
+            {hole_.apex(), hole_.corner(t), hole_.corner(t + 1 < hole_.corners() ? t + 1 : 0)});
       hasSamples = true;
     }
     const double weight = hole_.folds(s_, corner) ? kFoldWeight : 1;

@@ -16,8 +16,9 @@ namespace arete {
 /// The cost of a removal: the integral, over the part of the original that the star stands for, of the
 /// squared distance to the fan that fills the hole; and, so that no triangle bridges a gap, that over the fan
 /// of the squared distance to the star, from the triangles' middles; on a border also that over what the fan
-/// covers beyond the original border; more of it where the fan folds the surface. Its root, so that
-/// thresholds grow with areas. The fan with the least is taken.
+/// covers beyond the original border; on a line, whose sides are compared each by itself, also that of the
+/// line; more of it where the fan folds the surface. Its root, so that thresholds grow with areas. The fan
+/// with the least is taken.
 class SurfaceCost {
  public:
   explicit SurfaceCost(const SurfaceState& state) : s_(state) {}
@@ -38,13 +39,17 @@ class SurfaceCost {
   void collectSamples();
   /// The integral over the gap between the new border edge and the original border, where that runs inside.
   double integralBeyondBorder() const;
+  /// The integral of what the new edge of a line leaves of the original line, as if it were of a surface.
+  double integralAlongLine() const;
 
   static constexpr std::size_t kMostSamples = 64;
 
   const SurfaceState& s_;
   SurfaceHole hole_;
   std::vector<SurfaceSample> samples_;
-  FloorDistance fan_, star_;
+  std::array<std::size_t, 2> otherSide_{};  // in samples_: those of side 1 of a line
+  FloorDistance fan_;
+  std::array<FloorDistance, 2> star_;  // by side of a line
 };
 
 }  // namespace arete

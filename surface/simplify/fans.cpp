@@ -2,7 +2,6 @@
 #include "surface/simplify/fans.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace arete {
 namespace {
@@ -88,34 +87,21 @@ bool SurfaceHole::gather(const SurfaceState& state, VertexId v) {
     normals_[i] = cross(places_[i] - apex_, places_[next(i)] - apex_);
     normal_ = normal_ + normals_[i];
   }
-  line_ = {-1, -1};
+  line_ = {};
   if (!state.parts.hasLines()) return true;
-  findLine(state);
-  return line_[1] != -2;
-}
-
-void SurfaceHole::findLine(const SurfaceState& state) {
-  int count = 0;
-  const int spokes = star_.isOpen ? star_.triangleCount - 1 : star_.triangleCount;
-  for (int s = 0; s < spokes; ++s) {
-    // The spoke to link[s + 1] lies between the triangles s and s + 1.
-    const int after = s + 1 < star_.triangleCount ? s + 1 : 0;
-    const TriangleLabels a = state.labelsOf(star_.slot(s)), b = state.labelsOf(star_.slot(after));
-    const std::uint32_t sideA = LiveMesh::sideOf(star_.outgoing[s]),
-                        sideB = LiveMesh::sideOf(star_.outgoing[after]);
-    if (state.parts.areAlike(a, b) && a.wedges[sideA] == b.wedges[sideB] &&
-        a.wedges[(sideA + 2) % 3] == b.wedges[(sideB + 1) % 3])
-      continue;
-    if (count < 2) line_[count] = after;
-    ++count;
-  }
-  if (count == 2 && line_[1] < line_[0]) std::swap(line_[0], line_[1]);
-  // A line must pass: it neither ends nor branches here, nor meets a border.
-  if (count != 0 && (count != 2 || star_.isOpen)) line_[1] = -2;
+  line_ = lineThrough(state.parts, star_.triangleCount, star_.isOpen, [&](int t) {
+    TriangleLabels labels = state.labelsOf(star_.slot(t));
+    std::rotate(labels.wedges.begin(), labels.wedges.begin() + LiveMesh::sideOf(star_.outgoing[t]),
+                labels.wedges.end());
+    return labels;
+  });
+  if (!line_.passes || !line_.isThere()) return line_.passes;
+  const int triangles = line_.ends[1] - line_.ends[0];
+  return triangles > 1 && star_.triangleCount - triangles > 1;
 }
 
 bool SurfaceHole::keepsShape(int corner) const {
-  if (line_[0] >= 0 && corner != line_[0] && corner != line_[1]) return false;
+  if (line_.isThere() && corner != line_.ends[0] && corner != line_.ends[1]) return false;
   const Vec3& u = places_[corner];
   for (int a = next(corner); next(a) != corner; a = next(a)) {
     const Vec3 normal = cross(places_[a] - u, places_[next(a)] - u);
@@ -191,19 +177,8 @@ bool SurfaceHole::keepsTopology(const SurfaceState& state, int corner) const {
 
 TriangleLabels SurfaceHole::labelsOf(const SurfaceState& state,
                                      const std::array<std::uint8_t, 3>& triangle) const {
-  // A triangle of the star on the same side of the line: one between two of the corners that follow each
-  // other, within the stretch of corners that the triangle spans.
-  const auto side = [&](int i) {
-    if (line_[0] < 0) return 0;
-    return i > line_[0] && i < line_[1] ? 1 : i == line_[0] || i == line_[1] ? 2 : 0;
-  };
-  int ownSide = 0;
-  for (const int i : triangle)
-    if (side(i) != 2) ownSide = side(i);
-  const auto isOnSide = [&](int t) {  // of a triangle of the star
-    if (line_[0] < 0) return true;
-    return (t >= line_[0] && t < line_[1]) == (ownSide == 1);
-  };
+  const int ownSide = line_.sideOf(triangle);
+  const auto isOnSide = [&](int t) { return line_.sideOfStar(t) == ownSide; };
   // The face of the triangle of the star that has the edge opposite the fan's corner; a new border edge has
   // none, so that of any triangle of its side.
   int heir = -1;

@@ -7,6 +7,7 @@
 #include "engine/base/vec.h"
 #include "engine/simplify/hole_triangles.h"
 #include "engine/simplify/live_mesh.h"
+#include "surface/model/parts.h"
 #include "surface/simplify/state.h"
 
 namespace arete {
@@ -20,7 +21,8 @@ HoleTriangulation fanAround(int corner, int corners);
 /// A fan keeps the surface a manifold of the same topology if none of its new edges is an edge of the mesh
 /// already (the link condition [DeyEdelsbrunnerGuhaNekhayev1999]). It turns no triangle over: each turns
 /// like the one that it replaces. On a line, where labels change, only the fans around the line's own
-/// neighbours keep the line.
+/// neighbours keep the line; and where one side of it is a single triangle, none does: that would leave the
+/// side nothing, so a part never vanishes, and a closed line keeps three vertices.
 class SurfaceHole {
  public:
   /// Gathers the star of v and reads nothing beyond it. False if no fan may fill it while the star is as it
@@ -30,6 +32,7 @@ class SurfaceHole {
   const Star& star() const { return star_; }
   VertexId vertex() const { return vertex_; }
   const Vec3& apex() const { return apex_; }
+  const StarLine& line() const { return line_; }
   int corners() const { return star_.linkSize; }
   const Vec3& corner(int i) const { return places_[i]; }
   std::span<const Vec3> places() const { return {places_.data(), static_cast<std::size_t>(star_.linkSize)}; }
@@ -48,7 +51,6 @@ class SurfaceHole {
   TriangleLabels labelsOf(const SurfaceState& state, const std::array<std::uint8_t, 3>& triangle) const;
 
  private:
-  void findLine(const SurfaceState& state);
   void gatherBeyond(const SurfaceState& state);
   int next(int i) const { return i + 1 < star_.linkSize ? i + 1 : 0; }
   int previous(int i) const { return i > 0 ? i - 1 : star_.linkSize - 1; }
@@ -65,8 +67,7 @@ class SurfaceHole {
   std::array<Vec3, kMaxHoleCorners> beyond_;
   double sharpest_ = 1;
   bool hasBeyond_ = false;
-  /// The corners to which a line leads from the vertex; -1: none.
-  std::array<int, 2> line_{-1, -1};
+  StarLine line_;
 };
 
 /// Whether two vertices have an edge. O(the smaller of their degrees).

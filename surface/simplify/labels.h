@@ -4,31 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "engine/memory/chunked_array.h"
+#include "surface/model/parts.h"
 
 namespace arete {
-
-/// What a triangle has beside its vertices.
-struct TriangleLabels {
-  std::uint32_t face = 0;                 ///< of the original, whose part and attributes it has
-  std::array<std::uint32_t, 3> wedges{};  ///< of its corners; zeros without wedges
-  bool operator==(const TriangleLabels&) const = default;
-};
-
-/// The lines of a surface, which all its levels keep: edges between triangles of different parts, and seams,
-/// where the wedges at an edge differ.
-struct SurfaceParts {
-  bool hasWedges = false;
-  /// By face of the original: equal numbers for the same object and material. Empty: all are alike.
-  std::span<const std::uint32_t> partOf = {};
-
-  bool hasLines() const { return hasWedges || !partOf.empty(); }
-  bool areAlike(const TriangleLabels& a, const TriangleLabels& b) const {
-    return partOf.empty() || partOf[a.face] == partOf[b.face];
-  }
-};
 
 /// Labels of many triangles. Without wedges only the faces take memory.
 class LabelArray {

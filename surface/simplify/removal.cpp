@@ -24,15 +24,7 @@ bool SurfaceRemover::remove(VertexId v, RemovalId removal, std::span<Seam> seams
   while (star.link[corner] != around) ++corner;
   const HoleTriangulation floor = fanAround(corner, star.linkSize);
 
-  division_.clear();
-  for (int i = 0; i < star.triangleCount; ++i) {
-    const SlotId slot = star.slot(i);
-    if (s_.pieces[slot].isEmpty())
-      division_.add(s_.labelsOf(slot).face);
-    else
-      division_.add(s_.pieces[slot]);
-  }
-  division_.divide(hole_.places(), floor);
+  dividePieces(floor);
   const std::uint32_t firstLabel = s_.recorder.firstSlot(removal);
   s_.firstStarLabel[v] = firstLabel;
   for (int i = 0; i < star.triangleCount; ++i) {
@@ -53,6 +45,26 @@ bool SurfaceRemover::remove(VertexId v, RemovalId removal, std::span<Seam> seams
   updateLink();
   s_.mesh.vertexHalfedge[v] = HalfedgeId();
   return star.isOpen;
+}
+
+void SurfaceRemover::dividePieces(const HoleTriangulation& floor) {
+  const Star& star = hole_.star();
+  const StarLine& line = hole_.line();
+  for (int side = 0; side < (line.isThere() ? 2 : 1); ++side) {
+    division_.clear();
+    for (int i = 0; i < star.triangleCount; ++i) {
+      if (line.sideOfStar(i) != side) continue;
+      const SlotId slot = star.slot(i);
+      if (s_.pieces[slot].isEmpty())
+        division_.add(s_.labelsOf(slot).face);
+      else
+        division_.add(s_.pieces[slot]);
+    }
+    std::uint32_t members = 0;
+    for (int f = 0; f < floor.size; ++f)
+      if (line.sideOf(floor.triangles[f]) == side) members |= std::uint32_t{1} << f;
+    division_.divide(hole_.places(), floor, members);
+  }
 }
 
 void SurfaceRemover::record(RemovalId removal, int floorSize) {

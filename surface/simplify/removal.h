@@ -23,6 +23,7 @@ class SurfaceRemover {
   bool remove(VertexId v, RemovalId removal, std::span<Seam> seams);
 
  private:
+  void dividePieces(const HoleTriangulation& floor);
   void record(RemovalId removal, int floorSize);
   void updateLink();
 

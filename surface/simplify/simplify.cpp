@@ -58,6 +58,38 @@ IdArray<VertexId, std::vector<VertexId>> borderNextOf(const LiveMesh& mesh) {
   return next;
 }
 
+/// SurfaceState::lineNext.
+IdArray<VertexId, std::vector<std::array<VertexId, 2>>> lineNextOf(const SurfaceState& s) {
+  IdArray<VertexId, std::vector<std::array<VertexId, 2>>> next;
+  if (!s.parts.hasLines()) return next;
+  std::vector<std::uint8_t> count(s.mesh.vertexCount(), 0);
+  const auto add = [&](VertexId v, VertexId to) {
+    if (next.size() == 0) next.assign(s.mesh.vertexCount(), {});
+    std::uint8_t& known = count[v.index()];
+    if (known < 2) next[v][known] = to;
+    known = std::min<std::uint8_t>(known + 1, 3);
+  };
+  const auto labelsFrom = [&](HalfedgeId h) {
+    TriangleLabels labels = s.labelsOf(LiveMesh::slotOf(h));
+    std::rotate(labels.wedges.begin(), labels.wedges.begin() + LiveMesh::sideOf(h), labels.wedges.end());
+    return labels;
+  };
+  for (std::uint32_t t = 0; t < s.mesh.triangles.size(); ++t)
+    for (std::size_t side = 0; side < 3; ++side) {
+      const HalfedgeId twin = s.mesh.triangles[SlotId(t)].twin[side];
+      if (!twin.isValid() || LiveMesh::slotOf(twin).index() < t) continue;
+      const HalfedgeId h = s.mesh.twinOf(twin);
+      const TriangleLabels a = labelsFrom(h), b = labelsFrom(twin);
+      if (s.parts.areAlike(a, b) && a.wedges[0] == b.wedges[1] && a.wedges[1] == b.wedges[0]) continue;
+      const VertexId from = s.mesh.origin(h), to = s.mesh.origin(twin);
+      add(from, to);
+      add(to, from);
+    }
+  for (std::uint32_t v = 0; v < next.size(); ++v)
+    if (count[v] != 2) next[VertexId(v)] = {};
+  return next;
+}
+
 }  // namespace
 
 Result<SurfaceRoot> simplifySurface(SurfaceState& s, const std::vector<std::uint8_t>& isFixed,
@@ -66,6 +98,7 @@ Result<SurfaceRoot> simplifySurface(SurfaceState& s, const std::vector<std::uint
   s.pieces.resize(s.mesh.triangles.size());
   s.firstStarLabel.assign(s.mesh.vertexCount(), 0);
   s.borderNext = borderNextOf(s.mesh);
+  s.lineNext = lineNextOf(s);
   s.starLabels.reserve(kMaxHoleCorners * s.mesh.vertexCount());
   s.records.resize(s.mesh.vertexCount());
   forRanges(LoopThreads::all, s.records.size(), 4096, [&](std::size_t begin, std::size_t end) {

@@ -42,6 +42,8 @@ struct SurfaceState {
   /// Of a vertex on a border of the original: the next one along it, the surface on the left. Empty without
   /// borders.
   IdArray<VertexId, std::vector<VertexId>> borderNext = {};
+  /// Of a vertex in the middle of one line of the original: the next ones along it. Empty without lines.
+  IdArray<VertexId, std::vector<std::array<VertexId, 2>>> lineNext = {};
   ThresholdList thresholds = {};
   IndependentSet::Records records = {};
   std::atomic<std::size_t> liveTriangles = 0;

@@ -52,7 +52,7 @@ TEST(ValidateSurface, FindsErrorsThatAreTooSmall) {
           << validateSurface(*built, {.everySample = everySample}).error().describe();
     const MultiTriangulation& mt = built->mt;
     const Cut root = frontOfPrefix(mt, 0);
-    const std::vector<Vec3> samples = samplesOfSource(*built, true);
+    const SourceSamples samples = samplesOfSource(*built, true);
     std::vector<OutwardScale::Code> codes(mt.arrays().error.begin(), mt.arrays().error.end());
     std::fill(codes.begin(), codes.end(), OutwardScale::Code{0});
     MtArrays arrays = mt.arrays();
