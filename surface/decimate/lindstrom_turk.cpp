@@ -17,6 +17,8 @@
 
 #include "surface/decimate/carried.h"
 #include "surface/decimate/contractions.h"
+#include "surface/decimate/part_lines.h"
+#include "surface/model/parts.h"
 
 namespace arete {
 namespace {
@@ -50,10 +52,15 @@ struct Constrained {
 };
 
 struct Guarded {
-  sms::LindstromTurk_placement<Mesh> inner;
+  PartLines<Mesh> lines;
+  sms::LindstromTurk_placement<Mesh> inner = {};
 
   template <class Profile>
   std::optional<Point> placeOf(const Profile& profile) const {
+    if (lines.areAt(profile.v0_v1())) {
+      const auto end = lines.chooseEnd(profile.v0_v1());
+      return end ? std::optional<Point>(profile.surface_mesh().point(*end)) : std::nullopt;
+    }
     const auto place = inner(profile);
     if (!place) return std::nullopt;
     const Point middle = CGAL::midpoint(profile.p0(), profile.p1());
@@ -66,6 +73,23 @@ struct Guarded {
   boost::optional<Point> operator()(const Profile& profile) const {
     const std::optional<Point> place = placeOf(profile);
     return place ? boost::optional<Point>(*place) : boost::none;
+  }
+};
+
+/// That of Lindstrom and Turk; what a line loses counts as what a border loses.
+struct Cost {
+  PartLines<Mesh> lines;
+  sms::LindstromTurk_cost<Mesh> inner = {};
+
+  template <class Profile, class Place>
+  auto operator()(const Profile& profile, const Place& place) const {
+    auto cost = inner(profile, place);
+    if (!cost || !place || !lines.areAt(profile.v0_v1())) return cost;
+    const bool isFirst = *place == profile.p0();
+    const double loss = isFirst ? lines.squaredLoss(profile.v1(), profile.v0())
+                                : lines.squaredLoss(profile.v0(), profile.v1());
+    *cost += 0.5 * loss / 4 * CGAL::squared_distance(profile.p0(), profile.p1());
+    return cost;
   }
 };
 
@@ -90,12 +114,14 @@ Result<DecimatedMesh> decimateByLindstromTurk(const SurfaceMesh& source, const D
   Constrained constrained;
   constrained.mesh = &mesh;
   constrained.keepsBorders = options.keepsBorders;
+  const std::vector<std::uint32_t> partOf = partsOf(source, source.triangles.size());
+  const PartLines<Mesh> lines(mesh, partOf);
   const auto steps = sms::edge_collapse(
       mesh, Stop{options.maxTriangles, context},
-      CGAL::parameters::get_cost(sms::LindstromTurk_cost<Mesh>())
+      CGAL::parameters::get_cost(Cost{lines})
           .get_placement(
               sms::Constrained_placement<sms::Bounded_normal_change_placement<Guarded>, Constrained>(
-                  constrained, sms::Bounded_normal_change_placement<Guarded>(Guarded{})))
+                  constrained, sms::Bounded_normal_change_placement<Guarded>(Guarded{lines})))
           .edge_is_constrained_map(constrained));
   if (context.cancelled()) return failure(ErrorCode::interrupted, "decimation was interrupted");
   TriangleMesh shape;
