@@ -22,6 +22,7 @@
 #include "surface/decimate/corner_attributes.h"
 #include "surface/decimate/crossing_guard.h"
 #include "surface/decimate/quadric.h"
+#include "surface/model/charts.h"
 #include "surface/topology/edges.h"
 
 namespace arete {
@@ -78,7 +79,13 @@ class Contractions {
         quadrics_(source.positions.size()),
         isOnBorder_(source.positions.size(), 0),
         isFace_(options.method == DecimateOperator::face),
-        candidatesOf_(source.positions.size()) {}
+        candidatesOf_(source.positions.size()) {
+    if (options.method == DecimateOperator::vertexPair) return;
+    chartOf_ = chartsOf(source);
+    leftOf_.assign(chartOf_.size(), 0);
+    for (std::uint32_t t = 0; t < chartOf_.size(); ++t)
+      if (mesh_.isThere(t)) ++leftOf_[chartOf_[t]];
+  }
 
   Result<DecimatedMesh> run() {
     addQuadrics();
@@ -159,10 +166,8 @@ class Contractions {
   bool isLine(const MeshEdges::Edge& edge) const {
     if (edge.sides.size() != 2) return false;
     const std::uint32_t s = triangleOf(edge.sides[0]).index(), t = triangleOf(edge.sides[1]).index();
-    const auto differs = [&](const std::vector<std::uint32_t>& parts) {
-      return !parts.empty() && parts[s] != parts[t];
-    };
-    if (differs(source_.objectOf) || differs(source_.materialOf)) return true;
+    const std::vector<std::uint32_t>& parts = attributes_.partOf();
+    if (!parts.empty() && parts[s] != parts[t]) return true;
     if (!source_.hasWedges()) return false;
     for (const std::uint32_t v : {edge.low.index(), edge.high.index()}) {
       const auto wedgeAt = [&](std::uint32_t of) {
@@ -302,12 +307,44 @@ class Contractions {
   bool isAllowed(const Step& step) const {
     if (!mayGo(step.vertices)) return false;
     if (options_.method != DecimateOperator::vertexPair && !mesh_.keepsTopology(step.vertices)) return false;
-    if (!mesh_.keepsTurns(step.vertices, step.place)) return false;
+    if (!mesh_.keepsTurns(step.vertices, step.place) || !leavesEveryChart(step)) return false;
     return !crossings_ || crossings_->keepsApart(step.vertices, step.place);
+  }
+
+  /// Calls visit(triangle) for those that a step removes: each has an edge that is contracted.
+  template <class Visit>
+  void forRemoved(const Step& step, const Visit& visit) const {
+    for (std::size_t i = 0; i < step.vertices.size(); ++i)
+      for (const std::uint32_t t : mesh_.trianglesOf(step.vertices[i])) {
+        const auto& corners = mesh_.corners(t);
+        const auto isThere = [&](std::size_t k) {
+          return std::ranges::find(corners, step.vertices[k]) != corners.end();
+        };
+        std::size_t before = 0, all = 0;
+        for (std::size_t k = 0; k < step.vertices.size(); ++k)
+          if (isThere(k)) {
+            before += k < i ? 1 : 0;
+            ++all;
+          }
+        if (before == 0 && all > 1) visit(t);
+      }
+  }
+  /// Whether every chart keeps a triangle: what lines enclose never vanishes.
+  bool leavesEveryChart(const Step& step) const {
+    if (chartOf_.empty()) return true;
+    bool leaves = true;
+    forRemoved(step, [&](std::uint32_t t) {
+      std::uint32_t same = 1;
+      forRemoved(step,
+                 [&](std::uint32_t other) { same += other != t && chartOf_[other] == chartOf_[t] ? 1 : 0; });
+      leaves = leaves && leftOf_[chartOf_[t]] > same;
+    });
+    return leaves;
   }
 
   void take(const Step& step) {
     ++result_.steps;
+    if (!chartOf_.empty()) forRemoved(step, [&](std::uint32_t t) { --leftOf_[chartOf_[t]]; });
     const std::uint32_t kept = step.vertices[0];
     attributes_.join(mesh_, step.vertices, weightsOf(step));
     for (const std::uint32_t v : std::span(step.vertices).subspan(1)) {
@@ -414,7 +451,8 @@ class Contractions {
   std::optional<CrossingGuard> crossings_;
   std::vector<Quadric> quadrics_;
   std::vector<std::uint8_t> isOnBorder_;
-  bool isFace_;  // candidates are triangles
+  std::vector<std::uint32_t> chartOf_, leftOf_;  // by triangle; by chart, how many triangles are left
+  bool isFace_;                                  // candidates are triangles
   std::vector<Candidate> candidates_;
   std::vector<std::vector<std::uint32_t>> candidatesOf_;           // by vertex; not of triangles
   using Entry = std::tuple<double, std::uint32_t, std::uint32_t>;  // cost, candidate, stamp

@@ -7,14 +7,12 @@
 #include <map>
 #include <tuple>
 
+#include "surface/model/parts.h"
+
 namespace arete {
 namespace {
 
 constexpr std::uint32_t kNone = MeshAttributes::kNone;
-
-std::uint32_t partOf(const std::vector<std::uint32_t>& parts, std::uint32_t t) {
-  return parts.empty() ? 0 : parts[t];
-}
 
 }  // namespace
 
@@ -64,7 +62,8 @@ Attribute CornerAttributes::Records::taken(const Attribute& attribute,
 }
 
 CornerAttributes::CornerAttributes(const SurfaceMesh& mesh)
-    : hasClasses_(mesh.hasWedges() || !mesh.objectOf.empty() || !mesh.materialOf.empty()),
+    : partOf_(partsOf(mesh, mesh.triangles.size())),
+      hasClasses_(mesh.hasWedges() || !partOf_.empty()),
       ofVertices_(mesh.vertexAttributes, mesh.positions.size()),
       ofClasses_(mesh.wedgeAttributes, 0) {
   const auto numbersOf = [](const Attribute& attribute, std::uint32_t element, std::vector<double>& to) {
@@ -75,14 +74,14 @@ CornerAttributes::CornerAttributes(const SurfaceMesh& mesh)
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
       numbersOf(*ofVertices_.attributes[a], v, ofVertices_.values[a]);
   if (!hasClasses_) return;
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> known;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> known;
   classOf_.reserve(3 * mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t wedge = mesh.hasWedges() ? mesh.wedges[t][c] : kNone;
-      const auto [at, isNew] = known.try_emplace(
-          {mesh.triangles[t][c], wedge, partOf(mesh.objectOf, t), partOf(mesh.materialOf, t)},
-          static_cast<std::uint32_t>(wedgeOf_.size()));
+      const auto [at, isNew] =
+          known.try_emplace({mesh.triangles[t][c], wedge, partOf_.empty() ? 0 : partOf_[t]},
+                            static_cast<std::uint32_t>(wedgeOf_.size()));
       if (isNew) wedgeOf_.push_back(wedge);
       classOf_.push_back(at->second);
     }

@@ -10,14 +10,16 @@
 
 namespace arete {
 
-/// What vertices and corners carry while vertices are contracted. Corners of a vertex that share wedge,
-/// object and material are one class. A vertex of several classes is on a line, as of a seam; it moves along
-/// it alone: each class of a vertex that goes must continue as one class of the vertex that stays, which a
-/// triangle between them tells.
+/// What vertices and corners carry while vertices are contracted. Corners of a vertex that share wedge and
+/// part (surface/model/parts.h) are one class. A vertex of several classes is on a line, as of a seam; it
+/// moves along it alone: each class of a vertex that goes must continue as one class of the vertex that
+/// stays, which a triangle between them tells.
 class CornerAttributes {
  public:
   explicit CornerAttributes(const SurfaceMesh& mesh);
 
+  /// By triangle of the source: partsOf().
+  const std::vector<std::uint32_t>& partOf() const { return partOf_; }
   bool isOnLine(const ContractionMesh& mesh, std::uint32_t v) const;
   /// Whether every class of the other vertices continues at the first one. Before the contraction.
   bool mayJoin(const ContractionMesh& mesh, std::span<const std::uint32_t> vertices) const;
@@ -51,6 +53,7 @@ class CornerAttributes {
   std::uint32_t continued(const ContractionMesh& mesh, std::uint32_t v, std::uint32_t classOfV,
                           std::uint32_t kept) const;
 
+  std::vector<std::uint32_t> partOf_;
   bool hasClasses_ = false;
   std::vector<std::uint32_t>
       classOf_;  ///< by corner 3 t + c; a class is a wedge, or more than a wedge at parts' edges
