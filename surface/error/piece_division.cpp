@@ -5,7 +5,9 @@
 // error that the floor has anyway. Pieces that stay well below it as a whole need no cut. The others are cut
 // by the planes through the floor's diagonals that halve the angle there: the diagonals are a binary tree, of
 // which a polygon passes the part that it lies across. Each part then belongs to the triangle that is nearest
-// to it as a whole, whichever that is, so what a cut does not reach makes a bound larger and never wrong.
+// to it as a whole, whichever that is, so what a cut does not reach makes a bound larger and never wrong. A
+// plane goes on behind the diagonal's ends, and a hole with a reflex corner is not what the tree takes it
+// for: there further cuts by any of the planes help.
 #include "surface/error/piece_division.h"
 
 #include <algorithm>
@@ -18,6 +20,8 @@ namespace {
 
 /// Pieces below this part of the floor's error are not cut.
 constexpr double kWholeEnough = 0.7;
+/// Of more pieces of a face the convex hull is taken, which is farther than they are where they do not touch.
+constexpr std::size_t kMostApart = 24;
 
 Vec3 unitOrZero(const Vec3& a) {
   const double length = norm(a);
@@ -53,22 +57,48 @@ void PieceDivision::joinParts() {
   for (std::size_t i = 0, end; i < parts_.size(); i = end) {
     end = i + 1;
     while (end < parts_.size() && parts_[end].face == parts_[i].face) ++end;
-    Part part = parts_[i];
-    if (end - i > 1) {
-      hull_.clear();
-      for (std::size_t k = i; k < end; ++k) {
-        hull_.insert(hull_.end(), points_.begin() + parts_[k].begin, points_.begin() + parts_[k].end);
-        part.cuts = std::max(part.cuts, parts_[k].cuts);
-      }
-      takeConvexHull(hull_);
-      if (isWholeFace(hull_)) part.cuts = 0;
-      part.begin = static_cast<std::uint32_t>(points_.size());
-      points_.insert(points_.end(), hull_.begin(), hull_.end());
-      part.end = static_cast<std::uint32_t>(points_.size());
+    const std::size_t first = kept;
+    parts_[kept++] = parts_[i];
+    if (end - i == 1) continue;
+    if (!cutsFurther_ || end - i > kMostApart) {
+      join(std::span(parts_).subspan(i, end - i), parts_[first]);
+      continue;
     }
-    parts_[kept++] = part;
+    // Each with those before that it fills a convex polygon with.
+    for (std::size_t k = i + 1; k < end; ++k) {
+      Part part = parts_[k];
+      for (std::size_t m = first; m < kept;) {
+        const std::array<Part, 2> both{parts_[m], part};
+        Part joined = part;
+        const std::int64_t apart = twiceArea(polygonOf(both[0])) + twiceArea(polygonOf(both[1]));
+        join(both, joined);
+        if (twiceArea(polygonOf(joined)) > apart + std::int64_t{FacePoint::kOne} * (joined.cuts + 4)) {
+          ++m;
+          continue;
+        }
+        part = joined;
+        parts_[m] = parts_[--kept];
+        m = first;
+      }
+      parts_[kept++] = part;
+    }
   }
   parts_.resize(kept);
+}
+
+void PieceDivision::join(std::span<const Part> some, Part& into) {
+  hull_.clear();
+  std::uint32_t cuts = 0;
+  for (const Part& part : some) {
+    hull_.insert(hull_.end(), points_.begin() + part.begin, points_.begin() + part.end);
+    cuts = std::max(cuts, part.cuts);
+  }
+  takeConvexHull(hull_);
+  into.face = some[0].face;
+  into.cuts = isWholeFace(hull_) ? 0 : cuts;
+  into.begin = static_cast<std::uint32_t>(points_.size());
+  points_.insert(points_.end(), hull_.begin(), hull_.end());
+  into.end = static_cast<std::uint32_t>(points_.size());
 }
 
 PieceDivision::Whole PieceDivision::bestWhole(const SpaceTriangle& face, std::span<const FacePoint> polygon,
@@ -152,6 +182,49 @@ void PieceDivision::cutAlong(int node, std::size_t depth, const SpaceTriangle& f
   }
 }
 
+/// @param enough the squared distance below which a leaf is not cut
+void PieceDivision::cutFurther(std::size_t at, const SpaceTriangle& face, double enough,
+                               std::uint32_t depth) {
+  constexpr std::uint32_t kDeepest = 6;
+  // A cut adds rounding, which should stay well below what it gains.
+  const double added = 4 * roundingOf(original_, face, leaves_[at].cuts + 1);
+  enough = std::max(enough, added * added);
+  if (depth == kDeepest || leaves_[at].whole.squared <= enough) return;
+  Leaf below, above;
+  double least = leaves_[at].whole.squared;
+  bool isCut = false;
+  Halves& halves = halves_[0];
+  for (const Cut& plane : tree_) {
+    const FacePolygon& polygon = leaves_[at].polygon;
+    halves.heights.clear();
+    double low = 0, high = 0;
+    for (const FacePoint& p : polygon) {
+      const double height = dot(plane.normal, placeOf(p, face) - plane.point);
+      halves.heights.push_back(height);
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+    if (!(low < 0 && high > 0)) continue;
+    cut(polygon, halves.heights, halves.below, halves.above);
+    if (halves.below.empty() || halves.above.empty()) continue;
+    const Whole one = bestWhole(face, halves.below, nullptr), other = bestWhole(face, halves.above, nullptr);
+    const double worst = std::max(one.squared, other.squared);
+    const bool isFirst = !isCut && worst <= least && std::min(one.squared, other.squared) <= enough;
+    if (!(worst < least) && !isFirst) continue;
+    isCut = true;
+    least = worst;
+    below = {halves.below, leaves_[at].cuts + 1, one};
+    above = {halves.above, leaves_[at].cuts + 1, other};
+  }
+  if (!isCut) return;
+  if (leafCount_ == leaves_.size()) leaves_.emplace_back();
+  const std::size_t next = leafCount_++;
+  leaves_[at] = std::move(below);
+  leaves_[next] = std::move(above);
+  cutFurther(at, face, enough, depth + 1);
+  cutFurther(next, face, enough, depth + 1);
+}
+
 void PieceDivision::assign(std::uint32_t face, std::uint32_t cuts, std::span<const FacePoint> polygon,
                            const SpaceTriangle& place, const Whole& whole) {
   const auto lane = static_cast<std::size_t>(whole.lane);
@@ -213,6 +286,9 @@ void PieceDivision::divide(std::span<const Vec3> corners, const HoleTriangulatio
     leafCount_ = 0;
     hull_.assign(polygonOf(part).begin(), polygonOf(part).end());
     cutAlong(root, 0, face, hull_, part.cuts);
+    if (cutsFurther_)
+      for (std::size_t i = 0, count = leafCount_; i < count; ++i)
+        cutFurther(i, face, kWholeEnough * kWholeEnough * anyway, 0);
     double worst = 0;
     const std::span<const Leaf> leaves(leaves_.data(), leafCount_);
     for (const Leaf& leaf : leaves) worst = std::max(worst, leaf.whole.squared);

@@ -33,12 +33,15 @@ inline double roundingOf(const OriginalSurface& original, const SpaceTriangle& f
 /// lies across an edge of the floor is cut there, if keeping it whole would make the bound larger.
 class PieceDivision {
  public:
-  explicit PieceDivision(const OriginalSurface& original) : original_(original) {}
+  /// @param cutsFurther parts that the tree of cuts leaves too far are cut again, where other cuts bring them
+  ///        nearer, and no hull is taken across a gap: where there are lines, so that flat parts stay exact
+  explicit PieceDivision(const OriginalSurface& original, bool cutsFurther = false)
+      : original_(original), cutsFurther_(cutsFurther) {}
 
   /// Starts with no pieces.
   void clear();
   /// Adds the pieces of a triangle of the star. Those of one face are joined: their convex hull takes their
-  /// place, which has no other corners than theirs.
+  /// place, which has no other corners than theirs; beside lines only where they fill it.
   void add(const PieceList& pieces);
   /// Adds a whole face.
   void add(std::uint32_t face);
@@ -92,6 +95,7 @@ class PieceDivision {
     return std::span(points_).subspan(part.begin, part.end - part.begin);
   }
   void joinParts();
+  void join(std::span<const Part> some, Part& into);
   /// @param least receives a bound from below of what any division reaches; may be null.
   Whole bestWhole(const SpaceTriangle& face, std::span<const FacePoint> polygon, double* least) const;
   /// Adds the cuts between some triangles to the tree. @return its root.
@@ -99,10 +103,12 @@ class PieceDivision {
                std::uint32_t members);
   void cutAlong(int node, std::size_t depth, const SpaceTriangle& face, const FacePolygon& polygon,
                 std::uint32_t cuts);
+  void cutFurther(std::size_t at, const SpaceTriangle& face, double enough, std::uint32_t depth);
   void assign(std::uint32_t face, std::uint32_t cuts, std::span<const FacePoint> polygon,
               const SpaceTriangle& place, const Whole& whole);
 
   const OriginalSurface& original_;
+  bool cutsFurther_;
   std::vector<Part> parts_;
   FacePolygon points_, hull_;
   FloorDistance floor_;  // of the members

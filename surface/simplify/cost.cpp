@@ -107,12 +107,15 @@ double SurfaceCost::integralBeyondBorder() const {
   inwards = inwards - (dot(inwards, along) / squaredLength) * along;
   double squared = 0;
   const VertexId end = star.link[0];
+  const bool countsAll = s_.parts.hasLines();
   for (VertexId v = s_.borderNext[star.link[last]]; v.isValid() && v != end; v = s_.borderNext[v]) {
     const Vec3 away = s_.position(v) - a;
-    if (!(dot(away, inwards) > 0)) continue;
+    if (!countsAll && !(dot(away, inwards) > 0)) continue;
     const double at = std::clamp(dot(away, along) / squaredLength, 0.0, 1.0);
     squared = std::max(squared, squaredDistance(away, at * along));
   }
+  // Borders and lines of equal deviation are removed at once, or the one would force the other to stay.
+  if (countsAll) return kLineWeight * squared * squaredLength;
   // As of a rectangle that is as far everywhere as the gap is deep: less lets triangles lie over deep gaps.
   return std::sqrt(squaredLength * squared) * squared;
 }

@@ -14,7 +14,8 @@ namespace arete {
 /// Removes vertices, on one thread.
 class SurfaceRemover {
  public:
-  explicit SurfaceRemover(SurfaceState& state) : s_(state), division_(state.original) {}
+  explicit SurfaceRemover(SurfaceState& state)
+      : s_(state), division_(state.original, state.parts.hasLines()) {}
 
   /// Removes v, whose cost is known exactly: fills the hole with the fan of its record, divides the pieces,
   /// records the modification, rewrites the star, updates the records of its link.
