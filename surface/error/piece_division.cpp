@@ -20,6 +20,8 @@ namespace {
 
 /// Pieces below this part of the floor's error are not cut.
 constexpr double kWholeEnough = 0.7;
+/// And what further cuts leave at this part of it is not cut again.
+constexpr double kNearEnough = 1.15;
 /// Of more pieces of a face the convex hull is taken, which is farther than they are where they do not touch.
 constexpr std::size_t kMostApart = 24;
 
@@ -60,8 +62,10 @@ void PieceDivision::joinParts() {
     const std::size_t first = kept;
     parts_[kept++] = parts_[i];
     if (end - i == 1) continue;
-    if (!cutsFurther_ || end - i > kMostApart) {
-      join(std::span(parts_).subspan(i, end - i), parts_[first]);
+    Part hull = parts_[i];
+    const bool isFilled = join(std::span(parts_).subspan(i, end - i), hull);
+    if (isFilled || !cutsFurther_ || end - i > kMostApart) {
+      parts_[first] = hull;
       continue;
     }
     // Each with those before that it fills a convex polygon with.
@@ -70,9 +74,7 @@ void PieceDivision::joinParts() {
       for (std::size_t m = first; m < kept;) {
         const std::array<Part, 2> both{parts_[m], part};
         Part joined = part;
-        const std::int64_t apart = twiceArea(polygonOf(both[0])) + twiceArea(polygonOf(both[1]));
-        join(both, joined);
-        if (twiceArea(polygonOf(joined)) > apart + std::int64_t{FacePoint::kOne} * (joined.cuts + 4)) {
+        if (!join(both, joined)) {
           ++m;
           continue;
         }
@@ -86,10 +88,12 @@ void PieceDivision::joinParts() {
   parts_.resize(kept);
 }
 
-void PieceDivision::join(std::span<const Part> some, Part& into) {
+bool PieceDivision::join(std::span<const Part> some, Part& into) {
   hull_.clear();
   std::uint32_t cuts = 0;
+  std::int64_t apart = 0;
   for (const Part& part : some) {
+    if (cutsFurther_) apart += twiceArea(polygonOf(part));
     hull_.insert(hull_.end(), points_.begin() + part.begin, points_.begin() + part.end);
     cuts = std::max(cuts, part.cuts);
   }
@@ -99,6 +103,8 @@ void PieceDivision::join(std::span<const Part> some, Part& into) {
   into.begin = static_cast<std::uint32_t>(points_.size());
   points_.insert(points_.end(), hull_.begin(), hull_.end());
   into.end = static_cast<std::uint32_t>(points_.size());
+  // But for what rounding has moved corners by.
+  return cutsFurther_ && twiceArea(hull_) <= apart + std::int64_t{FacePoint::kOne} * (cuts + 4);
 }
 
 PieceDivision::Whole PieceDivision::bestWhole(const SpaceTriangle& face, std::span<const FacePoint> polygon,
@@ -288,7 +294,7 @@ void PieceDivision::divide(std::span<const Vec3> corners, const HoleTriangulatio
     cutAlong(root, 0, face, hull_, part.cuts);
     if (cutsFurther_)
       for (std::size_t i = 0, count = leafCount_; i < count; ++i)
-        cutFurther(i, face, kWholeEnough * kWholeEnough * anyway, 0);
+        cutFurther(i, face, kNearEnough * kNearEnough * anyway, 0);
     double worst = 0;
     const std::span<const Leaf> leaves(leaves_.data(), leafCount_);
     for (const Leaf& leaf : leaves) worst = std::max(worst, leaf.whole.squared);

@@ -95,7 +95,9 @@ class PieceDivision {
     return std::span(points_).subspan(part.begin, part.end - part.begin);
   }
   void joinParts();
-  void join(std::span<const Part> some, Part& into);
+  /// Makes the convex hull of pieces of one face. @return whether they fill it; not known without
+  /// cutsFurther_.
+  bool join(std::span<const Part> some, Part& into);
   /// @param least receives a bound from below of what any division reaches; may be null.
   Whole bestWhole(const SpaceTriangle& face, std::span<const FacePoint> polygon, double* least) const;
   /// Adds the cuts between some triangles to the tree. @return its root.
