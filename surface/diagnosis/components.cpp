@@ -41,7 +41,7 @@ class TopologyPass {
     findOrientation();
     listBorders();
     for (ComponentDiagnosis& c : result_.components) conclude(c);
-    listTJunctions();
+    listGaps();
   }
 
  private:
@@ -140,7 +140,7 @@ class TopologyPass {
     if (c.isManifold() && c.isOrientable) c.genus = (2 - std::int64_t(c.borders) - c.eulerNumber) / 2;
   }
 
-  void listTJunctions() {
+  void listGaps() {
     std::vector<std::array<std::uint32_t, 2>> borderEdges;
     std::vector<std::uint32_t> borderVertices;
     for (std::size_t e = 0; e < edges_.size(); ++e)
@@ -151,9 +151,17 @@ class TopologyPass {
       }
     std::ranges::sort(borderVertices);
     borderVertices.erase(std::unique(borderVertices.begin(), borderVertices.end()), borderVertices.end());
-    for (const TJunction& t : findTJunctions(mesh_.positions, borderEdges, borderVertices,
-                                             options_.tJunctionTolerance * result_.diagonal))
+    for (const TJunction& t :
+         findTJunctions(mesh_.positions, borderEdges, borderVertices,
+                        withinRounding(options_.tJunctionTolerance * result_.diagonal, options_.rounding)))
       add(result_.tJunctions, options_.mostPlaces, {t.vertex, t.low, t.high}, mesh_.positions[t.vertex]);
+    if (options_.rounding > 0)
+      for (const auto& [edge, apart] :
+           findNearBorders(mesh_.positions, borderEdges, withinRounding(0, options_.rounding))) {
+        add(result_.nearBorders, options_.mostPlaces, {edge[0], edge[1]},
+            mesh_.positions[edge[0]] / 2 + mesh_.positions[edge[1]] / 2);
+        result_.farthestNear = std::max(result_.farthestNear, apart);
+      }
   }
 
   const TriangleMesh& mesh_;

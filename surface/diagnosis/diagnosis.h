@@ -71,6 +71,9 @@ struct MeshDiagnosis {
   MeshFindings turnedEdges;          ///< two vertices: the edge's two triangles turn against each other
   MeshFindings nonOrientable;        ///< two vertices: an edge of a part that no turns make coherent
   MeshFindings tJunctions;           ///< a vertex, and the two of the border edge inside which it lies
+  /// Two vertices: a border edge that is another one but for the rounding of the file.
+  MeshFindings nearBorders;
+  double farthestNear = 0;  ///< how far apart the ends of such edges are, at most
   /// Two triangles that meet elsewhere than in the vertices and the edge they share. Missing unless asked
   /// for.
   std::optional<MeshFindings> selfIntersections;
@@ -86,10 +89,14 @@ struct DiagnosisOptions {
   bool selfIntersections = true;
   /// How far from a border edge a vertex may lie to be inside it, as a part of the diagonal.
   double tJunctionTolerance = 1e-9;
+  /// The most by which rounding to the numbers of a file may have moved a vertex, in the unit of the mesh. A
+  /// vertex within twice as much of a border edge is inside it too; border edges whose ends are within twice
+  /// as much of those of others, and within a tenth of their lengths, are near borders.
+  double rounding = 0;
 };
 
-/// Examines a mesh. All but distances in T-junctions is exact: equal positions are equal doubles, and whether
-/// points are on one line and triangles meet is decided by exact predicates.
+/// Examines a mesh. All but distances in T-junctions and near borders is exact: equal positions are equal
+/// doubles, and whether points are on one line and triangles meet is decided by exact predicates.
 ///
 /// O(n log n) for n triangles, and for self-intersections that of the pairs whose boxes meet
 /// [ZomorodianEdelsbrunner2000]. The result does not depend on the number of threads.

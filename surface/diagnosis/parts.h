@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -51,6 +52,12 @@ std::array<Vec3, 2> boxOf(const TriangleMesh& mesh);
 /// The length of its diagonal, also where the squares of its sides overflow.
 double diagonalOf(const std::array<Vec3, 2>& box);
 
+/// How far apart two things may be that rounding alone may have moved apart, each by so much: at least a
+/// tolerance.
+inline double withinRounding(double tolerance, double rounding) {
+  return std::max(tolerance, 2 * rounding * (1 + 1e-9));
+}
+
 /// Vertices: unused, double.
 void examineVertices(const TriangleMesh& mesh, const DiagnosisOptions& options, MeshDiagnosis& result);
 /// Triangles: degenerate, duplicate, double-sided.
@@ -72,6 +79,17 @@ struct TJunction {
 std::vector<TJunction> findTJunctions(std::span<const Vec3> positions,
                                       std::span<const std::array<std::uint32_t, 2>> edges,
                                       std::span<const std::uint32_t> vertices, double distance);
+
+/// A border edge that is another one but for rounding, by its vertices.
+struct NearBorder {
+  std::array<std::uint32_t, 2> edge;
+  double apart;  ///< of the ends, at most
+};
+/// The edges whose ends are within a distance of those of another one, and within a tenth of the length of
+/// either, but not all at equal positions.
+/// @return in the order of the edges. O(n) as a rule, and where many edges are near each other.
+std::vector<NearBorder> findNearBorders(std::span<const Vec3> positions,
+                                        std::span<const std::array<std::uint32_t, 2>> edges, double distance);
 
 /// The pairs of triangles that meet elsewhere than in the vertices and the edge they share; degenerate
 /// triangles are left out.

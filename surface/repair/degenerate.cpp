@@ -124,9 +124,8 @@ class DegeneratePass {
     neighbours_.remove(t);
     std::ranges::replace(mesh_.triangles[t], b, inside);
     neighbours_.add(t);
-    mesh_.triangles.push_back(whole);
+    draft_.addTriangle(whole, t);
     std::ranges::replace(mesh_.triangles.back(), a, inside);
-    draft_.triangleOf.push_back(draft_.triangleOf[t]);
     isGone_.push_back(0);
     ++draft_.counts.splitTriangles;
     const auto added = static_cast<std::uint32_t>(mesh_.triangles.size() - 1);

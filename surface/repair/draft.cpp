@@ -2,11 +2,15 @@
 #include "surface/repair/draft.h"
 
 #include <numeric>
+#include <utility>
 
 namespace arete::repair_passes {
 
 Draft::Draft(const TriangleMesh& source)
-    : mesh(source), vertexOf(source.positions.size()), triangleOf(source.triangles.size()) {
+    : mesh(source),
+      vertexOf(source.positions.size()),
+      triangleOf(source.triangles.size()),
+      isTurned(source.triangles.size(), 0) {
   std::iota(vertexOf.begin(), vertexOf.end(), 0u);
   std::iota(triangleOf.begin(), triangleOf.end(), 0u);
 }
@@ -19,16 +23,30 @@ std::uint32_t Draft::copyVertex(std::uint32_t vertex) {
   return static_cast<std::uint32_t>(mesh.positions.size() - 1);
 }
 
+void Draft::addTriangle(const Triangle& corners, std::uint32_t like) {
+  mesh.triangles.push_back(corners);
+  triangleOf.push_back(like == RepairedMesh::kNone ? like : triangleOf[like]);
+  isTurned.push_back(like == RepairedMesh::kNone ? std::uint8_t{0} : isTurned[like]);
+}
+
+void Draft::turn(std::uint32_t triangle) {
+  std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
+  isTurned[triangle] ^= 1;
+  ++turns;
+}
+
 void Draft::removeTriangles(const std::vector<std::uint8_t>& isGone) {
   std::size_t kept = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (isGone[t] != 0) continue;
     mesh.triangles[kept] = mesh.triangles[t];
     triangleOf[kept] = triangleOf[t];
+    isTurned[kept] = isTurned[t];
     ++kept;
   }
   mesh.triangles.resize(kept);
   triangleOf.resize(kept);
+  isTurned.resize(kept);
 }
 
 void Draft::removeUnusedVertices() {

@@ -17,12 +17,19 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct Draft {
   TriangleMesh mesh;
   std::vector<std::uint32_t> vertexOf, triangleOf;  ///< as in RepairedMesh
+  /// By triangle: whether it turns against its source.
+  std::vector<std::uint8_t> isTurned;
+  std::uint64_t turns = 0;  ///< how often any triangle was turned
   RepairCounts counts;
+  std::uint64_t openHoles = 0, crossingParts = 0;  ///< as in RepairedMesh, as the last pass found them
 
   explicit Draft(const TriangleMesh& source);
 
   /// A copy of a vertex. Returns its number.
   std::uint32_t copyVertex(std::uint32_t vertex);
+  /// Adds a triangle that is a part of the source of another one and turns as it does; kNone: of no source.
+  void addTriangle(const Triangle& corners, std::uint32_t like);
+  void turn(std::uint32_t triangle);
   /// Leaves out the triangles for which isGone[t] is not 0; the others keep their order.
   void removeTriangles(const std::vector<std::uint8_t>& isGone);
   /// Leaves out the vertices that no triangle uses.
@@ -35,7 +42,7 @@ void removeDegenerate(Draft& draft);
 /// @return whether any edge was split.
 bool splitAtTJunctions(Draft& draft, double distance);
 void splitSheets(Draft& draft);
-void orient(Draft& draft);
+void orient(Draft& draft, const RepairOptions& options);
 void splitFans(Draft& draft);
 void fillHoles(Draft& draft, std::uint32_t mostEdges);
 

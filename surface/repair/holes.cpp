@@ -1,88 +1,204 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A border loop is filled by the triangulation of least area and dihedral angles [BarequetSharir1995], as
-// CGAL finds it. It is left open where the filling needs an edge that exists, or a triangle that does.
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
-#include <CGAL/utility.h>
-
+// A border that passes a place twice is two holes that touch there, each with one corner at that place. Where
+// the corner is a vertex and its copy, as one that fans have got, they become one vertex again. A hole of two
+// edges, which lie in one place, is closed by joining its ends alone.
 #include <algorithm>
-#include <iterator>
+#include <cstddef>
+#include <numeric>
+#include <optional>
+#include <tuple>
+#include <utility>
 
 #include "surface/repair/draft.h"
+#include "surface/repair/hole_filling.h"
 #include "surface/repair/neighbourhood.h"
 #include "surface/topology/border_loops.h"
 
 namespace arete::repair_passes {
 namespace {
 
-/// The vertices of a loop in the order in which its triangles have them; empty where it passes one twice, or
-/// its triangles turn against each other.
-std::vector<std::uint32_t> cornersOf(const MeshEdges& edges, const BorderLoop& loop) {
-  std::vector<std::uint32_t> corners;
+/// A corner of a hole: the vertices at which the side before it ends and the next one begins, at one place.
+struct HoleCorner {
+  std::uint32_t in, out;
+  Vec3 apex;  ///< of the triangle at the next side
+};
+
+struct Hole {
+  std::vector<HoleCorner> corners;
+  std::size_t loopEdges;  ///< of the border that it is a part of
+};
+
+/// The corners of a loop in the order in which its triangles have them; missing where they turn against each
+/// other.
+std::optional<std::vector<HoleCorner>> cornersOf(const TriangleMesh& mesh, const MeshEdges& edges,
+                                                 const BorderLoop& loop) {
+  std::vector<HoleCorner> corners;
   bool isForward = true, isBackward = true;
-  for (std::size_t i = 0; i < loop.sides.size(); ++i) {
-    const CornerId side = loop.sides[i], next = loop.sides[(i + 1) % loop.sides.size()];
+  const std::size_t size = loop.sides.size();
+  for (std::size_t i = 0; i < size; ++i) {
+    const CornerId side = loop.sides[i], next = loop.sides[(i + 1) % size];
     isForward = isForward && edges.target(side) == edges.origin(next);
     isBackward = isBackward && edges.origin(side) == edges.target(next);
-    corners.push_back(edges.origin(side).index());
+    const std::uint32_t from = edges.origin(side).index();
+    corners.push_back({from, from, mesh.positions[edges.origin(previousCorner(side)).index()]});
   }
-  if (!isForward && !isBackward) return {};
+  if (!isForward && !isBackward) return std::nullopt;
   if (!isForward) std::ranges::reverse(corners);
-  std::vector<std::uint32_t> sorted = corners;
-  std::ranges::sort(sorted);
-  return std::ranges::adjacent_find(sorted) == sorted.end() ? corners : std::vector<std::uint32_t>();
+  return corners;
 }
+
+/// The loops of which no one passes a place twice.
+std::vector<Hole> apart(const std::vector<HoleCorner>& loop, const std::vector<std::uint32_t>& placeOf) {
+  std::vector<Hole> holes;
+  std::vector<HoleCorner> open;
+  std::vector<std::uint32_t> placesOpen;
+  for (const HoleCorner& corner : loop) {
+    const std::uint32_t place = placeOf[corner.in];
+    const auto before = std::ranges::find(placesOpen, place);
+    HoleCorner rest = corner;
+    if (before != placesOpen.end()) {
+      const auto at = before - placesOpen.begin();
+      Hole hole{{open.begin() + at, open.end()}, loop.size()};
+      rest.in = std::exchange(hole.corners[0].in, corner.in);
+      holes.push_back(std::move(hole));
+      open.resize(std::size_t(at));
+      placesOpen.resize(std::size_t(at));
+    }
+    open.push_back(rest);
+    placesOpen.push_back(place);
+  }
+  holes.push_back({std::move(open), loop.size()});
+  return holes;
+}
+
+/// By vertex: the lowest vertex at its position.
+std::vector<std::uint32_t> placesOf(const std::vector<Vec3>& positions) {
+  std::vector<std::uint32_t> order(positions.size()), place(positions.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto key = [&](std::uint32_t v) {
+    return std::tuple(positions[v].x + 0, positions[v].y + 0, positions[v].z + 0);  // -0 and 0 are one
+  };
+  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    const auto ka = key(a), kb = key(b);
+    return ka != kb ? ka < kb : a < b;
+  });
+  for (std::size_t i = 0, begin = 0; i < order.size(); ++i) {
+    if (key(order[i]) != key(order[begin])) begin = i;
+    place[order[i]] = order[begin];
+  }
+  return place;
+}
+
+class Filler {
+ public:
+  Filler(Draft& draft, std::uint32_t mostEdges)
+      : draft_(draft), mostEdges_(mostEdges), placeOf_(placesOf(draft.mesh.positions)) {}
+
+  void run() {
+    draft_.openHoles = 0;
+    std::vector<Hole> holes;
+    {
+      const MeshEdges edges(draft_.mesh.triangles, draft_.mesh.positions.size());
+      for (const BorderLoop& loop : findBorderLoops(edges, MeshFans(edges))) {
+        if (!loop.isClosed) continue;
+        if (const auto corners = cornersOf(draft_.mesh, edges, loop))
+          for (Hole& hole : apart(*corners, placeOf_)) holes.push_back(std::move(hole));
+        else if (loop.sides.size() <= mostEdges_)
+          ++draft_.openHoles;
+      }
+    }
+    std::erase_if(holes, [&](const Hole& hole) {
+      return hole.corners.size() > mostEdges_ || (hole.corners.size() < 3 && hole.loopEdges > mostEdges_);
+    });
+    if (holes.empty()) return;
+    neighbours_.emplace(draft_.mesh);
+    HoleFilling filling(draft_.mesh, placeOf_);
+    now_.resize(draft_.mesh.positions.size());
+    std::iota(now_.begin(), now_.end(), 0u);
+    for (const Hole& hole : holes) fill(hole, filling);
+  }
+
+ private:
+  void fill(const Hole& hole, HoleFilling& filling) {
+    if (!canJoin(hole)) {
+      ++draft_.openHoles;
+      return;
+    }
+    if (hole.corners.size() < 3) {
+      join(hole);
+      ++draft_.counts.filledHoles;
+      return;
+    }
+    HoleOutline outline;
+    for (const HoleCorner& corner : hole.corners) {
+      outline.corners.push_back(draft_.mesh.positions[corner.in]);
+      outline.places.push_back(placeOf_[corner.in]);
+      outline.apexes.push_back(corner.apex);
+    }
+    const std::vector<HoleFilling::Corners> triangles = filling.fill(outline);
+    if (triangles.empty()) {
+      ++draft_.openHoles;
+      return;
+    }
+    join(hole);
+    ++draft_.counts.filledHoles;
+    for (const HoleFilling::Corners& t : triangles) {
+      draft_.addTriangle({now(hole.corners[t[0]].in), now(hole.corners[t[1]].in), now(hole.corners[t[2]].in)},
+                         RepairedMesh::kNone);
+      neighbours_->add(static_cast<std::uint32_t>(draft_.mesh.triangles.size() - 1));
+      ++draft_.counts.fillingTriangles;
+    }
+  }
+
+  /// The vertex that one has become.
+  std::uint32_t now(std::uint32_t v) {
+    while (now_[v] != v) v = now_[v] = now_[now_[v]];
+    return v;
+  }
+
+  /// Whether the two vertices at each corner can become one: no triangle has both, and no edge gets more than
+  /// the two sides that lie on it.
+  bool canJoin(const Hole& hole) {
+    return std::ranges::all_of(hole.corners, [&](const HoleCorner& corner) {
+      const std::uint32_t a = now(corner.in), b = now(corner.out);
+      if (a == b) return true;
+      if (!neighbours_->atEdge(a, b).empty()) return false;
+      for (const std::uint32_t w : neighbours_->around(a)) {
+        const std::size_t there = neighbours_->atEdge(b, w).size();
+        if (there > 0 && there + neighbours_->atEdge(a, w).size() > 2) return false;
+      }
+      return true;
+    });
+  }
+
+  void join(const Hole& hole) {
+    for (const HoleCorner& corner : hole.corners) {
+      const std::uint32_t a = now(corner.in), b = now(corner.out);
+      if (a == b) continue;
+      const std::uint32_t kept = std::min(a, b), gone = std::max(a, b);
+      const std::vector<std::uint32_t> moved = neighbours_->at(gone);
+      for (const std::uint32_t t : moved) {
+        neighbours_->remove(t);
+        std::ranges::replace(draft_.mesh.triangles[t], gone, kept);
+        neighbours_->add(t);
+      }
+      now_[gone] = kept;
+      ++draft_.counts.joinedVertices;
+    }
+  }
+
+  Draft& draft_;
+  const std::uint32_t mostEdges_;
+  const std::vector<std::uint32_t> placeOf_;
+  std::optional<Neighbourhood> neighbours_;
+  std::vector<std::uint32_t> now_;  // by vertex: itself, or one that it was joined with
+};
 
 }  // namespace
 
 void fillHoles(Draft& draft, std::uint32_t mostEdges) {
-  if (mostEdges == 0) return;
-  std::vector<std::vector<std::uint32_t>> holes;
-  {
-    const MeshEdges edges(draft.mesh.triangles, draft.mesh.positions.size());
-    for (const BorderLoop& loop : findBorderLoops(edges, MeshFans(edges)))
-      if (loop.isClosed && loop.sides.size() >= 3 && loop.sides.size() <= mostEdges)
-        if (auto corners = cornersOf(edges, loop); !corners.empty()) holes.push_back(std::move(corners));
-  }
-  Neighbourhood neighbours(draft.mesh);
-  using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
-  for (const std::vector<std::uint32_t>& hole : holes) {
-    std::vector<Point> outline;
-    for (const std::uint32_t v : hole) {
-      const Vec3& p = draft.mesh.positions[v];
-      outline.emplace_back(p.x, p.y, p.z);
-    }
-    using Patch = CGAL::Triple<int, int, int>;
-    std::vector<Patch> patch;
-    CGAL::Polygon_mesh_processing::triangulate_hole_polyline(outline, std::back_inserter(patch));
-    const int size = static_cast<int>(hole.size());
-    bool isFree = patch.size() + 2 == hole.size();
-    for (const Patch& t : patch)
-      for (const auto& [i, j] :
-           {std::pair(t.first, t.second), std::pair(t.second, t.third), std::pair(t.third, t.first)}) {
-        const bool isOnOutline = (i + 1) % size == j || (j + 1) % size == i;
-        const std::size_t there = neighbours.atEdge(hole[std::size_t(i)], hole[std::size_t(j)]).size();
-        isFree = isFree && there == (isOnOutline ? 1u : 0u);
-      }
-    // A triangle whose outline is the hole would be its own lid.
-    if (hole.size() == 3 && isFree) {
-      const auto beside = neighbours.atEdge(hole[0], hole[1]);
-      isFree = !neighbours.has(beside[0], hole[2]);
-    }
-    if (!isFree) continue;
-    ++draft.counts.filledHoles;
-    for (const Patch& t : patch) {
-      // The outline runs as its triangles do; those of the filling run the other way.
-      Triangle corners{hole[std::size_t(t.first)], hole[std::size_t(t.third)], hole[std::size_t(t.second)]};
-      const bool runsAsOutline = (t.first < t.second) + (t.second < t.third) + (t.third < t.first) == 2;
-      if (!runsAsOutline) std::swap(corners[1], corners[2]);
-      draft.mesh.triangles.push_back(corners);
-      draft.triangleOf.push_back(RepairedMesh::kNone);
-      neighbours.add(static_cast<std::uint32_t>(draft.mesh.triangles.size() - 1));
-      ++draft.counts.fillingTriangles;
-    }
-  }
+  if (mostEdges > 0) Filler(draft, mostEdges).run();
 }
 
 }  // namespace arete::repair_passes

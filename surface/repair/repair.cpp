@@ -16,30 +16,42 @@ namespace arete {
 Result<RepairedMesh> repair(const TriangleMesh& mesh, const RepairOptions& options,
                             const RunContext& context) try {
   if (const Status valid = mesh.validate(); !valid) return tl::unexpected(valid.error());
+  if (!options.partOf.empty() && options.partOf.size() != mesh.triangles.size())
+    return failure(ErrorCode::invalidData, "there must be one part for each triangle", "partOf");
   repair_passes::Draft draft(mesh);
-  const double distance = options.tJunctionTolerance * diagnosis::diagonalOf(diagnosis::boxOf(mesh));
+  const double distance = diagnosis::withinRounding(
+      options.tJunctionTolerance * diagnosis::diagonalOf(diagnosis::boxOf(mesh)), options.rounding);
   context.report("repair", 0);
-  for (RepairCounts before = {.unusedVertices = 1}; before != draft.counts;) {
+  RepairCounts before = {.unusedVertices = 1};
+  for (std::uint64_t turns = 0; before != draft.counts || turns != draft.turns;) {
     before = draft.counts;
+    turns = draft.turns;
     if (context.cancelled()) return failure(ErrorCode::interrupted, "the repair was interrupted");
     do {
       repair_passes::removeDuplicates(draft);
       repair_passes::removeDegenerate(draft);
     } while (options.splitsAtTJunctions && repair_passes::splitAtTJunctions(draft, distance));
-    repair_passes::orient(draft);
+    repair_passes::orient(draft, options);
     if (options.splitsSheets) repair_passes::splitSheets(draft);
-    repair_passes::splitFans(draft);
+    // Before fans get vertices of their own: a vertex at which two holes touch is one corner of each.
     repair_passes::fillHoles(draft, options.mostHoleEdges);
+    repair_passes::splitFans(draft);
   }
   draft.removeUnusedVertices();
 
-  Result<MeshDiagnosis> diagnosis = diagnose(draft.mesh, {.selfIntersections = false}, context);
+  Result<MeshDiagnosis> diagnosis = diagnose(draft.mesh,
+                                             {.selfIntersections = false,
+                                              .tJunctionTolerance = options.tJunctionTolerance,
+                                              .rounding = options.rounding},
+                                             context);
   if (!diagnosis) return tl::unexpected(diagnosis.error());
   RepairedMesh repaired;
   repaired.mesh = std::move(draft.mesh);
   repaired.vertexOf = std::move(draft.vertexOf);
   repaired.triangleOf = std::move(draft.triangleOf);
   repaired.counts = draft.counts;
+  repaired.openHoles = draft.openHoles;
+  repaired.crossingParts = draft.crossingParts;
   repaired.diagnosis = std::move(*diagnosis);
   context.report("repair", 1);
   return repaired;

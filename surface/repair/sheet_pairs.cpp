@@ -5,44 +5,71 @@
 // side and the forward one that follows it enclose a solid, and so do the two around them that they leave as
 // neighbours: pairs of brackets. At equal angles a forward side comes first: a solid of no width between the
 // two sides of one sheet is not meant.
+//
+// Angles are compared by exact predicates, which never compute one: the half plane of the first apex divides
+// the others into those at its own angle, those before half a turn, those at it and those beyond it.
 #include "surface/repair/sheet_pairs.h"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
+#include <vector>
 
 namespace arete::repair_passes {
 namespace {
 
+using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
+
+Point pointOf(const Vec3& p) {
+  return {p.x, p.y, p.z};
+}
+
 struct Leaf {
   CornerId side;
-  double angle;  ///< of the triangle around the edge
+  Point apex;
+  int sector;  ///< 0: at the angle of the first apex, 1: before half a turn, 2: at half a turn, 3: beyond it
   bool isForward;
 };
 
-std::vector<Leaf> leavesOf(const Vec3& from, const Vec3& to, std::span<const SheetSide> sides) {
+/// Whether two apexes in one plane with the edge are on the same side of it.
+bool areOnOneSide(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b) {
   const Vec3 axis = to - from;
+  const auto across = [&](const Vec3& apex) {
+    const Vec3 out = apex - from;
+    return out * dot(axis, axis) - axis * dot(out, axis);
+  };
+  return dot(across(a), across(b)) >= 0;
+}
+
+std::vector<Leaf> leavesOf(const Vec3& from, const Vec3& to, std::span<const SheetSide> sides) {
+  const Point p = pointOf(from), q = pointOf(to);
   std::vector<Leaf> leaves;
-  Vec3 zero, quarter;
   for (const SheetSide& side : sides) {
-    const Vec3 apex = side.apex - from;
-    const Vec3 across = apex * dot(axis, axis) - axis * dot(apex, axis);
-    if (leaves.empty()) {
-      zero = across;
-      quarter = cross(axis, across);
-    }
-    // Both parts have the scale of `zero`; the second that of the axis besides.
-    const double cosine = dot(across, zero) * norm(axis), sine = dot(across, quarter);
-    double angle = leaves.empty() ? 0 : std::atan2(sine, cosine);
-    if (angle < 0) angle += 2 * std::numbers::pi;
-    leaves.push_back({side.side, angle, side.isForward});
+    Leaf leaf{side.side, pointOf(side.apex), 0, side.isForward};
+    if (!leaves.empty() && leaf.apex != leaves[0].apex)
+      switch (CGAL::orientation(p, q, leaves[0].apex, leaf.apex)) {
+        case CGAL::POSITIVE:
+          leaf.sector = 1;
+          break;
+        case CGAL::NEGATIVE:
+          leaf.sector = 3;
+          break;
+        default:
+          leaf.sector = areOnOneSide(from, to, sides[0].apex, side.apex) ? 0 : 2;
+      }
+    leaves.push_back(leaf);
   }
-  std::ranges::sort(leaves, [](const Leaf& a, const Leaf& b) {
-    if (a.angle != b.angle) return a.angle < b.angle;
+  const auto isBefore = [&](const Leaf& a, const Leaf& b) {
+    if (a.sector != b.sector) return a.sector < b.sector;
+    if (a.sector == 1 || a.sector == 3) {
+      const CGAL::Orientation turn = CGAL::orientation(p, q, a.apex, b.apex);
+      if (turn != CGAL::COPLANAR) return turn == CGAL::POSITIVE;
+    }
     return a.isForward != b.isForward ? a.isForward : a.side < b.side;
-  });
+  };
+  std::ranges::sort(leaves, isBefore);
   return leaves;
 }
 

@@ -19,8 +19,7 @@ struct SheetSide {
 
 /// Pairs the triangles around an edge into sheets that bound the same solid: each triangle has solid behind
 /// it, by its turn, and its partner is the triangle that bounds that solid on the other side. Some may have
-/// no partner. Angles are computed in doubles: of triangles whose angles differ by rounding alone, either may
-/// be chosen. O(n log n).
+/// no partner. Angles are compared exactly: triangles in one plane are at equal angles. O(n log n).
 /// @return the pairs, in no order.
 std::vector<std::pair<CornerId, CornerId>> pairSheets(const Vec3& from, const Vec3& to,
                                                       std::span<const SheetSide> sides);

@@ -70,8 +70,7 @@ bool splitAtTJunctions(Draft& draft, double distance) {
           !diagnosis::areCollinear(p[last], p[v], p[apex]) && !diagnosis::areCollinear(p[v], p[to], p[apex]);
       if (!isFree) continue;
       // last -> v becomes a triangle of its own, what is left runs from v on.
-      mesh.triangles.push_back({last, v, apex});
-      draft.triangleOf.push_back(draft.triangleOf[t]);
+      draft.addTriangle({last, v, apex}, t);
       neighbours.add(static_cast<std::uint32_t>(mesh.triangles.size() - 1));
       neighbours.remove(t);
       mesh.triangles[t] = {v, to, apex};
