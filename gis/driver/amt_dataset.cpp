@@ -5,8 +5,10 @@
 #include <cstring>
 #include <filesystem>
 
+#include "engine/base/caught_failure.h"
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
+#include "engine/parallel/guest_work.h"
 #include "gis/driver/gdal_errors.h"
 #include "io/amt/surface_file.h"
 #include "io/crs/reader.h"
@@ -20,6 +22,12 @@ namespace fs = std::filesystem;
 
 /// Overviews end where they are smaller than this.
 constexpr int kLeastOverview = 128;
+
+Result<AmtContainer> openContainer(const std::string& path) try {
+  return AmtContainer::open(path, {.isCopied = true});
+} catch (...) {
+  return caughtFailure(path);
+}
 
 }  // namespace
 
@@ -40,22 +48,22 @@ GDALDataset* AmtDataset::open(GDALOpenInfo* info) {
   };
   const Result<DriverOptions> options = readOpenOptions(info->papszOpenOptions);
   if (!options) return refuse(options.error());
-  const Result<bool> isSurface = isSurfaceAmt(info->pszFilename);
-  if (!isSurface) return refuse(isSurface.error());
+  Result<AmtContainer> container = openContainer(info->pszFilename);
+  if (!container) return refuse(container.error());
   auto dataset = std::make_unique<AmtDataset>();
   dataset->SetDescription(info->pszFilename);
   const bool wantsRaster = (info->nOpenFlags & GDAL_OF_RASTER) != 0,
              wantsLayer = (info->nOpenFlags & GDAL_OF_VECTOR) != 0;
-  const Status opened = *isSurface
-                            ? dataset->openSurface(info->pszFilename, *options, wantsLayer)
-                            : dataset->openTerrain(info->pszFilename, *options, wantsRaster, wantsLayer);
+  const Status opened = container->isOfSurface()
+                            ? dataset->openSurface(*container, *options, wantsLayer)
+                            : dataset->openTerrain(std::move(*container), *options, wantsRaster, wantsLayer);
   if (!opened) return refuse(opened.error());
   return dataset.release();
 }
 
-Status AmtDataset::openTerrain(const std::string& path, const DriverOptions& options, bool wantsRaster,
+Status AmtDataset::openTerrain(AmtContainer container, const DriverOptions& options, bool wantsRaster,
                                bool wantsLayer) {
-  Result<TerrainCuts> cuts = TerrainCuts::open(path, options.tolerance, options.cell);
+  Result<TerrainCuts> cuts = TerrainCuts::open(std::move(container), options.tolerance, options.cell);
   if (!cuts) return tl::unexpected(cuts.error());
   cuts_ = std::make_shared<TerrainCuts>(std::move(*cuts));
   const TerrainModel& outline = cuts_->outline();
@@ -63,6 +71,8 @@ Status AmtDataset::openTerrain(const std::string& path, const DriverOptions& opt
   hasPosition_ = outline.georeference.hasGeoTransform || !outline.isRaster || options.cell;
   SetMetadataItem("SOURCE", fs::path(outline.source).filename().c_str());
   SetMetadataItem("TOLERANCE", CPLSPrintf("%.9g", options.tolerance));
+  if (!outline.isolated.empty())
+    SetMetadataItem("ISOLATED_SAMPLES", std::to_string(outline.isolated.size()).c_str());
   if (wantsRaster) {
     nRasterXSize = cuts_->grid().columns;
     nRasterYSize = cuts_->grid().rows;
@@ -76,26 +86,27 @@ Status AmtDataset::openTerrain(const std::string& path, const DriverOptions& opt
     layer_ = std::make_unique<TriangleLayer>("triangles", crs_, [cuts = cuts_]() -> Result<PlacedTriangles> {
       const Result<TerrainCuts::Whole> whole = cuts->take(cuts->tolerance());
       if (!whole) return tl::unexpected(whole.error());
-      Result<TinExport> tin = exportTin(whole->model, whole->cut);
+      Result<TinExport> tin = runAsGuest([&] { return exportTin(whole->model, whole->cut); });
       if (!tin) return tl::unexpected(tin.error());
       return PlacedTriangles::sorted(std::move(tin->mesh), whole->cut.ids, tin->errors);
     });
   return {};
 }
 
-Status AmtDataset::openSurface(const std::string& path, const DriverOptions& options, bool wantsLayer) {
+Status AmtDataset::openSurface(const AmtContainer& container, const DriverOptions& options, bool wantsLayer) {
   if (!wantsLayer)
     return failure(
         ErrorCode::unsupported,
-        "is of a surface, which has no single height over a place: it opens as a layer of triangles", path);
-  Result<SurfaceModel> model = loadSurfaceAmt(path);
+        "is of a surface, which has no single height over a place: it opens as a layer of triangles",
+        container.path());
+  Result<SurfaceModel> model = runAsGuest([&] { return loadSurfaceAmt(container); });
   if (!model) return tl::unexpected(model.error());
   if (Status taken = takeCrs(model->crsWkt); !taken) return taken;
   SetMetadataItem("SOURCE", fs::path(model->source).filename().c_str());
   SetMetadataItem("TOLERANCE", CPLSPrintf("%.9g", options.tolerance));
   layer_ = std::make_unique<TriangleLayer>(
       "triangles", crs_, [mt = model->mt, tolerance = options.tolerance]() -> Result<PlacedTriangles> {
-        const Result<Cut> cut = takeCut(mt, UniformError(tolerance));
+        const Result<Cut> cut = runAsGuest([&] { return takeCut(mt, UniformError(tolerance)); });
         if (!cut) return tl::unexpected(cut.error());
         TriangleMesh mesh{{}, cut->triangles};
         for (const std::uint32_t v : cut->vertices) mesh.positions.push_back(mt.position(VertexId(v)));

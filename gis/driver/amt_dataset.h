@@ -10,6 +10,7 @@
 #include "gis/driver/open_options.h"
 #include "gis/driver/raster_band.h"
 #include "gis/driver/triangle_layer.h"
+#include "io/amt/container.h"
 
 namespace arete {
 
@@ -34,9 +35,8 @@ class AmtDataset final : public GDALDataset {
                    GSpacing lineStep, GSpacing bandStep, GDALRasterIOExtraArg* extra) override;
 
  private:
-  Status openTerrain(const std::string& path, const DriverOptions& options, bool wantsRaster,
-                     bool wantsLayer);
-  Status openSurface(const std::string& path, const DriverOptions& options, bool wantsLayer);
+  Status openTerrain(AmtContainer container, const DriverOptions& options, bool wantsRaster, bool wantsLayer);
+  Status openSurface(const AmtContainer& container, const DriverOptions& options, bool wantsLayer);
   Status takeCrs(const std::string& wkt);
 
   std::shared_ptr<TerrainCuts> cuts_;

@@ -4,12 +4,11 @@
 // A sample on an edge is in two triangles of the same height there.
 #include "gis/driver/pixel_grid.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "terrain/model/cell_grid.h"
 #include "terrain/model/plan_box.h"
 
 namespace arete {
@@ -19,14 +18,6 @@ namespace {
 constexpr double kOnEdge = 1e-9;
 /// Triangles in a bin, about.
 constexpr double kPerBin = 8;
-
-Result<int> sizeOf(double extent, double cell) {
-  const double size = std::max(1.0, std::ceil(extent / cell - 1e-6));
-  if (size > std::numeric_limits<int>::max())
-    return failure(ErrorCode::usage, fmt::format("{} pixels in a row are more than GDAL can number", size),
-                   "CELL");
-  return static_cast<int>(size);
-}
 
 }  // namespace
 
@@ -41,21 +32,11 @@ Result<PixelGrid> PixelGrid::of(const TerrainModel& outline, std::optional<doubl
     grid.isOfSource_ = true;
     return grid;
   }
-  const Box2 plan = planBox(outline);
-  // Pixels of the source's raster, not only their middles.
-  const double rim = outline.isRaster ? 0.5 : 0;
-  std::vector<Vec2> corners;
-  for (const double x : {plan.xMin - rim, plan.xMax + rim})
-    for (const double y : {plan.yMin - rim, plan.yMax + rim}) corners.push_back(outline.toSource({x, y}));
-  const Box2 box = planBox(corners);
-  const double width = box.xMax - box.xMin, height = box.yMax - box.yMin;
-  const double side = *cell;
-  const Result<int> columns = sizeOf(width, side), rows = sizeOf(height, side);
-  if (!columns) return tl::unexpected(columns.error());
-  if (!rows) return tl::unexpected(rows.error());
-  grid.columns = *columns;
-  grid.rows = *rows;
-  grid.geoTransform = {box.xMin, side, 0, box.yMax, 0, -side};
+  const Result<CellGrid> cells = cellGridOf(outline, *cell);
+  if (!cells) return failure(cells.error().code, cells.error().message, "CELL");
+  grid.columns = cells->columns;
+  grid.rows = cells->rows;
+  grid.geoTransform = cells->geoTransform;
   return grid;
 }
 
@@ -110,8 +91,10 @@ TriangleBins::TriangleBins(GridTriangles triangles) : triangles_(std::move(trian
     forBins(triangles_.triangles[t], [&](std::size_t bin) { members_[next[bin]++] = t; });
 }
 
-void TriangleBins::fill(const PixelWindow& window, std::span<double> heights) const {
-  std::ranges::fill(heights, std::numeric_limits<double>::quiet_NaN());
+void TriangleBins::fill(const PixelWindow& window, std::span<double> heights, std::size_t stride) const {
+  for (int row = 0; row < window.rows; ++row)
+    std::fill_n(heights.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(row) * stride),
+                window.columns, std::numeric_limits<double>::quiet_NaN());
   if (triangles_.triangles.empty() || window.columns <= 0 || window.rows <= 0) return;
   // Samples are at whole numbers of these coordinates.
   const double perColumn = window.columns / window.width, perRow = window.rows / window.height;
@@ -155,8 +138,7 @@ void TriangleBins::fill(const PixelWindow& window, std::span<double> heights) co
         double height = z[0] + (share[1] * (z[1] - z[0]) + share[2] * (z[2] - z[0])) / area;
         for (std::size_t i = 0; i < 3; ++i)
           if (share[i] == area) height = z[i];
-        heights[static_cast<std::size_t>(row) * static_cast<std::size_t>(window.columns) +
-                static_cast<std::size_t>(column)] = height;
+        heights[static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column)] = height;
       }
   };
   const auto bin = [](double at, double from, double size, int count) {

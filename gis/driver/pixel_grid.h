@@ -13,18 +13,19 @@
 
 namespace arete {
 
-/// The pixels of a dataset over a terrain. Pixel coordinates are GDAL's: the first pixel is from 0 to 1.
+/// The pixels of a dataset over a terrain: the grid of the source, or one of cells (cellGridOf()). Pixel
+/// coordinates are GDAL's: the first pixel is from 0 to 1.
 struct PixelGrid {
   int columns = 0, rows = 0;
   std::array<double, 6> geoTransform{};  ///< from pixel to source coordinates
 
-  /// The grid of the source; with `cell` one of square pixels, north up, over its extent.
-  /// Errors: usage: more pixels than GDAL can number. Preconditions: the outline outlives it; `cell` for
-  /// points.
+  /// The grid of the source; with `cell` one of square pixels. Errors: those of cellGridOf().
+  /// Preconditions: the outline outlives it; `cell` for points.
   static Result<PixelGrid> of(const TerrainModel& outline, std::optional<double> cell);
 
   /// From plan to pixel coordinates.
   Vec2 pixelOf(Vec2 plan) const;
+  bool isOfSource() const { return isOfSource_; }
   /// The plan's box around a window of pixels.
   Box2 planBoxOf(double left, double top, double right, double bottom) const;
 
@@ -59,7 +60,13 @@ class TriangleBins {
   /// Fills the samples of a window, row by row, with the heights of the triangles over them, each at its own
   /// place; NaN where there is none. Heights at corners are the corners', to the bit.
   /// O(samples + triangles near the window).
-  void fill(const PixelWindow& window, std::span<double> heights) const;
+  ///
+  /// @param stride from a row of `heights` to the next; at least window.columns
+  void fill(const PixelWindow& window, std::span<double> heights, std::size_t stride) const;
+  void fill(const PixelWindow& window, std::span<double> heights) const {
+    fill(window, heights, static_cast<std::size_t>(window.columns));
+  }
+  std::size_t size() const { return triangles_.triangles.size(); }
 
  private:
   GridTriangles triangles_;

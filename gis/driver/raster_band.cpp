@@ -89,6 +89,14 @@ CPLErr HeightBand::IRasterIO(GDALRWFlag mode, int left, int top, int width, int 
     CPLError(CE_Failure, CPLE_NotSupported, "an .amt file is only read");
     return CE_Failure;
   }
+  const bool isWhole =
+      extra == nullptr || extra->bFloatingPointWindowValidity == FALSE ||
+      (extra->dfXOff == left && extra->dfYOff == top && extra->dfXSize == width && extra->dfYSize == height);
+  // Pixels as they are, few at once: by blocks, which GDAL keeps.
+  if (isWhole && width == bufferColumns && height == bufferRows &&
+      double(width) * double(height) < 4.0 * kBlock * kBlock)
+    return GDALRasterBand::IRasterIO(mode, left, top, width, height, buffer, bufferColumns, bufferRows, type,
+                                     pixelStep, lineStep, extra);
   PixelWindow all{double(left), double(top), double(width), double(height), bufferColumns, bufferRows};
   if (extra != nullptr && extra->bFloatingPointWindowValidity != FALSE)
     all = {extra->dfXOff, extra->dfYOff, extra->dfXSize, extra->dfYSize, bufferColumns, bufferRows};

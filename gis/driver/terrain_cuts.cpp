@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "engine/base/caught_failure.h"
 #include "engine/criteria/criterion.h"
+#include "engine/parallel/guest_work.h"
 #include "io/extract/query_footprint.h"
 #include "terrain/model/plan_box.h"
 
@@ -15,6 +17,9 @@ namespace {
 
 /// Cuts that are kept: an overview is read many times, then another.
 constexpr std::size_t kMostKept = 4;
+/// Side of a tile in pixels, and how many triangles all that are kept may have.
+constexpr int kTile = 256;
+constexpr std::size_t kMostTriangles = 4'000'000;
 
 bool meet(const Box2& a, const Box2& b) {
   return a.xMin <= b.xMax && b.xMin <= a.xMax && a.yMin <= b.yMax && b.yMin <= a.yMax;
@@ -22,11 +27,11 @@ bool meet(const Box2& a, const Box2& b) {
 
 }  // namespace
 
-Result<TerrainCuts> TerrainCuts::open(const std::string& path, double tolerance,
+Result<TerrainCuts> TerrainCuts::open(AmtContainer container, double tolerance,
                                       std::optional<double> cell) try {
-  Result<AmtFile> file = openAmt(path);
+  Result<AmtFile> file = openAmt(std::move(container));
   if (!file) return tl::unexpected(file.error());
-  Result<TerrainModel> outline = file->read({.wanted = requiredNowhere()});
+  Result<TerrainModel> outline = runAsGuest([&] { return file->read({.wanted = requiredNowhere()}); });
   if (!outline) return tl::unexpected(outline.error());
   TerrainCuts cuts(std::move(*file));
   cuts.outline_ = std::make_shared<const TerrainModel>(std::move(*outline));
@@ -37,7 +42,7 @@ Result<TerrainCuts> TerrainCuts::open(const std::string& path, double tolerance,
   cuts.grid_ = *grid;
   return cuts;
 } catch (...) {
-  return caughtFailure(path);
+  return caughtFailure();
 }
 
 double TerrainCuts::spacingOfPoints() const {
@@ -53,56 +58,166 @@ double TerrainCuts::errorOfOverview(int k) const {
 }
 
 Result<TerrainCuts::Whole> TerrainCuts::take(double error) const {
-  Result<TerrainModel> model = file_.read({.wanted = [error](const Box2&) { return error; }});
-  if (!model) return tl::unexpected(model.error());
-  Result<Cut> cut = takeCut(model->mt, UniformError(error));
-  if (!cut) return tl::unexpected(cut.error());
-  return Whole{std::move(*model), std::move(*cut)};
+  return runAsGuest([&]() -> Result<Whole> {
+    Result<TerrainModel> model = file_.read({.wanted = [error](const Box2&) { return error; }});
+    if (!model) return tl::unexpected(model.error());
+    Result<Cut> cut = takeCut(model->mt, UniformError(error));
+    if (!cut) return tl::unexpected(cut.error());
+    return Whole{std::move(*model), std::move(*cut)};
+  });
 }
 
-GridTriangles TerrainCuts::onGrid(const TerrainModel& model, const Cut& cut) const {
-  GridTriangles result;
-  result.triangles = cut.triangles;
-  result.corners.reserve(cut.vertices.size());
-  for (const std::uint32_t v : cut.vertices) {
-    const Vec3 p = model.mt.position(VertexId(v));
-    result.corners.push_back({grid_.pixelOf({p.x, p.y}), p.z});
+double TerrainCuts::turn() const {
+  return !grid_.isOfSource() && outline_->georeference.repeatsFirstColumn ? outline_->columns - 1.0 : 0;
+}
+
+void TerrainCuts::addOnGrid(const FrontOf& front, const Box2& pixels, double columns,
+                            GridTriangles& to) const {
+  std::vector<Vec2> places;
+  places.reserve(front.vertices.size());
+  const auto at = [&](std::uint32_t v) { return front.model.mt.position(VertexId(front.vertices[v])); };
+  for (std::uint32_t v = 0; v < front.vertices.size(); ++v)
+    places.push_back(grid_.pixelOf({at(v).x + columns, at(v).y}));
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> cornerOf(places.size(), kNone);
+  for (const auto& t : front.triangles) {
+    const auto [xMin, xMax] = std::minmax({places[t[0]].x, places[t[1]].x, places[t[2]].x});
+    const auto [yMin, yMax] = std::minmax({places[t[0]].y, places[t[1]].y, places[t[2]].y});
+    if (!meet({xMin, yMin, xMax, yMax}, pixels)) continue;
+    auto& corners = to.triangles.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::uint32_t& corner = cornerOf[t[i]];
+      if (corner == kNone) {
+        corner = static_cast<std::uint32_t>(to.corners.size());
+        to.corners.push_back({places[t[i]], at(t[i]).z});
+      }
+      corners[i] = corner;
+    }
   }
-  return result;
 }
 
 Result<TriangleBins> TerrainCuts::finestIn(const PixelWindow& window) const {
   // A pixel more on every side, for samples on edges.
-  const Box2 box = grid_.planBoxOf(window.left - 1, window.top - 1, window.left + window.width + 1,
-                                   window.top + window.height + 1);
-  Result<TerrainModel> model = file_.read({.wanted = [&](const Box2& part) {
-    return meet(part, box) ? 0.0 : std::numeric_limits<double>::infinity();
-  }});
-  if (!model) return tl::unexpected(model.error());
-  const RegionError criterion(Region::box(box), model->mt.arrays().metric, 0,
-                              std::numeric_limits<double>::infinity());
-  const Result<Cut> cut = takeCut(model->mt, criterion);
-  if (!cut) return tl::unexpected(cut.error());
-  return TriangleBins(onGrid(*model, *cut));
+  const Box2 pixels{window.left - 1, window.top - 1, window.left + window.width + 1,
+                    window.top + window.height + 1};
+  const Box2 box = grid_.planBoxOf(pixels.xMin, pixels.yMin, pixels.xMax, pixels.yMax);
+  GridTriangles all;
+  for (const double columns : {0.0, -turn()}) {
+    const Box2 moved{box.xMin - columns, box.yMin, box.xMax - columns, box.yMax};
+    Result<TerrainModel> model = file_.read({.wanted = [&](const Box2& part) {
+      return meet(part, moved) ? 0.0 : std::numeric_limits<double>::infinity();
+    }});
+    if (!model) return tl::unexpected(model.error());
+    // Not a cut of error 0: errors are those at samples, and between them a triangle without error may be far
+    // from the finest ones.
+    std::vector<std::uint32_t> vertices(model->mt.vertexCount());
+    std::iota(vertices.begin(), vertices.end(), 0u);
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::uint32_t t = 0; t < model->mt.triangleIdCount(); ++t)
+      if (!model->mt.remover(TriangleId(t)).isValid()) triangles.push_back(model->mt.corners(TriangleId(t)));
+    addOnGrid({*model, vertices, triangles}, pixels, columns, all);
+    if (turn() == 0 || box.xMin > 0) break;
+  }
+  return TriangleBins(std::move(all));
 }
 
-Status TerrainCuts::fill(const PixelWindow& window, double error, std::span<double> heights) try {
-  if (!(error > 0)) {
-    const Result<TriangleBins> finest = finestIn(window);
+Result<std::shared_ptr<const TriangleBins>> TerrainCuts::tile(int column, int row) {
+  const auto found = std::ranges::find_if(
+      tiles_, [&](const Tile& tile) { return tile.column == column && tile.row == row; });
+  if (found != tiles_.end()) {
+    std::rotate(tiles_.begin(), found, found + 1);
+    return tiles_.front().triangles;
+  }
+  Result<TriangleBins> finest = runAsGuest([&] {
+    return finestIn({double(column) * kTile, double(row) * kTile, kTile, kTile, kTile, kTile});
+  });
+  if (!finest) return tl::unexpected(finest.error());
+  tiles_.push_front({column, row, std::make_shared<const TriangleBins>(std::move(*finest))});
+  std::size_t triangles = 0;
+  for (std::size_t i = 0; i < tiles_.size(); ++i)
+    if ((triangles += tiles_[i].triangles->size()) > kMostTriangles && i > 0) tiles_.resize(i);
+  return tiles_.front().triangles;
+}
+
+Status TerrainCuts::fillWithFinest(const PixelWindow& window, std::span<double> heights, bool isByTiles) {
+  if (!isByTiles) {
+    const Result<TriangleBins> finest = runAsGuest([&] { return finestIn(window); });
     if (!finest) return tl::unexpected(finest.error());
     finest->fill(window, heights);
     return {};
   }
+  // Samples whose middles are in one tile.
+  const double across = window.width / window.columns, down = window.height / window.rows;
+  const auto tileOf = [](double begin, double step, int sample) {
+    return static_cast<int>(std::floor((begin + (sample + 0.5) * step) / kTile));
+  };
+  for (int row = 0, rowEnd = 0; row < window.rows; row = rowEnd) {
+    const int down0 = tileOf(window.top, down, row);
+    while (rowEnd < window.rows && tileOf(window.top, down, rowEnd) == down0) ++rowEnd;
+    for (int column = 0, columnEnd = 0; column < window.columns; column = columnEnd) {
+      const int across0 = tileOf(window.left, across, column);
+      while (columnEnd < window.columns && tileOf(window.left, across, columnEnd) == across0) ++columnEnd;
+      const auto triangles = tile(across0, down0);
+      if (!triangles) return tl::unexpected(triangles.error());
+      const auto stride = static_cast<std::size_t>(window.columns);
+      (*triangles)
+          ->fill({window.left + column * across, window.top + row * down, (columnEnd - column) * across,
+                  (rowEnd - row) * down, columnEnd - column, rowEnd - row},
+                 heights.subspan(static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column)),
+                 stride);
+    }
+  }
+  return {};
+}
+
+Status TerrainCuts::fillWithCut(const PixelWindow& window, double error, std::span<double> heights) {
   auto kept = std::ranges::find(kept_, error, &std::pair<double, TriangleBins>::first);
   if (kept == kept_.end()) {
     const Result<Whole> whole = take(error);
     if (!whole) return tl::unexpected(whole.error());
     if (kept_.size() == kMostKept) kept_.erase(kept_.begin());
-    kept_.emplace_back(error, TriangleBins(onGrid(whole->model, whole->cut)));
+    const Box2 pixels{-1, -1, grid_.columns + 1.0, grid_.rows + 1.0};
+    GridTriangles all;
+    addOnGrid({whole->model, whole->cut.vertices, whole->cut.triangles}, pixels, 0, all);
+    if (turn() != 0)
+      addOnGrid({whole->model, whole->cut.vertices, whole->cut.triangles}, pixels, -turn(), all);
+    kept_.emplace_back(error, TriangleBins(std::move(all)));
     kept = kept_.end() - 1;
   }
   kept->second.fill(window, heights);
   return {};
+}
+
+void TerrainCuts::addIsolated(const PixelWindow& window, std::span<double> heights) const {
+  if (!grid_.isOfSource()) return;
+  const auto& isolated = outline_->isolated;
+  const auto rowAt = [](double pixel) {
+    return static_cast<std::uint64_t>(std::max(0.0, std::floor(pixel)));
+  };
+  const auto begin = std::ranges::lower_bound(isolated, rowAt(window.top) * outline_->columns, {},
+                                              [](const auto& one) { return std::uint64_t{one.sample}; });
+  const std::uint64_t end = (rowAt(window.top + window.height) + 1) * outline_->columns;
+  for (auto one = begin; one != isolated.end() && one->sample < end; ++one) {
+    const Vec2 pixel =
+        grid_.pixelOf({double(one->sample % outline_->columns), double(one->sample / outline_->columns)});
+    const double x = (pixel.x - window.left) * window.columns / window.width - 0.5,
+                 y = (pixel.y - window.top) * window.rows / window.height - 0.5;
+    const double column = std::round(x), row = std::round(y);
+    constexpr double kAtMiddle = 1e-9;
+    if (std::fabs(x - column) > kAtMiddle || std::fabs(y - row) > kAtMiddle || column < 0 || row < 0 ||
+        column >= window.columns || row >= window.rows)
+      continue;
+    heights[static_cast<std::size_t>(row) * static_cast<std::size_t>(window.columns) +
+            static_cast<std::size_t>(column)] = one->height;
+  }
+}
+
+Status TerrainCuts::fill(const PixelWindow& window, double error, std::span<double> heights) try {
+  const double samples = double(window.columns) * double(window.rows);
+  const Status filled = error > 0 ? fillWithCut(window, error, heights)
+                                  : fillWithFinest(window, heights, samples < 4.0 * kTile * kTile);
+  if (filled) addIsolated(window, heights);
+  return filled;
 } catch (...) {
   return caughtFailure(file_.path());
 }

@@ -116,6 +116,7 @@ GIntBig TriangleLayer::GetFeatureCount(int force) {
 }
 
 OGRErr TriangleLayer::GetExtent(OGREnvelope* extent, int) {
+  *extent = OGREnvelope();  // callers pass memory as it is
   const PlacedTriangles* const all = triangles();
   if (all == nullptr || all->ids.empty()) return OGRERR_FAILURE;
   for (const auto& triangle : all->mesh.triangles)

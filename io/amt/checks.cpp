@@ -54,6 +54,7 @@ Status checkAmtExtras(const AmtFile& file) {
 }
 
 Status checkAmtIndices(const AmtFile& file, const RunContext& context) try {
+  if (Status read = file.loadAllButPacked(); !read) return read;
   if (!file.isPacked())
     if (Status indices = checkMtIndices(file.model().mt, amtGridSamples(file), context); !indices)
       return failure(indices.error().code, indices.error().message, file.path());
@@ -77,6 +78,7 @@ Status checkSegments(const AmtFile& file, const RunContext& context) {
 
 Status checkAmtChunk(const AmtFile& file, const AmtTag& tag) {
   const auto chunk = std::ranges::find(file.chunks(), tag, &AmtChunk::tag);
+  if (Status read = file.container().load(file.bytes(*chunk)); !read) return read;
   return amtChecksum(file.bytes(*chunk)) == chunk->checksum ? Status() : file.container().altered(*chunk);
 }
 

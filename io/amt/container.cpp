@@ -14,7 +14,11 @@
 #include <cstring>
 #include <utility>
 
+#include "io/file/copied_file.h"
+#include "io/file/mapped_file.h"
 #include "io/format/checksum.h"
+#include "io/gdal/support.h"
+#include "io/gdal/virtual_file.h"
 
 namespace arete {
 
@@ -39,7 +43,37 @@ std::string_view AmtContainer::metadata() const {
   return {reinterpret_cast<const char*>(text.data()), text.size()};
 }
 
+Status AmtContainer::loaded() const {
+  const std::optional<Error> problem = file_->problem();
+  return problem ? Status(tl::unexpected(*problem)) : Status();
+}
+
+Status AmtContainer::load(std::span<const std::byte> part) const {
+  return file_->load(part) ? Status() : loaded();
+}
+
+Result<std::shared_ptr<const FileImage>> AmtContainer::openImage(const std::string& path,
+                                                                 const AmtOpenOptions& options) {
+  if (isVirtualPath(path))
+    return readVirtualFile(path, sizeof(AmtHeader), [](std::span<const std::byte> front) -> std::uint64_t {
+      AmtHeader header;
+      if (front.size() < sizeof header) return 0;
+      std::memcpy(&header, front.data(), sizeof header);
+      return std::memcmp(front.data(), kAmtMagic.data(), kAmtMagic.size()) == 0 ? header.fileBytes : 0;
+    });
+  if (options.isCopied) {
+    auto copied = CopiedFile::open(path);
+    if (!copied) return tl::unexpected(copied.error());
+    return std::shared_ptr<const FileImage>(std::move(*copied));
+  }
+  auto mapped = MappedFile::open(path);
+  if (!mapped) return tl::unexpected(mapped.error());
+  return std::shared_ptr<const FileImage>(std::move(*mapped));
+}
+
 Status AmtContainer::readHeader(AmtHeader& header) const {
+  const auto front = bytes().first(std::min(bytes().size(), sizeof header));
+  if (Status read = load(front); !read) return read;
   const std::size_t magicBytes = std::min(bytes().size(), kAmtMagic.size());
   if (std::memcmp(bytes().data(), kAmtMagic.data(), magicBytes) != 0)
     return failure(ErrorCode::unsupported, "is not an .amt file", path_);
@@ -75,6 +109,7 @@ Status AmtContainer::readDirectory(const AmtHeader& header) {
                                header.chunkCount, header.directoryBytes, header.directoryOffset));
   const std::uint64_t directoryEnd = header.directoryOffset + header.directoryBytes;
   if (bytes().size() < directoryEnd) return truncated(std::max(directoryEnd, header.fileBytes));
+  if (Status read = load(bytes().first(directoryEnd)); !read) return read;
 
   std::vector<std::byte> front(offsetof(AmtHeader, checksum) + header.directoryBytes);
   std::memcpy(front.data(), bytes().data(), offsetof(AmtHeader, checksum));
@@ -124,6 +159,7 @@ Status AmtContainer::checkMetadata() const {
   if (chunk == nullptr) return corrupt("has no chunk META");
   if (chunk->scalar != AmtScalar::u8 || chunk->elementBytes != 1 || chunk->bytes > kAmtMaxMetadataBytes)
     return corrupt(fmt::format("chunk META is not a text of at most {} bytes", kAmtMaxMetadataBytes));
+  if (Status read = load(bytes(*chunk)); !read) return read;
   if (amtChecksum(bytes(*chunk)) != chunk->checksum)
     return corrupt("has been altered: the checksum of chunk META does not match");
   return {};
@@ -149,6 +185,9 @@ tl::unexpected<Error> AmtContainer::altered(const AmtChunk& chunk) const {
 }
 
 Status AmtContainer::checkSums(const AmtTag& leftOut, const RunContext& context) const {
+  for (const AmtChunk& chunk : chunks_)
+    if (chunk.tag != leftOut)
+      if (Status read = load(bytes(chunk)); !read) return read;
   std::vector<const AmtChunk*> chunks;
   std::vector<std::span<const std::byte>> blocks;
   for (const AmtChunk& chunk : chunks_) {
@@ -167,23 +206,26 @@ Status AmtContainer::checkZeros() const {
   std::uint64_t end = sizeof(AmtHeader) + chunks_.size() * sizeof(AmtChunk);
   const auto isZeroUpTo = [&](std::uint64_t begin) {
     const auto padding = bytes().subspan(end, begin - end);
+    if (!file_->load(padding)) return false;
     return std::ranges::all_of(padding, [](std::byte b) { return b == std::byte{0}; });
   };
   for (std::size_t i = 0; i <= chunks_.size(); ++i) {
     const bool isLast = i == chunks_.size();
     if (!isZeroUpTo(isLast ? bytes().size() : chunks_[i].offset))
-      return corrupt(fmt::format("has been altered: the bytes at {}, between its chunks, are not zero", end));
+      return !loaded() ? loaded()
+                       : corrupt(fmt::format(
+                             "has been altered: the bytes at {}, between its chunks, are not zero", end));
     if (!isLast) end = chunks_[i].offset + chunks_[i].bytes;
   }
   return {};
 }
 
 Result<AmtContainer> AmtContainer::open(const std::string& path, const AmtOpenOptions& options) {
-  auto mapped = MappedFile::open(path);
-  if (!mapped) return tl::unexpected(mapped.error());
+  auto image = openImage(path, options);
+  if (!image) return tl::unexpected(image.error());
   AmtContainer container;
   container.path_ = path;
-  container.file_ = std::move(*mapped);
+  container.file_ = std::move(*image);
   if (options.randomAccess) container.file_->adviseRandomAccess();
   AmtHeader header;
   Status status = container.readHeader(header);

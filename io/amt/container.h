@@ -11,22 +11,27 @@
 
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
-#include "io/file/mapped_file.h"
+#include "io/file/file_image.h"
 #include "io/format/layout.h"
 #include "io/format/shapes.h"
 
 namespace arete {
 
 struct AmtOpenOptions {
+  /// Reads parts into memory when they are used, and does not map the file: in programs that are not ours,
+  /// which must not end because another one truncates it (io/file/copied_file.h).
+  bool isCopied = false;
   /// Queries will read few parts of a large file: disables the system's read-ahead.
   bool randomAccess = false;
 };
 
-/// A mapped .amt file as a directory of chunks, whatever they hold. Header, directory and the metadata's
-/// checksum have been checked, the other chunks have not been read. Cheap to copy but for the directory.
+/// An .amt file as a directory of chunks, whatever they hold: mapped, read piece by piece, or whole where it
+/// is in one of GDAL's virtual file systems ("/vsizip/..."). Header, directory and the metadata's checksum
+/// have been checked, the other chunks have not been read. Cheap to copy but for the directory.
 class AmtContainer {
  public:
-  /// Errors, naming the path: notFound; unreadable: permissions, an empty file; unsupported: not an .amt
+  /// Errors, naming the path: notFound; unreadable: permissions, an empty file, a file that is changed while
+  /// it is open; unsupported: not an .amt
   /// file, another version or byte order, a required chunk that is not known; corrupt: cut short (the message
   /// says by how much), a wrong checksum, chunks out of range. O(1).
   static Result<AmtContainer> open(const std::string& path, const AmtOpenOptions& options = {});
@@ -34,8 +39,14 @@ class AmtContainer {
   AmtContainer() = default;
   const std::string& path() const { return path_; }
   std::span<const std::byte> bytes() const { return file_->bytes(); }
-  /// Keeps the bytes mapped.
-  const std::shared_ptr<const MappedFile>& owner() const { return file_; }
+  /// Keeps the bytes.
+  const std::shared_ptr<const FileImage>& owner() const { return file_; }
+  /// Reads a part of bytes() from a file that is read piece by piece. Every part has to be loaded before it
+  /// is used: it is zeros until then. Thread-safe. Errors: unreadable: the file was changed.
+  Status load(std::span<const std::byte> part) const;
+  Status loadAll() const { return load(bytes()); }
+  /// The first error of load(), on any thread.
+  Status loaded() const;
   /// The directory, in the order of the file.
   std::span<const AmtChunk> chunks() const { return chunks_; }
   bool isOfSurface() const {
@@ -67,13 +78,15 @@ class AmtContainer {
   tl::unexpected<Error> corrupt(const std::string& message) const;
 
  private:
+  static Result<std::shared_ptr<const FileImage>> openImage(const std::string& path,
+                                                            const AmtOpenOptions& options);
   Status readHeader(AmtHeader& header) const;
   Status readDirectory(const AmtHeader& header);
   Status checkMetadata() const;
   tl::unexpected<Error> truncated(std::uint64_t wanted) const;
 
   std::string path_;
-  std::shared_ptr<const MappedFile> file_;
+  std::shared_ptr<const FileImage> file_;
   std::vector<AmtChunk> chunks_;
 };
 

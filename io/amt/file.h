@@ -19,9 +19,10 @@ namespace arete {
 struct AmtMetadata;
 
 /// The .amt file: a multitriangulation on disk, as docs/topics/amt-format.md states it. A file is written
-/// whole from a model in memory and read by mapping it: the arrays of a loaded model lie in the file. A query
-/// that states what it requires (RequiredError) reads only that part, from the disk too.
-/// Every function below that returns a Result or a Status also returns outOfMemory if an allocation fails.
+/// whole from a model in memory and read by mapping it: the arrays of a loaded model lie in the file (or,
+/// with AmtOpenOptions::isCopied, in memory of their own). A query that states what it requires
+/// (RequiredError) reads only that part, from the disk too. Every function below that returns a Result or a
+/// Status also returns outOfMemory if an allocation fails.
 
 /// How writeAmt() writes.
 struct AmtWriteOptions {
@@ -52,7 +53,10 @@ struct AmtReadOptions {
 class AmtFile {
  public:
   const std::string& path() const { return container_.path(); }
+  /// Of a file that is read piece by piece (AmtOpenOptions::isCopied) only what was read.
   std::span<const std::byte> bytes() const { return container_.bytes(); }
+  /// Loads everything but packed nodes. Errors: unreadable: the file was changed while it was open.
+  Status loadAllButPacked() const;
   const AmtContainer& container() const { return container_; }
   /// The program that wrote the file.
   const std::string& writer() const { return writer_; }
@@ -106,11 +110,13 @@ class AmtFile {
   std::span<const std::byte> packedDirectory_, packedTables_, packedNodes_;
 };
 
-/// Maps the file and reads its header, directory and metadata, which lie together at its beginning; nothing
-/// else is read. Errors, naming the path: notFound; unreadable: permissions, an empty file; unsupported: not
-/// an .amt file, another version or byte order; corrupt: cut short (the message says by how much), a wrong
-/// checksum, chunks out of range, sizes that contradict each other. O(1).
+/// Maps or opens the file and reads its header, directory and metadata, which lie together at its beginning;
+/// nothing else is read. Errors, naming the path: notFound; unreadable: permissions, an empty file;
+/// unsupported: not an .amt file, another version or byte order; corrupt: cut short (the message says by how
+/// much), a wrong checksum, chunks out of range, sizes that contradict each other. O(1).
 Result<AmtFile> openAmt(const std::string& path, const AmtOpenOptions& options = {});
+/// The same of what is open. Errors: those after AmtContainer::open().
+Result<AmtFile> openAmt(AmtContainer container);
 
 /// Checks all indices: checkMtIndices(), and the arrays beside the multitriangulation. After this no
 /// algorithm of the engine reads outside the arrays, whatever the file holds. Of a packed file only the

@@ -9,6 +9,9 @@
 // The checksums of all segments that were read are compared before the data are used, and the indices of the
 // part are checked before they are followed. If an index is wrong the whole file is checked, so that the
 // culprit is named by its number in the file.
+//
+// Data are touched before they are used: that loads them where the file is read piece by piece, and what was
+// not loaded is zeros. A wrong index among these is met as in a damaged file.
 #include "io/amt/part.h"
 
 #include <tbb/parallel_for.h>
@@ -104,27 +107,42 @@ class PartReader {
   }
 
   Result<MultiTriangulation> readPrefix() {
+    segments_.touch(slotBegin_, end_, end_ + 1);
+    if (!areSlots(0, end_, 0, a_.slotBegin[end_])) return culprit();
+    touchNodes(0, end_, 0, a_.slotBegin[end_]);
     const auto part = prefixOfMt(whole_, end_);
     if (!part) return culprit();
-    touchNodes(0, end_, 0, part->arrays().link.size());
     if (Status whole = checkSegments(); !whole) return tl::unexpected(whole.error());
     return checked(*part);
   }
 
   Result<MultiTriangulation> readSubset(RankedNodes nodes) {
+    if (!touchSubset(nodes)) return culprit();
     MtSubset part = subsetOfMt(whole_, nodes);
-    if (part.problem == MtSubset::Problem::parentMissing && addParents(whole_, nodes)) {
+    if (part.problem != MtSubset::Problem::none) {
+      // Parents may be nodes of which nothing is loaded.
+      for (const std::span<const std::byte> array :
+           {std::as_bytes(a_.slotBegin), std::as_bytes(a_.floor), std::as_bytes(a_.creatorHint)})
+        if (Status read = file_.container().load(array); !read) return tl::unexpected(read.error());
+      if (!addParents(whole_, nodes)) return culprit();
       nodes.rank();
+      if (!touchSubset(nodes)) return culprit();
       part = subsetOfMt(whole_, nodes);
     }
     if (part.problem != MtSubset::Problem::none) return culprit();
-    touchSubset(nodes);
     if (Status whole = checkSegments(); !whole) return tl::unexpected(whole.error());
     return checked(part.mt);
   }
 
   RankedNodes chooseNodes() {
     RankedNodes nodes(whole_.nodeCount());
+    for (std::uint32_t page = 0; page < pages_; ++page) {
+      if (isPageRequired_[page] == 0) continue;
+      const std::uint64_t begin = std::uint64_t{page} * kNodesPerPage,
+                          end = std::min<std::uint64_t>(begin + kNodesPerPage, whole_.nodeCount());
+      segments_.touch(saturatedError_, begin, end);
+      segments_.touch(sphere_, begin, end);
+    }
     tbb::parallel_for(std::uint32_t{0}, pages_, [&](std::uint32_t page) {
       if (isPageRequired_[page] == 0 || context_.cancelled()) return;
       const auto end = std::min<std::size_t>((page + 1) * kBlocksPerPage, nodes.wordCount());
@@ -133,13 +151,6 @@ class PartReader {
           nodes.setWord(block, requiredNodesOf(block));
     });
     nodes.rank();
-    for (std::uint32_t page = 0; page < pages_; ++page) {
-      if (isPageRequired_[page] == 0) continue;
-      const std::uint64_t begin = std::uint64_t{page} * kNodesPerPage,
-                          end = std::min<std::uint64_t>(begin + kNodesPerPage, whole_.nodeCount());
-      segments_.touch(saturatedError_, begin, end);
-      segments_.touch(sphere_, begin, end);
-    }
     return nodes;
   }
 
@@ -161,7 +172,8 @@ class PartReader {
     touchTriangles(0, a_.rootTriangles.size());
   }
 
-  void touchSubset(const RankedNodes& nodes) {
+  /// @return false if the slots are damaged
+  bool touchSubset(const RankedNodes& nodes) {
     for (std::size_t word = 0; word < nodes.wordCount(); ++word) {
       const std::uint64_t members = nodes.word(word);
       if (members == 0) continue;
@@ -169,8 +181,17 @@ class PartReader {
       const std::uint32_t begin = first + static_cast<std::uint32_t>(std::countr_zero(members)),
                           end =
                               first + kNodesPerBlock - static_cast<std::uint32_t>(std::countl_zero(members));
+      segments_.touch(slotBegin_, begin, end + 1);
+      if (!areSlots(begin, end, a_.slotBegin[begin], a_.slotBegin[end])) return false;
       touchNodes(begin, end, a_.slotBegin[begin], a_.slotBegin[end]);
     }
+    return true;
+  }
+
+  /// Whether nodes [begin, end) may have the slots [slots, slotsEnd).
+  bool areSlots(std::uint64_t begin, std::uint64_t end, std::uint64_t slots, std::uint64_t slotsEnd) const {
+    return slots >= 3 * begin && slotsEnd >= slots + 3 * (end - begin) && slotsEnd <= a_.link.size() &&
+           slotsEnd - 2 * end <= a_.floor.size();
   }
 
   /// The data of nodes [begin, end), whose slots are [slots, slotsEnd).
@@ -207,6 +228,7 @@ class PartReader {
   }
 
   tl::unexpected<Error> culprit() const {
+    if (Status read = file_.container().loaded(); !read) return tl::unexpected(read.error());
     if (const Status all = checkAmt(file_, verify_, context_); !all) return tl::unexpected(all.error());
     return failure(ErrorCode::corrupt, "has nodes that contradict each other", file_.path());
   }

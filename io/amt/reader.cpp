@@ -17,7 +17,7 @@ namespace arete {
 
 class AmtOpener {
  public:
-  static Result<AmtFile> open(const std::string& path, const AmtOpenOptions& options);
+  static Result<AmtFile> open(AmtContainer container);
 
  private:
   explicit AmtOpener(AmtFile& file) : file_(file), all_(file.container_) {}
@@ -93,11 +93,9 @@ Status AmtOpener::placeArrays(const AmtMetadata& metadata) {
   return {};
 }
 
-Result<AmtFile> AmtOpener::open(const std::string& path, const AmtOpenOptions& options) {
-  Result<AmtContainer> container = AmtContainer::open(path, options);
-  if (!container) return tl::unexpected(container.error());
+Result<AmtFile> AmtOpener::open(AmtContainer container) {
   AmtFile file;
-  file.container_ = std::move(*container);
+  file.container_ = std::move(container);
   AmtOpener opener(file);
   const Result<AmtMetadata> metadata = opener.readMetadata();
   if (!metadata) return tl::unexpected(metadata.error());
@@ -105,10 +103,20 @@ Result<AmtFile> AmtOpener::open(const std::string& path, const AmtOpenOptions& o
   return file;
 }
 
+Status AmtFile::loadAllButPacked() const {
+  for (const AmtChunk& chunk : chunks())
+    if (chunk.tag != amt_tag::kPackedNodes)
+      if (Status read = container_.load(bytes(chunk)); !read) return read;
+  return {};
+}
+
 double AmtFile::errorBeyond(std::uint64_t nodes) const {
-  if (isPacked()) return packedErrorBeyond(packedDirectory_, metadata_->scale, nodes);
+  if (isPacked())
+    return container_.load(packedDirectory_) ? packedErrorBeyond(packedDirectory_, metadata_->scale, nodes)
+                                             : 0;
   if (!hasSegments()) return 0;
   const MtArrays& a = model_.mt.arrays();
+  if (!container_.load(std::as_bytes(a.blockError))) return 0;
   const std::uint64_t page = nodes / MultiTriangulation::kNodesPerPage + 1,
                       entry = nodeBlockCount(nodeCount_) + page;
   return entry < a.blockError.size() ? a.scale.decode(a.blockError[entry]) : 0;
@@ -117,11 +125,15 @@ double AmtFile::errorBeyond(std::uint64_t nodes) const {
 Result<MultiTriangulation> AmtFile::readMt(const AmtReadOptions& options, const RunContext& context) const {
   const bool isPart = options.wanted && options.verify != AmtVerify::none && !isPacked() && hasSegments();
   if (isPart) return readAmtPart(*this, options.wanted, options.verify, context);
+  if (Status loaded = loadAllButPacked(); !loaded) return tl::unexpected(loaded.error());
   if (Status checked = checkAmt(*this, options.verify, context); !checked)
     return tl::unexpected(checked.error());
   if (!isPacked()) return model_.mt;
+  const AmtContainer& all = container_;
   Result<MultiTriangulation> mt =
-      unpackMt(*metadata_, packedDirectory_, packedTables_, packedNodes_, options.wanted, context);
+      unpackMt(*metadata_, packedDirectory_, packedTables_, packedNodes_, options.wanted, context,
+               [&all](std::span<const std::byte> packet) { return all.load(packet).has_value(); });
+  if (Status loaded = container_.loaded(); !loaded) return tl::unexpected(loaded.error());
   if (!mt) return failure(mt.error().code, mt.error().message, path());
   return mt;
 }
@@ -141,9 +153,17 @@ Result<TerrainModel> AmtFile::read(const AmtReadOptions& options, const RunConte
 }
 
 Result<AmtFile> openAmt(const std::string& path, const AmtOpenOptions& options) try {
-  return AmtOpener::open(path, options);
+  Result<AmtContainer> container = AmtContainer::open(path, options);
+  if (!container) return tl::unexpected(container.error());
+  return AmtOpener::open(std::move(*container));
 } catch (...) {
   return caughtFailure(path);
+}
+
+Result<AmtFile> openAmt(AmtContainer container) try {
+  return AmtOpener::open(std::move(container));
+} catch (...) {
+  return caughtFailure();
 }
 
 Result<TerrainModel> loadAmt(const std::string& path, const AmtLoadOptions& options,

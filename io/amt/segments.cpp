@@ -47,6 +47,11 @@ void AmtSegments::touch(Chunk chunk, std::uint64_t begin, std::uint64_t end) {
   const std::uint64_t first = begin * position.elementBytes / kAmtSegmentBytes,
                       last = (end * position.elementBytes - 1) / kAmtSegmentBytes;
   for (std::uint64_t i = first; i <= last; ++i) states_[position.first + i] |= kMarked;
+  const auto bytes = file_.bytes(file_.chunks()[chunk.index]);
+  const std::uint64_t from = first * kAmtSegmentBytes,
+                      to = std::min<std::uint64_t>(bytes.size(), (last + 1) * kAmtSegmentBytes);
+  // check() and the reader ask whether it could be read.
+  static_cast<void>(file_.container().load(bytes.subspan(from, to - from)));
 }
 
 void AmtSegments::touchAll(Chunk chunk) {
@@ -55,7 +60,8 @@ void AmtSegments::touchAll(Chunk chunk) {
 }
 
 void AmtSegments::touchAll() {
-  std::ranges::fill(states_, kMarked);
+  for (std::size_t i = 0; i < file_.chunks().size(); ++i)
+    if (positions_[i].first < positions_[i + 1].first) touchAll(Chunk{i});
 }
 
 std::size_t AmtSegments::chunkOf(std::size_t segment) const {
@@ -64,6 +70,7 @@ std::size_t AmtSegments::chunkOf(std::size_t segment) const {
 }
 
 Status AmtSegments::check(const RunContext& context) {
+  if (Status read = file_.container().loaded(); !read) return read;
   std::vector<std::size_t> segments;
   for (std::size_t i = 0; i < states_.size(); ++i)
     if (states_[i] == kMarked) segments.push_back(i);

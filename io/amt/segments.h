@@ -24,14 +24,14 @@ class AmtSegments {
   /// Precondition: the file has the chunk, and the chunk has segments.
   Chunk of(const AmtTag& tag) const;
 
-  /// Marks the segments of elements [begin, end) of a chunk as used. Precondition: the chunk has these
-  /// elements.
+  /// Marks the segments of elements [begin, end) of a chunk as used, and loads them (AmtContainer::load()):
+  /// before they are used. Precondition: the chunk has these elements.
   void touch(Chunk chunk, std::uint64_t begin, std::uint64_t end);
   void touchAll(Chunk chunk);
   void touchAll();
 
   /// Compares the checksums of the segments that are marked and not checked yet. Errors: corrupt: the message
-  /// names the first altered chunk; interrupted. Parallel.
+  /// names the first altered chunk; interrupted; unreadable: what touch() could not load. Parallel.
   Status check(const RunContext& context);
 
  private:

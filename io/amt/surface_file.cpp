@@ -357,13 +357,21 @@ Result<SurfaceModel> loadSurfaceAmt(const std::string& path, AmtVerify verify,
                                     const RunContext& context) try {
   const Result<AmtContainer> container = AmtContainer::open(path);
   if (!container) return tl::unexpected(container.error());
-  if (!container->isOfSurface())
-    return failure(ErrorCode::unsupported, "is of terrain, and a surface is wanted here", path);
-  const Result<SurfaceMetadata> metadata = fromSurfaceJson(container->metadata());
-  if (!metadata) return container->corrupt(fmt::format("chunk META: {}", metadata.error().message));
-  return Reading(*container, *metadata, verify, context).run();
+  return loadSurfaceAmt(*container, verify, context);
 } catch (...) {
   return caughtFailure(path);
+}
+
+Result<SurfaceModel> loadSurfaceAmt(const AmtContainer& container, AmtVerify verify,
+                                    const RunContext& context) try {
+  if (!container.isOfSurface())
+    return failure(ErrorCode::unsupported, "is of terrain, and a surface is wanted here", container.path());
+  if (Status read = container.loadAll(); !read) return tl::unexpected(read.error());
+  const Result<SurfaceMetadata> metadata = fromSurfaceJson(container.metadata());
+  if (!metadata) return container.corrupt(fmt::format("chunk META: {}", metadata.error().message));
+  return Reading(container, *metadata, verify, context).run();
+} catch (...) {
+  return caughtFailure(container.path());
 }
 
 }  // namespace arete

@@ -36,5 +36,8 @@ Result<bool> isPackedAmt(const std::string& path);
 /// the checks; unsupported: the file is of terrain.
 Result<SurfaceModel> loadSurfaceAmt(const std::string& path, AmtVerify verify = AmtVerify::all,
                                     const RunContext& context = {});
+/// The same of what is open.
+Result<SurfaceModel> loadSurfaceAmt(const AmtContainer& container, AmtVerify verify = AmtVerify::all,
+                                    const RunContext& context = {});
 
 }  // namespace arete

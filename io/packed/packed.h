@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,10 @@ namespace arete {
 
 struct AmtMetadata;
 struct SurfaceMetadata;
+
+/// Sees to it that some of the packed bytes are in memory before they are decoded; false if they cannot be.
+/// Called on any thread. Null: all are.
+using LoadPacked = std::function<bool(std::span<const std::byte>)>;
 
 /// The packed form of a multitriangulation (docs/topics/amt-format.md, "Packed"): the contents of three
 /// chunks, together a ninth to a fifteenth of the arrays.
@@ -41,13 +46,15 @@ Result<PackedMt> packMt(const TerrainModel& model, const RunContext& context = {
 ///                and stars of all its nodes, which may be far larger than each of them. Null requires
 ///                everything. Where the same error is required everywhere, nodes keep the numbers that they
 ///                have in the whole.
+/// @param load  for `nodes`; `directory` and `tables` are in memory
 /// A saturated cut by region, focus or camera of a part may be coarser than that of the whole, because
 /// spheres do not contain the nodes that were not read. Errors, without a culprit: corrupt: a wrong checksum,
 /// invalid data; outOfMemory; interrupted. O(nodes whose saturated error is at least
 /// half of the required one), 35 bytes per node beside the MT.
 Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directory,
                                     std::span<const std::byte> tables, std::span<const std::byte> nodes,
-                                    const RequiredError& wanted = {}, const RunContext& context = {});
+                                    const RequiredError& wanted = {}, const RunContext& context = {},
+                                    const LoadPacked& load = {});
 
 /// How a surface is packed.
 struct SurfacePackOptions {

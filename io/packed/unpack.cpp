@@ -59,8 +59,8 @@ bool keepRequired(Directory& directory, const RequiredError& wanted, const Outwa
 class Unpacker {
  public:
   Unpacker(Directory directory, std::span<const RansTable> tables, std::span<const std::byte> bytes,
-           const RunContext& context, bool isPart)
-      : directory_(std::move(directory)), bytes_(bytes), context_(context), isPart_(isPart) {
+           const RunContext& context, bool isPart, const LoadPacked& load)
+      : directory_(std::move(directory)), bytes_(bytes), context_(context), isPart_(isPart), load_(load) {
     tables_.resize(kTables * RansTable::kEntries);
     for (std::size_t t = 0; t < kTables; ++t) tables[t].writeEntries(&tables_[t * RansTable::kEntries]);
   }
@@ -108,6 +108,7 @@ class Unpacker {
   std::optional<std::string> decode(std::size_t index) {
     const Packet& packet = directory_.packets[index];
     const auto bytes = bytes_.subspan(packet.offset, packet.bytes());
+    if (load_ && !load_(bytes)) return "cannot be read";
     if (amtChecksum(bytes) != packet.checksum) return "has been altered: its checksum does not match";
     ReaderIo io(*arrays_, directory_, index, tables_.data(), bytes);
     return arrays_->isSurface       ? decode<SurfaceForm>(index, io)
@@ -128,6 +129,7 @@ class Unpacker {
   std::span<const std::byte> bytes_;
   const RunContext& context_;
   bool isPart_;
+  const LoadPacked& load_;
   std::vector<std::uint32_t> tables_;  ///< entries of all tables
   Arrays* arrays_ = nullptr;
   tbb::enumerable_thread_specific<CoderSpace> spaces_;
@@ -142,7 +144,8 @@ namespace {
 Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& counts,
                                   std::span<const std::byte> directoryBytes,
                                   std::span<const std::byte> tableBytes, std::span<const std::byte> nodes,
-                                  const RequiredError& wanted, const RunContext& context) {
+                                  const RequiredError& wanted, const RunContext& context,
+                                  const LoadPacked& load = {}) {
   std::string problem;
   auto directory = packed::directoryOf(directoryBytes, problem, kind.isSurface);
   if (!directory) return failure(ErrorCode::corrupt, "the directory of the packed nodes " + problem);
@@ -167,7 +170,7 @@ Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& c
   if (!tables) return failure(ErrorCode::corrupt, "the tables of the packed nodes are damaged");
   const bool isPart = wanted && !packed::keepRequired(*directory, wanted, kind.scale);
   return withThreads(context, [&] {
-    return packed::Unpacker(std::move(*directory), *tables, nodes, context, isPart).run(kind, counts);
+    return packed::Unpacker(std::move(*directory), *tables, nodes, context, isPart, load).run(kind, counts);
   });
 }
 
@@ -175,7 +178,8 @@ Result<MultiTriangulation> unpack(const packed::MtKind& kind, const AmtCounts& c
 
 Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const std::byte> directory,
                                     std::span<const std::byte> tables, std::span<const std::byte> nodes,
-                                    const RequiredError& wanted, const RunContext& context) try {
+                                    const RequiredError& wanted, const RunContext& context,
+                                    const LoadPacked& load) try {
   packed::MtKind kind;
   kind.isLattice = metadata.model.isRaster;
   kind.hasFills = metadata.model.options.rimTolerance > 0;
@@ -184,7 +188,7 @@ Result<MultiTriangulation> unpackMt(const AmtMetadata& metadata, std::span<const
   kind.encoding = metadata.encoding;
   kind.scale = metadata.scale;
   kind.metric = metadata.metric;
-  return unpack(kind, metadata.counts, directory, tables, nodes, wanted, context);
+  return unpack(kind, metadata.counts, directory, tables, nodes, wanted, context, load);
 } catch (...) {
   return caughtFailure();
 }
