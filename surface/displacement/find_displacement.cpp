@@ -61,7 +61,9 @@ class Pulls final : public CoarseTriangleVisitor {
     if (!(scale > 0) || !(life > 0) || !(dot(normal, normal) > 0)) return;
     const Symmetric3 along = metricAlong(unit(normal), kAcross);
     std::vector<SurfaceSample> samples;
-    t.pieces.forEach([&](const Piece& piece) { samples_.append(piece, samples); });
+    t.pieces.forEach([&](const Piece& piece) {
+      if (piece.across == 0) samples_.append(piece, samples);
+    });
     for (const SurfaceSample& sample : samples) {
       const std::array<double, 3> shares = sharesAt(nearestOnTriangle(sample.place, place), place);
       const Vec3 r = sample.place - (shares[0] * place[0] + shares[1] * place[1] + shares[2] * place[2]);
@@ -110,7 +112,7 @@ class Reaches final : public CoarseTriangleVisitor {
     // A place of the source is where rounding has put it, or no farther from there than positionError.
     const double stored = model_.mt.error(TriangleId(t.id)), error = stored - model_.positionError;
     if (!(error > 0)) return;
-    const std::uint8_t reach = reachOf(original_, t.pieces, place, directions, error);
+    const std::uint8_t reach = reachOf(original_, t.pieces, place, directions, error, t.corners);
     displacement_.reaches[t.id] = static_cast<std::uint8_t>(reach * (error / stored));
   }
 

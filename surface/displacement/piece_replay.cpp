@@ -15,6 +15,7 @@
 #include "engine/parallel/loop_threads.h"
 #include "engine/simplify/hole_triangles.h"
 #include "surface/error/piece_division.h"
+#include "surface/error/star_division.h"
 #include "surface/model/charts.h"
 
 namespace arete {
@@ -109,21 +110,20 @@ Status PieceReplay::run(CoarseTriangleVisitor& visitor, const char* stage, const
           for (std::size_t c = 0; c < link.size(); ++c) places[c] = positions_[link[c]];
           const HoleTriangulation floor = floorOf(mt_, n);
           const StarLine line = lineOf(n);
-          for (int side = 0; side < (line.isThere() ? 2 : 1); ++side) {
-            division.clear();
-            for (std::uint32_t s = 0; s < mt_.ceilingSize(n); ++s) {
-              if (line.sideOfStar(static_cast<int>(s)) != side) continue;
-              const std::uint32_t t = mt_.slotTriangle(n, s).index();
-              if (pieces[t].isEmpty())
-                division.add(faceOf_[t]);
-              else
-                division.add(std::exchange(pieces[t], {}));
-            }
-            std::uint32_t members = 0;
-            for (int f = 0; f < floor.size; ++f)
-              if (line.sideOf(floor.triangles[f]) == side) members |= std::uint32_t{1} << f;
-            division.divide({places.data(), link.size()}, floor, members);
-          }
+          const ReplacedStar star{static_cast<int>(mt_.ceilingSize(n)),
+                                  mt_.apex(n).index(),
+                                  link,
+                                  {places.data(), link.size()},
+                                  floor,
+                                  line};
+          divideStar(division, star, [&](int s, const auto& take) {
+            const std::uint32_t t = mt_.slotTriangle(n, static_cast<std::uint32_t>(s)).index();
+            if (pieces[t].isEmpty())
+              take(Piece{faceOf_[t], 0, wholeFace()});
+            else
+              pieces[t].forEach(take);
+          });
+          for (std::uint32_t s = 0; s < mt_.ceilingSize(n); ++s) pieces[mt_.slotTriangle(n, s).index()] = {};
           for (int f = 0; f < floor.size; ++f) {
             const std::uint32_t t = mt_.floor(n)[static_cast<std::size_t>(f)];
             pieces[t] = division.takePieces(f);

@@ -29,10 +29,21 @@ double scaleWithin(const Vec3& r, const Vec3& u, double radius, double most) {
   return std::min(most, zero);
 }
 
+/// The shares of the point nearest to x on the side opposite to a corner.
+std::array<double, 3> sharesOnSide(const Vec3& x, const SpaceTriangle& triangle, std::size_t corner) {
+  const std::size_t from = (corner + 1) % 3, to = (corner + 2) % 3;
+  const Vec3 along = triangle[to] - triangle[from];
+  std::array<double, 3> shares{};
+  shares[to] = std::clamp(dot(x - triangle[from], along) / dot(along, along), 0.0, 1.0);
+  shares[from] = 1 - shares[to];
+  return shares;
+}
+
 }  // namespace
 
 std::uint8_t reachOf(const OriginalSurface& original, const PieceList& pieces, const SpaceTriangle& triangle,
-                     const std::array<Vec3, 3>& directions, double error) {
+                     const std::array<Vec3, 3>& directions, double error,
+                     const std::array<std::uint32_t, 3>& corners) {
   const Vec3 normal = areaNormal(triangle);
   if (!(dot(normal, normal) > 0)) return 0;
   const double longest = std::max({norm(directions[0]), norm(directions[1]), norm(directions[2])});
@@ -43,7 +54,9 @@ std::uint8_t reachOf(const OriginalSurface& original, const PieceList& pieces, c
     const double radius = error - roundingOf(original, face, piece.cuts);
     for (const FacePoint& p : piece.polygon) {
       const Vec3 x = placeOf(p, face);
-      const std::array<double, 3> shares = sharesAt(nearestOnTriangle(x, triangle), triangle);
+      const std::array<double, 3> shares =
+          piece.across == 0 ? sharesAt(nearestOnTriangle(x, triangle), triangle)
+                            : sharesOnSide(x, triangle, oppositeCorner(piece.across, corners));
       const Vec3 r = x - (shares[0] * triangle[0] + shares[1] * triangle[1] + shares[2] * triangle[2]);
       if (!(radius > 0) || dot(r, r) > radius * radius) {
         least = 0;

@@ -15,7 +15,9 @@ namespace arete {
 /// farther than `error` from the triangle. Rounded down.
 /// @param directions of the corners
 /// @param error      above 0
+/// @param corners    their numbers, by which pieces name sides
 std::uint8_t reachOf(const OriginalSurface& original, const PieceList& pieces, const SpaceTriangle& triangle,
-                     const std::array<Vec3, 3>& directions, double error);
+                     const std::array<Vec3, 3>& directions, double error,
+                     const std::array<std::uint32_t, 3>& corners = {0, 1, 2});
 
 }  // namespace arete

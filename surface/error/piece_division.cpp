@@ -256,6 +256,25 @@ void PieceDivision::assign(std::uint32_t face, std::uint32_t cuts, std::span<con
   bounds_[f] = std::max(bounds_[f], std::sqrt(whole.squared) * (1 + 1e-12) + rounding);
 }
 
+void PieceDivision::giveAcross(int f, std::uint8_t across, const Vec3& a, const Vec3& b) {
+  joinParts();
+  const Vec3 along = b - a;
+  const double squaredLength = dot(along, along);
+  for (const Part& part : parts_) {
+    const SpaceTriangle face = original_.face(part.face);
+    const std::span<const FacePoint> polygon = polygonOf(part);
+    double most = 0;
+    for (const FacePoint& p : polygon) {
+      const Vec3 away = placeOf(p, face) - a;
+      const double at = squaredLength > 0 ? std::clamp(dot(away, along) / squaredLength, 0.0, 1.0) : 0;
+      most = std::max(most, squaredDistance(away, at * along));
+    }
+    lists_[f].add(part.face, part.cuts, polygon, across);
+    const double rounding = roundingOf(original_, face, isWholeFace(polygon) ? 0 : part.cuts);
+    bounds_[f] = std::max(bounds_[f], std::sqrt(most) * (1 + 1e-12) + rounding);
+  }
+}
+
 void PieceDivision::divide(std::span<const Vec3> corners, const HoleTriangulation& floor,
                            std::uint32_t members) {
   joinParts();

@@ -45,6 +45,9 @@ class PieceDivision {
   void add(const PieceList& pieces);
   /// Adds a whole face.
   void add(std::uint32_t face);
+  /// Adds a piece of it.
+  void add(std::uint32_t face, std::uint32_t cuts, std::span<const FacePoint> polygon);
+  bool isEmpty() const { return parts_.empty(); }
 
   /// @param corners of the hole, and
   /// @param floor the triangles that fill it.
@@ -54,6 +57,10 @@ class PieceDivision {
   /// @param members of the floor, a bit for each triangle: those that the pieces may belong to. They fill a
   ///        polygon. Precondition: not empty.
   void divide(std::span<const Vec3> corners, const HoleTriangulation& floor, std::uint32_t members);
+
+  /// Gives the pieces to the side between a and b of a triangle of the floor (Piece::across): they are within
+  /// its bound of that. After divide() with the triangle as a member.
+  void giveAcross(int f, std::uint8_t across, const Vec3& a, const Vec3& b);
 
   // After divide(), by triangle of the floor, until a later one has the triangle as a member:
   PieceList takePieces(int f) { return lists_[static_cast<std::size_t>(f)].finish(); }
@@ -90,7 +97,6 @@ class PieceDivision {
     Whole whole;
   };
 
-  void add(std::uint32_t face, std::uint32_t cuts, std::span<const FacePoint> polygon);
   std::span<const FacePoint> polygonOf(const Part& part) const {
     return std::span(points_).subspan(part.begin, part.end - part.begin);
   }

@@ -17,6 +17,7 @@
 #include "engine/base/nearest_on_triangle.h"
 #include "surface/displacement/displaced_places.h"
 #include "surface/model/charts.h"
+#include "surface/topology/edges.h"
 
 namespace arete {
 namespace {
@@ -61,6 +62,34 @@ Box boxOf(const SpaceTriangle& t, double wider, std::uint32_t number) {
   return {low.data(), high.data(), number};
 }
 
+/// What a sample of a chart may be near to.
+struct Target {
+  SpaceTriangle place;
+  double allowed;
+  std::uint32_t chart;
+};
+
+/// The triangles; and the edges between charts, which are of both: what is across such an edge from a
+/// triangle is within its error of the edge (divideStar()).
+std::vector<Target> targetsOf(const PlacedFront& front, const std::vector<std::uint32_t>& chartOf) {
+  std::vector<Target> targets;
+  const auto chartAt = [&](std::size_t t) { return chartOf.empty() ? 0 : chartOf[front.cut.ids[t]]; };
+  for (std::size_t t = 0; t < front.cut.triangles.size(); ++t)
+    targets.push_back({front.triangle(t), front.errors[t], chartAt(t)});
+  if (chartOf.empty()) return targets;
+  const MeshEdges edges(front.cut.triangles, front.places.size());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const MeshEdges::Edge edge = edges[e];
+    if (edge.sides.size() != 2) continue;
+    const std::uint32_t s = triangleOf(edge.sides[0]).index(), t = triangleOf(edge.sides[1]).index();
+    if (chartAt(s) == chartAt(t)) continue;
+    const Vec3 &a = front.places[edge.low.index()], &b = front.places[edge.high.index()];
+    targets.push_back({{a, b, b}, front.errors[s], chartAt(t)});
+    targets.push_back({{a, b, b}, front.errors[t], chartAt(s)});
+  }
+  return targets;
+}
+
 Status check(const PlacedFront& front, const char* what, const SourceSamples& samples,
              const RunContext& context) {
   double largest = 0;
@@ -68,11 +97,10 @@ Status check(const PlacedFront& front, const char* what, const SourceSamples& sa
     largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   const double ulps = 64 * std::numeric_limits<double>::epsilon() * largest;
   std::vector<Box> triangles, points;
-  std::vector<double> allowed;
-  for (std::uint32_t t = 0; t < front.cut.triangles.size(); ++t) {
-    const SpaceTriangle place = front.triangle(t);
-    allowed.push_back(front.errors[t] + slackOf(place, ulps));
-    triangles.push_back(boxOf(place, allowed.back(), t));
+  std::vector<Target> targets = targetsOf(front, samples.chartOf);
+  for (std::uint32_t t = 0; t < targets.size(); ++t) {
+    targets[t].allowed += slackOf(targets[t].place, ulps);
+    triangles.push_back(boxOf(targets[t].place, targets[t].allowed, t));
   }
   for (std::uint32_t i = 0; i < samples.places.size(); ++i) {
     const Vec3& p = samples.places[i];
@@ -83,9 +111,9 @@ Status check(const PlacedFront& front, const char* what, const SourceSamples& sa
   const auto test = [&](const Box& triangle, const Box& point) {
     if (++tests % 65536 == 0 && context.cancelled()) throw Interrupted{};
     if (isNear[point.info()]) return;
-    const std::uint32_t t = triangle.info();
-    if (!samples.charts.empty() && samples.chartOf[front.cut.ids[t]] != samples.charts[point.info()]) return;
-    isNear[point.info()] = distanceToTriangle(samples.places[point.info()], front.triangle(t)) <= allowed[t];
+    const Target& target = targets[triangle.info()];
+    if (!samples.charts.empty() && target.chart != samples.charts[point.info()]) return;
+    isNear[point.info()] = distanceToTriangle(samples.places[point.info()], target.place) <= target.allowed;
   };
   try {
     CGAL::box_intersection_d(triangles.begin(), triangles.end(), points.begin(), points.end(), test);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <span>
 
-#include "surface/model/face_heirs.h"
 #include "surface/topology/disjoint_sets.h"
 #include "surface/topology/edges.h"
 
@@ -68,8 +67,31 @@ std::vector<std::uint32_t> chartsOf(const SurfaceModel& model) {
       });
   std::vector<std::uint32_t> charts(mt.triangleIdCount(), 0);
   for (std::size_t i = 0; i < ids.size(); ++i) charts[ids[i]] = ofFinest[i];
-  // Each coarse triangle has an edge in common with one of the star that follows it, on its side of a line.
-  inheritFaces(mt, charts);
+  // Each triangle of a floor has an edge in common with one of the star on its side of a line.
+  for (std::uint32_t n = mt.nodeCount(); n-- > 0;) {
+    const NodeId node(n);
+    const auto link = mt.link(node);
+    const auto slotAt = [&](int i) { return mt.slotTriangle(node, static_cast<std::uint32_t>(i)).index(); };
+    const auto size = static_cast<int>(mt.ceilingSize(node));
+    const StarLine line = lineThrough(parts, size, mt.isOpen(node), [&](int i) {
+      return TriangleLabels{model.faceOf[slotAt(i)],
+                            model.hasWedges() ? model.wedgesOf[slotAt(i)] : Corners{}};
+    });
+    for (const std::uint32_t t : mt.floor(node)) {
+      const Corners corners = mt.corners(TriangleId(t));
+      std::array<int, 3> at{};
+      for (std::size_t c = 0; c < 3; ++c)
+        at[c] = static_cast<int>(std::ranges::find(link, corners[c]) - link.begin());
+      const auto isCorner = [&](int i) { return std::ranges::find(at, i) != at.end(); };
+      int heir = -1, best = -1;
+      for (int i = 0; i < size; ++i) {
+        if (line.sideOfStar(i) != line.sideOf(at)) continue;
+        const int common = int(isCorner(i)) + int(isCorner((i + 1) % static_cast<int>(link.size())));
+        if (common > best) best = common, heir = i;
+      }
+      if (heir >= 0) charts[t] = charts[slotAt(heir)];
+    }
+  }
   return charts;
 }
 

@@ -39,7 +39,7 @@ void SurfaceCost::collectSamples() {
     const SlotId slot = star.slot(i);
     const PieceList& list = s_.pieces[slot];
     const auto add = [&](const Piece& piece) {
-      if (number++ % step == 0) s_.samples.append(piece, samples_);
+      if (number++ % step == 0 && piece.across == 0) s_.samples.append(piece, samples_);
     };
     if (list.isEmpty()) add({s_.labelsOf(slot).face, 0, wholeFace()});
     list.forEach(add);
@@ -63,6 +63,7 @@ double SurfaceCost::integralOver(int corner, double limit) {
              norm(fan_.normal(fan_.size() - 1)) / 2;
     }
     if (sum > limit) return sum;
+    if (fan_.size() == 0) continue;  // what goes across a line: integralAlongLine()
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       if ((i >= otherSide_[0] && i < otherSide_[1]) != (side == 1)) continue;
       sum += fan_.nearest(samples_[i].place) * samples_[i].area;

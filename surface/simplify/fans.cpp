@@ -95,9 +95,20 @@ bool SurfaceHole::gather(const SurfaceState& state, VertexId v) {
                 labels.wedges.end());
     return labels;
   });
-  if (!line_.passes || !line_.isThere()) return line_.passes;
-  const int triangles = line_.ends[1] - line_.ends[0];
-  return triangles > 1 && star_.triangleCount - triangles > 1;
+  return line_.passes;
+}
+
+/// Whether no line and no border runs along the edge of a triangle of the star at the rim.
+bool SurfaceHole::goesOnBeyond(const SurfaceState& state, int triangle) const {
+  const auto from = [&](HalfedgeId h) {
+    TriangleLabels labels = state.labelsOf(LiveMesh::slotOf(h));
+    std::rotate(labels.wedges.begin(), labels.wedges.begin() + LiveMesh::sideOf(h), labels.wedges.end());
+    return labels;
+  };
+  const HalfedgeId rim = star_.rim(triangle), beyond = state.mesh.twinOf(rim);
+  if (!beyond.isValid()) return false;
+  const TriangleLabels a = from(rim), b = from(beyond);
+  return state.parts.areAlike(a, b) && a.wedges[0] == b.wedges[1] && a.wedges[1] == b.wedges[0];
 }
 
 bool SurfaceHole::keepsShape(int corner) const {
@@ -151,6 +162,7 @@ bool SurfaceHole::folds(const SurfaceState& state, int corner) {
 }
 
 bool SurfaceHole::mayBeFilled(const SurfaceState& state) const {
+  if (ear() >= 0 && !goesOnBeyond(state, ear())) return false;
   if (star_.isOpen) return !haveEdge(state.mesh, star_.link[0], star_.link[star_.linkSize - 1]);
   if (star_.linkSize > 3) return true;
   // The triangle that would fill the hole may be there already, beyond the star.

@@ -21,8 +21,8 @@ HoleTriangulation fanAround(int corner, int corners);
 /// A fan keeps the surface a manifold of the same topology if none of its new edges is an edge of the mesh
 /// already (the link condition [DeyEdelsbrunnerGuhaNekhayev1999]). It turns no triangle over: each turns
 /// like the one that it replaces. On a line, where labels change, only the fans around the line's own
-/// neighbours keep the line; and where one side of it is a single triangle, none does: that would leave the
-/// side nothing, so a part never vanishes, and a closed line keeps three vertices.
+/// neighbours keep the line. Where one side of it is a single triangle, the line continues along the edge
+/// beyond: the side must go on there, so that a part never vanishes, and a closed line keeps three vertices.
 class SurfaceHole {
  public:
   /// Gathers the star of v and reads nothing beyond it. False if no fan may fill it while the star is as it
@@ -33,6 +33,12 @@ class SurfaceHole {
   VertexId vertex() const { return vertex_; }
   const Vec3& apex() const { return apex_; }
   const StarLine& line() const { return line_; }
+  /// The triangle of the star that is alone on its side of the line; -1: there is none.
+  int ear() const {
+    if (!line_.isThere()) return -1;
+    const int triangles = line_.ends[1] - line_.ends[0];
+    return triangles == 1 ? line_.ends[0] : star_.triangleCount - triangles == 1 ? line_.ends[1] : -1;
+  }
   int corners() const { return star_.linkSize; }
   const Vec3& corner(int i) const { return places_[i]; }
   std::span<const Vec3> places() const { return {places_.data(), static_cast<std::size_t>(star_.linkSize)}; }
@@ -42,7 +48,7 @@ class SurfaceHole {
   /// Whether the fan around a corner folds the surface: turns two triangles at an edge further towards each
   /// other than any at the star were, and by more than 120 degrees. Reads the triangles around the star.
   bool folds(const SurfaceState& state, int corner);
-  /// Whether any fan keeps the topology. Reads the mesh around the star.
+  /// Whether any fan keeps the topology and every part. Reads the mesh around the star.
   bool mayBeFilled(const SurfaceState& state) const;
   /// Whether the fan around a corner keeps the topology, if any does. Reads the mesh around the corner.
   bool keepsTopology(const SurfaceState& state, int corner) const;
@@ -52,6 +58,7 @@ class SurfaceHole {
 
  private:
   void gatherBeyond(const SurfaceState& state);
+  bool goesOnBeyond(const SurfaceState& state, int triangle) const;
   int next(int i) const { return i + 1 < star_.linkSize ? i + 1 : 0; }
   int previous(int i) const { return i > 0 ? i - 1 : star_.linkSize - 1; }
   bool areNeighbours(int i, int j) const { return next(i) == j || next(j) == i; }

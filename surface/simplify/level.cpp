@@ -60,10 +60,11 @@ void SurfaceLevels::evaluate(double threshold, std::uint32_t number) {
 void SurfaceLevels::claim() {
   claimed_.clear();
   std::size_t kept = 0;
-  Star star;
+  SurfaceHole hole;
   std::vector<std::uint64_t> wanted;
   for (const VertexId v : chosen_) {
-    star.gather(s_.mesh, v, kMaxHoleCorners);
+    hole.gather(s_, v);
+    const Star& star = hole.star();
     const VertexId around(s_.records[v].witness);
     const auto edge = [](VertexId a, VertexId b) {
       return std::uint64_t{std::min(a, b).index()} << 32 | std::max(a, b).index();
@@ -82,6 +83,9 @@ void SurfaceLevels::claim() {
       std::ranges::sort(corners);
       wanted.push_back(edge(corners[0], corners[1]));
     }
+    // Both sides of the edge that a line is going to have may be the last triangle of a part.
+    if (const int ear = hole.ear(); ear >= 0)
+      wanted.push_back(edge(star.link[ear], star.link[ear + 1 < star.linkSize ? ear + 1 : 0]));
     if (std::ranges::any_of(wanted, [&](std::uint64_t e) { return claimed_.contains(e); })) {
       s_.records[v].state = RecordState::stale;
       s_.thresholds.set(v, ThresholdList::kNow);

@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "engine/simplify/floor_joins.h"
+#include "surface/error/star_division.h"
 
 namespace arete {
 namespace {
@@ -49,22 +50,21 @@ bool SurfaceRemover::remove(VertexId v, RemovalId removal, std::span<Seam> seams
 
 void SurfaceRemover::dividePieces(const HoleTriangulation& floor) {
   const Star& star = hole_.star();
-  const StarLine& line = hole_.line();
-  for (int side = 0; side < (line.isThere() ? 2 : 1); ++side) {
-    division_.clear();
-    for (int i = 0; i < star.triangleCount; ++i) {
-      if (line.sideOfStar(i) != side) continue;
-      const SlotId slot = star.slot(i);
-      if (s_.pieces[slot].isEmpty())
-        division_.add(s_.labelsOf(slot).face);
-      else
-        division_.add(s_.pieces[slot]);
-    }
-    std::uint32_t members = 0;
-    for (int f = 0; f < floor.size; ++f)
-      if (line.sideOf(floor.triangles[f]) == side) members |= std::uint32_t{1} << f;
-    division_.divide(hole_.places(), floor, members);
-  }
+  std::array<std::uint32_t, kMaxHoleCorners> link;
+  for (int i = 0; i < star.linkSize; ++i) link[i] = star.link[i].index();
+  const ReplacedStar replaced{star.triangleCount,
+                              hole_.vertex().index(),
+                              {link.data(), static_cast<std::size_t>(star.linkSize)},
+                              hole_.places(),
+                              floor,
+                              hole_.line()};
+  divideStar(division_, replaced, [&](int i, const auto& take) {
+    const SlotId slot = star.slot(i);
+    if (s_.pieces[slot].isEmpty())
+      take(Piece{s_.labelsOf(slot).face, 0, wholeFace()});
+    else
+      s_.pieces[slot].forEach(take);
+  });
 }
 
 void SurfaceRemover::record(RemovalId removal, int floorSize) {

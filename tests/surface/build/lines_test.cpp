@@ -208,6 +208,67 @@ TEST(Lines, OfPolygonsWithoutAVertexInsideTakeHardlyMoreSegmentsThanDouglasPeuck
   }
 }
 
+/// The one closed line between two materials.
+std::vector<Vec3> lineOf(const SurfaceMesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> sides;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
+      sides[{std::min(a, b), std::max(a, b)}].push_back(mesh.materialOf[t]);
+    }
+  std::map<std::uint32_t, std::vector<std::uint32_t>> next;
+  for (const auto& [edge, of] : sides)
+    if (of.size() == 2 && of[0] != of[1]) {
+      next[edge.first].push_back(edge.second);
+      next[edge.second].push_back(edge.first);
+    }
+  std::vector<Vec3> line;
+  const std::uint32_t first = next.begin()->first;
+  std::uint32_t before = first, at = next[first][0];
+  line.push_back(mesh.positions[first]);
+  while (at != first) {
+    EXPECT_EQ(next[at].size(), 2u);
+    line.push_back(mesh.positions[at]);
+    const std::uint32_t to = next[at][0] == before ? next[at][1] : next[at][0];
+    before = at;
+    at = to;
+  }
+  EXPECT_EQ(line.size(), next.size());
+  return line;
+}
+
+TEST(Lines, OfStaircasesTakeHardlyMoreSegmentsThanDouglasPeucker) {
+  // Faces of a grid that belong to the disc in which their square, or they themselves, have their middle.
+  const std::uint32_t n = test::isFull() ? 300 : 80;
+  for (const bool isBySquare : {true, false})
+    for (const bool isMirrored : {false, true}) {
+      TriangleMesh plate = shapes::sheet(n, n);
+      if (isMirrored)
+        for (std::uint32_t t = 0; t < plate.triangles.size(); t += 2) {
+          const auto [a, b, c] = plate.triangles[t];
+          const std::uint32_t d = plate.triangles[t + 1][2];
+          plate.triangles[t] = {a, b, d};
+          plate.triangles[t + 1] = {b, c, d};
+        }
+      std::vector<std::uint32_t> parts;
+      for (std::size_t t = 0; t < plate.triangles.size(); ++t) {
+        Vec3 p{};
+        for (std::size_t of = isBySquare ? t / 2 * 2 : t, i = 0; i < (isBySquare ? 2 : 1); ++i)
+          for (const std::uint32_t v : plate.triangles[of + i])
+            p = p + plate.positions[v] / (isBySquare ? 6.0 : 3.0);
+        parts.push_back(norm(p - Vec3{0.5 * n + 0.1, 0.5 * n + 0.2, 0}) < 0.35 * n ? 1 : 0);
+      }
+      const SurfaceMesh mesh = parted::withParts(plate, parts, {.materials = true});
+      const std::vector<Vec3> line = lineOf(mesh);
+      const SurfaceModel model = built(mesh);
+      for (const double error : {0.1, 0.5, 0.8, 1.5, 3.0, 6.0}) {
+        const std::size_t ours = lineEdges(surfaceOf(model, within(model, error)).mesh);
+        const std::size_t theirs = douglasPeucker(line, error);
+        EXPECT_LE(double(ours), 1.5 * double(theirs)) << isBySquare << isMirrored << " within " << error;
+      }
+    }
+}
+
 TEST(Lines, OfRoundPatchesTakeHardlyMoreSegmentsThanDouglasPeucker) {
   struct Case {
     const char* name;
