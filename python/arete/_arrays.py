@@ -4,6 +4,8 @@
 A form that is not understood is refused. Nothing is rounded: a number that float64 does not hold is an error.
 """
 
+import math
+import numbers
 from typing import Any, Optional, Tuple
 
 import numpy as np
@@ -22,15 +24,17 @@ def heights_of(array: Any, nodata: Optional[float]) -> NDArray[np.float64]:
         raise TypeError(f"heights of type {array.dtype} are no real numbers")
     mask = np.asarray(np.ma.getmaskarray(array), dtype=np.bool_)  # type: ignore[no-untyped-call]
     raw = np.asarray(np.ma.getdata(array))  # type: ignore[no-untyped-call]
+    if raw.size == 0:
+        raise ValueError(f"the heights have the shape {raw.shape}: there is none")
     with np.errstate(over="ignore"):
         heights = np.array(raw, dtype=np.float64, order="C", copy=True)
+    if nodata is not None:
+        mask = mask | (raw == _in_type_of(raw, nodata))
     exact = _is_exact(raw, heights) | mask
     if not exact.all():
         row, column = np.argwhere(~exact)[0]
         raise ValueError(f"the height {raw[row, column]!r} in row {row}, column {column} is no float64 number: nothing is "
                          "rounded")
-    if nodata is not None:
-        heights[raw == _in_type_of(raw, nodata)] = np.nan
     heights[mask] = np.nan
     return heights
 
@@ -50,9 +54,38 @@ def _is_exact(raw: NDArray[Any], heights: NDArray[np.float64]) -> NDArray[np.boo
 
 def _in_type_of(raw: NDArray[Any], nodata: float) -> Any:
     """A NODATA value as the array has it: -3.4e38 of a text is that of float32."""
-    if raw.dtype.kind == "f":
-        return raw.dtype.type(nodata)
-    return nodata
+    if isinstance(nodata, (bool, np.bool_)) or not isinstance(nodata, numbers.Real):
+        raise TypeError(f"nodata={nodata!r} is no number")
+    with np.errstate(over="ignore"):
+        if raw.dtype.kind == "f":
+            return raw.dtype.type(nodata)
+    if not math.isfinite(nodata) or nodata != int(nodata):
+        return np.nan  # no whole number equals it
+    limits = np.iinfo(raw.dtype)
+    if int(nodata) == int(limits.max) + 1:
+        return limits.max  # as a float, of 64 bits: rasterio's dataset.nodata
+    return raw.dtype.type(int(nodata)) if limits.min <= int(nodata) <= limits.max else np.nan
+
+
+def places_of(values: Any, name: str) -> Tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Coordinates as float64, and which of them are masked."""
+    mask = np.asarray(np.ma.getmaskarray(values), dtype=np.bool_)  # type: ignore[no-untyped-call]
+    raw = np.asarray(np.ma.getdata(values))  # type: ignore[no-untyped-call]
+    if raw.dtype.kind not in "iufO" and raw.size:
+        raise TypeError(f"{name} of type {raw.dtype} are no real numbers")
+    return np.asarray(raw, dtype=np.float64), mask
+
+
+def unmasked_places(values: Any, name: str) -> NDArray[np.float64]:
+    """Coordinates as float64, none of them masked."""
+    places, mask = places_of(values, name)
+    refuse_masked(mask, name)
+    return places
+
+
+def refuse_masked(mask: NDArray[np.bool_], name: str) -> None:
+    if mask.any():
+        raise ValueError(f"{name} {int(np.argwhere(mask)[0][0])} is masked" if mask.ndim > 1 else f"the {name} is masked")
 
 
 def geotransform_of(transform: Any) -> Optional[Tuple[float, float, float, float, float, float]]:
@@ -61,6 +94,10 @@ def geotransform_of(transform: Any) -> Optional[Tuple[float, float, float, float
         return None
     try:
         a, b, c, d, e, f = (float(getattr(transform, name)) for name in "abcdef")
+        if not all(math.isfinite(number) for number in (a, b, c, d, e, f)) or a * e == b * d:
+            raise OverflowError
+    except OverflowError:
+        raise ValueError(f"transform is not invertible: {tuple(transform)[:6]}") from None
     except (AttributeError, TypeError, ValueError):
         raise TypeError("transform is no affine.Affine (rasterio's dataset.transform); of GDAL's six numbers make "
                         "one by Affine.from_gdal(*numbers)") from None
@@ -86,21 +123,31 @@ def mesh_of(mesh: Any, triangles: Any) -> Tuple[NDArray[np.float64], NDArray[np.
     (meshio) or vertices and faces (trimesh). Numbers that float64 does not hold are an error."""
     if triangles is None:
         mesh, triangles = _parts_of(mesh)
+    for name, values in (("vertex", mesh), ("triangle", triangles)):
+        refuse_masked(np.atleast_2d(np.ma.getmaskarray(values)), name)  # type: ignore[no-untyped-call]
     raw = np.asarray(mesh)
     if raw.dtype.kind not in "iuf":
         raise TypeError(f"vertices of type {raw.dtype} are no real numbers")
     vertices = np.ascontiguousarray(raw, dtype=np.float64)
-    numbers = np.asarray(triangles)
-    for name, shape in (("vertices", vertices.shape), ("triangles", numbers.shape)):
+    corners = np.asarray(triangles)
+    for name, shape in (("vertices", vertices.shape), ("triangles", corners.shape)):
         if len(shape) != 2 or shape[1] != 3:
             raise ValueError(f"the {name} have the shape {shape}, not (n, 3)")
     if not _is_exact(raw, vertices).all():
         raise ValueError("a coordinate is no float64 number: nothing is rounded")
     if not np.isfinite(vertices).all():
         raise ValueError(f"vertex {int(np.argwhere(~np.isfinite(vertices))[0][0])} is not finite")
-    if numbers.dtype.kind not in "iu" or (numbers.size and (numbers.min() < 0 or numbers.max() >= len(vertices))):
+    if corners.dtype.kind not in "iu" or (corners.size and (corners.min() < 0 or corners.max() >= len(vertices))):
         raise ValueError("the triangles are no numbers of vertices")
-    return vertices, np.ascontiguousarray(numbers, dtype=np.uint32)
+    return vertices, np.ascontiguousarray(corners, dtype=np.uint32)
+
+
+def some_mesh_of(mesh: Any, triangles: Any) -> Tuple[NDArray[np.float64], NDArray[np.uint32]]:
+    """As mesh_of(), of a mesh that has triangles."""
+    vertices, corners = mesh_of(mesh, triangles)
+    if len(corners) == 0:
+        raise ValueError("the mesh has no triangles: nothing is measured")
+    return vertices, corners
 
 
 def _parts_of(mesh: Any) -> Tuple[Any, Any]:
@@ -145,7 +192,7 @@ def line_of(line: Any) -> NDArray[np.float64]:
         if geometry.get("type") != "LineString":
             raise ValueError(f"a line is a LineString, not a {geometry.get('type')}")
         line = [place[:2] for place in geometry["coordinates"]]
-    places = np.ascontiguousarray(line, dtype=np.float64)
+    places = np.ascontiguousarray(unmasked_places(line, "place"))
     if places.ndim != 2 or places.shape[1] != 2 or len(places) < 2:
         raise ValueError("a line is two or more rows of x, y")
     if not np.isfinite(places).all():

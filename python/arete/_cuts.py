@@ -95,6 +95,11 @@ class Tin:
         """WKT, as pyproj, rasterio and geopandas take it; None where the source has no CRS."""
         return self._tin.crs_wkt or None
 
+    def __reduce__(self) -> Tuple[Callable[..., Any], Tuple[Any, ...]]:
+        tin = self._tin
+        return _tin_of, (np.array(tin.vertices), np.array(tin.triangles), np.array(tin.errors), tin.error, tin.is_complete,
+                         tin.pixels, tin.crs_wkt)
+
     def to_meshio(self) -> Any:
         """A meshio.Mesh with the data "error" of each cell."""
         import meshio
@@ -169,6 +174,10 @@ class Stored:
         from ._files import open as open_model
 
         return open_model, (self._path,)
+
+
+def _tin_of(*parts: Any) -> Tin:
+    return Tin(_arete.Tin(*parts))
 
 
 def _numbers(name: str, values: Any, count: int) -> Tuple[float, ...]:

@@ -3,14 +3,16 @@
 
 import math
 import os
-from typing import Any, Dict, NamedTuple, Optional, Tuple
+from typing import Any, Dict, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arete
 from ._arrays import crs_text, geotransform_of, heights_of, line_of, mesh_of, rings_of
+from ._arrays import places_of, some_mesh_of, unmasked_places
 from ._cuts import Asked, Camera, PathLike, Progress, Stored, Tin
+from ._sizes import Size, count_of, size_of
 
 
 class Sight(NamedTuple):
@@ -54,8 +56,8 @@ class Model(Stored):
         super().__init__(terrain, path)
         self._terrain = terrain
 
-    def cut(self, max_error: Optional[float] = None, max_triangles: Optional[int] = None, region: Any = None,
-            outside_error: float = math.inf, camera: Optional[Camera] = None, pixel_error: Optional[float] = None,
+    def cut(self, max_error: Optional[Size] = None, max_triangles: Union[int, str, None] = None, region: Any = None,
+            outside_error: Size = math.inf, camera: Optional[Camera] = None, pixel_error: Optional[float] = None,
             fit: Optional[str] = None, progress: Progress = None) -> Tin:
         """The fewest triangles within `max_error`, or the best of at most `max_triangles`; both: whichever ends first.
 
@@ -64,7 +66,12 @@ class Model(Stored):
         camera: the error is at most pixel_error (1 by default) in its picture, and outside_error out of sight.
         fit: moves the heights of the vertices: "triangles" for fewer triangles within max_error, "error" for a smaller
             error of as many. What that comes to is certain once measure() has found it.
+
+        An error may be a percentage of the relief ("1%": of the highest minus the lowest sample), a number of triangles one of
+        the finest.
         """
+        max_error, outside_error = self._error("max_error", max_error), self._error("outside_error", outside_error)
+        max_triangles = count_of("max_triangles", max_triangles, lambda: self.finest_triangles)
         asked = Asked(max_error, max_triangles, region is not None, outside_error, camera is not None, pixel_error)
         asked.check()
         if fit not in (None, "triangles", "error"):
@@ -79,19 +86,26 @@ class Model(Stored):
         return Tin(self._terrain.cut(asked.error, max_triangles, rings_of(region), float(outside_error), numbers, asked.pixels,
                                      fit or "", progress))
 
-    def height(self, x: ArrayLike, y: ArrayLike, max_error: float = 0, progress: Progress = None) -> Any:
-        """The height at places in the CRS of the source, NaN where there is no terrain; arrays or numbers.
+    def _error(self, name: str, value: Any) -> Any:
+        return size_of(name, value, lambda: self._terrain.relief)
+
+    def height(self, x: ArrayLike, y: ArrayLike, max_error: Size = 0, progress: Progress = None) -> Any:
+        """The height at places in the CRS of the source, NaN where there is no terrain or a place is masked; arrays or
+        numbers.
 
         max_error: the height may be off by as much, and is found sooner.
         """
+        max_error = self._error("max_error", max_error)
         if not max_error >= 0:
             raise ValueError(f"max_error={max_error} is not at least 0")
-        xs, ys = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64))
+        (x, x_masked), (y, y_masked) = places_of(x, "x"), places_of(y, "y")
+        xs, ys, masked = np.broadcast_arrays(x, y, x_masked | y_masked)
         flat = self._terrain.heights(np.ascontiguousarray(xs).ravel(), np.ascontiguousarray(ys).ravel(),
                                      float(max_error), progress)
+        flat[masked.ravel()] = np.nan
         return float(flat[0]) if xs.ndim == 0 else flat.reshape(xs.shape)
 
-    def los(self, observer: ArrayLike, target: ArrayLike, max_error: float = 0, earth: Optional[str] = None,
+    def los(self, observer: ArrayLike, target: ArrayLike, max_error: Size = 0, earth: Optional[str] = None,
             refraction: Optional[float] = None, nodata: str = "unknown", progress: Progress = None) -> "Sight":
         """Whether an observer sees a target, at full resolution: both are x, y and a height above the ground, or rows of
         them (n, 3), of which either may be one.
@@ -99,9 +113,10 @@ class Model(Stored):
         earth: "ellipsoid" (with a CRS) or "plane". refraction: the coefficient k, 1/7 by default. nodata: "unknown",
         "blocked" or "clear". max_error: terrain may be off by as much; what that leaves open is "undecided".
         """
+        max_error = self._error("max_error", max_error)
         if not max_error >= 0:
             raise ValueError(f"max_error={max_error} is not at least 0")
-        ends = [np.asarray(end, dtype=np.float64) for end in (observer, target)]
+        ends = [unmasked_places(end, name) for end, name in ((observer, "observer"), (target, "target"))]
         for name, end in zip(("observer", "target"), ends):
             if end.ndim not in (1, 2) or end.shape[-1] != 3:
                 raise ValueError(f"the {name} is no x, y, height, nor rows of them")
@@ -115,12 +130,13 @@ class Model(Stored):
             return Sight(verdicts[0], float(clearances[0]), float(distances[0]), place)
         return Sight(np.array(verdicts), clearances, distances, places)
 
-    def profile(self, line: Any, max_error: float = 0, earth: Optional[str] = None, refraction: Optional[float] = None,
+    def profile(self, line: Any, max_error: Size = 0, earth: Optional[str] = None, refraction: Optional[float] = None,
                 progress: Progress = None) -> "Profile":
         """The terrain along a line: rows of x, y, or a line of shapely. Between two places it is a geodesic, as for los().
 
         At full resolution it has a vertex at every edge that it crosses; with max_error it is within that of it.
         """
+        max_error = self._error("max_error", max_error)
         if not max_error >= 0:
             raise ValueError(f"max_error={max_error} is not at least 0")
         return Profile(*self._terrain.profile(line_of(line), float(max_error), earth or "", refraction, progress))
@@ -130,19 +146,20 @@ class Model(Stored):
                  progress: Progress = None) -> NDArray[np.uint8]:
         """What an observer (x, y, height above the ground) sees, on the source's grid: 255 seen, 0 hidden, 100 unknown
         because of NODATA, 1 out of range or NODATA. The radius is in metres on the ground."""
-        x, y, height = (float(number) for number in np.asarray(observer, dtype=np.float64).reshape(3))
+        x, y, height = (float(number) for number in unmasked_places(observer, "observer").reshape(3))
         return self._terrain.viewshed([x, y, height], float(target_height), float(radius), earth or "", refraction,
                                       nodata, progress)
 
     def measure(self, mesh: Any, triangles: Optional[ArrayLike] = None, progress: Progress = None) -> Dict[str, float]:
         """How far a TIN is from every sample that the model was built from, by code that the build does not share.
 
-        mesh: a Tin, or vertices (n, 3) with triangles (m, 3).
+        mesh: a Tin, or vertices (n, 3) with triangles (m, 3). Where it covers no sample, errors are NaN.
         """
-        return self._terrain.measure(*mesh_of(mesh, triangles), progress)
+        return self._terrain.measure(*some_mesh_of(mesh, triangles), progress)
 
-    def to_xarray(self, max_error: float = 0, cell: Optional[float] = None, progress: Progress = None) -> Any:
-        """An xarray.DataArray of heights at the middles of pixels: of the source's grid, or of square cells.
+    def to_xarray(self, max_error: Size = 0, cell: Optional[float] = None, progress: Progress = None) -> Any:
+        """An xarray.DataArray of heights at the middles of pixels: of the source's grid, or of square cells (the grid that
+        GDAL's driver has with CELL).
 
         It has the dimensions y and x, the CRS in its attribute "crs", and .rio if rioxarray is imported.
         """
@@ -156,12 +173,13 @@ class Model(Stored):
             x = transform[0] + transform[1] * (np.arange(shape[1]) + 0.5)
             y = transform[3] + transform[5] * (np.arange(shape[0]) + 0.5)
         else:
-            if not cell > 0:
-                raise ValueError(f"cell={cell} is not above 0")
-            left, bottom, right, top = self.bounds
-            x = np.arange(left + cell / 2, right, cell)
-            y = np.arange(top - cell / 2, bottom, -cell)
+            columns, rows, of_cells = self._terrain.grid_of(float(cell))
+            x = of_cells[0] + of_cells[1] * (np.arange(columns) + 0.5)
+            y = of_cells[3] + of_cells[5] * (np.arange(rows) + 0.5)
         heights = self.height(x[np.newaxis, :], y[:, np.newaxis], max_error, progress)
+        if cell is None:
+            samples, alone = self._terrain.isolated()
+            heights[np.divmod(samples, self._terrain.columns)] = alone
         array = xarray.DataArray(heights, dims=("y", "x"), coords={"y": y, "x": x}, name="height")
         array.attrs.update({key: text for key, text in (("crs", self.crs), ("units", self.vertical_unit)) if text})
         if self.crs and hasattr(array, "rio"):

@@ -3,13 +3,14 @@
 
 import math
 import os
-from typing import Any, Dict, Optional
+from typing import Any, Dict, Optional, Union
 
 from numpy.typing import ArrayLike
 
 from . import _arete
-from ._arrays import mesh_of
+from ._arrays import mesh_of, some_mesh_of
 from ._cuts import Asked, PathLike, Progress, Stored, SurfaceCamera, Tin
+from ._sizes import Size, count_of, size_of
 
 
 class Surface(Stored):
@@ -19,8 +20,8 @@ class Surface(Stored):
         super().__init__(surface, path)
         self._surface = surface
 
-    def cut(self, max_error: Optional[float] = None, max_triangles: Optional[int] = None, region: Any = None,
-            outside_error: float = math.inf, camera: Optional[SurfaceCamera] = None, pixel_error: Optional[float] = None,
+    def cut(self, max_error: Optional[Size] = None, max_triangles: Union[int, str, None] = None, region: Any = None,
+            outside_error: Size = math.inf, camera: Optional[SurfaceCamera] = None, pixel_error: Optional[float] = None,
             displaced: bool = True, fit: Optional[str] = None, progress: Progress = None) -> Tin:
         """The fewest triangles of which no point of the source is farther than `max_error`, or the best of at most
         `max_triangles`.
@@ -30,7 +31,12 @@ class Surface(Stored):
         camera: the error is at most pixel_error (1 by default) in its picture.
         displaced: where the model was built with displacement, draw it nearer to the source at the same error.
         fit: "rms" moves vertices to where the mean square distance is small; within max_error, if it is stated.
+
+        An error may be a percentage of the diagonal ("1%"), a number of triangles one of the finest.
         """
+        max_error = size_of("max_error", max_error, lambda: self.diagonal)
+        outside_error = size_of("outside_error", outside_error, lambda: self.diagonal)  # type: ignore[assignment]
+        max_triangles = count_of("max_triangles", max_triangles, lambda: self.finest_triangles)
         asked = Asked(max_error, max_triangles, region is not None, outside_error, camera is not None, pixel_error)
         asked.check()
         if fit not in (None, "rms"):
@@ -49,7 +55,7 @@ class Surface(Stored):
         Each way has the largest distance found, what no point exceeds, the mean and the root mean square. Where position
         bits rounded the model, every distance is raised by "position_error": the source itself is no farther.
         """
-        return self._surface.measure(*mesh_of(mesh, triangles), int(samples), progress)
+        return self._surface.measure(*some_mesh_of(mesh, triangles), int(samples), progress)
 
     def save(self, path: PathLike, packed: bool = False, position_bits: int = 0, progress: Progress = None) -> None:
         """Writes the .amt file, whole or not at all. position_bits: of a packed file, the bits of each coordinate; 0: all."""

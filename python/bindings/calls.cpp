@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "python/bindings/calls.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <string>
 #include <thread>
+
+#include "engine/parallel/guest_work.h"
 
 namespace arete::python {
 
@@ -42,6 +46,20 @@ void warn(std::span<const std::string> warnings) {
     if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 2) != 0) throw py::error_already_set();
 }
 
+Error inPython(Error error) {
+  const auto isOfName = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  if (error.culprit.empty() || std::isupper(static_cast<unsigned char>(error.culprit.front())) != 0 ||
+      !std::ranges::all_of(error.culprit, isOfName))
+    return error;
+  std::string name;
+  for (const char c : error.culprit) {
+    if (std::isupper(static_cast<unsigned char>(c)) != 0) name += '_';
+    name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  error.culprit = name;
+  return error;
+}
+
 void runBeside(const py::object& progress, const std::function<void(const RunContext&)>& body) {
   std::mutex mutex;
   std::condition_variable changed;
@@ -49,6 +67,7 @@ void runBeside(const py::object& progress, const std::function<void(const RunCon
   std::string stage;
   double fraction = 0;
   std::exception_ptr thrown;
+  Status refused;
   std::atomic<bool> stop = false;
   RunContext context;
   context.cancel = &stop;
@@ -62,7 +81,11 @@ void runBeside(const py::object& progress, const std::function<void(const RunCon
     };
   std::thread worker([&] {
     try {
-      body(context);
+      const GuestWork work;
+      if (const Status may = work.mayRun(); may)
+        body(context);
+      else
+        refused = may;
     } catch (...) {
       thrown = std::current_exception();
     }
@@ -98,6 +121,7 @@ void runBeside(const py::object& progress, const std::function<void(const RunCon
   worker.join();
   if (raised) std::rethrow_exception(raised);
   if (thrown) std::rethrow_exception(thrown);
+  if (!refused) raise(refused.error());
 }
 
 }  // namespace arete::python

@@ -21,7 +21,12 @@ namespace arete::python {
 /// Raises each as a UserWarning of the caller. Errors: what Python makes of it where warnings are errors.
 void warn(std::span<const std::string> warnings);
 
-/// Runs a body on a thread of its own, without the interpreter's lock, while the calling thread serves
+/// An error whose culprit is a field of ours, named as the argument that it comes from: maxTriangles as
+/// max_triangles.
+Error inPython(Error error);
+
+/// Runs a body on a thread of its own as guest work (engine/parallel/guest_work.h), without the interpreter's
+/// lock, while the calling thread serves
 /// Python: it calls progress(stage, fraction) with the latest report, and notices Ctrl-C. What the callback
 /// or the signal raises ends the body and is raised here.
 /// @param progress a callable, or None
@@ -33,7 +38,7 @@ auto call(const pybind11::object& progress, const Body& body) {
   using Answer = decltype(body(std::declval<const RunContext&>()));
   std::optional<Answer> answer;
   runBeside(progress, [&](const RunContext& context) { answer.emplace(body(context)); });
-  if (!*answer) raise(answer->error());
+  if (!*answer) raise(inPython(answer->error()));
   if constexpr (!std::is_same_v<Answer, Status>) return std::move(**answer);
 }
 

@@ -197,10 +197,14 @@ py::dict measureMesh(const Terrain& terrain, const Doubles& vertices, const Indi
                           : measure(mesh, model.pointSamples(), {}, context);
   });
   py::dict found;
-  found["max_abs_error"] = report.maxAbsError;
-  found["rms_error"] = report.rmsError;
-  found["mean_error"] = report.meanError;
-  found["mean_abs_error"] = report.meanAbsError;
+  // An error of nothing is no number.
+  const auto ofSome = [&](double error) {
+    return report.covered > 0 ? error : std::numeric_limits<double>::quiet_NaN();
+  };
+  found["max_abs_error"] = ofSome(report.maxAbsError);
+  found["rms_error"] = ofSome(report.rmsError);
+  found["mean_error"] = ofSome(report.meanError);
+  found["mean_abs_error"] = ofSome(report.meanAbsError);
   found["covered"] = report.covered;
   found["uncovered"] = report.uncovered;
   found["doubly_covered"] = report.doublyCovered;

@@ -13,6 +13,7 @@
 #include "engine/base/float_bounds.h"
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
+#include "io/amt/container.h"
 #include "io/amt/surface_file.h"
 #include "io/surface/build_model.h"
 #include "io/surface/criterion.h"
@@ -173,7 +174,9 @@ void defineRegion(py::module_& module) {
         call(progress, [&](const RunContext& context) { return readRegionMesh(path, context); })};
   });
   module.def("region_of_mesh", [=](const Doubles& vertices, const Indices& triangles) {
-    return regionOrRaise(ClosedMeshRegion::create(meshOf(vertices, triangles)));
+    return RegionOfSpace{call(py::none(), [&](const RunContext&) {
+      return ClosedMeshRegion::create(meshOf(vertices, triangles));
+    })};
   });
 }
 
@@ -242,13 +245,18 @@ void defineSurface(py::module_& module) {
     return buildArrays(vertices, triangles, optionsOf(isDisplaced, keepsBorders), progress);
   });
   module.def("is_surface", [](const std::string& path) {
-    const Result<bool> is = isSurfaceAmt(path);
-    if (!is) raise(is.error());
-    return *is;
+    const Result<AmtContainer> container = AmtContainer::open(path, {.isCopied = true});
+    if (!container) raise(container.error());
+    return container->isOfSurface();
   });
   module.def("open_surface", [](const std::string& path, const py::object& progress) {
-    return std::make_shared<SurfaceModel>(call(
-        progress, [&](const RunContext& context) { return loadSurfaceAmt(path, AmtVerify::all, context); }));
+    return std::make_shared<SurfaceModel>(
+        call(progress, [&](const RunContext& context) -> Result<SurfaceModel> {
+          // Not mapped: another program may truncate the file while this one goes on.
+          const Result<AmtContainer> container = AmtContainer::open(path, {.isCopied = true});
+          if (!container) return tl::unexpected(container.error());
+          return loadSurfaceAmt(*container, AmtVerify::all, context);
+        }));
   });
 }
 

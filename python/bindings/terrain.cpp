@@ -5,6 +5,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -25,6 +26,7 @@
 #include "python/bindings/tin.h"
 #include "terrain/build/build.h"
 #include "terrain/features/fixed_vertices.h"
+#include "terrain/model/cell_grid.h"
 #include "terrain/model/plan_box.h"
 #include "terrain/model/plan_region.h"
 
@@ -68,6 +70,14 @@ bool isOfPlace(const std::string& warning) {
          warning.find("look like degrees") != std::string::npos;
 }
 
+/// The error of a build from an array, whose file in memory the caller never saw.
+Error ofArray(Error error, const std::string& path) {
+  if (error.culprit == path) error.culprit = "array";
+  for (std::size_t at = error.message.find(path); at != std::string::npos; at = error.message.find(path))
+    error.message.replace(at, path.size(), "the array");
+  return error;
+}
+
 /// @param hasPlace false: warnings about its position are left out
 TerrainPtr buildFile(const std::string& path, const BuildRequest& request, const std::string& source,
                      bool hasPlace, const py::object& progress) {
@@ -78,10 +88,14 @@ TerrainPtr buildFile(const std::string& path, const BuildRequest& request, const
         format && format->read && format->extension != ".gpkg")
       return failure(ErrorCode::unsupported, "is a mesh: arete.build_surface() builds from it", path);
     Result<DemRead> dem = readDem(path, {}, context);
-    if (!dem) return tl::unexpected(dem.error());
+    if (!dem) return tl::unexpected(source.empty() ? dem.error() : ofArray(dem.error(), path));
     warnings = std::move(dem->warnings);
-    return buildFrom(std::move(*dem), source, request, context);
+    Result<TerrainModel> built = buildFrom(std::move(*dem), source, request, context);
+    if (!built && !source.empty()) return tl::unexpected(ofArray(built.error(), path));
+    return built;
   });
+  if (!source.empty())
+    for (std::string& warning : warnings) warning = ofArray({ErrorCode::internal, warning, {}}, path).message;
   if (!hasPlace) std::erase_if(warnings, isOfPlace);
   warn(warnings);
   return std::make_shared<Terrain>(std::move(model));
@@ -209,6 +223,40 @@ std::array<double, 4> boundsOf(const TerrainModel& model) {
 
 }  // namespace
 
+double Terrain::relief() const {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  const auto take = [&](double height) {
+    low = std::min(low, height);
+    high = std::max(high, height);
+  };
+  for (std::uint32_t v = 0; v < model_->mt.vertexCount(); ++v) take(model_->mt.position(VertexId(v)).z);
+  for (const IsolatedSample& one : model_->isolated) take(one.height);
+  return high >= low ? high - low : 0;
+}
+
+namespace {
+
+/// Columns, rows and GDAL's six numbers.
+py::tuple gridOf(const Terrain& terrain, double cell) {
+  const Result<CellGrid> grid = cellGridOf(terrain.model(), cell);
+  if (!grid) raise(grid.error());
+  return py::make_tuple(grid->columns, grid->rows, grid->geoTransform);
+}
+
+/// Samples in no triangle, by number in the raster, and their heights.
+py::tuple isolatedOf(const Terrain& terrain) {
+  const auto& isolated = terrain.model().isolated;
+  py::array_t<std::uint32_t> samples(static_cast<py::ssize_t>(isolated.size()));
+  py::array_t<double> heights(static_cast<py::ssize_t>(isolated.size()));
+  for (std::size_t i = 0; i < isolated.size(); ++i) {
+    samples.mutable_data()[i] = isolated[i].sample;
+    heights.mutable_data()[i] = isolated[i].height;
+  }
+  return py::make_tuple(samples, heights);
+}
+
+}  // namespace
+
 void defineTerrain(py::module_& module) {
   py::class_<Terrain, TerrainPtr> its(module, "Terrain");
   defineSight(its);
@@ -227,6 +275,10 @@ void defineTerrain(py::module_& module) {
                             progress);
          })
       .def("heights", &heightsAt)
+      .def("grid_of", &gridOf)
+      .def("isolated", &isolatedOf)
+      .def_property_readonly("relief", &Terrain::relief)
+      .def_property_readonly("columns", [](const Terrain& t) { return t.model().columns; })
       .def("save",
            [](const Terrain& terrain, const std::string& path, bool isPacked, const py::object& progress) {
              call(progress, [&](const RunContext& context) {
@@ -264,7 +316,10 @@ void defineTerrain(py::module_& module) {
   });
   module.def("open_terrain", [](const std::string& path, const py::object& progress) {
     return std::make_shared<Terrain>(
-        call(progress, [&](const RunContext& context) { return loadAmt(path, {}, context); }));
+        // Not mapped: another program may truncate the file while this one goes on.
+        call(progress, [&](const RunContext& context) {
+          return loadAmt(path, {.verify = AmtVerify::all, .open = {.isCopied = true}, .wanted = {}}, context);
+        }));
   });
 }
 

@@ -19,6 +19,8 @@ class Terrain {
 
   const TerrainModel& model() const { return *model_; }
   const SurfaceHeights& heights() const { return heights_; }
+  /// The highest minus the lowest sample: what a percentage of an error is of. O(samples).
+  double relief() const;
 
  private:
   std::shared_ptr<const TerrainModel> model_;  // heights_ refers to it

@@ -4,6 +4,10 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <utility>
+
+#include "python/bindings/arrays.h"
+
 namespace arete::python {
 namespace {
 
@@ -26,6 +30,18 @@ py::ssize_t sizeOf(const auto& array) {
 void defineTin(py::module_& module) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   py::class_<Tin>(module, "Tin")
+      .def(py::init([](const Doubles& vertices, const Indices& triangles,
+                       const py::array_t<float, py::array::c_style>& errors, double error, bool isComplete,
+                       std::optional<double> pixels, std::string crsWkt) {
+        TriangleMesh mesh = meshOf(vertices, triangles);
+        return Tin{std::move(mesh.positions),
+                   std::move(mesh.triangles),
+                   {errors.data(), errors.data() + errors.size()},
+                   error,
+                   isComplete,
+                   pixels,
+                   std::move(crsWkt)};
+      }))
       .def_property_readonly("vertices",
                              [](const py::object& self) {
                                const auto& tin = self.cast<const Tin&>();

@@ -7,8 +7,12 @@ import re
 import shutil
 import signal
 import subprocess
+import threading
 
 from qgis.core import QgsProcessingException
+
+BAR = "0...10...20...30...40...50...60...70...80...90...100 - done."
+TICKS = 40
 
 
 def run(words, feedback):
@@ -18,35 +22,51 @@ def run(words, feedback):
         raise QgsProcessingException("the program arete is not installed, or not in PATH (ARETE names it)")
     words = [program, *map(str, words), "--json", "--progress"]
     feedback.pushCommandInfo(" ".join(words))
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace") as process:
-        said = []
-        for line in _lines(process.stderr):
-            percent = re.search(r"(\d+) ?%", line)
-            if percent:
-                feedback.setProgress(float(percent[1]))
-            elif line.strip():
+    with subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          errors="replace") as process:
+        answer, said = [], []
+        # Beside stderr: the program waits where one of its pipes is full.
+        reader = threading.Thread(target=lambda: answer.append(process.stdout.read()))
+        reader.start()
+        for line, is_whole in _lines(process.stderr):
+            bar = progress_of(line)
+            if bar:
+                feedback.setProgressText(bar[0])
+                feedback.setProgress(bar[1])
+            elif is_whole and line.strip():
                 said.append(line.strip())
                 feedback.pushInfo(line.strip())
             if feedback.isCanceled():
                 process.send_signal(signal.SIGINT)
-        answer = process.stdout.read()
+        reader.join()
     if feedback.isCanceled():
         raise QgsProcessingException("canceled")
     if process.returncode != 0:
         raise QgsProcessingException("\n".join(said) or f"arete gave exit code {process.returncode}")
-    return json.loads(answer)
+    return json.loads(answer[0])
+
+
+def progress_of(line):
+    """Stage and percent of a line of progress as the program writes it ("build 0...10...2"), whole or not; None of others."""
+    stage, space, bar = line.partition(" 0")
+    if not space or not stage.strip() or ":" in stage or not BAR.startswith("0" + bar.rstrip()):
+        return None
+    ticks = len(re.findall(r"\.|\d+", ("0" + bar).split(" ")[0])) - 1
+    return stage.strip(), 100 * min(ticks, TICKS) / TICKS
 
 
 def _lines(stream):
-    """Lines of text, and of progress, which end in a carriage return."""
+    """Lines of text, and what there is of a line wherever progress may be read from it: (text, whether it is whole)."""
     line = ""
     while True:
         character = stream.read(1)
         if not character:
             break
         if character in "\r\n":
-            yield line
+            yield line, True
             line = ""
         else:
             line += character
-    yield line
+            if character == ".":
+                yield line, False
+    yield line, True

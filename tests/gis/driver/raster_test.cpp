@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
+#include <ogrsf_frmts.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <limits>
 
 #include "gis/driver/driver_fixture.h"
 
@@ -260,6 +264,194 @@ TEST_F(RasterDriver, OpensScatteredPointsOnAGridOfTheirSpacing) {
           1e-6);
     }
   EXPECT_GT(known, 10000);
+}
+
+/// Rough ground: a sample has nothing to do with the next.
+double rough(double x, double y) {
+  return std::round(std::fmod(std::fabs(std::sin(x * 12.9898 + y * 78.233) * 43758.5453), 1) * 400);
+}
+
+TEST_F(RasterDriver, IsTheFinestSurfaceBetweenTheSamplesToo) {
+  const std::string path = terrain("rough.amt", 90, 70, rough);
+  for (const char* cell : {"CELL=7", "CELL=10", "CELL=12.5", "CELL=20", "CELL=30", "CELL=31", "CELL=45"}) {
+    SCOPED_TRACE(cell);
+    const Dataset dataset = open(path, {cell});
+    ASSERT_TRUE(dataset) << message();
+    std::array<double, 6> g{};
+    ASSERT_EQ(dataset->GetGeoTransform(g.data()), CE_None);
+    const std::vector<double> found = readAll(*dataset->GetRasterBand(1));
+    const int columns = dataset->GetRasterXSize(), rows = dataset->GetRasterYSize();
+    int known = 0;
+    for (int row = 0; row < rows; ++row)
+      for (int column = 0; column < columns; ++column) {
+        // In cells between samples, of which the diagonal joins the upper left and the lower right.
+        const double x = (g[0] + (column + 0.5) * g[1] - 500000) / 30 - 0.5,
+                     y = (4000000 - g[3] - (row + 0.5) * g[5]) / 30 - 0.5;
+        const double u = x - std::floor(x), v = y - std::floor(y);
+        if (x < 0 || y < 0 || x > 89 || y > 69) continue;
+        const auto at = [&](double right, double down) {
+          return rough(500000 + 30 * (std::floor(x) + right + 0.5),
+                       4000000 - 30 * (std::floor(y) + down + 0.5));
+        };
+        const double wanted = u >= v ? at(0, 0) + (at(1, 0) - at(0, 0)) * u + (at(1, 1) - at(1, 0)) * v
+                                     : at(0, 0) + (at(0, 1) - at(0, 0)) * v + (at(1, 1) - at(0, 1)) * u;
+        ASSERT_NEAR(found[std::size_t(row) * std::size_t(columns) + std::size_t(column)], wanted, 1e-6);
+        ++known;
+      }
+    EXPECT_GT(known, columns * rows / 2);
+  }
+}
+
+TEST_F(RasterDriver, GivesInRowsColumnsAndSmallWindowsWhatItGivesAsAWhole) {
+  const std::string plain = terrain("rough.amt", 610, 300, rough), packed = folder().file("packed.amt");
+  ASSERT_TRUE(writeAmt(packed, *loadAmt(plain), {}, {.isPacked = true}));
+  for (const std::string& path : {plain, packed})
+    for (const char* const option : {"TOLERANCE=0", "TOLERANCE=20", "CELL=21"}) {
+      SCOPED_TRACE(path + " " + option);
+      const Dataset all = open(path, {option}), parts = open(path, {option});
+      ASSERT_TRUE(all && parts) << message();
+      const std::vector<double> whole = readAll(*all->GetRasterBand(1));
+      GDALRasterBand& band = *parts->GetRasterBand(1);
+      const int columns = band.GetXSize(), rows = band.GetYSize();
+      const auto expectPart = [&](int left, int top, int width, int height) {
+        std::vector<double> part(std::size_t(width) * std::size_t(height));
+        ASSERT_EQ(band.RasterIO(GF_Read, left, top, width, height, part.data(), width, height, GDT_Float64, 0,
+                                0, nullptr),
+                  CE_None);
+        for (int row = 0; row < height; ++row)
+          for (int column = 0; column < width; ++column) {
+            const double
+                x = part[std::size_t(row) * std::size_t(width) + std::size_t(column)],
+                y = whole[std::size_t(top + row) * std::size_t(columns) + std::size_t(left + column)];
+            ASSERT_TRUE(std::isnan(x) ? std::isnan(y) : std::fabs(x - y) < 1e-9)
+                << left + column << ", " << top + row;
+          }
+      };
+      for (int row = 0; row < rows; row += 3) expectPart(0, row, columns, 1);
+      for (int column = 0; column < columns; column += 40) expectPart(column, 0, 1, rows);
+      expectPart(250, 250, 11, 11);
+      expectPart(columns - 1, rows - 1, 1, 1);
+    }
+}
+
+TEST_F(RasterDriver, GivesIsolatedSamplesAtTheirOwnPixels) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    // Sparse samples around a patch: many are in no cell of three.
+    const auto height = [&](double x, double y) {
+      const bool isPatch = x > 500300 && x < 500500 && y < 3999700 && y > 3999500;
+      return isPatch || rough(x + 31 * seed, y) < 60 ? rough(x, y) : nan;
+    };
+    const std::string path = terrain("sparse.amt", 40, 30, height);
+    const auto model = loadAmt(path);
+    ASSERT_TRUE(model);
+    ASSERT_GT(model->isolated.size(), 10u);
+    const Dataset dataset = open(path);
+    ASSERT_TRUE(dataset) << message();
+    EXPECT_EQ(dataset->GetMetadataItem("ISOLATED_SAMPLES"), std::to_string(model->isolated.size()));
+    const std::vector<double> found = readAll(*dataset->GetRasterBand(1));
+    for (int row = 0; row < 30; ++row)
+      for (int column = 0; column < 40; ++column) {
+        const double wanted = height(500000 + 30 * (column + 0.5), 4000000 - 30 * (row + 0.5)),
+                     is = found[std::size_t(row * 40 + column)];
+        ASSERT_TRUE(std::isnan(wanted) ? std::isnan(is) : is == wanted) << column << ", " << row;
+      }
+    const std::vector<double> one = read(*dataset->GetRasterBand(1), {7, 5, 20, 1, 20, 1});
+    for (int column = 0; column < 20; ++column) {
+      const double x = one[std::size_t(column)], y = found[std::size_t(5 * 40 + 7 + column)];
+      ASSERT_TRUE(std::isnan(x) ? std::isnan(y) : x == y);
+    }
+  }
+}
+
+TEST_F(RasterDriver, GoesRoundTheEarthOnAGridOfCells) {
+  const auto height = [](double x, double y) { return 100 * std::cos(x / 57.29577951) + y; };
+  RasterHeightfield field;
+  field.columns = 73;  // the first one again
+  field.rows = 9;
+  field.source = "world.tif";
+  field.georeference.geoTransform = {-182.5, 5, 0, 22.5, 0, -5};
+  field.georeference.hasGeoTransform = field.georeference.isGeographic =
+      field.georeference.repeatsFirstColumn = true;
+  for (std::uint32_t row = 0; row < 9; ++row)
+    for (std::uint32_t column = 0; column < 73; ++column)
+      field.heights.push_back(height(-180 + 5.0 * (column % 72), 20 - 5.0 * row));
+  const std::string path = written("world.amt", build(field));
+  for (const char* const option : {"CELL=5", "CELL=1", "CELL=2.5", "CELL=0.7"})
+    for (const bool hasTolerance : {false, true}) {
+      SCOPED_TRACE(option);
+      const Dataset dataset = hasTolerance ? open(path, {option, "TOLERANCE=0.001"}) : open(path, {option});
+      ASSERT_TRUE(dataset) << message();
+      std::array<double, 6> g{};
+      ASSERT_EQ(dataset->GetGeoTransform(g.data()), CE_None);
+      EXPECT_DOUBLE_EQ(g[0], -182.5);
+      EXPECT_NEAR(dataset->GetRasterXSize() * g[1], 360, g[1]);
+      const std::vector<double> found = readAll(*dataset->GetRasterBand(1));
+      const int columns = dataset->GetRasterXSize();
+      const int middle = dataset->GetRasterYSize() / 2;
+      for (int column = 0; column < columns; ++column) {
+        const double x = g[0] + (column + 0.5) * g[1];
+        if (x > 177.5) continue;  // the last pixel may reach beyond
+        ASSERT_NEAR(found[std::size_t(middle) * std::size_t(columns) + std::size_t(column)],
+                    height(x, g[3] + (middle + 0.5) * g[5]), 0.2)
+            << x;
+      }
+    }
+}
+
+TEST_F(RasterDriver, ReadsFilesOfGdalsFileSystems) {
+  const std::string path = terrain("hills.amt", 60, 50, hills);
+  std::ifstream from(path, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(from)), {});
+  const std::string names[] = {"/vsimem/driver_test.amt", "/vsimem/driver_test_without_a_suffix",
+                               "/vsizip/" + folder().file("m.zip") + "/a folder/hills.amt",
+                               "/vsigzip/" + folder().file("hills.amt.gz")};
+  const Dataset plain = open(path);
+  ASSERT_TRUE(plain) << message();
+  const std::vector<double> wanted = readAll(*plain->GetRasterBand(1));
+  for (const std::string& name : names) {
+    SCOPED_TRACE(name);
+    VSILFILE* const file = VSIFOpenL(name.c_str(), "wb");
+    ASSERT_NE(file, nullptr);
+    ASSERT_EQ(VSIFWriteL(bytes.data(), 1, bytes.size(), file), bytes.size());
+    ASSERT_EQ(VSIFCloseL(file), 0);
+    const Dataset dataset = open(name);
+    ASSERT_TRUE(dataset) << message();
+    EXPECT_EQ(readAll(*dataset->GetRasterBand(1)), wanted);
+    EXPECT_EQ(dataset->GetLayer(0)->GetFeatureCount(), plain->GetLayer(0)->GetFeatureCount());
+  }
+  const std::string name = "/vsisubfile/0_" + std::to_string(bytes.size()) + "," + path;
+  const Dataset part = open(name);
+  ASSERT_TRUE(part) << message();
+  EXPECT_EQ(readAll(*part->GetRasterBand(1)), wanted);
+}
+
+TEST_F(RasterDriver, AFileThatIsChangedWhileItIsOpenIsAnErrorNotTheEndOfTheProgram) {
+  const auto failsToRead = [](GDALDataset& dataset) {
+    std::vector<double> heights(400 * 300);
+    CPLErrorReset();
+    CPLPushErrorHandler(CPLQuietErrorHandler);
+    const CPLErr read = dataset.GetRasterBand(1)->RasterIO(GF_Read, 0, 0, 400, 300, heights.data(), 400, 300,
+                                                           GDT_Float64, 0, 0, nullptr);
+    CPLPopErrorHandler();
+    return read == CE_Failure;
+  };
+  for (const bool isPacked : {false, true})
+    for (const char* const option : {"TOLERANCE=0", "TOLERANCE=1", "TOLERANCE=5", "CELL=15"})
+      for (const std::uintmax_t size : {std::uintmax_t{0}, std::uintmax_t{100}, std::uintmax_t{100000}}) {
+        SCOPED_TRACE(std::string(option) + (isPacked ? ", packed, to " : ", to ") + std::to_string(size));
+        const std::string path = terrain("hills.amt", 400, 300, hills);
+        if (isPacked) {
+          ASSERT_TRUE(writeAmt(path, *loadAmt(path), {}, {.isPacked = true}));
+        }
+        const Dataset dataset = open(path, {option});
+        ASSERT_TRUE(dataset) << message();
+        std::filesystem::resize_file(path, size);
+        EXPECT_TRUE(failsToRead(*dataset));
+        EXPECT_NE(std::string(CPLGetLastErrorMsg()).find("while it was open"), std::string::npos)
+            << CPLGetLastErrorMsg();
+      }
 }
 
 TEST_F(RasterDriver, NamesWhatMakesNoSense) {

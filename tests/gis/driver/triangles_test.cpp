@@ -71,6 +71,31 @@ TEST_F(TriangleDriver, GivesTheTrianglesOfTheCutWithTheirErrors) {
   EXPECT_DOUBLE_EQ(box.MaxX, 500000 + 119.5 * 30);
 }
 
+TEST_F(TriangleDriver, GivesItsExtentWhateverWasInTheCallersMemory) {
+  const std::string path = terrain("hills.amt", 40, 30, hills);
+  const Dataset dataset = open(path, {"TOLERANCE=4"}, GDAL_OF_VECTOR);
+  ASSERT_TRUE(dataset) << message();
+  OGRLayer& layer = *dataset->GetLayer(0);
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinity = std::numeric_limits<double>::infinity();
+  const double garbage[] = {0,        -0.0,     1,   -1e300,   1e300,     5e-324,
+                            3.7e-315, 6.9e-310, nan, infinity, -infinity, 500100};
+  for (const double x : garbage)
+    for (const double y : garbage)
+      for (const bool isThroughC : {false, true}) {
+        OGREnvelope box;
+        box.MinX = box.MaxY = x;
+        box.MaxX = box.MinY = y;
+        ASSERT_EQ(isThroughC ? OGR_L_GetExtent(OGRLayer::ToHandle(&layer), &box, TRUE)
+                             : layer.GetExtent(0, &box, TRUE),
+                  OGRERR_NONE);
+        ASSERT_DOUBLE_EQ(box.MinX, 500015) << x << ", " << y;
+        ASSERT_DOUBLE_EQ(box.MaxX, 500000 + 39.5 * 30);
+        ASSERT_DOUBLE_EQ(box.MinY, 4000000 - 29.5 * 30);
+        ASSERT_DOUBLE_EQ(box.MaxY, 3999985);
+      }
+}
+
 TEST_F(TriangleDriver, NumbersATriangleAlikeAtEveryTolerance) {
   const std::string path = terrain("hills.amt", 120, 90, hills);
   const Dataset coarse = open(path, {"TOLERANCE=4"}), fine = open(path, {"TOLERANCE=2"});
