@@ -323,6 +323,10 @@ class Extraction {
                     grouped(front.mesh.positions.size(), "vertex", "vertices"),
                     found.droppedDistance ? " but what is left out" : "", withShare(error, model_.diagonal),
                     hasBoth ? fmt::format("; ended by {}", ended) : "");
+    if (!model_.boundsLines && model_.mayHaveLines())
+      text +=
+          "  lines      not bounded: an earlier version built the file, whose errors are distances to "
+          "anything\n";
     if (found.fit)
       text += fmt::format("  fit        RMS {:.4g} % of the diagonal instead of {:.4g} %{}\n",
                           100 * found.fit->rmsAfter / model_.diagonal,
@@ -353,6 +357,7 @@ class Extraction {
                  {"vertices", front.mesh.positions.size()},
                  {"error", error},
                  {"errorPercent", 100 * error / model_.diagonal},
+                 {"boundsLines", model_.boundsLines},
                  {"complete", cut.isComplete && found.leftByRounding == 0},
                  {"displaced", !found.fit && isDisplaced()},
                  {"selfIntersections", found.crossings},

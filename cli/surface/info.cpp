@@ -85,6 +85,10 @@ Status sayAboutSurface(const std::string& path, const std::string& at, Session& 
                            grouped(mt.rootVertexCount(), "vertex", "vertices"),
                            withShare(mt.largestError(), model->diagonal)));
   if (!model->displacement.isEmpty()) line("displacement", "coarse cuts are drawn nearer to the source");
+  if (model->boundsLines)
+    line("lines", "seams and edges between parts, within the error of every cut");
+  else if (model->mayHaveLines())
+    line("lines", "not bounded: an earlier version built the file");
   line("levels", std::to_string(model->levels));
   text += mendedText(model->mending, fmt::format("  {:<14} ", "mended"));
   line("attributes", fmt::format("{} of vertices, {} of corners, {} of faces", a.vertexAttributes.size(),
@@ -107,6 +111,7 @@ Status sayAboutSurface(const std::string& path, const std::string& at, Session& 
                   {"isPacked", *isPacked},
                   {"positionError", model->positionError},
                   {"displacement", !model->displacement.isEmpty()},
+                  {"boundsLines", model->boundsLines},
                   {"source", model->source},
                   {"crs", crsName(model->crsWkt)},
                   {"sourceFaces", model->fileFaces},

@@ -10,6 +10,7 @@
 
 #include "surface/diagnosis/diagnosis.h"
 #include "surface/families.h"
+#include "surface/parted.h"
 
 namespace arete {
 namespace {
@@ -305,6 +306,59 @@ TEST(Decimate, RefusesWhatIsNoSurfaceOrNoCount) {
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("mesh repair"), std::string::npos);
   EXPECT_TRUE(decimate(fan, options(DecimateOperator::edge, 2)));
+}
+
+TEST(Decimate, LeavesSomethingOfEveryPart) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const parted::RandomSurface surface = parted::randomSurface(seed);
+    for (const DecimateOperator method : kThatKeepTopology) {
+      SCOPED_TRACE(surface.name + ", operator " + std::to_string(int(method)));
+      SurfaceMesh source = surface.mesh;
+      if (method == DecimateOperator::lindstromTurk) {  // carries no corners
+        source.wedges.clear();
+        source.wedgeAttributes.clear();
+        source.wedgeCount = 0;
+      }
+      const Result<DecimatedMesh> result = decimate(source, options(method, 1));
+      if (!result) continue;  // no surface
+      std::set<parted::Part> before, after;
+      for (std::size_t t = 0; t < source.triangles.size(); ++t) before.insert(parted::partAt(source, t));
+      for (std::size_t t = 0; t < result->mesh.triangles.size(); ++t)
+        after.insert(parted::partAt(result->mesh, t));
+      EXPECT_EQ(before, after);
+      EXPECT_LE(result->mesh.triangles.size(), source.triangles.size());
+    }
+  }
+}
+
+TEST(Decimate, SimplifiesLinesBetweenPartsAlongThemselves) {
+  // A square in a plate; and two halves with a straight line between them.
+  const TriangleMesh plate = shapes::sheet(12, 12);
+  for (const bool isSquare : {true, false})
+    for (const parted::Carriers& carriers :
+         {parted::Carriers{.materials = true}, parted::Carriers{.labels = true}})
+      for (const DecimateOperator method : kThatKeepTopology) {
+        SCOPED_TRACE(std::to_string(isSquare) + std::to_string(carriers.labels) + ", operator " +
+                     std::to_string(int(method)));
+        std::vector<std::uint32_t> parts;
+        for (const auto& [a, b, c] : plate.triangles) {
+          const Vec3 p = (plate.positions[a] + plate.positions[b] + plate.positions[c]) / 3.0;
+          parts.push_back(isSquare ? (std::abs(p.x - 6) < 3 && std::abs(p.y - 6) < 3 ? 1 : 0)
+                                   : (p.x < 6 ? 1 : 0));
+        }
+        const SurfaceMesh source = parted::withParts(plate, parts, carriers);
+        const DecimatedMesh result = decimated(source, options(method, 60));
+        std::map<parted::Part, double> area;
+        for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t) {
+          const auto& [a, b, c] = result.mesh.triangles[t];
+          const auto& at = result.mesh.positions;
+          area[parted::partAt(result.mesh, t)] += norm(cross(at[b] - at[a], at[c] - at[a])) / 2;
+        }
+        ASSERT_EQ(area.size(), 2u);
+        EXPECT_LE(result.mesh.triangles.size(), 60u);
+        const double expected = isSquare ? 36 : 72;
+        EXPECT_NEAR(std::min(area.begin()->second, area.rbegin()->second), expected, 1e-6);
+      }
 }
 
 }  // namespace

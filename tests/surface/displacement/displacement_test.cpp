@@ -7,11 +7,14 @@
 #include "engine/base/nearest_on_triangle.h"
 #include "engine/criteria/refine_order.h"
 #include "engine/criteria/space_region.h"
+#include "full_run.h"
 #include "surface/build/build.h"
 #include "surface/displacement/displaced_places.h"
 #include "surface/displacement/find_displacement.h"
 #include "surface/families.h"
+#include "surface/front/front.h"
 #include "surface/laws/validate_surface.h"
+#include "surface/parted.h"
 
 namespace arete {
 namespace {
@@ -205,6 +208,33 @@ TEST(PromisedErrors, AreTheLargestOneWhereABudgetEndsTheRefinement) {
   ASSERT_TRUE(cut);
   const UniformError criterion(0);
   for (const double error : promisedErrors(model.mt, *cut, &criterion)) EXPECT_EQ(error, cut->achievedError);
+}
+
+TEST(Displacement, KeepsPartsAndChartsWithinTheErrorOfEveryCut) {
+  for (std::uint64_t seed = 1; seed <= (test::isFull() ? 300u : 40u); ++seed) {
+    const parted::RandomSurface surface = parted::randomSurface(seed);
+    SCOPED_TRACE(surface.name);
+    Result<SurfaceModel> model = buildSurface(surface.mesh);
+    ASSERT_TRUE(model);
+    Result<SurfaceDisplacement> found = findDisplacement(*model);
+    ASSERT_TRUE(found);
+    model->displacement = std::move(*found);
+    std::mt19937_64 random(seed);
+    const std::vector<parted::Sample> samples = parted::samplesOf(surface.mesh, random);
+    for (const double share : {0.005, 0.02, 0.1}) {
+      const double allowed = share * model->diagonal;
+      const UniformError criterion(allowed);
+      const Result<Cut> cut = takeCut(model->mt, criterion);
+      ASSERT_TRUE(cut);
+      SurfaceFront front = surfaceOf(*model, *cut);
+      const std::vector<double> promised = promisedErrors(model->mt, *cut, nullptr);
+      front.mesh.positions = displacedPlaces(model->mt, model->displacement, *cut, promised);
+      const auto violation = parted::violation(samples, front.mesh, cut->achievedError);
+      EXPECT_FALSE(violation) << *violation;
+    }
+    const Status valid = validateSurface(*model, {.everySample = true});
+    EXPECT_TRUE(valid) << valid.error().message;
+  }
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "surface/build/build.h"
 #include "surface/families.h"
 #include "surface/laws/errors_law.h"
+#include "surface/parted.h"
 
 namespace arete {
 namespace {
@@ -83,6 +84,36 @@ TEST(SurfaceTopology, RefusesAFrontOfAnotherTopology) {
   Cut turned = cut;
   std::swap(turned.triangles[0][0], turned.triangles[0][1]);
   EXPECT_FALSE(topology->check(turned));
+}
+
+TEST(ValidateSurface, HoldsErrorsOfLinesAgainstTheSamePart) {
+  // A flat plate: only its line can be off.
+  const TriangleMesh plate = shapes::sheet(16, 16);
+  std::vector<std::uint32_t> parts;
+  for (const auto& [a, b, c] : plate.triangles) {
+    const Vec3 p = (plate.positions[a] + plate.positions[b] + plate.positions[c]) / 3.0;
+    parts.push_back(norm(p - Vec3{8, 8, 0}) < 5 ? 1 : 0);
+  }
+  for (const parted::Carriers& carriers :
+       {parted::Carriers{.materials = true}, parted::Carriers{.labels = true},
+        parted::Carriers{.charts = true}}) {
+    Result<SurfaceModel> model = buildSurface(parted::withParts(plate, parts, carriers));
+    ASSERT_TRUE(model);
+    ASSERT_TRUE(validateSurface(*model, {.everySample = true}));
+    const MultiTriangulation& mt = model->mt;
+    EXPECT_GT(mt.largestError(), 0.1);
+    std::vector<OutwardScale::Code> codes(mt.arrays().error.size(), mt.arrays().scale.encode(1e-6));
+    MtArrays arrays = mt.arrays();
+    arrays.error = codes;
+    const MultiTriangulation flat(arrays, nullptr);
+    const SourceSamples samples = samplesOfSource(*model, true);
+    const Cut root = frontOfPrefix(mt, 0);
+    EXPECT_TRUE(checkErrors(mt, root, samples));
+    EXPECT_FALSE(checkErrors(flat, root, samples)) << "the line is not where it was";
+    // A model of an earlier version promises less, and is not held against more.
+    model->boundsLines = false;
+    EXPECT_TRUE(checkErrors(flat, root, samplesOfSource(*model, true)));
+  }
 }
 
 }  // namespace
