@@ -148,6 +148,9 @@ class TopologyPass {
         borderEdges.push_back({edge.low.index(), edge.high.index()});
         borderVertices.push_back(edge.low.index());
         borderVertices.push_back(edge.high.index());
+        const double length = norm(mesh_.positions[edge.high.index()] - mesh_.positions[edge.low.index()]);
+        double& shortest = result_.shortestBorderEdge;
+        if (length > 0 && (shortest == 0 || length < shortest)) shortest = length;
       }
     std::ranges::sort(borderVertices);
     borderVertices.erase(std::unique(borderVertices.begin(), borderVertices.end()), borderVertices.end());

@@ -6,6 +6,7 @@
 
 #include <tbb/parallel_invoke.h>
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -35,7 +36,7 @@ Result<MeshDiagnosis> diagnoseHere(const TriangleMesh& mesh, const DiagnosisOpti
   if (context.cancelled()) return failure(ErrorCode::interrupted, "the diagnosis was interrupted");
   const diagnosis::KeptTriangles kept(mesh);
   // Each fills members of its own.
-  std::optional<std::vector<std::pair<std::uint32_t, std::uint32_t>>> crossing;
+  std::optional<diagnosis::SelfIntersections> crossing;
   tbb::parallel_invoke([&] { diagnosis::examineTopology(mesh, kept, options, result); },
                        [&] {
                          diagnosis::examineVertices(mesh, options, result);
@@ -43,14 +44,16 @@ Result<MeshDiagnosis> diagnoseHere(const TriangleMesh& mesh, const DiagnosisOpti
                        },
                        [&] {
                          if (options.selfIntersections)
-                           crossing = diagnosis::findSelfIntersections(mesh, context);
+                           crossing = diagnosis::countSelfIntersections(
+                               mesh, std::min(options.mostPlaces, DiagnosisOptions::kMostCrossings), context);
                        });
   if (context.cancelled() || (options.selfIntersections && !crossing))
     return failure(ErrorCode::interrupted, "the diagnosis was interrupted");
   if (options.selfIntersections) {
     MeshFindings& found = result.selfIntersections.emplace();
-    for (const auto& [first, second] : *crossing)
+    for (const auto& [first, second] : crossing->pairs)
       diagnosis::add(found, options.mostPlaces, {first, second}, diagnosis::centroid(mesh, first));
+    found.count = crossing->count;
   }
   context.report("diagnose", 1);
   return result;

@@ -73,7 +73,8 @@ struct MeshDiagnosis {
   MeshFindings tJunctions;           ///< a vertex, and the two of the border edge inside which it lies
   /// Two vertices: a border edge that is another one but for the rounding of the file.
   MeshFindings nearBorders;
-  double farthestNear = 0;  ///< how far apart the ends of such edges are, at most
+  double farthestNear = 0;        ///< how far apart the ends of such edges are, at most
+  double shortestBorderEdge = 0;  ///< that has a length; 0: there is none
   /// Two triangles that meet elsewhere than in the vertices and the edge they share. Missing unless asked
   /// for.
   std::optional<MeshFindings> selfIntersections;
@@ -85,6 +86,9 @@ struct MeshDiagnosis {
 };
 
 struct DiagnosisOptions {
+  /// Places of self-intersections, whose number may be the square of that of the triangles.
+  static constexpr std::size_t kMostCrossings = 100'000;
+
   std::size_t mostPlaces = 10;  ///< of a kind
   bool selfIntersections = true;
   /// How far from a border edge a vertex may lie to be inside it, as a part of the diagonal.
@@ -99,9 +103,10 @@ struct DiagnosisOptions {
 /// doubles, and whether points are on one line and triangles meet is decided by exact predicates.
 ///
 /// O(n log n) for n triangles, and for self-intersections that of the pairs whose boxes meet
-/// [ZomorodianEdelsbrunner2000]. The result does not depend on the number of threads.
-/// Errors: invalidData (an index without a position, a coordinate that is not finite;
-/// TriangleMesh::validate()), unsupported (too many triangles for 32-bit corners), interrupted, outOfMemory.
+/// [ZomorodianEdelsbrunner2000], of which those in one place or at one vertex are not examined one by one.
+/// The result does not depend on the number of threads. Errors: invalidData (an index without a position, a
+/// coordinate that is not finite; TriangleMesh::validate()), unsupported (too many triangles for 32-bit
+/// corners), interrupted, outOfMemory.
 Result<MeshDiagnosis> diagnose(const TriangleMesh& mesh, const DiagnosisOptions& options = {},
                                const RunContext& context = {});
 

@@ -93,7 +93,16 @@ std::vector<NearBorder> findNearBorders(std::span<const Vec3> positions,
 
 /// The pairs of triangles that meet elsewhere than in the vertices and the edge they share; degenerate
 /// triangles are left out.
-/// @return pairs first < second, in increasing order. Missing: interrupted.
+struct SelfIntersections {
+  std::uint64_t count = 0;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  ///< the first, first < second, in order
+};
+/// @param most how many pairs are listed. O(n log n) and the pairs whose boxes meet, but for triangles in one
+/// place or at one vertex: of those, the pairs that are in the same direction from it.
+/// @return missing: interrupted.
+std::optional<SelfIntersections> countSelfIntersections(const TriangleMesh& mesh, std::size_t most,
+                                                        const RunContext& context);
+/// All of them. Missing: interrupted.
 std::optional<std::vector<std::pair<std::uint32_t, std::uint32_t>>> findSelfIntersections(
     const TriangleMesh& mesh, const RunContext& context);
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "surface/repair/repair.h"
@@ -38,9 +39,11 @@ struct Draft {
 
 void removeDuplicates(Draft& draft);
 void removeDegenerate(Draft& draft);
+/// The edges that a split makes are joined with those of the same part that lie in their places.
 /// @param distance within which a vertex is inside an edge.
+/// @param partOf   RepairOptions::partOf
 /// @return whether any edge was split.
-bool splitAtTJunctions(Draft& draft, double distance);
+bool splitAtTJunctions(Draft& draft, double distance, std::span<const std::uint32_t> partOf);
 void splitSheets(Draft& draft);
 void orient(Draft& draft, const RepairOptions& options);
 void splitFans(Draft& draft);

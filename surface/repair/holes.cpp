@@ -5,14 +5,14 @@
 // edges, which lie in one place, is closed by joining its ends alone.
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "surface/repair/draft.h"
 #include "surface/repair/hole_filling.h"
+#include "surface/repair/joining.h"
 #include "surface/repair/neighbourhood.h"
+#include "surface/repair/places.h"
 #include "surface/topology/border_loops.h"
 
 namespace arete::repair_passes {
@@ -72,24 +72,6 @@ std::vector<Hole> apart(const std::vector<HoleCorner>& loop, const std::vector<s
   return holes;
 }
 
-/// By vertex: the lowest vertex at its position.
-std::vector<std::uint32_t> placesOf(const std::vector<Vec3>& positions) {
-  std::vector<std::uint32_t> order(positions.size()), place(positions.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto key = [&](std::uint32_t v) {
-    return std::tuple(positions[v].x + 0, positions[v].y + 0, positions[v].z + 0);  // -0 and 0 are one
-  };
-  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
-    const auto ka = key(a), kb = key(b);
-    return ka != kb ? ka < kb : a < b;
-  });
-  for (std::size_t i = 0, begin = 0; i < order.size(); ++i) {
-    if (key(order[i]) != key(order[begin])) begin = i;
-    place[order[i]] = order[begin];
-  }
-  return place;
-}
-
 class Filler {
  public:
   Filler(Draft& draft, std::uint32_t mostEdges)
@@ -114,8 +96,7 @@ class Filler {
     if (holes.empty()) return;
     neighbours_.emplace(draft_.mesh);
     HoleFilling filling(draft_.mesh, placeOf_);
-    now_.resize(draft_.mesh.positions.size());
-    std::iota(now_.begin(), now_.end(), 0u);
+    joining_.emplace(draft_, *neighbours_);
     for (const Hole& hole : holes) fill(hole, filling);
   }
 
@@ -144,55 +125,27 @@ class Filler {
     join(hole);
     ++draft_.counts.filledHoles;
     for (const HoleFilling::Corners& t : triangles) {
-      draft_.addTriangle({now(hole.corners[t[0]].in), now(hole.corners[t[1]].in), now(hole.corners[t[2]].in)},
+      draft_.addTriangle({now(hole.corners[t[0]]), now(hole.corners[t[1]]), now(hole.corners[t[2]])},
                          RepairedMesh::kNone);
       neighbours_->add(static_cast<std::uint32_t>(draft_.mesh.triangles.size() - 1));
       ++draft_.counts.fillingTriangles;
     }
   }
 
-  /// The vertex that one has become.
-  std::uint32_t now(std::uint32_t v) {
-    while (now_[v] != v) v = now_[v] = now_[now_[v]];
-    return v;
-  }
-
-  /// Whether the two vertices at each corner can become one: no triangle has both, and no edge gets more than
-  /// the two sides that lie on it.
   bool canJoin(const Hole& hole) {
-    return std::ranges::all_of(hole.corners, [&](const HoleCorner& corner) {
-      const std::uint32_t a = now(corner.in), b = now(corner.out);
-      if (a == b) return true;
-      if (!neighbours_->atEdge(a, b).empty()) return false;
-      for (const std::uint32_t w : neighbours_->around(a)) {
-        const std::size_t there = neighbours_->atEdge(b, w).size();
-        if (there > 0 && there + neighbours_->atEdge(a, w).size() > 2) return false;
-      }
-      return true;
-    });
+    return std::ranges::all_of(hole.corners,
+                               [&](const HoleCorner& c) { return joining_->canJoin(c.in, c.out); });
   }
-
   void join(const Hole& hole) {
-    for (const HoleCorner& corner : hole.corners) {
-      const std::uint32_t a = now(corner.in), b = now(corner.out);
-      if (a == b) continue;
-      const std::uint32_t kept = std::min(a, b), gone = std::max(a, b);
-      const std::vector<std::uint32_t> moved = neighbours_->at(gone);
-      for (const std::uint32_t t : moved) {
-        neighbours_->remove(t);
-        std::ranges::replace(draft_.mesh.triangles[t], gone, kept);
-        neighbours_->add(t);
-      }
-      now_[gone] = kept;
-      ++draft_.counts.joinedVertices;
-    }
+    for (const HoleCorner& corner : hole.corners) joining_->join(corner.in, corner.out);
   }
+  std::uint32_t now(const HoleCorner& corner) { return joining_->now(corner.in); }
 
   Draft& draft_;
   const std::uint32_t mostEdges_;
   const std::vector<std::uint32_t> placeOf_;
   std::optional<Neighbourhood> neighbours_;
-  std::vector<std::uint32_t> now_;  // by vertex: itself, or one that it was joined with
+  std::optional<Joining> joining_;
 };
 
 }  // namespace

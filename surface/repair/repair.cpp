@@ -30,7 +30,7 @@ Result<RepairedMesh> repair(const TriangleMesh& mesh, const RepairOptions& optio
     do {
       repair_passes::removeDuplicates(draft);
       repair_passes::removeDegenerate(draft);
-    } while (options.splitsAtTJunctions && repair_passes::splitAtTJunctions(draft, distance));
+    } while (options.splitsAtTJunctions && repair_passes::splitAtTJunctions(draft, distance, options.partOf));
     repair_passes::orient(draft, options);
     if (options.splitsSheets) repair_passes::splitSheets(draft);
     // Before fans get vertices of their own: a vertex at which two holes touch is one corner of each.

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace arete::repair_passes {
@@ -73,18 +74,43 @@ std::vector<Leaf> leavesOf(const Vec3& from, const Vec3& to, std::span<const She
   return leaves;
 }
 
+/// Takes out the pairs of leaves at equal angles whose sides run against each other.
+std::vector<std::pair<CornerId, CornerId>> takeTwins(std::vector<Leaf>& leaves, const Vec3& from,
+                                                     const Vec3& to) {
+  const Point p = pointOf(from), q = pointOf(to);
+  const auto areInOnePlane = [&](const Leaf& a, const Leaf& b) {
+    return a.sector == b.sector && CGAL::orientation(p, q, a.apex, b.apex) == CGAL::COPLANAR;
+  };
+  std::vector<std::pair<CornerId, CornerId>> pairs;
+  std::vector<Leaf> left;
+  for (std::size_t begin = 0, end = 0; begin < leaves.size(); begin = end) {
+    std::vector<Leaf> forward, backward;
+    for (end = begin; end < leaves.size() && areInOnePlane(leaves[begin], leaves[end]); ++end)
+      (leaves[end].isForward ? forward : backward).push_back(leaves[end]);
+    const std::size_t twins = std::min(forward.size(), backward.size());
+    for (std::size_t i = 0; i < twins; ++i) pairs.push_back({forward[i].side, backward[i].side});
+    left.insert(left.end(), forward.begin() + std::ptrdiff_t(twins), forward.end());
+    left.insert(left.end(), backward.begin() + std::ptrdiff_t(twins), backward.end());
+  }
+  leaves = std::move(left);
+  return pairs;
+}
+
 }  // namespace
 
 std::vector<std::pair<CornerId, CornerId>> pairSheets(const Vec3& from, const Vec3& to,
-                                                      std::span<const SheetSide> sides) {
-  const std::vector<Leaf> leaves = leavesOf(from, to, sides);
+                                                      std::span<const SheetSide> sides,
+                                                      SheetPairing pairing) {
+  std::vector<Leaf> leaves = leavesOf(from, to, sides);
   std::vector<std::pair<CornerId, CornerId>> pairs;
+  if (pairing == SheetPairing::twins) pairs = takeTwins(leaves, from, to);
+  const bool opensForward = pairing == SheetPairing::spaces;
   // Brackets along a circle: those that are open at its end are closed on the second way round.
   std::vector<std::size_t> open;
   std::vector<std::uint8_t> isClosed(leaves.size(), 0);
   for (std::size_t i = 0; i < 2 * leaves.size(); ++i) {
     const std::size_t leaf = i % leaves.size();
-    if (!leaves[leaf].isForward) {
+    if (leaves[leaf].isForward == opensForward) {
       if (i < leaves.size()) open.push_back(leaf);
     } else if (isClosed[leaf] == 0 && !open.empty()) {
       pairs.push_back({leaves[open.back()].side, leaves[leaf].side});

@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
+#include <random>
+#include <utility>
 #include <vector>
 
 #include "surface/diagnosis/parts.h"
@@ -119,6 +122,92 @@ TEST(SelfIntersections, CanBeInterrupted) {
   RunContext context;
   context.cancel = &cancel;
   EXPECT_FALSE(findSelfIntersections(shapes::anything(1, 30, 60, 5), context));
+}
+
+/// Triangles at one vertex, some of them twice, in several turns or with vertices of their own.
+TriangleMesh burr(std::uint64_t seed, std::uint32_t triangles, int coordinates) {
+  std::mt19937_64 random(seed);
+  const auto coordinate = [&] { return double(random() % std::uint64_t(coordinates)) - coordinates / 2; };
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}};
+  for (std::uint32_t v = 0; v < triangles / 2; ++v)
+    mesh.positions.push_back({coordinate(), coordinate(), coordinate()});
+  const auto vertex = [&] { return std::uint32_t(1 + random() % (triangles / 2)); };
+  for (std::uint32_t t = 0; t < triangles; ++t) {
+    mesh.triangles.push_back({0, vertex(), vertex()});
+    if (t % 10 == 3) mesh.triangles.push_back({mesh.triangles.back()[1], 0, mesh.triangles.back()[2]});
+    if (t % 10 == 6)
+      for (int copy = 0; copy < 2; ++copy) {
+        Triangle own{};
+        for (std::size_t i = 0; i < 3; ++i) {
+          own[i] = std::uint32_t(mesh.positions.size());
+          mesh.positions.push_back(mesh.positions[mesh.triangles[t][i]]);
+        }
+        mesh.triangles.push_back(own);
+      }
+  }
+  return mesh;
+}
+
+TEST(SelfIntersections, AtAVertexOfManyTrianglesAreThoseOfRationalClipping) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    SCOPED_TRACE(seed);
+    expectPairsOfTheOracle(burr(seed, 132, seed % 2 == 0 ? 7 : 1000));
+  }
+}
+
+TEST(SelfIntersections, AreCountedAndTheFirstListed) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE(seed);
+    const TriangleMesh mesh = seed % 20 == 0
+                                  ? burr(seed, 140, 9)
+                                  : shapes::anything(seed, 6 + seed % 9, 5 + seed % 30, 2 + seed % 4);
+    const auto all = findSelfIntersections(mesh, {});
+    for (const std::size_t most : {std::size_t{0}, std::size_t{1}, std::size_t{3}, std::size_t{50}}) {
+      const auto found = countSelfIntersections(mesh, most, {});
+      ASSERT_TRUE(found);
+      EXPECT_EQ(found->count, all->size());
+      ASSERT_EQ(found->pairs.size(), std::min(most, all->size()));
+      EXPECT_TRUE(std::equal(found->pairs.begin(), found->pairs.end(), all->begin()));
+    }
+  }
+}
+
+TEST(SelfIntersections, OfManyTrianglesInOnePlaceAreNotListed) {
+  // The square of their number would take hours and all memory.
+  constexpr std::uint64_t kMany = 300'000;
+  TriangleMesh same;
+  same.positions = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  same.triangles.assign(kMany, {0, 1, 2});
+  TriangleMesh apart;
+  for (std::uint32_t t = 0; t < kMany; ++t) {
+    apart.positions.insert(apart.positions.end(), same.positions.begin(), same.positions.end());
+    apart.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  for (const TriangleMesh& mesh : {same, apart}) {
+    const auto found = countSelfIntersections(mesh, 10, {});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->count, kMany * (kMany - 1) / 2);
+    for (std::uint32_t i = 0; i < 10; ++i) EXPECT_EQ(found->pairs[i], std::pair(0u, i + 1));
+  }
+}
+
+TEST(SelfIntersections, OfAFanOfManyTrianglesAreNone) {
+  constexpr std::uint32_t kMany = 100'000;
+  for (const double tilt : {0.0, 0.5, 1.0}) {
+    TriangleMesh fan;
+    for (std::uint32_t i = 0; i < kMany; ++i) {
+      const double angle = 2 * 3.14159265358979 * i / kMany;
+      const Vec3 p{std::cos(angle), std::sin(angle), 0.01 * std::sin(9 * angle)};
+      fan.positions.push_back(
+          {p.x, p.y * std::cos(tilt) - p.z * std::sin(tilt), p.y * std::sin(tilt) + p.z * std::cos(tilt)});
+      fan.triangles.push_back({i, (i + 1) % kMany, kMany});
+    }
+    fan.positions.push_back({0, -0.5 * std::sin(tilt), 0.5 * std::cos(tilt)});
+    const auto found = countSelfIntersections(fan, 10, {});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->count, 0u);
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "surface/repair/repair.h"
 #include "surface/shapes.h"
@@ -86,6 +87,48 @@ TEST(Repair, AFinOnASheetGetsABorderIfAsked) {
   EXPECT_EQ(split->diagnosis.nonManifoldEdges.count, 0u);
   EXPECT_EQ(split->diagnosis.components.size(), 2u);
   EXPECT_EQ(split->mesh.triangles.size(), mesh.triangles.size());
+}
+
+TEST(Repair, TakesDoubledFacesApart) {
+  // Cards of two triangles, and fans of several on one edge, each face twice, in any order and anywhere.
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    const auto number = [&] { return double(random() % 20001) / 1000 - 10; };
+    TriangleMesh mesh;
+    mesh.positions = {{number(), number(), number()}, {number(), number(), number()}};
+    const std::size_t leaves = 2 + seed % 4;
+    for (std::uint32_t i = 0; i < leaves; ++i) {
+      mesh.positions.push_back({number(), number(), number()});
+      mesh.triangles.push_back({0, 1, 2 + i});
+      mesh.triangles.push_back({1, 0, 2 + i});
+    }
+    std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), random);
+    const auto split = repair(mesh, {.splitsSheets = true});
+    ASSERT_TRUE(split);
+    EXPECT_EQ(split->diagnosis.nonManifoldEdges.count, 0u);
+    EXPECT_EQ(split->mesh.triangles.size(), mesh.triangles.size());
+    EXPECT_TRUE(split->diagnosis.borders.empty());
+  }
+}
+
+TEST(Repair, TakesSheetsWithTwoSidesApart) {
+  // Each face of a surface twice: a card of many faces, whose inner edges have four.
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    const auto step = [&] { return double(random() % 2001) / 1000 - 1; };
+    TriangleMesh mesh = shapes::sheet(3, 3);
+    for (Vec3& p : mesh.positions) p = p + Vec3{0.3 * step(), 0.3 * step(), step()};
+    const std::size_t faces = mesh.triangles.size();
+    for (std::size_t t = 0; t < faces; ++t)
+      mesh.triangles.push_back({mesh.triangles[t][1], mesh.triangles[t][0], mesh.triangles[t][2]});
+    std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), random);
+    const auto split = repair(mesh, {.splitsSheets = true});
+    ASSERT_TRUE(split);
+    EXPECT_EQ(split->diagnosis.nonManifoldEdges.count, 0u);
+    EXPECT_EQ(split->mesh.triangles.size(), mesh.triangles.size());
+  }
 }
 
 }  // namespace
