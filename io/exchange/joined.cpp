@@ -26,7 +26,10 @@ Status joinSoup(MeshFile& file, const RunContext& context) {
   Result<JoinedSurface> joined = joinSurface(file.mesh, {.partOf = file.mesh.objectOf}, context);
   if (!joined) return tl::unexpected(joined.error());
   file.joinedVertices = joined->joinedVertices;
-  if (joined->joinedVertices > 0) file.vertexOf = std::move(joined->vertexOf);
+  if (joined->joinedVertices == 0) return {};
+  if (!file.vertexOf.empty())
+    for (std::uint32_t& v : joined->vertexOf) v = file.vertexOf[v];
+  file.vertexOf = std::move(joined->vertexOf);
   return {};
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/file/text_scan.h"
+#include "io/mesh/finite.h"
 
 namespace arete {
 namespace {
@@ -36,6 +37,7 @@ Result<MeshFile> MeshTextReader::read() {
   if (const Status ok = finish(); !ok) return tl::unexpected(ok.error());
   if (const Status ok = faces_.finish(mesh_, context_); !ok)
     return failure(ok.error().code, ok.error().message, path_);
+  leaveOutUnusedNumbers(mesh_);
   return std::move(mesh_);
 }
 

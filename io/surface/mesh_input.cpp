@@ -1,13 +1,46 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/surface/mesh_input.h"
 
-#include <algorithm>
-#include <utility>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/base/counted.h"
+#include "io/crs/local_origin.h"
 #include "io/exchange/mesh_formats.h"
+#include "surface/diagnosis/diagnosis.h"
 #include "surface/edit/joined_surface.h"
 
 namespace arete {
+namespace {
+
+/// The rounding of an axis whose coordinates were rounded to 32-bit floats: all are such numbers, and the
+/// last bit of many is set, as it is of half of all numbers that are rounded. 0 of any other.
+double float32RoundingOf(const TriangleMesh& mesh, double Vec3::*axis) {
+  double largest = 0;
+  std::uint64_t count = 0, odd = 0;
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t v : triangle) {
+      const double x = mesh.positions[v].*axis;
+      if (!(std::abs(x) <= double{std::numeric_limits<float>::max()})) return 0;
+      const auto number = static_cast<float>(x);
+      if (static_cast<double>(number) != x) return 0;
+      largest = std::max(largest, std::abs(x));
+      ++count;
+      odd += std::bit_cast<std::uint32_t>(number) & 1;
+    }
+  constexpr std::uint64_t kLeastShare = 10;
+  return kLeastShare * odd >= count && odd > 0 ? float32Rounding(largest, 0) : 0;
+}
+
+}  // namespace
 
 Result<MeshInput> readMeshInput(const std::string& path, const RunContext& context) {
   const Result<MeshFormat> format = meshFormatOf(path);
@@ -16,6 +49,7 @@ Result<MeshInput> readMeshInput(const std::string& path, const RunContext& conte
   if (!file) return tl::unexpected(file.error());
   MeshInput input{.file = std::move(*file), .format = format->name, .numbers = {}};
   SurfaceMesh& mesh = input.file.mesh;
+  input.rounding = roundingOf(input.file);
   input.fileVertices = mesh.positions.size() + input.file.joinedVertices;
   input.fileFaces =
       mesh.faceOf.empty() ? mesh.triangles.size() : std::uint64_t{*std::ranges::max_element(mesh.faceOf)} + 1;
@@ -33,6 +67,30 @@ Result<MeshInput> readMeshInput(const std::string& path, const RunContext& conte
     for (std::uint32_t& v : numbers) v = input.numbers.vertexOf[v];
   input.numbers.vertexOf = std::move(numbers);
   return input;
+}
+
+double roundingOf(const MeshFile& file) {
+  const Vec3& stated = file.frame.rounding;
+  const auto along = [&](double Vec3::*axis) {
+    return std::max(stated.*axis, float32RoundingOf(file.mesh, axis));
+  };
+  return norm(Vec3{along(&Vec3::x), along(&Vec3::y), along(&Vec3::z)});
+}
+
+Status warnOfGaps(MeshInput& input, const RunContext& context) {
+  const Result<MeshDiagnosis> d = diagnose(
+      input.file.mesh, {.mostPlaces = 1, .selfIntersections = false, .rounding = input.rounding}, context);
+  if (!d) return tl::unexpected(d.error());
+  std::vector<std::string> found;
+  if (d->tJunctions.count > 0) found.push_back(counted(d->tJunctions.count, "T-junction", "T-junctions"));
+  if (d->nearBorders.count > 0)
+    found.push_back(counted(d->nearBorders.count, "border edge that is another one but for rounding",
+                            "border edges that are others but for rounding"));
+  if (!found.empty())
+    input.file.warnings.push_back(fmt::format(
+        "{}: the surface is open there, and gapes when it is simplified; mending it (mesh repair) closes it",
+        fmt::join(found, " and ")));
+  return {};
 }
 
 }  // namespace arete

@@ -33,7 +33,18 @@ struct MeshInput {
   std::uint64_t fileVertices = 0, fileFaces = 0;
   std::uint64_t joinedAtSeams = 0;  ///< vertices
   MeshNumbers numbers;
+  double rounding = 0;  ///< roundingOf() the file
 };
+
+/// The most by which rounding to the numbers of its file may have moved a vertex of a mesh, in the unit of
+/// the mesh: MeshFrame::rounding, or that of 32-bit floats along an axis whose coordinates were rounded to
+/// such, whatever the format writes them as. O(triangles).
+double roundingOf(const MeshFile& file);
+
+/// Warns of border edges that others end inside of, or that are others but for the rounding of the file:
+/// there a surface opens once vertices are removed. The warning says how to close them. O(n log n). Errors:
+/// those of diagnose().
+Status warnOfGaps(MeshInput& input, const RunContext& context);
 
 /// Reads a mesh. Formats without corners, and programs that write none, repeat a
 /// vertex where its attributes differ from face to face: coincident borders are joined, within an object, if

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/base/caught_failure.h"
+#include "engine/base/counted.h"
 
 namespace arete {
 namespace {
@@ -14,7 +15,8 @@ Status checkNumbers(const std::vector<std::uint32_t>& numbers, std::size_t trian
                     const char* what) {
   if (!numbers.empty() && numbers.size() != triangles)
     return failure(ErrorCode::invalidData,
-                   fmt::format("{} triangles have a {}, of {}", numbers.size(), what, triangles));
+                   fmt::format("{} a {}, of {}", counted(numbers.size(), "triangle has", "triangles have"),
+                               what, triangles));
   for (std::size_t t = 0; t < numbers.size(); ++t)
     if (numbers[t] != SurfaceMesh::kNone && numbers[t] >= count)
       return failure(ErrorCode::invalidData,
@@ -52,7 +54,8 @@ Status MeshRef::validate() const try {
   if (Status valid = checkAttributes(of.triangleAttributes, triangles); !valid) return valid;
   if (of.hasWedges() && of.wedges.size() != triangles)
     return failure(ErrorCode::invalidData,
-                   fmt::format("{} triangles have wedges, of {}", of.wedges.size(), triangles));
+                   fmt::format("{} wedges, of {}",
+                               counted(of.wedges.size(), "triangle has", "triangles have"), triangles));
   if (!of.hasWedges() && triangles > 0 && !of.wedgeAttributes.empty())
     return failure(ErrorCode::invalidData, "there are attributes of wedges and no wedges");
   for (std::size_t t = 0; t < of.wedges.size(); ++t)
@@ -62,7 +65,8 @@ Status MeshRef::validate() const try {
                        fmt::format("triangle {} has wedge {}, of {}", t, wedge, of.wedgeCount));
   if (!of.faceOf.empty() && of.faceOf.size() != triangles)
     return failure(ErrorCode::invalidData,
-                   fmt::format("{} triangles have a face, of {}", of.faceOf.size(), triangles));
+                   fmt::format("{} a face, of {}",
+                               counted(of.faceOf.size(), "triangle has", "triangles have"), triangles));
   if (Status valid = checkNumbers(of.objectOf, triangles, of.objects.size(), "object"); !valid) return valid;
   if (Status valid = checkNumbers(of.groupOf, triangles, of.groups.size(), "group"); !valid) return valid;
   return checkNumbers(of.materialOf, triangles, of.materials.size(), "material");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "engine/base/counted.h"
 #include "surface/model/parts.h"
 
 namespace arete {
@@ -24,8 +25,8 @@ Status SurfaceModel::validate() const {
   const MeshAttributes& a = attributes;
   if (!mt.vertices().isSurface() && mt.vertexCount() > 0) return refuse("its vertices are not of a surface");
   if (vertexOf.size() != mt.vertexCount())
-    return refuse(
-        fmt::format("{} vertices have {} numbers in the source", mt.vertexCount(), vertexOf.size()));
+    return refuse(fmt::format("{} {} in the source", counted(mt.vertexCount(), "vertex has", "vertices have"),
+                              counted(vertexOf.size(), "number", "numbers")));
   if (faceOf.size() != mt.triangleIdCount() || (hasWedges() && wedgesOf.size() != mt.triangleIdCount()))
     return refuse("not every triangle has a face and wedges");
   if (!displacement.isEmpty() && (displacement.directions.size() != mt.vertexCount() ||

@@ -144,13 +144,21 @@ class ObjReader final : public MeshTextReader {
     return false;
   }
 
+  tl::unexpected<Error> refuseNumber(const char* line) const {
+    return corrupt(line, "has a coordinate that is not finite");
+  }
+
   Status readVertex(const char* line) {
     double xyz[3];
     for (double& value : xyz)
       if (!toNextWord() || !text::scanNumber(at(), end(), value))
         return corrupt(line, "is a vertex without three numbers");
-    for (const double value : xyz)
-      if (!std::isfinite(value)) return corrupt(line, "has a coordinate that is not finite");
+    if (!std::isfinite(xyz[0]) || !std::isfinite(xyz[1]) || !std::isfinite(xyz[2])) {
+      // No fault unless a face uses it; an earlier one may.
+      const auto vertex = static_cast<std::int64_t>(mesh().mesh.positions.size());
+      if (largestIndex_ > vertex) return refuseNumber(line);
+      unusable_.emplace(vertex, line);
+    }
     // A weight or a colour may follow.
     std::array<double, 8> more;
     std::size_t count = 0;
@@ -242,6 +250,8 @@ class ObjReader final : public MeshTextReader {
       if (index < 0) index += known + 1;
       if (index < 1 || index > std::int64_t(std::numeric_limits<std::uint32_t>::max()))
         return corrupt(line, "is a face with a vertex index out of range");
+      if (const auto found = unusable_.find(index - 1); found != unusable_.end())
+        return refuseNumber(found->second);
       if (index > largestIndex_) {
         largestIndex_ = index;
         largestIndexLine_ = line;
@@ -280,6 +290,7 @@ class ObjReader final : public MeshTextReader {
       return corrupt(largestIndexLine_,
                      fmt::format("names vertex {} of {}", largestIndex_, read.positions.size()));
     if (!isOurs() && read.positions.empty()) return failure(ErrorCode::corrupt, "holds no vertex", path());
+    if (read.triangles.empty() && !unusable_.empty()) return refuseNumber(unusable_.begin()->second);
     if (!isOurs() && read.triangles.empty()) return unsupported("holds no face");
     if (read.positions.size() >= std::numeric_limits<std::uint32_t>::max())
       return unsupported("holds more vertices than an index can name");
@@ -329,6 +340,7 @@ class ObjReader final : public MeshTextReader {
   State<std::int32_t> smoothing_{smoothingOf_, 0};
   std::uint64_t notFinite_ = 0, shortFaces_ = 0, firstShortFace_ = 0;
   std::int64_t largestIndex_ = 0;
+  std::map<std::int64_t, const char*> unusable_;  // by vertex, from 0: lines with numbers that are not finite
   const char* largestIndexLine_ = nullptr;
 };
 

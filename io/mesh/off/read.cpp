@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -173,8 +174,9 @@ class OffReader final : public MeshTextReader {
       more_.push_back(number);
     ++valueCount_;
     if (valueCount_ == 3) {
-      for (const double coordinate : xyz_)
-        if (!std::isfinite(coordinate)) return corrupt(line_, "has a coordinate that is not finite");
+      // No fault unless a face uses it.
+      if (!std::isfinite(xyz_[0]) || !std::isfinite(xyz_[1]) || !std::isfinite(xyz_[2]))
+        unusable_.emplace(mesh().mesh.positions.size(), line_);
       mesh().mesh.positions.push_back({xyz_[0], xyz_[1], xyz_[2]});
     }
     if (!lineIsRecord_ && valueCount_ == 3 + keyword_.values()) endVertex();
@@ -208,6 +210,8 @@ class OffReader final : public MeshTextReader {
       corners_.clear();
     } else {
       if (number >= vertices_) return corrupt(line_, fmt::format("names vertex {} of {}", number, vertices_));
+      if (const auto found = unusable_.find(number); found != unusable_.end())
+        return corrupt(found->second, "has a coordinate that is not finite");
       corners_.push_back(static_cast<std::uint32_t>(number));
     }
     if (corners_.size() < cornersOfFace_) return {};
@@ -249,6 +253,8 @@ class OffReader final : public MeshTextReader {
     if (stage_ == Stage::faces)
       return failure(ErrorCode::corrupt,
                      fmt::format("is truncated: it has {} of {} faces", facesRead_, faceCount_), path());
+    if (mesh().mesh.triangles.empty() && !unusable_.empty())
+      return corrupt(unusable_.begin()->second, "has a coordinate that is not finite");
     if (smallFaces_ > 0)
       mesh().warnings.push_back(
           fmt::format("{} faces of fewer than three corners are left out", smallFaces_));
@@ -285,7 +291,8 @@ class OffReader final : public MeshTextReader {
   std::array<double, 3> xyz_{};
   std::vector<OffNumber> more_;  // behind the coordinates of a vertex or the corners of a face
   std::optional<OffVertices> behind_;
-  OffColors colors_;  // of faces
+  OffColors colors_;                               // of faces
+  std::map<std::uint64_t, const char*> unusable_;  // by vertex: lines with numbers that are not finite
   std::vector<std::uint32_t> corners_;
 };
 

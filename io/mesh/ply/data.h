@@ -16,6 +16,7 @@
 #include "io/file/file_bytes.h"
 #include "io/file/text_scan.h"
 #include "io/mesh/faces.h"
+#include "io/mesh/finite.h"
 #include "io/mesh/ply/corners.h"
 #include "io/mesh/ply/findings.h"
 #include "io/mesh/ply/header.h"
@@ -64,6 +65,11 @@ class PlyReader {
     }
     if (mesh_.triangles.empty() && findings_.smallFaces > 0)
       return failure(ErrorCode::corrupt, firstSmallFace_, path_);
+    if (const auto v = firstUnusable(mesh_))
+      return failure(
+          ErrorCode::corrupt,
+          fmt::format("vertex {} of {} has a coordinate that is not finite", *v, mesh_.positions.size()),
+          path_);
     takeMaterials();
     file.mesh = std::move(mesh_);
     file.triangleErrors = std::move(errors_);
@@ -73,6 +79,7 @@ class PlyReader {
       return failure(ok.error().code, ok.error().message, path_);
     if (corners_) corners_->join(file.mesh, file.warnings);
     keepOddErrors(file);
+    leaveOutUnusedNumbers(file);
     return {};
   }
 
@@ -255,11 +262,7 @@ class PlyReader {
       if (Status ok = addFace(reading.element, record); !ok) return ok;
     // Each triangle of a polygon has the error of the polygon.
     if (error) errors_.resize(mesh_.triangles.size(), static_cast<float>(*error));
-    if (reading.isVertex) {
-      if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z))
-        return corruptRecord(reading.element, record, "has a coordinate that is not finite");
-      mesh_.positions.push_back(position);
-    }
+    if (reading.isVertex) mesh_.positions.push_back(position);
     return {};
   }
 
