@@ -232,6 +232,8 @@ Status runBuild(BuildArguments& arguments, Session& session) {
     // A mesh without faces is read anew, as points.
     Stopwatch reading;
     Result<MeshInput> input = readMeshInput(arguments.dem.path, session.context());
+    if (input && !input->file.mesh.triangles.empty())
+      if (const Status looked = warnOfGaps(*input, session.context()); !looked) return looked;
     if (input) session.warn(input->file.warnings, arguments.dem.path);
     if (input && !input->file.mesh.triangles.empty())
       return runSurfaceBuild(arguments, std::move(*input), reading.seconds(), session);

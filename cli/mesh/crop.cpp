@@ -74,8 +74,9 @@ Status runCrop(const CropArguments& arguments, Session& session) {
   warnOf(*converted, arguments.input, target->format.name, session);
   session.say(writtenText(target->path, *converted) +
               (cropped->cutTriangles > 0
-                   ? fmt::format("  {} triangles cut at the box, {} vertices made there\n",
-                                 grouped(cropped->cutTriangles), grouped(cropped->cutVertices))
+                   ? fmt::format("  {} cut at the box, {} made there\n",
+                                 grouped(cropped->cutTriangles, "triangle", "triangles"),
+                                 grouped(cropped->cutVertices, "vertex", "vertices"))
                    : ""));
   Json json = writtenJson(arguments.input, target->path, target->format.name, *converted);
   json["cutTriangles"] = cropped->cutTriangles;

@@ -193,6 +193,7 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
       return checked;
   Result<MeshInput> input = readMeshInput(arguments.input, session.context());
   if (!input) return tl::unexpected(input.error());
+  if (const Status looked = warnOfGaps(*input, session.context()); !looked) return looked;
   session.warn(input->file.warnings, arguments.input);
   MeshFile& file = input->file;
   if (file.mesh.triangles.empty())

@@ -73,8 +73,9 @@ std::string diagnosisText(const MeshDiagnosis& diagnosis, const MeshNumbers& num
   if (!components.empty()) text += fmt::format("  components  {}\n", grouped(components.size()));
   for (const std::size_t i : largest(components, [](const ComponentDiagnosis& c) { return c.triangles; })) {
     const ComponentDiagnosis& c = components[i];
-    text += fmt::format("    {}: {} triangles, {} edges, {} vertices, Euler number {}, ", i,
-                        grouped(c.triangles), grouped(c.edges), grouped(c.vertices), c.eulerNumber);
+    text += fmt::format("    {}: {}, {}, {}, Euler number {}, ", i,
+                        grouped(c.triangles, "triangle", "triangles"), grouped(c.edges, "edge", "edges"),
+                        grouped(c.vertices, "vertex", "vertices"), c.eulerNumber);
     text += c.genus ? fmt::format("genus {}, ", *c.genus) : "";
     text += c.isManifold() ? "manifold" : "not manifold";
     text += c.isClosed() ? ", closed"

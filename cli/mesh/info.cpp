@@ -110,10 +110,10 @@ std::string factsText(const MeshInput& input, const Facts& facts) {
          fmt::format("{} joined: every triangle had corners of its own", grouped(input.file.joinedVertices)));
   if (input.joinedAtSeams > 0)
     line("", fmt::format("{} joined at seams to examine the surface", grouped(input.joinedAtSeams)));
-  line("faces",
-       input.fileFaces == mesh.triangles.size()
-           ? grouped(input.fileFaces)
-           : fmt::format("{} ({} triangles)", grouped(input.fileFaces), grouped(mesh.triangles.size())));
+  line("faces", input.fileFaces == mesh.triangles.size()
+                    ? grouped(input.fileFaces)
+                    : fmt::format("{} ({})", grouped(input.fileFaces),
+                                  grouped(mesh.triangles.size(), "triangle", "triangles")));
   if (!mesh.objects.empty()) line("objects", listText(mesh.objects));
   if (!mesh.groups.empty()) line("groups", listText(mesh.groups));
   if (!mesh.materials.empty()) {
@@ -126,7 +126,7 @@ std::string factsText(const MeshInput& input, const Facts& facts) {
        {std::pair{"of vertices", &mesh.vertexAttributes}, std::pair{"of corners", &mesh.wedgeAttributes},
         std::pair{"of faces", &mesh.triangleAttributes}})
     if (!attributes->empty()) line(what, attributesText(*attributes));
-  if (facts.seamEdges > 0) line("seams", fmt::format("{} edges", grouped(facts.seamEdges)));
+  if (facts.seamEdges > 0) line("seams", grouped(facts.seamEdges, "edge", "edges"));
   if (!input.file.crsWkt.empty()) line("CRS", crsName(input.file.crsWkt));
   line("box", fmt::format("{} to {}", positionText(d.boxLow), positionText(d.boxHigh)));
   line("diagonal", fmt::format("{:.9g}", d.diagonal));
@@ -196,7 +196,8 @@ Status runInfo(const InfoArguments& arguments, Session& session) {
   if (!input) return tl::unexpected(input.error());
   session.warn(input->file.warnings, arguments.input);
   const SurfaceMesh& mesh = input->file.mesh;
-  DiagnosisOptions options{.selfIntersections = !arguments.leavesOutSelfIntersections};
+  DiagnosisOptions options{.selfIntersections = !arguments.leavesOutSelfIntersections,
+                           .rounding = input->rounding};
   if (session.wantsJson()) options.mostPlaces = std::numeric_limits<std::size_t>::max();
   Result<MeshDiagnosis> diagnosis = diagnose(mesh, options, session.context());
   if (!diagnosis) return tl::unexpected(diagnosis.error());

@@ -18,6 +18,7 @@
 #include "cli/mesh/diagnosis_json.h"
 #include "cli/mesh/diagnosis_text.h"
 #include "cli/mesh/findings.h"
+#include "engine/base/counted.h"
 #include "io/exchange/convert.h"
 #include "io/exchange/mesh_formats.h"
 #include "io/surface/mesh_input.h"
@@ -65,6 +66,7 @@ Result<WeldDistance> weldDistance(const std::string& text, const TriangleMesh& m
 
 struct Welded {
   WeldDistance distance;
+  bool isOfRounding = false;  ///< not stated: what rounding has moved apart
   double diagonal = 0;
   std::uint64_t vertices = 0, edges = 0;
   double farthestMove = 0;
@@ -87,7 +89,10 @@ void carryErrors(MeshFile& file, const std::vector<std::uint32_t>& triangleOf, b
 Result<RepairedMesh> mend(MeshInput& input, const RepairArguments& arguments, bool hasMoved,
                           Session& session) {
   MeshFile& file = input.file;
-  Result<RepairedMesh> repaired = repair(file.mesh, arguments.options, session.context());
+  RepairOptions options = arguments.options;
+  options.rounding = input.rounding;
+  options.partOf = file.mesh.objectOf;
+  Result<RepairedMesh> repaired = repair(file.mesh, options, session.context());
   if (!repaired) return repaired;
   file.warnings.clear();  // written already
   if (!repaired->counts.isNothing()) {
@@ -110,10 +115,12 @@ using Line = std::pair<std::uint64_t, const char*>;
 std::vector<Line> mendedLines(const RepairCounts& c) {
   return {{c.duplicateTriangles, "duplicate faces left out"},
           {c.degenerateTriangles, "faces without area left out"},
-          {c.joinedVertices, "vertices joined to close a face without area"},
+          {c.joinedVertices, "vertices joined with others at their positions"},
           {c.tJunctions, "edges split at T-junctions"},
           {c.splitSheetEdges, "edges of more than two faces split into sheets"},
           {c.turnedTriangles, "faces turned"},
+          {c.turnedSolids, "closed parts turned as a whole, outwards"},
+          {c.turnedCavities, "cavities turned as a whole, inwards"},
           {c.addedVertices, "vertices added, one for each further fan"},
           {c.filledHoles, "holes filled"},
           {c.fillingTriangles, "triangles added in holes"},
@@ -121,7 +128,7 @@ std::vector<Line> mendedLines(const RepairCounts& c) {
 }
 
 std::string mendedText(const MeshInput& input, const std::optional<Welded>& welded,
-                       const RepairCounts& counts) {
+                       const RepairedMesh& repaired) {
   std::string text;
   const auto line = [&](std::uint64_t count, const std::string& what) {
     if (count > 0) text += fmt::format("  {}: {}\n", what, grouped(count));
@@ -129,20 +136,31 @@ std::string mendedText(const MeshInput& input, const std::optional<Welded>& weld
   line(input.joinedAtSeams, "vertices joined at seams");
   if (welded)
     text += fmt::format(
-        "  {} vertices joined within {:.6g} ({:.6g} % of the diagonal, {:.6g}); none moved farther than "
+        "  {} joined within {:.6g}{} ({:.6g} % of the diagonal, {:.6g}); none moved farther than "
         "{:.6g}\n",
-        grouped(welded->vertices), welded->distance.size,
+        grouped(welded->vertices, "vertex", "vertices"), welded->distance.size,
+        welded->isOfRounding ? ", which rounding to the numbers of the file moves apart" : "",
         welded->distance.share ? *welded->distance.share
         : welded->diagonal > 0 ? 100 * welded->distance.size / welded->diagonal
                                : 0,
         welded->diagonal, welded->farthestMove);
-  for (const auto& [count, what] : mendedLines(counts)) line(count, what);
-  if (counts.isNothing()) text += "  nothing to mend\n";
+  for (const auto& [count, what] : mendedLines(repaired.counts)) line(count, what);
+  if (repaired.counts.isNothing() && !(welded && welded->isOfRounding)) text += "  nothing to mend\n";
+  if (repaired.openHoles > 0)
+    text += fmt::format(
+        "  left open: {}, as {} would have an edge that exists, lie upon the surface or cross it\n",
+        grouped(repaired.openHoles, "hole", "holes"),
+        agreeing(repaired.openHoles, "its filling", "their fillings"));
+  if (repaired.crossingParts > 0)
+    text += fmt::format(
+        "  {} cross each other: none is a cavity of another, and they are turned alike, as the largest\n",
+        grouped(repaired.crossingParts, "closed part", "closed parts"));
   return text;
 }
 
 Json mendedJson(const RepairCounts& c) {
-  return {{"duplicateFaces", c.duplicateTriangles}, {"degenerateFaces", c.degenerateTriangles},
+  return {{"turnedSolids", c.turnedSolids},         {"turnedCavities", c.turnedCavities},
+          {"duplicateFaces", c.duplicateTriangles}, {"degenerateFaces", c.degenerateTriangles},
           {"joinedVertices", c.joinedVertices},     {"tJunctions", c.tJunctions},
           {"splitSheetEdges", c.splitSheetEdges},   {"turnedFaces", c.turnedTriangles},
           {"addedVertices", c.addedVertices},       {"filledHoles", c.filledHoles},
@@ -152,9 +170,20 @@ Json mendedJson(const RepairCounts& c) {
 Json weldedJson(const Welded& welded) {
   return {{"distance", welded.distance.size},
           {"diagonal", welded.diagonal},
+          {"isOfRounding", welded.isOfRounding},
           {"vertices", welded.vertices},
           {"edges", welded.edges},
           {"farthestMove", welded.farthestMove}};
+}
+
+/// How far apart the borders are that are one but for the rounding of the file; 0: there are none, or edges
+/// of borders are too short for it.
+Result<double> distanceOfNearBorders(const MeshInput& input, const RunContext& context) {
+  const TriangleMesh& mesh = input.file.mesh;
+  const Result<MeshDiagnosis> d =
+      diagnose(mesh, {.mostPlaces = 0, .selfIntersections = false, .rounding = input.rounding}, context);
+  if (!d) return tl::unexpected(d.error());
+  return d->farthestNear <= d->shortestBorderEdge / 4 ? d->farthestNear : 0;
 }
 
 Status runRepair(const RepairArguments& arguments, Session& session) {
@@ -169,8 +198,17 @@ Status runRepair(const RepairArguments& arguments, Session& session) {
     const Result<WeldDistance> distance = weldDistance(arguments.weld, mesh);
     if (!distance) return tl::unexpected(distance.error());
     welded = Welded{.distance = *distance, .diagonal = diagonalOf(mesh)};
+  } else if (const auto distance = distanceOfNearBorders(*input, session.context()); !distance) {
+    return tl::unexpected(distance.error());
+  } else if (*distance > 0) {
+    welded = Welded{.distance = {.size = *distance, .share = {}},
+                    .isOfRounding = true,
+                    .diagonal = diagonalOf(input->file.mesh)};
+  }
+  if (welded) {
+    SurfaceMesh& mesh = input->file.mesh;
     const Result<JoinedSurface> joined =
-        joinSurface(mesh, {.distance = distance->size, .partOf = mesh.objectOf}, session.context());
+        joinSurface(mesh, {.distance = welded->distance.size, .partOf = mesh.objectOf}, session.context());
     if (!joined) return tl::unexpected(joined.error());
     welded->vertices = joined->joinedVertices;
     welded->edges = joined->joinedEdges;
@@ -183,7 +221,9 @@ Status runRepair(const RepairArguments& arguments, Session& session) {
   Result<MeshDiagnosis> diagnosis = repaired->diagnosis;
   if (session.wantsJson())
     diagnosis = diagnose(repaired->mesh,
-                         {.mostPlaces = std::numeric_limits<std::size_t>::max(), .selfIntersections = false},
+                         {.mostPlaces = std::numeric_limits<std::size_t>::max(),
+                          .selfIntersections = false,
+                          .rounding = input->rounding},
                          session.context());
   if (!diagnosis) return tl::unexpected(diagnosis.error());
   const Result<ConvertedMesh> converted = convertMesh(
@@ -196,13 +236,16 @@ Status runRepair(const RepairArguments& arguments, Session& session) {
       .first = target->format.extension == ".obj" || target->format.extension == ".2dm" ? 1u : 0u,
       .vertexOf = {},
       .faceOf = {}};
-  session.say(writtenText(target->path, *converted) + mendedText(*input, welded, repaired->counts) +
+  session.say(writtenText(target->path, *converted) + mendedText(*input, welded, *repaired) +
               fmt::format("now: {}\n", verdictOf(*diagnosis)) + diagnosisText(*diagnosis, numbers));
   if (session.wantsJson()) {
     Json json = writtenJson(arguments.input, target->path, target->format.name, *converted);
     json["joinedAtSeams"] = input->joinedAtSeams;
     json["welded"] = welded ? weldedJson(*welded) : Json();
     json["mended"] = mendedJson(repaired->counts);
+    json["rounding"] = input->rounding;
+    json["openHoles"] = repaired->openHoles;
+    json["crossingParts"] = repaired->crossingParts;
     json["result"] = diagnosisJson(*diagnosis, numbers);
     session.answer(json);
   }

@@ -52,6 +52,8 @@ SurfacePtr buildFile(const std::string& path, const SurfaceFileOptions& options,
     Result<MeshInput> read = readMeshInput(path, context);
     if (read && read->file.mesh.triangles.empty())
       return failure(ErrorCode::invalidData, "has no faces: it is no surface", path);
+    if (read)
+      if (const Status looked = warnOfGaps(*read, context); !looked) return tl::unexpected(looked.error());
     return read;
   });
   warn(input.file.warnings);

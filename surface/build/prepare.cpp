@@ -31,6 +31,17 @@ Status refuse(const MeshFindings& found, const RepairedMesh& repaired, const cha
                   vertexAt(1), remedy));
 }
 
+/// Vertices without a face are left out: whatever their coordinates are, they are no reason to refuse.
+void forgetUnusedNumbers(SurfaceMesh& mesh) {
+  if (std::ranges::all_of(mesh.positions, [](const Vec3& p) { return isFinite(p); })) return;
+  std::vector<std::uint8_t> isUsed(mesh.positions.size(), 0);
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t v : triangle)
+      if (v < isUsed.size()) isUsed[v] = 1;
+  for (std::size_t v = 0; v < isUsed.size(); ++v)
+    if (isUsed[v] == 0 && !isFinite(mesh.positions[v])) mesh.positions[v] = {};
+}
+
 /// Leaves out the normals of corners where they differ at more than half of the edges.
 bool dropFlatNormals(SurfaceMesh& mesh) {
   const auto isNormal = [](const Attribute& a) {
@@ -65,17 +76,32 @@ MeshAttributes takeFaceAttributes(SurfaceMesh& mesh) {
 }  // namespace
 
 Result<PreparedSurface> prepareSurface(SurfaceMesh source, const RunContext& context) {
+  forgetUnusedNumbers(source);
   if (const Status valid = source.validate(); !valid) return tl::unexpected(valid.error());
-  Result<RepairedMesh> repaired = repair(source, {.splitsAtTJunctions = false}, context);
+  // A surface that faces inwards, as a room, stays so.
+  RepairOptions options{.splitsAtTJunctions = false, .turnsOutwards = false, .partOf = source.objectOf};
+  Result<RepairedMesh> repaired = repair(source, options, context);
   if (!repaired) return tl::unexpected(repaired.error());
   if (repaired->mesh.triangles.empty())
     return failure(ErrorCode::degenerate,
                    source.triangles.empty() ? "the mesh has no face" : "no face of the mesh has an area");
   const MeshDiagnosis& d = repaired->diagnosis;
-  if (d.nonManifoldEdges.count > 0)
-    return tl::unexpected(refuse(d.nonManifoldEdges, *repaired, "{} more than two faces",
-                                 "repairing with `splitsSheets` makes several edges of each")
-                              .error());
+  if (d.nonManifoldEdges.count > 0) {
+    // What does not help is no advice.
+    options.splitsSheets = true;
+    const Result<RepairedMesh> split = repair(source, options, context);
+    const std::uint64_t left = split ? split->diagnosis.nonManifoldEdges.count : d.nonManifoldEdges.count;
+    const std::string remedy =
+        left == 0 ? "repairing with `splitsSheets` makes several edges of each"
+        : left < d.nonManifoldEdges.count
+            ? fmt::format(
+                  "repairing with `splitsSheets` makes several edges of each but {}, which have to be "
+                  "taken apart by hand",
+                  left)
+            : "they have to be taken apart by hand: their faces meet again around both ends";
+    return tl::unexpected(
+        refuse(d.nonManifoldEdges, *repaired, "{} more than two faces", remedy.c_str()).error());
+  }
   if (d.nonOrientable.count > 0)
     return tl::unexpected(refuse(d.nonOrientable, *repaired, "{} two faces that no turns make agree",
                                  "cut the surface there, as a Moebius strip has to be")

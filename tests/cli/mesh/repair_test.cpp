@@ -99,5 +99,88 @@ TEST_F(MeshRepair, TurnsAndScalesAsStated) {
   EXPECT_NE(read("y.obj").find("v 0 0 1\nv 1 0 0\nv 0 -1 0\n"), std::string::npos) << read("y.obj");
 }
 
+TEST_F(MeshRepair, TurnsClosedPartsOutwardsAndSaysSo) {
+  write("inside.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n");
+  const Outcome outcome = run({"mesh", "repair", "inside.obj", "-o", "out.obj"});
+  EXPECT_TRUE(says(outcome, "faces turned: 4\n  closed parts turned as a whole, outwards: 1\n"))
+      << outcome.out;
+  const Json json = run({"mesh", "repair", "inside.obj", "-o", "out.obj", "--json"}).json();
+  EXPECT_EQ(json["mended"]["turnedSolids"], 1);
+  EXPECT_EQ(json["crossingParts"], 0);
+  const Json info = run({"mesh", "info", "out.obj", "--json"}).json();
+  EXPECT_NEAR(info["volume"].get<double>(), 1.0 / 6, 1e-12);
+}
+
+TEST_F(MeshRepair, NamesHolesThatStayOpen) {
+  write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
+  const Outcome outcome = run({"mesh", "repair", "square.obj", "-o", "out.obj", "--fill-holes", "20"});
+  EXPECT_TRUE(says(outcome, "left open: 1 hole, as its filling would")) << outcome.out;
+  EXPECT_EQ(run({"mesh", "repair", "square.obj", "-o", "out.obj", "--fill-holes", "20", "--json"})
+                .json()["openHoles"],
+            1);
+}
+
+TEST_F(MeshRepair, JoinsBordersThatTheRoundingOfFloatsMovesApart) {
+  // Two triangles whose common side was written once as it is and once an ulp of a float away.
+  write("gap.ply",
+        "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+        "0.1000001 0.2000003 0.3000007\n9.300001 0.7000001 0.1000003\n5.100003 7.300009 0.9000001\n"
+        "9.300002 0.7000001 0.1000003\n5.100004 7.300009 0.9000001\n9.900001 9.100003 0.7000003\n"
+        "3 0 1 2\n3 3 5 4\n");
+  const Outcome info = run({"mesh", "info", "gap.ply"});
+  EXPECT_TRUE(says(info, "2 border edges that are others but for rounding")) << info.out;
+  const Outcome outcome = run({"mesh", "repair", "gap.ply", "-o", "out.ply"});
+  EXPECT_TRUE(says(outcome, "which rounding to the numbers of the file moves apart")) << outcome.out;
+  EXPECT_TRUE(says(outcome, "now: manifold, 1 component, genus 0, 1 border\n")) << outcome.out;
+  const Outcome decimated =
+      run({"mesh", "decimate", "gap.ply", "-o", "o.ply", "--max-triangles", "2", "--operator", "qem"});
+  EXPECT_TRUE(says(decimated, "2 border edges that are others but for rounding: the surface is open there"))
+      << decimated.err;
+}
+
+TEST_F(MeshRepair, OfNumbersThatNoFaceUsesLeavesThemOut) {
+  const std::string faces = "f 1 2 3\nf 1 3 5\n";
+  write("nan.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv nan nan nan\nv 0 1 0\n" + faces);
+  write("nan.ply", ply(5, 2, "0 0 0\n1 0 0\n1 1 0\nnan nan nan\n0 1 0\n3 0 1 2\n3 0 2 4\n"));
+  write("nan.off", "OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\nnan 0 inf\n0 1 0\n3 0 1 2\n3 0 2 4\n");
+  for (const char* file : {"nan.obj", "nan.ply", "nan.off"}) {
+    SCOPED_TRACE(file);
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"mesh", "info", file},
+          {"mesh", "repair", file, "-o", "o.obj"},
+          {"convert", file, "-o", "o.obj"},
+          {"build", file, "-o", "o.amt"},
+          {"mesh", "decimate", file, "-o", "o.obj", "--max-triangles", "2", "--operator", "qem"}}) {
+      const Outcome outcome = run(command);
+      EXPECT_EQ(outcome.code, 0) << command[0] << " " << command[1] << ": " << outcome.err;
+      EXPECT_TRUE(says(outcome, "1 vertex without a face has a coordinate that is not finite: left out"))
+          << outcome.err;
+    }
+    ASSERT_EQ(run({"convert", file, "-o", "o.obj"}).code, 0);
+    EXPECT_NE(read("o.obj").find("v 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n"), std::string::npos) << read("o.obj");
+  }
+  // Those of faces stay an error that names the line or the vertex, also of a face before the vertex.
+  write("used.obj", "v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n");
+  write("before.obj", "f 1 2 3\nv 0 0 0\nv 1 0 0\nv nan 1 0\n");
+  write("used.ply", ply(3, 1, "0 0 0\n1 0 0\nnan 1 0\n3 0 1 2\n"));
+  for (const auto& [file, culprit] :
+       {std::pair{"used.obj", "line 3"}, {"before.obj", "line 4"}, {"used.ply", "vertex 2"}}) {
+    const Outcome outcome = run({"mesh", "info", file});
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_TRUE(says(outcome, culprit)) << outcome.err;
+  }
+}
+
+TEST_F(MeshRepair, IsAdvisedOnlyWhereItHelps) {
+  // Two tetrahedra that share an edge: splitting helps.
+  write("wide.obj", plus(kTetrahedron, "v 0.5 -1 -1\nv 0.5 -1 0\nf 1 2 5\nf 2 1 6\nf 1 5 6\nf 5 2 6\n"));
+  const Outcome helps = run({"build", "wide.obj", "-o", "a.amt"});
+  EXPECT_EQ(helps.code, 4);
+  EXPECT_TRUE(says(helps, "--split-sheets")) << helps.err;
+  ASSERT_EQ(run({"mesh", "repair", "wide.obj", "-o", "apart.obj", "--split-sheets"}).code, 0);
+  EXPECT_EQ(run({"build", "apart.obj", "-o", "a.amt"}).code, 0);
+}
+
 }  // namespace
 }  // namespace arete::cli_test
