@@ -8,12 +8,14 @@
 #include "cli/commands/program.h"
 #include "cli/session/faults.h"
 #include "cli/session/interrupt.h"
+#include "cli/session/memory_end.h"
 
 int main(int argc, char** argv) {
   try {
+    arete::prepareForLackOfMemory();
     arete::prepareForFaults();
     arete::catchInterrupts();
-    return static_cast<int>(arete::runProgram(argc, argv));
+    return arete::leaveWith(arete::runProgram(argc, argv));
   } catch (const std::bad_alloc&) {
     std::fputs("arete: there is not enough memory for this\n", stderr);
   } catch (const std::exception& error) {
@@ -23,5 +25,5 @@ int main(int argc, char** argv) {
   } catch (...) {
     std::fputs("arete: an unexpected failure, which is a bug\n", stderr);
   }
-  return static_cast<int>(arete::ExitCode::internal);
+  return arete::leaveWith(arete::ExitCode::internal);
 }

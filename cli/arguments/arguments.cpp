@@ -19,7 +19,6 @@
 #include "io/exchange/mesh_formats.h"
 #include "io/file/file_writer.h"
 #include "io/file/output_file.h"
-#include "io/file/stated_size.h"
 
 namespace arete {
 namespace {
@@ -137,9 +136,8 @@ CLI::Validator tolerance() {
 }
 
 CLI::Validator shareOrTolerance() {
-  return validator([](std::string& text) -> std::string {
-    const auto stated = parseStatedSize(text, "");
-    return stated ? "" : stated.error().message;
+  return validator([](std::string& text) {
+    return toleranceProblem(text.ends_with('%') ? text.substr(0, text.size() - 1) : text);
   });
 }
 

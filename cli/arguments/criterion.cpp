@@ -42,16 +42,18 @@ void CriterionArguments::addTo(CLI::App& command) {
       command
           .add_option(
               "--max-error", maxErrors_,
-              "Largest vertical error, in the DEM's unit of height or as E% of its relief, the highest minus\n"
+              "Largest vertical error, in the DEM's unit of height or as E% of its relief, the highest "
+              "minus\n"
               "the lowest sample; of a surface the largest distance, in its unit or as E% of its diagonal;\n"
               "several with commas make one TIN each")
           ->check(tolerances())
           ->type_name("E[,E...]");
   command
-      .add_option("--max-triangles", maxTriangles_,
-                  "Largest number of triangles, used where the error is largest, or N% of those of the finest\n"
-                  "triangulation; several with commas make one TIN each. With --max-error, what is reached\n"
-                  "first ends the refinement")
+      .add_option(
+          "--max-triangles", maxTriangles_,
+          "Largest number of triangles, used where the error is largest, or N% of those of the finest\n"
+          "triangulation; several with commas make one TIN each. With --max-error, what is reached\n"
+          "first ends the refinement")
       ->check(triangleBudgets())
       ->type_name("N[,N...]");
   command
@@ -333,10 +335,10 @@ Result<std::vector<CriterionArguments::OfTerrain>> CriterionArguments::criteria(
       if (std::ranges::count(withErrors, error, [](const OfTerrain& c) { return c.criterion.maxError; }) > 0)
         return failure(ErrorCode::usage, fmt::format("has {} twice", stated.text), "--max-error");
       if (common.outsideError < error)
-        return failure(
-            ErrorCode::usage,
-            fmt::format("{} is below the error {} inside; it must not be smaller", common.outsideError, error),
-            "--outside-error");
+        return failure(ErrorCode::usage,
+                       fmt::format("{} is below the error {} inside; it must not be smaller",
+                                   common.outsideError, error),
+                       "--outside-error");
       withErrors.push_back({common, stated.isShare ? stated.text : fmt::format("{}", error)});
       withErrors.back().criterion.maxError = error;
     }

@@ -44,7 +44,8 @@ struct CriterionArguments {
     ExtractCriterion criterion;
     std::string tag;
   };
-  /// @param model the root, and the terrain at placeAboveGround(), are enough; the whole where statesShares().
+  /// @param model the root, and the terrain at placeAboveGround(), are enough; the whole where
+  /// statesShares().
   /// @return one criterion for each tolerance and each number of triangles.
   /// Precondition: check(). Errors: usage, naming the option; invalidData: no terrain below the camera.
   Result<std::vector<OfTerrain>> criteria(const TerrainModel& model) const;

@@ -45,11 +45,13 @@ void warnOf(const ConvertedMesh& converted, const std::string& input, std::strin
 }
 
 std::string writtenText(const std::string& output, const ConvertedMesh& converted) {
-  std::string text = fmt::format("{}: {} triangles, {} vertices\n", output, grouped(converted.triangles),
-                                 grouped(converted.vertices));
+  std::string text =
+      fmt::format("{}: {}, {}\n", output, grouped(converted.triangles, "triangle", "triangles"),
+                  grouped(converted.vertices, "vertex", "vertices"));
   if (converted.joinedVertices > 0)
-    text += fmt::format("  {} vertices at the positions of others were joined at reading\n",
-                        grouped(converted.joinedVertices));
+    text += fmt::format("  {} joined at reading\n",
+                        grouped(converted.joinedVertices, "vertex at the position of another was",
+                                "vertices at the positions of others were"));
   for (const std::filesystem::path& file : converted.filesBeside)
     text += fmt::format("  beside it: {}\n", file.string());
   return text;

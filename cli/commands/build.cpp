@@ -118,15 +118,16 @@ void report(Session& session, const BuildArguments& arguments, const TerrainMode
       "{}\n"
       "  samples    {}{}\n"
       "  triangles  {} at the finest, {} in the multitriangulation\n"
-      "  root       {} triangles, {} vertices ({} fixed), {} levels\n"
+      "  root       {}, {} ({} fixed), {}\n"
       "  built in   {:.2f} s, {} samples/s (read {:.2f} s, features {:.2f} s, write {:.2f} s)\n"
       "  size       {}, {:.0f} bytes a sample\n",
       arguments.output, grouped(samples),
       model.isolated.empty() ? "" : fmt::format(", {} of them isolated", grouped(model.isolated.size())),
-      grouped(mt.finestTriangleCount()), grouped(mt.triangleCount()), grouped(mt.rootTriangleCount()),
-      grouped(mt.rootVertexCount()), grouped(fixed.vertices.size()), model.levels, seconds.build,
-      grouped(static_cast<std::uint64_t>(rate)), seconds.read, seconds.features, seconds.write,
-      byteCount(bytes), bytesPerSample));
+      grouped(mt.finestTriangleCount()), grouped(mt.triangleCount()),
+      grouped(mt.rootTriangleCount(), "triangle", "triangles"),
+      grouped(mt.rootVertexCount(), "vertex", "vertices"), grouped(fixed.vertices.size()),
+      grouped(model.levels, "level", "levels"), seconds.build, grouped(static_cast<std::uint64_t>(rate)),
+      seconds.read, seconds.features, seconds.write, byteCount(bytes), bytesPerSample));
 }
 
 Status takeShape(BuildArguments& arguments) {
@@ -149,11 +150,14 @@ Status buildFrom(BuildArguments& arguments, const FixedVertexOptions& fixedChoic
   if (!fixed) return tl::unexpected(fixed.error());
   if (!fixedChoice.given.empty() && fixed->givenOutside == fixedChoice.given.size())
     return failure(ErrorCode::invalidData,
-                   fmt::format("none of the {} points lies on the DEM's data", fixedChoice.given.size()),
+                   fmt::format("none of {} lies on the DEM's data",
+                               grouped(fixedChoice.given.size(), "point", "points")),
                    fmt::format("--fixed {}", arguments.fixedPath));
   if (fixed->givenOutside > 0)
-    session.warn(fmt::format("--fixed {}: {} of {} points lie outside the DEM's data and are left out",
-                             arguments.fixedPath, fixed->givenOutside, fixedChoice.given.size()));
+    session.warn(
+        fmt::format("--fixed {}: {} of {} {} outside the DEM's data and {} left out", arguments.fixedPath,
+                    fixed->givenOutside, grouped(fixedChoice.given.size(), "point", "points"),
+                    fixed->givenOutside == 1 ? "lies" : "lie", fixed->givenOutside == 1 ? "is" : "are"));
   arguments.options.fixedVertices = fixed->vertices;
   seconds.features = choosing.seconds();
 

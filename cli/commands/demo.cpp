@@ -49,11 +49,13 @@ Json answerOf(const DemoReport& report) {
 }
 
 std::string textOf(const DemoReport& report) {
-  std::string text = fmt::format(
-      "{}: {} x {} samples, {} triangles at full resolution, built in {:.1f} s\n\n{}\n", report.dem,
-      report.columns, report.rows, grouped(report.finestTriangles), report.buildSeconds, demoTable(report));
+  std::string text =
+      fmt::format("{}: {} x {} samples, {} at full resolution, built in {:.1f} s\n\n{}\n", report.dem,
+                  report.columns, report.rows, grouped(report.finestTriangles, "triangle", "triangles"),
+                  report.buildSeconds, demoTable(report));
   if (report.isolated > 0)
-    text += fmt::format("{} isolated samples are in no triangle and in no column.\n", report.isolated);
+    text += grouped(report.isolated, "isolated sample is", "isolated samples are") +
+            " in no triangle and in no column.\n";
   text += fmt::format("Written in {:.1f} s:\n", report.totalSeconds);
   for (const std::string& file : report.files) text += "  " + file + "\n";
   return text;

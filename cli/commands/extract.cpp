@@ -184,10 +184,9 @@ std::string errorText(double error, const std::string& unit, std::optional<doubl
 
 std::string textOf(const ExtractRequest& request, const ExtractedTin& tin, const std::string& unit,
                    std::optional<double> relief) {
-  std::string text = fmt::format("{}: {}, {}, error at most {}", request.output,
-                                 grouped(tin.triangles, "triangle", "triangles"),
-                                 grouped(tin.vertices, "vertex", "vertices"),
-                                 errorText(tin.storedError, unit, relief));
+  std::string text = fmt::format(
+      "{}: {}, {}, error at most {}", request.output, grouped(tin.triangles, "triangle", "triangles"),
+      grouped(tin.vertices, "vertex", "vertices"), errorText(tin.storedError, unit, relief));
   if (!request.criterion.region.empty())
     text += fmt::format(" (in the region {})", withUnit(tin.promisedError, unit));
   if (tin.pixels && std::isfinite(*tin.pixels))

@@ -135,8 +135,8 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
             writeHeightTable(arguments.output, *table, *heights, session.context(), arguments.existing);
         !written)
       return written;
-    session.say(fmt::format("{}: {} of {} places have a height\n", arguments.output, grouped(found),
-                            grouped(heights->size())));
+    session.say(fmt::format("{}: {} of {} a height\n", arguments.output, grouped(found),
+                            grouped(heights->size(), "place has", "places have")));
     json["file"] = arguments.output;
   }
   session.answer(json);
@@ -149,8 +149,9 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
                                          : fmt::format("any of the {} places", grouped(heights->size()))),
         arguments.model);
   if (found < heights->size())
-    session.warn(fmt::format("{} of {} places have no height: outside the DEM, or on NODATA",
-                             grouped(heights->size() - found), grouped(heights->size())));
+    session.warn(fmt::format("{} of {} no height: outside the DEM, or on NODATA",
+                             grouped(heights->size() - found),
+                             grouped(heights->size(), "place has", "places have")));
   return {};
 }
 

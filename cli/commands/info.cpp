@@ -46,8 +46,8 @@ double largestRootError(const MultiTriangulation& mt) {
 std::string gridText(const TerrainModel& model) {
   if (!model.isRaster) return grouped(model.mt.vertexCount(), "scattered point", "scattered points");
   const auto& g = model.georeference.geoTransform;
-  std::string text = fmt::format("{} x {}", counted(model.columns, "column", "columns"),
-                                 counted(model.rows, "row", "rows"));
+  std::string text =
+      fmt::format("{} x {}", counted(model.columns, "column", "columns"), counted(model.rows, "row", "rows"));
   if (!model.georeference.hasGeoTransform) return text + ", not placed";
   const bool rotated = g[2] != 0 || g[4] != 0;
   return text + fmt::format(", pixel {:.9g} x {:.9g}{}, corner {:.9g}, {:.9g}", std::hypot(g[1], g[4]),
@@ -83,9 +83,9 @@ void sayFacts(const InfoArguments& arguments, const TerrainModel& model, const F
                                   : fmt::format(", {} of them isolated", grouped(model.isolated.size()))));
   line("triangles", fmt::format("{} at the finest, {} in all", grouped(mt.finestTriangleCount()),
                                 grouped(mt.triangleCount())));
-  line("root", fmt::format("{}, {} ({} fixed)", grouped(mt.rootTriangleCount(), "triangle", "triangles"),
-                           grouped(mt.rootVertexCount(), "vertex", "vertices"),
-                           grouped(o.fixedVertices.size())));
+  line("root",
+       fmt::format("{}, {} ({} fixed)", grouped(mt.rootTriangleCount(), "triangle", "triangles"),
+                   grouped(mt.rootVertexCount(), "vertex", "vertices"), grouped(o.fixedVertices.size())));
   line("levels", std::to_string(model.levels));
   line(
       "built with",

@@ -65,7 +65,8 @@ Status checkKind(const MeasureArguments& arguments, bool isMesh) {
         check("--vertical-unit", !reading.verticalUnit.empty(), false),
         check("--positive", reading.isDepth.has_value(), false),
         check("more than one file", !reading.otherFiles.empty(), false),
-        check("--both-ways", arguments.isBothWays, true), check("--samples", arguments.samples != 0, true), check("--seed", arguments.seed >= 0, true),
+        check("--both-ways", arguments.isBothWays, true), check("--samples", arguments.samples != 0, true),
+        check("--seed", arguments.seed >= 0, true),
         check("--error-mesh", !arguments.errorMesh.empty(), true)})
     if (!ok) return ok;
   return {};

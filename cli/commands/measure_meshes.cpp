@@ -190,10 +190,9 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
     const std::string limit = fmt::format(
         "{} ({:.4g} % of the diagonal), {}", withUnit(expected, unit), 100 * expected / diagonal,
         arguments.isBothWays ? "both ways" : "from the second; --both-ways asks the other way too");
-    session.say(
-        isProven(*report, expected, way)
-            ? fmt::format("kept: nowhere farther than {}\n", limit)
-            : fmt::format("kept as far as found: nothing is known to be farther than {}\n", limit));
+    session.say(isProven(*report, expected, way)
+                    ? fmt::format("kept: nowhere farther than {}\n", limit)
+                    : fmt::format("kept as far as found: nothing is known to be farther than {}\n", limit));
   }
   Json json = {{"first", {{"path", arguments.first}, {"crs", crsName(first->crsWkt)}}},
                {"second", {{"path", arguments.second}, {"crs", crsName(second->crsWkt)}}},

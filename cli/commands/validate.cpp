@@ -12,6 +12,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/surface/validate.h"
+#include "engine/base/counted.h"
 #include "io/amt/file.h"
 #include "io/amt/surface_file.h"
 #include "terrain/laws/compare_source.h"
@@ -74,9 +75,9 @@ Result<std::uint64_t> compare(const ValidateArguments& arguments, const TerrainM
 /// What the checks of a law covered, where that is not everything.
 std::string scopeOf(const Law& law, const ErrorsChecked& checked) {
   if (law.number != 10) return {};
-  return checked.areAll()
-             ? fmt::format(" (all {} triangles)", checked.triangles)
-             : fmt::format(" ({} of {} triangles; --full checks all)", checked.checked, checked.triangles);
+  return checked.areAll() ? fmt::format(" (all of {})", counted(checked.triangles, "triangle", "triangles"))
+                          : fmt::format(" ({} of {}; --full checks all)", checked.checked,
+                                        counted(checked.triangles, "triangle", "triangles"));
 }
 
 Status runValidate(const ValidateArguments& arguments, Session& session) {

@@ -81,7 +81,7 @@ Status checkArguments(const DecimateArguments& a) {
     return failure(ErrorCode::usage, fmt::format("is for --operator {}, not {}", method, a.method), option);
   };
   if (a.maxTriangles.empty() && a.maxError.empty())
-    return failure(ErrorCode::usage, "--max-triangles or --max-error is required");
+    return failure(ErrorCode::usage, "one of --max-triangles and --max-error is required");
   if (!a.maxError.empty() && a.method != "measured") return refuse("--max-error", "measured, which measures");
   const bool hasQueue =
       a.method == "qem" || a.method == "half-edge" || a.method == "vertex-pair" || a.method == "face";

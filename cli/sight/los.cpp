@@ -212,7 +212,7 @@ Status reportMany(const LosArguments& a, const SightResults& results, Json json,
     if (Status written = writeAnswers(a.output, table, json, session); !written) return written;
     json.erase("answers");
     json["file"] = a.output;
-    session.say(fmt::format("{}: {} line{} of sight: {}\n", a.output, grouped(lines), lines == 1 ? "" : "s",
+    session.say(fmt::format("{}: {}: {}\n", a.output, grouped(lines, "line of sight", "lines of sight"),
                             counts.text()));
   }
   session.answer(json);
@@ -220,8 +220,8 @@ Status reportMany(const LosArguments& a, const SightResults& results, Json json,
     return failure(ErrorCode::invalidData, fmt::format("no line of sight has both ends: {}",
                                                        withOptionNames(*results.errorOf(0)).describe()));
   if (counts.failed > 0)
-    session.warn(fmt::format("{} of {} lines have no answer; the column error says why",
-                             grouped(counts.failed), grouped(lines)));
+    session.warn(fmt::format("{} of {} no answer; the column error says why", grouped(counts.failed),
+                             grouped(lines, "line has", "lines have")));
   return {};
 }
 

@@ -328,8 +328,8 @@ Status runProfile(const ProfileArguments& a, Session& session) {
     if (!file) return tl::unexpected(file.error());
     file->write(table.csv(answers));
     if (Status finished = file->finish(); !finished) return finished;
-    session.say(fmt::format("{}: {} vertices of {} line{}\n", a.output, grouped(vertices), answers.size(),
-                            answers.size() == 1 ? "" : "s"));
+    session.say(fmt::format("{}: {} of {}\n", a.output, grouped(vertices, "vertex", "vertices"),
+                            grouped(answers.size(), "line", "lines")));
     json["file"] = a.output;
   }
   if (!a.png.empty()) {

@@ -28,12 +28,14 @@ void report(const SurfaceBuildArguments& arguments, std::uint64_t faces, std::ui
   const double perVertex = double(bytes) / double(mt.vertexCount());
   std::string text = fmt::format(
       "{}\n"
-      "  surface    {} faces, {} vertices, diagonal {:.6g}\n"
+      "  surface    {}, {}, diagonal {:.6g}\n"
       "  triangles  {} at the finest, {} in the multitriangulation\n"
-      "  root       {} triangles, {} vertices, error at most {}; {} levels\n",
-      arguments.output, grouped(faces), grouped(vertices), model.diagonal, grouped(mt.finestTriangleCount()),
-      grouped(mt.triangleCount()), grouped(mt.rootTriangleCount()), grouped(mt.rootVertexCount()),
-      fmt::format("{:.6g}", mt.largestError()), model.levels);
+      "  root       {}, {}, error at most {:.6g}; {}\n",
+      arguments.output, grouped(faces, "face", "faces"), grouped(vertices, "vertex", "vertices"),
+      model.diagonal, grouped(mt.finestTriangleCount()), grouped(mt.triangleCount()),
+      grouped(mt.rootTriangleCount(), "triangle", "triangles"),
+      grouped(mt.rootVertexCount(), "vertex", "vertices"), mt.largestError(),
+      grouped(model.levels, "level", "levels"));
   text += mendedText(model.mending, "  mended     ");
   if (model.mending.dropsFlatNormals)
     text += "  left out   normals of corners: they are those of flat faces\n";

@@ -18,7 +18,8 @@ namespace arete {
 /// x,y,z,tx,ty,tz[,FOV] an eye, what it looks at and its vertical field of view in degrees: all in the file's
 /// unit.
 ///
-/// @param maxError the distance allowed, in the region if there is one; missing with a camera or a budget alone.
+/// @param maxError the distance allowed, in the region if there is one; missing with a camera or a budget
+/// alone.
 /// @param maxTriangles the budget; missing: none.
 /// Errors: usage, naming the option; those of reading the mesh of a region; invalidData: it is not closed.
 Result<SurfaceCriterion> readSurfaceCriterion(const CriterionArguments::OfSurface& asked,

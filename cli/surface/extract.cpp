@@ -20,6 +20,7 @@
 #include "io/amt/surface_file.h"
 #include "io/exchange/mesh_formats.h"
 #include "io/file/file_writer.h"
+#include "io/file/output_file.h"
 #include "io/surface/fit_front.h"
 #include "surface/diagnosis/diagnosis.h"
 #include "surface/displacement/displaced_places.h"
@@ -67,9 +68,8 @@ Result<std::vector<Request>> requestsOf(const SurfaceExtractArguments& arguments
   for (const auto& tolerance : tolerances)
     for (const auto& budget : budgets) {
       const std::string tag = tagOf(asked, tolerance ? tolerance->text : "", budget ? budget->text : "");
-      requests.push_back({outputName(arguments.output, tag, several),
-                          outputName(arguments.map, tag, several), tolerance,
-                          budget ? std::optional(budget->count) : std::nullopt});
+      requests.push_back({outputName(arguments.output, tag, several), outputName(arguments.map, tag, several),
+                          tolerance, budget ? std::optional(budget->count) : std::nullopt});
     }
   return requests;
 }
@@ -171,8 +171,8 @@ class Extraction {
     const DroppedComponents* dropped = dropped_ ? &*dropped_ : nullptr;
     const std::optional<double> maxError =
         request.tolerance ? std::optional(request.tolerance->distance) : std::nullopt;
-    const auto asked = readSurfaceCriterion(arguments_.asked, maxError, request.maxTriangles, model_,
-                                            session_.context());
+    const auto asked =
+        readSurfaceCriterion(arguments_.asked, maxError, request.maxTriangles, model_, session_.context());
     if (!asked) return tl::unexpected(asked.error());
     const auto criterion = engineCriterion(*asked, model_);
     if (!criterion) return tl::unexpected(criterion.error());
@@ -208,6 +208,7 @@ class Extraction {
     if (!fit && (!isGltf || model_.up == "z")) options.triangleErrors = front.errors;
     options.format = arguments_.format;
     options.existing = arguments_.existing;
+    OutputGroup together;
     options.up = model_.up == "y" ? MeshUp::y : model_.up == "z" ? MeshUp::z : MeshUp::unknown;
     const Result<MeshWriteReport> written =
         writeMesh(front.mesh, request.output, options, session_.context());
@@ -231,6 +232,7 @@ class Extraction {
                       "vertices of the source by up to {}, and with it no error is below {}",
                       request.output, withShare(model_.positionError, model_.diagonal),
                       withShare(left, model_.diagonal)));
+    if (Status named = together.commit(); !named) return named;
     std::optional<double> droppedDistance;
     if (dropped && dropped->count > 0) {
       const auto distance = distanceFrom(droppedSurface(model_, *dropped_), front.mesh);

@@ -81,9 +81,10 @@ Status sayAboutSurface(const std::string& path, const std::string& at, Session& 
                                 withShare(model->positionError, model->diagonal)));
   line("triangles", fmt::format("{} at the finest, {} in all", grouped(mt.finestTriangleCount()),
                                 grouped(mt.triangleCount())));
-  line("root", fmt::format("{}, {}, error at most {}", grouped(mt.rootTriangleCount(), "triangle", "triangles"),
-                           grouped(mt.rootVertexCount(), "vertex", "vertices"),
-                           withShare(mt.largestError(), model->diagonal)));
+  line("root",
+       fmt::format("{}, {}, error at most {}", grouped(mt.rootTriangleCount(), "triangle", "triangles"),
+                   grouped(mt.rootVertexCount(), "vertex", "vertices"),
+                   withShare(mt.largestError(), model->diagonal)));
   if (!model->displacement.isEmpty()) line("displacement", "coarse cuts are drawn nearer to the source");
   if (model->boundsLines)
     line("lines", "seams and edges between parts, within the error of every cut");
@@ -95,14 +96,16 @@ Status sayAboutSurface(const std::string& path, const std::string& at, Session& 
                                  a.wedgeAttributes.size(), a.triangleAttributes.size()));
   if (!a.objects.empty()) line("objects", grouped(a.objects.size()));
   if (!a.materials.empty())
-    line("materials", fmt::format("{}, {} inside", a.materials.size(),
-                                  counted(a.pictures.size(), "picture", "pictures")));
+    line("materials",
+         fmt::format("{}, {} inside", a.materials.size(), counted(a.pictures.size(), "picture", "pictures")));
   text += fmt::format("\n  {:>12}  {:>9}  {:>13}  {:>13}\n", "error", "diagonal", "minimal", "saturated");
   Json points = Json::array();
   for (const CurvePoint& p : *curve) {
     text += fmt::format("  {:>12.4g}  {:>7.3g} %  {:>13}  {:>13}\n", p.error, 100 * p.error / model->diagonal,
                         grouped(p.minimal), grouped(p.saturated));
-    points.push_back({{"maxError", std::isfinite(p.error) ? Json(p.error) : Json()}, {"minimal", p.minimal}, {"saturated", p.saturated}});
+    points.push_back({{"maxError", std::isfinite(p.error) ? Json(p.error) : Json()},
+                      {"minimal", p.minimal},
+                      {"saturated", p.saturated}});
   }
   session.say(text);
   session.answer({{"file", path},

@@ -13,9 +13,9 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
+#include <functional>
 #include <limits>
-#include <system_error>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/caught_failure.h"
@@ -28,7 +28,6 @@ namespace arete {
 namespace {
 
 constexpr int kTileSize = 256;
-constexpr const char* kStaleSidecars[] = {".ovr", ".msk"};
 
 bool isWhole(GeoTiffOptions::Sample sample) {
   return sample == GeoTiffOptions::Sample::uint8 || sample == GeoTiffOptions::Sample::uint16;
@@ -69,8 +68,44 @@ Status describe(GDALDataset& dataset, const Georeference& georeference, const Ge
 }
 
 template <class Sample>
+std::size_t hashOf(std::span<const Sample> samples) {
+  const auto bytes = std::as_bytes(samples);
+  return std::hash<std::string_view>()({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+/// Reads a raster that was closed, and compares it with what was written, by the hash of each strip.
+template <class Sample>
+Status readBack(const std::string& path, GDALDataType type, std::span<const std::size_t> hashes,
+                const GdalErrors& errors, const RunContext& context) {
+  const auto unlike = [&] {
+    return failure(ErrorCode::unreadable,
+                   errors.anyFailure()
+                       ? fmt::format("cannot be read after it was written: {}", errors.firstFailure())
+                       : "does not hold the values that were written to it");
+  };
+  const GdalDatasetPtr dataset(
+      GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr, nullptr));
+  if (!dataset || dataset->GetRasterCount() != 1) return unlike();
+  GDALRasterBand& band = *dataset->GetRasterBand(1);
+  const int columns = band.GetXSize(), rows = band.GetYSize();
+  std::vector<Sample> strip;
+  std::size_t at = 0;
+  for (int row = 0; row < rows; row += kTileSize, ++at) {
+    if (context.cancelled()) return failure(ErrorCode::interrupted, "writing was stopped");
+    const int count = std::min(kTileSize, rows - row);
+    strip.resize(std::size_t(count) * std::size_t(columns));
+    if (band.RasterIO(GF_Read, 0, row, columns, count, strip.data(), columns, count, type, 0, 0, nullptr) !=
+            CE_None ||
+        at >= hashes.size() || hashOf(std::span<const Sample>(strip)) != hashes[at])
+      return unlike();
+  }
+  return at == hashes.size() ? Status() : unlike();
+}
+
+template <class Sample>
 Status writeRows(GDALRasterBand& band, std::span<const double> values, std::size_t stride, GDALDataType type,
-                 double nodata, const GdalErrors& errors, const RunContext& context) {
+                 double nodata, std::vector<std::size_t>& hashes, const GdalErrors& errors,
+                 const RunContext& context) {
   const std::size_t columns = std::size_t(band.GetXSize());
   const int rows = band.GetYSize();
   std::vector<Sample> strip;
@@ -95,6 +130,7 @@ Status writeRows(GDALRasterBand& band, std::span<const double> values, std::size
         strip.push_back(Sample(value));
       }
     }
+    hashes.push_back(hashOf(std::span<const Sample>(strip)));
     if (band.RasterIO(GF_Write, 0, row, int(columns), count, strip.data(), int(columns), count, type, 0, 0,
                       nullptr) != CE_None)
       return failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", errors.firstFailure()));
@@ -122,17 +158,22 @@ Status writeTo(const std::string& path, std::uint32_t columns, std::uint32_t row
   errors.clear();
 
   GDALRasterBand& band = *dataset->GetRasterBand(1);
-  const auto write = [&](auto sample) {
-    return writeRows<decltype(sample)>(band, values, columns, type, options.nodata, errors, context);
+  std::vector<std::size_t> hashes;
+  const auto write = [&](auto sample) -> Status {
+    using Type = decltype(sample);
+    if (Status rowsWritten =
+            writeRows<Type>(band, values, columns, type, options.nodata, hashes, errors, context);
+        !rowsWritten)
+      return rowsWritten;
+    dataset.reset();
+    if (errors.anyFailure())
+      return failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", errors.firstFailure()));
+    return readBack<Type>(path, type, hashes, errors, context);
   };
-  Status status = options.sample == Sample::float64   ? write(double{})
-                  : options.sample == Sample::float32 ? write(float{})
-                  : options.sample == Sample::uint8   ? write(std::uint8_t{})
-                                                      : write(std::uint16_t{});
-  dataset.reset();
-  if (status && errors.anyFailure())
-    status = failure(ErrorCode::unreadable, fmt::format("cannot be written: {}", errors.firstFailure()));
-  return status;
+  return options.sample == Sample::float64   ? write(double{})
+         : options.sample == Sample::float32 ? write(float{})
+         : options.sample == Sample::uint8   ? write(std::uint8_t{})
+                                             : write(std::uint16_t{});
 }
 
 }  // namespace
@@ -153,13 +194,11 @@ Status writeGeoTiff(const std::string& path, std::uint32_t columns, std::uint32_
   registerGdal();
   auto file = OutputFile::create(path);
   if (!file) return tl::unexpected(file.error());
+  // Overviews and masks of an older file do not describe this one.
+  file->removeBeside({".ovr", ".msk"});
   Status status =
       writeTo(file->temporaryPath().string(), columns, rows, values, georeference, options, context);
   if (status) status = file->commit();
-  // Overviews and masks of an older file do not describe this one.
-  std::error_code ignored;
-  if (status)
-    for (const char* sidecar : kStaleSidecars) std::filesystem::remove(path + sidecar, ignored);
   if (!status && status.error().culprit.empty()) status.error().culprit = path;
   if (status) context.report("writing", 1);
   return status;

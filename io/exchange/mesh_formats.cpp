@@ -12,6 +12,7 @@
 #include "engine/base/caught_failure.h"
 #include "io/exchange/joined.h"
 #include "io/file/no_file.h"
+#include "io/file/output_file.h"
 #include "io/file/text_scan.h"
 #include "io/mesh/2dm/2dm.h"
 #include "io/mesh/glb/glb.h"
@@ -137,7 +138,11 @@ Result<MeshWriteReport> writeMesh(MeshRef mesh, const std::filesystem::path& pat
   if (format->write == &writeGpkg && isNoFile(path))
     return failure(ErrorCode::unsupported, "is not a file, and a GeoPackage is a database that needs one",
                    path.string());
-  return format->write(mesh, path, options, context);
+  OutputGroup together;
+  Result<MeshWriteReport> report = format->write(mesh, path, options, context);
+  if (!report) return report;
+  if (const Status named = together.commit(); !named) return tl::unexpected(named.error());
+  return report;
 } catch (...) {
   return caughtFailure(path.native());
 }

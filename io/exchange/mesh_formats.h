@@ -53,8 +53,8 @@ Result<MeshFile> readMesh(const std::filesystem::path& path, const RunContext& c
 /// As readMesh(), and a PLY of points, which has no faces, is a mesh without triangles.
 Result<MeshFile> readMeshOrPoints(const std::filesystem::path& path, const RunContext& context = {});
 
-/// Writes a mesh in the format that options.format or the extension of `path` names. The file appears
-/// complete or not at all; a pipe or a device is written in place.
+/// Writes a mesh in the format that options.format or the extension of `path` names. The file and those
+/// beside it appear complete and together, or not at all; a pipe or a device is written in place.
 ///
 /// Errors: unsupported; a GeoPackage to a pipe. invalidData: the mesh does not validate(). notFound,
 /// unreadable, interrupted.

@@ -17,6 +17,7 @@
 #include "io/file/file_bytes.h"
 #include "io/file/file_writer.h"
 #include "io/file/no_file.h"
+#include "io/file/output_file.h"
 
 namespace arete {
 
@@ -103,15 +104,21 @@ Result<WrittenMesh> writeAndReadBack(MeshRef mesh, const std::filesystem::path& 
   if (mustPassOn)
     if (const Status made = temporary.create(format->extension); !made) return tl::unexpected(made.error());
   const std::filesystem::path& written = mustPassOn ? temporary.path() : path;
+  OutputGroup together;
   Result<MeshWriteReport> report = writeMesh(mesh, written, options, context);
   if (!report) return tl::unexpected(report.error());
-  if (format->holds.isExact) return WrittenMesh{.mesh = {}, .frame = {}, .report = std::move(*report)};
-  Result<MeshFile> file = readMesh(written, context, options.format);
-  if (!file) return tl::unexpected(file.error());
-  if (mustPassOn)
-    if (const Status passed = passOn(written, path); !passed) return tl::unexpected(passed.error());
+  if (format->holds.isExact) {
+    if (const Status named = together.commit(); !named) return tl::unexpected(named.error());
+    return WrittenMesh{.mesh = {}, .frame = {}, .report = std::move(*report)};
+  }
+  // An older file of that name stays until this one has been read.
+  Result<MeshFile> file = readMesh(OutputGroup::placeOf(written), context, format->extension.substr(1));
+  if (!file) return failure(file.error().code, file.error().message, path.string());
   if (file->mesh.triangles.size() != mesh.shape.triangles.size())
     return failure(ErrorCode::corrupt, "does not hold the triangles that were written to it", path.string());
+  if (const Status named = together.commit(); !named) return tl::unexpected(named.error());
+  if (mustPassOn)
+    if (const Status passed = passOn(written, path); !passed) return tl::unexpected(passed.error());
   const double change = largestHeightChange(mesh.shape, file->mesh, onGrid);
   return WrittenMesh{.mesh = std::move(file->mesh),
                      .frame = std::move(file->frame),

@@ -20,6 +20,7 @@
 #include "io/exchange/mesh_formats.h"
 #include "io/exchange/written_mesh.h"
 #include "io/extract/criterion.h"
+#include "io/file/output_file.h"
 #include "io/file/text_scan.h"
 #include "terrain/model/plan_region.h"
 
@@ -200,6 +201,7 @@ Status TinExtractor::deepen(double maxError, double reserve, const RunContext& c
 Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const RunContext& context,
                                            std::optional<Cut> taken) try {
   ExtractedTin tin;
+  OutputGroup together;
   Result<TriangleMesh> mesh = cutAndWrite(request, 0, std::move(taken), tin, context);
   if (!mesh) return tl::unexpected(mesh.error());
   // Twice, because another cut may be rounded differently.
@@ -217,6 +219,7 @@ Result<ExtractedTin> TinExtractor::extract(const ExtractRequest& request, const 
   if (needsMeasure)
     if (Status measured = measureAndWrite(request, *mesh, tin, context); !measured)
       return tl::unexpected(measured.error());
+  if (Status named = together.commit(); !named) return tl::unexpected(named.error());
   return tin;
 } catch (...) {
   return caughtFailure(request.output);

@@ -84,9 +84,9 @@ class TinExtractor {
         checkCommand_(std::move(checkCommand)) {}
 
   /// Takes the cut, exports it, and measures the exported mesh against the source's samples where heights
-  /// were fitted or a raster or a certificate is to be written. Each file appears whole or not at all. Where
-  /// a format rounds heights, the cut is taken again with a tolerance that is smaller by the rounding, so
-  /// that the promise holds for the numbers in the file. A measurement that contradicts the promise is
+  /// were fitted or a raster or a certificate is to be written. The files appear whole and together, or none.
+  /// Where a format rounds heights, the cut is taken again with a tolerance that is smaller by the rounding,
+  /// so that the promise holds for the numbers in the file. A measurement that contradicts the promise is
   /// reported by isKept; the files are written all the same.
   /// @param taken  the cut of this request, of the extractor's model with the full tolerance, where
   ///               readForExtract() has taken it; it is used instead of a new one

@@ -50,23 +50,27 @@ class FileWriter {
     return begin;
   }
 
-  /// Writes the buffer, closes the file and renames it to its final name. Call once.
+  /// Writes the buffer, closes the file, reads it back and renames it to its final name. Call once.
   ///
-  /// Errors: unreadable: with the system's reason (disk full, ...); no file is left then.
+  /// Errors: unreadable: with the system's reason (disk full, ...), or the file cannot be read back; no file
+  /// is left then, and an older one of the name stays.
   Status finish();
 
   static constexpr std::size_t kCapacity = std::size_t{1} << 20;
 
  private:
+  struct Hash;
   FileWriter(std::filesystem::path path, std::optional<OutputFile> file, int descriptor);
   void writeThrough(std::string_view bytes);
   void flush();
   void toDisk(const char* bytes, std::size_t count);
+  Status readBack() const;
 
   std::filesystem::path path_;
   std::optional<OutputFile> file_;  // nothing for stdout
   int descriptor_ = -1;
-  int error_ = 0;  // errno of the first failure
+  int error_ = 0;               // errno of the first failure
+  std::unique_ptr<Hash> hash_;  // of what was written to a file that gets its name at the end
   std::unique_ptr<char[]> buffer_;
   std::size_t used_ = 0;
 };

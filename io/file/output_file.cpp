@@ -46,6 +46,49 @@ fs::path followed(fs::path path) {
   return path;
 }
 
+/// The group of this thread that files are committed to.
+thread_local OutputGroup* innermost = nullptr;
+
+/// A second name for the content of a file that is about to be replaced.
+class Older {
+ public:
+  Older() = default;
+  Older(const Older&) = delete;
+  Older& operator=(const Older&) = delete;
+  ~Older() {
+    std::error_code ignored;
+    if (!second_.empty()) fs::remove(second_, ignored);
+    noteRemoved(second_);
+  }
+
+  void keep(const fs::path& target) {
+    target_ = target;
+    std::error_code error;
+    wasThere_ = fs::exists(fs::symlink_status(target, error));
+    if (!wasThere_) return;
+    const fs::path second = temporaryBeside(target);
+    noteTemporary(second);
+    fs::create_hard_link(target, second, error);
+    if (error)
+      noteRemoved(second);
+    else
+      second_ = second;
+  }
+
+  /// Gives the file back its older content, or removes it where there was none.
+  void restore() {
+    std::error_code ignored;
+    if (!wasThere_)
+      fs::remove(target_, ignored);
+    else if (!second_.empty())
+      fs::rename(second_, target_, ignored);
+  }
+
+ private:
+  fs::path target_, second_;
+  bool wasThere_ = false;
+};
+
 }  // namespace
 
 Result<OutputFile> OutputFile::create(const fs::path& path) {
@@ -86,6 +129,7 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
     : path_(std::move(other.path_)),
       target_(std::move(other.target_)),
       temporary_(std::exchange(other.temporary_, {})),
+      stale_(std::move(other.stale_)),
       inPlace_(other.inPlace_) {}
 
 OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
@@ -94,6 +138,7 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
     path_ = std::move(other.path_);
     target_ = std::move(other.target_);
     temporary_ = std::exchange(other.temporary_, {});
+    stale_ = std::move(other.stale_);
     inPlace_ = other.inPlace_;
   }
   return *this;
@@ -124,6 +169,14 @@ Status OutputFile::commit() {
     temporary_.clear();
     return {};
   }
+  if (innermost) {
+    innermost->add(std::move(*this));
+    return {};
+  }
+  return rename();
+}
+
+Status OutputFile::rename() {
   forgetInputFile(target_.string());
   if (const char* const changed = changedInputFile()) {
     discard();
@@ -131,6 +184,8 @@ Status OutputFile::commit() {
   }
   // Whatever needs memory comes before the file appears under its name.
   const fs::path following = withSuffix(temporary_, kFollowing), stale = withSuffix(target_, kFollowing);
+  std::vector<fs::path> sides;
+  for (const std::string& suffix : stale_) sides.push_back(withSuffix(target_, suffix.c_str()));
   std::error_code error;
   fs::rename(temporary_, target_, error);
   if (error) {
@@ -144,7 +199,44 @@ Status OutputFile::commit() {
     fs::rename(following, stale, ignored);
   else
     fs::remove(stale, ignored);
+  for (const fs::path& side : sides) fs::remove(side, ignored);
   discard();
+  return {};
+}
+
+OutputGroup::OutputGroup() noexcept : outer_(std::exchange(innermost, this)) {}
+
+OutputGroup::~OutputGroup() {
+  innermost = outer_;
+}
+
+void OutputGroup::add(OutputFile file) {
+  std::erase_if(files_, [&](const OutputFile& older) { return older.target_ == file.target_; });
+  files_.push_back(std::move(file));
+}
+
+fs::path OutputGroup::placeOf(const fs::path& path) {
+  for (const OutputGroup* group = innermost; group; group = group->outer_)
+    for (const OutputFile& file : group->files_)
+      if (file.path_ == path) return file.temporary_;
+  return path;
+}
+
+Status OutputGroup::commit() {
+  std::vector<OutputFile> files = std::exchange(files_, {});
+  if (outer_) {
+    for (OutputFile& file : files) outer_->add(std::move(file));
+    return {};
+  }
+  // The last one needs no second name for its older content: nothing can fail after it.
+  std::vector<Older> older(files.empty() ? 0 : files.size() - 1);
+  for (std::size_t i = 0; i < older.size(); ++i) older[i].keep(files[i].target_);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const Status renamed = files[i].rename();
+    if (renamed) continue;
+    for (std::size_t before = 0; before < i; ++before) older[before].restore();
+    return renamed;
+  }
   return {};
 }
 

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/base/result.h"
 
@@ -34,10 +36,16 @@ class OutputFile {
 
   /// The path to write to. Close the file before commit().
   const std::filesystem::path& temporaryPath() const { return temporary_; }
+  /// States what is removed beside the file when it gets its name: side files of an older one, by what
+  /// follows its name (".ovr").
+  void removeBeside(std::vector<std::string> suffixes) { stale_ = std::move(suffixes); }
+  /// Whether an existing target that is no regular file is written in place.
+  bool isInPlace() const { return inPlace_; }
   /// The path given to create().
   const std::filesystem::path& path() const { return path_; }
 
-  /// Renames the temporary file to its final name. At most once.
+  /// Renames the temporary file to its final name, or leaves that to the OutputGroup of this thread. At most
+  /// once.
   ///
   /// Errors: unreadable, with the path as culprit: there is no temporary file, or renaming failed; with the
   /// input as culprit: a watched file was changed (io/file/watched_files.h). The temporary file is then
@@ -45,13 +53,45 @@ class OutputFile {
   Status commit();
 
  private:
+  friend class OutputGroup;
   OutputFile() = default;
+  Status rename();
   void discard() noexcept;
 
   std::filesystem::path path_;
   std::filesystem::path target_;     // path_ with links resolved
   std::filesystem::path temporary_;  // empty once committed or moved from
+  std::vector<std::string> stale_;
   bool inPlace_ = false;
+};
+
+/// Outputs that belong together: a mesh and the files beside it, or a file that is read back before it
+/// replaces an older one. While a group lives, the files that its thread commits keep their temporary names.
+/// commit() renames them in the order in which they were committed; without it none appears. Groups nest: an
+/// inner one hands its files to the outer one.
+///
+/// Of a file committed twice in a group the later one counts. If a file cannot be renamed, those renamed
+/// before it get their older content back, where the file system has hard links.
+class OutputGroup {
+ public:
+  OutputGroup() noexcept;
+  OutputGroup(const OutputGroup&) = delete;
+  OutputGroup& operator=(const OutputGroup&) = delete;
+  ~OutputGroup();
+
+  /// Errors: those of OutputFile::commit().
+  Status commit();
+
+  /// Where the file of this name is to be read: under its temporary name, if a group of this thread holds it;
+  /// else `path` itself.
+  static std::filesystem::path placeOf(const std::filesystem::path& path);
+
+ private:
+  friend class OutputFile;
+  void add(OutputFile file);
+
+  OutputGroup* outer_;
+  std::vector<OutputFile> files_;
 };
 
 }  // namespace arete

@@ -21,8 +21,7 @@ Result<StatedSize> parseStatedSize(std::string_view text, const std::string& cul
   const std::optional<double> value = text::parseNumber(number);
   if (!value || std::isnan(*value))
     return failure(ErrorCode::usage, fmt::format("'{}' is not a number", size.text), culprit);
-  if (*value < 0)
-    return failure(ErrorCode::usage, fmt::format("{} is below zero", size.text), culprit);
+  if (*value < 0) return failure(ErrorCode::usage, fmt::format("{} is below zero", size.text), culprit);
   if (size.isShare && !std::isfinite(*value))
     return failure(ErrorCode::usage, fmt::format("{} is no share", size.text), culprit);
   size.number = *value;

@@ -21,6 +21,7 @@
 #include "io/file/watched_files.h"
 #include "io/gdal/confined.h"
 #include "io/gdal/network_files.h"
+#include "io/gdal/unclaimed_messages.h"
 
 namespace arete {
 namespace {
@@ -85,6 +86,7 @@ GdalErrors::~GdalErrors() {
 }
 
 void GdalErrors::collect(CPLErr severity, CPLErrorNum, const char* message) {
+  if (severity == CE_Fatal) reportFatalGdalError(message);
   auto* self = static_cast<GdalErrors*>(CPLGetErrorHandlerUserData());
   if (severity >= CE_Warning) self->messages_.emplace_back(severity, onOneLineWithoutDot(message));
 }

@@ -10,9 +10,10 @@
 namespace arete {
 namespace {
 
-std::atomic<void (*)(const char*)> receiver = nullptr;
+std::atomic<void (*)(const char*)> receiver = nullptr, receiverOfFatal = nullptr;
 
 void CPL_STDCALL pass(CPLErr severity, CPLErrorNum, const char* message) {
+  if (severity == CE_Fatal) reportFatalGdalError(message);
   void (*const tell)(const char*) = receiver;
   if (severity < CE_Warning || tell == nullptr) return;
   std::string line = message ? message : "";
@@ -26,6 +27,15 @@ void CPL_STDCALL pass(CPLErr severity, CPLErrorNum, const char* message) {
 void sendUnclaimedGdalMessages(void (*tell)(const char* line)) {
   receiver = tell;
   CPLSetErrorHandler(pass);
+}
+
+void receiveFatalGdalErrors(void (*end)(const char* message)) {
+  receiverOfFatal = end;
+}
+
+void reportFatalGdalError(const char* message) {
+  void (*const end)(const char*) = receiverOfFatal;
+  if (end != nullptr) end(message ? message : "");
 }
 
 }  // namespace arete

@@ -9,4 +9,10 @@ namespace arete {
 /// @param tell May be called by several threads at once. Null: the messages are dropped.
 void sendUnclaimedGdalMessages(void (*tell)(const char* line));
 
+/// Sends errors after which GDAL ends the process to a function first, wherever they occur. For a program.
+void receiveFatalGdalErrors(void (*end)(const char* message));
+
+/// Passes such an error on. For handlers of GDAL's errors.
+void reportFatalGdalError(const char* message);
+
 }  // namespace arete

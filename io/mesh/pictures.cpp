@@ -17,6 +17,7 @@
 #include "io/file/file_bytes.h"
 #include "io/file/file_writer.h"
 #include "io/file/no_file.h"
+#include "io/file/output_file.h"
 #include "io/file/text_scan.h"
 
 namespace arete {
@@ -179,11 +180,12 @@ Result<std::string> PicturePlacer::write(const PictureBytes& picture) {
     return path;
   };
   const std::string mesh = text::lowered(mesh_.filename().string());  // is written last, over what is there
-  if (text::lowered(picture.path) != mesh && hasBytes(folder / picture.path, bytes)) return use(picture.path);
+  if (text::lowered(picture.path) != mesh && hasBytes(OutputGroup::placeOf(folder / picture.path), bytes))
+    return use(picture.path);
   const std::string wanted = unhidden(picture.path);
   for (int number = 0; number < kMostNames; ++number) {
     const std::string path = numbered(wanted, number);
-    if (text::lowered(path) != mesh && hasBytes(folder / path, bytes)) return use(path);
+    if (text::lowered(path) != mesh && hasBytes(OutputGroup::placeOf(folder / path), bytes)) return use(path);
     std::error_code error;
     if (taken_.contains(text::lowered(path)) || fs::exists(fs::symlink_status(folder / path, error)))
       continue;

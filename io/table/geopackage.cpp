@@ -39,6 +39,26 @@ GdalDatasetPtr openToAdd(const std::string& path) {
       path.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE | GDAL_OF_VERBOSE_ERROR, kDrivers.data()));
 }
 
+/// Reads the whole database once, by SQLite's own check of its pages.
+Status checkDatabase(const std::string& path, const GdalErrors& errors) {
+  constexpr std::array<const char*, 2> kDrivers = {"GPKG", nullptr};
+  const GdalDatasetPtr dataset(
+      GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_VERBOSE_ERROR, kDrivers.data()));
+  std::string found;
+  if (dataset) {
+    OGRLayer* const answer = dataset->ExecuteSQL("PRAGMA quick_check(1)", nullptr, nullptr);
+    if (answer) {
+      const std::unique_ptr<OGRFeature> row(answer->GetNextFeature());
+      if (row && row->GetFieldCount() > 0) found = row->GetFieldAsString(0);
+      dataset->ReleaseResultSet(answer);
+    }
+  }
+  if (found == "ok" && !errors.anyFailure()) return {};
+  return failure(ErrorCode::unreadable,
+                 fmt::format("cannot be read after it was written: {}",
+                             errors.anyFailure() ? errors.firstFailure() : "its database is damaged"));
+}
+
 }  // namespace
 
 Status writeGeoPackage(const std::filesystem::path& path, ExistingFile existing, const OwnLayer& layer,
@@ -72,6 +92,7 @@ Status writeGeoPackage(const std::filesystem::path& path, ExistingFile existing,
   dataset.reset();
   if (!filled) return filled;
   if (errors.anyFailure()) return cannotBeWritten(errors);
+  if (Status sound = checkDatabase(temporary, errors); !sound) return sound;
   return file->commit();
 }
 

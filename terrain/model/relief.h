@@ -11,8 +11,8 @@ namespace arete {
 /// @return 0 where there is no height
 double reliefOf(std::span<const double> heights);
 
-/// The same of all samples of a model, isolated ones too. Precondition: the model is whole, no part of a file.
-/// O(samples).
+/// The same of all samples of a model, isolated ones too. Precondition: the model is whole, no part of a
+/// file. O(samples).
 double reliefOf(const TerrainModel& model);
 
 }  // namespace arete

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/file/file_writer.h"
+#include "io/file/output_file.h"
 #include "io/file/text_scan.h"
 #include "io/mesh/obj/mtl.h"
 #include "io/mesh/pictures.h"
@@ -32,6 +33,7 @@ Result<fs::path> freePath(const fs::path& obj, const std::string& firstLine) {
   for (int number = 0; number < kMostNames; ++number) {
     const std::string behind = number == 0 ? std::string() : fmt::format("-{}", number);
     const fs::path path = obj.parent_path() / fs::path(obj.stem().string() + behind + ".mtl");
+    if (OutputGroup::placeOf(path) != path) continue;  // a picture that is to have the name
     std::error_code error;
     const fs::file_status status = fs::symlink_status(path, error);
     if (!fs::exists(status) || (fs::is_regular_file(status) && beginsWith(path, firstLine))) return path;
