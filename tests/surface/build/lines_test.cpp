@@ -239,7 +239,7 @@ std::vector<Vec3> lineOf(const SurfaceMesh& mesh) {
 
 TEST(Lines, OfStaircasesTakeHardlyMoreSegmentsThanDouglasPeucker) {
   // Faces of a grid that belong to the disc in which their square, or they themselves, have their middle.
-  const std::uint32_t n = test::isFull() ? 300 : 80;
+  const std::uint32_t n = test::isFull() ? 160 : 60;
   for (const bool isBySquare : {true, false})
     for (const bool isMirrored : {false, true}) {
       TriangleMesh plate = shapes::sheet(n, n);
