@@ -78,8 +78,10 @@ Result<double> distanceByChart(const TriangleMesh& source, const TriangleMesh& m
     while (!ofMesh.isDone() && ofMesh.chart() < ofSource.chart()) ofMesh.take();
     if (ofMesh.isDone() || ofMesh.chart() != ofSource.chart()) return std::numeric_limits<double>::infinity();
     const TriangleMesh from = ofSource.take(), to = ofMesh.take();
-    // The bound is that of a search; samples only help it to begin.
-    const std::uint64_t samples = 10 * std::uint64_t{std::max(from.triangles.size(), to.triangles.size())};
+    // The search for the bound has as many steps in each triangle as the samples allow.
+    constexpr std::uint64_t kSamples = 200'000;
+    const std::uint64_t triangles = std::max(from.triangles.size(), to.triangles.size());
+    const std::uint64_t samples = std::max(10 * triangles, kSamples * triangles / source.triangles.size());
     const auto report = measureDistance(from, to, {.samples = samples}, context);
     if (!report && report.error().code == ErrorCode::degenerate)
       return std::numeric_limits<double>::infinity();
