@@ -17,7 +17,8 @@
 namespace arete {
 namespace {
 
-constexpr std::chrono::milliseconds kLongestWork{1000}, kLongestEnd{500};
+// Workers of an idle machine end in milliseconds, of one that is busy with other programs in seconds.
+constexpr std::chrono::milliseconds kLongestWork{1000}, kLongestEnd{5000}, kLongestEndAgain{200};
 
 struct State {
   std::mutex mutex;
@@ -25,20 +26,21 @@ struct State {
   int running = 0;
   bool isForking = false;
   bool hasWorkers = false;  // oneTBB may have some
+  bool isHeld = false;      // some other thread kept them once
   bool isLost = false;      // this is a child without the threads that worked
 };
 
 State* state = new State;
 
 /// @return whether oneTBB has no workers any more
-bool endWorkers() {
+bool endWorkers(std::chrono::milliseconds longest) {
   tbb::task_scheduler_handle handle{tbb::attach{}};
   std::mutex mutex;
   std::condition_variable changed;
   bool hasEnded = false;
   std::thread watchdog([&] {
     std::unique_lock lock(mutex);
-    if (changed.wait_for(lock, kLongestEnd, [&] { return hasEnded; })) return;
+    if (changed.wait_for(lock, longest, [&] { return hasEnded; })) return;
     const tbb::task_scheduler_handle another{tbb::attach{}};
     changed.wait(lock, [&] { return hasEnded; });
   });
@@ -59,7 +61,8 @@ void beforeFork() {
   const bool isIdle = s.changed.wait_for(lock, kLongestWork, [&] { return s.running == 0; });
   if (isIdle && s.hasWorkers) {
     try {
-      s.hasWorkers = !endWorkers();
+      s.hasWorkers = !endWorkers(s.isHeld ? kLongestEndAgain : kLongestEnd);
+      s.isHeld = s.hasWorkers;
     } catch (...) {  // no thread, no memory
     }
   }

@@ -12,7 +12,8 @@ namespace arete {
 /// A piece of work of ours in a program that is not ours and may fork() at any moment. A child has the thread
 /// that forked and no other one; oneTBB would wait for its workers, and for a thread that held one of its
 /// locks. So fork() waits for our work, but for a second at most, and then lets the workers end; parent and
-/// child start new ones. In a child of a program whose work did not end so soon, no work may run any more.
+/// child start new ones. Where the machine is busy that takes seconds. In a child of a program whose work did
+/// not end so soon, or whose own threads keep oneTBB's workers, no work may run any more.
 class GuestWork {
  public:
   /// Waits while the program forks.

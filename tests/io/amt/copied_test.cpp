@@ -151,7 +151,7 @@ TEST(CopiedAmt, AModelThatWasReadStaysAsItWas) {
 }
 
 TEST(CopiedAmt, OfASurfaceIsTheSameModel) {
-  const auto model = buildSurface(SurfaceMesh(shapes::globe(20, 12)));
+  const auto model = buildSurface(SurfaceMesh(shapes::globe(48, 30)));
   ASSERT_TRUE(model);
   const TemporaryFolder folder;
   for (const bool isPacked : {false, true}) {
@@ -163,8 +163,10 @@ TEST(CopiedAmt, OfASurfaceIsTheSameModel) {
     ASSERT_TRUE(copied && mapped);
     EXPECT_TRUE(areSame(copied->mt.arrays().link, mapped->mt.arrays().link));
     EXPECT_EQ(copied->faceOf, mapped->faceOf);
+    if (isPacked) continue;  // so small that all of it is read at once
     const auto open = AmtContainer::open(path, kCopied);
     ASSERT_TRUE(open);
+    ASSERT_GT(fs::file_size(path), 200000u);
     fs::resize_file(path, fs::file_size(path) / 2);
     EXPECT_FALSE(loadSurfaceAmt(*open));
   }
@@ -183,12 +185,12 @@ TEST(VirtualAmt, IsReadFromMemoryArchivesAndPartsOfFiles) {
       EXPECT_EQ(VSIFCloseL(file), 0);
     };
     put("/vsimem/copied_test.amt", bytes);
-    put("/vsigzip/" + folder.file("a.amt.gz"), bytes);
+    put("/vsigzip/" + folder.file(isPacked ? "packed.gz" : "plain.gz"), bytes);
     put("/vsizip/" + folder.file("a.zip") + "/in/a.amt", bytes);
     put(folder.file("behind.bin"), "some bytes before" + bytes + "and after");
     const TerrainModel wanted = built(loadAmt(path));
     const std::string names[] = {
-        "/vsimem/copied_test.amt", "/vsigzip/" + folder.file("a.amt.gz"),
+        "/vsimem/copied_test.amt", "/vsigzip/" + folder.file(isPacked ? "packed.gz" : "plain.gz"),
         "/vsizip/" + folder.file("a.zip") + "/in/a.amt",
         fmt::format("/vsisubfile/17_{},{}", bytes.size(), folder.file("behind.bin"))};
     for (const std::string& name : names) {
