@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -21,23 +23,38 @@
 namespace arete {
 namespace {
 
-/// The rounding of an axis whose coordinates were rounded to 32-bit floats: all are such numbers, and the
-/// last bit of many is set, as it is of half of all numbers that are rounded. 0 of any other.
+/// Whether a number is one of so many decimal digits.
+bool hasDigits(double x, int digits) {
+  std::array<char, 40> text{};
+  const auto written = fmt::format_to_n(text.data(), text.size(), "{:.{}g}", x, digits);
+  double back = 0;
+  std::from_chars(text.data(), text.data() + written.size, back);
+  return back == x;
+}
+
+/// The rounding of an axis whose coordinates were rounded to 32-bit floats: all are such numbers, or have as
+/// few digits as text that is written of them, and many use the last bit or digit, as numbers that are
+/// rounded do. 0 of any other.
 double float32RoundingOf(const TriangleMesh& mesh, double Vec3::*axis) {
+  constexpr int kMostDigits = std::numeric_limits<float>::max_digits10, kCertainDigits = 6;
   double largest = 0;
-  std::uint64_t count = 0, odd = 0;
+  std::uint64_t count = 0, fine = 0;
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t v : triangle) {
       const double x = mesh.positions[v].*axis;
       if (!(std::abs(x) <= double{std::numeric_limits<float>::max()})) return 0;
       const auto number = static_cast<float>(x);
-      if (static_cast<double>(number) != x) return 0;
+      if (static_cast<double>(number) == x)
+        fine += std::bit_cast<std::uint32_t>(number) & 1;
+      else if (hasDigits(x, kMostDigits))
+        fine += hasDigits(x, kCertainDigits) ? 0 : 1;
+      else
+        return 0;
       largest = std::max(largest, std::abs(x));
       ++count;
-      odd += std::bit_cast<std::uint32_t>(number) & 1;
     }
   constexpr std::uint64_t kLeastShare = 10;
-  return kLeastShare * odd >= count && odd > 0 ? float32Rounding(largest, 0) : 0;
+  return kLeastShare * fine >= count && fine > 0 ? float32Rounding(largest, 0) : 0;
 }
 
 }  // namespace
@@ -51,6 +68,10 @@ Result<MeshInput> readMeshInput(const std::string& path, const RunContext& conte
   SurfaceMesh& mesh = input.file.mesh;
   input.rounding = roundingOf(input.file);
   input.fileVertices = mesh.positions.size() + input.file.joinedVertices;
+  // Also those that were left out.
+  if (!input.file.vertexOf.empty())
+    input.fileVertices =
+        std::max(input.fileVertices, std::uint64_t{*std::ranges::max_element(input.file.vertexOf)} + 1);
   input.fileFaces =
       mesh.faceOf.empty() ? mesh.triangles.size() : std::uint64_t{*std::ranges::max_element(mesh.faceOf)} + 1;
   input.numbers.first = format->extension == ".obj" || format->extension == ".2dm" ? 1 : 0;

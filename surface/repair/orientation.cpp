@@ -91,7 +91,7 @@ class Orienting {
       }
       add(parts_[partOf[patch]], t, sum[partOf[patch]], largest[partOf[patch]]);
     }
-    // What rounding leaves of no volume is none.
+    // A volume that may be rounding alone does not count.
     std::vector<ClosedPart> kept;
     std::vector<std::uint32_t> keptPatch;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
