@@ -169,6 +169,12 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
   const double moved = *metric ? longest((*metric)->firstUnits) * first->positionError +
                                      longest((*metric)->secondUnits) * second->positionError
                                : first->positionError + second->positionError;
+  const bool expects = arguments.expect.has_value();
+  const double diagonal = report->second.diagonal;
+  const double expected = expects ? arguments.expect->of(diagonal) : 0;
+  const PromisedWay way = arguments.isBothWays ? PromisedWay::both : PromisedWay::fromSecond;
+  // A promise is broken by what is found, and proven by what is certain of the source itself.
+  const Status promise = expects ? checkDistance(*report, expected, way) : Status();
   report->raise(moved);
   if (!arguments.errorMesh.empty())
     if (Status written = writeDistances(arguments.errorMesh, *first, arguments.second, distances, session);
@@ -176,11 +182,6 @@ Status measureMeshes(const MeasureMeshesArguments& arguments, Session& session) 
       return written;
 
   const std::string unit = unitOf(*first, *second);
-  const bool expects = arguments.expect.has_value();
-  const double diagonal = report->second.diagonal;
-  const double expected = expects ? arguments.expect->of(diagonal) : 0;
-  const PromisedWay way = arguments.isBothWays ? PromisedWay::both : PromisedWay::fromSecond;
-  const Status promise = expects ? checkDistance(*report, expected, way) : Status();
   session.say(
       fmt::format("{} against {}\n{}", arguments.first, arguments.second, meshDistanceText(*report, unit)));
   if (moved > 0)

@@ -22,7 +22,7 @@ struct Tin {
   bool isComplete = true;
   std::optional<double> pixels;  ///< of a camera: the worst error in its picture
   std::string crsWkt;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = {};
 };
 
 void defineTin(pybind11::module_& module);
