@@ -56,10 +56,10 @@ std::vector<SurfaceModel::LeftOutFace> leftOutFacesOf(const TriangleMesh& source
     }
     std::ranges::sort(touching);
     const Vec3 middle = face[0] / 3 + face[1] / 3 + face[2] / 3;
-    std::tuple best{0, std::numeric_limits<double>::infinity(), 0u};  // corners, less is more; distance; face
+    std::tuple best{std::numeric_limits<double>::infinity(), 0, 0u};  // distance; corners, less is more; face
     for (std::size_t i = 0, end; i < touching.size(); i = end) {
       for (end = i; end < touching.size() && touching[end] == touching[i]; ++end) continue;
-      best = std::min(best, {-int(end - i), distanceToTriangle(middle, placeOf(mended, touching[i])),
+      best = std::min(best, {distanceToTriangle(middle, placeOf(mended, touching[i])), -int(end - i),
                              faceOf[touching[i]]});
     }
     if (!touching.empty()) found.push_back({f, std::get<2>(best)});

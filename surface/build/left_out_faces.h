@@ -11,9 +11,9 @@
 namespace arete {
 
 /// For each face of a source that a mended mesh does not have, one that it has and in which the other lies: a
-/// duplicate in the one that stays, one without area in one at its corners. It is the one with the most
-/// corners in common, by position, then the nearest to its middle, then the first. A face that touches none
-/// is left out. O(n log n).
+/// duplicate in the one that stays, one without area in one at its corners. Of those with a corner
+/// in common, by position, it is the one nearest to its middle, then that with the most, then the first. A
+/// face that touches none is left out. O(n log n).
 /// @param faceOf by triangle of the mended mesh: the face of the source
 std::vector<SurfaceModel::LeftOutFace> leftOutFacesOf(const TriangleMesh& source, const TriangleMesh& mended,
                                                       std::span<const std::uint32_t> faceOf);
