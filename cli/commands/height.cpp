@@ -81,6 +81,7 @@ Json jsonOf(const PointTable& table, const Heights& heights) {
   Json points = Json::array();
   for (std::size_t i = 0; i < heights.size(); ++i) {
     Json point = {{"x", numberOrNull(table.stated[i].x)}, {"y", numberOrNull(table.stated[i].y)}};
+    if (!table.z.empty()) point["z"] = numberOrNull(table.z[i]);
     point["height"] = heights[i] ? Json(heights[i]->height) : Json();
     if (heights[i]) {
       point["below"] = heights[i]->below;
@@ -126,6 +127,7 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
                {"verticalUnit", model->georeference.verticalUnit},
                {"maxError", numberOrNull(arguments.maxError)},
                {"places", heights->size()},
+               {"withoutPlace", table->withoutPlace},
                {"onTerrain", found}};
   if (arguments.output.empty()) {
     session.say(textOf(arguments, *table, *heights));
@@ -140,6 +142,10 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
     json["file"] = arguments.output;
   }
   session.answer(json);
+  if (table->withoutPlace == heights->size())
+    return failure(ErrorCode::invalidData,
+                   fmt::format("has no position in any of its {} rows", grouped(heights->size())),
+                   arguments.points);
   if (found == 0)
     return failure(
         ErrorCode::invalidData,
@@ -148,9 +154,11 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
                     heights->size() == 1 ? std::string("this place")
                                          : fmt::format("any of the {} places", grouped(heights->size()))),
         arguments.model);
-  if (found < heights->size())
-    session.warn(fmt::format("{} of {} no height: outside the DEM, or on NODATA",
-                             grouped(heights->size() - found),
+  if (table->withoutPlace > 0)
+    session.warn(fmt::format("{} of {} no position, and so no height", grouped(table->withoutPlace),
+                             grouped(heights->size(), "row has", "rows have")));
+  if (const std::size_t off = heights->size() - found - table->withoutPlace; off > 0)
+    session.warn(fmt::format("{} of {} no height: outside the DEM, or on NODATA", grouped(off),
                              grouped(heights->size(), "place has", "places have")));
   return {};
 }

@@ -18,6 +18,7 @@
 #include "cli/session/progress_bar.h"
 #include "cli/session/proj_guard.h"
 #include "engine/memory/pages.h"
+#include "io/file/address_text.h"
 #include "io/file/watched_files.h"
 #include "io/gdal/confined.h"
 #include "io/gdal/unclaimed_messages.h"
@@ -68,6 +69,14 @@ std::string withoutControls(std::string text) {
   for (char& c : text)
     if ((static_cast<unsigned char>(c) < 32 && c != '\n' && c != '\t') || c == 127) c = '?';
   return text;
+}
+
+/// The object without the queries of addresses in its texts.
+Json withoutQueriesIn(Json value) {
+  if (value.is_string()) return withoutQueries(value.get_ref<const std::string&>());
+  if (value.is_structured())
+    for (Json& part : value) part = withoutQueriesIn(std::move(part));
+  return value;
 }
 
 }  // namespace
@@ -173,13 +182,13 @@ void Session::answer(const Json& object) {
   progressBar().finishLine();
   answered_ = true;
   // A path may not be UTF-8: invalid bytes are replaced; nothing throws.
-  print(object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", out_);
+  print(withoutQueriesIn(object).dump(2, ' ', false, Json::error_handler_t::replace) + "\n", out_);
 }
 
 void Session::warn(const std::string& sentence) const {
   if (quiet_) return;
   progressBar().endLine();
-  tell(fmt::format("arete: warning: {}\n", withoutControls(withOptionNames(sentence))));
+  tell(fmt::format("arete: warning: {}\n", withoutControls(withoutQueries(withOptionNames(sentence)))));
 }
 
 void Session::warn(const std::vector<std::string>& sentences, const std::string& culprit) const {
@@ -190,14 +199,14 @@ ExitCode Session::fail(const Error& failed) {
   progressBar().endLine();
   const Error error = withOptionNames(failed);
   const ExitCode code = exitCodeOf(error.code);
-  tell(fmt::format("arete: {}\n", withoutControls(error.describe())));
+  tell(fmt::format("arete: {}\n", withoutControls(withoutQueries(error.describe()))));
   answerError(error, code);
   return code;
 }
 
 ExitCode Session::refuse(const std::string& sentence, const std::string& help, bool wantsJson) {
   json_ = wantsJson;
-  tell(fmt::format("arete: {}\nSee {} --help.\n", withoutControls(sentence), help));
+  tell(fmt::format("arete: {}\nSee {} --help.\n", withoutControls(withoutQueries(sentence)), help));
   answerError({ErrorCode::usage, sentence, ""}, ExitCode::usage);
   return ExitCode::usage;
 }

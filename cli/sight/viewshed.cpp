@@ -219,6 +219,7 @@ Result<PlacedGrid> gridOf(const Question& q, Session& session) {
 struct ViewshedAnswer {
   Picture picture;
   std::vector<ViewshedCell> cells;
+  std::uint64_t withoutLine = 0;
 };
 
 Result<ViewshedAnswer> answerOne(const Question& q, const ViewshedMaker& maker, const PlacedGrid& grid,
@@ -231,14 +232,15 @@ Result<ViewshedAnswer> answerOne(const Question& q, const ViewshedMaker& maker, 
   if (!viewshed) return tl::unexpected(viewshed.error());
   json["method"] = std::string(toString(viewshed->method));
   json["rays"] = viewshed->rays;
-  return ViewshedAnswer{pictureOfOne(q.arguments.mode, *viewshed), std::move(viewshed->cells)};
+  return ViewshedAnswer{pictureOfOne(q.arguments.mode, *viewshed), std::move(viewshed->cells),
+                        viewshed->withoutLine};
 }
 
 Result<ViewshedAnswer> answerMany(const Question& q, const ViewshedMaker& maker, const RunContext& context) {
   const Mode mode = q.arguments.mode;
   auto all = viewshedOfMany(maker, q.model, q.earth, q.observers, q.options, mode == Mode::server, context);
   if (!all) return tl::unexpected(all.error());
-  return ViewshedAnswer{pictureOfMany(mode, *all), std::move(all->cells)};
+  return ViewshedAnswer{pictureOfMany(mode, *all), std::move(all->cells), all->withoutLine};
 }
 
 /// Reports how many cells have which answer.
@@ -288,6 +290,11 @@ Status answer(const Question& q, Session& session) {
   if (!made && made.error().code == ErrorCode::unsupported && a.method == ViewshedMethod::sweep)
     return failure(ErrorCode::usage, made.error().message, "--method sweep");
   if (!made) return tl::unexpected(made.error());
+  json["withoutLine"] = made->withoutLine;
+  if (made->withoutLine > 0)
+    session.warn(fmt::format("{} samples are unknown: the shortest way to them passes a pole or a seam of the CRS, "
+                             "and is no line on the map",
+                             grouped(made->withoutLine)));
   Picture& picture = made->picture;
   picture.options.description = descriptionOf(a.mode);
   grid->georeference.verticalUnit = picture.isHeight ? q.model.georeference.verticalUnit : "";

@@ -26,7 +26,7 @@ Result<PixelGrid> PixelGrid::of(const TerrainModel& outline, std::optional<doubl
   grid.model_ = &outline;
   if (outline.isRaster && !cell) {
     // A source that goes round the Earth has its first column once.
-    grid.columns = static_cast<int>(outline.columns) - (outline.georeference.repeatsFirstColumn ? 1 : 0);
+    grid.columns = static_cast<int>(sourceColumns(outline));
     grid.rows = static_cast<int>(outline.rows);
     grid.geoTransform = outline.georeference.geoTransform;
     grid.isOfSource_ = true;

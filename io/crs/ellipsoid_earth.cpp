@@ -26,6 +26,7 @@
 #include "engine/base/caught_failure.h"
 #include "io/crs/lonlat.h"
 #include "terrain/model/plan_box.h"
+#include "terrain/sight/line.h"
 
 namespace arete {
 namespace {
@@ -71,6 +72,7 @@ class EllipsoidEarth final : public SightEarth {
     tolerance_ = kPlanError * extent.step;
     middle_ = extent.middle;
     lowest_ = extent.lowest;
+    if (model.isRaster && model.georeference.repeatsFirstColumn) lastColumn_ = model.columns - 1.0;
   }
 
   std::optional<double> distance(Vec2 from, Vec2 to) const override {
@@ -86,7 +88,9 @@ class EllipsoidEarth final : public SightEarth {
     from = sightEnd(model_, from);
     to = sightEnd(model_, to);
     const Vec2 stated[2] = {model_.toSource(from), model_.toSource(to)};
-    const auto places = lonLatOf(stated);
+    meetAtPole(stated, from, to);
+    const Vec2 met[2] = {model_.toSource(from), model_.toSource(to)};
+    const auto places = lonLatOf(met);
     if (!places) return tl::unexpected(places.error());
     const auto& ends = *places;
     double length = 0, azimuth = 0, arrival = 0;
@@ -143,6 +147,17 @@ class EllipsoidEarth final : public SightEarth {
                        positionText(stated[i]));
     }
     return ends;
+  }
+
+  /// A pole has any longitude: an end there takes that of the other one, from which the geodesic comes along a
+  /// meridian.
+  void meetAtPole(const Vec2 (&stated)[2], Vec2& from, Vec2& to) const {
+    const double pole = std::numbers::pi / 2 / model_.georeference.angularUnitRadians, rounding = 1e-12 * pole;
+    if (!lonLat_.isPlain()) return;
+    if (std::abs(std::abs(stated[1].y) - pole) <= rounding)
+      to = model_.toPlan({stated[0].x, stated[1].y});
+    else if (std::abs(std::abs(stated[0].y) - pole) <= rounding)
+      from = model_.toPlan({stated[1].x, stated[0].y});
   }
 
   static std::string positionText(Vec2 p) { return fmt::format("{},{}", p.x, p.y); }
@@ -232,8 +247,9 @@ class EllipsoidEarth final : public SightEarth {
   }
 
   /// Continues a track that leaves the map on one side where it enters on the other: the part behind the seam
-  /// is shifted by a turn, and the connection between, of length 0, runs outside the map. False if the track
-  /// crosses no such seam. Precondition: a geographic CRS.
+  /// is shifted by a turn, and the connection between, of length 0, runs outside the map. An end may lie on the
+  /// seam. Where the first column is repeated, the borders of the raster are the seam, though rounded steps may
+  /// put them a little off a whole turn. False if the track crosses no such seam. Precondition: a geographic CRS.
   bool crossSeam(std::vector<SightPoint>& points, double turns, Vec2 to) const {
     Vec2 turn{360, 0}, none{0, 0};
     lonLat_.toCrs({&turn, 1});
@@ -241,22 +257,35 @@ class EllipsoidEarth final : public SightEarth {
     if (std::abs(turns) != 1 || zero.y != one.y) return false;  // not along the rows: a rotated raster
     const double shift = turns * (one.x - zero.x), out = shift > 0 ? -1 : 1;
     const double seam = middle_ + out * std::abs(shift) / 2;
-    if (out * (seam - points.front().plan.x) < 0) return false;
+    const double here = lastColumn_ ? (out > 0 ? *lastColumn_ : 0) : seam,
+                 there = lastColumn_ ? (out > 0 ? 0 : *lastColumn_) : seam + shift;
+    const double rounding = kShortestInPlan + std::abs(seam - here);
+    if (out * (points.front().plan.x - seam) > rounding) return false;
     std::size_t after = 1;
-    while (after < points.size() && out * (points[after].plan.x - seam) < 0) ++after;
+    while (after < points.size() && out * (points[after].plan.x - seam) < -rounding) ++after;
     if (after == points.size()) return false;
     const SightPoint p = points[after - 1], q = points[after];
-    const double t = (seam - p.plan.x) / (q.plan.x - p.plan.x);
+    const double across = q.plan.x - p.plan.x;
+    const double t = across == 0 ? 0 : std::clamp((seam - p.plan.x) / across, 0.0, 1.0);
     const double y = p.plan.y + t * (q.plan.y - p.plan.y), s = p.distance + t * (q.distance - p.distance);
     const double far = lowest_ - 1000;
-    for (std::size_t i = after; i < points.size(); ++i) points[i].plan.x += shift;
+    for (std::size_t i = 0; i < after; ++i)
+      if (out * (points[i].plan.x - here) > 0) points[i].plan.x = here;
+    for (std::size_t i = after; i < points.size(); ++i) {
+      points[i].plan.x += shift;
+      if (out * (points[i].plan.x - there) < 0) points[i].plan.x = there;
+    }
     points.back().plan = to;
-    points.insert(points.begin() + static_cast<std::ptrdiff_t>(after), {{{seam, y}, s},
-                                                                        {{seam + out, y}, s},
-                                                                        {{seam + out, far}, s},
-                                                                        {{seam + shift - out, far}, s},
-                                                                        {{seam + shift - out, y}, s},
-                                                                        {{seam + shift, y}, s}});
+    std::vector<SightPoint> connection = {{{here, y}, s},
+                                          {{here + out, y}, s},
+                                          {{here + out, far}, s},
+                                          {{there - out, far}, s},
+                                          {{there - out, y}, s},
+                                          {{there, y}, s}};
+    // An end on the seam is there already.
+    if (t == 0 && points[after - 1].plan == connection.front().plan) connection.erase(connection.begin());
+    if (t == 1 && points[after].plan == connection.back().plan) connection.pop_back();
+    points.insert(points.begin() + static_cast<std::ptrdiff_t>(after), connection.begin(), connection.end());
     return true;
   }
 
@@ -265,6 +294,7 @@ class EllipsoidEarth final : public SightEarth {
   double a_, f_;
   Geodesic geodesic_;
   double bend_, tolerance_ = 0, middle_ = 0, lowest_ = 0;
+  std::optional<double> lastColumn_;  ///< of a raster that goes round the Earth
 };
 
 }  // namespace

@@ -63,6 +63,7 @@ LongitudeTurns::LongitudeTurns(const TerrainModel& model) {
   const Box2 box = planBox(model);
   for (const double x : {box.xMin, box.xMax})
     for (const double y : {box.yMin, box.yMax}) add(model.toSource({x, y}).x);
+  isClosed_ = model.isRaster && model.georeference.repeatsFirstColumn;
 }
 
 LongitudeTurns::LongitudeTurns(const Georeference& georeference, std::uint32_t columns, std::uint32_t rows) {
@@ -94,7 +95,9 @@ double LongitudeTurns::turnsOf(double x) const {
 }
 
 Vec2 LongitudeTurns::operator()(Vec2 p) const {
-  if (turn_ > 0 && (p.x < west_ || p.x > east_)) p.x += turnsOf(p.x);
+  if (!(turn_ > 0) || !(p.x < west_ || p.x > east_)) return p;
+  p.x += turnsOf(p.x);
+  if (isClosed_) p.x = std::clamp(p.x, west_, east_);
   return p;
 }
 

@@ -14,6 +14,7 @@
 
 #include "io/crs/proj_files.h"
 #include "io/file/text_scan.h"
+#include "io/gdal/crs_addresses.h"
 #include "io/gdal/support.h"
 
 namespace arete {
@@ -153,6 +154,7 @@ Result<OGRSpatialReference> crsFromText(const std::string& text) {
 
 Result<OGRSpatialReference> crsFromUser(const std::string& text) {
   allowProjFiles(text);
+  const StatedCrsAddress fetched;
   return parsedCrs(text, nullptr);
 }
 

@@ -236,6 +236,7 @@ Status BandReader::read(int firstRow, int rowCount, std::span<double> heights) {
 }
 
 void BandReader::report(std::vector<std::string>& warnings) const {
+  if (!saidBefore_.empty()) warnings.push_back("GDAL: " + saidBefore_);
   if (absent_ > 0)
     warnings.push_back(
         fmt::format("{} samples lie in blocks that the file leaves out: they are NODATA", absent_));

@@ -5,6 +5,7 @@
 // is a container (GeoPackage, ...) without a raster. Texts and vector layers are points.
 #include "io/dem/dem_reader.h"
 
+#include <cpl_conv.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <fmt/format.h>
@@ -26,7 +27,9 @@
 #include "io/dem/dem_files.h"
 #include "io/dem/gridded_points.h"
 #include "io/dem/seam_column.h"
+#include "io/file/address_text.h"
 #include "io/file/text_scan.h"
+#include "io/gdal/file_length.h"
 #include "io/gdal/network_files.h"
 #include "io/gdal/support.h"
 #include "io/gdal/zipped_raster.h"
@@ -49,14 +52,18 @@ bool isPointCloud(const std::string& path) {
   return whole && std::memcmp(magic.data(), "LASF", magic.size()) == 0;
 }
 
-/// True if GDAL reads the file as a raster. Otherwise sets `opensAsVector`.
-bool isRaster(const std::string& path, bool& opensAsVector) {
-  GdalErrors quiet;
+/// True if GDAL reads the file as a raster, with what GDAL says meanwhile: some of its messages come once in a
+/// process. Otherwise sets `opensAsVector`.
+bool isRaster(const std::string& path, bool& opensAsVector, std::vector<std::string>& said) {
+  GdalErrors errors;
   GDALDriverH driver = GDALIdentifyDriverEx(networkPathOf(path).c_str(), GDAL_OF_RASTER, nullptr, nullptr);
   const bool identified = driver && !isTextDriver(driver);
   if (identified) {
     const GdalDatasetPtr dataset = openRasterForLength(path);
-    if (dataset && (dataset->GetRasterCount() > 0 || dataset->GetMetadata("SUBDATASETS"))) return true;
+    if (dataset && (dataset->GetRasterCount() > 0 || dataset->GetMetadata("SUBDATASETS"))) {
+      errors.moveTo(said);
+      return true;
+    }
   }
   opensAsVector = openGdal(path, GDAL_OF_VECTOR) != nullptr;
   return identified && !opensAsVector;
@@ -133,17 +140,31 @@ Result<DemRead> readZipped(const std::string& archive, const SourceReading& read
   return readAsRaster(archive, reading, context);
 }
 
+void addOnce(std::vector<std::string>& warnings, const std::vector<std::string>& more) {
+  for (const std::string& warning : more)
+    if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
+}
+
+std::string fileNameOf(const std::string& path) {
+  return CPLGetFilename(nameWithoutQuery(path).c_str());
+}
+
 /// Reads several rasters as one.
 Result<DemRead> readSeveral(const std::string& path, const std::vector<std::string>& files,
                             const SourceReading& reading, const RunContext& context) {
   for (const auto& [name, value] : {std::pair{"layer", &reading.layer}, std::pair{"zField", &reading.zField}})
     if (!value->empty())
       return failure(ErrorCode::usage, "is for points, and several files are read as one raster", name);
+  std::vector<std::string> said;
   for (const std::string& file : files) {
     if (isPlainZip(file)) continue;
     GdalErrors errors;
     bool opensAsVector = false;
-    if (isRaster(file, opensAsVector)) continue;
+    std::vector<std::string> own;
+    if (isRaster(file, opensAsVector, own)) {
+      for (const std::string& line : own) said.push_back(fmt::format("{}: {}", fileNameOf(file), line));
+      continue;
+    }
     if (opensAsVector || looksLikePointText(file))
       return failure(ErrorCode::unsupported,
                      "holds points: several files are read as one only if all of them are rasters", file);
@@ -152,7 +173,8 @@ Result<DemRead> readSeveral(const std::string& path, const std::vector<std::stri
   }
   auto read = readRasters(files, rasterOptions(reading), context);
   if (!read) return tl::unexpected(read.error());
-  read->heightfield.source = path;
+  read->heightfield.source = nameWithoutQuery(path);
+  addOnce(read->warnings, said);
   return DemRead{std::move(read->heightfield), std::move(read->warnings)};
 }
 
@@ -178,7 +200,12 @@ Result<DemRead> readFrom(const std::string& given, const SourceReading& reading,
           path);
   if (isPlainZip(path)) return readZipped(path, reading, context);
   bool opensAsVector = false;
-  if (isRaster(path, opensAsVector)) return readAsRaster(path, reading, context);
+  std::vector<std::string> said;
+  if (isRaster(path, opensAsVector, said)) {
+    auto read = readAsRaster(path, reading, context);
+    if (read) addOnce(read->warnings, said);
+    return read;
+  }
   if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped", path);
 
   GdalErrors errors;
@@ -283,7 +310,8 @@ Result<DemRead> readDem(const std::string& path, const SourceReading& reading,
     if (read.error().culprit == opened) read.error().culprit = path;
     return read;
   }
-  if (opened != path) std::visit([&](auto& field) { field.source = path; }, read->heightfield);
+  if (opened != path)
+    std::visit([&](auto& field) { field.source = nameWithoutQuery(path); }, read->heightfield);
   if (auto* raster = std::get_if<RasterHeightfield>(&read->heightfield)) repeatFirstColumn(*raster);
   if (auto warning = std::visit([](const auto& field) { return crsWarning(field); }, read->heightfield))
     read->warnings.push_back(std::move(*warning));

@@ -17,6 +17,7 @@
 
 #include "io/crs/names.h"
 #include "io/dem/raster_file.h"
+#include "io/file/address_text.h"
 
 namespace arete {
 namespace {
@@ -41,15 +42,21 @@ tl::unexpected<Error> differs(const Part& part, const std::string& sentence) {
 }
 
 std::string crsNameOf(const Georeference& g) {
-  return g.crsWkt.empty() ? "no CRS" : crsName(g.crsWkt);
+  return crsName(g.crsWkt);
 }
 
 std::string nameOf(const Part& part) {
-  return CPLGetFilename(part.path.c_str());
+  return CPLGetFilename(nameWithoutQuery(part.path).c_str());
 }
 
 Status checkFrame(const Part& first, const Part& part) {
   const Georeference &a = first.georeference, &b = part.georeference;
+  if (a.crsWkt.empty() != b.crsWkt.empty()) {
+    const Part &without = a.crsWkt.empty() ? first : part, &with = a.crsWkt.empty() ? part : first;
+    return differs(without, fmt::format("has no CRS, and {} is in {}: gdal_edit.py -a_srs writes the one that it is "
+                                        "in into the file, or `crs` states it for all",
+                                        with.path, crsNameOf(with.georeference)));
+  }
   if (a.crsWkt != b.crsWkt && compareCrs(a.crsWkt, b.crsWkt) != CrsAgreement::same)
     return differs(part, fmt::format("is in {}, and {} in {}: gdalwarp -t_srs transforms one of them",
                                      crsNameOf(b), first.path, crsNameOf(a)));
@@ -157,6 +164,7 @@ struct DemMosaic::Parts {
   Georeference georeference;
   double rawScale = 1, rawOffset = 0;
   std::vector<double> strip;
+  std::vector<std::string> leftOut;  ///< a warning of each part that was
   // Where parts differ: how many samples, by how much at most, and the last two files.
   std::size_t different = 0;
   double largestDifference = 0;
@@ -165,6 +173,55 @@ struct DemMosaic::Parts {
   Result<RasterFile> openPart(Part& part, std::vector<std::string>& warnings,
                               const RunContext& context) const {
     return RasterFile::open(part.path, options, warnings, context);
+  }
+
+  /// Whether no sample of a part is valid. O(samples) then.
+  Result<bool> isEmpty(const Part& part, const RunContext& context) const {
+    std::vector<std::string> ignored;
+    auto file = RasterFile::open(part.path, options, ignored, context);
+    if (!file) return tl::unexpected(file.error());
+    std::vector<double> heights;
+    for (std::uint32_t row = 0; row < file->rows(); row += file->stripRows()) {
+      if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
+      const std::uint32_t count = std::min(file->stripRows(), file->rows() - row);
+      heights.resize(std::size_t{count} * file->columns());
+      if (Status read = file->read(row, count, heights); !read)
+        return failure(read.error().code, read.error().message, part.path);
+      if (!std::ranges::all_of(heights, [](double height) { return std::isnan(height); })) return false;
+    }
+    return true;
+  }
+
+  /// Leaves a part out, which has no valid sample.
+  void leaveOut(std::size_t i) {
+    leftOut.push_back(nameOf(parts[i]) + ": has no valid sample and does not fit the others: it is left out");
+    parts.erase(parts.begin() + std::ptrdiff_t(i));
+  }
+
+  /// Holds each part against the first. Empty tiles, as downloads have over the sea, need not fit: they are left
+  /// out, the first one too.
+  Status fit(const RunContext& context) {
+    for (std::size_t i = 1; i < parts.size();) {
+      Status fits = checkFrame(parts.front(), parts[i]);
+      if (fits) fits = placePart(parts.front(), parts[i]);
+      if (fits) {
+        ++i;
+        continue;
+      }
+      const auto isOther = isEmpty(parts[i], context);
+      if (!isOther) return tl::unexpected(isOther.error());
+      if (*isOther) {
+        leaveOut(i);
+        continue;
+      }
+      const auto isFirst = isEmpty(parts.front(), context);
+      if (!isFirst) return tl::unexpected(isFirst.error());
+      if (!*isFirst) return fits;
+      leaveOut(0);
+      i = 1;
+      parts.front().column = parts.front().row = 0;
+    }
+    return {};
   }
 
   Status find(const RunContext& context) {
@@ -182,8 +239,13 @@ struct DemMosaic::Parts {
         part.file = std::move(*file);
         break;
       }
-      if (Status status = checkFrame(parts.front(), part); !status) return status;
-      if (Status status = placePart(parts.front(), part); !status) return status;
+    }
+    if (Status fits = fit(context); !fits) return fits;
+    if (Part& only = parts.front(); parts.size() == 1 && !only.file) {
+      std::vector<std::string> repeated;
+      auto file = openPart(only, repeated, context);
+      if (!file) return tl::unexpected(file.error());
+      only.file = std::move(*file);
     }
     joinTurns(parts);
     return {};
@@ -323,13 +385,14 @@ Status DemMosaic::read(std::uint32_t firstRow, std::uint32_t rowCount, std::span
 }
 
 void DemMosaic::report(std::vector<std::string>& warnings) const {
-  const bool isOne = parts_->parts.size() == 1;
+  const bool isOne = parts_->parts.size() == 1 && parts_->leftOut.empty();
   for (const Part& part : parts_->parts) {
     std::vector<std::string> own = part.warnings;
     if (part.file) part.file->report(own);
     for (const std::string& warning : own)
       warnings.push_back(isOne ? warning : nameOf(part) + ": " + warning);
   }
+  warnings.insert(warnings.end(), parts_->leftOut.begin(), parts_->leftOut.end());
   if (parts_->different > 0)
     warnings.push_back(fmt::format(
         "{} samples have different heights in several files, by up to {:.6g}: those of the file named "

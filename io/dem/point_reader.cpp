@@ -19,7 +19,9 @@
 #include "engine/memory/pages.h"
 #include "io/crs/reader.h"
 #include "io/crs/vertical.h"
+#include "io/file/address_text.h"
 #include "io/gdal/support.h"
+#include "io/gdal/vector_file.h"
 #include "io/gdal/vector_layer.h"
 #include "io/table/feature_rows.h"
 #include "io/table/point_rows.h"
@@ -122,14 +124,14 @@ Result<int> findZField(OGRLayer& layer, const std::string& name) {
   return index;
 }
 
-Result<PointRows> readLayer(OGRLayer& layer, const PointReadOptions& options,
+Result<PointRows> readLayer(GDALDataset& dataset, OGRLayer& layer, const PointReadOptions& options,
                             std::vector<std::string>& warnings, const RunContext& context) {
   auto zField = findZField(layer, options.zField);
   if (!zField) return tl::unexpected(zField.error());
   GdalErrors errors;
   FeatureCollector collector(layer, *zField);
   const Status read =
-      forFeatures(layer, errors, context, [&](OGRFeature& feature) { return collector.add(feature); });
+      forFeatures(dataset, layer, errors, context, [&](OGRFeature& feature) { return collector.add(feature); });
   if (!read) return tl::unexpected(read.error());
   errors.moveTo(warnings);
   if (collector.skipped > 0)
@@ -262,7 +264,7 @@ Result<PointRead> finish(PointRows rows, std::string_view originName, const OGRS
   rows.heights.shrink_to_fit();
   points.positions = std::move(rows.positions);
   points.heights = std::move(rows.heights);
-  points.source = path;
+  points.source = nameWithoutQuery(path);
   points.sourceChecksum = heightsChecksum(points);
   if (Status status = points.validate(); !status) return tl::unexpected(status.error());
   return read;
@@ -276,20 +278,23 @@ Result<PointRead> readFrom(const std::string& path, const PointReadOptions& opti
   GdalDatasetPtr dataset;
   bool asText = looksLikePointText(path);
   if (!asText) {
-    if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
-    dataset = openGdal(path, GDAL_OF_VECTOR);
-    if (!dataset) return tl::unexpected(explainOpenFailure(path, "set of points", errors));
+    auto opened = openVectors(path, "set of points", errors, read.warnings);
+    if (!opened) return tl::unexpected(opened.error());
+    dataset = std::move(*opened);
   }
   if (asText) {
     if (!options.layer.empty())
       return failure(ErrorCode::usage, fmt::format("is text, which has no layer '{}'", options.layer));
     auto rows = readPointText(path, options.zField, read.warnings, context);
     if (!rows) return tl::unexpected(rows.error());
-    return finish(std::move(*rows), "line", nullptr, options, path, std::move(read));
+    if (rows->srid == 0) return finish(std::move(*rows), "line", nullptr, options, path, std::move(read));
+    const auto crs = crsFromText(fmt::format("EPSG:{}", rows->srid));
+    if (!crs) return tl::unexpected(crs.error());
+    return finish(std::move(*rows), "line", &*crs, options, path, std::move(read));
   }
   auto layer = chooseLayer(*dataset, options.layer, LayerKind::points);
   if (!layer) return tl::unexpected(layer.error());
-  auto rows = readLayer(**layer, options, read.warnings, context);
+  auto rows = readLayer(*dataset, **layer, options, read.warnings, context);
   if (!rows) return tl::unexpected(rows.error());
   errors.moveTo(read.warnings);
   return finish(std::move(*rows), "feature", (*layer)->GetSpatialRef(), options, path, std::move(read));

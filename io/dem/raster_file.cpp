@@ -18,6 +18,7 @@
 #include "io/dem/band_reader.h"
 #include "io/dem/declared_length.h"
 #include "io/dem/raster_placement.h"
+#include "io/gdal/file_length.h"
 #include "io/gdal/network_files.h"
 #include "io/gdal/support.h"
 #include "io/gdal/zipped_raster.h"
@@ -158,6 +159,8 @@ Result<RasterFile> RasterFile::open(const std::string& path, const RasterReadOpt
   opened->reader = std::move(*reader);
   opened->columns = std::uint32_t((*band)->GetXSize());
   opened->rows = std::uint32_t((*band)->GetYSize());
+  if (const std::string said = errors.firstFileFailure(); !said.empty())
+    return blame({ErrorCode::corrupt, fmt::format("is cut short or damaged: {}", said), {}});
   errors.moveTo(warnings);
   return RasterFile(std::move(opened));
 }

@@ -16,6 +16,7 @@
 #include "engine/base/caught_failure.h"
 #include "engine/memory/pages.h"
 #include "io/dem/mosaic.h"
+#include "io/file/address_text.h"
 #include "io/gdal/network_files.h"
 #include "io/gdal/support.h"
 
@@ -61,7 +62,7 @@ Result<RasterRead> readMosaic(const std::vector<std::string>& paths, const Raste
   heightfield.georeference = mosaic->georeference();
   heightfield.rawScale = mosaic->rawScale();
   heightfield.rawOffset = mosaic->rawOffset();
-  heightfield.source = paths.front();
+  heightfield.source = nameWithoutQuery(paths.front());
   heightfield.sourceChecksum = heightsChecksum(heightfield);
   if (Status status = heightfield.validate(); !status) return tl::unexpected(status.error());
   return read;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -38,6 +39,18 @@ std::optional<std::vector<double>> numbersOf(std::string_view text) {
   return numbers;
 }
 
+/// The corners of a box. One whose xmin is above its xmax crosses the antimeridian where x are longitudes.
+Result<std::vector<Vec2>> cornersOf(const std::array<double, 4>& box, const Georeference& axes) {
+  for (const double value : box)
+    if (!std::isfinite(value)) return failure(ErrorCode::usage, "a box needs finite numbers");
+  const double xMin = box[0], yMin = box[1], yMax = box[3];
+  double xMax = box[2];
+  if (xMin > xMax && axes.isGeographic) xMax += turnOf(axes);
+  if (!(xMin < xMax && yMin < yMax))
+    return failure(ErrorCode::usage, "xmin must be below xmax, and ymin below ymax");
+  return std::vector<Vec2>{{xMin, yMin}, {xMax, yMin}, {xMax, yMax}, {xMin, yMax}};
+}
+
 /// The corners of a box, brought into the DEM's CRS; nothing if the text is no list of numbers.
 Result<std::optional<std::vector<Vec2>>> readBox(const RegionText& region, const Georeference& dem) {
   const auto box = numbersOf(region.text);
@@ -45,10 +58,6 @@ Result<std::optional<std::vector<Vec2>>> readBox(const RegionText& region, const
   if (box->size() != 4)
     return failure(ErrorCode::usage,
                    fmt::format("a box has four numbers, xmin,ymin,xmax,ymax, not {}", box->size()));
-  for (const double value : *box)
-    if (!std::isfinite(value)) return failure(ErrorCode::usage, "a box needs finite numbers");
-  const double xMin = (*box)[0], yMin = (*box)[1], yMax = (*box)[3];
-  double xMax = (*box)[2];
   Georeference axes = dem;
   if (!region.crs.empty()) {
     const auto crs = crsFromUser(region.crs);
@@ -56,16 +65,14 @@ Result<std::optional<std::vector<Vec2>>> readBox(const RegionText& region, const
     axes = {};
     if (Status described = describeCrs(*crs, axes); !described) return tl::unexpected(described.error());
   }
-  if (xMin > xMax && axes.isGeographic) xMax += turnOf(axes);
-  if (!(xMin < xMax && yMin < yMax))
-    return failure(ErrorCode::usage, "xmin must be below xmax, and ymin below ymax");
-  std::vector<Vec2> corners = {{xMin, yMin}, {xMax, yMin}, {xMax, yMax}, {xMin, yMax}};
-  if (region.crs.empty()) return corners;
+  auto corners = cornersOf({(*box)[0], (*box)[1], (*box)[2], (*box)[3]}, axes);
+  if (!corners) return tl::unexpected(corners.error());
+  if (region.crs.empty()) return std::move(*corners);
   if (dem.crsWkt.empty())
     return failure(ErrorCode::usage,
                    "has a CRS and the DEM has none, so the two cannot be brought together; "
                    "state the DEM's with `crs` when it is read");
-  auto projected = reprojectRing(corners, region.crs, dem.crsWkt);
+  auto projected = reprojectRing(*corners, region.crs, dem.crsWkt);
   if (!projected) return tl::unexpected(projected.error());
   return std::move(*projected);
 }
@@ -158,6 +165,25 @@ void turnOnto(const LongitudeTurns& turns, RegionArgument& region) {
   }
   shape.lines = std::move(lines);
   shape.rings = ringsOf(united(repaired(all, region.warnings), region.warnings));
+}
+
+Result<RegionArgument> regionArgumentOf(const StatedRegion& region, const Georeference& dem,
+                                        const LongitudeTurns& turns) try {
+  RegionArgument argument;
+  if (region.box) {
+    auto corners = cornersOf(*region.box, dem);
+    if (!corners) return failure(corners.error().code, corners.error().message, "region");
+    argument.shape.rings = {std::move(*corners)};
+  } else {
+    auto read = regionOf(region.polygons, dem.crsWkt);
+    if (!read) return failure(ErrorCode::usage, read.error().message, "region");
+    argument.shape.rings = std::move(read->rings);
+    argument.warnings = std::move(read->warnings);
+  }
+  turnOnto(turns, argument);
+  return argument;
+} catch (...) {
+  return caughtFailure("region");
 }
 
 Result<RegionArgument> readRegionArgument(const RegionText& region, const Georeference& dem,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,12 @@ struct RegionArgument {
   std::vector<std::string> warnings;
 };
 
+/// How a program states a region: in the DEM's CRS.
+struct StatedRegion {
+  std::optional<std::array<double, 4>> box = {};  ///< xmin, ymin, xmax, ymax; comes before the polygons
+  std::vector<std::vector<std::vector<Vec2>>> polygons = {};  ///< each its outer ring and its holes
+};
+
 /// Brings a region onto the DEM: adds a copy for each whole turn by which it meets it. Where there are
 /// several, or the shape is longer than a turn, they are united.
 void turnOnto(const LongitudeTurns& turns, RegionArgument& region);
@@ -43,5 +51,11 @@ void turnOnto(const LongitudeTurns& turns, RegionArgument& region);
 /// extendedOnGround().
 Result<RegionArgument> readRegionArgument(const RegionText& region, const Georeference& dem,
                                           const LongitudeTurns& turns, const RunContext& context = {});
+
+/// Makes the region that readRegionArgument() makes of the same box, or of a file of the same polygons.
+///
+/// Errors: usage: an invalid box, or an error of regionOf(). The culprit is "region".
+Result<RegionArgument> regionArgumentOf(const StatedRegion& region, const Georeference& dem,
+                                        const LongitudeTurns& turns);
 
 }  // namespace arete

@@ -20,6 +20,7 @@
 #include "io/crs/reader.h"
 #include "io/gdal/polygon_set.h"
 #include "io/gdal/support.h"
+#include "io/gdal/vector_file.h"
 #include "io/gdal/vector_layer.h"
 
 namespace arete {
@@ -68,23 +69,28 @@ void collect(const OGRGeometry& geometry, Shapes& all) {
   }
 }
 
-Status collectLayer(OGRLayer& layer, Shapes& all, std::vector<std::string>& warnings,
+Status collectLayer(GDALDataset& dataset, OGRLayer& layer, Shapes& all, std::vector<std::string>& warnings,
                     const RunContext& context) {
   GdalErrors errors;
   layer.ResetReading();
-  for (std::size_t n = 0;; ++n) {
+  std::size_t n = 0, without = 0;
+  for (;; ++n) {
     if (n % kFeaturesPerReport == 0 && context.cancelled())
       return failure(ErrorCode::interrupted, "reading was stopped");
     const OGRFeatureUniquePtr feature(layer.GetNextFeature());
     if (!feature) break;
     const OGRGeometry* geometry = feature->GetGeometryRef();
-    if (!geometry) continue;
+    if (!geometry || geometry->IsEmpty()) {
+      ++without;
+      continue;
+    }
     const std::unique_ptr<OGRGeometry> linear(geometry->getLinearGeometry());
     if (linear) collect(*linear, all);
   }
   if (errors.anyFailure())
     return failure(ErrorCode::unreadable,
                    fmt::format("the layer '{}' cannot be read: {}", layer.GetName(), errors.firstFailure()));
+  if (Status whole = checkFeatureCount(dataset, layer, n); !whole) return whole;
   errors.moveTo(warnings);
   // Some of GDAL's drivers say so, once in a process; here it is counted.
   std::erase_if(warnings, [](const std::string& warning) {
@@ -97,6 +103,8 @@ Status collectLayer(OGRLayer& layer, Shapes& all, std::vector<std::string>& warn
     return failure(ErrorCode::invalidData,
                    fmt::format("the layer '{}' has no polygon{}{}", layer.GetName(),
                                all.takesLines ? " and no line" : "", all.takesPoints ? " and no point" : ""));
+  if (without > 0)
+    warnings.push_back(fmt::format("{} features without a geometry are left out", without));
   if (all.others > 0)
     warnings.push_back(fmt::format("{} geometries that are no polygons{}{} are left out", all.others,
                                    all.takesLines ? " or lines" : "", all.takesPoints ? " or points" : ""));
@@ -227,16 +235,15 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
   registerGdal();
   GdalErrors errors;
   RegionRead read;
-  if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
-  const GdalDatasetPtr dataset = openGdal(path, GDAL_OF_VECTOR);
-  if (!dataset) return tl::unexpected(explainOpenFailure(path, "set of polygons", errors));
-  auto layer = chooseLayer(*dataset, options.layer,
+  const auto dataset = openVectors(path, "set of polygons", errors, read.warnings);
+  if (!dataset) return tl::unexpected(dataset.error());
+  auto layer = chooseLayer(**dataset, options.layer,
                            options.takesPoints  ? LayerKind::shapes
                            : options.takesLines ? LayerKind::polygonsAndLines
                                                 : LayerKind::polygons);
   if (!layer) return tl::unexpected(layer.error());
   Shapes shapes{.takesLines = options.takesLines, .takesPoints = options.takesPoints};
-  if (Status status = collectLayer(**layer, shapes, read.warnings, context); !status)
+  if (Status status = collectLayer(**dataset, **layer, shapes, read.warnings, context); !status)
     return tl::unexpected(status.error());
 
   auto source = chooseCrs((*layer)->GetSpatialRef(), options.crs, read.warnings);
@@ -251,6 +258,7 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
     read.warnings.push_back(fmt::format("the CRS of the {} is not known; coordinates are taken as the DEM's",
                                         source->IsEmpty() ? "region" : "DEM"));
   }
+  errors.moveTo(read.warnings);  // of the layer's CRS
   const double turn = turnOfDegrees(*source);
   warnOfLongEdges(shapes.polygons, turn, read.warnings);
   const auto rings = regionRings(shapes.polygons, *source, !reproject.isIdentity(), read.warnings);
@@ -282,7 +290,42 @@ Result<RegionRead> readFrom(const std::string& path, const std::string& targetCr
   return read;
 }
 
+/// A polygon of rings that need not be closed: the outer one and holes.
+OGRPolygon polygonOf(const std::vector<Chain>& rings) {
+  OGRPolygon polygon;
+  for (const Chain& vertices : rings) {
+    OGRLinearRing ring;
+    for (const Vec2& p : vertices) ring.addPoint(p.x, p.y);
+    ring.closeRings();
+    ring.flattenTo2D();
+    polygon.addRing(&ring);
+  }
+  return polygon;
+}
+
 }  // namespace
+
+Result<RegionRead> regionOf(const std::vector<std::vector<std::vector<Vec2>>>& polygons,
+                            const std::string& crs) try {
+  registerGdal();
+  RegionRead read;
+  OGRMultiPolygon all;
+  for (const auto& rings : polygons)
+    if (!rings.empty() && rings.front().size() > 2) {
+      const OGRPolygon polygon = polygonOf(rings);
+      all.addGeometry(&polygon);
+    }
+  const auto source = crs.empty() ? OGRSpatialReference() : crsFromText(crs);
+  if (!source) return tl::unexpected(source.error());
+  warnOfLongEdges(all, turnOfDegrees(*source), read.warnings);
+  auto rings = regionRings(all, *source, false, read.warnings);
+  if (!rings) return tl::unexpected(rings.error());
+  read.rings = std::move(*rings);
+  if (read.rings.empty()) return failure(ErrorCode::invalidData, "has no polygon with an area");
+  return read;
+} catch (...) {
+  return caughtFailure();
+}
 
 Result<RegionRead> readRegion(const std::string& path, const std::string& targetCrs,
                               const RegionReadOptions& options, const RunContext& context) try {

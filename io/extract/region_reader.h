@@ -41,12 +41,24 @@ struct RegionRead {
 /// of a line is led the short way.
 ///
 /// @param targetCrs  WKT or any text that GDAL accepts; empty = not known
-/// Errors: notFound, unreadable, corrupt; unsupported: no such layer, or several (the message lists them);
+/// Errors: notFound, unreadable; corrupt, also where a part of the file is missing; unsupported: no such layer, or several (the message lists them);
 /// invalidData: no polygon (or line or point, where they are taken), a vertex outside the target CRS, an edge
 /// that a seam of the target tears, a target that is no CRS; usage: options.crs is no CRS; interrupted;
 /// outOfMemory. O(vertices log vertices).
 Result<RegionRead> readRegion(const std::string& path, const std::string& targetCrs,
                               const RegionReadOptions& options = {}, const RunContext& context = {});
+
+/// Makes a region of polygons of a program as readRegion() makes one of those of a file: those that cross
+/// themselves cover all that their rings go around, and those that overlap, lie in one another or occur twice
+/// are united.
+///
+/// @param polygons Each is its outer ring and its holes, closed or not. One without an outer ring of three
+/// vertices is empty.
+/// @param crs In which they are; empty: not known. Says whether x are longitudes.
+/// Errors: invalidData: no polygon with an area, a vertex that is not finite; outOfMemory. O(vertices log
+/// vertices).
+Result<RegionRead> regionOf(const std::vector<std::vector<std::vector<Vec2>>>& polygons,
+                            const std::string& crs);
 
 /// Reprojects a ring, which its last and first vertex close, as readRegion() does. Errors: as of
 /// readRegion().

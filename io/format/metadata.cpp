@@ -16,6 +16,7 @@
 
 #include "engine/mt/hole_limit.h"
 #include "engine/mt/node_blocks.h"
+#include "io/file/address_text.h"
 #include "io/format/json_fields.h"
 #include "terrain/build/checks.h"
 
@@ -193,7 +194,7 @@ AmtMetadata amtMetadataOf(const TerrainModel& model, std::string writer) {
   m.model.isRaster = model.isRaster;
   m.model.columns = model.columns;
   m.model.rows = model.rows;
-  m.model.source = model.source;
+  m.model.source = nameWithoutQuery(model.source);
   m.model.sourceChecksum = model.sourceChecksum;
   m.model.reading = model.reading;
   m.model.options = model.options;
@@ -248,6 +249,7 @@ Result<AmtMetadata> fromAmtJson(std::string_view text) {
   json_fields::Reader reader(object, problem);
   Stored stored;
   visitMetadata(reader, m, stored);
+  m.model.source = nameWithoutQuery(m.model.source);  // older files may have one
   m.scale = OutwardScale::fromBase(stored.scaleBase);
   m.model.options.thresholdRatio = stored.thresholdRatio;
   if (stored.nodataWord == "nan") m.model.reading.nodata = std::numeric_limits<double>::quiet_NaN();

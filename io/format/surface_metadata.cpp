@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/mt/hole_limit.h"
+#include "io/file/address_text.h"
 #include "io/format/json_fields.h"
 
 namespace arete {
@@ -106,7 +107,7 @@ SurfaceMetadata surfaceMetadataOf(const SurfaceModel& model, std::string writer)
   to.levels = model.levels;
   to.positionError = model.positionError;
   to.boundsLines = model.boundsLines;
-  to.source = model.source;
+  to.source = nameWithoutQuery(model.source);
   to.sourceChecksum = model.sourceChecksum;
   to.crsWkt = model.crsWkt;
   to.verticalUnit = model.verticalUnit;

@@ -5,6 +5,7 @@
 // it a file, is it empty, is it readable. Only then it quotes GDAL.
 #include "io/gdal/support.h"
 
+#include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_vsi.h>
 #include <dlfcn.h>
@@ -20,6 +21,7 @@
 #include "io/file/text_scan.h"
 #include "io/file/watched_files.h"
 #include "io/gdal/confined.h"
+#include "io/gdal/message_text.h"
 #include "io/gdal/network_files.h"
 #include "io/gdal/unclaimed_messages.h"
 
@@ -27,14 +29,6 @@ namespace arete {
 namespace {
 
 constexpr std::size_t kWarningsKept = 5;
-
-std::string onOneLineWithoutDot(const char* message) {
-  std::string text = message ? message : "";
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
-  return text;
-}
 
 /// What to do with a compressed file or an archive, by its name; empty for other names.
 std::string archiveHint(const std::string& path, std::string_view kind) {
@@ -85,32 +79,42 @@ GdalErrors::~GdalErrors() {
   CPLErrorReset();
 }
 
-void GdalErrors::collect(CPLErr severity, CPLErrorNum, const char* message) {
+void GdalErrors::collect(CPLErr severity, CPLErrorNum number, const char* message) {
   if (severity == CE_Fatal) reportFatalGdalError(message);
   auto* self = static_cast<GdalErrors*>(CPLGetErrorHandlerUserData());
-  if (severity >= CE_Warning) self->messages_.emplace_back(severity, onOneLineWithoutDot(message));
+  if (severity >= CE_Warning) self->messages_.push_back({severity, number, gdalMessageText(message)});
 }
 
 bool GdalErrors::anyFailure() const {
-  return std::any_of(messages_.begin(), messages_.end(), [](const auto& m) { return m.first >= CE_Failure; });
+  return std::ranges::any_of(messages_, [](const Message& m) { return m.severity >= CE_Failure; });
 }
 
 std::string GdalErrors::firstFailure() const {
-  for (const auto& [severity, message] : messages_)
-    if (severity >= CE_Failure) return message;
+  for (const Message& message : messages_)
+    if (message.severity >= CE_Failure) return message.text;
+  return {};
+}
+
+std::string GdalErrors::firstFileFailure() const {
+  for (const Message& message : messages_)
+    if (message.severity >= CE_Failure && message.number == CPLE_FileIO) return message.text;
   return {};
 }
 
 std::string GdalErrors::firstMessage() const {
-  return messages_.empty() ? std::string() : messages_.front().second;
+  return messages_.empty() ? std::string() : messages_.front().text;
 }
 
 void GdalErrors::moveTo(std::vector<std::string>& warnings) {
   std::vector<std::string> distinct;
-  for (const auto& [severity, message] : messages_)
-    if (std::find(distinct.begin(), distinct.end(), message) == distinct.end()) distinct.push_back(message);
+  for (const Message& message : messages_) {
+    std::string line = "GDAL: " + message.text;
+    if (std::ranges::find(distinct, line) == distinct.end() &&
+        std::ranges::find(warnings, line) == warnings.end())
+      distinct.push_back(std::move(line));
+  }
   for (std::size_t i = 0; i < std::min(kWarningsKept, distinct.size()); ++i)
-    warnings.push_back("GDAL: " + distinct[i]);
+    warnings.push_back(std::move(distinct[i]));
   if (distinct.size() > kWarningsKept)
     warnings.push_back(fmt::format("GDAL: and {} more messages", distinct.size() - kWarningsKept));
   messages_.clear();
@@ -129,6 +133,7 @@ GdalDatasetPtr openGdal(const std::string& path, unsigned flags) {
   watchInputFile(path);
   std::string name = networkPathOf(path);
   if ((flags & GDAL_OF_RASTER) != 0) name = pathWithoutNetcdf(name);
+  const CPLConfigOptionSetter noSchema("GML_DOWNLOAD_SCHEMA", "NO", true);
   return GdalDatasetPtr(GDALDataset::Open(name.c_str(), flags | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
 }
 

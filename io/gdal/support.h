@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "engine/base/result.h"
+#include "io/gdal/crs_addresses.h"
 
 namespace arete {
 
@@ -22,8 +22,9 @@ struct GdalDatasetCloser {
 };
 using GdalDatasetPtr = std::unique_ptr<GDALDataset, GdalDatasetCloser>;
 
-/// Collects the messages of GDAL on this thread during its lifetime, instead of printing them. Scopes nest;
-/// the innermost collects.
+/// Collects the messages of GDAL on this thread during its lifetime, instead of printing them
+/// (io/gdal/message_text.h says what they lose). Scopes nest; the innermost collects. Meanwhile the CRS of a
+/// file is not fetched from an address.
 class GdalErrors {
  public:
   GdalErrors();
@@ -34,18 +35,30 @@ class GdalErrors {
   bool anyFailure() const;
   /// The first failure, which is the cause: GDAL reports consequences later. Empty if there was none.
   std::string firstFailure() const;
+  /// The first failure to read bytes that should be there (CPLE_FileIO). Empty if there was none.
+  std::string firstFileFailure() const;
   /// The first message that is at least a warning. Empty if there was none.
   std::string firstMessage() const;
-  /// Appends the messages so far to `warnings` (the first few distinct ones) and clears them here.
+  /// Appends the messages so far to `warnings` (the first few distinct ones that are not there yet) and clears
+  /// them here.
   void moveTo(std::vector<std::string>& warnings);
   void clear() { messages_.clear(); }
 
  private:
+  struct Message {
+    CPLErr severity;
+    CPLErrorNum number;
+    std::string text;
+  };
+
   static void CPL_STDCALL collect(CPLErr severity, CPLErrorNum number, const char* message);
-  std::vector<std::pair<CPLErr, std::string>> messages_;
+
+  NoCrsAddresses noAddresses_;
+  std::vector<Message> messages_;
 };
 
-/// Opens for reading.
+/// Opens for reading. A file makes no schema be fetched (of GML; a person may allow it by GDAL's option
+/// GML_DOWNLOAD_SCHEMA).
 ///
 /// @param flags GDAL_OF_RASTER or GDAL_OF_VECTOR.
 /// @return Null if GDAL cannot open it.

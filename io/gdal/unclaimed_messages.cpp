@@ -3,9 +3,10 @@
 
 #include <cpl_error.h>
 
-#include <algorithm>
 #include <atomic>
 #include <string>
+
+#include "io/gdal/message_text.h"
 
 namespace arete {
 namespace {
@@ -16,10 +17,7 @@ void CPL_STDCALL pass(CPLErr severity, CPLErrorNum, const char* message) {
   if (severity == CE_Fatal) reportFatalGdalError(message);
   void (*const tell)(const char*) = receiver;
   if (severity < CE_Warning || tell == nullptr) return;
-  std::string line = message ? message : "";
-  std::ranges::replace_if(
-      line, [](unsigned char c) { return c < 32 || c == 127; }, ' ');
-  tell(line.c_str());
+  tell(gdalMessageText(message).c_str());
 }
 
 }  // namespace

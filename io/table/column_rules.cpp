@@ -21,6 +21,9 @@ const Names kY = {"y", "lat", "latitude", "northing", "north", "n", "y_coord", "
 const Names kZ = {"z",   "elev",     "elevation", "height", "h",      "alt",
                   "ele", "altitude", "z_coord",   "zcoord", "point_z"};
 
+const Names kWkt = {"wkt",      "_wkt", "the_geom", "geom_wkt",    "wkt_geom",
+                    "geometry", "geom", "wkt_geometry", "geometry_wkt", "wkt_point"};
+
 Names joined(Names first, const Names& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
@@ -49,6 +52,9 @@ std::span<const std::string_view> ColumnNames::y() {
 }
 std::span<const std::string_view> ColumnNames::z() {
   return kZ;
+}
+std::span<const std::string_view> ColumnNames::wkt() {
+  return kWkt;
 }
 std::span<const std::string_view> ColumnNames::endX(int end) {
   return kEndX[std::size_t(end)];

@@ -7,22 +7,47 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstddef>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
 
 #include "io/crs/reader.h"
+#include "io/gdal/vector_file.h"
 
 namespace arete {
 namespace {
 
-constexpr std::size_t kFeaturesPerReport = 4096;
+constexpr std::uint64_t kFeaturesPerReport = 4096;
+
+/// "2020-02-29", "12:34:56.5", "2020-02-29T12:34:56+01:00"; without a zone where none is known.
+std::string momentText(OGRFeature& feature, int field, OGRFieldType type) {
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0, zone = 0;
+  float second = 0;
+  if (!feature.GetFieldAsDateTime(field, &year, &month, &day, &hour, &minute, &second, &zone))
+    return feature.GetFieldAsString(field);
+  const std::string date = fmt::format("{:04}-{:02}-{:02}", year, month, day);
+  if (type == OFTDate) return date;
+  // GDAL counts thousandths of a second, as floats.
+  const int thousandths = static_cast<int>(std::lround(second * 1000));
+  std::string time = fmt::format("{:02}:{:02}:{:02}", hour, minute, thousandths / 1000);
+  if (thousandths % 1000 != 0) time += fmt::format(".{:03}", thousandths % 1000);
+  constexpr int kUtc = 100, kMinutesPerStep = 15, kLeastZone = 2;
+  if (zone >= kLeastZone) {
+    const int minutes = std::abs(zone - kUtc) * kMinutesPerStep;
+    time += zone == kUtc ? std::string("Z")
+                         : fmt::format("{}{:02}:{:02}", zone < kUtc ? '-' : '+', minutes / 60, minutes % 60);
+  }
+  return type == OFTTime ? time : date + 'T' + time;
+}
 
 }  // namespace
 
-Status forFeatures(OGRLayer& layer, const GdalErrors& errors, const RunContext& context,
+Status forFeatures(GDALDataset& dataset, OGRLayer& layer, const GdalErrors& errors, const RunContext& context,
                    const std::function<Status(OGRFeature&)>& add) {
   const double total = double(layer.GetFeatureCount(false));
   layer.ResetReading();
-  for (std::size_t n = 0;; ++n) {
+  std::uint64_t n = 0;
+  for (;; ++n) {
     if (n % kFeaturesPerReport == 0) {
       if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
       context.report("reading", total > 0 ? std::min(1.0, double(n) / total) : 0);
@@ -34,21 +59,49 @@ Status forFeatures(OGRLayer& layer, const GdalErrors& errors, const RunContext& 
   if (errors.anyFailure())
     return failure(ErrorCode::unreadable,
                    fmt::format("the layer '{}' cannot be read: {}", layer.GetName(), errors.firstFailure()));
+  if (Status whole = checkFeatureCount(dataset, layer, n); !whole) return whole;
   context.report("reading", 1);
   return {};
 }
 
-PointAttributes::Kind kindOf(OGRFieldType type) {
-  return type == OFTInteger || type == OFTInteger64 ? PointAttributes::Kind::integer
-         : type == OFTReal                          ? PointAttributes::Kind::real
-                                                    : PointAttributes::Kind::text;
+PointAttributes::Kind kindOf(const OGRFieldDefn& field) {
+  using Kind = PointAttributes::Kind;
+  const OGRFieldSubType subtype = field.GetSubType();
+  switch (field.GetType()) {
+    case OFTInteger:
+      return subtype == OFSTBoolean ? Kind::boolean : subtype == OFSTInt16 ? Kind::integer16 : Kind::integer32;
+    case OFTInteger64:
+      return Kind::integer;
+    case OFTReal:
+      return subtype == OFSTFloat32 ? Kind::real32 : Kind::real;
+    case OFTDate:
+      return Kind::date;
+    case OFTTime:
+      return Kind::time;
+    case OFTDateTime:
+      return Kind::dateTime;
+    case OFTBinary:
+      return Kind::bytes;
+    default:
+      return subtype == OFSTJSON ? Kind::json : Kind::text;
+  }
 }
 
 std::string fieldText(OGRFeature& feature, int field) {
   if (!feature.IsFieldSetAndNotNull(field)) return {};
-  if (feature.GetFieldDefnRef(field)->GetType() == OFTReal)  // all digits, unlike GDAL's text
-    return fmt::format("{}", feature.GetFieldAsDouble(field));
-  return feature.GetFieldAsString(field);
+  const OGRFieldDefn& definition = *feature.GetFieldDefnRef(field);
+  switch (definition.GetType()) {
+    case OFTReal:  // all digits, unlike GDAL's text
+      return definition.GetSubType() == OFSTFloat32
+                 ? fmt::format("{}", static_cast<float>(feature.GetFieldAsDouble(field)))
+                 : fmt::format("{}", feature.GetFieldAsDouble(field));
+    case OFTDate:
+    case OFTTime:
+    case OFTDateTime:
+      return momentText(feature, field, definition.GetType());
+    default:
+      return feature.GetFieldAsString(field);
+  }
 }
 
 Result<CrsTransform> transformOf(const OGRSpatialReference* own, const Georeference& dem, bool lonLat,

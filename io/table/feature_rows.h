@@ -18,16 +18,19 @@ namespace arete {
 
 /// Calls `add` for each feature of a layer, in the order of the layer. Stops at the first error.
 ///
+/// @param dataset That of the layer.
 /// @param errors The messages of GDAL while it reads.
 ///
-/// Errors: those of `add`. unreadable: GDAL reports a failure. interrupted. O(features).
-Status forFeatures(OGRLayer& layer, const GdalErrors& errors, const RunContext& context,
+/// Errors: those of `add`. unreadable: GDAL reports a failure. corrupt: those of checkFeatureCount().
+/// interrupted. O(features).
+Status forFeatures(GDALDataset& dataset, OGRLayer& layer, const GdalErrors& errors, const RunContext& context,
                    const std::function<Status(OGRFeature&)>& add);
 
-/// @return The kind of column for a type of field.
-PointAttributes::Kind kindOf(OGRFieldType type);
+/// @return The kind of column that holds the values of a field; text for lists.
+PointAttributes::Kind kindOf(const OGRFieldDefn& field);
 
-/// @return The text of a field, with the shortest digits that give the same double; empty if it is not set.
+/// @return The text of a field, with the shortest digits that give the same double (or float, if the field
+/// holds floats), dates and times in ISO 8601; empty if it is not set.
 std::string fieldText(OGRFeature& feature, int field);
 
 /// Makes the transformation from the coordinates of a file to the DEM's CRS.

@@ -7,6 +7,7 @@
 #include "io/table/geopackage.h"
 
 #include <cpl_conv.h>
+#include <cpl_string.h>
 #include <fmt/format.h>
 
 #include <array>
@@ -110,22 +111,60 @@ Result<OGRLayer*> addLayer(GDALDataset& dataset, const std::string& name, const 
 }
 
 bool addField(OGRLayer& layer, const std::string& name, PointAttributes::Kind kind) {
-  OGRFieldDefn field(name.c_str(), kind == PointAttributes::Kind::integer ? OFTInteger64
-                                   : kind == PointAttributes::Kind::real  ? OFTReal
-                                                                          : OFTString);
+  using Kind = PointAttributes::Kind;
+  struct Type {
+    OGRFieldType type;
+    OGRFieldSubType subtype = OFSTNone;
+  };
+  const Type type = [&]() -> Type {
+    switch (kind) {
+      case Kind::integer:
+        return {OFTInteger64};
+      case Kind::integer32:
+        return {OFTInteger};
+      case Kind::integer16:
+        return {OFTInteger, OFSTInt16};
+      case Kind::boolean:
+        return {OFTInteger, OFSTBoolean};
+      case Kind::real:
+        return {OFTReal};
+      case Kind::real32:
+        return {OFTReal, OFSTFloat32};
+      case Kind::date:
+        return {OFTDate};
+      case Kind::dateTime:
+        return {OFTDateTime};
+      case Kind::bytes:
+        return {OFTBinary};
+      case Kind::json:
+        return {OFTString, OFSTJSON};
+      default:  // a GeoPackage has no times of day
+        return {OFTString};
+    }
+  }();
+  OGRFieldDefn field(name.c_str(), type.type);
+  field.SetSubType(type.subtype);
   return layer.CreateField(&field) == OGRERR_NONE;
 }
 
 void setFields(OGRFeature& feature, int& at, const PointAttributes& values, std::size_t row) {
+  using Kind = PointAttributes::Kind;
   for (std::size_t c = 0; c < values.columns.size(); ++c, ++at) {
     const std::string_view value = values.at(row, c);
     if (value.empty()) continue;
+    const Kind kind = values.columns[c].kind;
     double number = 0;
-    if (values.columns[c].kind == PointAttributes::Kind::real &&
-        std::from_chars(value.data(), value.data() + value.size(), number).ec == std::errc{})
+    if ((kind == Kind::real || kind == Kind::real32) &&
+        std::from_chars(value.data(), value.data() + value.size(), number).ec == std::errc{}) {
       feature.SetField(at, number);
-    else
+    } else if (kind == Kind::bytes) {
+      int count = 0;
+      GByte* bytes = CPLHexToBinary(std::string(value).c_str(), &count);
+      feature.SetField(at, count, bytes);
+      CPLFree(bytes);
+    } else {
       feature.SetField(at, std::string(value).c_str());
+    }
   }
 }
 

@@ -20,6 +20,8 @@ namespace arete {
 namespace {
 
 constexpr std::array<std::string_view, 7> kOwnNames = {"x", "y", "height", "below", "above", "fid", "geom"};
+constexpr std::array<std::string_view, 8> kOwnNamesWithZ = {"x",     "y",     "height", "below",
+                                                            "above", "fid",   "geom",   "z"};
 constexpr std::array<const char*, 5> kOwnFields = {"x", "y", "height", "below", "above"};
 constexpr const char* kLayer = "heights";
 constexpr std::size_t kRowsPerReport = 4096;
@@ -42,7 +44,8 @@ class GeoPackageRows {
       : table_(table), heights_(heights) {}
 
   Status fill(GDALDataset& dataset, const GdalErrors& errors, const RunContext& context) {
-    const Result<OGRLayer*> layer = addLayer(dataset, kLayer, table_.crsWkt, wkbPoint, errors);
+    const Result<OGRLayer*> layer =
+        addLayer(dataset, kLayer, table_.crsWkt, table_.z.empty() ? wkbPoint : wkbPoint25D, errors);
     if (!layer) return tl::unexpected(layer.error());
     if (!createFields(**layer) || dataset.StartTransaction() != OGRERR_NONE) return cannotBeWritten(errors);
     for (std::size_t row = 0; row < table_.stated.size(); ++row) {
@@ -73,7 +76,8 @@ class GeoPackageRows {
     setFields(feature, at, table_.attributes, row);
     const Vec2 p = table_.stated[row];
     if (std::isfinite(p.x) && std::isfinite(p.y)) {
-      const OGRPoint point(p.x, p.y);
+      OGRPoint point(p.x, p.y);
+      if (!table_.z.empty() && std::isfinite(table_.z[row])) point.setZ(table_.z[row]);
       feature.SetGeometry(&point);
       feature.SetField(at, p.x);
       feature.SetField(at + 1, p.y);
@@ -99,11 +103,13 @@ std::string heightText(double height) {
 void forCsvLines(const PointTable& table, std::span<const std::optional<SurfaceHeight>> heights,
                  const std::function<void(std::string_view)>& write) {
   std::string line;
-  for (const std::string& name : namesBeside(table.attributes, kOwnNames)) {
+  const bool hasZ = !table.z.empty();
+  for (const std::string& name :
+       hasZ ? namesBeside(table.attributes, kOwnNamesWithZ) : namesBeside(table.attributes, kOwnNames)) {
     appendCsvField(line, name);
     line += ',';
   }
-  write(line += "x,y,height,below,above\n");
+  write(line += hasZ ? "x,y,z,height,below,above\n" : "x,y,height,below,above\n");
   for (std::size_t row = 0; row < table.stated.size(); ++row) {
     line.clear();
     for (std::size_t c = 0; c < table.attributes.columns.size(); ++c) {
@@ -115,6 +121,7 @@ void forCsvLines(const PointTable& table, std::span<const std::optional<SurfaceH
       fmt::format_to(std::back_inserter(line), "{},{},", p.x, p.y);
     else
       line += ",,";
+    if (hasZ) line += std::isfinite(table.z[row]) ? fmt::format("{},", table.z[row]) : std::string(",");
     if (const auto& found = heights[row])
       fmt::format_to(std::back_inserter(line), "{:.12g},{:.12g},{:.12g}\n", found->height, found->below,
                      found->above);

@@ -14,7 +14,9 @@
 #include "io/crs/reader.h"
 #include "io/crs/transform.h"
 #include "io/gdal/support.h"
+#include "io/gdal/vector_file.h"
 #include "io/gdal/vector_layer.h"
+#include "io/table/feature_rows.h"
 #include "io/table/point_text.h"
 
 namespace arete {
@@ -64,23 +66,30 @@ Result<PlanPoints> readFrom(const std::string& path, const std::string& targetCr
   if (looksLikePointText(path)) {
     auto rows = readPointText(path, {}, read.warnings, context, PointTextColumns::plan);
     if (!rows) return tl::unexpected(rows.error());
-    read.positions = std::move(rows->positions);
+    if (rows->srid != 0) {
+      const auto crs = crsFromText(fmt::format("EPSG:{}", rows->srid));
+      if (!crs) return tl::unexpected(crs.error());
+      const auto toTarget = transformation(&*crs, targetCrs, read.warnings);
+      if (!toTarget) return tl::unexpected(toTarget.error());
+      for (const Vec2 place : rows->positions)
+        if (Status added = addPoint({place.x, place.y}, *toTarget, read.positions); !added)
+          return tl::unexpected(added.error());
+    } else {
+      read.positions = std::move(rows->positions);
+    }
   } else {
-    const GdalDatasetPtr dataset = openGdal(path, GDAL_OF_VECTOR);
-    if (!dataset) return tl::unexpected(explainOpenFailure(path, "set of points", errors));
-    const auto layer = chooseLayer(*dataset, {}, LayerKind::points);
+    const auto dataset = openVectors(path, "set of points", errors, read.warnings);
+    if (!dataset) return tl::unexpected(dataset.error());
+    const auto layer = chooseLayer(**dataset, {}, LayerKind::points);
     if (!layer) return tl::unexpected(layer.error());
     const auto toTarget = transformation((*layer)->GetSpatialRef(), targetCrs, read.warnings);
     if (!toTarget) return tl::unexpected(toTarget.error());
-    (*layer)->ResetReading();
-    while (const OGRFeatureUniquePtr feature{(*layer)->GetNextFeature()}) {
-      if (context.cancelled()) return failure(ErrorCode::interrupted, "reading was stopped");
-      if (const OGRGeometry* geometry = feature->GetGeometryRef())
-        if (Status added = addGeometry(*geometry, *toTarget, read.positions); !added)
-          return tl::unexpected(added.error());
-    }
-    if (errors.anyFailure())
-      return failure(ErrorCode::unreadable, fmt::format("cannot be read: {}", errors.firstFailure()));
+    const Status all = forFeatures(**dataset, **layer, errors, context, [&](OGRFeature& feature) -> Status {
+      const OGRGeometry* geometry = feature.GetGeometryRef();
+      return geometry ? addGeometry(*geometry, *toTarget, read.positions) : Status();
+    });
+    if (!all) return tl::unexpected(all.error());
+    errors.moveTo(read.warnings);
   }
   if (read.positions.empty()) return failure(ErrorCode::invalidData, "holds no point");
   return read;

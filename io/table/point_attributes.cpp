@@ -4,6 +4,7 @@
 // postal code, that must stay a text.
 #include "io/table/point_attributes.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <system_error>
@@ -23,7 +24,9 @@ PointAttributes::Kind kindOf(std::string_view text) {
   const std::string_view digits = text.substr(text.front() == '-' ? 1 : 0);
   if (digits.size() > 1 && digits[0] == '0' && digits[1] >= '0' && digits[1] <= '9') return Kind::text;
   if (isWholly<std::int64_t>(text)) return Kind::integer;
-  return isWholly<double>(text) ? Kind::real : Kind::text;
+  // An integer of more digits is the name of something: no number of 64 bits has them all.
+  const bool isInteger = std::ranges::all_of(digits, [](char c) { return c >= '0' && c <= '9'; });
+  return !isInteger && isWholly<double>(text) ? Kind::real : Kind::text;
 }
 
 }  // namespace

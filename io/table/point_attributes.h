@@ -11,7 +11,21 @@ namespace arete {
 /// The attributes of points or lines: named columns of values, stored as texts in one array of characters.
 class PointAttributes {
  public:
-  enum class Kind { text, integer, real };
+  /// Values of dates and times are in ISO 8601, those of `boolean` are 0 and 1, of `bytes` in hexadecimal digits.
+  enum class Kind {
+    text,
+    integer,  ///< of 64 bits
+    integer32,
+    integer16,
+    real,
+    real32,
+    boolean,
+    date,
+    time,
+    dateTime,
+    bytes,
+    json,
+  };
   struct Column {
     std::string name;
     Kind kind = Kind::text;

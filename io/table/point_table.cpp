@@ -7,12 +7,16 @@
 #include <ogr_geometry.h>
 #include <ogr_spatialref.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "io/crs/reader.h"
 #include "io/crs/transform.h"
 #include "io/gdal/support.h"
+#include "io/gdal/vector_file.h"
 #include "io/gdal/vector_layer.h"
 #include "io/table/feature_rows.h"
 #include "io/table/point_text.h"
@@ -29,21 +33,22 @@ class FeatureReader {
     const OGRFeatureDefn& definition = *layer.GetLayerDefn();
     for (int i = 0; i < definition.GetFieldCount(); ++i) {
       const OGRFieldDefn& field = *definition.GetFieldDefn(i);
-      table.attributes.columns.push_back({field.GetNameRef(), kindOf(field.GetType())});
+      table.attributes.columns.push_back({field.GetNameRef(), kindOf(field)});
     }
   }
 
   Status add(OGRFeature& feature) {
     const OGRGeometry* geometry = feature.GetGeometryRef();
     if (!geometry || geometry->IsEmpty()) {
-      addRow(feature, {kNone, kNone});
+      addRow(feature, {kNone, kNone}, kNone);
+      ++table_.withoutPlace;
       return {};
     }
     const OGRwkbGeometryType type = wkbFlatten(geometry->getGeometryType());
     if (type == wkbPoint) {
-      addRow(feature, {geometry->toPoint()->getX(), geometry->toPoint()->getY()});
+      addPoint(feature, *geometry->toPoint());
     } else if (type == wkbMultiPoint) {
-      for (const OGRPoint* point : *geometry->toMultiPoint()) addRow(feature, {point->getX(), point->getY()});
+      for (const OGRPoint* point : *geometry->toMultiPoint()) addPoint(feature, *point);
     } else {
       return failure(ErrorCode::unsupported,
                      fmt::format("feature {} of the layer '{}' is a {}, not a point", feature.GetFID(),
@@ -53,8 +58,16 @@ class FeatureReader {
   }
 
  private:
-  void addRow(OGRFeature& feature, Vec2 place) {
+  void addPoint(OGRFeature& feature, const OGRPoint& point) {
+    const bool hasPlace = !point.IsEmpty() && std::isfinite(point.getX() + point.getY());
+    table_.withoutPlace += hasPlace ? 0 : 1;
+    addRow(feature, hasPlace ? Vec2{point.getX(), point.getY()} : Vec2{kNone, kNone},
+           hasPlace && point.Is3D() ? point.getZ() : kNone);
+  }
+
+  void addRow(OGRFeature& feature, Vec2 place, double z) {
     table_.stated.push_back(place);
+    table_.z.push_back(z);
     table_.attributes.add(fmt::format("{}", feature.GetFID()));
     for (int i = 0; i < feature.GetFieldCount(); ++i) table_.attributes.add(fieldText(feature, i));
   }
@@ -63,10 +76,19 @@ class FeatureReader {
   PointTable& table_;
 };
 
-Status readLayer(OGRLayer& layer, PointTable& table, const RunContext& context) {
-  const GdalErrors errors;
+Status readLayer(GDALDataset& dataset, OGRLayer& layer, PointTable& table, const RunContext& context) {
+  GdalErrors errors;
   FeatureReader reader(layer, table);
-  return forFeatures(layer, errors, context, [&](OGRFeature& feature) { return reader.add(feature); });
+  const Status read =
+      forFeatures(dataset, layer, errors, context, [&](OGRFeature& feature) { return reader.add(feature); });
+  errors.moveTo(table.warnings);
+  return read;
+}
+
+/// The CRS that the points of a text state.
+Result<OGRSpatialReference> crsOfSrid(int srid) {
+  if (srid == 0) return OGRSpatialReference();
+  return crsFromText(fmt::format("EPSG:{}", srid));
 }
 
 Result<PointTable> readFrom(const std::string& path, const Georeference& dem,
@@ -80,21 +102,26 @@ Result<PointTable> readFrom(const std::string& path, const Georeference& dem,
   if (isText) {
     if (!options.layer.empty())
       return failure(ErrorCode::usage, fmt::format("is text, which has no layer '{}'", options.layer));
-    auto rows = readPointText(path, {}, table.warnings, context, PointTextColumns::plan, &table.attributes);
+    auto rows = readPointText(path, {}, table.warnings, context, PointTextColumns::planRows, &table.attributes);
     if (!rows) return tl::unexpected(rows.error());
     table.stated = std::move(rows->positions);
+    table.z = std::move(rows->heights);
+    table.withoutPlace = rows->withoutPlace;
     table.attributes.findKinds();
-    transform = transformOf(nullptr, dem, options.lonLat, isText, table.warnings);
+    const auto crs = crsOfSrid(rows->srid);
+    if (!crs) return tl::unexpected(crs.error());
+    transform = transformOf(&*crs, dem, options.lonLat, isText, table.warnings);
   } else {
-    const GdalDatasetPtr dataset = openGdal(path, GDAL_OF_VECTOR);
-    if (!dataset) return tl::unexpected(explainOpenFailure(path, "set of points", errors));
-    const auto layer = chooseLayer(*dataset, options.layer, LayerKind::points);
+    const auto dataset = openVectors(path, "set of points", errors, table.warnings);
+    if (!dataset) return tl::unexpected(dataset.error());
+    const auto layer = chooseLayer(**dataset, options.layer, LayerKind::points);
     if (!layer) return tl::unexpected(layer.error());
-    if (Status read = readLayer(**layer, table, context); !read) return tl::unexpected(read.error());
+    if (Status read = readLayer(**dataset, **layer, table, context); !read) return tl::unexpected(read.error());
     transform = transformOf((*layer)->GetSpatialRef(), dem, options.lonLat, isText, table.warnings);
   }
   if (!transform) return tl::unexpected(transform.error());
   if (table.stated.empty()) return failure(ErrorCode::invalidData, "holds no point");
+  if (std::ranges::all_of(table.z, [](double z) { return std::isnan(z); })) table.z.clear();
   errors.moveTo(table.warnings);
   table.crsWkt = transform->sourceWkt().empty() ? dem.crsWkt : transform->sourceWkt();
   table.positions = table.stated;

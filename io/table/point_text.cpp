@@ -18,6 +18,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,7 +30,9 @@
 #include "io/gdal/support.h"
 #include "io/table/cell_number.h"
 #include "io/table/column_rules.h"
+#include "io/table/record_scanner.h"
 #include "io/table/separator.h"
+#include "io/table/wkt_point.h"
 
 namespace arete {
 namespace {
@@ -47,67 +50,9 @@ struct FileCloser {
   void operator()(VSILFILE* file) const { VSIFCloseL(file); }
 };
 
-/// The start of the comment of a record, or npos. In quotes '#' is text, and in "1.#QNAN" and "1.#INF", as
-/// older C libraries write what is no number.
-std::size_t findComment(std::string_view line) {
-  std::size_t at = line.find('#');
-  const auto isQuoted = [&] {
-    return std::count(line.begin(), line.begin() + std::ptrdiff_t(at), '"') % 2 != 0;
-  };
-  const auto isInWord = [&] {
-    const std::string_view behind = line.substr(at + 1, 1);
-    return line.substr(0, at).ends_with("1.") && !behind.empty() && text::lowered(behind) >= "a" &&
-           text::lowered(behind) <= "z";
-  };
-  while (at != std::string_view::npos && (isQuoted() || isInWord())) at = line.find('#', at + 1);
-  return at;
-}
-
 std::string quoted(std::string_view text) {
   return fmt::format("'{}'", text::printable(text, kQuotedCharacters));
 }
-
-/// Scans a record for the line breaks that its quoted texts contain. A quote opens a text only at the start
-/// of a field; elsewhere it is a character.
-class QuoteScanner {
- public:
-  explicit QuoteScanner(char separator) : separator_(separator) {}
-
-  /// The end of the record at the start of `text`: the first line break outside quotes, or npos.
-  std::size_t recordEnd(std::string_view text) {
-    for (std::size_t i = 0; i < text.size(); ++i) {
-      const char c = text[i];
-      if (inQuotes_) {
-        if (c != '"') continue;
-        if (i + 1 < text.size() && text[i + 1] == '"') {
-          ++i;
-        } else {
-          inQuotes_ = false;
-          isClosed_ = true;
-        }
-      } else if (c == '\n' || c == '#') {
-        return c == '\n' ? i : text.find('\n', i);
-      } else if (c == separator_) {
-        atFieldStart_ = true;
-        isClosed_ = false;
-      } else if (c == '"' && atFieldStart_) {
-        inQuotes_ = true;
-        atFieldStart_ = false;
-      } else if (!isBlank(c)) {
-        atFieldStart_ = false;
-        hasTextBehindQuotes_ = hasTextBehindQuotes_ || isClosed_;
-      }
-    }
-    return std::string_view::npos;
-  }
-  bool isInQuotes() const { return inQuotes_; }
-  /// A quoted text ends before the end of its field, so its quotes may not be meant as such.
-  bool hasTextBehindQuotes() const { return hasTextBehindQuotes_; }
-
- private:
-  char separator_;
-  bool inQuotes_ = false, atFieldStart_ = true, isClosed_ = false, hasTextBehindQuotes_ = false;
-};
 
 /// The names of the first columns, for a message.
 std::string columnNames(std::span<const std::string_view> fields) {
@@ -118,9 +63,12 @@ std::string columnNames(std::span<const std::string_view> fields) {
   return names;
 }
 
-/// The fields of a record that are x, y, z.
+constexpr std::size_t kNoColumn = std::numeric_limits<std::size_t>::max();
+
+/// The fields of a record that are x, y, z; or the one that is a point as text, and perhaps z.
 struct Columns {
   std::array<std::size_t, 3> at = {0, 1, 2};
+  std::size_t wkt = kNoColumn;
 };
 
 std::optional<std::size_t> findField(std::span<const std::string_view> fields,
@@ -131,8 +79,11 @@ std::optional<std::size_t> findField(std::span<const std::string_view> fields,
 
 Result<Columns> columnsByName(std::span<const std::string_view> fields, const std::string& zColumn,
                               PointTextColumns kind, std::vector<std::string>& warnings) {
-  const auto x = findField(fields, ColumnNames::x()), y = findField(fields, ColumnNames::y());
-  if (kind == PointTextColumns::plan && x && y) return Columns{{*x, *y, *y}};
+  const auto x = findField(fields, ColumnNames::x()), y = findField(fields, ColumnNames::y()),
+             wkt = findField(fields, ColumnNames::wkt());
+  const bool isPlan = kind != PointTextColumns::spatial;
+  if (isPlan && x && y) return Columns{{*x, *y, *y}};
+  if (isPlan && wkt) return Columns{{kNoColumn, kNoColumn, kNoColumn}, *wkt};
   auto z = findField(fields, ColumnNames::z());
   if (!zColumn.empty()) {
     const auto named = std::find(fields.begin(), fields.end(), std::string_view(zColumn));
@@ -144,6 +95,7 @@ Result<Columns> columnsByName(std::span<const std::string_view> fields, const st
                      fmt::format("has no column '{}'; its columns: {}", zColumn, columnNames(fields)));
   }
   if (x && y && z) return Columns{{*x, *y, *z}};
+  if (wkt && !(x && y)) return Columns{{kNoColumn, kNoColumn, z.value_or(kNoColumn)}, *wkt};
   if (!x && !y && (!z || zColumn.empty()) && !z && fields.size() >= 3) {
     warnings.push_back(fmt::format("no column is named x, y or z; the first three are taken: {}",
                                    columnNames(fields.first(3))));
@@ -162,7 +114,7 @@ class TextParser {
   TextParser(const std::string& path, const std::string& zColumn, PointTextColumns kind,
              std::vector<std::string>& warnings, PointAttributes* attributes)
       : path_(path), zColumn_(zColumn), kind_(kind), warnings_(warnings), attributes_(attributes) {
-    if (kind == PointTextColumns::plan) columns_.at = {0, 1, 1};
+    if (isPlan()) columns_.at = {0, 1, 1};
   }
 
   /// The end of the record at the start of `text`: the '\n' behind it, or npos.
@@ -197,7 +149,14 @@ class TextParser {
     if (isGap(line)) return {};
     started_ = true;
     separator_ = statedSeparator_.value_or(separatorOf(line));
+    // A header of one name of text has no separator, and its texts have blanks.
+    if (separator_ == kSpaces && isPointText(trimmed(line))) separator_ = ',';
     const std::vector<std::string_view> fields = fieldsOf(line, separator_);
+    if (const auto point = std::ranges::find_if(fields, isWktPoint); point != fields.end()) {
+      columns_ = {{kNoColumn, kNoColumn, kNoColumn}, std::size_t(point - fields.begin())};
+      nameAttributes(fields, false);
+      return addPoint(line);
+    }
     if (std::ranges::none_of(fields, isNumber)) {
       auto columns = columnsByName(fields, zColumn_, kind_, warnings_);
       if (!columns) return failure(columns.error().code, columns.error().message, path_);
@@ -206,7 +165,7 @@ class TextParser {
       nameAttributes(fields, true);
       return {};
     }
-    const std::size_t needed = kind_ == PointTextColumns::plan ? 2 : 3;
+    const std::size_t needed = isPlan() ? 2 : 3;
     if (startsWithLabel(fields, needed)) {
       for (std::size_t& column : columns_.at) ++column;
       warnings_.push_back(
@@ -253,22 +212,30 @@ class TextParser {
     return {};
   }
 
+  bool isPlan() const { return kind_ != PointTextColumns::spatial; }
+
   Status addPoint(std::string_view line) {
     if (namedColumns_ > 0)
       if (Status ok = checkCommas(line); !ok) return ok;
-    const std::size_t last = *std::max_element(columns_.at.begin(), columns_.at.end());
     std::array<double, 3> values{};
     std::array<bool, 3> isMissing{};
+    const bool hasWkt = columns_.wkt != kNoColumn;
+    std::size_t last = hasWkt ? columns_.wkt : 0;
+    if (hasWkt) isMissing = {true, true, columns_.at[2] == kNoColumn};
+    for (const std::size_t column : columns_.at)
+      if (column != kNoColumn) last = std::max(last, column);
     std::string_view rest = line, field;
     for (std::size_t i = 0; i <= last; ++i) {
       if (!nextField(rest, separator_, field))
         return failure(ErrorCode::invalidData,
                        fmt::format("{} holds {} of the {} fields needed", quoted(trimmed(line)), i, last + 1),
                        where());
+      if (i == columns_.wkt)
+        if (Status ok = takeWkt(field, values, isMissing); !ok) return ok;
       for (std::size_t k = 0; k < 3; ++k) {
         if (columns_.at[k] != i) continue;
         const CellNumber number = readCell(field);
-        if (number.kind == CellNumber::Kind::missing && kind_ == PointTextColumns::spatial) {
+        if (number.kind == CellNumber::Kind::missing && kind_ != PointTextColumns::plan) {
           isMissing[k] = true;
           continue;
         }
@@ -282,22 +249,66 @@ class TextParser {
         values[k] = number.value;
       }
     }
+    return addValues(line, values, isMissing);
+  }
+
+  /// A point as text gives all three that it has; a column of heights comes before its own.
+  Status takeWkt(std::string_view field, std::array<double, 3>& values, std::array<bool, 3>& isMissing) {
+    if (readCell(field).kind == CellNumber::Kind::missing) return {};
+    const std::optional<WktPoint> point = readWktPoint(field);
+    if (!point)
+      return failure(ErrorCode::invalidData, fmt::format("{} is not a point in WKT", quoted(field)), where());
+    if (!point->place) return {};
+    if (hasSrid_ && point->srid != rows_.srid)
+      return failure(ErrorCode::invalidData,
+                     fmt::format("{} is in EPSG:{}, and points before it in EPSG:{}", quoted(field),
+                                 point->srid, rows_.srid),
+                     where());
+    hasSrid_ = true;
+    rows_.srid = point->srid;
+    isMissing[0] = isMissing[1] = false;
+    values[0] = point->place->x;
+    values[1] = point->place->y;
+    if (!point->z || columns_.at[2] != kNoColumn) return {};
+    isMissing[2] = false;
+    values[2] = *point->z;
+    return {};
+  }
+
+  Status addValues(std::string_view line, const std::array<double, 3>& values,
+                   const std::array<bool, 3>& isMissing) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    const bool hasNoPlace = isMissing[0] || isMissing[1];
+    if (hasNoPlace && kind_ == PointTextColumns::planRows) {
+      ++rows_.withoutPlace;
+      rows_.add(kNone, kNone, kNone, lineNumber_);
+      if (attributes_) addAttributes(line);
+      return {};
+    }
     // A line without any of the three is a gap between the parts of a file.
-    if (isMissing[0] && isMissing[1] && isMissing[2]) return {};
-    if (isMissing[0] || isMissing[1])
+    if (isMissing[0] && isMissing[1] && isMissing[2] && !isPlan()) return {};
+    if (hasNoPlace)
       return failure(ErrorCode::invalidData,
                      fmt::format("{} has no {} that is a finite number", quoted(trimmed(line)),
                                  isMissing[0] ? "x" : "y"),
                      where());
     mayCountLines_ = mayCountLines_ && (rows_.positions.empty() ? values[0] == 0 || values[0] == 1
                                                                 : values[0] == rows_.positions.back().x + 1);
-    if (isMissing[2]) {
+    if (isMissing[2] && !isPlan()) {
       if (withoutHeight_++ == 0) lineWithoutHeight_ = lineNumber_;
       return {};
     }
-    rows_.add(values[0], values[1], values[2], lineNumber_);
+    const bool hasZ = columns_.wkt != kNoColumn && !isMissing[2];
+    rows_.add(values[0], values[1], isPlan() && !hasZ ? kNone : values[2], lineNumber_);
     if (attributes_) addAttributes(line);
     return {};
+  }
+
+  static bool isWktPoint(std::string_view field) { return readWktPoint(field).has_value(); }
+
+  /// A name of a column of points as text, or such a point.
+  static bool isPointText(std::string_view text) {
+    return findField(std::array{text}, ColumnNames::wkt()).has_value() || isWktPoint(text);
   }
 
   /// Words for missing values and nothing else.
@@ -390,6 +401,7 @@ class TextParser {
   std::size_t namedColumns_ = 0;  // until the first point
   std::optional<char> statedSeparator_;
   std::uint64_t withoutHeight_ = 0, lineWithoutHeight_ = 0, lineWithPoint_ = 0, lineWithComma_ = 0;
+  bool hasSrid_ = false;        // a point as text came before
   bool mayCountLines_ = false;  // x is 1, 2, 3, ... and three more numbers follow
   char separator_ = kSpaces;
   bool started_ = false;

@@ -25,6 +25,7 @@
 #include "io/crs/transform.h"
 #include "io/file/number_text.h"
 #include "io/gdal/support.h"
+#include "io/gdal/vector_file.h"
 #include "io/gdal/vector_layer.h"
 #include "io/table/column_rules.h"
 #include "io/table/feature_rows.h"
@@ -96,7 +97,7 @@ class PairReader {
     for (int i = 0; i < fields_; ++i)
       if (!isPosition(i))
         pairs.attributes.columns.push_back(
-            {std::string(nameOf(std::size_t(i))), kindOf(definition.GetFieldDefn(i)->GetType())});
+            {std::string(nameOf(std::size_t(i))), kindOf(*definition.GetFieldDefn(i))});
   }
 
   Status check() const {
@@ -233,15 +234,17 @@ Result<SightPairs> readFrom(const std::string& path, const Georeference& dem,
   SightPairs pairs;
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
   // A table from stdin has no name by which GDAL knows it.
-  const GdalDatasetPtr dataset =
-      openGdal(path.starts_with(kStandardInput) ? fmt::format("CSV:{}", path) : path, GDAL_OF_VECTOR);
-  if (!dataset) return tl::unexpected(explainOpenFailure(path, "set of lines", errors));
+  auto opened = openVectors(path.starts_with(kStandardInput) ? fmt::format("CSV:{}", path) : path, "set of lines",
+                            errors, pairs.warnings);
+  if (!opened && opened.error().culprit.starts_with("CSV:")) opened.error().culprit = path;
+  if (!opened) return tl::unexpected(opened.error());
+  const GdalDatasetPtr dataset = std::move(*opened);
   const auto layer = chooseLayer(*dataset, options.layer, LayerKind::linesOrTable);
   if (!layer) return tl::unexpected(layer.error());
   const bool isTable = (*layer)->GetGeomType() == wkbNone;
   PairReader reader(**layer, pairs);
   if (Status checked = reader.check(); !checked) return tl::unexpected(checked.error());
-  const Status read = forFeatures(**layer, errors, context, [&](OGRFeature& feature) -> Status {
+  const Status read = forFeatures(*dataset, **layer, errors, context, [&](OGRFeature& feature) -> Status {
     if (Status added = reader.add(feature); !added)
       return failure(
           added.error().code, added.error().message,

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-from typing import Any, Callable, Dict, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 Progress = Optional[Callable[[str, float], object]]
+
+AskedRegion = Union[Tuple[float, float, float, float], Sequence[Sequence[Sequence[Sequence[float]]]]]
 
 class Tin:
     def __init__(self, vertices: NDArray[np.float64], triangles: NDArray[np.uint32], errors: NDArray[np.float32], error: float,
@@ -29,8 +31,7 @@ class CameraNumbers:
                  viewport: Sequence[float]) -> None: ...
 
 class Terrain:
-    def cut(self, max_error: Optional[float], max_triangles: Optional[int],
-            rings: Sequence[Sequence[Sequence[float]]], outside_error: float, camera: Optional[CameraNumbers],
+    def cut(self, max_error: Optional[float], max_triangles: Optional[int], region: Optional[AskedRegion], outside_error: float, camera: Optional[CameraNumbers],
             pixel_error: Optional[float], fit: str, progress: Progress) -> Tin: ...
     def heights(self, x: NDArray[np.float64], y: NDArray[np.float64], max_error: float,
                 progress: Progress) -> NDArray[np.float64]: ...

@@ -6,7 +6,7 @@ A form that is not understood is refused. Nothing is rounded: a number that floa
 
 import math
 import numbers
-from typing import Any, Optional, Tuple
+from typing import Any, Iterator, List, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -163,26 +163,42 @@ def _parts_of(mesh: Any) -> Tuple[Any, Any]:
     raise TypeError("a mesh is vertices with triangles, or an object of meshio or trimesh")
 
 
-def rings_of(region: Any) -> Tuple[Tuple[Tuple[float, float], ...], ...]:
-    """The rings of a box (xmin, ymin, xmax, ymax) or of a polygon with __geo_interface__ (shapely, geopandas)."""
+Rings = Tuple[Tuple[Tuple[float, float], ...], ...]
+Box = Tuple[float, float, float, float]
+
+
+def region_of(region: Any) -> Union[None, Box, List[Rings]]:
+    """A box (xmin, ymin, xmax, ymax), or the polygons of an object with __geo_interface__ (shapely, geopandas): each its
+    outer ring and its holes. None for None."""
     if region is None:
-        return ()
+        return None
     geometry = getattr(region, "__geo_interface__", region if isinstance(region, dict) else None)
     if geometry is not None:
-        if geometry.get("type") == "Polygon":
-            polygons = [geometry["coordinates"]]
-        elif geometry.get("type") == "MultiPolygon":
-            polygons = geometry["coordinates"]
-        else:
-            raise ValueError(f"a region is a Polygon or a MultiPolygon, not a {geometry.get('type')}")
-        return tuple(tuple((float(p[0]), float(p[1])) for p in ring) for polygon in polygons for ring in polygon)
+        return list(_polygons_of(geometry))
     try:
         left, bottom, right, top = (float(number) for number in region)
     except (TypeError, ValueError):
         raise TypeError("a region is a box (xmin, ymin, xmax, ymax) or a polygon of shapely") from None
-    if not (left <= right and bottom <= top):
-        raise ValueError(f"the box {region} is not xmin, ymin, xmax, ymax")
-    return (((left, bottom), (right, bottom), (right, top), (left, top)),)
+    return (left, bottom, right, top)
+
+
+def _polygons_of(geometry: Any) -> Iterator[Rings]:
+    kind = None if geometry is None else geometry.get("type")
+    if kind == "Polygon":
+        yield tuple(tuple((float(p[0]), float(p[1])) for p in ring) for ring in geometry["coordinates"])
+    elif kind == "MultiPolygon":
+        for polygon in geometry["coordinates"]:
+            yield from _polygons_of({"type": "Polygon", "coordinates": polygon})
+    elif kind == "GeometryCollection":
+        for part in geometry["geometries"]:
+            yield from _polygons_of(part)
+    elif kind == "Feature" and geometry.get("geometry") is not None:
+        yield from _polygons_of(geometry["geometry"])
+    elif kind == "FeatureCollection":
+        for feature in geometry["features"]:
+            yield from _polygons_of(feature)
+    elif kind != "Feature":
+        raise ValueError(f"a region is a Polygon or a MultiPolygon, not a {kind}")
 
 
 def line_of(line: Any) -> NDArray[np.float64]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arete
-from ._arrays import crs_text, geotransform_of, heights_of, line_of, mesh_of, rings_of
+from ._arrays import crs_text, geotransform_of, heights_of, line_of, mesh_of, region_of
 from ._arrays import places_of, some_mesh_of, unmasked_places
 from ._cuts import Asked, Camera, PathLike, Progress, Stored, Tin
 from ._sizes import Size, count_of, size_of
@@ -61,8 +61,9 @@ class Model(Stored):
             fit: Optional[str] = None, progress: Progress = None) -> Tin:
         """The fewest triangles within `max_error`, or the best of at most `max_triangles`; both: whichever ends first.
 
-        region: a box (xmin, ymin, xmax, ymax) or a polygon in the CRS of the source, in which max_error holds;
-            elsewhere outside_error does.
+        region: a box (xmin, ymin, xmax, ymax) or polygons (shapely, geopandas) in the CRS of the source, in which
+            max_error holds; elsewhere outside_error does. Polygons that overlap are united, as `arete extract --region`
+            does it.
         camera: the error is at most pixel_error (1 by default) in its picture, and outside_error out of sight.
         fit: moves the heights of the vertices: "triangles" for fewer triangles within max_error, "error" for a smaller
             error of as many. What that comes to is certain once measure() has found it.
@@ -83,7 +84,7 @@ class Model(Stored):
         if fit == "error" and region is not None:
             raise ValueError("fit=\"error\" is not for a region")
         numbers = None if camera is None else camera.numbers()
-        return Tin(self._terrain.cut(asked.error, max_triangles, rings_of(region), float(outside_error), numbers, asked.pixels,
+        return Tin(self._terrain.cut(asked.error, max_triangles, region_of(region), float(outside_error), numbers, asked.pixels,
                                      fit or "", progress))
 
     def _error(self, name: str, value: Any) -> Any:

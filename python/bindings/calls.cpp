@@ -12,13 +12,14 @@
 #include <thread>
 
 #include "engine/parallel/guest_work.h"
+#include "io/file/address_text.h"
 
 namespace arete::python {
 
 namespace py = pybind11;
 
 void raise(const Error& error) {
-  const std::string text = error.describe();
+  const std::string text = withoutQueries(error.describe());
   switch (error.code) {
     case ErrorCode::usage:
       PyErr_SetString(PyExc_ValueError, text.c_str());
@@ -43,7 +44,7 @@ void raise(const Error& error) {
 
 void warn(std::span<const std::string> warnings) {
   for (const std::string& warning : warnings)
-    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 2) != 0) throw py::error_already_set();
+    if (PyErr_WarnEx(PyExc_UserWarning, withoutQueries(warning).c_str(), 2) != 0) throw py::error_already_set();
 }
 
 Error inPython(Error error) {

@@ -34,7 +34,10 @@ namespace arete::python {
 namespace {
 
 namespace py = pybind11;
-using Rings = std::vector<std::vector<std::array<double, 2>>>;
+using Box = std::array<double, 4>;
+using Polygons = std::vector<std::vector<std::vector<std::array<double, 2>>>>;
+/// A box, or polygons of an outer ring and holes.
+using AskedRegion = std::variant<Box, Polygons>;
 
 using TerrainPtr = std::shared_ptr<Terrain>;
 
@@ -139,14 +142,24 @@ Result<Camera> cameraOf(const CameraNumbers& n, const Terrain& terrain) {
                 .heightPixels = n.heightOfPicture};
 }
 
-Result<Region> regionOf(const Rings& rings, const TerrainModel& model) {
-  RegionArgument stated;
-  for (const auto& ring : rings) {
-    auto& points = stated.shape.rings.emplace_back();
-    for (const auto& [x, y] : ring) points.push_back({x, y});
+Result<Region> planRegionOf(const AskedRegion& asked, const TerrainModel& model,
+                            std::vector<std::string>& warnings) {
+  StatedRegion stated;
+  if (const Box* box = std::get_if<Box>(&asked)) {
+    stated.box = *box;
+  } else {
+    for (const auto& polygon : std::get<Polygons>(asked)) {
+      auto& rings = stated.polygons.emplace_back();
+      for (const auto& ring : polygon) {
+        auto& points = rings.emplace_back();
+        for (const auto& [x, y] : ring) points.push_back({x, y});
+      }
+    }
   }
-  turnOnto(LongitudeTurns(model), stated);
-  Region region = planRegion(std::move(stated.shape), model);
+  auto argument = regionArgumentOf(stated, model.georeference, LongitudeTurns(model));
+  if (!argument) return tl::unexpected(argument.error());
+  warnings = std::move(argument->warnings);
+  Region region = planRegion(std::move(argument->shape), model);
   if (region.isEmpty() || !meetsDomain(region, model.mt))
     return failure(ErrorCode::usage, "does not meet the terrain", "region");
   return region;
@@ -156,7 +169,7 @@ Result<Region> regionOf(const Rings& rings, const TerrainModel& model) {
 struct CutRequest {
   std::optional<double> maxError;
   std::optional<std::uint32_t> maxTriangles;
-  Rings rings;  ///< of a region; empty: everywhere
+  std::optional<AskedRegion> region;  ///< nothing: everywhere
   double outsideError = 0;
   std::optional<CameraNumbers> camera;
   std::optional<double> pixelError;
@@ -164,15 +177,16 @@ struct CutRequest {
 };
 
 Tin takeTinOf(const Terrain& terrain, const CutRequest& request, const py::object& progress) {
-  return call(progress, [&](const RunContext& context) -> Result<Tin> {
+  std::vector<std::string> warnings;
+  Tin taken = call(progress, [&](const RunContext& context) -> Result<Tin> {
     const TerrainModel& model = terrain.model();
     ExtractCriterion criterion;
     criterion.maxError = request.maxError;
     criterion.maxTriangles = request.maxTriangles;
     criterion.outsideError = request.outsideError;
     std::optional<Region> region;
-    if (!request.rings.empty()) {
-      auto inPlan = regionOf(request.rings, model);
+    if (request.region) {
+      auto inPlan = planRegionOf(*request.region, model, warnings);
       if (!inPlan) return tl::unexpected(inPlan.error());
       region = std::move(*inPlan);
     }
@@ -196,6 +210,9 @@ Tin takeTinOf(const Terrain& terrain, const CutRequest& request, const py::objec
                said.pixels,
                model.georeference.crsWkt};
   });
+  for (std::string& warning : warnings) warning.insert(0, "region: ");
+  warn(warnings);
+  return taken;
 }
 
 /// NaN where there is no terrain.
@@ -213,7 +230,7 @@ py::array_t<double> heightsAt(const Terrain& terrain, const Doubles& x, const Do
 }
 
 std::array<double, 4> boundsOf(const TerrainModel& model) {
-  const Box2 plan = planBox(model);
+  const Box2 plan = sourcePlanBox(model);
   std::vector<Vec2> corners;
   for (const double x : {plan.xMin, plan.xMax})
     for (const double y : {plan.yMin, plan.yMax}) corners.push_back(model.toSource({x, y}));
@@ -269,9 +286,9 @@ void defineTerrain(py::module_& module) {
   its.def(
          "cut",
          [](const Terrain& terrain, std::optional<double> maxError, std::optional<std::uint32_t> maxTriangles,
-            const Rings& rings, double outsideError, const std::optional<CameraNumbers>& camera,
+            const std::optional<AskedRegion>& region, double outsideError, const std::optional<CameraNumbers>& camera,
             std::optional<double> pixelError, const std::string& fit, const py::object& progress) {
-           return takeTinOf(terrain, {maxError, maxTriangles, rings, outsideError, camera, pixelError, fit},
+           return takeTinOf(terrain, {maxError, maxTriangles, region, outsideError, camera, pixelError, fit},
                             progress);
          })
       .def("heights", &heightsAt)
@@ -297,7 +314,7 @@ void defineTerrain(py::module_& module) {
       .def_property_readonly("shape",
                              [](const Terrain& t) -> std::optional<std::array<std::uint32_t, 2>> {
                                if (!t.model().isRaster) return std::nullopt;
-                               return std::array{t.model().rows, t.model().columns};
+                               return std::array{t.model().rows, sourceColumns(t.model())};
                              })
       .def_property_readonly("bounds", [](const Terrain& t) { return boundsOf(t.model()); })
       .def_property_readonly("source", [](const Terrain& t) { return t.model().source; })

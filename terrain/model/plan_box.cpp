@@ -19,6 +19,16 @@ Box2 planBox(const TerrainModel& model) {
   return box;
 }
 
+std::uint32_t sourceColumns(const TerrainModel& model) {
+  return model.columns - (model.georeference.repeatsFirstColumn && model.columns > 1 ? 1 : 0);
+}
+
+Box2 sourcePlanBox(const TerrainModel& model) {
+  Box2 box = planBox(model);
+  if (model.isRaster) box.xMax = sourceColumns(model) - 1.0;
+  return box;
+}
+
 Box2 planBox(std::span<const Vec2> positions) {
   if (positions.empty()) return {0, 0, 0, 0};
   Box2 box{positions[0].x, positions[0].y, positions[0].x, positions[0].y};

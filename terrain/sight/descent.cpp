@@ -166,9 +166,10 @@ class SightDescent final : public SightEngine {
       if (const auto z = heights_.at(heights_.model().toSource(end.plan)))
         judge.terrain(end.distance, z->height, end.distance, z->height);
     };
-    bool hasLast = false;
+    bool hasLast = false, isFirst = true;
     for (std::size_t i = 1; i < points.size() && !judge.isDone(); ++i) {
       const SightLeg leg(points[i - 1], points[i]);
+      if (leg.isJump()) continue;
       if (leg.dx == 0 && leg.dy == 0) {
         if (const auto z = heights_.at(heights_.model().toSource(points[i].plan))) {
           judge.terrain(leg.s, z->height, leg.distance(1), z->height);
@@ -176,11 +177,13 @@ class SightDescent final : public SightEngine {
           judge.gap(leg.s, leg.distance(1));
         }
         hasLast = true;
+        isFirst = false;
         continue;
       }
       Descent descent(locator, leg, judge, allowed, mayFill_);
       descent.findRoots();
-      if (i == 1 && !descent.hasFirst()) addEnd(points.front());
+      if (isFirst && !descent.hasFirst()) addEnd(points.front());
+      isFirst = false;
       visited += descent.run();
       hasLast = descent.hasLast();
     }

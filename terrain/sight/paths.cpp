@@ -104,7 +104,12 @@ Vec2 sightPlan(const TerrainModel& model, Vec2 xy) {
     const double middle = g.toSource((model.columns - 1) / 2.0, (model.rows - 1) / 2.0).x;
     if (std::abs(xy.x - middle) > turn / 2) xy.x += turn * std::round((middle - xy.x) / turn);
   }
-  const Vec2 plan = model.toPlan(xy);
+  Vec2 plan = model.toPlan(xy);
+  // Rounded steps may leave a sliver between the repeated column and a whole turn.
+  constexpr double kSliver = 0.1;
+  const double last = model.columns - 1.0;
+  if (model.isRaster && g.repeatsFirstColumn && plan.x > -kSliver && plan.x < last + kSliver)
+    plan.x = std::clamp(plan.x, 0.0, last);
   return model.isRaster ? sightEnd(model, plan, SurfaceHeights::margin(model)) : plan;
 }
 

@@ -28,6 +28,9 @@ struct SightLeg {
     putOnLine(y, dy);
   }
   double distance(double t) const { return s + t * ds; }
+  /// Whether it leads from one side of the plan to the other where the ground goes on, as at the seam of
+  /// longitudes: nothing lies below it.
+  bool isJump() const { return ds == 0 && (dx != 0 || dy != 0); }
 
  private:
   /// Puts a leg onto a lattice line if it is nowhere off it by more than rounding.
@@ -98,6 +101,7 @@ void forLegs(const SightGrid& grid, SightJudge& judge, const Inside& inside) {
   addEnd(points.front());
   for (std::size_t i = 1; i < points.size() && !judge.isDone(); ++i) {
     const SightLeg leg(points[i - 1], points[i]);
+    if (leg.isJump()) continue;
     const double plan = std::hypot(leg.dx, leg.dy);
     if (!(plan > 0)) {
       const double z = grid.at(points[i].plan);

@@ -45,12 +45,19 @@ bool isInField(const ViewshedField& field, double distance, double azimuthDegree
 
 Result<ViewshedExact::Answer> ViewshedExact::at(Vec2 plan, double ground) const {
   if (std::isnan(ground)) return Answer{};
+  // A cell that is surely out of range needs no track.
+  constexpr double kRounding = 1e-9;
+  if (std::isfinite(options_.field.greatestMetres))
+    if (const auto distance = earth_.distance(observer_.plan, plan);
+        distance && *distance * (1 - kRounding) > options_.field.greatestMetres)
+      return Answer{};
   Result<SightTrack> track = earth_.track(observer_.plan, plan);
   if (!track) {
-    // A cell that is known to be out of range needs no track.
     const auto distance = earth_.distance(observer_.plan, plan);
     if (distance && !isInRange(options_.field, *distance)) return Answer{};
-    return tl::unexpected(track.error());
+    if (track.error().code != ErrorCode::invalidData) return tl::unexpected(track.error());
+    ++withoutLine_;
+    return Answer{.cell = ViewshedCell::unknown};
   }
   const double distance = track->points.back().distance, target = ground + options_.targetHeight;
   if (const Status status = checkSightHeights(*track, observer_.height, target, unit_); !status)

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <atomic>
+#include <cstdint>
+
 #include "terrain/sight/engine.h"
 #include "terrain/viewshed/viewshed.h"
 
@@ -21,9 +24,12 @@ class ViewshedExact {
     ViewshedCell cell = ViewshedCell::outside;
     float value = std::numeric_limits<float>::quiet_NaN();
   };
+  /// A place to which the Earth has no line (over a pole, say) is unknown, and counted.
   /// @param ground the terrain's height there; NaN: the cell is outside.
-  /// @return Errors: those of the earth.
+  /// @return Errors: those of the earth but for such places.
   Result<Answer> at(Vec2 plan, double ground) const;
+  /// How many places had no line so far.
+  std::uint64_t withoutLine() const { return withoutLine_; }
 
  private:
   float value(const SightTrack& track, double ground) const;
@@ -33,6 +39,7 @@ class ViewshedExact {
   double unit_;
   const ViewshedObserver& observer_;
   const ViewshedOptions& options_;
+  mutable std::atomic<std::uint64_t> withoutLine_ = 0;
 };
 
 }  // namespace arete

@@ -92,6 +92,7 @@ Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainM
     its.field = sites[n].field;
     const auto one = maker.from(sites[n].observer, its, part);
     if (!one) return tl::unexpected(one.error());
+    all.withoutLine = std::max(all.withoutLine, one->withoutLine);
     const auto server = static_cast<std::uint16_t>(n + 1);
     withThreads(context, [&] {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size, kCellsPerTask), [&](const auto& range) {
@@ -101,9 +102,9 @@ Result<ViewshedOfMany> viewshedOfMany(const ViewshedMaker& maker, const TerrainM
           addTo(all.count[i], cell);
           if (!wantsServer || (isSure(cell) && cell != ViewshedCell::seen)) continue;
           const Vec2 place{double(i % all.columns), double(i / all.columns)};
-          const auto track = earth.track(sites[n].observer.plan, place);
-          if (!track) continue;
-          const auto distance = static_cast<float>(track->points.back().distance);
+          const auto along = earth.distance(sites[n].observer.plan, place);
+          if (!along) continue;
+          const auto distance = static_cast<float>(*along);
           if (isSure(cell)) {
             sees[i].add(server, distance);
           } else {

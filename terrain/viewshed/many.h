@@ -31,6 +31,7 @@ struct ViewshedOfMany {
   /// observer that is no farther is undecided or unknown, the mark of the nearest such. Empty if not
   /// requested.
   std::vector<std::uint16_t> server;
+  std::uint64_t withoutLine = 0;  ///< the most Viewshed::withoutLine of an observer
 };
 
 /// Computes the viewsheds of up to 65 000 observers one after the other, each on all threads, and combines

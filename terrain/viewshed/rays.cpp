@@ -46,7 +46,15 @@ Status viewshedRays(const ViewshedTask& task, const RunContext& context, Viewshe
   std::vector<std::uint64_t> counts(rows);
   Status status = forRows(rows, context, [&](std::uint32_t row) -> Status {
     const double* heights = task.grid.row(row);
+    // The last column of a raster that goes round the Earth is the first one again.
+    const bool isClosed = task.model.georeference.repeatsFirstColumn && columns > 1;
     for (std::uint32_t column = 0; column < columns; ++column) {
+      if (isClosed && column + 1 == columns) {
+        const std::size_t first = std::size_t{row} * columns, last = first + column;
+        result.cells[last] = result.cells[first];
+        if (!result.values.empty()) result.values[last] = result.values[first];
+        continue;
+      }
       const auto answer = task.exact.at({double(column), double(row)}, heights[column]);
       if (!answer) return tl::unexpected(answer.error());
       const std::size_t at = std::size_t{row} * columns + column;

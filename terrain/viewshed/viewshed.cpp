@@ -106,6 +106,7 @@ Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const Vie
   if (!engine) return tl::unexpected(engine.error());
   const bool hasTolerance = options.maxError > 0;
   const ViewshedObserver from{sightEnd(*model_, observer.plan), observer.height};
+  if (const auto own = earth_->track(from.plan, from.plan); !own) return tl::unexpected(own.error());
   const ViewshedExact exact(**engine, *earth_, model_->georeference.verticalUnitMetres, from, options);
   static const std::vector<float> kNothing;
   const ViewshedTask task{
@@ -144,6 +145,7 @@ Result<Viewshed> ViewshedMaker::from(const ViewshedObserver& observer, const Vie
   if (!status) return tl::unexpected(status.error());
   context.report("viewshed", 1);
   countCells(result);
+  result.withoutLine = exact.withoutLine();
   return result;
 } catch (...) {
   return caughtFailure();
@@ -157,6 +159,7 @@ Result<Viewshed> ViewshedMaker::of(std::span<const Vec2> places, const ViewshedO
   const auto engine = engineFor(options);
   if (!engine) return tl::unexpected(engine.error());
   const ViewshedObserver from{sightEnd(*model_, observer.plan), observer.height};
+  if (const auto own = earth_->track(from.plan, from.plan); !own) return tl::unexpected(own.error());
   const ViewshedExact exact(**engine, *earth_, model_->georeference.verticalUnitMetres, from, options);
   std::vector<Vec2> targets(places.begin(), places.end());
   for (Vec2& place : targets) place = sightEnd(*model_, place);
@@ -172,6 +175,7 @@ Result<Viewshed> ViewshedMaker::of(std::span<const Vec2> places, const ViewshedO
   context.report("viewshed", 1);
   countCells(result);
   result.rays = places.size() - result.outside;
+  result.withoutLine = exact.withoutLine();
   return result;
 } catch (...) {
   return caughtFailure();

@@ -83,6 +83,8 @@ struct Viewshed {
   std::uint64_t seen = 0, hidden = 0, unknown = 0, undecided = 0, outside = 0;
   ViewshedMethod method = ViewshedMethod::rays;  ///< the method used
   std::uint64_t rays = 0;                        ///< number of cells that an engine answered
+  /// Cells to which the Earth has no line, as over a pole; they are unknown.
+  std::uint64_t withoutLine = 0;
 };
 
 /// Computes viewsheds. By either method, each cell is the answer of a SightEngine for the line from the
@@ -101,7 +103,7 @@ class ViewshedMaker {
   /// lattice line counts as on it. The sweep takes O(samples) for usual terrain and O(samples * side) at
   /// worst; rays take O(samples) answers of an engine. Memory: the result, and O(side) per thread.
   /// @return Errors: usage: options out of range (the culprit is the field); unsupported: the sweep cannot do
-  ///     it; interrupted; those of the earth.
+  ///     it; interrupted; those of the earth at the observer. A sample that it has no line to is unknown.
   Result<Viewshed> from(const ViewshedObserver& observer, const ViewshedOptions& options = {},
                         const RunContext& context = {}) const;
 

@@ -10,9 +10,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 
-#include "io/dem/declared_length.h"
 #include "io/dem/raster_reader.h"
+#include "io/gdal/file_length.h"
 #include "io/gdal/support.h"
 #include "io/io_fixture.h"
 
@@ -170,6 +171,77 @@ TEST(CutFiles, OfRawLayoutsGiveTheBytesWantedAndThere) {
     ASSERT_FALSE(path.empty()) << layout.driver;
     EXPECT_GE(cutEverywhere(path, own, true), 9) << layout.driver;
   }
+}
+
+/// What is read of the file, or nothing if it is refused.
+std::optional<RasterRead> readOf(const std::string& path) {
+  auto read = readRaster(path, firstBand());
+  if (!read) return std::nullopt;
+  return std::move(*read);
+}
+
+TEST(CutFiles, WithoutTheirLastBytesLoseNeitherHeightsNorTheirPlaceWithoutAWord) {
+  registerGdal();
+  TemporaryFolder folder;
+  struct Layout {
+    const char* driver;
+    std::vector<const char*> options;
+    GDALDataType type;
+  };
+  int number = 0, refused = 0;
+  for (const Layout& layout :
+       {Layout{"HFA", {}, GDT_Float32}, Layout{"HFA", {"COMPRESSED=YES"}, GDT_Int16},
+        Layout{"HFA", {"BLOCKSIZE=32"}, GDT_Float64}, Layout{"HFA", {"USE_SPILL=YES"}, GDT_Float32},
+        Layout{"HFA", {"USE_SPILL=YES"}, GDT_Byte}, Layout{"ILWIS", {}, GDT_Float32}, Layout{"ILWIS", {}, GDT_Int16},
+        Layout{"GTiff", {}, GDT_Float32}, Layout{"GTiff", {"COMPRESS=DEFLATE"}, GDT_Float32}, Layout{"COG", {}, GDT_Int16},
+        Layout{"NITF", {}, GDT_Float32}, Layout{"AAIGrid", {}, GDT_Float32}, Layout{"GSBG", {}, GDT_Float32},
+        Layout{"RST", {}, GDT_Float32}, Layout{"SAGA", {}, GDT_Float32}, Layout{"BT", {}, GDT_Float32},
+        Layout{"GPKG", {}, GDT_Byte}, Layout{"PCRaster", {}, GDT_Float32}, Layout{"netCDF", {"FORMAT=NC4"}, GDT_Float32},
+        Layout{"CALS", {}, GDT_Byte}, Layout{"JPEG", {}, GDT_Byte}}) {
+    CPLStringList options;
+    for (const char* option : layout.options) options.AddString(option);
+    const fs::path own = folder.file(std::to_string(number++));
+    GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(layout.driver);
+    if (!driver) continue;
+    const std::string path = copyIn(*driver, *inMemory(layout.type, kSide, kSide, true), own, options);
+    if (path.empty()) continue;
+    const auto whole = readOf(path);
+    ASSERT_TRUE(whole) << layout.driver;
+    const fs::path largest = largestIn(own);
+    const std::string bytes = contentOf(largest);
+    for (const double part : {0.91, 0.95, 0.96, 0.97, 0.98, 0.99, 0.995, 0.999}) {
+      const auto left = std::size_t(double(bytes.size()) * part);
+      write(largest, std::string_view(bytes).substr(0, left));
+      const auto cut = readRaster(path, firstBand());
+      if (!cut) {
+        ++refused;
+        EXPECT_FALSE(contains(cut.error().describe(), "0x")) << cut.error().describe();
+        continue;
+      }
+      const RasterHeightfield &a = whole->heightfield, &b = cut->heightfield;
+      EXPECT_EQ(a.sourceChecksum, b.sourceChecksum) << layout.driver << " cut to " << part;
+      const bool isSame = a.georeference.geoTransform == b.georeference.geoTransform &&
+                          a.georeference.crsWkt == b.georeference.crsWkt;
+      EXPECT_TRUE(isSame || !cut->warnings.empty()) << layout.driver << " cut to " << part;
+    }
+    write(largest, bytes);
+  }
+  EXPECT_GE(refused, 120);
+}
+
+TEST(CutFiles, OfAnHfaAreNamedAsDamaged) {
+  registerGdal();
+  TemporaryFolder folder;
+  const std::string path = copyIn(*GetGDALDriverManager()->GetDriverByName("HFA"),
+                                  *inMemory(GDT_Float32, kSide, kSide, true), folder.file("hfa"), {});
+  ASSERT_FALSE(path.empty());
+  const std::string bytes = contentOf(path);
+  write(path, std::string_view(bytes).substr(0, bytes.size() * 97 / 100));
+  const auto cut = readRaster(path);
+  ASSERT_FALSE(cut);
+  EXPECT_EQ(cut.error().code, ErrorCode::corrupt);
+  EXPECT_EQ(cut.error().culprit, path);
+  EXPECT_TRUE(contains(cut.error().message, "cut short")) << cut.error().describe();
 }
 
 TEST(CutFiles, InTilesThatAreCountedInAdvanceAreWarnedOf) {

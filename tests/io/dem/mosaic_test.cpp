@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <random>
 
 #include "io/dem/dem_files.h"
@@ -271,6 +272,80 @@ TEST(Mosaic, IsWhatAFolderAPatternOrSeveralNamesStandFor) {
   EXPECT_EQ(readDem(a, reading).error().code, ErrorCode::notFound);
   reading.otherFiles = {folder.file("tiles/README.txt")};
   EXPECT_FALSE(readDem(a, reading));
+}
+
+/// Tiles of one raster, of which some are empty and fit none.
+TEST(Mosaic, LeavesEmptyTilesOutThatDoNotFit) {
+  const TemporaryFolder folder;
+  std::mt19937 random(8);
+  Whole whole = randomWhole(random, 24, 12);
+  whole.transform = {500000, 30, 0, 4000000, 0, -30};
+  struct Oddity {
+    const char* what;
+    std::function<void(RasterSpec&)> make;
+  };
+  const std::vector<Oddity> oddities = {
+      {"no CRS", [](RasterSpec& s) { s.crs = ""; }},
+      {"another CRS", [](RasterSpec& s) { s.crs = "EPSG:4326"; }},
+      {"another step", [](RasterSpec& s) { (*s.geoTransform)[1] *= 2; }},
+      {"a shift", [](RasterSpec& s) { (*s.geoTransform)[0] += (*s.geoTransform)[1] / 3; }},
+      {"no position", [](RasterSpec& s) { s.geoTransform.reset(); }},
+      {"far away", [](RasterSpec& s) { (*s.geoTransform)[0] += 1e13 * (*s.geoTransform)[1]; }},
+      {"feet", [](RasterSpec& s) {
+         const auto before = s.adjust;
+         s.adjust = [before](GDALDataset& d) {
+           before(d);
+           d.GetRasterBand(1)->SetUnitType("ft");
+         };
+       }},
+  };
+  const auto tile = [&](const std::string& name, const Box& box, bool isEmpty, const Oddity* oddity) {
+    RasterSpec spec = whole.cut(box);
+    if (isEmpty) spec.values.assign(spec.values.size(), kNodata);
+    if (oddity) oddity->make(spec);
+    return writeRaster(folder.file(name), spec);
+  };
+  const std::string a = tile("a.tif", {0, 0, 12, 12}, false, nullptr), b = tile("b.tif", {12, 0, 12, 12}, false, nullptr);
+  const auto expected = readRasters({a, b});
+  ASSERT_TRUE(expected) << expected.error().describe();
+  for (const Oddity& oddity : oddities) {
+    const std::string empty = tile("empty.tif", {24, 0, 5, 4}, true, &oddity),
+                      full = tile("full.tif", {0, 0, 5, 4}, false, &oddity);
+    for (const std::vector<std::string>& files :
+         {std::vector{a, b, empty}, {empty, a, b}, {a, empty, b}, {empty, empty, a, empty, b}}) {
+      const auto read = readRasters(files);
+      ASSERT_TRUE(read) << oddity.what << ": " << read.error().describe();
+      EXPECT_EQ(read->heightfield.sourceChecksum, expected->heightfield.sourceChecksum) << oddity.what;
+      EXPECT_EQ(read->heightfield.georeference.geoTransform, expected->heightfield.georeference.geoTransform);
+      EXPECT_TRUE(contains(joined(read->warnings), "empty.tif: has no valid sample")) << joined(read->warnings);
+    }
+    const auto one = readRasters({empty, a}), alone = readRaster(a);
+    ASSERT_TRUE(one && alone) << oddity.what;
+    EXPECT_EQ(one->heightfield.sourceChecksum, alone->heightfield.sourceChecksum) << oddity.what;
+    for (const std::vector<std::string>& files : {std::vector{a, full}, {full, a}, {empty, full, a}})
+      EXPECT_FALSE(readRasters(files)) << oddity.what;
+  }
+}
+
+TEST(Mosaic, SaysHowATileGetsACrs) {
+  const TemporaryFolder folder;
+  std::mt19937 random(9);
+  Whole whole = randomWhole(random, 24, 12);
+  whole.transform = {500000, 30, 0, 4000000, 0, -30};
+  const std::string with = writeRaster(folder.file("with.tif"), whole.cut({0, 0, 12, 12}));
+  RasterSpec spec = whole.cut({12, 0, 12, 12});
+  spec.crs = "";
+  const std::string without = writeRaster(folder.file("without.tif"), spec);
+  for (const std::vector<std::string>& files : {std::vector{with, without}, {without, with}}) {
+    const auto read = readRasters(files);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().culprit, without);
+    EXPECT_TRUE(contains(read.error().message, "gdal_edit.py -a_srs")) << read.error().message;
+    EXPECT_FALSE(contains(read.error().message, "gdalwarp")) << "there is nothing to transform from";
+    RasterReadOptions options;
+    options.crs = "EPSG:32611";
+    EXPECT_TRUE(readRasters(files, options));
+  }
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "io/dem/declared_length.h"
+#include "io/gdal/file_length.h"
 
 namespace arete {
 namespace {
