@@ -292,9 +292,10 @@ Status answer(const Question& q, Session& session) {
   if (!made) return tl::unexpected(made.error());
   json["withoutLine"] = made->withoutLine;
   if (made->withoutLine > 0)
-    session.warn(fmt::format("{} samples are unknown: the shortest way to them passes a pole or a seam of the CRS, "
-                             "and is no line on the map",
-                             grouped(made->withoutLine)));
+    session.warn(
+        fmt::format("{} samples are unknown: the shortest way to them passes a pole or a seam of the CRS, "
+                    "and is no line on the map",
+                    grouped(made->withoutLine)));
   Picture& picture = made->picture;
   picture.options.description = descriptionOf(a.mode);
   grid->georeference.verticalUnit = picture.isHeight ? q.model.georeference.verticalUnit : "";

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -149,10 +150,11 @@ class EllipsoidEarth final : public SightEarth {
     return ends;
   }
 
-  /// A pole has any longitude: an end there takes that of the other one, from which the geodesic comes along a
-  /// meridian.
+  /// A pole has any longitude: an end there takes that of the other one, from which the geodesic comes along
+  /// a meridian.
   void meetAtPole(const Vec2 (&stated)[2], Vec2& from, Vec2& to) const {
-    const double pole = std::numbers::pi / 2 / model_.georeference.angularUnitRadians, rounding = 1e-12 * pole;
+    const double pole = std::numbers::pi / 2 / model_.georeference.angularUnitRadians,
+                 rounding = 1e-12 * pole;
     if (!lonLat_.isPlain()) return;
     if (std::abs(std::abs(stated[1].y) - pole) <= rounding)
       to = model_.toPlan({stated[0].x, stated[1].y});
@@ -185,11 +187,12 @@ class EllipsoidEarth final : public SightEarth {
     for (int halvings = 0; halvings <= kMostHalvings; ++halvings) {
       const std::size_t pieces = plan.size() - 1;
       quarters = middlesOf(line, length, 2 * pieces);
-      Straightness found = std::max(straightness(plan, middles), straightness(plan, quarters));
-      if (found == Straightness::straight && length > kLongLeg * static_cast<double>(pieces))
-        found = straightness(plan, middlesOf(line, length, 4 * pieces));
-      if (found == Straightness::undefined) return std::nullopt;
-      if (found == Straightness::straight) return plan;
+      double bend = std::max(bendOf(plan, middles), bendOf(plan, quarters));
+      if (bend <= tolerance_ && length > kLongLeg * static_cast<double>(pieces))
+        bend = bendOf(plan, middlesOf(line, length, 4 * pieces));
+      if (bend <= tolerance_) return plan;
+      // A halving takes three quarters of a bend away; near a pole or a seam, less.
+      if (!(bend < tolerance_ * std::pow(4.0, kMostHalvings + 1 - halvings))) return std::nullopt;
       std::vector<Vec2> finer;
       finer.reserve(2 * pieces + 1);
       for (std::size_t i = 0; i < pieces; ++i) {
@@ -203,22 +206,20 @@ class EllipsoidEarth final : public SightEarth {
     return std::nullopt;
   }
 
-  enum class Straightness { straight, bent, undefined };
-
-  /// Whether points of the geodesic, the middles of equal parts of each segment, are within the tolerance of
-  /// the chords.
-  Straightness straightness(const std::vector<Vec2>& plan, const std::vector<Vec2>& points) const {
+  /// How far points of the geodesic, the middles of equal parts of each segment, are from the chords, along x
+  /// or y; infinite if one is undefined.
+  double bendOf(const std::vector<Vec2>& plan, const std::vector<Vec2>& points) const {
     const std::size_t pieces = plan.size() - 1, each = points.size() / pieces;
-    bool isStraight = true;
+    double bend = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec2 a = plan[i / each], b = plan[i / each + 1];
       const double t = (static_cast<double>(i % each) + 0.5) / static_cast<double>(each);
       const double dx = std::abs((1 - t) * a.x + t * b.x - points[i].x),
                    dy = std::abs((1 - t) * a.y + t * b.y - points[i].y);
-      if (!std::isfinite(dx + dy)) return Straightness::undefined;
-      if (dx > tolerance_ || dy > tolerance_) isStraight = false;
+      if (!std::isfinite(dx + dy)) return std::numeric_limits<double>::infinity();
+      bend = std::max({bend, dx, dy});
     }
-    return isStraight ? Straightness::straight : Straightness::bent;
+    return bend;
   }
 
   /// The plan positions of the middles of so many equal segments of the geodesic.
@@ -247,9 +248,10 @@ class EllipsoidEarth final : public SightEarth {
   }
 
   /// Continues a track that leaves the map on one side where it enters on the other: the part behind the seam
-  /// is shifted by a turn, and the connection between, of length 0, runs outside the map. An end may lie on the
-  /// seam. Where the first column is repeated, the borders of the raster are the seam, though rounded steps may
-  /// put them a little off a whole turn. False if the track crosses no such seam. Precondition: a geographic CRS.
+  /// is shifted by a turn, and the connection between, of length 0, runs outside the map. An end may lie on
+  /// the seam. Where the first column is repeated, the borders of the raster are the seam, though rounded
+  /// steps may put them a little off a whole turn. False if the track crosses no such seam. Precondition: a
+  /// geographic CRS.
   bool crossSeam(std::vector<SightPoint>& points, double turns, Vec2 to) const {
     Vec2 turn{360, 0}, none{0, 0};
     lonLat_.toCrs({&turn, 1});
@@ -276,12 +278,9 @@ class EllipsoidEarth final : public SightEarth {
       if (out * (points[i].plan.x - there) < 0) points[i].plan.x = there;
     }
     points.back().plan = to;
-    std::vector<SightPoint> connection = {{{here, y}, s},
-                                          {{here + out, y}, s},
-                                          {{here + out, far}, s},
-                                          {{there - out, far}, s},
-                                          {{there - out, y}, s},
-                                          {{there, y}, s}};
+    std::vector<SightPoint> connection = {{{here, y}, s},         {{here + out, y}, s},
+                                          {{here + out, far}, s}, {{there - out, far}, s},
+                                          {{there - out, y}, s},  {{there, y}, s}};
     // An end on the seam is there already.
     if (t == 0 && points[after - 1].plan == connection.front().plan) connection.erase(connection.begin());
     if (t == 1 && points[after].plan == connection.back().plan) connection.pop_back();

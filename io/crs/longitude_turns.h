@@ -18,9 +18,9 @@ namespace arete {
 double turnOf(const Georeference& georeference);
 
 /// Shifts positions by whole turns (turnOf()) onto a DEM: a position that lies east or west of the DEM
-/// becomes the equivalent position nearest to the middle of the DEM. Other positions do not change. On a raster
-/// that goes round the Earth each longitude is: between its last column and the whole turn, where rounded steps
-/// leave a sliver, it is that of the column.
+/// becomes the equivalent position nearest to the middle of the DEM. Other positions do not change. On a
+/// raster that goes round the Earth each longitude is: between its last column and the whole turn, where
+/// rounded steps leave a sliver, it is that of the column.
 class LongitudeTurns {
  public:
   /// The identity.
@@ -44,7 +44,7 @@ class LongitudeTurns {
   void add(double x);
   double turnsOf(double x) const;
 
-  double turn_ = 0;  ///< in the unit of the CRS; 0: the identity
+  double turn_ = 0;        ///< in the unit of the CRS; 0: the identity
   bool isClosed_ = false;  ///< the DEM goes round the Earth
   double west_ = std::numeric_limits<double>::infinity(), east_ = -west_;
 };

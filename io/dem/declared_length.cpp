@@ -50,8 +50,9 @@ Status checkRawBands(GDALDataset& dataset) {
     const std::string name =
         dataset.GetRawBinaryLayout(layout) ? CPLGetFilename(layout.osRawFilename.c_str()) : "";
     const bool isOther = !name.empty() && name != CPLGetFilename(dataset.GetDescription());
-    if (Status status = checkLength(endOf(*raw, dataset.GetRasterXSize(), dataset.GetRasterYSize()), there,
-                                isOther ? fmt::format("its header, of the file '{}',", name) : "its header");
+    if (Status status =
+            checkLength(endOf(*raw, dataset.GetRasterXSize(), dataset.GetRasterYSize()), there,
+                        isOther ? fmt::format("its header, of the file '{}',", name) : "its header");
         !status)
       return status;
   }
@@ -67,7 +68,9 @@ std::uint64_t spilledLength(GDALDataset& dataset) {
     GDALRasterBand& band = *dataset.GetRasterBand(b);
     int blockColumns = 1, blockRows = 1;
     band.GetBlockSize(&blockColumns, &blockRows);
-    const auto blocks = [](int count, int size) { return std::uint64_t((count - 1) / std::max(1, size) + 1); };
+    const auto blocks = [](int count, int size) {
+      return std::uint64_t((count - 1) / std::max(1, size) + 1);
+    };
     const std::uint64_t across = blocks(dataset.GetRasterXSize(), blockColumns),
                         down = blocks(dataset.GetRasterYSize(), blockRows);
     const char* stated = band.GetMetadataItem("NBITS", "IMAGE_STRUCTURE");
@@ -124,9 +127,9 @@ Status checkVirtualRawBands(GDALDataset& dataset) {
     const std::int64_t last =
         std::max<std::int64_t>(0, (columns - 1) * pixel) + std::max<std::int64_t>(0, (rows - 1) * line);
     if (!there) continue;
-    if (Status status =
-            checkLength(std::uint64_t(number("ImageOffset", 0) + last + size), *there,
-                    fmt::format("its band of raw samples, of the file '{}',", CPLGetFilename(name.c_str())));
+    if (Status status = checkLength(
+            std::uint64_t(number("ImageOffset", 0) + last + size), *there,
+            fmt::format("its band of raw samples, of the file '{}',", CPLGetFilename(name.c_str())));
         !status)
       return status;
   }

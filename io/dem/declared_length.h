@@ -14,9 +14,9 @@ namespace arete {
 /// numbers, is left to checkDeclaredLength().
 GdalDatasetPtr openRasterForLength(const std::string& path);
 
-/// Does for a raster that is open what checkLengthByContent() (io/gdal/file_length.h) does for a file: looks at
-/// the files of samples that its bands read (ENVI and other pairs of a header and data, raw bands of virtual
-/// rasters, the spill file of an HFA, ILWIS), and at the files that it consists of. Also refuses a
+/// Does for a raster that is open what checkLengthByContent() (io/gdal/file_length.h) does for a file: looks
+/// at the files of samples that its bands read (ENVI and other pairs of a header and data, raw bands of
+/// virtual rasters, the spill file of an HFA, ILWIS), and at the files that it consists of. Also refuses a
 /// virtual raster over a sparse file without NODATA, whose absent blocks it would read as 0.
 ///
 /// Errors: unreadable, unsupported.

@@ -52,8 +52,8 @@ bool isPointCloud(const std::string& path) {
   return whole && std::memcmp(magic.data(), "LASF", magic.size()) == 0;
 }
 
-/// True if GDAL reads the file as a raster, with what GDAL says meanwhile: some of its messages come once in a
-/// process. Otherwise sets `opensAsVector`.
+/// True if GDAL reads the file as a raster, with what GDAL says meanwhile: some of its messages come once in
+/// a process. Otherwise sets `opensAsVector`.
 bool isRaster(const std::string& path, bool& opensAsVector, std::vector<std::string>& said) {
   GdalErrors errors;
   GDALDriverH driver = GDALIdentifyDriverEx(networkPathOf(path).c_str(), GDAL_OF_RASTER, nullptr, nullptr);

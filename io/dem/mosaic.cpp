@@ -53,9 +53,10 @@ Status checkFrame(const Part& first, const Part& part) {
   const Georeference &a = first.georeference, &b = part.georeference;
   if (a.crsWkt.empty() != b.crsWkt.empty()) {
     const Part &without = a.crsWkt.empty() ? first : part, &with = a.crsWkt.empty() ? part : first;
-    return differs(without, fmt::format("has no CRS, and {} is in {}: gdal_edit.py -a_srs writes the one that it is "
-                                        "in into the file, or `crs` states it for all",
-                                        with.path, crsNameOf(with.georeference)));
+    return differs(without,
+                   fmt::format("has no CRS, and {} is in {}: gdal_edit.py -a_srs writes the one that it is "
+                               "in into the file, or `crs` states it for all",
+                               with.path, crsNameOf(with.georeference)));
   }
   if (a.crsWkt != b.crsWkt && compareCrs(a.crsWkt, b.crsWkt) != CrsAgreement::same)
     return differs(part, fmt::format("is in {}, and {} in {}: gdalwarp -t_srs transforms one of them",
@@ -198,8 +199,8 @@ struct DemMosaic::Parts {
     parts.erase(parts.begin() + std::ptrdiff_t(i));
   }
 
-  /// Holds each part against the first. Empty tiles, as downloads have over the sea, need not fit: they are left
-  /// out, the first one too.
+  /// Holds each part against the first. Empty tiles, as downloads have over the sea, need not fit: they are
+  /// left out, the first one too.
   Status fit(const RunContext& context) {
     for (std::size_t i = 1; i < parts.size();) {
       Status fits = checkFrame(parts.front(), parts[i]);

@@ -130,8 +130,8 @@ Result<PointRows> readLayer(GDALDataset& dataset, OGRLayer& layer, const PointRe
   if (!zField) return tl::unexpected(zField.error());
   GdalErrors errors;
   FeatureCollector collector(layer, *zField);
-  const Status read =
-      forFeatures(dataset, layer, errors, context, [&](OGRFeature& feature) { return collector.add(feature); });
+  const Status read = forFeatures(dataset, layer, errors, context,
+                                  [&](OGRFeature& feature) { return collector.add(feature); });
   if (!read) return tl::unexpected(read.error());
   errors.moveTo(warnings);
   if (collector.skipped > 0)

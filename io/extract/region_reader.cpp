@@ -103,8 +103,7 @@ Status collectLayer(GDALDataset& dataset, OGRLayer& layer, Shapes& all, std::vec
     return failure(ErrorCode::invalidData,
                    fmt::format("the layer '{}' has no polygon{}{}", layer.GetName(),
                                all.takesLines ? " and no line" : "", all.takesPoints ? " and no point" : ""));
-  if (without > 0)
-    warnings.push_back(fmt::format("{} features without a geometry are left out", without));
+  if (without > 0) warnings.push_back(fmt::format("{} features without a geometry are left out", without));
   if (all.others > 0)
     warnings.push_back(fmt::format("{} geometries that are no polygons{}{} are left out", all.others,
                                    all.takesLines ? " or lines" : "", all.takesPoints ? " or points" : ""));

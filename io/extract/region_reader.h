@@ -41,10 +41,10 @@ struct RegionRead {
 /// of a line is led the short way.
 ///
 /// @param targetCrs  WKT or any text that GDAL accepts; empty = not known
-/// Errors: notFound, unreadable; corrupt, also where a part of the file is missing; unsupported: no such layer, or several (the message lists them);
-/// invalidData: no polygon (or line or point, where they are taken), a vertex outside the target CRS, an edge
-/// that a seam of the target tears, a target that is no CRS; usage: options.crs is no CRS; interrupted;
-/// outOfMemory. O(vertices log vertices).
+/// Errors: notFound, unreadable; corrupt, also where a part of the file is missing; unsupported: no such
+/// layer, or several (the message lists them); invalidData: no polygon (or line or point, where they are
+/// taken), a vertex outside the target CRS, an edge that a seam of the target tears, a target that is no CRS;
+/// usage: options.crs is no CRS; interrupted; outOfMemory. O(vertices log vertices).
 Result<RegionRead> readRegion(const std::string& path, const std::string& targetCrs,
                               const RegionReadOptions& options = {}, const RunContext& context = {});
 

@@ -102,7 +102,8 @@ std::optional<std::uint64_t> dgnLength(const std::string& path, const Head& head
   VSILFILE* file = VSIFOpenL(path.c_str(), "rb");
   if (!file) return std::nullopt;
   std::uint64_t at = 0;
-  for (std::array<unsigned char, 4> element{}; at + 2 <= there; at += 4 + 2 * (element[2] | element[3] << 8)) {
+  for (std::array<unsigned char, 4> element{}; at + 2 <= there;
+       at += 4 + 2 * (element[2] | element[3] << 8)) {
     element.fill(0);
     VSIFSeekL(file, at, SEEK_SET);
     const std::size_t got = VSIFReadL(element.data(), 1, element.size(), file);
@@ -160,9 +161,8 @@ Status checkLengthByContent(const std::string& path) {
   if (readHead(path, head) == 0) return {};
   const auto there = fileLength(path);
   if (!there) return {};
-  for (const auto& wanted :
-       {dtedLength(head), pcrasterLength(head), pcidskLength(head, false), sqliteLength(head),
-        dgnLength(path, head, *there)})
+  for (const auto& wanted : {dtedLength(head), pcrasterLength(head), pcidskLength(head, false),
+                             sqliteLength(head), dgnLength(path, head, *there)})
     if (wanted) return checkLength(*wanted, *there, "its header");
   if (textOf(head, 0, 3) == "CDF" && (head[3] == 1 || head[3] == 2 || head[3] == 5)) {
     if (const auto wanted = classicNetcdfLength(path)) return checkLength(*wanted, *there, "its header");

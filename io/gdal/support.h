@@ -39,8 +39,8 @@ class GdalErrors {
   std::string firstFileFailure() const;
   /// The first message that is at least a warning. Empty if there was none.
   std::string firstMessage() const;
-  /// Appends the messages so far to `warnings` (the first few distinct ones that are not there yet) and clears
-  /// them here.
+  /// Appends the messages so far to `warnings` (the first few distinct ones that are not there yet) and
+  /// clears them here.
   void moveTo(std::vector<std::string>& warnings);
   void clear() { messages_.clear(); }
 

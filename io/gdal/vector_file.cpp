@@ -21,8 +21,8 @@ Result<GdalDatasetPtr> openVectors(const std::string& path, std::string_view kin
   // Its records are parsed when it is opened; one that cannot be is left out.
   if (driver && EQUAL(driver->GetDescription(), "GeoJSONSeq") && errors.anyFailure()) {
     Status whole = checkWholeText(path, driver->GetDescription(), warnings);
-    return failure(ErrorCode::corrupt,
-                   whole ? fmt::format("has a damaged record: {}", errors.firstFailure()) : whole.error().message);
+    return failure(ErrorCode::corrupt, whole ? fmt::format("has a damaged record: {}", errors.firstFailure())
+                                             : whole.error().message);
   }
   if (driver)
     if (Status whole = checkWholeText(path, driver->GetDescription(), warnings); !whole)
@@ -36,8 +36,8 @@ Status checkFeatureCount(GDALDataset& dataset, OGRLayer& layer, std::uint64_t re
   const GdalErrors quiet;
   const GIntBig stated = layer.GetFeatureCount(false);
   if (stated < 0 || read >= std::uint64_t(stated)) return {};
-  return failure(ErrorCode::corrupt, fmt::format("is cut short: its header states {} features and {} are there",
-                                                 stated, read));
+  return failure(ErrorCode::corrupt,
+                 fmt::format("is cut short: its header states {} features and {} are there", stated, read));
 }
 
 }  // namespace arete

@@ -13,11 +13,13 @@
 
 namespace arete {
 
-/// Opens a file of vectors, of which nothing has been cut off as far as its format tells: by the length that its
-/// header states (io/gdal/file_length.h), by its records (io/gdal/whole_text.h), and by what GDAL says meanwhile.
+/// Opens a file of vectors, of which nothing has been cut off as far as its format tells: by the length that
+/// its header states (io/gdal/file_length.h), by its records (io/gdal/whole_text.h), and by what GDAL says
+/// meanwhile.
 ///
 /// @param kind Completes "is not a ...": "set of points".
-/// @param errors The innermost scope of the caller. Messages of the opening that are no error move to `warnings`.
+/// @param errors The innermost scope of the caller. Messages of the opening that are no error move to
+/// `warnings`.
 ///
 /// Errors: those of explainOpenFailure(). unreadable, corrupt: a part of the file is missing.
 Result<GdalDatasetPtr> openVectors(const std::string& path, std::string_view kind, GdalErrors& errors,

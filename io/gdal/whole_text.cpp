@@ -113,10 +113,11 @@ Status checkJsonRecords(const std::string& path) {
   if (!forCharacters(path, [&](char c) { return records.take(c); })) return {};
   records.end();
   if (!records.isBroken()) return {};
-  return failure(ErrorCode::corrupt,
-                 fmt::format("record {}, which begins on line {}, is cut short or damaged: it is not one whole "
-                             "JSON object",
-                             records.record(), records.line()));
+  return failure(
+      ErrorCode::corrupt,
+      fmt::format("record {}, which begins on line {}, is cut short or damaged: it is not one whole "
+                  "JSON object",
+                  records.record(), records.line()));
 }
 
 Status checkQuotes(const std::string& path) {
@@ -129,8 +130,9 @@ Status checkQuotes(const std::string& path) {
     return true;
   });
   if (!inQuotes) return {};
-  return failure(ErrorCode::corrupt,
-                 fmt::format("is cut short or damaged: a quoted text begins on line {} and does not end", opened));
+  return failure(
+      ErrorCode::corrupt,
+      fmt::format("is cut short or damaged: a quoted text begins on line {} and does not end", opened));
 }
 
 void warnOfLastLine(const std::string& path, std::vector<std::string>& warnings) {
@@ -148,7 +150,8 @@ void warnOfLastLine(const std::string& path, std::vector<std::string>& warnings)
 Status checkWholeText(const std::string& path, std::string_view driver, std::vector<std::string>& warnings) {
   constexpr std::array<std::string_view, 4> kLines = {"OGR_GMT", "Geoconcept", "VDV", "Interlis 1"};
   std::string name = networkPathOf(path);
-  if (const std::string prefix = fmt::format("{}:", driver); text::lowered(name).starts_with(text::lowered(prefix)))
+  if (const std::string prefix = fmt::format("{}:", driver);
+      text::lowered(name).starts_with(text::lowered(prefix)))
     name.erase(0, prefix.size());
   if (name.find("/vsistdin") != name.npos) return {};  // it is read once
   if (driver == "GeoJSONSeq") return checkJsonRecords(name);

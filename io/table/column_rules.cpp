@@ -21,7 +21,7 @@ const Names kY = {"y", "lat", "latitude", "northing", "north", "n", "y_coord", "
 const Names kZ = {"z",   "elev",     "elevation", "height", "h",      "alt",
                   "ele", "altitude", "z_coord",   "zcoord", "point_z"};
 
-const Names kWkt = {"wkt",      "_wkt", "the_geom", "geom_wkt",    "wkt_geom",
+const Names kWkt = {"wkt",      "_wkt", "the_geom",     "geom_wkt",     "wkt_geom",
                     "geometry", "geom", "wkt_geometry", "geometry_wkt", "wkt_point"};
 
 Names joined(Names first, const Names& second) {

@@ -69,7 +69,9 @@ PointAttributes::Kind kindOf(const OGRFieldDefn& field) {
   const OGRFieldSubType subtype = field.GetSubType();
   switch (field.GetType()) {
     case OFTInteger:
-      return subtype == OFSTBoolean ? Kind::boolean : subtype == OFSTInt16 ? Kind::integer16 : Kind::integer32;
+      return subtype == OFSTBoolean ? Kind::boolean
+             : subtype == OFSTInt16 ? Kind::integer16
+                                    : Kind::integer32;
     case OFTInteger64:
       return Kind::integer;
     case OFTReal:

@@ -20,8 +20,8 @@ namespace arete {
 namespace {
 
 constexpr std::array<std::string_view, 7> kOwnNames = {"x", "y", "height", "below", "above", "fid", "geom"};
-constexpr std::array<std::string_view, 8> kOwnNamesWithZ = {"x",     "y",     "height", "below",
-                                                            "above", "fid",   "geom",   "z"};
+constexpr std::array<std::string_view, 8> kOwnNamesWithZ = {"x",     "y",   "height", "below",
+                                                            "above", "fid", "geom",   "z"};
 constexpr std::array<const char*, 5> kOwnFields = {"x", "y", "height", "below", "above"};
 constexpr const char* kLayer = "heights";
 constexpr std::size_t kRowsPerReport = 4096;

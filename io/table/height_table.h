@@ -15,10 +15,10 @@
 
 namespace arete {
 
-/// A table of heights has the columns of the input, then x and y as the input states them, in CSV the z of points
-/// that have one (a GeoPackage has it in its points), and height, below and above, which are empty without
-/// terrain. The height at full resolution is within [height - above,
-/// height + below]. A column of the input with one of these names gets the suffix "_in".
+/// A table of heights has the columns of the input, then x and y as the input states them, in CSV the z of
+/// points that have one (a GeoPackage has it in its points), and height, below and above, which are empty
+/// without terrain. The height at full resolution is within [height - above, height + below]. A column of the
+/// input with one of these names gets the suffix "_in".
 
 /// @return "1234.5": at most twelve significant digits, more than the precision of any DEM.
 std::string heightText(double height);

@@ -11,7 +11,8 @@ namespace arete {
 /// The attributes of points or lines: named columns of values, stored as texts in one array of characters.
 class PointAttributes {
  public:
-  /// Values of dates and times are in ISO 8601, those of `boolean` are 0 and 1, of `bytes` in hexadecimal digits.
+  /// Values of dates and times are in ISO 8601, those of `boolean` are 0 and 1, of `bytes` in hexadecimal
+  /// digits.
   enum class Kind {
     text,
     integer,  ///< of 64 bits

@@ -102,7 +102,8 @@ Result<PointTable> readFrom(const std::string& path, const Georeference& dem,
   if (isText) {
     if (!options.layer.empty())
       return failure(ErrorCode::usage, fmt::format("is text, which has no layer '{}'", options.layer));
-    auto rows = readPointText(path, {}, table.warnings, context, PointTextColumns::planRows, &table.attributes);
+    auto rows =
+        readPointText(path, {}, table.warnings, context, PointTextColumns::planRows, &table.attributes);
     if (!rows) return tl::unexpected(rows.error());
     table.stated = std::move(rows->positions);
     table.z = std::move(rows->heights);
@@ -116,7 +117,8 @@ Result<PointTable> readFrom(const std::string& path, const Georeference& dem,
     if (!dataset) return tl::unexpected(dataset.error());
     const auto layer = chooseLayer(**dataset, options.layer, LayerKind::points);
     if (!layer) return tl::unexpected(layer.error());
-    if (Status read = readLayer(**dataset, **layer, table, context); !read) return tl::unexpected(read.error());
+    if (Status read = readLayer(**dataset, **layer, table, context); !read)
+      return tl::unexpected(read.error());
     transform = transformOf((*layer)->GetSpatialRef(), dem, options.lonLat, isText, table.warnings);
   }
   if (!transform) return tl::unexpected(transform.error());

@@ -234,8 +234,8 @@ Result<SightPairs> readFrom(const std::string& path, const Georeference& dem,
   SightPairs pairs;
   if (auto problem = findInputProblem(path)) return tl::unexpected(*problem);
   // A table from stdin has no name by which GDAL knows it.
-  auto opened = openVectors(path.starts_with(kStandardInput) ? fmt::format("CSV:{}", path) : path, "set of lines",
-                            errors, pairs.warnings);
+  auto opened = openVectors(path.starts_with(kStandardInput) ? fmt::format("CSV:{}", path) : path,
+                            "set of lines", errors, pairs.warnings);
   if (!opened && opened.error().culprit.starts_with("CSV:")) opened.error().culprit = path;
   if (!opened) return tl::unexpected(opened.error());
   const GdalDatasetPtr dataset = std::move(*opened);

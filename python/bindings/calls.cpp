@@ -44,7 +44,8 @@ void raise(const Error& error) {
 
 void warn(std::span<const std::string> warnings) {
   for (const std::string& warning : warnings)
-    if (PyErr_WarnEx(PyExc_UserWarning, withoutQueries(warning).c_str(), 2) != 0) throw py::error_already_set();
+    if (PyErr_WarnEx(PyExc_UserWarning, withoutQueries(warning).c_str(), 2) != 0)
+      throw py::error_already_set();
 }
 
 Error inPython(Error error) {

@@ -184,15 +184,17 @@ py::array_t<std::uint8_t> viewshed(const Terrain& terrain, const std::array<doub
     return maker->from({end->first, end->second}, options, context);
   });
   if (seen.withoutLine > 0)
-    warn(std::array{fmt::format("{} samples are unknown: the shortest way to them passes a pole or a seam of the CRS",
-                                seen.withoutLine)});
+    warn(std::array{
+        fmt::format("{} samples are unknown: the shortest way to them passes a pole or a seam of the CRS",
+                    seen.withoutLine)});
   // Of the source's columns: a first one that is repeated is left out.
   const std::uint32_t columns = sourceColumns(terrain.model());
   py::array_t<std::uint8_t> cells(
       std::vector<py::ssize_t>{static_cast<py::ssize_t>(seen.rows), static_cast<py::ssize_t>(columns)});
   std::uint8_t* to = cells.mutable_data();
   for (std::size_t row = 0; row < seen.rows; ++row)
-    for (std::size_t column = 0; column < columns; ++column) *to++ = byteOf(seen.cells[row * seen.columns + column]);
+    for (std::size_t column = 0; column < columns; ++column)
+      *to++ = byteOf(seen.cells[row * seen.columns + column]);
   return cells;
 }
 

@@ -283,14 +283,14 @@ void defineTerrain(py::module_& module) {
         return CameraNumbers{place[0], place[1],    place[2], std::move(kind), azimuth,
                              pitch,    fieldOfView, size[0],  size[1]};
       }));
-  its.def(
-         "cut",
-         [](const Terrain& terrain, std::optional<double> maxError, std::optional<std::uint32_t> maxTriangles,
-            const std::optional<AskedRegion>& region, double outsideError, const std::optional<CameraNumbers>& camera,
-            std::optional<double> pixelError, const std::string& fit, const py::object& progress) {
-           return takeTinOf(terrain, {maxError, maxTriangles, region, outsideError, camera, pixelError, fit},
-                            progress);
-         })
+  its.def("cut",
+          [](const Terrain& terrain, std::optional<double> maxError,
+             std::optional<std::uint32_t> maxTriangles, const std::optional<AskedRegion>& region,
+             double outsideError, const std::optional<CameraNumbers>& camera,
+             std::optional<double> pixelError, const std::string& fit, const py::object& progress) {
+            return takeTinOf(terrain, {maxError, maxTriangles, region, outsideError, camera, pixelError, fit},
+                             progress);
+          })
       .def("heights", &heightsAt)
       .def("grid_of", &gridOf)
       .def("isolated", &isolatedOf)

@@ -22,8 +22,8 @@ struct SightPoint {
 /// What a sight line passes over: a chain of legs that are straight in plan, with distances linear along
 /// each, and how the Earth curves below it. Made by a SightEarth (terrain/sight/earth.h).
 struct SightTrack {
-  /// At least two. Distances rise from 0, or are all 0 if both ends are in one place. They do not rise along a
-  /// leg that only leads to the other side of the plan, at the seam of longitudes.
+  /// At least two. Distances rise from 0, or are all 0 if both ends are in one place. They do not rise along
+  /// a leg that only leads to the other side of the plan, at the seam of longitudes.
   std::vector<SightPoint> points;
   double curvature = 0;        ///< 1/m, of the effective Earth: (1 - K) / R; 0 = flat, negative = concave
   double groundCurvature = 0;  ///< 1/m, of the Earth itself: 1 / R; 0 = flat

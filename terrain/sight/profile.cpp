@@ -155,14 +155,15 @@ bool append(Profile& profile, const SightLeg& leg, double end, std::span<const S
       profile.gapMetres += leg.ds * (s.t0 - done);
       isOpen = false;
     }
-    // Rounding may give one vertex twice, slightly apart. At the seam of longitudes a leg begins on the other side
-    // of the plan.
+    // Rounding may give one vertex twice, slightly apart. At the seam of longitudes a leg begins on the other
+    // side of the plan.
     const auto isHere = [&](Vec2 p) {
       const Vec2 begin = vertexAt(s.t0, s.z0, true).plan;
       return std::abs(p.x - begin.x) < std::abs(leg.dx) + 1 && std::abs(p.y - begin.y) < std::abs(leg.dy) + 1;
     };
-    const bool isSame = isOpen && isHere(vertices.back().plan) && std::abs(vertices.back().height - s.z0) <=
-                                      1e-9 * (1 + std::abs(s.z0) + std::abs(s.z1 - s.z0));
+    const bool isSame =
+        isOpen && isHere(vertices.back().plan) &&
+        std::abs(vertices.back().height - s.z0) <= 1e-9 * (1 + std::abs(s.z0) + std::abs(s.z1 - s.z0));
     if (!isSame) vertices.push_back(vertexAt(isOpen ? std::max(s.t0, done) : s.t0, s.z0, isOpen));
     vertices.push_back(vertexAt(s.t1, s.z1, true));
     isOpen = true;

@@ -40,8 +40,8 @@ TEST_F(AddressCommand, DoesNotGoIntoFilesNorMessages) {
                            {"points.csv?token=5ecret", "x,y,z\n0,0,1\n10,0,2\n0,10,3\n10,10,4\n5,5,9\n"},
                            {"cut.tif?sig=5ecret", bytes.substr(0, bytes.size() / 2)},
                            {"none.tif?sig=5ecret", "this is no raster"}});
-  for (const char* name : {"dem.tif?X-Amz-Credential=AKIA%2F2020&X-Amz-Signature=5ecret", "dem.tif?sv=2022&sig=5ecret%3D",
-                           "points.csv?token=5ecret"}) {
+  for (const char* name : {"dem.tif?X-Amz-Credential=AKIA%2F2020&X-Amz-Signature=5ecret",
+                           "dem.tif?sv=2022&sig=5ecret%3D", "points.csv?token=5ecret"}) {
     const std::string address = server.address(name);
     for (const std::string& form : {address, "/vsicurl/" + address}) {
       for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--json"}, {"--packed"}}) {
@@ -56,11 +56,15 @@ TEST_F(AddressCommand, DoesNotGoIntoFilesNorMessages) {
         EXPECT_EQ(extracted.code, 0) << output << extracted.err;
         expectNoSecret(extracted, output);
       }
-      const Outcome certified = run({"extract", "m.amt", "-o", "t.ply", "--max-error", "5", "--certificate", "--json"});
+      const Outcome certified =
+          run({"extract", "m.amt", "-o", "t.ply", "--max-error", "5", "--certificate", "--json"});
       expectNoSecret(certified, "certificate");
-      for (const std::vector<std::string>& words :
-           {std::vector<std::string>{"info", "m.amt"}, {"info", "m.amt", "--json"}, {"measure", "t.ply", form},
-            {"measure", "t.ply", form, "--json"}, {"validate", "m.amt", form}, {"validate", "m.amt", form, "--json"}})
+      for (const std::vector<std::string>& words : {std::vector<std::string>{"info", "m.amt"},
+                                                    {"info", "m.amt", "--json"},
+                                                    {"measure", "t.ply", form},
+                                                    {"measure", "t.ply", form, "--json"},
+                                                    {"validate", "m.amt", form},
+                                                    {"validate", "m.amt", form, "--json"}})
         expectNoSecret(run(words), words[0]);
       EXPECT_EQ(filesWithSecret(), "") << form;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The same terrain on rasters that begin at different longitudes, some with their first column once more: what is
-// at the seam of one is inside of another, so that each is the oracle of the others.
+// The same terrain on rasters that begin at different longitudes, some with their first column once more:
+// what is at the seam of one is inside of another, so that each is the oracle of the others.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,7 +39,8 @@ struct World {
 
   /// @param first the cell, east of Greenwich, of the first column
   World(int first, bool isGridRegistered, double stepError = 0, bool hasVoid = false)
-      : name("from " + std::to_string(10 * first) + (isGridRegistered ? ", with its first column again" : "")) {
+      : name("from " + std::to_string(10 * first) +
+             (isGridRegistered ? ", with its first column again" : "")) {
     field.columns = kAround + (isGridRegistered ? 1 : 0);
     field.rows = kRows;
     for (int row = 0; row < kRows; ++row)
@@ -66,7 +67,8 @@ struct World {
 std::vector<std::unique_ptr<World>> worlds() {
   std::vector<std::unique_ptr<World>> all;
   for (const int first : {0, -18, -17, 5, 18, 30, -40})
-    for (const bool isGridRegistered : {false, true}) all.push_back(std::make_unique<World>(first, isGridRegistered));
+    for (const bool isGridRegistered : {false, true})
+      all.push_back(std::make_unique<World>(first, isGridRegistered));
   return all;
 }
 
@@ -87,12 +89,14 @@ struct Line {
 };
 
 std::vector<Line> linesAcross() {
-  std::vector<Line> lines = {{{-5, 30}, {5, 32}, 20000},   {{175, 30}, {-175, 32}, 20000}, {{179, 5}, {-179, 5}, 3000},
-                             {{5, 5}, {355, 5}, 3000},     {{175, -45}, {185, -45}, 30000}, {{180, 10}, {170, 12}, 20000},
-                             {{-180, 10}, {170, 12}, 20000}, {{0, 15}, {0, 25}, 20000},     {{180, 15}, {180, 25}, 20000},
-                             {{185, 15}, {-165, 25}, 900}, {{165, 15}, {-165, 25}, 900}};
+  std::vector<Line> lines = {
+      {{-5, 30}, {5, 32}, 20000},     {{175, 30}, {-175, 32}, 20000},  {{179, 5}, {-179, 5}, 3000},
+      {{5, 5}, {355, 5}, 3000},       {{175, -45}, {185, -45}, 30000}, {{180, 10}, {170, 12}, 20000},
+      {{-180, 10}, {170, 12}, 20000}, {{0, 15}, {0, 25}, 20000},       {{180, 15}, {180, 25}, 20000},
+      {{185, 15}, {-165, 25}, 900},   {{165, 15}, {-165, 25}, 900}};
   std::mt19937 random(16);
-  std::uniform_real_distribution<double> longitude(-180, 180), way(-25, 25), latitude(-60, 60), above(500, 60000);
+  std::uniform_real_distribution<double> longitude(-180, 180), way(-25, 25), latitude(-60, 60),
+      above(500, 60000);
   for (int i = 0; i < 30; ++i) {
     const Vec2 from{longitude(random), latitude(random)};
     lines.push_back({from, {from.x + way(random), from.y + way(random) / 2}, above(random)});
@@ -107,14 +111,16 @@ TEST(Seam, ALineAcrossItIsThatOfARasterThatHasItElsewhere) {
       const SightPathAnswer first = answerOn(*all.front(), line.from, line.to, line.above, method);
       for (const auto& world : all) {
         const SightPathAnswer answer = answerOn(*world, line.from, line.to, line.above, method);
-        const std::string what = world->name + ", " + std::to_string(line.from.x) + " to " + std::to_string(line.to.x) +
-                                 " by method " + std::to_string(int(method));
+        const std::string what = world->name + ", " + std::to_string(line.from.x) + " to " +
+                                 std::to_string(line.to.x) + " by method " + std::to_string(int(method));
         EXPECT_EQ(answer.sight.verdict, first.sight.verdict) << what;
         EXPECT_NE(answer.sight.verdict, SightVerdict::unknown) << what;
         EXPECT_NEAR(answer.sight.gapMetres, 0, 1e-3) << what;
         EXPECT_NEAR(answer.distanceMetres, first.distanceMetres, 1e-3) << what;
         ASSERT_EQ(answer.sight.clearance.has_value(), first.sight.clearance.has_value()) << what;
-        if (answer.sight.clearance) EXPECT_NEAR(*answer.sight.clearance, *first.sight.clearance, 0.5) << what;
+        if (answer.sight.clearance) {
+          EXPECT_NEAR(*answer.sight.clearance, *first.sight.clearance, 0.5) << what;
+        }
       }
     }
 }
@@ -138,8 +144,8 @@ TEST(Seam, OfRoundedStepsHasNoSliver) {
       const World world(first, false, error);
       for (const Line& line : linesAcross()) {
         const SightPathAnswer answer = answerOn(world, line.from, line.to, 80000, SightMethod::pyramid);
-        EXPECT_EQ(answer.sight.verdict, SightVerdict::visible) << world.name << " off by " << error << ", "
-                                                               << line.from.x << " to " << line.to.x;
+        EXPECT_EQ(answer.sight.verdict, SightVerdict::visible)
+            << world.name << " off by " << error << ", " << line.from.x << " to " << line.to.x;
       }
       const SurfaceHeights heights(world.model);
       const LongitudeTurns turns(world.model);
@@ -170,7 +176,8 @@ TEST(Seam, HasTheHeightsAndTheProfileOfARasterThatHasItElsewhere) {
       const auto first = all.front()->earth->track(all.front()->plan(from), all.front()->plan(to));
       for (const bool hasGrid : {true, false}) {
         const Profile profile =
-            Profiles(world->model, hasGrid ? std::make_shared<const SightGrid>(world->model) : nullptr).along(*track);
+            Profiles(world->model, hasGrid ? std::make_shared<const SightGrid>(world->model) : nullptr)
+                .along(*track);
         EXPECT_NEAR(profile.gapMetres, 0, 1e-3) << world->name;
         EXPECT_NEAR(profile.length, first->points.back().distance, 1e-3);
         double last = 0;
@@ -209,7 +216,9 @@ TEST(Seam, AViewshedBesideItIsThatOfARasterThatHasItElsewhere) {
           const int cell = ((begin + int(column)) % kAround + kAround) % kAround;
           const int value = byteOf(seen->cells[std::size_t(row) * seen->columns + column]);
           int& its = byCell[std::size_t(row) * kAround + std::size_t(cell)];
-          if (column >= unsigned(kAround)) EXPECT_EQ(value, its) << "the repeated column, " << world->name;
+          if (column >= unsigned(kAround)) {
+            EXPECT_EQ(value, its) << "the repeated column, " << world->name;
+          }
           its = value;
         }
       if (first.empty()) first = byCell;

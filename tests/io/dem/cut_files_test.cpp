@@ -95,10 +95,10 @@ int cutEverywhere(const std::string& path, const fs::path& folder, bool hasNumbe
     const std::size_t left = bytes.size() * std::size_t(10 * cut + 5) / 100;
     write(largest, std::string_view(bytes).substr(0, left));
     const auto read = readRaster(path, firstBand());
-    if (read)
+    if (read) {
       EXPECT_EQ(read->heightfield.sourceChecksum, whole->heightfield.sourceChecksum)
           << path << " cut to " << left << " of " << bytes.size() << " bytes";
-    else
+    } else
       ++refused;
     if (!read && hasNumbers && left > 600) {
       EXPECT_EQ(read.error().code, ErrorCode::unreadable) << read.error().describe();
@@ -189,15 +189,27 @@ TEST(CutFiles, WithoutTheirLastBytesLoseNeitherHeightsNorTheirPlaceWithoutAWord)
     GDALDataType type;
   };
   int number = 0, refused = 0;
-  for (const Layout& layout :
-       {Layout{"HFA", {}, GDT_Float32}, Layout{"HFA", {"COMPRESSED=YES"}, GDT_Int16},
-        Layout{"HFA", {"BLOCKSIZE=32"}, GDT_Float64}, Layout{"HFA", {"USE_SPILL=YES"}, GDT_Float32},
-        Layout{"HFA", {"USE_SPILL=YES"}, GDT_Byte}, Layout{"ILWIS", {}, GDT_Float32}, Layout{"ILWIS", {}, GDT_Int16},
-        Layout{"GTiff", {}, GDT_Float32}, Layout{"GTiff", {"COMPRESS=DEFLATE"}, GDT_Float32}, Layout{"COG", {}, GDT_Int16},
-        Layout{"NITF", {}, GDT_Float32}, Layout{"AAIGrid", {}, GDT_Float32}, Layout{"GSBG", {}, GDT_Float32},
-        Layout{"RST", {}, GDT_Float32}, Layout{"SAGA", {}, GDT_Float32}, Layout{"BT", {}, GDT_Float32},
-        Layout{"GPKG", {}, GDT_Byte}, Layout{"PCRaster", {}, GDT_Float32}, Layout{"netCDF", {"FORMAT=NC4"}, GDT_Float32},
-        Layout{"CALS", {}, GDT_Byte}, Layout{"JPEG", {}, GDT_Byte}}) {
+  for (const Layout& layout : {Layout{"HFA", {}, GDT_Float32},
+                               Layout{"HFA", {"COMPRESSED=YES"}, GDT_Int16},
+                               Layout{"HFA", {"BLOCKSIZE=32"}, GDT_Float64},
+                               Layout{"HFA", {"USE_SPILL=YES"}, GDT_Float32},
+                               Layout{"HFA", {"USE_SPILL=YES"}, GDT_Byte},
+                               Layout{"ILWIS", {}, GDT_Float32},
+                               Layout{"ILWIS", {}, GDT_Int16},
+                               Layout{"GTiff", {}, GDT_Float32},
+                               Layout{"GTiff", {"COMPRESS=DEFLATE"}, GDT_Float32},
+                               Layout{"COG", {}, GDT_Int16},
+                               Layout{"NITF", {}, GDT_Float32},
+                               Layout{"AAIGrid", {}, GDT_Float32},
+                               Layout{"GSBG", {}, GDT_Float32},
+                               Layout{"RST", {}, GDT_Float32},
+                               Layout{"SAGA", {}, GDT_Float32},
+                               Layout{"BT", {}, GDT_Float32},
+                               Layout{"GPKG", {}, GDT_Byte},
+                               Layout{"PCRaster", {}, GDT_Float32},
+                               Layout{"netCDF", {"FORMAT=NC4"}, GDT_Float32},
+                               Layout{"CALS", {}, GDT_Byte},
+                               Layout{"JPEG", {}, GDT_Byte}}) {
     CPLStringList options;
     for (const char* option : layout.options) options.AddString(option);
     const fs::path own = folder.file(std::to_string(number++));

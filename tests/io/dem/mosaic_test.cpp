@@ -291,7 +291,8 @@ TEST(Mosaic, LeavesEmptyTilesOutThatDoNotFit) {
       {"a shift", [](RasterSpec& s) { (*s.geoTransform)[0] += (*s.geoTransform)[1] / 3; }},
       {"no position", [](RasterSpec& s) { s.geoTransform.reset(); }},
       {"far away", [](RasterSpec& s) { (*s.geoTransform)[0] += 1e13 * (*s.geoTransform)[1]; }},
-      {"feet", [](RasterSpec& s) {
+      {"feet",
+       [](RasterSpec& s) {
          const auto before = s.adjust;
          s.adjust = [before](GDALDataset& d) {
            before(d);
@@ -305,7 +306,8 @@ TEST(Mosaic, LeavesEmptyTilesOutThatDoNotFit) {
     if (oddity) oddity->make(spec);
     return writeRaster(folder.file(name), spec);
   };
-  const std::string a = tile("a.tif", {0, 0, 12, 12}, false, nullptr), b = tile("b.tif", {12, 0, 12, 12}, false, nullptr);
+  const std::string a = tile("a.tif", {0, 0, 12, 12}, false, nullptr),
+                    b = tile("b.tif", {12, 0, 12, 12}, false, nullptr);
   const auto expected = readRasters({a, b});
   ASSERT_TRUE(expected) << expected.error().describe();
   for (const Oddity& oddity : oddities) {
@@ -317,7 +319,8 @@ TEST(Mosaic, LeavesEmptyTilesOutThatDoNotFit) {
       ASSERT_TRUE(read) << oddity.what << ": " << read.error().describe();
       EXPECT_EQ(read->heightfield.sourceChecksum, expected->heightfield.sourceChecksum) << oddity.what;
       EXPECT_EQ(read->heightfield.georeference.geoTransform, expected->heightfield.georeference.geoTransform);
-      EXPECT_TRUE(contains(joined(read->warnings), "empty.tif: has no valid sample")) << joined(read->warnings);
+      EXPECT_TRUE(contains(joined(read->warnings), "empty.tif: has no valid sample"))
+          << joined(read->warnings);
     }
     const auto one = readRasters({empty, a}), alone = readRaster(a);
     ASSERT_TRUE(one && alone) << oddity.what;

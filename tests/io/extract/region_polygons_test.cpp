@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Polygons of a program and the same polygons of a file: both regions are what any of the polygons goes around.
-// The oracle counts how often each ring goes around a place.
+// Polygons of a program and the same polygons of a file: both regions are what any of the polygons goes
+// around. The oracle counts how often each ring goes around a place.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,14 +63,16 @@ bool isNearEdge(const Polygons& polygons, Vec2 p) {
       for (std::size_t i = 0; i < ring.size(); ++i) {
         const Vec2 a = ring[i], b = ring[(i + 1) % ring.size()], d{b.x - a.x, b.y - a.y};
         const double length = d.x * d.x + d.y * d.y;
-        const double t = length > 0 ? std::clamp(((p.x - a.x) * d.x + (p.y - a.y) * d.y) / length, 0.0, 1.0) : 0;
+        const double t =
+            length > 0 ? std::clamp(((p.x - a.x) * d.x + (p.y - a.y) * d.y) / length, 0.0, 1.0) : 0;
         if (std::hypot(a.x + t * d.x - p.x, a.y + t * d.y - p.y) < 1e-6) return true;
       }
   return false;
 }
 
 std::string geoJson(const Polygons& polygons) {
-  std::string text = R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32611"}},"features":[{"type":"Feature","properties":{},"geometry":{"type":"MultiPolygon","coordinates":[)";
+  std::string text =
+      R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32611"}},"features":[{"type":"Feature","properties":{},"geometry":{"type":"MultiPolygon","coordinates":[)";
   for (std::size_t k = 0; k < polygons.size(); ++k) {
     text += k ? ",[" : "[";
     for (std::size_t r = 0; r < polygons[k].size(); ++r) {
@@ -123,7 +125,8 @@ void expectUnion(const std::string& what, const Polygons& polygons) {
 }
 
 TEST(RegionPolygons, AreUnitedHoweverTheyLie) {
-  const Chain a = box(10, 10, 50, 50), b = box(30, 30, 60, 40), inside = box(20, 20, 10, 10), hole = box(15, 15, 30, 30);
+  const Chain a = box(10, 10, 50, 50), b = box(30, 30, 60, 40), inside = box(20, 20, 10, 10),
+              hole = box(15, 15, 30, 30);
   const std::vector<std::pair<std::string, Polygons>> cases = {
       {"overlapping", {{a}, {b}}},
       {"twice", {{a}, {a}}},
@@ -146,8 +149,10 @@ TEST(RegionPolygons, AreUnitedHoweverTheyLie) {
       {"a bow tie over a box", {{{{0, 0}, {100, 100}, {100, 0}, {0, 100}}}, {a}}},
       {"a pentagram", {{star({50, 50}, 45, 5, 2, 0.1)}}},
       {"a pentagram twice", {{star({50, 50}, 45, 5, 2, 0.1)}, {star({50, 50}, 45, 5, 2, 0.1)}}},
-      {"a ring that goes around twice", {{{{0, 0}, {90, 0}, {90, 90}, {0, 90}, {0, 0}, {40, 0}, {40, 40}, {0, 40}}}}},
-      {"closed rings", {{{{0, 0}, {50, 0}, {50, 50}, {0, 50}, {0, 0}}}, {{{25, 25}, {75, 25}, {75, 75}, {25, 25}}}}},
+      {"a ring that goes around twice",
+       {{{{0, 0}, {90, 0}, {90, 90}, {0, 90}, {0, 0}, {40, 0}, {40, 40}, {0, 40}}}}},
+      {"closed rings",
+       {{{{0, 0}, {50, 0}, {50, 50}, {0, 50}, {0, 0}}}, {{{25, 25}, {75, 25}, {75, 75}, {25, 25}}}}},
       {"repeated vertices", {{{{0, 0}, {50, 0}, {50, 0}, {50, 50}, {0, 50}}}, {b}}},
   };
   for (const auto& [what, polygons] : cases) expectUnion(what, polygons);
@@ -163,7 +168,8 @@ TEST(RegionPolygons, AreUnitedAtRandom) {
       const Vec2 centre{place(random), place(random)};
       const int corners = 3 + int(random() % 7);
       const int step = 1 + int(random() % 2);
-      Polygon polygon = {star(centre, size(random), corners, std::gcd(step, corners) == 1 ? step : 1, angle(random))};
+      Polygon polygon = {
+          star(centre, size(random), corners, std::gcd(step, corners) == 1 ? step : 1, angle(random))};
       if (random() % 3 == 0) polygon.push_back(star(centre, size(random) / 4, 4, 1, angle(random)));
       if (random() % 2 == 0) polygon[0] = turned(polygon[0]);
       polygons.push_back(polygon);
@@ -193,13 +199,16 @@ TEST(RegionPolygons, ABoxOfAProgramIsThatOfAText) {
     std::array<double, 4> box;
     const char* text;
   };
-  for (const Case& c : {Case{{1, 2, 3, 4}, "1,2,3,4"}, Case{{170, 2, -170, 4}, "170,2,-170,4"}, Case{{3, 2, 1, 4}, "3,2,1,4"},
-                        Case{{1, 4, 3, 2}, "1,4,3,2"}, Case{{1, 2, 1, 4}, "1,2,1,4"}})
+  for (const Case& c :
+       {Case{{1, 2, 3, 4}, "1,2,3,4"}, Case{{170, 2, -170, 4}, "170,2,-170,4"}, Case{{3, 2, 1, 4}, "3,2,1,4"},
+        Case{{1, 4, 3, 2}, "1,4,3,2"}, Case{{1, 2, 1, 4}, "1,2,1,4"}})
     for (const Georeference& dem : {degrees, metres}) {
       const auto stated = regionArgumentOf({.box = c.box}, dem, {});
       const auto read = readRegionArgument({c.text}, dem, {});
       ASSERT_EQ(bool(stated), bool(read)) << c.text;
-      if (stated) EXPECT_EQ(stated->shape.rings, read->shape.rings) << c.text;
+      if (stated) {
+        EXPECT_EQ(stated->shape.rings, read->shape.rings) << c.text;
+      }
     }
 }
 

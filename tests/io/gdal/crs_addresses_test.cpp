@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A server counts the requests that files of many formats make, whose texts of CRSs and schemas are addresses.
+// A server counts the requests that files of many formats make, whose texts of CRSs and schemas are
+// addresses.
 #include "io/gdal/crs_addresses.h"
 
 #include <gtest/gtest.h>
+#include <ogrsf_frmts.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,17 +24,18 @@ namespace {
 using test::HttpServer;
 using test::TemporaryFolder;
 
-std::string collection(const std::string& crs, const char* coordinates = "[1,2]", const char* type = "Point") {
+std::string collection(const std::string& crs, const char* coordinates = "[1,2]",
+                       const char* type = "Point") {
   return R"({"type":"FeatureCollection","crs":)" + crs +
-         R"(,"features":[{"type":"Feature","properties":{},"geometry":{"type":")" + type + R"(","coordinates":)" +
-         coordinates + "}}]}";
+         R"(,"features":[{"type":"Feature","properties":{},"geometry":{"type":")" + type +
+         R"(","coordinates":)" + coordinates + "}}]}";
 }
 
 constexpr const char* kSchema = "wfs?service=WFS&version=1.1.0&request=DescribeFeatureType&typeName=ogr:p";
 
 TEST(CrsAddresses, InFilesAreNotFetched) {
   registerGdal();
-  HttpServer server({{"x", "LOCAL_CS[\"fetched\"]"}, {kSchema, "<a/>"}});
+  HttpServer server(std::map<std::string, std::string>{{"x", "LOCAL_CS[\"fetched\"]"}, {kSchema, "<a/>"}});
   const std::string url = server.address("x");
   const auto link = [&](const char* type, const char* key) {
     return std::string(R"({"type":")") + type + R"(","properties":{")" + key + "\":\"" + url + "\"}}";
@@ -41,8 +45,11 @@ TEST(CrsAddresses, InFilesAreNotFetched) {
       "xmlns:wfs=\"http://www.opengis.net/wfs\" xmlns:ogr=\"http://ogr.maptools.org/\" "
       "xmlns:gml=\"http://www.opengis.net/gml\" xsi:schemaLocation=\"http://ogr.maptools.org/ " +
       server.address("wfs") +
-      "?service=WFS&amp;version=1.1.0&amp;request=DescribeFeatureType&amp;typeName=ogr:p\"><gml:featureMember><ogr:p>"
-      "<ogr:g><gml:Point srsName=\"" + url + "\"><gml:pos>1 2</gml:pos></gml:Point></ogr:g></ogr:p>"
+      "?service=WFS&amp;version=1.1.0&amp;request=DescribeFeatureType&amp;typeName=ogr:p\"><gml:"
+      "featureMember><ogr:p>"
+      "<ogr:g><gml:Point srsName=\"" +
+      url +
+      "\"><gml:pos>1 2</gml:pos></gml:Point></ogr:g></ogr:p>"
       "</gml:featureMember></wfs:FeatureCollection>";
   struct Case {
     const char* name;
@@ -58,22 +65,27 @@ TEST(CrsAddresses, InFilesAreNotFetched) {
            Case{"URL.geojson", collection(link("URL", "URL"))},
            Case{"epsg.geojson", collection(link("epsg", "code"))},
            Case{"line.geojsonl", R"({"type":"Feature","crs":)" + link("link", "href") +
-                                     R"(,"properties":{},"geometry":{"type":"Point","coordinates":[1,2]}})" "\n"},
+                                     R"(,"properties":{},"geometry":{"type":"Point","coordinates":[1,2]}})"
+                                     "\n"},
            Case{"nested.geojson", R"({"type":"Feature","crs":)" + link("link", "href") +
                                       R"(,"properties":{},"geometry":{"type":"Point","coordinates":[1,2]}})"},
-           Case{"geometry.geojson", R"({"type":"Point","crs":)" + link("link", "href") + R"(,"coordinates":[1,2]})"},
-           Case{"esri.json", R"({"geometryType":"esriGeometryPoint","spatialReference":{"wkt":")" + url +
-                                 R"("},"fields":[],"features":[{"attributes":{},"geometry":{"x":1,"y":2}}]})"},
+           Case{"geometry.geojson",
+                R"({"type":"Point","crs":)" + link("link", "href") + R"(,"coordinates":[1,2]})"},
+           Case{"esri.json",
+                R"({"geometryType":"esriGeometryPoint","spatialReference":{"wkt":")" + url +
+                    R"("},"fields":[],"features":[{"attributes":{},"geometry":{"x":1,"y":2}}]})"},
            Case{"topo.json", R"({"type":"Topology","crs":)" + link("link", "href") +
                                  R"(,"objects":{"a":{"type":"Point","coordinates":[1,2]}},"arcs":[]})"},
            Case{"schema.gml", wfs},
            Case{"p.csv", "x,y,WKT\n1,2,POINT (1 2)\n"},
-           Case{"k.kml", "<kml xmlns=\"http://www.opengis.net/kml/2.2\"><Document><NetworkLink><Link><href>" + url +
-                             "</href></Link></NetworkLink><Placemark><Point><coordinates>1,2</coordinates></Point>"
-                             "</Placemark></Document></kml>"},
-           Case{"g.gpx", "<gpx version=\"1.1\" creator=\"x\" xmlns=\"http://www.topografix.com/GPX/1/1\" "
-                         "xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" xsi:schemaLocation=\"a " + url +
-                             "\"><wpt lat=\"1\" lon=\"2\"/></gpx>"},
+           Case{"k.kml",
+                "<kml xmlns=\"http://www.opengis.net/kml/2.2\"><Document><NetworkLink><Link><href>" + url +
+                    "</href></Link></NetworkLink><Placemark><Point><coordinates>1,2</coordinates></Point>"
+                    "</Placemark></Document></kml>"},
+           Case{"g.gpx",
+                "<gpx version=\"1.1\" creator=\"x\" xmlns=\"http://www.topografix.com/GPX/1/1\" "
+                "xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" xsi:schemaLocation=\"a " +
+                    url + "\"><wpt lat=\"1\" lon=\"2\"/></gpx>"},
        }) {
     const std::string path = folder.write(c.name, c.content);
     readPointTable(path, {});
@@ -91,8 +103,10 @@ TEST(CrsAddresses, InFilesAreNotFetched) {
 
 TEST(CrsAddresses, OfAPersonAreFetchedAlsoWhileAFileIsRead) {
   registerGdal();
-  HttpServer server({{"crs", "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
-                             "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]"}});
+  HttpServer server(std::map<std::string, std::string>{
+      {"crs",
+       "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
+       "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]"}});
   const GdalErrors quiet;
   const auto crs = crsFromUser(server.address("crs"));
   EXPECT_TRUE(crs) << crs.error().describe();
@@ -101,7 +115,7 @@ TEST(CrsAddresses, OfAPersonAreFetchedAlsoWhileAFileIsRead) {
 
 TEST(CrsAddresses, DoNotKeepFilesFromBeingRead) {
   registerGdal();
-  HttpServer server({{"a.geojson", collection("null")}});
+  HttpServer server(std::map<std::string, std::string>{{"a.geojson", collection("null")}});
   const auto table = readPointTable(server.address("a.geojson"), {});
   EXPECT_TRUE(table) << table.error().describe();
 }

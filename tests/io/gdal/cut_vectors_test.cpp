@@ -59,7 +59,8 @@ std::string squaresIn(GDALDriver& driver, const fs::path& folder, const char* op
   layer->CreateField(&name);
   for (int i = 0; i < kSide * kSide; ++i) {
     OGRFeature feature(layer->GetLayerDefn());
-    if (layer->GetLayerDefn()->GetFieldIndex("name") >= 0) feature.SetField("name", std::to_string(i).c_str());
+    if (layer->GetLayerDefn()->GetFieldIndex("name") >= 0)
+      feature.SetField("name", std::to_string(i).c_str());
     OGRLinearRing ring;
     const double x = 15 + 0.01 * (i % kSide), y = 47 - 0.01 * (i / kSide);
     for (const auto& [dx, dy] : {std::pair{0.0, 0.0}, {0.005, 0.0}, {0.005, 0.005}, {0.0, 0.0}})
@@ -106,8 +107,8 @@ TEST(CutVectors, OfEveryFormatAreRefusedWholeOrWarnedOf) {
     if (!can(GDAL_DCAP_VECTOR) || !can(GDAL_DCAP_CREATE)) continue;
     // In memory, on servers, of several files of which some are caches, of pages, tables of rows that may end
     // anywhere.
-    constexpr std::string_view kOthers[] = {"MEM",  "Memory", "PGDUMP", "PDF",   "OpenFileGDB", "MVT",
-                                            "MBTiles", "PDS4", "XLSX", "ODS", "Selafin", "netCDF"};
+    constexpr std::string_view kOthers[] = {"MEM",     "Memory", "PGDUMP", "PDF", "OpenFileGDB", "MVT",
+                                            "MBTiles", "PDS4",   "XLSX",   "ODS", "Selafin",     "netCDF"};
     if (std::ranges::find(kOthers, name) != std::end(kOthers)) continue;
     std::vector<const char*> options = {nullptr};
     if (name == "CSV") options = {"GEOMETRY=AS_WKT"};
@@ -131,9 +132,10 @@ TEST(CutVectors, OfEveryFormatAreRefusedWholeOrWarnedOf) {
         write(largest, std::string_view(bytes).substr(0, left));
         std::vector<std::string> warnings;
         const auto cut = featuresOf(path, warnings);
-        if (cut && *cut != *whole)
-          EXPECT_FALSE(warnings.empty())
-              << name << " cut to " << left << " of " << bytes.size() << " bytes: " << std::count(cut->begin(), cut->end(), '\n');
+        if (cut && *cut != *whole) {
+          EXPECT_FALSE(warnings.empty()) << name << " cut to " << left << " of " << bytes.size()
+                                         << " bytes: " << std::count(cut->begin(), cut->end(), '\n');
+        }
         EXPECT_FALSE(contains(joined(warnings) + (cut ? "" : cut.error().describe()), "0x"))
             << joined(warnings) << (cut ? "" : cut.error().describe());
       }
@@ -146,16 +148,21 @@ TEST(CutVectors, OfEveryFormatAreRefusedWholeOrWarnedOf) {
 std::string recordsOf(int count, const std::string& before, const std::string& after) {
   std::string text;
   for (int i = 0; i < count; ++i)
-    text += before + R"({"type":"Feature","properties":{"n":"a \"}{\" b"},"geometry":{"type":"Point","coordinates":[15.)" +
-            std::to_string(i) + ",47,1" + std::to_string(i) + "]}}" + after;
+    text +=
+        before +
+        R"({"type":"Feature","properties":{"n":"a \"}{\" b"},"geometry":{"type":"Point","coordinates":[15.)" +
+        std::to_string(i) + ",47,1" + std::to_string(i) + "]}}" + after;
   return text;
 }
 
 TEST(CutVectors, OfAGeoJsonTextSequenceNameTheBrokenRecord) {
   registerGdal();
   const TemporaryFolder folder;
-  for (const auto& [before, after] :
-       {std::pair<std::string, std::string>{"", "\n"}, {"\x1e", "\n"}, {"\x1e", ""}, {"", "\r\n"}, {"\x1e\n", "\n\n"}}) {
+  for (const auto& [before, after] : {std::pair<std::string, std::string>{"", "\n"},
+                                      {"\x1e", "\n"},
+                                      {"\x1e", ""},
+                                      {"", "\r\n"},
+                                      {"\x1e\n", "\n\n"}}) {
     const std::string whole = recordsOf(40, before, after);
     std::vector<std::string> warnings;
     EXPECT_TRUE(checkWholeText(folder.write("w.geojsonl", whole), "GeoJSONSeq", warnings));
@@ -180,12 +187,24 @@ TEST(CutVectors, OfAGeoJsonTextSequenceMayBeDamagedAnywhere) {
     bool isWhole;
   };
   for (const Case& c : {
-           Case{one + one + one, true}, Case{one + "\n\n" + one, true}, Case{"\xef\xbb\xbf" + one, true},
-           Case{one + "   \n", true}, Case{"{\"a\": NaN}\n" + one, true}, Case{one + one.substr(0, 20) + "\n" + one, false},
-           Case{one + "}\n" + one, false}, Case{one + "null\n", false}, Case{one + "{\"a\": \"b}\n" + one, false},
-           Case{one.substr(0, one.size() - 1) + one, false}, Case{one + "[1,2]\n", false}, Case{"{\n}\n", false},
-           Case{"\x1e{\n}\n\x1e{\n\"a\": [\n1]}\n", true}, Case{"\x1e{\n}\n\x1e{\n\"a\": [\n1}\n\x1e", true},
-           Case{"", true}, Case{"\n\n", true}, Case{one + "{", false}, Case{one + "{\"a\\\"}", false},
+           Case{one + one + one, true},
+           Case{one + "\n\n" + one, true},
+           Case{"\xef\xbb\xbf" + one, true},
+           Case{one + "   \n", true},
+           Case{"{\"a\": NaN}\n" + one, true},
+           Case{one + one.substr(0, 20) + "\n" + one, false},
+           Case{one + "}\n" + one, false},
+           Case{one + "null\n", false},
+           Case{one + "{\"a\": \"b}\n" + one, false},
+           Case{one.substr(0, one.size() - 1) + one, false},
+           Case{one + "[1,2]\n", false},
+           Case{"{\n}\n", false},
+           Case{"\x1e{\n}\n\x1e{\n\"a\": [\n1]}\n", true},
+           Case{"\x1e{\n}\n\x1e{\n\"a\": [\n1}\n\x1e", true},
+           Case{"", true},
+           Case{"\n\n", true},
+           Case{one + "{", false},
+           Case{one + "{\"a\\\"}", false},
        }) {
     std::vector<std::string> warnings;
     const Status status = checkWholeText(folder.write("a.geojsonl", c.text), "GeoJSONSeq", warnings);
@@ -196,9 +215,11 @@ TEST(CutVectors, OfAGeoJsonTextSequenceMayBeDamagedAnywhere) {
 TEST(CutVectors, OfATableEndInItsQuotes) {
   const TemporaryFolder folder;
   std::vector<std::string> warnings;
-  EXPECT_TRUE(checkWholeText(folder.write("a.csv", "WKT,n\n\"POLYGON ((0 0,1 0,1 1,0 0))\",\"a \"\"b\"\"\n c\"\n"), "CSV",
-                             warnings));
-  const Status cut = checkWholeText(folder.write("a.csv", "WKT,n\n\"POINT (1 2)\",a\n\"POLYGON ((0 0,1 0"), "CSV", warnings);
+  EXPECT_TRUE(
+      checkWholeText(folder.write("a.csv", "WKT,n\n\"POLYGON ((0 0,1 0,1 1,0 0))\",\"a \"\"b\"\"\n c\"\n"),
+                     "CSV", warnings));
+  const Status cut =
+      checkWholeText(folder.write("a.csv", "WKT,n\n\"POINT (1 2)\",a\n\"POLYGON ((0 0,1 0"), "CSV", warnings);
   ASSERT_FALSE(cut);
   EXPECT_TRUE(contains(cut.error().message, "line 3")) << cut.error().message;
   EXPECT_TRUE(warnings.empty());

@@ -17,7 +17,8 @@ TEST(GdalMessage, LosesWhatDiffersFromRunToRunAndWhatIsSecret) {
   for (const Case& c : {
            Case{"VSIFReadL(0x55620f8539e0,6*4) @ 20525 failed in HFAEntry().\nSuccess",
                 "VSIFReadL(6*4) @ 20525 failed in HFAEntry()"},
-           Case{"/vsimem/gpkg_read_tile_0x2cf50dd0, band 1: IReadBlock failed", "/vsimem/gpkg_read_tile, band 1: IReadBlock failed"},
+           Case{"/vsimem/gpkg_read_tile_0x2cf50dd0, band 1: IReadBlock failed",
+                "/vsimem/gpkg_read_tile, band 1: IReadBlock failed"},
            Case{"block 0x7ffd5c3a1b2c is bad", "block  is bad"},
            Case{"(0x55d0c0ffee00, 0x55d0c0ffee10)", "()"},
            Case{"colour 0xFF00FF and flags 0x1F stay", "colour 0xFF00FF and flags 0x1F stay"},

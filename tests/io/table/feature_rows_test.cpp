@@ -38,7 +38,7 @@ TEST_F(FeatureRowsTest, ComeInTheOrderOfTheLayerEveryTime) {
   for (int round = 0; round < 2; ++round) {
     GdalErrors errors;
     std::vector<std::string> heights;
-    EXPECT_TRUE(forFeatures(layer(), errors, {}, [&](OGRFeature& feature) -> Status {
+    EXPECT_TRUE(forFeatures(*dataset_, layer(), errors, {}, [&](OGRFeature& feature) -> Status {
       heights.push_back(fieldText(feature, 0));
       return {};
     }));
@@ -49,7 +49,7 @@ TEST_F(FeatureRowsTest, ComeInTheOrderOfTheLayerEveryTime) {
 TEST_F(FeatureRowsTest, EndWithTheFirstError) {
   GdalErrors errors;
   int calls = 0;
-  const Status status = forFeatures(layer(), errors, {}, [&](OGRFeature&) -> Status {
+  const Status status = forFeatures(*dataset_, layer(), errors, {}, [&](OGRFeature&) -> Status {
     if (++calls == 2) return failure(ErrorCode::degenerate, "two");
     return {};
   });
@@ -64,8 +64,8 @@ TEST_F(FeatureRowsTest, EndWhenCancelledOrGdalFails) {
   context.cancel = &stop;
   GdalErrors errors;
   const auto none = [](OGRFeature&) -> Status { return {}; };
-  EXPECT_EQ(forFeatures(layer(), errors, context, none).error().code, ErrorCode::interrupted);
-  const Status failed = forFeatures(layer(), errors, {}, [](OGRFeature&) -> Status {
+  EXPECT_EQ(forFeatures(*dataset_, layer(), errors, context, none).error().code, ErrorCode::interrupted);
+  const Status failed = forFeatures(*dataset_, layer(), errors, {}, [](OGRFeature&) -> Status {
     CPLError(CE_Failure, CPLE_AppDefined, "the disk is gone");
     return {};
   });
@@ -75,11 +75,25 @@ TEST_F(FeatureRowsTest, EndWhenCancelledOrGdalFails) {
 }
 
 TEST_F(FeatureRowsTest, HaveKindsOfColumns) {
-  EXPECT_EQ(kindOf(OFTInteger), PointAttributes::Kind::integer);
-  EXPECT_EQ(kindOf(OFTInteger64), PointAttributes::Kind::integer);
-  EXPECT_EQ(kindOf(OFTReal), PointAttributes::Kind::real);
-  EXPECT_EQ(kindOf(OFTString), PointAttributes::Kind::text);
-  EXPECT_EQ(kindOf(OFTDateTime), PointAttributes::Kind::text);
+  using Kind = PointAttributes::Kind;
+  const auto kind = [](OGRFieldType type, OGRFieldSubType subtype = OFSTNone) {
+    OGRFieldDefn field("a", type);
+    field.SetSubType(subtype);
+    return kindOf(field);
+  };
+  EXPECT_EQ(kind(OFTInteger), Kind::integer32);
+  EXPECT_EQ(kind(OFTInteger, OFSTInt16), Kind::integer16);
+  EXPECT_EQ(kind(OFTInteger, OFSTBoolean), Kind::boolean);
+  EXPECT_EQ(kind(OFTInteger64), Kind::integer);
+  EXPECT_EQ(kind(OFTReal), Kind::real);
+  EXPECT_EQ(kind(OFTReal, OFSTFloat32), Kind::real32);
+  EXPECT_EQ(kind(OFTString), Kind::text);
+  EXPECT_EQ(kind(OFTString, OFSTJSON), Kind::json);
+  EXPECT_EQ(kind(OFTDate), Kind::date);
+  EXPECT_EQ(kind(OFTTime), Kind::time);
+  EXPECT_EQ(kind(OFTDateTime), Kind::dateTime);
+  EXPECT_EQ(kind(OFTBinary), Kind::bytes);
+  EXPECT_EQ(kind(OFTStringList), Kind::text);
 }
 
 TEST(TransformOf, FollowsTheCrsOfTheFileAndTheDem) {

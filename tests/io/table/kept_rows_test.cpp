@@ -53,7 +53,9 @@ TEST(KeptRows, OfATextWithoutACoordinateStayEmptyAndAreCounted) {
     }
     EXPECT_EQ(hasPlace, c.hasPlace) << c.text;
     EXPECT_EQ(table->withoutPlace, without) << c.text;
-    if (!table->attributes.columns.empty()) EXPECT_EQ(table->attributes.rows(), hasPlace.size()) << c.text;
+    if (!table->attributes.columns.empty()) {
+      EXPECT_EQ(table->attributes.rows(), hasPlace.size()) << c.text;
+    }
     const std::string csv = csvOf(*table, std::vector<std::optional<SurfaceHeight>>(hasPlace.size()));
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), std::ptrdiff_t(hasPlace.size()) + 1) << csv;
   }
@@ -61,9 +63,9 @@ TEST(KeptRows, OfATextWithoutACoordinateStayEmptyAndAreCounted) {
 
 TEST(KeptRows, AreNoneWhereTheTextIsDamaged) {
   const TemporaryFolder folder;
-  for (const char* text :
-       {"x,y\n1,2\n3\n", "x,y\n1,2\n3,abc\n", "x,y\n1,2\n3,inf\n", "WKT,n\nPOINT(1 2,a\n", "WKT\n\"POINT (1 2)\"\n\"POINT (3",
-        "WKT,n\n\"LINESTRING (0 0,1 1)\",a\n", "the_geom,n\nSRID=4326;POINT(1 2),a\nSRID=32611;POINT(1 2),b\n"}) {
+  for (const char* text : {"x,y\n1,2\n3\n", "x,y\n1,2\n3,abc\n", "x,y\n1,2\n3,inf\n", "WKT,n\nPOINT(1 2,a\n",
+                           "WKT\n\"POINT (1 2)\"\n\"POINT (3", "WKT,n\n\"LINESTRING (0 0,1 1)\",a\n",
+                           "the_geom,n\nSRID=4326;POINT(1 2),a\nSRID=32611;POINT(1 2),b\n"}) {
     const auto table = readPointTable(folder.write("a.csv", text), utm());
     ASSERT_FALSE(table) << text;
     EXPECT_EQ(table.error().code, ErrorCode::invalidData) << table.error().describe();
@@ -103,7 +105,9 @@ TEST(KeptRows, OfPointsAsTextAreReadByAnyNameOfTheColumn) {
     ASSERT_EQ(table->positions.size(), 1u) << c.text;
     EXPECT_EQ(table->positions[0], (Vec2{500105, 5199905})) << c.text;
     EXPECT_EQ(table->z.empty(), !c.z) << c.text;
-    if (c.z) EXPECT_EQ(table->z[0], *c.z) << c.text;
+    if (c.z) {
+      EXPECT_EQ(table->z[0], *c.z) << c.text;
+    }
     const auto plan = readPlanPoints(folder.file("a.csv"), "EPSG:32611");
     ASSERT_TRUE(plan) << c.text << plan.error().describe();
     EXPECT_EQ(plan->positions, table->positions) << c.text;
@@ -117,7 +121,8 @@ TEST(KeptRows, AreInTheCrsThatTheirTextStates) {
   EXPECT_EQ(table->stated[0], (Vec2{-117, 34}));
   EXPECT_NEAR(table->positions[0].x, 500000, 1) << "the middle meridian of the zone";
   EXPECT_TRUE(contains(table->crsWkt, "4326"));
-  EXPECT_EQ(readPointTable(folder.file("a.csv"), {}).error().code, ErrorCode::invalidData) << "a DEM without a CRS";
+  EXPECT_EQ(readPointTable(folder.file("a.csv"), {}).error().code, ErrorCode::invalidData)
+      << "a DEM without a CRS";
 }
 
 TEST(KeptRows, KeepIntegersOfMoreDigitsThanANumberHasAsText) {
@@ -185,7 +190,8 @@ TEST(KeptRows, OfALayerKeepTheirTypesAndZ) {
   const auto table = readPointTable(typedLayer(folder), utm());
   ASSERT_TRUE(table) << table.error().describe();
   EXPECT_EQ(table->withoutPlace, 1u);
-  const std::vector<std::optional<SurfaceHeight>> heights = {SurfaceHeight{.height = 1}, std::nullopt, std::nullopt};
+  const std::vector<std::optional<SurfaceHeight>> heights = {SurfaceHeight{.height = 1}, std::nullopt,
+                                                             std::nullopt};
   const std::string csv = csvOf(*table, heights), own = csv.substr(csv.find('\n') + 1);
   std::string first = "1,";
   for (const Field& field : kFields) first += std::string(field.csv) + ',';
@@ -213,11 +219,14 @@ TEST(KeptRows, OfALayerKeepTheirTypesAndZ) {
       EXPECT_EQ(feature->IsFieldSetAndNotNull(at) != 0, row != 1) << field.name;
       if (row == 1) continue;
       expected.SetField(at, field.value);
-      EXPECT_STREQ(feature->GetFieldAsString(at), std::string(expected.GetFieldAsString(at)).c_str()) << field.name;
+      EXPECT_STREQ(feature->GetFieldAsString(at), std::string(expected.GetFieldAsString(at)).c_str())
+          << field.name;
     }
     const OGRGeometry* geometry = feature->GetGeometryRef();
     EXPECT_EQ(geometry != nullptr, row < 2);
-    if (geometry) EXPECT_EQ(geometry->toPoint()->getZ(), 77.5);
+    if (geometry) {
+      EXPECT_EQ(geometry->toPoint()->getZ(), 77.5);
+    }
     ++row;
   }
   EXPECT_EQ(row, 3);
@@ -232,14 +241,15 @@ TEST(KeptRows, WriteMomentsInTheirZone) {
   for (const Case& c : {Case{"2020-01-02T03:04:05+01:00", "2020-01-02T03:04:05+01:00"},
                         Case{"2020-01-02T03:04:05-09:30", "2020-01-02T03:04:05-09:30"},
                         Case{"2020-01-02T03:04:05Z", "2020-01-02T03:04:05Z"},
-                        Case{"2020-01-02T03:04:05", "2020-01-02T03:04:05"},
-                        Case{"2020-01-02", "2020-01-02"},
+                        Case{"2020-01-02T03:04:05", "2020-01-02T03:04:05"}, Case{"2020-01-02", "2020-01-02"},
                         Case{"03:04:05", "03:04:05"}}) {
     const auto table = readPointTable(
-        folder.write("a.geojson",
-                     std::string(R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32611"}},)") +
-                         R"("features":[{"type":"Feature","properties":{"t":")" + c.stated +
-                         R"("},"geometry":{"type":"Point","coordinates":[1,2]}}]})"),
+        folder.write(
+            "a.geojson",
+            std::string(
+                R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32611"}},)") +
+                R"("features":[{"type":"Feature","properties":{"t":")" + c.stated +
+                R"("},"geometry":{"type":"Point","coordinates":[1,2]}}]})"),
         utm());
     ASSERT_TRUE(table) << table.error().describe();
     EXPECT_EQ(table->attributes.at(0, 1), c.written);

@@ -47,12 +47,31 @@ TEST(WktPoint, HasItsCoordinatesHowEverItIsWritten) {
 }
 
 TEST(WktPoint, IsNothingElse) {
-  for (const char* text :
-       {"", "POINT", "point", "POINT (15)", "POINT (15 47", "POINT 15 47", "POINT (15, 47)", "POINT (a b)",
-        "POINT (15 nan)", "POINT (15 inf)", "POINT (15 47) x", "POINT Z (15 47)", "POINT M (15 47)",
-        "POINT ZM (15 47 1)", "POINT (1 2 3 4 5)", "LINESTRING (0 0, 1 1)", "MULTIPOINT ((1 2),(3 4))",
-        "MULTIPOINT (1 2, 3 4)", "POLYGON ((0 0,1 0,1 1,0 0))", "SRID=x;POINT (1 2)", "SRID=-1;POINT (1 2)",
-        "SRID=4326 POINT (1 2)", "0101000000000000000000F03F0000000000000040", "POINTS (1 2)", "POINT EMPTY (1 2)"})
+  for (const char* text : {"",
+                           "POINT",
+                           "point",
+                           "POINT (15)",
+                           "POINT (15 47",
+                           "POINT 15 47",
+                           "POINT (15, 47)",
+                           "POINT (a b)",
+                           "POINT (15 nan)",
+                           "POINT (15 inf)",
+                           "POINT (15 47) x",
+                           "POINT Z (15 47)",
+                           "POINT M (15 47)",
+                           "POINT ZM (15 47 1)",
+                           "POINT (1 2 3 4 5)",
+                           "LINESTRING (0 0, 1 1)",
+                           "MULTIPOINT ((1 2),(3 4))",
+                           "MULTIPOINT (1 2, 3 4)",
+                           "POLYGON ((0 0,1 0,1 1,0 0))",
+                           "SRID=x;POINT (1 2)",
+                           "SRID=-1;POINT (1 2)",
+                           "SRID=4326 POINT (1 2)",
+                           "0101000000000000000000F03F0000000000000040",
+                           "POINTS (1 2)",
+                           "POINT EMPTY (1 2)"})
     EXPECT_FALSE(readWktPoint(text)) << text;
 }
 
