@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// GDAL asks for a CRS, and for nothing else, with the header "Accept: application/x-ogcwkt"
+// GDAL requests a CRS, and nothing else, with the header "Accept: application/x-ogcwkt"
 // (OGRSpatialReference::importFromUrl()). GDAL's own callback for requests is per thread, so that a program
 // that has this one in its process is not changed.
 #include "io/gdal/crs_addresses.h"

@@ -102,19 +102,21 @@ std::optional<std::uint64_t> dgnLength(const std::string& path, const Head& head
   VSILFILE* file = VSIFOpenL(path.c_str(), "rb");
   if (!file) return std::nullopt;
   std::uint64_t at = 0;
+  bool hasEnd = false;
   for (std::array<unsigned char, 4> element{}; at + 2 <= there;
        at += 4 + 2 * (element[2] | element[3] << 8)) {
     element.fill(0);
     VSIFSeekL(file, at, SEEK_SET);
     const std::size_t got = VSIFReadL(element.data(), 1, element.size(), file);
-    if (got < 2 || (element[0] == 0xFF && element[1] == 0xFF)) break;
+    hasEnd = got >= 2 && element[0] == 0xFF && element[1] == 0xFF;
+    if (got < 2 || hasEnd) break;
     if (got < element.size()) {
       at += element.size();
       break;
     }
   }
   VSIFCloseL(file);
-  return at;
+  return at + (hasEnd ? 0 : 2);
 }
 
 bool isNamedAsTile(const std::string& path) {

@@ -133,7 +133,7 @@ GdalDatasetPtr openGdal(const std::string& path, unsigned flags) {
   watchInputFile(path);
   std::string name = networkPathOf(path);
   if ((flags & GDAL_OF_RASTER) != 0) name = pathWithoutNetcdf(name);
-  const CPLConfigOptionSetter noSchema("GML_DOWNLOAD_SCHEMA", "NO", true);
+  const CPLConfigOptionSetter noSchema("GML_DOWNLOAD_WFS_SCHEMA", "NO", true);
   return GdalDatasetPtr(GDALDataset::Open(name.c_str(), flags | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
 }
 

@@ -58,7 +58,7 @@ class GdalErrors {
 };
 
 /// Opens for reading. A file makes no schema be fetched (of GML; a person may allow it by GDAL's option
-/// GML_DOWNLOAD_SCHEMA).
+/// GML_DOWNLOAD_WFS_SCHEMA).
 ///
 /// @param flags GDAL_OF_RASTER or GDAL_OF_VECTOR.
 /// @return Null if GDAL cannot open it.

@@ -11,9 +11,9 @@ namespace arete {
 
 /// Looks for the end of a file whose records GDAL reads as far as they go: what was cut off in the middle of
 /// one is no error there. Every record of a GeoJSON text sequence (of lines, or behind record separators
-/// [RFC8142]) must be one JSON object, by its brackets and quotation marks; a quoted text of a CSV must end;
-/// the last line of an OGR GMT, Geoconcept, VDV or Interlis 1 file should end with a line break, or a warning
-/// says so. Files of other formats pass.
+/// of RFC 8142) must be one JSON object, by its brackets and quotation marks; a quoted text of a CSV must
+/// end; the last line of an OGR GMT, Geoconcept, VDV or Interlis 1 file should end with a line break, or a
+/// warning says so. Files of other formats pass.
 ///
 /// @param driver GDAL's short name of the format.
 ///

@@ -14,6 +14,7 @@
 #include "io/crs/reader.h"
 #include "io/extract/region_reader.h"
 #include "io/gdal/support.h"
+#include "io/georeference_fixture.h"
 #include "io/http_server.h"
 #include "io/io_fixture.h"
 #include "io/table/point_table.h"
@@ -90,7 +91,7 @@ TEST(CrsAddresses, InFilesAreNotFetched) {
     const std::string path = folder.write(c.name, c.content);
     readPointTable(path, {});
     const GdalErrors quiet;
-    if (const GdalDatasetPtr dataset = openGdal(path, GDAL_OF_VECTOR | GDAL_OF_RASTER))
+    if (const GdalDatasetPtr dataset = openGdal(path, GDAL_OF_VECTOR))
       for (OGRLayer* layer : dataset->GetLayers())
         for (const auto& feature : *layer) (void)feature->GetGeometryRef();
     EXPECT_EQ(server.requests("x") + server.requests(kSchema), 0) << c.name;
@@ -116,7 +117,7 @@ TEST(CrsAddresses, OfAPersonAreFetchedAlsoWhileAFileIsRead) {
 TEST(CrsAddresses, DoNotKeepFilesFromBeingRead) {
   registerGdal();
   HttpServer server(std::map<std::string, std::string>{{"a.geojson", collection("null")}});
-  const auto table = readPointTable(server.address("a.geojson"), {});
+  const auto table = readPointTable(server.address("a.geojson"), test::georeferenceOf("EPSG:4326"));
   EXPECT_TRUE(table) << table.error().describe();
 }
 

@@ -200,7 +200,7 @@ TEST(CutVectors, OfAGeoJsonTextSequenceMayBeDamagedAnywhere) {
            Case{one + "[1,2]\n", false},
            Case{"{\n}\n", false},
            Case{"\x1e{\n}\n\x1e{\n\"a\": [\n1]}\n", true},
-           Case{"\x1e{\n}\n\x1e{\n\"a\": [\n1}\n\x1e", true},
+           Case{"\x1e{\n}\n\x1e{\n\"a\": [\n1}\n\x1e", false},
            Case{"", true},
            Case{"\n\n", true},
            Case{one + "{", false},

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/table/record_scanner.h"
+#include "io/file/record_scanner.h"
 
 #include <algorithm>
 
 #include "io/file/text_scan.h"
-#include "io/table/separator.h"
 
 namespace arete {
 
@@ -41,7 +40,7 @@ std::size_t QuoteScanner::recordEnd(std::string_view text) {
     } else if (c == '"' && atFieldStart_) {
       inQuotes_ = true;
       atFieldStart_ = false;
-    } else if (!isBlank(c)) {
+    } else if (c != ' ' && c != '\t' && c != '\r') {
       atFieldStart_ = false;
       hasTextBehindQuotes_ = hasTextBehindQuotes_ || isClosed_;
     }
