@@ -191,7 +191,7 @@ TEST(Mosaic, RefusesByNameWhatDoesNotFit) {
       {"has heights in 'ft'",
        [](RasterSpec& s) { s.adjust = [](GDALDataset& d) { d.GetRasterBand(1)->SetUnitType("ft"); }; }},
       {"has heights in 'metre'", [](RasterSpec& s) { s.crs = "EPSG:32611+3855"; }},
-      {"is in no CRS", [](RasterSpec& s) { s.crs.clear(), s.geoTransform.reset(); }},
+      {"has no CRS", [](RasterSpec& s) { s.crs.clear(), s.geoTransform.reset(); }},
       {"too far", [](RasterSpec& s) { s.geoTransform = {5e15, 30, 0, 4000000, 0, -30}; }},
   };
   for (const auto& [sentence, alter] : cases) {
