@@ -12,7 +12,9 @@ class LinkWalk {
   LinkWalk(const LiveMesh& mesh, VertexId v) : mesh_(mesh), first_(mesh.vertexHalfedge[v]), at_(first_) {}
 
   bool isDone() const { return isDone_; }
+  int steps() const { return steps_; }
   VertexId take() {
+    ++steps_;
     if (isLast_) {
       isDone_ = true;
       return mesh_.origin(LiveMesh::previousInTriangle(at_));
@@ -32,14 +34,23 @@ class LinkWalk {
   const LiveMesh& mesh_;
   HalfedgeId first_, at_;
   bool isLast_ = false, isDone_ = false;
+  int steps_ = 0;
 };
 
 }  // namespace
 
-bool haveEdge(const LiveMesh& mesh, VertexId a, VertexId b) {
+bool KnownEdges::haveEdge(const LiveMesh& mesh, VertexId a, VertexId b) {
+  constexpr int kFew = 64;
+  const std::uint64_t edge = std::uint64_t{std::min(a, b).index()} << 32 | std::max(a, b).index();
   LinkWalk aroundA(mesh, a), aroundB(mesh, b);
-  while (!aroundA.isDone() && !aroundB.isDone())
-    if (aroundA.take() == b || aroundB.take() == a) return true;
+  for (int steps = 0; !aroundA.isDone() && !aroundB.isDone(); ++steps) {
+    if (steps == kFew)
+      if (const auto found = known_.find(edge); found != known_.end()) return found->second;
+    if (aroundA.take() != b && aroundB.take() != a) continue;
+    if (steps >= kFew) known_[edge] = true;
+    return true;
+  }
+  if (aroundA.steps() > kFew) known_[edge] = false;
   return false;
 }
 
@@ -161,16 +172,16 @@ bool SurfaceHole::folds(const SurfaceState& state, int corner) {
   return false;
 }
 
-bool SurfaceHole::mayBeFilled(const SurfaceState& state) const {
+bool SurfaceHole::mayBeFilled(const SurfaceState& state) {
   if (ear() >= 0 && !goesOnBeyond(state, ear())) return false;
-  if (star_.isOpen) return !haveEdge(state.mesh, star_.link[0], star_.link[star_.linkSize - 1]);
+  if (star_.isOpen) return !edges_.haveEdge(state.mesh, star_.link[0], star_.link[star_.linkSize - 1]);
   if (star_.linkSize > 3) return true;
   // The triangle that would fill the hole may be there already, beyond the star.
   const HalfedgeId beyond = state.mesh.twinOf(star_.rim(0));
   return !beyond.isValid() || state.mesh.origin(LiveMesh::previousInTriangle(beyond)) != star_.link[2];
 }
 
-bool SurfaceHole::keepsTopology(const SurfaceState& state, int corner) const {
+bool SurfaceHole::keepsTopology(const SurfaceState& state, int corner) {
   constexpr int kFew = 64;
   int steps = 0;
   bool keeps = true;
@@ -183,7 +194,8 @@ bool SurfaceHole::keepsTopology(const SurfaceState& state, int corner) const {
   });
   if (steps <= kFew) return keeps;
   for (int i = 0; i < star_.linkSize; ++i)
-    if (i != corner && !areNeighbours(i, corner) && haveEdge(state.mesh, u, star_.link[i])) return false;
+    if (i != corner && !areNeighbours(i, corner) && edges_.haveEdge(state.mesh, u, star_.link[i]))
+      return false;
   return true;
 }
 

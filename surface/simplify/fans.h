@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <unordered_map>
 
 #include "engine/base/vec.h"
 #include "engine/simplify/hole_triangles.h"
@@ -16,7 +17,19 @@ namespace arete {
 /// leaves.
 HoleTriangulation fanAround(int corner, int corners);
 
-/// The hole that the removal of a vertex leaves, and the fans that may fill it.
+/// Answers whether two vertices have an edge, for a mesh that does not change meanwhile. Of two vertices that
+/// both have many neighbours the answer is kept: a vertex between them asks again and again.
+class KnownEdges {
+ public:
+  /// O(the smaller of their degrees) once, and where that is more than 64, O(1) from then on.
+  bool haveEdge(const LiveMesh& mesh, VertexId a, VertexId b);
+
+ private:
+  std::unordered_map<std::uint64_t, bool> known_;  // by both ids, the smaller one in the high bits
+};
+
+/// The hole that the removal of a vertex leaves, and the fans that may fill it. The mesh does not change
+/// while holes are gathered and asked.
 ///
 /// A fan keeps the surface a manifold of the same topology if none of its new edges is an edge of the mesh
 /// already (the link condition [DeyEdelsbrunnerGuhaNekhayev1999]). It turns no triangle over: each turns
@@ -49,9 +62,9 @@ class SurfaceHole {
   /// other than any at the star were, and by more than 120 degrees. Reads the triangles around the star.
   bool folds(const SurfaceState& state, int corner);
   /// Whether any fan keeps the topology and every part. Reads the mesh around the star.
-  bool mayBeFilled(const SurfaceState& state) const;
+  bool mayBeFilled(const SurfaceState& state);
   /// Whether the fan around a corner keeps the topology, if any does. Reads the mesh around the corner.
-  bool keepsTopology(const SurfaceState& state, int corner) const;
+  bool keepsTopology(const SurfaceState& state, int corner);
 
   /// The labels of a triangle of a fan.
   TriangleLabels labelsOf(const SurfaceState& state, const std::array<std::uint8_t, 3>& triangle) const;
@@ -75,9 +88,7 @@ class SurfaceHole {
   double sharpest_ = 1;
   bool hasBeyond_ = false;
   StarLine line_;
+  KnownEdges edges_;
 };
-
-/// Whether two vertices have an edge. O(the smaller of their degrees).
-bool haveEdge(const LiveMesh& mesh, VertexId a, VertexId b);
 
 }  // namespace arete
