@@ -17,9 +17,9 @@
 
 #include "engine/base/box3.h"
 #include "engine/base/symmetric3.h"
+#include "engine/base/triangle_bvh.h"
 #include "engine/parallel/with_threads.h"
 #include "surface/fit/least_squares.h"
-#include "surface/fit/nearest_on_front.h"
 #include "surface/fit/source_samples.h"
 #include "surface/topology/edges.h"
 #include "surface/topology/turn_guard.h"
@@ -33,7 +33,9 @@ using Triangle = std::array<std::uint32_t, 3>;
 constexpr double kAcross = 0.05;
 /// Shares below this are those of a point on the boundary of its triangle.
 constexpr double kOnBoundary = 1e-9;
-constexpr double kLeastGain = 0.01;  // of the sum of squares, in a step
+constexpr std::uint64_t kSamplesPerTriangle = 40, kSamplesPerFace = 16, kMostForFaces = 100'000;
+constexpr std::size_t kPerSum = 1024;  // samples
+constexpr double kLeastGain = 0.01;    // of the sum of squares, in a step
 constexpr int kHalvings = 3;
 
 /// The complement of metricAlong().
@@ -50,13 +52,11 @@ class Fitting {
     const MeshEdges edges(cut.triangles, cut.positions.size());
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const MeshEdges::Edge edge = edges[e];
-      if (edge.isBorder()) {
-        borders_.push_back({edge.low.index(), edge.high.index()});
-        // An element of three corners, the third without a share.
-        elements_.push_back({edge.low.index(), edge.high.index(), edge.high.index()});
-      }
+      // An element of three corners, the third without a share.
+      if (edge.isBorder()) borders_.push_back({edge.low.index(), edge.high.index(), edge.high.index()});
     }
-    elements_.insert(elements_.begin(), cut.triangles.begin(), cut.triangles.end());
+    elements_ = cut.triangles;
+    elements_.insert(elements_.end(), borders_.begin(), borders_.end());
   }
 
   Result<FittedSurface> run(const TriangleMesh& source, const SurfaceFitOptions& options) {
@@ -64,36 +64,21 @@ class Fitting {
     TriangleMesh framed = source;
     for (Vec3& p : framed.positions) p = (p - middle_) * scale_;
     const std::uint64_t count =
-        options.samples > 0 ? options.samples : std::max<std::uint64_t>(100'000, 40 * triangles_.size());
-    samples_ = sampleSource(framed, count);
-    if (samples_.ofArea.empty()) return failure(ErrorCode::invalidData, "has no area to be fitted to");
-    if (borders_.empty()) samples_.ofBorder.clear();
+        options.samples > 0 ? options.samples
+                            : std::max(kSamplesPerTriangle * triangles_.size(),
+                                       std::min(kMostForFaces, kSamplesPerFace * source.triangles.size()));
+    Samples all(sampleSource(framed, count));
+    if (all.source.ofArea.empty()) return failure(ErrorCode::invalidData, "has no area to be fitted to");
+    if (borders_.empty()) all.source.ofBorder.clear();
     guard_.emplace(triangles_, positions_);
 
     FittedSurface result;
-    double sum = assign();
-    result.rmsBefore = rmsOf(sum);
-    while (result.steps < options.steps) {
-      if (context_.cancelled()) return failure(ErrorCode::interrupted, "fitting was interrupted");
-      context_.report("fit", double(result.steps) / options.steps);
-      const std::vector<Vec3> before = positions_, moves = problem().solve(isHeld_);
-      double next = sum;
-      for (int halving = 0; halving <= kHalvings; ++halving) {
-        move(before, moves, std::ldexp(1.0, -halving));
-        next = assign();
-        if (next < sum) break;
-      }
-      if (!(next < sum)) {
-        positions_ = before;
-        break;
-      }
-      ++result.steps;
-      const double gain = (sum - next) / sum;
-      sum = next;
-      if (gain < kLeastGain) break;
-    }
+    double sum = assign(all);
+    result.rmsBefore = all.rmsOf(sum) / scale_;
+    if (sum > all.squaresOf(roundingOf(source) * scale_))
+      if (const Status done = take(all, sum, options, result); !done) return tl::unexpected(done.error());
     context_.report("fit", 1);
-    result.rmsAfter = rmsOf(sum);
+    result.rmsAfter = all.rmsOf(sum) / scale_;
     for (std::size_t v = 0; v < positions_.size(); ++v)
       positions_[v] = isHeld_[v] != 0 || wasNotMoved(v) ? source_[v] : positions_[v] / scale_ + middle_;
     result.positions = std::move(positions_);
@@ -101,6 +86,46 @@ class Fitting {
   }
 
  private:
+  /// A sample of the source, and the point of the cut that is nearest to it.
+  struct Assigned {
+    std::uint32_t element = TriangleBvh::kNone;  // of triangles_, or of borders_
+    std::array<double, 3> shares{};
+    Vec3 residual{};
+  };
+  struct Samples {
+    SourceSamples source;
+    std::vector<Assigned> ofArea = {}, ofBorder = {};
+
+    explicit Samples(SourceSamples of) : source(std::move(of)) {}
+    double count() const { return double(source.ofArea.size() + source.ofBorder.size()); }
+    double rmsOf(double sum) const { return std::sqrt(sum / count()); }
+    double squaresOf(double rms) const { return rms * rms * count(); }
+  };
+
+  /// Takes steps until one gains too little.
+  Status take(Samples& samples, double& sum, const SurfaceFitOptions& options, FittedSurface& result) {
+    while (result.steps < options.steps) {
+      if (context_.cancelled()) return failure(ErrorCode::interrupted, "fitting was interrupted");
+      context_.report("fit", double(result.steps) / options.steps);
+      const std::vector<Vec3> before = positions_, moves = problem(samples).solve(isHeld_);
+      double next = sum;
+      for (int halving = 0; halving <= kHalvings; ++halving) {
+        move(before, moves, std::ldexp(1.0, -halving));
+        next = assign(samples);
+        if (next < sum) break;
+      }
+      if (!(next < sum)) {
+        positions_ = before;
+        return {};
+      }
+      ++result.steps;
+      const double gain = (sum - next) / sum;
+      sum = next;
+      if (gain < kLeastGain) return {};
+    }
+    return {};
+  }
+
   void enterFrame() {
     source_ = positions_;
     Box3 box = Box3::empty();
@@ -111,63 +136,71 @@ class Fitting {
     for (Vec3& p : positions_) p = (p - middle_) * scale_;
     framed_ = positions_;
   }
-  bool wasNotMoved(std::size_t v) const { return positions_[v] == framed_[v]; }
-  double rmsOf(double sum) const {
-    return std::sqrt(sum / double(samples_.ofArea.size() + samples_.ofBorder.size())) / scale_;
+  /// How far the coordinates of a mesh are from where they were meant, at the least: half of the distance to
+  /// the next number at the largest one, of floats where all are floats.
+  static double roundingOf(const TriangleMesh& mesh) {
+    double largest = 0;
+    bool areFloats = true;
+    for (const Vec3& p : mesh.positions)
+      for (const double x : {p.x, p.y, p.z}) {
+        largest = std::max(largest, std::fabs(x));
+        areFloats = areFloats && double(static_cast<float>(x)) == x;
+      }
+    return std::ldexp(largest, areFloats ? -24 : -52);
   }
+  bool wasNotMoved(std::size_t v) const { return positions_[v] == framed_[v]; }
 
-  /// Finds the nearest points of all samples. @return the sum of the squared distances of those of the area,
-  /// and of those of the border
-  double assign() {
-    double sum = 0;
-    const auto nearestOf = [&](const NearestOnFront& front, const std::vector<Vec3>& samples,
-                               std::vector<FrontPoint>& points) {
-      points.resize(samples.size());
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples.size(), 256), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) points[i] = front.nearest(samples[i]);
-      });
-    };
-    nearestOf(NearestOnFront(positions_, triangles_), samples_.ofArea, ofArea_);
-    for (std::size_t i = 0; i < ofArea_.size(); ++i) {
-      const Vec3 r = samples_.ofArea[i] - at(triangles_[ofArea_[i].element], ofArea_[i].shares);
-      sum += dot(r, r);
+  /// Finds the nearest points of all samples. The last ones are the guesses. @return the sum of the squared
+  /// distances
+  double assign(Samples& samples) {
+    if (!nearest_) {
+      nearest_.emplace(positions_, triangles_);
+      if (!borders_.empty()) nearestBorder_.emplace(positions_, borders_);
+    } else {
+      nearest_->refit(positions_, triangles_);
+      if (nearestBorder_) nearestBorder_->refit(positions_, borders_);
     }
-    if (samples_.ofBorder.empty()) return sum;
-    nearestOf(NearestOnFront(positions_, borders_), samples_.ofBorder, ofBorder_);
-    for (std::size_t i = 0; i < ofBorder_.size(); ++i) {
-      const auto& [from, to] = borders_[ofBorder_[i].element];
-      const Vec3 r = samples_.ofBorder[i] - at({from, to, to}, ofBorder_[i].shares);
-      sum += dot(r, r);
-    }
+    double sum = assign(*nearest_, samples.source.ofArea, samples.ofArea);
+    if (!samples.source.ofBorder.empty())
+      sum += assign(*nearestBorder_, samples.source.ofBorder, samples.ofBorder);
     return sum;
   }
-  Vec3 at(const Triangle& corners, const std::array<double, 3>& shares) const {
-    return shares[0] * positions_[corners[0]] + shares[1] * positions_[corners[1]] +
-           shares[2] * positions_[corners[2]];
+  static double assign(const TriangleBvh& nearest, const std::vector<Vec3>& samples,
+                       std::vector<Assigned>& assigned) {
+    assigned.resize(samples.size());
+    // Runs of samples have a sum each, so that no rounding depends on the threads.
+    std::vector<double> sums((samples.size() + kPerSum - 1) / kPerSum, 0);
+    tbb::parallel_for(std::size_t(0), sums.size(), [&](std::size_t run) {
+      for (std::size_t i = run * kPerSum; i < std::min(samples.size(), (run + 1) * kPerSum); ++i) {
+        Assigned& one = assigned[i];
+        // The samples of a face follow each other.
+        const bool isFirst = one.element == TriangleBvh::kNone && i > run * kPerSum;
+        const TriangleBvh::Answer answer =
+            nearest.nearest(samples[i], isFirst ? assigned[i - 1].element : one.element);
+        one = {answer.triangle, answer.point.shares, samples[i] - answer.point.place};
+        sums[run] += answer.squaredDistance;
+      }
+    });
+    double sum = 0;
+    for (const double s : sums) sum += s;
+    return sum;
   }
-
   /// For the nearest points that assign() found.
-  MoveProblem problem() const {
+  MoveProblem problem(const Samples& samples) const {
     MoveProblem problem(positions_.size(), elements_);
-    for (std::size_t i = 0; i < ofArea_.size(); ++i) {
-      const auto& [t, shares] = ofArea_[i];
-      const Vec3 r = samples_.ofArea[i] - at(triangles_[t], shares);
+    for (const auto& [t, shares, residual] : samples.ofArea) {
       const bool isInside = std::min({shares[0], shares[1], shares[2]}) > kOnBoundary;
       const auto& [a, b, c] = triangles_[t];
+      const Vec3 normal = cross(positions_[b] - positions_[a], positions_[c] - positions_[a]);
       problem.add(t, shares,
-                  isInside
-                      ? metricAlong(unit(cross(positions_[b] - positions_[a], positions_[c] - positions_[a])),
-                                    kAcross)
-                      : kUnit3,
-                  r);
+                  isInside && dot(normal, normal) > 0 ? metricAlong(unit(normal), kAcross) : kUnit3,
+                  residual);
     }
-    for (std::size_t i = 0; i < ofBorder_.size(); ++i) {
-      const auto& [e, shares] = ofBorder_[i];
-      const auto& [from, to] = borders_[e];
-      const Vec3 r = samples_.ofBorder[i] - at({from, to, to}, shares);
-      const bool isInside = std::min(shares[0], shares[1]) > kOnBoundary;
+    for (const auto& [e, shares, residual] : samples.ofBorder) {
+      const Vec3 along = positions_[borders_[e][1]] - positions_[borders_[e][0]];
+      const bool isInside = std::min(shares[0], shares[1]) > kOnBoundary && dot(along, along) > 0;
       problem.add(static_cast<std::uint32_t>(triangles_.size()) + e, shares,
-                  isInside ? beside(unit(positions_[to] - positions_[from]), kAcross) : kUnit3, r);
+                  isInside ? beside(unit(along), kAcross) : kUnit3, residual);
     }
     return problem;
   }
@@ -189,9 +222,8 @@ class Fitting {
   Vec3 middle_{0, 0, 0};
   double scale_ = 1;
   std::vector<Triangle> elements_;  // the triangles, then the border edges
-  std::vector<std::array<std::uint32_t, 2>> borders_;
-  SourceSamples samples_;
-  std::vector<FrontPoint> ofArea_, ofBorder_;
+  std::vector<Triangle> borders_;   // edges, the second corner twice
+  std::optional<TriangleBvh> nearest_, nearestBorder_;
   std::optional<TurnGuard> guard_;
 };
 

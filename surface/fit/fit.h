@@ -11,9 +11,11 @@
 namespace arete {
 
 struct SurfaceFitOptions {
-  /// Steps at most; it ends sooner where a step gains less than a hundredth.
+  /// Steps at most; it ends sooner where a step gains less than a hundredth, and where the root mean square
+  /// is no more than the rounding of the source's coordinates: an exact cut is not moved.
   int steps = 10;
-  /// Samples of the source; 0: 40 for each triangle of the cut, and at least 100 000.
+  /// Samples of the source; 0: 40 for each triangle of the cut, or 16 for each face of the source but at most
+  /// 100 000, whichever is more.
   std::uint64_t samples = 0;
 };
 
@@ -33,7 +35,7 @@ struct FittedSurface {
 /// the threads.
 /// @param isHeld by vertex of the cut: it stays (heldVertices())
 /// Errors: invalidData: a mesh that does not validate(), or a source without area; interrupted.
-/// O(steps * (samples log triangles + triangles)); about 150 bytes a sample and 700 a triangle.
+/// O(steps * (samples log triangles + triangles)); about 100 bytes a sample and 700 a triangle.
 Result<FittedSurface> fitSurface(const TriangleMesh& cut, const std::vector<std::uint8_t>& isHeld,
                                  const TriangleMesh& source, const SurfaceFitOptions& options = {},
                                  const RunContext& context = {});

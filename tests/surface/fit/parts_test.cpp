@@ -6,9 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "surface/families.h"
 #include "surface/fit/least_squares.h"
-#include "surface/fit/nearest_on_front.h"
 #include "surface/fit/source_samples.h"
 
 namespace arete {
@@ -44,45 +42,6 @@ TEST(SourceSamples, AreNoneWithoutArea) {
   mesh.positions = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
   mesh.triangles = {{0, 1, 2}};
   EXPECT_TRUE(sampleSource(mesh, 100).ofArea.empty());
-}
-
-TEST(NearestOnFront, FindsNoFartherPointThanASearchOfAllTriangles) {
-  const TriangleMesh mesh = shapes::shaken(shapes::globe(20, 10), 3, 0.1);
-  const NearestOnFront front(mesh.positions, mesh.triangles);
-  std::mt19937_64 random(1);
-  const auto number = [&] { return double(random() % 4001) / 1000 - 2; };
-  for (int i = 0; i < 300; ++i) {
-    const Vec3 p{number(), number(), number()};
-    const FrontPoint found = front.nearest(p);
-    Vec3 at{0, 0, 0};
-    double sum = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      at = at + found.shares[c] * mesh.positions[mesh.triangles[found.element][c]];
-      sum += found.shares[c];
-      EXPECT_GE(found.shares[c], 0);
-    }
-    EXPECT_NEAR(sum, 1, 1e-12);
-    // No point of a fine grid on any triangle is nearer.
-    for (const auto& [a, b, c] : mesh.triangles)
-      for (int u = 0; u <= 4; ++u)
-        for (int v = 0; v <= 4 - u; ++v) {
-          const Vec3 q = mesh.positions[a] + u / 4.0 * (mesh.positions[b] - mesh.positions[a]) +
-                         v / 4.0 * (mesh.positions[c] - mesh.positions[a]);
-          ASSERT_LE(norm(p - at), norm(p - q) + 1e-12);
-        }
-  }
-}
-
-TEST(NearestOnFront, OfEdgesIsOnAnEdge) {
-  const std::vector<Vec3> positions = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {2, 2, 0}};
-  const std::vector<std::array<std::uint32_t, 2>> edges = {{2, 3}, {0, 1}, {1, 2}};
-  const NearestOnFront front(positions, edges);
-  const FrontPoint a = front.nearest({0.5, -1, 7}), b = front.nearest({9, 1.5, 0});
-  EXPECT_EQ(a.element, 1u);
-  EXPECT_DOUBLE_EQ(a.shares[1], 0.25);
-  EXPECT_EQ(b.element, 2u);
-  EXPECT_DOUBLE_EQ(b.shares[1], 0.75);
-  EXPECT_TRUE(NearestOnFront(positions, std::span(edges).first(1)).isEmpty());
 }
 
 TEST(MoveProblem, IsSolvedAsTheNormalEquationsAre) {

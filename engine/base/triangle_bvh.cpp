@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Triangles are halved three times at the median of their centres along the longest side of the centres' box,
+// until eight are left, whose distances are found at once; so are those of the eight boxes of a node. A query
+// descends to the nearest child first and passes over boxes that are no nearer than the best triangle so far.
+// Which triangle is nearest is decided by the lanes; where on it the point lies, by nearestWithShares().
+#include "engine/base/triangle_bvh.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "engine/base/vector_clones.h"
+
+namespace arete {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+TrianglePoint nearestWithShares(const Vec3& p, const SpaceTriangle& t) {
+  const auto& [a, b, c] = t;
+  const Vec3 ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return {a, {1, 0, 0}};
+  const Vec3 bp = p - b;
+  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return {b, {0, 1, 0}};
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) {
+    const double v = d1 / (d1 - d3);
+    return {a + v * ab, {1 - v, v, 0}};
+  }
+  const Vec3 cp = p - c;
+  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return {c, {0, 0, 1}};
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) {
+    const double w = d2 / (d2 - d6);
+    return {a + w * ac, {1 - w, 0, w}};
+  }
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return {b + w * (c - b), {0, 1 - w, w}};
+  }
+  const double whole = va + vb + vc;
+  if (!(whole > 0)) {  // no area: the nearest of its sides
+    TrianglePoint best = nearestWithShares(p, {a, b, b});
+    for (const auto& [from, to] : {std::pair{0, 2}, std::pair{1, 2}}) {
+      const TrianglePoint side = nearestWithShares(p, {t[from], t[to], t[to]});
+      if (squaredDistance(p, side.place) >= squaredDistance(p, best.place)) continue;
+      best = {side.place, {}};
+      best.shares[from] = side.shares[0];
+      best.shares[to] = side.shares[1];
+    }
+    return best;
+  }
+  const double v = vb / whole, w = vc / whole;
+  return {a + v * ab + w * ac, {1 - v - w, v, w}};
+}
+
+namespace {
+
+/// Sorts a range so that the median of the centres along the longest side of their box is in its middle.
+void halve(std::span<std::uint32_t> range, std::span<const Vec3> centres) {
+  Box3 box = Box3::empty();
+  for (const std::uint32_t t : range) box.include(centres[t]);
+  const Vec3 side = box.high - box.low;
+  const double Vec3::*const axis = side.x >= side.y && side.x >= side.z ? &Vec3::x
+                                   : side.y >= side.z                   ? &Vec3::y
+                                                                        : &Vec3::z;
+  std::ranges::nth_element(range, range.begin() + static_cast<std::ptrdiff_t>(range.size() / 2),
+                           [&](std::uint32_t s, std::uint32_t t) {
+                             const double atS = centres[s].*axis, atT = centres[t].*axis;
+                             return atS != atT ? atS < atT : s < t;
+                           });
+}
+
+}  // namespace
+
+TriangleBvh::TriangleBvh(std::span<const Vec3> positions, std::span<const Corners> triangles)
+    : entryOf_(triangles.size()) {
+  if (triangles.empty()) return;
+  std::vector<Vec3> centres;
+  centres.reserve(triangles.size());
+  for (const auto& [i, j, k] : triangles) centres.push_back(positions[i] + positions[j] + positions[k]);
+  std::vector<std::uint32_t> all(triangles.size());
+  std::iota(all.begin(), all.end(), 0u);
+  root_ = build(all, centres);
+  places_.resize(order_.size());
+  for (std::uint32_t i = 0; i < order_.size(); ++i) entryOf_[order_[i]] = i;
+  refit(positions, triangles);
+}
+
+std::uint32_t TriangleBvh::build(std::span<std::uint32_t> range, std::span<const Vec3> centres) {
+  if (range.size() <= kWide) {
+    const auto leaf = static_cast<std::uint32_t>(leaves_.size());
+    leaves_.emplace_back();
+    order_.insert(order_.end(), range.begin(), range.end());
+    order_.resize((leaf + 1) * std::size_t{kWide}, range.back());
+    return kLeaf + leaf;
+  }
+  const auto node = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.emplace_back();
+  nodes_[node].child.fill(kNone);
+  std::array<std::span<std::uint32_t>, kWide> parts;
+  parts[0] = range;
+  // No more parts than leaves are needed: a leaf takes as long with one triangle as with eight.
+  for (std::size_t count = 1; count < kWide && range.size() > count * kWide; count *= 2)
+    for (std::size_t i = count; i-- > 0;) {
+      const std::span<std::uint32_t> part = parts[i];
+      if (part.size() > 1) halve(part, centres);
+      parts[2 * i] = part.first(part.size() / 2);
+      parts[2 * i + 1] = part.subspan(part.size() / 2);
+    }
+  for (std::size_t i = 0; i < kWide; ++i)
+    if (!parts[i].empty()) {
+      const std::uint32_t child = build(parts[i], centres);
+      nodes_[node].child[i] = child;
+    }
+  return node;
+}
+
+void TriangleBvh::refit(std::span<const Vec3> positions, std::span<const Corners> triangles) {
+  if (!isEmpty()) refit(root_, positions, triangles);
+}
+
+Box3 TriangleBvh::refit(std::uint32_t child, std::span<const Vec3> positions,
+                        std::span<const Corners> triangles) {
+  Box3 box = Box3::empty();
+  const auto put = [](std::array<Lanes, 3>& to, std::size_t lane, const Vec3& v) {
+    to[0][lane] = v.x;
+    to[1][lane] = v.y;
+    to[2][lane] = v.z;
+  };
+  if (child < kLeaf) {
+    Node& node = nodes_[child];
+    for (std::size_t i = 0; i < kWide; ++i) {
+      const Box3 part = node.child[i] == kNone ? Box3::empty() : refit(node.child[i], positions, triangles);
+      put(node.low, i, part.low);
+      put(node.high, i, part.high);
+      if (node.child[i] == kNone) continue;
+      box.include(part.low);
+      box.include(part.high);
+    }
+    return box;
+  }
+  Leaf& leaf = leaves_[child - kLeaf];
+  const auto inverse = [](double x) { return x > 0 ? 1 / x : 0; };
+  for (std::size_t i = 0; i < kWide; ++i) {
+    const std::size_t entry = (child - kLeaf) * std::size_t{kWide} + i;
+    const Corners& corners = triangles[order_[entry]];
+    const Vec3 &a = positions[corners[0]], &b = positions[corners[1]], &c = positions[corners[2]];
+    const Vec3 ab = b - a, ac = c - a, normal = cross(ab, ac);
+    places_[entry] = {a, b, c};
+    put(leaf.a, i, a);
+    put(leaf.ab, i, ab);
+    put(leaf.ac, i, ac);
+    leaf.abab[i] = dot(ab, ab);
+    leaf.abac[i] = dot(ab, ac);
+    leaf.acac[i] = dot(ac, ac);
+    leaf.perAb[i] = inverse(dot(ab, ab));
+    leaf.perAc[i] = inverse(dot(ac, ac));
+    leaf.perBc[i] = inverse(dot(c - b, c - b));
+    leaf.perArea[i] = inverse(dot(normal, normal));
+    for (const Vec3& p : {a, b, c}) box.include(p);
+  }
+  return box;
+}
+
+ARETE_VECTOR_CLONES
+void TriangleBvh::squaresOf(const Node& node, const Vec3& p, Lanes& to) {
+  for (std::size_t i = 0; i < kWide; ++i) {
+    double squared = 0;
+    const std::array<double, 3> at = {p.x, p.y, p.z};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double below = node.low[k][i] - at[k], above = at[k] - node.high[k][i];
+      double beyond = below > above ? below : above;
+      beyond = beyond > 0 ? beyond : 0;
+      squared += beyond * beyond;
+    }
+    to[i] = squared;
+  }
+}
+
+ARETE_VECTOR_CLONES
+void TriangleBvh::squaresOf(const Leaf& leaf, const Vec3& p, Lanes& to) {
+  for (std::size_t i = 0; i < kWide; ++i) {
+    const double x = p.x - leaf.a[0][i], y = p.y - leaf.a[1][i], z = p.z - leaf.a[2][i];
+    const double bx = leaf.ab[0][i], by = leaf.ab[1][i], bz = leaf.ab[2][i];
+    const double cx = leaf.ac[0][i], cy = leaf.ac[1][i], cz = leaf.ac[2][i];
+    const double d = bx * x + by * y + bz * z, e = cx * x + cy * y + cz * z;
+    const auto squareAt = [&](double v, double w) {
+      const double rx = x - v * bx - w * cx, ry = y - v * by - w * cy, rz = z - v * bz - w * cz;
+      return rx * rx + ry * ry + rz * rz;
+    };
+    const auto clamped = [](double s) {
+      s = s > 0 ? s : 0;
+      return s < 1 ? s : 1;
+    };
+    const double onAb = squareAt(clamped(d * leaf.perAb[i]), 0),
+                 onAc = squareAt(0, clamped(e * leaf.perAc[i]));
+    const double w = clamped((e - d + leaf.abab[i] - leaf.abac[i]) * leaf.perBc[i]),
+                 onBc = squareAt(1 - w, w);
+    const double v0 = (leaf.acac[i] * d - leaf.abac[i] * e) * leaf.perArea[i],
+                 w0 = (leaf.abab[i] * e - leaf.abac[i] * d) * leaf.perArea[i], inPlane = squareAt(v0, w0);
+    double least = onAb < onAc ? onAb : onAc;
+    least = least < onBc ? least : onBc;
+    double lowest = v0 < w0 ? v0 : w0;
+    lowest = lowest < 1 - v0 - w0 ? lowest : 1 - v0 - w0;
+    const double inside = lowest > 0 ? inPlane : kInfinity;
+    to[i] = least < inside ? least : inside;
+  }
+}
+
+TriangleBvh::Answer TriangleBvh::nearest(const Vec3& p, std::uint32_t guess) const {
+  std::uint32_t best = 0;  // an entry
+  double least = kInfinity;
+  Lanes squares;
+  const auto search = [&](std::uint32_t leaf) {
+    squaresOf(leaves_[leaf], p, squares);
+    for (std::uint32_t i = 0; i < kWide; ++i)
+      if (squares[i] < least) {
+        least = squares[i];
+        best = leaf * kWide + i;
+      }
+  };
+  const std::uint32_t begun = guess == kNone ? kNone : entryOf_[guess] / kWide;
+  if (begun != kNone) {
+    best = entryOf_[guess];
+    search(begun);
+  }
+  struct Open {
+    double squared;
+    std::uint32_t child;
+  };
+  std::array<Open, 96> stack;  // at most 7 wait at each of 11 levels
+  std::size_t size = 0;
+  stack[size++] = {0, root_};
+  while (size > 0) {
+    const Open at = stack[--size];
+    if (!(at.squared < least)) continue;
+    if (at.child >= kLeaf) {
+      if (at.child - kLeaf != begun) search(at.child - kLeaf);
+      continue;
+    }
+    const Node& node = nodes_[at.child];
+    squaresOf(node, p, squares);
+    const std::size_t first = size;
+    for (std::size_t i = 0; i < kWide; ++i) {
+      if (!(squares[i] < least)) continue;
+      // The nearest one on top.
+      std::size_t to = size++;
+      for (; to > first && stack[to - 1].squared < squares[i]; --to) stack[to] = stack[to - 1];
+      stack[to] = {squares[i], node.child[i]};
+    }
+  }
+  Answer answer{order_[best], nearestWithShares(p, places_[best]), 0};
+  answer.squaredDistance = squaredDistance(p, answer.point.place);
+  return answer;
+}
+
+}  // namespace arete
