@@ -27,7 +27,9 @@
 #include "io/surface/mesh_input.h"
 #include "surface/build/build.h"
 #include "surface/decimate/decimate.h"
+#include "surface/diagnosis/diagnosis.h"
 #include "surface/edit/small_components.h"
+#include "surface/front/face_map.h"
 #include "surface/front/front.h"
 
 namespace arete {
@@ -69,10 +71,14 @@ Result<std::uint32_t> triangleBudget(const std::string& text, std::uint64_t face
 /// What is made of the mesh, whatever the method.
 struct Outcome {
   SurfaceMesh mesh;
-  std::vector<std::uint32_t> vertexOf, faceOf;  ///< of the input
-  std::vector<std::string> lost;
+  std::vector<std::uint32_t> vertexOf;  ///< by vertex: of the input
+  /// By face of the input: the triangle that stands for it, or MeshAttributes::kNone.
+  std::vector<std::uint32_t> triangleFor;
+  std::optional<std::uint64_t> crossings = {},
+                               sourceCrossings = {};  ///< pairs of triangles; the source's if there are any
+  std::vector<std::string> lost = {};
   std::uint64_t evaluations = 0, steps = 0;
-  std::optional<FitOutcome> fit;
+  std::optional<FitOutcome> fit = {};
   bool isComplete = true;  ///< false: the budget ended it before the tolerance was reached
 };
 
@@ -107,11 +113,19 @@ Error tooFew(const std::string& budget, std::uint64_t least, const std::string& 
       fmt::format("--max-triangles {}", budget)};
 }
 
+Result<std::uint64_t> crossingsOf(const TriangleMesh& mesh, const RunContext& context) {
+  const Result<MeshDiagnosis> d = diagnose(mesh, {.mostPlaces = 1}, context);
+  if (!d) return tl::unexpected(d.error());
+  return d->selfIntersections->count;
+}
+
 Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
                          std::optional<std::uint32_t> maxTriangles, Session& session) {
   SurfaceBuildOptions options;
   options.keepsBorders = arguments.keepsBorders;
-  const Result<SurfaceModel> model = buildSurface(std::move(mesh), options, session.context());
+  // A cut of so many triangles has what is coarser than a quarter of them whole.
+  const Result<SurfaceModel> model =
+      buildSurface(std::move(mesh), options, session.context(), maxTriangles.value_or(0) / 4);
   if (!model) return tl::unexpected(model.error());
   std::optional<double> maxError;
   CutOptions wanted;
@@ -135,7 +149,19 @@ Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
                             options.keepsBorders, cut->achievedError,
                             cut->isComplete ? maxError : std::nullopt, session.context());
   if (!fit) return tl::unexpected(fit.error());
-  Outcome outcome{std::move(front.mesh), std::move(front.vertexOf), std::move(front.faceOf), {}, 0, 0, *fit};
+  Outcome outcome;
+  outcome.mesh = std::move(front.mesh);
+  outcome.vertexOf = std::move(front.vertexOf);
+  outcome.fit = *fit;
+  outcome.triangleFor = facesOf(*model, *cut);
+  const Result<std::uint64_t> crossings = crossingsOf(outcome.mesh, session.context());
+  if (!crossings) return tl::unexpected(crossings.error());
+  outcome.crossings = *crossings;
+  if (*crossings > 0) {
+    const Result<std::uint64_t> ofSource = crossingsOf(finestSurfaceOf(*model).mesh, session.context());
+    if (!ofSource) return tl::unexpected(ofSource.error());
+    outcome.sourceCrossings = *ofSource;
+  }
   outcome.isComplete = cut->isComplete;
   return outcome;
 }
@@ -157,13 +183,14 @@ Result<Outcome> contracted(const SurfaceMesh& mesh, const DecimateArguments& arg
   if (!decimated) return tl::unexpected(decimated.error());
   if (decimated->mesh.triangles.size() > maxTriangles)
     return tl::unexpected(tooFew(arguments.maxTriangles, decimated->mesh.triangles.size(), arguments.method));
-  return Outcome{std::move(decimated->mesh),
-                 std::move(decimated->vertexOf),
-                 std::move(decimated->faceOf),
-                 std::move(decimated->lost),
-                 decimated->evaluations,
-                 decimated->steps,
-                 {}};
+  Outcome outcome;
+  outcome.mesh = std::move(decimated->mesh);
+  outcome.vertexOf = std::move(decimated->vertexOf);
+  outcome.triangleFor = std::move(decimated->triangleFor);
+  outcome.lost = std::move(decimated->lost);
+  outcome.evaluations = decimated->evaluations;
+  outcome.steps = decimated->steps;
+  return outcome;
 }
 
 Status writeNumbers(const std::string& path, const Outcome& outcome, const MeshInput& input,
@@ -178,9 +205,10 @@ Status writeNumbers(const std::string& path, const Outcome& outcome, const MeshI
   for (std::size_t v = 0; v < outcome.vertexOf.size(); ++v)
     out->write(fmt::format("vertex,{},{}\n", v,
                            through(input.numbers.vertexOf, through(vertexBefore, outcome.vertexOf[v]))));
-  for (std::size_t f = 0; f < outcome.faceOf.size(); ++f)
-    out->write(fmt::format("face,{},{}\n", f,
-                           through(input.numbers.faceOf, through(faceBefore, outcome.faceOf[f]))));
+  for (std::uint32_t f = 0; f < outcome.triangleFor.size(); ++f)
+    if (outcome.triangleFor[f] != MeshAttributes::kNone)
+      out->write(fmt::format("face,{},{}\n", outcome.triangleFor[f],
+                             through(input.numbers.faceOf, through(faceBefore, f))));
   return out->finish();
 }
 
@@ -259,6 +287,10 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
                         withShare(outcome->fit->distance, diagonal));
   if (hasBoth)
     text += fmt::format("  ended by   {}\n", outcome->isComplete ? "--max-error" : "--max-triangles");
+  if (outcome->sourceCrossings)
+    text +=
+        fmt::format("  crossings  {} pair{} of triangles; the source has {}\n", grouped(*outcome->crossings),
+                    *outcome->crossings == 1 ? "" : "s", grouped(*outcome->sourceCrossings));
   if (outcome->evaluations > 0)
     text += fmt::format("  steps      {}; costs computed {} times ({} queue)\n", grouped(outcome->steps),
                         grouped(outcome->evaluations), arguments.queue);
@@ -272,6 +304,8 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
     json["error"] = outcome->fit->distance;
     json["rms"] = outcome->fit->rmsAfter;
   }
+  if (outcome->crossings) json["selfIntersections"] = *outcome->crossings;
+  if (outcome->sourceCrossings) json["sourceSelfIntersections"] = *outcome->sourceCrossings;
   if (outcome->evaluations > 0) {
     json["steps"] = outcome->steps;
     json["evaluations"] = outcome->evaluations;
@@ -310,8 +344,10 @@ void addMeshDecimateCommand(CLI::App& mesh, Session& session) {
   command
       ->add_option(
           "--operator", arguments->method,
-          "measured: the multitriangulation's cut, fitted (default, the closest); qem: edges, at the least\n"
-          "of their quadric; lindstrom-turk: edges, memoryless (CGAL); half-edge: vertices go to a\n"
+          "measured: the multitriangulation's cut, fitted (default, the closest; four to eight times the "
+          "time\n"
+          "of qem); qem: edges, at the least of their quadric; lindstrom-turk: edges, memoryless (CGAL); "
+          "half-edge: vertices go to a\n"
           "neighbour; vertex-pair: edges and near vertices; face: triangles become a vertex; cluster:\n"
           "cells of an octree")
       ->check(oneOf({"measured", "qem", "lindstrom-turk", "half-edge", "vertex-pair", "face", "cluster"}))
@@ -341,7 +377,8 @@ void addMeshDecimateCommand(CLI::App& mesh, Session& session) {
       ->type_name("D|P%");
   command
       ->add_option("--map", arguments->map,
-                   "CSV to write: of each output vertex and face, the input's that it stands for")
+                   "CSV to write: of each output vertex the input's, and of each input face the output's "
+                   "that\nstands for it")
       ->type_name("FILE");
   addPlacingTo(*command, arguments->placing);
 }

@@ -286,9 +286,9 @@ class Extraction {
   /// No point of a mesh is farther than this from another, one of which is the source as it was before
   /// rounding.
   Result<double> distanceFrom(const TriangleMesh& mesh, const TriangleMesh& other) const {
-    const auto report = measureDistance(mesh, other, {}, session_.context());
-    if (!report) return tl::unexpected(report.error());
-    return report->forward.atMost + model_.positionError;
+    const Result<double> distance = farthestDistance(mesh, other, session_.context());
+    if (!distance) return tl::unexpected(distance.error());
+    return *distance + model_.positionError;
   }
 
   const TriangleMesh& finest() {

@@ -16,6 +16,8 @@ Result<FitOutcome> fitFront(SurfaceFront& front, const TriangleMesh& source, con
       fitSurface(front.mesh.shape(), heldVertices(front.mesh, keepsBorders), source, {}, context);
   if (!fitted) return tl::unexpected(fitted.error());
   FitOutcome outcome{fitted->rmsBefore + positionError, fitted->rmsAfter + positionError, cutError, 1};
+  // What is not moved has the error of the cut.
+  if (fitted->steps == 0) return outcome;
   const std::vector<Vec3> before = front.mesh.positions;
   for (const double part : {1.0, 0.5, 0.25, 0.125}) {
     outcome.part = part;

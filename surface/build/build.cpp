@@ -110,8 +110,8 @@ void sortFaces(PreparedSurface& prepared, std::span<const std::uint32_t> order) 
 
 class SurfaceBuild {
  public:
-  SurfaceBuild(const SurfaceBuildOptions& options, const RunContext& context)
-      : options_(options), context_(context) {}
+  SurfaceBuild(const SurfaceBuildOptions& options, const RunContext& context, std::size_t fewEnough)
+      : options_(options), context_(context), fewEnough_(fewEnough) {}
 
   Result<SurfaceModel> run(SurfaceMesh source) {
     if (const Status valid = checkOptions(options_); !valid) return tl::unexpected(valid.error());
@@ -155,6 +155,7 @@ class SurfaceBuild {
                        .metric = metric,
                        .maxDegree = options_.maxDegree,
                        .thresholdRatio = options_.thresholdRatio,
+                       .fewEnough = fewEnough_,
                        .unit = std::ldexp(1.0, -std::ilogb(prepared_.diagonal)),
                        .parts = {prepared_.mesh.hasWedges(), prepared_.partOf}};
     model_.boundsLines = state.parts.hasLines();
@@ -242,6 +243,7 @@ class SurfaceBuild {
 
   const SurfaceBuildOptions& options_;
   const RunContext& context_;
+  std::size_t fewEnough_;
   PreparedSurface prepared_;
   SurfaceModel model_;
 };
@@ -249,8 +251,9 @@ class SurfaceBuild {
 }  // namespace
 
 Result<SurfaceModel> buildSurface(SurfaceMesh source, const SurfaceBuildOptions& options,
-                                  const RunContext& context) try {
-  return withThreads(context, [&] { return SurfaceBuild(options, context).run(std::move(source)); });
+                                  const RunContext& context, std::size_t fewEnough) try {
+  return withThreads(context,
+                     [&] { return SurfaceBuild(options, context, fewEnough).run(std::move(source)); });
 } catch (...) {
   return caughtFailure();
 }

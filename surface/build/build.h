@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+
 #include "engine/base/result.h"
 #include "engine/parallel/run_context.h"
 #include "surface/model/surface_mesh.h"
@@ -21,7 +23,8 @@ namespace arete {
 /// of range; unsupported: too many triangles; interrupted; outOfMemory.
 ///
 /// @param source is taken apart: moved in, it takes no memory beside what it becomes.
+/// @param fewEnough  triangles at which the removals end, for cuts that are not coarser; 0: none is left
 Result<SurfaceModel> buildSurface(SurfaceMesh source, const SurfaceBuildOptions& options = {},
-                                  const RunContext& context = {});
+                                  const RunContext& context = {}, std::size_t fewEnough = 0);
 
 }  // namespace arete

@@ -35,10 +35,14 @@ struct Cell {
 
 class Clustering {
  public:
-  Clustering(const SurfaceMesh& source, const DecimateOptions& options, const RunContext& context)
-      : source_(source), options_(options), context_(context), leafOf_(source.positions.size(), kNone) {}
+  Clustering(const FramedMesh& mesh, const DecimateOptions& options, const RunContext& context)
+      : source_(mesh.source),
+        shape_(mesh.shape),
+        options_(options),
+        context_(context),
+        leafOf_(mesh.shape.positions.size(), kNone) {}
 
-  Result<DecimatedMesh> run() {
+  Result<FramedResult> run() {
     divide();
     for (std::uint32_t c = 0; c < cells_.size(); ++c)
       if (!cells_[c].isLeaf && cells_[c].childrenLeft == 0) offer(c);
@@ -66,7 +70,7 @@ class Clustering {
  private:
   /// Halves the box until each leaf has one vertex; then gives the leaves their triangles and quadrics.
   void divide() {
-    const auto& at = source_.positions;
+    const auto& at = shape_.positions;
     std::vector<std::uint8_t> isUsed(at.size(), 0);
     for (const auto& t : source_.triangles)
       for (const std::uint32_t v : t) isUsed[v] = 1;
@@ -184,7 +188,7 @@ class Clustering {
     }
   }
 
-  DecimatedMesh taken() const {
+  FramedResult taken() const {
     // Corners of triangles that are left know their leaf.
     TriangleMesh shape;
     std::vector<std::uint32_t> vertexOf, faceOf, numberOf(cells_.size(), kNone);
@@ -216,10 +220,22 @@ class Clustering {
     DecimatedMesh result = carried(source_, std::move(shape), std::move(vertexOf), std::move(faceOf));
     result.evaluations = evaluations_;
     result.steps = steps_;
-    return result;
+    return {std::move(result), joinedTo()};
+  }
+  std::vector<std::uint32_t> joinedTo() const {
+    std::vector<std::uint32_t> all(leafOf_.size());
+    for (std::uint32_t v = 0; v < all.size(); ++v) {
+      all[v] = v;
+      if (leafOf_[v] == kNone) continue;
+      std::uint32_t leaf = leafOf_[v];
+      while (cells_[leaf].parent != kNone && cells_[cells_[leaf].parent].isLeaf) leaf = cells_[leaf].parent;
+      all[v] = cells_[leaf].vertex;
+    }
+    return all;
   }
 
   const SurfaceMesh& source_;
+  const TriangleMesh& shape_;
   const DecimateOptions& options_;
   const RunContext& context_;
   std::vector<Cell> cells_;
@@ -232,8 +248,8 @@ class Clustering {
 
 }  // namespace
 
-Result<DecimatedMesh> decimateByClusters(const SurfaceMesh& mesh, const DecimateOptions& options,
-                                         const RunContext& context) {
+Result<FramedResult> decimateByClusters(const FramedMesh& mesh, const DecimateOptions& options,
+                                        const RunContext& context) {
   return Clustering(mesh, options, context).run();
 }
 

@@ -15,12 +15,14 @@ bool holds(std::span<const std::uint32_t> vertices, std::uint32_t v) {
 
 }  // namespace
 
-ContractionMesh::ContractionMesh(const TriangleMesh& mesh)
+ContractionMesh::ContractionMesh(const TriangleMesh& mesh, double rounding)
     : positions_(mesh.positions),
       triangles_(mesh.triangles),
       isThere_(mesh.triangles.size(), 1),
       trianglesOf_(mesh.positions.size()),
-      triangleCount_(static_cast<std::uint32_t>(mesh.triangles.size())) {
+      entries_(mesh.triangles.size()),
+      triangleCount_(static_cast<std::uint32_t>(mesh.triangles.size())),
+      leastHeight_(4 * rounding) {
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
     if (a == b || b == c || c == a) {
@@ -28,8 +30,24 @@ ContractionMesh::ContractionMesh(const TriangleMesh& mesh)
       --triangleCount_;
       continue;
     }
-    for (const std::uint32_t v : triangles_[t]) trianglesOf_[v].push_back(t);
+    for (std::size_t k = 0; k < 3; ++k) attach(t, k);
   }
+}
+
+void ContractionMesh::attach(std::uint32_t t, std::size_t corner) {
+  std::vector<std::uint32_t>& list = trianglesOf_[triangles_[t][corner]];
+  entries_[t][corner] = static_cast<std::uint32_t>(list.size());
+  list.push_back(t);
+}
+
+void ContractionMesh::detach(std::uint32_t t, std::size_t corner) {
+  const std::uint32_t v = triangles_[t][corner], entry = entries_[t][corner];
+  std::vector<std::uint32_t>& list = trianglesOf_[v];
+  const std::uint32_t last = list.back();
+  list[entry] = last;
+  list.pop_back();
+  const auto at = std::ranges::find(triangles_[last], v) - triangles_[last].begin();
+  entries_[last][static_cast<std::size_t>(at)] = entry;
 }
 
 void ContractionMesh::neighboursOf(std::uint32_t v, Neighbours& neighbours) const {
@@ -43,19 +61,19 @@ void ContractionMesh::neighboursOf(std::uint32_t v, Neighbours& neighbours) cons
 
 bool ContractionMesh::keepsTopology(std::span<const std::uint32_t> vertices) const {
   // Common neighbours of two of the vertices are opposite to them in a triangle.
-  Neighbours mine, other, common;
+  Neighbours mine, other, common, opposite;
   for (std::size_t i = 0; i < vertices.size(); ++i)
     for (std::size_t j = i + 1; j < vertices.size(); ++j) {
       neighboursOf(vertices[i], mine);
       neighboursOf(vertices[j], other);
       common.clear();
       std::ranges::set_intersection(mine, other, std::back_inserter(common));
-      for (const std::uint32_t w : common) {
-        const bool isOpposite = std::ranges::any_of(trianglesOf_[w], [&](std::uint32_t t) {
-          return holds(triangles_[t], vertices[i]) && holds(triangles_[t], vertices[j]);
-        });
-        if (!isOpposite) return false;
-      }
+      opposite.clear();
+      for (const std::uint32_t t : trianglesOf_[vertices[i]])
+        if (holds(triangles_[t], vertices[j]))
+          opposite.insert(opposite.end(), triangles_[t].begin(), triangles_[t].end());
+      for (const std::uint32_t w : common)
+        if (std::ranges::find(opposite, w) == opposite.end()) return false;
     }
   // The rim of the new vertex: by triangle that is left, from one neighbour to the next.
   boost::container::small_vector<std::pair<std::uint32_t, std::uint32_t>, 24> rim;
@@ -93,12 +111,19 @@ bool ContractionMesh::keepsTopology(std::span<const std::uint32_t> vertices) con
 }
 
 bool ContractionMesh::keepsTurns(std::span<const std::uint32_t> vertices, const Vec3& place) const {
+  // The height above the longest side is twice the area by its length.
+  const auto isThin = [&](const Vec3& normal, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double longest = std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
+    return !(dot(normal, normal) > leastHeight_ * leastHeight_ * longest);
+  };
   bool keepsTurns = true;
   forLeft(vertices, [&](std::uint32_t t, std::size_t at) {
+    if (!keepsTurns) return;
     const Vec3 &before = positions_[triangles_[t][at]], &p = positions_[triangles_[t][(at + 1) % 3]],
                &q = positions_[triangles_[t][(at + 2) % 3]];
     const Vec3 was = cross(p - before, q - before), is = cross(p - place, q - place);
-    keepsTurns = keepsTurns && (!(norm(was) > 0) || dot(was, is) > 0);
+    if (!(norm(was) > 0)) return;
+    keepsTurns = dot(was, is) > 0 && (!isThin(is, place, p, q) || isThin(was, before, p, q));
   });
   return keepsTurns;
 }
@@ -106,7 +131,7 @@ bool ContractionMesh::keepsTurns(std::span<const std::uint32_t> vertices, const 
 void ContractionMesh::remove(std::uint32_t t) {
   isThere_[t] = 0;
   --triangleCount_;
-  for (const std::uint32_t w : triangles_[t]) std::erase(trianglesOf_[w], t);
+  for (std::size_t k = 0; k < 3; ++k) detach(t, k);
 }
 
 void ContractionMesh::contract(std::span<const std::uint32_t> vertices, const Vec3& place) {
@@ -119,10 +144,12 @@ void ContractionMesh::contract(std::span<const std::uint32_t> vertices, const Ve
         remove(t);
         continue;
       }
-      std::ranges::replace(triangles_[t], v, kept);
-      trianglesOf_[kept].push_back(t);
+      const auto corner =
+          static_cast<std::size_t>(std::ranges::find(triangles_[t], v) - triangles_[t].begin());
+      detach(t, corner);
+      triangles_[t][corner] = kept;
+      attach(t, corner);
     }
-    trianglesOf_[v].clear();
   }
   // Where topology is not kept, triangles may be there twice.
   const auto sorted = [&](std::uint32_t t) {

@@ -15,13 +15,15 @@ namespace arete {
 /// A mesh whose vertices are contracted: each has a list of its triangles. Triangles keep their numbers.
 class ContractionMesh {
  public:
-  explicit ContractionMesh(const TriangleMesh& mesh);
+  /// @param rounding  of coordinates when the mesh is written: triangles need a few times this height
+  explicit ContractionMesh(const TriangleMesh& mesh, double rounding = 0);
 
   std::uint32_t triangleCount() const { return triangleCount_; }  ///< that are left
   std::size_t vertexCount() const { return positions_.size(); }   ///< of the source
   const Vec3& position(std::uint32_t v) const { return positions_[v]; }
   const std::array<std::uint32_t, 3>& corners(std::uint32_t t) const { return triangles_[t]; }
   bool isThere(std::uint32_t t) const { return isThere_[t] != 0; }
+  /// In no particular order, which is the same each time.
   std::span<const std::uint32_t> trianglesOf(std::uint32_t v) const { return trianglesOf_[v]; }
   /// Of a usual vertex without memory of its own.
   using Neighbours = boost::container::small_vector<std::uint32_t, 24>;
@@ -47,21 +49,26 @@ class ContractionMesh {
   /// triangle in common with each common neighbour, edges have at most two triangles that turn alike, no two
   /// triangles have the same corners, and the triangles at the vertex are one fan.
   bool keepsTopology(std::span<const std::uint32_t> vertices) const;
-  /// Whether no triangle that is left turns by more than 90 degrees or loses its area.
+  /// Whether no triangle that is left turns by more than 90 degrees or loses its area, but for those that
+  /// have none.
   bool keepsTurns(std::span<const std::uint32_t> vertices, const Vec3& place) const;
 
   /// The first of the vertices stands for all of them, at a place. Triangles with two of them are gone, and
-  /// those that would be there twice.
+  /// those that would be there twice. O(triangles of the vertices), however many their neighbours have.
   void contract(std::span<const std::uint32_t> vertices, const Vec3& place);
 
  private:
+  void attach(std::uint32_t t, std::size_t corner);
+  void detach(std::uint32_t t, std::size_t corner);
   void remove(std::uint32_t t);
 
   std::vector<Vec3> positions_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<std::uint8_t> isThere_;
   std::vector<std::vector<std::uint32_t>> trianglesOf_;
+  std::vector<std::array<std::uint32_t, 3>> entries_;  // by triangle and corner: its place in trianglesOf_
   std::uint32_t triangleCount_ = 0;
+  double leastHeight_ = 0;
 };
 
 }  // namespace arete

@@ -4,6 +4,13 @@
 // candidate whose cost changed has a new stamp, and entries with an older one are passed over. A candidate
 // that may not be contracted waits until a vertex near it changes.
 //
+// A vertex of very many triangles makes each candidate at it dear. These are not even priced before it has
+// fewer triangles, by the contraction of the edges around it; only where no other candidate is left are they
+// tried.
+//
+// At borders the face operator contracts edges: a triangle that takes three vertices of a border along would
+// eat the border away where nothing better is left.
+//
 // A vertex that goes hands its quadric to the one that stays. Edges of borders, and of lines between classes
 // of corners, add the plane that stands on their triangle, so that they stay where they are.
 #include "surface/decimate/contractions.h"
@@ -13,6 +20,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <queue>
 #include <tuple>
@@ -21,6 +29,7 @@
 #include "surface/decimate/contraction_mesh.h"
 #include "surface/decimate/corner_attributes.h"
 #include "surface/decimate/crossing_guard.h"
+#include "surface/decimate/few.h"
 #include "surface/decimate/quadric.h"
 #include "surface/model/charts.h"
 #include "surface/topology/edges.h"
@@ -31,35 +40,15 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 /// Pairs without an edge are nearer than this share of the diagonal.
 constexpr double kPairDistance = 0.005;
+/// Vertices with more triangles are no end of a contraction as long as another one is left; the second, none.
+constexpr std::size_t kMostAround = 256;
+constexpr std::size_t kMostAroundAtLast = 4096;
 
 struct Candidate {
   std::array<std::uint32_t, 2> ends{};  // of an edge; of a triangle its number
   double cost = kNever;
   std::uint32_t stamp = 0;
-  bool isGone = false, isDirty = false, waits = false;
-};
-
-/// The vertices of a candidate, at most three, or something of each: without memory of its own.
-template <class Element>
-class Few {
- public:
-  Few() = default;
-  explicit Few(std::span<const Element> elements) {
-    for (const Element& e : elements) push_back(e);
-  }
-  void push_back(const Element& e) { elements_[size_++] = e; }
-  std::size_t size() const { return size_; }
-  bool empty() const { return size_ == 0; }
-  Element& operator[](std::size_t i) { return elements_[i]; }
-  const Element& operator[](std::size_t i) const { return elements_[i]; }
-  Element* begin() { return elements_.data(); }
-  Element* end() { return elements_.data() + size_; }
-  const Element* begin() const { return elements_.data(); }
-  const Element* end() const { return elements_.data() + size_; }
-
- private:
-  std::array<Element, 3> elements_{};
-  std::size_t size_ = 0;
+  bool isTriangle = false, isGone = false, isDirty = false, waits = false;
 };
 
 struct Step {
@@ -70,37 +59,53 @@ struct Step {
 
 class Contractions {
  public:
-  Contractions(const SurfaceMesh& source, const DecimateOptions& options, const RunContext& context)
-      : source_(source),
+  Contractions(const FramedMesh& mesh, const DecimateOptions& options, const RunContext& context)
+      : source_(mesh.source),
+        shape_(mesh.shape),
         options_(options),
         context_(context),
-        mesh_(source),
-        attributes_(source),
-        quadrics_(source.positions.size()),
-        isOnBorder_(source.positions.size(), 0),
-        isFace_(options.method == DecimateOperator::face),
-        candidatesOf_(source.positions.size()) {
+        mesh_(mesh.shape, mesh.rounding),
+        attributes_(mesh.source),
+        quadrics_(mesh.shape.positions.size()),
+        isOnBorder_(mesh.shape.positions.size(), 0),
+        isOffLines_(mesh.shape.positions.size(), 0),
+        takesFaces_(options.method == DecimateOperator::face),
+        candidatesOf_(mesh.shape.positions.size()),
+        waitingAt_(mesh.shape.positions.size()) {
+    result_.joinedTo.resize(mesh.shape.positions.size());
+    std::iota(result_.joinedTo.begin(), result_.joinedTo.end(), 0u);
     if (options.method == DecimateOperator::vertexPair) return;
-    chartOf_ = chartsOf(source);
+    chartOf_ = chartsOf(mesh.source);
     leftOf_.assign(chartOf_.size(), 0);
     for (std::uint32_t t = 0; t < chartOf_.size(); ++t)
       if (mesh_.isThere(t)) ++leftOf_[chartOf_[t]];
   }
 
-  Result<DecimatedMesh> run() {
+  /// @param mostAround  of narrowWideVertices(); 0: it is not that
+  Result<FramedResult> run(std::size_t mostAround = 0) {
+    isForWide_ = mostAround > 0;
+    if (isForWide_) mostAround_ = mostAround;
     addQuadrics();
     addCandidates();
     if (options_.forbidsCrossings) crossings_.emplace(mesh_);
     if (const Status contracted = contractAll(); !contracted) return tl::unexpected(contracted.error());
-    if (isFace_ && mesh_.triangleCount() > options_.maxTriangles) {
+    if (takesFaces_ && mesh_.triangleCount() > options_.maxTriangles) {
       // A triangle beside a vertex of three triangles cannot be contracted. Then edges are.
-      isFace_ = false;
+      takesFaces_ = false;
       candidates_.clear();
+      for (auto& ids : candidatesOf_) ids.clear();
+      for (auto& ids : waitingAt_) ids.clear();
       addCandidates();
       if (const Status contracted = contractAll(); !contracted) return tl::unexpected(contracted.error());
     }
+    if (!isForWide_ && mesh_.triangleCount() > options_.maxTriangles && hasWide()) {
+      mostAround_ = kMostAroundAtLast;
+      for (std::uint32_t id = 0; id < candidates_.size(); ++id) wake(id);
+      if (const Status contracted = contractAll(); !contracted) return tl::unexpected(contracted.error());
+    }
     context_.report("decimate", 1);
-    result_.mesh = attributes_.take(source_, mesh_, result_.vertexOf, result_.faceOf);
+    DecimatedMesh& decimated = result_.decimated;
+    decimated.mesh = attributes_.take(source_, mesh_, decimated.vertexOf, decimated.faceOf);
     return std::move(result_);
   }
 
@@ -124,7 +129,7 @@ class Contractions {
       }
       const Step step = stepOf(id, true);
       if (step.cost == kNever || !isAllowed(step)) {
-        candidate.waits = true;
+        wait(id);
         continue;
       }
       take(step);
@@ -133,8 +138,8 @@ class Contractions {
   }
 
   void addQuadrics() {
-    const auto& triangles = source_.triangles;
-    const auto& at = source_.positions;
+    const auto& triangles = shape_.triangles;
+    const auto& at = shape_.positions;
     std::vector<Vec3> normals(triangles.size(), Vec3{0, 0, 0});
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
       const auto& [i, j, k] = triangles[t];
@@ -150,6 +155,7 @@ class Contractions {
       const MeshEdges::Edge edge = edges[e];
       const std::uint32_t a = edge.low.index(), b = edge.high.index();
       if (edge.isBorder()) isOnBorder_[a] = isOnBorder_[b] = 1;
+      hasBorders_ = hasBorders_ || edge.isBorder();
       if (!edge.isBorder() && !isLine(edge)) continue;
       const Vec3 along = at[b] - at[a];
       for (const CornerId side : edge.sides) {
@@ -180,12 +186,10 @@ class Contractions {
   }
 
   void addCandidates() {
-    if (isFace_) {
-      for (std::uint32_t t = 0; t < source_.triangles.size(); ++t) {
-        add({t, t});
-        if (!mesh_.isThere(t)) candidates_.back().isGone = true;
-      }
-    } else {
+    if (takesFaces_)
+      for (std::uint32_t t = 0; t < source_.triangles.size(); ++t)
+        candidates_.push_back({.ends = {t, t}, .isTriangle = true, .isGone = !mesh_.isThere(t)});
+    if (!takesFaces_ || hasBorders_) {
       std::vector<std::array<std::uint32_t, 3>> triangles;
       for (std::uint32_t t = 0; t < source_.triangles.size(); ++t)
         if (mesh_.isThere(t)) triangles.push_back(mesh_.corners(t));
@@ -193,17 +197,17 @@ class Contractions {
       for (std::size_t e = 0; e < edges.size(); ++e) add({edges[e].low.index(), edges[e].high.index()});
       if (options_.method == DecimateOperator::vertexPair) addPairs();
     }
-    for (std::uint32_t id = 0; id < candidates_.size(); ++id) price(id);
+    for (std::uint32_t id = 0; id < candidates_.size(); ++id)
+      if (!candidates_[id].isGone) price(id);
   }
   void add(std::array<std::uint32_t, 2> ends) {
     const auto id = static_cast<std::uint32_t>(candidates_.size());
     candidates_.push_back({.ends = ends});
-    if (isFace_) return;
     for (const std::uint32_t v : ends) candidatesOf_[v].push_back(id);
   }
   /// Pairs of near vertices without an edge, by cells as wide as the distance.
   void addPairs() {
-    const auto& at = source_.positions;
+    const auto& at = shape_.positions;
     if (at.empty()) return;
     Box3 box = Box3::empty();
     for (const Vec3& p : at) box.include(p);
@@ -232,30 +236,66 @@ class Contractions {
       }
   }
 
+  Few<std::uint32_t> verticesOf(const Candidate& candidate) const {
+    return candidate.isTriangle ? Few<std::uint32_t>(mesh_.corners(candidate.ends[0]))
+                                : Few<std::uint32_t>(candidate.ends);
+  }
+  bool isWide(std::uint32_t v) const { return mesh_.trianglesOf(v).size() > mostAround_; }
+  bool hasWide() const {
+    for (std::uint32_t v = 0; v < mesh_.vertexCount(); ++v)
+      if (isWide(v)) return true;
+    return false;
+  }
+  /// Whether the operator has candidates of this kind here: triangles, but edges at borders.
+  bool isOfOperator(const Candidate& candidate, const Few<std::uint32_t>& vertices) const {
+    if (!takesFaces_) return true;
+    const bool isAtBorder =
+        std::any_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return isOnBorder_[v] != 0; });
+    return candidate.isTriangle != isAtBorder;
+  }
+
   void price(std::uint32_t id) {
     Candidate& candidate = candidates_[id];
     candidate.isDirty = false;
-    candidate.waits = false;
-    candidate.cost = stepOf(id, false).cost;
+    const Few<std::uint32_t> vertices = verticesOf(candidate);
+    const bool isAtWide =
+        std::any_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return isWide(v); });
+    candidate.cost = isAtWide || !isOfOperator(candidate, vertices) ? kNever : stepOf(id, false).cost;
     push(id);
   }
   void push(std::uint32_t id) {
     Candidate& candidate = candidates_[id];
     ++candidate.stamp;
+    candidate.waits = false;
     if (candidate.cost < kNever)
       heap_.emplace(candidate.cost, id, candidate.stamp);
     else
-      candidate.waits = true;
+      wait(id);
+  }
+  /// A candidate that cannot be contracted waits until something changes near one of its vertices, or, at
+  /// wide ones, until they are no longer wide.
+  void wait(std::uint32_t id) {
+    candidates_[id].waits = true;
+    const Few<std::uint32_t> vertices = verticesOf(candidates_[id]);
+    // That changes with the vertices themselves alone, and then change() prices it.
+    if (!isOfOperator(candidates_[id], vertices)) return;
+    const bool isAtWide =
+        std::any_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return isWide(v); });
+    for (const std::uint32_t v : vertices)
+      if (!isAtWide || isWide(v)) waitingAt_[v].push_back(id);
+  }
+  void wake(std::uint32_t id) {
+    Candidate& candidate = candidates_[id];
+    if (candidate.isGone || !candidate.waits) return;
+    if (candidate.cost == kNever) return price(id);
+    push(id);
   }
 
   /// @param isTaken  the place is wanted, not the cost alone
   Step stepOf(std::uint32_t id, bool isTaken) {
     const Candidate& candidate = candidates_[id];
     Step step;
-    if (isFace_)
-      step.vertices = Few<std::uint32_t>(mesh_.corners(candidate.ends[0]));
-    else
-      step.vertices = Few<std::uint32_t>(candidate.ends);
+    step.vertices = verticesOf(candidate);
     Few<Vec3> places;
     for (const std::uint32_t v : step.vertices) places.push_back(mesh_.position(v));
     if (options_.queue == DecimateQueue::estimate && !isTaken) {
@@ -265,11 +305,11 @@ class Contractions {
       for (const Vec3& p : places) step.cost += dot(p - middle, p - middle);
       return step;
     }
-    if (!isTaken || options_.queue == DecimateQueue::estimate) ++result_.evaluations;
+    if (!isTaken || options_.queue == DecimateQueue::estimate) ++result_.decimated.evaluations;
     Quadric quadric;
     for (const std::uint32_t v : step.vertices) quadric += quadrics_[v];
     const auto isHeld = [&](std::uint32_t v) {
-      return attributes_.isOnLine(mesh_, v) || (options_.keepsBorders && isOnBorder_[v] != 0);
+      return isOnLine(v) || (options_.keepsBorders && isOnBorder_[v] != 0);
     };
     Few<std::size_t> held;
     for (std::size_t i = 0; i < step.vertices.size(); ++i)
@@ -296,6 +336,13 @@ class Contractions {
     }
     return step;
   }
+  /// A vertex that is on no line gets on none by what happens around it.
+  bool isOnLine(std::uint32_t v) {
+    if (isOffLines_[v] != 0) return false;
+    const bool isOnLine = attributes_.isOnLine(mesh_, v);
+    if (!isOnLine) isOffLines_[v] = 1;
+    return isOnLine;
+  }
   /// Whether all but the first may go to it.
   bool mayGo(std::span<const std::uint32_t> vertices) const {
     if (options_.keepsBorders)
@@ -305,6 +352,7 @@ class Contractions {
   }
 
   bool isAllowed(const Step& step) const {
+    if (isForWide_ && !isBesideWide(step.vertices)) return false;
     if (!mayGo(step.vertices)) return false;
     if (options_.method != DecimateOperator::vertexPair && !mesh_.keepsTopology(step.vertices)) return false;
     if (!mesh_.keepsTurns(step.vertices, step.place) || !leavesEveryChart(step)) return false;
@@ -342,29 +390,32 @@ class Contractions {
     return leaves;
   }
 
+  /// Whether an edge is opposite to a wide vertex.
+  bool isBesideWide(const Few<std::uint32_t>& ends) const {
+    return std::ranges::any_of(mesh_.trianglesOf(ends[0]), [&](std::uint32_t t) {
+      const auto& corners = mesh_.corners(t);
+      return std::ranges::find(corners, ends[1]) != corners.end() &&
+             std::ranges::any_of(corners, [&](std::uint32_t v) { return isWide(v); });
+    });
+  }
+
   void take(const Step& step) {
-    ++result_.steps;
+    ++result_.decimated.steps;
     if (!chartOf_.empty()) forRemoved(step, [&](std::uint32_t t) { --leftOf_[chartOf_[t]]; });
     const std::uint32_t kept = step.vertices[0];
     attributes_.join(mesh_, step.vertices, weightsOf(step));
+    isOffLines_[kept] = 0;
     for (const std::uint32_t v : std::span(step.vertices).subspan(1)) {
       quadrics_[kept] += quadrics_[v];
       isOnBorder_[kept] |= isOnBorder_[v];
+      result_.joinedTo[v] = kept;
     }
-    if (isFace_) {
-      std::vector<std::uint32_t> around;
-      for (const std::uint32_t v : step.vertices)
-        around.insert(around.end(), mesh_.trianglesOf(v).begin(), mesh_.trianglesOf(v).end());
-      contract(step);
-      for (const std::uint32_t t : around)
-        if (!mesh_.isThere(t)) candidates_[t].isGone = true;
-      for (const std::uint32_t t : mesh_.trianglesOf(kept)) change(t);
-      wakeNear(kept);
-      return;
-    }
-    // Of the candidates at these vertices, one for each other end is left: the least.
+    // Of the edges at these vertices, one for each other end is left: the least.
+    around_.clear();
     costs_.clear();
     for (const std::uint32_t v : step.vertices) {
+      if (takesFaces_)
+        around_.insert(around_.end(), mesh_.trianglesOf(v).begin(), mesh_.trianglesOf(v).end());
       for (const std::uint32_t id : candidatesOf_[v]) {
         Candidate& candidate = candidates_[id];
         if (candidate.isGone) continue;
@@ -376,17 +427,21 @@ class Contractions {
       candidatesOf_[v].clear();
     }
     contract(step);
+    if (takesFaces_) {
+      for (const std::uint32_t t : around_)
+        if (!mesh_.isThere(t)) candidates_[t].isGone = true;
+      for (const std::uint32_t t : mesh_.trianglesOf(kept)) change(t);
+    }
     std::ranges::sort(costs_);
     const auto isSameEnd = [](const auto& a, const auto& b) { return a.first == b.first; };
     costs_.erase(std::unique(costs_.begin(), costs_.end(), isSameEnd), costs_.end());
     for (const auto& [end, cost] : costs_) {
       if (mesh_.trianglesOf(end).empty()) continue;
-      std::erase_if(candidatesOf_[end], [&](std::uint32_t id) { return candidates_[id].isGone; });
       add({kept, end});
       candidates_.back().cost = cost;
       change(static_cast<std::uint32_t>(candidates_.size() - 1));
     }
-    wakeNear(kept);
+    wakeNear(step.vertices);
   }
   void contract(const Step& step) {
     mesh_.contract(step.vertices, step.place);
@@ -394,26 +449,27 @@ class Contractions {
   }
   /// The quadric of a vertex of the candidate has changed.
   void change(std::uint32_t id) {
-    if (options_.queue == DecimateQueue::greedy || candidates_[id].cost == kNever) return price(id);
+    if (options_.queue == DecimateQueue::greedy || candidates_[id].cost == kNever ||
+        (takesFaces_ && hasBorders_))
+      return price(id);
     candidates_[id].isDirty = true;
-    candidates_[id].waits = false;
     push(id);
   }
-  /// Candidates that wait near a vertex that changed are tried again.
-  void wakeNear(std::uint32_t kept) {
-    const auto wake = [&](std::uint32_t id) {
-      Candidate& candidate = candidates_[id];
-      if (candidate.isGone || !candidate.waits) return;
-      candidate.waits = false;
-      if (candidate.cost == kNever) return price(id);
-      push(id);
-    };
-    mesh_.neighboursOf(kept, near_);
-    near_.push_back(kept);
+  /// Candidates that wait near vertices that became the first of them are tried again, but not at wide ones.
+  void wakeNear(std::span<const std::uint32_t> vertices) {
+    mesh_.neighboursOf(vertices[0], near_);
+    near_.insert(near_.end(), vertices.begin(), vertices.end());
     for (const std::uint32_t v : near_) {
-      const std::span<const std::uint32_t> ids =
-          isFace_ ? mesh_.trianglesOf(v) : std::span<const std::uint32_t>(candidatesOf_[v]);
-      for (const std::uint32_t id : ids) wake(id);
+      if (isWide(v)) continue;
+      woken_.swap(waitingAt_[v]);
+      // A candidate that waits again stands here again, and a second time at its other end.
+      std::ranges::sort(woken_);
+      woken_.erase(std::unique(woken_.begin(), woken_.end()), woken_.end());
+      for (const std::uint32_t id : woken_) wake(id);
+      woken_.clear();
+      // Of an end that stays, candidates that are gone are left out when they are as many as its triangles.
+      if (candidatesOf_[v].size() > 4 * mesh_.trianglesOf(v).size() + 8)
+        std::erase_if(candidatesOf_[v], [&](std::uint32_t id) { return candidates_[id].isGone; });
     }
   }
 
@@ -444,6 +500,7 @@ class Contractions {
   }
 
   const SurfaceMesh& source_;
+  const TriangleMesh& shape_;
   const DecimateOptions& options_;
   const RunContext& context_;
   ContractionMesh mesh_;
@@ -452,22 +509,36 @@ class Contractions {
   std::vector<Quadric> quadrics_;
   std::vector<std::uint8_t> isOnBorder_;
   std::vector<std::uint32_t> chartOf_, leftOf_;  // by triangle; by chart, how many triangles are left
-  bool isFace_;                                  // candidates are triangles
-  std::vector<Candidate> candidates_;
-  std::vector<std::vector<std::uint32_t>> candidatesOf_;           // by vertex; not of triangles
+  std::vector<std::uint8_t> isOffLines_;         // not 0: known to be on no line
+  bool hasBorders_ = false, isForWide_ = false;
+  bool takesFaces_;
+  std::size_t mostAround_ = kMostAround;
+  std::vector<Candidate> candidates_;                              // of faces: by triangle, then the edges
+  std::vector<std::vector<std::uint32_t>> candidatesOf_;           // edges, by vertex
+  std::vector<std::vector<std::uint32_t>> waitingAt_;              // by vertex
   using Entry = std::tuple<double, std::uint32_t, std::uint32_t>;  // cost, candidate, stamp
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap_;
-  DecimatedMesh result_;
+  FramedResult result_;
   // Scratch of take() and wakeNear().
   std::vector<std::pair<std::uint32_t, double>> costs_;
+  std::vector<std::uint32_t> around_, woken_;
   ContractionMesh::Neighbours near_;
 };
 
 }  // namespace
 
-Result<DecimatedMesh> decimateByContractions(const SurfaceMesh& mesh, const DecimateOptions& options,
-                                             const RunContext& context) {
+Result<FramedResult> decimateByContractions(const FramedMesh& mesh, const DecimateOptions& options,
+                                            const RunContext& context) {
   return Contractions(mesh, options, context).run();
+}
+
+Result<FramedResult> narrowWideVertices(const FramedMesh& mesh, std::size_t most,
+                                        const DecimateOptions& options, const RunContext& context) {
+  DecimateOptions ofEdges = options;
+  ofEdges.method = DecimateOperator::edge;
+  ofEdges.queue = DecimateQueue::lazy;
+  ofEdges.forbidsCrossings = false;
+  return Contractions(mesh, ofEdges, context).run(most);
 }
 
 }  // namespace arete

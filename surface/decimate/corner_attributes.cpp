@@ -14,6 +14,12 @@ namespace {
 
 constexpr std::uint32_t kNone = MeshAttributes::kNone;
 
+/// The corner 3 t + c of a triangle that is at one of its vertices.
+std::uint32_t cornerAt(const ContractionMesh& mesh, std::uint32_t t, std::uint32_t v) {
+  const auto& corners = mesh.corners(t);
+  return 3 * t + static_cast<std::uint32_t>(std::ranges::find(corners, v) - corners.begin());
+}
+
 }  // namespace
 
 CornerAttributes::Records::Records(const std::vector<Attribute>& all, std::size_t elements)
@@ -91,48 +97,45 @@ CornerAttributes::CornerAttributes(const SurfaceMesh& mesh)
       numbersOf(*ofClasses_.attributes[a], wedge, ofClasses_.values[a]);
 }
 
-template <class Visit>
-void CornerAttributes::forCorners(const ContractionMesh& mesh, std::uint32_t v, const Visit& visit) const {
-  for (const std::uint32_t t : mesh.trianglesOf(v)) {
-    const auto& corners = mesh.corners(t);
-    visit(t, 3 * t + static_cast<std::uint32_t>(std::ranges::find(corners, v) - corners.begin()));
-  }
-}
-
 bool CornerAttributes::isOnLine(const ContractionMesh& mesh, std::uint32_t v) const {
   if (!hasClasses_) return false;
   std::uint32_t first = kNone;
-  bool hasSeveral = false;
-  forCorners(mesh, v, [&](std::uint32_t, std::uint32_t corner) {
-    if (first == kNone) first = classOf_[corner];
-    hasSeveral = hasSeveral || classOf_[corner] != first;
-  });
-  return hasSeveral;
+  for (const std::uint32_t t : mesh.trianglesOf(v)) {
+    const std::uint32_t here = classOf_[cornerAt(mesh, t, v)];
+    if (first == kNone) first = here;
+    if (here != first) return true;
+  }
+  return false;
 }
 
-std::uint32_t CornerAttributes::continued(const ContractionMesh& mesh, std::uint32_t v,
-                                          std::uint32_t classOfV, std::uint32_t kept) const {
-  std::uint32_t found = kNone;
-  bool isOne = true;
-  forCorners(mesh, v, [&](std::uint32_t t, std::uint32_t corner) {
-    const auto& corners = mesh.corners(t);
-    const auto at = std::ranges::find(corners, kept);
-    if (at == corners.end() || classOf_[corner] != classOfV) return;
-    const std::uint32_t there = classOf_[3 * t + static_cast<std::uint32_t>(at - corners.begin())];
-    isOne = isOne && (found == kNone || found == there);
-    found = there;
-  });
-  return isOne ? found : kNone;
+CornerAttributes::Continuations CornerAttributes::continuations(const ContractionMesh& mesh, std::uint32_t v,
+                                                                std::uint32_t kept) const {
+  Continuations all;
+  for (const std::uint32_t t : mesh.trianglesOf(v)) {
+    if (std::ranges::find(mesh.corners(t), kept) == mesh.corners(t).end()) continue;
+    const std::uint32_t mine = classOf_[cornerAt(mesh, t, v)], there = classOf_[cornerAt(mesh, t, kept)];
+    const auto known = std::ranges::find(all, mine, &Continuations::value_type::first);
+    if (known == all.end())
+      all.emplace_back(mine, there);
+    else if (known->second != there)
+      known->second = kNone;
+  }
+  return all;
+}
+
+std::uint32_t CornerAttributes::continued(const Continuations& all, std::uint32_t classOfV) {
+  const auto found = std::ranges::find(all, classOfV, &Continuations::value_type::first);
+  return found == all.end() ? kNone : found->second;
 }
 
 bool CornerAttributes::mayJoin(const ContractionMesh& mesh, std::span<const std::uint32_t> vertices) const {
   if (!hasClasses_) return true;
-  bool mayJoin = true;
-  for (const std::uint32_t v : vertices.subspan(1))
-    forCorners(mesh, v, [&](std::uint32_t, std::uint32_t corner) {
-      mayJoin = mayJoin && continued(mesh, v, classOf_[corner], vertices[0]) != kNone;
-    });
-  return mayJoin;
+  for (const std::uint32_t v : vertices.subspan(1)) {
+    const Continuations all = continuations(mesh, v, vertices[0]);
+    for (const std::uint32_t t : mesh.trianglesOf(v))
+      if (continued(all, classOf_[cornerAt(mesh, t, v)]) == kNone) return false;
+  }
+  return true;
 }
 
 void CornerAttributes::join(const ContractionMesh& mesh, std::span<const std::uint32_t> vertices,
@@ -143,14 +146,16 @@ void CornerAttributes::join(const ContractionMesh& mesh, std::span<const std::ui
   // By class of the vertex that stays: the classes that continue as it, with their weights.
   std::map<std::uint32_t, std::vector<std::pair<std::uint32_t, double>>> joined;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> changes;  // corner, class
-  for (std::size_t i = 1; i < vertices.size(); ++i)
-    forCorners(mesh, vertices[i], [&](std::uint32_t, std::uint32_t corner) {
-      const std::uint32_t to = continued(mesh, vertices[i], classOf_[corner], vertices[0]);
+  for (std::size_t i = 1; i < vertices.size(); ++i) {
+    const Continuations all = continuations(mesh, vertices[i], vertices[0]);
+    for (const std::uint32_t t : mesh.trianglesOf(vertices[i])) {
+      const std::uint32_t corner = cornerAt(mesh, t, vertices[i]), to = continued(all, classOf_[corner]);
       auto& from = joined[to];
       if (std::ranges::find(from, std::pair{classOf_[corner], weights[i]}) == from.end())
         from.emplace_back(classOf_[corner], weights[i]);
       changes.emplace_back(corner, to);
-    });
+    }
+  }
   for (const auto& [corner, to] : changes) classOf_[corner] = to;
   if (!moves) return;
   for (const auto& [to, from] : joined) {

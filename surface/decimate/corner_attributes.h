@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "surface/decimate/contraction_mesh.h"
@@ -46,12 +48,11 @@ class CornerAttributes {
     Attribute taken(const Attribute& attribute, std::span<const std::uint32_t> elements) const;
   };
 
-  /// Calls visit(triangle, corner) for each triangle of a vertex.
-  template <class Visit>
-  void forCorners(const ContractionMesh& mesh, std::uint32_t v, const Visit& visit) const;
-  /// The class of vertices[0] that continues a class of v; kNone: none, or several.
-  std::uint32_t continued(const ContractionMesh& mesh, std::uint32_t v, std::uint32_t classOfV,
-                          std::uint32_t kept) const;
+  /// By class of a vertex at an edge: the class of the other end that continues it; kNone: several.
+  using Continuations = boost::container::small_vector<std::pair<std::uint32_t, std::uint32_t>, 4>;
+  Continuations continuations(const ContractionMesh& mesh, std::uint32_t v, std::uint32_t kept) const;
+  /// kNone: none, or several.
+  static std::uint32_t continued(const Continuations& all, std::uint32_t classOfV);
 
   std::vector<std::uint32_t> partOf_;
   bool hasClasses_ = false;

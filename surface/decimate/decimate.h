@@ -46,7 +46,9 @@ struct DecimatedMesh {
   SurfaceMesh mesh;
   std::vector<std::uint32_t> vertexOf;  ///< by vertex: one of the vertices of the source that it stands for
   std::vector<std::uint32_t> faceOf;    ///< by triangle: that of the source
-  std::uint64_t evaluations = 0;        ///< costs computed, estimates not among them
+  /// By face of the source: the triangle that stands for it; MeshAttributes::kNone: nothing near it is left.
+  std::vector<std::uint32_t> triangleFor;
+  std::uint64_t evaluations = 0;  ///< costs computed, estimates not among them
   std::uint64_t steps = 0;
   /// What could not be carried along: "texture coordinates" and so on.
   std::vector<std::string> lost;
@@ -56,9 +58,12 @@ struct DecimatedMesh {
 /// is left then is the result (the caller compares the counts). Steps keep manifoldness, components and
 /// genus, but for vertex pairs and clusters; no triangle turns by more than 90 degrees, but for clusters.
 /// Borders are simplified along with the rest, held by planes across them. Vertices at seams and at edges
-/// between objects or materials only move along them. The same mesh gives the same bytes.
-/// Errors: invalidData: mesh.validate(), maxTriangles of 0, a diagonal of the box that is not between 1e-30
-/// and 1e30, a result without triangles (of clusters); interrupted. O(n log n).
+/// between objects or materials only move along them. Triangles without area are left out first, as a build
+/// leaves them out (surface/repair/repair.h), and no step makes one. All is computed around a vertex of the
+/// mesh: the same mesh elsewhere gives the same triangles, and the same mesh the same bytes. Errors:
+/// invalidData: mesh.validate(), maxTriangles of 0, a diagonal of the box that is not between 1e-30 and 1e30,
+/// a result without triangles (of clusters), and of Lindstrom-Turk edges of more than two triangles or a
+/// vertex of more than 512 triangles whose neighbours cannot be joined; interrupted. O(n log n).
 Result<DecimatedMesh> decimate(const SurfaceMesh& mesh, const DecimateOptions& options,
                                const RunContext& context = {});
 

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// CGAL's edge collapse with the memoryless cost and placement of Lindstrom and Turk [CGAL]. Its placement may
-// fling a vertex where the constraints are nearly parallel; a place outside of the ball of the edge's
-// surroundings is refused.
+// CGAL's edge collapse with the memoryless cost and placement of Lindstrom and Turk [CGAL]. Its placement
+// keeps the volume, and flings a vertex far where a long wall loses volume that a narrow rim has to give
+// back. So along the normal of each triangle around the edge, and of the planes that stand on its borders, a
+// place lies between the ends of the edge, or beyond them by as much as the edge bridges of planes that face
+// alike and run along it: on a curved surface that is its rise, on a flat rim it is nothing. Instead of a
+// place farther away, the best of the ends and of their middle is taken.
+//
+// CGAL's cost of an edge takes time by the triangles of its ends, and is found anew for all of them after
+// each step. Vertices of very many triangles get fewer before (narrowWideVertices()).
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_placement.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Constrained_placement.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
@@ -13,11 +20,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "surface/decimate/carried.h"
 #include "surface/decimate/contractions.h"
 #include "surface/decimate/part_lines.h"
+#include "surface/decimate/standing.h"
 #include "surface/model/parts.h"
 
 namespace arete {
@@ -51,28 +63,94 @@ struct Constrained {
   friend bool get(const Constrained& map, Edge e) { return map.keepsBorders && map.mesh->is_border(e); }
 };
 
+using Vector = Kernel::Vector_3;
+
+/// What the triangles of an edge's surroundings that stay, and borders, say of a place.
+class Planes {
+ public:
+  template <class Profile>
+  explicit Planes(const Profile& profile) {
+    const Mesh& mesh = profile.surface_mesh();
+    for (const auto& t : profile.triangles()) {
+      const bool isOfEdge = holds(t, profile.v0()) && holds(t, profile.v1());
+      const Vector normal =
+          CGAL::cross_product(mesh.point(t.v1) - mesh.point(t.v0), mesh.point(t.v2) - mesh.point(t.v0));
+      if (!isOfEdge) add(mesh.point(t.v0), normal, profile);
+      for (const auto& [from, to] : {std::pair{t.v0, t.v1}, std::pair{t.v1, t.v2}, std::pair{t.v2, t.v0}}) {
+        const auto h = mesh.halfedge(from, to);
+        const bool isEdge = isOfEdge && (from == profile.v0() || from == profile.v1()) &&
+                            (to == profile.v0() || to == profile.v1());
+        if (isEdge || h == Mesh::null_halfedge() || !mesh.is_border(mesh.edge(h))) continue;
+        add(mesh.point(from), CGAL::cross_product(mesh.point(to) - mesh.point(from), normal), profile);
+      }
+    }
+  }
+  bool allow(const Point& place) const {
+    for (const Plane& plane : planes_) {
+      // Rounding of a place by what it is solved of.
+      const double is = (place - plane.through) * plane.normal, rounding = kRounding * reach_;
+      const double beyond = std::max(plane.least - is, is - plane.most) - rounding;
+      if (beyond <= 0) continue;
+      if (std::ranges::none_of(planes_, [&](const Plane& other) {
+            return beyond <= other.bridged * std::max(0.0, plane.normal * other.normal);
+          }))
+        return false;
+    }
+    return true;
+  }
+
+ private:
+  static constexpr double kRounding = 1e-9;
+  struct Plane {
+    Point through;
+    Vector normal;
+    double least, most;  // of the ends of the edge and 0, along the normal
+    double bridged;      // the rise of an edge that runs along the plane
+  };
+  template <class Triangle, class Vertex>
+  static bool holds(const Triangle& t, Vertex v) {
+    return t.v0 == v || t.v1 == v || t.v2 == v;
+  }
+  template <class Profile>
+  void add(const Point& through, const Vector& along, const Profile& profile) {
+    const double length = std::sqrt(along.squared_length());
+    if (!(length > 0)) return;
+    const Vector normal = along / length, edge = profile.p1() - profile.p0();
+    const double first = (profile.p0() - through) * normal, second = (profile.p1() - through) * normal;
+    const double squared = edge.squared_length(), across = edge * normal;
+    const double alongEdge = squared > 0 ? 1 - across * across / squared : 0;
+    planes_.push_back({through, normal, std::min({0.0, first, second}), std::max({0.0, first, second}),
+                       std::max(std::fabs(first), std::fabs(second)) * std::pow(alongEdge, 4)});
+    reach_ = std::max(reach_, std::sqrt(CGAL::squared_distance(profile.p0(), through)));
+  }
+
+  std::vector<Plane> planes_;
+  double reach_ = 0;
+};
+
 struct Guarded {
   PartLines<Mesh> lines;
   sms::LindstromTurk_placement<Mesh> inner = {};
+  sms::LindstromTurk_cost<Mesh> cost = {};
 
   template <class Profile>
-  std::optional<Point> placeOf(const Profile& profile) const {
+  boost::optional<Point> operator()(const Profile& profile) const {
     if (lines.areAt(profile.v0_v1())) {
       const auto end = lines.chooseEnd(profile.v0_v1());
-      return end ? std::optional<Point>(profile.surface_mesh().point(*end)) : std::nullopt;
+      return end ? boost::optional<Point>(profile.surface_mesh().point(*end)) : boost::none;
     }
     const auto place = inner(profile);
-    if (!place) return std::nullopt;
-    const Point middle = CGAL::midpoint(profile.p0(), profile.p1());
-    double reach = CGAL::squared_distance(profile.p0(), profile.p1());
-    for (const auto v : profile.link())
-      reach = std::max(reach, CGAL::squared_distance(middle, profile.surface_mesh().point(v)));
-    return CGAL::squared_distance(middle, *place) <= reach ? std::optional<Point>(*place) : std::nullopt;
-  }
-  template <class Profile>
-  boost::optional<Point> operator()(const Profile& profile) const {
-    const std::optional<Point> place = placeOf(profile);
-    return place ? boost::optional<Point>(*place) : boost::none;
+    if (!place) return boost::none;
+    if (Planes(profile).allow(*place)) return boost::optional<Point>(*place);
+    boost::optional<Point> best;
+    boost::optional<double> least;
+    for (const Point& p : {CGAL::midpoint(profile.p0(), profile.p1()), profile.p0(), profile.p1()}) {
+      const auto its = cost(profile, boost::optional<Point>(p));
+      if (!its || (least && !(double(*its) < *least))) continue;
+      best = p;
+      least = double(*its);
+    }
+    return best;
   }
 };
 
@@ -93,12 +171,34 @@ struct Cost {
   }
 };
 
-}  // namespace
+/// Remembers which vertex became which.
+struct Joins : sms::Edge_collapse_visitor_base<Mesh> {
+  std::vector<std::uint32_t>* joinedTo = nullptr;
 
-Result<DecimatedMesh> decimateByLindstromTurk(const SurfaceMesh& source, const DecimateOptions& options,
-                                              const RunContext& context) {
+  template <class Profile>
+  void OnCollapsed(const Profile& profile, Mesh::Vertex_index kept) const {
+    for (const auto v : {profile.v0(), profile.v1()})
+      if (v != kept) (*joinedTo)[v] = kept;
+  }
+};
+
+/// CGAL's time for a vertex grows with the third power of its triangles: above the first they are made fewer,
+/// above the second it is not begun.
+constexpr std::size_t kWideVertex = 128, kMostAtVertex = 512;
+
+std::size_t mostAtVertex(const TriangleMesh& mesh, std::uint32_t& vertex) {
+  std::vector<std::size_t> counts(mesh.positions.size(), 0);
+  for (const auto& t : mesh.triangles)
+    for (const std::uint32_t v : t) ++counts[v];
+  vertex = static_cast<std::uint32_t>(std::ranges::max_element(counts) - counts.begin());
+  return counts.empty() ? 0 : counts[vertex];
+}
+
+Result<FramedResult> collapse(const FramedMesh& framed, const DecimateOptions& options,
+                              const RunContext& context) {
+  const SurfaceMesh& source = framed.source;
   Mesh mesh;
-  for (const Vec3& p : source.positions) mesh.add_vertex({p.x, p.y, p.z});
+  for (const Vec3& p : framed.shape.positions) mesh.add_vertex({p.x, p.y, p.z});
   for (std::uint32_t t = 0; t < source.triangles.size(); ++t) {
     const auto& [i, j, k] = source.triangles[t];
     if (mesh.add_face(Mesh::Vertex_index(i), Mesh::Vertex_index(j), Mesh::Vertex_index(k)) ==
@@ -116,13 +216,18 @@ Result<DecimatedMesh> decimateByLindstromTurk(const SurfaceMesh& source, const D
   constrained.keepsBorders = options.keepsBorders;
   const std::vector<std::uint32_t> partOf = partsOf(source, source.triangles.size());
   const PartLines<Mesh> lines(mesh, partOf);
+  std::vector<std::uint32_t> joinedTo(source.positions.size());
+  std::iota(joinedTo.begin(), joinedTo.end(), 0u);
+  Joins joins;
+  joins.joinedTo = &joinedTo;
   const auto steps = sms::edge_collapse(
       mesh, Stop{options.maxTriangles, context},
       CGAL::parameters::get_cost(Cost{lines})
           .get_placement(
               sms::Constrained_placement<sms::Bounded_normal_change_placement<Guarded>, Constrained>(
                   constrained, sms::Bounded_normal_change_placement<Guarded>(Guarded{lines})))
-          .edge_is_constrained_map(constrained));
+          .edge_is_constrained_map(constrained)
+          .visitor(joins));
   if (context.cancelled()) return failure(ErrorCode::interrupted, "decimation was interrupted");
   TriangleMesh shape;
   std::vector<std::uint32_t> vertexOf, faceOf, numberOf(source.positions.size(), 0);
@@ -142,7 +247,42 @@ Result<DecimatedMesh> decimateByLindstromTurk(const SurfaceMesh& source, const D
   }
   DecimatedMesh result = carried(source, std::move(shape), std::move(vertexOf), std::move(faceOf));
   result.steps = static_cast<std::uint64_t>(steps);
-  return result;
+  return FramedResult{std::move(result), std::move(joinedTo)};
+}
+
+}  // namespace
+
+Result<FramedResult> decimateByLindstromTurk(const FramedMesh& framed, const DecimateOptions& options,
+                                             const RunContext& context) {
+  std::uint32_t widest = 0;
+  if (mostAtVertex(framed.shape, widest) <= kWideVertex) return collapse(framed, options, context);
+  Result<FramedResult> narrow = narrowWideVertices(framed, kWideVertex, options, context);
+  if (!narrow) return narrow;
+  const DecimatedMesh& before = narrow->decimated;
+  if (const std::size_t most = mostAtVertex(before.mesh, widest); most > kMostAtVertex)
+    return failure(
+        ErrorCode::invalidData,
+        fmt::format("vertex {} has {} triangles whose other corners cannot be joined, and Lindstrom-Turk "
+                    "takes time by their third power: qem does not",
+                    before.vertexOf[widest], most));
+  Result<FramedResult> last = collapse({before.mesh, before.mesh.shape(), framed.rounding}, options, context);
+  if (!last) return last;
+  // Back to the numbers of the source.
+  DecimatedMesh& result = last->decimated;
+  follow(narrow->joinedTo);
+  follow(last->joinedTo);
+  std::vector<std::uint32_t> numberOf(framed.shape.positions.size(), MeshAttributes::kNone);
+  for (std::uint32_t v = 0; v < before.vertexOf.size(); ++v) numberOf[before.vertexOf[v]] = v;
+  for (std::uint32_t& to : narrow->joinedTo)
+    if (numberOf[to] != MeshAttributes::kNone) to = before.vertexOf[last->joinedTo[numberOf[to]]];
+  for (std::uint32_t& v : result.vertexOf) v = before.vertexOf[v];
+  for (std::uint32_t& f : result.faceOf) f = before.faceOf[f];
+  const std::uint64_t steps = before.steps + result.steps;
+  result = carried(framed.source, std::move(result.mesh.shape()), std::move(result.vertexOf),
+                   std::move(result.faceOf));
+  result.steps = steps;
+  last->joinedTo = std::move(narrow->joinedTo);
+  return last;
 }
 
 }  // namespace arete

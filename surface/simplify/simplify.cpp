@@ -114,7 +114,7 @@ Result<SurfaceRoot> simplifySurface(SurfaceState& s, const std::vector<std::uint
   SurfaceLevels levels(s);
   std::uint32_t number = 0;
   double threshold = kFirstThreshold;
-  while (!s.thresholds.empty()) {
+  while (!s.thresholds.empty() && s.liveTriangles > s.fewEnough) {
     s.thresholds.compact();
     const std::size_t before = s.thresholds.size();
     ++number;

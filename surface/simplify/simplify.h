@@ -18,8 +18,8 @@ struct SurfaceRoot {
   std::uint32_t levels = 0;
 };
 
-/// Removes every vertex that can be removed. Errors: interrupted. Preconditions: the mesh is a manifold; the
-/// state has the labels of its triangles.
+/// Removes every vertex that can be removed, or until no more than state.fewEnough triangles are left.
+/// Errors: interrupted. Preconditions: the mesh is a manifold; the state has the labels of its triangles.
 /// @param isFixed per vertex, not 0 = it is never removed.
 Result<SurfaceRoot> simplifySurface(SurfaceState& state, const std::vector<std::uint8_t>& isFixed,
                                     const RunContext& context);

@@ -28,6 +28,7 @@ struct SurfaceState {
   MetricFrame metric;
   std::uint32_t maxDegree = 24;  ///< of a vertex that is removed
   double thresholdRatio = 1.1;   ///< growth of the threshold from level to level
+  std::size_t fewEnough = 0;     ///< triangles at which levels end
   /// A power of two by which lengths are multiplied, so that costs do not depend on the unit.
   double unit = 1;
 

@@ -144,9 +144,11 @@ class OneWay {
         samples_(from.mesh, samples, options.seed),
         answers_(from.mesh.positions.size()) {}
 
-  Result<DistanceOneWay> measure(const std::string& stage, std::vector<double>* vertexDistances) {
+  /// @param takesSamples  or the search alone, which knows the number of each triangle
+  Result<DistanceOneWay> measure(const std::string& stage, std::vector<double>* vertexDistances,
+                                 bool takesSamples = true) {
     const std::size_t vertexRuns = runsOf(answers_.size(), kPerRun);
-    std::vector<RunTotals> runs(vertexRuns + runsOf(samples_.count(), kPerRun));
+    std::vector<RunTotals> runs(vertexRuns + (takesSamples ? runsOf(samples_.count(), kPerRun) : 0));
     Status done = measuring::forEachBand(runs.size(), context_, stage.c_str(), [&](std::size_t index) {
       if (index < vertexRuns)
         takeVertices(index, vertexDistances != nullptr, runs[index]);
@@ -268,28 +270,63 @@ double MeshDistanceReport::rms() const {
                    (first.area + second.area));
 }
 
+namespace {
+
+/// Two meshes around the middle of their common box.
+struct Pair {
+  Box3 box;
+  Vec3 origin;
+  std::array<Surface, 2> surfaces;
+};
+
+Result<Pair> pairOf(const TriangleMesh& first, const TriangleMesh& second) {
+  for (const auto& [mesh, which] : {std::pair(&first, "first"), std::pair(&second, "second")})
+    if (const Status ok = check(*mesh, which); !ok) return tl::unexpected(ok.error());
+  Pair pair{boxOf(first), {}, {}};
+  const Box3 other = boxOf(second);
+  pair.box.include(other.low);
+  pair.box.include(other.high);
+  // Squared areas of triangles, fourth powers of lengths, are compared.
+  if (!std::isfinite(std::pow(pair.box.diagonal(), 4)))
+    return failure(ErrorCode::invalidData,
+                   "the coordinates are too large, or too far apart, to measure between");
+  pair.origin = pair.box.middle();
+  pair.surfaces = {surfaceOf(first, pair.origin), surfaceOf(second, pair.origin)};
+  for (const auto& [surface, which] :
+       {std::pair(&pair.surfaces[0], "first"), std::pair(&pair.surfaces[1], "second")})
+    if (const Status ok = check(*surface, which); !ok) return tl::unexpected(ok.error());
+  return pair;
+}
+
+std::uint64_t usualSamples(const TriangleMesh& first, const TriangleMesh& second) {
+  return std::max({kLeastSamples, kSamplesPerTriangle * first.triangles.size(),
+                   kSamplesPerTriangle * second.triangles.size()});
+}
+
+}  // namespace
+
+Result<double> farthestDistance(const TriangleMesh& first, const TriangleMesh& second,
+                                const RunContext& context) try {
+  const Result<Pair> pair = pairOf(first, second);
+  if (!pair) return tl::unexpected(pair.error());
+  const MeshDistanceOptions options;
+  OneWay way(pair->surfaces[0], pair->surfaces[1], options, usualSamples(first, second), context);
+  const Result<DistanceOneWay> found = way.measure("from the first to the second", nullptr, false);
+  if (!found) return tl::unexpected(found.error());
+  return found->atMost;
+} catch (...) {
+  return caughtFailure();
+}
+
 Result<MeshDistanceReport> measureDistance(const TriangleMesh& first, const TriangleMesh& second,
                                            const MeshDistanceOptions& options, const RunContext& context,
                                            std::vector<double>* vertexDistances) try {
-  for (const auto& [mesh, which] : {std::pair(&first, "first"), std::pair(&second, "second")})
-    if (const Status ok = check(*mesh, which); !ok) return tl::unexpected(ok.error());
-  Box3 box = boxOf(first);
-  const Box3 other = boxOf(second);
-  box.include(other.low);
-  box.include(other.high);
-  // Squared areas of triangles, fourth powers of lengths, are compared.
-  if (!std::isfinite(std::pow(box.diagonal(), 4)))
-    return failure(ErrorCode::invalidData,
-                   "the coordinates are too large, or too far apart, to measure between");
-  const Vec3 origin = box.middle();
-  const std::array<Surface, 2> surfaces = {surfaceOf(first, origin), surfaceOf(second, origin)};
-  for (const auto& [surface, which] : {std::pair(&surfaces[0], "first"), std::pair(&surfaces[1], "second")})
-    if (const Status ok = check(*surface, which); !ok) return tl::unexpected(ok.error());
-
-  const std::uint64_t samples = options.samples > 0
-                                    ? options.samples
-                                    : std::max({kLeastSamples, kSamplesPerTriangle * first.triangles.size(),
-                                                kSamplesPerTriangle * second.triangles.size()});
+  const Result<Pair> pair = pairOf(first, second);
+  if (!pair) return tl::unexpected(pair.error());
+  const Box3& box = pair->box;
+  const Vec3& origin = pair->origin;
+  const std::array<Surface, 2>& surfaces = pair->surfaces;
+  const std::uint64_t samples = options.samples > 0 ? options.samples : usualSamples(first, second);
   const auto measureOneWay = [&](int from, const char* stage,
                                  std::vector<double>* distances) -> Result<DistanceOneWay> {
     if (context.cancelled()) return failure(ErrorCode::interrupted, "measuring was interrupted");
