@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Kinds of meshes on which decimation went wrong elsewhere: far from the origin, thin, with open borders,
+// around vertices of very many triangles, with triangles without area.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "surface/decimate/decimate.h"
+#include "surface/families.h"
+
+namespace arete {
+namespace {
+
+constexpr DecimateOperator kAll[] = {DecimateOperator::edge,       DecimateOperator::halfEdge,
+                                     DecimateOperator::vertexPair, DecimateOperator::face,
+                                     DecimateOperator::cluster,    DecimateOperator::lindstromTurk};
+
+DecimatedMesh decimated(const TriangleMesh& mesh, DecimateOperator method, std::size_t triangles) {
+  DecimateOptions options;
+  options.method = method;
+  options.maxTriangles = static_cast<std::uint32_t>(triangles);
+  Result<DecimatedMesh> result = decimate(SurfaceMesh(mesh), options);
+  if (!result) throw std::runtime_error(result.error().message);
+  return std::move(*result);
+}
+
+double areaOf(const TriangleMesh& mesh) {
+  double area = 0;
+  for (const auto& [i, j, k] : mesh.triangles)
+    area += norm(cross(mesh.positions[j] - mesh.positions[i], mesh.positions[k] - mesh.positions[i])) / 2;
+  return area;
+}
+
+/// Rings of n vertices, each joined to the next, and the last to the first if wanted.
+TriangleMesh rings(std::uint32_t n, const std::vector<std::pair<double, double>>& radiusAndZ, bool isClosed) {
+  TriangleMesh mesh;
+  for (const auto& [r, z] : radiusAndZ)
+    for (std::uint32_t j = 0; j < n; ++j) {
+      const double a = 2 * std::numbers::pi * j / n;
+      mesh.positions.push_back({r * std::cos(a), r * std::sin(a), z});
+    }
+  const auto count = static_cast<std::uint32_t>(radiusAndZ.size());
+  for (std::uint32_t k = 0; k + (isClosed ? 0 : 1) < count; ++k)
+    for (std::uint32_t j = 0; j < n; ++j) {
+      const std::uint32_t p = k * n + j, q = k * n + (j + 1) % n, r = (k + 1) % count * n + j,
+                          s = (k + 1) % count * n + (j + 1) % n;
+      mesh.triangles.push_back({p, q, s});
+      mesh.triangles.push_back({p, s, r});
+    }
+  return mesh;
+}
+
+TEST(DecimateFar, TheSameMeshElsewhereGivesTheSameTriangles) {
+  for (const double far : {1e5, 5812345.0, 1e7})
+    for (const std::uint64_t seed : {1u, 2u}) {
+      const Vec3 origin{far, -2 * far, 87.5};
+      TriangleMesh near = shapes::shaken(shapes::globe(24, 14), seed, 0.02), there = near;
+      for (std::size_t v = 0; v < near.positions.size(); ++v) {
+        there.positions[v] = near.positions[v] + origin;
+        near.positions[v] = there.positions[v] - origin;
+      }
+      for (const DecimateOperator method : kAll) {
+        SCOPED_TRACE("far " + std::to_string(far) + ", seed " + std::to_string(seed) + ", operator " +
+                     std::to_string(int(method)));
+        const DecimatedMesh a = decimated(near, method, 150), b = decimated(there, method, 150);
+        ASSERT_EQ(a.mesh.triangles, b.mesh.triangles);
+        for (std::size_t v = 0; v < a.mesh.positions.size(); ++v)
+          EXPECT_LT(norm(b.mesh.positions[v] - origin - a.mesh.positions[v]), 1e-8);
+      }
+    }
+}
+
+TEST(DecimateBorders, DiscsAnnuliAndCardsKeepTheirArea) {
+  const auto keeps = [](const std::string& name, const TriangleMesh& mesh, std::size_t triangles) {
+    for (const DecimateOperator method : {DecimateOperator::edge, DecimateOperator::halfEdge,
+                                          DecimateOperator::face, DecimateOperator::lindstromTurk}) {
+      SCOPED_TRACE(name + ", operator " + std::to_string(int(method)));
+      const DecimatedMesh result = decimated(mesh, method, triangles);
+      EXPECT_LE(result.mesh.triangles.size(), triangles);
+      EXPECT_NEAR(areaOf(result.mesh.shape()), areaOf(mesh), 0.01 * areaOf(mesh));
+    }
+  };
+  for (const std::uint32_t n : {120u})
+    for (const double inner : {0.1, 0.4, 0.8})
+      keeps(fmt::format("annulus of {} and {}", n, inner),
+            rings(n, {{1, 0}, {(1 + 2 * inner) / 3, 0}, {inner, 0}}, false), n * 2 / 3);
+  for (const std::uint32_t cards : {1u, 4u}) {
+    TriangleMesh all;
+    for (std::uint32_t c = 0; c < cards; ++c) {
+      TriangleMesh card = shapes::sheet(6, 3);
+      for (Vec3& p : card.positions) p = Vec3{p.x + 0.01 * p.y, p.y, 5.0 * c + 0.3 * p.x};
+      shapes::append(all, card);
+    }
+    keeps(fmt::format("{} cards", cards), all, cards * 7);
+  }
+}
+
+TEST(DecimateMap, EveryFaceOfTheSourceHasATriangleNearIt) {
+  for (const std::uint64_t seed : {1u, 2u})
+    for (const shapes::NamedMesh& family : shapes::families(seed))
+      for (const DecimateOperator method : {DecimateOperator::edge, DecimateOperator::halfEdge,
+                                            DecimateOperator::face, DecimateOperator::lindstromTurk}) {
+        SCOPED_TRACE(family.name + ", operator " + std::to_string(int(method)));
+        const DecimatedMesh result = decimated(family.mesh, method, family.mesh.triangles.size() / 3);
+        ASSERT_EQ(result.triangleFor.size(), family.mesh.triangles.size());
+        for (std::size_t t = 0; t < result.faceOf.size(); ++t)
+          EXPECT_EQ(result.triangleFor[result.faceOf[t]], t);
+        std::set<std::uint32_t> used;
+        for (const std::uint32_t t : result.triangleFor) {
+          ASSERT_LT(t, result.mesh.triangles.size());
+          used.insert(t);
+        }
+        EXPECT_EQ(used.size(), result.mesh.triangles.size());
+      }
+}
+
+TEST(DecimateDegenerate, LeavesNoTriangleWithoutArea) {
+  for (std::uint32_t at = 0; at < 20; ++at) {
+    SCOPED_TRACE(at);
+    // A face is split at a vertex on its own side, which leaves one of no area, and another is a point and a
+    // side.
+    TriangleMesh mesh = shapes::sheet(8, 8);
+    const std::array<std::uint32_t, 3> split = mesh.triangles[3 * at];
+    const auto middle = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.push_back((mesh.positions[split[0]] + mesh.positions[split[1]]) / 2.0);
+    mesh.triangles[3 * at] = {middle, split[1], split[2]};
+    mesh.triangles.push_back({split[0], middle, split[2]});
+    mesh.triangles.push_back({split[0], split[1], middle});
+    for (const DecimateOperator method :
+         {DecimateOperator::edge, DecimateOperator::halfEdge, DecimateOperator::face})
+      for (const std::size_t count : {100u, 40u}) {
+        const DecimatedMesh result = decimated(mesh, method, count);
+        for (const auto& [i, j, k] : result.mesh.triangles) {
+          const auto& p = result.mesh.positions;
+          EXPECT_GT(norm(cross(p[j] - p[i], p[k] - p[i])), 1e-12);
+        }
+      }
+  }
+}
+
+}  // namespace
+}  // namespace arete
