@@ -145,12 +145,14 @@ NamedRegion randomRegion(const Extents& extents, Numbers& numbers, const MetricF
     }
     default: {
       const Vec2 to = extents.at(numbers);
-      const double distance = size / 2;
+      const double distance = size / 2 * std::abs(metric.scale.x);
       return {"line", Region({.lines = {{at, to}}, .distance = distance}, metric), [=](double x, double y) {
-                const double dx = to.x - at.x, dy = to.y - at.y, squared = dx * dx + dy * dy;
-                const double t =
-                    squared > 0 ? std::clamp(((x - at.x) * dx + (y - at.y) * dy) / squared, 0.0, 1.0) : 0;
-                return std::hypot(x - at.x - t * dx, y - at.y - t * dy) <= distance * (1 - 1e-9);
+                // In metric space.
+                const double sx = metric.scale.x, sy = metric.scale.y, dx = (to.x - at.x) * sx,
+                             dy = (to.y - at.y) * sy, px = (x - at.x) * sx, py = (y - at.y) * sy;
+                const double squared = dx * dx + dy * dy;
+                const double t = squared > 0 ? std::clamp((px * dx + py * dy) / squared, 0.0, 1.0) : 0;
+                return std::hypot(px - t * dx, py - t * dy) <= distance * (1 - 1e-9);
               }};
     }
   }
