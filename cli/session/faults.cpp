@@ -44,6 +44,7 @@ extern "C" void onFault(int signal, siginfo_t*, void*) {
     removeNotedFiles();
     ::_exit(static_cast<int>(ExitCode::file));
   }
+  removeNotedFiles();
   // The instruction runs again on return, and meets what was there before this.
   ::sigaction(signal, signal == SIGBUS ? &gBusBefore : &gSegvBefore, nullptr);
 }

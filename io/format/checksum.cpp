@@ -17,6 +17,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <new>
 
 namespace arete {
 namespace {
@@ -46,6 +47,7 @@ std::optional<AmtChecksums> amtChecksums(std::span<const std::span<const std::by
   const auto hash = [&](std::size_t i) {
     const std::span<const std::byte> block = blocks[i];
     const std::unique_ptr<XXH3_state_t, FreeState> state(XXH3_createState());
+    if (!state) throw std::bad_alloc();
     XXH3_64bits_reset(state.get());
     for (std::size_t turn = 0; turn < block.size() && !stopped; turn += kTurn) {
       const std::size_t end = std::min(turn + kTurn, block.size());

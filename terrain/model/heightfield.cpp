@@ -11,6 +11,7 @@
 
 #include <limits>
 #include <memory>
+#include <new>
 
 #include "engine/base/caught_failure.h"
 
@@ -56,6 +57,7 @@ struct StateDeleter {
 std::string checksumOf(std::uint64_t a, std::uint64_t b, const std::vector<Vec2>& positions,
                        const std::vector<double>& heights) {
   const std::unique_ptr<XXH3_state_t, StateDeleter> state(XXH3_createState());
+  if (!state) throw std::bad_alloc();
   XXH3_128bits_reset(state.get());
   const std::uint64_t shape[2] = {a, b};
   XXH3_128bits_update(state.get(), shape, sizeof shape);
