@@ -79,6 +79,80 @@ TEST_F(Criteria, RefusesCriteriaThatContradictEachOther) {
   EXPECT_EQ(run({"extract", "dem.amt", "-o", "t.tif", "--deadline", "5"}).code, 2) << "cannot be repeated";
 }
 
+TEST_F(Criteria, WhatComesFirstOfAnErrorAndABudgetEndsTheCut) {
+  makeRaster("dem.tif", "fractal", 60, 50);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  const auto one = [&](std::vector<std::string> options, const std::string& name = "t.ply") {
+    options.insert(options.begin(), {"extract", "dem.amt", "-o", name, "--json"});
+    const Outcome outcome = run(options);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.json()["exports"][0];
+  };
+  const Json alone = one({"--max-error", "2"});
+  EXPECT_FALSE(alone.contains("endedBy"));
+  const int needed = alone["triangles"];
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, {"--method", "saturated"}, {"--fit", "triangles"}, {"--fit", "error"}}) {
+    SCOPED_TRACE(more.empty() ? "" : more.back());
+    std::vector<std::string> words = {"--max-error", "2", "--max-triangles", "100%"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Json complete = one(words);
+    EXPECT_EQ(complete["endedBy"], "maxError");
+    EXPECT_LE(complete["promisedError"], 2);
+    words[3] = std::to_string(needed / 3);
+    const Json budget = one(words, "b.ply");
+    EXPECT_EQ(budget["endedBy"], "maxTriangles");
+    EXPECT_LE(budget["triangles"], needed / 3);
+    EXPECT_GT(budget["promisedError"], 2);
+    EXPECT_EQ(run({"measure", "b.ply", "dem.tif", "--expect", budget["promisedError"].dump(), "-q"}).code, 0);
+  }
+  // A format that rounds: the promise of a complete cut is the tolerance all the same.
+  const Json rounded = one({"--max-error", "2", "--max-triangles", "100%"}, "t.stl");
+  EXPECT_EQ(rounded["promisedError"], 2);
+  EXPECT_EQ(run({"measure", "t.stl", "dem.tif", "--expect", "2", "-q"}).code, 0);
+}
+
+TEST_F(Criteria, TakesListsAndPercentagesOfTheWhole) {
+  makeRaster("dem.tif", "fractal", 40, 30);
+  ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);
+  const RasterHeightfield field = readRaster(path("dem.tif"))->heightfield;
+  double lowest = field.heights[0], highest = lowest;
+  for (const double z : field.heights) {
+    lowest = std::min(lowest, z);
+    highest = std::max(highest, z);
+  }
+  const Json info = run({"info", "dem.amt", "--json", "--at", "10%"}).json();
+  EXPECT_DOUBLE_EQ(info["relief"], highest - lowest);
+  EXPECT_DOUBLE_EQ(info["curve"][0]["maxError"], (highest - lowest) / 10);
+  const Json answer = run({"extract", "dem.amt", "-o", "t.ply", "--json", "--max-error", "5%,20 %",
+                           "--max-triangles", "400,50%"})
+                          .json();
+  EXPECT_DOUBLE_EQ(answer["relief"], highest - lowest);
+  ASSERT_EQ(answer["exports"].size(), 4u);
+  EXPECT_DOUBLE_EQ(answer["exports"][0]["maxError"], (highest - lowest) / 20);
+  EXPECT_EQ(answer["exports"][1]["maxTriangles"], info["finestTriangles"].get<int>() / 2);
+  EXPECT_EQ(answer["exports"][3]["file"], "t_20%_50%.ply");
+  const Outcome text = run({"extract", "dem.amt", "-o", "u.ply", "--max-error", "5%"});
+  EXPECT_NE(text.out.find("% of the relief)"), std::string::npos) << text.out;
+  EXPECT_EQ(run({"measure", "u.ply", "dem.tif", "--expect", "5%", "-q"}).code, 0);
+  EXPECT_EQ(run({"measure", "u.ply", "dem.tif", "--expect", "0.01%", "-q"}).code, 5);
+  const auto refused = [&](std::vector<std::string> options, const std::string& names) {
+    options.insert(options.begin(), {"extract", "dem.amt", "-o", "no.ply"});
+    const Outcome outcome = run(options);
+    EXPECT_EQ(outcome.code, 2) << names;
+    EXPECT_NE(outcome.err.find(names), std::string::npos) << outcome.err;
+    EXPECT_FALSE(exists("no.ply"));
+  };
+  refused({"--max-triangles", "400,400"}, "has 400 twice");
+  refused({"--max-triangles", "1.5"}, "not a whole number");
+  refused({"--max-triangles", "0"}, "must be from 1");
+  refused({"--max-triangles", "0.0001%"}, "less than one triangle");
+  refused({"--max-triangles", "-5%"}, "below zero");
+  refused({"--max-error", "5%,5%"}, "has 5% twice");
+  refused({"--max-error", "inf%"}, "no share");
+  refused({"--max-error", "5%", "--outside-error", "1%", "--region", "0,0,1e7,1e7"}, "--outside-error");
+}
+
 TEST_F(Criteria, TakesOnlyWholePixels) {
   makeRaster("dem.tif", "fractal", 20, 20);
   ASSERT_EQ(run({"build", "dem.tif", "-o", "dem.amt"}).code, 0);

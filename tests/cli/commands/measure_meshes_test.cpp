@@ -50,6 +50,33 @@ TEST_F(MeasureMeshes, ChecksAPromise) {
   EXPECT_NE(broken.err.find("more than 1.4"), std::string::npos) << broken.err;
 }
 
+TEST_F(MeasureMeshes, APromiseIsAboutTheSecondMeshUnlessBothWaysAreAskedFor) {
+  write("small.obj", square(1, 0));
+  write("large.obj", square(2, 0));
+  // No point of the small square is off the large one; a corner of the large one is far from the small one.
+  const auto code = [&](const char* first, const char* second, const char* expect, bool bothWays) {
+    std::vector<std::string> words = {"measure", first, second, "--samples", "100", "--expect", expect, "-q"};
+    if (bothWays) words.push_back("--both-ways");
+    return run(words).code;
+  };
+  EXPECT_EQ(code("large.obj", "small.obj", "0", false), 0);
+  EXPECT_EQ(code("large.obj", "small.obj", "0", true), 5);
+  EXPECT_EQ(code("small.obj", "large.obj", "1", false), 5);
+  EXPECT_EQ(code("small.obj", "large.obj", "1.5", false), 0);
+  // Of the second's diagonal: the square root of 8, and of 2.
+  EXPECT_EQ(code("small.obj", "large.obj", "51%", false), 0);
+  EXPECT_EQ(code("small.obj", "large.obj", "49%", false), 5);
+  EXPECT_EQ(code("large.obj", "small.obj", "99%", true), 5);
+  EXPECT_EQ(code("large.obj", "small.obj", "101%", true), 0);
+  const Json json =
+      run({"measure", "large.obj", "small.obj", "--samples", "100", "--expect", "10%", "--json"}).json();
+  EXPECT_EQ(json["expectOf"], "fromSecond");
+  EXPECT_DOUBLE_EQ(json["expect"], std::sqrt(2.0) / 10);
+  EXPECT_NEAR(json["expectPercent"].get<double>(), 10, 1e-9);
+  makeRaster("dem.tif", "fractal", 9, 9);
+  EXPECT_EQ(run({"measure", "small.obj", "dem.tif", "--both-ways"}).code, 2);
+}
+
 TEST_F(MeasureMeshes, WritesTheFirstMeshWithADistancePerVertex) {
   write("a.obj", square(1, 0));
   write("b.obj", square(1, 2));

@@ -100,7 +100,9 @@ TEST_F(SurfaceCommands, AFitLeavesLessOfTheDistanceAndKeepsTheTolerance) {
       run({"extract", "shape.amt", "-o", "kept.ply", "--max-error", "0.05", "--fit", "rms", "--json"});
   ASSERT_EQ(kept.code, 0) << kept.err;
   EXPECT_LE(kept.json()["exports"][0]["error"].get<double>(), 0.05);
-  EXPECT_LE(run({"measure", "kept.ply", "shape.obj", "--samples", "20000", "--json"}).json()["fromSecond"]["maximum"].get<double>(),
+  EXPECT_LE(run({"measure", "kept.ply", "shape.obj", "--samples", "20000", "--json"})
+                .json()["fromSecond"]["maximum"]
+                .get<double>(),
             0.05);
 }
 
@@ -195,6 +197,57 @@ TEST_F(SurfaceCommands, ABudgetIsKeptOrRefusedWithTheLeastCountAndWhy) {
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.err.find("1 component, seams"), std::string::npos) << refused.err;
   EXPECT_FALSE(exists("none.ply"));
+}
+
+TEST_F(SurfaceCommands, WhatComesFirstOfAnErrorAndABudgetEndsTheCut) {
+  ASSERT_EQ(run({"build", "ball.obj", "-o", "ball.amt"}).code, 0);
+  const auto exports = [&](const std::string& errors, const std::string& budgets) {
+    const Outcome outcome = run({"extract", "ball.amt", "-o", "out.ply", "--max-error", errors,
+                                 "--max-triangles", budgets, "--json"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.json()["exports"];
+  };
+  const Json alone = run({"extract", "ball.amt", "-o", "out.ply", "--max-error", "2%", "--json"}).json();
+  const int needed = alone["exports"][0]["triangles"];
+  ASSERT_GT(needed, 40);
+  const Json enough = exports("2%", std::to_string(needed))[0];
+  EXPECT_EQ(enough["endedBy"], "maxError");
+  EXPECT_EQ(enough["triangles"], needed);
+  EXPECT_EQ(enough["complete"], true);
+  EXPECT_LE(enough["errorPercent"], 2);
+  const Json tooFew = exports("2%", std::to_string(needed - 2))[0];
+  EXPECT_EQ(tooFew["endedBy"], "maxTriangles");
+  EXPECT_LT(tooFew["triangles"], needed);
+  EXPECT_EQ(tooFew["complete"], false);
+  EXPECT_GT(tooFew["errorPercent"], 2);
+
+  const Json product = exports("1%,2%", "40,100%");
+  ASSERT_EQ(product.size(), 4u);
+  std::set<std::string> names;
+  for (const Json& each : product) names.insert(each["file"].get<std::string>());
+  EXPECT_EQ(names,
+            (std::set<std::string>{"out_1%_40.ply", "out_1%_100%.ply", "out_2%_40.ply", "out_2%_100%.ply"}));
+  for (const std::string& name : names) EXPECT_TRUE(exists(name)) << name;
+  EXPECT_EQ(run({"extract", "ball.amt", "-o", "f.ply", "--max-error", "2%", "--max-triangles", "40", "--fit",
+                 "rms"})
+                .code,
+            0);
+  const Json decimated = run({"mesh", "decimate", "ball.obj", "-o", "d.ply", "--max-error", "0.0001%",
+                              "--max-triangles", "60", "--json"})
+                             .json();
+  EXPECT_EQ(decimated["endedBy"], "maxTriangles");
+  const Outcome text =
+      run({"extract", "ball.amt", "-o", "t.ply", "--max-error", "2%", "--max-triangles", "40"});
+  EXPECT_NE(text.out.find("ended by --max-triangles"), std::string::npos) << text.out;
+}
+
+TEST_F(SurfaceCommands, InfoTakesTheErrorsThatAreStated) {
+  ASSERT_EQ(run({"build", "ball.obj", "-o", "ball.amt"}).code, 0);
+  const Json info = run({"info", "ball.amt", "--at", "1%,0.05", "--json"}).json();
+  ASSERT_EQ(info["curve"].size(), 2u);
+  EXPECT_DOUBLE_EQ(info["curve"][0]["maxError"], info["diagonal"].get<double>() / 100);
+  EXPECT_EQ(info["curve"][1]["maxError"], 0.05);
+  EXPECT_EQ(run({"info", "ball.amt", "--at", "x"}).code, 2);
 }
 
 TEST_F(SurfaceCommands, TheMapNamesAnInputOfEveryVertexAndAnOutputOfEveryFace) {
@@ -384,7 +437,8 @@ TEST_F(SurfaceCommands, DecimateTakesEveryOperatorAndSaysWhatItDid) {
     EXPECT_LE(small.json()["triangles"].get<std::size_t>(), 24u * 14 * 2 * 3 / 10);
     EXPECT_EQ(small.json()["operator"], method);
     EXPECT_EQ(read("map.csv").substr(0, 18), "what,output,input\n");
-    rms[method] = run({"measure", "small.ply", "ball.obj", "--samples", "20000", "--json"}).json()["fromSecond"]["rms"];
+    rms[method] =
+        run({"measure", "small.ply", "ball.obj", "--samples", "20000", "--json"}).json()["fromSecond"]["rms"];
   }
   EXPECT_LT(rms["measured"], rms["half-edge"]);
   EXPECT_LT(rms["qem"], rms["half-edge"]);
@@ -396,7 +450,9 @@ TEST_F(SurfaceCommands, DecimateKeepsADistanceAndNamesTheLeastCount) {
   ASSERT_EQ(kept.code, 0) << kept.err;
   const double error = kept.json()["error"];
   EXPECT_LE(error, 0.01 * 2 * std::sqrt(3.0));
-  EXPECT_LE(run({"measure", "kept.ply", "ball.obj", "--samples", "20000", "--json"}).json()["fromSecond"]["maximum"].get<double>(),
+  EXPECT_LE(run({"measure", "kept.ply", "ball.obj", "--samples", "20000", "--json"})
+                .json()["fromSecond"]["maximum"]
+                .get<double>(),
             error);
   for (const std::string method : {"measured", "qem", "half-edge", "face"}) {
     const Outcome refused =
@@ -435,7 +491,6 @@ TEST_F(SurfaceCommands, WhatIsForTerrainIsRefusedByName) {
   refused({"extract", "ball.amt", "-o", "x.ply", "--max-error", "1", "--fit", "triangles"}, "--fit");
   refused({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--fit", "rms"}, "--fit rms");
   refused({"extract", "ball.amt", "-o", "x.ply", "--camera", "9,0,0,0,0,0", "--fit", "rms"}, "--camera");
-  refused({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1%"}, "for surfaces");
   refused({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--map", "m.csv"}, "--map");
   refused({"extract", "dem.amt", "-o", "x.ply", "--max-error", "1", "--drop-parts", "1"}, "--drop-parts");
   refused({"view", "dem.amt", "--headless", "--screenshot", "x.png", "--up", "y"}, "--up");

@@ -177,5 +177,105 @@ TEST_F(OutputFileTest, IsNotWrittenFromAnInputThatChanged) {
   EXPECT_EQ(changedInputFile(), nullptr);
 }
 
+TEST_F(OutputFileTest, OfAGroupAppearTogetherOrNotAtAll) {
+  const auto writeBoth = [&](bool commits) {
+    OutputGroup together;
+    for (const char* name : {"mesh.mtl", "mesh.obj"}) {
+      Result<OutputFile> file = OutputFile::create(folder_ / name);
+      ASSERT_TRUE(file);
+      put(file->temporaryPath(), "new");
+      EXPECT_EQ(OutputGroup::placeOf(folder_ / name), folder_ / name);
+      ASSERT_TRUE(file->commit());
+      EXPECT_EQ(contents(OutputGroup::placeOf(folder_ / name)), "new");
+    }
+    EXPECT_EQ(contents(folder_ / "mesh.obj"), "old");
+    EXPECT_FALSE(fs::exists(folder_ / "mesh.mtl"));
+    if (commits) {
+      ASSERT_TRUE(together.commit());
+    }
+  };
+  put(folder_ / "mesh.obj", "old");
+  writeBoth(false);
+  EXPECT_EQ(contents(folder_ / "mesh.obj"), "old");
+  EXPECT_EQ(filesThere(), 1);
+  writeBoth(true);
+  EXPECT_EQ(contents(folder_ / "mesh.obj"), "new");
+  EXPECT_EQ(contents(folder_ / "mesh.mtl"), "new");
+  EXPECT_EQ(filesThere(), 2);
+}
+
+TEST_F(OutputFileTest, OfAGroupGetTheirOlderContentBackWhenOneCannotBeNamed) {
+  put(folder_ / "a.png", "old");
+  put(folder_ / "c.png", "old");
+  {
+    OutputGroup together;
+    for (const char* name : {"a.png", "b.png", "c.png", "last.obj"}) {
+      Result<OutputFile> file = OutputFile::create(folder_ / name);
+      ASSERT_TRUE(file);
+      put(file->temporaryPath(), "new");
+      ASSERT_TRUE(file->commit());
+    }
+    fs::create_directory(folder_ / "last.obj");  // nothing can be renamed to a folder
+    const Status named = together.commit();
+    ASSERT_FALSE(named);
+    EXPECT_EQ(named.error().culprit, (folder_ / "last.obj").string());
+  }
+  EXPECT_EQ(contents(folder_ / "a.png"), "old");
+  EXPECT_EQ(contents(folder_ / "c.png"), "old");
+  EXPECT_FALSE(fs::exists(folder_ / "b.png"));
+  EXPECT_EQ(filesThere(), 3) << "no temporary file is left";
+}
+
+TEST_F(OutputFileTest, AnInnerGroupHandsItsFilesToTheOuterAndTheLaterOfANameCounts) {
+  {
+    OutputGroup outer;
+    for (const char* text : {"first", "second"}) {
+      OutputGroup inner;
+      Result<FileWriter> writer = FileWriter::create(folder_ / "t.ply");
+      ASSERT_TRUE(writer);
+      writer->write(text);
+      ASSERT_TRUE(writer->finish());
+      ASSERT_TRUE(inner.commit());
+      EXPECT_FALSE(fs::exists(folder_ / "t.ply"));
+    }
+    ASSERT_TRUE(outer.commit());
+  }
+  EXPECT_EQ(contents(folder_ / "t.ply"), "second");
+  EXPECT_EQ(filesThere(), 1);
+}
+
+TEST_F(OutputFileTest, SideFilesOfTheOlderFileGoWithItAndNotBefore) {
+  const fs::path path = folder_ / "dem.tif";
+  put(path, "old");
+  put(folder_ / "dem.tif.ovr", "overviews");
+  for (const bool commits : {false, true}) {
+    OutputGroup together;
+    Result<OutputFile> file = OutputFile::create(path);
+    ASSERT_TRUE(file);
+    file->removeBeside({".ovr"});
+    put(file->temporaryPath(), "new");
+    ASSERT_TRUE(file->commit());
+    if (commits) {
+      ASSERT_TRUE(together.commit());
+    }
+    EXPECT_EQ(fs::exists(folder_ / "dem.tif.ovr"), !commits);
+  }
+}
+
+TEST_F(OutputFileTest, WhatCannotBeReadBackDoesNotReplaceAnOlderFile) {
+  const fs::path path = folder_ / "t.csv";
+  put(path, "old");
+  Result<FileWriter> writer = FileWriter::create(path);
+  ASSERT_TRUE(writer);
+  writer->write(std::string(3 * FileWriter::kCapacity, 'x'));
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
+    if (entry.path().filename().string().front() == '.')
+      std::fstream(entry.path(), std::ios::in | std::ios::out | std::ios::binary).seekp(7).put('y');
+  const Status finished = writer->finish();
+  ASSERT_FALSE(finished);
+  EXPECT_NE(finished.error().message.find("cannot be read after it was written"), std::string::npos);
+  EXPECT_EQ(contents(path), "old");
+}
+
 }  // namespace
 }  // namespace arete
