@@ -35,8 +35,10 @@ using test::TemporaryFolder;
 constexpr AmtOpenOptions kCopied{.isCopied = true};
 
 /// A file of a terrain, plain or packed.
-std::string writtenTo(const TemporaryFolder& folder, bool isPacked, bool isRound = true) {
-  RasterHeightfield field = hills(220, 180, [&](double z) { return isRound ? std::round(4 * z) / 4 : z; });
+std::string writtenTo(const TemporaryFolder& folder, bool isPacked, bool isRound = true,
+                      std::uint32_t columns = 220, std::uint32_t rows = 180) {
+  RasterHeightfield field =
+      hills(columns, rows, [&](double z) { return isRound ? std::round(4 * z) / 4 : z; });
   field.georeference.geoTransform = {0, 30, 0, 0, 0, -30};
   const std::string path = folder.file(isPacked ? "packed.amt" : "plain.amt");
   EXPECT_TRUE(writeAmt(path, built(build(field)), {}, {.isPacked = isPacked}));
@@ -166,7 +168,7 @@ TEST(CopiedAmt, OfASurfaceIsTheSameModel) {
     if (isPacked) continue;  // so small that all of it is read at once
     const auto open = AmtContainer::open(path, kCopied);
     ASSERT_TRUE(open);
-    ASSERT_GT(fs::file_size(path), 200000u);
+    ASSERT_GT(fs::file_size(path), 140000u);  // more than is read when it is opened
     fs::resize_file(path, fs::file_size(path) / 2);
     EXPECT_FALSE(loadSurfaceAmt(*open));
   }
@@ -175,7 +177,7 @@ TEST(CopiedAmt, OfASurfaceIsTheSameModel) {
 TEST(VirtualAmt, IsReadFromMemoryArchivesAndPartsOfFiles) {
   const TemporaryFolder folder;
   for (const bool isPacked : {false, true}) {
-    const std::string path = writtenTo(folder, isPacked);
+    const std::string path = writtenTo(folder, isPacked, true, 60, 50);
     std::ifstream from(path, std::ios::binary);
     std::string bytes((std::istreambuf_iterator<char>(from)), {});
     const auto put = [&](const std::string& name, const std::string& content) {
