@@ -262,6 +262,9 @@ def step_provider(arguments):
                                 *middle, t.epsg], env=environment).splitlines()[-1])
         check(found["triangles"] == [t.triangles, t.triangles] and found["crs"] == f"EPSG:{t.epsg}", f"QGIS: {found}")
         check(found["measured"] <= t.error * (1 + 1e-6) and all(found["rasters"]), f"QGIS: {found}")
+        check(found["progress"] == [True, 100, False] and found["setCrs"].endswith("(EPSG:32701)") and
+              abs(found["secondBand"] - found["measured"]) <= 1e-9 * found["measured"], f"QGIS: {found}")
+        check(found.get("options", 0) <= t.error * 2, f"QGIS: {found}")
         check(all(found["refused"]), f"QGIS: a run without sense was not refused: {found['refused']}")
         print(f"ok: {t.name}: Processing in QGIS: {', '.join(found['algorithms'])}; {t.triangles} triangles, "
               f"measured {found['measured']:g} ({t.error} promised)")
