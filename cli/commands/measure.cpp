@@ -24,6 +24,7 @@
 #include "io/exchange/mesh_formats.h"
 #include "io/extract/region_argument.h"
 #include "io/extract/report_json.h"
+#include "io/file/address_text.h"
 #include "io/file/stated_size.h"
 #include "terrain/measure/measure.h"
 #include "terrain/model/plan_region.h"
@@ -138,7 +139,7 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
   const Status promise =
       expects ? checkPromise(*report, expected, {.allowCoveredNodata = arguments.allowCoveredNodata})
               : Status();
-  session.say(fmt::format("{} against {}{}\n{}", arguments.tin, arguments.dem.path,
+  session.say(fmt::format("{} against {}{}\n{}", arguments.tin, nameWithoutQuery(arguments.dem.path),
                           arguments.region.empty() ? "" : fmt::format(" in {}", arguments.region),
                           measureReportText(*report, georeference.verticalUnit, isRaster)));
   if (expects && promise)

@@ -15,6 +15,7 @@
 #include "engine/base/counted.h"
 #include "io/amt/file.h"
 #include "io/amt/surface_file.h"
+#include "io/file/address_text.h"
 #include "terrain/laws/compare_source.h"
 #include "terrain/laws/validate_model.h"
 
@@ -107,9 +108,9 @@ Status runValidate(const ValidateArguments& arguments, Session& session) {
       text +=
           fmt::format("  law {}  {}  {}{}\n", law.number, isClaimed(law, *model) ? "holds" : "is not claimed",
                       law.says, scopeOf(law, checked));
-    text += arguments.source.path.empty()
-                ? "  heights not compared with the source (--against)\n"
-                : fmt::format("  heights all {} are those of {}\n", compared, arguments.source.path);
+    text += arguments.source.path.empty() ? "  heights not compared with the source (--against)\n"
+                                          : fmt::format("  heights all {} are those of {}\n", compared,
+                                                        nameWithoutQuery(arguments.source.path));
     session.say(text);
   }
   Json laws = Json::array();
