@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Normals of corners are seams where they differ, as at the creases of a machine part. A mesh of flat faces,
-// as many programs write it, differs in them at most of its edges: there they say no more than the faces do,
-// and would fix every vertex.
+// Normals of corners are seams where they differ, as at the creases of a machine part. What no picture can
+// show is no difference, and the normals of flat faces are left out (surface/edit/normals.h).
 #include "surface/build/prepare.h"
 
 #include <fmt/format.h>
@@ -14,6 +13,7 @@
 
 #include "surface/build/left_out_faces.h"
 #include "surface/edit/joined_surface.h"
+#include "surface/edit/normals.h"
 #include "surface/model/parts.h"
 #include "surface/model/transfer.h"
 #include "surface/model/wedges.h"
@@ -40,22 +40,6 @@ void forgetUnusedNumbers(SurfaceMesh& mesh) {
       if (v < isUsed.size()) isUsed[v] = 1;
   for (std::size_t v = 0; v < isUsed.size(); ++v)
     if (isUsed[v] == 0 && !isFinite(mesh.positions[v])) mesh.positions[v] = {};
-}
-
-/// Leaves out the normals of corners where they differ at more than half of the edges.
-bool dropFlatNormals(SurfaceMesh& mesh) {
-  const auto isNormal = [](const Attribute& a) {
-    return a.meaning == AttributeMeaning::normal || a.meaning == AttributeMeaning::tangent;
-  };
-  if (std::ranges::none_of(mesh.wedgeAttributes, isNormal)) return false;
-  const std::uint64_t edges = 3 * std::uint64_t{mesh.triangles.size()} / 2;
-  if (2 * countSeamEdges(mesh) <= edges) return false;
-  SurfaceMesh without = mesh;
-  std::erase_if(without.wedgeAttributes, isNormal);
-  moveToVertices(without);
-  if (2 * countSeamEdges(without) > edges) return false;
-  mesh = std::move(without);
-  return true;
 }
 
 /// Takes what belongs to faces out of a mesh.
@@ -135,6 +119,7 @@ Result<PreparedSurface> prepareSurface(SurfaceMesh source, const RunContext& con
   }
   if (prepared.mesh.hasWedges()) {
     moveToVertices(prepared.mesh);
+    joinAgreeingNormals(prepared.mesh);
     prepared.mending.dropsFlatNormals = dropFlatNormals(prepared.mesh);
   }
   return prepared;

@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "surface/model/labels.h"
 #include "surface/model/parts.h"
 
 namespace arete {
@@ -25,7 +26,7 @@ std::uint32_t cornerAt(const ContractionMesh& mesh, std::uint32_t t, std::uint32
 CornerAttributes::Records::Records(const std::vector<Attribute>& all, std::size_t elements)
     : isAveraged(elements, 0) {
   for (const Attribute& attribute : all)
-    if (attribute.isContinuous()) {
+    if (!isLabel(attribute)) {
       attributes.push_back(&attribute);
       values.emplace_back();
     }
@@ -210,10 +211,12 @@ SurfaceMesh CornerAttributes::take(const SurfaceMesh& source, const ContractionM
     result.vertexAttributes.push_back(ofVertices_.taken(attribute, vertexOf));
   result.wedgeCount = static_cast<std::uint32_t>(classes.size());
   for (const Attribute& attribute : source.wedgeAttributes) {
+    const bool isContinuous =
+        std::ranges::find(ofClasses_.attributes, &attribute) != ofClasses_.attributes.end();
     // Averaged ones are by class, the others by wedge.
     Attribute taken = emptyLike(attribute);
     for (const std::uint32_t one : classes) {
-      const bool isAveraged = attribute.isContinuous() && ofClasses_.isAveraged[one] != 0;
+      const bool isAveraged = isContinuous && ofClasses_.isAveraged[one] != 0;
       const std::array<std::uint32_t, 1> element = {one};
       taken.append(isAveraged ? std::span<const std::byte>(ofClasses_.taken(attribute, element).values)
                               : attribute.element(wedgeOf_[one]));

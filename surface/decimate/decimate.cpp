@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "engine/parallel/with_threads.h"
 #include "surface/decimate/contractions.h"
 #include "surface/decimate/standing.h"
+#include "surface/edit/normals.h"
 #include "surface/edit/small_components.h"
 #include "surface/model/transfer.h"
 #include "surface/repair/repair.h"
@@ -92,12 +94,23 @@ Result<DecimatedMesh> decimate(const SurfaceMesh& mesh, const DecimateOptions& o
   if (!(diagonal == 0 || (diagonal >= kLeast && diagonal <= kMost)))
     return failure(ErrorCode::invalidData,
                    fmt::format("a diagonal of {} is not between {} and {}", diagonal, kLeast, kMost));
-  return withThreads(context, [&] {
+  // Normals that no picture tells apart, and those of flat faces, are no seams.
+  std::optional<SurfaceMesh> joined;
+  bool dropsFlatNormals = false;
+  if (mesh.hasWedges()) {
+    joined = mesh;
+    joinAgreeingNormals(*joined);
+    dropsFlatNormals = dropFlatNormals(*joined);
+  }
+  const SurfaceMesh& source = joined ? *joined : mesh;
+  Result<DecimatedMesh> decimated = withThreads(context, [&] {
     // Clusters take any triangles, and join what is at one place themselves.
-    return options.method != DecimateOperator::cluster && hasTriangleWithoutArea(mesh)
-               ? decimateMended(mesh, options, context)
-               : decimateFramed(mesh, options, context);
+    return options.method != DecimateOperator::cluster && hasTriangleWithoutArea(source)
+               ? decimateMended(source, options, context)
+               : decimateFramed(source, options, context);
   });
+  if (decimated) decimated->dropsFlatNormals = dropsFlatNormals;
+  return decimated;
 }
 
 }  // namespace arete

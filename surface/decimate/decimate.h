@@ -48,6 +48,8 @@ struct DecimatedMesh {
   std::vector<std::uint32_t> faceOf;    ///< by triangle: that of the source
   /// By face of the source: the triangle that stands for it; MeshAttributes::kNone: nothing near it is left.
   std::vector<std::uint32_t> triangleFor;
+  /// Normals of corners were those of flat faces, and are left out (surface/edit/normals.h).
+  bool dropsFlatNormals = false;
   std::uint64_t evaluations = 0;  ///< costs computed, estimates not among them
   std::uint64_t steps = 0;
   /// What could not be carried along: "texture coordinates" and so on.

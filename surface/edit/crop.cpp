@@ -18,6 +18,7 @@
 #include "surface/edit/box_clip.h"
 #include "surface/edit/unused.h"
 #include "surface/model/average.h"
+#include "surface/model/labels.h"
 
 namespace arete {
 namespace {
@@ -148,17 +149,20 @@ class Crop {
 
   Attribute gatheredAtVertices(const Attribute& from, const std::vector<std::uint32_t>& vertexOf) const {
     Attribute to = emptyLike(from);
+    const bool isOfLabels = isLabel(from);
     for (std::size_t v = 0; v < vertexOf.size(); ++v)
       if (vertexOf[v] != kNone)
         to.append(from.element(vertexOf[v]));
       else
-        appendAverage(to, from, cutOf(sourceOf_[v]).vertices, cutOf(sourceOf_[v]).weights);
+        appendAverage(to, from, cutOf(sourceOf_[v]).vertices, cutOf(sourceOf_[v]).weights, isOfLabels);
     return to;
   }
 
   /// Wedges keep their order; those of cuts follow. Cuts of one vertex between the same wedges share one.
   void addWedges(SurfaceMesh& to) {
     if (!mesh_.hasWedges()) return;
+    std::vector<bool> areLabels;
+    for (const Attribute& attribute : mesh_.wedgeAttributes) areLabels.push_back(isLabel(attribute));
     std::vector<std::uint32_t> numberOf(mesh_.wedgeCount, kNone);
     for (std::size_t t = 0; t < triangles_.size(); ++t)
       for (const std::uint32_t v : triangles_[t])
@@ -192,7 +196,7 @@ class Crop {
         if (!isNew) continue;
         ++to.wedgeCount;
         for (std::size_t a = 0; a < to.wedgeAttributes.size(); ++a)
-          appendAverage(to.wedgeAttributes[a], mesh_.wedgeAttributes[a], wedges, cut.weights);
+          appendAverage(to.wedgeAttributes[a], mesh_.wedgeAttributes[a], wedges, cut.weights, areLabels[a]);
       }
   }
 

@@ -9,9 +9,9 @@
 namespace arete {
 
 void appendAverage(Attribute& to, const Attribute& from, const std::array<std::uint32_t, 3>& elements,
-                   const std::array<double, 3>& weights) {
+                   const std::array<double, 3>& weights, bool isOfLabels) {
   const std::size_t heaviest = std::size_t(std::ranges::max_element(weights) - weights.begin());
-  if (!from.isContinuous()) return to.append(from.element(elements[heaviest]));
+  if (isOfLabels) return to.append(from.element(elements[heaviest]));
   const std::vector<double> first = from.numbers(elements[heaviest]);
   std::vector<double> sum(from.components, 0);
   for (std::size_t i = 0; i < 3; ++i) {

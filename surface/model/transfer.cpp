@@ -15,6 +15,7 @@
 
 #include "engine/base/caught_failure.h"
 #include "surface/model/average.h"
+#include "surface/model/labels.h"
 
 namespace arete {
 namespace {
@@ -82,8 +83,10 @@ class Transfer {
   }
 
   void carryWedges() {
-    for (const Attribute& attribute : source_.wedgeAttributes)
+    for (const Attribute& attribute : source_.wedgeAttributes) {
       result_.wedgeAttributes.push_back(emptyLike(attribute));
+      areLabels_.push_back(isLabel(attribute));
+    }
     result_.wedges.resize(result_.triangles.size());
     std::vector<std::uint32_t> anyWedge(result_.positions.size(), SurfaceMesh::kNone);
     for (const bool isFilling : {false, true})
@@ -126,7 +129,7 @@ class Transfer {
       } else {
         const auto& at = source_.positions;
         appendAverage(result_.wedgeAttributes[a], attribute, source_.wedges[from],
-                      weightsAt(p, at[corners[0]], at[corners[1]], at[corners[2]]));
+                      weightsAt(p, at[corners[0]], at[corners[1]], at[corners[2]]), areLabels_[a]);
       }
     }
     return result_.wedgeCount++;
@@ -135,6 +138,7 @@ class Transfer {
   const SurfaceMesh& source_;
   std::span<const std::uint32_t> vertexOf_, triangleOf_;
   SurfaceMesh result_;
+  std::vector<bool> areLabels_;  // by attribute of wedges
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> wedgeOf_;
 };
 
