@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/file/text_scan.h"
+#include "io/file/utf8.h"
 #include "io/gdal/confined.h"
 
 namespace arete {
@@ -71,11 +72,11 @@ std::string FilesBeside::entryOf(const fs::path& folder, const std::string& name
          at.increment(error), ++count) {
       const std::string entry = at->path().filename().string();
       // Of several names that differ in case alone the first in the order of bytes, on every file system.
-      const auto [known, isFirst] = listing->second.emplace(text::lowered(entry), entry);
+      const auto [known, isFirst] = listing->second.emplace(text::lowered(text::asUtf8(entry)), entry);
       if (!isFirst) known->second = std::min(known->second, entry);
     }
   }
-  const auto found = listing->second.find(text::lowered(name));
+  const auto found = listing->second.find(text::lowered(text::asUtf8(name)));
   return found == listing->second.end() ? std::string() : found->second;
 }
 

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "surface/build/left_out_faces.h"
-#include "surface/edit/joined_surface.h"
 #include "surface/edit/normals.h"
 #include "surface/model/parts.h"
 #include "surface/model/transfer.h"

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "io/file/text_scan.h"
+#include "io/file/utf8.h"
 #include "io/mesh/glb/accessors.h"
 #include "io/mesh/glb/extensions.h"
 
@@ -27,6 +28,12 @@ std::uint32_t numberAt(std::string_view file, std::size_t at) {
   std::uint32_t number = 0;
   std::memcpy(&number, file.data() + at, sizeof number);
   return number;
+}
+
+/// JSON is UTF-8; programs that know no better write names in Latin-1.
+nlohmann::json parsed(std::string_view text) {
+  if (text::isUtf8(text)) return nlohmann::json::parse(text, nullptr, false);
+  return nlohmann::json::parse(text::jsonAsUtf8(text), nullptr, false);
 }
 
 tl::unexpected<Error> corrupt(std::string message) {
@@ -55,7 +62,7 @@ Result<nlohmann::json> GltfDocument::parseGlb(std::string_view file, std::string
     if (type == kBinChunk && !std::exchange(hasBytes, true)) chunkBin = file.substr(at, length);
     at += length;
   }
-  nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  nlohmann::json json = parsed(text);
   if (!json.is_object()) return corrupt("its chunk of JSON is not a JSON object");
   return json;
 }
@@ -81,7 +88,7 @@ Result<GltfDocument> GltfDocument::open(std::string_view file, const std::filesy
     if (!json) return tl::unexpected(json.error());
     document.json_ = std::move(*json);
   } else {
-    document.json_ = nlohmann::json::parse(file, nullptr, false);
+    document.json_ = parsed(file);
     if (!document.json_.is_object())
       return corrupt("is not glTF: it neither begins with \"glTF\" nor is a JSON object, or it is truncated");
   }

@@ -10,6 +10,7 @@
 
 #include "io/file/file_bytes.h"
 #include "io/file/text_scan.h"
+#include "io/file/utf8.h"
 #include "io/mesh/files_beside.h"
 #include "io/mesh/obj/mtl.h"
 
@@ -118,6 +119,8 @@ void ObjMaterials::addLibrary(std::string_view files) {
 
 std::uint32_t ObjMaterials::use(std::string_view name) {
   if (name.empty()) return MeshAttributes::kNone;
+  // The library may be in another encoding than the file.
+  if (!text::isUtf8(name)) return use(text::asUtf8(name));
   const auto known = numbers_.find(name);
   if (known != numbers_.end()) return known->second;
   if (names_.size() == kMostMaterials) {

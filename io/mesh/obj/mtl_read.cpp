@@ -13,6 +13,7 @@
 
 #include "io/file/number_text.h"
 #include "io/file/text_scan.h"
+#include "io/file/utf8.h"
 #include "io/mesh/obj/mtl.h"
 
 namespace arete {
@@ -145,7 +146,7 @@ class MtlReader {
     if (keyword == "newmtl") {
       endMaterial();
       material_.emplace();
-      material_->name = rest;
+      material_->name = text::asUtf8(rest);
       return;
     }
     if (!material_) {
