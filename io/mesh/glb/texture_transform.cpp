@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "io/file/text_scan.h"
+#include "io/mesh/texture_options.h"
 #include "surface/model/wedges.h"
 
 namespace arete {
@@ -76,11 +77,28 @@ std::optional<UvTransform> take(Material& material, TextureUse& use) {
   return transform;
 }
 
-Transforms transformsOf(Material& material, std::vector<std::string>& lost) {
+/// The same of the options of an MTL, in which v is counted from below.
+std::optional<UvTransform> takeOfMtl(Material& material, const TextureUse& use) {
+  const auto kept = material.verbatim.find("mtl:" + use.role);
+  if (kept == material.verbatim.end()) return std::nullopt;
+  const MtlPlacing placing = mtlPlacingOf(kept->second);
+  if (!placing.isMoved()) return std::nullopt;
+  std::string others = withoutMtlPlacing(kept->second);
+  if (others.empty())
+    material.verbatim.erase(kept);
+  else
+    kept->second = std::move(others);
+  return UvTransform{.offset = {placing.offset[0], 1 - placing.scale[1] - placing.offset[1]},
+                     .scale = placing.scale};
+}
+
+Transforms transformsOf(Material& material, bool alsoOfMtl, std::vector<std::string>& lost) {
   Transforms chosen;
   std::map<std::uint32_t, std::vector<std::pair<std::string, UvTransform>>> uses;
   for (TextureUse& use : material.textures) {
-    const UvTransform transform = take(material, use).value_or(UvTransform{});
+    std::optional<UvTransform> stated = take(material, use);
+    if (!stated && alsoOfMtl) stated = takeOfMtl(material, use);
+    const UvTransform transform = stated.value_or(UvTransform{});
     auto& of = uses[use.textureCoords];
     of.insert(use.role == "baseColor" ? of.begin() : of.end(), {use.role, transform});
   }
@@ -175,13 +193,24 @@ std::vector<std::uint32_t> classesOfWedges(SurfaceMesh& mesh, const std::vector<
 
 }  // namespace
 
-std::vector<std::string> applyTextureTransforms(SurfaceMesh& mesh) {
+bool hasTextureTransforms(const MeshAttributes& mesh, bool alsoOfMtl) {
+  const auto isOne = [&](const auto& kept) {
+    const auto& [key, text] = kept;
+    return (key.starts_with("gltf:") && text.find(kExtension) != std::string::npos) ||
+           (alsoOfMtl && key.starts_with("mtl:") && mtlPlacingOf(text).isMoved());
+  };
+  return std::ranges::any_of(mesh.materials, [&](const Material& material) {
+    return std::ranges::any_of(material.verbatim, isOne);
+  });
+}
+
+std::vector<std::string> applyTextureTransforms(SurfaceMesh& mesh, bool alsoOfMtl) {
   std::vector<std::string> lost;
   std::vector<Transforms> classes{{}};  // the first: no transform
   std::vector<std::uint32_t> classOfMaterial;
   std::map<Transforms, std::uint32_t> known{{{}, 0}};
   for (Material& material : mesh.materials) {
-    const Transforms transforms = transformsOf(material, lost);
+    const Transforms transforms = transformsOf(material, alsoOfMtl, lost);
     const auto [same, isNew] = known.try_emplace(transforms, static_cast<std::uint32_t>(classes.size()));
     if (isNew) classes.push_back(transforms);
     classOfMaterial.push_back(same->second);

@@ -17,6 +17,10 @@ namespace arete {
 /// color, else of the first.
 ///
 /// @return A sentence for each material some of whose transforms are lost that way. O(size).
-std::vector<std::string> applyTextureTransforms(SurfaceMesh& mesh);
+/// @param alsoOfMtl the shift and scale that an MTL states, too (io/mesh/texture_options.h).
+std::vector<std::string> applyTextureTransforms(SurfaceMesh& mesh, bool alsoOfMtl = false);
+
+/// Whether a material has a transform that applyTextureTransforms() takes away. O(materials).
+bool hasTextureTransforms(const MeshAttributes& mesh, bool alsoOfMtl);
 
 }  // namespace arete

@@ -23,6 +23,7 @@
 #include "io/file/text_scan.h"
 #include "io/mesh/off/keyword.h"
 #include "io/mesh/off/off.h"
+#include "io/mesh/off/read_binary.h"
 #include "io/mesh/off/values.h"
 #include "io/mesh/text_reader.h"
 
@@ -89,7 +90,7 @@ class OffReader final : public MeshTextReader {
   /// "OFF" with letters before it that say what else a vertex has, or digits behind it, or nothing at all.
   Status takeKeyword(std::string_view word) {
     if (hasKeyword_ && text::lowered(word) == "binary")
-      return unsupported("is a binary OFF, which Arete does not read");
+      return unsupported("is a binary OFF whose first line has more than the keyword and \"BINARY\"");
     if (hasKeyword_ || (word.front() >= '0' && word.front() <= '9' && word.front() != '4')) {
       stage_ = Stage::counts;
       return takeCount(word);
@@ -299,8 +300,11 @@ class OffReader final : public MeshTextReader {
 }  // namespace
 
 Result<MeshFile> readOff(const std::filesystem::path& path, const RunContext& context) {
-  const Result<FileBytes> file = FileBytes::readText(path);
+  Result<FileBytes> file = FileBytes::read(path);
   if (!file) return tl::unexpected(file.error());
+  if (const auto begin = binaryOffBegin(file->view()))
+    return readBinaryOff(file->view(), *begin, path.string(), context);
+  if (const Status ok = file->decodeText(path); !ok) return tl::unexpected(ok.error());
   return OffReader(*file, path.string(), context).read();
 }
 

@@ -25,9 +25,10 @@ Result<MeshFile> readPly(const std::filesystem::path& path, const RunContext& co
 /// The same, also of a file that has no element of faces: a point cloud.
 Result<MeshFile> readPlyOfPoints(const std::filesystem::path& path, const RunContext& context = {});
 
-/// Writes binary little-endian PLY: vertices as doubles, faces as "list uchar int vertex_indices". With
-/// options.triangleErrors each face has a float "error"; with vertexQualities and vertexColors each vertex
-/// has a float "quality" and uchar red, green, blue. Exact to the bit.
+/// Writes binary little-endian PLY: vertices as doubles, or as floats where these hold every
+/// coordinate and the mesh is no terrain (options.up is not z), faces as "list uchar int vertex_indices".
+/// With options.triangleErrors each face has a float "error"; with vertexQualities and vertexColors each
+/// vertex has a float "quality" and uchar red, green, blue. Exact to the bit.
 ///
 /// Attributes keep their types (io/mesh/ply/columns.h). Materials keep the picture of their base color,
 /// placed beside the file, by "comment TextureFile" and "texnumber". Objects, groups and the rest of

@@ -59,8 +59,20 @@ std::string propertiesOf(const std::vector<PlyColumn>& columns, bool areCorners 
   return lines;
 }
 
+/// Whether floats of 32 bits hold every coordinate to the bit. Those of terrain are doubles, whatever they
+/// hold.
+bool areFloats(const TriangleMesh& mesh, const MeshWriteOptions& options) {
+  if (options.up == MeshUp::z) return false;
+  const auto isFloat = [](double number) {
+    const auto rounded = static_cast<float>(number);
+    return std::bit_cast<std::uint64_t>(double{rounded}) == std::bit_cast<std::uint64_t>(number);
+  };
+  return std::ranges::all_of(mesh.positions,
+                             [&](const Vec3& p) { return isFloat(p.x) && isFloat(p.y) && isFloat(p.z); });
+}
+
 std::string headerOf(const TriangleMesh& mesh, const MeshWriteOptions& options, const PlyColumns& columns,
-                     const PlyTextures& textures) {
+                     const PlyTextures& textures, bool areFloats) {
   std::string header = "ply\nformat binary_little_endian 1.0\ncomment generator arete\n";
   if (!options.crsWkt.empty()) header += commentLines("crs ", "crs+ ", text::onOneLine(options.crsWkt));
   if (!options.verticalUnit.empty())
@@ -69,8 +81,8 @@ std::string headerOf(const TriangleMesh& mesh, const MeshWriteOptions& options, 
   for (const PlyNote& note : columns.notes) header += plyComment(note);
   for (const std::string& picture : textures.pictures)
     header += fmt::format("comment TextureFile {}\n", picture);
-  header += fmt::format("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
-                        mesh.positions.size());
+  header += fmt::format("element vertex {0}\nproperty {1} x\nproperty {1} y\nproperty {1} z\n",
+                        mesh.positions.size(), areFloats ? "float" : "double");
   if (!options.vertexQualities.empty()) header += "property float quality\n";
   if (!options.vertexColors.empty())
     header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
@@ -151,16 +163,20 @@ Result<MeshWriteReport> writePly(MeshRef written, const std::filesystem::path& p
   if (!textures) return tl::unexpected(textures.error());
   const PlyColumns columns = plyColumns(written.attributes, options, !textures->numbers.empty());
 
-  file->write(headerOf(mesh, options, columns, *textures));
+  const bool withFloats = areFloats(mesh, options);
+  file->write(headerOf(mesh, options, columns, *textures, withFloats));
   WriteProgress progress(mesh.positions.size() + mesh.triangles.size(), path.string(), context);
 
   const bool withQualities = !options.vertexQualities.empty(), withColors = !options.vertexColors.empty();
-  Records vertices(*file, 3 * sizeof(double) + (withQualities ? sizeof(float) : 0) + (withColors ? 3 : 0) +
+  Records vertices(*file, 3 * (withFloats ? sizeof(float) : sizeof(double)) +
+                              (withQualities ? sizeof(float) : 0) + (withColors ? 3 : 0) +
                               sizeOfRecord(columns.vertices));
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     if (progress.shouldStop()) return progress.interrupted();
     const Vec3& p = mesh.positions[v];
-    char* to = putBytes(putBytes(putBytes(vertices.begin(), p.x), p.y), p.z);
+    char* to = vertices.begin();
+    for (const double number : {p.x, p.y, p.z})
+      to = withFloats ? putBytes(to, static_cast<float>(number)) : putBytes(to, number);
     if (withQualities) to = putBytes(to, options.vertexQualities[v]);
     if (withColors) to = putBytes(to, options.vertexColors[v]);
     for (const PlyColumn& column : columns.vertices) to = putElement(to, column, v);

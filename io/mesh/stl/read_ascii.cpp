@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // ASCII STL is read word by word: facets of exactly three vertices between "solid" and "endsolid". The rest
-// of the line of "solid" is a name. Some programs write "end solid", "end facet", "end loop".
+// of the line of "solid" is a name, unless the file has more on that line. Some programs write "end solid",
+// "end facet", "end loop".
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <initializer_list>
@@ -41,10 +43,10 @@ class AsciiStlReader {
     for (std::string_view word = nextWord(); !word.empty(); word = nextWord()) {
       if (!equalsStlWord(word, "solid")) return corrupt(word, "where \"solid\" should be");
       const auto object = static_cast<std::uint32_t>(mesh.objects.size());
-      mesh.objects.push_back(restOfLine());
+      mesh.objects.push_back(name("facet"));
       if (const Status ok = readFacets(); !ok) return tl::unexpected(ok.error());
       mesh.objectOf.resize(triangles_.size(), object);
-      restOfLine();
+      name("solid");
     }
     if (triangles_.size() == 0) return failure(ErrorCode::unsupported, "holds no facet", path_);
     if (mesh.objects.size() == 1 && mesh.objects[0].empty()) {
@@ -65,14 +67,82 @@ class AsciiStlReader {
     while (at_ < end_ && !text::isSpace(*at_)) ++at_;
     return {from, static_cast<std::size_t>(at_ - from)};
   }
-  /// Without blanks at its ends.
-  std::string restOfLine() {
+  /// The name of a solid, without blanks at its ends: the rest of the line. Where the file has more on that
+  /// line, the name ends before it: at "facet normal", "facet outer" or "endsolid" behind "solid", at "solid"
+  /// behind "endsolid". A name may have these words alone.
+  std::string name(std::string_view next) {
     while (at_ < end_ && text::isBlank(*at_)) ++at_;
-    const char* from = at_;
-    while (at_ < end_ && *at_ != '\n') ++at_;
-    const char* to = at_;
+    const char* const from = at_;
+    const char* const lineEnd = lineEndOf(at_);
+    const char* to = lineEnd;
+    while (at_ < lineEnd) {
+      const std::string_view word = nextWord();
+      if (word.empty() || word.data() >= lineEnd) break;
+      const char* const behind = at_;
+      const bool isNext = next == "facet" ? isFacet(word, lineEnd) || isEndOfSolid(word, lineEnd)
+                                          : equalsStlWord(word, next) &&
+                                                (holdsFacet(behind, lineEnd) || isFacetBehind(lineEnd));
+      at_ = behind;
+      if (!isNext) continue;
+      to = word.data();
+      break;
+    }
+    at_ = to;
     while (to > from && text::isBlank(to[-1])) --to;
     return {from, to};
+  }
+
+  /// Whether the words from here to the end of the line hold a facet.
+  bool holdsFacet(const char* from, const char* lineEnd) {
+    const char* const before = at_;
+    bool found = false;
+    at_ = from;
+    while (!found && at_ < lineEnd) {
+      const std::string_view word = nextWord();
+      if (word.empty() || word.data() >= lineEnd) break;
+      found = isFacet(word, lineEnd);
+    }
+    at_ = before;
+    return found;
+  }
+
+  /// Whether a word begins a facet: "normal" or "outer loop" follow it on the line.
+  bool isFacet(std::string_view word, const char* lineEnd) {
+    if (!equalsStlWord(word, "facet")) return false;
+    const char* const before = at_;
+    const std::string_view next = nextWord();
+    const std::string_view behind = nextWord();
+    at_ = before;
+    if (behind.empty() || behind.data() >= lineEnd) return false;
+    const char* number = behind.data();
+    double value = 0;
+    const bool isNumber = text::scanNumber(number, behind.data() + behind.size(), value) ||
+                          text::lowered(behind).find("nan") != std::string::npos;
+    return equalsStlWord(next, "normal") ? isNumber
+                                         : equalsStlWord(next, "outer") && equalsStlWord(behind, "loop");
+  }
+
+  /// Of a solid without facets that has one line with others.
+  bool isEndOfSolid(std::string_view word, const char* lineEnd) {
+    if (!equalsStlWord(word, "endsolid")) return false;
+    return holdsFacet(at_, lineEnd) || (word.data() + word.size() >= lineEnd && !isFacetBehind(lineEnd));
+  }
+
+  bool isFacetBehind(const char* lineEnd) {
+    const char* const before = at_;
+    at_ = lineEnd;
+    const bool isNext = equalsStlWord(nextWord(), "facet");
+    at_ = before;
+    return isNext;
+  }
+
+  /// The end of the line of a place, which a file of one line looks for once.
+  const char* lineEndOf(const char* at) {
+    if (lineBegin_ == nullptr || at < lineBegin_ || at > lineEnd_) {
+      lineBegin_ = at;
+      lineEnd_ = std::find(at, end_, '\n');
+    }
+    return lineEnd_;
   }
 
   tl::unexpected<Error> corrupt(std::string_view word, std::string_view what) const {
@@ -115,19 +185,27 @@ class AsciiStlReader {
 
   /// The normal, which some programs leave out or write as "nan": zeros then.
   Vec3 readNormal() {
-    const char* const lineBegin = at_;
-    restOfLine();
-    const char* const lineEnd = at_;
-    at_ = lineBegin;
     std::array<double, 3> xyz{};
-    bool isNormal = equalsStlWord(nextWord(), "normal");
-    for (double& value : xyz) {
+    std::size_t numbers = 0;
+    bool isNormal = true, isFirst = true;
+    const char* const lineEnd = lineEndOf(at_);
+    for (;;) {
+      const char* const before = at_;
       const std::string_view word = nextWord();
+      if (word.empty() || word.data() >= lineEnd || equalsStlWord(word, "outer")) {
+        at_ = before;
+        break;
+      }
+      if (std::exchange(isFirst, false)) {
+        isNormal = equalsStlWord(word, "normal");
+        continue;
+      }
       const char* from = word.data();
-      isNormal = isNormal && !word.empty() && text::scanNumber(from, word.data() + word.size(), value);
+      double value = 0;
+      isNormal = isNormal && numbers < 3 && text::scanNumber(from, word.data() + word.size(), value);
+      if (isNormal) xyz[numbers++] = value;
     }
-    isNormal = isNormal && at_ <= lineEnd;
-    at_ = lineEnd;
+    isNormal = isNormal && numbers == 3;
     return isNormal ? Vec3{xyz[0], xyz[1], xyz[2]} : Vec3{};
   }
 
@@ -162,6 +240,8 @@ class AsciiStlReader {
   const char* begin_;
   const char* at_;
   const char* end_;
+  const char* lineBegin_ = nullptr;  // lineEndOf()
+  const char* lineEnd_ = nullptr;
   std::string path_;
   const RunContext& context_;
   StlTriangles triangles_;

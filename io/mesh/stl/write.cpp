@@ -21,6 +21,7 @@
 #include "io/crs/local_origin.h"
 #include "io/file/file_writer.h"
 #include "io/file/write_progress.h"
+#include "io/mesh/flattened.h"
 #include "io/mesh/losses.h"
 #include "io/mesh/object_runs.h"
 #include "io/mesh/stl/facet_colors.h"
@@ -108,6 +109,11 @@ class StlWriter {
       putBytes(putBytes(to, rounded), wordOf(t));
     }
     if (Status ok = file->finish(); !ok) return ok;
+    flattened_ = countFlattened(shape_, [&](std::uint32_t v) {
+      const Vec3& p = shape_.positions[v];
+      return std::array<float, 3>{static_cast<float>(p.x - origin_.x), static_cast<float>(p.y - origin_.y),
+                                  static_cast<float>(p.z - origin_.z)};
+    });
     nameBinaryLosses();
     return {};
   }
@@ -160,6 +166,7 @@ class StlWriter {
                 .objects = isNameHeld_});
     if (isColorRounded_) report_.lost.push_back("colours of faces finer than 5 bits");
     if (isAlphaLost_) report_.lost.push_back("alpha of the colours of faces");
+    if (flattened_ > 0) report_.lost.push_back(flattenedLoss(flattened_));
   }
 
   Status writeAscii() {
@@ -211,6 +218,7 @@ class StlWriter {
   Vec3 origin_;
   const Attribute* words_ = nullptr;
   const Attribute* colors_ = nullptr;
+  std::uint64_t flattened_ = 0;
   bool isNameHeld_ = false, isColorRounded_ = false, isAlphaLost_ = false;
   fmt::memory_buffer facet_;
   MeshWriteReport report_;

@@ -101,6 +101,10 @@ std::vector<std::string> GltfLeftOut::sentences(const Json& document) const {
     add(scenes - 1, "further scene", "further scenes");
   if (const std::uint64_t meshes = lengthOf(document, "meshes"); meshes > shownMeshes)
     add(meshes - shownMeshes, "mesh that the scene does not show", "meshes that the scene does not show");
+  if (farRotations > 0)
+    all.push_back(fmt::format("{} {} not of length 1, as the standard has it, and {} divided by {} length",
+                              farRotations, farRotations == 1 ? "rotation is" : "rotations are",
+                              farRotations == 1 ? "is" : "are", farRotations == 1 ? "its" : "their"));
   add(instanceAttributes, "attribute of instances", "attributes of instances");
   add(unknownMaterials, "material that is named and does not exist",
       "materials that are named and do not exist");

@@ -16,6 +16,7 @@ struct GltfLeftOut {
   bool jointsWithoutSkin = false;
   bool appliedMorphs = false;
   std::uint64_t shownMeshes = 0;         ///< of the document
+  std::uint64_t farRotations = 0;        ///< not of length 1, beyond rounding
   std::uint64_t instanceAttributes = 0;  ///< of EXT_mesh_gpu_instancing
   /// Attributes of the file that are damaged or of no use, each with the reason.
   std::map<std::string, std::string> attributes;

@@ -4,11 +4,12 @@
 // and stand at the same place share vertices (vertex_group.h), also those of several meshes: a mesh that is
 // written with several materials or objects comes back as it was. When all are known, the vertices that are
 // used are numbered, group by group, and the triangles follow in the order of the scene. A mesh that several
-// nodes use is repeated; the size of the file bounds the total.
+// nodes use is repeated; the memory of the machine bounds the total.
 //
 // Positions are moved by morph targets, put into place by the node and, in a file with Arete's frame, brought
 // from the local frame to source coordinates.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -42,12 +43,15 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kRecordsPerCancelCheck = 1 << 16;
-/// Upper bound on vertices plus triangles, and on steps without either: so many per byte of the file and of
-/// what it holds compressed, but at least so many.
+/// Upper bound on steps that make neither vertices nor triangles, and on places: so many per byte of the file
+/// and of what it holds compressed, but at least so many.
 constexpr std::uint64_t kMostPerByte = 1, kMostAtLeast = 1'000'000;
 constexpr std::uint64_t kMostPlacesAtLeast = 100'000;
-/// The same for the bytes of attributes.
+/// Upper bound on the bytes of attributes: so many per byte of the file or of the positions.
 constexpr std::uint64_t kMostAttributesPerByte = 32, kMostAttributesAtLeast = 64 << 20;
+/// What the mesh takes in memory: of a triangle its corners, object and material, the corners of what is read
+/// and what a list takes while it grows; of a vertex its position likewise.
+constexpr std::uint64_t kBytesPerTriangle = 60, kBytesPerVertex = 72;
 constexpr std::uint32_t kNone = MeshAttributes::kNone;
 /// What Arete calls the one node and the one material of a terrain.
 constexpr const char *kTerrainNode = "terrain", *kTerrainMaterial = "ground";
@@ -146,7 +150,7 @@ class GlbReader {
       if (isNew) groups_.emplace_back(*primitive, placement.placed);
       groups_[group->second].corners += primitive->corners;
       triangles_ += primitive->triangles();
-      if (triangles_ > most()) return tooLarge();
+      if (const Status fits = checkMemory(0, 0); !fits) return fits;
       parts_.push_back({&*primitive, group->second, object, placement.mesh, p});
     }
     return {};
@@ -232,6 +236,20 @@ class GlbReader {
     return failure(ErrorCode::unsupported, "a mesh is repeated so often that it is far larger than the file");
   }
 
+  /// A small file can show a mesh at many places: what that takes is held against the memory of the machine.
+  Status checkMemory(std::uint64_t vertices, std::uint64_t bytesOfAttributes) const {
+    const double bytes = double(triangles_) * double(kBytesPerTriangle) +
+                         double(vertices) * double(kBytesPerVertex) + 2 * double(bytesOfAttributes);
+    const double memory = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE));
+    if (memory <= 0 || bytes <= memory) return {};
+    constexpr double kGibibyte = 1 << 30;
+    return failure(
+        ErrorCode::invalidData,
+        fmt::format("shows {} triangles, because meshes are repeated; to read them takes {:.1f} GiB of "
+                    "memory, and this machine has {:.1f} GiB",
+                    triangles_, bytes / kGibibyte, memory / kGibibyte));
+  }
+
   Status useVertices() {
     for (const Part& part : parts_) {
       const GltfPrimitive& primitive = *part.primitive;
@@ -265,12 +283,13 @@ class GlbReader {
     const std::uint64_t first = mesh.positions.size();
     // A mesh of ours keeps the vertices that no triangle has.
     const std::uint64_t used = group.number(first, isOurs_);
-    if (first + used + triangles_ > most()) return tooLarge();
     if (first + used >= std::numeric_limits<std::uint32_t>::max())
       return failure(ErrorCode::unsupported, "holds more vertices than an index can name");
-    if (attributes.bytesAfter(group, first, used) >
-        std::max(kMostAttributesAtLeast, kMostAttributesPerByte * document_.views().sourceBytes()))
+    const std::uint64_t bytes = attributes.bytesAfter(group, first, used);
+    const std::uint64_t source = std::max(document_.views().sourceBytes(), kBytesPerVertex * (first + used));
+    if (bytes > std::max(kMostAttributesAtLeast, kMostAttributesPerByte * source))
       return failure(ErrorCode::unsupported, "has attributes that are far larger than the file");
+    if (const Status fits = checkMemory(first + used, bytes); !fits) return fits;
     for (std::uint64_t i = 0; i < used; ++i) {
       if (Status ok = reportAndCheck(i, used); !ok) return ok;
       const std::uint32_t v = group.vertex(i);

@@ -46,8 +46,8 @@ class Walk {
       if (!node) return tl::unexpected(node.error());
       if (std::exchange(visited[visit.node], char{1}) != 0)
         return failure(ErrorCode::corrupt, fmt::format("node {} has two parents", visit.node));
-      const Result<Affine> own = nodeTransform(**node);
-      if (!own) return tl::unexpected(own.error());
+      const Result<Affine> own = nodeTransform(**node, leftOut_.farRotations);
+      if (!own) return failure(own.error().code, fmt::format("node {}: {}", visit.node, own.error().message));
       const Affine placed = own->isIdentity() ? visit.parent : visit.parent.after(*own);
       if ((*node)->contains("mesh"))
         if (Status ok = addMesh(visit.node, **node, placed); !ok) return ok;
@@ -141,10 +141,14 @@ class Walk {
       const auto at = [&](const std::optional<GltfElements>& elements, std::size_t c, double otherwise) {
         return elements ? elements->value(i, c) : otherwise;
       };
+      const Result<UnitRotation> rotation =
+          unitRotation({at(rotations, 0, 0), at(rotations, 1, 0), at(rotations, 2, 0), at(rotations, 3, 1)});
+      if (!rotation)
+        return failure(rotation.error().code, fmt::format("instance {} has {}", i, rotation.error().message));
+      leftOut_.farRotations += rotation->isFar ? 1 : 0;
       const Affine own =
           affineOf({at(translations, 0, 0), at(translations, 1, 0), at(translations, 2, 0)},
-                   {at(rotations, 0, 0), at(rotations, 1, 0), at(rotations, 2, 0), at(rotations, 3, 1)},
-                   {at(scales, 0, 1), at(scales, 1, 1), at(scales, 2, 1)});
+                   rotation->quaternion, {at(scales, 0, 1), at(scales, 1, 1), at(scales, 2, 1)});
       if (Status ok = add({node, mesh, placed.after(own)}); !ok) return ok;
     }
     return {};

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -67,7 +68,24 @@ Affine affineOf(const std::array<double, 3>& translation, const std::array<doubl
                 {translation[0], translation[1], translation[2]}};
 }
 
-Result<Affine> nodeTransform(const Json& node) {
+Result<UnitRotation> unitRotation(const std::array<double, 4>& q) {
+  // Scaled first, so that squares neither overflow nor vanish.
+  double largest = 0;
+  for (const double part : q) largest = std::isnan(part) ? part : std::max(largest, std::abs(part));
+  if (!(largest > 0) || !std::isfinite(largest))
+    return failure(ErrorCode::corrupt,
+                   largest == 0 ? "a rotation that is 0, 0, 0, 0" : "a rotation that is not finite");
+  double square = 0;
+  for (const double part : q) square += (part / largest) * (part / largest);
+  const double length = largest * std::sqrt(square);
+  UnitRotation unit{.quaternion = q, .isFar = std::abs(length - 1) > kRotationSlack};
+  constexpr double kOfDoubles = 4e-16;
+  if (std::abs(length - 1) > kOfDoubles)
+    for (double& part : unit.quaternion) part = part / largest / std::sqrt(square);
+  return unit;
+}
+
+Result<Affine> nodeTransform(const Json& node, std::uint64_t& farRotations) {
   if (node.contains("matrix")) {
     const auto m = numbersOf<16>(node, "matrix", {});
     if (!m) return tl::unexpected(m.error());
@@ -82,7 +100,10 @@ Result<Affine> nodeTransform(const Json& node) {
   if (!t) return tl::unexpected(t.error());
   if (!r) return tl::unexpected(r.error());
   if (!s) return tl::unexpected(s.error());
-  return affineOf(*t, *r, *s);
+  const Result<UnitRotation> unit = unitRotation(*r);
+  if (!unit) return failure(unit.error().code, "has " + unit.error().message);
+  farRotations += unit->isFar ? 1 : 0;
+  return affineOf(*t, unit->quaternion, *s);
 }
 
 }  // namespace arete

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 
 #include "engine/base/result.h"
@@ -51,12 +52,26 @@ struct Affine {
   bool operator==(const Affine&) const = default;
 };
 
-/// The map that turns by a quaternion (x, y, z, w) after scaling, and moves. Not checked.
+/// A rotation of length 1, and whether the one of the file is far from it.
+struct UnitRotation {
+  std::array<double, 4> quaternion{0, 0, 0, 1};
+  bool isFar = false;  ///< the length is further than kRotationSlack from 1
+};
+
+/// What rounding to the digits and the types of files may do to the length of a rotation.
+inline constexpr double kRotationSlack = 0.01;
+
+/// A quaternion divided by its length, which the standard wants to be 1. One that is 1 but for the rounding
+/// of doubles stays to the bit. Errors: corrupt: its length is 0 or not finite.
+Result<UnitRotation> unitRotation(const std::array<double, 4>& quaternion);
+
+/// The map that turns by a quaternion (x, y, z, w) of length 1 after scaling, and moves. Not checked.
 Affine affineOf(const std::array<double, 3>& translation, const std::array<double, 4>& rotation,
                 const std::array<double, 3>& scale);
 
 /// The transform of a glTF node: its matrix, or its translation, rotation and scale.
-/// Errors: corrupt: a wrong count of numbers, a matrix that is not affine.
-Result<Affine> nodeTransform(const nlohmann::json& node);
+/// Errors: corrupt: a wrong count of numbers, a matrix that is not affine; those of unitRotation().
+/// @param farRotations counts a rotation whose length is far from 1.
+Result<Affine> nodeTransform(const nlohmann::json& node, std::uint64_t& farRotations);
 
 }  // namespace arete

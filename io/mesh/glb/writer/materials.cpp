@@ -16,6 +16,7 @@
 
 #include "io/file/text_scan.h"
 #include "io/mesh/glb/writer/mtl_material.h"
+#include "io/mesh/texture_options.h"
 
 namespace arete {
 namespace {
@@ -150,11 +151,14 @@ class Writer {
       return;
     }
     Json info = objectOf(material.verbatim, "gltf:" + use.role);
-    const Json sampler = info.contains("sampler") ? info["sampler"] : Json();
+    Json sampler = info.contains("sampler") ? info["sampler"] : Json();
+    const auto mtl = material.verbatim.find("mtl:" + use.role);
+    const MtlPlacing placing = mtl == material.verbatim.end() ? MtlPlacing{} : mtlPlacingOf(mtl->second);
+    constexpr int kClampToEdge = 33071;
+    if (placing.clamps && sampler.is_null()) sampler = {{"wrapS", kClampToEdge}, {"wrapT", kClampToEdge}};
     const auto texture = textures_.texture(use.picture, sampler);
     if (!texture) return;
-    if (const auto mtl = material.verbatim.find("mtl:" + use.role); mtl != material.verbatim.end())
-      options_.insert(mtl->second);
+    addOptions(use.role, placing, info);
     for (const char* member : {"sampler", "index", "texCoord"}) info.erase(member);
     Json reference = {{"index", *texture}};
     if (set->second != 0) reference["texCoord"] = set->second;
@@ -163,6 +167,26 @@ class Writer {
         extensions != reference.end() && extensions->is_object())
       for (const auto& [name, unused] : extensions->items()) out_.extensions.insert(name);
     *placeOf(json, use.role) = std::move(reference);
+  }
+
+  /// What an MTL says of the place of a texture. There v is counted from below, here from above.
+  void addOptions(const std::string& role, const MtlPlacing& placing, Json& info) {
+    constexpr const char* kTransform = "KHR_texture_transform";
+    if (placing.isMoved() && !(info.contains("extensions") && info["extensions"].contains(kTransform))) {
+      Json transform = Json::object();
+      const std::array<double, 2> offset{placing.offset[0], 1 - placing.scale[1] - placing.offset[1]};
+      if (offset != std::array{0.0, 0.0}) transform["offset"] = offset;
+      if (placing.scale != std::array{1.0, 1.0}) transform["scale"] = placing.scale;
+      info["extensions"][kTransform] = std::move(transform);
+    }
+    std::string others = placing.others;
+    if (placing.bump && *placing.bump != 1) {
+      if ((role == "normal" || role == "norm") && !info.contains("scale"))
+        info["scale"] = *placing.bump;
+      else
+        others += fmt::format("{}-bm {}", others.empty() ? "" : " ", *placing.bump);
+    }
+    if (!others.empty()) options_.insert(others);
   }
 
   const MeshAttributes& mesh_;

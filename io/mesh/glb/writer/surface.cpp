@@ -15,6 +15,7 @@
 #include <set>
 #include <utility>
 
+#include "io/mesh/flattened.h"
 #include "io/mesh/glb/writer/buffer_plan.h"
 #include "io/mesh/glb/writer/framed.h"
 #include "io/mesh/glb/writer/local_positions.h"
@@ -284,6 +285,10 @@ Result<SurfaceContent> surfaceContent(MeshRef mesh, const MeshWriteOptions& opti
   GltfDirections directions = GltfDirections::asTheyAre;
   if (const Status ok = placePositions(*parts, options, directions, lost); !ok)
     return tl::unexpected(ok.error());
+  if (const std::uint64_t flattened =
+          countFlattened(parts->mesh, [&](std::uint32_t v) { return parts->positions[v]; });
+      flattened > 0)
+    lost.push_back(flattenedLoss(flattened));
   const auto take = [&](std::vector<std::string>& from) {
     std::ranges::move(from, std::back_inserter(lost));
     from.clear();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "io/mesh/flattened.h"
 #include "io/mesh/glb/glb.h"
 #include "io/mesh/glb/writer/container.h"
 #include "io/mesh/glb/writer/framed.h"
@@ -16,9 +17,14 @@ namespace arete {
 namespace {
 
 Status writeTerrain(const TriangleMesh& mesh, const std::filesystem::path& path, bool asText,
-                    const MeshWriteOptions& options, const RunContext& context) {
+                    const MeshWriteOptions& options, const RunContext& context,
+                    std::vector<std::string>& lost) {
   const Result<FramedPositions> framed = framedPositions(mesh, options);
   if (!framed) return tl::unexpected(framed.error());
+  if (const std::uint64_t flattened =
+          countFlattened(mesh, [&](std::uint32_t v) { return framed->positions[v]; });
+      flattened > 0)
+    lost.push_back(flattenedLoss(flattened));
   const std::vector<float> errors = vertexErrors(mesh, options.triangleErrors);
   return writeContainer(terrainContent(mesh, *framed, errors), path, asText, context);
 }
@@ -38,7 +44,7 @@ Result<MeshWriteReport> write(MeshRef mesh, const std::filesystem::path& path, b
     status = failure(ErrorCode::invalidData,
                      fmt::format("{} errors for {} triangles", options.triangleErrors.size(), triangles));
   if (status && options.up == MeshUp::z && !hasAttributes(mesh.attributes)) {
-    status = writeTerrain(mesh.shape, path, asText, options, context);
+    status = writeTerrain(mesh.shape, path, asText, options, context, report.lost);
   } else if (status) {
     Result<SurfaceContent> surface = surfaceContent(mesh, options);
     if (surface) {
