@@ -14,6 +14,7 @@
 
 #include "io/crs/names.h"
 #include "io/crs/reader.h"
+#include "io/exchange/grouped_faces.h"
 #include "io/exchange/written_mesh.h"
 #include "io/gdal/support.h"
 #include "io/mesh/glb/texture_transform.h"
@@ -76,7 +77,7 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
   if (const Status ok = stateCrs(mesh, options.crs, converted.warnings); !ok)
     return tl::unexpected(ok.error());
   if (!isYUp(*format))
-    for (std::string& sentence : applyTextureTransforms(mesh.mesh))
+    for (std::string& sentence : applyTextureTransforms(mesh.mesh, format->extension != ".obj"))
       converted.warnings.push_back(std::move(sentence));
   converted.triangles = mesh.mesh.triangles.size();
   converted.vertices = mesh.mesh.positions.size();
@@ -90,12 +91,14 @@ Result<ConvertedMesh> convertMesh(MeshFile mesh, const std::filesystem::path& pa
                                  .existing = options.existing,
                                  .up = mesh.up,
                                  .pictureFolder = mesh.folder};
+  std::vector<std::uint32_t> triangleOf = trianglesOfFile(mesh.mesh, *format);
   const Result<WrittenMesh> written = writeAndReadBack(mesh.mesh, path, writing, true, context);
   // A CRS that this format needs and GDAL does not understand is a fault of the mesh, not of the output.
   if (!written && written.error().code == ErrorCode::invalidData && !mesh.crsWkt.empty())
     if (auto crs = crsFromText(mesh.crsWkt); !crs) return tl::unexpected(crs.error());
   if (!written) return tl::unexpected(written.error());
   converted.frame = written->frame;
+  converted.triangleOf = std::move(triangleOf);
   converted.lost = written->report.lost;
   converted.filesBeside = written->report.filesBeside;
   const auto lose = [&](bool isHeld, bool isThere, std::string what) {

@@ -29,6 +29,7 @@ struct ConvertedMesh {
   std::vector<std::filesystem::path> filesBeside;  ///< MTL, pictures
   std::uint64_t triangles = 0, vertices = 0;       ///< of the mesh
   std::uint64_t joinedVertices = 0;                ///< MeshFile::joinedVertices
+  std::vector<std::uint32_t> triangleOf;           ///< trianglesOfFile()
   std::vector<std::string> warnings;
 };
 

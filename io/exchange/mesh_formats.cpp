@@ -8,19 +8,26 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "io/exchange/grouped_faces.h"
 #include "io/exchange/joined.h"
 #include "io/file/no_file.h"
 #include "io/file/output_file.h"
 #include "io/file/text_scan.h"
+#include "io/file/utf8.h"
 #include "io/mesh/2dm/2dm.h"
 #include "io/mesh/glb/glb.h"
+#include "io/mesh/glb/texture_transform.h"
 #include "io/mesh/gpkg/gpkg.h"
 #include "io/mesh/obj/obj.h"
 #include "io/mesh/off/off.h"
 #include "io/mesh/ply/ply.h"
 #include "io/mesh/stl/stl.h"
+#include "io/mesh/texture_set.h"
 
 namespace arete {
 
@@ -56,6 +63,35 @@ std::string extensionsOf(Predicate isListed) {
   return list;
 }
 
+/// Names that are not UTF-8 are Latin-1.
+void nameInUtf8(MeshFile& file) {
+  const auto change = [](std::string& name) {
+    if (!text::isUtf8(name)) name = text::asUtf8(name);
+  };
+  SurfaceMesh& mesh = file.mesh;
+  for (auto* const attributes : {&mesh.vertexAttributes, &mesh.wedgeAttributes, &mesh.triangleAttributes})
+    for (Attribute& attribute : *attributes) change(attribute.name);
+  for (auto* const names : {&mesh.objects, &mesh.groups, &file.warnings})
+    for (std::string& name : *names) change(name);
+  for (Material& material : mesh.materials) {
+    change(material.name);
+    change(material.alphaMode);
+    for (TextureUse& use : material.textures) {
+      change(use.role);
+      change(use.picture);
+    }
+    std::map<std::string, std::string> verbatim;
+    for (auto& [key, text] : material.verbatim) verbatim.emplace(text::asUtf8(key), text::asUtf8(text));
+    material.verbatim = std::move(verbatim);
+  }
+  for (EmbeddedPicture& picture : mesh.pictures) {
+    change(picture.name);
+    change(picture.mimeType);
+  }
+  change(file.crsWkt);
+  change(file.verticalUnit);
+}
+
 Result<MeshFile> readAs(const std::filesystem::path& path, const RunContext& context, std::string_view name,
                         bool needsFaces) {
   const Result<MeshFormat> format = meshFormatOf(path, name);
@@ -66,6 +102,7 @@ Result<MeshFile> readAs(const std::filesystem::path& path, const RunContext& con
   const bool isPointsToo = !needsFaces && format->read == &readPly;
   Result<MeshFile> file = isPointsToo ? readPlyOfPoints(path, context) : format->read(path, context);
   if (!file) return file;
+  nameInUtf8(*file);
   // A NaN, infinite or negative error is invalid; then the file counts as one without errors.
   if (!std::ranges::all_of(file->triangleErrors, [](float e) { return e >= 0 && std::isfinite(e); }))
     file->triangleErrors.clear();
@@ -74,6 +111,47 @@ Result<MeshFile> readAs(const std::filesystem::path& path, const RunContext& con
   if (const Status joined = joinSoup(*file, context); !joined)
     return failure(joined.error().code, joined.error().message, path.string());
   return file;
+}
+
+bool isGltf(const MeshFormat& format) {
+  return format.write == &writeGlb || format.write == &writeGltf;
+}
+
+/// Writes a mesh as the format can have it: textures where their transforms put them, one set of texture
+/// coordinates, faces sorted by what they belong to.
+Result<MeshWriteReport> writeFitted(const MeshFormat& format, MeshRef mesh, const std::filesystem::path& path,
+                                    MeshWriteOptions options, const RunContext& context) {
+  std::optional<SurfaceMesh> fitted;
+  const auto current = [&] { return fitted ? MeshRef(*fitted) : mesh; };
+  const auto copy = [&] {
+    if (fitted) return;
+    fitted.emplace(mesh.shape);
+    static_cast<MeshAttributes&>(*fitted) = mesh.attributes;
+  };
+  if (const Status ok = mesh.validate(); !ok)
+    return failure(ErrorCode::invalidData, ok.error().message, path.string());
+  std::vector<std::string> lost;
+  const bool holdsMtl = format.write == &writeObj;
+  if (!isGltf(format) && hasTextureTransforms(mesh.attributes, !holdsMtl)) {
+    copy();
+    if (!applyTextureTransforms(*fitted, !holdsMtl).empty())
+      lost.emplace_back("textures of one material that are placed in several ways");
+  }
+  if (format.write == &writePly || format.write == &writeObj || format.write == &writeOff)
+    if (std::optional<SurfaceMesh> one = withOneTextureSet(current())) fitted = std::move(one);
+  const std::vector<std::uint32_t> triangleOf = trianglesOfFile(current(), format);
+  std::vector<float> errors;
+  if (!triangleOf.empty()) {
+    fitted = inOrder(current(), triangleOf);
+    if (!options.triangleErrors.empty()) {
+      for (const std::uint32_t t : triangleOf) errors.push_back(options.triangleErrors[t]);
+      options.triangleErrors = errors;
+    }
+  }
+  Result<MeshWriteReport> report = format.write(current(), path, options, context);
+  if (!report) return report;
+  report->lost.insert(report->lost.end(), lost.begin(), lost.end());
+  return report;
 }
 
 }  // namespace
@@ -139,7 +217,7 @@ Result<MeshWriteReport> writeMesh(MeshRef mesh, const std::filesystem::path& pat
     return failure(ErrorCode::unsupported, "is not a file, and a GeoPackage is a database that needs one",
                    path.string());
   OutputGroup together;
-  Result<MeshWriteReport> report = format->write(mesh, path, options, context);
+  Result<MeshWriteReport> report = writeFitted(*format, mesh, path, options, context);
   if (!report) return report;
   if (const Status named = together.commit(); !named) return tl::unexpected(named.error());
   return report;

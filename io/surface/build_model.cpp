@@ -11,6 +11,7 @@
 #include "io/mesh/pictures.h"
 #include "surface/build/build.h"
 #include "surface/displacement/find_displacement.h"
+#include "surface/edit/drop_attributes.h"
 
 namespace arete {
 namespace {
@@ -47,6 +48,8 @@ Result<BuiltSurface> buildSurfaceModel(MeshInput input, const std::string& sourc
                                        const SurfaceFileOptions& options, const RunContext& context) {
   BuiltSurface built;
   MeshFile& file = input.file;
+  if (Status dropped = dropAttributes(file.mesh, options.dropAttributes); !dropped)
+    return tl::unexpected(dropped.error());
   built.warnings = embedPictures(file);
 
   Stopwatch building;

@@ -15,6 +15,7 @@ namespace arete {
 struct SurfaceFileOptions {
   SurfaceBuildOptions build;
   bool isDisplaced = false;  ///< a direction for every vertex is found (surface/displacement)
+  std::vector<std::string> dropAttributes = {};  ///< names that dropAttributes() leaves out first
 };
 
 struct BuiltSurface {
@@ -26,7 +27,7 @@ struct BuiltSurface {
 /// Builds the model of a mesh as a file has it: with the file's numbers of vertices, its CRS, and the
 /// pictures that its materials name, so that the model is whole without them.
 /// @param source the file's name; begins the culprit of errors
-/// Errors: those of buildSurface() and findDisplacement().
+/// Errors: those of dropAttributes(), buildSurface() and findDisplacement().
 Result<BuiltSurface> buildSurfaceModel(MeshInput input, const std::string& source,
                                        const SurfaceFileOptions& options, const RunContext& context);
 
