@@ -17,6 +17,7 @@
 #include <variant>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/drop_attributes.h"
 #include "cli/commands/build_source.h"
 #include "cli/surface/build.h"
 #include "cli/surface/convert.h"
@@ -49,6 +50,7 @@ struct BuildArguments {
   std::string kind;                // --as; empty: the file says
   bool keepsBorders = false, isDisplaced = false;
   const CLI::App* command = nullptr;
+  std::vector<std::string> dropAttributes;
 };
 
 /// What a build needs at the least; rough terrain takes up to twice as much (terrain/build/build.h).
@@ -201,8 +203,9 @@ std::string otherOption(const CLI::App& command, std::initializer_list<std::stri
 Status runSurfaceBuild(const BuildArguments& arguments, MeshInput input, double secondsToRead,
                        Session& session) {
   if (const std::string other =
-          otherOption(*arguments.command, {"output", "as", "ratio", "max-degree", "keep-borders", "packed",
-                                           "position-bits", "displacement", "json", "quiet", "threads"});
+          otherOption(*arguments.command,
+                      {"output", "as", "ratio", "max-degree", "keep-borders", "packed", "position-bits",
+                       "displacement", "drop-attributes", "json", "quiet", "threads"});
       !other.empty())
     return failure(ErrorCode::usage,
                    fmt::format("is for terrain, and {} is a surface (--as terrain takes its vertices as "
@@ -214,6 +217,7 @@ Status runSurfaceBuild(const BuildArguments& arguments, MeshInput input, double 
   surface.isPacked = arguments.isPacked;
   surface.positionBits = arguments.positionBits;
   surface.options.isDisplaced = arguments.isDisplaced;
+  surface.options.dropAttributes = arguments.dropAttributes;
   if (surface.positionBits != 0 && !surface.isPacked)
     return failure(ErrorCode::usage, "requires --packed", "--position-bits");
   SurfaceBuildOptions& build = surface.options.build;
@@ -244,7 +248,8 @@ Status runBuild(BuildArguments& arguments, Session& session) {
   }
   for (const auto& [option, isStated] : {std::pair{"--keep-borders", arguments.keepsBorders},
                                          std::pair{"--position-bits", arguments.positionBits != 0},
-                                         std::pair{"--displacement", arguments.isDisplaced}})
+                                         std::pair{"--displacement", arguments.isDisplaced},
+                                         std::pair{"--drop-attributes", !arguments.dropAttributes.empty()}})
     if (isStated)
       return failure(ErrorCode::usage, fmt::format("is for surfaces, and {} is terrain", arguments.dem.path),
                      option);
@@ -303,6 +308,7 @@ void addBuildCommand(CLI::App& app, Session& session) {
                     "Write the compressed form: a ninth to a fifteenth of the size (of a surface a fifth);\n"
                     "it is unpacked when read");
   addPositionBitsTo(*command, arguments->positionBits);
+  addDropAttributesTo(*command, arguments->dropAttributes, "Of a surface: ");
   command
       ->add_option(
           "--shape", arguments->shape,

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/drop_attributes.h"
 #include "cli/arguments/mesh_options.h"
 #include "cli/surface/convert.h"
 #include "io/amt/file.h"
@@ -30,6 +31,7 @@ struct ConvertArguments {
   int positionBits = 0;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   MeshPlacing placing;
+  std::vector<std::string> dropAttributes;
 };
 
 bool isAmt(const std::string& path) {
@@ -49,6 +51,8 @@ Status convertAmt(const ConvertArguments& arguments, Session& session) {
   if (!arguments.crs.empty())
     return failure(ErrorCode::usage, "an .amt has the CRS of its DEM",
                    fmt::format("--crs {}", arguments.crs));
+  if (!arguments.dropAttributes.empty())
+    return failure(ErrorCode::usage, "is for meshes; build the .amt without them", "--drop-attributes");
   if (!arguments.placing.isNothing())
     return failure(ErrorCode::usage, "is for meshes; an .amt states its axes and units",
                    arguments.placing.unit.empty() ? "--up" : "--unit");
@@ -86,6 +90,7 @@ Status runConvert(const ConvertArguments& arguments, Session& session) {
   if (!target) return tl::unexpected(target.error());
   Result<MeshFile> mesh = readMesh(arguments.input, session.context());
   if (!mesh) return tl::unexpected(mesh.error());
+  if (Status dropped = dropNamed(mesh->mesh, arguments.dropAttributes); !dropped) return dropped;
   const Result<ConvertedMesh> converted = convertMesh(std::move(*mesh), target->path,
                                                       {.crs = arguments.crs,
                                                        .format = arguments.output.format,
@@ -129,6 +134,7 @@ void addConvertCommand(CLI::App& app, Session& session) {
       ->add_option("--crs", arguments->crs,
                    "CRS of the coordinates, where the file has none; nothing is reprojected")
       ->type_name("CRS");
+  addDropAttributesTo(*command, arguments->dropAttributes, "");
   addPlacingTo(*command, arguments->placing);
 }
 

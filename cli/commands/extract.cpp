@@ -18,6 +18,7 @@
 
 #include "cli/arguments/arguments.h"
 #include "cli/arguments/criterion.h"
+#include "cli/arguments/drop_attributes.h"
 #include "cli/commands/check_command.h"
 #include "cli/session/model_file.h"
 #include "cli/surface/extract.h"
@@ -55,6 +56,7 @@ struct ExtractArguments {
   CriterionArguments criterion;
   std::string certificate, errorRaster, map;
   std::string dropParts;
+  std::vector<std::string> dropAttributes;
   bool isBothWays = false, isUndisplaced = false;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
   CLI::Option* certificateOption = nullptr;
@@ -268,6 +270,7 @@ Status runSurfaceExtract(const ExtractArguments& arguments, Session& session) {
                          .asked = *asked,
                          .map = arguments.map,
                          .dropParts = arguments.dropParts,
+                         .dropAttributes = arguments.dropAttributes,
                          .isBothWays = arguments.isBothWays,
                          .isUndisplaced = arguments.isUndisplaced,
                          .existing = arguments.existing},
@@ -280,6 +283,7 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   if (isSurface && *isSurface) return runSurfaceExtract(arguments, session);
   for (const auto& [option, isStated] :
        {std::pair{"--map", !arguments.map.empty()}, std::pair{"--drop-parts", !arguments.dropParts.empty()},
+        std::pair{"--drop-attributes", !arguments.dropAttributes.empty()},
         std::pair{"--both-ways", arguments.isBothWays},
         std::pair{"--no-displacement", arguments.isUndisplaced}})
     if (isStated) return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", option);
@@ -378,6 +382,7 @@ void addExtractCommand(CLI::App& app, Session& session) {
           "Of a surface: leave out the components whose box has a diagonal below D, in the file's unit "
           "or in % of the whole diagonal")
       ->type_name("D");
+  addDropAttributesTo(*command, arguments->dropAttributes, "Of a surface: ");
   command->add_flag("--both-ways", arguments->isBothWays,
                     "Of a surface: also measure how far the result is from the source");
   command->add_flag(

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/drop_attributes.h"
 #include "cli/arguments/mesh_options.h"
 #include "cli/mesh/tolerance.h"
 #include "engine/base/stopwatch.h"
@@ -41,6 +42,7 @@ struct DecimateArguments {
   MeshOutput output;
   MeshPlacing placing;
   bool keepsBorders = false, forbidsCrossings = false;
+  std::vector<std::string> dropAttributes;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
 
@@ -80,6 +82,7 @@ struct Outcome {
   std::uint64_t evaluations = 0, steps = 0;
   std::optional<FitOutcome> fit = {};
   bool isComplete = true;  ///< false: the budget ended it before the tolerance was reached
+  bool dropsFlatNormals = false;
 };
 
 Status checkArguments(const DecimateArguments& a) {
@@ -102,14 +105,16 @@ Status checkArguments(const DecimateArguments& a) {
   return {};
 }
 
-Error tooFew(const std::string& budget, std::uint64_t least, const std::string& method) {
+/// @param mesh whose attributes and parts keep more.
+Error tooFew(const std::string& budget, std::uint64_t least, const std::string& method,
+             const SurfaceMesh& mesh) {
   return {
       ErrorCode::usage,
       fmt::format(
           "the least that {} reaches is {} triangles: components, handles, borders, seams and edges between "
           "objects, materials or labels of faces stay, edges of more than two faces too, and no triangle "
-          "turns over",
-          method, grouped(least)),
+          "turns over{}",
+          method, grouped(least), seamsOf(mesh)),
       fmt::format("--max-triangles {}", budget)};
 }
 
@@ -131,7 +136,8 @@ Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
   CutOptions wanted;
   if (maxTriangles) {
     if (*maxTriangles < model->mt.rootTriangleCount())
-      return tl::unexpected(tooFew(arguments.maxTriangles, model->mt.rootTriangleCount(), "measured"));
+      return tl::unexpected(tooFew(arguments.maxTriangles, model->mt.rootTriangleCount(), "measured",
+                                   finestSurfaceOf(*model).mesh));
     wanted.maxTriangles = *maxTriangles;
     wanted.order = std::make_shared<LargestSquaresFirst>();
   }
@@ -163,6 +169,7 @@ Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
     outcome.sourceCrossings = *ofSource;
   }
   outcome.isComplete = cut->isComplete;
+  outcome.dropsFlatNormals = model->mending.dropsFlatNormals;
   return outcome;
 }
 
@@ -182,7 +189,8 @@ Result<Outcome> contracted(const SurfaceMesh& mesh, const DecimateArguments& arg
   Result<DecimatedMesh> decimated = decimate(mesh, options, session.context());
   if (!decimated) return tl::unexpected(decimated.error());
   if (decimated->mesh.triangles.size() > maxTriangles)
-    return tl::unexpected(tooFew(arguments.maxTriangles, decimated->mesh.triangles.size(), arguments.method));
+    return tl::unexpected(
+        tooFew(arguments.maxTriangles, decimated->mesh.triangles.size(), arguments.method, decimated->mesh));
   Outcome outcome;
   outcome.mesh = std::move(decimated->mesh);
   outcome.vertexOf = std::move(decimated->vertexOf);
@@ -190,6 +198,7 @@ Result<Outcome> contracted(const SurfaceMesh& mesh, const DecimateArguments& arg
   outcome.lost = std::move(decimated->lost);
   outcome.evaluations = decimated->evaluations;
   outcome.steps = decimated->steps;
+  outcome.dropsFlatNormals = decimated->dropsFlatNormals;
   return outcome;
 }
 
@@ -227,6 +236,7 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
   if (file.mesh.triangles.empty())
     return failure(ErrorCode::invalidData, "has no faces to be decimated", arguments.input);
   const std::size_t facesBefore = file.mesh.triangles.size();
+  if (Status dropped = dropNamed(file.mesh, arguments.dropAttributes); !dropped) return dropped;
 
   SmallComponents dropped;
   if (!arguments.dropParts.empty()) {
@@ -258,14 +268,12 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
     return tl::unexpected(std::move(error));
   }
   const double seconds = working.seconds();
-  if (!arguments.map.empty())
-    if (Status written = writeNumbers(arguments.map, *outcome, *input, dropped.vertexOf, dropped.triangleOf);
-        !written)
-      return written;
   MeshFile result = std::move(file);
   result.mesh = std::move(outcome->mesh);
   result.triangleErrors.clear();
   result.warnings.clear();
+  if (outcome->dropsFlatNormals)
+    result.warnings.emplace_back("normals of corners are left out: they are those of flat faces");
   for (const std::string& lost : outcome->lost)
     result.warnings.push_back(fmt::format("{} cannot carry {}: left out", arguments.method, lost));
   const Result<ConvertedMesh> converted = convertMesh(
@@ -273,6 +281,15 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
       {.format = arguments.output.format, .existing = arguments.existing, .placing = arguments.placing},
       session.context());
   if (!converted) return tl::unexpected(converted.error());
+  if (!converted->triangleOf.empty()) {
+    std::vector<std::uint32_t> faceOf;
+    for (const std::uint32_t t : converted->triangleOf) faceOf.push_back(outcome->faceOf[t]);
+    outcome->faceOf = std::move(faceOf);
+  }
+  if (!arguments.map.empty())
+    if (Status written = writeNumbers(arguments.map, *outcome, *input, dropped.vertexOf, dropped.triangleOf);
+        !written)
+      return written;
   warnOf(*converted, arguments.input, target->format.name, session);
   std::string text = writtenText(target->path, *converted);
   text += fmt::format("  of         {} triangles, by {} in {:.2f} s\n", grouped(facesBefore),
@@ -380,6 +397,7 @@ void addMeshDecimateCommand(CLI::App& mesh, Session& session) {
                    "CSV to write: of each output vertex the input's, and of each input face the output's "
                    "that\nstands for it")
       ->type_name("FILE");
+  addDropAttributesTo(*command, arguments->dropAttributes, "");
   addPlacingTo(*command, arguments->placing);
 }
 

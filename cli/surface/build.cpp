@@ -3,14 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/drop_attributes.h"
 #include "cli/surface/mending.h"
 #include "engine/base/stopwatch.h"
 #include "io/amt/surface_file.h"
 #include "io/crs/names.h"
+#include "surface/front/front.h"
 
 namespace arete {
 namespace {
@@ -37,6 +40,10 @@ void report(const SurfaceBuildArguments& arguments, std::uint64_t faces, std::ui
       grouped(mt.rootVertexCount(), "vertex", "vertices"), mt.largestError(),
       grouped(model.levels, "level", "levels"));
   text += mendedText(model.mending, "  mended     ");
+  // Seams that keep most of the surface from being coarser.
+  if (model.hasWedges() && 2 * mt.rootTriangleCount() > mt.finestTriangleCount())
+    if (const std::string seams = seamsOf(finestSurfaceOf(model).mesh); seams.size() > 2)
+      text += fmt::format("  seams      {}\n", seams.substr(2));
   if (model.mending.dropsFlatNormals)
     text += "  left out   normals of corners: they are those of flat faces\n";
   text += fmt::format(
@@ -80,7 +87,13 @@ Status buildSurfaceFile(const SurfaceBuildArguments& arguments, MeshInput input,
   const std::uint64_t faces = input.fileFaces, vertices = input.fileVertices;
   const Result<BuiltSurface> built =
       buildSurfaceModel(std::move(input), arguments.input, arguments.options, session.context());
-  if (!built) return tl::unexpected(built.error());
+  if (!built) {
+    Error error = built.error();
+    const auto& dropped = arguments.options.dropAttributes;
+    if (error.code == ErrorCode::usage && std::ranges::find(dropped, error.culprit) != dropped.end())
+      error.culprit = fmt::format("--drop-attributes {}", error.culprit);
+    return tl::unexpected(std::move(error));
+  }
   session.warn(built->warnings, arguments.input);
   seconds.build = built->secondsToBuild;
   seconds.displace = built->secondsToDisplace;

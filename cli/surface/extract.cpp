@@ -12,12 +12,14 @@
 #include <vector>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/drop_attributes.h"
 #include "cli/mesh/tolerance.h"
 #include "cli/surface/criterion.h"
 #include "engine/base/counted.h"
 #include "engine/base/float_bounds.h"
 #include "engine/cut/cut.h"
 #include "io/amt/surface_file.h"
+#include "io/exchange/grouped_faces.h"
 #include "io/exchange/mesh_formats.h"
 #include "io/file/file_writer.h"
 #include "io/file/output_file.h"
@@ -118,7 +120,11 @@ std::string whyNotFewer(const SurfaceModel& model, const DroppedComponents* drop
     why += ", edges between materials or objects";
   for (const Attribute& attribute : model.attributes.triangleAttributes)
     if (!attribute.isContinuous()) why += fmt::format(", edges between values of {}", attribute.name);
-  return why;
+  // They were left out by the build, if at all.
+  std::string seams = seamsOf(finestSurfaceOf(model).mesh);
+  if (const std::size_t option = seams.find("--drop-attributes"); option != std::string::npos)
+    seams.insert(option, "arete build with ");
+  return why + seams;
 }
 
 /// @param criterion the engine's for what is asked
@@ -210,6 +216,7 @@ class Extraction {
     options.existing = arguments_.existing;
     OutputGroup together;
     options.up = model_.up == "y" ? MeshUp::y : model_.up == "z" ? MeshUp::z : MeshUp::unknown;
+    if (Status left = dropNamed(front.mesh, arguments_.dropAttributes); !left) return left;
     const Result<MeshWriteReport> written =
         writeMesh(front.mesh, request.output, options, session_.context());
     if (!written) return tl::unexpected(written.error());
@@ -220,6 +227,13 @@ class Extraction {
       std::vector<std::uint32_t> faces = facesOf(model_, *whole);
       for (std::uint32_t& face : faces)
         if (dropped && face != MeshAttributes::kNone) face = rest.numberOf[face];
+      if (const std::vector<std::uint32_t> triangleOf = trianglesOfFile(front.mesh, *format);
+          !triangleOf.empty()) {
+        std::vector<std::uint32_t> placeOf(triangleOf.size());
+        for (std::uint32_t i = 0; i < placeOf.size(); ++i) placeOf[triangleOf[i]] = i;
+        for (std::uint32_t& face : faces)
+          if (face != MeshAttributes::kNone) face = placeOf[face];
+      }
       if (Status mapped = writeMap(request.map, model_, front, faces); !mapped) return mapped;
     }
     // A fit is measured by itself, and may keep what the stored errors cannot promise.

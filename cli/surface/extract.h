@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cli/arguments/criterion.h"
 #include "cli/session/session.h"
@@ -14,8 +15,9 @@ struct SurfaceExtractArguments {
   std::string model;
   std::string output, format;  ///< as MeshOutput; {} in the name becomes the tolerance
   CriterionArguments::OfSurface asked;
-  std::string map;             ///< --map; empty: none
-  std::string dropParts;       ///< --drop-parts; empty: none
+  std::string map;        ///< --map; empty: none
+  std::string dropParts;  ///< --drop-parts; empty: none
+  std::vector<std::string> dropAttributes = {};
   bool isBothWays = false;     ///< the distance from the result to the source, too
   bool isUndisplaced = false;  ///< vertices of a displaced model stay where they are in the source
   ExistingFile existing = ExistingFile::keepsOtherLayers;

@@ -3,7 +3,7 @@
 
 import math
 import os
-from typing import Any, Dict, Optional, Union
+from typing import Any, Dict, Optional, Sequence, Union
 
 from numpy.typing import ArrayLike
 
@@ -84,18 +84,24 @@ class Surface(Stored):
 
 
 def build_surface(source: Any, triangles: Optional[ArrayLike] = None, *, displacement: bool = False,
-                  keep_borders: bool = False, progress: Progress = None) -> Surface:
+                  keep_borders: bool = False, drop_attributes: Union[str, Sequence[str]] = (),
+                  progress: Progress = None) -> Surface:
     """Builds the multitriangulation of a triangle mesh.
 
     source: a file that `arete build` takes for a surface; vertices (n, 3) with triangles (m, 3); or a mesh of meshio
         (points, cells) or trimesh (vertices, faces), of which the shape is taken.
     displacement: find where the vertices of coarse cuts are nearest to the source. It takes as long again.
     keep_borders: vertices of borders stay in every cut.
+    drop_attributes: names of attributes of a file to leave out, and "objects", "groups", "materials": seams and edges
+        between parts keep vertices in every cut.
     """
+    names = [drop_attributes] if isinstance(drop_attributes, str) else [str(name) for name in drop_attributes]
     if isinstance(source, (str, os.PathLike)):
         if triangles is not None:
             raise TypeError("triangles are for arrays: a file says its own")
-        return Surface(_arete.build_surface_file(os.fspath(source), displacement, keep_borders, progress))
+        return Surface(_arete.build_surface_file(os.fspath(source), displacement, keep_borders, names, progress))
+    if names:
+        raise ValueError("drop_attributes is for files: arrays have no attributes")
     return Surface(_arete.build_surface_arrays(*mesh_of(source, triangles), displacement, keep_borders, progress))
 
 

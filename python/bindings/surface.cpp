@@ -229,8 +229,11 @@ void defineModel(py::module_& module) {
                              [](const SurfaceModel& m) { return m.mt.finestTriangleCount(); });
 }
 
-SurfaceFileOptions optionsOf(bool isDisplaced, bool keepsBorders) {
-  return {.build = {.keepsBorders = keepsBorders}, .isDisplaced = isDisplaced};
+SurfaceFileOptions optionsOf(bool isDisplaced, bool keepsBorders,
+                             std::vector<std::string> dropAttributes = {}) {
+  return {.build = {.keepsBorders = keepsBorders},
+          .isDisplaced = isDisplaced,
+          .dropAttributes = std::move(dropAttributes)};
 }
 
 }  // namespace
@@ -239,8 +242,9 @@ void defineSurface(py::module_& module) {
   defineRegion(module);
   defineModel(module);
   module.def("build_surface_file",
-             [](const std::string& path, bool isDisplaced, bool keepsBorders, const py::object& progress) {
-               return buildFile(path, optionsOf(isDisplaced, keepsBorders), progress);
+             [](const std::string& path, bool isDisplaced, bool keepsBorders,
+                const std::vector<std::string>& dropAttributes, const py::object& progress) {
+               return buildFile(path, optionsOf(isDisplaced, keepsBorders, dropAttributes), progress);
              });
   module.def("build_surface_arrays", [](const Doubles& vertices, const Indices& triangles, bool isDisplaced,
                                         bool keepsBorders, const py::object& progress) {

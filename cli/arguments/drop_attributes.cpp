@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/arguments/drop_attributes.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "surface/edit/drop_attributes.h"
+#include "surface/edit/normals.h"
+
+namespace arete {
+namespace {
+
+bool areSeveral(const std::vector<std::uint32_t>& parts) {
+  return std::ranges::any_of(parts, [&](std::uint32_t part) { return part != parts.front(); });
+}
+
+}  // namespace
+
+void addDropAttributesTo(CLI::App& command, std::vector<std::string>& names, const std::string& ofWhat) {
+  command
+      .add_option("--drop-attributes", names,
+                  ofWhat + "attributes to leave out, by their names, and objects, groups, materials")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAME[,NAME]");
+}
+
+Status dropNamed(SurfaceMesh& mesh, const std::vector<std::string>& names) {
+  Status dropped = dropAttributes(mesh, names);
+  if (!dropped && dropped.error().code == ErrorCode::usage)
+    dropped.error().culprit = fmt::format("--drop-attributes {}", dropped.error().culprit);
+  return dropped;
+}
+
+std::string seamsOf(const SurfaceMesh& mesh) {
+  std::vector<std::string> sentences, names;
+  for (const SeamAttribute& seam : seamAttributes(mesh)) {
+    sentences.push_back(fmt::format("\"{}\" differs at {} edges", seam.name, grouped(seam.edges)));
+    names.push_back(seam.name);
+  }
+  for (const auto& [of, name] :
+       {std::pair{&mesh.objectOf, kObjectsName}, std::pair{&mesh.materialOf, kMaterialsName}})
+    if (areSeveral(*of)) {
+      sentences.push_back(fmt::format("there are several {}", name));
+      names.emplace_back(name);
+    }
+  if (names.empty()) return {};
+  return fmt::format("; {}: --drop-attributes {} leaves {} out", fmt::join(sentences, ", "),
+                     fmt::join(names, ","), names.size() == 1 ? "it" : "them");
+}
+
+}  // namespace arete
