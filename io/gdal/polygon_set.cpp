@@ -85,6 +85,7 @@ std::unique_ptr<OGRGeometry> goneAround(const OGRLinearRing& ring) {
         windingNumber(ring, *inside->toPoint()) != 0)
       kept.addGeometry(face);
   }
+  if (kept.IsEmpty()) return std::make_unique<OGRMultiPolygon>();
   return std::unique_ptr<OGRGeometry>(kept.UnionCascaded());
 }
 
@@ -142,13 +143,15 @@ OGRMultiPolygon repaired(const OGRMultiPolygon& polygons, std::vector<std::strin
       result.addGeometry(polygon);
       continue;
     }
+    // Nothing is left of one that its holes cover.
     OGRMultiPolygon valid;
-    if (const auto made = goneAround(*polygon)) collect(*made, valid);
-    if (valid.IsEmpty() && !isWarned) {
+    const auto made = goneAround(*polygon);
+    if (made) collect(*made, valid);
+    if (!made && !isWarned) {
       warnings.emplace_back("a polygon crosses itself and cannot be repaired");
       isWarned = true;
     }
-    if (valid.IsEmpty()) result.addGeometry(polygon);
+    if (!made) result.addGeometry(polygon);
     for (const OGRPolygon* part : valid) result.addGeometry(part);
   }
   return result;
