@@ -29,6 +29,7 @@
 #include "surface/front/face_map.h"
 #include "surface/front/front.h"
 #include "surface/front/model_components.h"
+#include "surface/model/labels.h"
 #include "terrain/measure/mesh_distance.h"
 
 namespace arete {
@@ -119,7 +120,7 @@ std::string whyNotFewer(const SurfaceModel& model, const DroppedComponents* drop
   if (!model.attributes.materialOf.empty() || !model.attributes.objectOf.empty())
     why += ", edges between materials or objects";
   for (const Attribute& attribute : model.attributes.triangleAttributes)
-    if (!attribute.isContinuous()) why += fmt::format(", edges between values of {}", attribute.name);
+    if (isLabel(attribute)) why += fmt::format(", edges between values of {}", attribute.name);
   // They were left out by the build, if at all.
   std::string seams = seamsOf(finestSurfaceOf(model).mesh);
   if (const std::size_t option = seams.find("--drop-attributes"); option != std::string::npos)

@@ -72,10 +72,6 @@ struct Attribute {
     values.insert(values.end(), element.begin(), element.end());
   }
 
-  /// Whether elements may be averaged: floats, colors and directions may;
-  /// integers of no known meaning are labels.
-  bool isContinuous() const { return isFloat(type) || meaning != AttributeMeaning::other; }
-
   bool operator==(const Attribute&) const = default;
 };
 

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <string>
 
+#include "surface/model/labels.h"
+
 namespace arete {
 namespace {
 
@@ -45,10 +47,6 @@ class Parts {
   std::vector<std::uint32_t> partOf_;
   std::size_t count_ = 0;
 };
-
-bool isLabel(const Attribute& attribute) {
-  return !attribute.isContinuous();
-}
 
 bool mayHaveParts(const MeshAttributes& attributes) {
   return !attributes.objectOf.empty() || !attributes.materialOf.empty() ||

@@ -49,13 +49,6 @@ TEST(Attribute, KeepsTheBitsOfNaN) {
   EXPECT_TRUE(std::equal(bytes.begin(), bytes.end(), a.element(0).begin()));
 }
 
-TEST(Attribute, IntegersOfNoKnownMeaningAreLabels) {
-  EXPECT_FALSE((Attribute{.name = "class", .type = ScalarType::int32}).isContinuous());
-  EXPECT_TRUE((Attribute{.name = "quality", .type = ScalarType::float32}).isContinuous());
-  EXPECT_TRUE((Attribute{.name = "color", .meaning = AttributeMeaning::color, .type = ScalarType::uint8})
-                  .isContinuous());
-}
-
 TEST(Attribute, ItsSizeIsChecked) {
   Attribute a{.name = "x", .type = ScalarType::float64};
   a.append(std::vector<double>{1});

@@ -8,6 +8,7 @@
 
 #include "io/mesh/obj/obj.h"
 #include "io/mesh_file_fixture.h"
+#include "surface/model/labels.h"
 
 namespace arete {
 namespace {
@@ -194,7 +195,7 @@ TEST_F(ObjAttributes, SmoothingGroupsAreLabelsOfTriangles) {
   Numbers numbers;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) numbers.push_back(groups->numbers(t)[0]);
   EXPECT_EQ(numbers, (Numbers{0, 7, 7, 1, 0}));
-  EXPECT_FALSE(groups->isContinuous());
+  EXPECT_TRUE(isLabel(*groups));
   EXPECT_TRUE(read(kFour + "s off\nf 1 2 3\ns 0\nf 1 2 3\n").mesh.triangleAttributes.empty());
 }
 
