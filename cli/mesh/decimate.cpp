@@ -282,9 +282,10 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
       session.context());
   if (!converted) return tl::unexpected(converted.error());
   if (!converted->triangleOf.empty()) {
-    std::vector<std::uint32_t> faceOf;
-    for (const std::uint32_t t : converted->triangleOf) faceOf.push_back(outcome->faceOf[t]);
-    outcome->faceOf = std::move(faceOf);
+    std::vector<std::uint32_t> placeOf(converted->triangleOf.size());
+    for (std::uint32_t i = 0; i < placeOf.size(); ++i) placeOf[converted->triangleOf[i]] = i;
+    for (std::uint32_t& triangle : outcome->triangleFor)
+      if (triangle != MeshAttributes::kNone) triangle = placeOf[triangle];
   }
   if (!arguments.map.empty())
     if (Status written = writeNumbers(arguments.map, *outcome, *input, dropped.vertexOf, dropped.triangleOf);

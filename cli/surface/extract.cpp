@@ -286,7 +286,7 @@ class Extraction {
   /// Whether something is asked for that rounding may break; a budget alone asks for nothing.
   bool isToleranceStated(const Request& request) const {
     const CriterionArguments::OfSurface& asked = arguments_.asked;
-    return request.tolerance || asked.pixelError || (!asked.camera.empty() && !asked.maxTriangles);
+    return request.tolerance || asked.pixelError || (!asked.camera.empty() && asked.maxTriangles.empty());
   }
 
   bool isDisplaced() const { return !model_.displacement.isEmpty() && !arguments_.isUndisplaced; }
