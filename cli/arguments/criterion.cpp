@@ -15,7 +15,7 @@
 #include "engine/base/counted.h"
 #include "io/crs/position_argument.h"
 #include "io/extract/camera_argument.h"
-#include "io/file/stated_size.h"
+#include "io/text/stated_size.h"
 #include "terrain/locate/surface_height.h"
 #include "terrain/model/relief.h"
 

@@ -15,7 +15,7 @@
 #include "io/amt/file.h"
 #include "io/amt/surface_file.h"
 #include "io/crs/names.h"
-#include "io/file/stated_size.h"
+#include "io/text/stated_size.h"
 #include "terrain/model/error_curve.h"
 #include "terrain/model/relief.h"
 

@@ -15,7 +15,7 @@
 #include "engine/base/counted.h"
 #include "io/amt/file.h"
 #include "io/amt/surface_file.h"
-#include "io/file/address_text.h"
+#include "io/text/address_text.h"
 #include "terrain/laws/compare_source.h"
 #include "terrain/laws/validate_model.h"
 

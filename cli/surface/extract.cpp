@@ -194,8 +194,8 @@ class Extraction {
       // A cut that the budget ended does not keep the tolerance before the fit.
       const auto fitted =
           fitFront(front, finestOfTheRest(), chartsOfCut(model_, finestCutOfTheRest(), cut),
-                   model_.options.keepsBorders, cut.achievedError, whole->isComplete ? maxError : std::nullopt,
-                   session_.context(), model_.positionError);
+                   model_.options.keepsBorders, cut.achievedError,
+                   whole->isComplete ? maxError : std::nullopt, session_.context(), model_.positionError);
       if (!fitted) return tl::unexpected(fitted.error());
       fit = *fitted;
     } else if (isDisplaced()) {

@@ -27,13 +27,13 @@
 #include "io/dem/dem_files.h"
 #include "io/dem/gridded_points.h"
 #include "io/dem/seam_column.h"
-#include "io/file/address_text.h"
 #include "io/file/text_scan.h"
 #include "io/gdal/file_length.h"
 #include "io/gdal/network_files.h"
 #include "io/gdal/support.h"
 #include "io/gdal/zipped_raster.h"
 #include "io/table/point_text.h"
+#include "io/text/address_text.h"
 #include "terrain/model/lone_heights.h"
 
 namespace arete {

@@ -17,7 +17,7 @@
 
 #include "io/crs/names.h"
 #include "io/dem/raster_file.h"
-#include "io/file/address_text.h"
+#include "io/text/address_text.h"
 
 namespace arete {
 namespace {

@@ -19,13 +19,13 @@
 #include "engine/memory/pages.h"
 #include "io/crs/reader.h"
 #include "io/crs/vertical.h"
-#include "io/file/address_text.h"
 #include "io/gdal/support.h"
 #include "io/gdal/vector_file.h"
 #include "io/gdal/vector_layer.h"
 #include "io/table/feature_rows.h"
 #include "io/table/point_rows.h"
 #include "io/table/point_text.h"
+#include "io/text/address_text.h"
 
 namespace arete {
 namespace {

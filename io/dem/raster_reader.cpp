@@ -16,9 +16,9 @@
 #include "engine/base/caught_failure.h"
 #include "engine/memory/pages.h"
 #include "io/dem/mosaic.h"
-#include "io/file/address_text.h"
 #include "io/gdal/network_files.h"
 #include "io/gdal/support.h"
+#include "io/text/address_text.h"
 
 namespace arete {
 namespace {

@@ -18,7 +18,6 @@
 #include "io/file/no_file.h"
 #include "io/file/output_file.h"
 #include "io/file/text_scan.h"
-#include "io/file/utf8.h"
 #include "io/mesh/2dm/2dm.h"
 #include "io/mesh/glb/glb.h"
 #include "io/mesh/glb/texture_transform.h"
@@ -28,6 +27,7 @@
 #include "io/mesh/ply/ply.h"
 #include "io/mesh/stl/stl.h"
 #include "io/mesh/texture_set.h"
+#include "io/text/utf8.h"
 
 namespace arete {
 

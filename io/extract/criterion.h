@@ -33,9 +33,9 @@ struct ExtractCriterion {
   std::optional<double> maxError;             ///< everywhere, inside the region, or at the focus
   std::optional<std::uint32_t> maxTriangles;  ///< a budget; without a maxError the error is as small as it
                                               ///< gets, with one what comes first ends the cut
-  std::string region;          ///< as it was given; empty = none
-  std::string regionCrs = {};  ///< as it was given; empty = the file's, or the DEM's for a box
-  double distance = 0;         ///< around the region, metres on the ground (source units without a CRS)
+  std::string region;                         ///< as it was given; empty = none
+  std::string regionCrs = {};                 ///< as it was given; empty = the file's, or the DEM's for a box
+  double distance = 0;  ///< around the region, metres on the ground (source units without a CRS)
   /// Outside the region, out of sight, or far from the focus.
   double outsideError = std::numeric_limits<double>::infinity();
 

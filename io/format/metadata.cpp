@@ -16,8 +16,8 @@
 
 #include "engine/mt/hole_limit.h"
 #include "engine/mt/node_blocks.h"
-#include "io/file/address_text.h"
 #include "io/format/json_fields.h"
+#include "io/text/address_text.h"
 #include "terrain/build/checks.h"
 
 namespace arete {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "engine/mt/hole_limit.h"
-#include "io/file/address_text.h"
 #include "io/format/json_fields.h"
+#include "io/text/address_text.h"
 
 namespace arete {
 namespace {

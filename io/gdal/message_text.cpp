@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "io/file/address_text.h"
+#include "io/text/address_text.h"
 
 namespace arete {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "io/file/text_scan.h"
-#include "io/file/utf8.h"
 #include "io/gdal/confined.h"
+#include "io/text/utf8.h"
 
 namespace arete {
 namespace {

@@ -25,14 +25,14 @@
 #include <string_view>
 #include <utility>
 
-#include "io/file/record_scanner.h"
 #include "io/file/text_decoder.h"
 #include "io/file/text_scan.h"
-#include "io/file/wkt_point.h"
 #include "io/gdal/support.h"
 #include "io/table/cell_number.h"
 #include "io/table/column_rules.h"
 #include "io/table/separator.h"
+#include "io/text/record_scanner.h"
+#include "io/text/wkt_point.h"
 
 namespace arete {
 namespace {

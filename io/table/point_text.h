@@ -24,7 +24,7 @@ enum class PointTextColumns {
 
 /// Reads the points of a text file; readPoints() describes the format. A quoted text may contain line breaks
 /// and separators. Without columns of x and y, a column of points in WKT or EWKT has them
-/// (io/file/wkt_point.h); it counts as an attribute as well. Row origins are line numbers, counted from 1:
+/// (io/text/wkt_point.h); it counts as an attribute as well. Row origins are line numbers, counted from 1:
 /// of the first line of a record.
 ///
 /// @param zColumn Name of the column of heights; empty: any of the usual names.

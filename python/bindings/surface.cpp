@@ -102,11 +102,10 @@ Result<Tin> takeSurfaceTin(const SurfaceModel& model, const CutRequest& request,
   if (request.criterion.camera) tin.pixels = worstSeverity(model.mt, **criterion, *cut);
   if (request.isFitted) {
     SurfaceFront front = surfaceOf(model, *cut);
-    const auto fit =
-        fitFront(front, finestSurfaceOf(model).mesh.shape(),
-                 chartsOfCut(model, frontOfPrefix(model.mt, model.mt.nodeCount()), *cut),
-                 model.options.keepsBorders, cut->achievedError, request.criterion.maxError, context,
-                 model.positionError);
+    const auto fit = fitFront(front, finestSurfaceOf(model).mesh.shape(),
+                              chartsOfCut(model, frontOfPrefix(model.mt, model.mt.nodeCount()), *cut),
+                              model.options.keepsBorders, cut->achievedError, request.criterion.maxError,
+                              context, model.positionError);
     if (!fit) return tl::unexpected(fit.error());
     tin.vertices = std::move(front.mesh.positions);
     tin.error = fit->distance;

@@ -13,9 +13,9 @@
 #include <utility>
 
 #include "io/file/text_scan.h"
-#include "io/file/utf8.h"
 #include "io/mesh/glb/accessors.h"
 #include "io/mesh/glb/extensions.h"
+#include "io/text/utf8.h"
 
 namespace arete {
 

@@ -19,7 +19,7 @@
 #include <utility>
 
 #include "io/file/text_scan.h"
-#include "io/mesh/texture_options.h"
+#include "io/mesh/glb/texture_options.h"
 #include "surface/model/wedges.h"
 
 namespace arete {

@@ -17,7 +17,7 @@ namespace arete {
 /// color, else of the first.
 ///
 /// @return A sentence for each material some of whose transforms are lost that way. O(size).
-/// @param alsoOfMtl the shift and scale that an MTL states, too (io/mesh/texture_options.h).
+/// @param alsoOfMtl the shift and scale that an MTL states, too (io/mesh/glb/texture_options.h).
 std::vector<std::string> applyTextureTransforms(SurfaceMesh& mesh, bool alsoOfMtl = false);
 
 /// Whether a material has a transform that applyTextureTransforms() takes away. O(materials).

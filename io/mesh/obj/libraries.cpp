@@ -10,9 +10,9 @@
 
 #include "io/file/file_bytes.h"
 #include "io/file/text_scan.h"
-#include "io/file/utf8.h"
 #include "io/mesh/files_beside.h"
 #include "io/mesh/obj/mtl.h"
+#include "io/text/utf8.h"
 
 namespace arete {
 namespace {

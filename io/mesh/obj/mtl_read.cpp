@@ -13,8 +13,8 @@
 
 #include "io/file/number_text.h"
 #include "io/file/text_scan.h"
-#include "io/file/utf8.h"
 #include "io/mesh/obj/mtl.h"
+#include "io/text/utf8.h"
 
 namespace arete {
 namespace {

@@ -15,8 +15,8 @@
 #include <utility>
 
 #include "io/file/text_scan.h"
+#include "io/mesh/glb/texture_options.h"
 #include "io/mesh/glb/writer/mtl_material.h"
-#include "io/mesh/texture_options.h"
 
 namespace arete {
 namespace {

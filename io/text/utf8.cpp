@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/file/utf8.h"
+#include "io/text/utf8.h"
 
 #include <algorithm>
 #include <cstddef>

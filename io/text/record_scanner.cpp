@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/file/record_scanner.h"
+#include "io/text/record_scanner.h"
 
 #include <algorithm>
 

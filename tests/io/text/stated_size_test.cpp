@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/file/stated_size.h"
+#include "io/text/stated_size.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/mesh/texture_options.h"
+#include "io/mesh/glb/texture_options.h"
 
 #include <algorithm>
 #include <cmath>

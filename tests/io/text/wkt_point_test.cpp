@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/file/wkt_point.h"
+#include "io/text/wkt_point.h"
 
 #include <gtest/gtest.h>
 

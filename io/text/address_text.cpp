@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/file/address_text.h"
+#include "io/text/address_text.h"
 
 #include <algorithm>
 #include <array>
