@@ -283,7 +283,7 @@ class Extraction {
     double leftByRounding = 0;  ///< errorLeftByRounding() where a tolerance is not kept
   };
 
-  /// Whether something is asked for that rounding may break; a budget alone asks for nothing.
+  /// Whether a tolerance is stated that rounding may break; a budget alone states none.
   bool isToleranceStated(const Request& request) const {
     const CriterionArguments::OfSurface& asked = arguments_.asked;
     return request.tolerance || asked.pixelError || (!asked.camera.empty() && asked.maxTriangles.empty());

@@ -79,7 +79,8 @@ struct CutRequest {
 void sayWhatRoundingLeft(const SurfaceModel& model, const CutRequest& request, const Criterion& criterion,
                          const Cut& cut, Tin& tin) {
   const SurfaceCriterion& c = request.criterion;
-  if (!c.maxError && !c.pixelError && (!c.camera || c.maxTriangles)) return;  // a budget asks for nothing
+  if (!c.maxError && !c.pixelError && (!c.camera || c.maxTriangles))
+    return;  // a budget alone states no tolerance
   const double left = errorLeftByRounding(model, criterion, cut);
   if (left == 0) return;
   tin.isComplete = false;

@@ -58,7 +58,7 @@ class NearTraversal {
   const CGAL::Bbox_3& box() const { return box_; }
   bool isFound() const { return isFound_; }
 
-  // What CGAL's traversal asks for.
+  // The interface of a traversal in CGAL.
   bool go_further() const { return !isFound_; }
   template <class Primitive>
   void intersection(const CGAL::Bbox_3&, const Primitive& primitive) {

@@ -18,7 +18,7 @@ struct OffBinaryBegin {
   std::size_t size = 0;  ///< of the line, with its end
 };
 
-/// Nothing: the file is none.
+/// Nothing where the file is not a binary OFF.
 std::optional<OffBinaryBegin> binaryOffBegin(std::string_view file);
 
 /// Reads Geomview's binary OFF: behind the first line whole numbers and floats of 32 bits, big-endian. The

@@ -15,6 +15,7 @@
 
 #include "io/amt/surface_file.h"
 #include "io/surface/criterion.h"
+#include "io/surface/distance_by_chart.h"
 #include "io/surface/fit_front.h"
 #include "surface/build/build.h"
 #include "surface/families.h"
@@ -102,7 +103,8 @@ TEST_F(RoundedSurfaces, StateNoLessThanIsTrueOfTheSourceFittedAndBothWays) {
         // Fits take long.
         if (bits != 8 || error < read.positionError || m.mesh.triangles.size() > 500) continue;
         const auto fit =
-            fitFront(front, finest, false, cut->achievedError, std::nullopt, {}, read.positionError);
+            fitFront(front, finest, chartsOfCut(read, frontOfPrefix(read.mt, read.mt.nodeCount()), *cut),
+                     false, cut->achievedError, std::nullopt, {}, read.positionError);
         ASSERT_TRUE(fit) << fit.error().describe();
         const TriangleMesh fitted = front.mesh.shape();
         EXPECT_GE(fit->distance + slack, farthestSample(m.mesh, fitted));
