@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "engine/base/caught_failure.h"
+#include "engine/base/counted.h"
 #include "engine/cut/front.h"
 #include "engine/cut/least_cut.h"
 #include "engine/cut/refine.h"
@@ -30,10 +31,11 @@ tl::unexpected<Error> interrupted() {
 Status checkCut(const MultiTriangulation& mt, const Criterion& criterion, CutMethod method,
                 std::optional<std::uint32_t> maxTriangles) try {
   if (maxTriangles && *maxTriangles < mt.rootTriangleCount())
-    return failure(ErrorCode::usage,
-                   fmt::format("{} triangles are fewer than the {} of the root, the coarsest there is",
-                               *maxTriangles, mt.rootTriangleCount()),
-                   "maxTriangles");
+    return failure(
+        ErrorCode::usage,
+        fmt::format("{} {} fewer than the {} of the root, the coarsest there is", *maxTriangles,
+                    agreeing(*maxTriangles, "triangle is", "triangles are"), mt.rootTriangleCount()),
+        "maxTriangles");
   if (method == CutMethod::saturated && criterion.bounded() == nullptr)
     return failure(
         ErrorCode::usage,

@@ -116,9 +116,9 @@ Result<WrittenMesh> writeAndReadBack(MeshRef mesh, const std::filesystem::path& 
   if (!file) return failure(file.error().code, file.error().message, path.string());
   if (file->mesh.triangles.size() != mesh.shape.triangles.size())
     return failure(ErrorCode::corrupt, "does not hold the triangles that were written to it", path.string());
-  if (const Status named = together.commit(); !named) return tl::unexpected(named.error());
-  if (mustPassOn)
-    if (const Status passed = passOn(written, path); !passed) return tl::unexpected(passed.error());
+  // What goes to a pipe gets no name: the group removes it.
+  if (const Status done = mustPassOn ? passOn(OutputGroup::placeOf(written), path) : together.commit(); !done)
+    return tl::unexpected(done.error());
   const double change = largestHeightChange(mesh.shape, file->mesh, onGrid);
   return WrittenMesh{.mesh = std::move(file->mesh),
                      .frame = std::move(file->frame),

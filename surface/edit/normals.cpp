@@ -58,14 +58,12 @@ class WedgesOfVertices {
 /// At most so many different directions of a vertex are compared.
 constexpr std::size_t kMostLeaders = 64;
 
-/// @return whether an element has changed.
-bool joinAt(Attribute& attribute, const WedgesOfVertices& wedges) {
+void joinAt(Attribute& attribute, const WedgesOfVertices& wedges) {
   struct Leader {
     Direction direction;
     std::uint32_t wedge;
   };
   std::vector<Leader> leaders;
-  bool hasChanged = false;
   std::uint32_t vertex = MeshAttributes::kNone;
   const std::size_t size = attribute.elementBytes();
   for (const auto& [v, w] : wedges.pairs()) {
@@ -78,13 +76,8 @@ bool joinAt(Attribute& attribute, const WedgesOfVertices& wedges) {
       if (leaders.size() < kMostLeaders) leaders.push_back({direction, w});
       continue;
     }
-    std::byte* const to = attribute.values.data() + w * size;
-    const std::byte* const from = attribute.values.data() + same->wedge * size;
-    if (std::memcmp(to, from, size) == 0) continue;
-    std::memcpy(to, from, size);
-    hasChanged = true;
+    std::memcpy(attribute.values.data() + w * size, attribute.values.data() + same->wedge * size, size);
   }
-  return hasChanged;
 }
 
 /// Whether some wedge is at several vertices: then what one vertex says of it is not for the others.
@@ -122,10 +115,9 @@ std::uint64_t joinAgreeingNormals(SurfaceMesh& mesh) {
   const std::uint32_t before = mesh.wedgeCount;
   if (sharesWedges(mesh)) moveToWedges(mesh);
   const WedgesOfVertices wedges(mesh);
-  bool hasChanged = false;
   for (Attribute& attribute : mesh.wedgeAttributes)
-    if (isDirection(attribute)) hasChanged = joinAt(attribute, wedges) || hasChanged;
-  if (hasChanged) moveToVertices(mesh);
+    if (isDirection(attribute)) joinAt(attribute, wedges);
+  moveToVertices(mesh);
   return mesh.wedgeCount < before ? before - mesh.wedgeCount : 0;
 }
 

@@ -62,7 +62,7 @@ SurfaceMesh everything(bool hasDoubles) {
   Attribute label{.name = "label", .type = ScalarType::int16, .components = 2};
   Attribute texcoord{.name = "texcoord", .meaning = AttributeMeaning::textureCoords, .components = 2};
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    label.append(std::vector<double>{double(t) - 100, 7});
+    label.append(std::vector<double>{double(t / 128) - 100, 7});  // lines between blocks
     mesh.wedges.push_back(mesh.triangles[t]);
     mesh.objectOf.push_back(t % 2 == 0 ? 0 : MeshAttributes::kNone);
     mesh.materialOf.push_back(mesh.positions[mesh.triangles[t][0]].x < 8 ? 0 : 1);

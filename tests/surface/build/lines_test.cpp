@@ -94,7 +94,7 @@ TEST(Lines, OfLabelsAloneCount) {
   // Numbers that are no labels make no lines, nor do equal ones.
   SurfaceMesh mesh = plateWithASquare(12, {.labels = true});
   Attribute heights{.name = "quality", .type = ScalarType::float32};
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) heights.append(std::array{double(t)});
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) heights.append(std::array{double(t) + 0.5});
   mesh.triangleAttributes = {heights};
   EXPECT_FALSE(built(mesh).boundsLines);
   Attribute equal{.name = "class", .type = ScalarType::int32};

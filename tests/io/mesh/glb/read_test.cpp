@@ -369,9 +369,9 @@ TEST(GlbRead, DoesNotMultiplyWithoutEnd) {
     EXPECT_EQ(refusal(folder.write("a.glb", many.glb())).code, ErrorCode::unsupported);
     Assembled zeros = oneTriangle();
     zeros.json["accessors"][0] = {{"componentType", 5126}, {"count", 4294967292U}, {"type", "VEC3"}};
-    EXPECT_EQ(refusal(folder.write("a.glb", zeros.glb())).code, ErrorCode::unsupported);
+    EXPECT_EQ(refusal(folder.write("a.glb", zeros.glb())).code, ErrorCode::invalidData);
     zeros.primitive()["mode"] = 5;
-    EXPECT_EQ(refusal(folder.write("a.glb", zeros.glb())).code, ErrorCode::unsupported);
+    EXPECT_EQ(refusal(folder.write("a.glb", zeros.glb())).code, ErrorCode::invalidData);
     // Sparse zeros.
     zeros.json["accessors"][0]["sparse"] = {{"count", 1},
                                             {"indices", {{"bufferView", 0}, {"componentType", 5125}}},
