@@ -38,7 +38,7 @@ std::string_view textOf(const Head& head, std::size_t begin, std::size_t count) 
   return {reinterpret_cast<const char*>(head.data()) + begin, count};
 }
 
-/// A number in a field of text, spaces before it; nothing if there is none.
+/// Parses a number in a field of text, after spaces. Empty where the field has no number.
 std::optional<std::uint64_t> numberIn(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
   std::uint64_t value = 0;

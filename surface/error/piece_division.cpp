@@ -14,6 +14,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace arete {
 namespace {
@@ -28,6 +29,22 @@ constexpr std::size_t kMostApart = 24;
 Vec3 unitOrZero(const Vec3& a) {
   const double length = norm(a);
   return length > 0 ? a / length : a;
+}
+
+/// Fills `heights` with those of the corners over a plane, whose normal need not have length 1.
+/// @return the least and the greatest of them and 0
+template <class Plane>
+std::pair<double, double> heightsOver(const Plane& plane, std::span<const FacePoint> polygon,
+                                      const SpaceTriangle& face, std::vector<double>& heights) {
+  heights.clear();
+  double low = 0, high = 0;
+  for (const FacePoint& p : polygon) {
+    const double height = dot(plane.normal, placeOf(p, face) - plane.point);
+    heights.push_back(height);
+    low = std::min(low, height);
+    high = std::max(high, height);
+  }
+  return {low, high};
 }
 
 }  // namespace
@@ -171,14 +188,7 @@ void PieceDivision::cutAlong(int node, std::size_t depth, const SpaceTriangle& f
   }
   const Cut plane = tree_[static_cast<std::size_t>(node)];
   Halves& halves = halves_[depth];
-  halves.heights.clear();
-  double low = 0, high = 0;
-  for (const FacePoint& p : polygon) {
-    const double height = dot(plane.normal, placeOf(p, face) - plane.point);
-    halves.heights.push_back(height);
-    low = std::min(low, height);
-    high = std::max(high, height);
-  }
+  const auto [low, high] = heightsOver(plane, polygon, face, halves.heights);
   if (low < 0 && high > 0) {
     cut(polygon, halves.heights, halves.below, halves.above);
     if (!halves.below.empty()) cutAlong(plane.below, depth + 1, face, halves.below, cuts + 1);
@@ -202,14 +212,7 @@ void PieceDivision::cutFurther(std::size_t at, const SpaceTriangle& face, double
   Halves& halves = halves_[0];
   for (const Cut& plane : tree_) {
     const FacePolygon& polygon = leaves_[at].polygon;
-    halves.heights.clear();
-    double low = 0, high = 0;
-    for (const FacePoint& p : polygon) {
-      const double height = dot(plane.normal, placeOf(p, face) - plane.point);
-      halves.heights.push_back(height);
-      low = std::min(low, height);
-      high = std::max(high, height);
-    }
+    const auto [low, high] = heightsOver(plane, polygon, face, halves.heights);
     if (!(low < 0 && high > 0)) continue;
     cut(polygon, halves.heights, halves.below, halves.above);
     if (halves.below.empty() || halves.above.empty()) continue;

@@ -12,7 +12,7 @@ AUTHORITIES = ("EPSG:", "ESRI:", "OGC:", "IAU", "IGNF:")  # whose numbers PROJ k
 def words_of(layer, band=None):
     """The path and the options of a raster layer. A layer with options of its own is named by a VRT, which holds them."""
     if layer is None or not layer.isValid() or layer.dataProvider().name() != "gdal":
-        raise QgsProcessingException("the DEM is no raster that GDAL reads")
+        raise QgsProcessingException("GDAL cannot read the DEM as a raster")
     words = [_path_of(layer)]
     if band and band != 1:
         words += ["--band", band]

@@ -35,7 +35,7 @@ struct Option {
   std::vector<std::string_view> values;
 };
 
-/// A word is an option if it begins with a minus and is no number.
+/// A word is an option if it begins with a minus and does not parse as a number.
 std::vector<Option> optionsOf(std::string_view text) {
   std::vector<Option> options;
   for (const std::string_view word : wordsOf(text)) {
