@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The handler calls only what a signal handler may: stat(), write(), unlink(), _exit(), pause().
+//
+// Parts of GDAL and of what it uses do not look whether an allocation has failed, and use the null pointer.
+// The system leaves ENOMEM in errno, which nothing that succeeds resets: so such a fault is told from a bug.
 #include "cli/session/faults.h"
 
 #include <fcntl.h>
@@ -8,9 +11,12 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
+#include <cstdint>
 #include <cstring>
 
 #include "cli/session/exit_code.h"
+#include "cli/session/memory_end.h"
 #include "io/file/temporary_files.h"
 #include "io/file/watched_files.h"
 
@@ -29,7 +35,16 @@ void writeError(const char* text, std::size_t size) {
   }
 }
 
-extern "C" void onFault(int signal, siginfo_t*, void*) {
+/// Whether a fault is the use of a member or an element of what could not be allocated.
+bool isUseOfNothing(int signal, const siginfo_t* about, int error) {
+  constexpr std::uintptr_t kFirstPages = 65536;
+  return signal == SIGSEGV && about->si_code > 0 &&
+         reinterpret_cast<std::uintptr_t>(about->si_addr) < kFirstPages &&
+         (error == ENOMEM || isMemoryShort());
+}
+
+extern "C" void onFault(int signal, siginfo_t* about, void*) {
+  const int error = errno;
   if (const char* const name = changedInputFile()) {
     // Several threads may meet the change at once: one tells of it and ends them all.
     if (gIsEnding.test_and_set())
@@ -44,6 +59,7 @@ extern "C" void onFault(int signal, siginfo_t*, void*) {
     removeNotedFiles();
     ::_exit(static_cast<int>(ExitCode::file));
   }
+  if (isUseOfNothing(signal, about, error)) endForLackOfMemory();
   removeNotedFiles();
   // The instruction runs again on return, and meets what was there before this.
   ::sigaction(signal, signal == SIGBUS ? &gBusBefore : &gSegvBefore, nullptr);

@@ -24,16 +24,6 @@ std::atomic<bool> gWasShort = false;
 std::atomic_flag gMemoryEnds;
 std::terminate_handler gTerminateBefore = nullptr;
 
-[[noreturn]] void endForLackOfMemory() {
-  // Several threads may come here at once: one ends them all.
-  if (gMemoryEnds.test_and_set())
-    for (;;) ::pause();
-  constexpr char kSentence[] = "arete: there is not enough memory for this\n";
-  [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, kSentence, sizeof kSentence - 1);
-  removeNotedFiles();
-  ::_exit(static_cast<int>(ExitCode::internal));
-}
-
 void noteShortage() {
   gWasShort = true;
   throw std::bad_alloc();
@@ -59,6 +49,20 @@ void onFatalGdalError(const char* message) {
 }
 
 }  // namespace
+
+bool isMemoryShort() noexcept {
+  return gWasShort;
+}
+
+void endForLackOfMemory() noexcept {
+  // Several threads may come here at once: one ends them all.
+  if (gMemoryEnds.test_and_set())
+    for (;;) ::pause();
+  constexpr char kSentence[] = "arete: there is not enough memory for this\n";
+  [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, kSentence, sizeof kSentence - 1);
+  removeNotedFiles();
+  ::_exit(static_cast<int>(ExitCode::internal));
+}
 
 void prepareForLackOfMemory() {
   std::set_new_handler(noteShortage);

@@ -9,6 +9,12 @@ namespace arete {
 /// GDAL. Such a run ends with a sentence, without its temporary files, and with ExitCode::internal.
 void prepareForLackOfMemory();
 
+/// Whether an allocation of C++ has failed.
+bool isMemoryShort() noexcept;
+
+/// Ends the process as prepareForLackOfMemory() says. Both may be called by a signal handler.
+[[noreturn]] void endForLackOfMemory() noexcept;
+
 /// Ends the process. After an allocation has failed nothing else of it runs: libraries that lack what they
 /// allocate crash when they tidy up at exit.
 ///

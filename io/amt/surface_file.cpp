@@ -301,7 +301,9 @@ class Reading {
   Status takeLooks() {
     const auto text = all_.elements<char>(amt_tag::kLooks);
     std::vector<std::uint64_t> pictureBytes;
-    if (const Status read = fromLooksJson({text.data(), text.size()}, model_, pictureBytes); !read)
+    if (const Status read = fromLooksJson({text.data(), text.size()}, all_.find(amt_tag::kAttributes)->bytes,
+                                          model_, pictureBytes);
+        !read)
       return all_.corrupt(read.error().message);
     if (model_.hasFaceAttributes() != metadata_.hasAllFaces)
       return all_.corrupt("has faces with attributes and no numbers of them, or the other way");

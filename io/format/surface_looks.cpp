@@ -137,7 +137,8 @@ std::string toLooksJson(const SurfaceModel& model) {
   return looks.dump(1) + "\n";
 }
 
-Status fromLooksJson(std::string_view text, SurfaceModel& model, std::vector<std::uint64_t>& pictureBytes) {
+Status fromLooksJson(std::string_view text, std::uint64_t attributeBytes, SurfaceModel& model,
+                     std::vector<std::uint64_t>& pictureBytes) {
   const Json looks = Json::parse(text, nullptr, false);
   if (!looks.is_object()) return failure(ErrorCode::corrupt, "chunk LOOK is not a JSON object");
   std::string problem;
@@ -158,7 +159,12 @@ Status fromLooksJson(std::string_view text, SurfaceModel& model, std::vector<std
   for (const auto& [key, list] : faceLists(a)) {
     bool has = false;
     top.flag(key, has);
-    if (has) list->resize(model.sourceFaces);
+    if (!has) continue;
+    // The number of faces is only stated; that of the values is how many there are.
+    if (model.sourceFaces > attributeBytes / sizeof(std::uint32_t))
+      return failure(ErrorCode::corrupt, fmt::format("chunk ATTR has {} bytes, too few for {} of {} faces",
+                                                     attributeBytes, key, model.sourceFaces));
+    list->resize(model.sourceFaces);
   }
   readRow(looks, "materials", problem, [&](json_fields::Reader& r, const Json& object) {
     Material& material = a.materials.emplace_back();

@@ -120,6 +120,18 @@ std::optional<std::string> findSurfaceProblem(const SurfaceMetadata& m) {
   constexpr std::uint64_t kMost = 0xFFFFFFFE;
   if (m.wedges > kMost || m.model.sourceVertices > kMost || m.model.sourceFaces > kMost)
     return "wedges, vertices or faces are more than 32-bit numbers can name";
+  // Sums and differences of these do not wrap around, so that no law holds by overflow.
+  const SurfaceMending& mending = m.model.mending;
+  for (const auto& [what, count] :
+       {std::pair{"fileFaces", m.model.fileFaces}, std::pair{"duplicateFaces", mending.duplicateFaces},
+        std::pair{"degenerateFaces", mending.degenerateFaces}, std::pair{"splitFaces", mending.splitFaces},
+        std::pair{"joinedVertices", mending.joinedVertices}, std::pair{"turnedFaces", mending.turnedFaces},
+        std::pair{"addedVertices", mending.addedVertices},
+        std::pair{"unusedVertices", mending.unusedVertices}})
+    if (count > kMost) return fmt::format("{} is {}, more than 32-bit numbers can name", what, count);
+  // Each wedge is that of a corner.
+  if (const std::uint64_t corners = 3 * (m.counts.rootTriangles + m.counts.slots); m.wedges > corners)
+    return fmt::format("{} wedges are more than the {} corners of the triangles", m.wedges, corners);
   if (m.finestTriangles > m.counts.rootTriangles + m.counts.slots)
     return "the finest front has more triangles than there are";
   const Vec3 &o = m.metric.origin, &s = m.metric.scale;

@@ -41,8 +41,10 @@ std::vector<AmtShape> surfaceShapes(const SurfaceMetadata& metadata);
 /// pictures, as JSON. The values are in chunks of their own.
 std::string toLooksJson(const SurfaceModel& model);
 /// Reads it into model.attributes, without values. Errors: corrupt.
+/// @param attributeBytes the size of the values, which memory for them is held against.
 /// @param pictureBytes receives the sizes of the pictures.
-Status fromLooksJson(std::string_view text, SurfaceModel& model, std::vector<std::uint64_t>& pictureBytes);
+Status fromLooksJson(std::string_view text, std::uint64_t attributeBytes, SurfaceModel& model,
+                     std::vector<std::uint64_t>& pictureBytes);
 
 /// The values of all attributes one after the other, then the objects, groups, materials and file's faces of
 /// the faces, as far as there are.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/base/nearest_on_triangle.h"
+#include "engine/memory/required_memory.h"
 
 namespace arete {
 namespace {
@@ -22,6 +23,7 @@ std::vector<std::uint32_t> facesOf(const SurfaceModel& model, const Cut& cut) {
   const MultiTriangulation& mt = model.mt;
   std::vector<std::uint32_t> numberOf(mt.triangleIdCount(), kNone);
   for (std::uint32_t i = 0; i < cut.ids.size(); ++i) numberOf[cut.ids[i]] = i;
+  requireMemory(model.sourceFaces * sizeof(std::uint32_t));
   std::vector<std::uint32_t> found(model.sourceFaces, kNone);
   for (std::uint32_t finest = 0; finest < mt.triangleIdCount(); ++finest) {
     if (mt.remover(TriangleId(finest)).isValid()) continue;

@@ -13,6 +13,7 @@ namespace arete {
 /// that the build left out has that of the face in which it lies; kNone if it touches none (leftOutFaces).
 /// From the finest triangle a face climbs, where a node of the cut's complement put it, to the nearest
 /// triangle of what the node replaced. O(faces * depth).
+/// @throw std::bad_alloc where the source's faces, which are only stated, are more than the memory holds.
 std::vector<std::uint32_t> facesOf(const SurfaceModel& model, const Cut& cut);
 
 }  // namespace arete

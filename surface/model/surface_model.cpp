@@ -15,6 +15,26 @@ Status refuse(const std::string& what) {
   return failure(ErrorCode::invalidData, what);
 }
 
+/// A wrong one would take the place of a right one where faces are asked for.
+Status checkLeftOutFaces(const SurfaceModel& model) {
+  if (model.leftOutFaces.empty()) return {};
+  std::vector<std::uint32_t> finest;
+  for (std::uint32_t t = 0; t < model.mt.triangleIdCount(); ++t)
+    if (!model.mt.remover(TriangleId(t)).isValid()) finest.push_back(model.faceOf[t]);
+  std::ranges::sort(finest);
+  const auto isThere = [&](std::uint32_t face) { return std::ranges::binary_search(finest, face); };
+  std::uint64_t next = 0;
+  for (const auto& [face, in] : model.leftOutFaces) {
+    if (face >= model.sourceFaces || in >= model.sourceFaces)
+      return refuse("a face that was left out lies in one that the source does not have");
+    if (face < next) return refuse("the faces that were left out are not in the order of their numbers");
+    if (isThere(face)) return refuse(fmt::format("face {} is left out and is there", face));
+    if (!isThere(in)) return refuse(fmt::format("face {} lies in face {}, which is not there", face, in));
+    next = std::uint64_t{face} + 1;
+  }
+  return {};
+}
+
 }  // namespace
 
 bool SurfaceModel::mayHaveLines() const {
@@ -53,9 +73,7 @@ Status SurfaceModel::validate() const {
     return refuse("a vertex has a number that the source does not have");
   if (std::ranges::any_of(faceOf, [&](std::uint32_t f) { return f >= sourceFaces; }))
     return refuse("a triangle has a face that the source does not have");
-  for (const auto& [face, in] : leftOutFaces)
-    if (face >= sourceFaces || in >= sourceFaces)
-      return refuse("a face that was left out lies in one that the source does not have");
+  if (const Status left = checkLeftOutFaces(*this); !left) return left;
   for (const auto& wedges : wedgesOf)
     for (const std::uint32_t w : wedges)
       if (w >= a.wedgeCount) return refuse(fmt::format("a corner has wedge {} of {}", w, a.wedgeCount));

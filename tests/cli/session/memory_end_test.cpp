@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One allocation of a run fails, each in turn: the run answers as ever, or ends with a sentence.
+#include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <string>
 #include <tuple>
 
 #include "cli/mesh_fixture.h"
+#include "cli/session/faults.h"
+#include "cli/session/memory_end.h"
 
 namespace arete::cli_test {
 namespace {
@@ -56,6 +60,23 @@ TEST_F(MemoryEnd, IsASentenceWhereverTheAllocationFails) {
     }
   }
   EXPECT_GT(failed, 5);
+}
+
+/// As a library that does not look whether it got what it wanted to allocate.
+void useNothing(int error) {
+  prepareForLackOfMemory();
+  prepareForFaults();
+  volatile int* volatile nothing = nullptr;
+  errno = error;
+  nothing[3] = 1;
+}
+
+TEST(MemoryEndDeathTest, IsASentenceWhereALibraryUsesWhatItCouldNotAllocate) {
+#ifdef ARETE_SANITIZED
+  GTEST_SKIP() << "a sanitizer has handlers of its own";
+#endif
+  EXPECT_EXIT(useNothing(ENOMEM), ::testing::ExitedWithCode(1), "arete: there is not enough memory for this");
+  EXPECT_EXIT(useNothing(0), ::testing::KilledBySignal(SIGSEGV), "");
 }
 
 }  // namespace

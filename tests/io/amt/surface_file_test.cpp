@@ -15,6 +15,7 @@
 #include "engine/base/vec.h"
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
+#include "io/amt_fixture.h"
 #include "surface/build/build.h"
 #include "surface/displacement/find_displacement.h"
 #include "surface/families.h"
@@ -106,7 +107,14 @@ void expectEqual(const SurfaceModel& a, const SurfaceModel& b) {
   EXPECT_EQ(a.options, b.options);
   EXPECT_EQ(a.sourceVertices, b.sourceVertices);
   EXPECT_EQ(a.sourceFaces, b.sourceFaces);
+  EXPECT_EQ(a.fileFaces, b.fileFaces);
+  EXPECT_EQ(a.leftOutFaces, b.leftOutFaces);
+  EXPECT_EQ(a.positionError, b.positionError);
+  EXPECT_EQ(a.boundsLines, b.boundsLines);
+  EXPECT_EQ(a.levels, b.levels);
   EXPECT_EQ(a.source, b.source);
+  EXPECT_EQ(a.sourceChecksum, b.sourceChecksum);
+  EXPECT_EQ(a.verticalUnit, b.verticalUnit);
   EXPECT_EQ(a.crsWkt, b.crsWkt);
   EXPECT_EQ(a.up, b.up);
 }
@@ -118,6 +126,9 @@ TEST_F(SurfaceAmt, GivesBackEveryBitOfAModel) {
       Result<SurfaceModel> model = isPlain ? buildSurface(mesh) : displaced(mesh);
       ASSERT_TRUE(model) << model.error().message;
       model->source = "a scan.ply";
+      model->sourceChecksum = "xxh3-128:01";
+      model->verticalUnit = "ft";
+      model->fileFaces = model->sourceFaces / 2;
       model->up = "y";
       ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model));
       EXPECT_TRUE(*isSurfaceAmt(path("a.amt")));
@@ -250,6 +261,94 @@ TEST_F(SurfaceAmt, RoundedKeepsEveryLawAndSaysHowFarItsVerticesMoved) {
       EXPECT_EQ(contentOf(path("a.amt")), contentOf(path("b.amt")));
     }
   }
+}
+
+/// Every fiftieth face twice, and as many faces without area.
+SurfaceMesh withLeftOutFaces() {
+  SurfaceMesh mesh(shapes::hills(16, 4));
+  const std::vector<std::array<std::uint32_t, 3>> faces = mesh.triangles;
+  for (std::size_t f = 0; f < faces.size(); f += 50) {
+    mesh.triangles.push_back(faces[f]);
+    mesh.triangles.push_back({faces[f][0], faces[f][0], faces[f][1]});
+  }
+  return mesh;
+}
+
+TEST_F(SurfaceAmt, KeepsTheFacesThatWereLeftOutPlainAndPacked) {
+  Result<SurfaceModel> model = buildSurface(withLeftOutFaces());
+  ASSERT_TRUE(model) << model.error().message;
+  ASSERT_EQ(model->leftOutFaces.size(), model->mending.duplicateFaces + model->mending.degenerateFaces);
+  ASSERT_GT(model->leftOutFaces.size(), 10u);
+  model->fileFaces = 77;
+  for (const SurfaceWriteOptions& options : {SurfaceWriteOptions{}, SurfaceWriteOptions{.isPacked = true},
+                                             SurfaceWriteOptions{.isPacked = true, .positionBits = 12}}) {
+    ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model, {}, options));
+    EXPECT_NE(contentOf(path("a.amt")).find("LEFT"), std::string::npos);
+    const Result<SurfaceModel> read = loadSurfaceAmt(path("a.amt"));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->leftOutFaces, model->leftOutFaces);
+    EXPECT_EQ(read->fileFaces, 77u);
+    EXPECT_EQ(read->mending, model->mending);
+    EXPECT_TRUE(validateSurface(*read));
+    ASSERT_TRUE(writeSurfaceAmt(path("b.amt"), *read, {}, options));
+    EXPECT_EQ(contentOf(path("a.amt")), contentOf(path("b.amt")));
+  }
+  model->leftOutFaces.clear();
+  ASSERT_TRUE(writeSurfaceAmt(path("c.amt"), *model));
+  EXPECT_EQ(contentOf(path("c.amt")).find("LEFT"), std::string::npos);
+  EXPECT_TRUE(loadSurfaceAmt(path("c.amt"))->leftOutFaces.empty());
+}
+
+TEST_F(SurfaceAmt, IsRefusedWhereFacesThatWereLeftOutAreThereOrLieNowhere) {
+  const Result<SurfaceModel> model = buildSurface(withLeftOutFaces());
+  ASSERT_TRUE(model) << model.error().message;
+  const auto sourceFaces = static_cast<std::uint32_t>(model->sourceFaces);
+  const std::uint32_t out = model->leftOutFaces[3].face, in = model->leftOutFaces[3].in;
+  using Left = SurfaceModel::LeftOutFace;
+  const std::pair<const char*, std::vector<Left>> wrong[] = {
+      {"lies in one that the source does not have", {{sourceFaces, in}}},
+      {"lies in one that the source does not have", {{out, 0xFFFFFFFF}}},
+      {"are not in the order of their numbers", {{out, in}, {out, in}}},
+      {"are not in the order of their numbers", {{model->leftOutFaces[4].face, in}, {out, in}}},
+      {"face 0 is left out and is there", {{0, in}}},
+      {"which is not there", {{out, model->leftOutFaces[4].face}}},
+  };
+  for (const auto& [sentence, faces] : wrong) {
+    SurfaceModel changed = *model;
+    changed.leftOutFaces = faces;
+    const Status valid = changed.validate();
+    ASSERT_FALSE(valid) << sentence;
+    EXPECT_NE(valid.error().message.find(sentence), std::string::npos) << valid.error().message;
+    // What cannot be written can still lie in a file.
+    changed.leftOutFaces = {model->leftOutFaces.begin(),
+                            model->leftOutFaces.begin() + std::ptrdiff_t(faces.size())};
+    ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), changed));
+    test::AmtBytes bytes = test::AmtBytes::of(path("a.amt"));
+    std::ranges::copy(faces, bytes.array<Left>(amt_tag::kLeftOutFaces).begin());
+    bytes.seal();
+    bytes.save(path("a.amt"));
+    const Result<SurfaceModel> read = loadSurfaceAmt(path("a.amt"));
+    ASSERT_FALSE(read) << sentence;
+    EXPECT_EQ(read.error().code, ErrorCode::corrupt);
+    EXPECT_NE(read.error().message.find(sentence), std::string::npos) << read.error().message;
+  }
+}
+
+TEST_F(SurfaceAmt, IsRefusedWhereItStatesFacesThatNothingInItCanHold) {
+  const Result<SurfaceModel> model = buildSurface(everything(false));
+  ASSERT_TRUE(model);
+  ASSERT_TRUE(writeSurfaceAmt(path("a.amt"), *model));
+  test::AmtBytes bytes = test::AmtBytes::of(path("a.amt"));
+  const std::string text = bytes.metadata();
+  const std::size_t at = text.find("\"sourceVertices\""), end = text.find('}', at);
+  bytes.replaceInMetadata(text.substr(at, end - at), "\"sourceVertices\":999,\"sourceFaces\":4294967294");
+  bytes.seal();
+  bytes.save(path("a.amt"));
+  const Result<SurfaceModel> read = loadSurfaceAmt(path("a.amt"));
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, ErrorCode::corrupt);
+  EXPECT_NE(read.error().message.find("too few for hasObjects of 4294967294 faces"), std::string::npos)
+      << read.error().message;
 }
 
 TEST_F(SurfaceAmt, IsRefusedWhereTerrainIsWantedAndTheOtherWay) {
