@@ -2,8 +2,9 @@
 //
 // The handler calls only what a signal handler may: stat(), write(), unlink(), _exit(), pause().
 //
-// Parts of GDAL and of what it uses do not look whether an allocation has failed, and use the null pointer.
-// The system leaves ENOMEM in errno, which nothing that succeeds resets: so such a fault is told from a bug.
+// Parts of GDAL and of what it uses do not look whether an allocation has failed, and use the null pointer,
+// or call abort(). The system leaves ENOMEM in errno, which nothing that succeeds resets: so such a fault is
+// told from a bug.
 #include "cli/session/faults.h"
 
 #include <fcntl.h>
@@ -23,7 +24,7 @@
 namespace arete {
 namespace {
 
-struct sigaction gBusBefore, gSegvBefore;
+struct sigaction gBusBefore, gSegvBefore, gAbortBefore;
 std::atomic_flag gIsEnding;
 
 void writeError(const char* text, std::size_t size) {
@@ -35,17 +36,19 @@ void writeError(const char* text, std::size_t size) {
   }
 }
 
-/// Whether a fault is the use of a member or an element of what could not be allocated.
-bool isUseOfNothing(int signal, const siginfo_t* about, int error) {
+/// Whether a fault is the use of a member or an element of what could not be allocated, or the end that a
+/// library chose instead.
+bool isLackOfMemory(int signal, const siginfo_t* about, int error) {
+  if (error != ENOMEM && !isMemoryShort()) return false;
+  if (signal == SIGABRT) return about->si_pid == ::getpid();
   constexpr std::uintptr_t kFirstPages = 65536;
   return signal == SIGSEGV && about->si_code > 0 &&
-         reinterpret_cast<std::uintptr_t>(about->si_addr) < kFirstPages &&
-         (error == ENOMEM || isMemoryShort());
+         reinterpret_cast<std::uintptr_t>(about->si_addr) < kFirstPages;
 }
 
 extern "C" void onFault(int signal, siginfo_t* about, void*) {
   const int error = errno;
-  if (const char* const name = changedInputFile()) {
+  if (const char* const name = signal == SIGABRT ? nullptr : changedInputFile()) {
     // Several threads may meet the change at once: one tells of it and ends them all.
     if (gIsEnding.test_and_set())
       for (;;) ::pause();
@@ -59,10 +62,15 @@ extern "C" void onFault(int signal, siginfo_t* about, void*) {
     removeNotedFiles();
     ::_exit(static_cast<int>(ExitCode::file));
   }
-  if (isUseOfNothing(signal, about, error)) endForLackOfMemory();
+  if (isLackOfMemory(signal, about, error)) endForLackOfMemory();
   removeNotedFiles();
-  // The instruction runs again on return, and meets what was there before this.
-  ::sigaction(signal, signal == SIGBUS ? &gBusBefore : &gSegvBefore, nullptr);
+  // The instruction runs again on return, and meets what was there before this; abort() raises its signal
+  // again.
+  ::sigaction(signal,
+              signal == SIGBUS    ? &gBusBefore
+              : signal == SIGABRT ? &gAbortBefore
+                                  : &gSegvBefore,
+              nullptr);
 }
 
 void openClosed(int descriptor, int flags) {
@@ -83,6 +91,7 @@ void prepareForFaults() {
   sigemptyset(&action.sa_mask);
   ::sigaction(SIGBUS, &action, &gBusBefore);
   ::sigaction(SIGSEGV, &action, &gSegvBefore);
+  ::sigaction(SIGABRT, &action, &gAbortBefore);
   ::signal(SIGXFSZ, SIG_IGN);
   watchInputFiles();
 }

@@ -9,6 +9,7 @@
 #include <cpl_error.h>
 #include <cpl_vsi.h>
 #include <dlfcn.h>
+#include <execinfo.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -64,6 +65,10 @@ void silenceHdf5() {
 void registerGdal() {
   static std::once_flag once;
   std::call_once(once, [] {
+    // What leaves this by an exception passes through C, for which the system loads what it needs to unwind:
+    // without memory it would end the process.
+    void* here = nullptr;
+    ::backtrace(&here, 1);
     const GdalErrors quiet;  // of a damaged plugin
     GDALAllRegister();
     installNetworkFiles();

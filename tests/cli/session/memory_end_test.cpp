@@ -71,12 +71,22 @@ void useNothing(int error) {
   nothing[3] = 1;
 }
 
+/// As a library that calls abort() instead.
+void giveUp(int error) {
+  prepareForLackOfMemory();
+  prepareForFaults();
+  errno = error;
+  std::abort();
+}
+
 TEST(MemoryEndDeathTest, IsASentenceWhereALibraryUsesWhatItCouldNotAllocate) {
 #ifdef ARETE_SANITIZED
   GTEST_SKIP() << "a sanitizer has handlers of its own";
 #endif
   EXPECT_EXIT(useNothing(ENOMEM), ::testing::ExitedWithCode(1), "arete: there is not enough memory for this");
   EXPECT_EXIT(useNothing(0), ::testing::KilledBySignal(SIGSEGV), "");
+  EXPECT_EXIT(giveUp(ENOMEM), ::testing::ExitedWithCode(1), "arete: there is not enough memory for this");
+  EXPECT_EXIT(giveUp(0), ::testing::KilledBySignal(SIGABRT), "");
 }
 
 }  // namespace
