@@ -19,6 +19,16 @@ tl::unexpected<Error> outOfMemory(std::string_view culprit) noexcept {
   }
 }
 
+tl::unexpected<Error> noThread(std::string_view culprit) noexcept {
+  try {
+    return failure(ErrorCode::outOfMemory,
+                   "no thread can be started: memory or the number of threads is limited",
+                   std::string(culprit));
+  } catch (...) {
+    return outOfMemory(culprit);
+  }
+}
+
 }  // namespace
 
 tl::unexpected<Error> caughtFailure(std::string_view culprit) noexcept {
@@ -29,6 +39,9 @@ tl::unexpected<Error> caughtFailure(std::string_view culprit) noexcept {
   } catch (const std::length_error&) {
     return outOfMemory(culprit);
   } catch (const std::exception& error) {
+    // A thread that cannot be started is an exception of std::thread or of TBB.
+    if (std::string_view(error.what()).find("Resource temporarily unavailable") != std::string_view::npos)
+      return noThread(culprit);
     try {
       return failure(ErrorCode::internal, error.what(), std::string(culprit));
     } catch (...) {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "engine/base/vec.h"
+#include "io/text/json_tree.h"
 
 namespace arete::json_fields {
 
@@ -219,8 +220,8 @@ class Reader {
     if (!object_[key].is_array()) return fail(key, "is not an array of texts");
     for (const Json& element : object_[key]) {
       // Each is read as a field of its own, so that the forms of a text are known in one place.
-      const Json single = {{key, element}};
-      Reader(single, prefix_, problem_).field(key, texts.emplace_back());
+      const JsonTree<Json> single(Json{{key, element}});
+      Reader(*single, prefix_, problem_).field(key, texts.emplace_back());
     }
   }
   void flag(const char* key, bool& isSet) {

@@ -18,6 +18,7 @@
 #include "engine/mt/node_blocks.h"
 #include "io/format/json_fields.h"
 #include "io/text/address_text.h"
+#include "io/text/json_tree.h"
 #include "terrain/build/checks.h"
 
 namespace arete {
@@ -232,21 +233,21 @@ std::optional<std::string> findAmtProblem(const AmtMetadata& m) {
 }
 
 std::string toAmtJson(const AmtMetadata& metadata) {
-  nlohmann::ordered_json object = nlohmann::ordered_json::object();
-  json_fields::Writer writer(object);
+  JsonTree object(nlohmann::ordered_json::object());
+  json_fields::Writer writer(*object);
   const std::optional<double> nodata = metadata.model.reading.nodata;
   const Stored stored{metadata.scale.base(), metadata.model.options.thresholdRatioOrDefault(),
                       nodata && !std::isfinite(*nodata) ? fmt::format("{}", *nodata) : ""};
   visitMetadata(writer, metadata, stored);
-  return object.dump(1) + "\n";
+  return (*object).dump(1) + "\n";
 }
 
 Result<AmtMetadata> fromAmtJson(std::string_view text) {
-  const nlohmann::json object = nlohmann::json::parse(text, nullptr, false);
-  if (!object.is_object()) return failure(ErrorCode::corrupt, "the metadata is not a JSON object");
+  const JsonTree object(nlohmann::json::parse(text, nullptr, false));
+  if (!(*object).is_object()) return failure(ErrorCode::corrupt, "the metadata is not a JSON object");
   AmtMetadata m;
   std::string problem;
-  json_fields::Reader reader(object, problem);
+  json_fields::Reader reader(*object, problem);
   Stored stored;
   visitMetadata(reader, m, stored);
   m.model.source = nameWithoutQuery(m.model.source);  // older files may have one

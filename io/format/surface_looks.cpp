@@ -13,6 +13,7 @@
 
 #include "io/format/json_fields.h"
 #include "io/format/surface_metadata.h"
+#include "io/text/json_tree.h"
 
 namespace arete {
 namespace {
@@ -104,7 +105,8 @@ void readRow(const Json& object, const char* key, std::string& problem, const Re
 
 std::string toLooksJson(const SurfaceModel& model) {
   const MeshAttributes& a = model.attributes;
-  nlohmann::ordered_json looks = nlohmann::ordered_json::object();
+  JsonTree tree(nlohmann::ordered_json::object());
+  nlohmann::ordered_json& looks = *tree;
   json_fields::Writer top(looks);
   for (const auto& [key, attributes] : attributeLists(a))
     for (const Attribute& attribute : *attributes)
@@ -139,7 +141,8 @@ std::string toLooksJson(const SurfaceModel& model) {
 
 Status fromLooksJson(std::string_view text, std::uint64_t attributeBytes, SurfaceModel& model,
                      std::vector<std::uint64_t>& pictureBytes) {
-  const Json looks = Json::parse(text, nullptr, false);
+  const JsonTree tree(Json::parse(text, nullptr, false));
+  const Json& looks = *tree;
   if (!looks.is_object()) return failure(ErrorCode::corrupt, "chunk LOOK is not a JSON object");
   std::string problem;
   MeshAttributes& a = model.attributes;

@@ -11,6 +11,7 @@
 #include "engine/mt/hole_limit.h"
 #include "io/format/json_fields.h"
 #include "io/text/address_text.h"
+#include "io/text/json_tree.h"
 
 namespace arete {
 namespace {
@@ -152,21 +153,21 @@ std::optional<std::string> findSurfaceProblem(const SurfaceMetadata& m) {
 }
 
 std::string toSurfaceJson(const SurfaceMetadata& metadata) {
-  nlohmann::ordered_json object = nlohmann::ordered_json::object();
-  json_fields::Writer writer(object);
+  JsonTree object(nlohmann::ordered_json::object());
+  json_fields::Writer writer(*object);
   const SurfaceModel& model = metadata.model;
   const Stored stored{metadata.scale.base(), unlessZero(metadata.positionStep),
                       unlessZero(model.positionError), model.fileFaces, model.mending.splitFaces};
   visitMetadata(writer, metadata, stored);
-  return object.dump(1) + "\n";
+  return (*object).dump(1) + "\n";
 }
 
 Result<SurfaceMetadata> fromSurfaceJson(std::string_view text) {
-  const nlohmann::json object = nlohmann::json::parse(text, nullptr, false);
-  if (!object.is_object()) return failure(ErrorCode::corrupt, "the metadata is not a JSON object");
+  const JsonTree object(nlohmann::json::parse(text, nullptr, false));
+  if (!(*object).is_object()) return failure(ErrorCode::corrupt, "the metadata is not a JSON object");
   SurfaceMetadata m;
   std::string problem;
-  json_fields::Reader reader(object, problem);
+  json_fields::Reader reader(*object, problem);
   Stored stored;
   visitMetadata(reader, m, stored);
   m.scale = OutwardScale::fromBase(stored.scaleBase);
