@@ -3,8 +3,8 @@
 // The handler calls only what a signal handler may: stat(), write(), unlink(), _exit(), pause().
 //
 // Parts of GDAL and of what it uses do not look whether an allocation has failed, and use the null pointer,
-// or call abort(). The system leaves ENOMEM in errno, which nothing that succeeds resets: so such a fault is
-// told from a bug.
+// or call abort(). The system leaves ENOMEM in errno, which nothing that succeeds resets: that tells such a
+// fault from a bug.
 #include "cli/session/faults.h"
 
 #include <fcntl.h>
