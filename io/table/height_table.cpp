@@ -79,9 +79,9 @@ class GeoPackageRows {
       OGRPoint point(p.x, p.y);
       if (!table_.z.empty() && std::isfinite(table_.z[row])) point.setZ(table_.z[row]);
       feature.SetGeometry(&point);
-      feature.SetField(at, p.x);
-      feature.SetField(at + 1, p.y);
     }
+    if (std::isfinite(p.x)) feature.SetField(at, p.x);
+    if (std::isfinite(p.y)) feature.SetField(at + 1, p.y);
     if (const auto& found = heights_[row]) {
       feature.SetField(at + 2, found->height);
       feature.SetField(at + 3, found->below);
@@ -116,12 +116,13 @@ void forCsvLines(const PointTable& table, std::span<const std::optional<SurfaceH
       appendCsvField(line, table.attributes.at(row, c));
       line += ',';
     }
-    const Vec2 p = table.stated[row];
-    if (std::isfinite(p.x) && std::isfinite(p.y))
-      fmt::format_to(std::back_inserter(line), "{},{},", p.x, p.y);
-    else
-      line += ",,";
-    if (hasZ) line += std::isfinite(table.z[row]) ? fmt::format("{},", table.z[row]) : std::string(",");
+    const auto add = [&](double value) {
+      if (std::isfinite(value)) fmt::format_to(std::back_inserter(line), "{}", value);
+      line += ',';
+    };
+    add(table.stated[row].x);
+    add(table.stated[row].y);
+    if (hasZ) add(table.z[row]);
     if (const auto& found = heights[row])
       fmt::format_to(std::back_inserter(line), "{:.12g},{:.12g},{:.12g}\n", found->height, found->below,
                      found->above);

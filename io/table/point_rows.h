@@ -14,7 +14,7 @@ struct PointRows {
   std::vector<double> heights;
   std::vector<std::uint64_t> origins;  ///< line number or feature id, for messages
   int srid = 0;                        ///< the number of EPSG that a text states for all of them; 0: none
-  std::uint64_t withoutPlace = 0;      ///< rows without x or y, which are NaN
+  std::uint64_t withoutPlace = 0;      ///< rows without x or y; what is missing is NaN
 
   void add(double x, double y, double z, std::uint64_t origin) {
     // -0 becomes 0, so that equal positions have equal bytes.

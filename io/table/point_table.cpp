@@ -26,6 +26,10 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+bool isPlace(Vec2 p) {
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
+
 class FeatureReader {
  public:
   FeatureReader(OGRLayer& layer, PointTable& table) : layer_(layer), table_(table) {
@@ -59,10 +63,12 @@ class FeatureReader {
 
  private:
   void addPoint(OGRFeature& feature, const OGRPoint& point) {
-    const bool hasPlace = !point.IsEmpty() && std::isfinite(point.getX() + point.getY());
-    table_.withoutPlace += hasPlace ? 0 : 1;
-    addRow(feature, hasPlace ? Vec2{point.getX(), point.getY()} : Vec2{kNone, kNone},
-           hasPlace && point.Is3D() ? point.getZ() : kNone);
+    const auto stated = [&](double value) {
+      return !point.IsEmpty() && std::isfinite(value) ? value : kNone;
+    };
+    const Vec2 place = {stated(point.getX()), stated(point.getY())};
+    table_.withoutPlace += isPlace(place) ? 0 : 1;
+    addRow(feature, place, point.Is3D() ? stated(point.getZ()) : kNone);
   }
 
   void addRow(OGRFeature& feature, Vec2 place, double z) {
@@ -127,6 +133,9 @@ Result<PointTable> readFrom(const std::string& path, const Georeference& dem,
   errors.moveTo(table.warnings);
   table.crsWkt = transform->sourceWkt().empty() ? dem.crsWkt : transform->sourceWkt();
   table.positions = table.stated;
+  // One coordinate is no position, though the row keeps it.
+  for (Vec2& position : table.positions)
+    if (!isPlace(position)) position = {kNone, kNone};
   transform->apply(table.positions);
   return table;
 }

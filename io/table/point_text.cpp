@@ -281,7 +281,7 @@ class TextParser {
     const bool hasNoPlace = isMissing[0] || isMissing[1];
     if (hasNoPlace && kind_ == PointTextColumns::planRows) {
       ++rows_.withoutPlace;
-      rows_.add(kNone, kNone, kNone, lineNumber_);
+      rows_.add(isMissing[0] ? kNone : values[0], isMissing[1] ? kNone : values[1], kNone, lineNumber_);
       if (attributes_) addAttributes(line);
       return {};
     }

@@ -19,7 +19,7 @@ bool looksLikePointText(const std::string& path);
 enum class PointTextColumns {
   spatial,   ///< x, y and a height
   plan,      ///< x, y; the heights in the result are those of points in WKT, NaN without
-  planRows,  ///< as plan; a row without x or y has NaN for both
+  planRows,  ///< as plan; a row without x or y has NaN for what is missing
 };
 
 /// Reads the points of a text file; readPoints() describes the format. A quoted text may contain line breaks

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Tables with gaps, points as text, and typed layers: each row and each value comes back as it was.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 
+#include <array>
 #include <cmath>
 
 #include "io/gdal/support.h"
@@ -59,6 +61,68 @@ TEST(KeptRows, OfATextWithoutACoordinateStayEmptyAndAreCounted) {
     const std::string csv = csvOf(*table, std::vector<std::optional<SurfaceHeight>>(hasPlace.size()));
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), std::ptrdiff_t(hasPlace.size()) + 1) << csv;
   }
+}
+
+TEST(KeptRows, WithOneCoordinateKeepIt) {
+  struct Case {
+    const char* text;
+    const char* csv;
+  };
+  const TemporaryFolder folder;
+  for (const Case& c : {
+           Case{"x,y\n500105,\n500105,5199905\n", "500105,,,,\n500105,5199905,,,\n"},
+           Case{"x,y\n,5199905.25\n500105,5199905\n", ",5199905.25,,,\n500105,5199905,,,\n"},
+           Case{"x,y\n,\n500105,5199905\n", ",,,,\n500105,5199905,,,\n"},
+           Case{"x;y\n1,5;NA\n1;2\n", "1.5,,,,\n1,2,,,\n"},
+           Case{"1,2\n3,\n", "1,2,,,\n3,,,,\n"},
+           Case{"name,lon,lat,z\na,-117,,9\nb,-117,34,8\n", "a,9,-117,,,,\nb,8,-117,34,,,\n"},
+           Case{"y,x\n5,\n6,7\n", ",5,,,\n7,6,,,\n"},
+       }) {
+    for (const bool isLonLat : {false, true}) {
+      const auto table = readPointTable(folder.write("a.csv", c.text), utm(), {.lonLat = isLonLat});
+      ASSERT_TRUE(table) << c.text << table.error().describe();
+      const std::vector<std::optional<SurfaceHeight>> none(table->stated.size());
+      const std::string csv = csvOf(*table, none);
+      EXPECT_EQ(csv.substr(csv.find('\n') + 1), c.csv) << c.text;
+      EXPECT_EQ(table->withoutPlace, 1u) << c.text;
+      // The same from a GeoPackage, which has no geometry for such a row.
+      ASSERT_TRUE(writeHeightTable(folder.file("a.gpkg"), *table, none)) << c.text;
+      const auto back = readPointTable(folder.file("a.gpkg"), utm());
+      ASSERT_TRUE(back) << c.text << back.error().describe();
+      EXPECT_EQ(back->withoutPlace, 1u) << c.text;
+      for (std::size_t i = 0; i < table->stated.size(); ++i) {
+        EXPECT_EQ(std::isfinite(table->positions[i].x), std::isfinite(table->positions[i].y)) << c.text;
+        const std::size_t x = back->attributes.columns.size() - 5;  // x, y, height, below, above
+        const auto textOf = [](double v) { return std::isfinite(v) ? fmt::format("{}", v) : std::string(); };
+        EXPECT_EQ(back->attributes.at(i, x), textOf(table->stated[i].x)) << c.text;
+        EXPECT_EQ(back->attributes.at(i, x + 1), textOf(table->stated[i].y)) << c.text;
+      }
+    }
+  }
+}
+
+TEST(KeptRows, OfALayerWithOneCoordinateKeepItAndTheirHeight) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("half.gpkg");
+  registerGdal();
+  const double none = std::nan("");
+  {
+    const GdalErrors quiet;
+    const GdalDatasetPtr dataset(
+        GetGDALDriverManager()->GetDriverByName("GPKG")->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    OGRLayer* layer = dataset->CreateLayer("a", nullptr, wkbPoint25D, nullptr);
+    for (const auto& [x, y, z] : {std::array{1.0, none, 3.0}, {none, 2.0, 4.0}, {1.0, 2.0, 5.0}}) {
+      OGRFeature feature(layer->GetLayerDefn());
+      const OGRPoint point(x, y, z);
+      feature.SetGeometry(&point);
+      ASSERT_EQ(layer->CreateFeature(&feature), OGRERR_NONE);
+    }
+  }
+  const auto table = readPointTable(path, {});
+  ASSERT_TRUE(table) << table.error().describe();
+  EXPECT_EQ(table->withoutPlace, 2u);
+  const std::string csv = csvOf(*table, std::vector<std::optional<SurfaceHeight>>(3));
+  EXPECT_EQ(csv, "source_fid,x,y,z,height,below,above\n1,1,,3,,,\n2,,2,4,,,\n3,1,2,5,,,\n");
 }
 
 TEST(KeptRows, AreNoneWhereTheTextIsDamaged) {
