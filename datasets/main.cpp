@@ -15,6 +15,7 @@
 #include "datasets/catalogue.h"
 #include "datasets/fetch.h"
 #include "datasets/terrain_generator.h"
+#include "engine/base/counted.h"
 #include "io/dem/raster_writer.h"
 #include "io/exchange/mesh_formats.h"
 

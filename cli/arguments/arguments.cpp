@@ -131,13 +131,14 @@ CLI::Validator oneOfNumbered(std::vector<std::pair<std::string, int>> words) {
   });
 }
 
-CLI::Validator tolerance() {
-  return validator([](std::string& text) { return toleranceProblem(text); });
-}
-
-CLI::Validator shareOrTolerance() {
-  return validator([](std::string& text) {
-    return toleranceProblem(text.ends_with('%') ? text.substr(0, text.size() - 1) : text);
+CLI::Validator shareOrTolerance(bool mayBeInfinite) {
+  return validator([mayBeInfinite](std::string& text) -> std::string {
+    const bool isShare = text.ends_with('%');
+    const std::string number = isShare ? text.substr(0, text.size() - 1) : text;
+    if (std::string problem = toleranceProblem(number); !problem.empty()) return problem;
+    return (mayBeInfinite && !isShare) || std::isfinite(*numberOf(number))
+               ? ""
+               : fmt::format("'{}' is not a finite number", text);
   });
 }
 
@@ -331,6 +332,13 @@ std::string grouped(std::uint64_t count, std::string_view one, std::string_view 
 
 std::string withUnit(double value, const std::string& unit) {
   return unit.empty() ? fmt::format("{:.6g}", value) : fmt::format("{:.6g} {}", value, unit);
+}
+
+std::string withReliefShare(double error, const std::string& unit, std::optional<double> relief) {
+  const std::string text = withUnit(error, unit);
+  return relief && *relief > 0 && std::isfinite(error)
+             ? fmt::format("{} ({:.4g} % of the relief)", text, 100 * error / *relief)
+             : text;
 }
 
 std::string byteCount(std::uint64_t bytes) {

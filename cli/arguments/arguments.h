@@ -37,10 +37,8 @@ CLI::Validator oneOf(const std::vector<std::pair<std::string, Enum>>& words) {
   for (const auto& [word, value] : words) numbers.emplace_back(word, static_cast<int>(value));
   return oneOfNumbered(std::move(numbers));
 }
-/// An error in the unit of the heights: 0 or more, "inf" allowed.
-CLI::Validator tolerance();
-/// A tolerance, or a share of the whole: "0.5%".
-CLI::Validator shareOrTolerance();
+/// A tolerance, or a share of the whole: "0.5%". "inf" only where it may be infinite.
+CLI::Validator shareOrTolerance(bool mayBeInfinite = true);
 /// One or more tolerances with commas between, each perhaps with a percent sign.
 CLI::Validator tolerances();
 
@@ -102,6 +100,8 @@ std::string grouped(std::uint64_t count);
 std::string grouped(std::uint64_t count, std::string_view one, std::string_view many);
 /// "5 m", or "5" where the unit is not known.
 std::string withUnit(double value, const std::string& unit);
+/// "12.3 m", and "12.3 m (1.5 % of the relief)" where the relief is known.
+std::string withReliefShare(double error, const std::string& unit, std::optional<double> relief);
 /// "140.3 MB".
 std::string byteCount(std::uint64_t bytes);
 

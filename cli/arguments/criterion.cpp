@@ -24,7 +24,8 @@ namespace {
 
 constexpr std::uint32_t kMostTriangles = 0xFFFFFFFE;
 
-/// Whole numbers from 1, or shares, with commas between.
+}  // namespace
+
 CLI::Validator triangleBudgets() {
   return CLI::Validator(
       [](std::string& text) -> std::string {
@@ -34,8 +35,6 @@ CLI::Validator triangleBudgets() {
       },
       "");
 }
-
-}  // namespace
 
 void CriterionArguments::addTo(CLI::App& command) {
   CLI::Option* errors =

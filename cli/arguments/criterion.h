@@ -24,6 +24,8 @@ struct StatedTriangles {
 /// large, below one, or stated twice.
 /// @param finest what a share is of: the triangles of the finest triangulation.
 Result<std::vector<StatedTriangles>> parseTriangleBudgets(const std::string& text, std::uint64_t finest);
+/// Whole numbers from 1, or shares, with commas between: texts that parseTriangleBudgets() may take.
+CLI::Validator triangleBudgets();
 
 /// The options that set the resolution of a TIN: everywhere, in a region, around a place or in a camera's
 /// view, under a budget or a deadline.

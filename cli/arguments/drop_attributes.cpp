@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "engine/base/counted.h"
 #include "surface/edit/drop_attributes.h"
 #include "surface/edit/normals.h"
 
@@ -37,7 +38,7 @@ Status dropNamed(SurfaceMesh& mesh, const std::vector<std::string>& names) {
 std::string seamsOf(const SurfaceMesh& mesh) {
   std::vector<std::string> sentences, names;
   for (const SeamAttribute& seam : seamAttributes(mesh)) {
-    sentences.push_back(fmt::format("\"{}\" differs at {} edges", seam.name, grouped(seam.edges)));
+    sentences.push_back(fmt::format("\"{}\" differs at {}", seam.name, grouped(seam.edges, "edge", "edges")));
     names.push_back(seam.name);
   }
   for (const auto& [of, name] :

@@ -11,6 +11,8 @@
 #include <initializer_list>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -28,8 +30,10 @@
 #include "io/file/text_scan.h"
 #include "io/surface/mesh_input.h"
 #include "io/table/plan_point_reader.h"
+#include "io/text/stated_size.h"
 #include "terrain/build/build.h"
 #include "terrain/features/fixed_vertices.h"
+#include "terrain/model/relief.h"
 
 namespace arete {
 namespace {
@@ -40,7 +44,7 @@ struct BuildArguments {
   BuildOptions options;
   std::string shape = "delaunay";
   std::size_t featureCount = FeatureOptions{}.count;
-  double featurePersistence = -1;  // < 0: not stated
+  std::string featurePersistence;  // empty: not stated
   bool noFeatures = false;
   bool isPacked = false;
   int positionBits = 0;
@@ -60,13 +64,20 @@ struct Seconds {
   double read = 0, features = 0, build = 0, write = 0;
 };
 
-Result<FixedVertexOptions> fixedOptions(const BuildArguments& arguments, const Georeference& georeference,
-                                        Session& session) {
+Result<FixedVertexOptions> fixedOptions(const BuildArguments& arguments, std::span<const double> heights,
+                                        const Georeference& georeference, Session& session) {
   FixedVertexOptions fixed;
   fixed.features->count = arguments.featureCount;
-  if (arguments.featurePersistence >= 0) {
+  if (!arguments.featurePersistence.empty()) {
+    const auto stated = parseStatedSize(arguments.featurePersistence, "--feature-persistence");
+    if (!stated) return tl::unexpected(stated.error());
+    const std::optional<double> relief = stated->isShare ? std::optional(reliefOf(heights)) : std::nullopt;
     fixed.features->count = std::numeric_limits<std::size_t>::max();
-    fixed.features->minimumPersistence = arguments.featurePersistence;
+    fixed.features->minimumPersistence = stated->of(relief.value_or(0));
+    if (relief)
+      session.note(fmt::format(
+          "features of at least {}",
+          withReliefShare(fixed.features->minimumPersistence, georeference.verticalUnit, relief)));
   }
   if (arguments.noFeatures) fixed.features.reset();
   if (arguments.creaseAngleDegrees >= 0) fixed.creaseAngleDegrees = arguments.creaseAngleDegrees;
@@ -260,7 +271,7 @@ Status runBuild(BuildArguments& arguments, Session& session) {
   seconds.read = reading.seconds();
   return std::visit(
       [&](const auto& field) -> Status {
-        const auto fixedChoice = fixedOptions(arguments, field.georeference, session);
+        const auto fixedChoice = fixedOptions(arguments, field.heights, field.georeference, session);
         if (!fixedChoice) return tl::unexpected(fixedChoice.error());
         if constexpr (std::is_same_v<decltype(field), const PointHeightfield&>) {
           if (Status valid = checkBuild(field, arguments.options); !valid) return valid;
@@ -345,8 +356,9 @@ void addBuildCommand(CLI::App& app, Session& session) {
                            ->group(keeping);
   CLI::Option* persistence = command
                                  ->add_option("--feature-persistence", arguments->featurePersistence,
-                                              "All peaks, pits and passes of at least this persistence")
-                                 ->check(finiteAtLeast(0))
+                                              "All peaks, pits and passes of at least this persistence, or "
+                                              "P% of the relief")
+                                 ->check(shareOrTolerance(false))
                                  ->type_name("P")
                                  ->group(keeping);
   CLI::Option* none =

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "cli/arguments/arguments.h"
+#include "io/text/stated_size.h"
 #include "viewer/headless/demo.h"
 
 namespace arete {
@@ -24,6 +25,7 @@ Json answerOf(const DemoReport& report) {
   Json results = Json::array(), curve = Json::array();
   for (const DemoResult& r : report.results)
     results.push_back({{"maxError", r.maxError},
+                       {"maxErrorPercent", r.percentOfRelief},
                        {"triangles", r.triangles},
                        {"percentOfFinest", r.percentOfFinest},
                        {"measuredMax", r.measuredMax},
@@ -39,6 +41,7 @@ Json answerOf(const DemoReport& report) {
           {"columns", report.columns},
           {"rows", report.rows},
           {"unit", report.unit},
+          {"relief", report.relief},
           {"finestTriangles", report.finestTriangles},
           {"isolated", report.isolated},
           {"buildSeconds", report.buildSeconds},
@@ -64,9 +67,11 @@ std::string textOf(const DemoReport& report) {
 Status demonstrate(DemoArguments& arguments, Session& session) {
   arguments.options.reading = arguments.dem.reading;
   if (!arguments.maxErrors.empty()) {
-    Result<std::vector<double>> errors = parseNumbers("--max-error", arguments.maxErrors);
+    const auto errors = parseStatedSizes(arguments.maxErrors, "--max-error");
     if (!errors) return tl::unexpected(errors.error());
-    arguments.options.maxErrors = std::move(*errors);
+    for (const StatedSize& stated : *errors)
+      (stated.isShare ? arguments.options.reliefShares : arguments.options.maxErrors)
+          .push_back(stated.number);
   }
   const Result<DemoReport> report = runDemo(arguments.dem.path, arguments.options, session.context());
   if (!report) return tl::unexpected(report.error());
@@ -90,7 +95,8 @@ void addDemoCommand(CLI::App& app, Session& session) {
       ->required();
   command
       ->add_option("--max-error", arguments->maxErrors,
-                   "Tolerances, with commas between (default: chosen from the data)")
+                   "Tolerances, in the DEM's unit of height or as E% of its relief, with commas between\n"
+                   "(default: chosen from the data)")
       ->check(tolerances())
       ->type_name("E[,E...]");
   command

@@ -147,9 +147,17 @@ std::string_view endedBy(const ExtractCriterion& criterion, const ExtractedTin& 
   return tin.isComplete ? "maxError" : "maxTriangles";
 }
 
-/// @param relief of the DEM, where something was stated as a share of it.
-Json jsonOf(const ExtractRequest& request, const ExtractedTin& tin, bool isRaster,
-            std::optional<double> relief) {
+/// What shares are of, where something was stated as a share.
+struct Wholes {
+  std::optional<double> relief;
+  std::optional<std::uint64_t> finestTriangles;
+
+  double percent(std::uint64_t triangles) const {
+    return 100 * static_cast<double>(triangles) / static_cast<double>(*finestTriangles);
+  }
+};
+
+Json jsonOf(const ExtractRequest& request, const ExtractedTin& tin, bool isRaster, const Wholes& wholes) {
   Json json = {{"file", request.output}};
   if (request.criterion.maxError)
     json["maxError"] =
@@ -160,11 +168,16 @@ Json jsonOf(const ExtractRequest& request, const ExtractedTin& tin, bool isRaste
   json["complete"] = tin.isComplete;
   if (const std::string_view ended = endedBy(request.criterion, tin); !ended.empty()) json["endedBy"] = ended;
   json["triangles"] = tin.triangles;
+  if (wholes.finestTriangles) json["trianglesPercent"] = wholes.percent(tin.triangles);
   json["vertices"] = tin.vertices;
   json["storedError"] = tin.storedError;
   if (tin.pixels) json["pixels"] = std::isfinite(*tin.pixels) ? Json(*tin.pixels) : Json();
   json["promisedError"] = std::isfinite(tin.promisedError) ? Json(tin.promisedError) : Json();
-  if (relief && *relief > 0) json["storedErrorPercent"] = 100 * tin.storedError / *relief;
+  if (const auto relief = wholes.relief; relief && *relief > 0) {
+    if (request.criterion.maxError && std::isfinite(*request.criterion.maxError))
+      json["maxErrorPercent"] = 100 * *request.criterion.maxError / *relief;
+    json["storedErrorPercent"] = 100 * tin.storedError / *relief;
+  }
   if (!request.certificate.empty()) json["certificate"] = request.certificate;
   if (!request.errorRaster.empty()) json["errorRaster"] = request.errorRaster;
   if (tin.fit)
@@ -177,18 +190,12 @@ Json jsonOf(const ExtractRequest& request, const ExtractedTin& tin, bool isRaste
   return json;
 }
 
-/// "12.3 m", and "12.3 m (1.5 % of the relief)" where something was stated as a share of the relief.
-std::string errorText(double error, const std::string& unit, std::optional<double> relief) {
-  const std::string text = withUnit(error, unit);
-  return relief && *relief > 0 ? fmt::format("{} ({:.4g} % of the relief)", text, 100 * error / *relief)
-                               : text;
-}
-
 std::string textOf(const ExtractRequest& request, const ExtractedTin& tin, const std::string& unit,
-                   std::optional<double> relief) {
+                   const Wholes& wholes) {
   std::string text = fmt::format(
-      "{}: {}, {}, error at most {}", request.output, grouped(tin.triangles, "triangle", "triangles"),
-      grouped(tin.vertices, "vertex", "vertices"), errorText(tin.storedError, unit, relief));
+      "{}: {}{}, {}, error at most {}", request.output, grouped(tin.triangles, "triangle", "triangles"),
+      wholes.finestTriangles ? fmt::format(" ({:.4g} % of the finest)", wholes.percent(tin.triangles)) : "",
+      grouped(tin.vertices, "vertex", "vertices"), withReliefShare(tin.storedError, unit, wholes.relief));
   if (!request.criterion.region.empty())
     text += fmt::format(" (in the region {})", withUnit(tin.promisedError, unit));
   if (tin.pixels && std::isfinite(*tin.pixels))
@@ -307,7 +314,11 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
   if (!part) return tl::unexpected(part.error());
 
   const std::string& verticalUnit = outline->georeference.verticalUnit;
-  const std::optional<double> relief = statesShares ? std::optional(reliefOf(*outline)) : std::nullopt;
+  Wholes wholes;
+  if (statesShares) {
+    wholes.relief = reliefOf(*outline);
+    wholes.finestTriangles = outline->mt.finestTriangleCount();
+  }
   TinExtractor extractor(
       std::move(part->model), arguments.model,
       [&file](const RunContext& context) { return file->read({}, context); },
@@ -321,13 +332,16 @@ Status runExtract(const ExtractArguments& arguments, Session& session) {
         extractor.extract(request, session.context(), std::exchange(part->cut, std::nullopt));
     if (!tin) return tl::unexpected(tin.error());
     warnOfRounding(*tin, request.output, verticalUnit, session);
-    session.say(textOf(request, *tin, verticalUnit, relief));
-    exports.push_back(jsonOf(request, *tin, outline->isRaster, relief));
+    session.say(textOf(request, *tin, verticalUnit, wholes));
+    exports.push_back(jsonOf(request, *tin, outline->isRaster, wholes));
     if (!tin->isKept && promise)
       promise = failure(ErrorCode::brokenPromise, brokenPromise(*tin), request.output);
   }
   Json answer = {{"model", arguments.model}, {"verticalUnit", verticalUnit}};
-  if (relief) answer["relief"] = *relief;
+  if (wholes.relief) {
+    answer["relief"] = *wholes.relief;
+    answer["finestTriangles"] = *wholes.finestTriangles;
+  }
   answer["exports"] = std::move(exports);
   session.answer(answer);
   return promise;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/terrain_error.h"
 #include "cli/session/model_file.h"
 #include "io/crs/position_argument.h"
 #include "io/crs/transform.h"
@@ -27,8 +28,8 @@ struct HeightArguments {
   std::string model;
   std::vector<std::string> at;
   std::string points, layer, output;
+  std::string maxError = "0";
   bool lonLat = false;
-  double maxError = 0;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
 
@@ -107,6 +108,8 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
   if (!file) return tl::unexpected(file.error());
   const Result<TerrainModel> outline = outlineOf(*file, session);
   if (!outline) return tl::unexpected(outline.error());
+  const Result<TerrainError> maxError = terrainErrorOf(arguments.maxError, *file, session);
+  if (!maxError) return tl::unexpected(maxError.error());
   if (!arguments.output.empty())
     if (Status output =
             checkOutput("--output", arguments.output, {arguments.model, arguments.points, outline->source});
@@ -118,33 +121,37 @@ Status runHeight(const HeightArguments& arguments, Session& session) {
   for (const Vec2 place : table->positions) wanted.add(outline->toPlan(place));
   const Result<TerrainModel> model = readWanted(*file, *outline, wanted.within(0), session);
   if (!model) return tl::unexpected(model.error());
-  const auto heights = SurfaceHeights(*model).at(table->positions, arguments.maxError, session.context());
+  const auto heights = SurfaceHeights(*model).at(table->positions, maxError->value, session.context());
   if (!heights) return tl::unexpected(heights.error());
 
   const auto found = static_cast<std::size_t>(
       std::count_if(heights->begin(), heights->end(), [](const auto& h) { return h.has_value(); }));
-  Json json = {{"model", arguments.model},
-               {"verticalUnit", model->georeference.verticalUnit},
-               {"maxError", numberOrNull(arguments.maxError)},
-               {"places", heights->size()},
-               {"withoutPlace", table->withoutPlace},
-               {"onTerrain", found}};
+  Json json = {{"model", arguments.model}, {"verticalUnit", model->georeference.verticalUnit}};
+  maxError->addTo(json);
+  json["places"] = heights->size();
+  json["withoutPlace"] = table->withoutPlace;
+  json["onTerrain"] = found;
   if (arguments.output.empty()) {
     session.say(textOf(arguments, *table, *heights));
+    if (maxError->relief)
+      session.note(fmt::format("heights within {}", maxError->text(model->georeference.verticalUnit)));
     json["points"] = jsonOf(*table, *heights);
   } else {
     if (Status written =
             writeHeightTable(arguments.output, *table, *heights, session.context(), arguments.existing);
         !written)
       return written;
-    session.say(fmt::format("{}: {} of {} a height\n", arguments.output, grouped(found),
-                            grouped(heights->size(), "place has", "places have")));
+    session.say(fmt::format("{}: {} of {} a height{}\n", arguments.output, grouped(found),
+                            grouped(heights->size(), "place has", "places have"),
+                            maxError->shareText(model->georeference.verticalUnit)));
     json["file"] = arguments.output;
   }
   session.answer(json);
   if (table->withoutPlace == heights->size())
     return failure(ErrorCode::invalidData,
-                   fmt::format("has no position in any of its {} rows", grouped(heights->size())),
+                   heights->size() == 1
+                       ? std::string("has no position in its only row")
+                       : fmt::format("has no position in any of its {} rows", grouped(heights->size())),
                    arguments.points);
   if (found == 0)
     return failure(
@@ -199,12 +206,7 @@ void addHeightCommand(CLI::App& app, Session& session) {
           "above (default: CSV on stdout)")
       ->type_name("FILE");
   addOverwriteTo(*command, arguments->existing);
-  command
-      ->add_option(
-          "--max-error", arguments->maxError,
-          "How far from full resolution a height may be, in the DEM's unit (default 0: full resolution)")
-      ->check(tolerance())
-      ->type_name("E");
+  addTerrainErrorTo(*command, arguments->maxError, "How far from full resolution a height may be", true);
   command->add_flag("--lonlat", arguments->lonLat, "X,Y are longitude, latitude in degrees (WGS 84)");
 }
 

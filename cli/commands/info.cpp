@@ -94,17 +94,23 @@ void sayFacts(const InfoArguments& arguments, const TerrainModel& model, const F
                   o.shape == HoleShape::dataDependent ? fmt::format(" --min-aspect {}", o.minimumAspect) : "",
                   o.rimTolerance > 0 ? fmt::format(" --rim-tolerance {}", o.rimTolerance) : ""));
   const std::string& unit = model.georeference.verticalUnit;
-  text += fmt::format("\n  {:>12}  {:>13}  {:>13}\n",
-                      unit.empty() ? std::string("error") : fmt::format("error ({})", unit), "minimal",
-                      "saturated");
-  const auto row = [&](const std::string& error, std::uint64_t minimal, std::uint64_t saturated) {
-    text += fmt::format("  {:>12}  {:>13}  {:>13}\n", error, grouped(minimal), grouped(saturated));
+  text += fmt::format("\n  {:>12}  {:>9}  {:>13}  {:>13}\n",
+                      unit.empty() ? std::string("error") : fmt::format("error ({})", unit), "relief",
+                      "minimal", "saturated");
+  const auto row = [&](const std::string& error, double value, std::uint64_t minimal,
+                       std::uint64_t saturated) {
+    const std::string share =
+        facts.relief > 0 ? fmt::format("{:.3g} %", 100 * value / facts.relief) : std::string();
+    text +=
+        fmt::format("  {:>12}  {:>9}  {:>13}  {:>13}\n", error, share, grouped(minimal), grouped(saturated));
   };
-  if (arguments.at.empty()) row("0 (finest)", mt.finestTriangleCount(), mt.finestTriangleCount());
+  if (arguments.at.empty()) row("0 (finest)", 0, mt.finestTriangleCount(), mt.finestTriangleCount());
   for (const CurvePoint& point : facts.curve)
-    row(fmt::format("{:g}", point.maxError), point.minimalTriangles, point.saturatedTriangles);
+    row(fmt::format("{:g}", point.maxError), point.maxError, point.minimalTriangles,
+        point.saturatedTriangles);
   if (arguments.at.empty())
-    row(fmt::format("{:.4g} (root)", facts.rootError), mt.rootTriangleCount(), mt.rootTriangleCount());
+    row(fmt::format("{:.4g} (root)", facts.rootError), facts.rootError, mt.rootTriangleCount(),
+        mt.rootTriangleCount());
   session.say(text);
 }
 
@@ -119,6 +125,9 @@ Json factsJson(const InfoArguments& arguments, const TerrainModel& model, const 
   Json curve = Json::array();
   for (const CurvePoint& point : facts.curve)
     curve.push_back({{"maxError", std::isfinite(point.maxError) ? Json(point.maxError) : Json()},
+                     {"maxErrorPercent", std::isfinite(point.maxError) && facts.relief > 0
+                                             ? Json(100 * point.maxError / facts.relief)
+                                             : Json()},
                      {"minimal", point.minimalTriangles},
                      {"saturated", point.saturatedTriangles}});
   return {{"file", arguments.model},

@@ -134,7 +134,7 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
     if (Status written = writeErrors(arguments, field, rasters, session); !written) return written;
 
   const bool expects = arguments.expect.has_value();
-  const double relief = expects && arguments.expect->isShare ? reliefOf(field.heights) : 0;
+  const double relief = expects ? reliefOf(field.heights) : 0;
   const double expected = expects ? arguments.expect->of(relief) : 0;
   const Status promise =
       expects ? checkPromise(*report, expected, {.allowCoveredNodata = arguments.allowCoveredNodata})
@@ -143,9 +143,8 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
                           arguments.region.empty() ? "" : fmt::format(" in {}", arguments.region),
                           measureReportText(*report, georeference.verticalUnit, isRaster)));
   if (expects && promise)
-    session.say(fmt::format(
-        "kept: nowhere more than {}{}\n", withUnit(expected, georeference.verticalUnit),
-        arguments.expect->isShare ? fmt::format(" ({} of the relief)", arguments.expect->text) : ""));
+    session.say(fmt::format("kept: nowhere more than {}\n",
+                            withReliefShare(expected, georeference.verticalUnit, relief)));
   Json json = {{"tin", {{"path", arguments.tin}, {"crs", crsName(tin.crsWkt)}}},
                {"dem",
                 {{"path", arguments.dem.path},
@@ -156,7 +155,8 @@ Status compare(const MeasureArguments& arguments, const MeshFile& tin, const Hei
   json.update(toJson(*report, isRaster));
   if (expects) {
     json["expect"] = std::isfinite(expected) ? Json(expected) : Json();
-    if (arguments.expect->isShare) json["relief"] = relief;
+    json["expectPercent"] = std::isfinite(expected) && relief > 0 ? Json(100 * expected / relief) : Json();
+    json["relief"] = relief;
     json["kept"] = promise.has_value();
     if (!promise) json["broken"] = promise.error().message;
   }

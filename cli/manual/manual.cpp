@@ -11,6 +11,7 @@
 #include "cli/manual/completion.h"
 #include "cli/manual/declarations.h"
 #include "cli/manual/man_page.h"
+#include "engine/base/counted.h"
 #include "io/file/file_writer.h"
 
 namespace arete {
@@ -48,7 +49,8 @@ Status runManual(const ManualArguments& arguments, Session& session) {
     if (Status written = out->finish(); !written) return written;
     files.push_back(path);
   }
-  session.say(fmt::format("{}: {} manual pages\n", arguments.folder, files.size()));
+  session.say(
+      fmt::format("{}: {}\n", arguments.folder, counted(files.size(), "manual page", "manual pages")));
   session.answer({{"files", std::move(files)}});
   return {};
 }

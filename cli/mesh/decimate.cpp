@@ -81,7 +81,8 @@ struct Outcome {
   std::vector<std::string> lost = {};
   std::uint64_t evaluations = 0, steps = 0;
   std::optional<FitOutcome> fit = {};
-  bool isComplete = true;  ///< false: the budget ended it before the tolerance was reached
+  std::optional<double> maxError = {};  ///< the tolerance that was stated
+  bool isComplete = true;               ///< false: the budget ended it before the tolerance was reached
   bool dropsFlatNormals = false;
 };
 
@@ -108,14 +109,13 @@ Status checkArguments(const DecimateArguments& a) {
 /// @param mesh whose attributes and parts keep more.
 Error tooFew(const std::string& budget, std::uint64_t least, const std::string& method,
              const SurfaceMesh& mesh) {
-  return {
-      ErrorCode::usage,
-      fmt::format(
-          "the least that {} reaches is {} triangles: components, handles, borders, seams and edges between "
-          "objects, materials or labels of faces stay, edges of more than two faces too, and no triangle "
-          "turns over{}",
-          method, grouped(least), seamsOf(mesh)),
-      fmt::format("--max-triangles {}", budget)};
+  return {ErrorCode::usage,
+          fmt::format(
+              "the least that {} reaches is {}: components, handles, borders, seams and edges between "
+              "objects, materials or labels of faces stay, edges of more than two faces too, and no triangle "
+              "turns over{}",
+              method, grouped(least, "triangle", "triangles"), seamsOf(mesh)),
+          fmt::format("--max-triangles {}", budget)};
 }
 
 Result<std::uint64_t> crossingsOf(const TriangleMesh& mesh, const RunContext& context) {
@@ -169,6 +169,7 @@ Result<Outcome> measured(SurfaceMesh mesh, const DecimateArguments& arguments,
     outcome.sourceCrossings = *ofSource;
   }
   outcome.isComplete = cut->isComplete;
+  outcome.maxError = maxError;
   outcome.dropsFlatNormals = model->mending.dropsFlatNormals;
   return outcome;
 }
@@ -270,6 +271,7 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
   const double seconds = working.seconds();
   MeshFile result = std::move(file);
   result.mesh = std::move(outcome->mesh);
+  const std::size_t triangles = result.mesh.triangles.size();
   result.triangleErrors.clear();
   result.warnings.clear();
   if (outcome->dropsFlatNormals)
@@ -293,11 +295,12 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
       return written;
   warnOf(*converted, arguments.input, target->format.name, session);
   std::string text = writtenText(target->path, *converted);
-  text += fmt::format("  of         {} triangles, by {} in {:.2f} s\n", grouped(facesBefore),
-                      arguments.method, seconds);
+  const double percent = 100 * static_cast<double>(triangles) / static_cast<double>(facesBefore);
+  text += fmt::format("  of         {}, {:.4g} % of them, by {} in {:.2f} s\n",
+                      grouped(facesBefore, "triangle", "triangles"), percent, arguments.method, seconds);
   if (dropped.components > 0)
-    text += fmt::format("  left out   {} component{} of {} faces\n", grouped(dropped.components),
-                        dropped.components == 1 ? "" : "s", grouped(dropped.triangles));
+    text += fmt::format("  left out   {} of {}\n", grouped(dropped.components, "component", "components"),
+                        grouped(dropped.triangles, "face", "faces"));
   const bool hasBoth = !arguments.maxError.empty() && !arguments.maxTriangles.empty();
   if (outcome->fit)
     text += fmt::format("  distance   no point of the source{} farther than {}\n",
@@ -306,20 +309,27 @@ Status runDecimate(const DecimateArguments& arguments, Session& session) {
   if (hasBoth)
     text += fmt::format("  ended by   {}\n", outcome->isComplete ? "--max-error" : "--max-triangles");
   if (outcome->sourceCrossings)
-    text +=
-        fmt::format("  crossings  {} pair{} of triangles; the source has {}\n", grouped(*outcome->crossings),
-                    *outcome->crossings == 1 ? "" : "s", grouped(*outcome->sourceCrossings));
+    text += fmt::format("  crossings  {} of triangles; the source has {}\n",
+                        grouped(*outcome->crossings, "pair", "pairs"), grouped(*outcome->sourceCrossings));
   if (outcome->evaluations > 0)
-    text += fmt::format("  steps      {}; costs computed {} times ({} queue)\n", grouped(outcome->steps),
-                        grouped(outcome->evaluations), arguments.queue);
+    text += fmt::format("  steps      {}; costs computed {} ({} queue)\n", grouped(outcome->steps),
+                        grouped(outcome->evaluations, "time", "times"), arguments.queue);
   session.say(text);
   Json json = writtenJson(arguments.input, target->path, target->format.name, *converted);
   json["operator"] = arguments.method;
   json["trianglesBefore"] = facesBefore;
+  json["trianglesPercent"] = percent;
+  json["diagonal"] = diagonal;
+  if (maxTriangles) json["maxTriangles"] = *maxTriangles;
+  if (outcome->maxError && std::isfinite(*outcome->maxError)) {
+    json["maxError"] = *outcome->maxError;
+    json["maxErrorPercent"] = 100 * *outcome->maxError / diagonal;
+  }
   json["seconds"] = seconds;
   if (hasBoth) json["endedBy"] = outcome->isComplete ? "maxError" : "maxTriangles";
   if (outcome->fit) {
     json["error"] = outcome->fit->distance;
+    json["errorPercent"] = 100 * outcome->fit->distance / diagonal;
     json["rms"] = outcome->fit->rmsAfter;
   }
   if (outcome->crossings) json["selfIntersections"] = *outcome->crossings;

@@ -185,6 +185,12 @@ void Session::answer(const Json& object) {
   print(withoutQueriesIn(object).dump(2, ' ', false, Json::error_handler_t::replace) + "\n", out_);
 }
 
+void Session::note(const std::string& sentence) const {
+  if (quiet_) return;
+  progressBar().endLine();
+  tell(fmt::format("arete: {}\n", withoutControls(withoutQueries(withOptionNames(sentence)))));
+}
+
 void Session::warn(const std::string& sentence) const {
   if (quiet_) return;
   progressBar().endLine();

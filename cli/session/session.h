@@ -53,6 +53,8 @@ class Session {
   void say(const std::string& text) const;
   /// Writes the object to stdout, with --json only. Call at most once.
   void answer(const Json& object);
+  /// Writes "arete: ..." to stderr, not with --quiet: what a person wants to know beside a table on stdout.
+  void note(const std::string& sentence) const;
   /// Writes "arete: warning: ..." to stderr, not with --quiet. Fields in backquotes become options.
   void warn(const std::string& sentence) const;
   void warn(const std::vector<std::string>& sentences, const std::string& culprit) const;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/terrain_error.h"
 #include "cli/session/model_file.h"
 #include "cli/session/option_names.h"
 #include "cli/sight/arguments.h"
@@ -33,7 +34,8 @@ struct LosArguments {
   std::string model, from, to, pairs, points, layer, output, observerHeight, targetHeight, clutter;
   SightArguments sight;
   SightMethod method = SightMethod::automatic;
-  double maxError = 0, frequency = 0, fresnel = kUsualFresnel, clutterFree = 100;
+  std::string maxError = "0";
+  double frequency = 0, fresnel = kUsualFresnel, clutterFree = 100;
   ExistingFile existing = ExistingFile::keepsOtherLayers;
 };
 
@@ -60,7 +62,8 @@ Status checkArguments(const LosArguments& a) {
       return usage("requires --pairs or --points; the height in --from and --to is the H of X,Y,H", option);
   if (!a.output.empty() && !isLineTable(a.output) && !isJson(a.output))
     return usage("a table of lines of sight ends in .csv, .gpkg or .json", "--output " + a.output);
-  if (!a.clutter.empty() && a.maxError > 0) return usage("cannot be combined with --max-error", "--clutter");
+  if (!a.clutter.empty() && isAboveZero(a.maxError))
+    return usage("cannot be combined with --max-error", "--clutter");
   return {};
 }
 
@@ -134,10 +137,11 @@ Status addUsualHeights(const LosArguments& a, SightPairs& pairs) {
   return {};
 }
 
-Result<SightPathOptions> optionsOf(const LosArguments& a, const TerrainModel& model, Session& session) {
+Result<SightPathOptions> optionsOf(const LosArguments& a, double maxError, const TerrainModel& model,
+                                   Session& session) {
   SightPathOptions options;
   options.sight.nodata = a.sight.nodata;
-  options.sight.maxError = a.maxError;
+  options.sight.maxError = maxError;
   options.frequencyMegahertz = a.frequency;
   if (a.clutter.empty()) return options;
   auto clutter = readClutter(a.clutter, model, session.context());
@@ -149,9 +153,9 @@ Result<SightPathOptions> optionsOf(const LosArguments& a, const TerrainModel& mo
 
 /// The terrain that lines of sight require: around both ends and below the line. All of the model where the
 /// method reads all samples.
-RequiredError wantedFor(const LosArguments& a, const SightPairs& pairs, const SightEarth& earth,
-                        const TerrainModel& outline) {
-  if (bestMethod(a.method, a.maxError, pairs.rows.size(), outline) != SightMethod::descent) return {};
+RequiredError wantedFor(const LosArguments& a, double maxError, const SightPairs& pairs,
+                        const SightEarth& earth, const TerrainModel& outline) {
+  if (bestMethod(a.method, maxError, pairs.rows.size(), outline) != SightMethod::descent) return {};
   QueryFootprint wanted(outline);
   for (const auto& [first, second] : pairs.rows) {
     const Vec2 from = sightPlan(outline, first.xy), to = sightPlan(outline, second.xy);
@@ -239,19 +243,21 @@ Status runLos(const LosArguments& a, Session& session) {
   auto pairs = readRows(a, *outline, session);
   if (!pairs) return tl::unexpected(pairs.error());
   if (Status added = addUsualHeights(a, *pairs); !added) return added;
-  const auto options = optionsOf(a, *outline, session);
+  const Result<TerrainError> maxError = terrainErrorOf(a.maxError, *file, session);
+  if (!maxError) return tl::unexpected(maxError.error());
+  const auto options = optionsOf(a, maxError->value, *outline, session);
   if (!options) return tl::unexpected(options.error());
   const auto earth = a.sight.makeEarth(*outline, session);
   if (!earth) return tl::unexpected(earth.error());
   const Result<TerrainModel> model =
-      readWanted(*file, *outline, wantedFor(a, *pairs, **earth, *outline), session);
+      readWanted(*file, *outline, wantedFor(a, maxError->value, *pairs, **earth, *outline), session);
   if (!model) return tl::unexpected(model.error());
   // Profiles at full resolution walk over the cells of a raster.
   const bool hasProfiles = options->frequencyMegahertz > 0 || options->clutter.height;
   const auto grid = hasProfiles && model->isRaster ? std::make_shared<const SightGrid>(*model) : nullptr;
   const Profiles profiles(*model, grid);
   const SightRows rows = SightRows::of(*pairs, profiles.heights());
-  const SightMethod method = bestMethod(a.method, a.maxError, rows.paths.size(), *model);
+  const SightMethod method = bestMethod(a.method, maxError->value, rows.paths.size(), *model);
   if (!model->isRaster && method != SightMethod::descent)
     return failure(ErrorCode::usage, fmt::format("requires a raster; {} is made of points", a.model),
                    fmt::format("--method {}", toString(method)));
@@ -265,15 +271,17 @@ Status runLos(const LosArguments& a, Session& session) {
                              .answers = *answers,
                              .model = *model,
                              .hasFresnel = a.frequency > 0,
-                             .hasTolerance = a.maxError > 0,
+                             .hasTolerance = maxError->value > 0,
                              .fresnel = a.fresnel};
   Json json = {{"model", a.model},
                {"verticalUnit", model->georeference.verticalUnit},
                {"earth", a.sight.earthName(*model)},
                {"refraction", a.sight.refractionJson(*model)},
-               {"nodata", std::string(toString(a.sight.nodata))},
-               {"maxError", a.maxError},
-               {"method", std::string(toString(method))}};
+               {"nodata", std::string(toString(a.sight.nodata))}};
+  maxError->addTo(json);
+  json["method"] = std::string(toString(method));
+  if (maxError->relief)
+    session.note(fmt::format("terrain within {}", maxError->text(model->georeference.verticalUnit)));
   const bool isOne = a.pairs.empty() && a.points.empty() && a.output.empty();
   return isOne ? reportOne(results, std::move(json), session)
                : reportMany(a, results, std::move(json), session);
@@ -325,12 +333,8 @@ void addLosCommand(CLI::App& app, Session& session) {
   addOverwriteTo(*command, arguments->existing);
   arguments->sight.addLonLatTo(*command);
   arguments->sight.addNodataTo(*command);
-  command
-      ->add_option(
-          "--max-error", arguments->maxError,
-          "Stop refining at this error, in the DEM's unit; answers may then be undecided (default 0)")
-      ->check(finiteAtLeast(0))
-      ->type_name("E");
+  addTerrainErrorTo(*command, arguments->maxError,
+                    "Stop refining at this error, so that answers may be undecided", false);
   command
       ->add_option("--method", arguments->method,
                    "Algorithm; all give the same answer: auto (default), descent, pyramid, scan, embree")

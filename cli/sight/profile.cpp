@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/terrain_error.h"
 #include "cli/session/model_file.h"
 #include "cli/sight/arguments.h"
 #include "io/crs/position_argument.h"
@@ -36,8 +37,9 @@ namespace {
 struct ProfileArguments {
   std::string model, along, layer, output, png;
   SightArguments sight;
+  std::string maxError = "0";
   bool csv = false;
-  double maxError = 0, frequency = 0, fresnel = kUsualFresnel;
+  double frequency = 0, fresnel = kUsualFresnel;
 };
 
 /// A line to take the profile along, in the DEM's CRS. Two positions with heights are a line of sight as
@@ -201,14 +203,14 @@ class ProfileTable {
   CrsTransform toStated_;
 };
 
-Result<Answer> answerWay(const Way& way, const ProfileArguments& a, const SightEarth& earth,
+Result<Answer> answerWay(const Way& way, const ProfileArguments& a, double maxError, const SightEarth& earth,
                          const Profiles& profiles) {
   const TerrainModel& model = profiles.heights().model();
   Answer answer;
   if (!way.ends) {
     const auto track = trackOf(way, earth, model);
     if (!track) return tl::unexpected(track.error());
-    answer.profile = profiles.along(*track, a.maxError);
+    answer.profile = profiles.along(*track, maxError);
     return answer;
   }
   SightPath path{sightPlan(model, way.vertices[0]), sightPlan(model, way.vertices[1])};
@@ -225,7 +227,7 @@ Result<Answer> answerWay(const Way& way, const ProfileArguments& a, const SightE
   options.frequencyMegahertz = a.frequency;
   auto seen = answerPath(path, earth, *engine, profiles, options);  // always of full resolution
   if (!seen) return tl::unexpected(seen.error());
-  answer.profile = profiles.along(line->track(), a.maxError);
+  answer.profile = profiles.along(line->track(), maxError);
   answer.line = std::move(*line);
   answer.path = *seen;
   return answer;
@@ -294,7 +296,9 @@ Status runProfile(const ProfileArguments& a, Session& session) {
   const Result<TerrainModel> model = readWanted(*amt, *outline, wantedFor(*ways, **earth, *outline), session);
   if (!model) return tl::unexpected(model.error());
 
-  const bool isFull = a.maxError == 0 || a.frequency > 0;
+  const Result<TerrainError> maxError = terrainErrorOf(a.maxError, *amt, session);
+  if (!maxError) return tl::unexpected(maxError.error());
+  const bool isFull = maxError->value == 0 || a.frequency > 0;
   const Profiles profiles(*model,
                           isFull && model->isRaster ? std::make_shared<const SightGrid>(*model) : nullptr);
   const double wavelength = a.frequency > 0 ? wavelengthMetres(a.frequency) : 0;
@@ -302,7 +306,7 @@ Status runProfile(const ProfileArguments& a, Session& session) {
   std::size_t vertices = 0;
   for (std::size_t i = 0; i < ways->size(); ++i) {
     if (session.context().cancelled()) return failure(ErrorCode::interrupted, "the query was stopped");
-    auto answer = answerWay((*ways)[i], a, **earth, profiles);
+    auto answer = answerWay((*ways)[i], a, maxError->value, **earth, profiles);
     if (!answer) return tl::unexpected(answer.error());
     vertices += answer->profile.vertices.size();
     answers.push_back(std::move(*answer));
@@ -317,8 +321,8 @@ Status runProfile(const ProfileArguments& a, Session& session) {
   Json json = {{"model", a.model},
                {"verticalUnit", dem.verticalUnit},
                {"earth", a.sight.earthName(*model)},
-               {"refraction", a.sight.refractionJson(*model)},
-               {"maxError", a.maxError}};
+               {"refraction", a.sight.refractionJson(*model)}};
+  maxError->addTo(json);
   Json lines = Json::array();
   if (session.wantsJson())
     for (const Answer& answer : answers) lines.push_back(table.json(answer));
@@ -328,8 +332,8 @@ Status runProfile(const ProfileArguments& a, Session& session) {
     if (!file) return tl::unexpected(file.error());
     file->write(table.csv(answers));
     if (Status finished = file->finish(); !finished) return finished;
-    session.say(fmt::format("{}: {} of {}\n", a.output, grouped(vertices, "vertex", "vertices"),
-                            grouped(answers.size(), "line", "lines")));
+    session.say(fmt::format("{}: {} of {}{}\n", a.output, grouped(vertices, "vertex", "vertices"),
+                            grouped(answers.size(), "line", "lines"), maxError->shareText(dem.verticalUnit)));
     json["file"] = a.output;
   }
   if (!a.png.empty()) {
@@ -337,6 +341,8 @@ Status runProfile(const ProfileArguments& a, Session& session) {
     json["picture"] = a.png;
   }
   if (a.csv || (a.output.empty() && a.png.empty())) session.say(table.csv(answers));
+  if (maxError->relief && a.output.empty())
+    session.note(fmt::format("the profile is within {}", maxError->text(dem.verticalUnit)));
   session.answer(json);
   return {};
 }
@@ -363,11 +369,7 @@ void addProfileCommand(CLI::App& app, Session& session) {
       ->required()
       ->type_name("FILE|X,Y:X,Y[:...]");
   command->add_option("--layer", arguments->layer, "Layer, where the file has several")->type_name("NAME");
-  command
-      ->add_option("--max-error", arguments->maxError,
-                   "Largest error of the profile, in the DEM's unit (default 0: full resolution)")
-      ->check(tolerance())
-      ->type_name("E");
+  addTerrainErrorTo(*command, arguments->maxError, "Largest error of the profile", true);
   command->add_flag("--csv", arguments->csv, "Write CSV to stdout (default without --output and --png)");
   command->add_option("-o,--output", arguments->output, "CSV file to write")->type_name("FILE");
   command->add_option("--png", arguments->png, "Draw the profile, the line of sight and its Fresnel zone")

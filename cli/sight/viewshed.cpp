@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/terrain_error.h"
 #include "cli/session/model_file.h"
 #include "cli/sight/arguments.h"
 #include "cli/sight/viewshed_arguments.h"
@@ -199,6 +200,7 @@ struct Question {
   const SightEarth& earth;
   const ViewshedOptions& options;
   std::span<const ViewshedSite> observers;
+  const TerrainError& maxError;
 
   bool isOfOne() const { return arguments.isOfOne(observers.size()); }
 };
@@ -244,8 +246,9 @@ Result<ViewshedAnswer> answerMany(const Question& q, const ViewshedMaker& maker,
 }
 
 /// Reports how many cells have which answer.
-void reportCounts(const ViewshedArguments& a, const std::vector<ViewshedCell>& cells, const PlacedGrid& grid,
+void reportCounts(const Question& q, const std::vector<ViewshedCell>& cells, const PlacedGrid& grid,
                   Json json, Session& session) {
+  const ViewshedArguments& a = q.arguments;
   const auto count = [&](ViewshedCell which) {
     std::uint64_t number = 0;
     for (std::size_t i = 0; i < cells.size(); ++i)
@@ -261,9 +264,10 @@ void reportCounts(const ViewshedArguments& a, const std::vector<ViewshedCell>& c
   json["undecided"] = undecided;
   json["outside"] = count(ViewshedCell::outside);
   json["file"] = a.output;
-  std::string text = fmt::format("{}: {} samples seen, {} hidden, {} unknown", a.output, grouped(seen),
-                                 grouped(hidden), grouped(unknown));
+  std::string text = fmt::format("{}: {} seen, {} hidden, {} unknown", a.output,
+                                 grouped(seen, "sample", "samples"), grouped(hidden), grouped(unknown));
   if (undecided > 0) text += fmt::format(", {} undecided", grouped(undecided));
+  text += q.maxError.shareText(q.model.georeference.verticalUnit);
   session.say(text + "\n");
   session.answer(json);
 }
@@ -281,8 +285,8 @@ Status answer(const Question& q, Session& session) {
                {"targetHeight", a.targetHeight},
                {"earth", a.sight.earthName(q.model)},
                {"refraction", a.sight.refractionJson(q.model)},
-               {"nodata", std::string(toString(a.sight.nodata))},
-               {"maxError", a.maxError}};
+               {"nodata", std::string(toString(a.sight.nodata))}};
+  q.maxError.addTo(json);
   if (!a.like.empty()) json["like"] = a.like;
   auto made = q.isOfOne() ? answerOne(q, *maker, *grid, session.context(), json)
                           : answerMany(q, *maker, session.context());
@@ -292,10 +296,9 @@ Status answer(const Question& q, Session& session) {
   if (!made) return tl::unexpected(made.error());
   json["withoutLine"] = made->withoutLine;
   if (made->withoutLine > 0)
-    session.warn(
-        fmt::format("{} samples are unknown: the shortest way to them passes a pole or a seam of the CRS, "
-                    "and is no line on the map",
-                    grouped(made->withoutLine)));
+    session.warn(fmt::format("{} passes a pole or a seam of the CRS, and is no line on the map",
+                             grouped(made->withoutLine, "sample is unknown: the shortest way to it",
+                                     "samples are unknown: the shortest way to them")));
   Picture& picture = made->picture;
   picture.options.description = descriptionOf(a.mode);
   grid->georeference.verticalUnit = picture.isHeight ? q.model.georeference.verticalUnit : "";
@@ -303,13 +306,13 @@ Status answer(const Question& q, Session& session) {
                                     picture.options, session.context());
       !written)
     return written;
-  reportCounts(a, made->cells, *grid, std::move(json), session);
+  reportCounts(q, made->cells, *grid, std::move(json), session);
   return {};
 }
 
 Status runViewshed(const ViewshedArguments& a, Session& session) {
   if (Status checked = a.check(); !checked) return checked;
-  const auto options = a.options();
+  auto options = a.options();
   if (!options) return tl::unexpected(options.error());
   const Result<AmtFile> file = openAmt(a.model);
   if (!file) return tl::unexpected(file.error());
@@ -318,6 +321,9 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
   if (Status output = checkOutput("--output", a.output, {a.model, a.observers.file, a.like, outline->source});
       !output)
     return output;
+  const Result<TerrainError> maxError = terrainErrorOf(a.maxError, *file, session);
+  if (!maxError) return tl::unexpected(maxError.error());
+  options->maxError = maxError->value;
   const auto placed = placeObservers(a, options->field, *outline, session);
   if (!placed) return tl::unexpected(placed.error());
   if (!a.isOfOne(placed->size()) && (a.mode == Mode::height || a.mode == Mode::horizon))
@@ -331,7 +337,7 @@ Status runViewshed(const ViewshedArguments& a, Session& session) {
   if (!model) return tl::unexpected(model.error());
   const auto observers = sitesOf(*placed, *model);
   if (!observers) return tl::unexpected(observers.error());
-  return answer({a, *model, **earth, *options, *observers}, session);
+  return answer({a, *model, **earth, *options, *observers, *maxError}, session);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/terrain_error.h"
 #include "io/dem/raster_writer.h"
 
 namespace arete {
@@ -122,11 +123,8 @@ void ViewshedArguments::addTo(CLI::App& command) {
   fieldOfView.addTo(command);
   sight.addLonLatTo(command);
   sight.addNodataTo(command);
-  command
-      .add_option("--max-error", maxError,
-                  "Stop refining at this error, in the DEM's unit; samples that it leaves open are undecided")
-      ->check(finiteAtLeast(0))
-      ->type_name("E");
+  addTerrainErrorTo(command, maxError,
+                    "Stop refining at this error; samples that it leaves open are undecided", false);
   command.add_option("--method", method, "auto (default), sweep or rays; all give the same answer")
       ->transform(oneOf<ViewshedMethod>({{"auto", ViewshedMethod::automatic},
                                          {"sweep", ViewshedMethod::sweep},
@@ -141,7 +139,7 @@ Status ViewshedArguments::check() const {
   if (!isGeoTiffName(output))
     return failure(ErrorCode::usage, "a viewshed is a GeoTIFF and ends in .tif or .tiff",
                    "--output " + output);
-  if (method == ViewshedMethod::sweep && maxError > 0)
+  if (method == ViewshedMethod::sweep && isAboveZero(maxError))
     return failure(ErrorCode::usage, "cannot be combined with --max-error", "--method sweep");
   return {};
 }
@@ -152,7 +150,6 @@ Result<ViewshedOptions> ViewshedArguments::options() const {
   ViewshedOptions options;
   options.targetHeight = targetHeight;
   options.nodata = sight.nodata;
-  options.maxError = maxError;
   options.method = method;
   options.field = *field;
   options.value = mode == ViewshedMode::height    ? ViewshedValue::leastHeight

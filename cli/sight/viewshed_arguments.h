@@ -50,7 +50,8 @@ struct ViewshedArguments {
   SightArguments sight;
   ViewshedMode mode = ViewshedMode::seen;
   ViewshedMethod method = ViewshedMethod::automatic;
-  double targetHeight = 0, maxError = 0;  ///< in the DEM's unit
+  double targetHeight = 0;     ///< in the DEM's unit
+  std::string maxError = "0";  ///< as it is stated
 
   void addTo(CLI::App& command);
   /// The rules between options that CLI11 cannot state. Errors: usage, naming the option.

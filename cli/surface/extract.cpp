@@ -41,6 +41,7 @@ struct Request {
   std::string output, map;
   std::optional<SurfaceTolerance> tolerance;
   std::optional<std::uint32_t> maxTriangles;
+  bool statesShare = false;  ///< of the finest triangles
 };
 
 /// The part of a file's name that stands for what is asked.
@@ -72,7 +73,8 @@ Result<std::vector<Request>> requestsOf(const SurfaceExtractArguments& arguments
     for (const auto& budget : budgets) {
       const std::string tag = tagOf(asked, tolerance ? tolerance->text : "", budget ? budget->text : "");
       requests.push_back({outputName(arguments.output, tag, several), outputName(arguments.map, tag, several),
-                          tolerance, budget ? std::optional(budget->count) : std::nullopt});
+                          tolerance, budget ? std::optional(budget->count) : std::nullopt,
+                          budget && budget->text.ends_with('%')});
     }
   return requests;
 }
@@ -333,10 +335,13 @@ class Extraction {
            const MeshWriteReport& written) {
     const double error = found.fit ? found.fit->distance : cut.achievedError;
     const bool hasBoth = request.tolerance && request.maxTriangles;
+    const double percent = 100 * static_cast<double>(front.mesh.triangles.size()) /
+                           static_cast<double>(model_.mt.finestTriangleCount());
     const char* const ended = cut.isComplete ? "--max-error" : "--max-triangles";
     std::string text =
-        fmt::format("{}: {}, {}, no point of the source{} farther than {}{}\n", request.output,
+        fmt::format("{}: {}{}, {}, no point of the source{} farther than {}{}\n", request.output,
                     grouped(front.mesh.triangles.size(), "triangle", "triangles"),
+                    request.statesShare ? fmt::format(" ({:.4g} % of the finest)", percent) : "",
                     grouped(front.mesh.positions.size(), "vertex", "vertices"),
                     found.droppedDistance ? " but what is left out" : "", withShare(error, model_.diagonal),
                     hasBoth ? fmt::format("; ended by {}", ended) : "");
@@ -371,6 +376,7 @@ class Extraction {
     session_.say(text);
     Json json = {{"file", request.output},
                  {"triangles", front.mesh.triangles.size()},
+                 {"trianglesPercent", percent},
                  {"vertices", front.mesh.positions.size()},
                  {"error", error},
                  {"errorPercent", 100 * error / model_.diagonal},
@@ -391,8 +397,10 @@ class Extraction {
                      {"errorBefore", cut.achievedError},
                      {"part", found.fit->part}};
     if (sourceCrossings_) json["sourceSelfIntersections"] = *sourceCrossings_;
-    if (request.tolerance && std::isfinite(request.tolerance->distance))
+    if (request.tolerance && std::isfinite(request.tolerance->distance)) {
       json["maxError"] = request.tolerance->distance;
+      json["maxErrorPercent"] = 100 * request.tolerance->distance / model_.diagonal;
+    }
     if (request.maxTriangles) json["maxTriangles"] = *request.maxTriangles;
     if (hasBoth) json["endedBy"] = cut.isComplete ? "maxError" : "maxTriangles";
     if (!request.map.empty()) json["map"] = request.map;
@@ -428,6 +436,7 @@ Status extractSurface(const SurfaceExtractArguments& arguments, Session& session
   session.answer({{"model", arguments.model},
                   {"kind", "surface"},
                   {"diagonal", model->diagonal},
+                  {"finestTriangles", model->mt.finestTriangleCount()},
                   {"exports", std::move(extraction.exports())}});
   return {};
 }

@@ -103,9 +103,11 @@ Status sayAboutSurface(const std::string& path, const std::string& at, Session& 
   for (const CurvePoint& p : *curve) {
     text += fmt::format("  {:>12.4g}  {:>7.3g} %  {:>13}  {:>13}\n", p.error, 100 * p.error / model->diagonal,
                         grouped(p.minimal), grouped(p.saturated));
-    points.push_back({{"maxError", std::isfinite(p.error) ? Json(p.error) : Json()},
-                      {"minimal", p.minimal},
-                      {"saturated", p.saturated}});
+    points.push_back(
+        {{"maxError", std::isfinite(p.error) ? Json(p.error) : Json()},
+         {"maxErrorPercent", std::isfinite(p.error) ? Json(100 * p.error / model->diagonal) : Json()},
+         {"minimal", p.minimal},
+         {"saturated", p.saturated}});
   }
   session.say(text);
   session.answer({{"file", path},

@@ -38,8 +38,9 @@ Status validateSurfaceFile(const std::string& path, const SurfaceLawOptions& opt
   Json laws = Json::array();
   std::string text = fmt::format(
       "{}: checksums, indices and every law hold\n"
-      "  surface {} faces, {} triangles at the finest\n",
-      path, grouped(model->fileFaces), grouped(model->mt.finestTriangleCount()));
+      "  surface {}, {} at the finest\n",
+      path, grouped(model->fileFaces, "face", "faces"),
+      grouped(model->mt.finestTriangleCount(), "triangle", "triangles"));
   text += mendedText(model->mending, "  mended  ");
   for (const Law& law : kLaws) {
     text += fmt::format("  law {:<2}  holds  {}\n", law.number, law.says);

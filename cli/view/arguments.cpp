@@ -6,16 +6,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 #include <utility>
 
 #include "cli/arguments/arguments.h"
+#include "cli/arguments/criterion.h"
 #include "io/file/text_scan.h"
 #include "viewer/headless/headless.h"
 
 namespace arete {
 namespace {
+
+constexpr std::int64_t kMostTriangles = 0xFFFFFFF;
 
 Coloring coloringOf(const std::string& name) {
   if (name == "slope") return Coloring::slope;
@@ -79,8 +83,10 @@ void DetailArguments::addTo(CLI::App& command) {
       ->type_name("P")
       ->group(group);
   command
-      .add_option("--max-triangles", maxTriangles, "Largest number of triangles; the error grows to keep it")
-      ->check(wholeNumber(1, 0xFFFFFFF))
+      .add_option("--max-triangles", budget,
+                  "Largest number of triangles, or N% of those of the finest triangulation; the error grows "
+                  "to keep it")
+      ->check(triangleBudgets())
       ->type_name("N")
       ->group(group);
   command
@@ -103,6 +109,21 @@ void DetailArguments::addTo(CLI::App& command) {
       ->group(group);
   command.add_flag("--no-geomorph", isFixed, "Do not move new vertices gradually to their height")
       ->group(group);
+}
+
+Status DetailArguments::findBudget(std::uint64_t finest) {
+  if (budget.empty()) return {};
+  const Result<std::vector<StatedTriangles>> stated = parseTriangleBudgets(budget, finest);
+  if (!stated) return tl::unexpected(stated.error());
+  if (stated->size() != 1) return failure(ErrorCode::usage, "takes one number", "--max-triangles");
+  maxTriangles = std::min<std::int64_t>(stated->front().count, kMostTriangles);
+  return {};
+}
+
+void DetailArguments::addBudgetTo(Json& json, std::uint64_t finest) const {
+  if (maxTriangles == 0) return;
+  json["maxTriangles"] = maxTriangles;
+  json["finestTriangles"] = finest;
 }
 
 std::string DetailArguments::whatEndsTheCut() const {
@@ -270,7 +291,6 @@ Result<ViewSettings> ViewArguments::settings() const {
   if (!look) return tl::unexpected(look.error());
   ViewSettings s;
   s.pixels = detail.pixelError;
-  s.maxTriangles = static_cast<std::uint32_t>(detail.maxTriangles);
   s.path = detail.isCutByProcessor() ? CutPath::processor : CutPath::device;
   s.cutMilliseconds = detail.deadline;
   s.isGeomorphed = !detail.isFixed;
@@ -301,7 +321,6 @@ Result<SurfaceViewSettings> ViewArguments::ofSurface() const {
     return failure(ErrorCode::usage, "is for terrain, and the file is of a surface", "--color " + color);
   SurfaceViewSettings s;
   s.pixels = detail.pixelError;
-  s.maxTriangles = static_cast<std::uint32_t>(detail.maxTriangles);
   s.look.coloring = color == "plain"   ? SurfaceColoring::plain
                     : color == "error" ? SurfaceColoring::error
                                        : SurfaceColoring::materials;

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "cli/session/session.h"
 #include "engine/base/result.h"
 #include "viewer/camera/home_view.h"
 #include "viewer/gl/drape_on_gpu.h"
@@ -33,11 +34,16 @@ struct ViewpointArguments {
 /// How fine the terrain is drawn. Times in milliseconds; 0 = no limit.
 struct DetailArguments {
   double pixelError = 1, frameTime = 0, deadline = 0;
+  std::string budget;             ///< as stated: a number, or a share of the finest; empty = any number
   std::int64_t maxTriangles = 0;  ///< 0 = any number
   std::string cut;                ///< empty: device
   bool isFixed = false;           ///< no geomorphing
 
   void addTo(CLI::App& command);
+  /// Sets maxTriangles, of a model whose finest triangulation has so many. Errors: usage.
+  Status findBudget(std::uint64_t finest);
+  /// Adds "maxTriangles" and "finestTriangles", of which it may be a share, where a budget is stated.
+  void addBudgetTo(Json& json, std::uint64_t finest) const;
   /// What can end a cut before it reaches the tolerance, as words of a message: "budget or the deadline".
   std::string whatEndsTheCut() const;
   bool isCutByProcessor() const { return cut == "processor"; }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cli/arguments/arguments.h"
+#include "engine/base/counted.h"
 #include "io/file/file_writer.h"
 
 namespace arete {
@@ -97,8 +98,9 @@ Status takeScreenshot(const ViewArguments& a, const Camera& camera, HeadlessView
   if (exceedsBudget(a, *figures))
     session.warn(fmt::format("--max-triangles {}: from there the coarsest cut has {}", a.detail.maxTriangles,
                              grouped(figures->triangles)));
-  session.say(fmt::format("{}: {} triangles, {} vertices on the move, {}\n", a.pictures.screenshot,
-                          grouped(figures->triangles), grouped(figures->moving), accuracyOf(*figures)));
+  session.say(fmt::format("{}: {}, {} on the move, {}\n", a.pictures.screenshot,
+                          grouped(figures->triangles, "triangle", "triangles"),
+                          grouped(figures->moving, "vertex", "vertices"), accuracyOf(*figures)));
   json["screenshot"] = {
       {"file", a.pictures.screenshot}, {"camera", jsonOf(camera)}, {"figures", jsonOf(*figures)}};
   return {};
@@ -121,16 +123,18 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, const SurfaceHeigh
     large += exceedsBudget(a, frame.figures) ? 1 : 0;
   }
   if (empty > 0)
-    session.warn(fmt::format("{} of {} frames show nothing of the terrain", empty, frames->size()));
+    session.warn(fmt::format("{} of {} nothing of the terrain", empty,
+                             grouped(frames->size(), "frame shows", "frames show")));
   if (buried > 0)
-    session.warn(
-        fmt::format("the camera stands under the ground in {} of {} frames", buried, frames->size()));
+    session.warn(fmt::format("the camera stands under the ground in {} of {}", buried,
+                             grouped(frames->size(), "frame", "frames")));
   if (unfinished > 0)
-    session.warn(fmt::format("the {} ended the cut of {} of {} frames", a.detail.whatEndsTheCut(), unfinished,
-                             frames->size()));
+    session.warn(fmt::format("the {} ended the cut of {} of {}", a.detail.whatEndsTheCut(), unfinished,
+                             grouped(frames->size(), "frame", "frames")));
   if (large > 0)
-    session.warn(fmt::format("--max-triangles {}: the coarsest cuts of {} of {} frames have more",
-                             a.detail.maxTriangles, large, frames->size()));
+    session.warn(fmt::format("--max-triangles {}: the coarsest {} of {} of {} more", a.detail.maxTriangles,
+                             agreeing(frames->size(), "cut", "cuts"), large,
+                             grouped(frames->size(), "frame has", "frames have")));
   if (hasFramesBehind(a.pictures.frames, frames->size()))
     session.warn(fmt::format("{} has frames of an earlier, longer flight behind these", a.pictures.frames));
   for (const FilmFrame& frame : *frames) {
@@ -147,8 +151,9 @@ Status makeFilm(const ViewArguments& a, const Flight& flight, const SurfaceHeigh
     file->write(json.dump(1) + "\n");
     if (Status finished = file->finish(); !finished) return finished;
   }
-  session.say(fmt::format("{}: {} frame{}, {} triangles in the mean\n", a.pictures.frames, frames->size(),
-                          frames->size() == 1 ? "" : "s", grouped(triangles / frames->size())));
+  session.say(fmt::format("{}: {}, {} in the mean\n", a.pictures.frames,
+                          grouped(frames->size(), "frame", "frames"),
+                          grouped(triangles / frames->size(), "triangle", "triangles")));
   if (!a.pictures.film.empty()) {
     const double rate =
         a.pictures.framesPerSecond > 0 ? a.pictures.framesPerSecond : flight.plan().framesPerSecond;

@@ -87,8 +87,8 @@ class SurfacePictures {
     if (!figures->showsSurface) session_.warn("the picture shows nothing of the surface");
     if (!figures->isComplete)
       session_.warn(fmt::format("the budget ended the cut: the surface is {}", accuracyOf(*figures)));
-    session_.say(fmt::format("{}: {} triangle{}, {}\n", a_.pictures.screenshot, grouped(figures->triangles),
-                             figures->triangles == 1 ? "" : "s", accuracyOf(*figures)));
+    session_.say(fmt::format("{}: {}, {}\n", a_.pictures.screenshot,
+                             grouped(figures->triangles, "triangle", "triangles"), accuracyOf(*figures)));
     json["screenshot"] = {
         {"file", a_.pictures.screenshot},
         {"camera", jsonOf(camera, view_.view().upright(), view_.view().shape().box.diagonal())},
@@ -134,8 +134,9 @@ class SurfacePictures {
       file->write(json.dump(1) + "\n");
       if (Status finished = file->finish(); !finished) return finished;
     }
-    session_.say(fmt::format("{}: {} frames, {} triangles in the mean\n", a_.pictures.frames, count,
-                             grouped(triangles / count)));
+    session_.say(fmt::format("{}: {}, {} in the mean\n", a_.pictures.frames,
+                             grouped(count, "frame", "frames"),
+                             grouped(triangles / count, "triangle", "triangles")));
     if (a_.pictures.film.empty()) return {};
     if (Status encoded = encodeFilm(a_.pictures.frames, count, rate, a_.pictures.film, session_.context());
         !encoded)
@@ -174,8 +175,8 @@ Status checkOutputs(const ViewArguments& a) {
 
 }  // namespace
 
-Status viewSurface(const ViewArguments& a, Session& session) {
-  const Result<SurfaceViewSettings> settings = a.ofSurface();
+Status viewSurface(ViewArguments a, Session& session) {
+  Result<SurfaceViewSettings> settings = a.ofSurface();
   if (!settings) return tl::unexpected(settings.error());
   if (Status ok = a.check(); !ok) return ok;
   const auto size = a.pictures.size();
@@ -183,6 +184,8 @@ Status viewSurface(const ViewArguments& a, Session& session) {
   if (Status ok = checkOutputs(a); !ok) return ok;
   const Result<SurfaceModel> model = loadSurfaceAmt(a.model, AmtVerify::all, session.context());
   if (!model) return tl::unexpected(model.error());
+  if (Status found = a.detail.findBudget(model->mt.finestTriangleCount()); !found) return found;
+  settings->maxTriangles = static_cast<std::uint32_t>(a.detail.maxTriangles);
   const Upright upright(*model, a.viewpoint.up);
   const Result<Camera> camera =
       cameraOf(a, upright, uprightShape(*model, upright), size->first, size->second);
@@ -205,6 +208,7 @@ Status viewSurface(const ViewArguments& a, Session& session) {
   if (!view) return tl::unexpected(view.error());
   session.warn(view->view().warnings(), a.model);
   Json json = {{"model", a.model}, {"kind", "surface"}, {"renderer", view->description()}};
+  a.detail.addBudgetTo(json, model->mt.finestTriangleCount());
   SurfacePictures pictures(a, *settings, *view, session);
   if (!a.pictures.screenshot.empty())
     if (Status ok = pictures.takeScreenshot(*camera, json); !ok) return ok;

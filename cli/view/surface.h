@@ -11,6 +11,6 @@ namespace arete {
 /// their film.
 ///
 /// Errors: usage, naming the option: one that is for terrain; those of reading, drawing and writing.
-Status viewSurface(const ViewArguments& arguments, Session& session);
+Status viewSurface(ViewArguments arguments, Session& session);
 
 }  // namespace arete

@@ -81,13 +81,13 @@ Result<std::optional<Flight>> flightOf(const ViewArguments& a, const TerrainMode
   return std::optional<Flight>(std::move(*flight));
 }
 
-Status runView(const ViewArguments& a, Session& session) {
+Status runView(ViewArguments a, Session& session) {
   if (const Result<bool> isSurface = isSurfaceAmt(a.model); isSurface && *isSurface)
     return viewSurface(a, session);
   if (Status ok = a.check(); !ok) return ok;
   if (!a.viewpoint.up.empty())
     return failure(ErrorCode::usage, "is for surfaces, and the file is of terrain", "--up");
-  const Result<ViewSettings> settings = a.settings();
+  Result<ViewSettings> settings = a.settings();
   if (!settings) return tl::unexpected(settings.error());
   const Result<DrapeOptions> drapeOptions = a.appearance.drapeOptions();
   if (!drapeOptions) return tl::unexpected(drapeOptions.error());
@@ -95,6 +95,8 @@ Status runView(const ViewArguments& a, Session& session) {
   if (!size) return tl::unexpected(size.error());
   const Result<TerrainModel> model = loadAmt(a.model, {}, session.context());
   if (!model) return tl::unexpected(model.error());
+  if (Status found = a.detail.findBudget(model->mt.finestTriangleCount()); !found) return found;
+  settings->maxTriangles = static_cast<std::uint32_t>(a.detail.maxTriangles);
   const SurfaceHeights heights(*model);
   const Result<Camera> camera = cameraOf(a, *model, heights, size->first, size->second);
   if (!camera) return tl::unexpected(camera.error());
@@ -143,6 +145,7 @@ Status runView(const ViewArguments& a, Session& session) {
   if (!view) return tl::unexpected(view.error());
   for (const std::string& warning : view->warnings()) session.warn(warning);
   Json json = {{"model", a.model}, {"renderer", view->description()}};
+  a.detail.addBudgetTo(json, model->mt.finestTriangleCount());
   if (!a.appearance.drape.empty()) {
     if (Status laid = layDrape(view->view()); !laid) return laid;
     const DrapeOnGpu& drape = *view->view().drape();

@@ -22,6 +22,7 @@
 #include <numeric>
 
 #include "engine/base/caught_failure.h"
+#include "engine/base/counted.h"
 #include "engine/laws/front_edges.h"
 #include "engine/mt/node_blocks.h"
 
@@ -241,8 +242,8 @@ Status validate(const MultiTriangulation& mt, const ValidateOptions& options, co
   for (std::uint32_t n = 0; n < nodes; ++n) dummies += mt.isOpen(NodeId(n)) ? 1 : 0;
   for (const std::uint32_t r : a.remover) removed += r != kNone ? 1 : 0;
   if (removed - dummies != a.floor.size())
-    return broken(fmt::format("law 3: {} triangles have a remover, the floors list {}", removed - dummies,
-                              a.floor.size()));
+    return broken(fmt::format("law 3: {} a remover, the floors list {}",
+                              counted(removed - dummies, "triangle has", "triangles have"), a.floor.size()));
   if (a.vertices.isSurface()) return {};
   for (std::uint32_t t = 0; t < mt.rootTriangleCount(); ++t) {
     const auto& c = a.rootTriangles[t];

@@ -14,6 +14,7 @@
 #include <cstring>
 #include <utility>
 
+#include "engine/base/counted.h"
 #include "io/file/copied_file.h"
 #include "io/file/mapped_file.h"
 #include "io/format/checksum.h"
@@ -29,8 +30,8 @@ tl::unexpected<Error> AmtContainer::corrupt(const std::string& message) const {
 }
 
 tl::unexpected<Error> AmtContainer::truncated(std::uint64_t wanted) const {
-  return corrupt(
-      fmt::format("is cut short: {} of its {} bytes are missing", wanted - bytes().size(), wanted));
+  return corrupt(fmt::format("is cut short: {} of its {} bytes {} missing", wanted - bytes().size(), wanted,
+                             agreeing(wanted - bytes().size(), "is", "are")));
 }
 
 const AmtChunk* AmtContainer::find(AmtTag tag) const {

@@ -183,7 +183,7 @@ class MtIndexCheck {
       count(here);
     });
     if (removed == a_.floor.size()) return {};
-    return refuse(amt_tag::kRemover, fmt::format("{} triangles are removed and {} are in the floors of nodes",
+    return refuse(amt_tag::kRemover, fmt::format("triangles removed: {}; in the floors of nodes: {}",
                                                  removed.load(), a_.floor.size()));
   }
 

@@ -20,6 +20,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "engine/base/counted.h"
 #include "io/gdal/support.h"
 
 namespace arete {
@@ -238,13 +239,14 @@ Status BandReader::read(int firstRow, int rowCount, std::span<double> heights) {
 void BandReader::report(std::vector<std::string>& warnings) const {
   if (!saidBefore_.empty()) warnings.push_back("GDAL: " + saidBefore_);
   if (absent_ > 0)
+    warnings.push_back(counted(absent_, "sample lies in a block that the file leaves out: it is NODATA",
+                               "samples lie in blocks that the file leaves out: they are NODATA"));
+  if (infinite_ > 0)
     warnings.push_back(
-        fmt::format("{} samples lie in blocks that the file leaves out: they are NODATA", absent_));
-  if (infinite_ > 0) warnings.push_back(fmt::format("{} infinite heights are taken as NODATA", infinite_));
+        counted(infinite_, "infinite height is taken as NODATA", "infinite heights are taken as NODATA"));
   if (huge_ > 0)
-    warnings.push_back(
-        fmt::format("{} heights are as large as {}: an undeclared NODATA value? `nodata` states it", huge_,
-                    hugeExample_));
+    warnings.push_back(fmt::format("{} as large as {}: an undeclared NODATA value? `nodata` states it",
+                                   counted(huge_, "height is", "heights are"), hugeExample_));
 }
 
 }  // namespace arete

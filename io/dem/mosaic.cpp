@@ -15,6 +15,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/base/counted.h"
 #include "io/crs/names.h"
 #include "io/dem/raster_file.h"
 #include "io/text/address_text.h"
@@ -395,10 +396,11 @@ void DemMosaic::report(std::vector<std::string>& warnings) const {
   }
   warnings.insert(warnings.end(), parts_->leftOut.begin(), parts_->leftOut.end());
   if (parts_->different > 0)
-    warnings.push_back(fmt::format(
-        "{} samples have different heights in several files, by up to {:.6g}: those of the file named "
-        "later count (the first of them: {})",
-        parts_->different, parts_->largestDifference, parts_->differentFiles));
+    warnings.push_back(
+        fmt::format("{} different heights in several files, by up to {:.6g}: those of the file named "
+                    "later count (the first of them: {})",
+                    counted(parts_->different, "sample has", "samples have"), parts_->largestDifference,
+                    parts_->differentFiles));
 }
 
 }  // namespace arete

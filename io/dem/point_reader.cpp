@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "engine/base/counted.h"
 #include "engine/memory/pages.h"
 #include "io/crs/reader.h"
 #include "io/crs/vertical.h"
@@ -135,8 +136,8 @@ Result<PointRows> readLayer(GDALDataset& dataset, OGRLayer& layer, const PointRe
   if (!read) return tl::unexpected(read.error());
   errors.moveTo(warnings);
   if (collector.skipped > 0)
-    warnings.push_back(
-        fmt::format("{} features without a position or a height are left out", collector.skipped));
+    warnings.push_back(counted(collector.skipped, "feature without a position or a height is left out",
+                               "features without a position or a height are left out"));
   return std::move(collector.rows);
 }
 
@@ -149,7 +150,9 @@ void dropNodata(PointRows& rows, double nodata, std::vector<std::string>& warnin
     rows.origins[kept++] = rows.origins[i];
   }
   if (const std::size_t dropped = rows.heights.size() - kept; dropped > 0)
-    warnings.push_back(fmt::format("{} points of the height {} are left out as NODATA", dropped, nodata));
+    warnings.push_back(fmt::format("{} of the height {} {} left out as NODATA",
+                                   counted(dropped, "point", "points"), nodata,
+                                   agreeing(dropped, "is", "are")));
   rows.positions.resize(kept);
   rows.heights.resize(kept);
   rows.origins.resize(kept);
@@ -222,12 +225,13 @@ Status mergeEqual(PointRows& rows, SamePlace rule, std::string_view originName,
                                p[a].x, p[a].y, rows.heights[a], originName, rows.origins[a], rows.heights[b],
                                originName, rows.origins[b]));
   if (merged > 0)
-    warnings.push_back(fmt::format("{} points repeat another one exactly and are left out", merged));
+    warnings.push_back(counted(merged, "point repeats another one exactly and is left out",
+                               "points repeat another one exactly and are left out"));
   if (joined > 0)
     warnings.push_back(
-        fmt::format("{} places have several heights, up to {:.6g} from the first; each gets one, "
-                    "{}, and {} points are left out",
-                    places, widest, samePlaceClause(rule), joined));
+        fmt::format("{} several heights, up to {:.6g} from the first; each gets one, {}, and {} left out",
+                    counted(places, "place has", "places have"), widest, samePlaceClause(rule),
+                    counted(joined, "point is", "points are")));
   if (merged + joined == 0) return {};
   std::size_t kept = 0;
   for (std::size_t i = 0; i < count; ++i) {

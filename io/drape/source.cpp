@@ -13,6 +13,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/base/counted.h"
 #include "io/gdal/zipped_raster.h"
 
 namespace arete {
@@ -80,8 +81,8 @@ Status chooseColors(DrapeSource& source, const std::vector<int>& stated, std::ve
       return failure(ErrorCode::usage, "a picture has one band (grey) or three (red, green, blue)");
     for (const int b : stated)
       if (b < 1 || b > count)
-        return failure(ErrorCode::usage,
-                       fmt::format("has {} band{}; there is no band {}", count, count == 1 ? "" : "s", b));
+        return failure(ErrorCode::usage, fmt::format("has {}; there is no band {}",
+                                                     counted(std::size_t(count), "band", "bands"), b));
     source.colors = stated;
   } else if (red != 0 && green != 0 && blue != 0) {
     source.colors = {red, green, blue};

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "engine/base/caught_failure.h"
+#include "engine/base/counted.h"
 #include "io/crs/chain_projection.h"
 #include "io/crs/longitude_turns.h"
 #include "io/crs/reader.h"
@@ -98,15 +99,22 @@ Status collectLayer(GDALDataset& dataset, OGRLayer& layer, Shapes& all, std::vec
   });
   if (all.openRings > 0)
     warnings.push_back(
-        fmt::format("{} of its rings do not end where they begin; an edge closes each", all.openRings));
+        fmt::format("{} of its rings {}; an edge closes each", all.openRings,
+                    agreeing(all.openRings, "does not end where it begins", "do not end where they begin")));
   if (all.isEmpty())
     return failure(ErrorCode::invalidData,
                    fmt::format("the layer '{}' has no polygon{}{}", layer.GetName(),
                                all.takesLines ? " and no line" : "", all.takesPoints ? " and no point" : ""));
-  if (without > 0) warnings.push_back(fmt::format("{} features without a geometry are left out", without));
+  if (without > 0)
+    warnings.push_back(counted(without, "feature without a geometry is left out",
+                               "features without a geometry are left out"));
   if (all.others > 0)
-    warnings.push_back(fmt::format("{} geometries that are no polygons{}{} are left out", all.others,
-                                   all.takesLines ? " or lines" : "", all.takesPoints ? " or points" : ""));
+    warnings.push_back(
+        fmt::format("{}{}{} {} left out",
+                    counted(all.others, "geometry that is no polygon", "geometries that are no polygons"),
+                    all.takesLines ? agreeing(all.others, " or line", " or lines") : "",
+                    all.takesPoints ? agreeing(all.others, " or point", " or points") : "",
+                    agreeing(all.others, "is", "are")));
   return {};
 }
 

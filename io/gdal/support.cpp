@@ -19,6 +19,7 @@
 #include <cstring>
 #include <mutex>
 
+#include "engine/base/counted.h"
 #include "io/file/text_scan.h"
 #include "io/file/watched_files.h"
 #include "io/gdal/confined.h"
@@ -121,7 +122,8 @@ void GdalErrors::moveTo(std::vector<std::string>& warnings) {
   for (std::size_t i = 0; i < std::min(kWarningsKept, distinct.size()); ++i)
     warnings.push_back(std::move(distinct[i]));
   if (distinct.size() > kWarningsKept)
-    warnings.push_back(fmt::format("GDAL: and {} more messages", distinct.size() - kWarningsKept));
+    warnings.push_back(fmt::format(
+        "GDAL: and {}", counted(distinct.size() - kWarningsKept, "more message", "more messages")));
   messages_.clear();
 }
 

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/counted.h"
 #include "io/mesh/polygon.h"
 
 namespace arete {
@@ -200,10 +201,10 @@ Status MeshFaces::triangulate(MeshFile& file, const RunContext& context) {
   rewriter.finish();
   fans_.clear();
   if (crossing > 0)
-    file.warnings.push_back(fmt::format(
-        "{} of its {} faces have an outline that crosses itself, so their triangles are a guess (the first "
-        "is face {})",
-        crossing, faces_, firstCrossing));
+    file.warnings.push_back(
+        fmt::format("{} of its {} {} an outline that crosses itself, so that triangles are a guess (the "
+                    "first is face {})",
+                    crossing, faces_, agreeing(crossing, "faces has", "faces have"), firstCrossing));
   return {};
 }
 

@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+#include "engine/base/counted.h"
+
 namespace arete {
 namespace {
 
@@ -41,8 +43,8 @@ std::uint64_t countFlattened(const TriangleMesh& mesh,
 
 std::string flattenedLoss(std::uint64_t count) {
   if (count == 0) return {};
-  return fmt::format("{} triangle{}, which {} no area in 32-bit floats", count, count == 1 ? "" : "s",
-                     count == 1 ? "has" : "have");
+  return counted(count, "triangle, which has no area in 32-bit floats",
+                 "triangles, which have no area in 32-bit floats");
 }
 
 }  // namespace arete

@@ -25,6 +25,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/base/counted.h"
 #include "io/file/text_decoder.h"
 #include "io/file/text_scan.h"
 #include "io/gdal/support.h"
@@ -182,8 +183,11 @@ class TextParser {
 
   PointRows takeRows() {
     if (withoutHeight_ > 0)
-      warnings_.push_back(fmt::format("{} points have no height and are left out (the first is on line {})",
-                                      withoutHeight_, lineWithoutHeight_));
+      warnings_.push_back(
+          withoutHeight_ == 1
+              ? fmt::format("1 point has no height and is left out (on line {})", lineWithoutHeight_)
+              : fmt::format("{} points have no height and are left out (the first is on line {})",
+                            withoutHeight_, lineWithoutHeight_));
     if (lineWithComma_ > 0) warnings_.push_back("its numbers have a decimal comma");
     if (mayCountLines_ && rows_.positions.size() >= kLinesThatCount)
       warnings_.push_back(
@@ -191,8 +195,8 @@ class TextParser {
           "is a "
           "number of the point, put a line of column names before the first");
     if (surplusFields_ > 0)
-      warnings_.push_back(
-          fmt::format("{} fields stand beyond the last column and are left out", surplusFields_));
+      warnings_.push_back(counted(surplusFields_, "field stands beyond the last column and is left out",
+                                  "fields stand beyond the last column and are left out"));
     return std::move(rows_);
   }
   /// Of the next record, counted from 1.

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arete
+from ._sizes import counted
 
 PathLike = Union[str, "os.PathLike[str]"]
 Progress = Optional[Callable[[str, float], object]]
@@ -107,7 +108,7 @@ class Tin:
         return meshio.Mesh(self.vertices, [("triangle", self.triangles)], cell_data={"error": [self.errors]})
 
     def __repr__(self) -> str:
-        return f"<arete.Tin of {len(self.triangles)} triangles, error {self.error:g}>"
+        return f"<arete.Tin of {counted(len(self.triangles), 'triangle', 'triangles')}, error {self.error:g}>"
 
 
 @dataclasses.dataclass(frozen=True)

@@ -12,7 +12,7 @@ from . import _arete
 from ._arrays import crs_text, geotransform_of, heights_of, line_of, mesh_of, region_of
 from ._arrays import places_of, some_mesh_of, unmasked_places
 from ._cuts import Asked, Camera, PathLike, Progress, Stored, Tin
-from ._sizes import Size, count_of, size_of
+from ._sizes import Size, count_of, counted, size_of
 
 
 class Sight(NamedTuple):
@@ -216,7 +216,7 @@ class Model(Stored):
         return tuple(self._terrain.bounds)
 
     def __repr__(self) -> str:
-        return f"<arete.Model of {self._terrain.source!r}, {self._terrain.vertex_count} samples>"
+        return f"<arete.Model of {self._terrain.source!r}, {counted(self._terrain.vertex_count, 'sample', 'samples')}>"
 
 
 def build(source: Any, *, transform: Any = None, crs: Any = None, nodata: Optional[float] = None,

@@ -37,3 +37,8 @@ def count_of(name: str, value: Any, whole: Callable[[], int]) -> Optional[int]:
     if size < 1:
         raise ValueError(f"{name}={value!r} is less than one triangle")
     return int(size)
+
+
+def counted(count: int, one: str, many: str) -> str:
+    """A number and the word that agrees with it: "1 triangle", "2 triangles"."""
+    return f"{count} {one if count == 1 else many}"

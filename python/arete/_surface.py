@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from . import _arete
 from ._arrays import mesh_of, some_mesh_of
 from ._cuts import Asked, PathLike, Progress, Stored, SurfaceCamera, Tin
-from ._sizes import Size, count_of, size_of
+from ._sizes import Size, count_of, counted, size_of
 
 
 class Surface(Stored):
@@ -80,7 +80,7 @@ class Surface(Stored):
         return self._surface.is_displaced
 
     def __repr__(self) -> str:
-        return f"<arete.Surface of {self._surface.source!r}, {self._surface.vertex_count} vertices>"
+        return f"<arete.Surface of {self._surface.source!r}, {counted(self._surface.vertex_count, 'vertex', 'vertices')}>"
 
 
 def build_surface(source: Any, triangles: Optional[ArrayLike] = None, *, displacement: bool = False,

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/counted.h"
 #include "engine/laws/validate.h"
 #include "surface/diagnosis/diagnosis.h"
 #include "surface/laws/errors_law.h"
@@ -101,8 +102,9 @@ Status SurfaceTopology::check(const Cut& cut, const RunContext& context) const {
   if (!front) return tl::unexpected(front.error());
   const MeshDiagnosis& d = front->diagnosis;
   if (d.doubleSided.count > doubleSided_)
-    return broken(fmt::format("{} triangles of a front lie on others, {} of the finest one",
-                              d.doubleSided.count, doubleSided_));
+    return broken(fmt::format(
+        "{} on others, {} of the finest one",
+        counted(d.doubleSided.count, "triangle of a front lies", "triangles of a front lie"), doubleSided_));
   std::vector<std::uint32_t> finestOf(d.components.size(), kNone), countOf(components_.size(), 0);
   for (std::size_t t = 0; t < cut.triangles.size(); ++t)
     for (const std::uint32_t v : cut.triangles[t]) {

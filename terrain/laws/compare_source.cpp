@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/caught_failure.h"
+#include "engine/base/counted.h"
 
 namespace arete {
 namespace {
@@ -52,10 +53,10 @@ Result<std::uint64_t> compareWithSource(const TerrainModel& model, const RasterH
   }
   if (different > 0)
     return differs(
-        fmt::format("{} of {} heights differ from the source; the first at column {}, row {}: {} in the "
+        fmt::format("{} of {} heights {} from the source; the first at column {}, row {}: {} in the "
                     "model, {} in the source",
-                    different, own.size(), first % own.columns, first / own.columns,
-                    nameOf(own.heights[first]), nameOf(source.heights[first])));
+                    different, own.size(), agreeing(different, "differs", "differ"), first % own.columns,
+                    first / own.columns, nameOf(own.heights[first]), nameOf(source.heights[first])));
   return own.size();
 } catch (...) {
   return caughtFailure();
@@ -68,8 +69,8 @@ Result<std::uint64_t> compareWithSource(const TerrainModel& model, const PointHe
   if (here == mine.end() && there == theirs.end()) return mine.size();
   const auto& p = there == theirs.end() || (here != mine.end() && *here < *there) ? *here : *there;
   return differs(
-      fmt::format("{} points in the model, {} in the source; x {}, y {}, height {} is only in the {}",
-                  mine.size(), theirs.size(), p[0], p[1], p[2],
+      fmt::format("{} in the model, {} in the source; x {}, y {}, height {} is only in the {}",
+                  counted(mine.size(), "point", "points"), theirs.size(), p[0], p[1], p[2],
                   there == theirs.end() || (here != mine.end() && *here < *there) ? "model" : "source"));
 } catch (...) {
   return caughtFailure();

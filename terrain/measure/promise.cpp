@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/caught_failure.h"
+#include "engine/base/counted.h"
 #include "terrain/measure/measure.h"
 
 namespace arete {
@@ -14,13 +15,16 @@ Status checkPromise(const MeasureReport& report, double expectedError, const Exp
     return failure(ErrorCode::brokenPromise, std::move(message));
   };
   if (report.uncovered > 0)
-    return broken(fmt::format("{} valid samples are in no triangle", report.uncovered));
+    return broken(
+        counted(report.uncovered, "valid sample is in no triangle", "valid samples are in no triangle"));
   if (report.doublyCovered > 0)
-    return broken(fmt::format("{} samples are inside more than one triangle", report.doublyCovered));
+    return broken(counted(report.doublyCovered, "sample is inside more than one triangle",
+                          "samples are inside more than one triangle"));
   if (report.overlapped > 0)
-    return broken(fmt::format("triangles overlap around {} samples", report.overlapped));
+    return broken(
+        fmt::format("triangles overlap around {}", counted(report.overlapped, "sample", "samples")));
   if (report.nodataCovered > 0 && !options.allowCoveredNodata)
-    return broken(fmt::format("{} NODATA samples are covered", report.nodataCovered));
+    return broken(counted(report.nodataCovered, "NODATA sample is covered", "NODATA samples are covered"));
   // Written so that a NaN on either side fails.
   if (!(report.errorBeyondRounding <= expectedError)) {
     if (!report.worst) return broken(fmt::format("the expected error {} is not a number", expectedError));

@@ -230,9 +230,13 @@ std::string describe(const LoneHeights& lone, double scale, double offset) {
   const auto times = [](std::uint64_t count) { return count == 1 ? "once" : fmt::format("{} times", count); };
   const std::string others = fmt::format("far from the other heights, from {} to {}", lone.low, lone.high);
   if (lone.values.empty())
-    return fmt::format(
-        "{} heights from {} to {} stand alone, {}: do they mark missing data, or are they errors?",
-        lone.count, lone.lowest, lone.highest, others);
+    return lone.count == 1
+               ? fmt::format("the height {} stands alone, {}: does it mark missing data, or is it an error?",
+                             lone.lowest, others)
+               : fmt::format(
+                     "{} heights from {} to {} stand alone, {}: do they mark missing data, or are they "
+                     "errors?",
+                     lone.count, lone.lowest, lone.highest, others);
   std::string which;
   for (const LoneHeights::Value& value : lone.values)
     which += fmt::format("{}the value {} occurs {}", which.empty() ? "" : ", ", nameOf(value, scale, offset),

@@ -28,6 +28,7 @@
 #include "terrain/features/fixed_vertices.h"
 #include "terrain/locate/surface_height.h"
 #include "terrain/measure/measure.h"
+#include "terrain/model/relief.h"
 #include "terrain/sight/earth.h"
 #include "terrain/viewshed/viewshed.h"
 #include "viewer/camera/home_view.h"
@@ -135,8 +136,8 @@ class Demo {
   }
 
   Status read() {
-    if (const auto checked = checkedTolerances(options_.maxErrors); !checked)
-      return tl::unexpected(checked.error());
+    for (const std::vector<double>* stated : {&options_.maxErrors, &options_.reliefShares})
+      if (const auto checked = checkedTolerances(*stated); !checked) return tl::unexpected(checked.error());
     Result<DemRead> dem = readDem(report_.dem, options_.reading, context_);
     if (!dem) return tl::unexpected(dem.error());
     if (!std::holds_alternative<RasterHeightfield>(dem->heightfield))
@@ -148,6 +149,7 @@ class Demo {
     report_.warnings = std::move(dem->warnings);
     report_.columns = field_.columns;
     report_.rows = field_.rows;
+    report_.relief = reliefOf(field_.heights);
     report_.unit = shortUnit(field_.georeference.verticalUnit);
     std::error_code error;
     fs::create_directories(options_.folder, error);
@@ -178,7 +180,9 @@ class Demo {
     Result<std::vector<CurvePoint>> curve = errorCurve(model_.mt, ladder, context_);
     if (!curve) return tl::unexpected(curve.error());
     report_.curve = std::move(*curve);
-    std::vector<double> tolerances = *checkedTolerances(options_.maxErrors);
+    std::vector<double> stated = options_.maxErrors;
+    for (const double percent : options_.reliefShares) stated.push_back(percent / 100 * report_.relief);
+    std::vector<double> tolerances = *checkedTolerances(std::move(stated));
     if (tolerances.empty()) tolerances = chosenTolerances(report_.curve, model_.mt, options_.mostTolerances);
     for (std::size_t i = 0; i < tolerances.size(); ++i) {
       context_.report("extract", double(i) / double(tolerances.size()));
@@ -240,6 +244,7 @@ class Demo {
 
     DemoResult row;
     row.maxError = maxError;
+    if (report_.relief > 0) row.percentOfRelief = 100 * maxError / report_.relief;
     row.triangles = static_cast<std::uint32_t>(cut->triangles.size());
     row.percentOfFinest = 100.0 * row.triangles / report_.finestTriangles;
     row.measuredMax = measured->maxAbsError;
@@ -382,12 +387,13 @@ Result<DemoReport> runDemo(const std::string& dem, const DemoOptions& options, c
 std::string demoTable(const DemoReport& report) {
   const std::string unit = report.unit.empty() ? "" : ", " + report.unit;
   std::vector<std::vector<std::string>> rows = {{"tolerance" + unit, "triangles", "% of full",
-                                                 "measured max" + unit, "RMS" + unit, "uncovered", "cut, s"}};
+                                                 "measured max" + unit, "RMS" + unit, "uncovered", "cut, s",
+                                                 "% of relief"}};
   for (const DemoResult& r : report.results)
     rows.push_back({fmt::format("{:g}", r.maxError), std::to_string(r.triangles),
                     fmt::format("{:.3g}", r.percentOfFinest), fmt::format("{:.4g}", r.measuredMax),
                     fmt::format("{:.3g}", r.measuredRms), std::to_string(r.uncovered),
-                    fmt::format("{:.3f}", r.cutSeconds)});
+                    fmt::format("{:.3f}", r.cutSeconds), fmt::format("{:.3g}", r.percentOfRelief)});
   std::vector<std::size_t> width(rows.front().size(), 0);
   for (const auto& row : rows)
     for (std::size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], row[c].size());

@@ -14,10 +14,12 @@
 namespace arete {
 
 struct DemoOptions {
-  std::string folder;              ///< made where it is not there, with those above it
-  SourceReading reading;           ///< how to read the DEM
-  BuildOptions build;              ///< the default features are added to its fixed vertices
-  std::vector<double> maxErrors;   ///< in the DEM's vertical unit; empty = chosen from the data
+  std::string folder;             ///< made where it is not there, with those above it
+  SourceReading reading;          ///< how to read the DEM
+  BuildOptions build;             ///< the default features are added to its fixed vertices
+  std::vector<double> maxErrors;  ///< in the DEM's vertical unit
+  std::vector<double>
+      reliefShares{};  ///< more tolerances, in % of the relief; without both: chosen from the data
   std::size_t mostTolerances = 5;  ///< of those chosen, at least 1
   int pictureWidth = 1600;         ///< pixels
 };
@@ -25,6 +27,7 @@ struct DemoOptions {
 /// One tolerance, the TIN that keeps it, and what an independent measurement says of it.
 struct DemoResult {
   double maxError = 0;
+  double percentOfRelief = 0;  ///< of the tolerance
   std::uint32_t triangles = 0;
   double percentOfFinest = 0;
   double measuredMax = 0;
@@ -37,7 +40,8 @@ struct DemoResult {
 struct DemoReport {
   std::string dem;
   std::uint32_t columns = 0, rows = 0;
-  std::string unit;  ///< of the heights; may be empty
+  std::string unit;   ///< of the heights; may be empty
+  double relief = 0;  ///< the highest minus the lowest sample
   std::uint32_t finestTriangles = 0;
   std::uint64_t isolated = 0;
   double buildSeconds = 0;

@@ -145,7 +145,8 @@ std::vector<std::string> captionOf(const RasterHeightfield& ground, const Triang
   std::string first;
   const auto add = [&](const std::string& part) { first += (first.empty() ? "" : "   \u00b7   ") + part; };
   if (!tin.triangles.empty()) {
-    std::string count = countText(tin.triangles.size()) + " triangles";
+    std::string count =
+        countText(tin.triangles.size()) + (tin.triangles.size() == 1 ? " triangle" : " triangles");
     if (options.finestTriangles && *options.finestTriangles > 0) {
       count +=
           fmt::format(" ({} % of {})",

@@ -21,6 +21,7 @@
 #include <system_error>
 #include <vector>
 
+#include "engine/base/counted.h"
 #include "viewer/gl/frame_target.h"
 #include "viewer/headless/headless.h"
 #include "viewer/panel/panel_context.h"

@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/counted.h"
 #include "io/file/file_bytes.h"
 #include "io/file/text_scan.h"
 #include "io/mesh/2dm/2dm.h"
@@ -164,8 +165,8 @@ class TwoDmReader final : public MeshTextReader {
     takeMaterials();
     if (elementsWithMore_ > 0)
       mesh().warnings.push_back(fmt::format(
-          "{} of its {} elements have values that are no number of a material; these are left out",
-          elementsWithMore_, faces().size()));
+          "{} of its elements, {} in all, {} values that are no number of a material; these are left out",
+          elementsWithMore_, faces().size(), agreeing(elementsWithMore_, "has", "have")));
     warnOfLeftOut("cards");
     return areInOrder_ ? indexDirectly() : indexBySortedNumbers();
   }

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/counted.h"
 #include "io/crs/reader.h"
 #include "io/gdal/support.h"
 #include "io/gdal/vector_layer.h"
@@ -75,9 +76,10 @@ class GpkgReader {
     if (!hasErrors) result_.triangleErrors.clear();
     result_.mesh.positions = welder_.take();
     if (crossing_ > 0)
-      result_.warnings.push_back(fmt::format(
-          "{} polygons cross themselves, so their triangles are a guess (the first is feature {})", crossing_,
-          firstCrossing_));
+      result_.warnings.push_back(fmt::format("{} are a guess (the first is feature {})",
+                                             counted(crossing_, "polygon crosses itself, so its triangles",
+                                                     "polygons cross themselves, so their triangles"),
+                                             firstCrossing_));
     return std::move(result_);
   }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/counted.h"
 #include "io/file/file_bytes.h"
 #include "io/file/text_scan.h"
 #include "io/mesh/files_beside.h"
@@ -31,7 +32,8 @@ class Warnings {
   explicit Warnings(std::vector<std::string>& to) : to_(to) {}
   ~Warnings() {
     if (count_ > kMostWarnings)
-      to_.push_back(fmt::format("{} more libraries of materials are missing or odd", count_ - kMostWarnings));
+      to_.push_back(counted(count_ - kMostWarnings, "more library of materials is missing or odd",
+                            "more libraries of materials are missing or odd"));
   }
   Warnings(const Warnings&) = delete;
   Warnings& operator=(const Warnings&) = delete;
@@ -138,8 +140,8 @@ Status ObjMaterials::finish(MeshFile& file, const std::filesystem::path& folder,
   Warnings warnings(file.warnings);
   if (libraries_.size() > kMostLibraries) warnings.add("it names too many libraries of materials");
   if (tooMany_ > 0)
-    warnings.add(fmt::format("it names more than {} materials; {} times a further one is left out",
-                             kMostMaterials, tooMany_));
+    warnings.add(fmt::format("it names more than {} materials; a further one is left out {}", kMostMaterials,
+                             counted(tooMany_, "time", "times")));
   const FilesBeside files(folder);
   std::set<std::string> isRead;
   std::map<std::string, std::uint32_t> known;
@@ -178,7 +180,8 @@ Status ObjMaterials::finish(MeshFile& file, const std::filesystem::path& folder,
     numberOfUse.push_back(at->second);
   }
   if (unknown > 0 && !isRead.empty())
-    warnings.add(fmt::format("{} of its materials are in no library (the first is {})", unknown,
+    warnings.add(fmt::format("{} of its materials {} in no library (the first is {})", unknown,
+                             agreeing(unknown, "is", "are"),
                              text::quotedToken(materials[materials.size() - unknown].name)));
   for (std::uint32_t& material : file.mesh.materialOf)
     if (material != MeshAttributes::kNone) material = numberOfUse[material];

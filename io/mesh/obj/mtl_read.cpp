@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 
+#include "engine/base/counted.h"
 #include "io/file/number_text.h"
 #include "io/file/text_scan.h"
 #include "io/mesh/obj/mtl.h"
@@ -123,18 +124,19 @@ class MtlReader {
     }
     endMaterial();
     if (strays_ > 0)
-      result_.warnings.push_back(
-          fmt::format("{} statements before its first material are left out", strays_));
+      result_.warnings.push_back(counted(strays_, "statement before its first material is left out",
+                                         "statements before its first material are left out"));
     if (doubles_ > 0)
-      result_.warnings.push_back(fmt::format(
-          "{} of its materials have a name that an earlier one has, and are left out (the first is {})",
-          doubles_, text::quotedToken(firstDouble_)));
+      result_.warnings.push_back(fmt::format("{} of its materials {} left out (the first is {})", doubles_,
+                                             agreeing(doubles_, "has a name that an earlier one has, and is",
+                                                      "have a name that an earlier one has, and are"),
+                                             text::quotedToken(firstDouble_)));
     if (tooMany_ > 0)
-      result_.warnings.push_back(
-          fmt::format("{} of its materials, those beyond {}, are left out", tooMany_, kMostMaterials));
+      result_.warnings.push_back(fmt::format("{} of its materials, beyond the first {}, {} left out",
+                                             tooMany_, kMostMaterials, agreeing(tooMany_, "is", "are")));
     if (replaced_ > 0)
-      result_.warnings.push_back(
-          fmt::format("{} textures are stated twice for one material; the later one stays", replaced_));
+      result_.warnings.push_back(fmt::format("{} stated twice for one material; the later one stays",
+                                             counted(replaced_, "texture is", "textures are")));
     return std::move(result_);
   }
 

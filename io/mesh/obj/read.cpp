@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/counted.h"
 #include "io/file/file_bytes.h"
 #include "io/file/text_scan.h"
 #include "io/mesh/obj/corners.h"
@@ -314,14 +315,14 @@ class ObjReader final : public MeshTextReader {
     std::vector<std::string>& warnings = mesh().warnings;
     if (shortFaces_ > 0)
       warnings.push_back(
-          fmt::format("{} of its {} faces have fewer than three corners and are left out (the "
+          fmt::format("{} of its faces, {} in all, {} fewer than three corners and {} left out (the "
                       "first is face {})",
-                      shortFaces_, faces().size(), firstShortFace_));
+                      shortFaces_, faces().size(), agreeing(shortFaces_, "has", "have"),
+                      agreeing(shortFaces_, "is", "are"), firstShortFace_));
     if (notFinite_ > 0)
-      warnings.push_back(
-          fmt::format("{} numbers of texture coordinates and normals are not finite and count "
-                      "as 0",
-                      notFinite_));
+      warnings.push_back(counted(notFinite_,
+                                 "number of texture coordinates and normals is not finite and counts as 0",
+                                 "numbers of texture coordinates and normals are not finite and count as 0"));
     warnOfLeftOut("statements");
   }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/base/counted.h"
 #include "io/mesh/colors.h"
 #include "io/mesh/text_numbers.h"
 
@@ -77,15 +78,18 @@ void ObjVertexExtras::add(std::size_t vertex, std::span<const double> numbers) {
 
 void ObjVertexExtras::finish(MeshFile& file) const {
   const auto left = [&](std::uint64_t count, const char* what) {
-    if (count > 0) file.warnings.push_back(fmt::format("{} of {} of its vertices are left out", what, count));
+    if (count > 0)
+      file.warnings.push_back(fmt::format("{} of {} left out", what,
+                                          count == 1 ? std::string("one of its vertices are")
+                                                     : fmt::format("{} of its vertices are", count)));
   };
   left(weights_, "the weights");
   left(odd_, "numbers behind the coordinates");
   if (colored_ == 0) return;
   const std::size_t vertices = file.mesh.positions.size();
   if (colored_ < vertices)
-    file.warnings.push_back(
-        fmt::format("{} of its {} vertices have a colour; the others are white", colored_, vertices));
+    file.warnings.push_back(fmt::format("{} of its {} vertices {} a colour; the others are white", colored_,
+                                        vertices, agreeing(colored_, "has", "have")));
   const std::uint8_t components = hasAlpha_ ? 4 : 3;
   std::vector<double> numbers;
   numbers.reserve(components * vertices);

@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/counted.h"
 #include "io/file/file_bytes.h"
 #include "io/file/text_scan.h"
 #include "io/mesh/off/keyword.h"
@@ -139,8 +140,9 @@ class OffReader final : public MeshTextReader {
     if (vertices_ > left / 5 || faceCount_ > left)
       return failure(
           ErrorCode::corrupt,
-          fmt::format("is truncated: {} vertices and {} faces do not fit into the {} bytes that are left",
-                      vertices_, faceCount_, left),
+          fmt::format("is truncated: {} and {} do not fit into the {} left",
+                      counted(vertices_, "vertex", "vertices"), counted(faceCount_, "face", "faces"),
+                      counted(left, "byte that is", "bytes that are")),
           path());
     if (vertices_ >= std::numeric_limits<std::uint32_t>::max())
       return unsupported("holds more vertices than an index can name");
@@ -247,18 +249,20 @@ class OffReader final : public MeshTextReader {
       return failure(ErrorCode::corrupt, "is not an OFF, or it ends before its counts of vertices and faces",
                      path());
     if (stage_ == Stage::vertices)
+      return failure(ErrorCode::corrupt,
+                     fmt::format("is truncated: it has {} of {}", mesh().mesh.positions.size(),
+                                 counted(vertices_, "vertex", "vertices")),
+                     path());
+    if (stage_ == Stage::faces)
       return failure(
           ErrorCode::corrupt,
-          fmt::format("is truncated: it has {} of {} vertices", mesh().mesh.positions.size(), vertices_),
+          fmt::format("is truncated: it has {} of {}", facesRead_, counted(faceCount_, "face", "faces")),
           path());
-    if (stage_ == Stage::faces)
-      return failure(ErrorCode::corrupt,
-                     fmt::format("is truncated: it has {} of {} faces", facesRead_, faceCount_), path());
     if (mesh().mesh.triangles.empty() && !unusable_.empty())
       return corrupt(unusable_.begin()->second, "has a coordinate that is not finite");
     if (smallFaces_ > 0)
-      mesh().warnings.push_back(
-          fmt::format("{} faces of fewer than three corners are left out", smallFaces_));
+      mesh().warnings.push_back(counted(smallFaces_, "face of fewer than three corners is left out",
+                                        "faces of fewer than three corners are left out"));
     if (!isOurs() && mesh().mesh.triangles.empty())
       return unsupported("holds no face of three or more corners");
     if (behind_) behind_->finish(mesh().mesh, isOurs(), withoutAlpha_, mesh().warnings);
@@ -269,14 +273,17 @@ class OffReader final : public MeshTextReader {
   /// Listed by face (io/mesh/faces.h).
   void takeColors() {
     if (indexedFaces_ > 0)
-      mesh().warnings.push_back(
-          fmt::format("{} faces have the index of a colour in a map, which is left out", indexedFaces_));
+      mesh().warnings.push_back(counted(indexedFaces_,
+                                        "face has the index of a colour in a map, which is left out",
+                                        "faces have the index of a colour in a map, which is left out"));
     if (oddFaces_ > 0)
-      mesh().warnings.push_back(fmt::format(
-          "{} faces have values behind their corners that are no colour; these are left out", oddFaces_));
+      mesh().warnings.push_back(
+          counted(oddFaces_, "face has values behind its corners that are no colour; these are left out",
+                  "faces have values behind their corners that are no colour; these are left out"));
     if (colors_.isEmpty()) return;
     if (const std::size_t missing = colors_.missing(facesRead_); missing > 0)
-      mesh().warnings.push_back(fmt::format("{} faces have no colour, others have; they are white", missing));
+      mesh().warnings.push_back(counted(missing, "face has no colour, others have; it is white",
+                                        "faces have no colour, others have; they are white"));
     mesh().mesh.triangleAttributes.push_back(colors_.attribute(facesRead_, isOurs()));
   }
 

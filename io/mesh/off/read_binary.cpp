@@ -12,6 +12,7 @@
 #include <limits>
 #include <vector>
 
+#include "engine/base/counted.h"
 #include "io/crs/local_origin.h"
 #include "io/file/text_scan.h"
 #include "io/mesh/faces.h"
@@ -37,9 +38,10 @@ class BinaryOffReader {
     const std::uint64_t perVertex = 3 + keyword_.values();
     const std::uint64_t left = (file_.size() - at_) / kWord;
     if (std::uint64_t(vertices) * perVertex + 2 * std::uint64_t(faces) > left)
-      return corrupt(
-          fmt::format("is truncated: {} vertices and {} faces do not fit into the {} bytes that are left",
-                      vertices, faces, file_.size() - at_));
+      return corrupt(fmt::format("is truncated: {} and {} do not fit into the {} left",
+                                 counted(std::size_t(vertices), "vertex", "vertices"),
+                                 counted(std::size_t(faces), "face", "faces"),
+                                 counted(file_.size() - at_, "byte that is", "bytes that are")));
     if (Status ok = readVertices(static_cast<std::uint32_t>(vertices)); !ok)
       return tl::unexpected(ok.error());
     if (Status ok = readFaces(static_cast<std::uint32_t>(faces)); !ok) return tl::unexpected(ok.error());
@@ -98,7 +100,8 @@ class BinaryOffReader {
     std::vector<OffNumber> color;
     for (std::uint32_t f = 0; f < count; ++f) {
       if (Status ok = reportAndCheck(f); !ok) return ok;
-      if (!has(1)) return corrupt(fmt::format("is truncated: it has {} of {} faces", f, count));
+      if (!has(1))
+        return corrupt(fmt::format("is truncated: it has {} of {}", f, counted(count, "face", "faces")));
       const std::int32_t size = whole();
       if (size < 0 || !has(std::uint64_t(size) + 1))
         return corrupt(fmt::format("face {} has {} corners, more than the file can hold", f, size));
@@ -129,17 +132,21 @@ class BinaryOffReader {
   }
 
   Result<MeshFile> finish(std::uint32_t faces) {
-    const auto warn = [&](std::uint64_t count, const char* what) {
-      if (count > 0) result_.warnings.push_back(fmt::format("{} faces {}", count, what));
+    const auto warn = [&](std::uint64_t count, const char* one, const char* many) {
+      if (count > 0) result_.warnings.push_back(counted(count, one, many));
     };
-    warn(small_, "of fewer than three corners are left out");
+    warn(small_, "face of fewer than three corners is left out",
+         "faces of fewer than three corners are left out");
     if (result_.mesh.triangles.empty())
       return failure(ErrorCode::unsupported, "holds no face of three or more corners", path_);
     behind_->finish(result_.mesh, true, false, result_.warnings);
-    warn(indexed_, "have the index of a colour in a map, which is left out");
-    warn(odd_, "have values behind their corners that are no colour; these are left out");
+    warn(indexed_, "face has the index of a colour in a map, which is left out",
+         "faces have the index of a colour in a map, which is left out");
+    warn(odd_, "face has values behind its corners that are no colour; these are left out",
+         "faces have values behind their corners that are no colour; these are left out");
     if (!colors_.isEmpty()) {
-      warn(colors_.missing(faces), "have no colour, others have; they are white");
+      warn(colors_.missing(faces), "face has no colour, others have; it is white",
+           "faces have no colour, others have; they are white");
       result_.mesh.triangleAttributes.push_back(colors_.attribute(faces, true));
     }
     result_.frame.coordinates = "float32";

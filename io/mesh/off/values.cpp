@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/base/counted.h"
 #include "io/mesh/text_numbers.h"
 
 namespace arete {
@@ -119,9 +120,8 @@ void OffVertices::finish(SurfaceMesh& mesh, bool isExact, bool withoutAlpha,
     takeMeshLabOrder();
   if (misfits_ > 0)
     warnings.push_back(
-        fmt::format("{} vertices do not have the values that its keyword states; these are 0, and "
-                    "colours are white",
-                    misfits_));
+        fmt::format("{} not have the values that its keyword states; these are 0, and colours are white",
+                    counted(misfits_, "vertex does", "vertices do")));
   if (keyword_.hasNormals)
     mesh.vertexAttributes.push_back(
         attributeOfTextNumbers(std::string(kNormalName), AttributeMeaning::normal, 3, normals_));
@@ -144,8 +144,8 @@ void OffVertices::finish(SurfaceMesh& mesh, bool isExact, bool withoutAlpha,
     mesh.vertexAttributes.push_back(unannounced_.attribute(vertices_, false));
     warnings.push_back("its vertices have colours that its keyword does not state");
   } else {
-    warnings.push_back(
-        fmt::format("{} vertices have values that its keyword does not state; these are left out", surplus_));
+    warnings.push_back(fmt::format("{} values that its keyword does not state; these are left out",
+                                   counted(surplus_, "vertex has", "vertices have")));
   }
 }
 

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/base/counted.h"
 #include "io/file/text_scan.h"
 #include "io/mesh/ply/scheme.h"
 
@@ -78,14 +79,13 @@ void PlyCorners::join(SurfaceMesh& mesh, std::vector<std::string>& warnings) {
     const std::string name = text::quotedToken(list.attribute.name);
     if (list.isDropped || (list.attribute.components == 0 && list.hadValues))
       warnings.push_back(
-          fmt::format("the lists {} of its faces have other lengths than their corners; they are "
+          fmt::format("of its faces the lists {} have other lengths than their corners; they are "
                       "left out",
                       name));
     else if (list.misfits > 0 && list.attribute.components > 0)
       warnings.push_back(
-          fmt::format("{} faces have no list {} that fits their corners, which are 0 there (the "
-                      "first is face {})",
-                      list.misfits, name, list.firstMisfit));
+          fmt::format("{} no list {} that fits the corners, which are 0 there (the first is face {})",
+                      counted(list.misfits, "face has", "faces have"), name, list.firstMisfit));
   }
   std::erase_if(lists_, [](const List& l) { return l.isDropped || l.attribute.components == 0; });
   if (lists_.empty()) {

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/counted.h"
 #include "io/file/file_bytes.h"
 #include "io/file/text_scan.h"
 #include "io/mesh/faces.h"
@@ -154,9 +155,10 @@ class PlyReader {
     }
     // In a text, the first token needs no blank before it.
     if (element.count > (left() + 1) / leastSize)
-      return corrupt(
-          fmt::format("is truncated: {} records of element {} do not fit into the {} bytes that are left",
-                      element.count, text::quotedToken(element.name), left()));
+      return corrupt(fmt::format("is truncated: {} of element {} {} not fit into the {} left",
+                                 counted(element.count, "record", "records"), text::quotedToken(element.name),
+                                 agreeing(element.count, "does", "do"),
+                                 counted(left(), "byte that is", "bytes that are")));
     if (reading.isVertex) mesh_.positions.reserve(element.count);
     if (reading.isFace)
       mesh_.triangles.reserve(std::min(element.count, (left() + 1) / (leastSize + triangleSize)));

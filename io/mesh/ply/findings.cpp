@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "engine/base/counted.h"
 #include "io/file/text_scan.h"
 
 namespace arete {
@@ -25,15 +26,16 @@ std::string listOf(const std::vector<std::string>& names) {
 
 void PlyFindings::warn(std::vector<std::string>& warnings) const {
   if (linesWithMore > 0)
-    warnings.push_back(fmt::format(
-        "{} lines have more values than the header states; these are left out (the first is line {})",
-        linesWithMore, firstLineWithMore));
-  if (scalarMisfits > 0)
     warnings.push_back(
-        fmt::format("{} numbers do not fit the types that the header states; the nearest that do are taken",
-                    scalarMisfits));
+        fmt::format("{} more values than the header states; these are left out (the first is line {})",
+                    counted(linesWithMore, "line has", "lines have"), firstLineWithMore));
+  if (scalarMisfits > 0)
+    warnings.push_back(counted(
+        scalarMisfits, "number does not fit the type that the header states; the nearest that does is taken",
+        "numbers do not fit the types that the header states; the nearest that do are taken"));
   if (smallFaces > 0)
-    warnings.push_back(fmt::format("{} faces of fewer than three corners are left out", smallFaces));
+    warnings.push_back(counted(smallFaces, "face of fewer than three corners is left out",
+                               "faces of fewer than three corners are left out"));
   std::vector<std::string> names;
   for (const auto& [name, count] : elementsLeftOut)
     names.push_back(fmt::format("{} ({})", text::quotedToken(name), count));
@@ -43,13 +45,15 @@ void PlyFindings::warn(std::vector<std::string>& warnings) const {
   if (!names.empty())
     warnings.push_back(fmt::format("its lists {}, whose lengths differ, are left out", listOf(names)));
   if (surplusProperties > 0)
-    warnings.push_back(fmt::format(
-        "{} properties of vertices and faces are left out, since there are too many", surplusProperties));
+    warnings.push_back(counted(surplusProperties,
+                               "property of vertices and faces is left out, since there are too many",
+                               "properties of vertices and faces are left out, since there are too many"));
   if (facesLoseProperties)
     warnings.push_back("its faces lose their properties, since there are triangle strips as well");
   if (badTextureNumbers > 0)
-    warnings.push_back(fmt::format(
-        "{} faces have a texnumber without a comment TextureFile; they have no material", badTextureNumbers));
+    warnings.push_back(
+        counted(badTextureNumbers, "face has a texnumber without a comment TextureFile; it has no material",
+                "faces have a texnumber without a comment TextureFile; they have no material"));
 }
 
 }  // namespace arete

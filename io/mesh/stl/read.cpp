@@ -10,6 +10,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "engine/base/counted.h"
 #include "io/file/file_bytes.h"
 #include "io/file/text_decoder.h"
 #include "io/file/text_scan.h"
@@ -64,8 +65,9 @@ Result<MeshFile> readStl(const std::filesystem::path& path, const RunContext& co
   if (count > 0 && spare % kStlRecordSize != 0) {
     Result<MeshFile> mesh = readBinaryStl(file.substr(0, binarySize(count)), count, path.string(), context);
     if (mesh)
-      mesh->warnings.push_back(
-          fmt::format("{} bytes follow its {} triangles and are left out", spare, count));
+      mesh->warnings.push_back(fmt::format("{} left out behind its {}",
+                                           counted(spare, "byte is", "bytes are"),
+                                           counted(count, "triangle", "triangles")));
     return mesh;
   }
   if (file.size() < kStlPreambleSize)
@@ -77,11 +79,12 @@ Result<MeshFile> readStl(const std::filesystem::path& path, const RunContext& co
         path.string());
   return failure(
       ErrorCode::corrupt,
-      spare > 0 ? fmt::format("is not an STL, or its header is wrong: it states {} triangles, and {} bytes "
-                              "follow them, as many as {} more",
-                              count, spare, spare / kStlRecordSize)
-                : fmt::format("is truncated or not an STL: {} triangles need {} bytes, the file has {}",
-                              count, binarySize(count), file.size()),
+      spare > 0
+          ? fmt::format("is not an STL, or its header is wrong: it states {} triangles, and {} bytes "
+                        "follow them, as many as {} more",
+                        count, spare, spare / kStlRecordSize)
+          : fmt::format("is truncated or not an STL: {} {} bytes, the file has {}",
+                        counted(count, "triangle needs", "triangles need"), binarySize(count), file.size()),
       path.string());
 }
 

@@ -35,6 +35,19 @@ TEST_F(DemoCommand, PrintsATableAndTheFilesItWrote) {
   EXPECT_GE(files, 7);
 }
 
+TEST_F(DemoCommand, TakesTolerancesInPercentOfTheRelief) {
+  makeRaster("dem.tif", rasterFamilies().front().name, 80, 60);
+  const Json json = run({"demo", "dem.tif", "-o", "out", "--json", "--max-error", "10%,30%"}).json();
+  ASSERT_EQ(json["results"].size(), 2u);
+  const double relief = json["relief"].get<double>();
+  for (const auto& [row, percent] : {std::pair{0, 10.0}, {1, 30.0}}) {
+    const Json& result = json["results"][std::size_t(row)];
+    EXPECT_NEAR(result["maxErrorPercent"].get<double>(), percent, 1e-9);
+    EXPECT_NEAR(result["maxError"].get<double>(), percent / 100 * relief, 1e-9 * relief);
+    EXPECT_TRUE(result["kept"].get<bool>());
+  }
+}
+
 TEST_F(DemoCommand, AnswersAsJson) {
   makeRaster("dem.tif", rasterFamilies().front().name, 80, 60);
   const Outcome outcome = run({"demo", "dem.tif", "-o", "out", "--json", "--shape", "fidelity"});

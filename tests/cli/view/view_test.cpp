@@ -49,6 +49,23 @@ TEST_F(ViewCommand, ABudgetThatCannotBeKeptIsWarnedOf) {
       << shot.err;
 }
 
+TEST_F(ViewCommand, ABudgetInPercentIsOfTheFinestTriangles) {
+  const int finest = run({"info", "dem.amt", "--json"}).json()["finestTriangles"].get<int>();
+  const auto shoot = [&](const std::string& budget) {
+    return run({"view", "dem.amt", "--headless", "--screenshot", "x.png", "--size", "64x64", "--json",
+                "--cut", "processor", "--pixel-error", "0.001", "--max-triangles", budget});
+  };
+  const Outcome share = shoot("50%");
+  if (isWithoutOpenGl(share)) GTEST_SKIP() << share.err;
+  ASSERT_EQ(share.code, 0) << share.err;
+  const Json inPercent = share.json(), inNumbers = shoot(std::to_string(finest / 2)).json();
+  EXPECT_EQ(inPercent["maxTriangles"], finest / 2);
+  EXPECT_EQ(inPercent["finestTriangles"], finest);
+  EXPECT_EQ(inPercent["screenshot"]["figures"]["triangles"], inNumbers["screenshot"]["figures"]["triangles"]);
+  for (const char* wrong : {"0", "1.5", "0%", "-3%", "10%,20%", "x"})
+    EXPECT_EQ(shoot(wrong).code, 2) << wrong;
+}
+
 TEST_F(ViewCommand, ARoundFlightGivesFramesAndTheirFigures) {
   const Outcome film = run({"view", "dem.amt", "--headless", "--round", "--frames", "frames", "--fps", "0.1",
                             "--size", "160x90", "--figures", "figures.json", "--cut", "processor"});

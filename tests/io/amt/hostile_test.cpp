@@ -10,6 +10,7 @@
 #include <random>
 #include <string>
 
+#include "engine/base/counted.h"
 #include "engine/criteria/criterion.h"
 #include "engine/cut/cut.h"
 #include "io/amt/file.h"
@@ -64,8 +65,8 @@ TEST(HostileAmt, IsRefusedWhereverItIsCutShort) {
     const std::string message = refusalOf(folder, whole.substr(0, size));
     ASSERT_FALSE(message.empty()) << size;
     if (size >= 64)
-      ASSERT_EQ(message, fmt::format("is cut short: {} of its {} bytes are missing", whole.size() - size,
-                                     whole.size()));
+      ASSERT_EQ(message, fmt::format("is cut short: {} of its {} bytes {} missing", whole.size() - size,
+                                     whole.size(), whole.size() - size == 1 ? "is" : "are"));
     else if (size >= 1)
       ASSERT_EQ(message,
                 fmt::format("is cut short: its {} bytes are {} too few for the header", size, 64 - size));

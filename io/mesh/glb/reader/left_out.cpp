@@ -113,7 +113,9 @@ std::vector<std::string> GltfLeftOut::sentences(const Json& document) const {
     if (++named <= kMostReasons)
       all.push_back(fmt::format("the attribute {} is left out: {}", text::quotedToken(name), reason));
   if (named > kMostReasons)
-    all.push_back(fmt::format("{} more attributes are left out", named - kMostReasons));
+    all.push_back(fmt::format("{} left out", named - kMostReasons == 1 ? std::string("1 more attribute is")
+                                                                       : fmt::format("{} more attributes are",
+                                                                                     named - kMostReasons)));
   const std::vector<std::string> extensions = extensionsLeftOut(document);
   add(extensions.size(), "extension", "extensions", extensions);
   return all;

@@ -15,6 +15,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/base/counted.h"
 #include "io/file/text_scan.h"
 
 namespace arete {
@@ -254,8 +255,9 @@ std::vector<Attribute> GltfVertexAttributes::finish(std::uint64_t vertices,
   for (Column& column : columns_) {
     const std::string name = text::quotedToken(column.fileName);
     if (column.filled < vertices)
-      warnings.push_back(fmt::format("{} of {} vertices do not have the attribute {}, which is {} there",
-                                     vertices - column.filled, vertices, name,
+      warnings.push_back(fmt::format("{} of {} {} not have the attribute {}, which is {} there",
+                                     vertices - column.filled, vertices,
+                                     agreeing(vertices, "vertex does", "vertices do"), name,
                                      column.attribute.meaning == AttributeMeaning::color ? 1 : 0));
     if (column.hasSeveralTypes)
       warnings.push_back(

@@ -15,6 +15,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/base/counted.h"
 #include "io/mesh/flattened.h"
 #include "io/mesh/glb/writer/buffer_plan.h"
 #include "io/mesh/glb/writer/framed.h"
@@ -280,7 +281,8 @@ Result<SurfaceContent> surfaceContent(MeshRef mesh, const MeshWriteOptions& opti
     return failure(ErrorCode::invalidData,
                    fmt::format("{} vertices are more than a glTF can hold", parts->mesh.positions.size()));
   if (const std::size_t more = parts->mesh.positions.size() - mesh.shape.positions.size(); more > 0)
-    lost.push_back(fmt::format("corners of different values at one vertex ({} vertices are added)", more));
+    lost.push_back(fmt::format("corners of different values at one vertex ({} added)",
+                               counted(more, "vertex is", "vertices are")));
 
   GltfDirections directions = GltfDirections::asTheyAre;
   if (const Status ok = placePositions(*parts, options, directions, lost); !ok)

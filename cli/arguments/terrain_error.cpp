@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/arguments/terrain_error.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "io/text/stated_size.h"
+#include "terrain/model/relief.h"
+
+namespace arete {
+namespace {
+
+constexpr const char* kOption = "--max-error";
+
+}  // namespace
+
+std::string TerrainError::text(const std::string& unit) const {
+  return withReliefShare(value, unit, relief);
+}
+
+std::string TerrainError::shareText(const std::string& unit) const {
+  return relief ? "; within " + text(unit) : std::string();
+}
+
+void TerrainError::addTo(Json& json) const {
+  json["maxError"] = std::isfinite(value) ? Json(value) : Json();
+  if (!relief) return;
+  json["maxErrorPercent"] = *relief > 0 ? Json(100 * value / *relief) : Json();
+  json["relief"] = *relief;
+}
+
+void addTerrainErrorTo(CLI::App& command, std::string& text, const std::string& help, bool mayBeInfinite) {
+  command
+      .add_option(kOption, text,
+                  help + ", in the DEM's unit of height or as E% of its relief, the highest minus the lowest\n"
+                         "sample (default 0: full resolution)")
+      ->check(shareOrTolerance(mayBeInfinite))
+      ->type_name("E");
+}
+
+bool isAboveZero(const std::string& text) {
+  const Result<StatedSize> stated = parseStatedSize(text, kOption);
+  return stated && stated->number > 0;
+}
+
+Result<TerrainError> terrainErrorOf(const std::string& text, const AmtFile& file, const Session& session) {
+  const Result<StatedSize> stated = parseStatedSize(text, kOption);
+  if (!stated) return tl::unexpected(stated.error());
+  if (!stated->isShare) return TerrainError{stated->number};
+  const Result<TerrainModel> whole = file.read({}, session.context());
+  if (!whole) return tl::unexpected(whole.error());
+  const double relief = reliefOf(*whole);
+  return TerrainError{stated->of(relief), relief};
+}
+
+}  // namespace arete
