@@ -120,8 +120,9 @@ Status AmtContainer::readDirectory(const AmtHeader& header) {
     return corrupt("has been altered: the checksum of its header and directory does not match");
   if (bytes().size() < header.fileBytes) return truncated(header.fileBytes);
   if (bytes().size() > header.fileBytes)
-    return corrupt(fmt::format("has {} bytes more than the {} it was written with",
-                               bytes().size() - header.fileBytes, header.fileBytes));
+    return corrupt(fmt::format("has {} more than the {} it was written with",
+                               counted(bytes().size() - header.fileBytes, "byte", "bytes"),
+                               header.fileBytes));
   if (header.reserved != 0) return corrupt("has a header whose reserved field is not zero");
 
   chunks_.resize(header.chunkCount);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/base/caught_failure.h"
+#include "engine/base/counted.h"
 #include "io/file/number_text.h"
 
 namespace arete {
@@ -116,10 +117,10 @@ Result<PositionArgument> readPositionArgument(const std::string& option, const s
   const std::string culprit = fmt::format("{} {}", option, text);
   const auto fields = fieldsOf(text);
   if (fields.size() != 3)
-    return failure(
-        ErrorCode::usage,
-        fmt::format("a position is X,Y,H with agl, msl or ell behind H, not {} fields", fields.size()),
-        culprit);
+    return failure(ErrorCode::usage,
+                   fmt::format("a position is X,Y,H with agl, msl or ell behind H, not {}",
+                               counted(fields.size(), "field", "fields")),
+                   culprit);
   PositionArgument position;
   const auto height = readHeightText(fields[2]);
   if (!height) return failure(height.error().code, height.error().message, culprit);

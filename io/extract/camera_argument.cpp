@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "engine/base/caught_failure.h"
+#include "engine/base/counted.h"
 #include "io/crs/position_argument.h"
 
 namespace arete {
@@ -26,8 +27,8 @@ Result<StatedCamera> stated(const std::string& option, const std::string& text, 
   if (fields != 3 && fields != 5 && fields != 6)
     return failure(ErrorCode::usage,
                    fmt::format("a camera is X,Y,H with agl, msl or ell behind H, then AZIMUTH,PITCH or "
-                               "AZIMUTH,PITCH,FOV or nothing, not {} fields",
-                               fields),
+                               "AZIMUTH,PITCH,FOV or nothing, not {}",
+                               counted(std::size_t(fields), "field", "fields")),
                    culprit);
   // The position ends at the third comma.
   const std::size_t end = std::min(text.find(',', text.find(',', text.find(',') + 1) + 1), text.size());

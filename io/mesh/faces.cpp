@@ -201,10 +201,10 @@ Status MeshFaces::triangulate(MeshFile& file, const RunContext& context) {
   rewriter.finish();
   fans_.clear();
   if (crossing > 0)
-    file.warnings.push_back(
-        fmt::format("{} of its {} {} an outline that crosses itself, so that triangles are a guess (the "
-                    "first is face {})",
-                    crossing, faces_, agreeing(crossing, "faces has", "faces have"), firstCrossing));
+    file.warnings.push_back(fmt::format(
+        "{} of its {} {} an outline that crosses itself, so that triangles are a guess (the "
+        "first is face {})",
+        crossing, counted(faces_, "face", "faces"), agreeing(crossing, "has", "have"), firstCrossing));
   return {};
 }
 

@@ -165,8 +165,8 @@ class TwoDmReader final : public MeshTextReader {
     takeMaterials();
     if (elementsWithMore_ > 0)
       mesh().warnings.push_back(fmt::format(
-          "{} of its elements, {} in all, {} values that are no number of a material; these are left out",
-          elementsWithMore_, faces().size(), agreeing(elementsWithMore_, "has", "have")));
+          "{} of its {} {} values that are no number of a material; these are left out", elementsWithMore_,
+          counted(faces().size(), "element", "elements"), agreeing(elementsWithMore_, "has", "have")));
     warnOfLeftOut("cards");
     return areInOrder_ ? indexDirectly() : indexBySortedNumbers();
   }

@@ -314,11 +314,11 @@ class ObjReader final : public MeshTextReader {
   void warn() {
     std::vector<std::string>& warnings = mesh().warnings;
     if (shortFaces_ > 0)
-      warnings.push_back(
-          fmt::format("{} of its faces, {} in all, {} fewer than three corners and {} left out (the "
-                      "first is face {})",
-                      shortFaces_, faces().size(), agreeing(shortFaces_, "has", "have"),
-                      agreeing(shortFaces_, "is", "are"), firstShortFace_));
+      warnings.push_back(fmt::format(
+          "{} of its {} {} fewer than three corners and {} left out (the "
+          "first is face {})",
+          shortFaces_, counted(faces().size(), "face", "faces"), agreeing(shortFaces_, "has", "have"),
+          agreeing(shortFaces_, "is", "are"), firstShortFace_));
     if (notFinite_ > 0)
       warnings.push_back(counted(notFinite_,
                                  "number of texture coordinates and normals is not finite and counts as 0",

@@ -209,7 +209,7 @@ TEST(VirtualAmt, IsReadFromMemoryArchivesAndPartsOfFiles) {
     EXPECT_EQ(cut.error().code, ErrorCode::corrupt);
     EXPECT_NE(cut.error().message.find("cut short"), std::string::npos);
     put("/vsimem/copied_test.amt", bytes + "x");
-    EXPECT_NE(loadAmt("/vsimem/copied_test.amt").error().message.find("1 bytes more"), std::string::npos);
+    EXPECT_NE(loadAmt("/vsimem/copied_test.amt").error().message.find("1 byte more"), std::string::npos);
     put("/vsimem/copied_test.amt",
         "a text that is no model, but longer than a header of one, which has 64 bytes");
     EXPECT_EQ(loadAmt("/vsimem/copied_test.amt").error().message, "is not an .amt file");

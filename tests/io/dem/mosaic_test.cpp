@@ -162,7 +162,7 @@ TEST(Mosaic, TakesTheLaterFileWhereTwoDifferAndWarns) {
   EXPECT_EQ(read->heightfield.at(2, 0), 30);
   EXPECT_EQ(read->heightfield.at(2, 1), 6);
   EXPECT_TRUE(
-      contains(joined(read->warnings), "1 samples have different heights in several files, by up to 27"))
+      contains(joined(read->warnings), "1 sample has different heights in several files, by up to 27"))
       << joined(read->warnings);
   read = readAll({paths[1], paths[0]});
   ASSERT_TRUE(read);

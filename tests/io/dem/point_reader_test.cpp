@@ -224,7 +224,7 @@ TEST(PointReader, GivesAPlaceOneHeightByTheRuleStated) {
     EXPECT_TRUE(contains(joined(read.warnings), "2 places have several heights, up to 5 from the first"))
         << joined(read.warnings);
     EXPECT_TRUE(contains(joined(read.warnings), "3 points are left out")) << joined(read.warnings);
-    EXPECT_TRUE(contains(joined(read.warnings), "1 points repeat")) << joined(read.warnings);
+    EXPECT_TRUE(contains(joined(read.warnings), "1 point repeats")) << joined(read.warnings);
   }
   EXPECT_EQ(errorOf(path).code, ErrorCode::degenerate);
   const PointRead huge = readOrFail(folder.write("huge.csv", "0,0,1.5e308\n0,0,1.7e308\n1,0,2\n0,1,3\n"),
@@ -241,7 +241,8 @@ TEST(PointReader, LeavesNodataPointsOut) {
   const PointRead read =
       readOrFail(folder.write("voids.csv", "1,2,3.5\n0,0,-9999\n-4,500,6\n7,8,0.1\n"), options);
   expectTheThree(read);
-  EXPECT_TRUE(contains(joined(read.warnings), "1 points of the height -9999")) << joined(read.warnings);
+  EXPECT_TRUE(contains(joined(read.warnings), "1 point of the height -9999 is left out"))
+      << joined(read.warnings);
 }
 
 TEST(PointReader, GivesGridCoordinatesThatEqualSourceCoordinates) {

@@ -65,7 +65,7 @@ TEST(CameraArgument, RefusesWhatIsNoCameraAndNamesIt) {
   const struct {
     const char *text, *words;
     ErrorCode code = ErrorCode::usage;
-  } cases[] = {{"", "not 1 fields"},
+  } cases[] = {{"", "not 1 field"},
                {"1,2", "not 2 fields"},
                {"1,2,3,4", "not 4 fields"},
                {"1,2,3,4,5,6,7", "not 7 fields"},

@@ -83,7 +83,7 @@ TEST(RegionReader, ReadsMultipolygonsAndCollections) {
   const RegionRead region = readOrFail(folder.write("multi.geojson", geoJson({two, mixed})));
   EXPECT_EQ(region.rings.size(), 3u);
   ASSERT_EQ(region.warnings.size(), 2u) << "the other: the CRS of the DEM is not known";
-  EXPECT_TRUE(contains(region.warnings[0], "1 geometries that are no polygons"));
+  EXPECT_TRUE(contains(region.warnings[0], "1 geometry that is no polygon"));
   EXPECT_TRUE(isInside(region, 0.9, 0.5));
   EXPECT_TRUE(isInside(region, 28, 22));
   EXPECT_FALSE(isInside(region, 3, 3));

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 
-#include <array>
 #include <cmath>
 
 #include "io/gdal/support.h"
@@ -99,30 +98,6 @@ TEST(KeptRows, WithOneCoordinateKeepIt) {
       }
     }
   }
-}
-
-TEST(KeptRows, OfALayerWithOneCoordinateKeepItAndTheirHeight) {
-  const TemporaryFolder folder;
-  const std::string path = folder.file("half.gpkg");
-  registerGdal();
-  const double none = std::nan("");
-  {
-    const GdalErrors quiet;
-    const GdalDatasetPtr dataset(
-        GetGDALDriverManager()->GetDriverByName("GPKG")->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
-    OGRLayer* layer = dataset->CreateLayer("a", nullptr, wkbPoint25D, nullptr);
-    for (const auto& [x, y, z] : {std::array{1.0, none, 3.0}, {none, 2.0, 4.0}, {1.0, 2.0, 5.0}}) {
-      OGRFeature feature(layer->GetLayerDefn());
-      const OGRPoint point(x, y, z);
-      feature.SetGeometry(&point);
-      ASSERT_EQ(layer->CreateFeature(&feature), OGRERR_NONE);
-    }
-  }
-  const auto table = readPointTable(path, {});
-  ASSERT_TRUE(table) << table.error().describe();
-  EXPECT_EQ(table->withoutPlace, 2u);
-  const std::string csv = csvOf(*table, std::vector<std::optional<SurfaceHeight>>(3));
-  EXPECT_EQ(csv, "source_fid,x,y,z,height,below,above\n1,1,,3,,,\n2,,2,4,,,\n3,1,2,5,,,\n");
 }
 
 TEST(KeptRows, AreNoneWhereTheTextIsDamaged) {

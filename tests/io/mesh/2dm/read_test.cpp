@@ -60,7 +60,7 @@ TEST(TwoDmRead, ReadsForeignFilesUnderAnyNumbers) {
     EXPECT_EQ(materialsOf(*file), (std::vector<double>{1, 1, 0}));
     EXPECT_EQ(file->warnings,
               (std::vector<std::string>{
-                  "1 of its 2 elements have values that are no number of a material; these are left out",
+                  "1 of its 2 elements has values that are no number of a material; these are left out",
                   "its cards \"BEGPARAMDEF\" (1), \"E2L\" (1), \"MESHNAME\" (1), \"NS\" (1) are left out"}));
   }
 }

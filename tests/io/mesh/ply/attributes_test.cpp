@@ -149,7 +149,7 @@ TEST_F(PlyReadText, HasThePropertiesOfFacesForTheirTriangles) {
   EXPECT_EQ(faces[2].components, 2);
   EXPECT_EQ(numbersOf(faces[2]), (Numbers{0.5, 0.25, 0.5, 0.25, 3, 4}));
   ASSERT_EQ(file.warnings.size(), 2u);
-  EXPECT_NE(file.warnings[0].find("1 faces of fewer than three corners"), std::string::npos);
+  EXPECT_NE(file.warnings[0].find("1 face of fewer than three corners"), std::string::npos);
   EXPECT_NE(file.warnings[1].find("\"near\""), std::string::npos);
 }
 
