@@ -119,6 +119,53 @@ std::optional<std::uint64_t> dgnLength(const std::string& path, const Head& head
   return at + (hasEnd ? 0 : 2);
 }
 
+constexpr std::uint64_t kCalsHeader = 2048, kCalsRecord = 128;
+
+/// The records of text at the begin of a CALS file of type 1; empty: another file.
+std::string calsHeader(const std::string& path, const Head& head) {
+  if (textOf(head, 0, 9) != "srcdocid:") return {};
+  VSILFILE* file = VSIFOpenL(path.c_str(), "rb");
+  if (!file) return {};
+  std::string header(kCalsHeader, ' ');
+  header.resize(VSIFReadL(header.data(), 1, header.size(), file));
+  VSIFCloseL(file);
+  return header;
+}
+
+/// Behind its header a CALS file has rows of code (Group 4) whose number of bytes is not stated, each of one
+/// bit at least: GDAL reads a picture without any as 0.
+std::optional<std::uint64_t> calsLength(const std::string& path, const Head& head) {
+  const std::string header = calsHeader(path, head);
+  constexpr std::string_view kSize = "rpelcnt: ";
+  for (std::size_t at = 0; at + kCalsRecord <= header.size(); at += kCalsRecord) {
+    const std::string_view record = std::string_view(header).substr(at, kCalsRecord);
+    const std::size_t comma = record.find(',');
+    if (!record.starts_with(kSize) || comma == record.npos) continue;
+    const auto rows = numberIn(record.substr(comma + 1));
+    if (rows) return kCalsHeader + (*rows + 7) / 8;
+  }
+  return std::nullopt;
+}
+
+/// Whether the code of a CALS file ends with its mark, twice 000000000001, before bits of 0 that fill a byte
+/// or a record.
+bool hasCalsEnd(const std::string& path, std::uint64_t length) {
+  std::array<unsigned char, 4 * kCalsRecord> tail{};
+  const std::uint64_t count = std::min<std::uint64_t>(tail.size(), length - std::min(length, kCalsHeader));
+  VSILFILE* file = VSIFOpenL(path.c_str(), "rb");
+  if (!file) return true;
+  VSIFSeekL(file, length - count, SEEK_SET);
+  std::size_t got = VSIFReadL(tail.data(), 1, count, file);
+  VSIFCloseL(file);
+  while (got > 0 && tail[got - 1] == 0) --got;
+  if (got < 3) return false;
+  // The last bits that are there, the lowest bit being the last 1.
+  std::uint32_t bits = 0;
+  for (std::size_t i = got - std::min<std::size_t>(got, 4); i < got; ++i) bits = bits << 8 | tail[i];
+  while ((bits & 1) == 0) bits >>= 1;
+  return (bits & 0xFFFFFF) == 0x001001;
+}
+
 bool isNamedAsTile(const std::string& path) {
   const std::string name = text::lowered(CPLGetFilename(path.c_str()));
   const auto digits = [&](std::size_t begin, std::size_t count) {
@@ -164,7 +211,7 @@ Status checkLengthByContent(const std::string& path) {
   const auto there = fileLength(path);
   if (!there) return {};
   for (const auto& wanted : {dtedLength(head), pcrasterLength(head), pcidskLength(head, false),
-                             sqliteLength(head), dgnLength(path, head, *there)})
+                             sqliteLength(head), dgnLength(path, head, *there), calsLength(path, head)})
     if (wanted) return checkLength(*wanted, *there, "its header");
   if (textOf(head, 0, 3) == "CDF" && (head[3] == 1 || head[3] == 2 || head[3] == 5)) {
     if (const auto wanted = classicNetcdfLength(path)) return checkLength(*wanted, *there, "its header");
@@ -181,6 +228,8 @@ void warnOfLength(const std::string& path, std::vector<std::string>& warnings) {
   Head head;
   if (readHead(path, head) == 0) return;
   const auto wanted = pcidskLength(head, true), there = fileLength(path);
+  if (there && !calsHeader(path, head).empty() && !hasCalsEnd(path, *there))
+    warnings.push_back("its picture does not end with the mark of its end (EOFB): it may have been cut off");
   if (wanted && there && *wanted > *there)
     warnings.push_back(fmt::format(
         "its header counts {} bytes and {} are there: tiles that were not written, or have been cut off, "

@@ -23,12 +23,13 @@ Status checkLength(std::uint64_t wanted, std::uint64_t there, const std::string&
 std::optional<std::uint64_t> classicNetcdfLength(const std::string& path);
 
 /// Holds the length of a file against the one that its header states: classic netCDF, DTED, PCRaster,
-/// PCIDSK, SQLite (GeoPackage, MBTiles), DGN, and files named as .hgt tiles are. Other files pass.
+/// PCIDSK, SQLite (GeoPackage, MBTiles), DGN, CALS, and files named as .hgt tiles are. Other files pass.
 ///
 /// Errors: unreadable: the file is shorter; the message has both numbers.
 Status checkLengthByContent(const std::string& path);
 
-/// Warns where the length of a file does not say whether it is whole: PCIDSK in tiles.
+/// Warns where the length of a file does not say whether it is whole: PCIDSK in tiles, CALS without the mark
+/// of its end.
 void warnOfLength(const std::string& path, std::vector<std::string>& warnings);
 
 }  // namespace arete
